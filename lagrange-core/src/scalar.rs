@@ -1,0 +1,118 @@
+//! The numbers that emitted code computes with.
+
+use core::fmt::{Debug, Display};
+use core::ops::{Add, Div, Mul, Neg, Sub};
+use simba::scalar::{RealField, SupersetOf};
+use simba::simd::SimdRealField;
+
+/// A number that equations of motion can be evaluated on: `f64`, `f32`, a SIMD lane type, a dual number.
+///
+/// Emitted code reaches all mathematics through this trait. It is implemented for every type with
+/// [`simba`'s `SimdRealField`](SimdRealField): the floating-point types, the lane types of `simba`
+/// (`WideF64x4`, …) and the dual numbers of `num-dual`.
+pub trait Scalar:
+    Copy
+    + PartialEq
+    + Debug
+    + 'static
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// The constant `x`, the same in every lane and with derivative zero.
+    fn constant(x: f64) -> Self;
+    /// Sine and cosine at once.
+    fn sin_cos(self) -> (Self, Self);
+    /// Sine.
+    fn sin(self) -> Self;
+    /// Cosine.
+    fn cos(self) -> Self;
+    /// Tangent.
+    fn tan(self) -> Self;
+    /// Arcsine.
+    fn asin(self) -> Self;
+    /// Arccosine.
+    fn acos(self) -> Self;
+    /// Arctangent.
+    fn atan(self) -> Self;
+    /// The angle of the point `(x, self)`, in (−π, π].
+    fn atan2(self, x: Self) -> Self;
+    /// Hyperbolic sine.
+    fn sinh(self) -> Self;
+    /// Hyperbolic cosine.
+    fn cosh(self) -> Self;
+    /// Hyperbolic tangent.
+    fn tanh(self) -> Self;
+    /// Exponential.
+    fn exp(self) -> Self;
+    /// Natural logarithm.
+    fn ln(self) -> Self;
+    /// Square root.
+    fn sqrt(self) -> Self;
+    /// Absolute value.
+    fn abs(self) -> Self;
+    /// `self` to the power `exponent`.
+    fn powf(self, exponent: Self) -> Self;
+    /// The smaller of the two, lane by lane.
+    fn min(self, other: Self) -> Self;
+}
+
+macro_rules! through_simba {
+    ($($name:ident => $simd:ident($($argument:ident),*)),* $(,)?) => {
+        $(#[inline(always)]
+        fn $name(self $(, $argument: Self)*) -> Self {
+            self.$simd($($argument),*)
+        })*
+    };
+}
+
+impl<T: SimdRealField + SupersetOf<f64> + Copy + Debug + 'static> Scalar for T {
+    #[inline(always)]
+    fn constant(x: f64) -> Self {
+        Self::from_subset(&x)
+    }
+
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        self.simd_sin_cos()
+    }
+
+    through_simba! {
+        sin => simd_sin(), cos => simd_cos(), tan => simd_tan(),
+        asin => simd_asin(), acos => simd_acos(), atan => simd_atan(), atan2 => simd_atan2(x),
+        sinh => simd_sinh(), cosh => simd_cosh(), tanh => simd_tanh(),
+        exp => simd_exp(), ln => simd_ln(), sqrt => simd_sqrt(), abs => simd_abs(),
+        powf => simd_powf(exponent), min => simd_min(other),
+    }
+}
+
+/// A scalar that can decide: `f64` or `f32`. What chooses pivots, steps or endings needs one.
+pub trait Real: Scalar + RealField + PartialOrd + Display {
+    /// The distance from 1 to the next larger number.
+    const EPSILON: f64;
+
+    /// The same number as an `f64`.
+    fn to_f64(self) -> f64;
+}
+
+#[cfg(any(feature = "std", feature = "libm"))]
+impl Real for f64 {
+    const EPSILON: f64 = Self::EPSILON;
+
+    #[inline(always)]
+    fn to_f64(self) -> f64 {
+        self
+    }
+}
+
+#[cfg(any(feature = "std", feature = "libm"))]
+impl Real for f32 {
+    const EPSILON: f64 = Self::EPSILON as f64;
+
+    #[inline(always)]
+    fn to_f64(self) -> f64 {
+        f64::from(self)
+    }
+}

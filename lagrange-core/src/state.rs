@@ -1,0 +1,71 @@
+//! A point of the velocity phase space at a time, and what the equations of motion give there.
+
+use nalgebra::SVector;
+
+use crate::Scalar;
+
+/// The time `t`, the generalized coordinates `q` and the generalized velocities `v` = q̇.
+///
+/// Entries are in the order of the `coordinates` attribute.
+///
+/// ```
+/// use lagrange_core::State;
+/// let state = State::new([0.1, 0.0], [0.0, 2.0]).at_time(1.0);
+/// assert_eq!((state.t, state.q[0], state.v[1]), (1.0, 0.1, 2.0));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State<T, const N: usize> {
+    /// Time.
+    pub t: T,
+    /// Generalized coordinates.
+    pub q: SVector<T, N>,
+    /// Generalized velocities.
+    pub v: SVector<T, N>,
+}
+
+impl<T: Scalar, const N: usize> State<T, N> {
+    /// Coordinates and velocities at `t = 0`.
+    pub fn new(q: impl Into<SVector<T, N>>, v: impl Into<SVector<T, N>>) -> Self {
+        Self { t: T::constant(0.0), q: q.into(), v: v.into() }
+    }
+
+    /// Coordinates at rest at `t = 0`.
+    pub fn at_rest(q: impl Into<SVector<T, N>>) -> Self {
+        Self::new(q, [T::constant(0.0); N])
+    }
+
+    /// The same coordinates and velocities at the time `t`.
+    #[must_use]
+    pub fn at_time(self, t: T) -> Self {
+        Self { t, ..self }
+    }
+}
+
+/// What the equations of motion give at a state: accelerations q̈ and multipliers λ, from
+///
+/// ```text
+/// [ M  −Fᵀ ] [ q̈ ]   [  h ]
+/// [ F   0  ] [ λ ] = [ −γ ]
+/// ```
+///
+/// The constraint force on coordinate a is Σ_α λ_α F_αa (Milton (8.7), (8.13)).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Solution<T, const N: usize, const M: usize> {
+    /// Generalized accelerations q̈.
+    pub accelerations: SVector<T, N>,
+    /// Lagrange multipliers λ, one a scalar constraint, in the order written.
+    pub multipliers: SVector<T, M>,
+    /// The smallest pivot of the elimination, as a fraction of the diagonal entry it came from: 1 is
+    /// perfect, 0 singular, NaN or negative a system that this elimination cannot solve.
+    pub pivot: T,
+    /// How many of the `M` constraints are independent here. Where it is less than `M` the multipliers
+    /// are not unique; those given are the ones of least Euclidean norm.
+    pub rank: usize,
+}
+
+impl<T, const N: usize, const M: usize> Solution<T, N, M> {
+    /// Whether the multipliers are determined by the equations: false where constraints depend on one another.
+    pub fn multipliers_are_unique(&self) -> bool {
+        self.rank == M
+    }
+}
