@@ -1,8 +1,82 @@
-//! The derive macro.
-use proc_macro::TokenStream;
+//! The derive macro of `lagrange-core`: use it from there.
+//!
+//! A pipeline, each stage a folder with one way in:
+//!
+//! ```text
+//! tokens ─syntax→ Declaration ─resolve→ Problem ─mechanics→ Equations ─codegen→ tokens
+//! ```
+//!
+//! `symbolic` is the ground floor. Every stage stops if anything was wrong, with all errors at once.
 
-/// Derives the equations of motion.
-#[proc_macro_derive(Lagrangian, attributes(coordinates, define, lagrangian, constraint, force, dissipation, observable, parameter, lagrange))]
-pub fn derive_lagrangian(_input: TokenStream) -> TokenStream {
-    TokenStream::new()
+mod codegen;
+mod diagnostics;
+mod mechanics;
+mod print;
+mod resolve;
+mod symbolic;
+mod syntax;
+mod variables;
+
+use diagnostics::{Diagnostics, Place};
+use proc_macro2::TokenStream;
+use syntax::Declaration;
+
+/// Derives the equations of motion of a mechanical system from the Lagrangian, the coordinates and the
+/// constraints stated in attributes on a struct, whose fields are the parameters.
+///
+/// The crate `lagrange-core`, which re-exports this macro, documents the language of the attributes.
+#[proc_macro_derive(
+    Lagrangian,
+    attributes(
+        coordinates,
+        define,
+        lagrangian,
+        constraint,
+        force,
+        dissipation,
+        observable,
+        parameter,
+        lagrange
+    )
+)]
+pub fn derive_lagrangian(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
+    expand(input.into()).into()
+}
+
+/// The whole pipeline. It runs outside of a compiler too.
+fn expand(input: TokenStream) -> TokenStream {
+    let mut diagnostics = Diagnostics::default();
+    if let Some(span) = syntax::too_deep(input.clone()) {
+        let limit = syntax::NESTING_LIMIT;
+        let message = format!(
+            "parentheses nest more than {limit} deep here: name parts of the expression with `#[define(…)]`"
+        );
+        diagnostics.error(Place::at(span), message);
+        return diagnostics.into_tokens();
+    }
+    let input = match syn::parse2(input) {
+        Ok(input) => input,
+        Err(error) => return error.to_compile_error(),
+    };
+    let declaration = syntax::declaration(input, &mut diagnostics);
+    match derive(&declaration, &mut diagnostics) {
+        Some(tokens) => tokens,
+        None => {
+            let mut tokens = diagnostics.into_tokens();
+            tokens.extend(codegen::stub(&declaration));
+            tokens
+        }
+    }
+}
+
+fn derive(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<TokenStream> {
+    diagnostics.is_empty().then_some(())?;
+    let mut problem = resolve::problem(declaration, diagnostics)?;
+    let scalar = problem.parameters.scalar(declaration, diagnostics);
+    diagnostics.is_empty().then_some(())?;
+    let equations = mechanics::derive(&mut problem, diagnostics)?;
+    let tokens = codegen::implementation(declaration, &problem, &equations, &scalar, diagnostics);
+    diagnostics.is_empty().then_some(())?;
+    print::if_asked(declaration, &tokens);
+    Some(tokens)
 }

@@ -1,0 +1,337 @@
+//! From a schedule to statements.
+
+use std::collections::HashSet;
+
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::{format_ident, quote};
+use rustc_hash::FxHashMap;
+
+use super::schedule::{Count, Operation, Register, Schedule};
+use crate::resolve::{Element, Problem};
+use crate::symbolic::{Function, Id, Symbol};
+use crate::variables::Variable;
+
+/// Up to this many locals each have a `let`. Beyond, they are declared in batches of as many, as tuples, and
+/// then assigned: one `let` each overflows rustc's stack near 3,000 in a build with debug information.
+const BATCH: usize = 256;
+/// Single-use results are nested into what uses them to this depth.
+const NESTING: usize = 6;
+
+/// The body of one emitted function.
+pub(super) struct Kernel {
+    /// Reads the inputs and computes the results.
+    pub(super) statements: TokenStream,
+    /// One expression for each root.
+    pub(super) results: Vec<TokenStream>,
+    pub(super) count: Count,
+}
+
+/// What all functions of a system have in common.
+pub(super) struct Style<'a> {
+    pub(super) problem: &'a Problem,
+    /// The number type.
+    pub(super) scalar: &'a syn::Type,
+    /// Whether the scalar is `f64`, so that constants are plain literals.
+    pub(super) is_f64: bool,
+    /// Names of the inputs and definitions, valid as identifiers and all different.
+    names: FxHashMap<Symbol, Ident>,
+    definition_names: FxHashMap<Id, Ident>,
+    taken: HashSet<String>,
+}
+
+impl<'a> Style<'a> {
+    pub(super) fn new(problem: &'a Problem, scalar: &'a syn::Type) -> Self {
+        let is_f64 = quote!(#scalar).to_string() == "f64";
+        let mut taken =
+            HashSet::from(["state", "solution", "multipliers", "index", "self"].map(String::from));
+        let mut unique = |text: String| identifier(&text, &mut taken);
+        let mut names = FxHashMap::default();
+        names.insert(Variable::Time.symbol(), unique("t".to_owned()));
+        for (i, label) in problem.coordinates.iter().enumerate() {
+            let [base, index] = split(&label.text);
+            names.insert(Variable::Coordinate(i).symbol(), unique(format!("{base}{index}")));
+            names.insert(Variable::Velocity(i).symbol(), unique(format!("{base}_dot{index}")));
+            names.insert(Variable::Acceleration(i).symbol(), unique(format!("{base}_ddot{index}")));
+        }
+        for (a, (label, _)) in problem.constraints.iter().enumerate() {
+            names.insert(Variable::Multiplier(a).symbol(), unique(format!("lambda_{}", label.text)));
+        }
+        for (k, entry) in problem.parameters.entries.iter().enumerate() {
+            let field = &problem.parameters.fields[entry.field].name.text;
+            let text = match entry.element {
+                Element::All => field.clone(),
+                Element::Item(i) => format!("{field}_{i}"),
+                Element::RowItem(i, j) | Element::Cell(i, j) => format!("{field}_{i}_{j}"),
+            };
+            names.insert(Variable::Parameter(k).symbol(), unique(text));
+        }
+        let mut definitions: Vec<_> = problem.names.iter().collect();
+        definitions.sort_unstable();
+        let definition_names =
+            definitions.into_iter().map(|(id, text)| (*id, unique(text.clone()))).collect();
+        Self { problem, scalar, is_f64, names, definition_names, taken }
+    }
+
+    /// The value of a parameter, read from its field.
+    fn parameter(&self, k: usize) -> TokenStream {
+        let entry = self.problem.parameters.entries[k];
+        let field = &self.problem.parameters.fields[entry.field];
+        let ident = &field.ident;
+        let index = Literal::usize_unsuffixed;
+        match entry.element {
+            Element::All if field.shape.as_ref().is_ok_and(|shape| shape.is_reference) => {
+                quote!(*self.#ident)
+            }
+            Element::All => quote!(self.#ident),
+            Element::Item(i) => {
+                let i = index(i);
+                quote!(self.#ident[#i])
+            }
+            Element::RowItem(i, j) => {
+                let (i, j) = (index(i), index(j));
+                quote!(self.#ident[#i][#j])
+            }
+            Element::Cell(i, j) => {
+                let (i, j) = (index(i), index(j));
+                quote!(self.#ident[(#i, #j)])
+            }
+        }
+    }
+
+    /// Statements that bring the inputs in use into scope.
+    fn inputs(&self, used: &[Symbol]) -> TokenStream {
+        let problem = self.problem;
+        let pattern = |count: usize, variable: fn(usize) -> Variable, source: TokenStream| {
+            let names: Vec<_> = (0..count)
+                .map(|i| match used.contains(&variable(i).symbol()) {
+                    true => {
+                        let name = &self.names[&variable(i).symbol()];
+                        quote!(#name)
+                    }
+                    false => quote!(_),
+                })
+                .collect();
+            let any = (0..count).any(|i| used.contains(&variable(i).symbol()));
+            any.then(|| quote! { let [#(#names),*] = #source.data.0[0]; })
+        };
+        let (n, m) = (problem.coordinates.len(), problem.constraints.len());
+        let time = used.contains(&Variable::Time.symbol()).then(|| {
+            let name = &self.names[&Variable::Time.symbol()];
+            quote! { let #name = state.t; }
+        });
+        let coordinates = pattern(n, Variable::Coordinate, quote!(state.q));
+        let velocities = pattern(n, Variable::Velocity, quote!(state.v));
+        let accelerations = pattern(n, Variable::Acceleration, quote!(solution.accelerations));
+        let multipliers = pattern(m, Variable::Multiplier, quote!(multipliers));
+        let parameters = used.iter().filter_map(|symbol| match Variable::of(*symbol) {
+            Variable::Parameter(k) => {
+                let (name, value) = (&self.names[symbol], self.parameter(k));
+                Some(quote! { let #name = #value; })
+            }
+            _ => None,
+        });
+        quote! { #time #coordinates #velocities #accelerations #multipliers #(#parameters)* }
+    }
+
+    fn constant(&self, value: f64) -> TokenStream {
+        // A negative literal would be a sign and a literal.
+        let magnitude = Literal::f64_unsuffixed(value.abs());
+        let literal = if value.is_sign_negative() { quote!((-#magnitude)) } else { quote!(#magnitude) };
+        let scalar = self.scalar;
+        if self.is_f64 { literal } else { quote!(<#scalar as Scalar>::constant(#literal)) }
+    }
+
+    /// Computes `roots`.
+    pub(super) fn kernel(&self, roots: &[Id]) -> Kernel {
+        let schedule = Schedule::new(&self.problem.graph, roots);
+        let mut writer = Writer {
+            style: self,
+            uses: schedule.uses(roots),
+            values: Vec::new(),
+            locals: Vec::new(),
+            assignments: Vec::new(),
+            names: FxHashMap::default(),
+        };
+        for &(register, id) in &schedule.definitions {
+            if let Some(name) = self.definition_names.get(&id) {
+                writer.names.entry(register).or_insert(name);
+            }
+        }
+        for (index, &operation) in schedule.operations.iter().enumerate() {
+            writer.write(index, operation, &schedule);
+        }
+        let results: Vec<_> = roots.iter().map(|&root| writer.value(schedule.register(root))).collect();
+        let used: Vec<Symbol> = schedule
+            .operations
+            .iter()
+            .filter_map(|operation| match operation {
+                Operation::Input(symbol) => Some(*symbol),
+                _ => None,
+            })
+            .collect();
+        let inputs = self.inputs(&used);
+        let computation = writer.finish();
+        Kernel { statements: quote! { #inputs #computation }, results, count: schedule.count(roots) }
+    }
+}
+
+/// Statements under construction.
+struct Writer<'s, 'a> {
+    style: &'s Style<'a>,
+    uses: Vec<usize>,
+    /// For each register the tokens that stand for it, and how deep they nest.
+    values: Vec<(TokenStream, usize)>,
+    locals: Vec<Ident>,
+    assignments: Vec<TokenStream>,
+    names: FxHashMap<Register, &'s Ident>,
+}
+
+impl Writer<'_, '_> {
+    fn value(&self, register: Register) -> TokenStream {
+        self.values[register.index()].0.clone()
+    }
+
+    fn write(&mut self, index: usize, operation: Operation, schedule: &Schedule) {
+        let entry = match operation {
+            _ if self.uses[index] == 0 => (TokenStream::new(), 0),
+            Operation::Constant(bits) => (self.style.constant(f64::from_bits(bits)), 0),
+            Operation::Input(symbol) => {
+                let name = &self.style.names[&symbol];
+                (quote!(#name), 0)
+            }
+            Operation::Function(function @ (Function::Sin | Function::Cos), x) => {
+                self.write_sine_or_cosine(index, function, x, schedule);
+                return;
+            }
+            _ => {
+                let depth =
+                    1 + operation.operands().map(|operand| self.values[operand.index()].1).max().unwrap_or(0);
+                let tokens = self.operation(operation);
+                if self.uses[index] == 1 && depth < NESTING {
+                    (quote!((#tokens)), depth)
+                } else {
+                    (self.assign(index, &tokens), 0)
+                }
+            }
+        };
+        self.values.push(entry);
+    }
+
+    fn operation(&self, operation: Operation) -> TokenStream {
+        let value = |register| self.value(register);
+        match operation {
+            Operation::Negate(x) => {
+                let x = value(x);
+                quote!(-#x)
+            }
+            Operation::Add(x, y) => infix(value(x), quote!(+), value(y)),
+            Operation::Subtract(x, y) => infix(value(x), quote!(-), value(y)),
+            Operation::Multiply(x, y) => infix(value(x), quote!(*), value(y)),
+            Operation::Divide(x, y) => infix(value(x), quote!(/), value(y)),
+            Operation::SquareRoot(x) => call("sqrt", &[value(x)]),
+            Operation::Function(function, x) => call(function_name(function), &[value(x)]),
+            Operation::Atan2(y, x) => call("atan2", &[value(y), value(x)]),
+            Operation::Power(x, y) => call("powf", &[value(x), value(y)]),
+            Operation::Constant(_) | Operation::Input(_) => TokenStream::new(),
+        }
+    }
+
+    /// The sine and the cosine of one argument are computed together, when the first of them is met.
+    fn write_sine_or_cosine(&mut self, index: usize, function: Function, x: Register, schedule: &Schedule) {
+        let other = if function == Function::Sin { Function::Cos } else { Function::Sin };
+        let partner =
+            schedule.find(Operation::Function(other, x)).filter(|partner| self.uses[partner.index()] > 0);
+        let Some(partner) = partner else {
+            let tokens = call(function_name(function), &[self.value(x)]);
+            let value = self.assign(index, &tokens);
+            return self.values.push((value, 0));
+        };
+        if partner.index() < index {
+            let name = self.register_name(index);
+            return self.values.push((quote!(#name), 0));
+        }
+        let (mine, theirs) = (self.register_name(index), self.register_name(partner.index()));
+        let (sine, cosine) = if function == Function::Sin { (&mine, &theirs) } else { (&theirs, &mine) };
+        let x = self.value(x);
+        self.assignments.push(quote! { (#sine, #cosine) = Scalar::sin_cos(#x); });
+        self.locals.extend([mine.clone(), theirs]);
+        self.values.push((quote!(#mine), 0));
+    }
+
+    /// `r12`, unless the user has something of that name.
+    fn register_name(&self, index: usize) -> Ident {
+        let name = format!("r{index}");
+        let suffix = if self.style.taken.contains(&name) { "_" } else { "" };
+        format_ident!("{name}{suffix}", span = Span::mixed_site())
+    }
+
+    /// Puts a result into a local: under its definition's name where it has one.
+    fn assign(&mut self, index: usize, tokens: &TokenStream) -> TokenStream {
+        let register = Register::at(index);
+        let name = match self.names.get(&register) {
+            Some(name) => (*name).clone(),
+            None => self.register_name(index),
+        };
+        self.assignments.push(quote! { #name = #tokens; });
+        self.locals.push(name.clone());
+        quote!(#name)
+    }
+
+    /// All assignments, with the declarations of what they assign to.
+    fn finish(self) -> TokenStream {
+        let assignments = &self.assignments;
+        if self.locals.len() <= BATCH {
+            return quote! { #(let #assignments)* };
+        }
+        let declarations = self.locals.chunks(BATCH).map(|batch| {
+            let types = batch.iter().map(|_| self.style.scalar);
+            quote! { let (#(#batch,)*): (#(#types,)*); }
+        });
+        quote! { #(#declarations)* #(#assignments)* }
+    }
+}
+
+fn infix(x: TokenStream, operator: TokenStream, y: TokenStream) -> TokenStream {
+    quote!(#x #operator #y)
+}
+
+fn call(name: &str, arguments: &[TokenStream]) -> TokenStream {
+    let name = Ident::new(name, Span::mixed_site());
+    quote!(Scalar::#name(#(#arguments),*))
+}
+
+fn function_name(function: Function) -> &'static str {
+    match function {
+        Function::Sin => "sin",
+        Function::Cos => "cos",
+        Function::Tan => "tan",
+        Function::Asin => "asin",
+        Function::Acos => "acos",
+        Function::Atan => "atan",
+        Function::Sinh => "sinh",
+        Function::Cosh => "cosh",
+        Function::Tanh => "tanh",
+        Function::Exp => "exp",
+        Function::Ln => "ln",
+        Function::Abs => "abs",
+    }
+}
+
+/// `r[2]` is `r` and `_2`.
+fn split(text: &str) -> [String; 2] {
+    match text.split_once('[') {
+        Some((base, index)) => [base.to_owned(), format!("_{}", index.trim_end_matches(']'))],
+        None => [text.to_owned(), String::new()],
+    }
+}
+
+/// An identifier like `text` that nothing else bears.
+fn identifier(text: &str, taken: &mut HashSet<String>) -> Ident {
+    let mut name = text.replace("][", "_").replace('[', "_").replace(']', "");
+    if syn::parse_str::<Ident>(&name).is_err() || !taken.insert(name.clone()) {
+        let is_free = |candidate: &String| !taken.contains(candidate);
+        name = (1..).map(|k| format!("{name}__{k}")).find(is_free).unwrap_or(name);
+        taken.insert(name.clone());
+    }
+    Ident::new(&name, Span::mixed_site())
+}

@@ -1,0 +1,318 @@
+//! From [`Equations`] to Rust. Nothing else writes any.
+
+mod kernel;
+mod schedule;
+mod stub;
+
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+use syn::GenericParam;
+
+use crate::diagnostics::Diagnostics;
+use crate::mechanics::{ConstraintKind, Equations};
+use crate::resolve::{Label, Problem};
+use crate::symbolic::Id;
+use crate::syntax::Declaration;
+use crate::variables::Variable;
+use kernel::{Kernel, Style};
+pub(crate) use schedule::Count;
+pub(crate) use stub::stub;
+
+/// rustc takes a function of this many operations in seconds; beyond, the system belongs apart.
+const OPERATION_LIMIT: usize = 30_000;
+
+/// The implementation of the trait, and a method for each observable.
+pub(crate) fn implementation(
+    declaration: &Declaration,
+    problem: &Problem,
+    equations: &Equations,
+    scalar: &syn::Type,
+    diagnostics: &mut Diagnostics,
+) -> TokenStream {
+    let style = Style::new(problem, scalar);
+    let emitter = Emitter { declaration, problem, equations, style: &style };
+    let fused = emitter.fused();
+    let Count { arithmetic, functions } = fused.count;
+    if arithmetic + functions > OPERATION_LIMIT {
+        diagnostics.error(problem.place, format!(
+            "the equations of motion take {arithmetic} operations and {functions} elementary functions, beyond what rustc compiles in one function ({OPERATION_LIMIT}): name what recurs with `#[define(…)]`, recursively along chains, so that it is shared"
+        ));
+        return TokenStream::new();
+    }
+    emitter.block(fused)
+}
+
+struct Emitter<'a> {
+    declaration: &'a Declaration,
+    problem: &'a Problem,
+    equations: &'a Equations,
+    style: &'a Style<'a>,
+}
+
+impl Emitter<'_> {
+    fn block(&self, fused: Kernel) -> TokenStream {
+        let runtime = runtime(self.declaration);
+        let (ident, scalar) = (&self.declaration.ident, self.style.scalar);
+        let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
+        let (_, type_generics, where_clause) = self.declaration.generics.split_for_impl();
+        let generics = bounded_generics(self.declaration, scalar);
+        let (impl_generics, _, _) = generics.split_for_impl();
+        let name = ident.to_string();
+        let name = name.trim_start_matches("r#");
+        let coordinates = self.problem.coordinates.iter().map(|label| &label.text);
+        let constraints = self.problem.constraints.iter().map(|(label, _)| &label.text);
+        let kinds = self.equations.kinds.iter().map(|kind| match kind {
+            ConstraintKind::Holonomic => quote!(ConstraintKind::Holonomic),
+            ConstraintKind::Velocity => quote!(ConstraintKind::Velocity),
+        });
+        let observables = self.observable_names();
+        let functions = self.functions(fused);
+        let inherent = self.observable_methods();
+        quote! {
+            const _: () = {
+                use #runtime::eliminate::{eliminate, matrix, vector};
+                use #runtime::nalgebra::{SMatrix, SVector};
+                use #runtime::{ConstraintKind, Lagrangian, Scalar, Solution, State};
+
+                #[automatically_derived]
+                #[allow(clippy::all, unused_parens)]
+                impl #impl_generics Lagrangian<#n, #m> for #ident #type_generics #where_clause {
+                    type Scalar = #scalar;
+                    const NAME: &'static str = #name;
+                    const COORDINATES: [&'static str; #n] = [#(#coordinates),*];
+                    const CONSTRAINTS: [&'static str; #m] = [#(#constraints),*];
+                    const CONSTRAINT_KINDS: [ConstraintKind; #m] = [#(#kinds),*];
+                    const OBSERVABLES: &'static [&'static str] = &[#(#observables),*];
+                    #functions
+                }
+
+                #[automatically_derived]
+                #[allow(clippy::all, unused_parens, dead_code)]
+                impl #impl_generics #ident #type_generics #where_clause {
+                    #inherent
+                }
+            };
+        }
+    }
+
+    fn functions(&self, fused: Kernel) -> TokenStream {
+        let scalar = self.style.scalar;
+        let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
+        let equations = self.equations;
+        let lagrangian = self.style.kernel(&[self.problem.lagrangian]);
+        let lagrangian =
+            self.function("lagrangian", &quote!(#scalar), &lagrangian, |results| quote!(#(#results)*));
+        let of_coordinates = quote!(SVector<#scalar, #n>);
+        let of_constraints = quote!(SVector<#scalar, #m>);
+        let momentum = self.vector("momentum", &of_coordinates, &equations.momentum);
+        let forcing = self.vector("forcing", &of_coordinates, &equations.forcing);
+        let residual = self.vector("constraint_residual", &of_constraints, &equations.residual);
+        let rate = self.vector("constraint_rate", &of_constraints, &equations.rate);
+        let bias = self.vector("constraint_bias", &of_constraints, &equations.bias);
+        let mass = self.matrix("mass_matrix", &quote!(SMatrix<#scalar, #n, #n>), &equations.mass, n);
+        let jacobian =
+            self.matrix("constraint_jacobian", &quote!(SMatrix<#scalar, #m, #n>), &equations.jacobian, n);
+        let force = self.constraint_force();
+        let accelerations = self.accelerations(&fused);
+        let observable = self.observable_by_index();
+        quote! { #lagrangian #momentum #mass #forcing #residual #rate #jacobian #bias #force #accelerations #observable }
+    }
+
+    /// One method of the state that returns what `result` makes of the kernel's results.
+    fn function(
+        &self,
+        name: &str,
+        returns: &TokenStream,
+        kernel: &Kernel,
+        result: impl Fn(&[TokenStream]) -> TokenStream,
+    ) -> TokenStream {
+        let name = format_ident!("{name}");
+        let (n, scalar) = (self.problem.coordinates.len(), self.style.scalar);
+        let (statements, doc, result) =
+            (&kernel.statements, count_doc(kernel.count), result(&kernel.results));
+        quote! {
+            #[doc = #doc]
+            #[inline]
+            #[allow(unused_variables)]
+            fn #name(&self, state: &State<#scalar, #n>) -> #returns {
+                #statements
+                #result
+            }
+        }
+    }
+
+    fn vector(&self, name: &str, returns: &TokenStream, roots: &[Id]) -> TokenStream {
+        self.function(name, returns, &self.style.kernel(roots), |results| quote!(vector([#(#results),*])))
+    }
+
+    /// nalgebra's matrices are stored by columns.
+    fn matrix(&self, name: &str, returns: &TokenStream, rows: &[Vec<Id>], columns: usize) -> TokenStream {
+        let roots: Vec<Id> = (0..columns).flat_map(|j| rows.iter().map(move |row| row[j])).collect();
+        let kernel = self.style.kernel(&roots);
+        let height = rows.len();
+        self.function(name, returns, &kernel, |results| {
+            let columns = (0..columns).map(|j| {
+                let column = &results[j * height..(j + 1) * height];
+                quote!([#(#column),*])
+            });
+            quote!(matrix([#(#columns),*]))
+        })
+    }
+
+    fn constraint_force(&self) -> TokenStream {
+        let (n, m, scalar) =
+            (self.problem.coordinates.len(), self.problem.constraints.len(), self.style.scalar);
+        let kernel = self.style.kernel(&self.equations.constraint_force);
+        let (statements, doc) = (&kernel.statements, count_doc(kernel.count));
+        let results =
+            if m == 0 { (0..n).map(|_| quote!(Scalar::constant(0.0))).collect() } else { kernel.results };
+        quote! {
+            #[doc = #doc]
+            #[inline]
+            #[allow(unused_variables)]
+            fn constraint_force(&self, state: &State<#scalar, #n>, multipliers: &SVector<#scalar, #m>) -> SVector<#scalar, #n> {
+                #statements
+                vector([#(#results),*])
+            }
+        }
+    }
+
+    /// M, h, F and γ in one schedule, so that they share what they have in common.
+    fn fused(&self) -> Kernel {
+        let equations = self.equations;
+        let mut roots: Vec<Id> = equations.mass.concat();
+        roots.extend(&equations.forcing);
+        roots.extend(equations.jacobian.concat());
+        roots.extend(&equations.bias);
+        self.style.kernel(&roots)
+    }
+
+    fn accelerations(&self, fused: &Kernel) -> TokenStream {
+        let (n, m, scalar) =
+            (self.problem.coordinates.len(), self.problem.constraints.len(), self.style.scalar);
+        let returns = quote!(Solution<#scalar, #n, #m>);
+        self.function("accelerations", &returns, fused, |results| {
+            let (mass, rest) = results.split_at(n * n);
+            let (forcing, rest) = rest.split_at(n);
+            let (jacobian, bias) = rest.split_at(n * m);
+            let mass = mass.chunks(n).map(|row| quote!([#(#row),*]));
+            let jacobian = jacobian.chunks(n).map(|row| quote!([#(#row),*]));
+            quote! {
+                eliminate([#(#mass),*], [#(#forcing),*], [#(#jacobian),*], [#(#bias),*])
+            }
+        })
+    }
+
+    /// Flat names, in the order of [`observable_by_index`](Self::observable_by_index).
+    fn observable_names(&self) -> Vec<String> {
+        let names = self.problem.observables.iter().flat_map(|(label, values)| match values.len() {
+            1 => vec![label.text.clone()],
+            length => (0..length).map(|i| format!("{}[{i}]", label.text)).collect(),
+        });
+        names.collect()
+    }
+
+    fn observable_by_index(&self) -> TokenStream {
+        let (n, m, scalar) =
+            (self.problem.coordinates.len(), self.problem.constraints.len(), self.style.scalar);
+        let mut index = 0_usize;
+        let mut arms = Vec::new();
+        for (label, values) in &self.problem.observables {
+            let method = method_name(label);
+            let call = if self.needs_solution(values) {
+                quote!(self.#method(state, solution))
+            } else {
+                quote!(self.#method(state))
+            };
+            for i in 0..values.len() {
+                let value = if values.len() == 1 { call.clone() } else { quote!(#call.data.0[0][#i]) };
+                arms.push(quote!(#index => Some(#value),));
+                index += 1;
+            }
+        }
+        quote! {
+            #[allow(unused_variables)]
+            fn observable(&self, index: usize, state: &State<#scalar, #n>, solution: &Solution<#scalar, #n, #m>) -> Option<#scalar> {
+                match index {
+                    #(#arms)*
+                    _ => None,
+                }
+            }
+        }
+    }
+
+    fn needs_solution(&self, values: &[Id]) -> bool {
+        let solved =
+            |symbol| matches!(Variable::of(symbol), Variable::Acceleration(_) | Variable::Multiplier(_));
+        self.problem.graph.symbols(values).any(solved)
+    }
+
+    fn observable_methods(&self) -> TokenStream {
+        self.problem.observables.iter().map(|(label, values)| self.observable_method(label, values)).collect()
+    }
+
+    fn observable_method(&self, label: &Label, values: &[Id]) -> TokenStream {
+        let (n, m, scalar) =
+            (self.problem.coordinates.len(), self.problem.constraints.len(), self.style.scalar);
+        let visibility = &self.declaration.visibility;
+        let name = method_name(label);
+        let kernel = self.style.kernel(values);
+        let (statements, results) = (&kernel.statements, &kernel.results);
+        let (returns, result) = match results.len() {
+            1 => (quote!(#scalar), quote!(#(#results)*)),
+            length => (quote!(SVector<#scalar, #length>), quote!(vector([#(#results),*]))),
+        };
+        let solved = self.needs_solution(values);
+        let solution = solved.then(|| quote!(, solution: &Solution<#scalar, #n, #m>));
+        let multipliers = solved.then(|| quote! { let multipliers = &solution.multipliers; });
+        let doc = format!("The observable `{}`. {}", label.text, count_doc(kernel.count));
+        quote! {
+            #[doc = #doc]
+            #[inline]
+            #[allow(unused_variables)]
+            #visibility fn #name(&self, state: &State<#scalar, #n> #solution) -> #returns {
+                #multipliers
+                #statements
+                #result
+            }
+        }
+    }
+}
+
+fn count_doc(count: Count) -> String {
+    let Count { arithmetic, functions } = count;
+    let plural = |count| if count == 1 { "" } else { "s" };
+    format!(
+        "{arithmetic} operation{} (+ − × ÷ √), {functions} elementary function{}.",
+        plural(arithmetic),
+        plural(functions)
+    )
+}
+
+fn method_name(label: &Label) -> syn::Ident {
+    // A name that only `r#` makes an identifier gets it back.
+    let mut name = syn::parse_str::<syn::Ident>(&label.text)
+        .unwrap_or_else(|_| syn::Ident::new_raw(&label.text, label.place.start()));
+    name.set_span(label.place.start());
+    name
+}
+
+/// The path of the runtime crate.
+fn runtime(declaration: &Declaration) -> TokenStream {
+    declaration.options.runtime.clone().unwrap_or_else(|| quote!(::lagrange_core))
+}
+
+/// The struct's generics, where a scalar that is a type parameter is bound to be one.
+fn bounded_generics(declaration: &Declaration, scalar: &syn::Type) -> syn::Generics {
+    let runtime = runtime(declaration);
+    let mut generics = declaration.generics.clone();
+    let scalar = quote!(#scalar).to_string();
+    for parameter in &mut generics.params {
+        if let GenericParam::Type(parameter) = parameter {
+            if parameter.ident == scalar {
+                parameter.bounds.push(syn::parse_quote!(#runtime::Scalar));
+            }
+        }
+    }
+    generics
+}

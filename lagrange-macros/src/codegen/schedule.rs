@@ -1,0 +1,276 @@
+//! From the graph to a sequence of binary operations, each computed once.
+
+use num_traits::{One, Signed, ToPrimitive};
+use rustc_hash::FxHashMap;
+
+use crate::symbolic::{Function, Graph, Id, Node, Rational, Symbol, to_f64};
+
+/// The result of one operation.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub(super) struct Register(u32);
+
+impl Register {
+    pub(super) fn at(index: usize) -> Self {
+        Self(index as u32)
+    }
+
+    pub(super) fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// One operation on earlier results.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(super) enum Operation {
+    /// A constant, by the bits of its value.
+    Constant(u64),
+    Input(Symbol),
+    Negate(Register),
+    Add(Register, Register),
+    Subtract(Register, Register),
+    Multiply(Register, Register),
+    Divide(Register, Register),
+    SquareRoot(Register),
+    Function(Function, Register),
+    Atan2(Register, Register),
+    Power(Register, Register),
+}
+
+impl Operation {
+    pub(super) fn operands(self) -> impl Iterator<Item = Register> {
+        let (first, second) = match self {
+            Self::Constant(_) | Self::Input(_) => (None, None),
+            Self::Negate(x) | Self::SquareRoot(x) | Self::Function(_, x) => (Some(x), None),
+            Self::Add(x, y)
+            | Self::Subtract(x, y)
+            | Self::Multiply(x, y)
+            | Self::Divide(x, y)
+            | Self::Atan2(x, y)
+            | Self::Power(x, y) => (Some(x), Some(y)),
+        };
+        first.into_iter().chain(second)
+    }
+}
+
+/// How many operations a function takes: + − × ÷ √ count 1, elementary functions apart.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub(crate) struct Count {
+    pub(crate) arithmetic: usize,
+    pub(crate) functions: usize,
+}
+
+/// Operations in the order in which they are computed.
+#[derive(Default)]
+pub(super) struct Schedule {
+    pub(super) operations: Vec<Operation>,
+    known: FxHashMap<Operation, Register>,
+    registers: FxHashMap<Id, Register>,
+    /// Which register holds a definition, for its name.
+    pub(super) definitions: Vec<(Register, Id)>,
+}
+
+impl Schedule {
+    /// Schedules what `roots` need and nothing else.
+    pub(super) fn new(graph: &Graph, roots: &[Id]) -> Self {
+        let mut schedule = Self::default();
+        for id in graph.reachable(roots) {
+            if schedule.is_needed_whole(graph, id, roots) {
+                let register = schedule.node(graph, id);
+                schedule.registers.insert(id, register);
+            }
+        }
+        schedule
+    }
+
+    /// Numbers are made where they are used: many only scale a term or are an exponent.
+    fn is_needed_whole(&self, graph: &Graph, id: Id, roots: &[Id]) -> bool {
+        graph.as_number(id).is_none() || roots.contains(&id)
+    }
+
+    pub(super) fn register(&self, root: Id) -> Register {
+        self.registers[&root]
+    }
+
+    /// Which operations contribute to the roots, given by how often each result is used.
+    pub(super) fn uses(&self, roots: &[Id]) -> Vec<usize> {
+        let mut uses = vec![0; self.operations.len()];
+        for &root in roots {
+            uses[self.register(root).index()] += 1;
+        }
+        for (index, operation) in self.operations.iter().enumerate().rev() {
+            if uses[index] > 0 {
+                operation.operands().for_each(|operand| uses[operand.index()] += 1);
+            }
+        }
+        uses
+    }
+
+    pub(super) fn count(&self, roots: &[Id]) -> Count {
+        let uses = self.uses(roots);
+        let mut count = Count::default();
+        for (operation, _) in self.operations.iter().zip(uses).filter(|(_, uses)| *uses > 0) {
+            match operation {
+                Operation::Constant(_) | Operation::Input(_) => {}
+                Operation::Function(Function::Abs, _) => count.arithmetic += 1,
+                Operation::Function(..) | Operation::Atan2(..) | Operation::Power(..) => count.functions += 1,
+                _ => count.arithmetic += 1,
+            }
+        }
+        count
+    }
+
+    /// The result of an operation, if it is computed at all.
+    pub(super) fn find(&self, operation: Operation) -> Option<Register> {
+        self.known.get(&operation).copied()
+    }
+
+    fn push(&mut self, operation: Operation) -> Register {
+        let next = Register(self.operations.len() as u32);
+        let register = *self.known.entry(operation).or_insert(next);
+        if register == next {
+            self.operations.push(operation);
+        }
+        register
+    }
+
+    fn constant(&mut self, value: f64) -> Register {
+        self.push(Operation::Constant(value.to_bits()))
+    }
+
+    fn number(&mut self, value: Rational) -> Register {
+        self.constant(to_f64(value))
+    }
+
+    fn node(&mut self, graph: &Graph, id: Id) -> Register {
+        match graph.node(id) {
+            Node::Number(value) => self.number(*value),
+            Node::Pi => self.constant(std::f64::consts::PI),
+            Node::Symbol(symbol) => self.push(Operation::Input(*symbol)),
+            Node::Sum(terms) => self.sum(graph, terms),
+            Node::Product(factors) => self.product(graph, factors, Rational::one()),
+            Node::Function(function, x) => {
+                let x = self.register_of(graph, *x);
+                self.push(Operation::Function(*function, x))
+            }
+            Node::Atan2(y, x) => {
+                let (y, x) = (self.register_of(graph, *y), self.register_of(graph, *x));
+                self.push(Operation::Atan2(y, x))
+            }
+            Node::Power(base, exponent) => {
+                let (base, exponent) = (self.register_of(graph, *base), self.register_of(graph, *exponent));
+                self.push(Operation::Power(base, exponent))
+            }
+            Node::Defined(inner) => {
+                let register = self.register_of(graph, *inner);
+                self.definitions.push((register, id));
+                register
+            }
+        }
+    }
+
+    fn register_of(&mut self, graph: &Graph, id: Id) -> Register {
+        match graph.as_number(id) {
+            Some(value) => self.number(value),
+            None => self.registers[&id],
+        }
+    }
+
+    /// A sum whose coefficients are alike is scaled once; otherwise each term is scaled by its own.
+    fn sum(&mut self, graph: &Graph, terms: &[(Id, Rational)]) -> Register {
+        let scale = terms[0].1.abs();
+        let alike = !scale.is_one() && terms.len() > 1 && terms.iter().all(|(_, c)| c.abs() == scale);
+        let inner = if alike { scale } else { Rational::one() };
+        // A positive term first saves a negation.
+        let first = terms.iter().position(|(_, c)| c.is_positive());
+        let mut total =
+            self.term(graph, terms[first.unwrap_or(0)].0, terms[first.unwrap_or(0)].1.abs() / inner);
+        for (position, &(term, c)) in terms.iter().enumerate() {
+            if position == first.unwrap_or(0) {
+                continue;
+            }
+            let part = self.term(graph, term, c.abs() / inner);
+            let subtract = c.is_negative() && first.is_some();
+            total = self.push(if subtract {
+                Operation::Subtract(total, part)
+            } else {
+                Operation::Add(total, part)
+            });
+        }
+        if alike {
+            let scale = self.number(scale);
+            total = self.push(Operation::Multiply(scale, total));
+        }
+        if first.is_none() { self.push(Operation::Negate(total)) } else { total }
+    }
+
+    /// coefficient · term, for a positive coefficient.
+    fn term(&mut self, graph: &Graph, term: Id, coefficient: Rational) -> Register {
+        if term == Id::ONE {
+            return self.number(coefficient);
+        }
+        if coefficient.is_one() {
+            return self.register_of(graph, term);
+        }
+        if let Node::Product(factors) = graph.node(term) {
+            if factors.iter().all(|(_, exponent)| exponent.is_negative()) {
+                return self.product(graph, factors, coefficient);
+            }
+        }
+        let x = self.register_of(graph, term);
+        let coefficient = self.number(coefficient);
+        self.push(Operation::Multiply(coefficient, x))
+    }
+
+    /// Numerator over denominator; `scale` stands in the numerator.
+    fn product(&mut self, graph: &Graph, factors: &[(Id, Rational)], scale: Rational) -> Register {
+        let mut numerator = (!scale.is_one()).then(|| self.number(scale));
+        let mut denominator = None;
+        for &(factor, exponent) in factors {
+            let base = self.register_of(graph, factor);
+            let part = self.power(base, exponent.abs());
+            let side = if exponent.is_negative() { &mut denominator } else { &mut numerator };
+            *side = Some(match *side {
+                Some(product) => self.push(Operation::Multiply(product, part)),
+                None => part,
+            });
+        }
+        match (numerator, denominator) {
+            (Some(numerator), None) => numerator,
+            (Some(numerator), Some(denominator)) => self.push(Operation::Divide(numerator, denominator)),
+            (None, Some(denominator)) => {
+                let one = self.constant(1.0);
+                self.push(Operation::Divide(one, denominator))
+            }
+            (None, None) => self.constant(1.0),
+        }
+    }
+
+    /// A positive power: by squaring where the exponent is a small whole or half number.
+    fn power(&mut self, base: Register, exponent: Rational) -> Register {
+        let (numerator, denominator) = (exponent.numer().to_u32(), *exponent.denom());
+        match (numerator, denominator) {
+            (Some(n @ 1..=1024), 1) => self.whole_power(base, n),
+            (Some(n @ 1..=1023), 2) => {
+                let root = self.push(Operation::SquareRoot(base));
+                if n == 1 {
+                    return root;
+                }
+                let whole = self.whole_power(base, n / 2);
+                self.push(Operation::Multiply(whole, root))
+            }
+            _ => {
+                let exponent = self.number(exponent);
+                self.push(Operation::Power(base, exponent))
+            }
+        }
+    }
+
+    fn whole_power(&mut self, base: Register, exponent: u32) -> Register {
+        if exponent == 1 {
+            return base;
+        }
+        let half = self.whole_power(base, exponent / 2);
+        let square = self.push(Operation::Multiply(half, half));
+        if exponent % 2 == 1 { self.push(Operation::Multiply(square, base)) } else { square }
+    }
+}

@@ -1,0 +1,65 @@
+//! Errors are gathered, each at its token, and shown together.
+
+use proc_macro2::{Span, TokenStream, TokenTree};
+use syn::Error;
+
+/// From the first to the last token of something the user wrote.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place {
+    start: Span,
+    end: Span,
+}
+
+impl Place {
+    pub(crate) fn at(span: Span) -> Self {
+        Self { start: span, end: span }
+    }
+
+    pub(crate) fn to(self, last: Self) -> Self {
+        Self { start: self.start, end: last.end }
+    }
+
+    pub(crate) fn start(self) -> Span {
+        self.start
+    }
+
+    /// An error that underlines the whole place.
+    pub(crate) fn error(self, message: impl std::fmt::Display) -> Error {
+        let [first, last] = [self.start, self.end].map(|span| {
+            let mut token = TokenTree::from(proc_macro2::Punct::new('.', proc_macro2::Spacing::Alone));
+            token.set_span(span);
+            token
+        });
+        Error::new_spanned([first, last].into_iter().collect::<TokenStream>(), message)
+    }
+}
+
+/// What was wrong so far.
+#[derive(Debug, Default)]
+pub(crate) struct Diagnostics {
+    errors: Vec<Error>,
+}
+
+impl Diagnostics {
+    pub(crate) fn push(&mut self, error: Error) {
+        self.errors.push(error);
+    }
+
+    pub(crate) fn error(&mut self, place: Place, message: impl std::fmt::Display) {
+        self.push(place.error(message));
+    }
+
+    /// The value, or `None` and its error noted.
+    pub(crate) fn note<T>(&mut self, result: Result<T, Error>) -> Option<T> {
+        result.map_err(|error| self.push(error)).ok()
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.errors.is_empty()
+    }
+
+    /// All errors as `compile_error!` calls.
+    pub(crate) fn into_tokens(self) -> TokenStream {
+        self.errors.iter().map(Error::to_compile_error).collect()
+    }
+}

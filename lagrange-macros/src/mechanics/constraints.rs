@@ -1,0 +1,158 @@
+//! The constraints and their derivatives: F, γ and the kind of each.
+
+use indexmap::IndexMap;
+
+use super::{drift, stop_at_fault, symbols};
+use crate::diagnostics::Diagnostics;
+use crate::resolve::Problem;
+use crate::symbolic::{Graph, Id, Rational, Verdict};
+use crate::variables::Variable;
+
+/// How a constraint acts.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum ConstraintKind {
+    /// Φ(q, t) = 0
+    Holonomic,
+    /// F(q, t) q̇ + b(q, t) = 0
+    Velocity,
+}
+
+pub(super) struct Constraints {
+    pub(super) kinds: Vec<ConstraintKind>,
+    pub(super) residual: Vec<Id>,
+    pub(super) rate: Vec<Id>,
+    pub(super) jacobian: Vec<Vec<Id>>,
+    pub(super) bias: Vec<Id>,
+}
+
+impl Constraints {
+    /// Σ_α λ_α F_αa for each coordinate a.
+    pub(super) fn force(&self, graph: &mut Graph) -> Vec<Id> {
+        let lambda: Vec<Id> =
+            (0..self.kinds.len()).map(|a| graph.symbol(Variable::Multiplier(a).symbol())).collect();
+        let coordinates = self.jacobian.first().map_or(0, Vec::len);
+        let one = Rational::from_integer(1);
+        let force = |i: usize| {
+            let terms: Vec<_> = self
+                .jacobian
+                .iter()
+                .zip(&lambda)
+                .map(|(row, &lambda)| (graph.mul(lambda, row[i]), one))
+                .collect();
+            graph.sum(terms)
+        };
+        (0..coordinates).map(force).collect()
+    }
+}
+
+/// Differentiates the constraints; `None` where one of them is none, which is then reported.
+pub(super) fn derive(problem: &mut Problem, diagnostics: &mut Diagnostics) -> Option<Constraints> {
+    let mut constraints = Constraints {
+        kinds: Vec::new(),
+        residual: Vec::new(),
+        rate: Vec::new(),
+        jacobian: Vec::new(),
+        bias: Vec::new(),
+    };
+    for index in 0..problem.constraints.len() {
+        push_row(problem, index, &mut constraints, diagnostics);
+        stop_at_fault(problem, problem.constraints[index].0.place, diagnostics);
+    }
+    reject_repeated(problem, &constraints, diagnostics);
+    diagnostics.is_empty().then_some(constraints)
+}
+
+fn push_row(
+    problem: &mut Problem,
+    index: usize,
+    constraints: &mut Constraints,
+    diagnostics: &mut Diagnostics,
+) {
+    let n = problem.coordinates.len();
+    let expression = problem.constraints[index].1;
+    let kind = kind(&problem.graph, expression);
+    let mut drift = drift(&mut problem.graph, n);
+    let (residual, rate, variable): (_, _, fn(usize) -> Variable) = match kind {
+        ConstraintKind::Holonomic => {
+            (expression, drift.of(&mut problem.graph, expression), Variable::Coordinate)
+        }
+        ConstraintKind::Velocity => (Id::ZERO, expression, Variable::Velocity),
+    };
+    let jacobian = problem.graph.gradient(expression, &symbols(n, variable));
+    reject_malformed(problem, index, kind, &jacobian, diagnostics);
+    constraints.kinds.push(kind);
+    constraints.residual.push(residual);
+    constraints.rate.push(rate);
+    constraints.bias.push(drift.of(&mut problem.graph, rate));
+    constraints.jacobian.push(jacobian);
+}
+
+fn kind(graph: &Graph, expression: Id) -> ConstraintKind {
+    let has_velocity =
+        graph.symbols(&[expression]).any(|symbol| matches!(Variable::of(symbol), Variable::Velocity(_)));
+    if has_velocity { ConstraintKind::Velocity } else { ConstraintKind::Holonomic }
+}
+
+fn reject_malformed(
+    problem: &mut Problem,
+    index: usize,
+    kind: ConstraintKind,
+    jacobian: &[Id],
+    diagnostics: &mut Diagnostics,
+) {
+    let place = problem.constraints[index].0.place;
+    if jacobian.iter().all(|&entry| vanishes(problem, entry)) {
+        let message = match problem.constraints[index].1 {
+            Id::ZERO => "both sides of this constraint are the same",
+            _ => "this constraint depends on no coordinate and no velocity: nothing can be done to meet it",
+        };
+        return diagnostics.error(place, message);
+    }
+    if kind == ConstraintKind::Velocity {
+        reject_nonlinear(problem, index, jacobian, diagnostics);
+    }
+}
+
+/// A velocity constraint is F q̇ + b: its Jacobian holds no velocity.
+fn reject_nonlinear(problem: &mut Problem, index: usize, jacobian: &[Id], diagnostics: &mut Diagnostics) {
+    let n = problem.coordinates.len();
+    for &entry in jacobian {
+        let slopes = problem.graph.gradient(entry, &symbols(n, Variable::Velocity));
+        let nonlinear = slopes.into_iter().position(|slope| !vanishes(problem, slope));
+        if let Some(velocity) = nonlinear {
+            let name = &problem.coordinates[velocity].text;
+            let message = format!(
+                "this constraint is not linear in the velocity of `{name}`: d'Alembert's principle covers F(q,t) q̇ + b(q,t) = 0 only"
+            );
+            return diagnostics.error(problem.constraints[index].0.place, message);
+        }
+    }
+}
+
+fn vanishes(problem: &mut Problem, entry: Id) -> bool {
+    if entry == Id::ZERO {
+        return true;
+    }
+    let mut graph = std::mem::take(&mut problem.graph);
+    let verdict = graph.is_zero(entry, |symbol| problem.range(symbol));
+    problem.graph = graph;
+    matches!(verdict, Verdict::Zero | Verdict::Held(_))
+}
+
+/// A constraint that is a multiple of an earlier one says nothing new.
+fn reject_repeated(problem: &mut Problem, constraints: &Constraints, diagnostics: &mut Diagnostics) {
+    let mut seen: IndexMap<Id, usize> = IndexMap::new();
+    for later in 0..constraints.kinds.len() {
+        let expression = problem.graph.looked_through(problem.constraints[later].1);
+        let monic = problem.graph.monic(expression);
+        let Some(&earlier) = seen.get(&monic) else {
+            seen.insert(monic, later);
+            continue;
+        };
+        let (first, second) = (&problem.constraints[earlier].0, &problem.constraints[later].0);
+        let message = format!("`{}` says the same as `{}`: leave one of them out", second.text, first.text);
+        let mut error = second.place.error(message);
+        error.combine(first.place.error("the other one is here"));
+        diagnostics.push(error);
+    }
+}

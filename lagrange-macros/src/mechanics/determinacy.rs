@@ -1,0 +1,69 @@
+//! Is every acceleration determined by something?
+//!
+//! The system is solvable only where the stacked matrix [M; F] has full column rank. Its pattern of zeros
+//! already rules that out where no matching gives every coordinate an equation of its own (the structural
+//! rank: Duff, Erisman and Reid, *Direct Methods for Sparse Matrices*, chapter 6).
+
+use super::constraints::Constraints;
+use super::euler_lagrange::Motion;
+use crate::diagnostics::Diagnostics;
+use crate::resolve::Problem;
+use crate::symbolic::Id;
+
+/// Reports every coordinate whose acceleration no equation can determine.
+pub(super) fn check(
+    problem: &Problem,
+    motion: &Motion,
+    constraints: &Constraints,
+    diagnostics: &mut Diagnostics,
+) -> Option<()> {
+    let rows: Vec<&Vec<Id>> = motion.mass.iter().chain(&constraints.jacobian).collect();
+    let mut owner = vec![None; rows.len()];
+    let mut sound = true;
+    for column in 0..problem.coordinates.len() {
+        if !assign(column, &rows, &mut owner, &mut vec![false; rows.len()]) {
+            let label = &problem.coordinates[column];
+            diagnostics.error(label.place, undetermined(&label.text, column, &rows));
+            sound = false;
+        }
+    }
+    sound.then_some(())
+}
+
+fn undetermined(name: &str, column: usize, rows: &[&Vec<Id>]) -> String {
+    if rows.iter().all(|row| row[column] == Id::ZERO) {
+        format!(
+            "nothing determines the acceleration of `{name}`: the Lagrangian is not quadratic in its velocity, and no constraint involves it"
+        )
+    } else {
+        format!(
+            "nothing determines the acceleration of `{name}`: the equations that involve it are needed for other coordinates (the Lagrangian lacks a kinetic energy for some of them)"
+        )
+    }
+}
+
+/// Finds a row for `column`, moving other columns to other rows where needed (Kuhn's augmenting paths, by a
+/// stack of its own).
+fn assign(column: usize, rows: &[&Vec<Id>], owner: &mut [Option<usize>], visited: &mut [bool]) -> bool {
+    // Each frame: a column looking for a row, and the row it looks at next.
+    let mut path = vec![(column, 0)];
+    while let Some((column, row)) = path.last_mut() {
+        let candidate = (*row..rows.len()).find(|&r| rows[r][*column] != Id::ZERO && !visited[r]);
+        let Some(r) = candidate else {
+            path.pop();
+            continue;
+        };
+        *row = r;
+        visited[r] = true;
+        match owner[r] {
+            Some(other) => path.push((other, 0)),
+            None => {
+                for (column, row) in path {
+                    owner[row] = Some(column);
+                }
+                return true;
+            }
+        }
+    }
+    false
+}

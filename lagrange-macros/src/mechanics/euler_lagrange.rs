@@ -1,0 +1,52 @@
+//! d/dt(∂L/∂q̇) = ∂L/∂q + Q, solved for what multiplies the accelerations.
+
+use super::{drift, symbols};
+use crate::resolve::Problem;
+use crate::symbolic::{Forward, Id, Rational};
+use crate::variables::Variable;
+
+/// M q̈ = h without constraints.
+pub(super) struct Motion {
+    pub(super) momentum: Vec<Id>,
+    pub(super) mass: Vec<Vec<Id>>,
+    pub(super) forcing: Vec<Id>,
+}
+
+pub(super) fn derive(problem: &mut Problem) -> Motion {
+    let n = problem.coordinates.len();
+    let both = [symbols(n, Variable::Coordinate), symbols(n, Variable::Velocity)].concat();
+    let mut gradient = problem.graph.gradient(problem.lagrangian, &both);
+    let momentum = gradient.split_off(n);
+    let forces = generalized_forces(problem);
+    let mass = mass_matrix(problem, &momentum);
+    let mut drift = drift(&mut problem.graph, n);
+    let one = Rational::from_integer(1);
+    let forcing = (0..n).map(|i| {
+        let rate = drift.of(&mut problem.graph, momentum[i]);
+        problem.graph.sum([(gradient[i], one), (forces[i], one), (rate, -one)])
+    });
+    Motion { forcing: forcing.collect(), momentum, mass }
+}
+
+/// Q: the forces given, and −∂D/∂q̇ of Rayleigh's dissipation function.
+fn generalized_forces(problem: &mut Problem) -> Vec<Id> {
+    let n = problem.coordinates.len();
+    let Some((dissipation, _)) = problem.dissipation else { return problem.forces.clone() };
+    let friction = problem.graph.gradient(dissipation, &symbols(n, Variable::Velocity));
+    (0..n).map(|i| problem.graph.sub(problem.forces[i], friction[i])).collect()
+}
+
+/// M_ij = ∂p_i/∂q̇_j, of which the lower triangle is differentiated.
+fn mass_matrix(problem: &mut Problem, momentum: &[Id]) -> Vec<Vec<Id>> {
+    let n = momentum.len();
+    let mut mass = vec![vec![Id::ZERO; n]; n];
+    for (j, p) in momentum.iter().enumerate() {
+        let mut along = Forward::along([(Variable::Velocity(j).symbol(), Id::ONE)]);
+        mass[j][j] = along.of(&mut problem.graph, *p);
+        for i in j + 1..n {
+            mass[i][j] = along.of(&mut problem.graph, momentum[i]);
+            mass[j][i] = mass[i][j];
+        }
+    }
+    mass
+}

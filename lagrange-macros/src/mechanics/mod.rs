@@ -1,0 +1,74 @@
+//! From a [`Problem`] to its equations of motion, as the textbook does it.
+
+mod constraints;
+mod determinacy;
+mod euler_lagrange;
+
+use crate::diagnostics::{Diagnostics, Place};
+use crate::resolve::{Problem, fault_message};
+use crate::symbolic::{Forward, Graph, Id, Symbol};
+use crate::variables::Variable;
+pub(crate) use constraints::ConstraintKind;
+
+/// M q̈ − Fᵀλ = h and F q̈ + γ = 0, every entry a node of the problem's graph.
+#[derive(Debug)]
+pub(crate) struct Equations {
+    /// p = ∂L/∂q̇
+    pub(crate) momentum: Vec<Id>,
+    /// M = ∂p/∂q̇, row by row
+    pub(crate) mass: Vec<Vec<Id>>,
+    /// h = ∂L/∂q + Q − (dp/dt where q̈ = 0)
+    pub(crate) forcing: Vec<Id>,
+    pub(crate) kinds: Vec<ConstraintKind>,
+    /// Φ of holonomic constraints, zero for the others
+    pub(crate) residual: Vec<Id>,
+    /// F q̇ + b
+    pub(crate) rate: Vec<Id>,
+    /// F, row by row
+    pub(crate) jacobian: Vec<Vec<Id>>,
+    /// γ
+    pub(crate) bias: Vec<Id>,
+    /// Fᵀλ, in the multipliers' symbols
+    pub(crate) constraint_force: Vec<Id>,
+}
+
+/// Derives the equations of motion; `None` where they do not exist, which is then reported.
+pub(crate) fn derive(problem: &mut Problem, diagnostics: &mut Diagnostics) -> Option<Equations> {
+    let motion = euler_lagrange::derive(problem);
+    stop_at_fault(problem, problem.place, diagnostics)?;
+    let constraints = constraints::derive(problem, diagnostics)?;
+    determinacy::check(problem, &motion, &constraints, diagnostics)?;
+    Some(Equations {
+        momentum: motion.momentum,
+        mass: motion.mass,
+        forcing: motion.forcing,
+        constraint_force: constraints.force(&mut problem.graph),
+        kinds: constraints.kinds,
+        residual: constraints.residual,
+        rate: constraints.rate,
+        jacobian: constraints.jacobian,
+        bias: constraints.bias,
+    })
+}
+
+fn stop_at_fault(problem: &mut Problem, place: Place, diagnostics: &mut Diagnostics) -> Option<()> {
+    let fault = problem.graph.take_fault();
+    if let Some(fault) = fault {
+        diagnostics.error(place, format!("in the derivatives of this: {}", fault_message(fault)));
+    }
+    fault.is_none().then_some(())
+}
+
+/// The symbols of one variable of every coordinate.
+fn symbols(count: usize, variable: fn(usize) -> Variable) -> Vec<Symbol> {
+    (0..count).map(|i| variable(i).symbol()).collect()
+}
+
+/// d/dt along a motion whose accelerations are zero.
+fn drift(graph: &mut Graph, coordinates: usize) -> Forward {
+    let mut seeds = vec![(Variable::Time.symbol(), Id::ONE)];
+    for i in 0..coordinates {
+        seeds.push((Variable::Coordinate(i).symbol(), graph.symbol(Variable::Velocity(i).symbol())));
+    }
+    Forward::along(seeds)
+}

@@ -1,0 +1,191 @@
+//! Calls: built-in functions, definitions with arguments, `der` and `lambda`.
+
+use super::lower::{Definition, Lowering, Setting};
+use super::scope::Entity;
+use super::value::{Value, cross, dot};
+use crate::diagnostics::Place;
+use crate::symbolic::Function;
+use crate::syntax::{Expression, Kind, Name};
+
+impl Lowering<'_> {
+    pub(super) fn call(&mut self, name: &Name, arguments: &[Expression], place: Place) -> Option<Value> {
+        if let Some(function) = elementary(&name.text) {
+            let [x] = self.arguments(name, arguments, place)?;
+            let x = self.scalar(x)?;
+            return Some(Value::Scalar(self.graph.function(function, x)));
+        }
+        match name.text.as_str() {
+            "lambda" => return self.lambda(name, arguments, place),
+            "der" => {
+                let [x] = self.arguments(name, arguments, place)?;
+                let value = self.lower(x)?;
+                return self.rate_of(&value, place);
+            }
+            "sqrt" => {
+                let [x] = self.arguments(name, arguments, place)?;
+                let x = self.scalar(x)?;
+                return Some(Value::Scalar(self.graph.sqrt(x)));
+            }
+            "norm" => {
+                let [v] = self.arguments(name, arguments, place)?;
+                let v = self.vector_of(v)?;
+                let square = dot(&v, &v, &mut self.graph);
+                return Some(Value::Scalar(self.graph.sqrt(square)));
+            }
+            "atan2" | "dot" | "cross" => return self.binary(name, arguments, place),
+            _ => {}
+        }
+        match self.scope.get(&name.text) {
+            Some(Entity::Definition(index)) if self.defines[index].formals.is_some() => {
+                self.defined_function(index, name, arguments, place)
+            }
+            Some(entity) => {
+                let message = format!(
+                    "`{}` is {}, not a function: a product needs its sign `*`",
+                    name.text,
+                    entity.describe()
+                );
+                self.report(name.place, message)
+            }
+            None => {
+                self.diagnostics.push(self.scope.unknown_function(name));
+                None
+            }
+        }
+    }
+
+    /// The arguments, if they are as many as the function takes.
+    fn arguments<'e, const K: usize>(
+        &mut self,
+        name: &Name,
+        arguments: &'e [Expression],
+        place: Place,
+    ) -> Option<&'e [Expression; K]> {
+        let exact = arguments.try_into().ok();
+        if exact.is_none() {
+            let given = arguments.len();
+            let plural = if K == 1 { "argument" } else { "arguments" };
+            self.diagnostics
+                .error(place, format!("`{}` takes {K} {plural}, but {given} are given", name.text));
+        }
+        exact
+    }
+
+    fn binary(&mut self, name: &Name, arguments: &[Expression], place: Place) -> Option<Value> {
+        let [x, y] = self.arguments(name, arguments, place)?;
+        if name.text == "atan2" {
+            let (y, x) = (self.scalar(x), self.scalar(y));
+            return Some(Value::Scalar(self.graph.atan2(y?, x?)));
+        }
+        let (v, w) = (self.vector_of(x), self.vector_of(y));
+        let (v, w) = (v?, w?);
+        if v.len() != w.len() {
+            return self
+                .report(place, format!("these vectors differ in length: {} and {}", v.len(), w.len()));
+        }
+        if name.text == "dot" {
+            return Some(Value::Scalar(dot(&v, &w, &mut self.graph)));
+        }
+        match (<[_; 3]>::try_from(v), <[_; 3]>::try_from(w)) {
+            (Ok(v), Ok(w)) => Some(Value::vector(cross(v, w, &mut self.graph))),
+            _ => self.report(place, "`cross` takes vectors of 3"),
+        }
+    }
+
+    fn defined_function(
+        &mut self,
+        index: usize,
+        name: &Name,
+        arguments: &[Expression],
+        place: Place,
+    ) -> Option<Value> {
+        let define = &self.defines[index];
+        match self.definitions[index] {
+            Definition::Pending => return self.too_early(index, name),
+            Definition::Wrong => return None,
+            _ => {}
+        }
+        let formals = define.formals.as_deref().unwrap_or_default();
+        if formals.len() != arguments.len() {
+            let (wanted, given) = (formals.len(), arguments.len());
+            return self
+                .report(place, format!("`{}` takes {wanted} arguments, but {given} are given", name.text));
+        }
+        let values: Vec<_> = arguments.iter().map(|argument| self.lower(argument)).collect();
+        let values: Vec<Value> = values.into_iter().collect::<Option<_>>()?;
+        let bound = formals.iter().map(|formal| formal.text.clone()).zip(values).collect();
+        // The body sees its own formals and nothing that is local where it is called.
+        let outer = std::mem::replace(&mut self.locals, bound);
+        let value = self.lower(&define.body);
+        self.locals = outer;
+        let value = value?;
+        Some(value.map(&mut |id| self.graph.defined(id)))
+    }
+
+    /// `lambda(no_slip)` or `lambda(rod[3])`
+    fn lambda(&mut self, name: &Name, arguments: &[Expression], place: Place) -> Option<Value> {
+        if self.setting != Setting::Observable {
+            return self.report(
+                place,
+                "multipliers are what the equations are solved for: they may appear in observables only",
+            );
+        }
+        let [constraint] = self.arguments(name, arguments, place)?;
+        let (constraint, index) = match &constraint.kind {
+            Kind::Name(name) => (name, None),
+            Kind::Index(base, index) => match &base.kind {
+                Kind::Name(name) => (name, Some(self.integer(index)?)),
+                _ => return self.report(place, "`lambda` takes the name of a constraint"),
+            },
+            _ => return self.report(place, "`lambda` takes the name of a constraint"),
+        };
+        self.multiplier(constraint, index)
+    }
+
+    fn multiplier(&mut self, constraint: &Name, index: Option<i128>) -> Option<Value> {
+        let Some(group) = self.multipliers.iter().find(|group| group.name == constraint.text) else {
+            let names = self.multipliers.iter().map(|group| group.name.as_str());
+            let near = super::scope::nearest(&constraint.text, names);
+            let advice = near.map(|near| format!(": did you mean `{near}`?")).unwrap_or_default();
+            return self
+                .report(constraint.place, format!("no constraint is called `{}`{advice}", constraint.text));
+        };
+        let whole = match &group.elements[..] {
+            [(None, value)] => value.clone(),
+            elements => Value::Vector(elements.iter().map(|(_, value)| value.clone()).collect()),
+        };
+        let Some(index) = index else { return Some(whole) };
+        let found = match (&group.elements[..], &whole) {
+            ([(None, _)], Value::Vector(items)) => {
+                usize::try_from(index).ok().and_then(|i| items.get(i)).cloned()
+            }
+            (elements, _) => elements
+                .iter()
+                .find(|(i, _)| i.is_some_and(|i| i as i128 == index))
+                .map(|(_, value)| value.clone()),
+        };
+        match found {
+            Some(value) => Some(value),
+            None => self
+                .report(constraint.place, format!("there is no constraint `{}[{index}]`", constraint.text)),
+        }
+    }
+}
+
+fn elementary(name: &str) -> Option<Function> {
+    Some(match name {
+        "sin" => Function::Sin,
+        "cos" => Function::Cos,
+        "tan" => Function::Tan,
+        "asin" => Function::Asin,
+        "acos" => Function::Acos,
+        "atan" => Function::Atan,
+        "sinh" => Function::Sinh,
+        "cosh" => Function::Cosh,
+        "tanh" => Function::Tanh,
+        "exp" => Function::Exp,
+        "ln" => Function::Ln,
+        "abs" => Function::Abs,
+        _ => return None,
+    })
+}

@@ -1,0 +1,272 @@
+//! Definitions and families: values by name, elements by index.
+
+use std::collections::BTreeMap;
+
+use super::lower::{Definition, Lowering};
+use super::scope::{Entity, is_built_in};
+use super::value::Value;
+use crate::syntax::{Expression, Kind, Name, Target, TargetIndex};
+
+/// The longest range: a system of more parts belongs into a loop at run time.
+const RANGE_LIMIT: i128 = 100_000;
+
+impl Lowering<'_> {
+    /// Gives the definitions their values, in the order written.
+    pub(super) fn define_all(&mut self) {
+        for index in 0..self.defines.len() {
+            let define = &self.defines[index];
+            let Some(Entity::Definition(first)) = self.scope.get(&define.target.name.text) else { continue };
+            if define.formals.is_some() {
+                self.function_definition(index);
+            } else {
+                self.value_definition(index, first);
+            }
+        }
+    }
+
+    fn function_definition(&mut self, index: usize) {
+        let define = &self.defines[index];
+        if !matches!(define.target.index, TargetIndex::None) {
+            self.diagnostics.error(
+                define.target.name.place,
+                "a function is not a family: give it the index as an argument",
+            );
+        }
+        let formals = define.formals.as_deref().unwrap_or_default();
+        for (position, formal) in formals.iter().enumerate() {
+            self.declare_local(formal);
+            if formals[..position].iter().any(|earlier| earlier.text == formal.text) {
+                self.diagnostics
+                    .error(formal.place, format!("the argument `{}` is given twice", formal.text));
+            }
+        }
+        let sound = self.names_are_known(index);
+        self.definitions[index] = if sound { Definition::Function } else { Definition::Wrong };
+    }
+
+    /// A function's body has a value only where it is called, but its names are checked at once.
+    fn names_are_known(&mut self, index: usize) -> bool {
+        let define = &self.defines[index];
+        let mut local: Vec<String> =
+            define.formals.iter().flatten().map(|formal| formal.text.clone()).collect();
+        let mut names = Vec::new();
+        define.body.names(&mut |name| names.push(name.clone()));
+        define.body.indices(&mut |index| local.push(index.text.clone()));
+        let mut sound = true;
+        for name in names.iter().filter(|name| !local.contains(&name.text) && !is_built_in(&name.text)) {
+            match self.scope.get(&name.text) {
+                None => {
+                    self.diagnostics.push(self.scope.unknown(name, &local));
+                    sound = false;
+                }
+                Some(Entity::Definition(used)) if matches!(self.definitions[used], Definition::Pending) => {
+                    self.too_early::<()>(used, name);
+                    sound = false;
+                }
+                Some(_) => {}
+            }
+        }
+        sound
+    }
+
+    fn value_definition(&mut self, index: usize, first: usize) {
+        let define = &self.defines[index];
+        for element in self.elements(&define.target) {
+            let value = self.with_index(&define.target, element, |lowering| lowering.lower(&define.body));
+            let Some(value) = value else {
+                self.definitions[first] = Definition::Wrong;
+                return;
+            };
+            let value = value.map(&mut |id| self.graph.defined(id));
+            self.store(first, &define.target.name, element, value);
+        }
+        if matches!(self.definitions[first], Definition::Pending) {
+            self.definitions[first] = Definition::Wrong;
+        }
+    }
+
+    fn store(&mut self, first: usize, name: &Name, element: Option<usize>, value: Value) {
+        match (element, &mut self.definitions[first]) {
+            (None, slot) => *slot = Definition::Value(value),
+            (Some(element), slot @ Definition::Pending) => {
+                *slot = Definition::Family(BTreeMap::from([(element, value)]));
+            }
+            (Some(element), Definition::Family(elements)) => {
+                if elements.insert(element, value).is_some() {
+                    self.diagnostics
+                        .error(name.place, format!("`{}[{element}]` is defined twice", name.text));
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// The indices that a target stands for: one `None` without brackets, nothing where they are wrong.
+    pub(super) fn elements(&mut self, target: &Target) -> Vec<Option<usize>> {
+        match &target.index {
+            TargetIndex::None => vec![None],
+            TargetIndex::Element(index) => match self.integer(index).map(usize::try_from) {
+                Some(Ok(index)) => vec![Some(index)],
+                Some(Err(_)) => {
+                    self.diagnostics.error(index.place, "an index is not negative");
+                    Vec::new()
+                }
+                None => Vec::new(),
+            },
+            TargetIndex::Family { index, from, to } => {
+                match (self.declare_local(index), self.range(from, to)) {
+                    (Some(()), Some(range)) => range.map(Some).collect(),
+                    _ => Vec::new(),
+                }
+            }
+        }
+    }
+
+    /// Runs `f` with the family's index bound to one of its values.
+    pub(super) fn with_index<T>(
+        &mut self,
+        target: &Target,
+        element: Option<usize>,
+        f: impl FnOnce(&mut Self) -> T,
+    ) -> T {
+        let (TargetIndex::Family { index, .. }, Some(element)) = (&target.index, element) else {
+            return f(self);
+        };
+        let value = Value::Scalar(self.graph.integer(element as i128));
+        self.locals.push((index.text.clone(), value));
+        let result = f(self);
+        self.locals.pop();
+        result
+    }
+
+    /// `from..to` with its ends in numbers; an empty one is an error.
+    pub(super) fn range(&mut self, from: &Expression, to: &Expression) -> Option<std::ops::Range<usize>> {
+        let (low, high) = (self.integer(from), self.integer(to));
+        let (low, high) = (low?, high?);
+        let place = from.place.to(to.place);
+        if low < 0 {
+            return self.report(from.place, "an index is not negative");
+        }
+        if high <= low {
+            return self.report(place, format!("the range {low}..{high} is empty"));
+        }
+        if high > RANGE_LIMIT {
+            return self.report(place, format!("the range ends beyond {RANGE_LIMIT}"));
+        }
+        Some(low as usize..high as usize)
+    }
+
+    /// `base[index]`
+    pub(super) fn index(&mut self, base: &Expression, index: &Expression) -> Option<Value> {
+        if let Kind::Name(name) = &base.kind {
+            if let Some(Entity::Definition(first)) = self.scope.get(&name.text) {
+                let is_local = self.locals.iter().any(|(local, _)| *local == name.text);
+                if !is_local
+                    && matches!(
+                        self.defines[first].target.index,
+                        TargetIndex::Element(_) | TargetIndex::Family { .. }
+                    )
+                {
+                    return self.family_element(first, name, index);
+                }
+            }
+        }
+        let (value, i) = (self.lower(base), self.integer(index));
+        let (value, i) = (value?, i?);
+        let Value::Vector(items) = value else {
+            return self.report(base.place, "this is a scalar: it has no elements");
+        };
+        let found = usize::try_from(i).ok().and_then(|i| items.get(i));
+        if found.is_none() {
+            let last = items.len().saturating_sub(1);
+            return self
+                .report(index.place, format!("the index {i} is out of range: the elements are 0 to {last}"));
+        }
+        found.cloned()
+    }
+
+    fn family_element(&mut self, first: usize, name: &Name, index: &Expression) -> Option<Value> {
+        let i = self.integer(index)?;
+        let text = &name.text;
+        match &self.definitions[first] {
+            Definition::Wrong => None,
+            Definition::Family(elements) => match usize::try_from(i).ok().and_then(|i| elements.get(&i)) {
+                Some(value) => Some(value.clone()),
+                None => self.report(
+                    index.place,
+                    format!("`{text}[{i}]` has no value here: a family's elements are defined in order"),
+                ),
+            },
+            _ => self.report(
+                index.place,
+                format!("`{text}[{i}]` has no value here: begin with `#[define({text}[0] = …)]`"),
+            ),
+        }
+    }
+
+    /// The value of a definition that is used as a whole.
+    pub(super) fn definition(&mut self, first: usize, name: &Name) -> Option<Value> {
+        let text = &name.text;
+        match &self.definitions[first] {
+            Definition::Value(value) => Some(value.clone()),
+            Definition::Wrong => None,
+            Definition::Pending => self.too_early(first, name),
+            Definition::Function => {
+                self.report(name.place, format!("`{text}` is a function: write `{text}(…)`"))
+            }
+            Definition::Family(elements) => {
+                if let Some(missing) = (0..elements.len()).find(|i| !elements.contains_key(i)) {
+                    return self.report(
+                        name.place,
+                        format!("`{text}` is no vector: `{text}[{missing}]` is missing"),
+                    );
+                }
+                Some(Value::Vector(elements.values().cloned().collect()))
+            }
+        }
+    }
+
+    /// A definition used before its turn: in a circle, or merely out of order.
+    pub(super) fn too_early<T>(&mut self, index: usize, name: &Name) -> Option<T> {
+        let text = &name.text;
+        if let Some(circle) = self.circle(index) {
+            return self.report(name.place, format!("`{text}` is defined by itself: {circle}"));
+        }
+        self.report(
+            name.place,
+            format!("`{text}` is defined further down: definitions come before what uses them"),
+        )
+    }
+
+    /// A chain of definitions from `start` back to itself, by name.
+    fn circle(&self, start: usize) -> Option<String> {
+        let mut chains = vec![vec![start]];
+        let mut seen = vec![start];
+        while let Some(chain) = chains.pop() {
+            let last = *chain.last()?;
+            for next in self.mentioned(last) {
+                if next == start {
+                    let names =
+                        chain.iter().chain([&start]).map(|&i| self.defines[i].target.name.text.as_str());
+                    return Some(names.collect::<Vec<_>>().join(" → "));
+                }
+                if !seen.contains(&next) {
+                    seen.push(next);
+                    chains.push([&chain[..], &[next]].concat());
+                }
+            }
+        }
+        None
+    }
+
+    /// The definitions that one mentions.
+    fn mentioned(&self, index: usize) -> Vec<usize> {
+        let mut found = Vec::new();
+        self.defines[index].body.names(&mut |name| {
+            if let Some(Entity::Definition(index)) = self.scope.get(&name.text) {
+                found.push(index);
+            }
+        });
+        found
+    }
+}

@@ -1,0 +1,435 @@
+//! Expressions into the graph: names bound, shapes checked.
+
+use num_traits::Zero;
+
+use super::parameters::Parameters;
+use super::scope::{Entity, Scope};
+use super::value::{Value, dot};
+use crate::diagnostics::{Diagnostics, Place};
+use crate::symbolic::{Fault, Forward, Graph, Id, Rational};
+use crate::syntax::{Coordinate, Define, Expression, Kind, Name, Operator, Sign, SumOver};
+use crate::variables::Variable;
+
+/// What the expression at hand may contain beside coordinates, velocities and time.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Setting {
+    /// The Lagrangian, constraints, forces and what defines them.
+    Equations,
+    /// Observables: accelerations and multipliers too.
+    Observable,
+}
+
+/// A definition as far as it has been read.
+#[derive(Debug)]
+pub(super) enum Definition {
+    /// Its turn has not come.
+    Pending,
+    Value(Value),
+    /// Elements of a family, by index.
+    Family(std::collections::BTreeMap<usize, Value>),
+    Function,
+    /// Something was wrong with it, and reported.
+    Wrong,
+}
+
+/// The multipliers of one `constraint` attribute or family.
+#[derive(Debug)]
+pub(super) struct MultiplierGroup {
+    pub(super) name: String,
+    /// Elements by index; one without index for a scalar constraint.
+    pub(super) elements: Vec<(Option<usize>, Value)>,
+}
+
+/// Expressions deeper than this, calls of definitions included, would exhaust the compiler's stack.
+const DEPTH_LIMIT: usize = 600;
+/// Expressions lowered in all: what asks for more is a runaway definition.
+const STEP_LIMIT: usize = 1 << 20;
+
+/// Everything needed to give an expression its meaning.
+pub(super) struct Lowering<'a> {
+    pub(super) graph: Graph,
+    pub(super) scope: Scope,
+    pub(super) parameters: Parameters,
+    pub(super) diagnostics: &'a mut Diagnostics,
+    pub(super) coordinates: &'a [Coordinate],
+    /// The first flat index of each coordinate.
+    pub(super) offsets: Vec<usize>,
+    pub(super) defines: &'a [Define],
+    /// By the index of the first `define` of the name.
+    pub(super) definitions: Vec<Definition>,
+    pub(super) multipliers: Vec<MultiplierGroup>,
+    pub(super) observables: Vec<(String, Value)>,
+    pub(super) setting: Setting,
+    /// Formals and indices, the innermost last.
+    pub(super) locals: Vec<(String, Value)>,
+    rate: Forward,
+    depth: usize,
+    steps: usize,
+}
+
+impl<'a> Lowering<'a> {
+    pub(super) fn new(
+        scope: Scope,
+        parameters: Parameters,
+        coordinates: &'a [Coordinate],
+        defines: &'a [Define],
+        diagnostics: &'a mut Diagnostics,
+    ) -> Self {
+        let mut graph = Graph::default();
+        let mut count = 0;
+        let offsets = coordinates
+            .iter()
+            .map(|coordinate| {
+                count += coordinate.length.unwrap_or(1);
+                count - coordinate.length.unwrap_or(1)
+            })
+            .collect();
+        Self {
+            rate: total_time_derivative(&mut graph, count),
+            graph,
+            scope,
+            parameters,
+            diagnostics,
+            coordinates,
+            offsets,
+            defines,
+            definitions: defines.iter().map(|_| Definition::Pending).collect(),
+            multipliers: Vec::new(),
+            observables: Vec::new(),
+            setting: Setting::Equations,
+            locals: Vec::new(),
+            depth: 0,
+            steps: 0,
+        }
+    }
+
+    /// The value of an expression. Where it has none, everything wrong with it has been reported.
+    pub(super) fn lower(&mut self, expression: &Expression) -> Option<Value> {
+        self.steps += 1;
+        if self.steps > STEP_LIMIT || self.depth > DEPTH_LIMIT {
+            return self.runaway(expression.place);
+        }
+        self.depth += 1;
+        let value = self.lower_kind(expression);
+        self.depth -= 1;
+        if let Some(fault) = self.graph.take_fault() {
+            return self.fault(fault, expression.place);
+        }
+        value
+    }
+
+    fn lower_kind(&mut self, expression: &Expression) -> Option<Value> {
+        let place = expression.place;
+        match &expression.kind {
+            Kind::Number(value) => Some(Value::Scalar(self.graph.number(*value))),
+            Kind::Name(name) => self.name(name),
+            Kind::Index(base, index) => self.index(base, index),
+            Kind::Call(name, arguments) => self.call(name, arguments, place),
+            Kind::SumOver(sum) => self.sum_over(sum),
+            Kind::Negative(inner) => {
+                let value = self.lower(inner)?;
+                Some(value.map(&mut |id| self.graph.neg(id)))
+            }
+            Kind::Sum(terms) => self.sum(terms),
+            Kind::Product(factors) => self.product(factors),
+            Kind::Power(base, exponent) => self.power(base, exponent),
+            Kind::Vector(items) => self.vector(items, place),
+        }
+    }
+
+    /// A value that must be a scalar.
+    pub(super) fn scalar(&mut self, expression: &Expression) -> Option<Id> {
+        let value = self.lower(expression)?;
+        let scalar = value.as_scalar();
+        if scalar.is_none() {
+            let shape = value.shape();
+            self.diagnostics.error(expression.place, format!("a scalar belongs here, but this is {shape}"));
+        }
+        scalar
+    }
+
+    /// A value that must be a vector of numbers.
+    pub(super) fn vector_of(&mut self, expression: &Expression) -> Option<Vec<Id>> {
+        let value = self.lower(expression)?;
+        let entries = value.as_vector();
+        if entries.is_none() {
+            let shape = value.shape();
+            self.diagnostics.error(expression.place, format!("a vector belongs here, but this is {shape}"));
+        }
+        entries
+    }
+
+    /// A value that must be a whole number.
+    pub(super) fn integer(&mut self, expression: &Expression) -> Option<i128> {
+        let id = self.scalar(expression)?;
+        let value = self.graph.as_number(id).filter(Rational::is_integer).map(|value| value.to_integer());
+        if value.is_none() {
+            self.diagnostics
+                .error(expression.place, "an index or a bound is a whole number known while compiling");
+        }
+        value
+    }
+
+    pub(super) fn report<T>(&mut self, place: Place, message: impl std::fmt::Display) -> Option<T> {
+        self.diagnostics.error(place, message);
+        None
+    }
+
+    fn runaway<T>(&mut self, place: Place) -> Option<T> {
+        // Said once; everything that follows from it would only repeat it.
+        let first = self.steps <= STEP_LIMIT || self.steps == STEP_LIMIT + 1;
+        self.steps = self.steps.max(STEP_LIMIT + 1);
+        if !first {
+            return None;
+        }
+        self.report(
+            place,
+            "definitions call one another too often here: the expression grows beyond all bounds",
+        )
+    }
+
+    fn fault<T>(&mut self, fault: Fault, place: Place) -> Option<T> {
+        self.report(place, fault_message(fault))
+    }
+
+    fn name(&mut self, name: &Name) -> Option<Value> {
+        if let Some((_, value)) = self.locals.iter().rev().find(|(local, _)| *local == name.text) {
+            return Some(value.clone());
+        }
+        if let Some(field) = self.scope.shadowing(&name.text) {
+            let text = &name.text;
+            let mut error = name
+                .place
+                .error(format!("`{text}` is built in, and a field of this struct bears that name too"));
+            error.combine(field.error(format!("rename this field, or do not use `{text}` in expressions")));
+            self.diagnostics.push(error);
+            return None;
+        }
+        match name.text.as_str() {
+            "t" => return Some(Value::Scalar(self.graph.symbol(Variable::Time.symbol()))),
+            "pi" => return Some(Value::Scalar(self.graph.pi())),
+            text if super::scope::is_built_in(text) => {
+                return self.report(name.place, format!("`{text}` is a function: write `{text}(…)`"));
+            }
+            _ => {}
+        }
+        match self.scope.get(&name.text) {
+            Some(Entity::Field(index)) => {
+                self.parameters.value(index, name.place, &mut self.graph, self.diagnostics)
+            }
+            Some(Entity::Coordinate(index)) => Some(self.variable(index, Variable::Coordinate)),
+            Some(Entity::Velocity(index)) => Some(self.variable(index, Variable::Velocity)),
+            Some(Entity::Acceleration(index)) => self.acceleration(index, name.place),
+            Some(Entity::Definition(index)) => self.definition(index, name),
+            None => self.observable(name),
+        }
+    }
+
+    fn variable(&mut self, index: usize, variable: fn(usize) -> Variable) -> Value {
+        let offset = self.offsets[index];
+        match self.coordinates[index].length {
+            None => Value::Scalar(self.graph.symbol(variable(offset).symbol())),
+            Some(length) => {
+                Value::vector((offset..offset + length).map(|i| self.graph.symbol(variable(i).symbol())))
+            }
+        }
+    }
+
+    fn acceleration(&mut self, index: usize, place: Place) -> Option<Value> {
+        if self.setting != Setting::Observable {
+            return self.report(place, NO_ACCELERATIONS);
+        }
+        Some(self.variable(index, Variable::Acceleration))
+    }
+
+    fn observable(&mut self, name: &Name) -> Option<Value> {
+        if self.setting == Setting::Observable {
+            if let Some((_, value)) = self.observables.iter().find(|(known, _)| *known == name.text) {
+                return Some(value.clone());
+            }
+        }
+        let more: Vec<String> = self.locals.iter().map(|(local, _)| local.clone()).collect();
+        self.diagnostics.push(self.scope.unknown(name, &more));
+        None
+    }
+
+    /// d/dt of every number in `value`; `place` is to blame for accelerations where there must be none.
+    pub(super) fn rate_of(&mut self, value: &Value, place: Place) -> Option<Value> {
+        let rate = value.map(&mut |id| self.rate.of(&mut self.graph, id));
+        let accelerations = |symbol| matches!(Variable::of(symbol), Variable::Acceleration(_));
+        if self.setting != Setting::Observable && self.graph.symbols(&rate.flat()).any(accelerations) {
+            return self.report(place, NO_ACCELERATIONS);
+        }
+        let multipliers =
+            |symbol| matches!(Variable::of(symbol), Variable::Acceleration(_) | Variable::Multiplier(_));
+        if self.graph.symbols(&value.flat()).any(multipliers) {
+            return self.report(place, "accelerations and multipliers have no time derivative here");
+        }
+        Some(rate)
+    }
+
+    fn sum(&mut self, terms: &[(Sign, Expression)]) -> Option<Value> {
+        let mut total: Option<Value> = None;
+        let mut failed = false;
+        for (sign, term) in terms {
+            let Some(value) = self.lower(term) else {
+                failed = true;
+                continue;
+            };
+            let value = if *sign == Sign::Minus { value.map(&mut |id| self.graph.neg(id)) } else { value };
+            total = match total {
+                None => Some(value),
+                Some(total) => match self.plus(&total, &value, is_literal_zero(term)) {
+                    Some(sum) => Some(sum),
+                    None => {
+                        let (left, right) = (total.shape(), value.shape());
+                        failed = true;
+                        self.diagnostics
+                            .error(term.place, format!("this is {right}, but what it is added to is {left}"));
+                        Some(total)
+                    }
+                },
+            };
+        }
+        total.filter(|_| !failed)
+    }
+
+    /// The sum, if the shapes agree; the literal 0 is the zero of every shape.
+    fn plus(&mut self, x: &Value, y: &Value, y_is_zero: bool) -> Option<Value> {
+        if y_is_zero {
+            return Some(x.clone());
+        }
+        x.plus(Rational::from_integer(1), y, &mut self.graph)
+    }
+
+    fn product(&mut self, factors: &[(Operator, Expression)]) -> Option<Value> {
+        let values: Vec<_> = factors.iter().map(|(_, factor)| self.lower(factor)).collect();
+        let mut product: Option<Value> = None;
+        for ((operator, factor), value) in factors.iter().zip(values) {
+            let value = value?;
+            product = Some(match product {
+                None => value,
+                Some(product) if *operator == Operator::Times => {
+                    self.times(&product, &value, factor.place)?
+                }
+                Some(product) => self.over(&product, &value, factor.place)?,
+            });
+            if let Some(fault) = self.graph.take_fault() {
+                return self.fault(fault, factor.place);
+            }
+        }
+        product
+    }
+
+    fn times(&mut self, x: &Value, y: &Value, place: Place) -> Option<Value> {
+        match (x, y) {
+            (Value::Scalar(x), y) => Some(y.map(&mut |y| self.graph.mul(*x, y))),
+            (x, Value::Scalar(y)) => Some(x.map(&mut |x| self.graph.mul(x, *y))),
+            (Value::Vector(rows), y) => {
+                match (rows.iter().map(Value::as_vector).collect::<Option<Vec<_>>>(), y.as_vector()) {
+                    (Some(rows), Some(y)) if rows.iter().all(|row| row.len() == y.len()) => {
+                        Some(Value::vector(rows.iter().map(|row| dot(row, &y, &mut self.graph))))
+                    }
+                    (None, Some(_)) => {
+                        self.report(place, "two vectors are multiplied with `dot(a, b)` or `cross(a, b)`")
+                    }
+                    _ => {
+                        let (x, y) = (x.shape(), y.shape());
+                        self.report(
+                            place,
+                            format!("{x} cannot be multiplied by {y}: only matrix times vector"),
+                        )
+                    }
+                }
+            }
+        }
+    }
+
+    fn over(&mut self, x: &Value, y: &Value, place: Place) -> Option<Value> {
+        match y {
+            Value::Scalar(y) => Some(x.map(&mut |x| self.graph.div(x, *y))),
+            Value::Vector(_) => {
+                let shape = y.shape();
+                self.report(place, format!("one cannot divide by {shape}"))
+            }
+        }
+    }
+
+    fn power(&mut self, base: &Expression, exponent: &Expression) -> Option<Value> {
+        let (value, exponent) = (self.lower(base), self.scalar(exponent));
+        match value? {
+            Value::Scalar(base) => Some(Value::Scalar(self.graph.power(base, exponent?))),
+            Value::Vector(_) => self.report(base.place, "a vector has no power: its square is `dot(v, v)`"),
+        }
+    }
+
+    fn vector(&mut self, items: &[Expression], place: Place) -> Option<Value> {
+        let values: Vec<_> = items.iter().map(|item| self.lower(item)).collect();
+        let values: Vec<Value> = values.into_iter().collect::<Option<_>>()?;
+        let Some(first) = values.first() else { return self.report(place, "an empty vector has no meaning") };
+        let shape = first.shape();
+        if let Some(odd) = values.iter().position(|value| value.shape() != shape) {
+            let message = format!("this is {}, but the first entry is {shape}", values[odd].shape());
+            return self.report(items[odd].place, message);
+        }
+        Some(Value::Vector(values))
+    }
+
+    fn sum_over(&mut self, sum: &SumOver) -> Option<Value> {
+        let range = self.range(&sum.from, &sum.to)?;
+        self.declare_local(&sum.index)?;
+        let mut total: Option<Value> = None;
+        for i in range {
+            let index = Value::Scalar(self.graph.integer(i as i128));
+            self.locals.push((sum.index.text.clone(), index));
+            let value = self.lower(&sum.body);
+            self.locals.pop();
+            let value = value?;
+            total = Some(match total {
+                None => value,
+                Some(total) => match self.plus(&total, &value, false) {
+                    Some(total) => total,
+                    None => return self.report(sum.body.place, "the terms of this sum differ in shape"),
+                },
+            });
+        }
+        Some(total.unwrap_or(Value::Scalar(Id::ZERO)))
+    }
+
+    /// Formals and indices may shadow anything but time and π.
+    pub(super) fn declare_local(&mut self, name: &Name) -> Option<()> {
+        match name.text.as_str() {
+            "t" | "pi" => {
+                self.report(name.place, format!("`{}` keeps its meaning: choose another name", name.text))
+            }
+            _ => Some(()),
+        }
+    }
+}
+
+pub(super) const NO_ACCELERATIONS: &str =
+    "accelerations are what the equations are solved for: they may appear in observables only";
+
+pub(super) fn is_literal_zero(expression: &Expression) -> bool {
+    matches!(&expression.kind, Kind::Number(value) if value.is_zero())
+}
+
+pub(crate) fn fault_message(fault: Fault) -> &'static str {
+    match fault {
+        Fault::Overflow => {
+            "a numerator or denominator grows beyond 128 bits here: make one of the constants a field"
+        }
+        Fault::DivisionByZero => "this divides by zero",
+        Fault::TooLarge => "the expression grows beyond a million nodes here",
+    }
+}
+
+/// d/dt: coordinates change by velocities, velocities by accelerations, time by 1.
+fn total_time_derivative(graph: &mut Graph, coordinates: usize) -> Forward {
+    let mut seeds = vec![(Variable::Time.symbol(), Id::ONE)];
+    for i in 0..coordinates {
+        seeds.push((Variable::Coordinate(i).symbol(), graph.symbol(Variable::Velocity(i).symbol())));
+        seeds.push((Variable::Velocity(i).symbol(), graph.symbol(Variable::Acceleration(i).symbol())));
+    }
+    Forward::along(seeds)
+}

@@ -1,0 +1,211 @@
+//! Derivatives on the graph: forward along a direction, reverse for a gradient.
+//! (Griewank and Walther, *Evaluating Derivatives*, chapter 3.)
+
+use num_traits::One;
+use rustc_hash::FxHashMap;
+
+use super::graph::{Function, Graph, Id, Node, Symbol};
+use super::rational::Rational;
+
+/// The derivative along one direction in the space of symbols. It remembers every node it has met, so
+/// one value serves all roots.
+#[derive(Debug)]
+pub(crate) struct Forward {
+    seeds: FxHashMap<Symbol, Id>,
+    known: Vec<Option<Id>>,
+}
+
+impl Forward {
+    /// The direction in which each given symbol changes at the given rate, and no other changes.
+    pub(crate) fn along(seeds: impl IntoIterator<Item = (Symbol, Id)>) -> Self {
+        Self { seeds: seeds.into_iter().collect(), known: Vec::new() }
+    }
+
+    /// Rate of change of `root`.
+    pub(crate) fn of(&mut self, graph: &mut Graph, root: Id) -> Id {
+        self.known.resize(graph.len(), None);
+        let mut pending = vec![root];
+        while let Some(&id) = pending.last() {
+            if self.known[id.index()].is_some() {
+                pending.pop();
+                continue;
+            }
+            let before = pending.len();
+            graph.operands(id, |operand| {
+                if self.known[operand.index()].is_none() {
+                    pending.push(operand);
+                }
+            });
+            if pending.len() == before {
+                self.known[id.index()] = Some(self.step(graph, id));
+                pending.pop();
+            }
+        }
+        self.known[root.index()].unwrap_or(Id::ZERO)
+    }
+
+    fn rate(&self, id: Id) -> Id {
+        self.known[id.index()].unwrap_or(Id::ZERO)
+    }
+
+    /// The rate of a node whose operands' rates are known.
+    fn step(&self, graph: &mut Graph, id: Id) -> Id {
+        match graph.node(id).clone() {
+            Node::Number(_) | Node::Pi => Id::ZERO,
+            Node::Symbol(symbol) => self.seeds.get(&symbol).copied().unwrap_or(Id::ZERO),
+            Node::Sum(terms) => graph.sum(terms.iter().map(|&(term, c)| (self.rate(term), c))),
+            Node::Defined(inner) => graph.defined(self.rate(inner)),
+            _ => {
+                let mut terms = Vec::new();
+                graph.operands(id, |operand| {
+                    if self.rate(operand) != Id::ZERO {
+                        terms.push(operand);
+                    }
+                });
+                let one = Rational::one();
+                let terms: Vec<_> = terms
+                    .into_iter()
+                    .map(|operand| (graph.partial(id, operand, self.rate(operand)), one))
+                    .collect();
+                graph.sum(terms)
+            }
+        }
+    }
+}
+
+impl Graph {
+    /// ∂`root`/∂symbol for each of `symbols`, in one sweep from the root down.
+    pub(crate) fn gradient(&mut self, root: Id, symbols: &[Symbol]) -> Vec<Id> {
+        let order = self.reachable(&[root]);
+        let mut adjoints: FxHashMap<Id, Vec<(Id, Rational)>> = FxHashMap::default();
+        adjoints.insert(root, vec![(Id::ONE, Rational::one())]);
+        let mut found = FxHashMap::default();
+        for id in order.into_iter().rev() {
+            let parts = adjoints.remove(&id).unwrap_or_default();
+            let adjoint = self.sum(parts);
+            if adjoint != Id::ZERO {
+                self.pass_down(id, adjoint, &mut adjoints, &mut found);
+            }
+        }
+        symbols.iter().map(|symbol| found.get(symbol).copied().unwrap_or(Id::ZERO)).collect()
+    }
+
+    fn pass_down(
+        &mut self,
+        id: Id,
+        adjoint: Id,
+        adjoints: &mut FxHashMap<Id, Vec<(Id, Rational)>>,
+        found: &mut FxHashMap<Symbol, Id>,
+    ) {
+        match self.node(id).clone() {
+            Node::Number(_) | Node::Pi => {}
+            Node::Symbol(symbol) => {
+                found.insert(symbol, adjoint);
+            }
+            Node::Sum(terms) => {
+                for &(term, coefficient) in &terms {
+                    adjoints.entry(term).or_default().push((adjoint, coefficient));
+                }
+            }
+            // The adjoint of a definition is a partial sum in its turn: the forces on a chain.
+            Node::Defined(inner) => {
+                let adjoint = self.defined(adjoint);
+                adjoints.entry(inner).or_default().push((adjoint, Rational::one()));
+            }
+            _ => {
+                let mut operands = Vec::new();
+                self.operands(id, |operand| operands.push(operand));
+                operands.dedup();
+                for operand in operands {
+                    let part = self.partial(id, operand, adjoint);
+                    adjoints.entry(operand).or_default().push((part, Rational::one()));
+                }
+            }
+        }
+    }
+
+    /// `weight` · ∂`id`/∂`operand`, for a product, a power or a function.
+    fn partial(&mut self, id: Id, operand: Id, weight: Id) -> Id {
+        let one = Rational::one();
+        match self.node(id).clone() {
+            Node::Product(factors) => {
+                let exponent = factors.iter().find(|part| part.0 == operand).map_or(one, |part| part.1);
+                let part = self.product([(weight, one), (id, one), (operand, -one)]);
+                self.sum([(part, exponent)])
+            }
+            Node::Function(function, x) => {
+                let slope = self.slope(function, x, id);
+                self.mul(weight, slope)
+            }
+            Node::Atan2(y, x) => self.angle_partial(y, x, operand, weight),
+            Node::Power(base, exponent) => self.power_partial(id, base, exponent, operand, weight),
+            _ => weight,
+        }
+    }
+
+    /// d atan2(y, x) = (x dy − y dx) / (x² + y²).
+    fn angle_partial(&mut self, y: Id, x: Id, operand: Id, weight: Id) -> Id {
+        let one = Rational::one();
+        let (x2, y2) = (self.square(x), self.square(y));
+        let radius2 = self.add(x2, y2);
+        let mut arm = Id::ZERO;
+        if operand == y {
+            arm = self.add(arm, x);
+        }
+        if operand == x {
+            arm = self.sub(arm, y);
+        }
+        self.product([(weight, one), (arm, one), (radius2, -one)])
+    }
+
+    /// d bᵉ = bᵉ (e db / b + ln b de).
+    fn power_partial(&mut self, id: Id, base: Id, exponent: Id, operand: Id, weight: Id) -> Id {
+        let one = Rational::one();
+        let mut slope = Id::ZERO;
+        if operand == base {
+            slope = self.product([(exponent, one), (base, -one)]);
+        }
+        if operand == exponent {
+            let logarithm = self.function(Function::Ln, base);
+            slope = self.add(slope, logarithm);
+        }
+        self.product([(weight, one), (id, one), (slope, one)])
+    }
+
+    /// The derivative of `function` at `x`, given `id = function(x)`.
+    fn slope(&mut self, function: Function, x: Id, id: Id) -> Id {
+        let one = Rational::one();
+        let half = Rational::new_raw(1, 2);
+        match function {
+            Function::Sin => self.function(Function::Cos, x),
+            Function::Cos => {
+                let sine = self.function(Function::Sin, x);
+                self.neg(sine)
+            }
+            Function::Tan => {
+                let square = self.square(id);
+                self.add(Id::ONE, square)
+            }
+            Function::Tanh => {
+                let square = self.square(id);
+                self.sub(Id::ONE, square)
+            }
+            Function::Asin | Function::Acos => {
+                let square = self.square(x);
+                let rest = self.sub(Id::ONE, square);
+                let slope = self.pow(rest, -half);
+                if function == Function::Acos { self.neg(slope) } else { slope }
+            }
+            Function::Atan => {
+                let square = self.square(x);
+                let rest = self.add(Id::ONE, square);
+                self.pow(rest, -one)
+            }
+            Function::Sinh => self.function(Function::Cosh, x),
+            Function::Cosh => self.function(Function::Sinh, x),
+            Function::Exp => id,
+            Function::Ln => self.pow(x, -one),
+            Function::Abs => self.div(x, id),
+        }
+    }
+}

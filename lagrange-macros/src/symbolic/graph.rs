@@ -1,0 +1,197 @@
+//! The expression graph: equal expressions are one node.
+
+use num_traits::{One, Zero};
+use rustc_hash::FxHashMap;
+
+use super::rational::Rational;
+
+/// A node of one [`Graph`].
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub(crate) struct Id(pub(super) u32);
+
+impl Id {
+    /// The number 0.
+    pub(crate) const ZERO: Self = Self(0);
+    /// The number 1.
+    pub(crate) const ONE: Self = Self(1);
+
+    pub(crate) fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// A free variable. What `family` and `index` stand for is the caller's business.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub(crate) struct Symbol {
+    pub(crate) family: u8,
+    pub(crate) index: u32,
+}
+
+/// Functions of one argument. Powers and roots are factors of a product instead.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub(crate) enum Function {
+    Sin,
+    Cos,
+    Tan,
+    Asin,
+    Acos,
+    Atan,
+    Sinh,
+    Cosh,
+    Tanh,
+    Exp,
+    Ln,
+    Abs,
+}
+
+/// One expression over earlier ones.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+pub(crate) enum Node {
+    Number(Rational),
+    Pi,
+    Symbol(Symbol),
+    /// Σ coefficient · term, sorted by term, no term twice; a constant is a multiple of [`Id::ONE`].
+    Sum(Box<[(Id, Rational)]>),
+    /// Π factor ^ exponent, sorted by factor, no factor twice; never a number but for its roots.
+    Product(Box<[(Id, Rational)]>),
+    Function(Function, Id),
+    /// The angle of the point (second, first).
+    Atan2(Id, Id),
+    /// A power whose exponent is not a number.
+    Power(Id, Id),
+    /// A named intermediate: equal to what it holds, but nothing is collected or flattened through it, so
+    /// that recursive definitions keep their partial sums.
+    Defined(Id),
+}
+
+/// What exact arithmetic could not do. The first one stays until it is [taken](Graph::take_fault).
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Fault {
+    /// A numerator or denominator beyond 128 bits.
+    Overflow,
+    /// Division by what is identically zero.
+    DivisionByZero,
+    /// More than [`Graph::LIMIT`] nodes.
+    TooLarge,
+}
+
+/// An arena of expressions.
+#[derive(Debug)]
+pub(crate) struct Graph {
+    nodes: Vec<Node>,
+    ids: FxHashMap<Node, Id>,
+    fault: Option<Fault>,
+}
+
+impl Default for Graph {
+    fn default() -> Self {
+        let mut graph = Self { nodes: Vec::new(), ids: FxHashMap::default(), fault: None };
+        graph.number(Rational::zero());
+        graph.number(Rational::one());
+        graph
+    }
+}
+
+impl Graph {
+    /// The number of nodes past which expressions are taken for runaway definitions.
+    pub(crate) const LIMIT: usize = 1 << 20;
+
+    pub(crate) fn node(&self, id: Id) -> &Node {
+        &self.nodes[id.index()]
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    pub(crate) fn number(&mut self, value: Rational) -> Id {
+        self.intern(Node::Number(value))
+    }
+
+    pub(crate) fn integer(&mut self, value: i128) -> Id {
+        self.number(Rational::from_integer(value))
+    }
+
+    pub(crate) fn symbol(&mut self, symbol: Symbol) -> Id {
+        self.intern(Node::Symbol(symbol))
+    }
+
+    pub(crate) fn pi(&mut self) -> Id {
+        self.intern(Node::Pi)
+    }
+
+    /// The value of a node that is a number.
+    pub(crate) fn as_number(&self, id: Id) -> Option<Rational> {
+        match self.node(id) {
+            Node::Number(value) => Some(*value),
+            _ => None,
+        }
+    }
+
+    /// A boundary around `inner`; what has no parts needs none.
+    pub(crate) fn defined(&mut self, inner: Id) -> Id {
+        match self.node(inner) {
+            Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Defined(_) => inner,
+            _ => self.intern(Node::Defined(inner)),
+        }
+    }
+
+    pub(crate) fn take_fault(&mut self) -> Option<Fault> {
+        self.fault.take()
+    }
+
+    /// Notes a fault; the value that stands in for the result is never used.
+    pub(super) fn fail(&mut self, fault: Fault) -> Id {
+        self.fault.get_or_insert(fault);
+        Id::ZERO
+    }
+
+    pub(super) fn intern(&mut self, node: Node) -> Id {
+        if let Some(&id) = self.ids.get(&node) {
+            return id;
+        }
+        if self.nodes.len() >= Self::LIMIT {
+            return self.fail(Fault::TooLarge);
+        }
+        let id = Id(self.nodes.len() as u32);
+        self.nodes.push(node.clone());
+        self.ids.insert(node, id);
+        id
+    }
+
+    /// Calls `visit` with every operand of `id`.
+    pub(crate) fn operands(&self, id: Id, mut visit: impl FnMut(Id)) {
+        match self.node(id) {
+            Node::Number(_) | Node::Pi | Node::Symbol(_) => {}
+            Node::Sum(parts) | Node::Product(parts) => parts.iter().for_each(|&(part, _)| visit(part)),
+            Node::Function(_, x) | Node::Defined(x) => visit(*x),
+            Node::Atan2(x, y) | Node::Power(x, y) => {
+                visit(*x);
+                visit(*y);
+            }
+        }
+    }
+
+    /// All nodes that `roots` are made of, operands before what uses them.
+    pub(crate) fn reachable(&self, roots: &[Id]) -> Vec<Id> {
+        let mut seen = vec![false; self.len()];
+        let mut pending = roots.to_vec();
+        let mut found = Vec::new();
+        while let Some(id) = pending.pop() {
+            if !std::mem::replace(&mut seen[id.index()], true) {
+                found.push(id);
+                self.operands(id, |operand| pending.push(operand));
+            }
+        }
+        found.sort_unstable();
+        found
+    }
+
+    /// The free variables of `root`, each once.
+    pub(crate) fn symbols(&self, roots: &[Id]) -> impl Iterator<Item = Symbol> {
+        self.reachable(roots).into_iter().filter_map(|id| match self.node(id) {
+            Node::Symbol(symbol) => Some(*symbol),
+            _ => None,
+        })
+    }
+}

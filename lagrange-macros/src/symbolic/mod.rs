@@ -1,0 +1,18 @@
+//! Mathematics without mechanics: a hash-consed graph of expressions, its derivatives and its values.
+//!
+//! Nothing here knows a token or a Lagrangian. Nodes are only ever added, children before parents, so a
+//! walk in order of [`Id`] is a walk from the leaves up, and no algorithm needs recursion.
+
+mod differentiate;
+mod evaluate;
+mod graph;
+mod rational;
+mod simplify;
+#[cfg(test)]
+mod tests;
+mod zero;
+
+pub(crate) use differentiate::Forward;
+pub(crate) use graph::{Fault, Function, Graph, Id, Node, Symbol};
+pub(crate) use rational::{Rational, parse_decimal, to_f64};
+pub(crate) use zero::Verdict;

@@ -1,0 +1,79 @@
+//! Is an expression zero everywhere?
+
+use rustc_hash::FxHashMap;
+
+use super::graph::{Graph, Id, Node, Symbol};
+
+/// How sure the answer is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Verdict {
+    /// Zero by its canonical form.
+    Zero,
+    /// Zero within rounding at this many random points.
+    Held(u32),
+    /// Some value's error bound excludes zero.
+    NonZero,
+    /// No point was found at which the expression has a value.
+    Undecided,
+}
+
+const POINTS: u32 = 8;
+const DRAWS: u64 = 64;
+
+impl Graph {
+    /// Whether `root` vanishes identically. Each symbol is drawn from the range that `range` gives it.
+    pub(crate) fn is_zero(&mut self, root: Id, range: impl Fn(Symbol) -> (f64, f64)) -> Verdict {
+        if root == Id::ZERO || self.looked_through(root) == Id::ZERO {
+            return Verdict::Zero;
+        }
+        let mut held = 0;
+        for draw in 0..DRAWS {
+            let sample = self.evaluate(root, |symbol| {
+                let (low, high) = range(symbol);
+                low + (high - low) * random(symbol, draw)
+            });
+            // Outside its domain an expression has no value: draw again.
+            if !sample.value.is_finite() || !sample.error.is_finite() {
+                continue;
+            }
+            if sample.value.abs() > sample.error {
+                return Verdict::NonZero;
+            }
+            held += 1;
+            if held == POINTS {
+                return Verdict::Held(held);
+            }
+        }
+        if held > 0 { Verdict::Held(held) } else { Verdict::Undecided }
+    }
+
+    /// The same expression without the boundaries of definitions.
+    pub(crate) fn looked_through(&mut self, root: Id) -> Id {
+        let mut new: FxHashMap<Id, Id> = FxHashMap::default();
+        for id in self.reachable(&[root]) {
+            let rebuilt = match self.node(id).clone() {
+                Node::Sum(terms) => self.sum(terms.iter().map(|(term, c)| (new[term], *c))),
+                Node::Product(factors) => self.product(factors.iter().map(|(factor, e)| (new[factor], *e))),
+                Node::Function(function, x) => self.function(function, new[&x]),
+                Node::Atan2(y, x) => self.atan2(new[&y], new[&x]),
+                Node::Power(base, exponent) => self.power(new[&base], new[&exponent]),
+                Node::Defined(inner) => new[&inner],
+                Node::Number(_) | Node::Pi | Node::Symbol(_) => id,
+            };
+            new.insert(id, rebuilt);
+        }
+        new[&root]
+    }
+}
+
+/// A number in [0, 1) that depends on nothing but its arguments (Steele, Lea and Flood's SplitMix64).
+fn random(symbol: Symbol, draw: u64) -> f64 {
+    let mut z = (u64::from(symbol.family) << 56) ^ (u64::from(symbol.index) << 16) ^ draw;
+    for _ in 0..2 {
+        z = z.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^= z >> 31;
+    }
+    (z >> 11) as f64 / (1_u64 << 53) as f64
+}

@@ -1,0 +1,173 @@
+//! Walking along the tokens of one attribute.
+
+use proc_macro2::{Delimiter, Group, Ident, Spacing, Span, TokenStream, TokenTree};
+use syn::{Error, Result};
+
+use super::Name;
+use crate::diagnostics::Place;
+
+/// Parentheses, operators and powers may nest this deep.
+pub(crate) const NESTING_LIMIT: usize = 256;
+
+/// The first group nested beyond [`NESTING_LIMIT`]. It does not recurse: it must hold for any input.
+pub(crate) fn too_deep(tokens: TokenStream) -> Option<Span> {
+    let mut levels = vec![tokens.into_iter()];
+    while let Some(level) = levels.last_mut() {
+        match level.next() {
+            Some(TokenTree::Group(group)) if levels.len() >= NESTING_LIMIT => return Some(group.span_open()),
+            Some(TokenTree::Group(group)) => levels.push(group.stream().into_iter()),
+            Some(_) => {}
+            None => {
+                levels.pop();
+            }
+        }
+    }
+    None
+}
+
+/// A position in a sequence of tokens.
+pub(super) struct Cursor {
+    tokens: Vec<TokenTree>,
+    position: usize,
+    end: Span,
+}
+
+impl Cursor {
+    /// Over `tokens`; `end` is where something missing at their end is reported.
+    pub(super) fn new(tokens: TokenStream, end: Span) -> Self {
+        Self { tokens: tokens.into_iter().collect(), position: 0, end }
+    }
+
+    /// Over what is between the delimiters.
+    pub(super) fn inside(group: &Group) -> Self {
+        Self::new(group.stream(), group.span_close())
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.position >= self.tokens.len()
+    }
+
+    pub(super) fn peek(&self) -> Option<&TokenTree> {
+        self.tokens.get(self.position)
+    }
+
+    fn peek_at(&self, offset: usize) -> Option<&TokenTree> {
+        self.tokens.get(self.position + offset)
+    }
+
+    pub(super) fn next(&mut self) -> Option<TokenTree> {
+        let token = self.tokens.get(self.position).cloned();
+        self.position += 1;
+        token
+    }
+
+    /// Where the next token is, or the end.
+    pub(super) fn place(&self) -> Place {
+        Place::at(self.peek().map_or(self.end, TokenTree::span))
+    }
+
+    /// Where the last token read is.
+    pub(super) fn last_place(&self) -> Place {
+        let last = self.position.checked_sub(1).and_then(|last| self.tokens.get(last));
+        Place::at(last.map_or(self.end, TokenTree::span))
+    }
+
+    pub(super) fn error(&self, message: impl std::fmt::Display) -> Error {
+        self.place().error(message)
+    }
+
+    pub(super) fn is_punct(&self, symbol: char) -> bool {
+        matches!(self.peek(), Some(TokenTree::Punct(punct)) if punct.as_char() == symbol)
+    }
+
+    /// Whether the next two tokens are an operator of two characters.
+    pub(super) fn is_pair(&self, first: char, second: char) -> bool {
+        let joint = |token: Option<&TokenTree>| matches!(token, Some(TokenTree::Punct(punct)) if punct.as_char() == first && punct.spacing() == Spacing::Joint);
+        let then = |token: Option<&TokenTree>| matches!(token, Some(TokenTree::Punct(punct)) if punct.as_char() == second);
+        joint(self.peek()) && then(self.peek_at(1))
+    }
+
+    pub(super) fn take_punct(&mut self, symbol: char) -> bool {
+        let found = self.is_punct(symbol);
+        self.position += usize::from(found);
+        found
+    }
+
+    pub(super) fn is_word(&self, word: &str) -> bool {
+        matches!(self.peek(), Some(TokenTree::Ident(ident)) if ident == word)
+    }
+
+    pub(super) fn take_word(&mut self, word: &str) -> bool {
+        let found = self.is_word(word);
+        self.position += usize::from(found);
+        found
+    }
+
+    pub(super) fn take_ident(&mut self) -> Option<Ident> {
+        match self.peek() {
+            Some(TokenTree::Ident(ident)) => {
+                let ident = ident.clone();
+                self.position += 1;
+                Some(ident)
+            }
+            // What `macro_rules` passes on as `$name:ident` may come in an invisible group.
+            Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::None => {
+                let mut inside = Self::inside(group);
+                let ident = inside.take_ident().filter(|_| inside.is_empty())?;
+                self.position += 1;
+                Some(ident)
+            }
+            _ => None,
+        }
+    }
+
+    /// A name, or an error that says what was wanted.
+    pub(super) fn name(&mut self, wanted: &str) -> Result<Name> {
+        match self.take_ident() {
+            Some(ident) => Ok(Name::new(&ident)),
+            None => Err(self.error(format!("expected {wanted}"))),
+        }
+    }
+
+    pub(super) fn take_group(&mut self, delimiter: Delimiter) -> Option<Group> {
+        match self.peek() {
+            Some(TokenTree::Group(group)) if group.delimiter() == delimiter => {
+                let group = group.clone();
+                self.position += 1;
+                Some(group)
+            }
+            _ => None,
+        }
+    }
+
+    /// Goes on past one token, or says what should have stood there.
+    pub(super) fn expect_punct(&mut self, symbol: char, message: &str) -> Result<()> {
+        if self.take_punct(symbol) { Ok(()) } else { Err(self.error(message)) }
+    }
+
+    /// Everything up to the next comma that stands outside of parentheses, and that comma.
+    pub(super) fn until_comma(&mut self) -> Self {
+        let part = self.until(|cursor| cursor.is_punct(','));
+        self.take_punct(',');
+        part
+    }
+
+    /// Everything up to the next `=`.
+    pub(super) fn until_equals(&mut self) -> Self {
+        self.until(|cursor| cursor.is_punct('='))
+    }
+
+    fn until(&mut self, stop: impl Fn(&Self) -> bool) -> Self {
+        let start = self.position;
+        while !self.is_empty() && !stop(self) {
+            self.position += 1;
+        }
+        let end = self.place().start();
+        Self { tokens: self.tokens[start..self.position].to_vec(), position: 0, end }
+    }
+
+    /// The tokens that are left.
+    pub(super) fn rest(mut self) -> TokenStream {
+        self.tokens.split_off(self.position.min(self.tokens.len())).into_iter().collect()
+    }
+}

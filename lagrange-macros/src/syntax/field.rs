@@ -1,0 +1,134 @@
+//! The struct's fields: what each one's type says about its shape.
+
+use quote::ToTokens;
+use syn::{Expr, ExprLit, GenericArgument, Lit, PathArguments, PathSegment, Type};
+
+use super::Name;
+use crate::diagnostics::Place;
+
+/// A field, usable as a parameter or not.
+#[derive(Clone)]
+pub(crate) struct Field {
+    pub(crate) name: Name,
+    pub(crate) ident: syn::Ident,
+    /// Where its type stands.
+    pub(crate) place: Place,
+    /// How to read numbers from it, or why that cannot be done.
+    pub(crate) shape: Result<FieldShape, String>,
+}
+
+/// The layout of the numbers in a field.
+#[derive(Clone)]
+pub(crate) struct FieldShape {
+    pub(crate) layout: Layout,
+    /// The type of each number; none where only `#[parameter(…)]` tells the shape.
+    pub(crate) scalar: Option<Type>,
+    /// Whether the field is a reference to them.
+    pub(crate) is_reference: bool,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Layout {
+    Scalar,
+    /// `self.a[i]`
+    Vector(usize),
+    /// `self.a[i][j]`: rows of arrays
+    Rows(usize, usize),
+    /// `self.a[(i, j)]`: a nalgebra matrix
+    Matrix(usize, usize),
+}
+
+impl Field {
+    pub(super) fn new(field: &syn::Field, ident: &syn::Ident) -> Self {
+        let mut ends = field.ty.to_token_stream().into_iter().map(|token| Place::at(token.span()));
+        let start = ends.next().unwrap_or(Place::at(ident.span()));
+        let place = start.to(ends.last().unwrap_or(start));
+        Self { name: Name::new(ident), ident: ident.clone(), place, shape: shape(&field.ty) }
+    }
+}
+
+fn shape(ty: &Type) -> Result<FieldShape, String> {
+    match ty {
+        Type::Reference(reference) => Ok(FieldShape { is_reference: true, ..shape(&reference.elem)? }),
+        Type::Paren(inner) => shape(&inner.elem),
+        Type::Group(inner) => shape(&inner.elem),
+        Type::Array(array) => nested(shape(&array.elem)?, length(&array.len)?),
+        Type::Path(path) => match path.path.segments.last() {
+            Some(segment) => named(ty, segment),
+            None => Err(unusable(ty)),
+        },
+        _ => Err(unusable(ty)),
+    }
+}
+
+fn unusable(ty: &Type) -> String {
+    let ty = ty.to_token_stream().to_string().replace(' ', "");
+    format!(
+        "a field of type `{ty}` cannot stand in an expression: write `f64`, an array or a nalgebra vector or matrix of it, or say its shape with `#[parameter(name: [3])]`"
+    )
+}
+
+fn nested(inner: FieldShape, length: usize) -> Result<FieldShape, String> {
+    let layout = match inner.layout {
+        Layout::Scalar => Layout::Vector(length),
+        Layout::Vector(columns) => Layout::Rows(length, columns),
+        Layout::Rows(..) | Layout::Matrix(..) => {
+            return Err("arrays of matrices cannot stand in an expression".to_owned());
+        }
+    };
+    Ok(FieldShape { layout, ..inner })
+}
+
+fn named(ty: &Type, segment: &PathSegment) -> Result<FieldShape, String> {
+    let name = segment.ident.to_string();
+    let arguments: Vec<&GenericArgument> = match &segment.arguments {
+        PathArguments::AngleBracketed(arguments) => arguments.args.iter().collect(),
+        _ => Vec::new(),
+    };
+    let layout = match (name.as_str(), &arguments[..]) {
+        ("SVector", [_, n]) => Layout::Vector(argument_length(n)?),
+        ("SMatrix", [_, rows, columns]) => Layout::Matrix(argument_length(rows)?, argument_length(columns)?),
+        (_, [_]) => named_layout(&name).ok_or_else(|| unusable(ty))?,
+        (_, []) => Layout::Scalar,
+        _ => return Err(unusable(ty)),
+    };
+    let scalar = match arguments.first() {
+        None => ty.clone(),
+        Some(GenericArgument::Type(scalar)) => scalar.clone(),
+        Some(_) => return Err(unusable(ty)),
+    };
+    Ok(FieldShape { layout, scalar: Some(scalar), is_reference: false })
+}
+
+/// `Vector3`, `Matrix2`, `Matrix2x3`.
+fn named_layout(name: &str) -> Option<Layout> {
+    let size = |text: &str| text.parse().ok().filter(|size| (1..=6).contains(size));
+    if let Some(length) = name.strip_prefix("Vector") {
+        return size(length).map(Layout::Vector);
+    }
+    let sizes = name.strip_prefix("Matrix")?;
+    let (rows, columns) = sizes.split_once('x').unwrap_or((sizes, sizes));
+    Some(Layout::Matrix(size(rows)?, size(columns)?))
+}
+
+fn argument_length(argument: &GenericArgument) -> Result<usize, String> {
+    match argument {
+        GenericArgument::Const(expression) => length(expression),
+        _ => Err(not_a_literal()),
+    }
+}
+
+fn length(expression: &Expr) -> Result<usize, String> {
+    match expression {
+        Expr::Lit(ExprLit { lit: Lit::Int(literal), .. }) => {
+            literal.base10_parse().map_err(|_| "this length is too large".to_owned())
+        }
+        Expr::Group(group) => length(&group.expr),
+        _ => Err(not_a_literal()),
+    }
+}
+
+fn not_a_literal() -> String {
+    "the length must be an integer literal: the equations are derived before const generics have values"
+        .to_owned()
+}
