@@ -17,6 +17,18 @@ pub fn eliminate<T: Scalar, const N: usize, const M: usize>(
     f: [[T; N]; M],
     gamma: [T; M],
 ) -> Solution<T, N, M> {
+    eliminate_active(m, h, f, gamma, [true; M])
+}
+
+/// The same with only the `active` constraints; the rows of `f` and `gamma` of the others must be zero.
+#[inline]
+pub(crate) fn eliminate_active<T: Scalar, const N: usize, const M: usize>(
+    m: [[T; N]; N],
+    h: [T; N],
+    f: [[T; N]; M],
+    gamma: [T; M],
+    active: [bool; M],
+) -> Solution<T, N, M> {
     let mass = Factors::of(m);
     let mut q = h;
     mass.solve(&mut q);
@@ -30,6 +42,9 @@ pub fn eliminate<T: Scalar, const N: usize, const M: usize>(
         lambda[a] = -(lambda[a] + dot(&f[a], &q));
         for b in 0..=a {
             schur[a][b] = dot(&f[a], &w[b]);
+        }
+        if !active[a] {
+            schur[a][a] = T::constant(1.0);
         }
     }
     let schur = Factors::of(schur);

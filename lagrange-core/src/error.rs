@@ -1,0 +1,166 @@
+//! What can go wrong, each with the name of the entry at fault and what to do about it.
+
+use core::fmt::{self, Display, Formatter};
+
+#[cfg(feature = "alloc")]
+use alloc::{string::String, vec::Vec};
+
+use crate::names::{Entry, Names, Row};
+
+/// Why a computation did not start, or what a query asked in vain.
+///
+/// What happens during an integration is an [`Ending`](crate::Ending) of its trajectory instead.
+/// Times and residuals are given as `f64` whatever the scalar of the system is.
+#[non_exhaustive]
+#[derive(Clone, Debug, PartialEq)]
+pub enum Error {
+    /// An entry of the state given is infinite or not a number.
+    StateNotFinite {
+        /// The coordinate, velocity or time at fault.
+        entry: Entry,
+        /// Its value.
+        value: f64,
+    },
+    /// The equations of motion evaluate to infinity or not a number.
+    EquationsNotFinite {
+        /// The first row at fault.
+        row: Row,
+        /// The time of evaluation.
+        time: f64,
+    },
+    /// A setting of the method, such as a tolerance, that must be positive and is not.
+    Setting {
+        /// The name of the setting.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// The end time lies before the start, or one of them is not finite.
+    EndTime {
+        /// The time of the state given.
+        start: f64,
+        /// The end asked for.
+        end: f64,
+    },
+    /// Neither mass matrix nor constraints determine some accelerations.
+    Singular {
+        /// The coordinates that can accelerate freely.
+        coordinates: Names,
+        /// The time of evaluation.
+        time: f64,
+    },
+    /// Constraints that depend on one another demand different accelerations.
+    Contradictory {
+        /// The constraint that the others contradict.
+        constraint: &'static str,
+        /// The time of evaluation.
+        time: f64,
+    },
+    /// The state given does not satisfy a constraint.
+    Inconsistent {
+        /// The constraint at fault.
+        constraint: &'static str,
+        /// Whether its rate of change F q̇ + b is meant (else Φ).
+        rate: bool,
+        /// The value that should be zero.
+        residual: f64,
+        /// The time of the state.
+        time: f64,
+    },
+    /// Newton's iteration found no state on the constraints near the one given.
+    NotProjected {
+        /// The constraint that is farthest from satisfied.
+        constraint: &'static str,
+        /// Its residual.
+        residual: f64,
+        /// Iterations done.
+        iterations: usize,
+        /// The time of the state.
+        time: f64,
+    },
+    /// A name that the system does not have.
+    #[cfg(feature = "alloc")]
+    UnknownName {
+        /// The name asked for.
+        name: String,
+        /// What it should name: `coordinate`, `multiplier`, …
+        kind: &'static str,
+        /// The names that exist.
+        known: Vec<String>,
+    },
+    /// An entry of a state that was given twice.
+    #[cfg(feature = "alloc")]
+    RepeatedName {
+        /// The name.
+        name: String,
+    },
+    /// A time that the trajectory does not cover.
+    OutsideTrajectory {
+        /// The time asked for.
+        time: f64,
+        /// Where the trajectory starts.
+        start: f64,
+        /// Where it ends.
+        end: f64,
+    },
+}
+
+impl Display for Error {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::StateNotFinite { entry, value } => {
+                write!(f, "`{entry}` is {value} in the state given: every entry must be finite")
+            }
+            Self::EquationsNotFinite { row, time } => write!(
+                f,
+                "the equations are not finite at t = {time}; row of {row}: check the parameters, and whether the state is at a pole"
+            ),
+            Self::Setting { name, value } => {
+                write!(f, "the {name} is {value}: it must be positive and finite")
+            }
+            Self::EndTime { start, end } => write!(
+                f,
+                "cannot integrate from t = {start} to t = {end}: the end must be finite and not before the start"
+            ),
+            Self::Singular { coordinates, time } => write!(
+                f,
+                "the equations do not determine the acceleration of {coordinates} at t = {time}: give it a mass or constrain it"
+            ),
+            Self::Contradictory { constraint, time } => write!(
+                f,
+                "constraint `{constraint}` contradicts the others at t = {time}: no accelerations satisfy all; remove it or make it agree"
+            ),
+            Self::Inconsistent { constraint, rate, residual, time } => write!(
+                f,
+                "the state violates constraint `{constraint}` at t = {time}: its {} is {residual:e}, not 0; call `make_consistent` first",
+                if *rate { "rate F q_dot + b" } else { "residual" }
+            ),
+            Self::NotProjected { constraint, residual, iterations, time } => write!(
+                f,
+                "no consistent state found near the one given at t = {time}: constraint `{constraint}` has residual {residual:e} after {iterations} iterations; start closer to the constraints, or check that they can hold together"
+            ),
+            #[cfg(feature = "alloc")]
+            Self::UnknownName { name, kind, known } => unknown_name(f, name, kind, known),
+            #[cfg(feature = "alloc")]
+            Self::RepeatedName { name } => write!(f, "`{name}` is given twice: give each entry once"),
+            Self::OutsideTrajectory { time, start, end } => {
+                write!(f, "t = {time} lies outside the trajectory, which covers {start} to {end}")
+            }
+        }
+    }
+}
+
+#[cfg(feature = "alloc")]
+fn unknown_name(f: &mut Formatter<'_>, name: &str, kind: &str, known: &[String]) -> fmt::Result {
+    write!(f, "there is no {kind} `{name}`; ")?;
+    if known.is_empty() {
+        return write!(f, "the system has none");
+    }
+    write!(f, "there are ")?;
+    for (i, one) in known.iter().enumerate() {
+        write!(f, "{}`{one}`", if i == 0 { "" } else { ", " })?;
+    }
+    Ok(())
+}
+
+impl core::error::Error for Error {}

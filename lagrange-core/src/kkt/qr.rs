@@ -1,0 +1,118 @@
+//! Householder QR with column pivoting, which tells the rank.
+
+use core::array::from_fn;
+
+use crate::{Real, Scalar};
+
+/// A P = Q R of a K×C matrix A (Golub and Van Loan, *Matrix Computations*, 5.4.2).
+pub(super) struct Qr<T, const K: usize, const C: usize> {
+    /// The columns of R, in pivoted order.
+    r: [[T; K]; C],
+    /// Reflection k is I − v vᵀ with v = `reflectors[k]`, which is zero above entry k.
+    reflectors: [[T; K]; C],
+    /// Which column of A each column of R belongs to.
+    pub(super) order: [usize; C],
+    /// How many columns are independent.
+    pub(super) rank: usize,
+}
+
+impl<T: Real, const K: usize, const C: usize> Qr<T, K, C> {
+    /// Of the matrix with these columns; a remainder no longer than `tolerance` counts as zero.
+    pub(super) fn of(columns: [[T; K]; C], tolerance: T) -> Self {
+        let zero = T::constant(0.0);
+        let mut qr = Self { r: columns, reflectors: [[zero; K]; C], order: from_fn(|j| j), rank: 0 };
+        for k in 0..K.min(C) {
+            let (longest, length) = qr.longest_remainder(k);
+            if length <= tolerance {
+                break;
+            }
+            qr.r.swap(k, longest);
+            qr.order.swap(k, longest);
+            qr.eliminate(k, length);
+            qr.rank = k + 1;
+        }
+        qr
+    }
+
+    fn longest_remainder(&self, k: usize) -> (usize, T) {
+        let mut best = (k, T::constant(0.0));
+        for j in k..C {
+            let square = dot(&self.r[j][k..], &self.r[j][k..]);
+            if square > best.1 {
+                best = (j, square);
+            }
+        }
+        (best.0, Scalar::sqrt(best.1))
+    }
+
+    fn eliminate(&mut self, k: usize, length: T) {
+        let zero = T::constant(0.0);
+        let head = self.r[k][k];
+        let diagonal = if head > zero { -length } else { length };
+        // vᵀv = 2 ‖x‖ (‖x‖ + |x₀|) for v = x − diagonal·e₀; scaled to vᵀv = 2.
+        let scale = T::constant(1.0) / Scalar::sqrt(length * (length + Scalar::abs(head)));
+        let v = &mut self.reflectors[k];
+        v[k] = (head - diagonal) * scale;
+        for (entry, x) in v.iter_mut().zip(&self.r[k]).skip(k + 1) {
+            *entry = *x * scale;
+        }
+        self.r[k][k] = diagonal;
+        for j in k + 1..C {
+            reflect(&self.reflectors[k], &mut self.r[j], k);
+        }
+    }
+
+    /// x ← Qᵀ x.
+    pub(super) fn to_range(&self, x: &mut [T; K]) {
+        for k in 0..self.rank {
+            reflect(&self.reflectors[k], x, k);
+        }
+    }
+
+    /// x ← Q x.
+    pub(super) fn from_range(&self, x: &mut [T; K]) {
+        for k in (0..self.rank).rev() {
+            reflect(&self.reflectors[k], x, k);
+        }
+    }
+
+    /// The entry of R in this row and (pivoted) column.
+    pub(super) fn entry(&self, row: usize, column: usize) -> T {
+        self.r[column][row]
+    }
+
+    /// y with Rᵀ y = c in the first `rank` rows, c in the order of the columns of A; zero beyond.
+    pub(super) fn solve_transposed(&self, c: &[T; C]) -> [T; K] {
+        let mut y = [T::constant(0.0); K];
+        for i in 0..self.rank {
+            let known = dot(&self.r[i][..i], &y[..i]);
+            y[i] = (c[self.order[i]] - known) / self.r[i][i];
+        }
+        y
+    }
+
+    /// x with A x = Q y for y in the range, x in the order of the columns of A; zero where dependent.
+    pub(super) fn solve(&self, y: &[T; K]) -> [T; C] {
+        let mut y = *y;
+        let mut x = [T::constant(0.0); C];
+        for i in (0..self.rank).rev() {
+            let value = y[i] / self.r[i][i];
+            for (entry, r) in y.iter_mut().zip(&self.r[i]).take(i) {
+                *entry -= *r * value;
+            }
+            x[self.order[i]] = value;
+        }
+        x
+    }
+}
+
+fn reflect<T: Real>(v: &[T], x: &mut [T], k: usize) {
+    let along = dot(&v[k..], &x[k..]);
+    for (entry, v) in x.iter_mut().zip(v).skip(k) {
+        *entry -= *v * along;
+    }
+}
+
+fn dot<T: Real>(a: &[T], b: &[T]) -> T {
+    a.iter().zip(b).fold(T::constant(0.0), |sum, (a, b)| sum + *a * *b)
+}

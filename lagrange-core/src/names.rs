@@ -1,0 +1,84 @@
+//! How entries of a state and rows of the equations are named in messages and tables.
+
+use core::fmt::{self, Display, Formatter};
+
+/// An entry of a state: the time, a coordinate `x`, or its velocity `x_dot` (`r_dot[0]` for an element `r[0]`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Entry {
+    /// The time.
+    Time,
+    /// The generalized coordinate of this name.
+    Coordinate(&'static str),
+    /// The generalized velocity of the coordinate of this name.
+    Velocity(&'static str),
+}
+
+impl Display for Entry {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Time => f.write_str("t"),
+            Self::Coordinate(name) => f.write_str(name),
+            Self::Velocity(name) => {
+                let (base, index) = name.split_at(name.find('[').unwrap_or(name.len()));
+                write!(f, "{base}_dot{index}")
+            }
+        }
+    }
+}
+
+/// A row of the equations of motion: that of a coordinate, or that of a constraint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Row {
+    /// The Euler–Lagrange equation of this coordinate.
+    Coordinate(&'static str),
+    /// This constraint.
+    Constraint(&'static str),
+}
+
+impl Display for Row {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Coordinate(name) => write!(f, "coordinate `{name}`"),
+            Self::Constraint(name) => write!(f, "constraint `{name}`"),
+        }
+    }
+}
+
+/// A few names: the first six, and how many there are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Names {
+    first: [&'static str; 6],
+    count: usize,
+}
+
+impl Names {
+    /// The names listed, at most six.
+    pub fn as_slice(&self) -> &[&'static str] {
+        self.first.get(..self.count).unwrap_or(&self.first)
+    }
+}
+
+impl FromIterator<&'static str> for Names {
+    fn from_iter<I: IntoIterator<Item = &'static str>>(names: I) -> Self {
+        let mut all = Self::default();
+        for name in names {
+            if let Some(slot) = all.first.get_mut(all.count) {
+                *slot = name;
+            }
+            all.count += 1;
+        }
+        all
+    }
+}
+
+impl Display for Names {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        for (i, name) in self.as_slice().iter().enumerate() {
+            write!(f, "{}`{name}`", if i == 0 { "" } else { ", " })?;
+        }
+        match self.count - self.as_slice().len() {
+            0 => Ok(()),
+            more => write!(f, " and {more} more"),
+        }
+    }
+}
