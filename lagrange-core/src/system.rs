@@ -69,7 +69,7 @@ pub trait Lagrangian<const N: usize, const M: usize> {
     ) -> SVector<Self::Scalar, N>;
 
     /// Accelerations and multipliers at once, without a decision: on SIMD lanes nothing can branch, so a system
-    /// that the elimination cannot solve shows in [`Solution::pivot`]. [`solve`](crate::Solve::solve) checks it
+    /// that the elimination cannot solve shows in [`Solution::pivot`]. [`solve`](crate::Simulate::solve) checks it
     /// and falls back to the general solve.
     fn accelerations(&self, state: &State<Self::Scalar, N>) -> Solution<Self::Scalar, N, M>;
 

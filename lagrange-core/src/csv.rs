@@ -1,0 +1,83 @@
+//! Trajectories as comma-separated values.
+
+use core::fmt::{self, Debug, Display, Formatter};
+
+use crate::names::Entry;
+use crate::{Lagrangian, Real, Sample, Scalar, Trajectory};
+
+/// A table of a trajectory, one line a sample: `t`, coordinates `x`, velocities `x_dot`, multipliers
+/// `lambda(no_slip)`, constraint forces `force(x)` and observables.
+///
+/// Numbers are the shortest that read back the same. Where the equations have no solution, what depends on it
+/// is `NaN`.
+pub struct Csv<'t, 'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
+    trajectory: &'t Trajectory<'a, L, N, M>,
+    count: usize,
+}
+
+impl<'t, 'a, L: Lagrangian<N, M>, const N: usize, const M: usize> Csv<'t, 'a, L, N, M> {
+    pub(crate) fn new(trajectory: &'t Trajectory<'a, L, N, M>, count: usize) -> Self {
+        Self { trajectory, count }
+    }
+}
+
+impl<L, const N: usize, const M: usize> Display for Csv<'_, '_, L, N, M>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        header::<L, N, M>(f)?;
+        self.trajectory.samples(self.count).try_for_each(|sample| line(f, &sample))
+    }
+}
+
+impl<L, const N: usize, const M: usize> Debug for Csv<'_, '_, L, N, M>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Csv").field("trajectory", self.trajectory).field("count", &self.count).finish()
+    }
+}
+
+fn header<L, const N: usize, const M: usize>(f: &mut Formatter<'_>) -> fmt::Result
+where
+    L: Lagrangian<N, M>,
+{
+    f.write_str("t")?;
+    L::COORDINATES.iter().try_for_each(|name| write!(f, ",{name}"))?;
+    L::COORDINATES.iter().try_for_each(|name| write!(f, ",{}", Entry::Velocity(name)))?;
+    L::CONSTRAINTS.iter().try_for_each(|name| write!(f, ",lambda({name})"))?;
+    if M > 0 {
+        L::COORDINATES.iter().try_for_each(|name| write!(f, ",force({name})"))?;
+    }
+    L::OBSERVABLES.iter().try_for_each(|name| write!(f, ",{name}"))?;
+    writeln!(f)
+}
+
+fn line<L, const N: usize, const M: usize>(f: &mut Formatter<'_>, sample: &Sample<'_, L, N, M>) -> fmt::Result
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    let (system, state) = (sample.system(), sample.state());
+    let solution = sample.solution().ok();
+    let multipliers = solution.map(|s| s.multipliers);
+    let force = multipliers.map(|lambda| system.constraint_force(state, &lambda));
+    // `Debug` of a number is its shortest form that reads back the same, with an exponent where that is shorter.
+    write!(f, "{:?}", state.t)?;
+    state.q.iter().chain(&state.v).try_for_each(|x| write!(f, ",{x:?}"))?;
+    (0..M).try_for_each(|a| cell(f, multipliers.map(|lambda| lambda[a])))?;
+    if M > 0 {
+        (0..N).try_for_each(|i| cell(f, force.map(|force| force[i])))?;
+    }
+    let observable = |k: usize| solution.as_ref().and_then(|s| system.observable(k, state, s));
+    (0..L::OBSERVABLES.len()).try_for_each(|k| cell(f, observable(k)))?;
+    writeln!(f)
+}
+
+fn cell<T: Scalar>(f: &mut Formatter<'_>, value: Option<T>) -> fmt::Result {
+    match value {
+        Some(value) => write!(f, ",{value:?}"),
+        None => write!(f, ",NaN"),
+    }
+}

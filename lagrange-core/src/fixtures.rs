@@ -1,0 +1,131 @@
+//! Systems for tests, written down by hand.
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::eliminate::{eliminate, vector};
+use crate::{ConstraintKind, Lagrangian, Solution, State};
+
+pub(crate) type At<const N: usize> = State<f64, N>;
+
+/// A system of `N` coordinates `x`, `y`, … and `M` constraints `c0`, `c1`, …, the first `H` holonomic.
+#[derive(Clone, Copy)]
+pub(crate) struct Mechanism<const N: usize, const M: usize, const H: usize> {
+    pub(crate) mass: fn(&At<N>) -> [[f64; N]; N],
+    pub(crate) forcing: fn(&At<N>) -> [f64; N],
+    pub(crate) residual: fn(&At<N>) -> [f64; M],
+    pub(crate) rate: fn(&At<N>) -> [f64; M],
+    pub(crate) jacobian: fn(&At<N>) -> [[f64; N]; M],
+    pub(crate) bias: fn(&At<N>) -> [f64; M],
+}
+
+const fn first<const K: usize>(all: [&'static str; 5]) -> [&'static str; K] {
+    let mut names = [""; K];
+    let mut i = 0;
+    while i < K {
+        names[i] = all[i];
+        i += 1;
+    }
+    names
+}
+
+const fn kinds<const M: usize>(holonomic: usize) -> [ConstraintKind; M] {
+    let mut kinds = [ConstraintKind::Velocity; M];
+    let mut i = 0;
+    while i < holonomic {
+        kinds[i] = ConstraintKind::Holonomic;
+        i += 1;
+    }
+    kinds
+}
+
+impl<const N: usize, const M: usize, const H: usize> Lagrangian<N, M> for Mechanism<N, M, H> {
+    type Scalar = f64;
+    const NAME: &'static str = "Mechanism";
+    const COORDINATES: [&'static str; N] = first(["x", "y", "z", "w[0]", "w[1]"]);
+    const CONSTRAINTS: [&'static str; M] = first(["c0", "c1", "c2", "c3", "c4"]);
+    const CONSTRAINT_KINDS: [ConstraintKind; M] = kinds(H);
+    const OBSERVABLES: &'static [&'static str] = &["kinetic"];
+
+    fn lagrangian(&self, _: &At<N>) -> f64 {
+        0.0
+    }
+
+    fn momentum(&self, state: &At<N>) -> SVector<f64, N> {
+        self.mass_matrix(state) * state.v
+    }
+
+    fn mass_matrix(&self, state: &At<N>) -> SMatrix<f64, N, N> {
+        (self.mass)(state).into()
+    }
+
+    fn forcing(&self, state: &At<N>) -> SVector<f64, N> {
+        vector((self.forcing)(state))
+    }
+
+    fn constraint_residual(&self, state: &At<N>) -> SVector<f64, M> {
+        vector((self.residual)(state))
+    }
+
+    fn constraint_rate(&self, state: &At<N>) -> SVector<f64, M> {
+        vector((self.rate)(state))
+    }
+
+    fn constraint_jacobian(&self, state: &At<N>) -> SMatrix<f64, M, N> {
+        SMatrix::<f64, N, M>::from((self.jacobian)(state)).transpose()
+    }
+
+    fn constraint_bias(&self, state: &At<N>) -> SVector<f64, M> {
+        vector((self.bias)(state))
+    }
+
+    fn constraint_force(&self, state: &At<N>, multipliers: &SVector<f64, M>) -> SVector<f64, N> {
+        self.constraint_jacobian(state).tr_mul(multipliers)
+    }
+
+    fn accelerations(&self, state: &At<N>) -> Solution<f64, N, M> {
+        eliminate((self.mass)(state), (self.forcing)(state), (self.jacobian)(state), (self.bias)(state))
+    }
+
+    fn observable(&self, index: usize, state: &At<N>, _: &Solution<f64, N, M>) -> Option<f64> {
+        (index == 0).then(|| 0.5 * state.v.dot(&self.momentum(state)))
+    }
+}
+
+pub(crate) fn identity<const N: usize>(_: &At<N>) -> [[f64; N]; N] {
+    SMatrix::<f64, N, N>::identity().into()
+}
+
+/// Unconstrained, of unit mass.
+pub(crate) fn free<const N: usize>(forcing: fn(&At<N>) -> [f64; N]) -> Mechanism<N, 0, 0> {
+    Mechanism { mass: identity, forcing, residual: |_| [], rate: |_| [], jacobian: |_| [], bias: |_| [] }
+}
+
+pub(crate) fn oscillator() -> Mechanism<1, 0, 0> {
+    free(|s| [-s.q[0]])
+}
+
+pub(crate) const GRAVITY: f64 = 9.81;
+
+/// Mass 2, radius 0.1, slope 0.3: x along the slope, y the angle; c0: ẋ − a ẏ = 0.
+pub(crate) fn rolling_sphere() -> Mechanism<2, 1, 0> {
+    Mechanism {
+        mass: |_| [[2.0, 0.0], [0.0, 0.4 * 2.0 * 0.1 * 0.1]],
+        forcing: |_| [2.0 * GRAVITY * 0.3_f64.sin(), 0.0],
+        residual: |_| [0.0],
+        rate: |s| [s.v[0] - 0.1 * s.v[1]],
+        jacobian: |_| [[1.0, -0.1]],
+        bias: |_| [0.0],
+    }
+}
+
+/// Length and mass 1; c0: ½(x² + y² + z² − 1) = 0.
+pub(crate) fn spherical_pendulum() -> Mechanism<3, 1, 1> {
+    Mechanism {
+        mass: identity,
+        forcing: |_| [0.0, 0.0, -GRAVITY],
+        residual: |s| [0.5 * (s.q.norm_squared() - 1.0)],
+        rate: |s| [s.q.dot(&s.v)],
+        jacobian: |s| [s.q.into()],
+        bias: |s| [s.v.norm_squared()],
+    }
+}

@@ -1,0 +1,115 @@
+//! The settings of a method with step-size control.
+
+use core::marker::PhantomData;
+
+use super::Limits;
+use crate::Error;
+
+/// An embedded Runge–Kutta pair `P` with its settings.
+///
+/// Each accepted step is projected onto Φ = 0 and F q̇ + b = 0, and nothing else. The error of a step, in the norm
+/// of Hairer, Nørsett and Wanner (*Solving Ordinary Differential Equations I*, II.4), is kept below
+/// `absolute + relative · |x|` of every coordinate and velocity x.
+///
+/// ```
+/// use lagrange_core::Dop853;
+/// let method = Dop853::with_tolerance(1e-12).max_step(0.1).max_steps(1_000_000);
+/// assert_ne!(method, Dop853::default());
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[must_use]
+pub struct Adaptive<P> {
+    pub(super) relative: f64,
+    pub(super) absolute: f64,
+    pub(super) max_step: Option<f64>,
+    pub(super) first_step: Option<f64>,
+    pub(super) fixed_step: Option<f64>,
+    limits: Limits,
+    pair: PhantomData<P>,
+}
+
+/// Relative and absolute tolerance 10⁻⁹, at most 100 000 steps, no limit on wall time.
+impl<P> Default for Adaptive<P> {
+    fn default() -> Self {
+        Self::with_tolerance(1e-9)
+    }
+}
+
+impl<P> Adaptive<P> {
+    /// This relative and absolute tolerance.
+    pub fn with_tolerance(tolerance: f64) -> Self {
+        let limits = Limits {
+            max_steps: 100_000,
+            #[cfg(feature = "std")]
+            wall_time: None,
+        };
+        Self {
+            relative: tolerance,
+            absolute: tolerance,
+            max_step: None,
+            first_step: None,
+            fixed_step: None,
+            limits,
+            pair: PhantomData,
+        }
+    }
+
+    /// The error allowed as a fraction of each entry. Below 16 round-off units of the scalar it counts as those.
+    pub fn relative(self, tolerance: f64) -> Self {
+        Self { relative: tolerance, ..self }
+    }
+
+    /// The error allowed in the unit of each entry, which matters where the entry is about zero.
+    pub fn absolute(self, tolerance: f64) -> Self {
+        Self { absolute: tolerance, ..self }
+    }
+
+    /// How many steps may be tried. Each accepted one stores 5 (`Dopri5`) or 8 (`Dop853`) times 2N numbers, so this
+    /// bounds the memory.
+    pub fn max_steps(mut self, steps: usize) -> Self {
+        self.limits.max_steps = steps;
+        self
+    }
+
+    /// The longest step allowed.
+    pub fn max_step(self, step: f64) -> Self {
+        Self { max_step: Some(step), ..self }
+    }
+
+    /// The first step tried, instead of an estimate.
+    pub fn first_step(self, step: f64) -> Self {
+        Self { first_step: Some(step), ..self }
+    }
+
+    /// All steps of this size (the last may be shorter), whatever the error: to measure orders of convergence.
+    pub fn fixed_step(self, step: f64) -> Self {
+        Self { fixed_step: Some(step), ..self }
+    }
+
+    /// How long the integration may take by the clock on the wall.
+    #[cfg(feature = "std")]
+    pub fn wall_time(mut self, limit: std::time::Duration) -> Self {
+        self.limits.wall_time = Some(limit);
+        self
+    }
+
+    pub(super) fn limits(&self) -> Limits {
+        self.limits
+    }
+
+    /// All settings must be positive and finite.
+    pub(super) fn check(&self) -> Result<(), Error> {
+        let settings = [
+            ("relative tolerance", Some(self.relative)),
+            ("absolute tolerance", Some(self.absolute)),
+            ("longest step", self.max_step),
+            ("first step", self.first_step),
+            ("fixed step", self.fixed_step),
+        ];
+        let wrong = |value: f64| !(value > 0.0 && value.is_finite());
+        match settings.into_iter().find_map(|(name, value)| value.filter(|v| wrong(*v)).map(|v| (name, v))) {
+            None => Ok(()),
+            Some((name, value)) => Err(Error::Setting { name, value }),
+        }
+    }
+}

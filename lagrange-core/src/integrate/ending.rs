@@ -1,0 +1,116 @@
+//! Why an integration stopped.
+
+use core::fmt::{self, Display, Formatter};
+
+use crate::Error;
+use crate::names::{Entry, Row};
+
+/// Why a trajectory ends where it does. Everything up to `time` has been computed and kept.
+#[non_exhaustive]
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ending {
+    /// The end asked for was reached.
+    Complete {
+        /// The end.
+        time: f64,
+    },
+    /// The tolerance demands steps too short to advance the time: a singularity of the motion, or a tolerance
+    /// below the round-off.
+    StepTooSmall {
+        /// The last time reached.
+        time: f64,
+        /// The coordinate or velocity with the largest error.
+        entry: Entry,
+    },
+    /// The equations became singular or contradictory.
+    Singular {
+        /// The last time reached.
+        time: f64,
+        /// The coordinates or constraint at fault: [`Error::Singular`] or [`Error::Contradictory`].
+        error: Error,
+    },
+    /// The equations became infinite or not a number.
+    NotFinite {
+        /// The last time reached.
+        time: f64,
+        /// The row at fault.
+        row: Row,
+    },
+    /// No state on the constraints was found.
+    OffConstraints {
+        /// The last time reached.
+        time: f64,
+        /// The constraint at fault: [`Error::NotProjected`].
+        error: Error,
+    },
+    /// The limit on steps.
+    StepLimit {
+        /// The last time reached.
+        time: f64,
+        /// Steps tried.
+        steps: usize,
+    },
+    /// The limit on time by the clock on the wall.
+    WallTimeLimit {
+        /// The last time reached.
+        time: f64,
+    },
+    /// The callback said so.
+    Cancelled {
+        /// The last time reached.
+        time: f64,
+    },
+}
+
+impl Ending {
+    /// The last time reached.
+    pub fn time(&self) -> f64 {
+        match *self {
+            Self::Complete { time }
+            | Self::StepTooSmall { time, .. }
+            | Self::Singular { time, .. }
+            | Self::NotFinite { time, .. }
+            | Self::OffConstraints { time, .. }
+            | Self::StepLimit { time, .. }
+            | Self::WallTimeLimit { time }
+            | Self::Cancelled { time } => time,
+        }
+    }
+
+    /// Whether the end asked for was reached.
+    pub fn is_complete(&self) -> bool {
+        matches!(self, Self::Complete { .. })
+    }
+
+    /// The ending of an integration that an error stopped after `time`.
+    pub(crate) fn of(error: Error, time: f64) -> Self {
+        match error {
+            Error::EquationsNotFinite { row, .. } => Self::NotFinite { time, row },
+            Error::NotProjected { .. } => Self::OffConstraints { time, error },
+            _ => Self::Singular { time, error },
+        }
+    }
+}
+
+impl Display for Ending {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Complete { time } => write!(f, "reached the end at t = {time}"),
+            Self::StepTooSmall { time, entry } => write!(
+                f,
+                "stopped at t = {time}: the error of `{entry}` demands a step too small to advance the time"
+            ),
+            Self::Singular { time, error } | Self::OffConstraints { time, error } => {
+                write!(f, "stopped at t = {time}: {error}")
+            }
+            Self::NotFinite { time, row } => {
+                write!(f, "stopped at t = {time}: the equations are not finite in the row of {row}")
+            }
+            Self::StepLimit { time, steps } => {
+                write!(f, "stopped at t = {time} after {steps} steps, the limit; raise it with `max_steps`")
+            }
+            Self::WallTimeLimit { time } => write!(f, "stopped at t = {time} by the limit on wall time"),
+            Self::Cancelled { time } => write!(f, "cancelled at t = {time}"),
+        }
+    }
+}

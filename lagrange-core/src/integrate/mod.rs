@@ -1,0 +1,207 @@
+//! The loop from the first step to the ending, the same for every method.
+
+mod adaptive;
+mod dop853;
+mod dopri5;
+mod ending;
+mod pair;
+#[cfg(test)]
+mod tests;
+
+use core::ops::ControlFlow;
+
+use nalgebra::ComplexField;
+
+pub use adaptive::Adaptive;
+pub use dop853::{Dop853, DormandPrince853};
+pub use dopri5::{Dopri5, DormandPrince54};
+pub use ending::Ending;
+pub use pair::{Pair, Row};
+
+use crate::solve::solve;
+use crate::trajectory::Path;
+use crate::{Adjustment, Error, Lagrangian, Real, State, Trajectory, consistent};
+
+/// Coordinates and velocities as arrays: what a one-step method adds up.
+pub type Phase<T, const N: usize> = [[T; N]; 2];
+
+/// A way to step from one state to the next; a value, whose type says by its bounds where it applies.
+///
+/// [`drive`](crate::Simulate::integrate) checks the start, loops, stores and ends; a method proposes steps.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a method that integrates `{L}`",
+    note = "use `Dop853::default()` or `Dopri5::default()`; the system must be over `f64` or `f32`"
+)]
+pub trait Method<L, const N: usize, const M: usize>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    /// What is carried from step to step, working arrays included.
+    type Memory;
+
+    /// When to give up.
+    fn limits(&self) -> Limits;
+
+    /// Checks the settings and prepares the first step from a consistent state.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for a setting that cannot work, and what evaluating the equations gives.
+    fn begin(
+        &self,
+        system: &L,
+        start: &State<L::Scalar, N>,
+        end: L::Scalar,
+        statistics: &mut Statistics,
+    ) -> Result<Self::Memory, Error>;
+
+    /// Tries one step. It never passes the end, and reaches it exactly.
+    fn step<'m>(
+        &self,
+        system: &L,
+        memory: &'m mut Self::Memory,
+        statistics: &mut Statistics,
+    ) -> Step<'m, L::Scalar, N>;
+}
+
+/// What became of a step.
+#[derive(Debug)]
+pub enum Step<'m, T, const N: usize> {
+    /// A new state on the constraints.
+    Accepted {
+        /// The state.
+        state: State<T, N>,
+        /// Coefficients r₀, r₁, … (as many in every step) of the interpolant
+        /// r₀ + θ(r₁ + (1−θ)(r₂ + θ(r₃ + (1−θ)(…)))), θ from 0 to 1 over the step
+        /// (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.6).
+        interpolant: &'m [Phase<T, N>],
+    },
+    /// Too long; the next attempt is shorter.
+    Rejected,
+    /// No step is short enough, or none will do.
+    Failed(Ending),
+}
+
+/// When an integration gives up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Attempted steps, rejected ones included.
+    pub max_steps: usize,
+    /// Time by the clock on the wall.
+    #[cfg(feature = "std")]
+    pub wall_time: Option<std::time::Duration>,
+}
+
+/// What an integration took.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Statistics {
+    /// Steps taken.
+    pub accepted: usize,
+    /// Steps tried and repeated shorter.
+    pub rejected: usize,
+    /// Evaluations of the equations of motion.
+    pub evaluations: usize,
+    /// Whether the constraints were independent in every evaluation.
+    pub multipliers_are_unique: bool,
+}
+
+/// How far an integration has come.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// The time of the start.
+    pub start: f64,
+    /// The time reached.
+    pub time: f64,
+    /// The time of the end.
+    pub end: f64,
+    /// Steps taken.
+    pub steps: usize,
+}
+
+/// See [`Simulate::integrate_with`](crate::Simulate::integrate_with).
+pub(crate) fn drive<'a, L, P, const N: usize, const M: usize>(
+    system: &'a L,
+    state: State<L::Scalar, N>,
+    end: L::Scalar,
+    method: &P,
+    mut watch: impl FnMut(Progress) -> ControlFlow<()>,
+) -> Result<Trajectory<'a, L, N, M>, Error>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    P: Method<L, N, M>,
+{
+    let (start, adjustment) = check_start(system, &state, end)?;
+    let mut statistics =
+        Statistics { accepted: 0, rejected: 0, evaluations: 0, multipliers_are_unique: true };
+    let mut memory = method.begin(system, &start, end, &mut statistics)?;
+    let mut path = Path::from(start);
+    let limits = Watchdog::new(method.limits());
+    let ending = loop {
+        let state = path.last();
+        if state.t >= end {
+            break Ending::Complete { time: state.t.to_f64() };
+        }
+        if let Some(ending) = limits.exceeded(&statistics, state.t.to_f64()) {
+            break ending;
+        }
+        match method.step(system, &mut memory, &mut statistics) {
+            Step::Accepted { state, interpolant } => {
+                statistics.accepted += 1;
+                path.push(state, interpolant);
+                let (start, time, end) = (start.t.to_f64(), state.t.to_f64(), end.to_f64());
+                if watch(Progress { start, time, end, steps: statistics.accepted }).is_break() {
+                    break Ending::Cancelled { time };
+                }
+            }
+            Step::Rejected => statistics.rejected += 1,
+            Step::Failed(ending) => break ending,
+        }
+    };
+    Ok(Trajectory::new(system, path, ending, statistics, adjustment))
+}
+
+type Start<T, const N: usize> = (State<T, N>, Adjustment<T, N>);
+
+/// The start made consistent to round-off, where that is all it lacks.
+fn check_start<L, const N: usize, const M: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+    end: L::Scalar,
+) -> Result<Start<L::Scalar, N>, Error>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    if !end.is_finite() || end < state.t {
+        return Err(Error::EndTime { start: state.t.to_f64(), end: end.to_f64() });
+    }
+    solve(system, state)?;
+    consistent::check(system, state)?;
+    consistent::make_consistent(system, state)
+}
+
+struct Watchdog {
+    limits: Limits,
+    #[cfg(feature = "std")]
+    started: std::time::Instant,
+}
+
+impl Watchdog {
+    fn new(limits: Limits) -> Self {
+        Self {
+            limits,
+            #[cfg(feature = "std")]
+            started: std::time::Instant::now(),
+        }
+    }
+
+    fn exceeded(&self, statistics: &Statistics, time: f64) -> Option<Ending> {
+        let steps = statistics.accepted + statistics.rejected;
+        if steps >= self.limits.max_steps {
+            return Some(Ending::StepLimit { time, steps });
+        }
+        #[cfg(feature = "std")]
+        if self.limits.wall_time.is_some_and(|limit| self.started.elapsed() >= limit) {
+            return Some(Ending::WallTimeLimit { time });
+        }
+        None
+    }
+}

@@ -1,0 +1,114 @@
+//! One state of a motion, by names.
+
+use core::fmt::{self, Debug, Formatter};
+
+use crate::lookup::index;
+use crate::solve::solve;
+use crate::{Error, Lagrangian, Real, Solution, State};
+
+/// A state of a system with what follows from it. Quantities are looked up by name;
+/// [`state`](Self::state) and [`solution`](Self::solution) hold them by index.
+pub struct Sample<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
+    system: &'a L,
+    state: State<L::Scalar, N>,
+}
+
+impl<'a, L, const N: usize, const M: usize> Sample<'a, L, N, M>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    pub(crate) fn new(system: &'a L, state: State<L::Scalar, N>) -> Self {
+        Self { system, state }
+    }
+
+    /// Time, coordinates and velocities.
+    pub fn state(&self) -> &State<L::Scalar, N> {
+        &self.state
+    }
+
+    /// The time.
+    pub fn time(&self) -> L::Scalar {
+        self.state.t
+    }
+
+    /// Accelerations and multipliers, solved for at this state.
+    ///
+    /// # Errors
+    /// As [`Simulate::solve`](crate::Simulate::solve).
+    pub fn solution(&self) -> Result<Solution<L::Scalar, N, M>, Error> {
+        solve(self.system, &self.state)
+    }
+
+    /// The generalized coordinate of this name.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`].
+    pub fn coordinate(&self, name: &str) -> Result<L::Scalar, Error> {
+        Ok(self.state.q[coordinate::<L, N, M>(name)?])
+    }
+
+    /// The generalized velocity of the coordinate of this name.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`].
+    pub fn velocity(&self, name: &str) -> Result<L::Scalar, Error> {
+        Ok(self.state.v[coordinate::<L, N, M>(name)?])
+    }
+
+    /// The generalized acceleration of the coordinate of this name.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
+    pub fn acceleration(&self, name: &str) -> Result<L::Scalar, Error> {
+        let index = coordinate::<L, N, M>(name)?;
+        Ok(self.solution()?.accelerations[index])
+    }
+
+    /// The multiplier λ of the constraint of this name.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
+    pub fn multiplier(&self, name: &str) -> Result<L::Scalar, Error> {
+        let index = index(&L::CONSTRAINTS, "constraint", name)?;
+        Ok(self.solution()?.multipliers[index])
+    }
+
+    /// The generalized constraint force Σ_α λ_α F_αa on the coordinate of this name, Milton (8.7).
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
+    pub fn constraint_force(&self, name: &str) -> Result<L::Scalar, Error> {
+        let index = coordinate::<L, N, M>(name)?;
+        Ok(self.system.constraint_force(&self.state, &self.solution()?.multipliers)[index])
+    }
+
+    /// The observable of this name.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
+    pub fn observable(&self, name: &str) -> Result<L::Scalar, Error> {
+        let index = index(L::OBSERVABLES, "observable", name)?;
+        let value = self.system.observable(index, &self.state, &self.solution()?);
+        value.ok_or_else(|| Error::UnknownName { name: name.into(), kind: "observable", known: [].into() })
+    }
+
+    pub(crate) fn system(&self) -> &'a L {
+        self.system
+    }
+}
+
+fn coordinate<L, const N: usize, const M: usize>(name: &str) -> Result<usize, Error>
+where
+    L: Lagrangian<N, M>,
+{
+    index(&L::COORDINATES, "coordinate", name)
+}
+
+impl<L, const N: usize, const M: usize> Debug for Sample<'_, L, N, M>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Sample").field("system", &L::NAME).field("state", &self.state).finish()
+    }
+}

@@ -1,0 +1,122 @@
+//! What a program does with a system.
+
+#[cfg(feature = "alloc")]
+use core::ops::ControlFlow;
+
+use nalgebra::ComplexField;
+
+use crate::names::Entry;
+use crate::solve::solve;
+use crate::{Adjustment, Error, Lagrangian, Real, Solution, State, consistent};
+#[cfg(feature = "alloc")]
+use crate::{Method, Progress, Scalar, Trajectory, integrate, lookup};
+
+/// Solving, integrating and setting up a system: every [`Lagrangian`] over `f64` or `f32` has it.
+pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Real> + Sized {
+    /// Accelerations and multipliers at a state.
+    ///
+    /// Those of [`accelerations`](Lagrangian::accelerations) where its smallest pivot exceeds ε^(1/3) (6·10⁻⁶ for
+    /// `f64`), which costs at most a third of the digits. Else the general solve by null space, which copes with a
+    /// mass matrix that is singular or indefinite and with constraints that depend on one another;
+    /// [`Solution::multipliers_are_unique`] tells the latter.
+    ///
+    /// # Errors
+    /// [`Error::EquationsNotFinite`], [`Error::Singular`] where nothing determines some acceleration, and
+    /// [`Error::Contradictory`] where dependent constraints demand different accelerations; each names the
+    /// coordinates or the constraint.
+    fn solve(&self, state: &State<Self::Scalar, N>) -> Result<Solution<Self::Scalar, N, M>, Error> {
+        solve(self, state)
+    }
+
+    /// Whether the state satisfies the constraints, to √ε of the size of their terms (1.5·10⁻⁸ for `f64`).
+    ///
+    /// # Errors
+    /// [`Error::Inconsistent`], with the first constraint that it violates.
+    fn check_consistent(&self, state: &State<Self::Scalar, N>) -> Result<(), Error> {
+        consistent::check(self, state)
+    }
+
+    /// The nearest state on the constraints, and how far it is from the one given.
+    ///
+    /// First the coordinates move onto Φ = 0 of the holonomic constraints, then the velocities onto
+    /// F q̇ + b = 0 of all; near is meant in the metric of the mass matrix.
+    ///
+    /// # Errors
+    /// [`Error::StateNotFinite`], and [`Error::NotProjected`] where Newton's iteration does not get there.
+    fn make_consistent(
+        &self,
+        state: &State<Self::Scalar, N>,
+    ) -> Result<(State<Self::Scalar, N>, Adjustment<Self::Scalar, N>), Error> {
+        check_finite(self, state)?;
+        consistent::make_consistent(self, state)
+    }
+
+    /// The motion from a state to the time `end`, by the method named.
+    ///
+    /// The state must pass [`check_consistent`](Self::check_consistent); what is left is projected away, and [`Trajectory::adjustment`] tells how far that moved it.
+    ///
+    /// # Errors
+    /// What is wrong before the first step: entries, equations, settings or times that are not finite or not
+    /// positive, a state off the constraints ([`make_consistent`](Self::make_consistent) helps), singular or
+    /// contradictory equations. What stops the motion later is the [`ending`](Trajectory::ending) of the trajectory.
+    #[cfg(feature = "alloc")]
+    fn integrate<P: Method<Self, N, M>>(
+        &self,
+        state: State<Self::Scalar, N>,
+        end: Self::Scalar,
+        method: P,
+    ) -> Result<Trajectory<'_, Self, N, M>, Error> {
+        self.integrate_with(state, end, method, |_| ControlFlow::Continue(()))
+    }
+
+    /// The same, with a look at the progress after every step; `ControlFlow::Break` cancels, and what has been
+    /// computed so far is kept.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate).
+    #[cfg(feature = "alloc")]
+    fn integrate_with<P: Method<Self, N, M>>(
+        &self,
+        state: State<Self::Scalar, N>,
+        end: Self::Scalar,
+        method: P,
+        watch: impl FnMut(Progress) -> ControlFlow<()>,
+    ) -> Result<Trajectory<'_, Self, N, M>, Error> {
+        check_finite(self, &state)?;
+        integrate::drive(self, state, end, &method, watch)
+    }
+
+    /// A state at t = 0 from names: `x` a coordinate, `x_dot` its velocity, `r[0]` and `r_dot[0]` those of a vector;
+    /// what is not named is zero.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`], which lists the names, and [`Error::RepeatedName`].
+    #[cfg(feature = "alloc")]
+    fn state_from(&self, entries: &[(&str, Self::Scalar)]) -> Result<State<Self::Scalar, N>, Error> {
+        let mut state = State::at_rest([Self::Scalar::constant(0.0); N]);
+        for (i, (name, value)) in entries.iter().enumerate() {
+            if entries.iter().take(i).any(|(earlier, _)| earlier == name) {
+                return Err(Error::RepeatedName { name: (*name).into() });
+            }
+            let (half, index) = lookup::entry(&Self::COORDINATES, name)?;
+            let half = if half == 0 { &mut state.q } else { &mut state.v };
+            half[index] = *value;
+        }
+        Ok(state)
+    }
+}
+
+impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Simulate<N, M> for L {}
+
+fn check_finite<L, const N: usize, const M: usize>(_: &L, state: &State<L::Scalar, N>) -> Result<(), Error>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    let q = L::COORDINATES.iter().zip(&state.q).map(|(name, x)| (Entry::Coordinate(name), *x));
+    let v = L::COORDINATES.iter().zip(&state.v).map(|(name, x)| (Entry::Velocity(name), *x));
+    let mut entries = core::iter::once((Entry::Time, state.t)).chain(q).chain(v);
+    match entries.find(|(_, x)| !x.is_finite()) {
+        None => Ok(()),
+        Some((entry, x)) => Err(Error::StateNotFinite { entry, value: x.to_f64() }),
+    }
+}
