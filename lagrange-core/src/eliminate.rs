@@ -117,7 +117,7 @@ impl<T: Scalar, const K: usize> Factors<T, K> {
 /// `x`, or NaN where `y` is not finite: a minimum drops NaN, and 0/0 must not pass for a good pivot.
 #[inline]
 fn poison<T: Scalar>(x: T, y: T) -> T {
-    x + (y - y)
+    x + y * T::constant(0.0)
 }
 
 #[inline]

@@ -1,5 +1,7 @@
 //! Lagrangian mechanics from a struct.
 #![cfg_attr(not(feature = "std"), no_std)]
+// Algorithms on matrices read best with indices.
+#![allow(clippy::needless_range_loop)]
 
 // Generated code names this crate `::lagrange_core`, also inside it.
 #[cfg(feature = "alloc")]
@@ -19,6 +21,7 @@ mod kkt;
 #[cfg(feature = "alloc")]
 mod lookup;
 mod names;
+mod numeric;
 pub mod prelude;
 #[cfg(feature = "alloc")]
 mod sample;
@@ -30,7 +33,7 @@ mod system;
 #[cfg(feature = "alloc")]
 mod trajectory;
 
-pub use consistent::Adjustment;
+pub use consistent::{Adjustment, Consistent};
 #[cfg(feature = "alloc")]
 pub use csv::Csv;
 pub use error::Error;

@@ -44,15 +44,15 @@ impl Display for Row {
     }
 }
 
-/// A few names: the first six, and how many there are.
+/// A few names: the first four, and how many there are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Names {
-    first: [&'static str; 6],
+    first: [&'static str; 4],
     count: usize,
 }
 
 impl Names {
-    /// The names listed, at most six.
+    /// The names listed, at most four.
     pub fn as_slice(&self) -> &[&'static str] {
         self.first.get(..self.count).unwrap_or(&self.first)
     }

@@ -99,7 +99,7 @@ pub trait Real: Scalar + RealField + PartialOrd + Display {
 
 #[cfg(any(feature = "std", feature = "libm"))]
 impl Real for f64 {
-    const EPSILON: f64 = Self::EPSILON;
+    const EPSILON: Self = Self::EPSILON;
 
     #[inline(always)]
     fn to_f64(self) -> f64 {

@@ -7,7 +7,7 @@ use nalgebra::ComplexField;
 
 use crate::names::Entry;
 use crate::solve::solve;
-use crate::{Adjustment, Error, Lagrangian, Real, Solution, State, consistent};
+use crate::{Consistent, Error, Lagrangian, Real, Solution, State, consistent};
 #[cfg(feature = "alloc")]
 use crate::{Method, Progress, Scalar, Trajectory, integrate, lookup};
 
@@ -43,10 +43,7 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     ///
     /// # Errors
     /// [`Error::StateNotFinite`], and [`Error::NotProjected`] where Newton's iteration does not get there.
-    fn make_consistent(
-        &self,
-        state: &State<Self::Scalar, N>,
-    ) -> Result<(State<Self::Scalar, N>, Adjustment<Self::Scalar, N>), Error> {
+    fn make_consistent(&self, state: &State<Self::Scalar, N>) -> Result<Consistent<Self::Scalar, N>, Error> {
         check_finite(self, state)?;
         consistent::make_consistent(self, state)
     }

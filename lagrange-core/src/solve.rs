@@ -2,8 +2,9 @@
 
 use nalgebra::ComplexField;
 
-use crate::kkt::{self, Contradictions, Equations, Fault, larger, power_of_epsilon};
+use crate::kkt::{self, Contradictions, Equations, Fault};
 use crate::names::Row;
+use crate::numeric::{larger, power_of_epsilon};
 use crate::{Error, Lagrangian, Names, Real, Scalar, Solution, State};
 
 /// See [`Simulate::solve`](crate::Simulate::solve).

@@ -1,10 +1,12 @@
 //! The loop from the first step to the ending, the same for every method.
 
 mod adaptive;
+mod control;
 mod dop853;
 mod dopri5;
 mod ending;
 mod pair;
+mod step;
 #[cfg(test)]
 mod tests;
 
@@ -18,9 +20,10 @@ pub use dopri5::{Dopri5, DormandPrince54};
 pub use ending::Ending;
 pub use pair::{Pair, Row};
 
+use crate::consistent::Consistent;
 use crate::solve::solve;
 use crate::trajectory::Path;
-use crate::{Adjustment, Error, Lagrangian, Real, State, Trajectory, consistent};
+use crate::{Error, Lagrangian, Real, State, Trajectory, consistent};
 
 /// Coordinates and velocities as arrays: what a one-step method adds up.
 pub type Phase<T, const N: usize> = [[T; N]; 2];
@@ -159,14 +162,12 @@ where
     Ok(Trajectory::new(system, path, ending, statistics, adjustment))
 }
 
-type Start<T, const N: usize> = (State<T, N>, Adjustment<T, N>);
-
 /// The start made consistent to round-off, where that is all it lacks.
 fn check_start<L, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
     end: L::Scalar,
-) -> Result<Start<L::Scalar, N>, Error>
+) -> Result<Consistent<L::Scalar, N>, Error>
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {

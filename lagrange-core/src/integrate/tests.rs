@@ -1,4 +1,7 @@
-use crate::fixtures::{GRAVITY, Mechanism, oscillator, rolling_sphere, spherical_pendulum};
+use core::ops::ControlFlow;
+use std::time::Duration;
+
+use crate::fixtures::{GRAVITY, Mechanism, free, oscillator, rolling_sphere, spherical_pendulum};
 use crate::prelude::*;
 
 type Pendulum = Mechanism<3, 1, 1>;
@@ -63,7 +66,6 @@ fn swing(method: impl Method<Pendulum, 3, 1> + Copy, bound: f64) {
         let (at_steps, between) =
             (off_constraints(&pendulum, path.steps()), off_constraints(&pendulum, path.samples(20_001)));
         let (energy, moment) = drift(&path);
-        std::eprintln!("{:?}: {at_steps:e} {between:e} {energy:e} {moment:e}", path.statistics());
         assert!(at_steps < 1e-12, "{at_steps:e} off at the steps");
         assert!(between < 1e-9, "{between:e} off between the steps");
         assert!(energy < bound && moment < bound, "energy drifts by {energy:e}, momentum by {moment:e}");
@@ -82,7 +84,7 @@ fn dopri5_keeps_a_spherical_pendulum_on_its_sphere() {
 }
 
 /// Slopes of log error over log step, of the end and of the interpolant in between, over five halvings.
-fn slopes<P: Copy>(method: impl Fn(f64) -> P, first: f64) -> (f64, f64)
+fn slopes<P>(method: impl Fn(f64) -> P, first: f64) -> (f64, f64)
 where
     P: Method<Mechanism<1, 0, 0>, 1, 0>,
 {
@@ -102,9 +104,162 @@ where
 #[test]
 fn the_orders_of_convergence_are_five_and_eight() {
     let (end, between) = slopes(|h| Dopri5::default().fixed_step(h), 0.5);
-    std::eprintln!("{end} {between}");
     assert!(end >= 4.9 && between >= 4.5, "{end}, {between}");
     let (end, between) = slopes(|h| Dop853::default().fixed_step(h), 2.0);
-    std::eprintln!("{end} {between}");
     assert!(end >= 7.7 && between >= 7.5, "{end}, {between}");
+}
+
+#[test]
+fn the_continuous_extension_meets_the_steps() {
+    let pendulum = spherical_pendulum();
+    let path = pendulum.integrate(starts()[0], 5.0, Dop853::with_tolerance(1e-6)).unwrap();
+    for step in path.steps() {
+        let (state, t) = (step.state(), step.time());
+        assert_eq!(path.at(t).unwrap().state(), state);
+        for near in [t - 1e-13, t + 1e-13] {
+            if let Ok(sample) = path.at(near) {
+                assert!((sample.state().q - state.q).norm() < 1e-11);
+                assert!((sample.state().v - state.v).norm() < 1e-11);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_derivative_of_the_continuous_extension_is_the_velocity() {
+    let system = oscillator();
+    let path = system.integrate(State::new([1.0], [0.0]), 10.0, Dop853::with_tolerance(1e-10)).unwrap();
+    for i in 1..100 {
+        let (t, h) = (0.0999 * f64::from(i), 1e-4);
+        let x = |t| path.at(t).unwrap().coordinate("x").unwrap();
+        let slope = (x(t + h) - x(t - h)) / (2.0 * h);
+        assert!((slope - path.at(t).unwrap().velocity("x").unwrap()).abs() < 1e-7);
+    }
+}
+
+#[test]
+fn the_error_follows_the_tolerance() {
+    let error = |tolerance: f64| {
+        let system = oscillator();
+        let path =
+            system.integrate(State::new([1.0], [0.0]), 20.0, Dop853::with_tolerance(tolerance)).unwrap();
+        (path.end().coordinate("x").unwrap() - 20.0_f64.cos()).abs()
+    };
+    assert!(error(1e-4) < 1e-3 && error(1e-8) < 1e-7 && error(1e-12) < 1e-11);
+    assert!(error(1e-4) > error(1e-12));
+}
+
+#[test]
+fn a_blow_up_ends_with_the_coordinate_named() {
+    // x = 1/(1 − t)².
+    let system = free::<1>(|s| [6.0 * s.q[0] * s.q[0]]);
+    for path in [
+        system.integrate(State::new([1.0], [2.0]), 3.0, Dop853::default()).unwrap(),
+        system.integrate(State::new([1.0], [2.0]), 3.0, Dopri5::default()).unwrap(),
+    ] {
+        assert!(!path.ending().is_complete());
+        assert!((path.ending().time() - 1.0).abs() < 1e-6, "{}", path.ending());
+        assert!(std::format!("{}", path.ending()).contains("`x"), "{}", path.ending());
+        let half = path.at(0.5).unwrap().coordinate("x").unwrap();
+        assert!((half - 4.0).abs() < 1e-6, "what was computed before is kept: {half}");
+    }
+}
+
+#[test]
+fn equations_that_become_undefined_end_the_motion() {
+    // A fall from 1 to 0 with force −1/√x, which is not a number below 0.
+    let system = free::<1>(|s| [-1.0 / s.q[0].sqrt()]);
+    let path = system.integrate(State::new([1.0], [-1.0]), 3.0, Dop853::default()).unwrap();
+    assert!(!path.ending().is_complete(), "{}", path.ending());
+    let end = path.end().coordinate("x").unwrap();
+    assert!((0.0..1e-3).contains(&end), "{end}");
+    let message = std::format!("{}", path.ending());
+    assert!(message.contains("`x"), "{message}");
+}
+
+#[test]
+fn a_mass_that_vanishes_ends_the_motion() {
+    let system = Mechanism { mass: |s| [[if s.t < 0.5 { 1.0 } else { 0.0 }]], ..free(|_| [0.0]) };
+    let path = system.integrate(State::new([1.0], [1.0]), 1.0, Dopri5::default()).unwrap();
+    let Ending::Singular { time, error: Error::Singular { coordinates, .. } } = path.ending() else {
+        panic!("{}", path.ending());
+    };
+    assert_eq!(coordinates.as_slice(), ["x"]);
+    assert!((time - 0.5).abs() < 1e-12 && path.at(0.4).is_ok());
+}
+
+#[test]
+fn constraints_that_part_end_the_motion() {
+    // x = 0 on the circle of radius 1 − t, which is gone after t = 1.
+    let system = Mechanism::<2, 1, 1> {
+        mass: crate::fixtures::identity,
+        forcing: |_| [0.0; 2],
+        residual: |s| [0.5 * (s.q.norm_squared() - 1.0 + s.t)],
+        rate: |s| [s.q.dot(&s.v) + 0.5],
+        jacobian: |s| [s.q.into()],
+        bias: |s| [s.v.norm_squared()],
+    };
+    let path = system.integrate(State::new([1.0, 0.0], [-0.5, 0.0]), 2.0, Dop853::default()).unwrap();
+    assert!(!path.ending().is_complete());
+    assert!((path.end().time() - 1.0).abs() < 1e-6, "{}", path.ending());
+}
+
+#[test]
+fn limits_end_the_motion_and_keep_it() {
+    let system = oscillator();
+    let start = State::new([1.0], [0.0]);
+    let path = system.integrate(start, 1e6, Dopri5::default().max_steps(50)).unwrap();
+    assert!(matches!(path.ending(), Ending::StepLimit { steps: 50, .. }), "{}", path.ending());
+    assert!(path.end().time() > 0.5 && path.steps().count() == path.statistics().accepted + 1);
+    let method = Dopri5::default().wall_time(Duration::from_millis(20)).max_steps(usize::MAX);
+    let path = system.integrate(start, 1e9, method).unwrap();
+    assert!(matches!(path.ending(), Ending::WallTimeLimit { .. }), "{}", path.ending());
+    let mut seen = 0;
+    let watch = |progress: Progress| {
+        seen += 1;
+        assert_eq!(progress.steps, seen);
+        if progress.time > 2.0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    let path = system.integrate_with(start, 10.0, Dop853::default(), watch).unwrap();
+    assert!(matches!(path.ending(), Ending::Cancelled { time } if *time > 2.0 && *time < 10.0));
+    let longest = 0.01;
+    let path = system.integrate(start, 1.0, Dop853::default().max_step(longest).first_step(1e-3)).unwrap();
+    let times: std::vec::Vec<_> = path.steps().map(|s| s.time()).collect();
+    assert!(times.windows(2).all(|t| t[1] - t[0] <= longest * 1.011) && times[1] == 1e-3);
+}
+
+#[test]
+fn wrong_settings_are_refused() {
+    let system = oscillator();
+    let start = State::new([1.0], [0.0]);
+    for method in [
+        Dop853::with_tolerance(0.0),
+        Dop853::default().relative(-1.0),
+        Dop853::default().absolute(f64::NAN),
+        Dop853::default().max_step(0.0),
+        Dop853::default().first_step(f64::INFINITY),
+        Dop853::default().fixed_step(-0.1),
+    ] {
+        let error = system.integrate(start, 1.0, method).unwrap_err();
+        assert!(matches!(error, Error::Setting { .. }), "{error}");
+    }
+    let error = system.integrate(start, 1.0, Dopri5::with_tolerance(-1.0)).unwrap_err();
+    assert_eq!(std::format!("{error}"), "the relative tolerance is -1: it must be positive and finite");
+    for end in [-1.0, f64::NAN, f64::INFINITY] {
+        let error = system.integrate(start, end, Dop853::default()).unwrap_err();
+        assert!(matches!(error, Error::EndTime { start: 0.0, .. }), "{error}");
+    }
+    let error = system.integrate(State::new([1.0], [f64::NAN]), 1.0, Dop853::default()).unwrap_err();
+    assert!(std::format!("{error}").starts_with("`x_dot` is NaN"), "{error}");
+    let error = system.integrate(start.at_time(f64::NAN), 1.0, Dop853::default()).unwrap_err();
+    assert!(std::format!("{error}").starts_with("`t` is NaN"), "{error}");
+}
+
+#[test]
+fn a_motion_of_no_length_is_its_start() {
+    let system = oscillator();
+    let path = system.integrate(State::new([1.0], [2.0]), 0.0, Dop853::default()).unwrap();
+    assert!(path.ending().is_complete() && path.steps().count() == 1);
+    assert_eq!(path.end().velocity("x"), Ok(2.0));
+    assert_eq!(path.samples(3).count(), 3);
 }

@@ -7,10 +7,13 @@
 
 mod qr;
 mod symmetric;
+#[cfg(test)]
+mod tests;
 
 use core::array::from_fn;
 
 use crate::eliminate::vector;
+use crate::numeric::{larger, power_of_epsilon, smaller};
 use crate::{Real, Scalar, Solution};
 use qr::Qr;
 use symmetric::Symmetric;
@@ -58,14 +61,14 @@ pub(crate) fn solve<T: Real, const N: usize, const M: usize>(
         check_agreement(&split, &scaled, &fixed)?;
     }
     let mut h = scaled.h;
-    split.to_range(&mut h);
+    split.enter_basis(&mut h);
     let m = in_range_basis(&split, scaled.m);
     let (free, pivot) = free_accelerations(&split, &m, &h, &fixed)?;
 
     let mut q = from_fn(|i| fixed[i] + free[i]);
     let force = from_fn(|i| if i < split.rank { dot(&m[i], &q) - h[i] } else { T::constant(0.0) });
     let lambda = multipliers(&split, &scaled.length, &force);
-    split.from_range(&mut q);
+    split.leave_basis(&mut q);
     Ok(Solution {
         accelerations: vector(from_fn(|i| q[i] * unit[i])),
         multipliers: vector(lambda),
@@ -146,11 +149,11 @@ fn in_range_basis<T: Real, const N: usize, const M: usize>(
     mut m: [[T; N]; N],
 ) -> [[T; N]; N] {
     for row in &mut m {
-        split.to_range(row);
+        split.enter_basis(row);
     }
     let mut transposed = from_fn(|i| from_fn(|j| m[j][i]));
     for row in &mut transposed {
-        split.to_range(row);
+        split.enter_basis(row);
     }
     transposed
 }
@@ -187,7 +190,7 @@ fn undetermined<T: Real, const N: usize, const M: usize>(
     for index in 0..size - factors.rank {
         let y = factors.null_vector(index);
         let mut x = from_fn(|i| if i < split.rank { zero } else { y[i - split.rank] });
-        split.from_range(&mut x);
+        split.leave_basis(&mut x);
         share = from_fn(|i| larger(share[i], Scalar::abs(x[i])));
     }
     share
@@ -213,17 +216,12 @@ fn multipliers<T: Real, const N: usize, const M: usize>(
     }
     let wide = Qr::of(transposed, zero);
     let mut lambda = wide.solve_transposed(force);
-    wide.from_range(&mut lambda);
+    wide.leave_basis(&mut lambda);
     lambda
 }
 
 fn smallest_diagonal<T: Real, const N: usize, const M: usize>(split: &Qr<T, N, M>) -> T {
     (0..split.rank).fold(T::constant(1.0), |least, i| smaller(least, Scalar::abs(split.entry(i, i))))
-}
-
-/// ε to this power, ε the round-off unit of `T`.
-pub(crate) fn power_of_epsilon<T: Real>(exponent: f64) -> T {
-    Scalar::powf(T::constant(T::EPSILON), T::constant(exponent))
 }
 
 fn row_length<T: Real, const N: usize>(row: &[T; N], unit: &[T; N]) -> T {
@@ -236,14 +234,4 @@ fn norm<T: Real, const N: usize>(x: &[T; N]) -> T {
 
 fn dot<T: Real, const N: usize>(a: &[T; N], b: &[T; N]) -> T {
     a.iter().zip(b).fold(T::constant(0.0), |sum, (a, b)| sum + *a * *b)
-}
-
-/// The larger of the two; a comparison with NaN keeps `a`.
-pub(crate) fn larger<T: Real>(a: T, b: T) -> T {
-    if b > a { b } else { a }
-}
-
-/// The smaller of the two; a comparison with NaN keeps `a`.
-pub(crate) fn smaller<T: Real>(a: T, b: T) -> T {
-    if b < a { b } else { a }
 }

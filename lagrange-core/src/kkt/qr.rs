@@ -63,14 +63,14 @@ impl<T: Real, const K: usize, const C: usize> Qr<T, K, C> {
     }
 
     /// x ← Qᵀ x.
-    pub(super) fn to_range(&self, x: &mut [T; K]) {
+    pub(super) fn enter_basis(&self, x: &mut [T; K]) {
         for k in 0..self.rank {
             reflect(&self.reflectors[k], x, k);
         }
     }
 
     /// x ← Q x.
-    pub(super) fn from_range(&self, x: &mut [T; K]) {
+    pub(super) fn leave_basis(&self, x: &mut [T; K]) {
         for k in (0..self.rank).rev() {
             reflect(&self.reflectors[k], x, k);
         }

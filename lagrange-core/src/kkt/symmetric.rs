@@ -2,6 +2,7 @@
 
 use core::array::from_fn;
 
+use crate::numeric::smaller;
 use crate::{Real, Scalar};
 
 /// P A Pᵀ = L D Lᵀ of a symmetric matrix of order `size` ≤ N, with D of 1×1 and 2×2 blocks, by complete pivoting
@@ -29,13 +30,10 @@ impl<T: Real, const N: usize> Symmetric<T, N> {
         while f.rank < size {
             let k = f.rank;
             let ([p, q], largest, on_diagonal, largest_on_diagonal) = f.largest_entries(k);
-            // Written so that a NaN stops it too.
-            if !(largest > tolerance) {
+            if largest <= tolerance {
                 break;
             }
-            if f.smallest > largest {
-                f.smallest = largest;
-            }
+            f.smallest = smaller(f.smallest, largest);
             if largest_on_diagonal >= growth * largest {
                 f.swap(k, on_diagonal);
                 f.eliminate_one(k);
@@ -81,7 +79,7 @@ impl<T: Real, const N: usize> Symmetric<T, N> {
         for i in k + 1..self.size {
             let l = self.a[i][k] / self.a[k][k];
             for j in k + 1..self.size {
-                self.a[i][j] = self.a[i][j] - l * self.a[k][j];
+                self.a[i][j] -= l * self.a[k][j];
             }
             self.a[i][k] = l;
         }
@@ -92,7 +90,7 @@ impl<T: Real, const N: usize> Symmetric<T, N> {
         for i in k + 2..self.size {
             let [l0, l1] = self.solve_pair(k, [self.a[i][k], self.a[i][k + 1]]);
             for j in k + 2..self.size {
-                self.a[i][j] = self.a[i][j] - l0 * self.a[k][j] - l1 * self.a[k + 1][j];
+                self.a[i][j] -= l0 * self.a[k][j] + l1 * self.a[k + 1][j];
             }
             (self.a[i][k], self.a[i][k + 1]) = (l0, l1);
         }
@@ -112,7 +110,7 @@ impl<T: Real, const N: usize> Symmetric<T, N> {
         for i in 0..self.size {
             x[i] = b[self.order[i]];
             for j in 0..self.block_start(i) {
-                x[i] = x[i] - self.a[i][j] * x[j];
+                x[i] -= self.a[i][j] * x[j];
             }
         }
         let mut k = 0;
@@ -140,7 +138,7 @@ impl<T: Real, const N: usize> Symmetric<T, N> {
         let mut y = [T::constant(0.0); N];
         for i in (0..self.size).rev() {
             for j in 0..self.block_start(i).min(self.rank) {
-                x[j] = x[j] - self.a[i][j] * x[i];
+                x[j] -= self.a[i][j] * x[i];
             }
             y[self.order[i]] = x[i];
         }

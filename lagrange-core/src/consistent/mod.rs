@@ -4,12 +4,16 @@
 //! F δ = −residual, the system of the dynamics with other right-hand sides (Hairer, Lubich and Wanner,
 //! *Geometric Numerical Integration*, IV.4).
 
+#[cfg(test)]
+mod tests;
+
 use core::array::from_fn;
 use core::fmt::{self, Display, Formatter};
 use nalgebra::{ComplexField, SVector};
 
 use crate::eliminate::eliminate_active;
-use crate::kkt::{self, Contradictions, Equations, larger, power_of_epsilon};
+use crate::kkt::{self, Contradictions, Equations};
+use crate::numeric::{exceeds, larger, power_of_epsilon};
 use crate::solve::{is_trustworthy, name};
 use crate::{ConstraintKind, Error, Lagrangian, Real, Scalar, State};
 
@@ -48,11 +52,14 @@ fn largest<T: Real, const N: usize>(x: &SVector<T, N>) -> T {
     x.iter().fold(T::constant(0.0), |most, x| larger(most, Scalar::abs(*x)))
 }
 
+/// The consistent state and how far it is from the one given.
+pub type Consistent<T, const N: usize> = (State<T, N>, Adjustment<T, N>);
+
 /// See [`Simulate::make_consistent`](crate::Simulate::make_consistent).
 pub(crate) fn make_consistent<L, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
-) -> Result<(State<L::Scalar, N>, Adjustment<L::Scalar, N>), Error>
+) -> Result<Consistent<L::Scalar, N>, Error>
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {
@@ -178,8 +185,7 @@ impl<T: Real, const N: usize, const M: usize> Residual<T, N, M> {
     fn first_above(&self, part: T) -> Option<usize> {
         let floor = power_of_epsilon::<T>(0.75);
         let bound = |a: usize| part * self.terms[a] + floor * self.sensitivity[a];
-        // Written so that a NaN is above.
-        (0..M).find(|&a| !(Scalar::abs(self.value[a]) <= bound(a)))
+        (0..M).find(|&a| exceeds(Scalar::abs(self.value[a]), bound(a)))
     }
 
     /// Whether nothing but round-off is left.
@@ -200,7 +206,7 @@ impl<T: Real, const N: usize, const M: usize> Residual<T, N, M> {
         for a in 0..M {
             let value = Scalar::abs(self.value[a]);
             let distance = if self.sensitivity[a] > zero { value / self.sensitivity[a] } else { value };
-            if !(distance <= farthest.0) {
+            if exceeds(distance, farthest.0) {
                 farthest = (distance, a);
             }
         }

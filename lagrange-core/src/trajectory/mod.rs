@@ -1,5 +1,8 @@
 //! A motion: its accepted steps, and everything in between.
 
+#[cfg(test)]
+mod tests;
+
 use alloc::vec::Vec;
 use core::array::from_fn;
 use core::fmt::{self, Debug, Formatter};

@@ -1,0 +1,100 @@
+use crate::fixtures::{Mechanism, identity, rolling_sphere, spherical_pendulum};
+use crate::prelude::*;
+
+#[test]
+fn a_state_off_the_sphere_is_put_on_it() {
+    let pendulum = spherical_pendulum();
+    let state = State::new([1.2, 0.0, -1.6], [0.6, 1.0, 0.8]);
+    let (consistent, adjustment) = pendulum.make_consistent(&state).unwrap();
+    // The nearest point of the sphere and the tangential part of the velocity.
+    assert!((consistent.q - State::at_rest([0.6, 0.0, -0.8]).q).norm() < 1e-15, "{consistent:?}");
+    let expected = State::new([0.6, 0.0, -0.8], [0.768, 1.0, 0.576]);
+    assert!((consistent.v - expected.v).norm() < 1e-15, "{consistent:?}");
+    assert!((adjustment.largest_coordinate_change() - 0.8).abs() < 1e-15);
+    assert!((adjustment.largest_velocity_change() - 0.224).abs() < 1e-15);
+    assert_eq!(
+        pendulum.make_consistent(&consistent).unwrap().1,
+        Adjustment { q: [0.0; 3].into(), v: [0.0; 3].into() }
+    );
+}
+
+#[test]
+fn the_projection_is_orthogonal_in_the_metric_of_the_mass_matrix() {
+    // x heavy, y light: x + y = 2 is reached from 0 by moving y nine times as far.
+    let system = Mechanism::<2, 1, 1> {
+        mass: |_| [[9.0, 0.0], [0.0, 1.0]],
+        forcing: |_| [0.0; 2],
+        residual: |s| [s.q[0] + s.q[1] - 2.0],
+        rate: |s| [s.v[0] + s.v[1]],
+        jacobian: |_| [[1.0, 1.0]],
+        bias: |_| [0.0],
+    };
+    let (consistent, _) = system.make_consistent(&State::at_rest([0.0, 0.0])).unwrap();
+    assert!((consistent.q - State::at_rest([0.2, 1.8]).q).norm() < 1e-15, "{consistent:?}");
+}
+
+/// c0: x² + y² = 1 on the coordinates, c1: ẏ = ẋ on the velocities; z, without mass, has only ż = ẋ, c2.
+fn mixed() -> Mechanism<3, 3, 1> {
+    Mechanism {
+        mass: |_| [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0]],
+        forcing: |_| [0.0; 3],
+        residual: |s| [0.5 * (s.q[0].powi(2) + s.q[1].powi(2) - 1.0), 0.0, 0.0],
+        rate: |s| [s.q[0] * s.v[0] + s.q[1] * s.v[1], s.v[1] - s.v[0] - 1.0, s.v[2] - s.v[0]],
+        jacobian: |s| [[s.q[0], s.q[1], 0.0], [-1.0, 1.0, 0.0], [-1.0, 0.0, 1.0]],
+        bias: |s| [s.v[0].powi(2) + s.v[1].powi(2), 0.0, 0.0],
+    }
+}
+
+#[test]
+fn velocity_constraints_do_not_move_coordinates() {
+    let (consistent, _) = mixed().make_consistent(&State::at_rest([1.2, 1.6, 5.0])).unwrap();
+    assert!((consistent.q - State::at_rest([0.6, 0.8, 5.0]).q).norm() < 1e-15, "{consistent:?}");
+    let rate = mixed().constraint_rate(&consistent);
+    assert!(rate.norm() < 1e-15, "{rate}");
+    // 0.6 ẋ + 0.8 ẏ = 0 and ẏ − ẋ = 1.
+    assert!((consistent.v[0] + 4.0 / 7.0).abs() < 1e-14 && (consistent.v[2] + 4.0 / 7.0).abs() < 1e-14);
+}
+
+#[test]
+fn constraints_that_cannot_hold_are_named() {
+    let system = Mechanism::<1, 1, 1> {
+        mass: identity,
+        forcing: |_| [0.0],
+        residual: |s| [s.q[0].powi(2) + 1.0],
+        rate: |s| [2.0 * s.q[0] * s.v[0]],
+        jacobian: |s| [[2.0 * s.q[0]]],
+        bias: |s| [2.0 * s.v[0].powi(2)],
+    };
+    let error = system.make_consistent(&State::at_rest([0.3])).unwrap_err();
+    assert!(
+        matches!(error, Error::NotProjected { constraint: "c0", residual, .. } if residual >= 1.0),
+        "{error}"
+    );
+    let error = spherical_pendulum().make_consistent(&State::at_rest([0.0; 3])).unwrap_err();
+    assert!(matches!(error, Error::NotProjected { constraint: "c0", residual: -0.5, .. }), "{error}");
+}
+
+#[test]
+fn newton_gets_there_from_afar() {
+    let pendulum = spherical_pendulum();
+    for start in [[1e6, 2e5, 3.0], [1e-6, 0.0, 1e-7]] {
+        let (state, _) = pendulum.make_consistent(&State::new(start, [1.0, 2.0, 3.0])).unwrap();
+        assert!((state.q.norm() - 1.0).abs() < 1e-15, "{state:?}");
+    }
+}
+
+#[test]
+fn an_inconsistent_start_is_refused_with_its_constraint() {
+    let pendulum = spherical_pendulum();
+    let off = State::at_rest([0.6, 0.0, -0.81]);
+    let error = pendulum.integrate(off, 1.0, Dop853::default()).unwrap_err();
+    assert!(matches!(error, Error::Inconsistent { constraint: "c0", rate: false, .. }), "{error}");
+    assert!(std::format!("{error}").contains("call `make_consistent`"));
+    let off = State::new([0.0, 0.0], [1.0, 9.9]);
+    let error = rolling_sphere().integrate(off, 1.0, Dop853::default()).unwrap_err();
+    assert!(matches!(error, Error::Inconsistent { constraint: "c0", rate: true, .. }), "{error}");
+    let nearly = State::at_rest([0.6, 0.0, -0.8 + 1e-9]);
+    let path = pendulum.integrate(nearly, 0.1, Dop853::default()).unwrap();
+    let moved = path.adjustment().largest_coordinate_change();
+    assert!((0.1e-9..1e-9).contains(&moved), "{moved:e}");
+}

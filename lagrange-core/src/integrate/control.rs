@@ -1,0 +1,130 @@
+//! The choice of the step size (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.4).
+
+use core::array::from_fn;
+
+use super::pair::{Pair, Slopes, combine};
+use super::{Adaptive, Phase};
+use crate::numeric::{larger, smaller};
+use crate::{Real, Scalar};
+
+/// The step to try next, and what its choice remembers.
+#[derive(Clone, Debug)]
+pub(super) struct Control<T> {
+    pub(super) step: T,
+    previous_error: T,
+    was_refused: bool,
+}
+
+impl<T: Real> Control<T> {
+    pub(super) fn new(step: T) -> Self {
+        Self { step, previous_error: T::constant(1e-4), was_refused: false }
+    }
+
+    /// After a step h with an error of this part of the tolerance: the PI controller, and no growth after a refusal.
+    pub(super) fn accept<P: Pair>(&mut self, h: T, error: T) {
+        let growth = T::constant(if self.was_refused { 1.0 } else { P::GROWTH });
+        let damping = Scalar::powf(self.previous_error, T::constant(P::DAMPING));
+        let factor = T::constant(SAFETY) * damping / larger(reduction::<P, T>(error), T::constant(1e-30));
+        self.step = h * larger(T::constant(P::SHRINK), smaller(factor, growth));
+        self.previous_error = larger(error, T::constant(1e-4));
+        self.was_refused = false;
+    }
+
+    /// After a step h with too large an error.
+    pub(super) fn refuse<P: Pair>(&mut self, h: T, error: T) {
+        let factor = T::constant(SAFETY) / reduction::<P, T>(error);
+        self.step = h * larger(T::constant(P::SHRINK), factor);
+        self.was_refused = true;
+    }
+
+    /// After a step h into a region where the equations have no solution.
+    pub(super) fn halve(&mut self, h: T) {
+        self.step = h * T::constant(0.5);
+        self.was_refused = true;
+    }
+}
+
+/// The part of the predicted step that is taken, so that few are refused.
+const SAFETY: f64 = 0.9;
+
+fn reduction<P: Pair, T: Real>(error: T) -> T {
+    Scalar::powf(error, T::constant(1.0 / P::ORDER - 0.75 * P::DAMPING))
+}
+
+/// The place of an entry: half 0 the coordinates, 1 the velocities, and the index.
+pub(super) type Place = (usize, usize);
+
+impl<P: Pair> Adaptive<P> {
+    /// The error of a step as a part of the tolerance, and where it is largest.
+    pub(super) fn error<T: Real, const N: usize>(
+        &self,
+        slopes: &Slopes<T, N>,
+        h: T,
+        before: &Phase<T, N>,
+        after: &Phase<T, N>,
+    ) -> (T, Place) {
+        let scale = self.scale(before, after);
+        let error = combine(slopes, P::ERROR);
+        let first = norm(&error, &scale);
+        let second = norm(&combine(slopes, P::LOWER_ERROR), &scale);
+        let both = Scalar::sqrt(first * first + T::constant(0.01) * second * second);
+        let estimate = if both > T::constant(0.0) { h * first * first / both } else { h * first };
+        let part = |(half, i): Place| Scalar::abs(error[half][i]) / scale[half][i];
+        let places = (0..2).flat_map(|half| (0..N).map(move |i| (half, i)));
+        (estimate, places.fold((0, 0), |worst, place| if part(place) > part(worst) { place } else { worst }))
+    }
+
+    /// The step cut to the longest allowed.
+    pub(super) fn cut<T: Real>(&self, h: T) -> T {
+        self.max_step.map_or(h, |longest| smaller(h, T::constant(longest)))
+    }
+
+    /// The error allowed in each entry.
+    fn scale<T: Real, const N: usize>(&self, a: &Phase<T, N>, b: &Phase<T, N>) -> Phase<T, N> {
+        let relative = T::constant(self.relative.max(16.0 * T::EPSILON));
+        let absolute = T::constant(self.absolute);
+        let size = |half: usize, i: usize| larger(Scalar::abs(a[half][i]), Scalar::abs(b[half][i]));
+        from_fn(|half| from_fn(|i| absolute + relative * size(half, i)))
+    }
+
+    /// A first guess at the first step: one that moves the state by a hundredth of its size.
+    pub(super) fn guess_step<T: Real, const N: usize>(
+        &self,
+        y: &Phase<T, N>,
+        slope: &Phase<T, N>,
+        span: T,
+    ) -> T {
+        let scale = self.scale(y, y);
+        let (size, speed) = (norm(y, &scale), norm(slope, &scale));
+        let least = T::constant(1e-5);
+        let usable = size > least && speed > least;
+        smaller(if usable { T::constant(0.01) * size / speed } else { span * T::constant(1e-6) }, span)
+    }
+
+    /// The first step from that guess and the slopes before and after it: the error of a step of Euler's method of
+    /// this size would be a hundredth.
+    pub(super) fn first_step_from<T: Real, const N: usize>(
+        &self,
+        guess: T,
+        y: &Phase<T, N>,
+        before: &Phase<T, N>,
+        after: &Phase<T, N>,
+    ) -> T {
+        let scale = self.scale(y, y);
+        let change = from_fn(|half| from_fn(|i| after[half][i] - before[half][i]));
+        let fastest = larger(norm(&change, &scale) / guess, norm(before, &scale));
+        let step = if fastest > T::constant(1e-15) {
+            Scalar::powf(T::constant(0.01) / fastest, T::constant(1.0 / P::ORDER))
+        } else {
+            guess
+        };
+        smaller(step, guess * T::constant(100.0))
+    }
+}
+
+/// √(mean (x/scale)²).
+fn norm<T: Real, const N: usize>(x: &Phase<T, N>, scale: &Phase<T, N>) -> T {
+    let pairs = x.iter().flatten().zip(scale.iter().flatten());
+    let sum = pairs.fold(T::constant(0.0), |sum, (x, s)| sum + (*x / *s) * (*x / *s));
+    Scalar::sqrt(sum / T::constant((2 * N) as f64))
+}

@@ -1,0 +1,297 @@
+//! One step of an embedded Runge–Kutta pair, projected onto the constraints.
+
+use core::array::from_fn;
+
+use nalgebra::ComplexField;
+
+use super::control::{Control, Place};
+use super::pair::{Pair, Row, SLOPES, Slopes, advance};
+use super::{Adaptive, Ending, Limits, Method, Phase, Statistics, Step};
+use crate::eliminate::vector;
+use crate::names::{Entry, Row as EquationRow};
+use crate::numeric::{exceeds, larger};
+use crate::solve::{name, solve};
+use crate::{Error, Lagrangian, Real, Scalar, State, consistent};
+
+/// Room for the longest interpolant here.
+const COEFFICIENTS: usize = 8;
+
+/// What a pair carries from step to step.
+#[derive(Clone, Debug)]
+pub struct Memory<T, const N: usize> {
+    state: State<T, N>,
+    end: T,
+    /// The whole time from start to end.
+    span: T,
+    control: Control<T>,
+    /// The first is that of `state`.
+    slopes: Slopes<T, N>,
+    interpolant: [Phase<T, N>; COEFFICIENTS],
+}
+
+impl<T: Real, const N: usize> Memory<T, N> {
+    /// The next step and the time after it: exactly the end where that is near.
+    fn next(&self) -> (T, T) {
+        let (now, step) = (self.state.t, self.control.step);
+        if now + step * T::constant(1.01) >= self.end {
+            (self.end - now, self.end)
+        } else {
+            (step, now + step)
+        }
+    }
+
+    /// Whether the next step would be lost in the round-off of the time.
+    fn is_step_too_small(&self) -> bool {
+        let epsilon = T::constant(T::EPSILON);
+        let size = larger(Scalar::abs(self.state.t), epsilon * self.span);
+        self.control.step <= T::constant(10.0) * epsilon * size
+    }
+
+    /// The interpolant from `start` to `next`, with the slopes at both (II.6 and the code DOP853).
+    fn interpolate<P: Pair>(&mut self, h: T, start: &Phase<T, N>, next: &Phase<T, N>) {
+        let (first, last) = (&self.slopes[0], &self.slopes[P::STAGES.len() + 1]);
+        for half in 0..2 {
+            for i in 0..N {
+                let rise = next[half][i] - start[half][i];
+                let bend = h * first[half][i] - rise;
+                self.interpolant[0][half][i] = start[half][i];
+                self.interpolant[1][half][i] = rise;
+                self.interpolant[2][half][i] = bend;
+                self.interpolant[3][half][i] = rise - h * last[half][i] - bend;
+            }
+        }
+        let zero = [[T::constant(0.0); N]; 2];
+        for (coefficient, row) in self.interpolant.iter_mut().skip(4).zip(P::INTERPOLATION) {
+            *coefficient = advance(&zero, h, &self.slopes, row);
+        }
+    }
+}
+
+/// Why a step is not accepted.
+enum Refusal<T> {
+    /// Its error is this many times the tolerance.
+    Inaccurate(T, Place),
+    /// Somewhere in it the equations or the constraints have no solution.
+    Unsolved(Error),
+}
+
+impl<T> From<Error> for Refusal<T> {
+    fn from(error: Error) -> Self {
+        Self::Unsolved(error)
+    }
+}
+
+/// The state after a step, and its error as a part of the tolerance.
+struct Accepted<T, const N: usize> {
+    state: State<T, N>,
+    error: T,
+}
+
+impl<P, L, const N: usize, const M: usize> Method<L, N, M> for Adaptive<P>
+where
+    P: Pair,
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    type Memory = Memory<L::Scalar, N>;
+
+    fn limits(&self) -> Limits {
+        self.limits()
+    }
+
+    fn begin(
+        &self,
+        system: &L,
+        start: &State<L::Scalar, N>,
+        end: L::Scalar,
+        statistics: &mut Statistics,
+    ) -> Result<Self::Memory, Error> {
+        self.check()?;
+        let zero = [[L::Scalar::constant(0.0); N]; 2];
+        let mut slopes = [zero; SLOPES];
+        slopes[0] = slope(system, start.t, &phase(start), statistics)?;
+        let span = end - start.t;
+        let step = match self.fixed_step.or(self.first_step) {
+            Some(step) => L::Scalar::constant(step),
+            None => self.cut(self.estimate_step(system, start, span, &slopes[0], statistics)),
+        };
+        let control = Control::new(step);
+        Ok(Memory { state: *start, end, span, control, slopes, interpolant: [zero; COEFFICIENTS] })
+    }
+
+    fn step<'m>(
+        &self,
+        system: &L,
+        memory: &'m mut Self::Memory,
+        statistics: &mut Statistics,
+    ) -> Step<'m, L::Scalar, N> {
+        let (h, time) = memory.next();
+        let now = memory.state.t.to_f64();
+        let ending = match self.attempt(system, memory, h, time, statistics) {
+            Ok(Accepted { state, error }) => {
+                memory.state = state;
+                memory.slopes[0] = memory.slopes[P::STAGES.len() + 1];
+                if self.fixed_step.is_none() {
+                    memory.control.accept::<P>(h, error);
+                    memory.control.step = self.cut(memory.control.step);
+                }
+                return Step::Accepted {
+                    state,
+                    interpolant: &memory.interpolant[..4 + P::INTERPOLATION.len()],
+                };
+            }
+            Err(Refusal::Inaccurate(error, place)) => {
+                memory.control.refuse::<P>(h, error);
+                Ending::StepTooSmall { time: now, entry: entry::<L, N, M>(place) }
+            }
+            Err(Refusal::Unsolved(error)) => {
+                memory.control.halve(h);
+                Ending::of(error, now)
+            }
+        };
+        if self.fixed_step.is_some() || memory.is_step_too_small() {
+            return Step::Failed(ending);
+        }
+        Step::Rejected
+    }
+}
+
+impl<P: Pair> Adaptive<P> {
+    /// Stages, error, projection, interpolant: whatever fails refuses the step.
+    fn attempt<L, const N: usize, const M: usize>(
+        &self,
+        system: &L,
+        memory: &mut Memory<L::Scalar, N>,
+        h: L::Scalar,
+        time: L::Scalar,
+        statistics: &mut Statistics,
+    ) -> Result<Accepted<L::Scalar, N>, Refusal<L::Scalar>>
+    where
+        L: Lagrangian<N, M, Scalar: Real>,
+    {
+        let last = P::STAGES.len() + 1;
+        let error_needs_last = P::ERROR.iter().any(|(slope, _)| *slope == last);
+        let start = phase(&memory.state);
+
+        stages::<P, L, N, M>(system, memory, h, (1, P::STAGES), statistics)?;
+        let mut next = advance(&start, h, &memory.slopes, P::WEIGHTS);
+        check_finite::<L, N, M>(time, &next)?;
+        if error_needs_last {
+            memory.slopes[last] = slope(system, time, &next, statistics)?;
+        }
+        let error = self.check_error(&memory.slopes, h, &start, &next)?;
+        if M > 0 {
+            let mut state = state(time, &next);
+            consistent::project(system, &mut state)?;
+            next = phase(&state);
+        }
+        if M > 0 || !error_needs_last {
+            memory.slopes[last] = slope(system, time, &next, statistics)?;
+        }
+        stages::<P, L, N, M>(system, memory, h, (last + 1, P::INTERPOLATION_STAGES), statistics)?;
+        memory.interpolate::<P>(h, &start, &next);
+        Ok(Accepted { state: state(time, &next), error })
+    }
+
+    /// The error as a part of the tolerance, at most 1; nothing refuses a fixed step.
+    fn check_error<T: Real, const N: usize>(
+        &self,
+        slopes: &Slopes<T, N>,
+        h: T,
+        before: &Phase<T, N>,
+        after: &Phase<T, N>,
+    ) -> Result<T, Refusal<T>> {
+        let (error, place) = self.error(slopes, h, before, after);
+        if self.fixed_step.is_none() && exceeds(error, T::constant(1.0)) {
+            return Err(Refusal::Inaccurate(error, place));
+        }
+        Ok(error)
+    }
+
+    fn estimate_step<L, const N: usize, const M: usize>(
+        &self,
+        system: &L,
+        start: &State<L::Scalar, N>,
+        span: L::Scalar,
+        first: &Phase<L::Scalar, N>,
+        statistics: &mut Statistics,
+    ) -> L::Scalar
+    where
+        L: Lagrangian<N, M, Scalar: Real>,
+    {
+        let y = phase(start);
+        let guess = self.guess_step(&y, first, span);
+        let euler = from_fn(|half| from_fn(|i| y[half][i] + guess * first[half][i]));
+        match slope(system, start.t + guess, &euler, statistics) {
+            Ok(second) => self.first_step_from(guess, &y, first, &second),
+            Err(_) => guess,
+        }
+    }
+}
+
+/// Evaluates the slopes of these stages, the first of which has the number given.
+fn stages<P, L, const N: usize, const M: usize>(
+    system: &L,
+    memory: &mut Memory<L::Scalar, N>,
+    h: L::Scalar,
+    (first, rows): (usize, &[Row]),
+    statistics: &mut Statistics,
+) -> Result<(), Error>
+where
+    P: Pair,
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    let start = phase(&memory.state);
+    for (number, row) in rows.iter().enumerate().map(|(i, row)| (first + i, row)) {
+        let y = advance(&start, h, &memory.slopes, row);
+        let t = memory.state.t + h * L::Scalar::constant(P::NODES[number]);
+        memory.slopes[number] = slope(system, t, &y, statistics)?;
+    }
+    Ok(())
+}
+
+/// (q̇, q̈).
+#[inline]
+fn slope<L, const N: usize, const M: usize>(
+    system: &L,
+    t: L::Scalar,
+    y: &Phase<L::Scalar, N>,
+    statistics: &mut Statistics,
+) -> Result<Phase<L::Scalar, N>, Error>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    statistics.evaluations += 1;
+    let solution = solve(system, &state(t, y))?;
+    statistics.multipliers_are_unique &= solution.multipliers_are_unique();
+    Ok([y[1], solution.accelerations.into()])
+}
+
+fn check_finite<L, const N: usize, const M: usize>(
+    t: L::Scalar,
+    [q, v]: &Phase<L::Scalar, N>,
+) -> Result<(), Error>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    let row = |i: usize| EquationRow::Coordinate(name(&L::COORDINATES, i));
+    match (0..N).find(|&i| !(q[i].is_finite() && v[i].is_finite())) {
+        None => Ok(()),
+        Some(i) => Err(Error::EquationsNotFinite { row: row(i), time: t.to_f64() }),
+    }
+}
+
+fn entry<L, const N: usize, const M: usize>((half, index): Place) -> Entry
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    let name = name(&L::COORDINATES, index);
+    if half == 0 { Entry::Coordinate(name) } else { Entry::Velocity(name) }
+}
+
+fn phase<T: Real, const N: usize>(state: &State<T, N>) -> Phase<T, N> {
+    [state.q.into(), state.v.into()]
+}
+
+fn state<T: Real, const N: usize>(t: T, [q, v]: &Phase<T, N>) -> State<T, N> {
+    State { t, q: vector(*q), v: vector(*v) }
+}
