@@ -308,10 +308,10 @@ fn bounded_generics(declaration: &Declaration, scalar: &syn::Type) -> syn::Gener
     let mut generics = declaration.generics.clone();
     let scalar = quote!(#scalar).to_string();
     for parameter in &mut generics.params {
-        if let GenericParam::Type(parameter) = parameter {
-            if parameter.ident == scalar {
-                parameter.bounds.push(syn::parse_quote!(#runtime::Scalar));
-            }
+        if let GenericParam::Type(parameter) = parameter
+            && parameter.ident == scalar
+        {
+            parameter.bounds.push(syn::parse_quote!(#runtime::Scalar));
         }
     }
     generics

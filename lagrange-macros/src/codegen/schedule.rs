@@ -211,10 +211,10 @@ impl Schedule {
         if coefficient.is_one() {
             return self.register_of(graph, term);
         }
-        if let Node::Product(factors) = graph.node(term) {
-            if factors.iter().all(|(_, exponent)| exponent.is_negative()) {
-                return self.product(graph, factors, coefficient);
-            }
+        if let Node::Product(factors) = graph.node(term)
+            && factors.iter().all(|(_, exponent)| exponent.is_negative())
+        {
+            return self.product(graph, factors, coefficient);
         }
         let x = self.register_of(graph, term);
         let coefficient = self.number(coefficient);

@@ -57,9 +57,7 @@ fn scalar(declaration: &Declaration) -> TokenStream {
     }
     let used = |name: &syn::Ident| {
         declaration.fields.iter().any(|field| match &field.shape {
-            Ok(shape) => {
-                shape.scalar.as_ref().is_some_and(|scalar| quote!(#scalar).to_string() == name.to_string())
-            }
+            Ok(shape) => shape.scalar.as_ref().is_some_and(|scalar| *name == quote!(#scalar).to_string()),
             Err(_) => false,
         })
     };
