@@ -1,0 +1,12 @@
+//! Every derivative that `derive(Lagrangian)` emits, against automatic differentiation.
+//!
+//! Each system states its Lagrangian, constraints and forces twice: in the attributes, and by hand as plain
+//! functions of any dual number. The second route shares nothing with the macro.
+
+mod by_hand;
+mod constrained;
+mod expressions;
+mod fields;
+mod particles;
+mod pendulums;
+mod random;
