@@ -1,4 +1,39 @@
 //! Lagrangian mechanics from a struct.
+//!
+//! `#[derive(Lagrangian)]` turns a Lagrangian and its constraints, written the way a textbook does, into the equations
+//! of motion and the multipliers; this crate integrates them.
+//!
+#![cfg_attr(
+    feature = "std",
+    doc = r#"
+```
+use lagrange_core::prelude::*;
+
+/// A sphere of mass `m` and radius `a` rolling down an incline without slipping.
+#[derive(Lagrangian)]
+#[coordinates(x, phi)]
+#[define(inertia = 2/5 * m * a^2)]
+#[lagrangian(m/2 * x_dot^2 + inertia/2 * phi_dot^2 + m*g*x*sin(alpha))]
+#[constraint(no_slip: x_dot - a*phi_dot = 0)]
+struct RollingSphere { m: f64, a: f64, g: f64, alpha: f64 }
+
+let sphere = RollingSphere { m: 1.0, a: 0.1, g: 9.81, alpha: 0.3 };
+let path = sphere.integrate(State::at_rest([0.0, 0.0]), 3.0, Dop853::default())?;
+let (x, friction) = (path.end().coordinate("x")?, path.end().multiplier("no_slip")?);
+assert!((x - 0.5 * 5.0 / 7.0 * 9.81 * 0.3_f64.sin() * 9.0).abs() < 1e-9);
+assert!((friction + 2.0 / 7.0 * 9.81 * 0.3_f64.sin()).abs() < 1e-12);
+# Ok::<(), Error>(())
+```
+"#
+)]
+//!
+//! - [`Lagrangian`] is the contract that generated code implements, [`Simulate`] what a program calls.
+//! - [`Solution`] holds accelerations and multipliers; the sign of a multiplier is that of Milton (8.7): the constraint
+//!   force on coordinate a is Σ_α λ_α F_αa.
+//! - [`Dop853`] and [`Dopri5`] are the methods, [`Trajectory`] is what they give, [`Ending`] why it stops.
+//!
+//! Features: `std` (default); `alloc`, without it there are no trajectories; `libm`, elementary functions where there
+//! is no `std`.
 #![cfg_attr(not(feature = "std"), no_std)]
 // Algorithms on matrices read best with indices.
 #![allow(clippy::needless_range_loop)]
@@ -18,6 +53,7 @@ mod fixtures;
 #[cfg(feature = "alloc")]
 pub mod integrate;
 mod kkt;
+pub mod language;
 #[cfg(feature = "alloc")]
 mod lookup;
 mod names;

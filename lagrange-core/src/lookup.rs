@@ -7,11 +7,11 @@ use crate::names::Entry;
 
 /// The index of `name` among `names`.
 pub(crate) fn index(names: &[&'static str], kind: &'static str, name: &str) -> Result<usize, Error> {
-    names.iter().position(|known| *known == name).ok_or_else(|| Error::UnknownName {
-        name: name.into(),
-        kind,
-        known: names.iter().map(ToString::to_string).collect(),
-    })
+    names.iter().position(|known| *known == name).ok_or_else(|| unknown(names, kind, name))
+}
+
+pub(crate) fn unknown(names: &[&'static str], kind: &'static str, name: &str) -> Error {
+    Error::UnknownName { name: name.into(), kind, known: names.iter().map(ToString::to_string).collect() }
 }
 
 /// The coordinate (0) or velocity (1) called `name`, and its index.

@@ -2,12 +2,14 @@
 
 use core::fmt::{self, Debug, Formatter};
 
-use crate::lookup::index;
+use crate::lookup::{index, unknown};
 use crate::solve::solve;
 use crate::{Error, Lagrangian, Real, Solution, State};
 
-/// A state of a system with what follows from it. Quantities are looked up by name;
-/// [`state`](Self::state) and [`solution`](Self::solution) hold them by index.
+/// A state of a system with what follows from it.
+///
+/// Quantities are looked up by name; [`state`](Self::state) and [`solution`](Self::solution) hold them by index, in
+/// the order of the attributes. Accelerations and multipliers are solved for when asked for.
 pub struct Sample<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
     system: &'a L,
     state: State<L::Scalar, N>,
@@ -89,7 +91,7 @@ where
     pub fn observable(&self, name: &str) -> Result<L::Scalar, Error> {
         let index = index(L::OBSERVABLES, "observable", name)?;
         let value = self.system.observable(index, &self.state, &self.solution()?);
-        value.ok_or_else(|| Error::UnknownName { name: name.into(), kind: "observable", known: [].into() })
+        value.ok_or_else(|| unknown(L::OBSERVABLES, "observable", name))
     }
 
     pub(crate) fn system(&self) -> &'a L {

@@ -41,6 +41,22 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     /// First the coordinates move onto Φ = 0 of the holonomic constraints, then the velocities onto
     /// F q̇ + b = 0 of all; near is meant in the metric of the mass matrix.
     ///
+    /// ```
+    /// # use lagrange_core::prelude::*;
+    /// #[derive(Lagrangian)]
+    /// #[coordinates(x, y)]
+    /// #[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
+    /// #[constraint(rod: 1/2 * (x^2 + y^2 - l^2) = 0)]
+    /// struct Pendulum { m: f64, g: f64, l: f64 }
+    ///
+    /// let pendulum = Pendulum { m: 1.0, g: 9.81, l: 2.0 };
+    /// let start = pendulum.state_from(&[("x", 0.6), ("y", -0.8)])?;
+    /// let (start, adjustment) = pendulum.make_consistent(&start)?;
+    /// assert!((start.q[0] - 1.2).abs() < 1e-15 && (start.q[1] + 1.6).abs() < 1e-15);
+    /// assert!((adjustment.largest_coordinate_change() - 0.8).abs() < 1e-15);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
     /// # Errors
     /// [`Error::StateNotFinite`], and [`Error::NotProjected`] where Newton's iteration does not get there.
     fn make_consistent(&self, state: &State<Self::Scalar, N>) -> Result<Consistent<Self::Scalar, N>, Error> {
