@@ -47,6 +47,7 @@ mod consistent;
 #[cfg(feature = "alloc")]
 mod csv;
 pub mod eliminate;
+mod equations;
 mod error;
 #[cfg(test)]
 mod fixtures;
@@ -72,6 +73,7 @@ mod trajectory;
 pub use consistent::{Adjustment, Consistent};
 #[cfg(feature = "alloc")]
 pub use csv::Csv;
+pub use equations::Equations;
 pub use error::Error;
 #[cfg(feature = "alloc")]
 pub use integrate::{Dop853, Dopri5, Ending, Method, Progress, Statistics};

@@ -4,6 +4,7 @@
 //!
 //! ```text
 //! tokens ─syntax→ Declaration ─resolve→ Problem ─mechanics→ Equations ─codegen→ tokens
+//!                                                                 └─render→ text and LaTeX
 //! ```
 //!
 //! `symbolic` is the ground floor. Every stage stops if anything was wrong, with all errors at once.
@@ -12,6 +13,7 @@ mod codegen;
 mod diagnostics;
 mod mechanics;
 mod print;
+mod render;
 mod resolve;
 mod symbolic;
 mod syntax;
@@ -75,7 +77,8 @@ fn derive(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<To
     let scalar = problem.parameters.scalar(declaration, diagnostics);
     diagnostics.is_empty().then_some(())?;
     let equations = mechanics::derive(&mut problem, diagnostics)?;
-    let tokens = codegen::implementation(declaration, &problem, &equations, &scalar, diagnostics);
+    let rendered = render::render(declaration, &mut problem, &equations);
+    let tokens = codegen::implementation(declaration, &problem, &equations, &rendered, &scalar, diagnostics);
     diagnostics.is_empty().then_some(())?;
     print::if_asked(declaration, &tokens);
     Some(tokens)

@@ -10,6 +10,7 @@ use syn::GenericParam;
 
 use crate::diagnostics::Diagnostics;
 use crate::mechanics::{ConstraintKind, Equations};
+use crate::render::Rendered;
 use crate::resolve::{Label, Problem};
 use crate::symbolic::Id;
 use crate::syntax::Declaration;
@@ -26,11 +27,12 @@ pub(crate) fn implementation(
     declaration: &Declaration,
     problem: &Problem,
     equations: &Equations,
+    rendered: &Rendered,
     scalar: &syn::Type,
     diagnostics: &mut Diagnostics,
 ) -> TokenStream {
     let style = Style::new(problem, scalar);
-    let emitter = Emitter { declaration, problem, equations, style: &style };
+    let emitter = Emitter { declaration, problem, equations, rendered, style: &style };
     let fused = emitter.fused();
     let Count { arithmetic, functions } = fused.count;
     if arithmetic + functions > OPERATION_LIMIT {
@@ -46,6 +48,7 @@ struct Emitter<'a> {
     declaration: &'a Declaration,
     problem: &'a Problem,
     equations: &'a Equations,
+    rendered: &'a Rendered,
     style: &'a Style<'a>,
 }
 
@@ -68,11 +71,14 @@ impl Emitter<'_> {
         let observables = self.observable_names();
         let functions = self.functions(fused);
         let inherent = self.observable_methods();
+        let equations = self.equations();
+        let Rendered { text, .. } = self.rendered;
+        let doc = format!("```text\n{text}```");
         quote! {
             const _: () = {
                 use #runtime::eliminate::{eliminate, matrix, vector};
                 use #runtime::nalgebra::{SMatrix, SVector};
-                use #runtime::{ConstraintKind, Lagrangian, Scalar, Solution, State};
+                use #runtime::{ConstraintKind, Equations, Lagrangian, Scalar, Solution, State};
 
                 #[automatically_derived]
                 #[allow(clippy::all, unused_parens)]
@@ -86,9 +92,11 @@ impl Emitter<'_> {
                     #functions
                 }
 
+                #[doc = #doc]
                 #[automatically_derived]
                 #[allow(clippy::all, unused_parens, dead_code)]
                 impl #impl_generics #ident #type_generics #where_clause {
+                    #equations
                     #inherent
                 }
             };
@@ -245,6 +253,17 @@ impl Emitter<'_> {
         let solved =
             |symbol| matches!(Variable::of(symbol), Variable::Acceleration(_) | Variable::Multiplier(_));
         self.problem.graph.symbols(values).any(solved)
+    }
+
+    fn equations(&self) -> TokenStream {
+        let visibility = &self.declaration.visibility;
+        let Rendered { text, latex } = self.rendered;
+        quote! {
+            /// The system and its equations of motion, to be read.
+            #visibility const fn equations() -> Equations {
+                Equations::new(#text, #latex)
+            }
+        }
     }
 
     fn observable_methods(&self) -> TokenStream {

@@ -1,0 +1,202 @@
+//! The system and its equations as text and as LaTeX. Nothing else writes any.
+
+mod formula;
+mod notation;
+
+use crate::mechanics::{ConstraintKind, Equations};
+use crate::resolve::Problem;
+use crate::symbolic::{Id, Rational};
+use crate::syntax::{Declaration, Define, Name, TargetIndex};
+use crate::variables::Variable;
+use formula::{Formula, derived, written};
+use notation::Notation;
+
+/// A row of more symbols than this is not for reading.
+const READABLE: u64 = 250;
+
+/// The same system, written twice.
+pub(crate) struct Rendered {
+    pub(crate) text: String,
+    pub(crate) latex: String,
+}
+
+/// A heading and the lines below it: a label, an equation and a remark.
+struct Section {
+    heading: &'static str,
+    lines: Vec<Line>,
+}
+
+struct Line {
+    label: Option<String>,
+    equation: Equation,
+    remark: &'static str,
+}
+
+enum Equation {
+    Known(Formula, Formula),
+    /// Why it is not written out.
+    TooLong(u64),
+}
+
+/// Writes the system down.
+pub(crate) fn render(declaration: &Declaration, problem: &mut Problem, equations: &Equations) -> Rendered {
+    let rows = motion(problem, equations);
+    let sections = [
+        Section { heading: "Lagrangian", lines: lagrangian(declaration, problem) },
+        Section { heading: "Constraints", lines: constraints(declaration, problem, equations) },
+        Section { heading: "Equations of motion", lines: rows },
+    ];
+    let name = declaration.ident.to_string();
+    Rendered { text: text(&name, &sections), latex: latex(&sections) }
+}
+
+fn lagrangian(declaration: &Declaration, problem: &Problem) -> Vec<Line> {
+    let line = |left: Formula, right: &crate::syntax::Expression| Line {
+        label: None,
+        equation: Equation::Known(left, written(right, problem)),
+        remark: "",
+    };
+    let name = |text: &str| Formula::labelled(text, 0);
+    let mut lines: Vec<Line> = Vec::new();
+    lines.extend(declaration.lagrangian.as_ref().map(|lagrangian| line(name("L"), lagrangian)));
+    lines.extend(declaration.defines.iter().map(|define| line(defined(define, problem), &define.body)));
+    lines.extend(declaration.dissipation.as_ref().map(|function| line(name("D"), function)));
+    lines.extend(declaration.forces.iter().map(|force| {
+        let coordinate = Notation::Unicode.write(&target(&force.target.name, &force.target.index, problem));
+        line(name(&format!("Q_{coordinate}")), &force.value)
+    }));
+    lines
+}
+
+/// The left side of a definition.
+fn defined(define: &Define, problem: &Problem) -> Formula {
+    match &define.formals {
+        Some(formals) => {
+            let formals = formals.iter().map(|formal| Formula::labelled(&formal.text, 0));
+            Formula::Call(define.target.name.text.clone(), formals.collect())
+        }
+        None => target(&define.target.name, &define.target.index, problem),
+    }
+}
+
+fn target(name: &Name, index: &TargetIndex, problem: &Problem) -> Formula {
+    let index = match index {
+        TargetIndex::None => None,
+        TargetIndex::Element(element) => Some(Notation::Unicode.write(&written(element, problem))),
+        TargetIndex::Family { index, from, to } => {
+            let [from, to] = [from, to].map(|end| Notation::Unicode.write(&written(end, problem)));
+            Some(format!("{} in {from}..{to}", index.text))
+        }
+    };
+    Formula::Name { base: name.text.clone(), dots: 0, indices: index.into_iter().collect() }
+}
+
+fn constraints(declaration: &Declaration, problem: &Problem, equations: &Equations) -> Vec<Line> {
+    let line = |constraint: &crate::syntax::Constraint| {
+        let name = &constraint.target.name.text;
+        let is_it = |text: &str| text == name || text.starts_with(&format!("{name}["));
+        let row = problem.constraints.iter().position(|(label, _)| is_it(&label.text));
+        let kind = row.map(|row| equations.kinds[row]);
+        Line {
+            label: Some(Notation::Unicode.write(&target(
+                &constraint.target.name,
+                &constraint.target.index,
+                problem,
+            ))),
+            equation: Equation::Known(
+                written(&constraint.left, problem),
+                written(&constraint.right, problem),
+            ),
+            remark: match kind {
+                Some(ConstraintKind::Velocity) => "on the velocities",
+                _ => "holonomic",
+            },
+        }
+    };
+    declaration.constraints.iter().map(line).collect()
+}
+
+/// Σ_j M_ij q̈_j = h_i + Σ_α λ_α F_αi, a row for each coordinate.
+fn motion(problem: &mut Problem, equations: &Equations) -> Vec<Line> {
+    let one = Rational::from_integer(1);
+    (0..problem.coordinates.len())
+        .map(|i| {
+            let graph = &mut problem.graph;
+            let inertia: Vec<_> = equations.mass[i]
+                .iter()
+                .enumerate()
+                .map(|(j, &mass)| {
+                    let acceleration = graph.symbol(Variable::Acceleration(j).symbol());
+                    (graph.mul(mass, acceleration), one)
+                })
+                .collect();
+            let left = graph.sum(inertia);
+            let right = [Some(&equations.forcing[i]), equations.constraint_force.get(i)];
+            let right: Vec<Id> =
+                right.into_iter().flatten().copied().filter(|&part| part != Id::ZERO).collect();
+            let size = right.iter().chain([&left]).map(|&part| symbols_to_read(problem, part)).sum();
+            let equation = match size <= READABLE {
+                true => {
+                    let right = right.iter().map(|&part| derived(part, problem)).collect();
+                    Equation::Known(derived(left, problem), Formula::sum(right))
+                }
+                false => Equation::TooLong(size),
+            };
+            let label = Notation::Unicode.write(&Formula::labelled(&problem.coordinates[i].text, 0));
+            Line { label: Some(label), equation, remark: "" }
+        })
+        .collect()
+}
+
+/// How many symbols a node would take written out, where what is shared is written again.
+fn symbols_to_read(problem: &Problem, root: Id) -> u64 {
+    let graph = &problem.graph;
+    let mut sizes = rustc_hash::FxHashMap::default();
+    for id in graph.reachable(&[root]) {
+        let mut size = 1_u64;
+        if !problem.names.contains_key(&id) {
+            graph.operands(id, |operand| size = size.saturating_add(sizes[&operand]));
+        }
+        sizes.insert(id, size);
+    }
+    sizes[&root]
+}
+
+fn text(name: &str, sections: &[Section]) -> String {
+    let mut text = format!("{name}\n");
+    for Section { heading, lines } in sections.iter().filter(|section| !section.lines.is_empty()) {
+        text += &format!("\n{heading}\n");
+        let width =
+            lines.iter().filter_map(|line| line.label.as_ref()).map(|label| label.chars().count()).max();
+        for Line { label, equation, remark } in lines {
+            let label = match (label, width) {
+                (Some(label), Some(width)) => {
+                    let padding = " ".repeat(width - label.chars().count());
+                    format!("{label}:{padding} ")
+                }
+                _ => String::new(),
+            };
+            let equation = match equation {
+                Equation::Known(left, right) => Notation::Unicode.equation(left, right),
+                Equation::TooLong(size) => format!("… ({size} symbols)"),
+            };
+            let remark = if remark.is_empty() { String::new() } else { format!("   ({remark})") };
+            text += &format!("  {label}{equation}{remark}\n");
+        }
+    }
+    text
+}
+
+fn latex(sections: &[Section]) -> String {
+    let mut latex = String::from("\\begin{align*}\n");
+    for line in sections.iter().flat_map(|section| &section.lines) {
+        let equation = match &line.equation {
+            Equation::Known(left, right) => {
+                format!("{} &= {}", Notation::Latex.write(left), Notation::Latex.write(right))
+            }
+            Equation::TooLong(size) => format!(r"&\text{{({size} symbols)}}"),
+        };
+        latex += &format!("  {equation} \\\\\n");
+    }
+    latex + "\\end{align*}\n"
+}
