@@ -226,16 +226,16 @@ impl Emitter<'_> {
             };
             for i in 0..values.len() {
                 let value = if values.len() == 1 { call.clone() } else { quote!(#call.data.0[0][#i]) };
-                arms.push(quote!(#index => Some(#value),));
+                arms.push(quote!(#index => ::core::option::Option::Some(#value),));
                 index += 1;
             }
         }
         quote! {
             #[allow(unused_variables)]
-            fn observable(&self, index: usize, state: &State<#scalar, #n>, solution: &Solution<#scalar, #n, #m>) -> Option<#scalar> {
+            fn observable(&self, index: usize, state: &State<#scalar, #n>, solution: &Solution<#scalar, #n, #m>) -> ::core::option::Option<#scalar> {
                 match index {
                     #(#arms)*
-                    _ => None,
+                    _ => ::core::option::Option::None,
                 }
             }
         }

@@ -44,7 +44,7 @@ pub(crate) fn stub(declaration: &Declaration) -> TokenStream {
                 fn constraint_bias(&self, state: &State<#scalar, #n>) -> SVector<#scalar, #m> { loop {} }
                 fn constraint_force(&self, state: &State<#scalar, #n>, multipliers: &SVector<#scalar, #m>) -> SVector<#scalar, #n> { loop {} }
                 fn accelerations(&self, state: &State<#scalar, #n>) -> Solution<#scalar, #n, #m> { loop {} }
-                fn observable(&self, index: usize, state: &State<#scalar, #n>, solution: &Solution<#scalar, #n, #m>) -> Option<#scalar> { None }
+                fn observable(&self, index: usize, state: &State<#scalar, #n>, solution: &Solution<#scalar, #n, #m>) -> ::core::option::Option<#scalar> { ::core::option::Option::None }
             }
         };
     }
