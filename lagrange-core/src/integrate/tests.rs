@@ -263,3 +263,41 @@ fn a_motion_of_no_length_is_its_start() {
     assert_eq!(path.end().velocity("x"), Ok(2.0));
     assert_eq!(path.samples(3).count(), 3);
 }
+
+/// A plane pendulum, c0, with c1: (1 + x) Φ₀ = 0, which depends on c0 where both hold and nowhere else.
+fn dependent_on_the_manifold() -> Mechanism<2, 2, 2> {
+    fn phi(s: &State<f64, 2>) -> f64 {
+        0.5 * (s.q.norm_squared() - 1.0)
+    }
+    Mechanism {
+        mass: crate::fixtures::identity,
+        forcing: |_| [0.0, -GRAVITY],
+        residual: |s| [phi(s), (1.0 + s.q[0]) * phi(s)],
+        rate: |s| [s.q.dot(&s.v), (1.0 + s.q[0]) * s.q.dot(&s.v) + s.v[0] * phi(s)],
+        jacobian: |s| [s.q.into(), [(1.0 + s.q[0]) * s.q[0] + phi(s), (1.0 + s.q[0]) * s.q[1]]],
+        bias: |s| {
+            let square = s.v.norm_squared();
+            [square, (1.0 + s.q[0]) * square + 2.0 * s.v[0] * s.q.dot(&s.v)]
+        },
+    }
+}
+
+#[test]
+fn constraints_that_depend_on_one_another_only_where_they_hold_do_no_harm() {
+    let redundant = dependent_on_the_manifold();
+    let single = Mechanism::<2, 1, 1> {
+        mass: crate::fixtures::identity,
+        forcing: |_| [0.0, -GRAVITY],
+        residual: |s| [0.5 * (s.q.norm_squared() - 1.0)],
+        rate: |s| [s.q.dot(&s.v)],
+        jacobian: |s| [s.q.into()],
+        bias: |s| [s.v.norm_squared()],
+    };
+    let start = State::at_rest([0.6, -0.8]);
+    let alone = single.integrate(start, 10.0, Dop853::default()).unwrap();
+    let path = redundant.integrate(start, 10.0, Dop853::default()).unwrap();
+    assert!(path.ending().is_complete(), "{}", path.ending());
+    assert!((path.end().state().q - alone.end().state().q).norm() < 1e-8);
+    assert!(path.statistics().accepted < 2 * alone.statistics().accepted);
+    assert!(!path.multipliers_are_unique());
+}
