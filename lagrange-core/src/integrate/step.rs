@@ -116,7 +116,10 @@ where
         let span = end - start.t;
         let step = match self.fixed_step.or(self.first_step) {
             Some(step) => L::Scalar::constant(step),
-            None => self.cut(self.estimate_step(system, start, span, (&slopes[0], &active), statistics)),
+            None => {
+                let estimate = self.estimate_step(system, start, span, (&slopes[0], &active), statistics);
+                larger(self.cut(estimate), span * L::Scalar::constant(L::Scalar::EPSILON))
+            }
         };
         let control = Control::new(step);
         Ok(Memory { state: *start, end, span, control, slopes, active, interpolant: [zero; COEFFICIENTS] })
