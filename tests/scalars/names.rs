@@ -134,3 +134,35 @@ fn macro_rules_may_pass_ranges_and_exponents() {
     assert_eq!(mass.as_slice(), [3.0, 2.0, 1.0, 2.0, 2.0, 1.0, 1.0, 1.0, 1.0]);
     assert_eq!(Chain.forcing(&State::at_rest([0.0, 0.5, 0.0])).as_slice(), [1.0; 3]);
 }
+
+/// Types that are called like those of the runtime.
+mod like_the_runtime {
+    use lagrange_core::prelude::Lagrangian;
+
+    type Scalar = f64;
+
+    #[derive(Lagrangian)]
+    #[coordinates(x)]
+    #[lagrangian(m/2 * x_dot^2 - k/2 * sin(x)^2)]
+    #[constraint(held: x = 0)]
+    #[observable(pull = lambda(held))]
+    #[lagrange(scalar = Scalar)]
+    pub(super) struct State {
+        pub(super) m: Scalar,
+        pub(super) k: Scalar,
+    }
+
+    #[derive(Lagrangian)]
+    #[coordinates(x)]
+    #[lagrangian(m/2 * x_dot^2)]
+    pub(super) struct Solution<Scalar> {
+        pub(super) m: Scalar,
+    }
+}
+
+#[test]
+fn types_may_be_called_like_those_of_the_runtime() {
+    let state = State::new([0.0], [1.0]);
+    assert_eq!(like_the_runtime::State { m: 2.0, k: 3.0 }.momentum(&state)[0], 2.0);
+    assert_eq!(like_the_runtime::Solution { m: 5.0_f32 }.momentum(&State::new([0.0], [1.0]))[0], 5.0);
+}
