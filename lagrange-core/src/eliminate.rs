@@ -57,7 +57,7 @@ pub(crate) fn eliminate_active<T: Scalar, const N: usize, const M: usize>(
     Solution {
         accelerations: vector(q),
         multipliers: vector(lambda),
-        pivot: mass.pivot.min(schur.pivot),
+        pivot: poison(mass.pivot.min(schur.pivot), mass.pivot * schur.pivot),
         rank: M,
     }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::ComplexField;
 
-use crate::kkt::{self, Contradictions, Equations, Fault};
+use crate::kkt::{self, Equations, Fault, Rank, Solved};
 use crate::names::Row;
 use crate::numeric::{larger, power_of_epsilon};
 use crate::{Error, Lagrangian, Names, Real, Scalar, Solution, State};
@@ -16,8 +16,34 @@ pub(crate) fn solve<L, const N: usize, const M: usize>(
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {
-    let solution = system.accelerations(state);
-    if is_trustworthy(&solution) { Ok(solution) } else { solve_in_general(system, state) }
+    solve_near(system, state, None).map(|(solution, _)| solution)
+}
+
+/// The same, and which constraints it rests on.
+///
+/// Near a state where only those `active` are independent, it rests on them. Off the constraints, by the error of a
+/// stage, the others may look independent too, but what they demand is nothing but that error.
+#[inline]
+pub(crate) fn solve_near<L, const N: usize, const M: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+    active: Option<&[bool; M]>,
+) -> Result<Solved<L::Scalar, N, M>, Error>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    match active {
+        Some(active) if active.contains(&false) => {
+            solve_in_general(system, state, active, Rank::off_constraints())
+        }
+        _ => {
+            let solution = system.accelerations(state);
+            if is_trustworthy(&solution) {
+                return Ok((solution, [true; M]));
+            }
+            solve_in_general(system, state, &[true; M], Rank::on_constraints())
+        }
+    }
 }
 
 /// Whether the elimination lost at most a third of the digits, by its smallest pivot, and all is finite.
@@ -31,11 +57,13 @@ pub(crate) fn is_trustworthy<T: Real, const N: usize, const M: usize>(s: &Soluti
 fn solve_in_general<L, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
-) -> Result<Solution<L::Scalar, N, M>, Error>
+    active: &[bool; M],
+    rank: Rank<L::Scalar>,
+) -> Result<Solved<L::Scalar, N, M>, Error>
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {
-    let equations = Equations {
+    let mut equations = Equations {
         m: system.mass_matrix(state).into(),
         h: system.forcing(state).into(),
         f: system.constraint_jacobian(state).transpose().into(),
@@ -45,7 +73,10 @@ where
     if let Some(row) = not_finite::<L, N, M>(&equations) {
         return Err(Error::EquationsNotFinite { row, time });
     }
-    kkt::solve(&equations, Contradictions::Fault).map_err(|fault| match fault {
+    for a in (0..M).filter(|&a| !active[a]) {
+        (equations.f[a], equations.gamma[a]) = ([L::Scalar::constant(0.0); N], L::Scalar::constant(0.0));
+    }
+    kkt::solve(&equations, rank).map_err(|fault| match fault {
         Fault::Singular(share) => Error::Singular { coordinates: most_involved::<L, N, M>(&share), time },
         Fault::Contradictory(row) => Error::Contradictory { constraint: name(&L::CONSTRAINTS, row), time },
     })

@@ -199,6 +199,14 @@ pub(crate) fn check<S: ByHand<N, M>, const N: usize, const M: usize>() {
     assert!(regular >= STATES / 2, "{}: only {regular} states are regular", S::NAME);
 }
 
+/// The same at the origin and at rest, where many terms vanish and nothing may divide by them.
+pub(crate) fn check_at_origin<S: ByHand<N, M>, const N: usize, const M: usize>() {
+    let mut random = Random(2);
+    let system = S::random(&mut random);
+    let (state, mut worst) = (State::at_rest([0.0; N]), Worst::default());
+    check_derivatives(&system, &state, &SVector::from_fn(|_, _| random.signed()), &mut worst);
+}
+
 /// The largest relative errors so far.
 #[derive(Default)]
 struct Worst {

@@ -11,7 +11,7 @@ use crate::random::Random;
 #[define(inertia = 2/5 * m * a^2)]
 #[lagrangian(m/2 * x_dot^2 + inertia/2 * phi_dot^2 + m*g*x*sin(alpha))]
 #[constraint(no_slip: x_dot - a*phi_dot = 0)]
-struct RollingSphere {
+pub(crate) struct RollingSphere {
     m: f64,
     a: f64,
     g: f64,
@@ -48,7 +48,7 @@ fn sphere_rolling_down_an_incline() {
 #[lagrangian(m/2*(x_dot^2 + y_dot^2 + z_dot^2) - m*g*z)]
 #[constraint(wire: x*sin(angle) = y*cos(angle))]
 #[constraint(climb: z_dot - x*y*y_dot*exp(-t) = c*sin(w*t)*x + t^2)]
-struct BeadOnWire {
+pub(crate) struct BeadOnWire {
     m: f64,
     g: f64,
     w: f64,
@@ -87,7 +87,7 @@ fn bead_on_a_rotating_wire() {
 #[define(velocity = der(center))]
 #[lagrangian(m/2*dot(velocity, velocity) + inertia/2*theta_dot^2)]
 #[constraint(blade: y_dot*cos(theta) - x_dot*sin(theta) = 0)]
-struct ChaplyginSleigh {
+pub(crate) struct ChaplyginSleigh {
     m: f64,
     a: f64,
     inertia: f64,
@@ -124,7 +124,7 @@ fn chaplygin_sleigh() {
 #[define(table = w*cos(t))]
 #[lagrangian(m/2*(x_dot^2 + y_dot^2) + m*k*a^2/2*dot(s_dot, s_dot) - m*g*x)]
 #[constraint(contact: [x_dot - a*s_dot[1], y_dot + a*s_dot[0]] = [-table*y, table*x])]
-struct Turntable {
+pub(crate) struct Turntable {
     m: f64,
     k: f64,
     a: f64,
@@ -200,7 +200,7 @@ fn rods_as_a_family() {
 #[coordinates(x, y)]
 #[lagrangian(m/2*(x_dot^2 + y_dot^2) - m*g*y)]
 #[constraint(curve: der(y - b*atan2(x, 1 + t) - ln(2 + x^2)) = 0)]
-struct BeadOnCurve {
+pub(crate) struct BeadOnCurve {
     m: f64,
     g: f64,
     b: f64,

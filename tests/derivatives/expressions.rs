@@ -117,6 +117,32 @@ fn powers() {
     check::<Powers, 2, 0>();
 }
 
+/// Base and exponent are one expression.
+#[derive(Lagrangian)]
+#[coordinates(x)]
+#[define(u = 3 + x*x_dot)]
+#[lagrangian(m*x_dot^2 + u^u/100)]
+struct PowerOfItself {
+    m: f64,
+}
+
+impl ByHand<1, 0> for PowerOfItself {
+    fn random(random: &mut Random) -> Self {
+        Self { m: random.positive() }
+    }
+
+    fn l<D: Number>(&self, _: D, [x]: &[D; 1], [vx]: &[D; 1]) -> D {
+        let u = *x * *vx + 3.0;
+        vx.powi(2) * self.m + u.powd(u) / 100.0
+    }
+}
+
+#[test]
+#[ignore = "the second derivatives of x^x count base and exponent twice"]
+fn power_of_itself() {
+    check::<PowerOfItself, 1, 0>();
+}
+
 /// Functions of scalars and of vectors, each with its own formals, called with one another.
 #[derive(Lagrangian)]
 #[coordinates(r: [3], s)]

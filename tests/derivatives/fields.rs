@@ -11,7 +11,7 @@ use crate::random::Random;
 #[coordinates(x: [3])]
 #[lagrangian(dot(x_dot, inertia*x_dot)/2 - dot(x, stiffness*x)/2)]
 #[constraint(rows: a*x = d)]
-struct Coupled {
+pub(crate) struct Coupled {
     inertia: Matrix3<f64>,
     stiffness: [[f64; 3]; 3],
     a: SMatrix<f64, 2, 3>,
@@ -54,7 +54,7 @@ fn matrices_as_parameters() {
 #[define(p[0] = [l[0]*sin(u[0])*cos(w[0]), l[0]*sin(u[0])*sin(w[0]), -l[0]*cos(u[0])])]
 #[define(p[i in 1..3] = p[i-1] + l[i]*[sin(u[i])*cos(w[i]), sin(u[i])*sin(w[i]), -cos(u[i])])]
 #[lagrangian(sum(i in 0..3, dot(der(p[i]), der(p[i]))/2 - g*p[i][2]))]
-struct StringOfMasses {
+pub(crate) struct StringOfMasses {
     l: [f64; 3],
     g: f64,
 }

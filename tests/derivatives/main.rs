@@ -7,6 +7,7 @@ mod by_hand;
 mod constrained;
 mod expressions;
 mod fields;
+mod origin;
 mod particles;
 mod pendulums;
 mod random;

@@ -38,7 +38,7 @@ fn kepler_in_polar_coordinates() {
 #[coordinates(x, y)]
 #[define(gamma = 1/sqrt(1 - (x_dot^2 + y_dot^2)/c^2))]
 #[lagrangian(-m*c^2/gamma - k/2*(x^2 + y^2) - q*x*y^3)]
-struct Relativistic {
+pub(crate) struct Relativistic {
     m: f64,
     c: f64,
     k: f64,
@@ -70,7 +70,7 @@ fn relativistic_particle() {
 #[define(ay = b*x*exp(-x^2 - y^2))]
 #[define(az = b*x*y*t)]
 #[lagrangian(m/2*(x_dot^2 + y_dot^2 + z_dot^2) + e*(ax*x_dot + ay*y_dot + az*z_dot) - e*u*x*z)]
-struct MagneticField {
+pub(crate) struct MagneticField {
     m: f64,
     e: f64,
     b: f64,
@@ -110,7 +110,7 @@ fn charge_in_a_magnetic_field() {
 #[force(r: [-b*r_dot[1]*x, f*sin(w*t)*r_dot[0]^2])]
 #[force(r[1]: f*x_dot^3)]
 #[dissipation(c/2*(1 + x^2)*x_dot^2 + c/4*(dot(r_dot, r_dot))^2*exp(-t) + c*x_dot*r_dot[0]*r[1])]
-struct Driven {
+pub(crate) struct Driven {
     m: f64,
     k: f64,
     b: f64,
@@ -160,7 +160,7 @@ fn forces_and_dissipation() {
     m/2*dot(r_dot, r_dot) + m*dot(r_dot, cross(omega, r))
         + m/2*dot(cross(omega, r), cross(omega, r)) - m*dot(a, r) - k/4*dot(r, r)^2
 )]
-struct RotatingFrame {
+pub(crate) struct RotatingFrame {
     m: f64,
     w: f64,
     b: f64,

@@ -9,7 +9,7 @@ use crate::random::Random;
 #[coordinates(r: [3])]
 #[lagrangian(m/2 * dot(r_dot, r_dot) - m*g*r[2])]
 #[constraint(string: (dot(r, r) - l^2)/2 = 0)]
-struct SphericalPendulum {
+pub(crate) struct SphericalPendulum {
     m: f64,
     g: f64,
     l: f64,
@@ -37,10 +37,10 @@ fn spherical_pendulum_in_cartesian_coordinates() {
 #[derive(Lagrangian)]
 #[coordinates(theta, phi)]
 #[lagrangian(m*l^2/2 * (theta_dot^2 + sin(theta)^2 * phi_dot^2) - m*g*l*cos(theta))]
-struct PolarPendulum {
-    m: f64,
-    g: f64,
-    l: f64,
+pub(crate) struct PolarPendulum {
+    pub(crate) m: f64,
+    pub(crate) g: f64,
+    pub(crate) l: f64,
 }
 
 impl ByHand<2, 0> for PolarPendulum {
@@ -65,7 +65,7 @@ fn spherical_pendulum_in_polar_coordinates() {
     (m1 + m2)/2 * l1^2 * a_dot^2 + m2/2 * l2^2 * b_dot^2 + m2*l1*l2*a_dot*b_dot*cos(a - b)
         + (m1 + m2)*g*l1*cos(a) + m2*g*l2*cos(b)
 )]
-struct DoublePendulum {
+pub(crate) struct DoublePendulum {
     m1: f64,
     m2: f64,
     l1: f64,
@@ -99,7 +99,7 @@ fn double_pendulum() {
 #[derive(Lagrangian)]
 #[coordinates(r, theta)]
 #[lagrangian(m/2 * (r_dot^2 + r^2 * theta_dot^2) + m*g*r*cos(theta) - k/2 * (r - l)^2)]
-struct ElasticPendulum {
+pub(crate) struct ElasticPendulum {
     m: f64,
     g: f64,
     k: f64,
@@ -131,7 +131,7 @@ fn elastic_pendulum() {
     m/2 * (x_dot^2 + x^2 * theta_dot^2) + mass/2 * y_dot^2 + m*g*x*cos(theta) + mass*g*y
 )]
 #[constraint(rope: x + y = length)]
-struct SwingingAtwood {
+pub(crate) struct SwingingAtwood {
     m: f64,
     mass: f64,
     g: f64,
@@ -168,7 +168,7 @@ fn swinging_atwood_machine() {
 #[define(y = pivot - l*cos(theta))]
 #[define(speed_squared = der(x)^2 + der(y)^2)]
 #[lagrangian(m/2 * speed_squared - m*g*y)]
-struct DrivenPendulum {
+pub(crate) struct DrivenPendulum {
     m: f64,
     g: f64,
     l: f64,
@@ -205,7 +205,7 @@ fn pendulum_with_a_driven_pivot() {
 #[define(vy[i in 1..5] = vy[i-1] + l[i]*sin(theta[i])*theta_dot[i])]
 #[define(y[i in 0..5] = -sum(j in 0..i+1, l[j]*cos(theta[j])))]
 #[lagrangian(sum(i in 0..5, m[i]/2 * (vx[i]^2 + vy[i]^2) - m[i]*g*y[i]))]
-struct Chain {
+pub(crate) struct Chain {
     m: [f64; 5],
     l: [f64; 5],
     g: f64,

@@ -12,7 +12,7 @@ use core::fmt::{self, Display, Formatter};
 use nalgebra::{ComplexField, SVector};
 
 use crate::eliminate::eliminate_active;
-use crate::kkt::{self, Contradictions, Equations};
+use crate::kkt::{self, Equations, Rank};
 use crate::numeric::{exceeds, larger, power_of_epsilon};
 use crate::solve::{is_trustworthy, name};
 use crate::{ConstraintKind, Error, Lagrangian, Real, Scalar, State};
@@ -238,8 +238,12 @@ where
             return Ok(());
         }
         let before = residual.distance().0;
-        let next = correction(system, state, &residual)
-            .and_then(|step| descend::<L, K, N, M>(system, state, &residual, step));
+        // Constraints nearly dependent here are dependent where they hold, as a rule; if not, they all count.
+        let mut step_with = |rank| {
+            let step = correction(system, state, &residual, rank)?;
+            descend::<L, K, N, M>(system, state, &residual, step)
+        };
+        let next = step_with(Rank::towards_constraints()).or_else(|| step_with(Rank::off_constraints()));
         let converged = residual.is_negligible();
         match next {
             Some(next) if converged && next.distance().0 > half * before => return Ok(()),
@@ -282,6 +286,7 @@ fn correction<L, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
     residual: &Residual<L::Scalar, N, M>,
+    rank: Rank<L::Scalar>,
 ) -> Option<SVector<L::Scalar, N>>
 where
     L: Lagrangian<N, M, Scalar: Real>,
@@ -294,7 +299,7 @@ where
     }
     let general = |m| {
         let equations = Equations { m, h, f: residual.jacobian, gamma: residual.value };
-        kkt::solve(&equations, Contradictions::Ignore).ok().map(|solution| solution.accelerations)
+        kkt::solve(&equations, rank).ok().map(|(solution, _)| solution.accelerations)
     };
     // Without the velocity constraints a massless coordinate may have no metric: take the plain one.
     general(m).or_else(|| general(diagonal(&m))).filter(|step| step.iter().all(|x| x.is_finite()))

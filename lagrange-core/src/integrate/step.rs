@@ -10,7 +10,7 @@ use super::{Adaptive, Ending, Limits, Method, Phase, Statistics, Step};
 use crate::eliminate::vector;
 use crate::names::{Entry, Row as EquationRow};
 use crate::numeric::{exceeds, larger};
-use crate::solve::{name, solve};
+use crate::solve::{name, solve_near};
 use crate::{Error, Lagrangian, Real, Scalar, State, consistent};
 
 /// Room for the longest interpolant here.
@@ -18,7 +18,7 @@ const COEFFICIENTS: usize = 8;
 
 /// What a pair carries from step to step.
 #[derive(Clone, Debug)]
-pub struct Memory<T, const N: usize> {
+pub struct Memory<T, const N: usize, const M: usize> {
     state: State<T, N>,
     end: T,
     /// The whole time from start to end.
@@ -26,10 +26,12 @@ pub struct Memory<T, const N: usize> {
     control: Control<T>,
     /// The first is that of `state`.
     slopes: Slopes<T, N>,
+    /// Which constraints the first slope rests on: as many as are independent at `state`.
+    active: [bool; M],
     interpolant: [Phase<T, N>; COEFFICIENTS],
 }
 
-impl<T: Real, const N: usize> Memory<T, N> {
+impl<T: Real, const N: usize, const M: usize> Memory<T, N, M> {
     /// The next step and the time after it: exactly the end where that is near.
     fn next(&self) -> (T, T) {
         let (now, step) = (self.state.t, self.control.step);
@@ -81,10 +83,11 @@ impl<T> From<Error> for Refusal<T> {
     }
 }
 
-/// The state after a step, and its error as a part of the tolerance.
-struct Accepted<T, const N: usize> {
+/// The state after a step, its error as a part of the tolerance, and which constraints its slope rests on.
+struct Accepted<T, const N: usize, const M: usize> {
     state: State<T, N>,
     error: T,
+    active: [bool; M],
 }
 
 impl<P, L, const N: usize, const M: usize> Method<L, N, M> for Adaptive<P>
@@ -92,7 +95,7 @@ where
     P: Pair,
     L: Lagrangian<N, M, Scalar: Real>,
 {
-    type Memory = Memory<L::Scalar, N>;
+    type Memory = Memory<L::Scalar, N, M>;
 
     fn limits(&self) -> Limits {
         self.limits()
@@ -108,14 +111,18 @@ where
         self.check()?;
         let zero = [[L::Scalar::constant(0.0); N]; 2];
         let mut slopes = [zero; SLOPES];
-        slopes[0] = slope(system, start.t, &phase(start), statistics)?;
+        let active;
+        (slopes[0], active) = slope(system, start.t, &phase(start), None, statistics)?;
         let span = end - start.t;
         let step = match self.fixed_step.or(self.first_step) {
             Some(step) => L::Scalar::constant(step),
-            None => self.cut(self.estimate_step(system, start, span, &slopes[0], statistics)),
+            None => {
+                let estimate = self.estimate_step(system, start, span, (&slopes[0], &active), statistics);
+                larger(self.cut(estimate), span * L::Scalar::constant(L::Scalar::EPSILON))
+            }
         };
         let control = Control::new(step);
-        Ok(Memory { state: *start, end, span, control, slopes, interpolant: [zero; COEFFICIENTS] })
+        Ok(Memory { state: *start, end, span, control, slopes, active, interpolant: [zero; COEFFICIENTS] })
     }
 
     fn step<'m>(
@@ -127,8 +134,9 @@ where
         let (h, time) = memory.next();
         let now = memory.state.t.to_f64();
         let ending = match self.attempt(system, memory, h, time, statistics) {
-            Ok(Accepted { state, error }) => {
+            Ok(Accepted { state, error, active }) => {
                 memory.state = state;
+                memory.active = active;
                 memory.slopes[0] = memory.slopes[P::STAGES.len() + 1];
                 if self.fixed_step.is_none() {
                     memory.control.accept::<P>(h, error);
@@ -160,11 +168,11 @@ impl<P: Pair> Adaptive<P> {
     fn attempt<L, const N: usize, const M: usize>(
         &self,
         system: &L,
-        memory: &mut Memory<L::Scalar, N>,
+        memory: &mut Memory<L::Scalar, N, M>,
         h: L::Scalar,
         time: L::Scalar,
         statistics: &mut Statistics,
-    ) -> Result<Accepted<L::Scalar, N>, Refusal<L::Scalar>>
+    ) -> Result<Accepted<L::Scalar, N, M>, Refusal<L::Scalar>>
     where
         L: Lagrangian<N, M, Scalar: Real>,
     {
@@ -175,8 +183,9 @@ impl<P: Pair> Adaptive<P> {
         stages::<P, L, N, M>(system, memory, h, (1, P::STAGES), statistics)?;
         let mut next = advance(&start, h, &memory.slopes, P::WEIGHTS);
         check_finite::<L, N, M>(time, &next)?;
+        let mut active = memory.active;
         if error_needs_last {
-            memory.slopes[last] = slope(system, time, &next, statistics)?;
+            (memory.slopes[last], active) = slope(system, time, &next, Some(&active), statistics)?;
         }
         let error = self.check_error(&memory.slopes, h, &start, &next)?;
         if M > 0 {
@@ -185,11 +194,11 @@ impl<P: Pair> Adaptive<P> {
             next = phase(&state);
         }
         if M > 0 || !error_needs_last {
-            memory.slopes[last] = slope(system, time, &next, statistics)?;
+            (memory.slopes[last], active) = slope(system, time, &next, None, statistics)?;
         }
         stages::<P, L, N, M>(system, memory, h, (last + 1, P::INTERPOLATION_STAGES), statistics)?;
         memory.interpolate::<P>(h, &start, &next);
-        Ok(Accepted { state: state(time, &next), error })
+        Ok(Accepted { state: state(time, &next), error, active })
     }
 
     /// The error as a part of the tolerance, at most 1; nothing refuses a fixed step.
@@ -212,7 +221,7 @@ impl<P: Pair> Adaptive<P> {
         system: &L,
         start: &State<L::Scalar, N>,
         span: L::Scalar,
-        first: &Phase<L::Scalar, N>,
+        (first, active): (&Phase<L::Scalar, N>, &[bool; M]),
         statistics: &mut Statistics,
     ) -> L::Scalar
     where
@@ -221,8 +230,8 @@ impl<P: Pair> Adaptive<P> {
         let y = phase(start);
         let guess = self.guess_step(&y, first, span);
         let euler = from_fn(|half| from_fn(|i| y[half][i] + guess * first[half][i]));
-        match slope(system, start.t + guess, &euler, statistics) {
-            Ok(second) => self.first_step_from(guess, &y, first, &second),
+        match slope(system, start.t + guess, &euler, Some(active), statistics) {
+            Ok((second, _)) => self.first_step_from(guess, &y, first, &second),
             Err(_) => guess,
         }
     }
@@ -231,7 +240,7 @@ impl<P: Pair> Adaptive<P> {
 /// Evaluates the slopes of these stages, the first of which has the number given.
 fn stages<P, L, const N: usize, const M: usize>(
     system: &L,
-    memory: &mut Memory<L::Scalar, N>,
+    memory: &mut Memory<L::Scalar, N, M>,
     h: L::Scalar,
     (first, rows): (usize, &[Row]),
     statistics: &mut Statistics,
@@ -244,26 +253,27 @@ where
     for (number, row) in rows.iter().enumerate().map(|(i, row)| (first + i, row)) {
         let y = advance(&start, h, &memory.slopes, row);
         let t = memory.state.t + h * L::Scalar::constant(P::NODES[number]);
-        memory.slopes[number] = slope(system, t, &y, statistics)?;
+        (memory.slopes[number], _) = slope(system, t, &y, Some(&memory.active), statistics)?;
     }
     Ok(())
 }
 
-/// (q̇, q̈).
+/// (q̇, q̈), and which constraints that rests on: those `active`, or as many as are independent.
 #[inline]
 fn slope<L, const N: usize, const M: usize>(
     system: &L,
     t: L::Scalar,
     y: &Phase<L::Scalar, N>,
+    active: Option<&[bool; M]>,
     statistics: &mut Statistics,
-) -> Result<Phase<L::Scalar, N>, Error>
+) -> Result<(Phase<L::Scalar, N>, [bool; M]), Error>
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {
     statistics.evaluations += 1;
-    let solution = solve(system, &state(t, y))?;
+    let (solution, active) = solve_near(system, &state(t, y), active)?;
     statistics.multipliers_are_unique &= solution.multipliers_are_unique();
-    Ok([y[1], solution.accelerations.into()])
+    Ok(([y[1], solution.accelerations.into()], active))
 }
 
 fn check_finite<L, const N: usize, const M: usize>(

@@ -2,6 +2,7 @@ use core::ops::ControlFlow;
 use std::time::Duration;
 
 use crate::fixtures::{GRAVITY, Mechanism, free, oscillator, rolling_sphere, spherical_pendulum};
+use crate::integrate::Pair;
 use crate::prelude::*;
 
 type Pendulum = Mechanism<3, 1, 1>;
@@ -83,30 +84,85 @@ fn dopri5_keeps_a_spherical_pendulum_on_its_sphere() {
     swing(Dopri5::with_tolerance(1e-10), 1e-7);
 }
 
-/// Slopes of log error over log step, of the end and of the interpolant in between, over five halvings.
-fn slopes<P>(method: impl Fn(f64) -> P, first: f64) -> (f64, f64)
+/// A system with the motion it has from t = 0 on.
+type Solved = (Mechanism<1, 0, 0>, fn(f64) -> (f64, f64));
+
+fn solved() -> [Solved; 2] {
+    [
+        (oscillator(), |t| (t.cos(), -t.sin())),
+        // Nonlinear, and with time in it.
+        (free(|s| [3.0 * s.q[0].powi(2) + 3.0 / (1.0 + s.t).powi(4)]), |t| {
+            ((1.0 + t).powi(-2), -2.0 * (1.0 + t).powi(-3))
+        }),
+    ]
+}
+
+/// The mean slope of log error over log step in four halvings, at the end and of the worst error in between.
+fn slopes<P>((system, exact): Solved, method: impl Fn(f64) -> P, coarsest: f64) -> (f64, f64)
 where
     P: Method<Mechanism<1, 0, 0>, 1, 0>,
 {
-    let system = oscillator();
     let errors = |h: f64| {
-        let path = system.integrate(State::new([1.0], [0.0]), 8.0, method(h)).unwrap();
+        let (q, v) = exact(0.0);
+        let path = system.integrate(State::new([q], [v]), 8.0, method(h)).unwrap();
         let error = |s: &Sample<'_, Mechanism<1, 0, 0>, 1, 0>| {
-            let (t, q, v) = (s.time(), s.state().q[0], s.state().v[0]);
-            (q - t.cos()).hypot(v + t.sin())
+            let (q, v) = exact(s.time());
+            (s.state().q[0] - q).hypot(s.state().v[0] - v)
         };
         (error(&path.end()), path.samples(1000).map(|s| error(&s)).fold(0.0, f64::max))
     };
-    let (coarse, fine) = (errors(first), errors(first / 16.0));
+    let (coarse, fine) = (errors(coarsest), errors(coarsest / 16.0));
     ((coarse.0 / fine.0).log2() / 4.0, (coarse.1 / fine.1).log2() / 4.0)
 }
 
 #[test]
 fn the_orders_of_convergence_are_five_and_eight() {
-    let (end, between) = slopes(|h| Dopri5::default().fixed_step(h), 0.5);
-    assert!(end >= 4.9 && between >= 4.5, "{end}, {between}");
-    let (end, between) = slopes(|h| Dop853::default().fixed_step(h), 2.0);
-    assert!(end >= 7.7 && between >= 7.5, "{end}, {between}");
+    for (system, steps) in solved().into_iter().zip([[0.5, 2.0], [0.25, 0.5]]) {
+        let (end, between) = slopes(system, |h| Dopri5::default().fixed_step(h), steps[0]);
+        assert!(end >= 4.9 && between >= 4.5, "{end}, {between}");
+        let (end, between) = slopes(system, |h| Dop853::default().fixed_step(h), steps[1]);
+        assert!(end >= 7.7 && between >= 7.5, "{end}, {between}");
+    }
+}
+
+fn check_coefficients<P: Pair>() {
+    let sum = |row: &[(usize, f64)]| row.iter().map(|(_, c)| c).sum::<f64>();
+    for (row, node) in P::STAGES.iter().zip(&P::NODES[1..]) {
+        assert!((sum(row) - node).abs() < 1e-13);
+    }
+    for (row, node) in P::INTERPOLATION_STAGES.iter().zip(P::NODES.iter().skip(P::STAGES.len() + 2)) {
+        assert!((sum(row) - node).abs() < 1e-13);
+    }
+    // Quadrature of a power k < order: Σ bᵢ cᵢᵏ = 1/(k + 1), and what the error estimates and the interpolant
+    // ignore sums to nothing.
+    for k in 0..P::ORDER as i32 {
+        let moment: f64 = P::WEIGHTS.iter().map(|(i, b)| b * P::NODES[*i].powi(k)).sum();
+        assert!((moment - 1.0 / f64::from(k + 1)).abs() < 1e-13, "{k}: {moment}");
+    }
+    for row in [P::ERROR, P::LOWER_ERROR].into_iter().chain(P::INTERPOLATION.iter().copied()) {
+        assert!(sum(row).abs() < 1e-12, "{}", sum(row));
+    }
+}
+
+#[test]
+fn the_coefficients_satisfy_the_quadrature_conditions() {
+    check_coefficients::<super::DormandPrince54>();
+    check_coefficients::<super::DormandPrince853>();
+}
+
+#[derive(Lagrangian)]
+#[coordinates(x)]
+#[lagrangian(1/2 * (x_dot^2 - k*x^2))]
+struct Spring<T> {
+    k: T,
+}
+
+#[test]
+fn single_precision_is_integrated_to_its_round_off() {
+    let spring = Spring { k: 4.0_f32 };
+    let path = spring.integrate(State::new([1.0], [0.0]), 10.0, Dop853::default()).unwrap();
+    assert!(path.ending().is_complete());
+    assert!((path.end().coordinate("x").unwrap() - 20.0_f32.cos()).abs() < 2e-5);
 }
 
 #[test]
@@ -262,4 +318,42 @@ fn a_motion_of_no_length_is_its_start() {
     assert!(path.ending().is_complete() && path.steps().count() == 1);
     assert_eq!(path.end().velocity("x"), Ok(2.0));
     assert_eq!(path.samples(3).count(), 3);
+}
+
+/// A plane pendulum, c0, with c1: (1 + x) Φ₀ = 0, which depends on c0 where both hold and nowhere else.
+fn dependent_on_the_manifold() -> Mechanism<2, 2, 2> {
+    fn phi(s: &State<f64, 2>) -> f64 {
+        0.5 * (s.q.norm_squared() - 1.0)
+    }
+    Mechanism {
+        mass: crate::fixtures::identity,
+        forcing: |_| [0.0, -GRAVITY],
+        residual: |s| [phi(s), (1.0 + s.q[0]) * phi(s)],
+        rate: |s| [s.q.dot(&s.v), (1.0 + s.q[0]) * s.q.dot(&s.v) + s.v[0] * phi(s)],
+        jacobian: |s| [s.q.into(), [(1.0 + s.q[0]) * s.q[0] + phi(s), (1.0 + s.q[0]) * s.q[1]]],
+        bias: |s| {
+            let square = s.v.norm_squared();
+            [square, (1.0 + s.q[0]) * square + 2.0 * s.v[0] * s.q.dot(&s.v)]
+        },
+    }
+}
+
+#[test]
+fn constraints_that_depend_on_one_another_only_where_they_hold_do_no_harm() {
+    let redundant = dependent_on_the_manifold();
+    let single = Mechanism::<2, 1, 1> {
+        mass: crate::fixtures::identity,
+        forcing: |_| [0.0, -GRAVITY],
+        residual: |s| [0.5 * (s.q.norm_squared() - 1.0)],
+        rate: |s| [s.q.dot(&s.v)],
+        jacobian: |s| [s.q.into()],
+        bias: |s| [s.v.norm_squared()],
+    };
+    let start = State::at_rest([0.6, -0.8]);
+    let alone = single.integrate(start, 10.0, Dop853::default()).unwrap();
+    let path = redundant.integrate(start, 10.0, Dop853::default()).unwrap();
+    assert!(path.ending().is_complete(), "{}", path.ending());
+    assert!((path.end().state().q - alone.end().state().q).norm() < 1e-8);
+    assert!(path.statistics().accepted < 2 * alone.statistics().accepted);
+    assert!(!path.multipliers_are_unique());
 }

@@ -35,29 +35,49 @@ pub(crate) enum Fault<T, const N: usize> {
     Contradictory(usize),
 }
 
-/// What to do where dependent constraints demand different accelerations.
-#[derive(Clone, Copy, PartialEq)]
-pub(crate) enum Contradictions {
-    /// Report them.
-    Fault,
-    /// Satisfy the independent ones: the residuals of an iteration agree only when it has converged.
-    Ignore,
+/// How the rank of the constraints is decided.
+#[derive(Clone, Copy)]
+pub(crate) struct Rank<T> {
+    /// A row counts as dependent where less than this of its length is left.
+    tolerance: T,
+    /// Whether dependent constraints must agree with the others; else they are left out.
+    must_agree: bool,
 }
+
+impl<T: Real> Rank<T> {
+    /// At a state on the constraints: to ε^(2/3), and contradictions are a fault.
+    pub(crate) fn on_constraints() -> Self {
+        Self { tolerance: power_of_epsilon(2.0 / 3.0), must_agree: true }
+    }
+
+    /// At a state off the constraints, where constraints that depend on one another where they hold may not.
+    pub(crate) fn off_constraints() -> Self {
+        Self { must_agree: false, ..Self::on_constraints() }
+    }
+
+    /// For a step towards the constraints: as the last, but to ε^(1/3).
+    pub(crate) fn towards_constraints() -> Self {
+        Self { tolerance: power_of_epsilon(1.0 / 3.0), ..Self::off_constraints() }
+    }
+}
+
+/// A solution, and which constraints it rests on: as many as are independent.
+pub(crate) type Solved<T, const N: usize, const M: usize> = (Solution<T, N, M>, [bool; M]);
 
 /// Solves the equations in the units in which masses are about 1 and constraint rows have length 1.
 ///
-/// In these units a constraint is dependent where less than ε^(2/3) of its row is left, and a direction has no
-/// inertia where less than ε^(3/4) of the largest is left (ε: the round-off unit of `T`).
+/// In these units a direction has no inertia where less than ε^(3/4) of the largest is left (ε: the round-off unit
+/// of `T`).
 pub(crate) fn solve<T: Real, const N: usize, const M: usize>(
     equations: &Equations<T, N, M>,
-    contradictions: Contradictions,
-) -> Result<Solution<T, N, M>, Fault<T, N>> {
+    rank: Rank<T>,
+) -> Result<Solved<T, N, M>, Fault<T, N>> {
     let unit = natural_units(equations);
     let scaled = Scaled::of(equations, &unit);
-    let split = Qr::of(scaled.rows, power_of_epsilon(2.0 / 3.0));
+    let split = Qr::of(scaled.rows, rank.tolerance);
 
     let fixed = split.solve_transposed(&scaled.bias);
-    if contradictions == Contradictions::Fault {
+    if rank.must_agree {
         check_agreement(&split, &scaled, &fixed)?;
     }
     let mut h = scaled.h;
@@ -69,12 +89,13 @@ pub(crate) fn solve<T: Real, const N: usize, const M: usize>(
     let force = from_fn(|i| if i < split.rank { dot(&m[i], &q) - h[i] } else { T::constant(0.0) });
     let lambda = multipliers(&split, &scaled.length, &force);
     split.leave_basis(&mut q);
-    Ok(Solution {
+    let solution = Solution {
         accelerations: vector(from_fn(|i| q[i] * unit[i])),
         multipliers: vector(lambda),
         pivot: smaller(pivot, smallest_diagonal(&split)),
         rank: split.rank,
-    })
+    };
+    Ok((solution, from_fn(|a| split.order.iter().take(split.rank).any(|&row| row == a))))
 }
 
 /// For each coordinate the unit in which its mass is ±1; where it has none, that in which its strongest coupling is 1.

@@ -138,7 +138,7 @@ impl<'a> Style<'a> {
         let magnitude = Literal::f64_unsuffixed(value.abs());
         let literal = if value.is_sign_negative() { quote!((-#magnitude)) } else { quote!(#magnitude) };
         let scalar = self.scalar;
-        if self.is_f64 { literal } else { quote!(<#scalar as Scalar>::constant(#literal)) }
+        if self.is_f64 { literal } else { quote!(<#scalar as __lagrange::Scalar>::constant(#literal)) }
     }
 
     /// Computes `roots`.
@@ -253,7 +253,7 @@ impl Writer<'_, '_> {
         let (mine, theirs) = (self.register_name(index), self.register_name(partner.index()));
         let (sine, cosine) = if function == Function::Sin { (&mine, &theirs) } else { (&theirs, &mine) };
         let x = self.value(x);
-        self.assignments.push(quote! { (#sine, #cosine) = Scalar::sin_cos(#x); });
+        self.assignments.push(quote! { (#sine, #cosine) = __lagrange::Scalar::sin_cos(#x); });
         self.locals.extend([mine.clone(), theirs]);
         self.values.push((quote!(#mine), 0));
     }
@@ -297,7 +297,7 @@ fn infix(x: TokenStream, operator: TokenStream, y: TokenStream) -> TokenStream {
 
 fn call(name: &str, arguments: &[TokenStream]) -> TokenStream {
     let name = Ident::new(name, Span::mixed_site());
-    quote!(Scalar::#name(#(#arguments),*))
+    quote!(__lagrange::Scalar::#name(#(#arguments),*))
 }
 
 fn function_name(function: Function) -> &'static str {

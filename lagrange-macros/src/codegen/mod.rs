@@ -44,6 +44,12 @@ pub(crate) fn implementation(
     emitter.block(fused)
 }
 
+/// What computing `roots` together takes.
+#[cfg(test)]
+pub(crate) fn operations(graph: &crate::symbolic::Graph, roots: &[Id]) -> Count {
+    schedule::Schedule::new(graph, roots).count(roots)
+}
+
 struct Emitter<'a> {
     declaration: &'a Declaration,
     problem: &'a Problem,
@@ -65,8 +71,8 @@ impl Emitter<'_> {
         let coordinates = self.problem.coordinates.iter().map(|label| &label.text);
         let constraints = self.problem.constraints.iter().map(|(label, _)| &label.text);
         let kinds = self.equations.kinds.iter().map(|kind| match kind {
-            ConstraintKind::Holonomic => quote!(ConstraintKind::Holonomic),
-            ConstraintKind::Velocity => quote!(ConstraintKind::Velocity),
+            ConstraintKind::Holonomic => quote!(__lagrange::ConstraintKind::Holonomic),
+            ConstraintKind::Velocity => quote!(__lagrange::ConstraintKind::Velocity),
         });
         let observables = self.observable_names();
         let functions = self.functions(fused);
@@ -76,18 +82,17 @@ impl Emitter<'_> {
         let doc = format!("```text\n{text}```");
         quote! {
             const _: () = {
-                use #runtime::eliminate::{eliminate, matrix, vector};
-                use #runtime::nalgebra::{SMatrix, SVector};
-                use #runtime::{ConstraintKind, Equations, Lagrangian, Scalar, Solution, State};
+                // One name is imported, and none that a user would give.
+                use #runtime as __lagrange;
 
                 #[automatically_derived]
                 #[allow(clippy::all, unused_parens)]
-                impl #impl_generics Lagrangian<#n, #m> for #ident #type_generics #where_clause {
+                impl #impl_generics __lagrange::Lagrangian<#n, #m> for #ident #type_generics #where_clause {
                     type Scalar = #scalar;
                     const NAME: &'static str = #name;
                     const COORDINATES: [&'static str; #n] = [#(#coordinates),*];
                     const CONSTRAINTS: [&'static str; #m] = [#(#constraints),*];
-                    const CONSTRAINT_KINDS: [ConstraintKind; #m] = [#(#kinds),*];
+                    const CONSTRAINT_KINDS: [__lagrange::ConstraintKind; #m] = [#(#kinds),*];
                     const OBSERVABLES: &'static [&'static str] = &[#(#observables),*];
                     #functions
                 }
@@ -110,16 +115,25 @@ impl Emitter<'_> {
         let lagrangian = self.style.kernel(&[self.problem.lagrangian]);
         let lagrangian =
             self.function("lagrangian", &quote!(#scalar), &lagrangian, |results| quote!(#(#results)*));
-        let of_coordinates = quote!(SVector<#scalar, #n>);
-        let of_constraints = quote!(SVector<#scalar, #m>);
+        let of_coordinates = quote!(__lagrange::nalgebra::SVector<#scalar, #n>);
+        let of_constraints = quote!(__lagrange::nalgebra::SVector<#scalar, #m>);
         let momentum = self.vector("momentum", &of_coordinates, &equations.momentum);
         let forcing = self.vector("forcing", &of_coordinates, &equations.forcing);
         let residual = self.vector("constraint_residual", &of_constraints, &equations.residual);
         let rate = self.vector("constraint_rate", &of_constraints, &equations.rate);
         let bias = self.vector("constraint_bias", &of_constraints, &equations.bias);
-        let mass = self.matrix("mass_matrix", &quote!(SMatrix<#scalar, #n, #n>), &equations.mass, n);
-        let jacobian =
-            self.matrix("constraint_jacobian", &quote!(SMatrix<#scalar, #m, #n>), &equations.jacobian, n);
+        let mass = self.matrix(
+            "mass_matrix",
+            &quote!(__lagrange::nalgebra::SMatrix<#scalar, #n, #n>),
+            &equations.mass,
+            n,
+        );
+        let jacobian = self.matrix(
+            "constraint_jacobian",
+            &quote!(__lagrange::nalgebra::SMatrix<#scalar, #m, #n>),
+            &equations.jacobian,
+            n,
+        );
         let force = self.constraint_force();
         let accelerations = self.accelerations(&fused);
         let observable = self.observable_by_index();
@@ -142,7 +156,7 @@ impl Emitter<'_> {
             #[doc = #doc]
             #[inline]
             #[allow(unused_variables)]
-            fn #name(&self, state: &State<#scalar, #n>) -> #returns {
+            fn #name(&self, state: &__lagrange::State<#scalar, #n>) -> #returns {
                 #statements
                 #result
             }
@@ -150,7 +164,12 @@ impl Emitter<'_> {
     }
 
     fn vector(&self, name: &str, returns: &TokenStream, roots: &[Id]) -> TokenStream {
-        self.function(name, returns, &self.style.kernel(roots), |results| quote!(vector([#(#results),*])))
+        self.function(
+            name,
+            returns,
+            &self.style.kernel(roots),
+            |results| quote!(__lagrange::eliminate::vector([#(#results),*])),
+        )
     }
 
     /// nalgebra's matrices are stored by columns.
@@ -163,7 +182,7 @@ impl Emitter<'_> {
                 let column = &results[j * height..(j + 1) * height];
                 quote!([#(#column),*])
             });
-            quote!(matrix([#(#columns),*]))
+            quote!(__lagrange::eliminate::matrix([#(#columns),*]))
         })
     }
 
@@ -172,15 +191,18 @@ impl Emitter<'_> {
             (self.problem.coordinates.len(), self.problem.constraints.len(), self.style.scalar);
         let kernel = self.style.kernel(&self.equations.constraint_force);
         let (statements, doc) = (&kernel.statements, count_doc(kernel.count));
-        let results =
-            if m == 0 { (0..n).map(|_| quote!(Scalar::constant(0.0))).collect() } else { kernel.results };
+        let results = if m == 0 {
+            (0..n).map(|_| quote!(__lagrange::Scalar::constant(0.0))).collect()
+        } else {
+            kernel.results
+        };
         quote! {
             #[doc = #doc]
             #[inline]
             #[allow(unused_variables)]
-            fn constraint_force(&self, state: &State<#scalar, #n>, multipliers: &SVector<#scalar, #m>) -> SVector<#scalar, #n> {
+            fn constraint_force(&self, state: &__lagrange::State<#scalar, #n>, multipliers: &__lagrange::nalgebra::SVector<#scalar, #m>) -> __lagrange::nalgebra::SVector<#scalar, #n> {
                 #statements
-                vector([#(#results),*])
+                __lagrange::eliminate::vector([#(#results),*])
             }
         }
     }
@@ -198,7 +220,7 @@ impl Emitter<'_> {
     fn accelerations(&self, fused: &Kernel) -> TokenStream {
         let (n, m, scalar) =
             (self.problem.coordinates.len(), self.problem.constraints.len(), self.style.scalar);
-        let returns = quote!(Solution<#scalar, #n, #m>);
+        let returns = quote!(__lagrange::Solution<#scalar, #n, #m>);
         self.function("accelerations", &returns, fused, |results| {
             let (mass, rest) = results.split_at(n * n);
             let (forcing, rest) = rest.split_at(n);
@@ -206,7 +228,7 @@ impl Emitter<'_> {
             let mass = mass.chunks(n).map(|row| quote!([#(#row),*]));
             let jacobian = jacobian.chunks(n).map(|row| quote!([#(#row),*]));
             quote! {
-                eliminate([#(#mass),*], [#(#forcing),*], [#(#jacobian),*], [#(#bias),*])
+                __lagrange::eliminate::eliminate([#(#mass),*], [#(#forcing),*], [#(#jacobian),*], [#(#bias),*])
             }
         })
     }
@@ -234,16 +256,16 @@ impl Emitter<'_> {
             };
             for i in 0..values.len() {
                 let value = if values.len() == 1 { call.clone() } else { quote!(#call.data.0[0][#i]) };
-                arms.push(quote!(#index => Some(#value),));
+                arms.push(quote!(#index => ::core::option::Option::Some(#value),));
                 index += 1;
             }
         }
         quote! {
             #[allow(unused_variables)]
-            fn observable(&self, index: usize, state: &State<#scalar, #n>, solution: &Solution<#scalar, #n, #m>) -> Option<#scalar> {
+            fn observable(&self, index: usize, state: &__lagrange::State<#scalar, #n>, solution: &__lagrange::Solution<#scalar, #n, #m>) -> ::core::option::Option<#scalar> {
                 match index {
                     #(#arms)*
-                    _ => None,
+                    _ => ::core::option::Option::None,
                 }
             }
         }
@@ -260,8 +282,8 @@ impl Emitter<'_> {
         let Rendered { text, latex } = self.rendered;
         quote! {
             /// The system and its equations of motion, to be read.
-            #visibility const fn equations() -> Equations {
-                Equations::new(#text, #latex)
+            #visibility const fn equations() -> __lagrange::Equations {
+                __lagrange::Equations::new(#text, #latex)
             }
         }
     }
@@ -279,17 +301,20 @@ impl Emitter<'_> {
         let (statements, results) = (&kernel.statements, &kernel.results);
         let (returns, result) = match results.len() {
             1 => (quote!(#scalar), quote!(#(#results)*)),
-            length => (quote!(SVector<#scalar, #length>), quote!(vector([#(#results),*]))),
+            length => (
+                quote!(__lagrange::nalgebra::SVector<#scalar, #length>),
+                quote!(__lagrange::eliminate::vector([#(#results),*])),
+            ),
         };
         let solved = self.needs_solution(values);
-        let solution = solved.then(|| quote!(, solution: &Solution<#scalar, #n, #m>));
+        let solution = solved.then(|| quote!(, solution: &__lagrange::Solution<#scalar, #n, #m>));
         let multipliers = solved.then(|| quote! { let multipliers = &solution.multipliers; });
         let doc = format!("The observable `{}`. {}", label.text, count_doc(kernel.count));
         quote! {
             #[doc = #doc]
             #[inline]
             #[allow(unused_variables)]
-            #visibility fn #name(&self, state: &State<#scalar, #n> #solution) -> #returns {
+            #visibility fn #name(&self, state: &__lagrange::State<#scalar, #n> #solution) -> #returns {
                 #multipliers
                 #statements
                 #result

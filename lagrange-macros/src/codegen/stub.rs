@@ -22,29 +22,28 @@ pub(crate) fn stub(declaration: &Declaration) -> TokenStream {
     let (impl_generics, _, _) = generics.split_for_impl();
     quote! {
         const _: () = {
-            use #runtime::nalgebra::{SMatrix, SVector};
-            use #runtime::{ConstraintKind, Lagrangian, Solution, State};
+            use #runtime as __lagrange;
 
             #[automatically_derived]
             #[allow(unused_variables, clippy::all)]
-            impl #impl_generics Lagrangian<#n, #m> for #ident #type_generics #where_clause {
+            impl #impl_generics __lagrange::Lagrangian<#n, #m> for #ident #type_generics #where_clause {
                 type Scalar = #scalar;
                 const NAME: &'static str = "";
                 const COORDINATES: [&'static str; #n] = [""; #n];
                 const CONSTRAINTS: [&'static str; #m] = [""; #m];
-                const CONSTRAINT_KINDS: [ConstraintKind; #m] = [ConstraintKind::Holonomic; #m];
+                const CONSTRAINT_KINDS: [__lagrange::ConstraintKind; #m] = [__lagrange::ConstraintKind::Holonomic; #m];
                 const OBSERVABLES: &'static [&'static str] = &[];
-                fn lagrangian(&self, state: &State<#scalar, #n>) -> #scalar { loop {} }
-                fn momentum(&self, state: &State<#scalar, #n>) -> SVector<#scalar, #n> { loop {} }
-                fn mass_matrix(&self, state: &State<#scalar, #n>) -> SMatrix<#scalar, #n, #n> { loop {} }
-                fn forcing(&self, state: &State<#scalar, #n>) -> SVector<#scalar, #n> { loop {} }
-                fn constraint_residual(&self, state: &State<#scalar, #n>) -> SVector<#scalar, #m> { loop {} }
-                fn constraint_rate(&self, state: &State<#scalar, #n>) -> SVector<#scalar, #m> { loop {} }
-                fn constraint_jacobian(&self, state: &State<#scalar, #n>) -> SMatrix<#scalar, #m, #n> { loop {} }
-                fn constraint_bias(&self, state: &State<#scalar, #n>) -> SVector<#scalar, #m> { loop {} }
-                fn constraint_force(&self, state: &State<#scalar, #n>, multipliers: &SVector<#scalar, #m>) -> SVector<#scalar, #n> { loop {} }
-                fn accelerations(&self, state: &State<#scalar, #n>) -> Solution<#scalar, #n, #m> { loop {} }
-                fn observable(&self, index: usize, state: &State<#scalar, #n>, solution: &Solution<#scalar, #n, #m>) -> Option<#scalar> { None }
+                fn lagrangian(&self, state: &__lagrange::State<#scalar, #n>) -> #scalar { loop {} }
+                fn momentum(&self, state: &__lagrange::State<#scalar, #n>) -> __lagrange::nalgebra::SVector<#scalar, #n> { loop {} }
+                fn mass_matrix(&self, state: &__lagrange::State<#scalar, #n>) -> __lagrange::nalgebra::SMatrix<#scalar, #n, #n> { loop {} }
+                fn forcing(&self, state: &__lagrange::State<#scalar, #n>) -> __lagrange::nalgebra::SVector<#scalar, #n> { loop {} }
+                fn constraint_residual(&self, state: &__lagrange::State<#scalar, #n>) -> __lagrange::nalgebra::SVector<#scalar, #m> { loop {} }
+                fn constraint_rate(&self, state: &__lagrange::State<#scalar, #n>) -> __lagrange::nalgebra::SVector<#scalar, #m> { loop {} }
+                fn constraint_jacobian(&self, state: &__lagrange::State<#scalar, #n>) -> __lagrange::nalgebra::SMatrix<#scalar, #m, #n> { loop {} }
+                fn constraint_bias(&self, state: &__lagrange::State<#scalar, #n>) -> __lagrange::nalgebra::SVector<#scalar, #m> { loop {} }
+                fn constraint_force(&self, state: &__lagrange::State<#scalar, #n>, multipliers: &__lagrange::nalgebra::SVector<#scalar, #m>) -> __lagrange::nalgebra::SVector<#scalar, #n> { loop {} }
+                fn accelerations(&self, state: &__lagrange::State<#scalar, #n>) -> __lagrange::Solution<#scalar, #n, #m> { loop {} }
+                fn observable(&self, index: usize, state: &__lagrange::State<#scalar, #n>, solution: &__lagrange::Solution<#scalar, #n, #m>) -> ::core::option::Option<#scalar> { ::core::option::Option::None }
             }
         };
     }

@@ -198,7 +198,7 @@ fn atom(cursor: &mut Cursor, depth: usize) -> Result<Expression> {
         }
         Some(TokenTree::Ident(ident)) => {
             let name = Name::new(ident);
-            reject_keyword(&name)?;
+            reject_keyword(&ident.to_string(), name.place)?;
             cursor.next();
             named(cursor, name, depth)
         }
@@ -330,8 +330,9 @@ fn reject_adjacent(cursor: &Cursor) -> Result<()> {
     }
 }
 
-fn reject_keyword(name: &Name) -> Result<()> {
-    let message = match name.text.as_str() {
+/// `r#loop` is a name, `loop` is not.
+fn reject_keyword(ident: &str, place: Place) -> Result<()> {
+    let message = match ident {
         "if" | "else" | "match" => {
             "the Lagrangian is one smooth expression: there is no branching (`abs`, `sqrt` and `tanh` may serve)"
         }
@@ -341,7 +342,7 @@ fn reject_keyword(name: &Name) -> Result<()> {
         "for" | "while" | "loop" => "repetition is written `sum(i in 0..3, expression)`",
         _ => return Ok(()),
     };
-    Err(name.place.error(message))
+    Err(place.error(message))
 }
 
 fn unexpected(cursor: &Cursor) -> syn::Error {

@@ -1,0 +1,9 @@
+//! One derive on every number type, and the forms that a struct may take.
+
+// Greek coordinates beside Latin parameters.
+#![allow(mixed_script_confusables)]
+
+mod forms;
+mod names;
+mod numbers;
+mod places;
