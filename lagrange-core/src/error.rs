@@ -94,6 +94,8 @@ pub enum Error {
         /// The name.
         name: String,
     },
+    /// Points that no function runs through.
+    Table,
     /// A time that the trajectory does not cover.
     OutsideTrajectory {
         /// The time asked for.
@@ -115,6 +117,9 @@ impl Display for Error {
                 f,
                 "the equations are not finite at t = {time}; row of {row}: check the parameters, and whether the state is at a pole"
             ),
+            Self::Table => {
+                write!(f, "a table needs at least two points, finite, with x increasing from one to the next")
+            }
             Self::Setting { name, value } => {
                 write!(f, "the {name} is {value}: it must be positive and finite")
             }

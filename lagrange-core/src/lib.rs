@@ -46,11 +46,13 @@ extern crate self as lagrange_core;
 mod consistent;
 #[cfg(feature = "alloc")]
 mod csv;
+mod dual;
 pub mod eliminate;
 mod equations;
 mod error;
 #[cfg(test)]
 mod fixtures;
+pub mod function;
 #[cfg(feature = "alloc")]
 pub mod integrate;
 mod kkt;
@@ -68,13 +70,17 @@ mod solve;
 mod state;
 mod system;
 #[cfg(feature = "alloc")]
+mod table;
+#[cfg(feature = "alloc")]
 mod trajectory;
 
 pub use consistent::{Adjustment, Consistent};
 #[cfg(feature = "alloc")]
 pub use csv::Csv;
+pub use dual::Dual;
 pub use equations::Equations;
 pub use error::Error;
+pub use function::{ByHand, Function, HandWritten};
 #[cfg(feature = "alloc")]
 pub use integrate::{Dop853, Dopri5, Ending, Method, Progress, Statistics};
 pub use lagrange_macros::Lagrangian;
@@ -86,5 +92,7 @@ pub use scalar::{Real, Scalar};
 pub use simulate::Simulate;
 pub use state::{Solution, State};
 pub use system::{ConstraintKind, Lagrangian};
+#[cfg(feature = "alloc")]
+pub use table::Table;
 #[cfg(feature = "alloc")]
 pub use trajectory::Trajectory;

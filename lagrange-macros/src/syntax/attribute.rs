@@ -81,9 +81,10 @@ pub(crate) struct Options {
     pub(crate) scalar: Option<syn::Type>,
 }
 
-const ATTRIBUTES: [&str; 9] = [
+const ATTRIBUTES: [&str; 10] = [
     "coordinates",
     "define",
+    "function",
     "lagrangian",
     "constraint",
     "force",

@@ -1,0 +1,149 @@
+//! Functions that a user supplies: potentials, fields, prescribed motions.
+//!
+//! A field named in `#[function(U(r))]` is one. The equations need its derivatives, up to the second as a rule; each
+//! order is a trait of its own here, so that a form that does not go far enough is a compile-time error that says so.
+//! Whoever implements [`Function`] has them all.
+
+use core::fmt::Debug;
+
+use crate::{Dual, Scalar};
+
+/// A function of `I` numbers with `O` results, written once for every scalar; its derivatives follow.
+///
+/// ```
+/// use lagrange_core::prelude::*;
+///
+/// /// The potential −k/r.
+/// struct Newton { k: f64 }
+///
+/// impl Function<3, 1> for Newton {
+///     fn eval<S: Scalar>(&self, [x, y, z]: [S; 3]) -> [S; 1] {
+///         [S::constant(-self.k) / (x * x + y * y + z * z).sqrt()]
+///     }
+/// }
+///
+/// #[derive(Lagrangian)]
+/// #[coordinates(r: [3])]
+/// #[function(U(r) = potential)]
+/// #[lagrangian(m/2 * dot(r_dot, r_dot) - U(r))]
+/// struct Planet { m: f64, potential: Newton }
+///
+/// let planet = Planet { m: 2.0, potential: Newton { k: 4.0 } };
+/// let force = planet.forcing(&State::at_rest([0.0, 2.0, 0.0]));
+/// assert_eq!(force, [0.0, -1.0, 0.0].into());
+/// ```
+pub trait Function<const I: usize, const O: usize> {
+    /// The values at `x`.
+    fn eval<S: Scalar>(&self, x: [S; I]) -> [S; O];
+}
+
+/// A function whose values can be had for the scalar `S`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no function of {I} numbers with {O} results over `{S}`",
+    label = "this field is named in `#[function(…)]`",
+    note = "implement `lagrange_core::Function<{I}, {O}>` for it, or for `f64` put a hand-written one into `ByHand`"
+)]
+pub trait Value<S, const I: usize, const O: usize> {
+    /// The values at `x`.
+    fn value(&self, x: [S; I]) -> [S; O];
+}
+
+/// A function with first derivatives.
+#[diagnostic::on_unimplemented(
+    message = "the first derivatives of `{Self}` are not known, and the equations of motion need them",
+    note = "implement `lagrange_core::Function<{I}, {O}>` for it: then all derivatives are known"
+)]
+pub trait First<S, const I: usize, const O: usize> {
+    /// ∂/∂x_i at `x`.
+    fn first(&self, x: [S; I], i: [usize; 1]) -> [S; O];
+}
+
+/// A function with second derivatives.
+#[diagnostic::on_unimplemented(
+    message = "the second derivatives of `{Self}` are not known, and the equations of motion need them",
+    note = "implement `lagrange_core::Function<{I}, {O}>` for it: then all derivatives are known"
+)]
+pub trait Second<S, const I: usize, const O: usize> {
+    /// ∂²/∂x_i ∂x_j at `x`.
+    fn second(&self, x: [S; I], ij: [usize; 2]) -> [S; O];
+}
+
+/// A function with third derivatives.
+#[diagnostic::on_unimplemented(
+    message = "the third derivatives of `{Self}` are not known, and the equations of motion need them",
+    note = "implement `lagrange_core::Function<{I}, {O}>` for it: then all derivatives are known"
+)]
+pub trait Third<S, const I: usize, const O: usize> {
+    /// ∂³/∂x_i ∂x_j ∂x_k at `x`.
+    fn third(&self, x: [S; I], ijk: [usize; 3]) -> [S; O];
+}
+
+/// `x` with the derivative along the coordinate `i`.
+#[inline(always)]
+fn seeded<S: Scalar, const I: usize>(x: [S; I], i: usize) -> [Dual<S>; I] {
+    let mut x = x.map(|value| Dual { value, slope: S::constant(0.0) });
+    if let Some(x) = x.get_mut(i) {
+        x.slope = S::constant(1.0);
+    }
+    x
+}
+
+impl<F: Function<I, O>, S: Scalar, const I: usize, const O: usize> Value<S, I, O> for F {
+    #[inline]
+    fn value(&self, x: [S; I]) -> [S; O] {
+        self.eval(x)
+    }
+}
+
+impl<F: Function<I, O>, S: Scalar, const I: usize, const O: usize> First<S, I, O> for F {
+    #[inline]
+    fn first(&self, x: [S; I], [i]: [usize; 1]) -> [S; O] {
+        self.eval(seeded(x, i)).map(|y| y.slope)
+    }
+}
+
+impl<F: Function<I, O>, S: Scalar, const I: usize, const O: usize> Second<S, I, O> for F {
+    #[inline]
+    fn second(&self, x: [S; I], [i, j]: [usize; 2]) -> [S; O] {
+        self.first(seeded(x, j), [i]).map(|y: Dual<S>| y.slope)
+    }
+}
+
+impl<F: Function<I, O>, S: Scalar, const I: usize, const O: usize> Third<S, I, O> for F {
+    #[inline]
+    fn third(&self, x: [S; I], [i, j, k]: [usize; 3]) -> [S; O] {
+        self.second(seeded(x, k), [i, j]).map(|y: Dual<S>| y.slope)
+    }
+}
+
+/// A function of `f64` with its gradient and Hessian written by hand; [`ByHand`] makes it usable in a system.
+pub trait HandWritten<const I: usize, const O: usize> {
+    /// The values at `x`.
+    fn value(&self, x: [f64; I]) -> [f64; O];
+    /// For each result its gradient.
+    fn gradient(&self, x: [f64; I]) -> [[f64; I]; O];
+    /// For each result its matrix of second derivatives.
+    fn hessian(&self, x: [f64; I]) -> [[[f64; I]; I]; O];
+}
+
+/// A hand-written function as a field of a system over `f64`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ByHand<F>(pub F);
+
+impl<F: HandWritten<I, O>, const I: usize, const O: usize> Value<f64, I, O> for ByHand<F> {
+    fn value(&self, x: [f64; I]) -> [f64; O] {
+        self.0.value(x)
+    }
+}
+
+impl<F: HandWritten<I, O>, const I: usize, const O: usize> First<f64, I, O> for ByHand<F> {
+    fn first(&self, x: [f64; I], [i]: [usize; 1]) -> [f64; O] {
+        self.0.gradient(x).map(|gradient| gradient[i])
+    }
+}
+
+impl<F: HandWritten<I, O>, const I: usize, const O: usize> Second<f64, I, O> for ByHand<F> {
+    fn second(&self, x: [f64; I], [i, j]: [usize; 2]) -> [f64; O] {
+        self.0.hessian(x).map(|hessian| hessian[i][j])
+    }
+}

@@ -1,0 +1,101 @@
+//! Tabulated functions of one variable.
+
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+
+use crate::Error;
+use crate::function::{First, Second, Value};
+
+/// The natural cubic spline through given points: twice continuously differentiable, with the second derivative
+/// zero at both ends (Stoer and Bulirsch, *Introduction to Numerical Analysis*, 2.5.2). Beyond the ends it goes on
+/// as the straight line that it ends with.
+///
+/// As a field named in `#[function(…)]` it serves systems over `f64`.
+///
+/// ```
+/// use lagrange_core::Table;
+/// use lagrange_core::function::Value;
+/// let table = Table::new(&[(0.0, 0.0), (1.0, 1.0), (2.0, 2.0)])?;
+/// assert_eq!(table.value([1.5]), [1.5]);
+/// # Ok::<(), lagrange_core::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    knots: Box<[Knot]>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Knot {
+    x: f64,
+    y: f64,
+    /// The second derivative there.
+    bend: f64,
+}
+
+impl Table {
+    /// Through `(x, y)`, at least two points, `x` increasing.
+    ///
+    /// # Errors
+    /// [`Error::Table`] for fewer points, for numbers that are not finite, and where `x` does not increase.
+    pub fn new(points: &[(f64, f64)]) -> Result<Self, Error> {
+        let finite = points.iter().all(|(x, y)| x.is_finite() && y.is_finite());
+        let increasing = points.windows(2).all(|pair| pair[0].0 < pair[1].0);
+        if points.len() < 2 || !finite || !increasing {
+            return Err(Error::Table);
+        }
+        let knots = points.iter().zip(bends(points)).map(|(&(x, y), bend)| Knot { x, y, bend });
+        Ok(Self { knots: knots.collect() })
+    }
+
+    /// The value and the first two derivatives.
+    fn at(&self, x: f64) -> [f64; 3] {
+        let last = self.knots.len() - 1;
+        let right = self.knots.partition_point(|knot| knot.x <= x).clamp(1, last);
+        let (a, b) = (self.knots[right - 1], self.knots[right]);
+        let inside = x.clamp(a.x, b.x);
+        let width = b.x - a.x;
+        let (u, w) = ((inside - a.x) / width, (b.x - inside) / width);
+        let square = width * width / 6.0;
+        let value = w * a.y + u * b.y + ((w * w * w - w) * a.bend + (u * u * u - u) * b.bend) * square;
+        let slope =
+            (b.y - a.y) / width + ((3.0 * u * u - 1.0) * b.bend - (3.0 * w * w - 1.0) * a.bend) * width / 6.0;
+        let bend = if x == inside { w * a.bend + u * b.bend } else { 0.0 };
+        [value + slope * (x - inside), slope, bend]
+    }
+}
+
+/// The second derivatives at the points, from the tridiagonal system for a continuous slope (Thomas's algorithm).
+fn bends(points: &[(f64, f64)]) -> Vec<f64> {
+    let n = points.len();
+    let mut bends = alloc::vec![0.0; n];
+    let mut above = alloc::vec![0.0; n];
+    for i in 1..n - 1 {
+        let (left, right) = (points[i].0 - points[i - 1].0, points[i + 1].0 - points[i].0);
+        let rise = (points[i + 1].1 - points[i].1) / right - (points[i].1 - points[i - 1].1) / left;
+        let pivot = 2.0 * (left + right) - left * above[i - 1];
+        above[i] = right / pivot;
+        bends[i] = (6.0 * rise - left * bends[i - 1]) / pivot;
+    }
+    for i in (1..n - 1).rev() {
+        bends[i] -= above[i] * bends[i + 1];
+    }
+    bends
+}
+
+impl Value<f64, 1, 1> for Table {
+    fn value(&self, [x]: [f64; 1]) -> [f64; 1] {
+        [self.at(x)[0]]
+    }
+}
+
+impl First<f64, 1, 1> for Table {
+    fn first(&self, [x]: [f64; 1], _: [usize; 1]) -> [f64; 1] {
+        [self.at(x)[1]]
+    }
+}
+
+impl Second<f64, 1, 1> for Table {
+    fn second(&self, [x]: [f64; 1], _: [usize; 2]) -> [f64; 1] {
+        [self.at(x)[2]]
+    }
+}
