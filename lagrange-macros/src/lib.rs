@@ -32,6 +32,7 @@ use syntax::Declaration;
     attributes(
         coordinates,
         define,
+        function,
         lagrangian,
         constraint,
         force,

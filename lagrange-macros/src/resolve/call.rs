@@ -39,6 +39,7 @@ impl Lowering<'_> {
             Some(Entity::Definition(index)) if self.defines[index].formals.is_some() => {
                 self.defined_function(index, name, arguments, place)
             }
+            Some(Entity::Function(index)) => self.supplied_function(index, arguments, place),
             Some(entity) => {
                 let message = format!(
                     "`{}` is {}, not a function: a product needs its sign `*`",

@@ -7,7 +7,7 @@ use super::scope::{Entity, Scope};
 use super::value::{Value, dot};
 use crate::diagnostics::{Diagnostics, Place};
 use crate::symbolic::{Fault, Forward, Graph, Id, Rational};
-use crate::syntax::{Coordinate, Define, Expression, Kind, Name, Operator, Sign, SumOver};
+use crate::syntax::{Coordinate, Declaration, Define, Expression, Function, Kind, Name, Operator, Sign, SumOver};
 use crate::variables::Variable;
 
 /// What the expression at hand may contain beside coordinates, velocities and time.
@@ -54,6 +54,7 @@ pub(super) struct Lowering<'a> {
     pub(super) coordinates: &'a [Coordinate],
     /// The first flat index of each coordinate.
     pub(super) offsets: Vec<usize>,
+    pub(super) functions: &'a [Function],
     pub(super) defines: &'a [Define],
     /// By the index of the first `define` of the name.
     pub(super) definitions: Vec<Definition>,
@@ -71,10 +72,10 @@ impl<'a> Lowering<'a> {
     pub(super) fn new(
         scope: Scope,
         parameters: Parameters,
-        coordinates: &'a [Coordinate],
-        defines: &'a [Define],
+        declaration: &'a Declaration,
         diagnostics: &'a mut Diagnostics,
     ) -> Self {
+        let Declaration { coordinates, functions, defines, .. } = declaration;
         let mut graph = Graph::default();
         let mut count = 0;
         let offsets = coordinates
@@ -92,6 +93,7 @@ impl<'a> Lowering<'a> {
             diagnostics,
             coordinates,
             offsets,
+            functions,
             defines,
             definitions: defines.iter().map(|_| Definition::Pending).collect(),
             multipliers: Vec::new(),
@@ -221,6 +223,10 @@ impl<'a> Lowering<'a> {
             Some(Entity::Velocity(index)) => Some(self.variable(index, Variable::Velocity)),
             Some(Entity::Acceleration(index)) => self.acceleration(index, name.place),
             Some(Entity::Definition(index)) => self.definition(index, name),
+            Some(Entity::Function(_)) => {
+                let text = &name.text;
+                self.report(name.place, format!("`{text}` is a function: write `{text}(…)`"))
+            }
             None => self.observable(name),
         }
     }

@@ -2,6 +2,7 @@
 
 mod call;
 mod family;
+mod function;
 mod lower;
 mod parameters;
 mod scope;
@@ -14,6 +15,7 @@ use crate::diagnostics::{Diagnostics, Place};
 use crate::symbolic::{Graph, Id, Symbol};
 use crate::syntax::{Constraint, Declaration, Expression, Target, TargetIndex};
 use crate::variables::Variable;
+pub(crate) use function::Supplied;
 pub(crate) use lower::fault_message;
 use lower::{Definition, Lowering, MultiplierGroup, Setting, is_literal_zero};
 pub(crate) use parameters::{Element, Parameters};
@@ -34,6 +36,7 @@ pub(crate) struct Problem {
     pub(crate) constraints: Vec<(Label, Id)>,
     pub(crate) observables: Vec<(Label, Vec<Id>)>,
     pub(crate) parameters: Parameters,
+    pub(crate) functions: Vec<Supplied>,
     /// Names of nodes that are definitions.
     pub(crate) names: FxHashMap<Id, String>,
 }
@@ -58,9 +61,10 @@ impl Problem {
 /// Gives every expression its meaning; `None` where something was wrong, which is then reported.
 pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<Problem> {
     let scope = Scope::new(declaration, diagnostics);
+    let functions = function::supplied(declaration, &scope, diagnostics);
     let parameters = Parameters::new(declaration, diagnostics);
     let mut lowering =
-        Lowering::new(scope, parameters, &declaration.coordinates, &declaration.defines, diagnostics);
+        Lowering::new(scope, parameters, declaration, diagnostics);
     lowering.define_all();
     let lagrangian = declaration.lagrangian.as_ref().and_then(|lagrangian| lowering.scalar(lagrangian));
     let forces = lowering.forces(declaration);
@@ -86,6 +90,7 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
         constraints,
         observables,
         parameters,
+        functions,
         names,
     })
 }

@@ -3,7 +3,7 @@
 use indexmap::IndexMap;
 
 use crate::diagnostics::{Diagnostics, Place};
-use crate::syntax::{Declaration, Name, normal_form};
+use crate::syntax::{Declaration, Function, Name, normal_form};
 
 /// What a name in an expression may refer to.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -15,6 +15,8 @@ pub(super) enum Entity {
     Acceleration(usize),
     /// The first of the definitions of that name.
     Definition(usize),
+    /// A function that the user supplies.
+    Function(usize),
 }
 
 /// Functions that expressions may call.
@@ -43,7 +45,15 @@ impl Scope {
         for (index, coordinate) in declaration.coordinates.iter().enumerate() {
             scope.declare_rates(&coordinate.name, index, diagnostics);
         }
+        for (index, function) in declaration.functions.iter().enumerate() {
+            scope.declare(&function.name, Entity::Function(index), diagnostics);
+        }
         for (index, field) in declaration.fields.iter().enumerate() {
+            // The field of a function may bear the function's name.
+            let is_function = |function: &Function| function.field.text == field.name.text;
+            if declaration.functions.iter().any(is_function) {
+                continue;
+            }
             if is_built_in(&field.name.text) {
                 scope.shadowing.insert(field.name.text.clone(), field.name.place);
             } else {
@@ -180,6 +190,7 @@ impl Entity {
             Self::Velocity(_) => "the velocity",
             Self::Acceleration(_) => "the acceleration",
             Self::Definition(_) => "a definition",
+            Self::Function(_) => "a function",
         }
     }
 }

@@ -19,6 +19,7 @@ pub(crate) struct Declaration {
     pub(crate) fields: Vec<Field>,
     pub(crate) coordinates: Vec<Coordinate>,
     pub(crate) defines: Vec<Define>,
+    pub(crate) functions: Vec<Function>,
     pub(crate) lagrangian: Option<Expression>,
     pub(crate) constraints: Vec<Constraint>,
     pub(crate) forces: Vec<Force>,
@@ -42,6 +43,18 @@ pub(crate) struct Define {
     /// `#[define(f(x) = …)]`
     pub(crate) formals: Option<Vec<Name>>,
     pub(crate) body: Expression,
+}
+
+/// `#[function(Omega(t): [3] = omega)]`
+#[derive(Debug)]
+pub(crate) struct Function {
+    pub(crate) name: Name,
+    /// Each formal, with its length if it says one.
+    pub(crate) formals: Vec<(Name, Option<usize>)>,
+    /// The length of the result, if it is a vector.
+    pub(crate) length: Option<usize>,
+    /// The field; by default the one of the function's name.
+    pub(crate) field: Name,
 }
 
 /// `#[constraint(name: left = right)]`
@@ -104,6 +117,7 @@ pub(crate) fn declaration(input: DeriveInput, diagnostics: &mut Diagnostics) -> 
         fields,
         coordinates: Vec::new(),
         defines: Vec::new(),
+        functions: Vec::new(),
         lagrangian: None,
         constraints: Vec::new(),
         forces: Vec::new(),
@@ -194,6 +208,7 @@ fn read(declaration: &mut Declaration, word: &str, attribute: &Attribute) -> Res
     match word {
         "coordinates" => declaration.coordinates = coordinates(cursor)?,
         "define" => declaration.defines.push(define(cursor)?),
+        "function" => declaration.functions.push(function(cursor)?),
         "lagrangian" => declaration.lagrangian = Some(only(cursor)?),
         "constraint" => declaration.constraints.push(constraint(cursor)?),
         "force" => declaration.forces.push(force(cursor)?),
@@ -209,6 +224,7 @@ fn form(word: &str) -> &'static str {
     match word {
         "coordinates" => "#[coordinates(x, y)]",
         "define" => "#[define(name = expression)]",
+        "function" => "#[function(U(r))]` or `#[function(Omega(t): [3] = field)]",
         "lagrangian" => "#[lagrangian(expression)]",
         "constraint" => "#[constraint(name: expression = expression)]",
         "force" => "#[force(coordinate: expression)]",
@@ -283,6 +299,38 @@ fn define(cursor: &mut Cursor) -> Result<Define> {
     let body = expression::whole(&mut cursor.until_comma())?;
     finish(cursor, "define")?;
     Ok(Define { target, formals, body })
+}
+
+fn function(cursor: &mut Cursor) -> Result<Function> {
+    let name = cursor.name("the name of the function")?;
+    let Some(group) = cursor.take_group(Delimiter::Parenthesis) else {
+        return Err(cursor.error(format!("expected its arguments: write `{}`", form("function"))));
+    };
+    let formals = shaped_formals(&mut Cursor::inside(&group))?;
+    let length = if cursor.take_punct(':') { Some(brackets(cursor)?) } else { None };
+    let field = if cursor.take_punct('=') { cursor.name("the name of a field")? } else { name.clone() };
+    finish(cursor, "function")?;
+    Ok(Function { name, formals, length, field })
+}
+
+/// `r`, `s: [3]`
+fn shaped_formals(cursor: &mut Cursor) -> Result<Vec<(Name, Option<usize>)>> {
+    let mut formals: Vec<(Name, Option<usize>)> = Vec::new();
+    while !cursor.is_empty() {
+        let formal = cursor.name("the name of an argument")?;
+        let length = if cursor.take_punct(':') { Some(brackets(cursor)?) } else { None };
+        if formals.iter().any(|(earlier, _)| earlier.text == formal.text) {
+            return Err(formal.place.error(format!("the argument `{}` is given twice", formal.text)));
+        }
+        formals.push((formal, length));
+        if !cursor.is_empty() {
+            cursor.expect_punct(',', "expected `,` between arguments")?;
+        }
+    }
+    if formals.is_empty() {
+        return Err(cursor.error("a function has arguments; a constant is a field"));
+    }
+    Ok(formals)
 }
 
 fn formals(cursor: &mut Cursor) -> Result<Vec<Name>> {

@@ -6,7 +6,7 @@ mod expression;
 mod field;
 mod target;
 
-pub(crate) use attribute::{Constraint, Coordinate, Declaration, Define, declaration};
+pub(crate) use attribute::{Constraint, Coordinate, Declaration, Define, Function, declaration};
 pub(crate) use cursor::{NESTING_LIMIT, too_deep};
 pub(crate) use expression::{Expression, Kind, Operator, Sign, SumOver};
 pub(crate) use field::{Field, FieldShape, Layout};

@@ -1,0 +1,98 @@
+//! Functions that the user supplies: fields that are called.
+
+use super::lower::Lowering;
+use super::scope::{Entity, Scope};
+use super::value::Value;
+use crate::diagnostics::{Diagnostics, Place};
+use crate::syntax::{Declaration, Expression, Function};
+
+/// A function as generated code calls it.
+#[derive(Clone, Debug)]
+pub(crate) struct Supplied {
+    /// The name in the expressions.
+    pub(crate) name: String,
+    pub(crate) field: syn::Ident,
+    /// How many numbers it takes, all arguments together.
+    pub(crate) inputs: usize,
+    /// How many numbers it gives.
+    pub(crate) outputs: usize,
+}
+
+/// The functions, each with its field found.
+pub(super) fn supplied(declaration: &Declaration, scope: &Scope, diagnostics: &mut Diagnostics) -> Vec<Supplied> {
+    let supplied = declaration.functions.iter().filter_map(|function| {
+        let Some(field) = declaration.fields.iter().find(|field| field.name.text == function.field.text) else {
+            let message = format!(
+                "there is no field `{}` that would be this function: name it with `= field`",
+                function.field.text
+            );
+            diagnostics.error(function.field.place, message);
+            return None;
+        };
+        let lengths = function.formals.iter().map(|formal| formal_length(formal, declaration, scope).unwrap_or(1));
+        Some(Supplied {
+            name: function.name.text.clone(),
+            field: field.ident.clone(),
+            inputs: lengths.sum(),
+            outputs: function.length.unwrap_or(1),
+        })
+    });
+    supplied.collect()
+}
+
+/// A formal takes the shape it says, else that of the coordinate of its name, else it is a scalar.
+fn formal_length(
+    (name, length): &(crate::syntax::Name, Option<usize>),
+    declaration: &Declaration,
+    scope: &Scope,
+) -> Option<usize> {
+    length.or_else(|| match scope.get(&name.text) {
+        Some(Entity::Coordinate(index) | Entity::Velocity(index)) => declaration.coordinates[index].length,
+        _ => None,
+    })
+}
+
+impl Lowering<'_> {
+    pub(super) fn supplied_function(
+        &mut self,
+        index: usize,
+        arguments: &[Expression],
+        place: Place,
+    ) -> Option<Value> {
+        let function: &Function = &self.functions[index];
+        let (name, wanted, given) = (&function.name.text, function.formals.len(), arguments.len());
+        if wanted != given {
+            let plural = if wanted == 1 { "argument" } else { "arguments" };
+            return self.report(place, format!("`{name}` takes {wanted} {plural}, but {given} are given"));
+        }
+        let values: Vec<_> = arguments.iter().map(|argument| self.lower(argument)).collect();
+        let values: Vec<Value> = values.into_iter().collect::<Option<_>>()?;
+        let mut flat = Vec::new();
+        for ((value, argument), formal) in values.iter().zip(arguments).zip(&function.formals) {
+            let length = formal.1.or_else(|| self.coordinate_length(&formal.0.text));
+            let fits = match (length, value) {
+                (None, Value::Scalar(_)) => true,
+                (Some(length), Value::Vector(_)) => value.as_vector().is_some_and(|entries| entries.len() == length),
+                _ => false,
+            };
+            if !fits {
+                let wanted = length.map_or_else(|| "a scalar".to_owned(), |length| format!("a vector of {length}"));
+                let message = format!("`{name}` takes {wanted} as `{}`, but this is {}", formal.0.text, value.shape());
+                return self.report(argument.place, message);
+            }
+            flat.extend(value.flat());
+        }
+        let output = |lowering: &mut Self, output| lowering.graph.external(index as u32, output, &[], &flat);
+        Some(match function.length {
+            None => Value::Scalar(output(self, 0)),
+            Some(length) => Value::vector((0..length).map(|i| output(self, i as u32)).collect::<Vec<_>>()),
+        })
+    }
+
+    fn coordinate_length(&self, name: &str) -> Option<usize> {
+        match self.scope.get(name) {
+            Some(Entity::Coordinate(index) | Entity::Velocity(index)) => self.coordinates[index].length,
+            _ => None,
+        }
+    }
+}
