@@ -1,5 +1,5 @@
 use crate::eliminate::eliminate_active;
-use crate::fixtures::{Mechanism, identity, rolling_sphere, spherical_pendulum};
+use crate::fixtures::{Mechanism, dependent_on_the_manifold, identity, rolling_sphere, spherical_pendulum};
 use crate::prelude::*;
 
 #[test]
@@ -97,6 +97,13 @@ fn a_step_that_leads_away_is_halved() {
     };
     let (state, _) = system.make_consistent(&State::at_rest([20.0])).unwrap();
     assert!(state.q[0].abs() < 1e-12, "{state:?}");
+}
+
+#[test]
+fn constraints_dependent_only_where_they_hold_leave_the_nearest_state_nearest() {
+    let off = State::new([0.6 + 1e-6, -0.8], [0.8, 0.6]);
+    let (state, _) = dependent_on_the_manifold().make_consistent(&off).unwrap();
+    assert!((state.q - off.q.normalize()).norm() < 1e-11, "{state:?}");
 }
 
 #[test]
