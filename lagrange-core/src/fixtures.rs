@@ -129,3 +129,33 @@ pub(crate) fn spherical_pendulum() -> Mechanism<3, 1, 1> {
         bias: |s| [s.v.norm_squared()],
     }
 }
+
+/// Length and mass 1; c0: ½(x² + y² − 1) = 0.
+pub(crate) fn plane_pendulum() -> Mechanism<2, 1, 1> {
+    Mechanism {
+        mass: identity,
+        forcing: |_| [0.0, -GRAVITY],
+        residual: |s| [0.5 * (s.q.norm_squared() - 1.0)],
+        rate: |s| [s.q.dot(&s.v)],
+        jacobian: |s| [s.q.into()],
+        bias: |s| [s.v.norm_squared()],
+    }
+}
+
+/// A plane pendulum, c0, with c1: (1 + x) Φ₀ = 0, which depends on c0 where both hold and nowhere else.
+pub(crate) fn dependent_on_the_manifold() -> Mechanism<2, 2, 2> {
+    fn phi(s: &At<2>) -> f64 {
+        0.5 * (s.q.norm_squared() - 1.0)
+    }
+    Mechanism {
+        mass: identity,
+        forcing: |_| [0.0, -GRAVITY],
+        residual: |s| [phi(s), (1.0 + s.q[0]) * phi(s)],
+        rate: |s| [s.q.dot(&s.v), (1.0 + s.q[0]) * s.q.dot(&s.v) + s.v[0] * phi(s)],
+        jacobian: |s| [s.q.into(), [(1.0 + s.q[0]) * s.q[0] + phi(s), (1.0 + s.q[0]) * s.q[1]]],
+        bias: |s| {
+            let square = s.v.norm_squared();
+            [square, (1.0 + s.q[0]) * square + 2.0 * s.v[0] * s.q.dot(&s.v)]
+        },
+    }
+}

@@ -1,4 +1,5 @@
-use crate::fixtures::{Mechanism, identity, rolling_sphere, spherical_pendulum};
+use crate::eliminate::eliminate_active;
+use crate::fixtures::{Mechanism, dependent_on_the_manifold, identity, rolling_sphere, spherical_pendulum};
 use crate::prelude::*;
 
 #[test]
@@ -81,6 +82,40 @@ fn newton_gets_there_from_afar() {
         let (state, _) = pendulum.make_consistent(&State::new(start, [1.0, 2.0, 3.0])).unwrap();
         assert!((state.q.norm() - 1.0).abs() < 1e-15, "{state:?}");
     }
+}
+
+#[test]
+fn a_step_that_leads_away_is_halved() {
+    // Newton's method on atan x = 0 diverges from |x| > 1.39.
+    let system = Mechanism::<1, 1, 1> {
+        mass: identity,
+        forcing: |_| [0.0],
+        residual: |s| [s.q[0].atan()],
+        rate: |s| [s.v[0] / (1.0 + s.q[0].powi(2))],
+        jacobian: |s| [[1.0 / (1.0 + s.q[0].powi(2))]],
+        bias: |_| [0.0],
+    };
+    let (state, _) = system.make_consistent(&State::at_rest([20.0])).unwrap();
+    assert!(state.q[0].abs() < 1e-12, "{state:?}");
+}
+
+#[test]
+fn constraints_dependent_only_where_they_hold_leave_the_nearest_state_nearest() {
+    let off = State::new([0.6 + 1e-6, -0.8], [0.8, 0.6]);
+    let (state, _) = dependent_on_the_manifold().make_consistent(&off).unwrap();
+    assert!((state.q - off.q.normalize()).norm() < 1e-11, "{state:?}");
+}
+
+#[test]
+fn inactive_constraints_do_not_spoil_the_elimination() {
+    let s = eliminate_active(
+        [[9.0, 0.0], [0.0, 1.0]],
+        [0.0; 2],
+        [[1.0, 1.0], [0.0; 2]],
+        [-2.0, 0.0],
+        [true, false],
+    );
+    assert!(s.pivot > 0.5 && (s.accelerations - State::at_rest([0.2, 1.8]).q).norm() < 1e-15, "{s:?}");
 }
 
 #[test]

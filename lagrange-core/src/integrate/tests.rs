@@ -1,7 +1,10 @@
 use core::ops::ControlFlow;
 use std::time::Duration;
 
-use crate::fixtures::{GRAVITY, Mechanism, free, oscillator, rolling_sphere, spherical_pendulum};
+use crate::fixtures::{
+    GRAVITY, Mechanism, dependent_on_the_manifold, free, oscillator, plane_pendulum, rolling_sphere,
+    spherical_pendulum,
+};
 use crate::integrate::Pair;
 use crate::prelude::*;
 
@@ -320,35 +323,10 @@ fn a_motion_of_no_length_is_its_start() {
     assert_eq!(path.samples(3).count(), 3);
 }
 
-/// A plane pendulum, c0, with c1: (1 + x) Φ₀ = 0, which depends on c0 where both hold and nowhere else.
-fn dependent_on_the_manifold() -> Mechanism<2, 2, 2> {
-    fn phi(s: &State<f64, 2>) -> f64 {
-        0.5 * (s.q.norm_squared() - 1.0)
-    }
-    Mechanism {
-        mass: crate::fixtures::identity,
-        forcing: |_| [0.0, -GRAVITY],
-        residual: |s| [phi(s), (1.0 + s.q[0]) * phi(s)],
-        rate: |s| [s.q.dot(&s.v), (1.0 + s.q[0]) * s.q.dot(&s.v) + s.v[0] * phi(s)],
-        jacobian: |s| [s.q.into(), [(1.0 + s.q[0]) * s.q[0] + phi(s), (1.0 + s.q[0]) * s.q[1]]],
-        bias: |s| {
-            let square = s.v.norm_squared();
-            [square, (1.0 + s.q[0]) * square + 2.0 * s.v[0] * s.q.dot(&s.v)]
-        },
-    }
-}
-
 #[test]
 fn constraints_that_depend_on_one_another_only_where_they_hold_do_no_harm() {
     let redundant = dependent_on_the_manifold();
-    let single = Mechanism::<2, 1, 1> {
-        mass: crate::fixtures::identity,
-        forcing: |_| [0.0, -GRAVITY],
-        residual: |s| [0.5 * (s.q.norm_squared() - 1.0)],
-        rate: |s| [s.q.dot(&s.v)],
-        jacobian: |s| [s.q.into()],
-        bias: |s| [s.v.norm_squared()],
-    };
+    let single = plane_pendulum();
     let start = State::at_rest([0.6, -0.8]);
     let alone = single.integrate(start, 10.0, Dop853::default()).unwrap();
     let path = redundant.integrate(start, 10.0, Dop853::default()).unwrap();

@@ -4,8 +4,8 @@
 use num_traits::One;
 use rustc_hash::FxHashMap;
 
-use super::graph::{Function, Graph, Id, Node, Symbol};
-use super::rational::Rational;
+use super::graph::{Fault, Function, Graph, Id, Node, Symbol};
+use super::rational::{Rational, plus};
 
 /// The derivative along one direction in the space of symbols. It remembers every node it has met, so
 /// one value serves all roots.
@@ -50,26 +50,27 @@ impl Forward {
 
     /// The rate of a node whose operands' rates are known.
     fn step(&self, graph: &mut Graph, id: Id) -> Id {
-        match graph.node(id).clone() {
+        match graph.node(id) {
             Node::Number(_) | Node::Pi => Id::ZERO,
-            Node::Symbol(symbol) => self.seeds.get(&symbol).copied().unwrap_or(Id::ZERO),
-            Node::Sum(terms) => graph.sum(terms.iter().map(|&(term, c)| (self.rate(term), c))),
-            Node::Defined(inner) => graph.defined(self.rate(inner)),
-            _ => {
-                let mut terms = Vec::new();
-                graph.operands(id, |operand| {
-                    if self.rate(operand) != Id::ZERO {
-                        terms.push(operand);
-                    }
-                });
-                let one = Rational::one();
-                let terms: Vec<_> = terms
-                    .into_iter()
-                    .map(|operand| (graph.partial(id, operand, self.rate(operand)), one))
-                    .collect();
-                graph.sum(terms)
+            Node::Symbol(symbol) => self.seeds.get(symbol).copied().unwrap_or(Id::ZERO),
+            Node::Sum(terms) => {
+                let rates: Vec<_> = terms.iter().map(|&(term, c)| (self.rate(term), c)).collect();
+                graph.sum(rates)
             }
+            Node::Defined(inner) => graph.defined(self.rate(*inner)),
+            _ => self.chain_rule(graph, id),
         }
+    }
+
+    /// Σ ∂/∂operand · rate of operand
+    fn chain_rule(&self, graph: &mut Graph, id: Id) -> Id {
+        let mut operands = graph.distinct_operands(id);
+        operands.retain(|&operand| self.rate(operand) != Id::ZERO);
+        let terms: Vec<_> = operands
+            .into_iter()
+            .map(|operand| (graph.partial(id, operand, self.rate(operand)), Rational::one()))
+            .collect();
+        graph.sum(terms)
     }
 }
 
@@ -97,26 +98,23 @@ impl Graph {
         adjoints: &mut FxHashMap<Id, Vec<(Id, Rational)>>,
         found: &mut FxHashMap<Symbol, Id>,
     ) {
-        match self.node(id).clone() {
+        match self.node(id) {
             Node::Number(_) | Node::Pi => {}
             Node::Symbol(symbol) => {
-                found.insert(symbol, adjoint);
+                found.insert(*symbol, adjoint);
             }
             Node::Sum(terms) => {
-                for &(term, coefficient) in &terms {
+                for &(term, coefficient) in terms {
                     adjoints.entry(term).or_default().push((adjoint, coefficient));
                 }
             }
             // The adjoint of a definition is a partial sum in its turn: the forces on a chain.
-            Node::Defined(inner) => {
+            &Node::Defined(inner) => {
                 let adjoint = self.defined(adjoint);
                 adjoints.entry(inner).or_default().push((adjoint, Rational::one()));
             }
             _ => {
-                let mut operands = Vec::new();
-                self.operands(id, |operand| operands.push(operand));
-                operands.dedup();
-                for operand in operands {
+                for operand in self.distinct_operands(id) {
                     let part = self.partial(id, operand, adjoint);
                     adjoints.entry(operand).or_default().push((part, Rational::one()));
                 }
@@ -124,15 +122,18 @@ impl Graph {
         }
     }
 
+    /// The operands of a product, a power or a function, each once: of xˣ there is one.
+    fn distinct_operands(&self, id: Id) -> Vec<Id> {
+        let mut operands = Vec::new();
+        self.operands(id, |operand| operands.push(operand));
+        operands.dedup();
+        operands
+    }
+
     /// `weight` · ∂`id`/∂`operand`, for a product, a power or a function.
     fn partial(&mut self, id: Id, operand: Id, weight: Id) -> Id {
-        let one = Rational::one();
-        match self.node(id).clone() {
-            Node::Product(factors) => {
-                let exponent = factors.iter().find(|part| part.0 == operand).map_or(one, |part| part.1);
-                let part = self.product([(weight, one), (id, one), (operand, -one)]);
-                self.sum([(part, exponent)])
-            }
+        match *self.node(id) {
+            Node::Product(_) => self.factor_partial(id, operand, weight),
             Node::Function(function, x) => {
                 let slope = self.slope(function, x, id);
                 self.mul(weight, slope)
@@ -141,6 +142,23 @@ impl Graph {
             Node::Power(base, exponent) => self.power_partial(id, base, exponent, operand, weight),
             _ => weight,
         }
+    }
+
+    /// d(xᵉ …) = e xᵉ⁻¹ … dx, and not e (xᵉ …) / x, which has no value where x = 0.
+    fn factor_partial(&mut self, id: Id, operand: Id, weight: Id) -> Id {
+        let Node::Product(factors) = self.node(id) else { return weight };
+        let mut factors = factors.to_vec();
+        let mut slope = Rational::one();
+        if let Some((_, exponent)) = factors.iter_mut().find(|(factor, _)| *factor == operand) {
+            slope = *exponent;
+            match plus(slope, -Rational::one()) {
+                Some(lower) => *exponent = lower,
+                None => return self.fail(Fault::Overflow),
+            }
+        }
+        factors.push((weight, Rational::one()));
+        let part = self.product(factors);
+        self.sum([(part, slope)])
     }
 
     /// d atan2(y, x) = (x dy − y dx) / (x² + y²).

@@ -14,21 +14,53 @@ pub(crate) struct Approximate {
 }
 
 impl Approximate {
-    /// A freshly rounded value: its own rounding on top of what its operands brought along.
+    /// A freshly rounded value: its own rounding, which may be a denormal's, on top of what its operands
+    /// brought along.
     fn rounded(value: f64, inherited: f64) -> Self {
-        Self { value, error: inherited + 4.0 * f64::EPSILON * value.abs() }
+        Self { value, error: inherited + 4.0 * f64::EPSILON * value.abs() + f64::MIN_POSITIVE }
+    }
+
+    fn plus(self, other: Self) -> Self {
+        Self::rounded(self.value + other.value, self.error + other.error)
+    }
+
+    fn times(self, other: Self) -> Self {
+        let (x, y) = (self, other);
+        let inherited = x.error * y.value.abs() + y.error * x.value.abs() + x.error * y.error;
+        Self::rounded(x.value * y.value, inherited)
+    }
+
+    /// The least and the greatest absolute value that the exact one may have.
+    fn magnitudes(self) -> (f64, f64) {
+        (self.value.abs() - self.error, self.value.abs() + self.error)
+    }
+}
+
+impl From<Rational> for Approximate {
+    fn from(value: Rational) -> Self {
+        let nearest = to_f64(value);
+        let exact = value.is_integer() && nearest.abs() <= 1.0 / f64::EPSILON;
+        if exact { Self { value: nearest, error: 0.0 } } else { Self::rounded(nearest, 0.0) }
     }
 }
 
 impl Graph {
-    /// The value of `root`, where each symbol has the value given.
-    pub(crate) fn evaluate(&self, root: Id, mut value: impl FnMut(Symbol) -> f64) -> Approximate {
-        let order = self.reachable(&[root]);
-        let mut values = vec![Approximate { value: f64::NAN, error: 0.0 }; root.index() + 1];
-        for id in order {
-            values[id.index()] = self.value_of(id, &values, &mut value);
+    /// The value of `root`, where each symbol has the value given. Where the error has no bound, because the
+    /// exact argument of some function may lie beyond a pole or a cut, it is infinite or NaN.
+    #[cfg(test)]
+    pub(crate) fn evaluate(&self, root: Id, value: impl FnMut(Symbol) -> f64) -> Approximate {
+        self.evaluate_in(&self.reachable(&[root]), value)
+    }
+
+    /// The value of the last of `order`, which holds all that it is made of, operands first.
+    pub(super) fn evaluate_in(&self, order: &[Id], mut value: impl FnMut(Symbol) -> f64) -> Approximate {
+        let mut result = Approximate { value: f64::NAN, error: 0.0 };
+        let mut values = vec![result; order.last().map_or(0, |root| root.index() + 1)];
+        for &id in order {
+            result = self.value_of(id, &values, &mut value);
+            values[id.index()] = result;
         }
-        values[root.index()]
+        result
     }
 
     fn value_of(
@@ -39,72 +71,79 @@ impl Graph {
     ) -> Approximate {
         let at = |id: Id| values[id.index()];
         match self.node(id) {
-            Node::Number(value) => Approximate::rounded(to_f64(*value), 0.0),
+            Node::Number(value) => (*value).into(),
             Node::Pi => Approximate::rounded(std::f64::consts::PI, 0.0),
             Node::Symbol(name) => Approximate { value: symbol(*name), error: 0.0 },
             Node::Sum(terms) => {
-                terms.iter().fold(Approximate { value: 0.0, error: 0.0 }, |sum, &(term, c)| {
-                    let (c, x) = (to_f64(c), at(term));
-                    let part = Approximate::rounded(c * x.value, c.abs() * x.error);
-                    Approximate::rounded(sum.value + part.value, sum.error + part.error)
-                })
+                let zero = Approximate { value: 0.0, error: 0.0 };
+                terms.iter().fold(zero, |sum, &(term, c)| sum.plus(at(term).times(c.into())))
             }
             Node::Product(factors) => {
-                factors.iter().fold(Approximate { value: 1.0, error: 0.0 }, |product, &(factor, exponent)| {
-                    let (x, y) = (product, power(at(factor), exponent));
-                    Approximate::rounded(
-                        x.value * y.value,
-                        x.error * y.value.abs() + y.error * x.value.abs() + x.error * y.error,
-                    )
-                })
+                let one = Approximate { value: 1.0, error: 0.0 };
+                factors.iter().fold(one, |product, &(factor, e)| product.times(power(at(factor), e)))
             }
             Node::Function(function, x) => apply(*function, at(*x)),
-            Node::Atan2(y, x) => {
-                let (y, x) = (at(*y), at(*x));
-                let radius2 = x.value * x.value + y.value * y.value;
-                let slope = (x.value.abs() * y.error + y.value.abs() * x.error) / radius2;
-                Approximate::rounded(y.value.atan2(x.value), 2.0 * slope)
-            }
-            Node::Power(base, exponent) => {
-                let (b, e) = (at(*base), at(*exponent));
-                let value = b.value.powf(e.value);
-                let spread =
-                    value * (e.value * b.error / b.value).abs() + value * b.value.ln().abs() * e.error;
-                Approximate::rounded(value, 2.0 * spread.abs())
-            }
+            Node::Atan2(y, x) => angle(at(*y), at(*x)),
+            Node::Power(base, exponent) => general_power(at(*base), at(*exponent)),
             Node::Defined(inner) => at(*inner),
         }
     }
 }
 
+/// |x^e − x̃^e| ≤ |e| · greatest |x|^(e − 1) · |x − x̃|
 fn power(x: Approximate, exponent: Rational) -> Approximate {
     let e = to_f64(exponent);
     let value = match exponent.numer().to_i32().filter(|_| exponent.is_integer()) {
         Some(integer) => x.value.powi(integer),
-        None if *exponent.denom() == 2 => x.value.sqrt().powi(exponent.numer().to_i32().unwrap_or(0)),
         None => x.value.powf(e),
     };
-    let spread = (e * value / x.value).abs() * x.error;
-    let own = 4.0 * f64::EPSILON * value.abs() * e.abs();
-    Approximate::rounded(value, own + if x.error == 0.0 { 0.0 } else { 2.0 * spread })
+    let (least, greatest) = x.magnitudes();
+    let steepest = match x.error {
+        0.0 => 0.0,
+        _ if e >= 1.0 => greatest.powf(e - 1.0),
+        _ if least > 0.0 => least.powf(e - 1.0),
+        _ => f64::INFINITY,
+    };
+    // `powi` multiplies |e| times at most, and the exponent of `powf` is rounded.
+    let roundings = e.abs() * (4.0 + x.value.abs().max(f64::MIN_POSITIVE).ln().abs());
+    let own = if exponent.is_integer() { 4.0 * e.abs() } else { roundings };
+    Approximate::rounded(value, e.abs() * steepest * x.error + own * f64::EPSILON * value.abs())
 }
 
+/// b^e = exp(e ln b)
+fn general_power(base: Approximate, exponent: Approximate) -> Approximate {
+    let logarithm = apply(Function::Ln, base).times(exponent);
+    Approximate::rounded(base.value.powf(exponent.value), apply(Function::Exp, logarithm).error)
+}
+
+/// The angle of (x, y) turns by 1/r at most; at the cut it jumps.
+fn angle(y: Approximate, x: Approximate) -> Approximate {
+    let blur = y.error.hypot(x.error);
+    let nearest = y.value.hypot(x.value) - blur;
+    let at_the_cut = x.value < x.error && y.value.abs() <= y.error;
+    let slope = if nearest > 0.0 && !at_the_cut { 1.0 / nearest } else { f64::INFINITY };
+    Approximate::rounded(y.value.atan2(x.value), slope * blur)
+}
+
+/// |f(x) − f(x̃)| ≤ greatest |f′| · |x − x̃|, with the greatest slope between x and x̃.
 fn apply(function: Function, x: Approximate) -> Approximate {
     let v = x.value;
+    let (least, greatest) = x.magnitudes();
+    let inverse = |y: f64| if y > 0.0 { 1.0 / y } else { f64::INFINITY };
     let (value, slope) = match function {
-        Function::Sin => (v.sin(), v.cos()),
-        Function::Cos => (v.cos(), v.sin()),
-        Function::Tan => (v.tan(), 1.0 + v.tan() * v.tan()),
-        Function::Asin => (v.asin(), 1.0 / (1.0 - v * v).sqrt()),
-        Function::Acos => (v.acos(), 1.0 / (1.0 - v * v).sqrt()),
-        Function::Atan => (v.atan(), 1.0 / (1.0 + v * v)),
-        Function::Sinh => (v.sinh(), v.cosh()),
-        Function::Cosh => (v.cosh(), v.sinh()),
-        Function::Tanh => (v.tanh(), 1.0),
-        Function::Exp => (v.exp(), v.exp()),
-        Function::Ln => (v.ln(), 1.0 / v),
+        Function::Sin => (v.sin(), 1.0_f64.min(v.cos().abs() + x.error)),
+        Function::Cos => (v.cos(), 1.0_f64.min(v.sin().abs() + x.error)),
+        Function::Tan => (v.tan(), inverse(v.cos().abs() - x.error).powi(2)),
+        Function::Asin => (v.asin(), inverse((1.0 - greatest) * (1.0 + greatest)).sqrt()),
+        Function::Acos => (v.acos(), inverse((1.0 - greatest) * (1.0 + greatest)).sqrt()),
+        Function::Atan => (v.atan(), 1.0 / (1.0 + least.max(0.0).powi(2))),
+        Function::Sinh => (v.sinh(), greatest.cosh()),
+        Function::Cosh => (v.cosh(), greatest.sinh()),
+        Function::Tanh => (v.tanh(), least.max(0.0).cosh().recip().powi(2)),
+        Function::Exp => (v.exp(), (v + x.error).exp()),
+        Function::Ln => (v.ln(), inverse(least)),
         Function::Abs => (v.abs(), 1.0),
     };
-    // Twice the linear term, and the square for where the slope vanishes.
-    Approximate::rounded(value, 2.0 * slope.abs() * x.error + x.error * x.error)
+    // Twice, for the roundings of the slope.
+    Approximate::rounded(value, if x.error == 0.0 { 0.0 } else { 2.0 * slope * x.error })
 }

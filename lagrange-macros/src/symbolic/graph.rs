@@ -1,9 +1,10 @@
 //! The expression graph: equal expressions are one node.
 
+use indexmap::IndexSet;
 use num_traits::{One, Zero};
-use rustc_hash::FxHashMap;
+use rustc_hash::FxBuildHasher;
 
-use super::rational::Rational;
+use super::rational::{self, Rational};
 
 /// A node of one [`Graph`].
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -78,14 +79,13 @@ pub(crate) enum Fault {
 /// An arena of expressions.
 #[derive(Debug)]
 pub(crate) struct Graph {
-    nodes: Vec<Node>,
-    ids: FxHashMap<Node, Id>,
+    nodes: IndexSet<Node, FxBuildHasher>,
     fault: Option<Fault>,
 }
 
 impl Default for Graph {
     fn default() -> Self {
-        let mut graph = Self { nodes: Vec::new(), ids: FxHashMap::default(), fault: None };
+        let mut graph = Self { nodes: IndexSet::default(), fault: None };
         graph.number(Rational::zero());
         graph.number(Rational::one());
         graph
@@ -105,7 +105,7 @@ impl Graph {
     }
 
     pub(crate) fn number(&mut self, value: Rational) -> Id {
-        self.intern(Node::Number(value))
+        if rational::fits(&value) { self.intern(Node::Number(value)) } else { self.fail(Fault::Overflow) }
     }
 
     pub(crate) fn integer(&mut self, value: i128) -> Id {
@@ -147,16 +147,11 @@ impl Graph {
     }
 
     pub(super) fn intern(&mut self, node: Node) -> Id {
-        if let Some(&id) = self.ids.get(&node) {
-            return id;
-        }
-        if self.nodes.len() >= Self::LIMIT {
+        if self.nodes.len() >= Self::LIMIT && !self.nodes.contains(&node) {
             return self.fail(Fault::TooLarge);
         }
-        let id = Id(self.nodes.len() as u32);
-        self.nodes.push(node.clone());
-        self.ids.insert(node, id);
-        id
+        let (index, _) = self.nodes.insert_full(node);
+        Id(index as u32)
     }
 
     /// Calls `visit` with every operand of `id`.

@@ -1,7 +1,7 @@
 //! Exact numbers: every literal is one until it is emitted.
 
 use num_rational::Ratio;
-use num_traits::{CheckedMul, One, Zero};
+use num_traits::{CheckedAdd, CheckedMul, One, Signed, Zero};
 
 /// A fraction of two `i128`, in lowest terms, its denominator positive.
 pub(crate) type Rational = Ratio<i128>;
@@ -14,70 +14,72 @@ pub(crate) fn parse_decimal(text: &str) -> Option<Rational> {
         None => (text.as_str(), 0),
     };
     let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let fraction = fraction.trim_end_matches('0');
     let digits = format!("{whole}{fraction}").parse::<i128>().ok()?;
     let shift = exponent.checked_sub(i32::try_from(fraction.len()).ok()?)?;
-    Rational::from_integer(digits).checked_mul(&power(Rational::from_integer(10), shift.into())?)
+    times(Rational::from_integer(digits), power(Rational::from_integer(10), shift.into())?)
+}
+
+/// Whether a fraction may stand in the graph. All but those of `i128::MIN` do: it has no negative, and so no
+/// absolute value and no reciprocal that could be computed without care.
+pub(super) fn fits(x: &Rational) -> bool {
+    *x.numer() != i128::MIN
+}
+
+/// x + y; `None` where it does not fit.
+pub(super) fn plus(x: Rational, y: Rational) -> Option<Rational> {
+    let sum = match (x.is_integer(), y.is_integer()) {
+        (true, true) => Rational::from_integer(x.numer().checked_add(y.numer())?),
+        _ => x.checked_add(&y)?,
+    };
+    fits(&sum).then_some(sum)
+}
+
+/// x y; `None` where it does not fit.
+pub(super) fn times(x: Rational, y: Rational) -> Option<Rational> {
+    let product = match (x.is_integer(), y.is_integer()) {
+        (true, true) => Rational::from_integer(x.numer().checked_mul(y.numer())?),
+        _ => x.checked_mul(&y)?,
+    };
+    fits(&product).then_some(product)
 }
 
 /// `base` to an integer power; `None` where it does not fit, and for zero to a negative one.
-pub(crate) fn power(base: Rational, exponent: i128) -> Option<Rational> {
-    if base.is_one() || exponent == 0 {
-        return Some(Rational::one());
-    }
-    if base.is_zero() {
+pub(super) fn power(base: Rational, exponent: i128) -> Option<Rational> {
+    if base.is_zero() && exponent != 0 {
         return (exponent > 0).then(Rational::zero);
+    }
+    if base.abs().is_one() {
+        return Some(if exponent % 2 == 0 { Rational::one() } else { base });
     }
     let base = if exponent < 0 { base.recip() } else { base };
     let exponent = usize::try_from(exponent.unsigned_abs()).ok()?;
-    num_traits::checked_pow(base, exponent)
+    num_traits::checked_pow(base, exponent).filter(fits)
 }
 
 /// The exact square root, if there is one.
-pub(crate) fn square_root(x: Rational) -> Option<Rational> {
-    let root = |n: i128| {
-        let guess = (n as f64).sqrt().round() as i128;
-        (guess.checked_mul(guess)? == n).then_some(guess)
-    };
-    if *x.numer() < 0 {
-        return None;
-    }
+pub(super) fn square_root(x: Rational) -> Option<Rational> {
+    let root = |n: i128| n.checked_isqrt().filter(|root| root * root == n);
     Some(Rational::new_raw(root(*x.numer())?, root(*x.denom())?))
 }
 
-/// The nearest `f64`, by way of 40 decimal digits so that it is rounded once.
+/// The nearest `f64`.
 pub(crate) fn to_f64(x: Rational) -> f64 {
-    let exact = 1_i128 << f64::MANTISSA_DIGITS;
-    if x.numer().abs() <= exact && *x.denom() <= exact {
+    let exact = 1 << f64::MANTISSA_DIGITS;
+    let (numerator, denominator) = (x.numer().unsigned_abs(), x.denom().unsigned_abs());
+    if numerator <= exact && denominator <= exact {
         return *x.numer() as f64 / *x.denom() as f64;
     }
-    decimal(x).parse().unwrap_or(f64::NAN)
-}
-
-fn decimal(x: Rational) -> String {
-    let (numerator, denominator) = (x.numer().unsigned_abs(), x.denom().unsigned_abs());
-    let sign = if *x.numer() < 0 { "-" } else { "" };
-    let mut text = format!("{sign}{}.", numerator / denominator);
-    let mut rest = numerator % denominator;
-    let mut significant = 0;
-    while rest != 0 && significant < 40 && text.len() < 400 {
-        let digit = ten_times_over(&mut rest, denominator);
-        significant += u32::from(digit != 0 || significant > 0);
-        text.push(char::from(b'0' + digit));
+    // Long division in binary, until there are more digits than a mantissa has. Then all that is left can
+    // only break a tie, for which one more digit is enough.
+    let (mut quotient, mut rest) = (numerator / denominator, numerator % denominator);
+    let mut digits = 0;
+    while quotient >> 64 == 0 {
+        rest *= 2;
+        quotient = 2 * quotient + u128::from(rest >= denominator);
+        rest %= denominator;
+        digits += 1;
     }
-    text
-}
-
-/// The digit ⌊10 rest / denominator⌋, leaving the remainder in `rest`; `10 * rest` itself may not fit.
-fn ten_times_over(rest: &mut u128, denominator: u128) -> u8 {
-    let (mut digit, mut sum) = (0, 0_u128);
-    for _ in 0..10 {
-        if sum >= denominator - *rest {
-            sum -= denominator - *rest;
-            digit += 1;
-        } else {
-            sum += *rest;
-        }
-    }
-    *rest = sum;
-    digit
+    let magnitude = (quotient | u128::from(rest != 0)) as f64 * 2.0_f64.powi(-digits);
+    if *x.numer() < 0 { -magnitude } else { magnitude }
 }

@@ -1,10 +1,10 @@
 //! Constructors that keep every expression in canonical form: like terms collected, powers merged,
 //! constants folded, products never expanded.
 
-use num_traits::{CheckedAdd, CheckedMul, One, Signed, Zero};
+use num_traits::{One, Signed, Zero};
 
 use super::graph::{Fault, Function, Graph, Id, Node};
-use super::rational::{self, Rational};
+use super::rational::{self, Rational, plus, times};
 
 impl Graph {
     pub(crate) fn add(&mut self, x: Id, y: Id) -> Id {
@@ -85,10 +85,10 @@ impl Graph {
 
     fn push_term(&self, flat: &mut Vec<(Id, Rational)>, term: Id, coefficient: Rational) -> Option<()> {
         match self.node(term) {
-            Node::Number(value) => flat.push((Id::ONE, times(value, &coefficient)?)),
+            Node::Number(value) => flat.push((Id::ONE, times(*value, coefficient)?)),
             Node::Sum(terms) => {
                 for (inner, c) in terms {
-                    flat.push((*inner, times(c, &coefficient)?));
+                    flat.push((*inner, times(*c, coefficient)?));
                 }
             }
             _ => flat.push((term, coefficient)),
@@ -128,7 +128,7 @@ impl Graph {
 
     /// Takes `factor ^ exponent` apart as far as that is exact; true where parts may merge anew.
     fn push_factor(
-        &self,
+        &mut self,
         flat: &mut Vec<(Id, Rational)>,
         coefficient: &mut Rational,
         factor: Id,
@@ -137,21 +137,21 @@ impl Graph {
         if factor == Id::ZERO && exponent.is_negative() {
             return Err(Fault::DivisionByZero);
         }
+        let mut scale = |c| times(*coefficient, c).map(|c| *coefficient = c).ok_or(Fault::Overflow);
         match self.node(factor) {
             Node::Number(value) => match exact_power(*value, exponent)? {
-                Some(value) => *coefficient = times(coefficient, &value).ok_or(Fault::Overflow)?,
+                Some(value) => scale(value)?,
                 None => flat.push((factor, exponent)),
             },
-            Node::Sum(terms) if terms.len() == 1 && exponent.is_integer() => {
-                let (term, c) = terms[0];
-                let c = rational::power(c, exponent.to_integer()).ok_or(Fault::Overflow)?;
-                *coefficient = times(coefficient, &c).ok_or(Fault::Overflow)?;
-                flat.push((term, exponent));
+            Node::Sum(terms) if exponent.is_integer() && !common_coefficient(terms).is_one() => {
+                let common = common_coefficient(terms);
+                scale(rational::power(common, exponent.to_integer()).ok_or(Fault::Overflow)?)?;
+                flat.push((self.sum([(factor, common.recip())]), exponent));
                 return Ok(true);
             }
             Node::Product(parts) if exponent.is_integer() => {
                 for (part, inner) in parts {
-                    flat.push((*part, times(inner, &exponent).ok_or(Fault::Overflow)?));
+                    flat.push((*part, times(*inner, exponent).ok_or(Fault::Overflow)?));
                 }
                 return Ok(true);
             }
@@ -168,7 +168,7 @@ impl Graph {
     fn is_irreducible(&self, factor: Id, exponent: Rational) -> bool {
         match self.node(factor) {
             Node::Number(value) => matches!(exact_power(*value, exponent), Ok(None)),
-            Node::Sum(terms) => terms.len() > 1 || !exponent.is_integer(),
+            Node::Sum(terms) => !exponent.is_integer() || common_coefficient(terms).is_one(),
             Node::Product(_) => !exponent.is_integer(),
             Node::Function(Function::Abs, _) => !is_even(exponent),
             _ => true,
@@ -183,7 +183,7 @@ impl Graph {
         let parity = parity(function);
         if parity != Parity::None && self.leads_negative(x) {
             let x = self.neg(x);
-            let value = self.intern(Node::Function(function, x));
+            let value = self.function(function, x);
             return if parity == Parity::Odd { self.neg(value) } else { value };
         }
         match (function, self.node(x)) {
@@ -216,7 +216,7 @@ impl Graph {
             Node::Sum(terms) if terms.len() == 1 => terms[0],
             _ => return None,
         };
-        let quarters = times(&coefficient, &Rational::from_integer(2))?;
+        let quarters = times(coefficient, Rational::from_integer(2))?;
         (*self.node(term) == Node::Pi && quarters.is_integer()).then(|| quarters.to_integer() % 4)
     }
 
@@ -250,14 +250,13 @@ fn is_even(exponent: Rational) -> bool {
     exponent.is_integer() && exponent.to_integer() % 2 == 0
 }
 
-fn times(x: &Rational, y: &Rational) -> Option<Rational> {
-    if x.is_one() {
-        return Some(*y);
-    }
-    if y.is_one() {
-        return Some(*x);
-    }
-    x.checked_mul(y)
+/// What can be taken out of a sum as a factor: the first coefficient where all are alike but for their signs,
+/// otherwise the first one's sign. So 2 x + 2 y and y − x are multiples of x + y and x − y in every product.
+fn common_coefficient(terms: &[(Id, Rational)]) -> Rational {
+    let first = terms[0].1;
+    let alike =
+        terms.iter().all(|(_, c)| c.denom() == first.denom() && c.numer().abs() == first.numer().abs());
+    if alike { first } else { first.signum() }
 }
 
 /// value ^ exponent where that is rational.
@@ -280,7 +279,7 @@ fn merge(mut parts: Vec<(Id, Rational)>) -> Option<Vec<(Id, Rational)>> {
     let mut merged: Vec<(Id, Rational)> = Vec::with_capacity(parts.len());
     for (id, value) in parts {
         match merged.last_mut() {
-            Some(last) if last.0 == id => last.1 = last.1.checked_add(&value)?,
+            Some(last) if last.0 == id => last.1 = plus(last.1, value)?,
             _ => merged.push((id, value)),
         }
     }

@@ -26,9 +26,10 @@ impl Graph {
         if root == Id::ZERO || self.looked_through(root) == Id::ZERO {
             return Verdict::Zero;
         }
+        let order = self.reachable(&[root]);
         let mut held = 0;
         for draw in 0..DRAWS {
-            let sample = self.evaluate(root, |symbol| {
+            let sample = self.evaluate_in(&order, |symbol| {
                 let (low, high) = range(symbol);
                 low + (high - low) * random(symbol, draw)
             });
@@ -47,22 +48,38 @@ impl Graph {
         if held > 0 { Verdict::Held(held) } else { Verdict::Undecided }
     }
 
-    /// The same expression without the boundaries of definitions.
+    /// The same expression without the boundaries of definitions; itself where that expression would be at
+    /// fault: what is hidden by a boundary may be zero, and divided by.
     pub(crate) fn looked_through(&mut self, root: Id) -> Id {
+        let fault_before = self.take_fault();
         let mut new: FxHashMap<Id, Id> = FxHashMap::default();
         for id in self.reachable(&[root]) {
-            let rebuilt = match self.node(id).clone() {
-                Node::Sum(terms) => self.sum(terms.iter().map(|(term, c)| (new[term], *c))),
-                Node::Product(factors) => self.product(factors.iter().map(|(factor, e)| (new[factor], *e))),
-                Node::Function(function, x) => self.function(function, new[&x]),
-                Node::Atan2(y, x) => self.atan2(new[&y], new[&x]),
-                Node::Power(base, exponent) => self.power(new[&base], new[&exponent]),
-                Node::Defined(inner) => new[&inner],
-                Node::Number(_) | Node::Pi | Node::Symbol(_) => id,
-            };
+            let rebuilt = self.rebuilt(id, |operand| new[&operand]);
             new.insert(id, rebuilt);
         }
-        new[&root]
+        let faulty = self.take_fault().is_some();
+        if let Some(fault) = fault_before {
+            self.fail(fault);
+        }
+        if faulty { root } else { new[&root] }
+    }
+
+    fn rebuilt(&mut self, id: Id, new: impl Fn(Id) -> Id) -> Id {
+        match *self.node(id) {
+            Node::Sum(ref terms) => {
+                let terms: Vec<_> = terms.iter().map(|&(term, c)| (new(term), c)).collect();
+                self.sum(terms)
+            }
+            Node::Product(ref factors) => {
+                let factors: Vec<_> = factors.iter().map(|&(factor, e)| (new(factor), e)).collect();
+                self.product(factors)
+            }
+            Node::Function(function, x) => self.function(function, new(x)),
+            Node::Atan2(y, x) => self.atan2(new(y), new(x)),
+            Node::Power(base, exponent) => self.power(new(base), new(exponent)),
+            Node::Defined(inner) => new(inner),
+            Node::Number(_) | Node::Pi | Node::Symbol(_) => id,
+        }
     }
 }
 

@@ -1,0 +1,76 @@
+//! Properties of the graph on random expressions, each checked against an independent computation.
+
+mod bounds;
+mod canonical;
+mod derivatives;
+mod double;
+mod faults;
+mod rationals;
+mod tree;
+mod values;
+mod zero;
+
+use std::cell::Cell;
+use std::fmt::Debug;
+
+use proptest::strategy::Strategy;
+use proptest::test_runner::{Config, RngSeed, TestCaseError, TestRunner};
+
+use super::{Graph, Id, Rational, Symbol};
+
+/// How one random case went.
+enum Outcome {
+    Checked,
+    /// Outside of the domain, or too ill-conditioned to tell.
+    Skipped,
+}
+
+/// Runs `property` on `cases` random values, the same in every run unless `PROPTEST_CASES` and
+/// `PROPTEST_RNG_SEED` say otherwise. At least the given share of them must not be skipped.
+fn for_all<T: Debug>(
+    cases: u32,
+    share: f64,
+    strategy: impl Strategy<Value = T>,
+    property: impl Fn(T) -> Result<Outcome, TestCaseError>,
+) {
+    let mut config = Config { failure_persistence: None, ..Config::default() };
+    if std::env::var_os("PROPTEST_CASES").is_none() {
+        config.cases = cases;
+    }
+    if std::env::var_os("PROPTEST_RNG_SEED").is_none() {
+        config.rng_seed = RngSeed::Fixed(1687);
+    }
+    let (runs, checked) = (Cell::new(0), Cell::new(0));
+    let result = TestRunner::new(config).run(&strategy, |value| {
+        runs.set(runs.get() + 1);
+        if let Outcome::Checked = property(value)? {
+            checked.set(checked.get() + 1);
+        }
+        Ok(())
+    });
+    if let Err(error) = result {
+        panic!("{error}");
+    }
+    let (runs, checked) = (runs.get(), checked.get());
+    assert!(f64::from(checked) >= share * f64::from(runs), "only {checked} of {runs} cases could be checked");
+}
+
+fn symbol(index: usize) -> Symbol {
+    Symbol { family: 0, index: index as u32 }
+}
+
+fn rational(numerator: i128, denominator: i128) -> Rational {
+    Rational::new(numerator, denominator)
+}
+
+/// A graph with the symbols x, y and z.
+fn graph() -> (Graph, [Id; 3]) {
+    let mut graph = Graph::default();
+    let symbols = [0, 1, 2].map(|index| graph.symbol(symbol(index)));
+    (graph, symbols)
+}
+
+/// Reads a symbol's value off a point.
+fn at(point: &[f64]) -> impl Fn(Symbol) -> f64 + Copy + '_ {
+    |symbol| point[symbol.index as usize]
+}

@@ -1,0 +1,153 @@
+//! Verdicts on whether an expression vanishes.
+
+use proptest::prelude::*;
+
+use super::super::{Function, Graph, Id, Verdict};
+use super::tree::{Tree, trees};
+use super::{Outcome, for_all, graph, rational, symbol};
+
+fn verdict(graph: &mut Graph, root: Id) -> Verdict {
+    graph.is_zero(root, |_| (-1.25, 1.75))
+}
+
+/// The same function of x, y, z in other words: sums multiplied out, functions by their theorems.
+fn rewritten(tree: Tree) -> Tree {
+    let two = || Tree::number(2, 1);
+    let square = |x: Tree| x.power(rational(2, 1));
+    match tree {
+        Tree::Product(factors) => multiplied_out(factors),
+        Tree::Power(base, exponent) if exponent == rational(2, 1) => {
+            multiplied_out(vec![(*base).clone(), *base])
+        }
+        Tree::Difference(pair) => {
+            let [x, y] = *pair;
+            Tree::Sum(vec![x, Tree::Product(vec![Tree::number(-1, 1), y])])
+        }
+        Tree::Function(Function::Sin, x) => {
+            let half = x.over(two());
+            let parts = [Function::Sin, Function::Cos].map(|f| Tree::function(f, half.clone()));
+            Tree::Product([vec![two()], parts.into()].concat())
+        }
+        Tree::Function(Function::Cos, x) => {
+            let sine = Tree::function(Function::Sin, x.over(two()));
+            Tree::Difference(Box::new([Tree::number(1, 1), Tree::Product(vec![two(), square(sine)])]))
+        }
+        Tree::Function(Function::Tan, x) => {
+            Tree::function(Function::Sin, (*x).clone()).over(Tree::function(Function::Cos, *x))
+        }
+        Tree::Function(Function::Cosh, x) => {
+            let minus = Tree::Product(vec![Tree::number(-1, 1), (*x).clone()]);
+            Tree::Sum(vec![Tree::function(Function::Exp, *x), Tree::function(Function::Exp, minus)])
+                .over(two())
+        }
+        other => other,
+    }
+}
+
+/// The first sum among the factors is multiplied out.
+fn multiplied_out(mut factors: Vec<Tree>) -> Tree {
+    let Some(position) = factors.iter().position(|factor| matches!(factor, Tree::Sum(_))) else {
+        return Tree::Product(factors);
+    };
+    let Tree::Sum(terms) = factors.remove(position) else { unreachable!() };
+    let product = |term| Tree::Product([vec![term], factors.clone()].concat());
+    Tree::Sum(terms.into_iter().map(product).collect())
+}
+
+#[test]
+fn equal_expressions_are_never_told_apart() {
+    for_all(800, 0.6, trees(), |tree| {
+        let (mut graph, _) = graph();
+        let direct = tree.build(&mut graph);
+        let other = tree.map(&mut rewritten).build(&mut graph);
+        let difference = graph.sub(direct, other);
+        if graph.take_fault().is_some() {
+            return Ok(Outcome::Skipped);
+        }
+        let verdict = verdict(&mut graph, difference);
+        prop_assert_ne!(verdict, Verdict::NonZero);
+        Ok(if verdict == Verdict::Undecided { Outcome::Skipped } else { Outcome::Checked })
+    });
+}
+
+#[test]
+fn a_small_difference_is_seen() {
+    for_all(400, 0.6, (trees(), 0..3_usize), |(tree, index)| {
+        let (mut graph, symbols) = graph();
+        let direct = tree.build(&mut graph);
+        let other = tree.map(&mut rewritten).build(&mut graph);
+        let wave = graph.function(Function::Cosh, symbols[index]);
+        let difference =
+            graph.sum([(direct, rational(1, 1)), (other, rational(-1, 1)), (wave, rational(1, 1_000_000))]);
+        let verdict = verdict(&mut graph, difference);
+        prop_assert_ne!(verdict, Verdict::Zero);
+        let faulty = graph.take_fault().is_some();
+        Ok(if verdict == Verdict::NonZero && !faulty { Outcome::Checked } else { Outcome::Skipped })
+    });
+}
+
+#[test]
+fn boundaries_are_looked_through() {
+    for_all(500, 0.7, trees(), |tree| {
+        let (mut graph, _) = graph();
+        let direct = tree.map(&mut without_boundary).build(&mut graph);
+        let bounded = tree.map(&mut |tree| tree.defined()).build(&mut graph);
+        let difference = graph.sub(direct, bounded);
+        if graph.take_fault().is_some() {
+            return Ok(Outcome::Skipped);
+        }
+        prop_assert_eq!(verdict(&mut graph, difference), Verdict::Zero);
+        Ok(Outcome::Checked)
+    });
+}
+
+fn without_boundary(tree: Tree) -> Tree {
+    match tree {
+        Tree::Defined(inner) => *inner,
+        other => other,
+    }
+}
+
+#[test]
+fn verdicts_say_how_sure_they_are() {
+    let (mut graph, [x, y, _]) = graph();
+    assert_eq!(verdict(&mut graph, Id::ZERO), Verdict::Zero);
+    assert_eq!(verdict(&mut graph, x), Verdict::NonZero);
+    let (sine, cosine) = (graph.function(Function::Sin, x), graph.function(Function::Cos, x));
+    let (sine2, cosine2) = (graph.square(sine), graph.square(cosine));
+    let pythagoras =
+        graph.sum([(sine2, rational(1, 1)), (cosine2, rational(1, 1)), (Id::ONE, rational(-1, 1))]);
+    assert_eq!(verdict(&mut graph, pythagoras), Verdict::Held(8));
+    // −1 − x² has no square root.
+    let negative = graph.sum([(sine2, rational(-1, 1)), (Id::ONE, rational(-1, 1))]);
+    let imaginary = graph.sqrt(negative);
+    assert_eq!(verdict(&mut graph, imaginary), Verdict::Undecided);
+    // Half of the draws are outside of the domain of √y.
+    let root = graph.sqrt(y);
+    assert_eq!(verdict(&mut graph, root), Verdict::NonZero);
+    let held = graph.mul(pythagoras, root);
+    assert!(matches!(verdict(&mut graph, held), Verdict::Held(_)));
+}
+
+#[test]
+fn samples_come_from_the_range_of_each_symbol() {
+    let (mut graph, [x, y, _]) = graph();
+    let difference = graph.function(Function::Abs, x);
+    let difference = graph.sub(difference, x);
+    let signed = |range: (f64, f64)| move |name| if name == symbol(0) { range } else { (-1.0, 1.0) };
+    assert_eq!(graph.is_zero(difference, signed((0.5, 2.0))), Verdict::Held(8));
+    assert_eq!(graph.is_zero(difference, signed((-2.0, -0.5))), Verdict::NonZero);
+    assert_eq!(graph.is_zero(y, signed((0.5, 2.0))), Verdict::NonZero);
+}
+
+/// 1 / (d − x·y), where d is defined as x·y: what cannot be looked through must not pass for zero.
+#[test]
+fn a_hidden_division_by_zero_is_not_zero() {
+    let (mut graph, [x, y, _]) = graph();
+    let product = graph.mul(x, y);
+    let defined = graph.defined(product);
+    let nothing = graph.sub(defined, product);
+    let inverse = graph.pow(nothing, rational(-1, 1));
+    assert_eq!(verdict(&mut graph, inverse), Verdict::Undecided);
+    assert_eq!(graph.take_fault(), None);
+}
