@@ -42,3 +42,20 @@ fn a_singular_mass_matrix_shows_in_the_pivot() {
     let pivot = pendulum.accelerations(&State::at_rest([0.0, 0.0])).pivot;
     assert!(pivot.is_nan() || pivot <= 0.0, "{pivot}");
 }
+
+/// A force law with the exponent as a parameter: F = −k n xⁿ⁻¹ is finite where the spring is relaxed.
+#[derive(Lagrangian)]
+#[coordinates(x)]
+#[lagrangian(m/2 * x_dot^2 - k * x^n)]
+struct Spring {
+    m: f64,
+    k: f64,
+    n: f64,
+}
+
+#[test]
+fn a_power_with_a_parameter_as_exponent_has_a_derivative_at_zero() {
+    let spring = Spring { m: 1.0, k: 3.0, n: 2.0 };
+    assert_eq!(spring.forcing(&State::at_rest([0.0]))[0], 0.0);
+    assert_eq!(spring.forcing(&State::at_rest([-0.5]))[0], 3.0);
+}

@@ -176,18 +176,20 @@ impl Graph {
         self.product([(weight, one), (arm, one), (radius2, -one)])
     }
 
-    /// d bᵉ = bᵉ (e db / b + ln b de).
+    /// d bᵉ = e bᵉ⁻¹ db + bᵉ ln b de, and not e bᵉ/b, which has no value where b = 0.
     fn power_partial(&mut self, id: Id, base: Id, exponent: Id, operand: Id, weight: Id) -> Id {
-        let one = Rational::one();
         let mut slope = Id::ZERO;
         if operand == base {
-            slope = self.product([(exponent, one), (base, -one)]);
+            let lower = self.sub(exponent, Id::ONE);
+            let power = self.power(base, lower);
+            slope = self.mul(exponent, power);
         }
         if operand == exponent {
             let logarithm = self.function(Function::Ln, base);
-            slope = self.add(slope, logarithm);
+            let part = self.mul(id, logarithm);
+            slope = self.add(slope, part);
         }
-        self.product([(weight, one), (id, one), (slope, one)])
+        self.mul(weight, slope)
     }
 
     /// The derivative of `function` at `x`, given `id = function(x)`.
