@@ -6,7 +6,7 @@ use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 use rustc_hash::FxHashMap;
 
-use super::schedule::{Count, Operation, Register, Schedule};
+use super::schedule::{Call, Count, Operation, Register, Schedule};
 use crate::resolve::{Element, Problem};
 use crate::symbolic::{Function, Id, Symbol};
 use crate::variables::Variable;
@@ -151,6 +151,7 @@ impl<'a> Style<'a> {
             locals: Vec::new(),
             assignments: Vec::new(),
             names: FxHashMap::default(),
+            written_calls: HashSet::new(),
         };
         for &(register, id) in &schedule.definitions {
             if let Some(name) = self.definition_names.get(&id) {
@@ -184,6 +185,8 @@ struct Writer<'s, 'a> {
     locals: Vec<Ident>,
     assignments: Vec<TokenStream>,
     names: FxHashMap<Register, &'s Ident>,
+    /// The calls that have been written already.
+    written_calls: HashSet<u32>,
 }
 
 impl Writer<'_, '_> {
@@ -199,13 +202,17 @@ impl Writer<'_, '_> {
                 let name = &self.style.names[&symbol];
                 (quote!(#name), 0)
             }
+            Operation::Result { call, output } => {
+                self.write_call(call, output, schedule);
+                return;
+            }
             Operation::Function(function @ (Function::Sin | Function::Cos), x) => {
                 self.write_sine_or_cosine(index, function, x, schedule);
                 return;
             }
             _ => {
                 let depth =
-                    1 + operation.operands().map(|operand| self.values[operand.index()].1).max().unwrap_or(0);
+                    1 + schedule.operands(operation).map(|operand| self.values[operand.index()].1).max().unwrap_or(0);
                 let tokens = self.operation(operation);
                 if self.uses[index] == 1 && depth < NESTING {
                     (quote!((#tokens)), depth)
@@ -232,8 +239,41 @@ impl Writer<'_, '_> {
             Operation::Function(function, x) => call(function_name(function), &[value(x)]),
             Operation::Atan2(y, x) => call("atan2", &[value(y), value(x)]),
             Operation::Power(x, y) => call("powf", &[value(x), value(y)]),
-            Operation::Constant(_) | Operation::Input(_) => TokenStream::new(),
+            Operation::Constant(_) | Operation::Input(_) | Operation::Result { .. } => TokenStream::new(),
         }
+    }
+
+    /// All results of a call are computed together, when the first of them is met.
+    fn write_call(&mut self, call: u32, output: u32, schedule: &Schedule) {
+        let Call { function, derivatives, arguments } = &schedule.calls[call as usize];
+        let function = &self.style.problem.functions[*function as usize];
+        let name = |output: u32| format_ident!("call{call}_{output}", span = Span::mixed_site());
+        let result = name(output);
+        self.values.push((quote!(#result), 0));
+        if !self.written_calls.insert(call) {
+            return;
+        }
+        let used = |output: u32| schedule.find(Operation::Result { call, output }).is_some_and(|register| self.uses[register.index()] > 0);
+        let outputs: Vec<u32> = (0..function.outputs as u32).filter(|&output| used(output)).collect();
+        let pattern = (0..function.outputs as u32).map(|output| match outputs.contains(&output) {
+            true => {
+                let name = name(output);
+                quote!(#name)
+            }
+            false => quote!(_),
+        });
+        let field = &function.field;
+        let arguments = arguments.iter().map(|&argument| self.value(argument));
+        let by = derivatives.iter().map(|&i| Literal::u32_unsuffixed(i));
+        let method = match derivatives.len() {
+            0 => quote!(Value::value),
+            1 => quote!(First::first),
+            2 => quote!(Second::second),
+            _ => quote!(Third::third),
+        };
+        let by = if derivatives.is_empty() { quote!() } else { quote!(, [#(#by),*]) };
+        self.assignments.push(quote! { [#(#pattern),*] = __lagrange::function::#method(&self.#field, [#(#arguments),*] #by); });
+        self.locals.extend(outputs.into_iter().map(name));
     }
 
     /// The sine and the cosine of one argument are computed together, when the first of them is met.

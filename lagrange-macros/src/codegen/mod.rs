@@ -4,6 +4,8 @@ mod kernel;
 mod schedule;
 mod stub;
 
+use std::collections::BTreeSet;
+
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use syn::GenericParam;
@@ -11,8 +13,8 @@ use syn::GenericParam;
 use crate::diagnostics::Diagnostics;
 use crate::mechanics::{ConstraintKind, Equations};
 use crate::render::Rendered;
-use crate::resolve::{Label, Problem};
-use crate::symbolic::Id;
+use crate::resolve::{Label, Problem, Supplied};
+use crate::symbolic::{Id, Node};
 use crate::syntax::Declaration;
 use crate::variables::Variable;
 use kernel::{Kernel, Style};
@@ -21,6 +23,9 @@ pub(crate) use stub::stub;
 
 /// rustc takes a function of this many operations in seconds; beyond, the system belongs apart.
 const OPERATION_LIMIT: usize = 30_000;
+
+/// How often a function that the user supplies can be differentiated.
+const FUNCTION_ORDER: usize = 3;
 
 /// The implementation of the trait, and a method for each observable.
 pub(crate) fn implementation(
@@ -34,14 +39,21 @@ pub(crate) fn implementation(
     let style = Style::new(problem, scalar);
     let emitter = Emitter { declaration, problem, equations, rendered, style: &style };
     let fused = emitter.fused();
-    let Count { arithmetic, functions } = fused.count;
+    let Count { arithmetic, functions, .. } = fused.count;
     if arithmetic + functions > OPERATION_LIMIT {
         diagnostics.error(problem.place, format!(
             "the equations of motion take {arithmetic} operations and {functions} elementary functions, beyond what rustc compiles in one function ({OPERATION_LIMIT}): name what recurs with `#[define(…)]`, recursively along chains, so that it is shared"
         ));
         return TokenStream::new();
     }
-    emitter.block(fused)
+    let orders = emitter.orders();
+    for &(function, order) in orders.iter().filter(|(_, order)| *order > FUNCTION_ORDER) {
+        let Supplied { name, place, .. } = &problem.functions[function as usize];
+        diagnostics.error(*place, format!(
+            "the equations need the {order}th derivatives of `{name}`, and functions are differentiated {FUNCTION_ORDER} times at most"
+        ));
+    }
+    emitter.block(fused, &orders)
 }
 
 /// What computing `roots` together takes.
@@ -59,13 +71,44 @@ struct Emitter<'a> {
 }
 
 impl Emitter<'_> {
-    fn block(&self, fused: Kernel) -> TokenStream {
+    /// Of each function that the user supplies, the orders of the derivatives that the system needs.
+    fn orders(&self) -> BTreeSet<(u32, usize)> {
+        let graph = &self.problem.graph;
+        let mut roots = self.equations.roots();
+        roots.push(self.problem.lagrangian);
+        roots.extend(self.problem.observables.iter().flat_map(|(_, values)| values));
+        let orders = graph.reachable(&roots).into_iter().filter_map(|id| match graph.node(id) {
+            Node::External(external) => Some((external.function, external.derivatives.len())),
+            _ => None,
+        });
+        orders.collect()
+    }
+
+    /// The struct's generics with what the fields must be able to do.
+    fn generics(&self, orders: &BTreeSet<(u32, usize)>) -> syn::Generics {
+        let scalar = self.style.scalar;
+        let mut generics = bounded_generics(self.declaration, scalar);
+        for &(function, order) in orders {
+            let Supplied { ty, inputs, outputs, .. } = &self.problem.functions[function as usize];
+            let capability = match order {
+                0 => quote!(Value),
+                1 => quote!(First),
+                2 => quote!(Second),
+                _ => quote!(Third),
+            };
+            let bound = syn::parse_quote!(#ty: __lagrange::function::#capability<#scalar, #inputs, #outputs>);
+            generics.make_where_clause().predicates.push(bound);
+        }
+        generics
+    }
+
+    fn block(&self, fused: Kernel, orders: &BTreeSet<(u32, usize)>) -> TokenStream {
         let runtime = runtime(self.declaration);
         let (ident, scalar) = (&self.declaration.ident, self.style.scalar);
         let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
-        let (_, type_generics, where_clause) = self.declaration.generics.split_for_impl();
-        let generics = bounded_generics(self.declaration, scalar);
-        let (impl_generics, _, _) = generics.split_for_impl();
+        let (_, type_generics, _) = self.declaration.generics.split_for_impl();
+        let generics = self.generics(orders);
+        let (impl_generics, _, where_clause) = generics.split_for_impl();
         let name = ident.to_string();
         let name = name.trim_start_matches("r#");
         let coordinates = self.problem.coordinates.iter().map(|label| &label.text);
@@ -324,10 +367,14 @@ impl Emitter<'_> {
 }
 
 fn count_doc(count: Count) -> String {
-    let Count { arithmetic, functions } = count;
+    let Count { arithmetic, functions, calls } = count;
     let plural = |count| if count == 1 { "" } else { "s" };
+    let calls = match calls {
+        0 => String::new(),
+        calls => format!(", {calls} result{} of supplied functions", plural(calls)),
+    };
     format!(
-        "{arithmetic} operation{} (+ − × ÷ √), {functions} elementary function{}.",
+        "{arithmetic} operation{} (+ − × ÷ √), {functions} elementary function{}{calls}.",
         plural(arithmetic),
         plural(functions)
     )

@@ -1,5 +1,6 @@
 //! From the graph to a sequence of binary operations, each computed once.
 
+use indexmap::IndexSet;
 use num_traits::{One, Signed, ToPrimitive};
 use rustc_hash::FxHashMap;
 
@@ -34,12 +35,23 @@ pub(super) enum Operation {
     Function(Function, Register),
     Atan2(Register, Register),
     Power(Register, Register),
+    /// One result of a call in [`Schedule::calls`].
+    Result { call: u32, output: u32 },
+}
+
+/// A call of a function that the user supplies, or of a partial derivative of it.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+pub(super) struct Call {
+    pub(super) function: u32,
+    pub(super) derivatives: Box<[u32]>,
+    pub(super) arguments: Box<[Register]>,
 }
 
 impl Operation {
-    pub(super) fn operands(self) -> impl Iterator<Item = Register> {
+    /// All but those of a call.
+    fn operands(self) -> impl Iterator<Item = Register> {
         let (first, second) = match self {
-            Self::Constant(_) | Self::Input(_) => (None, None),
+            Self::Constant(_) | Self::Input(_) | Self::Result { .. } => (None, None),
             Self::Negate(x) | Self::SquareRoot(x) | Self::Function(_, x) => (Some(x), None),
             Self::Add(x, y)
             | Self::Subtract(x, y)
@@ -57,12 +69,15 @@ impl Operation {
 pub(crate) struct Count {
     pub(crate) arithmetic: usize,
     pub(crate) functions: usize,
+    /// Results of functions that the user supplies.
+    pub(crate) calls: usize,
 }
 
 /// Operations in the order in which they are computed.
 #[derive(Default)]
 pub(super) struct Schedule {
     pub(super) operations: Vec<Operation>,
+    pub(super) calls: IndexSet<Call>,
     known: FxHashMap<Operation, Register>,
     registers: FxHashMap<Id, Register>,
     /// Which register holds a definition, for its name.
@@ -87,6 +102,15 @@ impl Schedule {
         graph.as_number(id).is_none() || roots.contains(&id)
     }
 
+    /// What an operation computes with.
+    pub(super) fn operands(&self, operation: Operation) -> impl Iterator<Item = Register> {
+        let call = match operation {
+            Operation::Result { call, .. } => Some(&self.calls[call as usize]),
+            _ => None,
+        };
+        operation.operands().chain(call.into_iter().flat_map(|call| call.arguments.iter().copied()))
+    }
+
     pub(super) fn register(&self, root: Id) -> Register {
         self.registers[&root]
     }
@@ -99,7 +123,7 @@ impl Schedule {
         }
         for (index, operation) in self.operations.iter().enumerate().rev() {
             if uses[index] > 0 {
-                operation.operands().for_each(|operand| uses[operand.index()] += 1);
+                self.operands(*operation).for_each(|operand| uses[operand.index()] += 1);
             }
         }
         uses
@@ -113,6 +137,7 @@ impl Schedule {
                 Operation::Constant(_) | Operation::Input(_) => {}
                 Operation::Function(Function::Abs, _) => count.arithmetic += 1,
                 Operation::Function(..) | Operation::Atan2(..) | Operation::Power(..) => count.functions += 1,
+                Operation::Result { .. } => count.calls += 1,
                 _ => count.arithmetic += 1,
             }
         }
@@ -159,6 +184,12 @@ impl Schedule {
             Node::Power(base, exponent) => {
                 let (base, exponent) = (self.register_of(graph, *base), self.register_of(graph, *exponent));
                 self.push(Operation::Power(base, exponent))
+            }
+            Node::External(external) => {
+                let arguments = external.arguments.iter().map(|&x| self.register_of(graph, x)).collect();
+                let (function, derivatives) = (external.function, external.derivatives.clone());
+                let (call, _) = self.calls.insert_full(Call { function, derivatives, arguments });
+                self.push(Operation::Result { call: call as u32, output: external.output })
             }
             Node::Defined(inner) => {
                 let register = self.register_of(graph, *inner);

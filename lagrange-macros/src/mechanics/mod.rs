@@ -32,6 +32,15 @@ pub(crate) struct Equations {
     pub(crate) constraint_force: Vec<Id>,
 }
 
+impl Equations {
+    /// Every entry.
+    pub(crate) fn roots(&self) -> Vec<Id> {
+        let matrices = self.mass.iter().chain(&self.jacobian).flatten();
+        let vectors = [&self.momentum, &self.forcing, &self.residual, &self.rate, &self.bias];
+        matrices.chain(vectors.into_iter().flatten()).copied().collect()
+    }
+}
+
 /// Derives the equations of motion; `None` where they do not exist, which is then reported.
 pub(crate) fn derive(problem: &mut Problem, diagnostics: &mut Diagnostics) -> Option<Equations> {
     let motion = euler_lagrange::derive(problem);

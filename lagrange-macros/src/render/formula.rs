@@ -4,7 +4,7 @@
 use num_traits::{One, Signed};
 
 use crate::resolve::{Element, Problem};
-use crate::symbolic::{Function, Id, Node, Rational};
+use crate::symbolic::{External, Function, Id, Node, Rational};
 use crate::syntax::{Expression, Kind, Operator, Sign};
 use crate::variables::Variable;
 
@@ -35,6 +35,8 @@ pub(super) enum Formula {
         body: Box<Self>,
     },
     Vector(Vec<Self>),
+    /// A partial derivative of a function whose arguments are not written.
+    Partial { function: String, by: Vec<Self> },
 }
 
 impl Formula {
@@ -196,6 +198,7 @@ pub(super) fn derived(id: Id, problem: &Problem) -> Formula {
         Node::Function(function, x) => {
             Formula::Call(function_name(*function).to_owned(), vec![derived(*x, problem)])
         }
+        Node::External(external) => external_call(external, problem),
         Node::Atan2(y, x) => {
             Formula::Call("atan2".to_owned(), vec![derived(*y, problem), derived(*x, problem)])
         }
@@ -207,6 +210,18 @@ pub(super) fn derived(id: Id, problem: &Problem) -> Formula {
             None => derived(*inner, problem),
         },
     }
+}
+
+/// `U(r[0], r[1])`, `∂U/∂r[0]`
+fn external_call(external: &External, problem: &Problem) -> Formula {
+    let function = &problem.functions[external.function as usize];
+    let arguments: Vec<Formula> = external.arguments.iter().map(|&x| derived(x, problem)).collect();
+    let name = if function.outputs == 1 { function.name.clone() } else { format!("{}[{}]", function.name, external.output) };
+    if external.derivatives.is_empty() {
+        return Formula::Call(name, arguments);
+    }
+    let by = external.derivatives.iter().map(|&i| arguments[i as usize].clone()).collect();
+    Formula::Partial { function: name, by }
 }
 
 impl Formula {

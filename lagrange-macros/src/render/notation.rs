@@ -41,6 +41,7 @@ impl Notation {
             Formula::Call(name, arguments) => self.call(name, arguments),
             Formula::SumOver { index, from, to, body } => self.sum_over(index, from, to, body),
             Formula::Vector(items) => self.brackets(&self.list(items)),
+            Formula::Partial { function, by } => self.partial(function, by),
         }
     }
 
@@ -123,6 +124,21 @@ impl Notation {
             }
             (Self::Unicode, _) => format!("{base}^{}", self.at_least(exponent, Binding::Atom)),
         }
+    }
+
+    /// ∂U/∂x, ∂²U/∂x∂y
+    fn partial(self, function: &str, by: &[Formula]) -> String {
+        let function = self.write(&Formula::labelled(function, 0));
+        let order = if by.len() == 1 { String::new() } else { self.superscript(&by.len().to_string()) };
+        let below: String = by.iter().map(|x| format!("{}{}", self.pick("∂", r"\partial "), self.write(x))).collect();
+        match self {
+            Self::Unicode => format!("∂{order}{function}/{below}"),
+            Self::Latex => format!(r"\frac{{\partial{order} {function}}}{{{below}}}"),
+        }
+    }
+
+    fn superscript(self, digits: &str) -> String {
+        if self == Self::Latex { format!("^{{{digits}}}") } else { superscript(digits) }
     }
 
     fn call(self, name: &str, arguments: &[Formula]) -> String {

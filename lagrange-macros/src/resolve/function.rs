@@ -4,14 +4,17 @@ use super::lower::Lowering;
 use super::scope::{Entity, Scope};
 use super::value::Value;
 use crate::diagnostics::{Diagnostics, Place};
+use crate::symbolic::External;
 use crate::syntax::{Declaration, Expression, Function};
 
 /// A function as generated code calls it.
-#[derive(Clone, Debug)]
 pub(crate) struct Supplied {
     /// The name in the expressions.
     pub(crate) name: String,
     pub(crate) field: syn::Ident,
+    pub(crate) ty: syn::Type,
+    /// Where the attribute names it.
+    pub(crate) place: Place,
     /// How many numbers it takes, all arguments together.
     pub(crate) inputs: usize,
     /// How many numbers it gives.
@@ -33,6 +36,8 @@ pub(super) fn supplied(declaration: &Declaration, scope: &Scope, diagnostics: &m
         Some(Supplied {
             name: function.name.text.clone(),
             field: field.ident.clone(),
+            ty: field.ty.clone(),
+            place: function.name.place,
             inputs: lengths.sum(),
             outputs: function.length.unwrap_or(1),
         })
@@ -82,7 +87,11 @@ impl Lowering<'_> {
             }
             flat.extend(value.flat());
         }
-        let output = |lowering: &mut Self, output| lowering.graph.external(index as u32, output, &[], &flat);
+        let output = |lowering: &mut Self, output| {
+            let arguments = flat.clone().into();
+            let external = External { function: index as u32, output, derivatives: Box::default(), arguments };
+            lowering.graph.external(external)
+        };
         Some(match function.length {
             None => Value::Scalar(output(self, 0)),
             Some(length) => Value::vector((0..length).map(|i| output(self, i as u32)).collect::<Vec<_>>()),

@@ -4,7 +4,7 @@
 use num_traits::One;
 use rustc_hash::FxHashMap;
 
-use super::graph::{Fault, Function, Graph, Id, Node, Symbol};
+use super::graph::{External, Fault, Function, Graph, Id, Node, Symbol};
 use super::rational::{Rational, plus};
 
 /// The derivative along one direction in the space of symbols. It remembers every node it has met, so
@@ -126,6 +126,7 @@ impl Graph {
     fn distinct_operands(&self, id: Id) -> Vec<Id> {
         let mut operands = Vec::new();
         self.operands(id, |operand| operands.push(operand));
+        operands.sort_unstable();
         operands.dedup();
         operands
     }
@@ -140,6 +141,7 @@ impl Graph {
             }
             Node::Atan2(y, x) => self.angle_partial(y, x, operand, weight),
             Node::Power(base, exponent) => self.power_partial(id, base, exponent, operand, weight),
+            Node::External(_) => self.external_partial(id, operand, weight),
             _ => weight,
         }
     }
@@ -159,6 +161,18 @@ impl Graph {
         factors.push((weight, Rational::one()));
         let part = self.product(factors);
         self.sum([(part, slope)])
+    }
+
+    /// Σ ∂f/∂x_i over the positions i at which the operand stands.
+    fn external_partial(&mut self, id: Id, operand: Id, weight: Id) -> Id {
+        let Node::External(external) = self.node(id).clone() else { return weight };
+        let mut slope = Id::ZERO;
+        for (position, _) in external.arguments.iter().enumerate().filter(|&(_, &x)| x == operand) {
+            let derivatives = [&external.derivatives[..], &[position as u32]].concat().into();
+            let part = self.external(External { derivatives, ..(*external).clone() });
+            slope = self.add(slope, part);
+        }
+        self.mul(weight, slope)
     }
 
     /// d atan2(y, x) = (x dy − y dx) / (x² + y²).

@@ -49,15 +49,23 @@ impl Graph {
     /// exact argument of some function may lie beyond a pole or a cut, it is infinite or NaN.
     #[cfg(test)]
     pub(crate) fn evaluate(&self, root: Id, value: impl FnMut(Symbol) -> f64) -> Approximate {
-        self.evaluate_in(&self.reachable(&[root]), value)
+        self.evaluate_in(&self.reachable(&[root]), value, |_| f64::NAN)
     }
 
     /// The value of the last of `order`, which holds all that it is made of, operands first.
-    pub(super) fn evaluate_in(&self, order: &[Id], mut value: impl FnMut(Symbol) -> f64) -> Approximate {
+    pub(super) fn evaluate_in(
+        &self,
+        order: &[Id],
+        mut value: impl FnMut(Symbol) -> f64,
+        mut external: impl FnMut(Id) -> f64,
+    ) -> Approximate {
         let mut result = Approximate { value: f64::NAN, error: 0.0 };
         let mut values = vec![result; order.last().map_or(0, |root| root.index() + 1)];
         for &id in order {
-            result = self.value_of(id, &values, &mut value);
+            result = match self.node(id) {
+                Node::External(_) => Approximate { value: external(id), error: 0.0 },
+                _ => self.value_of(id, &values, &mut value),
+            };
             values[id.index()] = result;
         }
         result
@@ -86,6 +94,7 @@ impl Graph {
             Node::Atan2(y, x) => angle(at(*y), at(*x)),
             Node::Power(base, exponent) => general_power(at(*base), at(*exponent)),
             Node::Defined(inner) => at(*inner),
+            Node::External(_) => Approximate { value: f64::NAN, error: 0.0 },
         }
     }
 }

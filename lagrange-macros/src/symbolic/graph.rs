@@ -63,6 +63,18 @@ pub(crate) enum Node {
     /// A named intermediate: equal to what it holds, but nothing is collected or flattened through it, so
     /// that recursive definitions keep their partial sums.
     Defined(Id),
+    /// A function of which nothing is known here, or a partial derivative of it.
+    External(Box<External>),
+}
+
+/// ∂^k f_o(x₀, x₁, …)/∂x_i ∂x_j … for the function `function` and its result `output`.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+pub(crate) struct External {
+    pub(crate) function: u32,
+    pub(crate) output: u32,
+    /// The positions i ≤ j ≤ … of the arguments differentiated by.
+    pub(crate) derivatives: Box<[u32]>,
+    pub(crate) arguments: Box<[Id]>,
 }
 
 /// What exact arithmetic could not do. The first one stays until it is [taken](Graph::take_fault).
@@ -160,6 +172,7 @@ impl Graph {
             Node::Number(_) | Node::Pi | Node::Symbol(_) => {}
             Node::Sum(parts) | Node::Product(parts) => parts.iter().for_each(|&(part, _)| visit(part)),
             Node::Function(_, x) | Node::Defined(x) => visit(*x),
+            Node::External(external) => external.arguments.iter().for_each(|&x| visit(x)),
             Node::Atan2(x, y) | Node::Power(x, y) => {
                 visit(*x);
                 visit(*y);

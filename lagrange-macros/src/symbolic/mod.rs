@@ -13,6 +13,6 @@ mod tests;
 mod zero;
 
 pub(crate) use differentiate::Forward;
-pub(crate) use graph::{Fault, Function, Graph, Id, Node, Symbol};
+pub(crate) use graph::{External, Fault, Function, Graph, Id, Node, Symbol};
 pub(crate) use rational::{Rational, parse_decimal, to_f64};
 pub(crate) use zero::Verdict;

@@ -3,7 +3,7 @@
 
 use num_traits::{One, Signed, Zero};
 
-use super::graph::{Fault, Function, Graph, Id, Node};
+use super::graph::{External, Fault, Function, Graph, Id, Node};
 use super::rational::{self, Rational, plus, times};
 
 impl Graph {
@@ -47,6 +47,11 @@ impl Graph {
             None if base == Id::ONE => Id::ONE,
             None => self.intern(Node::Power(base, exponent)),
         }
+    }
+
+    pub(crate) fn external(&mut self, mut external: External) -> Id {
+        external.derivatives.sort_unstable();
+        self.intern(Node::External(Box::new(external)))
     }
 
     pub(crate) fn atan2(&mut self, y: Id, x: Id) -> Id {

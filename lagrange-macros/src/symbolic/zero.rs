@@ -2,7 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
-use super::graph::{Graph, Id, Node, Symbol};
+use super::graph::{External, Graph, Id, Node, Symbol};
 
 /// How sure the answer is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -23,16 +23,21 @@ const DRAWS: u64 = 64;
 impl Graph {
     /// Whether `root` vanishes identically. Each symbol is drawn from the range that `range` gives it.
     pub(crate) fn is_zero(&mut self, root: Id, range: impl Fn(Symbol) -> (f64, f64)) -> Verdict {
-        if root == Id::ZERO || self.looked_through(root) == Id::ZERO {
+        // Equal arguments of an unknown function are one node only where no boundary hides that.
+        let root = self.looked_through(root);
+        if root == Id::ZERO {
             return Verdict::Zero;
         }
         let order = self.reachable(&[root]);
         let mut held = 0;
         for draw in 0..DRAWS {
-            let sample = self.evaluate_in(&order, |symbol| {
+            let symbol = |symbol: Symbol| {
                 let (low, high) = range(symbol);
-                low + (high - low) * random(symbol, draw)
-            });
+                low + (high - low) * random(u64::from(symbol.family), u64::from(symbol.index), draw)
+            };
+            // An unknown function and its derivatives have values of their own at every argument.
+            let external = |id: Id| 2.0 * random(u64::MAX, id.index() as u64, draw) - 1.0;
+            let sample = self.evaluate_in(&order, symbol, external);
             // Outside its domain an expression has no value: draw again.
             if !sample.value.is_finite() || !sample.error.is_finite() {
                 continue;
@@ -78,14 +83,19 @@ impl Graph {
             Node::Atan2(y, x) => self.atan2(new(y), new(x)),
             Node::Power(base, exponent) => self.power(new(base), new(exponent)),
             Node::Defined(inner) => new(inner),
+            Node::External(ref external) => {
+                let arguments = external.arguments.iter().map(|&x| new(x)).collect();
+                let external = External { arguments, ..(**external).clone() };
+                self.external(external)
+            }
             Node::Number(_) | Node::Pi | Node::Symbol(_) => id,
         }
     }
 }
 
 /// A number in [0, 1) that depends on nothing but its arguments (Steele, Lea and Flood's SplitMix64).
-fn random(symbol: Symbol, draw: u64) -> f64 {
-    let mut z = (u64::from(symbol.family) << 56) ^ (u64::from(symbol.index) << 16) ^ draw;
+fn random(family: u64, index: u64, draw: u64) -> f64 {
+    let mut z = (family << 56) ^ (index << 16) ^ draw;
     for _ in 0..2 {
         z = z.wrapping_add(0x9e37_79b9_7f4a_7c15);
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

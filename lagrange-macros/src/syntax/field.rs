@@ -11,6 +11,7 @@ use crate::diagnostics::Place;
 pub(crate) struct Field {
     pub(crate) name: Name,
     pub(crate) ident: syn::Ident,
+    pub(crate) ty: Type,
     /// Where its type stands.
     pub(crate) place: Place,
     /// How to read numbers from it, or why that cannot be done.
@@ -43,7 +44,7 @@ impl Field {
         let mut ends = field.ty.to_token_stream().into_iter().map(|token| Place::at(token.span()));
         let start = ends.next().unwrap_or(Place::at(ident.span()));
         let place = start.to(ends.last().unwrap_or(start));
-        Self { name: Name::new(ident), ident: ident.clone(), place, shape: shape(&field.ty) }
+        Self { name: Name::new(ident), ident: ident.clone(), ty: field.ty.clone(), place, shape: shape(&field.ty) }
     }
 }
 
