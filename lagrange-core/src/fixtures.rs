@@ -50,6 +50,14 @@ impl<const N: usize, const M: usize, const H: usize> Lagrangian<N, M> for Mechan
         0.0
     }
 
+    fn energy(&self, state: &At<N>) -> f64 {
+        state.v.dot(&self.momentum(state))
+    }
+
+    fn momentum_rate(&self, state: &At<N>) -> SVector<f64, N> {
+        self.forcing(state)
+    }
+
     fn momentum(&self, state: &At<N>) -> SVector<f64, N> {
         self.mass_matrix(state) * state.v
     }

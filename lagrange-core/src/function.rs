@@ -30,7 +30,7 @@ use crate::{Dual, Scalar};
 ///
 /// let planet = Planet { m: 2.0, potential: Newton { k: 4.0 } };
 /// let force = planet.forcing(&State::at_rest([0.0, 2.0, 0.0]));
-/// assert_eq!(force, [0.0, -1.0, 0.0].into());
+/// assert_eq!(force.as_slice(), [0.0, -1.0, 0.0]);
 /// ```
 pub trait Function<const I: usize, const O: usize> {
     /// The values at `x`.

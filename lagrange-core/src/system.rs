@@ -40,8 +40,14 @@ pub trait Lagrangian<const N: usize, const M: usize> {
     /// L(t, q, q̇).
     fn lagrangian(&self, state: &State<Self::Scalar, N>) -> Self::Scalar;
 
+    /// The energy function E = p·q̇ − L (Milton (8.17)); its rate is −∂L/∂t + Q·q̇ − Σ_α λ_α b_α.
+    fn energy(&self, state: &State<Self::Scalar, N>) -> Self::Scalar;
+
     /// Generalized momenta p = ∂L/∂q̇.
     fn momentum(&self, state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, N>;
+
+    /// ∂L/∂q + Q: the rate of the momenta without constraints, whose force Fᵀλ adds to it.
+    fn momentum_rate(&self, state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, N>;
 
     /// Mass matrix M = ∂p/∂q̇ (symmetric).
     fn mass_matrix(&self, state: &State<Self::Scalar, N>) -> SMatrix<Self::Scalar, N, N>;

@@ -160,7 +160,10 @@ impl Emitter<'_> {
             self.function("lagrangian", &quote!(#scalar), &lagrangian, |results| quote!(#(#results)*));
         let of_coordinates = quote!(__lagrange::nalgebra::SVector<#scalar, #n>);
         let of_constraints = quote!(__lagrange::nalgebra::SVector<#scalar, #m>);
+        let energy = self.style.kernel(&[equations.energy]);
+        let energy = self.function("energy", &quote!(#scalar), &energy, |results| quote!(#(#results)*));
         let momentum = self.vector("momentum", &of_coordinates, &equations.momentum);
+        let momentum_rate = self.vector("momentum_rate", &of_coordinates, &equations.momentum_rate);
         let forcing = self.vector("forcing", &of_coordinates, &equations.forcing);
         let residual = self.vector("constraint_residual", &of_constraints, &equations.residual);
         let rate = self.vector("constraint_rate", &of_constraints, &equations.rate);
@@ -180,7 +183,7 @@ impl Emitter<'_> {
         let force = self.constraint_force();
         let accelerations = self.accelerations(&fused);
         let observable = self.observable_by_index();
-        quote! { #lagrangian #momentum #mass #forcing #residual #rate #jacobian #bias #force #accelerations #observable }
+        quote! { #lagrangian #energy #momentum #momentum_rate #mass #forcing #residual #rate #jacobian #bias #force #accelerations #observable }
     }
 
     /// One method of the state that returns what `result` makes of the kernel's results.

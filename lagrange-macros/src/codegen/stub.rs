@@ -34,6 +34,8 @@ pub(crate) fn stub(declaration: &Declaration) -> TokenStream {
                 const CONSTRAINT_KINDS: [__lagrange::ConstraintKind; #m] = [__lagrange::ConstraintKind::Holonomic; #m];
                 const OBSERVABLES: &'static [&'static str] = &[];
                 fn lagrangian(&self, state: &__lagrange::State<#scalar, #n>) -> #scalar { loop {} }
+                fn energy(&self, state: &__lagrange::State<#scalar, #n>) -> #scalar { loop {} }
+                fn momentum_rate(&self, state: &__lagrange::State<#scalar, #n>) -> __lagrange::nalgebra::SVector<#scalar, #n> { loop {} }
                 fn momentum(&self, state: &__lagrange::State<#scalar, #n>) -> __lagrange::nalgebra::SVector<#scalar, #n> { loop {} }
                 fn mass_matrix(&self, state: &__lagrange::State<#scalar, #n>) -> __lagrange::nalgebra::SMatrix<#scalar, #n, #n> { loop {} }
                 fn forcing(&self, state: &__lagrange::State<#scalar, #n>) -> __lagrange::nalgebra::SVector<#scalar, #n> { loop {} }

@@ -9,7 +9,9 @@ use crate::variables::Variable;
 pub(super) struct Motion {
     pub(super) momentum: Vec<Id>,
     pub(super) mass: Vec<Vec<Id>>,
+    pub(super) momentum_rate: Vec<Id>,
     pub(super) forcing: Vec<Id>,
+    pub(super) energy: Id,
 }
 
 pub(super) fn derive(problem: &mut Problem) -> Motion {
@@ -20,12 +22,25 @@ pub(super) fn derive(problem: &mut Problem) -> Motion {
     let forces = generalized_forces(problem);
     let mass = mass_matrix(problem, &momentum);
     let mut drift = drift(&mut problem.graph, n);
-    let one = Rational::from_integer(1);
+    let momentum_rate: Vec<Id> = (0..n).map(|i| problem.graph.add(gradient[i], forces[i])).collect();
     let forcing = (0..n).map(|i| {
         let rate = drift.of(&mut problem.graph, momentum[i]);
-        problem.graph.sum([(gradient[i], one), (forces[i], one), (rate, -one)])
+        problem.graph.sub(momentum_rate[i], rate)
     });
-    Motion { forcing: forcing.collect(), momentum, mass }
+    let forcing = forcing.collect();
+    let energy = energy(problem, &momentum);
+    Motion { momentum, mass, momentum_rate, forcing, energy }
+}
+
+/// E = p·q̇ − L, Milton (8.17).
+fn energy(problem: &mut Problem, momentum: &[Id]) -> Id {
+    let one = Rational::from_integer(1);
+    let mut terms = vec![(problem.lagrangian, -one)];
+    for (i, &p) in momentum.iter().enumerate() {
+        let velocity = problem.graph.symbol(Variable::Velocity(i).symbol());
+        terms.push((problem.graph.mul(p, velocity), one));
+    }
+    problem.graph.sum(terms)
 }
 
 /// Q: the forces given, and −∂D/∂q̇ of Rayleigh's dissipation function.

@@ -17,8 +17,12 @@ pub(crate) struct Equations {
     pub(crate) momentum: Vec<Id>,
     /// M = ∂p/∂q̇, row by row
     pub(crate) mass: Vec<Vec<Id>>,
+    /// ∂L/∂q + Q: dp/dt without constraints
+    pub(crate) momentum_rate: Vec<Id>,
     /// h = ∂L/∂q + Q − (dp/dt where q̈ = 0)
     pub(crate) forcing: Vec<Id>,
+    /// E = p·q̇ − L
+    pub(crate) energy: Id,
     pub(crate) kinds: Vec<ConstraintKind>,
     /// Φ of holonomic constraints, zero for the others
     pub(crate) residual: Vec<Id>,
@@ -36,8 +40,8 @@ impl Equations {
     /// Every entry.
     pub(crate) fn roots(&self) -> Vec<Id> {
         let matrices = self.mass.iter().chain(&self.jacobian).flatten();
-        let vectors = [&self.momentum, &self.forcing, &self.residual, &self.rate, &self.bias];
-        matrices.chain(vectors.into_iter().flatten()).copied().collect()
+        let vectors = [&self.momentum, &self.momentum_rate, &self.forcing, &self.residual, &self.rate, &self.bias];
+        matrices.chain(vectors.into_iter().flatten()).chain([&self.energy]).copied().collect()
     }
 }
 
@@ -50,7 +54,9 @@ pub(crate) fn derive(problem: &mut Problem, diagnostics: &mut Diagnostics) -> Op
     Some(Equations {
         momentum: motion.momentum,
         mass: motion.mass,
+        momentum_rate: motion.momentum_rate,
         forcing: motion.forcing,
+        energy: motion.energy,
         constraint_force: constraints.force(&mut problem.graph),
         kinds: constraints.kinds,
         residual: constraints.residual,

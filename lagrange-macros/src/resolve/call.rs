@@ -2,6 +2,7 @@
 
 use super::lower::{Definition, Lowering, Setting};
 use super::scope::Entity;
+use super::quaternion;
 use super::value::{Value, cross, dot};
 use crate::diagnostics::Place;
 use crate::symbolic::Function;
@@ -33,6 +34,7 @@ impl Lowering<'_> {
                 return Some(Value::Scalar(self.graph.sqrt(square)));
             }
             "atan2" | "dot" | "cross" => return self.binary(name, arguments, place),
+            "quat_rotate" | "quat_rate" | "quat_rate_body" => return self.quaternion(name, arguments, place),
             _ => {}
         }
         match self.scope.get(&name.text) {
@@ -91,6 +93,25 @@ impl Lowering<'_> {
             (Ok(v), Ok(w)) => Some(Value::vector(cross(v, w, &mut self.graph))),
             _ => self.report(place, "`cross` takes vectors of 3"),
         }
+    }
+
+    /// Quaternions are (w, x, y, z); nothing is divided by their length.
+    fn quaternion(&mut self, name: &Name, arguments: &[Expression], place: Place) -> Option<Value> {
+        let [q, x] = self.arguments(name, arguments, place)?;
+        let (q, v) = (self.vector_of(q), self.vector_of(x));
+        let (q, v) = (q?, v?);
+        let Ok(q) = <[_; 4]>::try_from(q) else {
+            return self.report(place, format!("`{}` takes a quaternion, a vector of 4: (w, x, y, z)", name.text));
+        };
+        let graph = &mut self.graph;
+        let vector = match (name.text.as_str(), <[_; 3]>::try_from(v.clone()), <[_; 4]>::try_from(v)) {
+            ("quat_rotate", Ok(v), _) => quaternion::rotate(q, v, graph),
+            ("quat_rate", _, Ok(rate)) => quaternion::rate(q, rate, graph),
+            ("quat_rate_body", _, Ok(rate)) => quaternion::rate_in_body(q, rate, graph),
+            ("quat_rotate", ..) => return self.report(x.place, "`quat_rotate` turns a vector of 3"),
+            _ => return self.report(x.place, "the rate of a quaternion is a vector of 4, such as `q_dot`"),
+        };
+        Some(Value::vector(vector))
     }
 
     fn defined_function(

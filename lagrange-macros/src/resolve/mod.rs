@@ -5,6 +5,7 @@ mod family;
 mod function;
 mod lower;
 mod parameters;
+mod quaternion;
 mod scope;
 mod value;
 
@@ -295,9 +296,10 @@ impl Lowering<'_> {
 }
 
 /// Methods that every system has, or will have, and associated constants beside.
-const RESERVED: [&str; 32] = [
+const RESERVED: [&str; 33] = [
     "lagrangian",
     "momentum",
+    "momentum_rate",
     "mass_matrix",
     "forcing",
     "constraint_residual",

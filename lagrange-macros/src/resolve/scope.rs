@@ -20,8 +20,11 @@ pub(super) enum Entity {
 }
 
 /// Functions that expressions may call.
-pub(super) const FUNCTIONS: [&str; 21] = [
+pub(super) const FUNCTIONS: [&str; 24] = [
     "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "ln", "sqrt", "abs",
+    "quat_rotate",
+    "quat_rate",
+    "quat_rate_body",
     "dot", "cross", "norm", "sum", "der", "lambda", "in",
 ];
 

@@ -1,0 +1,49 @@
+//! Quaternions (w, x, y, z) for orientations (Goldstein, Poole and Safko, *Classical Mechanics*, 4.5).
+
+use crate::symbolic::{Graph, Id, Rational};
+
+/// The vector part of q v q̄: v turned by a unit quaternion.
+pub(super) fn rotate(q: [Id; 4], [x, y, z]: [Id; 3], graph: &mut Graph) -> [Id; 3] {
+    let turned = product(q, [Id::ZERO, x, y, z], graph);
+    let conjugate = conjugate(q, graph);
+    vector_part(product(turned, conjugate, graph))
+}
+
+/// The vector part of 2 q̇ q̄: the angular velocity in the fixed frame.
+pub(super) fn rate(q: [Id; 4], q_dot: [Id; 4], graph: &mut Graph) -> [Id; 3] {
+    let conjugate = conjugate(q, graph);
+    twice(vector_part(product(q_dot, conjugate, graph)), graph)
+}
+
+/// The vector part of 2 q̄ q̇: the angular velocity in the frame of the body.
+pub(super) fn rate_in_body(q: [Id; 4], q_dot: [Id; 4], graph: &mut Graph) -> [Id; 3] {
+    let conjugate = conjugate(q, graph);
+    twice(vector_part(product(conjugate, q_dot, graph)), graph)
+}
+
+fn conjugate([w, x, y, z]: [Id; 4], graph: &mut Graph) -> [Id; 4] {
+    [w, graph.neg(x), graph.neg(y), graph.neg(z)]
+}
+
+fn vector_part([_, x, y, z]: [Id; 4]) -> [Id; 3] {
+    [x, y, z]
+}
+
+fn twice(v: [Id; 3], graph: &mut Graph) -> [Id; 3] {
+    v.map(|x| graph.sum([(x, Rational::from_integer(2))]))
+}
+
+/// Hamilton's product.
+fn product(p: [Id; 4], q: [Id; 4], graph: &mut Graph) -> [Id; 4] {
+    // For each result the pairs of factors: the index into p, the index into q, the sign.
+    const ROWS: [[(usize, usize, i128); 4]; 4] = [
+        [(0, 0, 1), (1, 1, -1), (2, 2, -1), (3, 3, -1)],
+        [(0, 1, 1), (1, 0, 1), (2, 3, 1), (3, 2, -1)],
+        [(0, 2, 1), (2, 0, 1), (3, 1, 1), (1, 3, -1)],
+        [(0, 3, 1), (3, 0, 1), (1, 2, 1), (2, 1, -1)],
+    ];
+    ROWS.map(|row| {
+        let terms = row.map(|(i, j, sign)| (graph.mul(p[i], q[j]), Rational::from_integer(sign)));
+        graph.sum(terms)
+    })
+}
