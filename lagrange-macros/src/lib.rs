@@ -11,6 +11,8 @@
 mod codegen;
 mod diagnostics;
 mod mechanics;
+#[cfg(test)]
+mod pipeline_tests;
 mod print;
 mod resolve;
 mod symbolic;
