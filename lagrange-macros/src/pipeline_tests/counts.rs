@@ -61,7 +61,7 @@ fn momenta_and_forces_of_a_chain_cost_linearly_many_operations() {
     assert!(is_linear(&bounded, |cost| cost[0].operations), "operations of ∂L/∂q̇");
     assert!(is_linear(&bounded, |cost| cost[1].operations), "operations of ∂L/∂q");
     assert!(is_linear(&bounded, |cost| cost[0].operands) && is_linear(&bounded, |cost| cost[1].operands));
-    // Were definitions no boundaries, the above would fail:
-    assert!(!is_linear(&flat, |cost| cost[1].operations));
+    // Were definitions no boundaries, the operands would not be linear (the emitted code may be, as sums share
+    // their first terms):
     assert!(!is_linear(&flat, |cost| cost[0].operands) && !is_linear(&flat, |cost| cost[1].operands));
 }

@@ -115,10 +115,10 @@ const _: () = {
             let m = self.m;
             let l = self.l;
             let g = self.g;
-            let r6 = __lagrange::Scalar::sin(theta);
+            let r4 = __lagrange::Scalar::sin(theta);
             __lagrange::eliminate::eliminate(
                 [[(m * (l * l))]],
-                [(-(((m * l) * g) * r6))],
+                [(-(((m * l) * g) * r4))],
                 [],
                 [],
             )
