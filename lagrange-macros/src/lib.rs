@@ -12,15 +12,19 @@
 mod codegen;
 mod diagnostics;
 mod mechanics;
+#[cfg(test)]
+mod pipeline_tests;
 mod print;
 mod render;
 mod resolve;
+#[cfg(test)]
+mod robustness;
 mod symbolic;
 mod syntax;
 mod variables;
 
 use diagnostics::{Diagnostics, Place};
-use proc_macro2::TokenStream;
+use proc_macro2::{Span, TokenStream};
 use syntax::Declaration;
 
 /// Derives the equations of motion of a mechanical system from the Lagrangian, the coordinates and the
@@ -50,12 +54,7 @@ pub fn derive_lagrangian(input: proc_macro::TokenStream) -> proc_macro::TokenStr
 fn expand(input: TokenStream) -> TokenStream {
     let mut diagnostics = Diagnostics::default();
     if let Some(span) = syntax::too_deep(input.clone()) {
-        let limit = syntax::NESTING_LIMIT;
-        let message = format!(
-            "parentheses nest more than {limit} deep here: name parts of the expression with `#[define(…)]`"
-        );
-        diagnostics.error(Place::at(span), message);
-        return diagnostics.into_tokens();
+        return nests_too_deep(input, span);
     }
     let input = match syn::parse2(input) {
         Ok(input) => input,
@@ -70,6 +69,20 @@ fn expand(input: TokenStream) -> TokenStream {
             tokens
         }
     }
+}
+
+/// What nests too deep cannot even be read without recursion.
+fn nests_too_deep(input: TokenStream, span: Span) -> TokenStream {
+    let limit = syntax::NESTING_LIMIT;
+    let message = format!(
+        "parentheses nest more than {limit} deep here: name parts of the expression with `#[define(…)]`"
+    );
+    let mut tokens = Place::at(span).error(message).to_compile_error();
+    if let Ok(rest) = syn::parse2(syntax::shallow(input)) {
+        let declaration = syntax::declaration(rest, &mut Diagnostics::default());
+        tokens.extend(codegen::stub(&declaration));
+    }
+    tokens
 }
 
 fn derive(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<TokenStream> {

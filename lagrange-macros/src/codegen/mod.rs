@@ -6,7 +6,7 @@ mod stub;
 
 use std::collections::BTreeSet;
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Span, TokenStream};
 use quote::{format_ident, quote};
 use syn::GenericParam;
 
@@ -294,7 +294,7 @@ impl Emitter<'_> {
         let mut index = 0_usize;
         let mut arms = Vec::new();
         for (label, values) in &self.problem.observables {
-            let method = method_name(label);
+            let method = method_name(&label.text, label.place.start());
             let call = if self.needs_solution(values) {
                 quote!(self.#method(state, solution))
             } else {
@@ -342,7 +342,7 @@ impl Emitter<'_> {
         let (n, m, scalar) =
             (self.problem.coordinates.len(), self.problem.constraints.len(), self.style.scalar);
         let visibility = &self.declaration.visibility;
-        let name = method_name(label);
+        let name = method_name(&label.text, label.place.start());
         let kernel = self.style.kernel(values);
         let (statements, results) = (&kernel.statements, &kernel.results);
         let (returns, result) = match results.len() {
@@ -383,11 +383,10 @@ fn count_doc(count: Count) -> String {
     )
 }
 
-fn method_name(label: &Label) -> syn::Ident {
+fn method_name(text: &str, span: Span) -> syn::Ident {
     // A name that only `r#` makes an identifier gets it back.
-    let mut name = syn::parse_str::<syn::Ident>(&label.text)
-        .unwrap_or_else(|_| syn::Ident::new_raw(&label.text, label.place.start()));
-    name.set_span(label.place.start());
+    let mut name = syn::parse_str::<syn::Ident>(text).unwrap_or_else(|_| syn::Ident::new_raw(text, span));
+    name.set_span(span);
     name
 }
 

@@ -1,24 +1,27 @@
 //! What is emitted where the derivation failed: a trait implementation of the right sizes, so that the
 //! user reads our errors and none that only follow from a missing one.
 
-use proc_macro2::TokenStream;
-use quote::quote;
+use proc_macro2::{Span, TokenStream};
+use quote::{ToTokens, quote};
+use syn::Ident;
 
 use super::runtime;
-use crate::syntax::{Declaration, TargetIndex};
+use crate::resolve::{RESERVED, is_no_number};
+use crate::syntax::{Declaration, Expression, Kind, Named, TargetIndex};
 
 /// An implementation that is never run, because the errors beside it stop the compilation.
 pub(crate) fn stub(declaration: &Declaration) -> TokenStream {
     let runtime = runtime(declaration);
     let ident = &declaration.ident;
     let scalar = scalar(declaration);
-    let n: usize = declaration.coordinates.iter().map(|coordinate| coordinate.length.unwrap_or(1)).sum();
     let scalars = declaration.constraints.iter();
     let m =
         scalars.filter(|constraint| !matches!(constraint.target.index, TargetIndex::Family { .. })).count();
     let (_, type_generics, where_clause) = declaration.generics.split_for_impl();
     let Ok(scalar_type) = syn::parse2(scalar.clone()) else { return TokenStream::new() };
-    let generics = super::bounded_generics(declaration, &scalar_type);
+    let mut generics = super::bounded_generics(declaration, &scalar_type);
+    let methods = observables(declaration, &scalar, &generics);
+    let n = coordinates(declaration, &mut generics);
     let (impl_generics, _, _) = generics.split_for_impl();
     quote! {
         const _: () = {
@@ -47,13 +50,75 @@ pub(crate) fn stub(declaration: &Declaration) -> TokenStream {
                 fn accelerations(&self, state: &__lagrange::State<#scalar, #n>) -> __lagrange::Solution<#scalar, #n, #m> { loop {} }
                 fn observable(&self, index: usize, state: &__lagrange::State<#scalar, #n>, solution: &__lagrange::Solution<#scalar, #n, #m>) -> ::core::option::Option<#scalar> { ::core::option::Option::None }
             }
+
+            #methods
         };
     }
 }
 
+/// How many coordinates there are: where the attribute could not be read, as many as the caller thinks.
+fn coordinates(declaration: &Declaration, generics: &mut syn::Generics) -> TokenStream {
+    if declaration.coordinates.is_empty() {
+        let n = Ident::new("N", Span::mixed_site());
+        generics.params.push(syn::parse_quote!(const #n: usize));
+        return quote!(#n);
+    }
+    let n: usize = declaration.coordinates.iter().map(|coordinate| coordinate.length.unwrap_or(1)).sum();
+    quote!(#n)
+}
+
+/// The methods of the observables, of signatures guessed from how they are written.
+fn observables(declaration: &Declaration, scalar: &TokenStream, generics: &syn::Generics) -> TokenStream {
+    let (ident, visibility) = (&declaration.ident, &declaration.visibility);
+    let (impl_generics, _, _) = generics.split_for_impl();
+    let (_, type_generics, where_clause) = declaration.generics.split_for_impl();
+    let (n, m) = (Ident::new("N", Span::mixed_site()), Ident::new("M", Span::mixed_site()));
+    let mut known: Vec<(&str, bool)> = Vec::new();
+    let mut methods = TokenStream::new();
+    for Named { name, value } in &declaration.observables {
+        if RESERVED.contains(&name.text.as_str()) || known.iter().any(|(known, _)| *known == name.text) {
+            continue;
+        }
+        let solved = needs_solution(value, &known);
+        known.push((&name.text, solved));
+        let method = super::method_name(&name.text, name.place.start());
+        let solution = solved.then(|| quote!(, solution: &Solution<#scalar, #n, #m>));
+        let m = solved.then(|| quote!(, const #m: usize));
+        let returns = match &value.kind {
+            Kind::Vector(items) if !items.is_empty() => {
+                let length = items.len();
+                quote!(SVector<#scalar, #length>)
+            }
+            _ => scalar.clone(),
+        };
+        methods.extend(quote! {
+            #visibility fn #method<const #n: usize #m>(&self, state: &State<#scalar, #n> #solution) -> #returns { loop {} }
+        });
+    }
+    quote! {
+        #[automatically_derived]
+        #[allow(unused_variables, dead_code, clippy::all)]
+        impl #impl_generics #ident #type_generics #where_clause { #methods }
+    }
+}
+
+/// Whether accelerations or multipliers seem to occur in an observable.
+fn needs_solution(value: &Expression, known: &[(&str, bool)]) -> bool {
+    let (mut solved, mut rate, mut velocity) = (false, false, false);
+    value.names(&mut |name| {
+        let text = name.text.as_str();
+        solved |= text == "lambda" || text.ends_with("_ddot") || known.contains(&(text, true));
+        rate |= text == "der";
+        velocity |= text.ends_with("_dot");
+    });
+    solved || rate && velocity
+}
+
 /// The scalar as far as it can be guessed: the one asked for, or a type parameter, or `f64`.
 fn scalar(declaration: &Declaration) -> TokenStream {
-    if let Some(scalar) = &declaration.options.scalar {
+    if let Some(scalar) = &declaration.options.scalar
+        && !is_no_number(&scalar.to_token_stream().to_string())
+    {
         return quote!(#scalar);
     }
     let used = |name: &syn::Ident| {

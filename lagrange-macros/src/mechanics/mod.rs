@@ -48,6 +48,7 @@ impl Equations {
 /// Derives the equations of motion; `None` where they do not exist, which is then reported.
 pub(crate) fn derive(problem: &mut Problem, diagnostics: &mut Diagnostics) -> Option<Equations> {
     let motion = euler_lagrange::derive(problem);
+    reject_idle_dissipation(problem, diagnostics);
     stop_at_fault(problem, problem.place, diagnostics)?;
     let constraints = constraints::derive(problem, diagnostics)?;
     determinacy::check(problem, &motion, &constraints, diagnostics)?;
@@ -64,6 +65,16 @@ pub(crate) fn derive(problem: &mut Problem, diagnostics: &mut Diagnostics) -> Op
         jacobian: constraints.jacobian,
         bias: constraints.bias,
     })
+}
+
+/// −∂D/∂q̇ is nothing where D has no velocity in it.
+fn reject_idle_dissipation(problem: &Problem, diagnostics: &mut Diagnostics) {
+    let is_velocity = |symbol| matches!(Variable::of(symbol), Variable::Velocity(_));
+    if let Some((function, place)) = problem.dissipation
+        && !problem.graph.symbols(&[function]).any(is_velocity)
+    {
+        diagnostics.error(place, "no velocity occurs in this dissipation function, so it does nothing");
+    }
 }
 
 fn stop_at_fault(problem: &mut Problem, place: Place, diagnostics: &mut Diagnostics) -> Option<()> {

@@ -1,18 +1,20 @@
 //! Calls: built-in functions, definitions with arguments, `der` and `lambda`.
 
+use num_traits::Signed;
+
 use super::lower::{Definition, Lowering, Setting};
 use super::scope::Entity;
 use super::quaternion;
 use super::value::{Value, cross, dot};
 use crate::diagnostics::Place;
-use crate::symbolic::Function;
+use crate::symbolic::{Function, Id, Rational};
 use crate::syntax::{Expression, Kind, Name};
 
 impl Lowering<'_> {
     pub(super) fn call(&mut self, name: &Name, arguments: &[Expression], place: Place) -> Option<Value> {
         if let Some(function) = elementary(&name.text) {
             let [x] = self.arguments(name, arguments, place)?;
-            let x = self.scalar(x)?;
+            let x = self.inside_domain(name, x)?;
             return Some(Value::Scalar(self.graph.function(function, x)));
         }
         match name.text.as_str() {
@@ -24,7 +26,7 @@ impl Lowering<'_> {
             }
             "sqrt" => {
                 let [x] = self.arguments(name, arguments, place)?;
-                let x = self.scalar(x)?;
+                let x = self.inside_domain(name, x)?;
                 return Some(Value::Scalar(self.graph.sqrt(x)));
             }
             "norm" => {
@@ -43,12 +45,15 @@ impl Lowering<'_> {
             }
             Some(Entity::Function(index)) => self.supplied_function(index, arguments, place),
             Some(entity) => {
-                let message = format!(
-                    "`{}` is {}, not a function: a product needs its sign `*`",
-                    name.text,
-                    entity.describe()
-                );
-                self.report(name.place, message)
+                let (text, kind) = (&name.text, entity.describe());
+                let is_of_time =
+                    matches!(arguments, [Expression { kind: Kind::Name(t), .. }] if t.text == "t");
+                let advice = match entity {
+                    Entity::Field(_) | Entity::Definition(_) => "a product needs its sign `*`".to_owned(),
+                    _ if is_of_time => format!("it depends on time as it is, write `{text}`"),
+                    _ => "a product needs its sign `*`".to_owned(),
+                };
+                self.report(name.place, format!("`{text}` is {kind}, not a function: {advice}"))
             }
             None => {
                 self.diagnostics.push(self.scope.unknown_function(name));
@@ -66,12 +71,24 @@ impl Lowering<'_> {
     ) -> Option<&'e [Expression; K]> {
         let exact = arguments.try_into().ok();
         if exact.is_none() {
-            let given = arguments.len();
-            let plural = if K == 1 { "argument" } else { "arguments" };
-            self.diagnostics
-                .error(place, format!("`{}` takes {K} {plural}, but {given} are given", name.text));
+            self.diagnostics.error(place, wrong_number(name, K, arguments.len()));
         }
         exact
+    }
+
+    /// A scalar at which the function has a real value, as far as it is a number.
+    fn inside_domain(&mut self, name: &Name, argument: &Expression) -> Option<Id> {
+        let x = self.scalar(argument)?;
+        let Some(value) = self.graph.as_number(x) else { return Some(x) };
+        let message = match name.text.as_str() {
+            "sqrt" if value.is_negative() => "the root of a negative number has no real value",
+            "ln" if !value.is_positive() => "only positive numbers have a logarithm",
+            "asin" | "acos" if value.abs() > Rational::from_integer(1) => {
+                "`asin` and `acos` take numbers from -1 to 1"
+            }
+            _ => return Some(x),
+        };
+        self.report(argument.place, message)
     }
 
     fn binary(&mut self, name: &Name, arguments: &[Expression], place: Place) -> Option<Value> {
@@ -129,16 +146,16 @@ impl Lowering<'_> {
         }
         let formals = define.formals.as_deref().unwrap_or_default();
         if formals.len() != arguments.len() {
-            let (wanted, given) = (formals.len(), arguments.len());
-            return self
-                .report(place, format!("`{}` takes {wanted} arguments, but {given} are given", name.text));
+            return self.report(place, wrong_number(name, formals.len(), arguments.len()));
         }
         let values: Vec<_> = arguments.iter().map(|argument| self.lower(argument)).collect();
         let values: Vec<Value> = values.into_iter().collect::<Option<_>>()?;
         let bound = formals.iter().map(|formal| formal.text.clone()).zip(values).collect();
         // The body sees its own formals and nothing that is local where it is called.
         let outer = std::mem::replace(&mut self.locals, bound);
+        self.calls.push(place);
         let value = self.lower(&define.body);
+        self.calls.pop();
         self.locals = outer;
         let value = value?;
         Some(value.map(&mut |id| self.graph.defined(id)))
@@ -192,6 +209,12 @@ impl Lowering<'_> {
                 .report(constraint.place, format!("there is no constraint `{}[{index}]`", constraint.text)),
         }
     }
+}
+
+fn wrong_number(name: &Name, wanted: usize, given: usize) -> String {
+    let plural = if wanted == 1 { "" } else { "s" };
+    let are = if given == 1 { "is" } else { "are" };
+    format!("`{}` takes {wanted} argument{plural}, but {given} {are} given", name.text)
 }
 
 fn elementary(name: &str) -> Option<Function> {

@@ -92,7 +92,8 @@ impl Lowering<'_> {
                 *slot = Definition::Family(BTreeMap::from([(element, value)]));
             }
             (Some(element), Definition::Family(elements)) => {
-                if elements.insert(element, value).is_some() {
+                let is_new = elements.insert(element, value).is_none();
+                if !is_new {
                     self.diagnostics
                         .error(name.place, format!("`{}[{element}]` is defined twice", name.text));
                 }
@@ -158,21 +159,14 @@ impl Lowering<'_> {
 
     /// `base[index]`
     pub(super) fn index(&mut self, base: &Expression, index: &Expression) -> Option<Value> {
-        if let Kind::Name(name) = &base.kind {
-            if let Some(Entity::Definition(first)) = self.scope.get(&name.text) {
-                let is_local = self.locals.iter().any(|(local, _)| *local == name.text);
-                if !is_local
-                    && matches!(
-                        self.defines[first].target.index,
-                        TargetIndex::Element(_) | TargetIndex::Family { .. }
-                    )
-                {
-                    return self.family_element(first, name, index);
-                }
-            }
+        if let Kind::Name(name) = &base.kind
+            && !self.locals.iter().any(|(local, _)| *local == name.text)
+            && let Some(Entity::Definition(first)) = self.scope.get(&name.text)
+            && !matches!(self.defines[first].target.index, TargetIndex::None)
+        {
+            return self.family_element(first, name, index);
         }
-        let (value, i) = (self.lower(base), self.integer(index));
-        let (value, i) = (value?, i?);
+        let (value, i) = (self.lower(base)?, self.integer(index)?);
         let Value::Vector(items) = value else {
             return self.report(base.place, "this is a scalar: it has no elements");
         };
@@ -194,7 +188,7 @@ impl Lowering<'_> {
                 Some(value) => Some(value.clone()),
                 None => self.report(
                     index.place,
-                    format!("`{text}[{i}]` has no value here: a family's elements are defined in order"),
+                    format!("`{text}[{i}]` has no value here: no definition above gives it one"),
                 ),
             },
             _ => self.report(

@@ -1,13 +1,15 @@
 //! Expressions into the graph: names bound, shapes checked.
 
-use num_traits::Zero;
+use num_traits::{Signed, Zero};
 
 use super::parameters::Parameters;
 use super::scope::{Entity, Scope};
 use super::value::{Value, dot};
 use crate::diagnostics::{Diagnostics, Place};
 use crate::symbolic::{Fault, Forward, Graph, Id, Rational};
-use crate::syntax::{Coordinate, Declaration, Define, Expression, Function, Kind, Name, Operator, Sign, SumOver};
+use crate::syntax::{
+    Coordinate, Declaration, Define, Expression, Function, Kind, LENGTH_LIMIT, Name, Operator, Sign, SumOver,
+};
 use crate::variables::Variable;
 
 /// What the expression at hand may contain beside coordinates, velocities and time.
@@ -44,6 +46,10 @@ pub(super) struct MultiplierGroup {
 const DEPTH_LIMIT: usize = 600;
 /// Expressions lowered in all: what asks for more is a runaway definition.
 const STEP_LIMIT: usize = 1 << 20;
+/// Numbers in all values lowered: vectors of vectors can run away too.
+const NUMBER_LIMIT: usize = 1 << 24;
+/// The derivatives of a product have the square of its length.
+const FACTOR_LIMIT: usize = 1000;
 
 /// Everything needed to give an expression its meaning.
 pub(super) struct Lowering<'a> {
@@ -63,9 +69,12 @@ pub(super) struct Lowering<'a> {
     pub(super) setting: Setting,
     /// Formals and indices, the innermost last.
     pub(super) locals: Vec<(String, Value)>,
+    /// The calls of definitions around the expression at hand, the outermost first.
+    pub(super) calls: Vec<Place>,
     rate: Forward,
     depth: usize,
     steps: usize,
+    numbers: usize,
 }
 
 impl<'a> Lowering<'a> {
@@ -100,20 +109,23 @@ impl<'a> Lowering<'a> {
             observables: Vec::new(),
             setting: Setting::Equations,
             locals: Vec::new(),
+            calls: Vec::new(),
             depth: 0,
             steps: 0,
+            numbers: 0,
         }
     }
 
     /// The value of an expression. Where it has none, everything wrong with it has been reported.
     pub(super) fn lower(&mut self, expression: &Expression) -> Option<Value> {
         self.steps += 1;
-        if self.steps > STEP_LIMIT || self.depth > DEPTH_LIMIT {
+        if self.steps > STEP_LIMIT || self.depth > DEPTH_LIMIT || self.numbers > NUMBER_LIMIT {
             return self.runaway(expression.place);
         }
         self.depth += 1;
         let value = self.lower_kind(expression);
         self.depth -= 1;
+        self.numbers += value.as_ref().map_or(0, Value::count);
         if let Some(fault) = self.graph.take_fault() {
             return self.fault(fault, expression.place);
         }
@@ -179,15 +191,13 @@ impl<'a> Lowering<'a> {
 
     fn runaway<T>(&mut self, place: Place) -> Option<T> {
         // Said once; everything that follows from it would only repeat it.
-        let first = self.steps <= STEP_LIMIT || self.steps == STEP_LIMIT + 1;
-        self.steps = self.steps.max(STEP_LIMIT + 1);
+        let first = self.steps <= STEP_LIMIT + 1;
+        self.steps = STEP_LIMIT + 2;
         if !first {
             return None;
         }
-        self.report(
-            place,
-            "definitions call one another too often here: the expression grows beyond all bounds",
-        )
+        let place = self.calls.first().copied().unwrap_or(place);
+        self.report(place, "with all that it is defined by, this grows beyond what can be derived")
     }
 
     fn fault<T>(&mut self, fault: Fault, place: Place) -> Option<T> {
@@ -249,10 +259,10 @@ impl<'a> Lowering<'a> {
     }
 
     fn observable(&mut self, name: &Name) -> Option<Value> {
-        if self.setting == Setting::Observable {
-            if let Some((_, value)) = self.observables.iter().find(|(known, _)| *known == name.text) {
-                return Some(value.clone());
-            }
+        if self.setting == Setting::Observable
+            && let Some((_, value)) = self.observables.iter().find(|(known, _)| *known == name.text)
+        {
+            return Some(value.clone());
         }
         let more: Vec<String> = self.locals.iter().map(|(local, _)| local.clone()).collect();
         self.diagnostics.push(self.scope.unknown(name, &more));
@@ -275,88 +285,79 @@ impl<'a> Lowering<'a> {
     }
 
     fn sum(&mut self, terms: &[(Sign, Expression)]) -> Option<Value> {
-        let mut total: Option<Value> = None;
+        let mut values: Vec<(Value, Rational)> = Vec::with_capacity(terms.len());
         let mut failed = false;
         for (sign, term) in terms {
             let Some(value) = self.lower(term) else {
                 failed = true;
                 continue;
             };
-            let value = if *sign == Sign::Minus { value.map(&mut |id| self.graph.neg(id)) } else { value };
-            total = match total {
-                None => Some(value),
-                Some(total) => match self.plus(&total, &value, is_literal_zero(term)) {
-                    Some(sum) => Some(sum),
-                    None => {
-                        let (left, right) = (total.shape(), value.shape());
-                        failed = true;
-                        self.diagnostics
-                            .error(term.place, format!("this is {right}, but what it is added to is {left}"));
-                        Some(total)
-                    }
-                },
-            };
+            // The literal 0 is the zero of every shape.
+            if is_literal_zero(term) {
+                continue;
+            }
+            match values.first().map(|(first, _)| first.shape()) {
+                Some(first) if first != value.shape() => {
+                    failed = true;
+                    let message = format!("this is {}, but what it is added to is {first}", value.shape());
+                    self.diagnostics.error(term.place, message);
+                }
+                _ => values.push((value, Rational::from_integer(if *sign == Sign::Minus { -1 } else { 1 }))),
+            }
         }
-        total.filter(|_| !failed)
+        (!failed).then(|| Value::combination(&values, &mut self.graph))
     }
 
-    /// The sum, if the shapes agree; the literal 0 is the zero of every shape.
-    fn plus(&mut self, x: &Value, y: &Value, y_is_zero: bool) -> Option<Value> {
-        if y_is_zero {
-            return Some(x.clone());
-        }
-        x.plus(Rational::from_integer(1), y, &mut self.graph)
-    }
-
+    /// Scalar factors commute with everything: they are gathered, and multiplied once.
     fn product(&mut self, factors: &[(Operator, Expression)]) -> Option<Value> {
+        if let Some((_, factor)) = factors.get(FACTOR_LIMIT) {
+            let message = format!("a product has at most {FACTOR_LIMIT} factors: name parts of it");
+            return self.report(factor.place, message);
+        }
         let values: Vec<_> = factors.iter().map(|(_, factor)| self.lower(factor)).collect();
-        let mut product: Option<Value> = None;
+        let mut scalars = Vec::with_capacity(factors.len());
+        let mut array: Option<Value> = None;
         for ((operator, factor), value) in factors.iter().zip(values) {
-            let value = value?;
-            product = Some(match product {
-                None => value,
-                Some(product) if *operator == Operator::Times => {
-                    self.times(&product, &value, factor.place)?
+            match (operator, value?) {
+                (Operator::Over, Value::Scalar(Id::ZERO)) => {
+                    return self.fault(Fault::DivisionByZero, factor.place);
                 }
-                Some(product) => self.over(&product, &value, factor.place)?,
-            });
-            if let Some(fault) = self.graph.take_fault() {
-                return self.fault(fault, factor.place);
+                (Operator::Over, Value::Scalar(x)) => scalars.push((x, Rational::from_integer(-1))),
+                (Operator::Times, Value::Scalar(x)) => scalars.push((x, Rational::from_integer(1))),
+                (Operator::Over, value) => {
+                    return self.report(factor.place, format!("one cannot divide by {}", value.shape()));
+                }
+                (Operator::Times, value) => {
+                    array = Some(match array {
+                        None => value,
+                        Some(array) => self.times(&array, &value, factor.place)?,
+                    });
+                }
             }
         }
-        product
+        let scalar = self.graph.product(scalars);
+        Some(match array {
+            None => Value::Scalar(scalar),
+            Some(array) => array.map(&mut |x| self.graph.mul(scalar, x)),
+        })
     }
 
+    /// Matrix times vector: the only product of two arrays.
     fn times(&mut self, x: &Value, y: &Value, place: Place) -> Option<Value> {
-        match (x, y) {
-            (Value::Scalar(x), y) => Some(y.map(&mut |y| self.graph.mul(*x, y))),
-            (x, Value::Scalar(y)) => Some(x.map(&mut |x| self.graph.mul(x, *y))),
-            (Value::Vector(rows), y) => {
-                match (rows.iter().map(Value::as_vector).collect::<Option<Vec<_>>>(), y.as_vector()) {
-                    (Some(rows), Some(y)) if rows.iter().all(|row| row.len() == y.len()) => {
-                        Some(Value::vector(rows.iter().map(|row| dot(row, &y, &mut self.graph))))
-                    }
-                    (None, Some(_)) => {
-                        self.report(place, "two vectors are multiplied with `dot(a, b)` or `cross(a, b)`")
-                    }
-                    _ => {
-                        let (x, y) = (x.shape(), y.shape());
-                        self.report(
-                            place,
-                            format!("{x} cannot be multiplied by {y}: only matrix times vector"),
-                        )
-                    }
-                }
+        let rows = match x {
+            Value::Vector(rows) => rows.iter().map(Value::as_vector).collect::<Option<Vec<_>>>(),
+            Value::Scalar(_) => None,
+        };
+        match (rows, y.as_vector()) {
+            (Some(rows), Some(y)) if rows.iter().all(|row| row.len() == y.len()) => {
+                Some(Value::vector(rows.iter().map(|row| dot(row, &y, &mut self.graph))))
             }
-        }
-    }
-
-    fn over(&mut self, x: &Value, y: &Value, place: Place) -> Option<Value> {
-        match y {
-            Value::Scalar(y) => Some(x.map(&mut |x| self.graph.div(x, *y))),
-            Value::Vector(_) => {
-                let shape = y.shape();
-                self.report(place, format!("one cannot divide by {shape}"))
+            (None, Some(_)) => {
+                self.report(place, "two vectors are multiplied with `dot(a, b)` or `cross(a, b)`")
+            }
+            _ => {
+                let (x, y) = (x.shape(), y.shape());
+                self.report(place, format!("{x} cannot be multiplied by {y}: only matrix times vector"))
             }
         }
     }
@@ -364,7 +365,15 @@ impl<'a> Lowering<'a> {
     fn power(&mut self, base: &Expression, exponent: &Expression) -> Option<Value> {
         let (value, exponent) = (self.lower(base), self.scalar(exponent));
         match value? {
-            Value::Scalar(base) => Some(Value::Scalar(self.graph.power(base, exponent?))),
+            Value::Scalar(value) => {
+                let exponent = exponent?;
+                let numbers = (self.graph.as_number(value), self.graph.as_number(exponent));
+                if matches!(numbers, (Some(b), Some(e)) if b.is_negative() && !e.is_integer()) {
+                    return self
+                        .report(base.place, "a negative number to a fractional power has no real value");
+                }
+                Some(Value::Scalar(self.graph.power(value, exponent)))
+            }
             Value::Vector(_) => self.report(base.place, "a vector has no power: its square is `dot(v, v)`"),
         }
     }
@@ -378,28 +387,29 @@ impl<'a> Lowering<'a> {
             let message = format!("this is {}, but the first entry is {shape}", values[odd].shape());
             return self.report(items[odd].place, message);
         }
+        let count: usize = values.iter().map(Value::count).sum();
+        if count > LENGTH_LIMIT {
+            return self.report(place, format!("a vector has at most {LENGTH_LIMIT} numbers"));
+        }
         Some(Value::Vector(values))
     }
 
     fn sum_over(&mut self, sum: &SumOver) -> Option<Value> {
         let range = self.range(&sum.from, &sum.to)?;
         self.declare_local(&sum.index)?;
-        let mut total: Option<Value> = None;
+        let mut values: Vec<(Value, Rational)> = Vec::with_capacity(range.len());
         for i in range {
             let index = Value::Scalar(self.graph.integer(i as i128));
             self.locals.push((sum.index.text.clone(), index));
             let value = self.lower(&sum.body);
             self.locals.pop();
             let value = value?;
-            total = Some(match total {
-                None => value,
-                Some(total) => match self.plus(&total, &value, false) {
-                    Some(total) => total,
-                    None => return self.report(sum.body.place, "the terms of this sum differ in shape"),
-                },
-            });
+            if values.first().is_some_and(|(first, _)| first.shape() != value.shape()) {
+                return self.report(sum.body.place, "the terms of this sum differ in shape");
+            }
+            values.push((value, Rational::from_integer(1)));
         }
-        Some(total.unwrap_or(Value::Scalar(Id::ZERO)))
+        Some(Value::combination(&values, &mut self.graph))
     }
 
     /// Formals and indices may shadow anything but time and π.

@@ -13,13 +13,13 @@ use indexmap::IndexMap;
 use rustc_hash::FxHashMap;
 
 use crate::diagnostics::{Diagnostics, Place};
-use crate::symbolic::{Graph, Id, Symbol};
+use crate::symbolic::{Graph, Id, Rational, Symbol};
 use crate::syntax::{Constraint, Declaration, Expression, Target, TargetIndex};
 use crate::variables::Variable;
 pub(crate) use function::Supplied;
 pub(crate) use lower::fault_message;
 use lower::{Definition, Lowering, MultiplierGroup, Setting, is_literal_zero};
-pub(crate) use parameters::{Element, Parameters};
+pub(crate) use parameters::{Element, Parameters, is_no_number};
 use scope::{Entity, Scope};
 use value::Value;
 
@@ -132,7 +132,10 @@ impl Lowering<'_> {
             let name = &force.target.name;
             let Some(Entity::Coordinate(index)) = self.scope.get(&name.text) else {
                 let coordinates = self.coordinates.iter().map(|coordinate| coordinate.name.text.as_str());
-                let near = scope::nearest(&name.text, coordinates);
+                let near = match self.scope.get(&name.text) {
+                    Some(Entity::Velocity(index)) => Some(self.coordinates[index].name.text.as_str()),
+                    _ => scope::nearest(&name.text, coordinates),
+                };
                 let advice = near.map(|near| format!(": did you mean `{near}`?")).unwrap_or_default();
                 let message = format!("a force acts on a coordinate, and `{}` is none{advice}", name.text);
                 self.diagnostics.error(name.place, message);
@@ -173,8 +176,9 @@ impl Lowering<'_> {
             return;
         }
         if entries.len() != wanted || is_vector != value.as_vector().is_some() {
+            let wanted = if is_vector { format!("a vector of {wanted}") } else { "a scalar".to_owned() };
             let message =
-                format!("the force on `{}` has another shape: this is {}", target.name.text, value.shape());
+                format!("the force on `{}` is {wanted}, but this is {}", target.name.text, value.shape());
             return self.diagnostics.error(expression.place, message);
         }
         for (slot, entry) in forces[start..].iter_mut().zip(entries) {
@@ -199,6 +203,11 @@ impl Lowering<'_> {
             };
             for element in self.elements(&constraint.target) {
                 self.constraint(constraint, element, &mut rows);
+                if rows.len() > CONSTRAINT_LIMIT {
+                    let message = format!("a system has at most {CONSTRAINT_LIMIT} constraints");
+                    self.diagnostics.error(name.place, message);
+                    return rows;
+                }
             }
         }
         rows
@@ -232,34 +241,37 @@ impl Lowering<'_> {
     fn residual(&mut self, constraint: &Constraint) -> Option<Value> {
         let (left, right) = (self.lower(&constraint.left), self.lower(&constraint.right));
         let (left, right) = (left?, right?);
-        let minus = crate::symbolic::Rational::from_integer(-1);
         if is_literal_zero(&constraint.right) {
             return Some(left);
         }
         if is_literal_zero(&constraint.left) {
             return Some(right.map(&mut |id| self.graph.neg(id)));
         }
-        let residual = left.plus(minus, &right, &mut self.graph);
-        if residual.is_none() {
+        if left.shape() != right.shape() {
             let (left, right) = (left.shape(), right.shape());
             return self
                 .report(constraint.right.place, format!("this is {right}, but the other side is {left}"));
         }
-        residual
+        let terms = [(left, Rational::from_integer(1)), (right, Rational::from_integer(-1))];
+        Some(Value::combination(&terms, &mut self.graph))
     }
 
     fn observables(&mut self, declaration: &Declaration) -> Vec<(Label, Vec<Id>)> {
         self.setting = Setting::Observable;
         let mut observables = Vec::new();
-        for observable in &declaration.observables {
+        for (position, observable) in declaration.observables.iter().enumerate() {
             let name = &observable.name;
             if RESERVED.contains(&name.text.as_str()) {
                 let message = format!("every system has a method `{}`: choose another name", name.text);
                 self.diagnostics.error(name.place, message);
                 continue;
             }
-            if self.observables.iter().any(|(known, _)| *known == name.text) {
-                self.diagnostics.error(name.place, format!("the observable `{}` is given twice", name.text));
+            let earlier =
+                declaration.observables[..position].iter().find(|known| known.name.text == name.text);
+            if let Some(earlier) = earlier {
+                let mut error = name.place.error(format!("two observables are called `{}`", name.text));
+                error.combine(earlier.name.place.error("the other one is here"));
+                self.diagnostics.push(error);
                 continue;
             }
             let Some(value) = self.lower(&observable.value) else { continue };
@@ -295,8 +307,17 @@ impl Lowering<'_> {
     }
 }
 
+/// As many as coordinates, beyond which some would have to be dependent.
+const CONSTRAINT_LIMIT: usize = 1000;
+
 /// Methods that every system has, or will have, and associated constants beside.
-const RESERVED: [&str; 33] = [
+pub(crate) const RESERVED: [&str; 39] = [
+    "NAME",
+    "COORDINATES",
+    "CONSTRAINTS",
+    "CONSTRAINT_KINDS",
+    "OBSERVABLES",
+    "check_consistent",
     "lagrangian",
     "momentum",
     "momentum_rate",

@@ -3,10 +3,11 @@
 use indexmap::IndexSet;
 use quote::ToTokens;
 
+use super::scope::nearest;
 use super::value::Value;
 use crate::diagnostics::{Diagnostics, Place};
 use crate::symbolic::{Graph, to_f64};
-use crate::syntax::{Declaration, Expression, Field, FieldShape, Kind, Layout};
+use crate::syntax::{Declaration, Expression, Field, FieldShape, Kind, Layout, Operator, Parameter};
 use crate::variables::Variable;
 
 /// A number in a field: the field's index and the path to the number inside of it.
@@ -42,12 +43,18 @@ impl Parameters {
         let fields = declaration.fields.clone();
         let ranges = vec![(0.5, 1.5); fields.len()];
         let mut parameters = Self { fields, entries: IndexSet::new(), ranges, reported: Vec::new() };
-        for parameter in &declaration.parameters {
+        for (position, parameter) in declaration.parameters.iter().enumerate() {
             let name = &parameter.name;
             let Some(index) = parameters.fields.iter().position(|field| field.name.text == name.text) else {
-                diagnostics.error(name.place, format!("there is no field `{}`", name.text));
+                let fields = parameters.fields.iter().map(|field| field.name.text.as_str());
+                let advice = match nearest(&name.text, fields) {
+                    Some(near) => format!(": did you mean `{near}`?"),
+                    None => String::new(),
+                };
+                diagnostics.error(name.place, format!("there is no field `{}`{advice}", name.text));
                 continue;
             };
+            reject_repeated(parameter, &declaration.parameters[..position], diagnostics);
             if let Some(length) = parameter.length {
                 diagnostics.note(parameters.set_length(index, length, name.place));
             }
@@ -62,6 +69,13 @@ impl Parameters {
         let field = &mut self.fields[index];
         match &field.shape {
             Ok(FieldShape { layout: Layout::Vector(known), .. }) if *known == length => Ok(()),
+            // A type of another name may be an alias of an array.
+            Ok(FieldShape { layout: Layout::Scalar, scalar: Some(scalar), .. })
+                if is_float(&text(scalar)) =>
+            {
+                let message = format!("`{}` is a scalar: its type is `{}`", field.name.text, text(scalar));
+                Err(place.error(message))
+            }
             Ok(FieldShape { layout: Layout::Scalar, .. }) | Err(_) => {
                 let is_reference = field.shape.as_ref().is_ok_and(|shape| shape.is_reference);
                 field.shape = Ok(FieldShape { layout: Layout::Vector(length), scalar: None, is_reference });
@@ -111,6 +125,13 @@ impl Parameters {
     pub(crate) fn scalar(&self, declaration: &Declaration, diagnostics: &mut Diagnostics) -> syn::Type {
         let mut found: Option<(syn::Type, usize)> =
             declaration.options.scalar.clone().map(|scalar| (scalar, usize::MAX));
+        if let Some((scalar, _)) = &found
+            && is_no_number(&text(scalar))
+        {
+            let message = format!("`{}` is no number type: write `f64` or `f32`", text(scalar));
+            diagnostics.error(place_of(scalar), message);
+            return scalar.clone();
+        }
         let mut used: Vec<usize> = self.entries.iter().map(|entry| entry.field).collect();
         used.sort_unstable();
         used.dedup();
@@ -150,13 +171,46 @@ fn is_scalar(ty: &syn::Type, declaration: &Declaration) -> Result<(), String> {
     if is_scalar_name(&name, declaration) { Ok(()) } else { Err(not_a_scalar(&name)) }
 }
 
+fn is_float(name: &str) -> bool {
+    ["f64", "f32"].contains(&name.rsplit("::").next().unwrap_or(name))
+}
+
+/// What is surely not a scalar, and well known.
+pub(crate) fn is_no_number(name: &str) -> bool {
+    let types = ["String", "str", "bool", "char"];
+    let integers = ["i8", "i16", "i32", "i64", "i128", "isize", "u8", "u16", "u32", "u64", "u128", "usize"];
+    types.contains(&name) || integers.contains(&name)
+}
+
+fn place_of(ty: &syn::Type) -> Place {
+    let mut spans = ty.to_token_stream().into_iter().map(|token| Place::at(token.span()));
+    let first = spans.next().unwrap_or(Place::at(proc_macro2::Span::call_site()));
+    first.to(spans.last().unwrap_or(first))
+}
+
+/// Two ranges, or two shapes, of one field.
+fn reject_repeated(parameter: &Parameter, earlier: &[Parameter], diagnostics: &mut Diagnostics) {
+    let name = &parameter.name;
+    let same = |known: &&Parameter| {
+        known.name.text == name.text && known.length.is_some() == parameter.length.is_some()
+    };
+    if let Some(known) = earlier.iter().find(same) {
+        let what = if parameter.length.is_some() { "shape" } else { "range" };
+        let mut error = name.place.error(format!("the {what} of `{}` is given twice", name.text));
+        error.combine(known.name.place.error("the first one is here"));
+        diagnostics.push(error);
+    }
+}
+
 fn is_scalar_name(name: &str, declaration: &Declaration) -> bool {
     let last = name.rsplit("::").next().unwrap_or(name);
-    ["f64", "f32"].contains(&last)
-        || declaration.generics.type_params().any(|parameter| parameter.ident == last)
+    is_float(name) || declaration.generics.type_params().any(|parameter| parameter.ident == last)
 }
 
 fn not_a_scalar(name: &str) -> String {
+    if is_no_number(name) {
+        return format!("a field of type `{name}` cannot stand in an expression: make it `f64`");
+    }
     format!(
         "a field of type `{name}` cannot stand in an expression: write `f64`, `f32` or a type parameter, or name the number type with `#[lagrange(scalar = {name})]`"
     )
@@ -172,6 +226,10 @@ fn literal(expression: &Expression) -> syn::Result<f64> {
     match &expression.kind {
         Kind::Number(value) => Ok(to_f64(*value)),
         Kind::Negative(inner) => literal(inner).map(|value| -value),
+        Kind::Product(factors) => factors.iter().try_fold(1.0, |product, (operator, factor)| {
+            let factor = literal(factor)?;
+            Ok(if *operator == Operator::Over { product / factor } else { product * factor })
+        }),
         _ => Err(expression.place.error("a range for sampling has numbers as its ends")),
     }
 }

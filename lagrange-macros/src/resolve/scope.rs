@@ -76,7 +76,12 @@ impl Scope {
         } else if let Some((earlier, place)) = self.entities.get(&name.text) {
             let message = format!("the name `{}` is already taken by {}", name.text, earlier.describe());
             let mut error = name.place.error(message);
-            error.combine(place.error(format!("the other `{}` is here", name.text)));
+            error.combine(place.error(match earlier {
+                Entity::Velocity(_) | Entity::Acceleration(_) => {
+                    format!("`{}` belongs to this coordinate", name.text)
+                }
+                _ => format!("the other `{}` is here", name.text),
+            }));
             diagnostics.push(error);
         } else {
             self.entities.insert(name.text.clone(), (entity, name.place));
@@ -96,11 +101,11 @@ impl Scope {
             match self.entities.get(&rate) {
                 Some((Entity::Coordinate(_), place)) => {
                     let message = format!(
-                        "`{rate}` is {} of the coordinate `{text}`: choose another name",
+                        "the name `{rate}` is already taken by {}: choose another name",
                         entity.describe()
                     );
                     let mut error = place.error(message);
-                    error.combine(name.place.error(format!("`{text}` is declared here")));
+                    error.combine(name.place.error(format!("`{rate}` belongs to this coordinate")));
                     diagnostics.push(error);
                 }
                 _ => {
@@ -139,21 +144,31 @@ impl Scope {
     /// An error for a name that means nothing, with the nearest that does.
     pub(super) fn unknown(&self, name: &Name, more: &[String]) -> syn::Error {
         let text = &name.text;
-        if let Some(base) = text.strip_suffix("_dot").or_else(|| text.strip_suffix("_ddot")) {
-            if let Some(entity @ (Entity::Definition(_) | Entity::Field(_))) = self.get(base) {
-                let kind = entity.describe();
-                return name.place.error(format!(
-                    "`{text}` would be the velocity of a coordinate, but `{base}` is {kind}: write `der({base})`"
-                ));
-            }
+        if let Some(base) = text.strip_suffix("_dot").or_else(|| text.strip_suffix("_ddot"))
+            && let Some(entity @ (Entity::Definition(_) | Entity::Field(_))) = self.get(base)
+        {
+            let kind = entity.describe();
+            return name.place.error(format!(
+                "`{text}` would be the velocity of a coordinate, but `{base}` is {kind}: write `der({base})`"
+            ));
+        }
+        if ["e", "E"].contains(&text.as_str()) {
+            return name
+                .place
+                .error(format!("nothing is called `{text}`: the exponential function is `exp(x)`"));
+        }
+        if let Some(function) = FUNCTIONS.into_iter().find(|function| function.eq_ignore_ascii_case(text)) {
+            return name
+                .place
+                .error(format!("nothing is called `{text}`: functions are written `{function}(x)`"));
         }
         let candidates =
             self.entities.keys().map(String::as_str).chain(CONSTANTS).chain(more.iter().map(String::as_str));
         match nearest(text, candidates) {
             Some(near) => name.place.error(format!("nothing is called `{text}`: did you mean `{near}`?")),
-            None => name
-                .place
-                .error(format!("nothing is called `{text}`: it is no field, coordinate or definition")),
+            None => name.place.error(format!(
+                "nothing is called `{text}`: make it a field, a coordinate or a `#[define(…)]`"
+            )),
         }
     }
 
@@ -161,15 +176,30 @@ impl Scope {
     pub(super) fn unknown_function(&self, name: &Name) -> syn::Error {
         let text = name.text.as_str();
         let advice = match text {
-            "log" | "log10" => Some("the natural logarithm is `ln`"),
-            "pow" | "powi" | "powf" => Some("a power is written `x^2`"),
-            "arcsin" | "arccos" | "arctan" => Some("inverse functions are `asin`, `acos`, `atan`"),
-            "min" | "max" | "floor" | "ceil" | "round" | "sign" | "signum" | "heaviside" => {
+            "log" | "Log" | "log2" | "log10" => Some("the natural logarithm is `ln`"),
+            "pow" | "Pow" | "powi" | "powf" => Some("a power is written `x^2`"),
+            "arcsin" | "arccos" | "arctan" | "ArcSin" | "ArcCos" | "ArcTan" => {
+                Some("inverse functions are `asin`, `acos`, `atan`")
+            }
+            "min" | "max" | "floor" | "ceil" | "round" | "mod" | "sign" | "sgn" | "signum" | "heaviside"
+            | "Heaviside" | "step" | "Piecewise" => {
                 Some("the expression must be smooth (`abs`, `sqrt` and `tanh` may serve)")
             }
             "cot" => Some("write `1/tan(x)`"),
             "sec" => Some("write `1/cos(x)`"),
-            "diff" | "d" | "dot_" => Some("the total time derivative is `der(x)`"),
+            "csc" => Some("write `1/sin(x)`"),
+            "asinh" | "acosh" | "atanh" | "arcsinh" | "arccosh" | "arctanh" => {
+                Some("write it with `ln`, as in `ln(x + sqrt(x^2 + 1))`")
+            }
+            "cbrt" => Some("write `x^(1/3)`"),
+            "hypot" => Some("write `sqrt(x^2 + y^2)`, or `norm(v)` of a vector"),
+            "arctan2" => Some("the angle of a point is `atan2(y, x)`"),
+            "diff" | "d" | "D" | "Derivative" | "derivative" | "ddt" => {
+                Some("the total time derivative is `der(x)`, a velocity `x_dot`")
+            }
+            "Rational" | "Fraction" | "frac" => Some("fractions are exact as they are: write `1/2`"),
+            "Vector" | "Matrix" | "vec" => Some("a vector is written `[a, b, c]`"),
+            "integrate" | "Integral" => Some("there are no integrals"),
             _ => None,
         };
         let near = nearest(text, self.entities.keys().map(String::as_str).chain(FUNCTIONS));
@@ -190,8 +220,8 @@ impl Entity {
         match self {
             Self::Field(_) => "a field",
             Self::Coordinate(_) => "a coordinate",
-            Self::Velocity(_) => "the velocity",
-            Self::Acceleration(_) => "the acceleration",
+            Self::Velocity(_) => "the velocity of a coordinate",
+            Self::Acceleration(_) => "the acceleration of a coordinate",
             Self::Definition(_) => "a definition",
             Self::Function(_) => "a function",
         }
@@ -202,7 +232,7 @@ pub(super) fn is_built_in(name: &str) -> bool {
     FUNCTIONS.contains(&name) || CONSTANTS.contains(&name)
 }
 
-/// The candidate that differs by the least, if it differs by little.
+/// The candidate that differs by the least, if it differs by little; in capital letters least of all.
 pub(super) fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let allowed = match name.chars().count() {
         0 | 1 => return None,
@@ -210,6 +240,9 @@ pub(super) fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>)
         6..=8 => 2,
         _ => 3,
     };
-    let distance = |candidate: &&str| strsim::damerau_levenshtein(name, candidate);
+    let distance = |candidate: &&str| match candidate.eq_ignore_ascii_case(name) {
+        true => 0,
+        false => strsim::damerau_levenshtein(name, candidate),
+    };
     candidates.filter(|candidate| distance(candidate) <= allowed && *candidate != name).min_by_key(distance)
 }

@@ -1,5 +1,6 @@
 //! What an expression stands for: a number, or an array of such.
 
+use std::borrow::Borrow;
 use std::fmt;
 
 use crate::symbolic::{Graph, Id, Rational};
@@ -64,25 +65,39 @@ impl Value {
         }
     }
 
+    /// How many numbers there are.
+    pub(super) fn count(&self) -> usize {
+        match self {
+            Self::Scalar(_) => 1,
+            Self::Vector(items) => items.iter().map(Self::count).sum(),
+        }
+    }
+
+    /// Σ coefficient · value, where all have one shape. In one go: term by term, long sums would take the
+    /// square of their length.
+    pub(super) fn combination<V: Borrow<Self>>(terms: &[(V, Rational)], graph: &mut Graph) -> Self {
+        let Some(Self::Vector(first)) = terms.first().map(|(value, _)| value.borrow()) else {
+            let scalars = terms.iter().filter_map(|(value, c)| Some((value.borrow().as_scalar()?, *c)));
+            return Self::Scalar(graph.sum(scalars));
+        };
+        let column = |i: usize| -> Vec<(&Self, Rational)> {
+            terms.iter().filter_map(|(value, c)| Some((value.borrow().items().get(i)?, *c))).collect()
+        };
+        Self::Vector((0..first.len()).map(|i| Self::combination(&column(i), graph)).collect())
+    }
+
+    fn items(&self) -> &[Self] {
+        match self {
+            Self::Scalar(_) => &[],
+            Self::Vector(items) => items,
+        }
+    }
+
     /// The same shape with `f` of every number.
     pub(super) fn map(&self, f: &mut impl FnMut(Id) -> Id) -> Self {
         match self {
             Self::Scalar(id) => Self::Scalar(f(*id)),
             Self::Vector(items) => Self::Vector(items.iter().map(|item| item.map(f)).collect()),
-        }
-    }
-
-    /// `self + coefficient * other`, where the shapes agree.
-    pub(super) fn plus(&self, coefficient: Rational, other: &Self, graph: &mut Graph) -> Option<Self> {
-        match (self, other) {
-            (Self::Scalar(x), Self::Scalar(y)) => {
-                Some(Self::Scalar(graph.sum([(*x, Rational::from_integer(1)), (*y, coefficient)])))
-            }
-            (Self::Vector(x), Self::Vector(y)) if x.len() == y.len() => {
-                let items = x.iter().zip(y).map(|(x, y)| x.plus(coefficient, y, graph));
-                items.collect::<Option<_>>().map(Self::Vector)
-            }
-            _ => None,
         }
     }
 }

@@ -1,13 +1,13 @@
 //! The attributes, one function a form.
 
-use proc_macro2::{Delimiter, TokenStream};
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::{Attribute, Data, DeriveInput, Fields, MacroDelimiter, Meta, Result};
 
 use super::Name;
 use super::cursor::Cursor;
 use super::expression::{self, Expression, Kind};
-use super::field::Field;
+use super::field::{Field, LENGTH_LIMIT};
 use super::target::{Target, TargetIndex, target};
 use crate::diagnostics::{Diagnostics, Place};
 
@@ -94,6 +94,9 @@ pub(crate) struct Options {
     pub(crate) scalar: Option<syn::Type>,
 }
 
+/// Beyond, rustc takes minutes, and the matrices exceed the stack.
+const COORDINATE_LIMIT: usize = 1000;
+
 const ATTRIBUTES: [&str; 10] = [
     "coordinates",
     "define",
@@ -173,9 +176,7 @@ fn own(attribute: &Attribute) -> Option<&'static str> {
 }
 
 fn whole(attribute: &Attribute) -> Place {
-    let span = |token: Option<proc_macro2::TokenTree>| {
-        token.map_or(attribute.pound_token.span, |token| token.span())
-    };
+    let span = |token: Option<TokenTree>| token.map_or(attribute.pound_token.span, |token| token.span());
     let mut tokens = attribute.meta.to_token_stream().into_iter();
     let first = Place::at(span(tokens.next()));
     match tokens.last() {
@@ -213,7 +214,7 @@ fn read(declaration: &mut Declaration, word: &str, attribute: &Attribute) -> Res
         "constraint" => declaration.constraints.push(constraint(cursor)?),
         "force" => declaration.forces.push(force(cursor)?),
         "dissipation" => declaration.dissipation = Some(only(cursor)?),
-        "observable" => declaration.observables.push(observable(cursor)?),
+        "observable" => observable(cursor, &mut declaration.observables)?,
         "parameter" => declaration.parameters.push(parameter(cursor)?),
         _ => options(cursor, &mut declaration.options)?,
     }
@@ -241,7 +242,7 @@ fn content(word: &str, attribute: &Attribute) -> Result<Cursor> {
         Meta::List(list) if matches!(list.delimiter, MacroDelimiter::Paren(_)) && !list.tokens.is_empty() => {
             Ok(Cursor::new(list.tokens.clone(), list.delimiter.span().close()))
         }
-        _ => Err(whole(attribute).error(format!("write `{}`", form(word)))),
+        _ => Err(whole(attribute).error(format!("this attribute is written `{}`", form(word)))),
     }
 }
 
@@ -256,11 +257,24 @@ fn finish(cursor: &mut Cursor, word: &str) -> Result<()> {
 
 fn only(cursor: &mut Cursor) -> Result<Expression> {
     let mut inside = cursor.until_comma();
+    reject_name_of_whole(&inside)?;
     let expression = expression::whole(&mut inside)?;
     if !cursor.is_empty() {
-        return Err(cursor.error("expected one expression"));
+        return Err(cursor.error(
+            "expected one expression, without commas (a thousand is written `1_000`, a vector `[a, b]`)",
+        ));
     }
     Ok(expression)
+}
+
+/// `L = …`
+fn reject_name_of_whole(cursor: &Cursor) -> Result<()> {
+    match (cursor.peek(), cursor.follower()) {
+        (Some(TokenTree::Ident(name)), Some(TokenTree::Punct(sign))) if sign.as_char() == '=' => {
+            Err(cursor.pair_place().error(format!("write the expression alone: leave out `{name} =`")))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn coordinates(cursor: &mut Cursor) -> Result<Vec<Coordinate>> {
@@ -269,24 +283,43 @@ fn coordinates(cursor: &mut Cursor) -> Result<Vec<Coordinate>> {
         let name = cursor.name("the name of a coordinate")?;
         let length = if cursor.take_punct(':') { Some(brackets(cursor)?) } else { None };
         coordinates.push(Coordinate { name, length });
+        if cursor.is_punct('=') {
+            return Err(cursor.error("a coordinate gets its value at the start from a `State`, not here"));
+        }
         if !cursor.is_empty() {
             cursor.expect_punct(',', "expected `,` between coordinates (a vector is written `r: [3]`)")?;
         }
     }
+    reject_too_many(&coordinates)?;
     Ok(coordinates)
+}
+
+/// The mass matrix alone has the square of their number as entries.
+fn reject_too_many(coordinates: &[Coordinate]) -> Result<()> {
+    let mut count = 0;
+    for coordinate in coordinates {
+        count += coordinate.length.unwrap_or(1);
+        if count > COORDINATE_LIMIT {
+            return Err(coordinate.name.place.error(format!(
+                "a system has at most {COORDINATE_LIMIT} coordinates, and up to here there are {count}"
+            )));
+        }
+    }
+    Ok(())
 }
 
 /// `[3]`
 fn brackets(cursor: &mut Cursor) -> Result<usize> {
     let wanted = "expected a length such as `[3]`, an integer literal";
     let Some(group) = cursor.take_group(Delimiter::Bracket) else { return Err(cursor.error(wanted)) };
-    let mut inside = Cursor::inside(&group);
-    let length = expression::whole(&mut inside)?;
-    let value = match length.kind {
-        Kind::Number(value) if value.is_integer() => usize::try_from(value.to_integer()).ok(),
+    let length = expression::whole(&mut Cursor::inside(&group)).map(|length| length.kind);
+    let value = match length {
+        Ok(Kind::Number(value)) if value.is_integer() => usize::try_from(value.to_integer()).ok(),
         _ => None,
     };
-    value.filter(|length| (1..=100_000).contains(length)).ok_or_else(|| length.place.error(wanted))
+    value
+        .filter(|length| (1..=LENGTH_LIMIT).contains(length))
+        .ok_or_else(|| Place::at(group.span()).error(wanted))
 }
 
 fn define(cursor: &mut Cursor) -> Result<Define> {
@@ -351,7 +384,7 @@ fn formals(cursor: &mut Cursor) -> Result<Vec<Name>> {
 
 fn equals(cursor: &mut Cursor, word: &str) -> Result<()> {
     if cursor.is_pair('=', '=') {
-        return Err(cursor.error("an equation is written with one `=`"));
+        return Err(cursor.pair_place().error("an equation is written with one `=`"));
     }
     cursor.expect_punct('=', &format!("expected `=`: write `{}`", form(word)))
 }
@@ -361,13 +394,14 @@ fn colon(cursor: &mut Cursor, word: &str) -> Result<()> {
 }
 
 fn constraint(cursor: &mut Cursor) -> Result<Constraint> {
+    let start = cursor.place();
     let target = match target(cursor, "the name of the constraint") {
         Ok(target) if cursor.is_punct(':') => target,
         // Without a name the first thing met is the equation itself.
         _ => {
-            return Err(cursor
-                .last_place()
-                .error(format!("a constraint needs a name: write `{}`", form("constraint"))));
+            let message =
+                format!("a constraint begins with a name of one word: write `{}`", form("constraint"));
+            return Err(start.error(message));
         }
     };
     colon(cursor, "constraint")?;
@@ -391,29 +425,37 @@ fn sides(equation: &mut Cursor) -> Result<(Expression, Expression)> {
 }
 
 fn force(cursor: &mut Cursor) -> Result<Force> {
-    let target = target(cursor, "the coordinate that the force acts on")?;
+    let wanted = format!("the coordinate that the force acts on: write `{}`", form("force"));
+    let target = target(cursor, &wanted)?;
     colon(cursor, "force")?;
     let value = expression::whole(&mut cursor.until_comma())?;
     finish(cursor, "force")?;
     Ok(Force { target, value })
 }
 
-fn observable(cursor: &mut Cursor) -> Result<Named> {
+/// Even where the value is wrong there is a method of that name, which the program may call.
+fn observable(cursor: &mut Cursor, observables: &mut Vec<Named>) -> Result<()> {
     let target = target(cursor, "the name of the observable")?;
     if !matches!(target.index, TargetIndex::None) {
         return Err(target.name.place.error("an observable is not a family: write a vector `[a, b]`"));
     }
-    equals(cursor, "observable")?;
-    let value = expression::whole(&mut cursor.until_comma())?;
-    finish(cursor, "observable")?;
-    Ok(Named { name: target.name, value })
+    let value = match equals(cursor, "observable") {
+        Ok(()) => expression::whole(&mut cursor.until_comma()),
+        Err(error) => Err(error),
+    };
+    let (value, result) = match value {
+        Ok(value) => (value, finish(cursor, "observable")),
+        Err(error) => (Expression { kind: Kind::Vector(Vec::new()), place: target.name.place }, Err(error)),
+    };
+    observables.push(Named { name: target.name, value });
+    result
 }
 
 fn parameter(cursor: &mut Cursor) -> Result<Parameter> {
     let name = cursor.name("the name of a field")?;
     colon(cursor, "parameter")?;
     let parameter = match cursor.peek() {
-        Some(proc_macro2::TokenTree::Group(group)) if group.delimiter() == Delimiter::Bracket => {
+        Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Bracket => {
             Parameter { name, length: Some(brackets(cursor)?), range: None }
         }
         _ => Parameter { name, length: None, range: Some(expression::range(cursor)?) },
@@ -436,9 +478,17 @@ fn options(cursor: &mut Cursor, options: &mut Options) -> Result<()> {
         if given {
             return Err(place.error(format!("`{word}` is given twice")));
         }
+        let wrong = |message: &'static str| move |_| place.error(message);
         match word {
-            "crate" => options.runtime = Some(syn::parse2::<syn::Path>(value)?.into_token_stream()),
-            _ => options.scalar = Some(syn::parse2(value)?),
+            "crate" => {
+                let path: syn::Path = syn::parse2(value)
+                    .map_err(wrong("a path belongs here: write `crate = path`, without quotation marks"))?;
+                options.runtime = Some(path.into_token_stream());
+            }
+            _ => {
+                let wrong = wrong("a type belongs here: write `scalar = f32`");
+                options.scalar = Some(syn::parse2(value).map_err(wrong)?);
+            }
         }
     }
     Ok(())

@@ -25,6 +25,17 @@ pub(crate) fn too_deep(tokens: TokenStream) -> Option<Span> {
     None
 }
 
+/// The tokens with what nests too deep cut down to its first token, so that the rest can be read.
+pub(crate) fn shallow(tokens: TokenStream) -> TokenStream {
+    let cut = |token: TokenTree| match token {
+        TokenTree::Group(group) if too_deep(group.stream()).is_some() => {
+            Group::new(group.delimiter(), group.stream().into_iter().take(1).collect()).into()
+        }
+        token => token,
+    };
+    tokens.into_iter().map(cut).collect()
+}
+
 /// A position in a sequence of tokens.
 pub(super) struct Cursor {
     tokens: Vec<TokenTree>,
@@ -55,6 +66,11 @@ impl Cursor {
         self.tokens.get(self.position + offset)
     }
 
+    /// The token after the next one.
+    pub(super) fn follower(&self) -> Option<&TokenTree> {
+        self.peek_at(1)
+    }
+
     pub(super) fn next(&mut self) -> Option<TokenTree> {
         let token = self.tokens.get(self.position).cloned();
         self.position += 1;
@@ -66,10 +82,20 @@ impl Cursor {
         Place::at(self.peek().map_or(self.end, TokenTree::span))
     }
 
+    /// The last token read.
+    pub(super) fn last(&self) -> Option<&TokenTree> {
+        self.position.checked_sub(1).and_then(|last| self.tokens.get(last))
+    }
+
     /// Where the last token read is.
     pub(super) fn last_place(&self) -> Place {
-        let last = self.position.checked_sub(1).and_then(|last| self.tokens.get(last));
-        Place::at(last.map_or(self.end, TokenTree::span))
+        Place::at(self.last().map_or(self.end, TokenTree::span))
+    }
+
+    /// Where an operator of two characters is.
+    pub(super) fn pair_place(&self) -> Place {
+        let second = self.peek_at(1).map_or(self.end, TokenTree::span);
+        self.place().to(Place::at(second))
     }
 
     pub(super) fn error(&self, message: impl std::fmt::Display) -> Error {
@@ -123,10 +149,13 @@ impl Cursor {
 
     /// A name, or an error that says what was wanted.
     pub(super) fn name(&mut self, wanted: &str) -> Result<Name> {
-        match self.take_ident() {
-            Some(ident) => Ok(Name::new(&ident)),
-            None => Err(self.error(format!("expected {wanted}"))),
+        let Some(ident) = self.take_ident() else { return Err(self.error(format!("expected {wanted}"))) };
+        let name = Name::new(&ident);
+        // What not even `r#` makes an identifier.
+        if ["_", "self", "Self", "super", "crate"].contains(&name.text.as_str()) {
+            return Err(name.place.error(format!("`{}` is no name: expected {wanted}", name.text)));
         }
+        Ok(name)
     }
 
     pub(super) fn take_group(&mut self, delimiter: Delimiter) -> Option<Group> {

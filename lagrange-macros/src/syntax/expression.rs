@@ -103,7 +103,7 @@ fn product(cursor: &mut Cursor, depth: usize) -> Result<Expression> {
     let mut factors = vec![(Operator::Times, first)];
     loop {
         let operator = if cursor.is_pair('*', '*') {
-            return Err(cursor.error("a power is written `x^2`"));
+            return Err(cursor.pair_place().error("a power is written `x^2`"));
         } else if cursor.is_punct('*') {
             Operator::Times
         } else if cursor.is_punct('/') {
@@ -241,7 +241,9 @@ fn grouped(cursor: &Cursor, group: &Group, place: Place, depth: usize) -> Result
             })
         }
         Delimiter::Bracket => Ok(Expression { kind: Kind::Vector(list(&mut inside, depth)?), place }),
-        Delimiter::Brace => Err(place.error("braces have no meaning here: use parentheses")),
+        Delimiter::Brace => {
+            Err(place.error("braces have no meaning here: a vector is `[a, b]`, and `( )` groups"))
+        }
     }
 }
 
@@ -324,7 +326,9 @@ fn suffix_message(digits: &str, suffix: &str) -> String {
 fn reject_adjacent(cursor: &Cursor) -> Result<()> {
     match cursor.peek() {
         Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Parenthesis => {
-            Err(cursor.error("a product needs its sign: write `*` before the parenthesis"))
+            Err(cursor.error(
+                "a product needs its sign: write `*` before the parenthesis (and `sin(x)^2` for a power of a function)",
+            ))
         }
         _ => Ok(()),
     }
@@ -340,33 +344,62 @@ fn reject_keyword(ident: &str, place: Place) -> Result<()> {
         "self" => "fields are named without `self`",
         "true" | "false" => "there are no truth values here: an expression is a number",
         "for" | "while" | "loop" => "repetition is written `sum(i in 0..3, expression)`",
+        "as" => AS,
         _ => return Ok(()),
     };
     Err(place.error(message))
 }
 
+const AS: &str = "numbers are exact and have no type: leave `as` out";
+
+/// What to write instead of the token at the cursor, which nothing here begins or goes on with.
 fn unexpected(cursor: &Cursor) -> syn::Error {
     let message = match cursor.peek() {
-        None => "expected an expression".to_owned(),
-        Some(TokenTree::Punct(punct)) => match punct.as_char() {
-            '=' if cursor.is_pair('=', '=') => "an equation is written with one `=`".to_owned(),
-            '=' => {
-                "an equation belongs into `#[constraint(name: left = right)]`; here an expression is expected"
-                    .to_owned()
-            }
-            '<' | '>' | '!' | '&' | '|' => {
-                "there are no comparisons or logic here: the expression must be smooth".to_owned()
-            }
-            '.' => "there are no methods or fields here: write `sin(x)` for `x.sin()` and `m` for `self.m`"
-                .to_owned(),
-            ':' => "there are no paths here: write `pi`, `sin(x)`".to_owned(),
-            '%' => "there is no remainder: the expression must be smooth".to_owned(),
-            other => format!("unexpected `{other}`"),
-        },
+        None => "expected an expression",
+        Some(TokenTree::Punct(punct)) => return unexpected_sign(cursor, punct.as_char()),
+        Some(TokenTree::Ident(word)) if word == "as" => AS,
         Some(TokenTree::Literal(_) | TokenTree::Ident(_)) => {
-            "two factors stand side by side: a product needs its sign `*`".to_owned()
+            "two factors stand side by side: a product needs its sign `*`, a function its parentheses `sin(x)`"
         }
-        Some(TokenTree::Group(_)) => "unexpected group: a product needs its sign `*`".to_owned(),
+        Some(TokenTree::Group(_)) => "unexpected group: a product needs its sign `*`",
+    };
+    cursor.error(message)
+}
+
+fn unexpected_sign(cursor: &Cursor, sign: char) -> syn::Error {
+    let message = match sign {
+        '=' => {
+            let place = if cursor.is_pair('=', '=') { cursor.pair_place() } else { cursor.place() };
+            return place.error(
+                "an equation belongs into `#[constraint(name: left = right)]`; here an expression is expected",
+            );
+        }
+        '|' => "the absolute value is written `abs(x)`, and there is no logic here",
+        '<' | '>' | '!' | '&' => {
+            "there are no comparisons or logic here: expressions are smooth, and constraints are equations"
+        }
+        '.' => return unexpected_point(cursor),
+        ':' if cursor.is_pair(':', ':') => {
+            return cursor.pair_place().error("there are no paths here: write `pi`, `sin(x)`");
+        }
+        '%' => "there is no remainder: the expression must be smooth",
+        other => return cursor.error(format!("unexpected `{other}`")),
+    };
+    cursor.error(message)
+}
+
+fn unexpected_point(cursor: &Cursor) -> syn::Error {
+    if cursor.is_pair('.', '.') {
+        return cursor.pair_place().error("a range belongs into `sum(i in 0..3, expression)`");
+    }
+    let message = match (cursor.last(), cursor.follower()) {
+        (_, Some(TokenTree::Literal(_))) => "a number begins with a digit: write `0.5`",
+        (Some(TokenTree::Literal(_)), _) => {
+            "a product needs its sign, and an exponent a digit before it: write `2.0*x`, `2.0e3`"
+        }
+        _ => {
+            "there are no methods or fields here: write `sin(x)` for `x.sin()`, `r[0]` for `r.x`, `m` for `self.m`"
+        }
     };
     cursor.error(message)
 }

@@ -39,12 +39,16 @@ pub(crate) enum Layout {
     Matrix(usize, usize),
 }
 
+/// An array in an expression has at most this many numbers.
+pub(crate) const LENGTH_LIMIT: usize = 100_000;
+
 impl Field {
     pub(super) fn new(field: &syn::Field, ident: &syn::Ident) -> Self {
         let mut ends = field.ty.to_token_stream().into_iter().map(|token| Place::at(token.span()));
         let start = ends.next().unwrap_or(Place::at(ident.span()));
         let place = start.to(ends.last().unwrap_or(start));
-        Self { name: Name::new(ident), ident: ident.clone(), ty: field.ty.clone(), place, shape: shape(&field.ty) }
+        let shape = shape(&field.ty).and_then(short_enough);
+        Self { name: Name::new(ident), ident: ident.clone(), ty: field.ty.clone(), place, shape }
     }
 }
 
@@ -59,6 +63,19 @@ fn shape(ty: &Type) -> Result<FieldShape, String> {
             None => Err(unusable(ty)),
         },
         _ => Err(unusable(ty)),
+    }
+}
+
+fn short_enough(shape: FieldShape) -> Result<FieldShape, String> {
+    let numbers = match shape.layout {
+        Layout::Scalar => Some(1),
+        Layout::Vector(length) => Some(length),
+        Layout::Rows(rows, columns) | Layout::Matrix(rows, columns) => rows.checked_mul(columns),
+    };
+    match numbers {
+        Some(1..=LENGTH_LIMIT) => Ok(shape),
+        Some(0) => Err("a field without any number cannot stand in an expression".to_owned()),
+        _ => Err(format!("a field of more than {LENGTH_LIMIT} numbers cannot stand in an expression")),
     }
 }
 

@@ -6,10 +6,12 @@ mod expression;
 mod field;
 mod target;
 
-pub(crate) use attribute::{Constraint, Coordinate, Declaration, Define, Function, declaration};
-pub(crate) use cursor::{NESTING_LIMIT, too_deep};
+pub(crate) use attribute::{
+    Constraint, Coordinate, Declaration, Define, Function, Named, Parameter, declaration,
+};
+pub(crate) use cursor::{NESTING_LIMIT, shallow, too_deep};
 pub(crate) use expression::{Expression, Kind, Operator, Sign, SumOver};
-pub(crate) use field::{Field, FieldShape, Layout};
+pub(crate) use field::{Field, FieldShape, LENGTH_LIMIT, Layout};
 pub(crate) use target::{Target, TargetIndex};
 
 use crate::diagnostics::Place;

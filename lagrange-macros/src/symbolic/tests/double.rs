@@ -199,6 +199,7 @@ pub(super) fn value(graph: &Graph, root: Id, symbol: impl Fn(Symbol) -> f64) -> 
             Node::Atan2(y, x) => of(*y).atan2(of(*x)),
             Node::Power(base, exponent) => (of(*base).ln() * of(*exponent)).exp(),
             Node::Defined(inner) => of(*inner),
+            Node::External(_) => unreachable!("the trees have no external functions"),
         };
     }
     values[root.index()]

@@ -1,0 +1,67 @@
+//! Definitions are boundaries: a chain defined link by link is differentiated at a cost linear in its length.
+
+use super::{equations, systems};
+use crate::codegen::operations;
+use crate::symbolic::{Graph, Id, Symbol};
+use crate::variables::Variable;
+
+const LENGTHS: [usize; 6] = [4, 8, 12, 16, 20, 24];
+
+/// What it takes to compute some expressions.
+#[derive(Clone, Copy)]
+struct Cost {
+    /// + − × ÷ √ and elementary functions.
+    operations: usize,
+    /// Operands of all nodes. The emitted code is shorter where sums have their first terms in common.
+    operands: usize,
+}
+
+fn cost(graph: &Graph, roots: &[Id]) -> Cost {
+    let count = operations(graph, roots);
+    let mut operands = 0;
+    for id in graph.reachable(roots) {
+        graph.operands(id, |_| operands += 1);
+    }
+    Cost { operations: count.arithmetic + count.functions, operands }
+}
+
+/// Of ∂L/∂q̇ and of ∂L/∂q.
+fn costs(graph: &mut Graph, lagrangian: Id, n: usize) -> [Cost; 2] {
+    [Variable::Velocity, Variable::Coordinate].map(|variable: fn(usize) -> Variable| {
+        let symbols: Vec<Symbol> = (0..n).map(|i| variable(i).symbol()).collect();
+        let gradient = graph.gradient(lagrangian, &symbols);
+        cost(graph, &gradient)
+    })
+}
+
+/// Whether the second differences of a quantity vanish for all lengths.
+fn is_linear(costs: &[[Cost; 2]], quantity: impl Fn(&[Cost; 2]) -> usize) -> bool {
+    let counts: Vec<_> = costs.iter().map(quantity).collect();
+    counts.windows(3).all(|c| c[2] + c[0] == 2 * c[1])
+}
+
+#[test]
+fn momenta_and_forces_of_a_chain_cost_linearly_many_operations() {
+    let (mut bounded, mut flat) = (Vec::new(), Vec::new());
+    println!("operations (operands in the graph)");
+    println!("links {:>14} {:>14} {:>22} {:>14}", "∂L/∂q̇", "∂L/∂q", "without boundaries", "");
+    for n in LENGTHS {
+        let (problem, equations) = equations(&systems::chain(n));
+        let (mut graph, lagrangian) = (problem.graph, problem.lagrangian);
+        let of_chain = costs(&mut graph, lagrangian, n);
+        assert_eq!(cost(&graph, &equations.momentum).operations, of_chain[0].operations, "this is p");
+        let without = graph.looked_through(lagrangian);
+        let of_flat = costs(&mut graph, without, n);
+        let [p, force, flat_p, flat_force] = [of_chain[0], of_chain[1], of_flat[0], of_flat[1]]
+            .map(|cost| format!("{} ({})", cost.operations, cost.operands));
+        println!("{n:5} {p:>12} {force:>14} {flat_p:>22} {flat_force:>14}");
+        bounded.push(of_chain);
+        flat.push(of_flat);
+    }
+    assert!(is_linear(&bounded, |cost| cost[0].operations), "operations of ∂L/∂q̇");
+    assert!(is_linear(&bounded, |cost| cost[1].operations), "operations of ∂L/∂q");
+    assert!(is_linear(&bounded, |cost| cost[0].operands) && is_linear(&bounded, |cost| cost[1].operands));
+    // Were definitions no boundaries, the operands would not be linear (the emitted code may be, as sums share
+    // their first terms):
+    assert!(!is_linear(&flat, |cost| cost[0].operands) && !is_linear(&flat, |cost| cost[1].operands));
+}

@@ -1,0 +1,51 @@
+//! The same struct gives the same tokens, in one process and in two: no order of a hash map, no address and
+//! no time shows in them.
+
+use std::process::Command;
+
+use super::{systems, tokens};
+use crate::expand;
+
+/// Marks the lines of the other process that count.
+const MARK: &str = "expansion: ";
+
+fn sources() -> [String; 4] {
+    [systems::PENDULUM.to_owned(), systems::SPHERE.to_owned(), systems::chain(5), systems::rods(4)]
+}
+
+fn expansions() -> Vec<String> {
+    sources().iter().map(|source| expand(tokens(source)).to_string()).collect()
+}
+
+#[test]
+fn one_process_expands_alike() {
+    let expansions = expansions();
+    assert_eq!(expansions, self::expansions());
+    for expansion in expansions {
+        assert!(!expansion.contains("compile_error"), "{expansion}");
+    }
+}
+
+#[test]
+#[ignore = "what the other processes run"]
+fn prints_its_expansions() {
+    for expansion in expansions() {
+        println!("\n{MARK}{expansion}");
+    }
+}
+
+#[test]
+fn two_processes_expand_alike() {
+    let here = expansions();
+    for _ in 0..2 {
+        let program = std::env::current_exe().expect("this test's path");
+        let name = format!("{}::prints_its_expansions", module_path!().split_once("::").expect("a crate").1);
+        let output = Command::new(program)
+            .args(["--exact", &name, "--ignored", "--nocapture"])
+            .output()
+            .expect("another process");
+        let text = String::from_utf8(output.stdout).expect("text");
+        let there: Vec<_> = text.lines().filter_map(|line| line.strip_prefix(MARK)).collect();
+        assert_eq!(here, there);
+    }
+}

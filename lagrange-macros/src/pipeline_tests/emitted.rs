@@ -1,0 +1,56 @@
+//! What the emitted code looks like.
+
+use std::collections::BTreeMap;
+
+use expect_test::expect_file;
+use proc_macro2::{TokenStream, TokenTree};
+
+use super::{systems, tokens};
+use crate::expand;
+
+/// A reviewer of a change to the code generator sees here what it does. `UPDATE_EXPECT=1 cargo test` accepts it.
+#[test]
+fn the_expansion_of_a_pendulum_is_as_reviewed() {
+    let file = syn::parse2(expand(tokens(systems::PENDULUM))).expect("items");
+    expect_file!["emitted/pendulum.rs"].assert_eq(&prettyplease::unparse(&file));
+}
+
+/// For each emitted function the arguments of its sines and cosines, as often as they are computed.
+#[derive(Default)]
+struct Circular {
+    function: String,
+    arguments: BTreeMap<String, Vec<String>>,
+}
+
+impl Circular {
+    fn read(&mut self, tokens: TokenStream) {
+        let mut before = [String::new(), String::new()];
+        for token in tokens {
+            let text = token.to_string();
+            if before[1] == "fn" {
+                self.function = text.clone();
+            }
+            if let TokenTree::Group(group) = token {
+                if ["sin", "cos", "sin_cos"].contains(&before[1].as_str()) && before[0] == ":" {
+                    self.arguments.entry(self.function.clone()).or_default().push(text.clone());
+                }
+                self.read(group.stream());
+            }
+            before = [std::mem::take(&mut before[1]), text];
+        }
+    }
+}
+
+#[test]
+fn the_sine_and_the_cosine_of_an_angle_are_computed_once() {
+    let mut circular = Circular::default();
+    circular.read(expand(tokens(&systems::chain(12))));
+    let all = circular.arguments.get_mut("accelerations").expect("sines");
+    assert_eq!(all.len(), 12, "one for each angle: {all:?}");
+    for (function, mut arguments) in circular.arguments {
+        let computed = arguments.len();
+        arguments.sort_unstable();
+        arguments.dedup();
+        assert_eq!(arguments.len(), computed, "one argument twice in `{function}`: {arguments:?}");
+    }
+}

@@ -1,0 +1,141 @@
+const _: () = {
+    use ::lagrange_core as __lagrange;
+    #[automatically_derived]
+    #[allow(clippy::all, unused_parens)]
+    impl __lagrange::Lagrangian<1usize, 0usize> for Pendulum {
+        type Scalar = f64;
+        const NAME: &'static str = "Pendulum";
+        const COORDINATES: [&'static str; 1usize] = ["theta"];
+        const CONSTRAINTS: [&'static str; 0usize] = [];
+        const CONSTRAINT_KINDS: [__lagrange::ConstraintKind; 0usize] = [];
+        const OBSERVABLES: &'static [&'static str] = &[];
+        ///9 operations (+ − × ÷ √), 1 elementary function.
+        #[inline]
+        #[allow(unused_variables)]
+        fn lagrangian(&self, state: &__lagrange::State<f64, 1usize>) -> f64 {
+            let [theta] = state.q.data.0[0];
+            let [theta_dot] = state.v.data.0[0];
+            let m = self.m;
+            let l = self.l;
+            let g = self.g;
+            let r9 = __lagrange::Scalar::cos(theta);
+            ((0.5 * (((theta_dot * theta_dot) * m) * (l * l))) + (((m * l) * g) * r9))
+        }
+        ///3 operations (+ − × ÷ √), 0 elementary functions.
+        #[inline]
+        #[allow(unused_variables)]
+        fn momentum(
+            &self,
+            state: &__lagrange::State<f64, 1usize>,
+        ) -> __lagrange::nalgebra::SVector<f64, 1usize> {
+            let [theta_dot] = state.v.data.0[0];
+            let m = self.m;
+            let l = self.l;
+            __lagrange::eliminate::vector([((theta_dot * m) * (l * l))])
+        }
+        ///2 operations (+ − × ÷ √), 0 elementary functions.
+        #[inline]
+        #[allow(unused_variables)]
+        fn mass_matrix(
+            &self,
+            state: &__lagrange::State<f64, 1usize>,
+        ) -> __lagrange::nalgebra::SMatrix<f64, 1usize, 1usize> {
+            let m = self.m;
+            let l = self.l;
+            __lagrange::eliminate::matrix([[(m * (l * l))]])
+        }
+        ///4 operations (+ − × ÷ √), 1 elementary function.
+        #[inline]
+        #[allow(unused_variables)]
+        fn forcing(
+            &self,
+            state: &__lagrange::State<f64, 1usize>,
+        ) -> __lagrange::nalgebra::SVector<f64, 1usize> {
+            let [theta] = state.q.data.0[0];
+            let m = self.m;
+            let l = self.l;
+            let g = self.g;
+            let r4 = __lagrange::Scalar::sin(theta);
+            __lagrange::eliminate::vector([(-(((m * l) * g) * r4))])
+        }
+        ///0 operations (+ − × ÷ √), 0 elementary functions.
+        #[inline]
+        #[allow(unused_variables)]
+        fn constraint_residual(
+            &self,
+            state: &__lagrange::State<f64, 1usize>,
+        ) -> __lagrange::nalgebra::SVector<f64, 0usize> {
+            __lagrange::eliminate::vector([])
+        }
+        ///0 operations (+ − × ÷ √), 0 elementary functions.
+        #[inline]
+        #[allow(unused_variables)]
+        fn constraint_rate(
+            &self,
+            state: &__lagrange::State<f64, 1usize>,
+        ) -> __lagrange::nalgebra::SVector<f64, 0usize> {
+            __lagrange::eliminate::vector([])
+        }
+        ///0 operations (+ − × ÷ √), 0 elementary functions.
+        #[inline]
+        #[allow(unused_variables)]
+        fn constraint_jacobian(
+            &self,
+            state: &__lagrange::State<f64, 1usize>,
+        ) -> __lagrange::nalgebra::SMatrix<f64, 0usize, 1usize> {
+            __lagrange::eliminate::matrix([[]])
+        }
+        ///0 operations (+ − × ÷ √), 0 elementary functions.
+        #[inline]
+        #[allow(unused_variables)]
+        fn constraint_bias(
+            &self,
+            state: &__lagrange::State<f64, 1usize>,
+        ) -> __lagrange::nalgebra::SVector<f64, 0usize> {
+            __lagrange::eliminate::vector([])
+        }
+        ///0 operations (+ − × ÷ √), 0 elementary functions.
+        #[inline]
+        #[allow(unused_variables)]
+        fn constraint_force(
+            &self,
+            state: &__lagrange::State<f64, 1usize>,
+            multipliers: &__lagrange::nalgebra::SVector<f64, 0usize>,
+        ) -> __lagrange::nalgebra::SVector<f64, 1usize> {
+            __lagrange::eliminate::vector([__lagrange::Scalar::constant(0.0)])
+        }
+        ///6 operations (+ − × ÷ √), 1 elementary function.
+        #[inline]
+        #[allow(unused_variables)]
+        fn accelerations(
+            &self,
+            state: &__lagrange::State<f64, 1usize>,
+        ) -> __lagrange::Solution<f64, 1usize, 0usize> {
+            let [theta] = state.q.data.0[0];
+            let m = self.m;
+            let l = self.l;
+            let g = self.g;
+            let r4 = __lagrange::Scalar::sin(theta);
+            __lagrange::eliminate::eliminate(
+                [[(m * (l * l))]],
+                [(-(((m * l) * g) * r4))],
+                [],
+                [],
+            )
+        }
+        #[allow(unused_variables)]
+        fn observable(
+            &self,
+            index: usize,
+            state: &__lagrange::State<f64, 1usize>,
+            solution: &__lagrange::Solution<f64, 1usize, 0usize>,
+        ) -> ::core::option::Option<f64> {
+            match index {
+                _ => ::core::option::Option::None,
+            }
+        }
+    }
+    #[automatically_derived]
+    #[allow(clippy::all, unused_parens, dead_code)]
+    impl Pendulum {}
+};

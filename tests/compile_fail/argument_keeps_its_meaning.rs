@@ -1,0 +1,11 @@
+use lagrange_core::prelude::*;
+
+#[derive(Lagrangian)]
+#[coordinates(x)]
+#[define(f(t) = t^2)]
+#[lagrangian(m/2 * x_dot^2 - f(x))]
+struct System {
+    m: f64,
+}
+
+fn main() {}

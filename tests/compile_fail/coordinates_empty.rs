@@ -1,0 +1,10 @@
+use lagrange_core::prelude::*;
+
+#[derive(Lagrangian)]
+#[coordinates()]
+#[lagrangian(m/2 * x_dot^2)]
+struct System {
+    m: f64,
+}
+
+fn main() {}

@@ -1,0 +1,12 @@
+use lagrange_core::prelude::*;
+
+#[derive(Lagrangian)]
+#[coordinates(x)]
+#[lagrangian(m/2 * x_dot^2)]
+#[dissipation(x_dot^2)]
+#[dissipation(x_dot^4)]
+struct System {
+    m: f64,
+}
+
+fn main() {}

@@ -1,0 +1,10 @@
+use lagrange_core::prelude::*;
+
+#[derive(Lagrangian)]
+#[coordinates(r: [3])]
+#[lagrangian(m/2 * dot(r_dot, r_dot) - m/r)]
+struct System {
+    m: f64,
+}
+
+fn main() {}

@@ -1,0 +1,11 @@
+use lagrange_core::prelude::*;
+
+#[derive(Lagrangian)]
+#[coordinates(r: [2])]
+#[lagrangian(m/2 * dot(r_dot, r_dot))]
+#[force(r: 1)]
+struct System {
+    m: f64,
+}
+
+fn main() {}

@@ -1,0 +1,10 @@
+use lagrange_core::prelude::*;
+
+#[derive(Lagrangian)]
+#[coordinates(r: [2])]
+#[lagrangian(m/2 * dot(r_dot, r_dot) - r[1/2] - r[m])]
+struct System {
+    m: f64,
+}
+
+fn main() {}

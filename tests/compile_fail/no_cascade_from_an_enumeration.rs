@@ -1,0 +1,12 @@
+use lagrange_core::prelude::*;
+
+#[derive(Lagrangian)]
+#[coordinates(x)]
+#[lagrangian(m/2 * x_dot^2)]
+enum System {
+    A,
+}
+
+fn main() {
+    System::A.accelerations(&State::at_rest([0.0]));
+}

@@ -1,0 +1,12 @@
+use lagrange_core::prelude::*;
+
+#[derive(Lagrangian)]
+#[coordinates(x)]
+struct System {
+    m: f64,
+}
+
+fn main() {
+    let system = System { m: 1.0 };
+    system.accelerations(&State::at_rest([0.0]));
+}

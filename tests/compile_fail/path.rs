@@ -1,0 +1,10 @@
+use lagrange_core::prelude::*;
+
+#[derive(Lagrangian)]
+#[coordinates(x)]
+#[lagrangian(m/2 * x_dot^2 - f64::consts::PI * x)]
+struct System {
+    m: f64,
+}
+
+fn main() {}

@@ -1,0 +1,10 @@
+use lagrange_core::prelude::*;
+
+#[derive(Lagrangian)]
+#[coordinates(x, t, sin, lambda)]
+#[lagrangian(m/2 * x_dot^2)]
+struct System {
+    m: f64,
+}
+
+fn main() {}

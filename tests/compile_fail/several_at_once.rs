@@ -1,0 +1,16 @@
+use lagrange_core::prelude::*;
+
+#[derive(Lagrangian)]
+#[coordinates(x)]
+#[define(a)]
+#[lagrangian(m/2 * x_dot**2)]
+#[constraint(x = 0)]
+#[lagrange(scale = 1)]
+struct System {
+    m: f64,
+}
+
+fn main() {
+    let system = System { m: 1.0 };
+    system.accelerations(&State::at_rest([0.0]));
+}
