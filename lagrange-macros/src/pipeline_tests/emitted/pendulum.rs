@@ -21,6 +21,18 @@ const _: () = {
             let r9 = __lagrange::Scalar::cos(theta);
             ((0.5 * (((theta_dot * theta_dot) * m) * (l * l))) + (((m * l) * g) * r9))
         }
+        ///9 operations (+ − × ÷ √), 1 elementary function.
+        #[inline]
+        #[allow(unused_variables)]
+        fn energy(&self, state: &__lagrange::State<f64, 1usize>) -> f64 {
+            let [theta] = state.q.data.0[0];
+            let [theta_dot] = state.v.data.0[0];
+            let m = self.m;
+            let l = self.l;
+            let g = self.g;
+            let r9 = __lagrange::Scalar::cos(theta);
+            ((0.5 * (((theta_dot * theta_dot) * m) * (l * l))) - (((m * l) * g) * r9))
+        }
         ///3 operations (+ − × ÷ √), 0 elementary functions.
         #[inline]
         #[allow(unused_variables)]
@@ -32,6 +44,20 @@ const _: () = {
             let m = self.m;
             let l = self.l;
             __lagrange::eliminate::vector([((theta_dot * m) * (l * l))])
+        }
+        ///4 operations (+ − × ÷ √), 1 elementary function.
+        #[inline]
+        #[allow(unused_variables)]
+        fn momentum_rate(
+            &self,
+            state: &__lagrange::State<f64, 1usize>,
+        ) -> __lagrange::nalgebra::SVector<f64, 1usize> {
+            let [theta] = state.q.data.0[0];
+            let m = self.m;
+            let l = self.l;
+            let g = self.g;
+            let r4 = __lagrange::Scalar::sin(theta);
+            __lagrange::eliminate::vector([(-(((m * l) * g) * r4))])
         }
         ///2 operations (+ − × ÷ √), 0 elementary functions.
         #[inline]
@@ -135,7 +161,24 @@ const _: () = {
             }
         }
     }
+    /**```text
+Pendulum
+
+Lagrangian
+  L = ½ m l² θ̇² + m g l cos θ
+
+Equations of motion
+  θ: m l² θ̈ = −m l g sin θ
+```*/
     #[automatically_derived]
     #[allow(clippy::all, unused_parens, dead_code)]
-    impl Pendulum {}
+    impl Pendulum {
+        /// The system and its equations of motion, to be read.
+        const fn equations() -> __lagrange::Equations {
+            __lagrange::Equations::new(
+                "Pendulum\n\nLagrangian\n  L = ½ m l² θ\u{307}² + m g l cos θ\n\nEquations of motion\n  θ: m l² θ\u{308} = −m l g sin θ\n",
+                "\\begin{align*}\n  L &= \\tfrac{1}{2} \\, m \\, l^{2} \\, \\dot{\\theta}^{2} + m \\, g \\, l \\, \\cos \\theta \\\\\n  m \\, l^{2} \\, \\ddot{\\theta} &= -m \\, l \\, g \\, \\sin \\theta \\\\\n\\end{align*}\n",
+            )
+        }
+    }
 };
