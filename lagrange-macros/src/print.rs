@@ -18,7 +18,7 @@ pub(crate) fn if_asked(declaration: &Declaration, tokens: &TokenStream) {
     match formatted(&text) {
         Some(formatted) => eprintln!("// the expansion of derive(Lagrangian) on {name}\n{formatted}"),
         None => {
-            eprintln!("// the expansion of derive(Lagrangian) on {name} (rustfmt would format it)\n{text}")
+            eprintln!("// the expansion of derive(Lagrangian) on {name} (rustfmt would format it)\n{text}");
         }
     }
 }
