@@ -64,7 +64,7 @@ fn equations_8_14_at_random_states() {
 /// Over 100 s: the constraints, the energy (8.17), L_z (8.15) and the string's force (8.20).
 fn check_motion<P: Method<Pendulum, 3, 1> + Copy>(method: P, drift: f64) {
     for start in starts(PENDULUM.l) {
-        let path = PENDULUM.integrate(start, 100.0, method).unwrap();
+        let path = PENDULUM.integrate(start, 100.0, method).expect("a consistent start");
         assert!(path.ending().is_complete(), "{}", path.ending());
         let speed = (2.0 * PENDULUM.g * PENDULUM.l).sqrt();
         let scale = [PENDULUM.l * PENDULUM.l, PENDULUM.l * speed];
@@ -83,7 +83,7 @@ fn check_motion<P: Method<Pendulum, 3, 1> + Copy>(method: P, drift: f64) {
             let l_z_scale = PENDULUM.m * PENDULUM.l * speed;
             assert_abs_diff_eq!(PENDULUM.l_z(s), initial[1], epsilon = drift * l_z_scale);
             let outward = PENDULUM.m / PENDULUM.l * (PENDULUM.g * s.q[2] - s.v.norm_squared());
-            let lambda = sample.multiplier("string").unwrap();
+            let lambda = sample.multiplier("string").expect("one solution");
             assert_abs_diff_eq!(lambda * PENDULUM.l, outward, epsilon = 1e-10 * energy_scale / PENDULUM.l);
         }
     }

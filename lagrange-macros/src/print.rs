@@ -10,16 +10,19 @@ use crate::syntax::Declaration;
 /// Prints the expansion to the standard error stream if `LAGRANGE_PRINT` names the struct, or is `all`.
 pub(crate) fn if_asked(declaration: &Declaration, tokens: &TokenStream) {
     let name = declaration.ident.to_string();
-    match std::env::var("LAGRANGE_PRINT") {
-        Ok(wanted) if wanted == "all" || wanted == name => {}
-        _ => return,
+    if std::env::var("LAGRANGE_PRINT").is_ok_and(|wanted| is_wanted(&wanted, &name)) {
+        eprintln!("{}", expansion(&name, &tokens.to_string()));
     }
-    let text = tokens.to_string();
-    match formatted(&text) {
-        Some(formatted) => eprintln!("// the expansion of derive(Lagrangian) on {name}\n{formatted}"),
-        None => {
-            eprintln!("// the expansion of derive(Lagrangian) on {name} (rustfmt would format it)\n{text}")
-        }
+}
+
+fn is_wanted(wanted: &str, name: &str) -> bool {
+    wanted == "all" || wanted == name
+}
+
+fn expansion(name: &str, text: &str) -> String {
+    match formatted(text) {
+        Some(formatted) => format!("// the expansion of derive(Lagrangian) on {name}\n{formatted}"),
+        None => format!("// the expansion of derive(Lagrangian) on {name} (rustfmt would format it)\n{text}"),
     }
 }
 
@@ -35,4 +38,23 @@ fn formatted(text: &str) -> Option<String> {
     rustfmt.stdin.take()?.write_all(text.as_bytes()).ok()?;
     let output = rustfmt.wait_with_output().ok()?;
     output.status.success().then(|| String::from_utf8(output.stdout).ok()).flatten()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_struct_is_asked_for_by_its_name_or_with_all() {
+        assert!(is_wanted("all", "Pendulum") && is_wanted("Pendulum", "Pendulum"));
+        assert!(!is_wanted("Pendulum", "PendulumOnCart") && !is_wanted("", "Pendulum"));
+    }
+
+    #[test]
+    fn the_expansion_is_formatted_and_what_rustfmt_refuses_is_shown_as_it_is() {
+        let shown = expansion("Pendulum", "fn  f ( ) -> f64 { 1.0 }");
+        assert!(shown.starts_with("// the expansion of derive(Lagrangian) on Pendulum\n"), "{shown}");
+        assert!(shown.contains("fn f() -> f64 {\n    1.0\n}"), "{shown}");
+        assert!(expansion("Pendulum", "fn (").ends_with("\nfn ("));
+    }
 }

@@ -1,5 +1,7 @@
 //! Definitions are boundaries: a chain defined link by link is differentiated at a cost linear in its length.
 
+use expect_test::expect;
+
 use super::{equations, systems};
 use crate::codegen::operations;
 use crate::symbolic::{Graph, Id, Symbol};
@@ -43,8 +45,8 @@ fn is_linear(costs: &[[Cost; 2]], quantity: impl Fn(&[Cost; 2]) -> usize) -> boo
 #[test]
 fn momenta_and_forces_of_a_chain_cost_linearly_many_operations() {
     let (mut bounded, mut flat) = (Vec::new(), Vec::new());
-    println!("operations (operands in the graph)");
-    println!("links {:>14} {:>14} {:>22} {:>14}", "∂L/∂q̇", "∂L/∂q", "without boundaries", "");
+    let mut table = String::from("operations (operands in the graph)\n");
+    table += &format!("links {:>12} {:>14} {:>22} {:>14}\n", "p", "∂L/∂q", "p, no boundaries", "∂L/∂q");
     for n in LENGTHS {
         let (problem, equations) = equations(&systems::chain(n));
         let (mut graph, lagrangian) = (problem.graph, problem.lagrangian);
@@ -54,10 +56,22 @@ fn momenta_and_forces_of_a_chain_cost_linearly_many_operations() {
         let of_flat = costs(&mut graph, without, n);
         let [p, force, flat_p, flat_force] = [of_chain[0], of_chain[1], of_flat[0], of_flat[1]]
             .map(|cost| format!("{} ({})", cost.operations, cost.operands));
-        println!("{n:5} {p:>12} {force:>14} {flat_p:>22} {flat_force:>14}");
+        table += &format!("{n:5} {p:>12} {force:>14} {flat_p:>22} {flat_force:>14}\n");
         bounded.push(of_chain);
         flat.push(of_flat);
     }
+    println!("{table}");
+    expect![[r#"
+        operations (operands in the graph)
+        links            p          ∂L/∂q       p, no boundaries          ∂L/∂q
+            4     60 (120)       72 (167)               68 (116)       81 (162)
+            8    124 (248)      148 (343)              132 (292)      157 (396)
+           12    188 (376)      224 (519)              196 (532)      233 (710)
+           16    252 (504)      300 (695)              260 (836)     309 (1104)
+           20    316 (632)      376 (871)             324 (1204)     385 (1578)
+           24    380 (760)     452 (1047)             388 (1636)     461 (2132)
+    "#]]
+    .assert_eq(&table);
     assert!(is_linear(&bounded, |cost| cost[0].operations), "operations of ∂L/∂q̇");
     assert!(is_linear(&bounded, |cost| cost[1].operations), "operations of ∂L/∂q");
     assert!(is_linear(&bounded, |cost| cost[0].operands) && is_linear(&bounded, |cost| cost[1].operands));

@@ -4,7 +4,6 @@ mod counts;
 mod determinism;
 mod emitted;
 mod systems;
-mod times;
 
 use proc_macro2::TokenStream;
 
