@@ -55,6 +55,7 @@ mod fixtures;
 pub mod function;
 #[cfg(feature = "alloc")]
 pub mod integrate;
+mod integrability;
 mod kkt;
 pub mod language;
 #[cfg(feature = "alloc")]
@@ -81,6 +82,7 @@ pub use dual::Dual;
 pub use equations::Equations;
 pub use error::Error;
 pub use function::{ByHand, Function, HandWritten};
+pub use integrability::{Classification, Evidence, Extent, Integrability, Integrals};
 #[cfg(feature = "alloc")]
 pub use integrate::{Dop853, Dopri5, Ending, Method, Progress, Statistics};
 pub use lagrange_macros::Lagrangian;

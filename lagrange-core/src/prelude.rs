@@ -1,7 +1,7 @@
 //! What a program that simulates a system needs: `use lagrange_core::prelude::*`.
 
 pub use crate::{
-    Adjustment, ByHand, ConstraintKind, Error, Function, HandWritten, Lagrangian, Real, Scalar, Simulate,
+    Adjustment, ByHand, Classification, ConstraintKind, Error, Evidence, Extent, Function, HandWritten, Integrability, Integrals, Lagrangian, Real, Scalar, Simulate,
     Solution, State,
 };
 #[cfg(feature = "alloc")]

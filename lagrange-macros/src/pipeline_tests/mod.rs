@@ -3,6 +3,7 @@
 mod counts;
 mod determinism;
 mod emitted;
+mod integrability;
 mod systems;
 mod times;
 

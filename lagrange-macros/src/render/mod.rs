@@ -1,9 +1,10 @@
 //! The system and its equations as text and as LaTeX. Nothing else writes any.
 
 mod formula;
+mod kinds;
 mod notation;
 
-use crate::mechanics::{ConstraintKind, Equations};
+use crate::mechanics::Equations;
 use crate::resolve::Problem;
 use crate::symbolic::{Id, Rational};
 use crate::syntax::{Declaration, Define, Name, TargetIndex};
@@ -29,7 +30,7 @@ struct Section {
 struct Line {
     label: Option<String>,
     equation: Equation,
-    remark: &'static str,
+    remark: String,
 }
 
 enum Equation {
@@ -54,7 +55,7 @@ fn lagrangian(declaration: &Declaration, problem: &Problem) -> Vec<Line> {
     let line = |left: Formula, right: &crate::syntax::Expression| Line {
         label: None,
         equation: Equation::Known(left, written(right, problem)),
-        remark: "",
+        remark: String::new(),
     };
     let name = |text: &str| Formula::labelled(text, 0);
     let mut lines: Vec<Line> = Vec::new();
@@ -95,8 +96,7 @@ fn constraints(declaration: &Declaration, problem: &Problem, equations: &Equatio
     let line = |constraint: &crate::syntax::Constraint| {
         let name = &constraint.target.name.text;
         let is_it = |text: &str| text == name || text.starts_with(&format!("{name}["));
-        let row = problem.constraints.iter().position(|(label, _)| is_it(&label.text));
-        let kind = row.map(|row| equations.kinds[row]);
+        let rows = (0..problem.constraints.len()).filter(|&row| is_it(&problem.constraints[row].0.text));
         Line {
             label: Some(Notation::Unicode.write(&target(
                 &constraint.target.name,
@@ -107,10 +107,7 @@ fn constraints(declaration: &Declaration, problem: &Problem, equations: &Equatio
                 written(&constraint.left, problem),
                 written(&constraint.right, problem),
             ),
-            remark: match kind {
-                Some(ConstraintKind::Velocity) => "on the velocities",
-                _ => "holonomic",
-            },
+            remark: kinds::remark(rows, problem, &equations.integrability),
         }
     };
     declaration.constraints.iter().map(line).collect()
@@ -143,7 +140,7 @@ fn motion(problem: &mut Problem, equations: &Equations) -> Vec<Line> {
                 false => Equation::TooLong(size),
             };
             let label = Notation::Unicode.write(&Formula::labelled(&problem.coordinates[i].text, 0));
-            Line { label: Some(label), equation, remark: "" }
+            Line { label: Some(label), equation, remark: String::new() }
         })
         .collect()
 }
