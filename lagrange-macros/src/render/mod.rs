@@ -21,10 +21,11 @@ pub(crate) struct Rendered {
     pub(crate) latex: String,
 }
 
-/// A heading and the lines below it: a label, an equation and a remark.
+/// A heading and the lines below it: a label, an equation and a remark. The note says what concerns all lines.
 struct Section {
     heading: &'static str,
     lines: Vec<Line>,
+    note: Option<String>,
 }
 
 struct Line {
@@ -43,9 +44,13 @@ enum Equation {
 pub(crate) fn render(declaration: &Declaration, problem: &mut Problem, equations: &Equations) -> Rendered {
     let rows = motion(problem, equations);
     let sections = [
-        Section { heading: "Lagrangian", lines: lagrangian(declaration, problem) },
-        Section { heading: "Constraints", lines: constraints(declaration, problem, equations) },
-        Section { heading: "Equations of motion", lines: rows },
+        Section { heading: "Lagrangian", lines: lagrangian(declaration, problem), note: None },
+        Section {
+            heading: "Constraints",
+            lines: constraints(declaration, problem, equations),
+            note: equations.integrability.integrals.and_then(kinds::note),
+        },
+        Section { heading: "Equations of motion", lines: rows, note: None },
     ];
     let name = declaration.ident.to_string();
     Rendered { text: text(&name, &sections), latex: latex(&sections) }
@@ -161,7 +166,7 @@ fn symbols_to_read(problem: &Problem, root: Id) -> u64 {
 
 fn text(name: &str, sections: &[Section]) -> String {
     let mut text = format!("{name}\n");
-    for Section { heading, lines } in sections.iter().filter(|section| !section.lines.is_empty()) {
+    for Section { heading, lines, note } in sections.iter().filter(|section| !section.lines.is_empty()) {
         text += &format!("\n{heading}\n");
         let width =
             lines.iter().filter_map(|line| line.label.as_ref()).map(|label| label.chars().count()).max();
@@ -180,6 +185,7 @@ fn text(name: &str, sections: &[Section]) -> String {
             let remark = if remark.is_empty() { String::new() } else { format!("   ({remark})") };
             text += &format!("  {label}{equation}{remark}\n");
         }
+        text.extend(note.iter().map(|note| format!("  {note}\n")));
     }
     text
 }
