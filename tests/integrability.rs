@@ -154,8 +154,8 @@ fn integrals_are_constant_along_the_motion() {
     for sample in path.steps() {
         let state = sample.state();
         let [x, y, z] = state.q.data.0[0];
-        assert_relative_eq!(guided.constraint_integral(0, &state).unwrap(), ray, epsilon = 1e-10);
-        assert_relative_eq!(guided.constraint_integral(1, &state).unwrap(), driven, epsilon = 1e-10);
+        assert_relative_eq!(guided.constraint_integral(0, state).unwrap(), ray, epsilon = 1e-10);
+        assert_relative_eq!(guided.constraint_integral(1, state).unwrap(), driven, epsilon = 1e-10);
         // And they are what they should be, not constants.
         assert_relative_eq!(y / x, 0.5, epsilon = 1e-10);
         assert_relative_eq!(z - (2.0 * state.t).sin() + x * y * y / 2.0, driven, epsilon = 1e-10);

@@ -50,8 +50,7 @@ pub struct Classification {
 
 impl Classification {
     /// No verdict.
-    pub const UNDECIDED: Self =
-        Self { integrability: Integrability::Undecided, evidence: Evidence::Held(0) };
+    pub const UNDECIDED: Self = Self { integrability: Integrability::Undecided, evidence: Evidence::Held(0) };
 }
 
 /// How many of the velocity constraints, as a set, can be integrated.

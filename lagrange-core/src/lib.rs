@@ -53,9 +53,9 @@ mod error;
 #[cfg(test)]
 mod fixtures;
 pub mod function;
+mod integrability;
 #[cfg(feature = "alloc")]
 pub mod integrate;
-mod integrability;
 mod kkt;
 pub mod language;
 #[cfg(feature = "alloc")]

@@ -44,8 +44,14 @@ impl Equations {
     /// Every entry.
     pub(crate) fn roots(&self) -> Vec<Id> {
         let matrices = self.mass.iter().chain(&self.jacobian).flatten();
-        let vectors = [&self.momentum, &self.momentum_rate, &self.forcing, &self.residual, &self.rate, &self.bias];
-        matrices.chain(vectors.into_iter().flatten()).chain([&self.energy]).chain(self.integrability.functions.iter().flatten()).copied().collect()
+        let vectors =
+            [&self.momentum, &self.momentum_rate, &self.forcing, &self.residual, &self.rate, &self.bias];
+        matrices
+            .chain(vectors.into_iter().flatten())
+            .chain([&self.energy])
+            .chain(self.integrability.functions.iter().flatten())
+            .copied()
+            .collect()
     }
 }
 

@@ -81,11 +81,8 @@ fn a_rolling_sphere_in_angles_is_nonholonomic() {
 fn a_rolling_sphere_with_a_quaternion_is_nonholonomic() {
     let omega_x = "2*(p_dot*-i + i_dot*p - j_dot*k + k_dot*j)";
     let omega_y = "2*(p_dot*-j + i_dot*k + j_dot*p - k_dot*i)";
-    let constraints = format!(
-        "p^2 + i^2 + j^2 + k^2 = 1; x_dot - a*{omega_y} = 0; y_dot + a*{omega_x} = 0"
-    );
-    let kinds =
-        check("x, y, p, i, j, k", &constraints, &[Holonomic, Nonholonomic, Nonholonomic], (0, 2));
+    let constraints = format!("p^2 + i^2 + j^2 + k^2 = 1; x_dot - a*{omega_y} = 0; y_dot + a*{omega_x} = 0");
+    let kinds = check("x, y, p, i, j, k", &constraints, &[Holonomic, Nonholonomic, Nonholonomic], (0, 2));
     assert_eq!(kinds.classes[1].evidence, Evidence::Held(8));
 }
 
@@ -228,6 +225,22 @@ fn a_form_is_integrable_only_where_the_others_hold() {
     check("x, y, z", sphere, &[Holonomic, IntegratingFactor], (1, 1));
     let supplied = "z = f(x); y_dot - z*x_dot = 0";
     check("x, y, z", supplied, &[Holonomic, Exact], (1, 1));
+}
+
+/// The form is closed on the sphere, and on no sphere beside it: points that are not on it would tell otherwise.
+#[test]
+fn a_form_is_integrable_on_one_surface_of_many() {
+    let sphere = "x^2 + y^2 + z^2 = a^2; u_dot - (x^2 + y^2 + z^2 - a^2)*y*x_dot = 0";
+    let kinds = check("x, y, z, u", sphere, &[Holonomic, Exact], (1, 1));
+    assert_eq!(kinds.classes[1].evidence, Evidence::Held(8));
+}
+
+/// Two equations of one circle, dependent there and nowhere else; on it, x and y are one variable, in which
+/// y dx is closed.
+#[test]
+fn a_surface_given_twice_counts_once() {
+    let twice = "x^2 + y^2 = a^2; (2 + x)*(x^2 + y^2 - a^2) = 0; z_dot - y*x_dot = 0";
+    check("x, y, z", twice, &[Holonomic, Holonomic, Exact], (1, 1));
 }
 
 /// A surface that moves does not help: the brackets along t remain.

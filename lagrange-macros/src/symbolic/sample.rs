@@ -41,9 +41,8 @@ impl Sample {
             |symbol| symbols.get(&symbol).copied().unwrap_or(unknown),
             |id| random_external(id, *draw),
         );
-        let usable = |value: &Approximate| {
-            value.value.is_finite() && value.error <= BLUR * (1.0 + value.value.abs())
-        };
+        let usable =
+            |value: &Approximate| value.value.is_finite() && value.error <= BLUR * (1.0 + value.value.abs());
         let found: Vec<_> = roots.iter().map(|root| values[root.index()]).collect();
         found.iter().all(usable).then_some(found)
     }

@@ -80,7 +80,8 @@ impl Distribution {
         let mut curl = Vec::new();
         for (position, &i) in active.iter().enumerate() {
             for &j in &active[..position] {
-                let [first, second] = [(i, j), (j, i)].map(|(x, y)| along[x].of(&mut space.graph, applied[y]));
+                let [first, second] =
+                    [(i, j), (j, i)].map(|(x, y)| along[x].of(&mut space.graph, applied[y]));
                 curl.push(space.graph.sub(first, second));
             }
         }
@@ -102,13 +103,10 @@ impl Distribution {
             if parts.len() == generators + self.independent() {
                 break;
             }
-            let bracket: Vec<Id> = (0..self.pivots.len())
-                .map(|p| {
-                    let first = along[i].of(&mut space.graph, parts[j][p]);
-                    let second = along[j].of(&mut space.graph, parts[i][p]);
-                    space.graph.sub(first, second)
-                })
-                .collect();
+            let first = rates(space, &mut along[i], &parts[j]);
+            let second = rates(space, &mut along[j], &parts[i]);
+            let pairs = first.into_iter().zip(second);
+            let bracket: Vec<Id> = pairs.map(|(first, second)| space.graph.sub(first, second)).collect();
             space.settled()?;
             if bracket.iter().all(|&part| part == Id::ZERO) {
                 continue;
@@ -129,10 +127,8 @@ impl Distribution {
         if touched.len() == reached.len() || reached.len() == self.independent() {
             evidence = self.evidence;
         }
-        if !reached.is_empty() {
-            evidence = evidence.and(space.seen());
-        }
-        Some(Closure { reached, evidence })
+        let seen = if reached.is_empty() { Evidence::Proved } else { space.seen() };
+        Some(Closure { reached, evidence: evidence.and(seen) })
     }
 
     /// The fields that can have brackets: those that are more than a constant along their own variable, and
@@ -158,6 +154,11 @@ impl Distribution {
     fn direction_along_pivots(&self, space: &Space, parts: &[Id]) -> Forward {
         Forward::along(self.pivots.iter().map(|&pivot| space.symbols[pivot]).zip(parts.iter().copied()))
     }
+}
+
+/// The rates of change of `parts` along a direction.
+fn rates(space: &mut Space, along: &mut Forward, parts: &[Id]) -> Vec<Id> {
+    parts.iter().map(|&part| along.of(&mut space.graph, part)).collect()
 }
 
 /// Gauss–Jordan elimination with pivots in `among`, none in time's column, as far as there are pivots.
@@ -192,11 +193,8 @@ fn best_pivot(
 ) -> Option<(usize, usize)> {
     let mut best = None;
     for row in among.filter(|row| pivots.iter().all(|(used, _)| used != row)) {
-        for column in 0..space.symbols.len() - 1 {
-            let entry = rows[row][column];
-            if entry == Id::ZERO {
-                continue;
-            }
+        let entries = rows[row].iter().enumerate().take(space.symbols.len() - 1);
+        for (column, &entry) in entries.filter(|&(_, &entry)| entry != Id::ZERO) {
             let points = space.values(&[entry]).iter().filter(|value| value[0].is_nonzero()).count();
             let key = (space.graph.as_number(entry).is_some(), points);
             if points > 0 && best.is_none_or(|(known, _)| key > known) {

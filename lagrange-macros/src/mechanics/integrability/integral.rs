@@ -33,7 +33,10 @@ fn divided(graph: &mut Graph, form: &Form) -> Vec<Form> {
     let mut divisors = factors.clone();
     divisors.extend(factors.iter().map(|&factor| graph.square(factor)));
     divisors.push(graph.product(factors.iter().map(|&factor| (factor, one))));
-    divisors.into_iter().map(|divisor| form.iter().map(|&entry| graph.div(entry, divisor)).collect()).collect()
+    divisors
+        .into_iter()
+        .map(|divisor| form.iter().map(|&entry| graph.div(entry, divisor)).collect())
+        .collect()
 }
 
 /// Integrates along one variable after the other what the earlier ones have left.

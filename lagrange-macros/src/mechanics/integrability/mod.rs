@@ -127,8 +127,7 @@ fn classify_row(
         return Some(verdict(Integrability::IntegratingFactor, alone.evidence.and(evidence)));
     }
     let (set, closure) = set?;
-    let along: Vec<Id> =
-        closure.reached.iter().map(|parts| set.along_pivots(space, form, parts)).collect();
+    let along: Vec<Id> = closure.reached.iter().map(|parts| set.along_pivots(space, form, parts)).collect();
     let (unreached, evidence) = space.vanish(&along)?;
     Some(match unreached {
         true => verdict(Integrability::Together, evidence.and(closure.evidence).and(space.seen())),
