@@ -53,6 +53,7 @@ mod error;
 #[cfg(test)]
 mod fixtures;
 pub mod function;
+mod integrability;
 #[cfg(feature = "alloc")]
 pub mod integrate;
 mod kkt;
@@ -81,6 +82,7 @@ pub use dual::Dual;
 pub use equations::Equations;
 pub use error::Error;
 pub use function::{ByHand, Function, HandWritten};
+pub use integrability::{Classification, Evidence, Extent, Integrability, Integrals};
 #[cfg(feature = "alloc")]
 pub use integrate::{Dop853, Dopri5, Ending, Method, Progress, Statistics};
 pub use lagrange_macros::Lagrangian;

@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::{Scalar, Solution, State};
+use crate::{Classification, Integrals, Scalar, Solution, State};
 
 /// How a constraint was written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -34,6 +34,10 @@ pub trait Lagrangian<const N: usize, const M: usize> {
     const CONSTRAINTS: [&'static str; M];
     /// What each constraint acts on.
     const CONSTRAINT_KINDS: [ConstraintKind; M];
+    /// Whether each constraint is integrable.
+    const CONSTRAINT_CLASSES: [Classification; M] = [Classification::UNDECIDED; M];
+    /// How many of the velocity constraints can be integrated together; `None` where it could not be decided.
+    const INTEGRALS: Option<Integrals> = None;
     /// Names of the observables.
     const OBSERVABLES: &'static [&'static str];
 
@@ -57,6 +61,13 @@ pub trait Lagrangian<const N: usize, const M: usize> {
 
     /// Φ(q, t) of the holonomic constraints; zero for those written with velocities.
     fn constraint_residual(&self, state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, M>;
+
+    /// A function I(q, t) whose rate of change is the velocity constraint `index`, as written or times a factor;
+    /// `None` where there is none or none was found.
+    #[allow(unused_variables)]
+    fn constraint_integral(&self, index: usize, state: &State<Self::Scalar, N>) -> Option<Self::Scalar> {
+        None
+    }
 
     /// F q̇ + b: the rate of change of a holonomic constraint, the residual of a velocity constraint.
     fn constraint_rate(&self, state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, M>;

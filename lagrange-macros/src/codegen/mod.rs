@@ -1,5 +1,6 @@
 //! From [`Equations`] to Rust. Nothing else writes any.
 
+mod integrability;
 mod kernel;
 mod schedule;
 mod stub;
@@ -117,6 +118,7 @@ impl Emitter<'_> {
             ConstraintKind::Holonomic => quote!(__lagrange::ConstraintKind::Holonomic),
             ConstraintKind::Velocity => quote!(__lagrange::ConstraintKind::Velocity),
         });
+        let integrability = self.integrability();
         let observables = self.observable_names();
         let functions = self.functions(fused);
         let inherent = self.observable_methods();
@@ -136,6 +138,7 @@ impl Emitter<'_> {
                     const COORDINATES: [&'static str; #n] = [#(#coordinates),*];
                     const CONSTRAINTS: [&'static str; #m] = [#(#constraints),*];
                     const CONSTRAINT_KINDS: [__lagrange::ConstraintKind; #m] = [#(#kinds),*];
+                    #integrability
                     const OBSERVABLES: &'static [&'static str] = &[#(#observables),*];
                     #functions
                 }
@@ -181,9 +184,10 @@ impl Emitter<'_> {
             n,
         );
         let force = self.constraint_force();
+        let integral = self.constraint_integral();
         let accelerations = self.accelerations(&fused);
         let observable = self.observable_by_index();
-        quote! { #lagrangian #energy #momentum #momentum_rate #mass #forcing #residual #rate #jacobian #bias #force #accelerations #observable }
+        quote! { #lagrangian #energy #momentum #momentum_rate #mass #forcing #residual #rate #jacobian #bias #integral #force #accelerations #observable }
     }
 
     /// One method of the state that returns what `result` makes of the kernel's results.

@@ -3,12 +3,14 @@
 mod constraints;
 mod determinacy;
 mod euler_lagrange;
+mod integrability;
 
 use crate::diagnostics::{Diagnostics, Place};
 use crate::resolve::{Problem, fault_message};
 use crate::symbolic::{Forward, Graph, Id, Symbol};
 use crate::variables::Variable;
 pub(crate) use constraints::ConstraintKind;
+pub(crate) use integrability::{Classification, Evidence, Integrability, Integrals, Kinds};
 
 /// M q̈ − Fᵀλ = h and F q̈ + γ = 0, every entry a node of the problem's graph.
 #[derive(Debug)]
@@ -24,6 +26,8 @@ pub(crate) struct Equations {
     /// E = p·q̇ − L
     pub(crate) energy: Id,
     pub(crate) kinds: Vec<ConstraintKind>,
+    /// What is integrable
+    pub(crate) integrability: Kinds,
     /// Φ of holonomic constraints, zero for the others
     pub(crate) residual: Vec<Id>,
     /// F q̇ + b
@@ -40,8 +44,14 @@ impl Equations {
     /// Every entry.
     pub(crate) fn roots(&self) -> Vec<Id> {
         let matrices = self.mass.iter().chain(&self.jacobian).flatten();
-        let vectors = [&self.momentum, &self.momentum_rate, &self.forcing, &self.residual, &self.rate, &self.bias];
-        matrices.chain(vectors.into_iter().flatten()).chain([&self.energy]).copied().collect()
+        let vectors =
+            [&self.momentum, &self.momentum_rate, &self.forcing, &self.residual, &self.rate, &self.bias];
+        matrices
+            .chain(vectors.into_iter().flatten())
+            .chain([&self.energy])
+            .chain(self.integrability.functions.iter().flatten())
+            .copied()
+            .collect()
     }
 }
 
@@ -52,7 +62,9 @@ pub(crate) fn derive(problem: &mut Problem, diagnostics: &mut Diagnostics) -> Op
     stop_at_fault(problem, problem.place, diagnostics)?;
     let constraints = constraints::derive(problem, diagnostics)?;
     determinacy::check(problem, &motion, &constraints, diagnostics)?;
+    let integrability = integrability::classify(problem, &constraints);
     Some(Equations {
+        integrability,
         momentum: motion.momentum,
         mass: motion.mass,
         momentum_rate: motion.momentum_rate,

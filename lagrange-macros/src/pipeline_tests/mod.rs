@@ -3,6 +3,7 @@
 mod counts;
 mod determinism;
 mod emitted;
+mod integrability;
 mod systems;
 
 use proc_macro2::TokenStream;

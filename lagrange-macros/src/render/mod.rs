@@ -1,9 +1,10 @@
 //! The system and its equations as text and as LaTeX. Nothing else writes any.
 
 mod formula;
+mod kinds;
 mod notation;
 
-use crate::mechanics::{ConstraintKind, Equations};
+use crate::mechanics::Equations;
 use crate::resolve::Problem;
 use crate::symbolic::{Id, Rational};
 use crate::syntax::{Declaration, Define, Name, TargetIndex};
@@ -20,16 +21,17 @@ pub(crate) struct Rendered {
     pub(crate) latex: String,
 }
 
-/// A heading and the lines below it: a label, an equation and a remark.
+/// A heading and the lines below it: a label, an equation and a remark. The note says what concerns all lines.
 struct Section {
     heading: &'static str,
     lines: Vec<Line>,
+    note: Option<String>,
 }
 
 struct Line {
     label: Option<String>,
     equation: Equation,
-    remark: &'static str,
+    remark: String,
 }
 
 enum Equation {
@@ -42,9 +44,13 @@ enum Equation {
 pub(crate) fn render(declaration: &Declaration, problem: &mut Problem, equations: &Equations) -> Rendered {
     let rows = motion(problem, equations);
     let sections = [
-        Section { heading: "Lagrangian", lines: lagrangian(declaration, problem) },
-        Section { heading: "Constraints", lines: constraints(declaration, problem, equations) },
-        Section { heading: "Equations of motion", lines: rows },
+        Section { heading: "Lagrangian", lines: lagrangian(declaration, problem), note: None },
+        Section {
+            heading: "Constraints",
+            lines: constraints(declaration, problem, equations),
+            note: equations.integrability.integrals.and_then(kinds::note),
+        },
+        Section { heading: "Equations of motion", lines: rows, note: None },
     ];
     let name = declaration.ident.to_string();
     Rendered { text: text(&name, &sections), latex: latex(&sections) }
@@ -54,7 +60,7 @@ fn lagrangian(declaration: &Declaration, problem: &Problem) -> Vec<Line> {
     let line = |left: Formula, right: &crate::syntax::Expression| Line {
         label: None,
         equation: Equation::Known(left, written(right, problem)),
-        remark: "",
+        remark: String::new(),
     };
     let name = |text: &str| Formula::labelled(text, 0);
     let mut lines: Vec<Line> = Vec::new();
@@ -95,8 +101,7 @@ fn constraints(declaration: &Declaration, problem: &Problem, equations: &Equatio
     let line = |constraint: &crate::syntax::Constraint| {
         let name = &constraint.target.name.text;
         let is_it = |text: &str| text == name || text.starts_with(&format!("{name}["));
-        let row = problem.constraints.iter().position(|(label, _)| is_it(&label.text));
-        let kind = row.map(|row| equations.kinds[row]);
+        let rows = (0..problem.constraints.len()).filter(|&row| is_it(&problem.constraints[row].0.text));
         Line {
             label: Some(Notation::Unicode.write(&target(
                 &constraint.target.name,
@@ -107,10 +112,7 @@ fn constraints(declaration: &Declaration, problem: &Problem, equations: &Equatio
                 written(&constraint.left, problem),
                 written(&constraint.right, problem),
             ),
-            remark: match kind {
-                Some(ConstraintKind::Velocity) => "on the velocities",
-                _ => "holonomic",
-            },
+            remark: kinds::remark(rows, problem, &equations.integrability),
         }
     };
     declaration.constraints.iter().map(line).collect()
@@ -143,7 +145,7 @@ fn motion(problem: &mut Problem, equations: &Equations) -> Vec<Line> {
                 false => Equation::TooLong(size),
             };
             let label = Notation::Unicode.write(&Formula::labelled(&problem.coordinates[i].text, 0));
-            Line { label: Some(label), equation, remark: "" }
+            Line { label: Some(label), equation, remark: String::new() }
         })
         .collect()
 }
@@ -164,7 +166,7 @@ fn symbols_to_read(problem: &Problem, root: Id) -> u64 {
 
 fn text(name: &str, sections: &[Section]) -> String {
     let mut text = format!("{name}\n");
-    for Section { heading, lines } in sections.iter().filter(|section| !section.lines.is_empty()) {
+    for Section { heading, lines, note } in sections.iter().filter(|section| !section.lines.is_empty()) {
         text += &format!("\n{heading}\n");
         let width =
             lines.iter().filter_map(|line| line.label.as_ref()).map(|label| label.chars().count()).max();
@@ -183,6 +185,7 @@ fn text(name: &str, sections: &[Section]) -> String {
             let remark = if remark.is_empty() { String::new() } else { format!("   ({remark})") };
             text += &format!("  {label}{equation}{remark}\n");
         }
+        text.extend(note.iter().map(|note| format!("  {note}\n")));
     }
     text
 }

@@ -311,11 +311,13 @@ impl Lowering<'_> {
 const CONSTRAINT_LIMIT: usize = 1000;
 
 /// Methods that every system has, or will have, and associated constants beside.
-pub(crate) const RESERVED: [&str; 39] = [
+pub(crate) const RESERVED: [&str; 42] = [
     "NAME",
     "COORDINATES",
     "CONSTRAINTS",
     "CONSTRAINT_KINDS",
+    "CONSTRAINT_CLASSES",
+    "INTEGRALS",
     "OBSERVABLES",
     "check_consistent",
     "lagrangian",
@@ -324,6 +326,7 @@ pub(crate) const RESERVED: [&str; 39] = [
     "mass_matrix",
     "forcing",
     "constraint_residual",
+    "constraint_integral",
     "constraint_rate",
     "constraint_jacobian",
     "constraint_bias",

@@ -1,6 +1,6 @@
 //! Values of expressions, with a bound on their rounding errors.
 
-use num_traits::ToPrimitive;
+use num_traits::{One, ToPrimitive};
 
 use super::graph::{Function, Graph, Id, Node, Symbol};
 use super::rational::{Rational, to_f64};
@@ -28,6 +28,22 @@ impl Approximate {
         let (x, y) = (self, other);
         let inherited = x.error * y.value.abs() + y.error * x.value.abs() + x.error * y.error;
         Self::rounded(x.value * y.value, inherited)
+    }
+
+    /// self − factor · other
+    pub(super) fn minus(self, factor: Self, other: Self) -> Self {
+        let product = factor.times(other);
+        self.plus(Self { value: -product.value, ..product })
+    }
+
+    /// self / other, where other is not zero.
+    pub(super) fn over(self, other: Self) -> Self {
+        self.times(power(other, -Rational::one()))
+    }
+
+    /// Whether its error bound excludes zero.
+    pub(crate) fn is_nonzero(self) -> bool {
+        self.value.abs() > self.error
     }
 
     /// The least and the greatest absolute value that the exact one may have.
@@ -69,6 +85,25 @@ impl Graph {
             values[id.index()] = result;
         }
         result
+    }
+
+    /// The values of the nodes that have none yet, in order of their ids; `symbol` and `external` give those of
+    /// what has no operands.
+    pub(super) fn extend_values(
+        &self,
+        values: &mut Vec<Approximate>,
+        symbol: impl Fn(Symbol) -> Approximate,
+        external: impl Fn(Id) -> f64,
+    ) {
+        for index in values.len()..self.len() {
+            let id = Id(index as u32);
+            let value = match self.node(id) {
+                Node::External(_) => Approximate { value: external(id), error: 0.0 },
+                Node::Symbol(name) => symbol(*name),
+                _ => self.value_of(id, values, &mut |_| f64::NAN),
+            };
+            values.push(value);
+        }
     }
 
     fn value_of(

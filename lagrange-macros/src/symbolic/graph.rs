@@ -180,6 +180,16 @@ impl Graph {
         }
     }
 
+    /// What is multiplied in `id`, without numbers and exponents.
+    pub(crate) fn factors(&self, id: Id) -> Vec<Id> {
+        match self.node(id) {
+            Node::Number(_) => Vec::new(),
+            Node::Sum(terms) if terms.len() == 1 => self.factors(terms[0].0),
+            Node::Product(factors) => factors.iter().map(|&(factor, _)| factor).collect(),
+            _ => vec![id],
+        }
+    }
+
     /// All nodes that `roots` are made of, operands before what uses them.
     pub(crate) fn reachable(&self, roots: &[Id]) -> Vec<Id> {
         let mut seen = vec![false; self.len()];

@@ -3,16 +3,23 @@
 //! Nothing here knows a token or a Lagrangian. Nodes are only ever added, children before parents, so a
 //! walk in order of [`Id`] is a walk from the leaves up, and no algorithm needs recursion.
 
+mod antiderivative;
 mod differentiate;
 mod evaluate;
 mod graph;
+mod rank;
 mod rational;
+mod rebuild;
+mod sample;
 mod simplify;
 #[cfg(test)]
 mod tests;
 mod zero;
 
 pub(crate) use differentiate::Forward;
+pub(crate) use evaluate::Approximate;
 pub(crate) use graph::{External, Fault, Function, Graph, Id, Node, Symbol};
+pub(crate) use rank::rank;
 pub(crate) use rational::{Rational, parse_decimal, to_f64};
+pub(crate) use sample::Sample;
 pub(crate) use zero::Verdict;

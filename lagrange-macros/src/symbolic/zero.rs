@@ -1,8 +1,6 @@
 //! Is an expression zero everywhere?
 
-use rustc_hash::FxHashMap;
-
-use super::graph::{External, Graph, Id, Node, Symbol};
+use super::graph::{Graph, Id, Symbol};
 
 /// How sure the answer is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -33,11 +31,9 @@ impl Graph {
         for draw in 0..DRAWS {
             let symbol = |symbol: Symbol| {
                 let (low, high) = range(symbol);
-                low + (high - low) * random(u64::from(symbol.family), u64::from(symbol.index), draw)
+                low + (high - low) * random_symbol(symbol, draw)
             };
-            // An unknown function and its derivatives have values of their own at every argument.
-            let external = |id: Id| 2.0 * random(u64::MAX, id.index() as u64, draw) - 1.0;
-            let sample = self.evaluate_in(&order, symbol, external);
+            let sample = self.evaluate_in(&order, symbol, |id| random_external(id, draw));
             // Outside its domain an expression has no value: draw again.
             if !sample.value.is_finite() || !sample.error.is_finite() {
                 continue;
@@ -52,45 +48,16 @@ impl Graph {
         }
         if held > 0 { Verdict::Held(held) } else { Verdict::Undecided }
     }
+}
 
-    /// The same expression without the boundaries of definitions; itself where that expression would be at
-    /// fault: what is hidden by a boundary may be zero, and divided by.
-    pub(crate) fn looked_through(&mut self, root: Id) -> Id {
-        let fault_before = self.take_fault();
-        let mut new: FxHashMap<Id, Id> = FxHashMap::default();
-        for id in self.reachable(&[root]) {
-            let rebuilt = self.rebuilt(id, |operand| new[&operand]);
-            new.insert(id, rebuilt);
-        }
-        let faulty = self.take_fault().is_some();
-        if let Some(fault) = fault_before {
-            self.fail(fault);
-        }
-        if faulty { root } else { new[&root] }
-    }
+/// A number in [0, 1) for a symbol.
+pub(super) fn random_symbol(symbol: Symbol, draw: u64) -> f64 {
+    random(u64::from(symbol.family), u64::from(symbol.index), draw)
+}
 
-    fn rebuilt(&mut self, id: Id, new: impl Fn(Id) -> Id) -> Id {
-        match *self.node(id) {
-            Node::Sum(ref terms) => {
-                let terms: Vec<_> = terms.iter().map(|&(term, c)| (new(term), c)).collect();
-                self.sum(terms)
-            }
-            Node::Product(ref factors) => {
-                let factors: Vec<_> = factors.iter().map(|&(factor, e)| (new(factor), e)).collect();
-                self.product(factors)
-            }
-            Node::Function(function, x) => self.function(function, new(x)),
-            Node::Atan2(y, x) => self.atan2(new(y), new(x)),
-            Node::Power(base, exponent) => self.power(new(base), new(exponent)),
-            Node::Defined(inner) => new(inner),
-            Node::External(ref external) => {
-                let arguments = external.arguments.iter().map(|&x| new(x)).collect();
-                let external = External { arguments, ..(**external).clone() };
-                self.external(external)
-            }
-            Node::Number(_) | Node::Pi | Node::Symbol(_) => id,
-        }
-    }
+/// An unknown function and its derivatives have values of their own at every argument.
+pub(super) fn random_external(id: Id, draw: u64) -> f64 {
+    2.0 * random(u64::MAX, id.index() as u64, draw) - 1.0
 }
 
 /// A number in [0, 1) that depends on nothing but its arguments (Steele, Lea and Flood's SplitMix64).

@@ -8,6 +8,12 @@ const _: () = {
         const COORDINATES: [&'static str; 1usize] = ["theta"];
         const CONSTRAINTS: [&'static str; 0usize] = [];
         const CONSTRAINT_KINDS: [__lagrange::ConstraintKind; 0usize] = [];
+        const CONSTRAINT_CLASSES: [__lagrange::Classification; 0usize] = [];
+        const INTEGRALS: ::core::option::Option<__lagrange::Integrals> = ::core::option::Option::Some(__lagrange::Integrals {
+            count: 0usize,
+            of: 0usize,
+            evidence: __lagrange::Evidence::Proved,
+        });
         const OBSERVABLES: &'static [&'static str] = &[];
         ///9 operations (+ − × ÷ √), 1 elementary function.
         #[inline]

@@ -1,11 +1,13 @@
 //! Properties of the graph on random expressions, each checked against an independent computation.
 
+mod antiderivative;
 mod bounds;
 mod canonical;
 mod derivatives;
 mod double;
 mod faults;
 mod rationals;
+mod sample;
 mod tree;
 mod values;
 mod zero;

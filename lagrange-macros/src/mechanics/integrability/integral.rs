@@ -1,0 +1,65 @@
+//! The function whose rate of change an integrable constraint is.
+
+use num_traits::One;
+
+use super::Integrability;
+use super::space::{Form, Space};
+use crate::resolve::Problem;
+use crate::symbolic::{Graph, Id, Rational, Symbol, Verdict};
+
+/// I(q, t) with dI = ω, or dI = μ ω for some simple factors μ, in the problem's graph; `None` where none is
+/// found by integrating term by term.
+pub(super) fn of(problem: &mut Problem, space: &mut Space, form: &Form, kind: Integrability) -> Option<Id> {
+    let candidates = match kind {
+        Integrability::Exact => vec![form.clone()],
+        Integrability::IntegratingFactor => divided(&mut space.graph, form),
+        _ => Vec::new(),
+    };
+    let Space { graph, symbols, .. } = space;
+    let integral = candidates.iter().find_map(|form| {
+        let integral = potential(graph, symbols, form)?;
+        is_potential(graph, symbols, form, integral, problem).then_some(integral)
+    })?;
+    let copy = problem.graph.copied(graph, &[integral])[0];
+    problem.graph.take_fault().is_none().then_some(copy)
+}
+
+/// The form divided by each factor of its coefficients, by its square, and by all factors.
+fn divided(graph: &mut Graph, form: &Form) -> Vec<Form> {
+    let mut factors: Vec<Id> = form.iter().flat_map(|&entry| graph.factors(entry)).collect();
+    factors.sort_unstable();
+    factors.dedup();
+    let one = Rational::one();
+    let mut divisors = factors.clone();
+    divisors.extend(factors.iter().map(|&factor| graph.square(factor)));
+    divisors.push(graph.product(factors.iter().map(|&factor| (factor, one))));
+    divisors
+        .into_iter()
+        .map(|divisor| form.iter().map(|&entry| graph.div(entry, divisor)).collect())
+        .collect()
+}
+
+/// Integrates along one variable after the other what the earlier ones have left.
+fn potential(graph: &mut Graph, symbols: &[Symbol], form: &Form) -> Option<Id> {
+    let mut rest = form.clone();
+    let mut integral = Id::ZERO;
+    for (k, &symbol) in symbols.iter().enumerate() {
+        let part = if rest[k] == Id::ZERO { Id::ZERO } else { graph.antiderivative(rest[k], symbol)? };
+        let slopes = graph.gradient(part, symbols);
+        for (rest, slope) in rest.iter_mut().zip(slopes) {
+            *rest = graph.sub(*rest, slope);
+        }
+        integral = graph.add(integral, part);
+    }
+    Some(integral)
+}
+
+/// Whether the gradient of `integral` is the form.
+fn is_potential(graph: &mut Graph, symbols: &[Symbol], form: &Form, integral: Id, problem: &Problem) -> bool {
+    let gradient = graph.gradient(integral, symbols);
+    gradient.into_iter().zip(form).all(|(slope, &entry)| {
+        let difference = graph.sub(slope, entry);
+        let verdict = graph.is_zero(difference, |symbol| problem.range(symbol));
+        matches!(verdict, Verdict::Zero | Verdict::Held(_)) && graph.take_fault().is_none()
+    })
+}

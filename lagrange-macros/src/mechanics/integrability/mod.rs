@@ -1,0 +1,136 @@
+//! What kind of constraint it is: holonomic, integrable, or truly nonholonomic.
+//!
+//! A velocity constraint F q̇ + b = 0 is a form ω = F dq + b dt in the space of (q, t), and the motions that it
+//! allows are curves along which ω = 0 and t increases. So the allowed directions are spanned by vector fields
+//! X with ω(X) = 0, one of which goes along t and is never left out. Functions that are constant along every
+//! motion are those that no X changes, hence no bracket [X, Y], [X, [X, Y]] … either: of r constraints, as many
+//! are integrable as the brackets leave directions unreached (Frobenius; Chow; the derived flag of Bryant et
+//! al., *Exterior Differential Systems*, II.1 and II.4). Holonomic constraints enter by dΦ, and everything is
+//! evaluated on Φ = 0.
+
+mod distribution;
+mod integral;
+mod space;
+
+use super::ConstraintKind;
+use super::constraints::Constraints;
+use crate::resolve::Problem;
+use crate::symbolic::Id;
+use distribution::{Closure, Distribution};
+use space::{Form, Space};
+
+/// As the enumeration of the same name in lagrange-core, which documents it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Integrability {
+    Holonomic,
+    Exact,
+    IntegratingFactor,
+    Together,
+    Nonholonomic,
+    Undecided,
+}
+
+/// How sure a verdict is: proved, or held at this many points.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Evidence {
+    Proved,
+    Held(u32),
+}
+
+impl Evidence {
+    /// Of a verdict that rests on two others.
+    fn and(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Proved, other) | (other, Self::Proved) => other,
+            (Self::Held(first), Self::Held(second)) => Self::Held(first.min(second)),
+        }
+    }
+}
+
+/// The verdict on one constraint.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Classification {
+    pub(crate) integrability: Integrability,
+    pub(crate) evidence: Evidence,
+}
+
+/// The verdict on the velocity constraints as a set.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Integrals {
+    pub(crate) count: usize,
+    pub(crate) of: usize,
+    pub(crate) evidence: Evidence,
+}
+
+/// The verdicts on all constraints.
+#[derive(Clone, Debug)]
+pub(crate) struct Kinds {
+    pub(crate) classes: Vec<Classification>,
+    /// `None` where it could not be decided.
+    pub(crate) integrals: Option<Integrals>,
+    /// For each constraint the function whose rate it is, as written or times a factor, where it was found.
+    pub(crate) functions: Vec<Option<Id>>,
+}
+
+/// Classifies every constraint and the set of them.
+pub(super) fn classify(problem: &mut Problem, constraints: &Constraints) -> Kinds {
+    let classes = constraints.kinds.iter().map(|kind| match kind {
+        ConstraintKind::Holonomic => verdict(Integrability::Holonomic, Evidence::Proved),
+        ConstraintKind::Velocity => verdict(Integrability::Undecided, Evidence::Held(0)),
+    });
+    let count = constraints.kinds.len();
+    let mut kinds = Kinds { classes: classes.collect(), integrals: None, functions: vec![None; count] };
+    if !constraints.kinds.contains(&ConstraintKind::Velocity) {
+        kinds.integrals = Some(Integrals { count: 0, of: 0, evidence: Evidence::Proved });
+    } else if let Some(mut space) = Space::new(problem, constraints) {
+        fill(problem, &mut space, &mut kinds);
+    }
+    kinds
+}
+
+fn verdict(integrability: Integrability, evidence: Evidence) -> Classification {
+    Classification { integrability, evidence }
+}
+
+fn fill(problem: &mut Problem, space: &mut Space, kinds: &mut Kinds) {
+    let rows = space.velocity.clone();
+    let forms: Vec<Form> = rows.iter().map(|(_, form)| form.clone()).collect();
+    let set = Distribution::new(space, &forms);
+    let set = set.and_then(|set| set.closure(space).map(|closure| (set, closure)));
+    kinds.integrals = set.as_ref().map(|(set, closure)| {
+        let of = set.independent();
+        Integrals { count: of - closure.reached.len(), of, evidence: closure.evidence }
+    });
+    for (row, form) in rows {
+        if let Some(class) = classify_row(space, &form, set.as_ref()) {
+            kinds.classes[row] = class;
+            kinds.functions[row] = integral::of(problem, space, &form, class.integrability);
+        }
+        space.settled();
+    }
+}
+
+fn classify_row(
+    space: &mut Space,
+    form: &Form,
+    set: Option<&(Distribution, Closure)>,
+) -> Option<Classification> {
+    let manifold = Distribution::new(space, &[])?;
+    let curl = manifold.curl(space, form);
+    space.settled()?;
+    let (closed, evidence) = space.vanish(&curl)?;
+    if closed {
+        return Some(verdict(Integrability::Exact, evidence));
+    }
+    let alone = Distribution::new(space, std::slice::from_ref(form))?.closure(space)?;
+    if alone.reached.is_empty() {
+        return Some(verdict(Integrability::IntegratingFactor, alone.evidence.and(evidence)));
+    }
+    let (set, closure) = set?;
+    let along: Vec<Id> = closure.reached.iter().map(|parts| set.along_pivots(space, form, parts)).collect();
+    let (unreached, evidence) = space.vanish(&along)?;
+    Some(match unreached {
+        true => verdict(Integrability::Together, evidence.and(closure.evidence).and(space.seen())),
+        false => verdict(Integrability::Nonholonomic, evidence),
+    })
+}

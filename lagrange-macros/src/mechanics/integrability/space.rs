@@ -1,0 +1,119 @@
+//! The space of (q, t), the constraints as forms on it, and the points at which they are judged.
+
+use super::Evidence;
+use crate::mechanics::constraints::Constraints;
+use crate::mechanics::{ConstraintKind, symbols};
+use crate::resolve::Problem;
+use crate::symbolic::{Approximate, Graph, Id, Sample};
+use crate::symbolic::{Symbol, rank};
+use crate::variables::Variable;
+
+/// So many points are looked at, and so many draws made to find them.
+const POINTS: usize = 8;
+const DRAWS: u64 = 64;
+
+/// ω = Σ F_a dq_a + b dt: the coefficients, time's the last.
+pub(super) type Form = Vec<Id>;
+
+/// A graph of its own, without the boundaries of definitions, so that what vanishes is seen to.
+pub(super) struct Space {
+    pub(super) graph: Graph,
+    /// The coordinates and, last, time.
+    pub(super) symbols: Vec<Symbol>,
+    /// dΦ of the holonomic constraints.
+    pub(super) holonomic: Vec<Form>,
+    /// The velocity constraints, each with its number.
+    pub(super) velocity: Vec<(usize, Form)>,
+    samples: Vec<Sample>,
+}
+
+impl Space {
+    /// `None` where the forms are at fault or no point was found on Φ = 0.
+    pub(super) fn new(problem: &Problem, constraints: &Constraints) -> Option<Self> {
+        let n = problem.coordinates.len();
+        let mut symbols = symbols(n, Variable::Coordinate);
+        symbols.push(Variable::Time.symbol());
+        let mut space = Self {
+            graph: Graph::default(),
+            symbols,
+            holonomic: Vec::new(),
+            velocity: Vec::new(),
+            samples: Vec::new(),
+        };
+        let is_holonomic = |row: &usize| constraints.kinds[*row] == ConstraintKind::Holonomic;
+        let (holonomic, velocity): (Vec<_>, Vec<_>) = (0..constraints.kinds.len()).partition(is_holonomic);
+        let residuals: Vec<Id> = holonomic.iter().map(|&row| constraints.residual[row]).collect();
+        let residuals = space.graph.copied(&problem.graph, &residuals);
+        space.holonomic =
+            residuals.iter().map(|&residual| space.graph.gradient(residual, &space.symbols)).collect();
+        for row in velocity {
+            let rate = space.graph.copied(&problem.graph, &[constraints.rate[row]])[0];
+            let form = space.form(rate, n);
+            space.velocity.push((row, form));
+        }
+        space.settled()?;
+        space.draw(&residuals, problem);
+        (!space.samples.is_empty()).then_some(space)
+    }
+
+    /// The coefficients of what is affine in the velocities.
+    fn form(&mut self, rate: Id, n: usize) -> Form {
+        let velocities = symbols(n, Variable::Velocity);
+        let mut form = self.graph.gradient(rate, &velocities);
+        // Where every velocity is 0 there is only b.
+        let at_rest = self.graph.substituted(rate, |symbol| velocities.contains(&symbol).then_some(Id::ZERO));
+        form.push(at_rest);
+        form
+    }
+
+    fn draw(&mut self, residuals: &[Id], problem: &Problem) {
+        let forms = self.holonomic.iter().chain(self.velocity.iter().map(|(_, form)| form));
+        let roots: Vec<Id> = forms.flatten().copied().collect();
+        let symbols: Vec<Symbol> = self.graph.symbols(&[residuals, &roots].concat()).collect();
+        let coordinates = &self.symbols[..self.symbols.len() - 1];
+        let samples = (0..DRAWS).filter_map(|draw| {
+            let mut sample = Sample::new(symbols.iter().copied(), draw, |symbol| problem.range(symbol));
+            sample.project(&self.graph, residuals, coordinates)?;
+            sample.values(&self.graph, &roots)?;
+            Some(sample)
+        });
+        self.samples = samples.take(POINTS).collect();
+    }
+
+    /// `None` where arithmetic failed or the expressions have grown out of hand.
+    pub(super) fn settled(&mut self) -> Option<()> {
+        const LIMIT: usize = 100_000;
+        (self.graph.take_fault().is_none() && self.graph.len() < LIMIT).then_some(())
+    }
+
+    /// The values at the points where all of `roots` have one.
+    pub(super) fn values(&mut self, roots: &[Id]) -> Vec<Vec<Approximate>> {
+        self.samples.iter_mut().filter_map(|sample| sample.values(&self.graph, roots)).collect()
+    }
+
+    /// Whether all of `roots` vanish, and how sure that is; `None` where they have no values.
+    pub(super) fn vanish(&mut self, roots: &[Id]) -> Option<(bool, Evidence)> {
+        if roots.iter().all(|&root| root == Id::ZERO) {
+            return Some((true, Evidence::Proved));
+        }
+        let values = self.values(roots);
+        if values.is_empty() {
+            return None;
+        }
+        let nonzero = values.iter().flatten().any(|value| value.is_nonzero());
+        Some(if nonzero { (false, self.seen()) } else { (true, Evidence::Held(values.len() as u32)) })
+    }
+
+    /// The greatest rank of `rows` at any point, and the number of points; `None` where they have no values.
+    pub(super) fn rank(&mut self, rows: &[&[Id]]) -> Option<(usize, u32)> {
+        let width = rows.first()?.len();
+        let values = self.values(&rows.concat());
+        let ranks = values.iter().map(|at| rank(at.chunks(width).map(<[_]>::to_vec).collect()));
+        Some((ranks.max()?, values.len() as u32))
+    }
+
+    /// How sure it is that a value is not zero: on Φ = 0 the points are only computed.
+    pub(super) fn seen(&self) -> Evidence {
+        if self.holonomic.is_empty() { Evidence::Proved } else { Evidence::Held(self.samples.len() as u32) }
+    }
+}

@@ -1,0 +1,72 @@
+//! Expressions built anew: without boundaries, or in another graph.
+
+use rustc_hash::FxHashMap;
+
+use super::graph::{External, Graph, Id, Node, Symbol};
+
+impl Graph {
+    /// The same expression without the boundaries of definitions; itself where that expression would be at
+    /// fault: what is hidden by a boundary may be zero, and divided by.
+    pub(crate) fn looked_through(&mut self, root: Id) -> Id {
+        let fault_before = self.take_fault();
+        let mut new: FxHashMap<Id, Id> = FxHashMap::default();
+        for id in self.reachable(&[root]) {
+            let node = self.node(id).clone();
+            let rebuilt = self.rebuilt(&node, |operand| new[&operand]);
+            new.insert(id, rebuilt);
+        }
+        let faulty = self.take_fault().is_some();
+        if let Some(fault) = fault_before {
+            self.fail(fault);
+        }
+        if faulty { root } else { new[&root] }
+    }
+
+    /// The expressions `roots` of `source` in this graph, without the boundaries of definitions.
+    pub(crate) fn copied(&mut self, source: &Self, roots: &[Id]) -> Vec<Id> {
+        let mut new: FxHashMap<Id, Id> = FxHashMap::default();
+        for id in source.reachable(roots) {
+            let copy = self.rebuilt(source.node(id), |operand| new[&operand]);
+            new.insert(id, copy);
+        }
+        roots.iter().map(|root| new[root]).collect()
+    }
+
+    /// The expression with other expressions in the place of symbols.
+    pub(crate) fn substituted(&mut self, root: Id, replacement: impl Fn(Symbol) -> Option<Id>) -> Id {
+        let mut new: FxHashMap<Id, Id> = FxHashMap::default();
+        for id in self.reachable(&[root]) {
+            let node = self.node(id).clone();
+            let replaced = match node {
+                Node::Symbol(symbol) => replacement(symbol),
+                _ => None,
+            };
+            let rebuilt = replaced.unwrap_or_else(|| self.rebuilt(&node, |operand| new[&operand]));
+            new.insert(id, rebuilt);
+        }
+        new[&root]
+    }
+
+    fn rebuilt(&mut self, node: &Node, new: impl Fn(Id) -> Id) -> Id {
+        match *node {
+            Node::Sum(ref terms) => {
+                let terms: Vec<_> = terms.iter().map(|&(term, c)| (new(term), c)).collect();
+                self.sum(terms)
+            }
+            Node::Product(ref factors) => {
+                let factors: Vec<_> = factors.iter().map(|&(factor, e)| (new(factor), e)).collect();
+                self.product(factors)
+            }
+            Node::Function(function, x) => self.function(function, new(x)),
+            Node::Atan2(y, x) => self.atan2(new(y), new(x)),
+            Node::Power(base, exponent) => self.power(new(base), new(exponent)),
+            Node::Defined(inner) => new(inner),
+            Node::External(ref external) => {
+                let arguments = external.arguments.iter().map(|&x| new(x)).collect();
+                let external = External { arguments, ..(**external).clone() };
+                self.external(external)
+            }
+            Node::Number(_) | Node::Pi | Node::Symbol(_) => self.intern(node.clone()),
+        }
+    }
+}
