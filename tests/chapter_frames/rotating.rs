@@ -39,7 +39,7 @@ impl Rotating {
     }
 
     fn force(&self, state: &State<f64, 3>) -> Vector3<f64> {
-        self.m * self.solve(state).unwrap().accelerations
+        self.m * self.accelerations(state).accelerations
     }
 
     fn angular_velocity(&self, t: f64) -> Vector3<f64> {
@@ -57,7 +57,7 @@ impl Rotating {
     }
 
     /// The state as seen from the inertial frame: R + Q r and Ṙ + Q (v + Ω×r).
-    fn from_outside(&self, state: &State<f64, 3>) -> State<f64, 3> {
+    fn seen_from_outside(&self, state: &State<f64, 3>) -> State<f64, 3> {
         let (frame, t) = (self.rotation.0, state.t);
         let [origin, velocity] = [frame.origin(t), frame.velocity(t)].map(Vector3::from);
         let carried = state.v + self.angular_velocity(t).cross(&state.q);
@@ -79,7 +79,7 @@ fn canonical_momentum_8_45() {
         let exact = system.m * (state.v + system.angular_velocity(state.t).cross(&state.q));
         close(p, exact, 1e-12, 1.0 + exact.norm());
         let velocity: Vector3<f64> = system.rotation.0.velocity(state.t).into();
-        let outside = system.m * (system.from_outside(&state).v - velocity);
+        let outside = system.m * (system.seen_from_outside(&state).v - velocity);
         close(system.rotation.0.axes(state.t) * p, outside, 1e-12, 1.0 + exact.norm());
     }
 }
@@ -193,9 +193,9 @@ fn same_motion_as_in_the_inertial_frame() {
     let start = State::new([0.5, -0.3, 0.2], [0.1, 0.4, -0.2]);
     let method = Dop853::with_tolerance(1e-12);
     let inside = system.integrate(start, 50.0, method).unwrap();
-    let outside = inertial.integrate(system.from_outside(&start), 50.0, method).unwrap();
+    let outside = inertial.integrate(system.seen_from_outside(&start), 50.0, method).unwrap();
     let apart = largest(inside.samples(1001).zip(outside.samples(1001)).flat_map(|(a, b)| {
-        let seen = system.from_outside(a.state());
+        let seen = system.seen_from_outside(a.state());
         [(seen.q - b.state().q).norm(), (seen.v - b.state().v).norm()]
     }));
     assert!(apart < 1e-8, "{apart:e}");
@@ -213,7 +213,7 @@ fn energy_in_a_uniformly_rotating_frame_8_51() {
     let mut outside = Vec::new();
     for sample in path.samples(501) {
         let state = sample.state();
-        let seen = system.from_outside(state);
+        let seen = system.seen_from_outside(state);
         let angular_momentum = seen.q.cross(&inertial.momentum(&seen));
         let found = inertial.energy(&seen) - angular_momentum[2] * 0.7;
         assert!((system.energy(state) - found).abs() < 1e-12 * (1.0 + found.abs()));
