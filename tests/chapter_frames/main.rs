@@ -1,0 +1,13 @@
+//! Noninertial frames: Milton (8.32)–(8.51), and systems in them with a known motion.
+
+mod accelerating;
+mod functions;
+#[path = "../derivatives/random.rs"]
+mod random;
+mod references;
+mod rotating;
+
+/// The largest of some deviations; not a number if one of them is not.
+fn largest(deviations: impl IntoIterator<Item = f64>) -> f64 {
+    deviations.into_iter().fold(0.0, |worst, d| if d > worst || d.is_nan() { d } else { worst })
+}
