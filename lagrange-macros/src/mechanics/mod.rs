@@ -40,7 +40,8 @@ impl Equations {
     /// Every entry.
     pub(crate) fn roots(&self) -> Vec<Id> {
         let matrices = self.mass.iter().chain(&self.jacobian).flatten();
-        let vectors = [&self.momentum, &self.momentum_rate, &self.forcing, &self.residual, &self.rate, &self.bias];
+        let vectors =
+            [&self.momentum, &self.momentum_rate, &self.forcing, &self.residual, &self.rate, &self.bias];
         matrices.chain(vectors.into_iter().flatten()).chain([&self.energy]).copied().collect()
     }
 }
