@@ -42,10 +42,10 @@ fn random_angles(seed: &mut u64) -> State<f64, 20> {
 fn in_the_plane(l: &[f64; 20], angles: &State<f64, 20>) -> State<f64, 40> {
     let mut state = State::at_rest([0.0; 40]);
     let (mut x, mut y, mut vx, mut vy) = (0.0, 0.0, 0.0, 0.0);
-    for i in 0..20 {
+    for (i, l) in l.iter().enumerate() {
         let (sine, cosine) = angles.q[i].sin_cos();
-        (x, y) = (x + l[i] * sine, y - l[i] * cosine);
-        (vx, vy) = (vx + l[i] * cosine * angles.v[i], vy + l[i] * sine * angles.v[i]);
+        (x, y) = (x + l * sine, y - l * cosine);
+        (vx, vy) = (vx + l * cosine * angles.v[i], vy + l * sine * angles.v[i]);
         (state.q[i], state.q[20 + i], state.v[i], state.v[20 + i]) = (x, y, vx, vy);
     }
     state
@@ -128,9 +128,8 @@ fn a_singular_pose_is_noticed() {
                 let force = f.tr_mul(&solution.multipliers);
                 assert!((push - force).amax() < 1e-7 * (1.0 + force.amax()), "{distance:e}: {push} {force}");
             }
-            Err(error) => {
-                assert!(matches!(error, Error::Contradictory { .. } | Error::Singular { .. }), "{error}")
-            }
+            Err(Error::Contradictory { .. } | Error::Singular { .. }) => {}
+            Err(error) => panic!("{error}"),
         }
     }
     let folded = State::new([0.0, 1.0, 0.0], [1.0, 0.0, 2.0]);
