@@ -184,6 +184,12 @@ impl<S: Scalar> Scalar for Dual<S> {
         Self { value, slope }
     }
 
+    /// As [`min`](Self::min).
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        -(-self).min(-other)
+    }
+
     /// The smaller value; its slope is that of the smaller where they differ, and their mean where they agree.
     #[inline(always)]
     fn min(self, other: Self) -> Self {

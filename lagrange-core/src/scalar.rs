@@ -57,6 +57,8 @@ pub trait Scalar:
     fn powf(self, exponent: Self) -> Self;
     /// The smaller of the two, lane by lane.
     fn min(self, other: Self) -> Self;
+    /// The larger of the two, lane by lane.
+    fn max(self, other: Self) -> Self;
 }
 
 macro_rules! through_simba {
@@ -84,7 +86,7 @@ impl<T: SimdRealField + SupersetOf<f64> + Copy + Debug + 'static> Scalar for T {
         asin => simd_asin(), acos => simd_acos(), atan => simd_atan(), atan2 => simd_atan2(x),
         sinh => simd_sinh(), cosh => simd_cosh(), tanh => simd_tanh(),
         exp => simd_exp(), ln => simd_ln(), sqrt => simd_sqrt(), abs => simd_abs(),
-        powf => simd_powf(exponent), min => simd_min(other),
+        powf => simd_powf(exponent), min => simd_min(other), max => simd_max(other),
     }
 }
 

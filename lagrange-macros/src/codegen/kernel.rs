@@ -144,6 +144,12 @@ impl<'a> Style<'a> {
     /// Computes `roots`.
     pub(super) fn kernel(&self, roots: &[Id]) -> Kernel {
         let schedule = Schedule::new(&self.problem.graph, roots);
+        let results: Vec<Register> = roots.iter().map(|&root| schedule.register(root)).collect();
+        self.write(&schedule, &results)
+    }
+
+    /// The schedule as statements, and where its results are.
+    pub(super) fn write(&self, schedule: &Schedule, roots: &[Register]) -> Kernel {
         let mut writer = Writer {
             style: self,
             uses: schedule.uses(roots),
@@ -159,9 +165,9 @@ impl<'a> Style<'a> {
             }
         }
         for (index, &operation) in schedule.operations.iter().enumerate() {
-            writer.write(index, operation, &schedule);
+            writer.write(index, operation, schedule);
         }
-        let results: Vec<_> = roots.iter().map(|&root| writer.value(schedule.register(root))).collect();
+        let results: Vec<_> = roots.iter().map(|&root| writer.value(root)).collect();
         let used: Vec<Symbol> = schedule
             .operations
             .iter()
@@ -211,8 +217,11 @@ impl Writer<'_, '_> {
                 return;
             }
             _ => {
-                let depth =
-                    1 + schedule.operands(operation).map(|operand| self.values[operand.index()].1).max().unwrap_or(0);
+                let depth = 1 + schedule
+                    .operands(operation)
+                    .map(|operand| self.values[operand.index()].1)
+                    .max()
+                    .unwrap_or(0);
                 let tokens = self.operation(operation);
                 if self.uses[index] == 1 && depth < NESTING {
                     (quote!((#tokens)), depth)
@@ -235,6 +244,8 @@ impl Writer<'_, '_> {
             Operation::Subtract(x, y) => infix(value(x), quote!(-), value(y)),
             Operation::Multiply(x, y) => infix(value(x), quote!(*), value(y)),
             Operation::Divide(x, y) => infix(value(x), quote!(/), value(y)),
+            Operation::Minimum(x, y) => call("min", &[value(x), value(y)]),
+            Operation::Maximum(x, y) => call("max", &[value(x), value(y)]),
             Operation::SquareRoot(x) => call("sqrt", &[value(x)]),
             Operation::Function(function, x) => call(function_name(function), &[value(x)]),
             Operation::Atan2(y, x) => call("atan2", &[value(y), value(x)]),
@@ -253,7 +264,11 @@ impl Writer<'_, '_> {
         if !self.written_calls.insert(call) {
             return;
         }
-        let used = |output: u32| schedule.find(Operation::Result { call, output }).is_some_and(|register| self.uses[register.index()] > 0);
+        let used = |output: u32| {
+            schedule
+                .find(Operation::Result { call, output })
+                .is_some_and(|register| self.uses[register.index()] > 0)
+        };
         let outputs: Vec<u32> = (0..function.outputs as u32).filter(|&output| used(output)).collect();
         let pattern = (0..function.outputs as u32).map(|output| match outputs.contains(&output) {
             true => {
@@ -272,7 +287,9 @@ impl Writer<'_, '_> {
             _ => quote!(Third::third),
         };
         let by = if derivatives.is_empty() { quote!() } else { quote!(, [#(#by),*]) };
-        self.assignments.push(quote! { [#(#pattern),*] = __lagrange::function::#method(&self.#field, [#(#arguments),*] #by); });
+        self.assignments.push(
+            quote! { [#(#pattern),*] = __lagrange::function::#method(&self.#field, [#(#arguments),*] #by); },
+        );
         self.locals.extend(outputs.into_iter().map(name));
     }
 

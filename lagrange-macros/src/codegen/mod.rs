@@ -1,5 +1,7 @@
 //! From [`Equations`] to Rust. Nothing else writes any.
 
+mod accelerations;
+mod eliminate;
 mod integrability;
 mod kernel;
 mod schedule;
@@ -18,6 +20,7 @@ use crate::resolve::{Label, Problem, Supplied};
 use crate::symbolic::{Id, Node};
 use crate::syntax::Declaration;
 use crate::variables::Variable;
+use accelerations::Fused;
 use kernel::{Kernel, Style};
 pub(crate) use schedule::Count;
 pub(crate) use stub::stub;
@@ -40,7 +43,7 @@ pub(crate) fn implementation(
     let style = Style::new(problem, scalar);
     let emitter = Emitter { declaration, problem, equations, rendered, style: &style };
     let fused = emitter.fused();
-    let Count { arithmetic, functions, .. } = fused.count;
+    let Count { arithmetic, functions, .. } = fused.kernel.count;
     if arithmetic + functions > OPERATION_LIMIT {
         diagnostics.error(problem.place, format!(
             "the equations of motion take {arithmetic} operations and {functions} elementary functions, beyond what rustc compiles in one function ({OPERATION_LIMIT}): name what recurs with `#[define(…)]`, recursively along chains, so that it is shared"
@@ -60,7 +63,18 @@ pub(crate) fn implementation(
 /// What computing `roots` together takes.
 #[cfg(test)]
 pub(crate) fn operations(graph: &crate::symbolic::Graph, roots: &[Id]) -> Count {
-    schedule::Schedule::new(graph, roots).count(roots)
+    let schedule = schedule::Schedule::new(graph, roots);
+    let registers: Vec<_> = roots.iter().map(|&root| schedule.register(root)).collect();
+    schedule.count(&registers)
+}
+
+/// What the accelerations take, solved; `None` where that is left to loops.
+#[cfg(test)]
+pub(crate) fn solving(problem: &Problem, equations: &Equations) -> Option<Count> {
+    let mut schedule = schedule::Schedule::new(&problem.graph, &accelerations::kkt_entries(equations));
+    let eliminate::Solved { accelerations, multipliers, pivot } =
+        eliminate::eliminate(&mut schedule, equations)?;
+    Some(schedule.count(&[accelerations, multipliers, vec![pivot]].concat()))
 }
 
 struct Emitter<'a> {
@@ -103,7 +117,7 @@ impl Emitter<'_> {
         generics
     }
 
-    fn block(&self, fused: Kernel, orders: &BTreeSet<(u32, usize)>) -> TokenStream {
+    fn block(&self, fused: Fused, orders: &BTreeSet<(u32, usize)>) -> TokenStream {
         let runtime = runtime(self.declaration);
         let (ident, scalar) = (&self.declaration.ident, self.style.scalar);
         let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
@@ -154,7 +168,7 @@ impl Emitter<'_> {
         }
     }
 
-    fn functions(&self, fused: Kernel) -> TokenStream {
+    fn functions(&self, fused: Fused) -> TokenStream {
         let scalar = self.style.scalar;
         let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
         let equations = self.equations;
@@ -255,32 +269,6 @@ impl Emitter<'_> {
                 __lagrange::eliminate::vector([#(#results),*])
             }
         }
-    }
-
-    /// M, h, F and γ in one schedule, so that they share what they have in common.
-    fn fused(&self) -> Kernel {
-        let equations = self.equations;
-        let mut roots: Vec<Id> = equations.mass.concat();
-        roots.extend(&equations.forcing);
-        roots.extend(equations.jacobian.concat());
-        roots.extend(&equations.bias);
-        self.style.kernel(&roots)
-    }
-
-    fn accelerations(&self, fused: &Kernel) -> TokenStream {
-        let (n, m, scalar) =
-            (self.problem.coordinates.len(), self.problem.constraints.len(), self.style.scalar);
-        let returns = quote!(__lagrange::Solution<#scalar, #n, #m>);
-        self.function("accelerations", &returns, fused, |results| {
-            let (mass, rest) = results.split_at(n * n);
-            let (forcing, rest) = rest.split_at(n);
-            let (jacobian, bias) = rest.split_at(n * m);
-            let mass = mass.chunks(n).map(|row| quote!([#(#row),*]));
-            let jacobian = jacobian.chunks(n).map(|row| quote!([#(#row),*]));
-            quote! {
-                __lagrange::eliminate::eliminate([#(#mass),*], [#(#forcing),*], [#(#jacobian),*], [#(#bias),*])
-            }
-        })
     }
 
     /// Flat names, in the order of [`observable_by_index`](Self::observable_by_index).

@@ -31,12 +31,17 @@ pub(super) enum Operation {
     Subtract(Register, Register),
     Multiply(Register, Register),
     Divide(Register, Register),
+    Minimum(Register, Register),
+    Maximum(Register, Register),
     SquareRoot(Register),
     Function(Function, Register),
     Atan2(Register, Register),
     Power(Register, Register),
     /// One result of a call in [`Schedule::calls`].
-    Result { call: u32, output: u32 },
+    Result {
+        call: u32,
+        output: u32,
+    },
 }
 
 /// A call of a function that the user supplies, or of a partial derivative of it.
@@ -57,6 +62,8 @@ impl Operation {
             | Self::Subtract(x, y)
             | Self::Multiply(x, y)
             | Self::Divide(x, y)
+            | Self::Minimum(x, y)
+            | Self::Maximum(x, y)
             | Self::Atan2(x, y)
             | Self::Power(x, y) => (Some(x), Some(y)),
         };
@@ -74,7 +81,7 @@ pub(crate) struct Count {
 }
 
 /// Operations in the order in which they are computed.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Schedule {
     pub(super) operations: Vec<Operation>,
     pub(super) calls: IndexSet<Call>,
@@ -116,10 +123,10 @@ impl Schedule {
     }
 
     /// Which operations contribute to the roots, given by how often each result is used.
-    pub(super) fn uses(&self, roots: &[Id]) -> Vec<usize> {
+    pub(super) fn uses(&self, roots: &[Register]) -> Vec<usize> {
         let mut uses = vec![0; self.operations.len()];
         for &root in roots {
-            uses[self.register(root).index()] += 1;
+            uses[root.index()] += 1;
         }
         for (index, operation) in self.operations.iter().enumerate().rev() {
             if uses[index] > 0 {
@@ -129,7 +136,7 @@ impl Schedule {
         uses
     }
 
-    pub(super) fn count(&self, roots: &[Id]) -> Count {
+    pub(super) fn count(&self, roots: &[Register]) -> Count {
         let uses = self.uses(roots);
         let mut count = Count::default();
         for (operation, _) in self.operations.iter().zip(uses).filter(|(_, uses)| *uses > 0) {
@@ -149,7 +156,7 @@ impl Schedule {
         self.known.get(&operation).copied()
     }
 
-    fn push(&mut self, operation: Operation) -> Register {
+    pub(super) fn push(&mut self, operation: Operation) -> Register {
         let next = Register(self.operations.len() as u32);
         let register = *self.known.entry(operation).or_insert(next);
         if register == next {
@@ -158,7 +165,7 @@ impl Schedule {
         register
     }
 
-    fn constant(&mut self, value: f64) -> Register {
+    pub(super) fn constant(&mut self, value: f64) -> Register {
         self.push(Operation::Constant(value.to_bits()))
     }
 

@@ -3,8 +3,8 @@
 use num_traits::Signed;
 
 use super::lower::{Definition, Lowering, Setting};
-use super::scope::Entity;
 use super::quaternion;
+use super::scope::Entity;
 use super::value::{Value, cross, dot};
 use crate::diagnostics::Place;
 use crate::symbolic::{Function, Id, Rational};
@@ -118,7 +118,8 @@ impl Lowering<'_> {
         let (q, v) = (self.vector_of(q), self.vector_of(x));
         let (q, v) = (q?, v?);
         let Ok(q) = <[_; 4]>::try_from(q) else {
-            return self.report(place, format!("`{}` takes a quaternion, a vector of 4: (w, x, y, z)", name.text));
+            return self
+                .report(place, format!("`{}` takes a quaternion, a vector of 4: (w, x, y, z)", name.text));
         };
         let graph = &mut self.graph;
         let vector = match (name.text.as_str(), <[_; 3]>::try_from(v.clone()), <[_; 4]>::try_from(v)) {

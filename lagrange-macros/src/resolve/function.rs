@@ -22,9 +22,14 @@ pub(crate) struct Supplied {
 }
 
 /// The functions, each with its field found.
-pub(super) fn supplied(declaration: &Declaration, scope: &Scope, diagnostics: &mut Diagnostics) -> Vec<Supplied> {
+pub(super) fn supplied(
+    declaration: &Declaration,
+    scope: &Scope,
+    diagnostics: &mut Diagnostics,
+) -> Vec<Supplied> {
     let supplied = declaration.functions.iter().filter_map(|function| {
-        let Some(field) = declaration.fields.iter().find(|field| field.name.text == function.field.text) else {
+        let Some(field) = declaration.fields.iter().find(|field| field.name.text == function.field.text)
+        else {
             let message = format!(
                 "there is no field `{}` that would be this function: name it with `= field`",
                 function.field.text
@@ -32,7 +37,8 @@ pub(super) fn supplied(declaration: &Declaration, scope: &Scope, diagnostics: &m
             diagnostics.error(function.field.place, message);
             return None;
         };
-        let lengths = function.formals.iter().map(|formal| formal_length(formal, declaration, scope).unwrap_or(1));
+        let lengths =
+            function.formals.iter().map(|formal| formal_length(formal, declaration, scope).unwrap_or(1));
         Some(Supplied {
             name: function.name.text.clone(),
             field: field.ident.clone(),
@@ -77,19 +83,24 @@ impl Lowering<'_> {
             let length = formal.1.or_else(|| self.coordinate_length(&formal.0.text));
             let fits = match (length, value) {
                 (None, Value::Scalar(_)) => true,
-                (Some(length), Value::Vector(_)) => value.as_vector().is_some_and(|entries| entries.len() == length),
+                (Some(length), Value::Vector(_)) => {
+                    value.as_vector().is_some_and(|entries| entries.len() == length)
+                }
                 _ => false,
             };
             if !fits {
-                let wanted = length.map_or_else(|| "a scalar".to_owned(), |length| format!("a vector of {length}"));
-                let message = format!("`{name}` takes {wanted} as `{}`, but this is {}", formal.0.text, value.shape());
+                let wanted =
+                    length.map_or_else(|| "a scalar".to_owned(), |length| format!("a vector of {length}"));
+                let message =
+                    format!("`{name}` takes {wanted} as `{}`, but this is {}", formal.0.text, value.shape());
                 return self.report(argument.place, message);
             }
             flat.extend(value.flat());
         }
         let output = |lowering: &mut Self, output| {
             let arguments = flat.clone().into();
-            let external = External { function: index as u32, output, derivatives: Box::default(), arguments };
+            let external =
+                External { function: index as u32, output, derivatives: Box::default(), arguments };
             lowering.graph.external(external)
         };
         Some(match function.length {

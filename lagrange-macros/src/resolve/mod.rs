@@ -64,8 +64,7 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
     let scope = Scope::new(declaration, diagnostics);
     let functions = function::supplied(declaration, &scope, diagnostics);
     let parameters = Parameters::new(declaration, diagnostics);
-    let mut lowering =
-        Lowering::new(scope, parameters, declaration, diagnostics);
+    let mut lowering = Lowering::new(scope, parameters, declaration, diagnostics);
     lowering.define_all();
     let lagrangian = declaration.lagrangian.as_ref().and_then(|lagrangian| lowering.scalar(lagrangian));
     let forces = lowering.forces(declaration);

@@ -21,11 +21,30 @@ pub(super) enum Entity {
 
 /// Functions that expressions may call.
 pub(super) const FUNCTIONS: [&str; 24] = [
-    "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "ln", "sqrt", "abs",
+    "sin",
+    "cos",
+    "tan",
+    "asin",
+    "acos",
+    "atan",
+    "atan2",
+    "sinh",
+    "cosh",
+    "tanh",
+    "exp",
+    "ln",
+    "sqrt",
+    "abs",
     "quat_rotate",
     "quat_rate",
     "quat_rate_body",
-    "dot", "cross", "norm", "sum", "der", "lambda", "in",
+    "dot",
+    "cross",
+    "norm",
+    "sum",
+    "der",
+    "lambda",
+    "in",
 ];
 
 /// Names with a fixed meaning that are not functions.

@@ -136,7 +136,7 @@ const _: () = {
         ) -> __lagrange::nalgebra::SVector<f64, 1usize> {
             __lagrange::eliminate::vector([__lagrange::Scalar::constant(0.0)])
         }
-        ///6 operations (+ − × ÷ √), 1 elementary function.
+        ///10 operations (+ − × ÷ √), 1 elementary function.
         #[inline]
         #[allow(unused_variables)]
         fn accelerations(
@@ -148,12 +148,13 @@ const _: () = {
             let l = self.l;
             let g = self.g;
             let r4 = __lagrange::Scalar::sin(theta);
-            __lagrange::eliminate::eliminate(
-                [[(m * (l * l))]],
-                [(-(((m * l) * g) * r4))],
-                [],
-                [],
-            )
+            let r13 = (-(((m * l) * g) * r4)) * (1.0 / (m * (l * l)));
+            __lagrange::Solution {
+                accelerations: __lagrange::eliminate::vector([r13]),
+                multipliers: __lagrange::eliminate::vector([]),
+                pivot: (1.0 + (0.0 * r13)),
+                rank: 0usize,
+            }
         }
         #[allow(unused_variables)]
         fn observable(

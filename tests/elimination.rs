@@ -1,0 +1,156 @@
+//! The elimination that is emitted: its residuals, its signs and its limits.
+
+use lagrange_core::prelude::*;
+
+/// Twenty rods in a row, in Cartesian coordinates.
+#[derive(Lagrangian)]
+#[coordinates(x: [20], y: [20])]
+#[lagrangian(sum(i in 0..20, m[i]/2*(x_dot[i]^2 + y_dot[i]^2) - m[i]*g*y[i]))]
+#[constraint(rod[0]: (x[0]^2 + y[0]^2 - l[0]^2)/2 = 0)]
+#[constraint(rod[i in 1..20]: ((x[i]-x[i-1])^2 + (y[i]-y[i-1])^2 - l[i]^2)/2 = 0)]
+struct Rods {
+    m: [f64; 20],
+    l: [f64; 20],
+    g: f64,
+}
+
+/// The same chain in angles.
+#[derive(Lagrangian)]
+#[coordinates(theta: [20])]
+#[define(vx[0] = l[0]*cos(theta[0])*theta_dot[0])]
+#[define(vx[i in 1..20] = vx[i-1] + l[i]*cos(theta[i])*theta_dot[i])]
+#[define(y[0] = -l[0]*cos(theta[0]))]
+#[define(y[i in 1..20] = y[i-1] - l[i]*cos(theta[i]))]
+#[lagrangian(sum(i in 0..20, m[i]/2*(vx[i]^2 + der(y[i])^2) - m[i]*g*y[i]))]
+struct Angles {
+    m: [f64; 20],
+    l: [f64; 20],
+    g: f64,
+}
+
+fn random(seed: &mut u64) -> f64 {
+    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+    (*seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+}
+
+fn random_angles(seed: &mut u64) -> State<f64, 20> {
+    let mut entries = || std::array::from_fn::<f64, 20, _>(|_| 3.0 * random(seed));
+    State::new(entries(), entries())
+}
+
+/// The Cartesian state of the same motion.
+fn in_the_plane(l: &[f64; 20], angles: &State<f64, 20>) -> State<f64, 40> {
+    let mut state = State::at_rest([0.0; 40]);
+    let (mut x, mut y, mut vx, mut vy) = (0.0, 0.0, 0.0, 0.0);
+    for (i, l) in l.iter().enumerate() {
+        let (sine, cosine) = angles.q[i].sin_cos();
+        (x, y) = (x + l * sine, y - l * cosine);
+        (vx, vy) = (vx + l * cosine * angles.v[i], vy + l * sine * angles.v[i]);
+        (state.q[i], state.q[20 + i], state.v[i], state.v[20 + i]) = (x, y, vx, vy);
+    }
+    state
+}
+
+/// What the emitted elimination leaves of M q̈ − Fᵀλ − h and F q̈ + γ, as a part of their largest terms.
+fn residual<L, const N: usize, const M: usize>(system: &L, state: &State<f64, N>) -> f64
+where
+    L: Lagrangian<N, M, Scalar = f64>,
+{
+    let solution = system.accelerations(state);
+    let (a, lambda) = (solution.accelerations, solution.multipliers);
+    let (mass, f) = (system.mass_matrix(state), system.constraint_jacobian(state));
+    let motion = mass * a - f.tr_mul(&lambda) - system.forcing(state);
+    let scale = (mass.abs() * a.abs() + f.abs().tr_mul(&lambda.abs()) + system.forcing(state).abs()).max();
+    let constraint = f * a + system.constraint_bias(state);
+    let constraint_scale = (f.abs() * a.abs() + system.constraint_bias(state).abs()).max();
+    (motion.abs().max() / scale).max(if M > 0 { constraint.abs().max() / constraint_scale } else { 0.0 })
+}
+
+#[test]
+fn residuals_are_rounding_errors() {
+    let mut seed = 3;
+    let mut entries = || std::array::from_fn::<f64, 20, _>(|_| 1.5 + random(&mut seed));
+    let (m, l) = (entries(), entries());
+    let (rods, angles) = (Rods { m, l, g: 9.81 }, Angles { m, l, g: 9.81 });
+    for _ in 0..50 {
+        let state = random_angles(&mut seed);
+        assert!(residual(&rods, &in_the_plane(&l, &state)) < 1e-14);
+        assert!(residual(&angles, &state) < 1e-13);
+    }
+}
+
+/// Both forms of the chain fall alike: accelerations in angles, carried over, are those in the plane.
+#[test]
+fn rods_and_angles_agree() {
+    let (m, l) = ([1.0; 20], [0.3; 20]);
+    let (rods, angles) = (Rods { m, l, g: 9.81 }, Angles { m, l, g: 9.81 });
+    let mut seed = 11;
+    for _ in 0..20 {
+        let state = random_angles(&mut seed);
+        let turning = angles.solve(&state).unwrap().accelerations;
+        let falling = rods.solve(&in_the_plane(&l, &state)).unwrap().accelerations;
+        let mut expected = 0.0;
+        for i in 0..20 {
+            let (sine, cosine) = state.q[i].sin_cos();
+            expected += l[i] * (cosine * turning[i] - sine * state.v[i] * state.v[i]);
+            assert!((falling[i] - expected).abs() < 1e-10 * falling.amax(), "{i}: {} {expected}", falling[i]);
+        }
+    }
+}
+
+/// A crank and a rod of equal length: at the top dead centre of the folded mechanism the constraints lose rank.
+#[derive(Lagrangian)]
+#[coordinates(x, y, s)]
+#[lagrangian(m/2*(x_dot^2 + y_dot^2) + m/2*s_dot^2 - m*g*y)]
+#[constraint(crank: (x^2 + y^2 - l^2)/2 = 0)]
+#[constraint(rod: ((s - x)^2 + y^2 - l^2)/2 = 0)]
+struct SliderCrank {
+    m: f64,
+    g: f64,
+    l: f64,
+}
+
+/// At x = s = 0 both constraints are the same row for motions of the pin: the fast elimination must notice, and
+/// the general solve gives accelerations that meet every equation, or names what is wrong.
+#[test]
+fn a_singular_pose_is_noticed() {
+    let crank = SliderCrank { m: 1.0, g: 9.81, l: 1.0 };
+    for distance in [1e-1, 1e-3, 1e-6, 1e-9, 1e-12, 0.0] {
+        let (x, y) = (distance, (1.0_f64 - distance * distance).sqrt());
+        let state = State::new([x, y, 2.0 * x], [y, -x, 2.0 * y]);
+        match crank.solve(&state) {
+            Ok(solution) => {
+                let f = crank.constraint_jacobian(&state);
+                let a = solution.accelerations;
+                let left = f * a + crank.constraint_bias(&state);
+                assert!(left.amax() < 1e-7 * (1.0 + a.amax()), "{distance:e}: {left}");
+                let push = crank.mass_matrix(&state) * a - crank.forcing(&state);
+                let force = f.tr_mul(&solution.multipliers);
+                assert!((push - force).amax() < 1e-7 * (1.0 + force.amax()), "{distance:e}: {push} {force}");
+            }
+            Err(Error::Contradictory { .. } | Error::Singular { .. }) => {}
+            Err(error) => panic!("{error}"),
+        }
+    }
+    let folded = State::new([0.0, 1.0, 0.0], [1.0, 0.0, 2.0]);
+    let pivot = crank.accelerations(&folded).pivot;
+    assert!(pivot.is_nan() || pivot < 1e-6, "the fast elimination does not notice: {pivot:e}");
+}
+
+/// −L has the same motion.
+#[test]
+fn a_negative_mass_matrix_is_eliminated_like_a_positive_one() {
+    #[derive(Lagrangian)]
+    #[coordinates(x, y)]
+    #[lagrangian(s*(m/2*(x_dot^2 + 2*y_dot^2 + x_dot*y_dot) - m*g*y - x^2*y))]
+    struct Signed {
+        s: f64,
+        m: f64,
+        g: f64,
+    }
+    let state = State::new([0.4, -0.3], [1.0, 2.0]);
+    let [plus, minus] = [1.0, -1.0].map(|s| Signed { s, m: 2.0, g: 9.81 }.accelerations(&state));
+    assert!((plus.accelerations - minus.accelerations).amax() < 1e-14);
+    assert_eq!(plus.pivot, minus.pivot);
+    assert!(plus.pivot > 0.5 && plus.pivot <= 1.0, "{}", plus.pivot);
+}
