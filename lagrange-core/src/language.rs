@@ -93,6 +93,30 @@
 //! # Ok::<(), lagrange_core::Error>(())
 //! ```
 //!
+//! Whether a velocity constraint could be integrated is found out at compile time, for each one and for the set;
+//! see [`Integrability`](crate::Integrability). Where the integral is found it is a method, and stands in the
+//! equations.
+//!
+//! ```
+//! use lagrange_core::prelude::*;
+//!
+//! /// A cylinder that rolls, and a skate beside it.
+//! #[derive(Lagrangian)]
+//! #[coordinates(x, phi, u, v, theta)]
+//! #[lagrangian(x_dot^2 + phi_dot^2 + u_dot^2 + v_dot^2 + theta_dot^2)]
+//! #[constraint(no_slip: x_dot - a*phi_dot = 0)]
+//! #[constraint(edge: u_dot*sin(theta) - v_dot*cos(theta) = 0)]
+//! struct Pair { a: f64 }
+//!
+//! let [no_slip, edge] = Pair::CONSTRAINT_CLASSES;
+//! assert_eq!(no_slip.integrability, Integrability::Exact);
+//! assert_eq!(edge, Classification { integrability: Integrability::Nonholonomic, evidence: Evidence::Proved });
+//! assert_eq!(Pair::INTEGRALS.map(Integrals::extent), Some(Extent::Some));
+//! assert!(Pair::equations().text().contains("integrable: x − a φ is constant"));
+//! let state = State::at_rest([3.0, 1.0, 0.0, 0.0, 0.0]);
+//! assert_eq!(Pair { a: 0.5 }.constraint_integral(0, &state), Some(2.5));
+//! ```
+//!
 //! # Forces, dissipation, observables
 //!
 //! ```

@@ -6,7 +6,7 @@ use super::evaluate::Approximate;
 use super::graph::{Graph, Id, Symbol};
 use super::zero::{random_external, random_symbol};
 
-/// Beyond this relative error a value says nothing.
+/// Beyond this error, relative to the largest of the values beside it, a value says nothing.
 const BLUR: f64 = 1e-6;
 
 /// A point in the space of the symbols. It remembers the values of all nodes, so that expressions that are
@@ -41,9 +41,9 @@ impl Sample {
             |symbol| symbols.get(&symbol).copied().unwrap_or(unknown),
             |id| random_external(id, *draw),
         );
-        let usable =
-            |value: &Approximate| value.value.is_finite() && value.error <= BLUR * (1.0 + value.value.abs());
         let found: Vec<_> = roots.iter().map(|root| values[root.index()]).collect();
+        let scale = found.iter().fold(1.0, |scale: f64, value| scale.max(value.value.abs()));
+        let usable = |value: &Approximate| value.value.is_finite() && value.error <= BLUR * scale;
         found.iter().all(usable).then_some(found)
     }
 

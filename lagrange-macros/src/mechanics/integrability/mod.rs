@@ -30,6 +30,12 @@ pub(crate) enum Integrability {
     Undecided,
 }
 
+impl Integrability {
+    fn is_integrable(self) -> bool {
+        matches!(self, Self::Holonomic | Self::Exact | Self::IntegratingFactor | Self::Together)
+    }
+}
+
 /// How sure a verdict is: proved, or held at this many points.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Evidence {
@@ -94,6 +100,8 @@ fn verdict(integrability: Integrability, evidence: Evidence) -> Classification {
 
 fn fill(problem: &mut Problem, space: &mut Space, kinds: &mut Kinds) {
     let rows = space.velocity.clone();
+    // First what is cheap: the brackets of a large set may grow out of hand.
+    let alone: Vec<_> = rows.iter().map(|(_, form)| classify_alone(space, form)).collect();
     let forms: Vec<Form> = rows.iter().map(|(_, form)| form.clone()).collect();
     let set = Distribution::new(space, &forms);
     let set = set.and_then(|set| set.closure(space).map(|closure| (set, closure)));
@@ -101,20 +109,21 @@ fn fill(problem: &mut Problem, space: &mut Space, kinds: &mut Kinds) {
         let of = set.independent();
         Integrals { count: of - closure.reached.len(), of, evidence: closure.evidence }
     });
-    for (row, form) in rows {
-        if let Some(class) = classify_row(space, &form, set.as_ref()) {
-            kinds.classes[row] = class;
-            kinds.functions[row] = integral::of(problem, space, &form, class.integrability);
-        }
-        space.settled();
+    for ((row, form), alone) in rows.into_iter().zip(alone) {
+        let class = match alone {
+            Some(class) if !class.integrability.is_integrable() => {
+                set.as_ref().and_then(|(set, closure)| classify_in(space, set, closure, &form))
+            }
+            class => class,
+        };
+        let Some(class) = class else { continue };
+        kinds.classes[row] = class;
+        kinds.functions[row] = integral::of(problem, space, &form, class.integrability);
     }
 }
 
-fn classify_row(
-    space: &mut Space,
-    form: &Form,
-    set: Option<&(Distribution, Closure)>,
-) -> Option<Classification> {
+/// The verdict on a constraint without the other velocity constraints.
+fn classify_alone(space: &mut Space, form: &Form) -> Option<Classification> {
     let manifold = Distribution::new(space, &[])?;
     let curl = manifold.curl(space, form);
     space.settled()?;
@@ -123,13 +132,22 @@ fn classify_row(
         return Some(verdict(Integrability::Exact, evidence));
     }
     let alone = Distribution::new(space, std::slice::from_ref(form))?.closure(space)?;
-    if alone.reached.is_empty() {
-        return Some(verdict(Integrability::IntegratingFactor, alone.evidence.and(evidence)));
-    }
-    let (set, closure) = set?;
+    Some(match alone.reached.is_empty() {
+        true => verdict(Integrability::IntegratingFactor, alone.evidence.and(evidence)),
+        false => verdict(Integrability::Nonholonomic, space.seen()),
+    })
+}
+
+/// The verdict on a constraint that is not integrable alone: whether the directions that the set reaches obey it.
+fn classify_in(
+    space: &mut Space,
+    set: &Distribution,
+    closure: &Closure,
+    form: &Form,
+) -> Option<Classification> {
     let along: Vec<Id> = closure.reached.iter().map(|parts| set.along_pivots(space, form, parts)).collect();
-    let (unreached, evidence) = space.vanish(&along)?;
-    Some(match unreached {
+    let (obeyed, evidence) = space.vanish(&along)?;
+    Some(match obeyed {
         true => verdict(Integrability::Together, evidence.and(closure.evidence).and(space.seen())),
         false => verdict(Integrability::Nonholonomic, evidence),
     })

@@ -93,15 +93,16 @@ impl Space {
 
     /// Whether all of `roots` vanish, and how sure that is; `None` where they have no values.
     pub(super) fn vanish(&mut self, roots: &[Id]) -> Option<(bool, Evidence)> {
-        if roots.iter().all(|&root| root == Id::ZERO) {
-            return Some((true, Evidence::Proved));
+        let (mut evidence, mut decided) = (Evidence::Proved, true);
+        for &root in roots.iter().filter(|&&root| root != Id::ZERO) {
+            let values = self.values(&[root]);
+            if values.iter().any(|at| at[0].is_nonzero()) {
+                return Some((false, self.seen()));
+            }
+            decided &= !values.is_empty();
+            evidence = evidence.and(Evidence::Held(values.len() as u32));
         }
-        let values = self.values(roots);
-        if values.is_empty() {
-            return None;
-        }
-        let nonzero = values.iter().flatten().any(|value| value.is_nonzero());
-        Some(if nonzero { (false, self.seen()) } else { (true, Evidence::Held(values.len() as u32)) })
+        decided.then_some((true, evidence))
     }
 
     /// The greatest rank of `rows` at any point, and the number of points; `None` where they have no values.
