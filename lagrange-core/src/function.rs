@@ -4,8 +4,6 @@
 //! order is a trait of its own here, so that a form that does not go far enough is a compile-time error that says so.
 //! Whoever implements [`Function`] has them all.
 
-use core::fmt::Debug;
-
 use crate::{Dual, Scalar};
 
 /// A function of `I` numbers with `O` results, written once for every scalar; its derivatives follow.
@@ -147,3 +145,6 @@ impl<F: HandWritten<I, O>, const I: usize, const O: usize> Second<f64, I, O> for
         self.0.hessian(x).map(|hessian| hessian[i][j])
     }
 }
+
+#[cfg(test)]
+mod tests;
