@@ -263,6 +263,7 @@ impl Writer<'_, '_> {
             false => quote!(_),
         });
         let field = &function.field;
+        let field = if function.is_reference { quote!(self.#field) } else { quote!(&self.#field) };
         let arguments = arguments.iter().map(|&argument| self.value(argument));
         let by = derivatives.iter().map(|&i| Literal::u32_unsuffixed(i));
         let method = match derivatives.len() {
@@ -272,7 +273,7 @@ impl Writer<'_, '_> {
             _ => quote!(Third::third),
         };
         let by = if derivatives.is_empty() { quote!() } else { quote!(, [#(#by),*]) };
-        self.assignments.push(quote! { [#(#pattern),*] = __lagrange::function::#method(&self.#field, [#(#arguments),*] #by); });
+        self.assignments.push(quote! { [#(#pattern),*] = __lagrange::function::#method(#field, [#(#arguments),*] #by); });
         self.locals.extend(outputs.into_iter().map(name));
     }
 

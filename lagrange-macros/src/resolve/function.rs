@@ -12,7 +12,9 @@ pub(crate) struct Supplied {
     /// The name in the expressions.
     pub(crate) name: String,
     pub(crate) field: syn::Ident,
+    /// The type of the function itself, where the field is a reference to it.
     pub(crate) ty: syn::Type,
+    pub(crate) is_reference: bool,
     /// Where the attribute names it.
     pub(crate) place: Place,
     /// How many numbers it takes, all arguments together.
@@ -33,10 +35,15 @@ pub(super) fn supplied(declaration: &Declaration, scope: &Scope, diagnostics: &m
             return None;
         };
         let lengths = function.formals.iter().map(|formal| formal_length(formal, declaration, scope).unwrap_or(1));
+        let (ty, is_reference) = match &field.ty {
+            syn::Type::Reference(reference) => (&*reference.elem, true),
+            ty => (ty, false),
+        };
         Some(Supplied {
             name: function.name.text.clone(),
             field: field.ident.clone(),
-            ty: field.ty.clone(),
+            ty: ty.clone(),
+            is_reference,
             place: function.name.place,
             inputs: lengths.sum(),
             outputs: function.length.unwrap_or(1),
