@@ -4,6 +4,7 @@ mod bounds;
 mod canonical;
 mod derivatives;
 mod double;
+mod external;
 mod faults;
 mod rationals;
 mod tree;
