@@ -62,6 +62,7 @@ fn the_derivatives_are_those_of_the_values() {
 /// Burden and Faires, *Numerical Analysis*, 3.5: the natural splines of examples 1 and 2, as (y, y′, y″/2) at the
 /// left end of each piece.
 #[test]
+#[expect(clippy::approx_constant, reason = "numbers as they are printed")]
 fn it_is_the_natural_spline_of_the_textbook() {
     let three = table(&[(1.0, 2.0), (2.0, 3.0), (3.0, 5.0)]);
     for (x, expected) in [(1.0, [2.0, 0.75, 0.0]), (2.0, [3.0, 1.5, 1.5])] {

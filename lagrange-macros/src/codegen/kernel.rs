@@ -211,8 +211,11 @@ impl Writer<'_, '_> {
                 return;
             }
             _ => {
-                let depth =
-                    1 + schedule.operands(operation).map(|operand| self.values[operand.index()].1).max().unwrap_or(0);
+                let depth = 1 + schedule
+                    .operands(operation)
+                    .map(|operand| self.values[operand.index()].1)
+                    .max()
+                    .unwrap_or(0);
                 let tokens = self.operation(operation);
                 if self.uses[index] == 1 && depth < NESTING {
                     (quote!((#tokens)), depth)
@@ -253,7 +256,11 @@ impl Writer<'_, '_> {
         if !self.written_calls.insert(call) {
             return;
         }
-        let used = |output: u32| schedule.find(Operation::Result { call, output }).is_some_and(|register| self.uses[register.index()] > 0);
+        let used = |output: u32| {
+            schedule
+                .find(Operation::Result { call, output })
+                .is_some_and(|register| self.uses[register.index()] > 0)
+        };
         let outputs: Vec<u32> = (0..function.outputs as u32).filter(|&output| used(output)).collect();
         let pattern = (0..function.outputs as u32).map(|output| match outputs.contains(&output) {
             true => {

@@ -105,7 +105,8 @@ impl Emitter<'_> {
         for (&function, &order) in orders {
             let Supplied { ty, inputs, outputs, .. } = &self.problem.functions[function as usize];
             let capability = format_ident!("{}", capability(order).0);
-            let bound = quote_spanned!(ty.span()=> __lagrange::function::#capability<#scalar, #inputs, #outputs>);
+            let bound =
+                quote_spanned!(ty.span()=> __lagrange::function::#capability<#scalar, #inputs, #outputs>);
             generics.make_where_clause().predicates.push(syn::parse_quote!(#ty: #bound));
         }
         generics

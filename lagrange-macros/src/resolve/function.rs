@@ -18,6 +18,8 @@ pub(crate) struct Supplied {
     pub(crate) is_reference: bool,
     /// Where the attribute names it.
     pub(crate) place: Place,
+    /// Its arguments as declared, with the lengths of those that are vectors.
+    pub(crate) formals: Vec<(String, Option<usize>)>,
     /// How many numbers it takes, all arguments together.
     pub(crate) inputs: usize,
     /// How many numbers it gives.
@@ -25,13 +27,21 @@ pub(crate) struct Supplied {
 }
 
 /// The functions, each with its field found.
-pub(super) fn supplied(declaration: &Declaration, scope: &Scope, diagnostics: &mut Diagnostics) -> Vec<Supplied> {
+pub(super) fn supplied(
+    declaration: &Declaration,
+    scope: &Scope,
+    diagnostics: &mut Diagnostics,
+) -> Vec<Supplied> {
     let supplied = declaration.functions.iter().filter_map(|function| {
-        let Some(field) = declaration.fields.iter().find(|field| field.name.text == function.field.text) else {
+        let Some(field) = declaration.fields.iter().find(|field| field.name.text == function.field.text)
+        else {
             diagnostics.push(no_such_field(function, declaration));
             return None;
         };
-        let lengths = function.formals.iter().map(|formal| formal_length(formal, declaration, scope).unwrap_or(1));
+        let formal = |formal: &(crate::syntax::Name, Option<usize>)| {
+            (formal.0.text.clone(), formal_length(formal, declaration, scope))
+        };
+        let formals: Vec<_> = function.formals.iter().map(formal).collect();
         let (ty, is_reference) = match &field.ty {
             syn::Type::Reference(reference) => (&*reference.elem, true),
             ty => (ty, false),
@@ -42,7 +52,8 @@ pub(super) fn supplied(declaration: &Declaration, scope: &Scope, diagnostics: &m
             ty: ty.clone(),
             is_reference,
             place: function.name.place,
-            inputs: lengths.sum(),
+            inputs: formals.iter().map(|(_, length)| length.unwrap_or(1)).sum(),
+            formals,
             outputs: function.length.unwrap_or(1),
         })
     });
@@ -89,19 +100,24 @@ impl Lowering<'_> {
             let length = formal.1.or_else(|| self.coordinate_length(&formal.0.text));
             let fits = match (length, value) {
                 (None, Value::Scalar(_)) => true,
-                (Some(length), Value::Vector(_)) => value.as_vector().is_some_and(|entries| entries.len() == length),
+                (Some(length), Value::Vector(_)) => {
+                    value.as_vector().is_some_and(|entries| entries.len() == length)
+                }
                 _ => false,
             };
             if !fits {
-                let wanted = length.map_or_else(|| "a scalar".to_owned(), |length| format!("a vector of {length}"));
-                let message = format!("`{name}` takes {wanted} as `{}`, but this is {}", formal.0.text, value.shape());
+                let wanted =
+                    length.map_or_else(|| "a scalar".to_owned(), |length| format!("a vector of {length}"));
+                let message =
+                    format!("`{name}` takes {wanted} as `{}`, but this is {}", formal.0.text, value.shape());
                 return self.report(argument.place, message);
             }
             flat.extend(value.flat());
         }
         let output = |lowering: &mut Self, output| {
             let arguments = flat.clone().into();
-            let external = External { function: index as u32, output, derivatives: Box::default(), arguments };
+            let external =
+                External { function: index as u32, output, derivatives: Box::default(), arguments };
             lowering.graph.external(external)
         };
         Some(match function.length {

@@ -20,6 +20,7 @@ pub(crate) use function::Supplied;
 pub(crate) use lower::fault_message;
 use lower::{Definition, Lowering, MultiplierGroup, Setting, is_literal_zero};
 pub(crate) use parameters::{Element, Parameters, is_no_number};
+pub(crate) use scope::is_built_in;
 use scope::{Entity, Scope};
 use value::Value;
 
@@ -64,8 +65,7 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
     let scope = Scope::new(declaration, diagnostics);
     let functions = function::supplied(declaration, &scope, diagnostics);
     let parameters = Parameters::new(declaration, diagnostics);
-    let mut lowering =
-        Lowering::new(scope, parameters, declaration, diagnostics);
+    let mut lowering = Lowering::new(scope, parameters, declaration, diagnostics);
     lowering.define_all();
     let lagrangian = declaration.lagrangian.as_ref().and_then(|lagrangian| lowering.scalar(lagrangian));
     let forces = lowering.forces(declaration);

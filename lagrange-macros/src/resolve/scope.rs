@@ -21,11 +21,30 @@ pub(super) enum Entity {
 
 /// Functions that expressions may call.
 pub(super) const FUNCTIONS: [&str; 24] = [
-    "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "ln", "sqrt", "abs",
+    "sin",
+    "cos",
+    "tan",
+    "asin",
+    "acos",
+    "atan",
+    "atan2",
+    "sinh",
+    "cosh",
+    "tanh",
+    "exp",
+    "ln",
+    "sqrt",
+    "abs",
     "quat_rotate",
     "quat_rate",
     "quat_rate_body",
-    "dot", "cross", "norm", "sum", "der", "lambda", "in",
+    "dot",
+    "cross",
+    "norm",
+    "sum",
+    "der",
+    "lambda",
+    "in",
 ];
 
 /// Names with a fixed meaning that are not functions.
@@ -226,7 +245,8 @@ impl Scope {
     /// The field of a function does not stand in expressions: the function does.
     fn is_field_of_function(&self, name: &Name) -> Option<syn::Error> {
         let function = self.functions.get(&name.text)?;
-        let message = format!("the field `{}` is the function `{function}`: write `{function}(…)`", name.text);
+        let message =
+            format!("the field `{}` is the function `{function}`: write `{function}(…)`", name.text);
         Some(name.place.error(message))
     }
 }
@@ -244,7 +264,7 @@ impl Entity {
     }
 }
 
-pub(super) fn is_built_in(name: &str) -> bool {
+pub(crate) fn is_built_in(name: &str) -> bool {
     FUNCTIONS.contains(&name) || CONSTANTS.contains(&name)
 }
 

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 
 use super::super::{External, Forward, Function, Graph, Id, Node, Verdict};
-use super::tree::{SYMBOLS, trees};
+use super::tree::trees;
 use super::{Outcome, for_all, graph, rational, symbol};
 
 /// ∂ of the result `output` of the function 0 by the positions `derivatives`.
@@ -31,12 +31,12 @@ fn the_order_of_differentiation_does_not_matter() {
     let f = partial(&mut graph, 0, &[], &arguments);
     let slopes = gradient(&mut graph, f);
     let hessian: Vec<_> = slopes.iter().map(|&slope| gradient(&mut graph, slope)).collect();
-    for i in 0..SYMBOLS {
-        for j in 0..SYMBOLS {
-            assert_eq!(hessian[i][j], hessian[j][i]);
+    for (i, row) in hessian.iter().enumerate() {
+        for (j, &second) in row.iter().enumerate() {
+            assert_eq!(second, hessian[j][i]);
             let by = [i.min(j) as u32, i.max(j) as u32];
-            assert_eq!(hessian[i][j], partial(&mut graph, 0, &by, &arguments));
-            let third = gradient(&mut graph, hessian[i][j]);
+            assert_eq!(second, partial(&mut graph, 0, &by, &arguments));
+            let third = gradient(&mut graph, second);
             assert_eq!(third[2], partial(&mut graph, 0, &[by[0], by[1], 2], &arguments));
         }
     }
@@ -130,7 +130,9 @@ fn equal_arguments_have_equal_values() {
     let named = graph.defined(sum);
     let calls = [sum, reversed, named].map(|argument| partial(&mut graph, 0, &[], &[argument]));
     let rates = calls.map(|call| gradient(&mut graph, call)[0]);
-    for [first, other] in calls.map(|call| [calls[0], call]).into_iter().chain(rates.map(|rate| [rates[0], rate])) {
+    for [first, other] in
+        calls.map(|call| [calls[0], call]).into_iter().chain(rates.map(|rate| [rates[0], rate]))
+    {
         let verdict = difference_is(&mut graph, first, other);
         assert!(matches!(verdict, Verdict::Zero | Verdict::Held(_)), "{verdict:?}");
     }
