@@ -175,7 +175,8 @@ impl<S: Scalar> Scalar for Dual<S> {
         let zero = S::constant(0.0);
         let value = self.value.powf(exponent.value);
         let mut slope = zero;
-        if self.slope != zero {
+        // x⁰ is 1 everywhere; by the rule its slope at zero would be 0 · 0⁻¹.
+        if self.slope != zero && exponent.value != zero {
             slope = exponent.value * self.value.powf(exponent.value - S::constant(1.0)) * self.slope;
         }
         if exponent.slope != zero {
@@ -200,3 +201,6 @@ impl<S: Scalar> Scalar for Dual<S> {
         (self + other - (self - other).abs()) * Self::constant(0.5)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -4,8 +4,6 @@
 //! order is a trait of its own here, so that a form that does not go far enough is a compile-time error that says so.
 //! Whoever implements [`Function`] has them all.
 
-use core::fmt::Debug;
-
 use crate::{Dual, Scalar};
 
 /// A function of `I` numbers with `O` results, written once for every scalar; its derivatives follow.
@@ -39,9 +37,9 @@ pub trait Function<const I: usize, const O: usize> {
 
 /// A function whose values can be had for the scalar `S`.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` is no function of {I} numbers with {O} results over `{S}`",
-    label = "this field is named in `#[function(…)]`",
-    note = "implement `lagrange_core::Function<{I}, {O}>` for it, or for `f64` put a hand-written one into `ByHand`"
+    message = "`{Self}` is not known to be a function over `{S}` of {I} number(s) with {O} result(s)",
+    label = "a field named in `#[function(…)]` must be one",
+    note = "implement `lagrange_core::Function<{I}, {O}>` for it; for `f64` alone there are `ByHand` and `Table`"
 )]
 pub trait Value<S, const I: usize, const O: usize> {
     /// The values at `x`.
@@ -50,30 +48,33 @@ pub trait Value<S, const I: usize, const O: usize> {
 
 /// A function with first derivatives.
 #[diagnostic::on_unimplemented(
-    message = "the first derivatives of `{Self}` are not known, and the equations of motion need them",
-    note = "implement `lagrange_core::Function<{I}, {O}>` for it: then all derivatives are known"
+    message = "`{Self}` is not known to be a function over `{S}` of {I} number(s) with {O} result(s) and first derivatives",
+    label = "the equations need its first derivatives",
+    note = "implement `lagrange_core::Function<{I}, {O}>` for it, from which all derivatives follow; for `f64` alone `ByHand` and `Table` know the first and the second"
 )]
-pub trait First<S, const I: usize, const O: usize> {
+pub trait First<S, const I: usize, const O: usize>: Value<S, I, O> {
     /// ∂/∂x_i at `x`.
     fn first(&self, x: [S; I], i: [usize; 1]) -> [S; O];
 }
 
 /// A function with second derivatives.
 #[diagnostic::on_unimplemented(
-    message = "the second derivatives of `{Self}` are not known, and the equations of motion need them",
-    note = "implement `lagrange_core::Function<{I}, {O}>` for it: then all derivatives are known"
+    message = "`{Self}` is not known to be a function over `{S}` of {I} number(s) with {O} result(s) and second derivatives",
+    label = "the equations need its second derivatives",
+    note = "implement `lagrange_core::Function<{I}, {O}>` for it, from which all derivatives follow; for `f64` alone `ByHand` and `Table` know the first and the second"
 )]
-pub trait Second<S, const I: usize, const O: usize> {
+pub trait Second<S, const I: usize, const O: usize>: First<S, I, O> {
     /// ∂²/∂x_i ∂x_j at `x`.
     fn second(&self, x: [S; I], ij: [usize; 2]) -> [S; O];
 }
 
 /// A function with third derivatives.
 #[diagnostic::on_unimplemented(
-    message = "the third derivatives of `{Self}` are not known, and the equations of motion need them",
-    note = "implement `lagrange_core::Function<{I}, {O}>` for it: then all derivatives are known"
+    message = "`{Self}` is not known to be a function over `{S}` of {I} number(s) with {O} result(s) and third derivatives",
+    label = "the equations need its third derivatives",
+    note = "implement `lagrange_core::Function<{I}, {O}>` for it, from which all derivatives follow; `ByHand` and `Table` know no third"
 )]
-pub trait Third<S, const I: usize, const O: usize> {
+pub trait Third<S, const I: usize, const O: usize>: Second<S, I, O> {
     /// ∂³/∂x_i ∂x_j ∂x_k at `x`.
     fn third(&self, x: [S; I], ijk: [usize; 3]) -> [S; O];
 }
@@ -147,3 +148,6 @@ impl<F: HandWritten<I, O>, const I: usize, const O: usize> Second<f64, I, O> for
         self.0.hessian(x).map(|hessian| hessian[i][j])
     }
 }
+
+#[cfg(test)]
+mod tests;

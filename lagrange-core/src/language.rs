@@ -31,6 +31,7 @@
 //! | `sin cos tan asin acos atan atan2 sinh cosh tanh exp ln sqrt abs` | functions; `atan2(y, x)` |
 //! | `der(expr)` | the total time derivative |
 //! | `[a, b, c]`, `v[0]`, `dot(v, w)`, `cross(v, w)`, `norm(v)`, `A * v` | vectors, and matrix times vector |
+//! | `quat_rotate(q, v)`, `quat_rate(q, q_dot)`, `quat_rate_body(q, q_dot)` | orientations as quaternions |
 //! | `sum(i in 0..3, expr)` | a sum; ranges are half-open, indices whole numbers |
 //! | `lambda(name)` | the multiplier of a constraint, in observables only |
 //!
@@ -60,6 +61,124 @@
 //! let chain = Chain { m: [1.0; 3], l: [0.5; 3], g: 9.81 };
 //! let hanging = State::at_rest([0.0; 3]);
 //! assert_eq!(chain.solve(&hanging)?.accelerations.norm(), 0.0);
+//! # Ok::<(), lagrange_core::Error>(())
+//! ```
+//!
+//! # Vectors
+//!
+//! A coordinate `r: [3]` is a vector, `r_dot` its velocity and `r[0]` an entry; so is a field of type `[f64; 3]` or
+//! `Vector3<f64>`, and a field `[[f64; 3]; 2]` or `Matrix3<f64>` is a matrix, which multiplies a vector from the
+//! left. Vectors add up with vectors of the same length, and take factors and divisors that are numbers; the literal
+//! 0 is the zero vector. `norm(v)^2` is `dot(v, v)`, without a root that would have no slope at the origin.
+//! Definitions, forces, constraints and observables may be vectors; L is a number.
+//!
+//! A quaternion is a vector of 4, (w, x, y, z). `quat_rotate(q, v)` is the vector that it turns v into, from the
+//! body's frame to the fixed one; `quat_rate(q, q_dot)` is the angular velocity in the fixed frame,
+//! `quat_rate_body(q, q_dot)` in the body's, as 2 q̇ q̄ and 2 q̄ q̇. Nothing is divided by |q|²: the constraint
+//! `dot(q, q) = 1` keeps it 1, and makes up for the mass matrix, which alone is singular.
+//!
+//! ```
+//! use lagrange_core::nalgebra::{Matrix3, Vector3};
+//! use lagrange_core::prelude::*;
+//!
+//! /// A heavy rigid body that turns about a fixed point.
+//! #[derive(Lagrangian)]
+//! #[coordinates(q: [4])]
+//! #[define(w = quat_rate_body(q, q_dot))]
+//! #[lagrangian(dot(w, inertia*w)/2 - m*g*quat_rotate(q, centre)[2])]
+//! #[constraint(unit: dot(q, q) = 1)]
+//! #[observable(spin = quat_rotate(q, inertia*w))]
+//! struct Top { inertia: Matrix3<f64>, centre: Vector3<f64>, m: f64, g: f64 }
+//!
+//! let inertia = Matrix3::from_diagonal(&Vector3::new(2.0, 2.0, 1.0));
+//! let top = Top { inertia, centre: Vector3::new(0.0, 0.0, 0.5), m: 1.0, g: 9.81 };
+//! // Tilted by 60° about the x-axis, turning about its own axis: q̇ = ½ q (0, 0, 20).
+//! let (c, s) = (0.75_f64.sqrt(), 0.5);
+//! let start = State::new([c, s, 0.0, 0.0], [0.0, 0.0, -10.0 * s, 10.0 * c]);
+//! let path = top.integrate(start, 1.0, Dop853::default())?;
+//! // Gravity has no torque about the vertical.
+//! let (before, after) = (top.spin(&start)[2], path.end().observable("spin[2]")?);
+//! assert!((after / before - 1.0).abs() < 1e-8);
+//! # Ok::<(), lagrange_core::Error>(())
+//! ```
+//!
+//! # Functions that you supply
+//!
+//! `#[function(U(r) = field)]` makes a field a function: a potential, a field, a prescribed motion. Without `= field`
+//! it is the field of the function's own name. A formal that bears a coordinate's name has its shape, others say it,
+//! `U(s: [3])`, or are numbers; `A(r): [3]` has a vector for a result. The arguments at a call are any expressions
+//! of these shapes, and `der(Omega(t))` and all derivatives that the equations need are taken.
+//!
+//! The field's type implements [`Function<I, O>`](crate::Function) for `I` numbers, all arguments together, and `O`
+//! results. It is written once for every scalar, so that its derivatives are known, and that the system serves every
+//! number type. (A closure takes one type of number, and so cannot be one.)
+//!
+//! ```
+//! use lagrange_core::prelude::*;
+//!
+//! /// The support moves up and down.
+//! struct Shaking { amplitude: f64, rate: f64 }
+//!
+//! impl Function<1, 2> for Shaking {
+//!     fn eval<S: Scalar>(&self, [t]: [S; 1]) -> [S; 2] {
+//!         [S::constant(0.0), S::constant(self.amplitude) * (S::constant(self.rate) * t).cos()]
+//!     }
+//! }
+//!
+//! /// Kapitza's pendulum: it stands on its head.
+//! #[derive(Lagrangian)]
+//! #[coordinates(theta)]
+//! #[function(support(t): [2] = motion)]
+//! #[define(p = support(t) + l*[sin(theta), -cos(theta)])]
+//! #[lagrangian(m/2 * dot(der(p), der(p)) - m*g*p[1])]
+//! struct Kapitza<F> { m: f64, l: f64, g: f64, motion: F }
+//!
+//! let pendulum = Kapitza { m: 1.0, l: 1.0, g: 9.81, motion: Shaking { amplitude: 0.1, rate: 100.0 } };
+//! let upright = core::f64::consts::PI;
+//! let path = pendulum.integrate(State::at_rest([upright + 0.1]), 10.0, Dop853::default())?;
+//! assert!((path.end().coordinate("theta")? - upright).abs() < 0.2);
+//! # Ok::<(), lagrange_core::Error>(())
+//! ```
+//!
+//! For `f64` alone there are two further forms. A [`HandWritten`](crate::HandWritten) function gives its value,
+//! gradient and second derivatives, and is put into [`ByHand`](crate::ByHand). A [`Table`](crate::Table) is the
+//! smooth curve through measured points. Where the equations need a third derivative, which neither has, that is
+//! an error at the field's type while compiling.
+//!
+//! ```
+//! use lagrange_core::prelude::*;
+//! use lagrange_core::{HandWritten, Table};
+//!
+//! /// z = x² − y²
+//! struct Saddle;
+//!
+//! impl HandWritten<2, 1> for Saddle {
+//!     fn value(&self, [x, y]: [f64; 2]) -> [f64; 1] {
+//!         [x * x - y * y]
+//!     }
+//!     fn gradient(&self, [x, y]: [f64; 2]) -> [[f64; 2]; 1] {
+//!         [[2.0 * x, -2.0 * y]]
+//!     }
+//!     fn hessian(&self, _: [f64; 2]) -> [[[f64; 2]; 2]; 1] {
+//!         [[[2.0, 0.0], [0.0, -2.0]]]
+//!     }
+//! }
+//!
+//! /// A bead on a surface, under a measured force potential along x.
+//! #[derive(Lagrangian)]
+//! #[coordinates(x, y, z)]
+//! #[function(f(x, y) = surface)]
+//! #[function(U(x) = potential)]
+//! #[lagrangian(m/2 * (x_dot^2 + y_dot^2 + z_dot^2) - m*g*z - U(x))]
+//! #[constraint(on: z = f(x, y))]
+//! struct Bead { m: f64, g: f64, surface: ByHand<Saddle>, potential: Table }
+//!
+//! let potential = Table::new(&[(-2.0, 0.0), (0.0, 0.0), (1.0, 0.5), (2.0, 3.0)])?;
+//! let bead = Bead { m: 1.0, g: 9.81, surface: ByHand(Saddle), potential };
+//! let start = State::new([0.0; 3], [1.0, 2.0, 0.0]);
+//! // At the saddle z̈ = 2 ẋ² − 2 ẏ².
+//! let solution = bead.solve(&start)?;
+//! assert!((solution.accelerations[2] - (2.0 - 8.0)).abs() < 1e-12);
 //! # Ok::<(), lagrange_core::Error>(())
 //! ```
 //!

@@ -36,15 +36,17 @@ impl Table {
     /// Through `(x, y)`, at least two points, `x` increasing.
     ///
     /// # Errors
-    /// [`Error::Table`] for fewer points, for numbers that are not finite, and where `x` does not increase.
+    /// [`Error::Table`] for fewer points, for numbers that are not finite or lead to such, and where `x` does not
+    /// increase.
     pub fn new(points: &[(f64, f64)]) -> Result<Self, Error> {
-        let finite = points.iter().all(|(x, y)| x.is_finite() && y.is_finite());
         let increasing = points.windows(2).all(|pair| pair[0].0 < pair[1].0);
-        if points.len() < 2 || !finite || !increasing {
+        if points.len() < 2 || !increasing {
             return Err(Error::Table);
         }
         let knots = points.iter().zip(bends(points)).map(|(&(x, y), bend)| Knot { x, y, bend });
-        Ok(Self { knots: knots.collect() })
+        let table = Self { knots: knots.collect() };
+        let finite = |knot: &Knot| knot.x.is_finite() && table.at(knot.x).into_iter().all(f64::is_finite);
+        if table.knots.iter().all(finite) { Ok(table) } else { Err(Error::Table) }
     }
 
     /// The value and the first two derivatives.
@@ -99,3 +101,6 @@ impl Second<f64, 1, 1> for Table {
         [self.at(x)[2]]
     }
 }
+
+#[cfg(test)]
+mod tests;

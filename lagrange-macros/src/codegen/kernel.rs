@@ -278,18 +278,14 @@ impl Writer<'_, '_> {
             false => quote!(_),
         });
         let field = &function.field;
+        let field = if function.is_reference { quote!(self.#field) } else { quote!(&self.#field) };
         let arguments = arguments.iter().map(|&argument| self.value(argument));
         let by = derivatives.iter().map(|&i| Literal::u32_unsuffixed(i));
-        let method = match derivatives.len() {
-            0 => quote!(Value::value),
-            1 => quote!(First::first),
-            2 => quote!(Second::second),
-            _ => quote!(Third::third),
-        };
+        let (capability, method) = super::capability(derivatives.len());
+        let (capability, method) = (format_ident!("{capability}"), format_ident!("{method}"));
+        let (scalar, inputs, results) = (self.style.scalar, function.inputs, function.outputs);
         let by = if derivatives.is_empty() { quote!() } else { quote!(, [#(#by),*]) };
-        self.assignments.push(
-            quote! { [#(#pattern),*] = __lagrange::function::#method(&self.#field, [#(#arguments),*] #by); },
-        );
+        self.assignments.push(quote! { [#(#pattern),*] = __lagrange::function::#capability::<#scalar, #inputs, #results>::#method(#field, [#(#arguments),*] #by); });
         self.locals.extend(outputs.into_iter().map(name));
     }
 

@@ -7,11 +7,12 @@ mod kernel;
 mod schedule;
 mod stub;
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use proc_macro2::{Span, TokenStream};
-use quote::{format_ident, quote};
+use quote::{format_ident, quote, quote_spanned};
 use syn::GenericParam;
+use syn::spanned::Spanned;
 
 use crate::diagnostics::Diagnostics;
 use crate::mechanics::{ConstraintKind, Equations};
@@ -51,13 +52,23 @@ pub(crate) fn implementation(
         return TokenStream::new();
     }
     let orders = emitter.orders();
-    for &(function, order) in orders.iter().filter(|(_, order)| *order > FUNCTION_ORDER) {
+    for (&function, order) in orders.iter().filter(|(_, order)| **order > FUNCTION_ORDER) {
         let Supplied { name, place, .. } = &problem.functions[function as usize];
         diagnostics.error(*place, format!(
             "the equations need the {order}th derivatives of `{name}`, and functions are differentiated {FUNCTION_ORDER} times at most"
         ));
     }
     emitter.block(fused, &orders)
+}
+
+/// The trait that gives the derivatives of an order, and its method.
+fn capability(order: usize) -> (&'static str, &'static str) {
+    match order {
+        0 => ("Value", "value"),
+        1 => ("First", "first"),
+        2 => ("Second", "second"),
+        _ => ("Third", "third"),
+    }
 }
 
 /// What computing `roots` together takes.
@@ -86,38 +97,37 @@ struct Emitter<'a> {
 }
 
 impl Emitter<'_> {
-    /// Of each function that the user supplies, the orders of the derivatives that the system needs.
-    fn orders(&self) -> BTreeSet<(u32, usize)> {
+    /// Of each function that the user supplies, the highest derivative that the system needs.
+    fn orders(&self) -> BTreeMap<u32, usize> {
         let graph = &self.problem.graph;
         let mut roots = self.equations.roots();
         roots.push(self.problem.lagrangian);
         roots.extend(self.problem.observables.iter().flat_map(|(_, values)| values));
-        let orders = graph.reachable(&roots).into_iter().filter_map(|id| match graph.node(id) {
-            Node::External(external) => Some((external.function, external.derivatives.len())),
-            _ => None,
-        });
-        orders.collect()
+        let mut orders = BTreeMap::new();
+        for id in graph.reachable(&roots) {
+            if let Node::External(external) = graph.node(id) {
+                let order = orders.entry(external.function).or_default();
+                *order = external.derivatives.len().max(*order);
+            }
+        }
+        orders
     }
 
-    /// The struct's generics with what the fields must be able to do.
-    fn generics(&self, orders: &BTreeSet<(u32, usize)>) -> syn::Generics {
+    /// The struct's generics with what the fields must be able to do, asked for at the fields' types.
+    fn generics(&self, orders: &BTreeMap<u32, usize>) -> syn::Generics {
         let scalar = self.style.scalar;
         let mut generics = bounded_generics(self.declaration, scalar);
-        for &(function, order) in orders {
+        for (&function, &order) in orders {
             let Supplied { ty, inputs, outputs, .. } = &self.problem.functions[function as usize];
-            let capability = match order {
-                0 => quote!(Value),
-                1 => quote!(First),
-                2 => quote!(Second),
-                _ => quote!(Third),
-            };
-            let bound = syn::parse_quote!(#ty: __lagrange::function::#capability<#scalar, #inputs, #outputs>);
-            generics.make_where_clause().predicates.push(bound);
+            let capability = format_ident!("{}", capability(order).0);
+            let bound =
+                quote_spanned!(ty.span()=> __lagrange::function::#capability<#scalar, #inputs, #outputs>);
+            generics.make_where_clause().predicates.push(syn::parse_quote!(#ty: #bound));
         }
         generics
     }
 
-    fn block(&self, fused: Fused, orders: &BTreeSet<(u32, usize)>) -> TokenStream {
+    fn block(&self, fused: Fused, orders: &BTreeMap<u32, usize>) -> TokenStream {
         let runtime = runtime(self.declaration);
         let (ident, scalar) = (&self.declaration.ident, self.style.scalar);
         let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());

@@ -3,12 +3,12 @@
 
 use num_traits::{One, Signed};
 
-use crate::resolve::{Element, Problem};
+use crate::resolve::{Element, Problem, Supplied};
 use crate::symbolic::{External, Function, Id, Node, Rational};
 use crate::syntax::{Expression, Kind, Operator, Sign};
 use crate::variables::Variable;
 
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub(super) enum Formula {
     Number(Rational),
     Pi,
@@ -16,7 +16,15 @@ pub(super) enum Formula {
     Name {
         base: String,
         dots: usize,
-        indices: Vec<String>,
+        indices: Vec<Self>,
+    },
+    /// An entry of what is no name.
+    Entry(Box<Self>, Box<Self>),
+    /// An index that runs from the first to before the last.
+    Running {
+        index: String,
+        from: Box<Self>,
+        to: Box<Self>,
     },
     /// λ with the constraint's name.
     Multiplier(String),
@@ -35,10 +43,17 @@ pub(super) enum Formula {
         body: Box<Self>,
     },
     Vector(Vec<Self>),
-    /// A partial derivative of a function whose arguments are not written.
+    /// A derivative of a function of one argument, and where it is taken.
+    Derivative {
+        function: Box<Self>,
+        order: usize,
+        argument: Box<Self>,
+    },
+    /// A partial derivative, and where it is taken unless that is clear.
     Partial {
-        function: String,
+        function: Box<Self>,
         by: Vec<Self>,
+        arguments: Vec<Self>,
     },
 }
 
@@ -47,8 +62,15 @@ impl Formula {
     pub(super) fn labelled(text: &str, dots: usize) -> Self {
         let mut parts = text.split('[');
         let base = parts.next().unwrap_or_default().to_owned();
-        let indices = parts.map(|part| part.trim_end_matches(']').to_owned()).collect();
+        let indices = parts.map(|part| Self::index(part.trim_end_matches(']'))).collect();
         Self::Name { base, dots, indices }
+    }
+
+    fn index(text: &str) -> Self {
+        match text.parse::<i128>() {
+            Ok(number) => Self::Number(Rational::from_integer(number)),
+            Err(_) => Self::Name { base: text.to_owned(), dots: 0, indices: Vec::new() },
+        }
     }
 
     /// The sum of the parts, as one list of terms.
@@ -148,13 +170,13 @@ fn product(number: Rational, mut above: Vec<Formula>, below: Vec<Formula>) -> Fo
 }
 
 fn indexed(base: Formula, index: &Expression, problem: &Problem) -> Formula {
-    let index = super::notation::Notation::Unicode.write(&written(index, problem));
+    let index = written(index, problem);
     match base {
         Formula::Name { base, dots, mut indices } => {
             indices.push(index);
             Formula::Name { base, dots, indices }
         }
-        other => other,
+        other => Formula::Entry(Box::new(other), Box::new(index)),
     }
 }
 
@@ -215,20 +237,60 @@ pub(super) fn derived(id: Id, problem: &Problem) -> Formula {
     }
 }
 
-/// `U(r[0], r[1])`, `∂U/∂r[0]`
+/// `A[0](r)`, `U′(s)`, `∂U/∂r[0]`
 fn external_call(external: &External, problem: &Problem) -> Formula {
     let function = &problem.functions[external.function as usize];
-    let arguments: Vec<Formula> = external.arguments.iter().map(|&x| derived(x, problem)).collect();
-    let name = if function.outputs == 1 {
-        function.name.clone()
-    } else {
-        format!("{}[{}]", function.name, external.output)
+    let flat: Vec<Formula> = external.arguments.iter().map(|&x| derived(x, problem)).collect();
+    let name = match function.outputs {
+        1 => function.name.clone(),
+        _ => format!("{}[{}]", function.name, external.output),
     };
-    if external.derivatives.is_empty() {
-        return Formula::Call(name, arguments);
+    let order = external.derivatives.len();
+    if order == 0 {
+        return Formula::Call(name, grouped(&flat, function));
     }
-    let by = external.derivatives.iter().map(|&i| arguments[i as usize].clone()).collect();
-    Formula::Partial { function: name, by }
+    let name = Box::new(Formula::labelled(&name, 0));
+    if let [argument] = &flat[..] {
+        return Formula::Derivative { function: name, order, argument: Box::new(argument.clone()) };
+    }
+    let formals = formal_entries(function);
+    let by = external.derivatives.iter().map(|&i| formals[i as usize].clone()).collect();
+    let is_clear = flat == formals;
+    let arguments = if is_clear { Vec::new() } else { grouped(&flat, function) };
+    Formula::Partial { function: name, by, arguments }
+}
+
+/// Every number that a function takes, by the names in its declaration.
+fn formal_entries(function: &Supplied) -> Vec<Formula> {
+    let entries = |(name, length): &(String, Option<usize>)| match length {
+        None => vec![Formula::labelled(name, 0)],
+        Some(length) => (0..*length).map(|i| Formula::labelled(&format!("{name}[{i}]"), 0)).collect(),
+    };
+    function.formals.iter().flat_map(entries).collect()
+}
+
+/// Numbers put together into the arguments that the function takes: all entries of a vector are the vector.
+fn grouped(flat: &[Formula], function: &Supplied) -> Vec<Formula> {
+    let mut rest = flat;
+    let mut arguments = Vec::new();
+    for (_, length) in &function.formals {
+        let (entries, others) = rest.split_at(length.unwrap_or(1));
+        rest = others;
+        let argument = match (length, &entries[0]) {
+            (None, entry) => entry.clone(),
+            (Some(_), Formula::Name { base, dots, .. }) if are_all_entries(base, *dots, entries) => {
+                Formula::Name { base: base.clone(), dots: *dots, indices: Vec::new() }
+            }
+            _ => Formula::Vector(entries.to_vec()),
+        };
+        arguments.push(argument);
+    }
+    arguments
+}
+
+fn are_all_entries(base: &str, dots: usize, entries: &[Formula]) -> bool {
+    let is_entry = |(i, entry): (usize, &Formula)| *entry == Formula::labelled(&format!("{base}[{i}]"), dots);
+    entries.iter().enumerate().all(is_entry)
 }
 
 impl Formula {
@@ -293,10 +355,11 @@ fn variable(variable: Variable, problem: &Problem) -> Formula {
             let base = problem.parameters.fields[entry.field].name.text.clone();
             let indices = match entry.element {
                 Element::All => Vec::new(),
-                Element::Item(i) => vec![i.to_string()],
-                Element::RowItem(i, j) | Element::Cell(i, j) => vec![i.to_string(), j.to_string()],
+                Element::Item(i) => vec![i],
+                Element::RowItem(i, j) | Element::Cell(i, j) => vec![i, j],
             };
-            Formula::Name { base, dots: 0, indices }
+            let number = |i: usize| Formula::Number(Rational::from_integer(i as i128));
+            Formula::Name { base, dots: 0, indices: indices.into_iter().map(number).collect() }
         }
     }
 }

@@ -3,6 +3,9 @@
 mod formula;
 mod kinds;
 mod notation;
+mod symbols;
+#[cfg(test)]
+mod tests;
 
 use crate::mechanics::Equations;
 use crate::resolve::Problem;
@@ -88,10 +91,10 @@ fn defined(define: &Define, problem: &Problem) -> Formula {
 fn target(name: &Name, index: &TargetIndex, problem: &Problem) -> Formula {
     let index = match index {
         TargetIndex::None => None,
-        TargetIndex::Element(element) => Some(Notation::Unicode.write(&written(element, problem))),
+        TargetIndex::Element(element) => Some(written(element, problem)),
         TargetIndex::Family { index, from, to } => {
-            let [from, to] = [from, to].map(|end| Notation::Unicode.write(&written(end, problem)));
-            Some(format!("{} in {from}..{to}", index.text))
+            let [from, to] = [from, to].map(|end| Box::new(written(end, problem)));
+            Some(Formula::Running { index: index.text.clone(), from, to })
         }
     };
     Formula::Name { base: name.text.clone(), dots: 0, indices: index.into_iter().collect() }

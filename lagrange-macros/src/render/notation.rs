@@ -3,6 +3,8 @@
 use num_traits::{One, Signed};
 
 use super::formula::Formula;
+use super::symbols::{GREEK, decimal, superscript, vulgar};
+use crate::resolve::is_built_in;
 use crate::symbolic::Rational;
 
 /// How tightly a formula holds together: what is looser than its surroundings needs parentheses.
@@ -27,13 +29,15 @@ impl Notation {
             Formula::Number(value) => self.number(*value),
             Formula::Pi => self.pick("π", r"\pi").to_owned(),
             Formula::Name { base, dots, indices } => self.name(base, *dots, indices),
+            Formula::Entry(whole, index) => self.entry(self.at_least(whole, Binding::Atom), index),
+            Formula::Running { index, from, to } => self.running(index, from, to),
             Formula::Multiplier(constraint) => self.subscript(self.pick("λ", r"\lambda"), constraint),
             Formula::Negative(inner) => {
                 format!("{}{}", self.pick("−", "-"), self.at_least(inner, Binding::Product))
             }
             Formula::Sum(terms) => self.sum(terms),
             Formula::Product(above, below) => self.product(above, below),
-            Formula::Power(base, exponent) => self.power(base, exponent),
+            Formula::Power(base, exponent) => self.power(base, exponent, false),
             Formula::Root(inner) => match self {
                 Self::Unicode => format!("√{}", self.at_least(inner, Binding::Atom)),
                 Self::Latex => format!(r"\sqrt{{{}}}", self.write(inner)),
@@ -41,7 +45,11 @@ impl Notation {
             Formula::Call(name, arguments) => self.call(name, arguments),
             Formula::SumOver { index, from, to, body } => self.sum_over(index, from, to, body),
             Formula::Vector(items) => self.brackets(&self.list(items)),
-            Formula::Partial { function, by } => self.partial(function, by),
+            Formula::Derivative { function, order, argument } => {
+                let primes = self.pick("′", "'").repeat(*order);
+                format!("{}{primes}{}", self.write(function), self.parentheses(&self.write(argument)))
+            }
+            Formula::Partial { function, by, arguments } => self.partial(function, by, arguments),
         }
     }
 
@@ -56,7 +64,7 @@ impl Notation {
 
     fn at_least(self, formula: &Formula, least: Binding) -> String {
         let text = self.write(formula);
-        if binding(formula) >= least { text } else { self.parentheses(&text) }
+        if self.binding(formula) >= least { text } else { self.parentheses(&text) }
     }
 
     fn parentheses(self, inner: &str) -> String {
@@ -65,6 +73,10 @@ impl Notation {
 
     fn brackets(self, inner: &str) -> String {
         format!("{}{inner}{}", self.pick("[", r"\left["), self.pick("]", r"\right]"))
+    }
+
+    fn bars(self, inner: &str) -> String {
+        format!("{}{inner}{}", self.pick("|", r"\left|"), self.pick("|", r"\right|"))
     }
 
     fn list(self, items: &[Formula]) -> String {
@@ -89,32 +101,70 @@ impl Notation {
     }
 
     fn product(self, above: &[Formula], below: &[Formula]) -> String {
-        let join = |factors: &[Formula]| {
-            let parts: Vec<_> = factors.iter().map(|factor| self.at_least(factor, Binding::Power)).collect();
-            parts.join(self.pick(" ", r" \, "))
-        };
-        if below.is_empty() {
-            return join(above);
-        }
         match self {
-            Self::Latex => format!(r"\frac{{{}}}{{{}}}", join(above), join(below)),
-            Self::Unicode if below.len() == 1 => {
-                format!("{}/{}", join(above), self.at_least(&below[0], Binding::Power))
+            _ if below.is_empty() => self.factors(above, false),
+            Self::Latex => {
+                format!(r"\frac{{{}}}{{{}}}", self.factors(above, false), self.factors(below, false))
             }
-            Self::Unicode => format!("{}/({})", join(above), join(below)),
+            Self::Unicode => {
+                let below = match below {
+                    // a/2/3 could be read in two ways.
+                    [Formula::Number(value)] if !value.is_integer() => self.parentheses(&self.number(*value)),
+                    [single] => self.at_least(single, Binding::Power),
+                    several => self.parentheses(&self.factors(several, false)),
+                };
+                format!("{}/{below}", self.factors(above, true))
+            }
         }
     }
 
-    fn power(self, base: &Formula, exponent: &Formula) -> String {
-        // The exponent of a function stands at its name: sin² x.
-        if let (Formula::Call(name, arguments), Formula::Number(value)) = (base, exponent)
-            && let ([x], true) = (&arguments[..], PREFIX.contains(&name.as_str()) && value.is_integer())
-        {
-            let exponent = match self {
-                Self::Unicode => superscript(&value.to_string()),
-                Self::Latex => format!("^{{{value}}}"),
+    /// Side by side; with a dot between where a number would run into the next.
+    fn factors(self, factors: &[Formula], is_followed: bool) -> String {
+        let mut text = String::new();
+        for (position, factor) in factors.iter().enumerate() {
+            let factor = match (factor, factors.get(position + 1)) {
+                // What follows must not be taken for part of the dot product.
+                (Formula::Call(name, arguments), None) if name == "dot" && !is_followed => {
+                    self.call(name, arguments)
+                }
+                (factor, next) => {
+                    self.factor(factor, next.map_or(is_followed, |next| !begins_with_function(next)))
+                }
             };
-            return self.prefix(name, &exponent, x);
+            let begins_with_digit = factor.starts_with(|first: char| first.is_ascii_digit());
+            text += match position {
+                0 => "",
+                _ if begins_with_digit => self.pick(" · ", r" \cdot "),
+                _ => self.pick(" ", r" \, "),
+            };
+            text += &factor;
+        }
+        text
+    }
+
+    /// What follows must not be taken for part of the argument of a sine, or of what a root is taken of.
+    fn factor(self, factor: &Formula, is_followed: bool) -> String {
+        match factor {
+            Formula::Call(name, arguments) if is_prefixed(factor) => {
+                self.prefix(name, "", &arguments[0], is_followed)
+            }
+            Formula::Power(base, exponent) => self.power(base, exponent, is_followed),
+            Formula::Root(inner) if self == Self::Unicode && is_followed && is_number(inner) => {
+                self.parentheses(&self.write(factor))
+            }
+            _ => self.at_least(factor, Binding::Power),
+        }
+    }
+
+    fn power(self, base: &Formula, exponent: &Formula, is_followed: bool) -> String {
+        // The exponent of a function stands at its name, sin² x; sin⁻¹ would be its inverse.
+        if let (Formula::Call(name, arguments), Formula::Number(value)) = (base, exponent)
+            && is_prefixed(base)
+            && value.is_integer()
+            && value.is_positive()
+        {
+            let exponent = self.superscript(&value.to_string());
+            return self.prefix(name, &exponent, &arguments[0], is_followed);
         }
         let base = self.at_least(base, Binding::Atom);
         match (self, exponent) {
@@ -127,15 +177,19 @@ impl Notation {
     }
 
     /// ∂U/∂x, ∂²U/∂x∂y
-    fn partial(self, function: &str, by: &[Formula]) -> String {
-        let function = self.write(&Formula::labelled(function, 0));
+    fn partial(self, function: &Formula, by: &[Formula], arguments: &[Formula]) -> String {
+        let function = self.write(function);
         let order = if by.len() == 1 { String::new() } else { self.superscript(&by.len().to_string()) };
         let below: String =
             by.iter().map(|x| format!("{}{}", self.pick("∂", r"\partial "), self.write(x))).collect();
-        match self {
+        let derivative = match self {
             Self::Unicode => format!("∂{order}{function}/{below}"),
             Self::Latex => format!(r"\frac{{\partial{order} {function}}}{{{below}}}"),
+        };
+        if arguments.is_empty() {
+            return derivative;
         }
+        format!("{}{}", self.parentheses(&derivative), self.parentheses(&self.list(arguments)))
     }
 
     fn superscript(self, digits: &str) -> String {
@@ -144,44 +198,95 @@ impl Notation {
 
     fn call(self, name: &str, arguments: &[Formula]) -> String {
         match (name, arguments) {
-            ("abs", [x]) => {
-                format!("{}{}{}", self.pick("|", r"\left|"), self.write(x), self.pick("|", r"\right|"))
-            }
-            ("norm", [x]) => {
-                format!("{}{}{}", self.pick("|", r"\left|"), self.write(x), self.pick("|", r"\right|"))
-            }
+            ("abs" | "norm", [x]) => self.bars(&self.write(x)),
             ("dot", [x, y]) => self.infix(x, self.pick("·", r" \cdot "), y),
-            ("cross", [x, y]) => self.parentheses(&self.infix(x, self.pick("×", r" \times "), y)),
+            ("cross", [x, y]) => self.infix(x, self.pick("×", r" \times "), y),
             ("der", [x]) => {
                 format!("{}{}", self.pick("d/dt ", r"\frac{d}{dt} "), self.at_least(x, Binding::Power))
             }
-            (name, [x]) if PREFIX.contains(&name) => self.prefix(name, "", x),
-            _ => {
-                let name =
-                    if self == Self::Latex { format!(r"\operatorname{{{name}}}") } else { name.to_owned() };
-                format!("{name}{}", self.parentheses(&self.list(arguments)))
+            (name, [x]) if PREFIX.contains(&name) => self.prefix(name, "", x, false),
+            _ => format!("{}{}", self.function(name), self.parentheses(&self.list(arguments))),
+        }
+    }
+
+    /// The name of a function: upright if it has a fixed meaning.
+    fn function(self, name: &str) -> String {
+        match self {
+            Self::Latex if is_built_in(name) => {
+                format!(r"\operatorname{{{}}}", name.replace('_', r"\_"))
             }
+            _ => self.write(&Formula::labelled(name, 0)),
         }
     }
 
     /// sin x, sin² x, sin(2 x)
-    fn prefix(self, name: &str, exponent: &str, x: &Formula) -> String {
+    fn prefix(self, name: &str, exponent: &str, x: &Formula, is_followed: bool) -> String {
         let backslash = self.pick("", r"\");
         match x {
-            Formula::Name { .. } | Formula::Pi => format!("{backslash}{name}{exponent} {}", self.write(x)),
+            Formula::Name { .. } | Formula::Pi if !is_followed => {
+                format!("{backslash}{name}{exponent} {}", self.write(x))
+            }
             _ => format!("{backslash}{name}{exponent}{}", self.parentheses(&self.write(x))),
         }
     }
 
     fn infix(self, x: &Formula, operator: &str, y: &Formula) -> String {
-        format!("{}{operator}{}", self.at_least(x, Binding::Power), self.at_least(y, Binding::Power))
+        format!("{}{operator}{}", self.factor(x, true), self.at_least(y, Binding::Power))
     }
 
     fn sum_over(self, index: &str, from: &Formula, to: &Formula, body: &Formula) -> String {
-        let (from, to, body) = (self.write(from), self.write(to), self.at_least(body, Binding::Product));
+        let body = self.at_least(body, Binding::Product);
         match self {
-            Self::Unicode => format!("Σ({index} = {from} … {to} − 1) {body}"),
-            Self::Latex => format!(r"\sum_{{{index} = {from}}}^{{{to} - 1}} {body}"),
+            Self::Unicode => format!("Σ({}) {body}", self.running(index, from, to)),
+            Self::Latex => {
+                let (from, last) = (self.write(from), self.last(to));
+                format!(r"\sum_{{{index} = {from}}}^{{{last}}} {body}")
+            }
+        }
+    }
+
+    /// i = 0 … 2
+    fn running(self, index: &str, from: &Formula, to: &Formula) -> String {
+        format!("{index} = {} {} {}", self.write(from), self.pick("…", r"\ldots"), self.last(to))
+    }
+
+    /// The whole number before `end`.
+    fn last(self, end: &Formula) -> String {
+        match end {
+            Formula::Number(value) => self.number(value - Rational::one()),
+            end => format!("{} {} 1", self.write(end), self.pick("−", "-")),
+        }
+    }
+
+    fn entry(self, whole: String, index: &Formula) -> String {
+        match self {
+            Self::Unicode => format!("{whole}[{}]", self.write(index)),
+            Self::Latex => format!("{whole}_{{{}}}", self.write(index)),
+        }
+    }
+
+    /// How tightly a formula holds together.
+    fn binding(self, formula: &Formula) -> Binding {
+        match formula {
+            Formula::Number(value) if value.is_negative() => Binding::Sum,
+            Formula::Negative(_) | Formula::Sum(_) | Formula::SumOver { .. } => Binding::Sum,
+            Formula::Product(..) => Binding::Product,
+            Formula::Call(name, _) => match name.as_str() {
+                "dot" | "cross" | "der" => Binding::Product,
+                // `sin x` holds like a factor, not like the base of a power.
+                name if PREFIX.contains(&name) => Binding::Power,
+                _ => Binding::Atom,
+            },
+            Formula::Partial { arguments, .. } if arguments.is_empty() => match self {
+                Self::Unicode => Binding::Product,
+                Self::Latex => Binding::Power,
+            },
+            Formula::Power(..) => Binding::Power,
+            Formula::Root(_) if self == Self::Unicode => Binding::Power,
+            Formula::Number(value) if !value.denom().is_one() => Binding::Power,
+            // A further index would run into the first.
+            Formula::Entry(..) if self == Self::Latex => Binding::Power,
+            _ => Binding::Atom,
         }
     }
 
@@ -204,7 +309,7 @@ impl Notation {
     }
 
     /// Greek by their names; dots above the last letter; indices below.
-    fn name(self, base: &str, dots: usize, indices: &[String]) -> String {
+    fn name(self, base: &str, dots: usize, indices: &[Formula]) -> String {
         let (base, tail) = match base.split_once('_') {
             Some((base, tail)) if !base.is_empty() && !tail.is_empty() => (base, Some(tail)),
             _ => (base, None),
@@ -217,22 +322,24 @@ impl Notation {
             (Self::Latex, 1) => format!(r"\dot{{{letter}}}"),
             (Self::Latex, _) => format!(r"\ddot{{{letter}}}"),
         };
-        match (self, tail) {
-            (Self::Latex, _) if tail.is_some() || !indices.is_empty() => {
+        let indices = indices.iter().map(|index| self.write(index));
+        match self {
+            Self::Latex => {
                 let below: Vec<String> =
-                    tail.map(|tail| self.letter(tail)).into_iter().chain(indices.to_vec()).collect();
-                format!("{letter}_{{{}}}", below.join(", "))
+                    tail.map(|tail| self.letter(tail)).into_iter().chain(indices).collect();
+                if below.is_empty() { letter } else { format!("{letter}_{{{}}}", below.join(", ")) }
             }
-            _ => {
+            Self::Unicode => {
                 let tail = tail.map(|tail| format!("_{tail}")).unwrap_or_default();
-                let indices: String = indices.iter().map(|index| format!("[{index}]")).collect();
+                let indices: String = indices.map(|index| format!("[{index}]")).collect();
                 format!("{letter}{tail}{indices}")
             }
         }
     }
 
     fn letter(self, name: &str) -> String {
-        match (self, GREEK.iter().find(|(latin, _)| *latin == name)) {
+        let greek = GREEK.iter().find(|(latin, greek)| *latin == name || *greek == name);
+        match (self, greek) {
             (Self::Unicode, Some((_, greek))) => (*greek).to_owned(),
             (Self::Latex, Some((latin, _))) => format!(r"\{latin}"),
             (Self::Latex, None) if name.chars().count() > 1 => {
@@ -253,110 +360,22 @@ impl Notation {
 /// Functions that are written without parentheses before a single name.
 const PREFIX: [&str; 8] = ["sin", "cos", "tan", "sinh", "cosh", "tanh", "exp", "ln"];
 
-fn binding(formula: &Formula) -> Binding {
+/// Whether it is written as a name before its argument.
+fn is_prefixed(formula: &Formula) -> bool {
     match formula {
-        Formula::Number(value) if value.is_negative() => Binding::Sum,
-        Formula::Negative(_) => Binding::Sum,
-        Formula::Sum(_) | Formula::SumOver { .. } => Binding::Sum,
-        Formula::Product(..) => Binding::Product,
-        Formula::Power(..) => Binding::Power,
-        // `sin x` holds like a factor, not like the base of a power.
-        Formula::Call(..) => Binding::Power,
-        Formula::Number(value) if !value.denom().is_one() => Binding::Power,
-        _ => Binding::Atom,
+        Formula::Call(name, arguments) => PREFIX.contains(&name.as_str()) && arguments.len() == 1,
+        _ => false,
     }
 }
 
-/// A finite decimal such as 9.81; simple fractions are read better as such.
-fn decimal(value: Rational) -> Option<String> {
-    let mut denominator = *value.denom();
-    if denominator < 16 {
-        return None;
-    }
-    let mut digits = 0;
-    while denominator % 10 == 0 {
-        denominator /= 10;
-        digits += 1;
-    }
-    while denominator > 1 && digits < 12 {
-        let factor = if denominator % 2 == 0 { 2 } else { 5 };
-        if denominator % factor != 0 {
-            return None;
-        }
-        denominator /= factor;
-        digits += 1;
-    }
-    let scaled = value.numer().checked_mul(10_i128.checked_pow(digits)?)? / value.denom();
-    let text = format!("{scaled:0>width$}", width = digits as usize + 1);
-    let (whole, fraction) = text.split_at(text.len() - digits as usize);
-    Some(format!("{whole}.{}", fraction.trim_end_matches('0')))
+fn is_number(formula: &Formula) -> bool {
+    matches!(formula, Formula::Number(_))
 }
 
-fn vulgar(numerator: i128, denominator: i128) -> Option<char> {
-    const KNOWN: [(i128, i128, char); 15] = [
-        (1, 2, '½'),
-        (1, 3, '⅓'),
-        (2, 3, '⅔'),
-        (1, 4, '¼'),
-        (3, 4, '¾'),
-        (1, 5, '⅕'),
-        (2, 5, '⅖'),
-        (3, 5, '⅗'),
-        (4, 5, '⅘'),
-        (1, 6, '⅙'),
-        (5, 6, '⅚'),
-        (1, 8, '⅛'),
-        (3, 8, '⅜'),
-        (5, 8, '⅝'),
-        (7, 8, '⅞'),
-    ];
-    KNOWN.iter().find(|(n, d, _)| (*n, *d) == (numerator, denominator)).map(|(_, _, fraction)| *fraction)
+/// `sin x` and `sin² x` end the argument of the function before them.
+fn begins_with_function(formula: &Formula) -> bool {
+    match formula {
+        Formula::Power(base, exponent) => is_prefixed(base) && matches!(**exponent, Formula::Number(_)),
+        other => is_prefixed(other),
+    }
 }
-
-fn superscript(digits: &str) -> String {
-    digits
-        .chars()
-        .map(|digit| match digit {
-            '-' => '⁻',
-            digit => {
-                ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][digit.to_digit(10).unwrap_or(0) as usize]
-            }
-        })
-        .collect()
-}
-
-const GREEK: [(&str, &str); 33] = [
-    ("alpha", "α"),
-    ("beta", "β"),
-    ("gamma", "γ"),
-    ("delta", "δ"),
-    ("epsilon", "ε"),
-    ("zeta", "ζ"),
-    ("eta", "η"),
-    ("theta", "θ"),
-    ("iota", "ι"),
-    ("kappa", "κ"),
-    ("lambda", "λ"),
-    ("mu", "μ"),
-    ("nu", "ν"),
-    ("xi", "ξ"),
-    ("rho", "ρ"),
-    ("sigma", "σ"),
-    ("tau", "τ"),
-    ("upsilon", "υ"),
-    ("phi", "φ"),
-    ("chi", "χ"),
-    ("psi", "ψ"),
-    ("omega", "ω"),
-    ("Gamma", "Γ"),
-    ("Delta", "Δ"),
-    ("Theta", "Θ"),
-    ("Lambda", "Λ"),
-    ("Xi", "Ξ"),
-    ("Sigma", "Σ"),
-    ("Phi", "Φ"),
-    ("Psi", "Ψ"),
-    ("Omega", "Ω"),
-    ("varphi", "φ"),
-    ("vartheta", "ϑ"),
-];

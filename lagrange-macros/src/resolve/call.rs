@@ -212,7 +212,7 @@ impl Lowering<'_> {
     }
 }
 
-fn wrong_number(name: &Name, wanted: usize, given: usize) -> String {
+pub(super) fn wrong_number(name: &Name, wanted: usize, given: usize) -> String {
     let plural = if wanted == 1 { "" } else { "s" };
     let are = if given == 1 { "is" } else { "are" };
     format!("`{}` takes {wanted} argument{plural}, but {given} {are} given", name.text)

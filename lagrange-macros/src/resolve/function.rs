@@ -1,7 +1,8 @@
 //! Functions that the user supplies: fields that are called.
 
+use super::call::wrong_number;
 use super::lower::Lowering;
-use super::scope::{Entity, Scope};
+use super::scope::{Entity, Scope, nearest};
 use super::value::Value;
 use crate::diagnostics::{Diagnostics, Place};
 use crate::symbolic::External;
@@ -12,9 +13,13 @@ pub(crate) struct Supplied {
     /// The name in the expressions.
     pub(crate) name: String,
     pub(crate) field: syn::Ident,
+    /// The type of the function itself, where the field is a reference to it.
     pub(crate) ty: syn::Type,
+    pub(crate) is_reference: bool,
     /// Where the attribute names it.
     pub(crate) place: Place,
+    /// Its arguments as declared, with the lengths of those that are vectors.
+    pub(crate) formals: Vec<(String, Option<usize>)>,
     /// How many numbers it takes, all arguments together.
     pub(crate) inputs: usize,
     /// How many numbers it gives.
@@ -30,25 +35,38 @@ pub(super) fn supplied(
     let supplied = declaration.functions.iter().filter_map(|function| {
         let Some(field) = declaration.fields.iter().find(|field| field.name.text == function.field.text)
         else {
-            let message = format!(
-                "there is no field `{}` that would be this function: name it with `= field`",
-                function.field.text
-            );
-            diagnostics.error(function.field.place, message);
+            diagnostics.push(no_such_field(function, declaration));
             return None;
         };
-        let lengths =
-            function.formals.iter().map(|formal| formal_length(formal, declaration, scope).unwrap_or(1));
+        let formal = |formal: &(crate::syntax::Name, Option<usize>)| {
+            (formal.0.text.clone(), formal_length(formal, declaration, scope))
+        };
+        let formals: Vec<_> = function.formals.iter().map(formal).collect();
+        let (ty, is_reference) = match &field.ty {
+            syn::Type::Reference(reference) => (&*reference.elem, true),
+            ty => (ty, false),
+        };
         Some(Supplied {
             name: function.name.text.clone(),
             field: field.ident.clone(),
-            ty: field.ty.clone(),
+            ty: ty.clone(),
+            is_reference,
             place: function.name.place,
-            inputs: lengths.sum(),
+            inputs: formals.iter().map(|(_, length)| length.unwrap_or(1)).sum(),
+            formals,
             outputs: function.length.unwrap_or(1),
         })
     });
     supplied.collect()
+}
+
+fn no_such_field(Function { name, field, .. }: &Function, declaration: &Declaration) -> syn::Error {
+    let fields = declaration.fields.iter().map(|field| field.name.text.as_str());
+    let advice = match nearest(&field.text, fields) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("name the one that is the function, `#[function({}(…) = field)]`", name.text),
+    };
+    field.place.error(format!("there is no field `{}`: {advice}", field.text))
 }
 
 /// A formal takes the shape it says, else that of the coordinate of its name, else it is a scalar.
@@ -73,8 +91,7 @@ impl Lowering<'_> {
         let function: &Function = &self.functions[index];
         let (name, wanted, given) = (&function.name.text, function.formals.len(), arguments.len());
         if wanted != given {
-            let plural = if wanted == 1 { "argument" } else { "arguments" };
-            return self.report(place, format!("`{name}` takes {wanted} {plural}, but {given} are given"));
+            return self.report(place, wrong_number(&function.name, wanted, given));
         }
         let values: Vec<_> = arguments.iter().map(|argument| self.lower(argument)).collect();
         let values: Vec<Value> = values.into_iter().collect::<Option<_>>()?;

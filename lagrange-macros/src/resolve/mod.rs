@@ -20,6 +20,7 @@ pub(crate) use function::Supplied;
 pub(crate) use lower::fault_message;
 use lower::{Definition, Lowering, MultiplierGroup, Setting, is_literal_zero};
 pub(crate) use parameters::{Element, Parameters, is_no_number};
+pub(crate) use scope::is_built_in;
 use scope::{Entity, Scope};
 use value::Value;
 

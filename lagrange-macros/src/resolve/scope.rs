@@ -56,11 +56,15 @@ pub(super) struct Scope {
     entities: IndexMap<String, (Entity, Place)>,
     /// Fields that bear a built-in's name, which is fine while no expression uses it.
     shadowing: IndexMap<String, Place>,
+    /// Fields that are functions, by the functions' names.
+    functions: IndexMap<String, String>,
 }
 
 impl Scope {
     pub(super) fn new(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Self {
-        let mut scope = Self { entities: IndexMap::new(), shadowing: IndexMap::new() };
+        let names = |function: &Function| (function.field.text.clone(), function.name.text.clone());
+        let functions = declaration.functions.iter().map(names).collect();
+        let mut scope = Self { entities: IndexMap::new(), shadowing: IndexMap::new(), functions };
         for (index, coordinate) in declaration.coordinates.iter().enumerate() {
             scope.declare(&coordinate.name, Entity::Coordinate(index), diagnostics);
         }
@@ -72,8 +76,7 @@ impl Scope {
         }
         for (index, field) in declaration.fields.iter().enumerate() {
             // The field of a function may bear the function's name.
-            let is_function = |function: &Function| function.field.text == field.name.text;
-            if declaration.functions.iter().any(is_function) {
+            if scope.functions.contains_key(&field.name.text) {
                 continue;
             }
             if is_built_in(&field.name.text) {
@@ -163,6 +166,9 @@ impl Scope {
     /// An error for a name that means nothing, with the nearest that does.
     pub(super) fn unknown(&self, name: &Name, more: &[String]) -> syn::Error {
         let text = &name.text;
+        if let Some(error) = self.is_field_of_function(name) {
+            return error;
+        }
         if let Some(base) = text.strip_suffix("_dot").or_else(|| text.strip_suffix("_ddot"))
             && let Some(entity @ (Entity::Definition(_) | Entity::Field(_))) = self.get(base)
         {
@@ -194,6 +200,9 @@ impl Scope {
     /// An error for a function that does not exist.
     pub(super) fn unknown_function(&self, name: &Name) -> syn::Error {
         let text = name.text.as_str();
+        if let Some(error) = self.is_field_of_function(name) {
+            return error;
+        }
         let advice = match text {
             "log" | "Log" | "log2" | "log10" => Some("the natural logarithm is `ln`"),
             "pow" | "Pow" | "powi" | "powf" => Some("a power is written `x^2`"),
@@ -229,8 +238,16 @@ impl Scope {
             }
             (None, None) => name
                 .place
-                .error(format!("there is no function `{text}`: define it with `#[define({text}(x) = …)]`")),
+                .error(format!("there is no function `{text}`: define it with `#[define({text}(x) = …)]`, or supply it as a field named in `#[function({text}(x))]`")),
         }
+    }
+
+    /// The field of a function does not stand in expressions: the function does.
+    fn is_field_of_function(&self, name: &Name) -> Option<syn::Error> {
+        let function = self.functions.get(&name.text)?;
+        let message =
+            format!("the field `{}` is the function `{function}`: write `{function}(…)`", name.text);
+        Some(name.place.error(message))
     }
 }
 
@@ -247,7 +264,7 @@ impl Entity {
     }
 }
 
-pub(super) fn is_built_in(name: &str) -> bool {
+pub(crate) fn is_built_in(name: &str) -> bool {
     FUNCTIONS.contains(&name) || CONSTANTS.contains(&name)
 }
 

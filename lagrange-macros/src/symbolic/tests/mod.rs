@@ -5,6 +5,7 @@ mod bounds;
 mod canonical;
 mod derivatives;
 mod double;
+mod external;
 mod faults;
 mod rationals;
 mod sample;

@@ -1,0 +1,100 @@
+//! Greek letters, fractions, exponents: the signs that formulas are written with.
+
+use crate::symbolic::Rational;
+
+/// A finite decimal such as 9.81; simple fractions are read better as such.
+pub(super) fn decimal(value: Rational) -> Option<String> {
+    let mut denominator = *value.denom();
+    if denominator < 16 {
+        return None;
+    }
+    let mut digits = 0;
+    while denominator % 10 == 0 {
+        denominator /= 10;
+        digits += 1;
+    }
+    while denominator > 1 && digits < 12 {
+        let factor = if denominator % 2 == 0 { 2 } else { 5 };
+        if denominator % factor != 0 {
+            return None;
+        }
+        denominator /= factor;
+        digits += 1;
+    }
+    let scaled = value.numer().checked_mul(10_i128.checked_pow(digits)?)? / value.denom();
+    let text = format!("{scaled:0>width$}", width = digits as usize + 1);
+    let (whole, fraction) = text.split_at(text.len() - digits as usize);
+    Some(format!("{whole}.{}", fraction.trim_end_matches('0')))
+}
+
+pub(super) fn vulgar(numerator: i128, denominator: i128) -> Option<char> {
+    const KNOWN: [(i128, i128, char); 15] = [
+        (1, 2, '½'),
+        (1, 3, '⅓'),
+        (2, 3, '⅔'),
+        (1, 4, '¼'),
+        (3, 4, '¾'),
+        (1, 5, '⅕'),
+        (2, 5, '⅖'),
+        (3, 5, '⅗'),
+        (4, 5, '⅘'),
+        (1, 6, '⅙'),
+        (5, 6, '⅚'),
+        (1, 8, '⅛'),
+        (3, 8, '⅜'),
+        (5, 8, '⅝'),
+        (7, 8, '⅞'),
+    ];
+    KNOWN.iter().find(|(n, d, _)| (*n, *d) == (numerator, denominator)).map(|(_, _, fraction)| *fraction)
+}
+
+pub(super) fn superscript(digits: &str) -> String {
+    digits
+        .chars()
+        .map(|digit| match digit {
+            '-' => '⁻',
+            digit => {
+                ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][digit.to_digit(10).unwrap_or(0) as usize]
+            }
+        })
+        .collect()
+}
+
+/// Names of letters, as written in Latin and in Greek.
+pub(super) const GREEK: [(&str, &str); 35] = [
+    ("alpha", "α"),
+    ("beta", "β"),
+    ("gamma", "γ"),
+    ("delta", "δ"),
+    ("epsilon", "ε"),
+    ("zeta", "ζ"),
+    ("eta", "η"),
+    ("theta", "θ"),
+    ("iota", "ι"),
+    ("kappa", "κ"),
+    ("lambda", "λ"),
+    ("mu", "μ"),
+    ("nu", "ν"),
+    ("xi", "ξ"),
+    ("rho", "ρ"),
+    ("sigma", "σ"),
+    ("tau", "τ"),
+    ("upsilon", "υ"),
+    ("phi", "φ"),
+    ("chi", "χ"),
+    ("psi", "ψ"),
+    ("omega", "ω"),
+    ("Gamma", "Γ"),
+    ("Delta", "Δ"),
+    ("Theta", "Θ"),
+    ("Lambda", "Λ"),
+    ("Xi", "Ξ"),
+    ("Pi", "Π"),
+    ("Upsilon", "Υ"),
+    ("Sigma", "Σ"),
+    ("Phi", "Φ"),
+    ("Psi", "Ψ"),
+    ("Omega", "Ω"),
+    ("varphi", "ϕ"),
+    ("vartheta", "ϑ"),
+];

@@ -1,0 +1,10 @@
+use lagrange_core::prelude::*;
+
+#[derive(Lagrangian)]
+#[coordinates(r: [2])]
+#[lagrangian(dot(r_dot, r_dot)/2 - sum(i in 0..n, r[i]))]
+struct System {
+    n: f64,
+}
+
+fn main() {}

@@ -1,0 +1,13 @@
+use lagrange_core::Table;
+use lagrange_core::prelude::*;
+
+#[derive(Lagrangian)]
+#[coordinates(x)]
+#[function(U(x) = potential)]
+#[lagrangian(m/2*x_dot^2 - U(x))]
+struct System {
+    m: f32,
+    potential: Table,
+}
+
+fn main() {}
