@@ -1,0 +1,6 @@
+//! Pendulums on a sphere and particles in rotating frames: systems of Milton's chapter 8 against their exact laws.
+
+mod polar;
+
+#[path = "../../examples/pendulum/mod.rs"]
+mod pendulum;
