@@ -126,7 +126,8 @@ fn row(degrees: f64) -> Result<()> {
     let (ellipse, centrifugal) = (-pendulum.as_an_ellipse(3.0, DAY), -pendulum.centrifugal(3.0, DAY));
     let parts = [turned, foucault, ellipse, centrifugal, turned - foucault - ellipse - centrifugal];
     // Without negative zeros.
-    let [turned, foucault, ellipse, centrifugal, left] = parts.map(|angle| angle.to_degrees() + 0.0);
+    let [turned, foucault, ellipse, centrifugal, left] =
+        parts.map(|angle| (angle.to_degrees() * 1e12).round() / 1e12 + 0.0);
     println!(
         "{degrees:7.3}° {:8} {turned:14.7} {foucault:14.7} {ellipse:13.7} {centrifugal:12.7} {left:9.1e}",
         plane.len() / 2

@@ -1,6 +1,9 @@
 //! Pendulums on a sphere and particles in rotating frames: systems of Milton's chapter 8 against their exact laws.
 
+mod foucault;
+mod particles;
 mod polar;
+mod small;
 
 #[path = "../../examples/pendulum/mod.rs"]
 mod pendulum;

@@ -130,7 +130,9 @@ impl Notation {
     fn partial(self, function: &str, by: &[Formula]) -> String {
         let function = self.write(&Formula::labelled(function, 0));
         let order = if by.len() == 1 { String::new() } else { self.superscript(&by.len().to_string()) };
-        let below: String = by.iter().map(|x| format!("{}{}", self.pick("∂", r"\partial "), self.write(x))).collect();
+        let partial = self.pick("∂", r"\partial ");
+        let below: String =
+            by.iter().map(|x| format!("{partial}{}", self.at_least(x, Binding::Atom))).collect();
         match self {
             Self::Unicode => format!("∂{order}{function}/{below}"),
             Self::Latex => format!(r"\frac{{\partial{order} {function}}}{{{below}}}"),
