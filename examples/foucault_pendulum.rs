@@ -185,7 +185,7 @@ fn draw_hours(area: &picture::Area<'_>) -> Result<()> {
         let hour = |(t, azimuth): (f64, f64)| (t * 24.0 / DAY, azimuth.to_degrees());
         let law = [0.0, DAY].map(|t| hour((t, -pendulum.vertical() * t))).to_vec();
         let motion = plane(&pendulum.day()?)?.into_iter().step_by(400).map(hour).collect();
-        picture::curve(&mut chart, &format!("−Ω t sin({degrees}°)"), color, &law)?;
+        picture::curve(&mut chart, &format!("−Ω t sin({degrees}°)").replace('-', "−"), color, &law)?;
         picture::dots(&mut chart, "integrated motion", color, &motion)?;
     }
     picture::legend(&mut chart, SeriesLabelPosition::UpperLeft)

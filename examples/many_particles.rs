@@ -201,7 +201,7 @@ fn draw_energies(ions: &StirredIons, path: &Path<'_>, area: &picture::Area<'_>) 
     let mut chart =
         picture::panel(area, "E = E₀ − Σ L_a·Ω, Milton (8.53)", ["t", "change since the start"], ranges)?;
     picture::curve(&mut chart, "E₀, in the frame at rest", BLUE, &at_rest)?;
-    picture::curve(&mut chart, "Σ L_a·Ω", RED, &stirring)?;
+    picture::dots(&mut chart, "Σ L_a·Ω", RED, &stirring.into_iter().step_by(20).collect())?;
     picture::curve(&mut chart, "E, in the frame of the trap", GREY, &energy)?;
     picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
 }

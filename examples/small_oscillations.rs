@@ -225,7 +225,7 @@ fn draw_error(
         ellipses.iter().map(|e| (e.a.log10(), value(e).abs().log10())).collect()
     };
     let mut chart =
-        picture::panel(area, title, ["log₁₀ a/l", "log₁₀ |value/law − 1|"], [-4.0..-0.5, -12.0..1.0])?;
+        picture::panel(area, title, ["log₁₀ a/l", "log₁₀ |value/law − 1|"], [-4.0..-0.5, -15.0..2.0])?;
     picture::curve(&mut chart, floor_name, GREY, &points(&|e| ROUND_OFF[which] / e.law[which]))?;
     picture::curve(&mut chart, "quadrature: slope 2", BLUE, &points(&|e| e.error(which, e.quadrature)))?;
     picture::dots(&mut chart, "integrated motion", RED, &points(&|e| e.error(which, e.motion)))?;

@@ -14,7 +14,7 @@ pub(crate) fn crossings(times: impl Iterator<Item = f64>, f: impl Fn(f64) -> f64
 ///
 /// The chord's zero replaces the end of its sign; an end that stays has its value halved, so that the next chord leans
 /// to it (the Illinois rule). Where a step changes nothing any more, the zero is known to round-off.
-pub(crate) fn zero(mut kept: (f64, f64), mut newest: (f64, f64), f: impl Fn(f64) -> f64) -> f64 {
+pub(super) fn zero(mut kept: (f64, f64), mut newest: (f64, f64), f: impl Fn(f64) -> f64) -> f64 {
     for _ in 0..200 {
         let x = newest.0 - newest.1 * (newest.0 - kept.0) / (newest.1 - kept.1);
         let y = f(x);

@@ -4,6 +4,18 @@ use approx::{assert_abs_diff_eq, assert_relative_eq};
 use lagrange_core::nalgebra::{Rotation3, Vector3};
 use lagrange_core::prelude::*;
 
+/// V(s) = k/2 s² + k/4 s⁴.
+struct Spring {
+    k: f64,
+}
+
+impl Function<3, 1> for Spring {
+    fn eval<S: Scalar>(&self, [x, y, z]: [S; 3]) -> [S; 1] {
+        let square = x * x + y * y + z * z;
+        [S::constant(self.k / 2.0) * square + S::constant(self.k / 4.0) * square * square]
+    }
+}
+
 /// Three particles that attract each other, in a field that turns with the frame, about an axis of any direction.
 #[derive(Lagrangian)]
 #[coordinates(a: [3], b: [3], c: [3])]
@@ -11,7 +23,7 @@ use lagrange_core::prelude::*;
 #[define(r[1] = b)]
 #[define(r[2] = c)]
 #[define(U(s) = e/2*s[0]^2 - f*s[1]*s[2] + e*dot(s, s))]
-#[define(V(s) = k/2*dot(s, s) + k/4*dot(s, s)^2)]
+#[function(V(s: [3]) = spring)]
 #[define(pairs = V(r[0] - r[1]) + sum(j in 0..2, V(r[2] - r[j])))]
 #[define(v[i in 0..3] = der(r[i]))]
 #[define(one(i) = dot(v[i], v[i])/2 + dot(v[i], cross(w, r[i])) + dot(cross(w, r[i]), cross(w, r[i]))/2)]
@@ -19,13 +31,13 @@ use lagrange_core::prelude::*;
 struct Rotating {
     m: [f64; 3],
     w: [f64; 3],
-    k: f64,
+    spring: Spring,
     e: f64,
     f: f64,
 }
 
-/// The same in the frame at rest, where the field turns: a point is turned back by Rodrigues' formula before the field
-/// is taken there.
+/// The same in the frame at rest, with the attraction written out. The field turns here: a point is turned back by
+/// Rodrigues' formula before the field is taken there.
 #[derive(Lagrangian)]
 #[coordinates(a: [3], b: [3], c: [3])]
 #[define(r[0] = a)]
@@ -48,7 +60,7 @@ struct AtRest {
 
 const M: [f64; 3] = [1.0, 0.7, 2.0];
 const OMEGA: [f64; 3] = [0.2, -0.5, 0.7];
-const ROTATING: Rotating = Rotating { m: M, w: OMEGA, k: 0.3, e: 1.1, f: 0.4 };
+const ROTATING: Rotating = Rotating { m: M, w: OMEGA, spring: Spring { k: 0.3 }, e: 1.1, f: 0.4 };
 const AT_REST: AtRest = AtRest { m: M, w: OMEGA, k: 0.3, e: 1.1, f: 0.4 };
 
 fn vector(of: &[f64], particle: usize) -> Vector3<f64> {
@@ -136,4 +148,12 @@ fn energy_is_conserved_in_the_rotating_frame() {
         exchanged = exchanged.max((l_dot_omega(s) - l_dot_omega(&start)).abs());
     }
     assert!(exchanged > 0.1, "only {exchanged}");
+}
+
+/// The force of a user's function by its derivative, whose argument is a difference.
+#[test]
+fn equations_name_the_derivative_of_the_interaction() {
+    let equations = Rotating::equations();
+    assert!(equations.text().contains("∂V/∂(a[0] − b[0])"), "{equations}");
+    assert!(equations.latex().contains(r"\partial \left("), "{}", equations.latex());
 }

@@ -83,7 +83,7 @@ fn laws_are_approached_by_the_square_of_the_amplitude() {
     for a in (0..10).map(|k| 0.2 * 0.5_f64.powi(k)) {
         let (large, small) = (errors(a), errors(a / 2.0));
         for i in 0..2 {
-            // The next term of the series is a sixteenth of the last doubling, beside the error of 1 + 1e-8 − 1.
+            // The next term of the series is smaller by a², and ratio − 1 has an error of 10⁻¹⁵.
             let tolerance = a * a + 1e-15 / small[i];
             assert_abs_diff_eq!((large[i] / small[i]).log2(), 2.0, epsilon = tolerance);
         }
@@ -91,7 +91,7 @@ fn laws_are_approached_by_the_square_of_the_amplitude() {
     assert!(errors(0.2e-3)[0] < 2e-8);
 }
 
-/// The integrated motion, in both senses: its precession and period are those of the quadrature, to 10⁻¹³, so that
+/// The integrated motion, in both senses: its precession and period are those of the quadrature to round-off, so that
 /// the ratio to the law is seen to go to 1 over three decades.
 #[test]
 fn motion_against_quadrature_over_three_decades() {
