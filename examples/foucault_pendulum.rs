@@ -49,13 +49,17 @@ fn main() -> Result<()> {
         "{:>8} {:>8} {:>14} {:>14} {:>13} {:>12} {:>9}",
         "latitude", "swings", "motion", "360° sin lat.", "as an ellipse", "centrifugal", "left"
     );
-    for degrees in [90.0, PARIS, 30.0, 10.0, -30.0] {
-        row(degrees)?;
-    }
     let path = paris.day()?;
+    let mut days = Vec::new();
+    for degrees in [90.0, PARIS, 30.0, 10.0, -30.0] {
+        let day =
+            if degrees == PARIS { plane(&path)? } else { plane(&FoucaultPendulum::at(degrees).day()?)? };
+        row(degrees, &day);
+        days.push((degrees, day));
+    }
     checks(&paris, &path);
     let file = picture::path("foucault_pendulum")?;
-    draw(&paris, &path, &file)?;
+    draw(&paris, &days, &file)?;
     println!("\npicture: {}", file.display());
     Ok(())
 }
@@ -116,9 +120,8 @@ fn plane(path: &Path<'_>) -> Result<Points> {
     Ok(ends.windows(2).map(mean).collect())
 }
 
-fn row(degrees: f64) -> Result<()> {
+fn row(degrees: f64, plane: &Points) {
     let pendulum = FoucaultPendulum::at(degrees);
-    let plane = plane(&pendulum.day()?)?;
     let (t, azimuth) = plane[plane.len() - 1];
     // To the end of the day, by less than one swing.
     let turned = -azimuth * DAY / t;
@@ -132,7 +135,6 @@ fn row(degrees: f64) -> Result<()> {
         "{degrees:7.3}° {:8} {turned:14.7} {foucault:14.7} {ellipse:13.7} {centrifugal:12.7} {left:9.1e}",
         plane.len() / 2
     );
-    Ok(())
 }
 
 fn checks(pendulum: &FoucaultPendulum, path: &Path<'_>) {
@@ -148,14 +150,15 @@ fn checks(pendulum: &FoucaultPendulum, path: &Path<'_>) {
     println!("  the string keeps its length: ½ (r² − l²) = 0, in m²       {:8.1e}", worst[1]);
 }
 
-fn draw(paris: &FoucaultPendulum, path: &Path<'_>, file: &std::path::Path) -> Result<()> {
+/// From the days at each latitude.
+fn draw(paris: &FoucaultPendulum, days: &[(f64, Points)], file: &std::path::Path) -> Result<()> {
     let root = SVGBackend::new(file, (1100, 950)).into_drawing_area();
     root.fill(&WHITE)?;
     let panels = root.split_evenly((2, 2));
     draw_rosette(&panels[0])?;
-    draw_hours(&panels[1])?;
+    draw_hours(days, &panels[1])?;
     draw_latitudes(&panels[2])?;
-    draw_corrections(paris, path, &panels[3])?;
+    draw_corrections(paris, &days[1].1, &panels[3])?;
     root.present()?;
     Ok(())
 }
@@ -176,15 +179,16 @@ fn draw_rosette(area: &picture::Area<'_>) -> Result<()> {
     picture::legend(&mut chart, SeriesLabelPosition::LowerRight)
 }
 
-fn draw_hours(area: &picture::Area<'_>) -> Result<()> {
+fn draw_hours(days: &[(f64, Points)], area: &picture::Area<'_>) -> Result<()> {
     let title = "The plane of the swing on the real Earth";
     let axes = ["sidereal hours", "azimuth in degrees"];
     let mut chart = picture::panel(area, title, axes, [-0.3..24.3, -380.0..450.0])?;
-    for (degrees, color) in [(90.0, RED), (PARIS, BLUE), (-30.0, GREY)] {
-        let pendulum = FoucaultPendulum::at(degrees);
-        let hour = |(t, azimuth): (f64, f64)| (t * 24.0 / DAY, azimuth.to_degrees());
-        let law = [0.0, DAY].map(|t| hour((t, -pendulum.vertical() * t))).to_vec();
-        let motion = plane(&pendulum.day()?)?.into_iter().step_by(400).map(hour).collect();
+    for (which, color) in [(0, RED), (1, BLUE), (4, GREY)] {
+        let (degrees, plane) = &days[which];
+        let pendulum = FoucaultPendulum::at(*degrees);
+        let hour = |&(t, azimuth): &(f64, f64)| (t * 24.0 / DAY, azimuth.to_degrees());
+        let law = [0.0, DAY].map(|t| hour(&(t, -pendulum.vertical() * t))).to_vec();
+        let motion = plane.iter().step_by(400).map(hour).collect();
         picture::curve(&mut chart, &format!("−Ω t sin({degrees}°)").replace('-', "−"), color, &law)?;
         picture::dots(&mut chart, "integrated motion", color, &motion)?;
     }
@@ -214,12 +218,12 @@ fn draw_latitudes(area: &picture::Area<'_>) -> Result<()> {
     picture::legend(&mut chart, SeriesLabelPosition::UpperLeft)
 }
 
-fn draw_corrections(paris: &FoucaultPendulum, path: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_corrections(paris: &FoucaultPendulum, plane: &Points, area: &picture::Area<'_>) -> Result<()> {
     let hour = |t: f64| t * 24.0 / DAY;
-    let motion: Points = plane(path)?
-        .into_iter()
+    let motion: Points = plane
+        .iter()
         .step_by(400)
-        .map(|(t, azimuth)| (hour(t), (azimuth + paris.vertical() * t).to_degrees()))
+        .map(|&(t, azimuth)| (hour(t), (azimuth + paris.vertical() * t).to_degrees()))
         .collect();
     let law = |value: &dyn Fn(f64) -> f64| -> Points {
         (0..=96).map(|k| f64::from(k) * DAY / 96.0).map(|t| (hour(t), value(t).to_degrees())).collect()
