@@ -180,8 +180,9 @@ impl Notation {
     fn partial(self, function: &Formula, by: &[Formula], arguments: &[Formula]) -> String {
         let function = self.write(function);
         let order = if by.len() == 1 { String::new() } else { self.superscript(&by.len().to_string()) };
+        let partial = self.pick("∂", r"\partial ");
         let below: String =
-            by.iter().map(|x| format!("{}{}", self.pick("∂", r"\partial "), self.write(x))).collect();
+            by.iter().map(|x| format!("{partial}{}", self.at_least(x, Binding::Atom))).collect();
         let derivative = match self {
             Self::Unicode => format!("∂{order}{function}/{below}"),
             Self::Latex => format!(r"\frac{{\partial{order} {function}}}{{{below}}}"),
