@@ -64,8 +64,7 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
     let scope = Scope::new(declaration, diagnostics);
     let functions = function::supplied(declaration, &scope, diagnostics);
     let parameters = Parameters::new(declaration, diagnostics);
-    let mut lowering =
-        Lowering::new(scope, parameters, declaration, diagnostics);
+    let mut lowering = Lowering::new(scope, parameters, declaration, diagnostics);
     lowering.define_all();
     let lagrangian = declaration.lagrangian.as_ref().and_then(|lagrangian| lowering.scalar(lagrangian));
     let forces = lowering.forces(declaration);
@@ -311,7 +310,7 @@ impl Lowering<'_> {
 const CONSTRAINT_LIMIT: usize = 1000;
 
 /// Methods that every system has, or will have, and associated constants beside.
-pub(crate) const RESERVED: [&str; 39] = [
+pub(crate) const RESERVED: [&str; 44] = [
     "NAME",
     "COORDINATES",
     "CONSTRAINTS",
@@ -338,7 +337,12 @@ pub(crate) const RESERVED: [&str; 39] = [
     "energy",
     "hamiltonian",
     "equations",
+    "hamilton_equations",
+    "integrate_hamiltonian",
+    "integrate_hamiltonian_with",
     "legendre",
+    "legendre_near",
+    "phase_state",
     "velocities",
     "linearize",
     "equilibrium",
