@@ -73,6 +73,26 @@ fn of_several_velocities_the_nearest_is_found() {
     assert!(matches!(error, Error::MomentumNotReached { coordinate: "x", iterations: 0, .. }), "{error:?}");
 }
 
+/// In a wind w = 0.2 t − 1.1 the momentum of u = q̇ − w is u³ − u, constant, and so is u. It starts with u = 1.1, the one
+/// that the search from rest finds then; later that search would find another, but the motion does not jump.
+#[test]
+fn a_motion_stays_on_its_branch() {
+    #[derive(Lagrangian)]
+    #[coordinates(x)]
+    #[define(u = x_dot - t/5 + 11/10)]
+    #[lagrangian(u^4/4 - u^2/2)]
+    struct Wind;
+    let u = 1.1_f64;
+    let phase = PhaseState::new([0.0], [u.powi(3) - u]);
+    let path = Wind.integrate_hamiltonian(phase, 10.0, Dop853::default().max_step(0.5)).unwrap();
+    for sample in path.samples(101) {
+        let t = sample.time();
+        assert!((sample.state().q[0] - (u - 1.1) * t - 0.1 * t * t).abs() < 1e-12);
+        assert!((sample.state().v[0] - (u - 1.1) - 0.2 * t).abs() < 1e-12);
+    }
+    assert!((Wind.legendre(&phase.at_time(5.5)).unwrap().v[0] - u).abs() > 0.1);
+}
+
 /// p = q̇³ says nothing about the change of the velocity at rest.
 #[test]
 fn where_the_search_cannot_start_at_rest_it_starts_elsewhere() {
