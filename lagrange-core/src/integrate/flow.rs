@@ -72,7 +72,8 @@ where
         [state.q.into(), state.v.into()]
     }
 
-    #[inline]
+    // Inlined for sure: a call would copy the rates once more in every stage.
+    #[inline(always)]
     fn slope(
         system: &L,
         point: &Point<L::Scalar, N>,

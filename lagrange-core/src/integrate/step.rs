@@ -6,7 +6,7 @@ use nalgebra::ComplexField;
 
 use super::control::{Control, Place};
 use super::pair::{Pair, Row, SLOPES, Slopes, advance};
-use super::{Adaptive, Ending, Flow, Limits, Method, Phase, Point, Statistics, Step};
+use super::{Adaptive, Ending, Flow, Limits, Method, Phase, Point, Slope, Statistics, Step};
 use crate::eliminate::vector;
 use crate::names::{Entry, Row as EquationRow};
 use crate::numeric::{exceeds, larger};
@@ -119,8 +119,8 @@ where
         let zero = [[L::Scalar::constant(0.0); N]; 2];
         let mut slopes = [zero; SLOPES];
         let point = Point { t: start.t, y: F::phase(system, start), velocity: start.v.into() };
-        let active;
-        (slopes[0], active) = slope::<L, F, N, M>(system, &point, None, statistics)?;
+        let Slope { rates, active, .. } = slope::<L, F, N, M>(system, &point, None, statistics)?;
+        slopes[0] = rates;
         let span = end - start.t;
         let step = match self.fixed_step.or(self.first_step) {
             Some(step) => L::Scalar::constant(step),
@@ -192,24 +192,24 @@ impl<P: Pair> Adaptive<P> {
         let start = memory.y;
 
         stages::<P, L, F, N, M>(system, memory, h, (1, P::STAGES), statistics)?;
-        let mut next = advance(&start, h, &memory.slopes, P::WEIGHTS);
-        check_finite::<L, N, M>(time, &next)?;
+        let mut next = memory.point(time, advance(&start, h, &memory.slopes, P::WEIGHTS));
+        check_finite::<L, N, M>(time, &next.y)?;
         let mut active = memory.active;
         if error_needs_last {
-            let point = memory.point(time, next);
-            (memory.slopes[last], active) = slope::<L, F, N, M>(system, &point, Some(&active), statistics)?;
+            let slope = slope::<L, F, N, M>(system, &next, Some(&active), statistics)?;
+            (memory.slopes[last], active) = (slope.rates, slope.active);
         }
-        let error = self.check_error(&memory.slopes, h, &start, &next)?;
+        let error = self.check_error(&memory.slopes, h, &start, &next.y)?;
         if M > 0 {
-            next = F::phase(system, &F::project(system, &memory.point(time, next))?);
+            next.y = F::phase(system, &F::project(system, &next)?);
         }
         if M > 0 || !error_needs_last {
-            let point = memory.point(time, next);
-            (memory.slopes[last], active) = slope::<L, F, N, M>(system, &point, None, statistics)?;
+            let slope = slope::<L, F, N, M>(system, &next, None, statistics)?;
+            (memory.slopes[last], active) = (slope.rates, slope.active);
         }
         stages::<P, L, F, N, M>(system, memory, h, (last + 1, P::INTERPOLATION_STAGES), statistics)?;
-        memory.interpolate::<P>(h, &start, &next);
-        Ok(Accepted { y: next, error, active })
+        memory.interpolate::<P>(h, &start, &next.y);
+        Ok(Accepted { y: next.y, error, active })
     }
 
     /// The error as a part of the tolerance, at most 1; nothing refuses a fixed step.
@@ -244,7 +244,7 @@ impl<P: Pair> Adaptive<P> {
         let euler = from_fn(|half| from_fn(|i| y[half][i] + guess * first[half][i]));
         let point = Point { t: start.t + guess, y: euler, ..*start };
         match slope::<L, F, N, M>(system, &point, Some(active), statistics) {
-            Ok((second, _)) => self.first_step_from(guess, y, first, &second),
+            Ok(second) => self.first_step_from(guess, y, first, &second.rates),
             Err(_) => guess,
         }
     }
@@ -263,24 +263,25 @@ where
     L: Lagrangian<N, M, Scalar: Real>,
     F: Flow<L, N, M>,
 {
-    let start = memory.y;
+    let (t, start) = (memory.t, memory.y);
+    let mut point = memory.point(t, start);
     for (number, row) in rows.iter().enumerate().map(|(i, row)| (first + i, row)) {
-        let y = advance(&start, h, &memory.slopes, row);
-        let t = memory.t + h * L::Scalar::constant(P::NODES[number]);
-        let point = memory.point(t, y);
-        (memory.slopes[number], _) = slope::<L, F, N, M>(system, &point, Some(&memory.active), statistics)?;
+        point.y = advance(&start, h, &memory.slopes, row);
+        point.t = t + h * L::Scalar::constant(P::NODES[number]);
+        let active = Some(&memory.active);
+        memory.slopes[number] = slope::<L, F, N, M>(system, &point, active, statistics)?.rates;
     }
     Ok(())
 }
 
-/// The rates of the phase, counted, and which constraints they rest on.
+/// The rates of the phase, counted.
 #[inline]
 fn slope<L, F, const N: usize, const M: usize>(
     system: &L,
     point: &Point<L::Scalar, N>,
     active: Option<&[bool; M]>,
     statistics: &mut Statistics,
-) -> Result<(Phase<L::Scalar, N>, [bool; M]), Error>
+) -> Result<Slope<L::Scalar, N, M>, Error>
 where
     L: Lagrangian<N, M, Scalar: Real>,
     F: Flow<L, N, M>,
@@ -288,7 +289,7 @@ where
     statistics.evaluations += 1;
     let slope = F::slope(system, point, active)?;
     statistics.multipliers_are_unique &= slope.multipliers_are_unique;
-    Ok((slope.rates, slope.active))
+    Ok(slope)
 }
 
 fn check_finite<L, const N: usize, const M: usize>(
