@@ -132,3 +132,21 @@ fn forces_enter_the_rates_of_the_momenta() {
     let p_dot = -3.0 * 0.4 + 0.5 * 0.3_f64.cos() - 0.25 * 0.6;
     agree(system.hamilton_equations(&phase).unwrap().p.as_slice(), &[p_dot], 1e-14);
 }
+
+/// Single precision, to its round-off.
+#[test]
+fn single_precision() {
+    #[derive(Lagrangian)]
+    #[coordinates(x)]
+    #[lagrangian(-m*sqrt(1 - x_dot^2) - k/2 * x^2)]
+    struct Single<T> {
+        m: T,
+        k: T,
+    }
+    let system = Single { m: 1.0_f32, k: 0.5 };
+    let phase = PhaseState::new([2.0], [0.75]);
+    assert!((system.hamiltonian(&phase).unwrap() - 2.25).abs() < 1e-6);
+    assert!((system.hamilton_equations(&phase).unwrap().q[0] - 0.6).abs() < 1e-6);
+    let path = system.integrate_hamiltonian(phase, 5.0, Dopri5::with_tolerance(1e-5)).unwrap();
+    assert!(path.ending().is_complete() && (path.end().energy() - 2.25).abs() < 1e-3);
+}

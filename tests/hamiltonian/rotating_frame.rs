@@ -173,12 +173,12 @@ fn energy_of_many_particles_8_53() {
         let mut inertial_energy = 0.0;
         let mut angular = Vector3::zeros();
         let part = |x: &[f64], k: usize| Vector3::from_column_slice(&x[3 * k..3 * k + 3]);
-        for k in 0..3 {
+        for (k, m) in m.into_iter().enumerate() {
             let r = part(state.q.as_slice(), k);
             let v = part(state.v.as_slice(), k) + omega.cross(&r);
-            agree(part(p.as_slice(), k).as_slice(), (v * m[k]).as_slice(), 1e-12);
-            inertial_energy += m[k] / 2.0 * v.dot(&v);
-            angular += r.cross(&v) * m[k];
+            agree(part(p.as_slice(), k).as_slice(), (v * m).as_slice(), 1e-12);
+            inertial_energy += m / 2.0 * v.dot(&v);
+            angular += r.cross(&v) * m;
             let distance = r - part(state.q.as_slice(), (k + 1) % 3);
             inertial_energy += Function::eval(&Interaction, distance.into())[0];
         }
