@@ -51,7 +51,7 @@ fn gradient<L: Hamiltonian<N, M, Scalar = f64>, const N: usize, const M: usize>(
     system: &L,
     phase: &PhaseState<f64, N>,
 ) -> [[f64; N]; 2] {
-    let step = 1e-3;
+    let step = 4e-4;
     let value = |half: usize, i: usize, change: f64| {
         let mut moved = *phase;
         let half = if half == 0 { &mut moved.q } else { &mut moved.p };
