@@ -2,6 +2,7 @@
 
 use core::fmt::{self, Debug, Display, Formatter};
 
+use crate::integrate::{Flow, LagrangianFlow};
 use crate::names::Entry;
 use crate::{Lagrangian, Real, Sample, Scalar, Trajectory};
 
@@ -10,20 +11,21 @@ use crate::{Lagrangian, Real, Sample, Scalar, Trajectory};
 ///
 /// Numbers are the shortest that read back the same. Where the equations have no solution, what depends on it
 /// is `NaN`.
-pub struct Csv<'t, 'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
-    trajectory: &'t Trajectory<'a, L, N, M>,
+pub struct Csv<'t, 'a, L: Lagrangian<N, M>, const N: usize, const M: usize, F = LagrangianFlow> {
+    trajectory: &'t Trajectory<'a, L, N, M, F>,
     count: usize,
 }
 
-impl<'t, 'a, L: Lagrangian<N, M>, const N: usize, const M: usize> Csv<'t, 'a, L, N, M> {
-    pub(crate) fn new(trajectory: &'t Trajectory<'a, L, N, M>, count: usize) -> Self {
+impl<'t, 'a, L: Lagrangian<N, M>, const N: usize, const M: usize, F> Csv<'t, 'a, L, N, M, F> {
+    pub(crate) fn new(trajectory: &'t Trajectory<'a, L, N, M, F>, count: usize) -> Self {
         Self { trajectory, count }
     }
 }
 
-impl<L, const N: usize, const M: usize> Display for Csv<'_, '_, L, N, M>
+impl<L, F, const N: usize, const M: usize> Display for Csv<'_, '_, L, N, M, F>
 where
     L: Lagrangian<N, M, Scalar: Real>,
+    F: Flow<L, N, M>,
 {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         header::<L, N, M>(f)?;
@@ -31,7 +33,7 @@ where
     }
 }
 
-impl<L, const N: usize, const M: usize> Debug for Csv<'_, '_, L, N, M>
+impl<L, F, const N: usize, const M: usize> Debug for Csv<'_, '_, L, N, M, F>
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {

@@ -5,6 +5,7 @@ use core::fmt::{self, Display, Formatter};
 #[cfg(feature = "alloc")]
 use alloc::{string::String, vec::Vec};
 
+use crate::Real;
 use crate::names::{Entry, Names, Row};
 
 /// Why a computation did not start, or what a query asked in vain.
@@ -16,7 +17,7 @@ use crate::names::{Entry, Names, Row};
 pub enum Error {
     /// An entry of the state given is infinite or not a number.
     StateNotFinite {
-        /// The coordinate, velocity or time at fault.
+        /// The coordinate, velocity, momentum or time at fault.
         entry: Entry,
         /// Its value.
         value: f64,
@@ -78,6 +79,24 @@ pub enum Error {
         /// The time of the state.
         time: f64,
     },
+    /// The momenta do not determine some velocities: ∂p/∂q̇ is singular along the constraints.
+    VelocityUndetermined {
+        /// The coordinates whose velocities can change and leave the momenta as they are.
+        coordinates: Names,
+        /// The time of the momenta.
+        time: f64,
+    },
+    /// Newton's iteration found no velocity with the momenta given.
+    MomentumNotReached {
+        /// The coordinate whose momentum is farthest off.
+        coordinate: &'static str,
+        /// By how much.
+        residual: f64,
+        /// Iterations done.
+        iterations: usize,
+        /// The time of the momenta.
+        time: f64,
+    },
     /// A name that the system does not have.
     #[cfg(feature = "alloc")]
     UnknownName {
@@ -105,6 +124,16 @@ pub enum Error {
         /// Where it ends.
         end: f64,
     },
+}
+
+impl Error {
+    /// The first of these entries that is not a number.
+    pub(crate) fn of_entries<T: Real>(mut entries: impl Iterator<Item = (Entry, T)>) -> Result<(), Self> {
+        match entries.find(|(_, x)| !x.is_finite()) {
+            None => Ok(()),
+            Some((entry, x)) => Err(Self::StateNotFinite { entry, value: x.to_f64() }),
+        }
+    }
 }
 
 impl Display for Error {
@@ -143,6 +172,14 @@ impl Display for Error {
             Self::NotProjected { constraint, residual, iterations, time } => write!(
                 f,
                 "no consistent state found near the one given at t = {time}: constraint `{constraint}` has residual {residual:e} after {iterations} iterations; start closer to the constraints, or check that they can hold together"
+            ),
+            Self::VelocityUndetermined { coordinates, time } => write!(
+                f,
+                "the momenta do not determine the velocity of {coordinates} at t = {time}: give it a mass, constrain it, or start the search elsewhere with `legendre_near`"
+            ),
+            Self::MomentumNotReached { coordinate, residual, iterations, time } => write!(
+                f,
+                "no velocity found with the momenta given at t = {time}: that of `{coordinate}` is off by {residual:e} after {iterations} iterations; start the search closer with `legendre_near`, or check that some velocity has these momenta"
             ),
             #[cfg(feature = "alloc")]
             Self::UnknownName { name, kind, known } => unknown_name(f, name, kind, known),

@@ -28,6 +28,7 @@ assert!((friction + 2.0 / 7.0 * 9.81 * 0.3_f64.sin()).abs() < 1e-12);
 )]
 //!
 //! - [`Lagrangian`] is the contract that generated code implements, [`Simulate`] what a program calls.
+//! - [`Hamiltonian`] is the other side: momenta, the Legendre transform, Hamilton's equations, motion in (q, p).
 //! - [`Solution`] holds accelerations and multipliers; the sign of a multiplier is that of Milton (8.7): the constraint
 //!   force on coordinate a is Σ_α λ_α F_αa.
 //! - [`Dop853`] and [`Dopri5`] are the methods, [`Trajectory`] is what they give, [`Ending`] why it stops.
@@ -53,6 +54,7 @@ mod error;
 #[cfg(test)]
 mod fixtures;
 pub mod function;
+mod hamiltonian;
 mod integrability;
 #[cfg(feature = "alloc")]
 pub mod integrate;
@@ -82,6 +84,9 @@ pub use dual::Dual;
 pub use equations::Equations;
 pub use error::Error;
 pub use function::{ByHand, Function, HandWritten};
+#[cfg(feature = "alloc")]
+pub use hamiltonian::HamiltonianFlow;
+pub use hamiltonian::{Hamiltonian, PhaseRate, PhaseState};
 pub use integrability::{Classification, Evidence, Extent, Integrability, Integrals};
 #[cfg(feature = "alloc")]
 pub use integrate::{Dop853, Dopri5, Ending, Method, Progress, Statistics};

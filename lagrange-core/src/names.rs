@@ -2,7 +2,8 @@
 
 use core::fmt::{self, Display, Formatter};
 
-/// An entry of a state: the time, a coordinate `x`, or its velocity `x_dot` (`r_dot[0]` for an element `r[0]`).
+/// An entry of a state: the time, a coordinate `x`, its velocity `x_dot` (`r_dot[0]` for an element `r[0]`), or its
+/// momentum `p(x)`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Entry {
     /// The time.
@@ -11,6 +12,8 @@ pub enum Entry {
     Coordinate(&'static str),
     /// The generalized velocity of the coordinate of this name.
     Velocity(&'static str),
+    /// The generalized momentum of the coordinate of this name.
+    Momentum(&'static str),
 }
 
 impl Display for Entry {
@@ -22,6 +25,7 @@ impl Display for Entry {
                 let (base, index) = name.split_at(name.find('[').unwrap_or(name.len()));
                 write!(f, "{base}_dot{index}")
             }
+            Self::Momentum(name) => write!(f, "p({name})"),
         }
     }
 }

@@ -57,6 +57,19 @@ where
         Ok(self.state.v[coordinate::<L, N, M>(name)?])
     }
 
+    /// The generalized momentum ∂L/∂q̇ of the coordinate of this name.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`].
+    pub fn momentum(&self, name: &str) -> Result<L::Scalar, Error> {
+        Ok(self.system.momentum(&self.state)[coordinate::<L, N, M>(name)?])
+    }
+
+    /// The energy E = p·q̇ − L, which is the value of the Hamiltonian H(t, q, p).
+    pub fn energy(&self) -> L::Scalar {
+        self.system.energy(&self.state)
+    }
+
     /// The generalized acceleration of the coordinate of this name.
     ///
     /// # Errors

@@ -3,8 +3,6 @@
 #[cfg(feature = "alloc")]
 use core::ops::ControlFlow;
 
-use nalgebra::ComplexField;
-
 use crate::names::Entry;
 use crate::solve::solve;
 use crate::{Consistent, Error, Lagrangian, Real, Solution, State, consistent};
@@ -127,9 +125,5 @@ where
 {
     let q = L::COORDINATES.iter().zip(&state.q).map(|(name, x)| (Entry::Coordinate(name), *x));
     let v = L::COORDINATES.iter().zip(&state.v).map(|(name, x)| (Entry::Velocity(name), *x));
-    let mut entries = core::iter::once((Entry::Time, state.t)).chain(q).chain(v);
-    match entries.find(|(_, x)| !x.is_finite()) {
-        None => Ok(()),
-        Some((entry, x)) => Err(Error::StateNotFinite { entry, value: x.to_f64() }),
-    }
+    Error::of_entries(core::iter::once((Entry::Time, state.t)).chain(q).chain(v))
 }

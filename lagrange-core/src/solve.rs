@@ -83,7 +83,7 @@ where
 }
 
 /// The first row that is not finite.
-fn not_finite<L, const N: usize, const M: usize>(e: &Equations<L::Scalar, N, M>) -> Option<Row>
+pub(crate) fn not_finite<L, const N: usize, const M: usize>(e: &Equations<L::Scalar, N, M>) -> Option<Row>
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {
@@ -95,7 +95,7 @@ where
 }
 
 /// The coordinates that take part with at least a tenth of the largest share.
-fn most_involved<L, const N: usize, const M: usize>(share: &[L::Scalar; N]) -> Names
+pub(crate) fn most_involved<L, const N: usize, const M: usize>(share: &[L::Scalar; N]) -> Names
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {

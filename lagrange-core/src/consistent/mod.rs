@@ -76,8 +76,19 @@ pub(crate) fn project<L, const N: usize, const M: usize>(
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {
-    newton::<L, Position, N, M>(system, state)?;
+    project_coordinates(system, state)?;
     newton::<L, Velocity, N, M>(system, state)
+}
+
+/// Moves the coordinates to the nearest ones on Φ = 0.
+pub(crate) fn project_coordinates<L, const N: usize, const M: usize>(
+    system: &L,
+    state: &mut State<L::Scalar, N>,
+) -> Result<(), Error>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    newton::<L, Position, N, M>(system, state)
 }
 
 /// See [`Simulate::check_consistent`](crate::Simulate::check_consistent).

@@ -26,7 +26,8 @@ pub enum Ending {
     Singular {
         /// The last time reached.
         time: f64,
-        /// The coordinates or constraint at fault: [`Error::Singular`] or [`Error::Contradictory`].
+        /// The coordinates or constraint at fault: [`Error::Singular`] or [`Error::Contradictory`]; in (q, p) also
+        /// [`Error::VelocityUndetermined`] or [`Error::MomentumNotReached`].
         error: Error,
     },
     /// The equations became infinite or not a number.

@@ -5,6 +5,7 @@ mod control;
 mod dop853;
 mod dopri5;
 mod ending;
+mod flow;
 mod pair;
 mod step;
 #[cfg(test)]
@@ -18,6 +19,7 @@ pub use adaptive::Adaptive;
 pub use dop853::{Dop853, DormandPrince853};
 pub use dopri5::{Dopri5, DormandPrince54};
 pub use ending::Ending;
+pub use flow::{Flow, LagrangianFlow, Point, Slope};
 pub use pair::{Pair, Row};
 
 use crate::consistent::Consistent;
@@ -25,19 +27,21 @@ use crate::solve::solve;
 use crate::trajectory::Path;
 use crate::{Error, Lagrangian, Real, State, Trajectory, consistent};
 
-/// Coordinates and velocities as arrays: what a one-step method adds up.
+/// Coordinates and velocities, or coordinates and momenta, as arrays: what a one-step method adds up.
 pub type Phase<T, const N: usize> = [[T; N]; 2];
 
-/// A way to step from one state to the next; a value, whose type says by its bounds where it applies.
+/// A way to step from one state to the next; a value, whose type says by its bounds where it applies, and
+/// whether it integrates Lagrange's equations or Hamilton's, the flow `F`.
 ///
 /// [`drive`](crate::Simulate::integrate) checks the start, loops, stores and ends; a method proposes steps.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a method that integrates `{L}`",
     note = "use `Dop853::default()` or `Dopri5::default()`; the system must be over `f64` or `f32`"
 )]
-pub trait Method<L, const N: usize, const M: usize>
+pub trait Method<L, const N: usize, const M: usize, F = LagrangianFlow>
 where
     L: Lagrangian<N, M, Scalar: Real>,
+    F: Flow<L, N, M>,
 {
     /// What is carried from step to step, working arrays included.
     type Memory;
@@ -121,16 +125,17 @@ pub struct Progress {
 }
 
 /// See [`Simulate::integrate_with`](crate::Simulate::integrate_with).
-pub(crate) fn drive<'a, L, P, const N: usize, const M: usize>(
+pub(crate) fn drive<'a, L, F, P, const N: usize, const M: usize>(
     system: &'a L,
     state: State<L::Scalar, N>,
     end: L::Scalar,
     method: &P,
     mut watch: impl FnMut(Progress) -> ControlFlow<()>,
-) -> Result<Trajectory<'a, L, N, M>, Error>
+) -> Result<Trajectory<'a, L, N, M, F>, Error>
 where
     L: Lagrangian<N, M, Scalar: Real>,
-    P: Method<L, N, M>,
+    F: Flow<L, N, M>,
+    P: Method<L, N, M, F>,
 {
     let (start, adjustment) = check_start(system, &state, end)?;
     let mut statistics =

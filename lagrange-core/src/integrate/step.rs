@@ -6,12 +6,12 @@ use nalgebra::ComplexField;
 
 use super::control::{Control, Place};
 use super::pair::{Pair, Row, SLOPES, Slopes, advance};
-use super::{Adaptive, Ending, Limits, Method, Phase, Statistics, Step};
+use super::{Adaptive, Ending, Flow, Limits, Method, Phase, Point, Slope, Statistics, Step};
 use crate::eliminate::vector;
 use crate::names::{Entry, Row as EquationRow};
 use crate::numeric::{exceeds, larger};
-use crate::solve::{name, solve_near};
-use crate::{Error, Lagrangian, Real, Scalar, State, consistent};
+use crate::solve::name;
+use crate::{Error, Lagrangian, Real, Scalar, State};
 
 /// Room for the longest interpolant here.
 const COEFFICIENTS: usize = 8;
@@ -19,14 +19,15 @@ const COEFFICIENTS: usize = 8;
 /// What a pair carries from step to step.
 #[derive(Clone, Debug)]
 pub struct Memory<T, const N: usize, const M: usize> {
-    state: State<T, N>,
+    t: T,
+    y: Phase<T, N>,
     end: T,
     /// The whole time from start to end.
     span: T,
     control: Control<T>,
-    /// The first is that of `state`.
+    /// The first is that of `y`.
     slopes: Slopes<T, N>,
-    /// Which constraints the first slope rests on: as many as are independent at `state`.
+    /// Which constraints the first slope rests on: as many as are independent at `y`.
     active: [bool; M],
     interpolant: [Phase<T, N>; COEFFICIENTS],
 }
@@ -34,7 +35,7 @@ pub struct Memory<T, const N: usize, const M: usize> {
 impl<T: Real, const N: usize, const M: usize> Memory<T, N, M> {
     /// The next step and the time after it: exactly the end where that is near.
     fn next(&self) -> (T, T) {
-        let (now, step) = (self.state.t, self.control.step);
+        let (now, step) = (self.t, self.control.step);
         if now + step * T::constant(1.01) >= self.end {
             (self.end - now, self.end)
         } else {
@@ -45,8 +46,13 @@ impl<T: Real, const N: usize, const M: usize> Memory<T, N, M> {
     /// Whether the next step would be lost in the round-off of the time.
     fn is_step_too_small(&self) -> bool {
         let epsilon = T::constant(T::EPSILON);
-        let size = larger(Scalar::abs(self.state.t), epsilon * self.span);
+        let size = larger(Scalar::abs(self.t), epsilon * self.span);
         self.control.step <= T::constant(10.0) * epsilon * size
+    }
+
+    /// A place in the step that starts here.
+    fn point(&self, t: T, y: Phase<T, N>) -> Point<T, N> {
+        Point { t, y, velocity: self.slopes[0][0] }
     }
 
     /// The interpolant from `start` to `next`, with the slopes at both (II.6 and the code DOP853).
@@ -83,17 +89,18 @@ impl<T> From<Error> for Refusal<T> {
     }
 }
 
-/// The state after a step, its error as a part of the tolerance, and which constraints its slope rests on.
+/// Where a step ends, its error as a part of the tolerance, and which constraints its slope rests on.
 struct Accepted<T, const N: usize, const M: usize> {
-    state: State<T, N>,
+    y: Phase<T, N>,
     error: T,
     active: [bool; M],
 }
 
-impl<P, L, const N: usize, const M: usize> Method<L, N, M> for Adaptive<P>
+impl<P, L, F, const N: usize, const M: usize> Method<L, N, M, F> for Adaptive<P>
 where
     P: Pair,
     L: Lagrangian<N, M, Scalar: Real>,
+    F: Flow<L, N, M>,
 {
     type Memory = Memory<L::Scalar, N, M>;
 
@@ -111,18 +118,21 @@ where
         self.check()?;
         let zero = [[L::Scalar::constant(0.0); N]; 2];
         let mut slopes = [zero; SLOPES];
-        let active;
-        (slopes[0], active) = slope(system, start.t, &phase(start), None, statistics)?;
+        let point = Point { t: start.t, y: F::phase(system, start), velocity: start.v.into() };
+        let Slope { rates, active, .. } = slope::<L, F, N, M>(system, &point, None, statistics)?;
+        slopes[0] = rates;
         let span = end - start.t;
         let step = match self.fixed_step.or(self.first_step) {
             Some(step) => L::Scalar::constant(step),
             None => {
-                let estimate = self.estimate_step(system, start, span, (&slopes[0], &active), statistics);
+                let first = (&slopes[0], &active);
+                let estimate = self.estimate_step::<L, F, N, M>(system, &point, span, first, statistics);
                 larger(self.cut(estimate), span * L::Scalar::constant(L::Scalar::EPSILON))
             }
         };
         let control = Control::new(step);
-        Ok(Memory { state: *start, end, span, control, slopes, active, interpolant: [zero; COEFFICIENTS] })
+        let interpolant = [zero; COEFFICIENTS];
+        Ok(Memory { t: point.t, y: point.y, end, span, control, slopes, active, interpolant })
     }
 
     fn step<'m>(
@@ -132,10 +142,10 @@ where
         statistics: &mut Statistics,
     ) -> Step<'m, L::Scalar, N> {
         let (h, time) = memory.next();
-        let now = memory.state.t.to_f64();
-        let ending = match self.attempt(system, memory, h, time, statistics) {
-            Ok(Accepted { state, error, active }) => {
-                memory.state = state;
+        let now = memory.t.to_f64();
+        let ending = match self.attempt::<L, F, N, M>(system, memory, h, time, statistics) {
+            Ok(Accepted { y, error, active }) => {
+                (memory.t, memory.y) = (time, y);
                 memory.active = active;
                 memory.slopes[0] = memory.slopes[P::STAGES.len() + 1];
                 if self.fixed_step.is_none() {
@@ -143,13 +153,13 @@ where
                     memory.control.step = self.cut(memory.control.step);
                 }
                 return Step::Accepted {
-                    state,
+                    state: State { t: time, q: vector(y[0]), v: vector(memory.slopes[0][0]) },
                     interpolant: &memory.interpolant[..4 + P::INTERPOLATION.len()],
                 };
             }
             Err(Refusal::Inaccurate(error, place)) => {
                 memory.control.refuse::<P>(h, error);
-                Ending::StepTooSmall { time: now, entry: entry::<L, N, M>(place) }
+                Ending::StepTooSmall { time: now, entry: entry::<L, F, N, M>(place) }
             }
             Err(Refusal::Unsolved(error)) => {
                 memory.control.halve(h);
@@ -165,7 +175,7 @@ where
 
 impl<P: Pair> Adaptive<P> {
     /// Stages, error, projection, interpolant: whatever fails refuses the step.
-    fn attempt<L, const N: usize, const M: usize>(
+    fn attempt<L, F, const N: usize, const M: usize>(
         &self,
         system: &L,
         memory: &mut Memory<L::Scalar, N, M>,
@@ -175,30 +185,31 @@ impl<P: Pair> Adaptive<P> {
     ) -> Result<Accepted<L::Scalar, N, M>, Refusal<L::Scalar>>
     where
         L: Lagrangian<N, M, Scalar: Real>,
+        F: Flow<L, N, M>,
     {
         let last = P::STAGES.len() + 1;
         let error_needs_last = P::ERROR.iter().any(|(slope, _)| *slope == last);
-        let start = phase(&memory.state);
+        let start = memory.y;
 
-        stages::<P, L, N, M>(system, memory, h, (1, P::STAGES), statistics)?;
-        let mut next = advance(&start, h, &memory.slopes, P::WEIGHTS);
-        check_finite::<L, N, M>(time, &next)?;
+        stages::<P, L, F, N, M>(system, memory, h, (1, P::STAGES), statistics)?;
+        let mut next = memory.point(time, advance(&start, h, &memory.slopes, P::WEIGHTS));
+        check_finite::<L, N, M>(time, &next.y)?;
         let mut active = memory.active;
         if error_needs_last {
-            (memory.slopes[last], active) = slope(system, time, &next, Some(&active), statistics)?;
+            let slope = slope::<L, F, N, M>(system, &next, Some(&active), statistics)?;
+            (memory.slopes[last], active) = (slope.rates, slope.active);
         }
-        let error = self.check_error(&memory.slopes, h, &start, &next)?;
+        let error = self.check_error(&memory.slopes, h, &start, &next.y)?;
         if M > 0 {
-            let mut state = state(time, &next);
-            consistent::project(system, &mut state)?;
-            next = phase(&state);
+            next.y = F::phase(system, &F::project(system, &next)?);
         }
         if M > 0 || !error_needs_last {
-            (memory.slopes[last], active) = slope(system, time, &next, None, statistics)?;
+            let slope = slope::<L, F, N, M>(system, &next, None, statistics)?;
+            (memory.slopes[last], active) = (slope.rates, slope.active);
         }
-        stages::<P, L, N, M>(system, memory, h, (last + 1, P::INTERPOLATION_STAGES), statistics)?;
-        memory.interpolate::<P>(h, &start, &next);
-        Ok(Accepted { state: state(time, &next), error, active })
+        stages::<P, L, F, N, M>(system, memory, h, (last + 1, P::INTERPOLATION_STAGES), statistics)?;
+        memory.interpolate::<P>(h, &start, &next.y);
+        Ok(Accepted { y: next.y, error, active })
     }
 
     /// The error as a part of the tolerance, at most 1; nothing refuses a fixed step.
@@ -216,29 +227,31 @@ impl<P: Pair> Adaptive<P> {
         Ok(error)
     }
 
-    fn estimate_step<L, const N: usize, const M: usize>(
+    fn estimate_step<L, F, const N: usize, const M: usize>(
         &self,
         system: &L,
-        start: &State<L::Scalar, N>,
+        start: &Point<L::Scalar, N>,
         span: L::Scalar,
         (first, active): (&Phase<L::Scalar, N>, &[bool; M]),
         statistics: &mut Statistics,
     ) -> L::Scalar
     where
         L: Lagrangian<N, M, Scalar: Real>,
+        F: Flow<L, N, M>,
     {
-        let y = phase(start);
-        let guess = self.guess_step(&y, first, span);
+        let y = &start.y;
+        let guess = self.guess_step(y, first, span);
         let euler = from_fn(|half| from_fn(|i| y[half][i] + guess * first[half][i]));
-        match slope(system, start.t + guess, &euler, Some(active), statistics) {
-            Ok((second, _)) => self.first_step_from(guess, &y, first, &second),
+        let point = Point { t: start.t + guess, y: euler, ..*start };
+        match slope::<L, F, N, M>(system, &point, Some(active), statistics) {
+            Ok(second) => self.first_step_from(guess, y, first, &second.rates),
             Err(_) => guess,
         }
     }
 }
 
 /// Evaluates the slopes of these stages, the first of which has the number given.
-fn stages<P, L, const N: usize, const M: usize>(
+fn stages<P, L, F, const N: usize, const M: usize>(
     system: &L,
     memory: &mut Memory<L::Scalar, N, M>,
     h: L::Scalar,
@@ -248,60 +261,56 @@ fn stages<P, L, const N: usize, const M: usize>(
 where
     P: Pair,
     L: Lagrangian<N, M, Scalar: Real>,
+    F: Flow<L, N, M>,
 {
-    let start = phase(&memory.state);
+    let (t, start) = (memory.t, memory.y);
+    let mut point = memory.point(t, start);
     for (number, row) in rows.iter().enumerate().map(|(i, row)| (first + i, row)) {
-        let y = advance(&start, h, &memory.slopes, row);
-        let t = memory.state.t + h * L::Scalar::constant(P::NODES[number]);
-        (memory.slopes[number], _) = slope(system, t, &y, Some(&memory.active), statistics)?;
+        point.y = advance(&start, h, &memory.slopes, row);
+        point.t = t + h * L::Scalar::constant(P::NODES[number]);
+        let active = Some(&memory.active);
+        memory.slopes[number] = slope::<L, F, N, M>(system, &point, active, statistics)?.rates;
     }
     Ok(())
 }
 
-/// (q̇, q̈), and which constraints that rests on: those `active`, or as many as are independent.
+/// The rates of the phase, counted.
 #[inline]
-fn slope<L, const N: usize, const M: usize>(
+fn slope<L, F, const N: usize, const M: usize>(
     system: &L,
-    t: L::Scalar,
-    y: &Phase<L::Scalar, N>,
+    point: &Point<L::Scalar, N>,
     active: Option<&[bool; M]>,
     statistics: &mut Statistics,
-) -> Result<(Phase<L::Scalar, N>, [bool; M]), Error>
+) -> Result<Slope<L::Scalar, N, M>, Error>
 where
     L: Lagrangian<N, M, Scalar: Real>,
+    F: Flow<L, N, M>,
 {
     statistics.evaluations += 1;
-    let (solution, active) = solve_near(system, &state(t, y), active)?;
-    statistics.multipliers_are_unique &= solution.multipliers_are_unique();
-    Ok(([y[1], solution.accelerations.into()], active))
+    let slope = F::slope(system, point, active)?;
+    statistics.multipliers_are_unique &= slope.multipliers_are_unique;
+    Ok(slope)
 }
 
 fn check_finite<L, const N: usize, const M: usize>(
     t: L::Scalar,
-    [q, v]: &Phase<L::Scalar, N>,
+    [q, rest]: &Phase<L::Scalar, N>,
 ) -> Result<(), Error>
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {
     let row = |i: usize| EquationRow::Coordinate(name(&L::COORDINATES, i));
-    match (0..N).find(|&i| !(q[i].is_finite() && v[i].is_finite())) {
+    match (0..N).find(|&i| !(q[i].is_finite() && rest[i].is_finite())) {
         None => Ok(()),
         Some(i) => Err(Error::EquationsNotFinite { row: row(i), time: t.to_f64() }),
     }
 }
 
-fn entry<L, const N: usize, const M: usize>((half, index): Place) -> Entry
+fn entry<L, F, const N: usize, const M: usize>((half, index): Place) -> Entry
 where
     L: Lagrangian<N, M, Scalar: Real>,
+    F: Flow<L, N, M>,
 {
     let name = name(&L::COORDINATES, index);
-    if half == 0 { Entry::Coordinate(name) } else { Entry::Velocity(name) }
-}
-
-fn phase<T: Real, const N: usize>(state: &State<T, N>) -> Phase<T, N> {
-    [state.q.into(), state.v.into()]
-}
-
-fn state<T: Real, const N: usize>(t: T, [q, v]: &Phase<T, N>) -> State<T, N> {
-    State { t, q: vector(*q), v: vector(*v) }
+    if half == 0 { Entry::Coordinate(name) } else { F::entry(name) }
 }

@@ -99,7 +99,7 @@ pub(crate) fn solve<T: Real, const N: usize, const M: usize>(
 }
 
 /// For each coordinate the unit in which its mass is ±1; where it has none, that in which its strongest coupling is 1.
-fn natural_units<T: Real, const N: usize, const M: usize>(e: &Equations<T, N, M>) -> [T; N] {
+pub(crate) fn natural_units<T: Real, const N: usize, const M: usize>(e: &Equations<T, N, M>) -> [T; N] {
     let (zero, one) = (T::constant(0.0), T::constant(1.0));
     let mut unit: [T; N] = from_fn(|i| {
         let mass = Scalar::abs(e.m[i][i]);
@@ -245,7 +245,8 @@ fn smallest_diagonal<T: Real, const N: usize, const M: usize>(split: &Qr<T, N, M
     (0..split.rank).fold(T::constant(1.0), |least, i| smaller(least, Scalar::abs(split.entry(i, i))))
 }
 
-fn row_length<T: Real, const N: usize>(row: &[T; N], unit: &[T; N]) -> T {
+/// The length of a constraint row in these units.
+pub(crate) fn row_length<T: Real, const N: usize>(row: &[T; N], unit: &[T; N]) -> T {
     norm(&from_fn::<T, N, _>(|i| row[i] * unit[i]))
 }
 

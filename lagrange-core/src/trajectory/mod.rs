@@ -6,28 +6,32 @@ mod tests;
 use alloc::vec::Vec;
 use core::array::from_fn;
 use core::fmt::{self, Debug, Formatter};
+use core::iter::once;
+use core::marker::PhantomData;
 
-use crate::eliminate::vector;
-use crate::integrate::Phase;
-use crate::{
-    Adjustment, Csv, Ending, Error, Lagrangian, Real, Sample, Scalar, State, Statistics, consistent,
-};
+use crate::integrate::{Flow, LagrangianFlow, Phase, Point};
+use crate::{Adjustment, Csv, Ending, Error, Lagrangian, Real, Sample, Scalar, State, Statistics};
 
 /// The motion of a system from the start to where the integration stopped, which [`ending`](Self::ending) explains.
 ///
 /// Between the steps it is the continuous extension of the method, projected onto the constraints like the steps
 /// themselves: continuous, and equal to the states computed at their times.
-pub struct Trajectory<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
+///
+/// The flow `F` says which equations were integrated, Lagrange's or Hamilton's; a sample has both velocities and
+/// momenta.
+pub struct Trajectory<'a, L: Lagrangian<N, M>, const N: usize, const M: usize, F = LagrangianFlow> {
     system: &'a L,
     path: Path<L::Scalar, N>,
     ending: Ending,
     statistics: Statistics,
     adjustment: Adjustment<L::Scalar, N>,
+    flow: PhantomData<F>,
 }
 
-impl<'a, L, const N: usize, const M: usize> Trajectory<'a, L, N, M>
+impl<'a, L, F, const N: usize, const M: usize> Trajectory<'a, L, N, M, F>
 where
     L: Lagrangian<N, M, Scalar: Real>,
+    F: Flow<L, N, M>,
 {
     pub(crate) fn new(
         system: &'a L,
@@ -36,7 +40,7 @@ where
         statistics: Statistics,
         adjustment: Adjustment<L::Scalar, N>,
     ) -> Self {
-        Self { system, path, ending, statistics, adjustment }
+        Self { system, path, ending, statistics, adjustment, flow: PhantomData }
     }
 
     /// The state at this time.
@@ -44,8 +48,8 @@ where
     /// # Errors
     /// [`Error::OutsideTrajectory`].
     pub fn at(&self, t: L::Scalar) -> Result<Sample<'a, L, N, M>, Error> {
-        match self.path.at(t) {
-            Some(state) => Ok(self.sample(self.on_constraints(state))),
+        match self.state_at(t) {
+            Some(state) => Ok(self.sample(state)),
             None => Err(Error::OutsideTrajectory {
                 time: t.to_f64(),
                 start: self.path.first().t.to_f64(),
@@ -66,7 +70,9 @@ where
 
     /// The states that the method computed, first and last included.
     pub fn steps(&self) -> impl Iterator<Item = Sample<'a, L, N, M>> + '_ {
-        (0..=self.statistics.accepted).filter_map(|i| self.path.node(i)).map(|state| self.sample(state))
+        let starts = (0..self.statistics.accepted).filter_map(|i| self.path.start_of(i));
+        let states = starts.map(|point| F::state(self.system, &point)).chain(once(self.path.last()));
+        states.map(|state| self.sample(state))
     }
 
     /// `count` states at evenly spaced times, first and last included.
@@ -77,14 +83,14 @@ where
             let part = L::Scalar::constant(i as f64 / intervals as f64);
             // Exactly the last time, whatever rounding does to the sum.
             let t = if i > 0 && i == intervals { last } else { first + (last - first) * part };
-            self.path.at(t).map(|state| self.sample(self.on_constraints(state)))
+            self.state_at(t).map(|state| self.sample(state))
         })
     }
 
     /// A table of `count` states at evenly spaced times, as comma-separated values.
     ///
     /// Print it, or write `path.csv(200).to_string()` to a file.
-    pub fn csv(&self, count: usize) -> Csv<'_, 'a, L, N, M> {
+    pub fn csv(&self, count: usize) -> Csv<'_, 'a, L, N, M, F> {
         Csv::new(self, count)
     }
 
@@ -110,12 +116,12 @@ where
     }
 
     /// An interpolated state is off the constraints by about the tolerance, and where no projection leads back it stays so.
-    fn on_constraints(&self, state: State<L::Scalar, N>) -> State<L::Scalar, N> {
-        let mut projected = state;
-        match consistent::project(self.system, &mut projected) {
-            Ok(()) => projected,
-            Err(_) => state,
+    fn state_at(&self, t: L::Scalar) -> Option<State<L::Scalar, N>> {
+        if t == self.path.last().t {
+            return Some(self.path.last());
         }
+        let point = self.path.at(t)?;
+        Some(F::project(self.system, &point).unwrap_or_else(|_| F::state(self.system, &point)))
     }
 
     fn sample(&self, state: State<L::Scalar, N>) -> Sample<'a, L, N, M> {
@@ -123,7 +129,7 @@ where
     }
 }
 
-impl<L, const N: usize, const M: usize> Debug for Trajectory<'_, L, N, M>
+impl<L, F, const N: usize, const M: usize> Debug for Trajectory<'_, L, N, M, F>
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {
@@ -169,26 +175,25 @@ impl<T: Real, const N: usize> Path<T, N> {
         self.last
     }
 
-    /// The state at the start of step `index`, or the last state.
-    fn node(&self, index: usize) -> Option<State<T, N>> {
-        match (self.times.get(index), self.interpolant(index)) {
-            (Some(t), [start, ..]) => Some(State { t: *t, q: vector(start[0]), v: vector(start[1]) }),
-            _ => (index == self.times.len()).then_some(self.last),
-        }
+    /// Where step `step` starts.
+    fn start_of(&self, step: usize) -> Option<Point<T, N>> {
+        Some(self.point(step, *self.times.get(step)?))
     }
 
-    fn at(&self, t: T) -> Option<State<T, N>> {
-        if t == self.last.t {
-            return Some(self.last);
-        }
-        if !(t >= self.start.t && t <= self.last.t) {
+    /// `None` before the start and from the last state on.
+    fn at(&self, t: T) -> Option<Point<T, N>> {
+        if !(t >= self.start.t && t < self.last.t) {
             return None;
         }
         let step = self.times.partition_point(|start| *start <= t).checked_sub(1)?;
-        let begin = *self.times.get(step)?;
-        let end = self.times.get(step + 1).copied().unwrap_or(self.last.t);
-        let [q, v] = evaluate(self.interpolant(step), (t - begin) / (end - begin));
-        Some(State { t, q: vector(q), v: vector(v) })
+        Some(self.point(step, t))
+    }
+
+    fn point(&self, step: usize, t: T) -> Point<T, N> {
+        let time = |step: usize| self.times.get(step).copied().unwrap_or(self.last.t);
+        let (begin, length) = (time(step), time(step + 1) - time(step));
+        let (y, velocity) = evaluate(self.interpolant(step), (t - begin) / length);
+        Point { t, y, velocity: velocity.map(|x| x / length) }
     }
 
     fn interpolant(&self, step: usize) -> &[Phase<T, N>] {
@@ -197,12 +202,14 @@ impl<T: Real, const N: usize> Path<T, N> {
     }
 }
 
-/// r₀ + θ(r₁ + (1−θ)(r₂ + θ(r₃ + …))).
-fn evaluate<T: Real, const N: usize>(coefficients: &[Phase<T, N>], theta: T) -> Phase<T, N> {
-    let mut sum = [[T::constant(0.0); N]; 2];
+/// r₀ + θ(r₁ + (1−θ)(r₂ + θ(r₃ + …))), and the derivative of its first half by θ.
+fn evaluate<T: Real, const N: usize>(coefficients: &[Phase<T, N>], theta: T) -> (Phase<T, N>, [T; N]) {
+    let (zero, one) = (T::constant(0.0), T::constant(1.0));
+    let (mut sum, mut slope) = ([[zero; N]; 2], [zero; N]);
     for (k, r) in coefficients.iter().enumerate().rev() {
-        let factor = if k % 2 == 0 { theta } else { T::constant(1.0) - theta };
+        let (factor, sign) = if k % 2 == 0 { (theta, one) } else { (one - theta, -one) };
+        slope = from_fn(|i| sign * sum[0][i] + factor * slope[i]);
         sum = from_fn(|half| from_fn(|i| r[half][i] + factor * sum[half][i]));
     }
-    sum
+    (sum, slope)
 }

@@ -311,7 +311,7 @@ impl Lowering<'_> {
 const CONSTRAINT_LIMIT: usize = 1000;
 
 /// Methods that every system has, or will have, and associated constants beside.
-pub(crate) const RESERVED: [&str; 42] = [
+pub(crate) const RESERVED: &[&str] = &[
     "NAME",
     "COORDINATES",
     "CONSTRAINTS",
@@ -341,7 +341,12 @@ pub(crate) const RESERVED: [&str; 42] = [
     "energy",
     "hamiltonian",
     "equations",
+    "hamilton_equations",
+    "integrate_hamiltonian",
+    "integrate_hamiltonian_with",
     "legendre",
+    "legendre_near",
+    "phase_state",
     "velocities",
     "linearize",
     "equilibrium",

@@ -1,0 +1,57 @@
+//! Hamilton's equations as a flow: the methods for Lagrange's equations integrate them as well.
+
+use super::{PhaseState, equations, legendre};
+use crate::eliminate::vector;
+use crate::integrate::{Flow, Phase, Point, Slope};
+use crate::names::Entry;
+use crate::{Error, Lagrangian, Real, State, consistent};
+
+/// Hamilton's equations, in coordinates and momenta.
+///
+/// A step ends with q projected onto Φ = 0 and p replaced by the momenta of the velocity that belongs to it, which
+/// takes away their part along the constraints, and nothing else.
+#[derive(Clone, Copy, Debug)]
+pub struct HamiltonianFlow;
+
+impl<L, const N: usize, const M: usize> Flow<L, N, M> for HamiltonianFlow
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    fn phase(system: &L, state: &State<L::Scalar, N>) -> Phase<L::Scalar, N> {
+        [state.q.into(), system.momentum(state).into()]
+    }
+
+    fn slope(
+        system: &L,
+        point: &Point<L::Scalar, N>,
+        active: Option<&[bool; M]>,
+    ) -> Result<Slope<L::Scalar, N, M>, Error> {
+        let state = legendre::invert(system, &phase_state(point), &point.velocity, active)?;
+        let (rate, rank, active) = equations(system, &state, active)?;
+        Ok(Slope { rates: [rate.q.into(), rate.p.into()], active, multipliers_are_unique: rank == M })
+    }
+
+    fn state(system: &L, point: &Point<L::Scalar, N>) -> State<L::Scalar, N> {
+        legendre::invert(system, &phase_state(point), &point.velocity, None).unwrap_or(nearby(point))
+    }
+
+    fn project(system: &L, point: &Point<L::Scalar, N>) -> Result<State<L::Scalar, N>, Error> {
+        let mut state = nearby(point);
+        consistent::project_coordinates(system, &mut state)?;
+        let phase = PhaseState { q: state.q, ..phase_state(point) };
+        legendre::invert(system, &phase, &point.velocity, None)
+    }
+
+    fn entry(coordinate: &'static str) -> Entry {
+        Entry::Momentum(coordinate)
+    }
+}
+
+fn phase_state<T: Real, const N: usize>(point: &Point<T, N>) -> PhaseState<T, N> {
+    PhaseState { t: point.t, q: vector(point.y[0]), p: vector(point.y[1]) }
+}
+
+/// With the velocity nearby instead of the one that belongs to the momenta.
+fn nearby<T: Real, const N: usize>(point: &Point<T, N>) -> State<T, N> {
+    State { t: point.t, q: vector(point.y[0]), v: vector(point.velocity) }
+}

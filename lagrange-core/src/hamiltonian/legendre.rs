@@ -1,0 +1,234 @@
+//! The Legendre transform on the constraint manifold: from momenta to velocities.
+//!
+//! Sought is v with F v + b = 0 and p(q, v) − p = Fᵀμ for some μ: momenta that differ by a part along the
+//! constraints belong to the same motion. Newton's step (δ, μ) solves M δ − Fᵀμ = p − p(q, v), F δ = −(F v + b), the
+//! system of the dynamics with other right-hand sides; so M may be singular where the constraints make up for
+//! it. Where L is quadratic in the velocities one step is exact.
+
+use core::array::from_fn;
+
+use super::PhaseState;
+use crate::eliminate::{eliminate_active, vector};
+use crate::kkt::{self, Equations, Fault, Rank, natural_units, row_length};
+use crate::numeric::{exceeds, power_of_epsilon};
+use crate::solve::{is_trustworthy, most_involved, name, not_finite};
+use crate::{Error, Lagrangian, Real, Scalar, Solution, State};
+
+/// Newton iterations before giving up.
+const ITERATIONS: usize = 100;
+
+/// Halvings of a step before giving up.
+const HALVINGS: usize = 50;
+
+/// The state with these momenta, its velocity sought from `guess` on, on the constraints `active` or on as many as
+/// are independent.
+pub(crate) fn invert<L, const N: usize, const M: usize>(
+    system: &L,
+    phase: &PhaseState<L::Scalar, N>,
+    guess: &[L::Scalar; N],
+    active: Option<&[bool; M]>,
+) -> Result<State<L::Scalar, N>, Error>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    let search = Search { system, phase, active: active.copied().unwrap_or([true; M]) };
+    let half = L::Scalar::constant(0.5);
+    let state = State { t: phase.t, q: phase.q, v: vector(*guess) };
+    let mut trial = search.trial(state, [L::Scalar::constant(0.0); M]);
+    let mut iteration = 0;
+    loop {
+        let linear = search.linearize(&trial)?;
+        let before = linear.distance(&trial);
+        if before.is_rounded() {
+            return Ok(trial.state);
+        }
+        let step = match search.step(&linear.equations) {
+            Ok(step) => step,
+            // The search ran to where nothing determines the velocity any more: that is not the fault of the start.
+            Err(_) if iteration > 0 => return Err(search.not_reached(&linear, &trial, iteration)),
+            Err(error) => return Err(error),
+        };
+        match search.descend(&linear, (&trial, &before), &step) {
+            Some((next, after)) if iteration < ITERATIONS => {
+                trial = next;
+                let stands = after.is_negligible() && after.value > half * before.value;
+                if stands || after.is_rounded() {
+                    return Ok(trial.state);
+                }
+            }
+            _ if before.is_negligible() => return Ok(trial.state),
+            _ => return Err(search.not_reached(&linear, &trial, iteration)),
+        }
+        iteration += 1;
+    }
+}
+
+struct Search<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
+    system: &'a L,
+    phase: &'a PhaseState<L::Scalar, N>,
+    active: [bool; M],
+}
+
+/// A velocity, and how far it is from what is sought.
+struct Trial<T, const N: usize, const M: usize> {
+    state: State<T, N>,
+    /// μ.
+    multipliers: [T; M],
+    /// p(q, v).
+    momentum: [T; N],
+    /// F v + b of the active constraints.
+    rate: [T; M],
+}
+
+/// A better velocity, and how far that is.
+type Found<T, const N: usize, const M: usize> = (Trial<T, N, M>, Distance<T>);
+
+/// Newton's system at a trial, and the units in which its rows compare.
+struct Linear<'a, T, const N: usize, const M: usize> {
+    wanted: &'a PhaseState<T, N>,
+    equations: Equations<T, N, M>,
+    unit: [T; N],
+    length: [T; M],
+}
+
+/// A distance, in the natural units of the dynamics, and the size of the terms that it is the difference of.
+struct Distance<T> {
+    value: T,
+    terms: T,
+}
+
+impl<T: Real> Distance<T> {
+    /// Whether nothing but round-off is left.
+    fn is_rounded(&self) -> bool {
+        self.value <= T::constant(4.0 * T::EPSILON) * self.terms
+    }
+
+    /// Whether what is left may be round-off of terms that cancel.
+    fn is_negligible(&self) -> bool {
+        self.value <= power_of_epsilon::<T>(0.75) * self.terms
+    }
+}
+
+impl<T: Real, const N: usize, const M: usize> Linear<'_, T, N, M> {
+    /// p(q, v) − p − Fᵀμ, and the sum of the magnitudes of its terms.
+    fn momentum_residual(&self, trial: &Trial<T, N, M>, i: usize) -> (T, T) {
+        let (given, wanted) = (trial.momentum[i], self.wanted.p[i]);
+        let inertia = (0..N).map(|j| self.equations.m[i][j] * trial.state.v[j]);
+        let terms = inertia.fold(Scalar::abs(given) + Scalar::abs(wanted), |sum, x| sum + Scalar::abs(x));
+        (0..M).fold((given - wanted, terms), |(residual, terms), a| {
+            let along = self.equations.f[a][i] * trial.multipliers[a];
+            (residual - along, terms + Scalar::abs(along))
+        })
+    }
+
+    fn distance(&self, trial: &Trial<T, N, M>) -> Distance<T> {
+        let mut distance = Distance { value: T::constant(0.0), terms: T::constant(0.0) };
+        for i in 0..N {
+            let (residual, terms) = self.momentum_residual(trial, i);
+            distance.value += Scalar::abs(residual) * self.unit[i];
+            distance.terms += terms * self.unit[i];
+        }
+        for a in 0..M {
+            let row = &self.equations.f[a];
+            let terms = (0..N).fold(T::constant(0.0), |sum, i| sum + Scalar::abs(row[i] * trial.state.v[i]));
+            distance.value += Scalar::abs(trial.rate[a]) / self.length[a];
+            distance.terms += terms / self.length[a];
+        }
+        distance
+    }
+}
+
+impl<'a, L, const N: usize, const M: usize> Search<'a, L, N, M>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    fn trial(&self, state: State<L::Scalar, N>, multipliers: [L::Scalar; M]) -> Trial<L::Scalar, N, M> {
+        let rate = self.system.constraint_rate(&state);
+        Trial {
+            momentum: self.system.momentum(&state).into(),
+            rate: from_fn(|a| if self.active[a] { rate[a] } else { L::Scalar::constant(0.0) }),
+            state,
+            multipliers,
+        }
+    }
+
+    fn linearize(&self, trial: &Trial<L::Scalar, N, M>) -> Result<Linear<'a, L::Scalar, N, M>, Error> {
+        let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
+        let jacobian = self.system.constraint_jacobian(&trial.state);
+        let equations = Equations {
+            m: self.system.mass_matrix(&trial.state).into(),
+            h: from_fn(|i| self.phase.p[i] - trial.momentum[i]),
+            f: from_fn(|a| from_fn(|i| if self.active[a] { jacobian[(a, i)] } else { zero })),
+            gamma: trial.rate,
+        };
+        if let Some(row) = not_finite::<L, N, M>(&equations) {
+            return Err(Error::EquationsNotFinite { row, time: self.phase.t.to_f64() });
+        }
+        let unit = natural_units(&equations);
+        let length = from_fn(|a| {
+            let length = row_length(&equations.f[a], &unit);
+            if length > zero { length } else { one }
+        });
+        Ok(Linear { wanted: self.phase, equations, unit, length })
+    }
+
+    /// Newton's step: the change of the velocity, and the new μ.
+    fn step(&self, equations: &Equations<L::Scalar, N, M>) -> Result<Solution<L::Scalar, N, M>, Error> {
+        let Equations { m, h, f, gamma } = equations;
+        let fast = eliminate_active(*m, *h, *f, *gamma, self.active);
+        if is_trustworthy(&fast) {
+            return Ok(fast);
+        }
+        let known = self.active.contains(&false);
+        let rank = if known { Rank::off_constraints() } else { Rank::on_constraints() };
+        let time = self.phase.t.to_f64();
+        kkt::solve(equations, rank).map(|(solution, _)| solution).map_err(|fault| match fault {
+            Fault::Singular(share) => {
+                Error::VelocityUndetermined { coordinates: most_involved::<L, N, M>(&share), time }
+            }
+            Fault::Contradictory(row) => {
+                Error::Contradictory { constraint: name(&L::CONSTRAINTS, row), time }
+            }
+        })
+    }
+
+    /// Takes the step, halved while it leads away; `None` where nothing helps.
+    fn descend(
+        &self,
+        linear: &Linear<'_, L::Scalar, N, M>,
+        (from, before): (&Trial<L::Scalar, N, M>, &Distance<L::Scalar>),
+        step: &Solution<L::Scalar, N, M>,
+    ) -> Option<Found<L::Scalar, N, M>> {
+        let mut part = L::Scalar::constant(1.0);
+        // Where only round-off is left, halving cannot help.
+        for _ in 0..if before.is_negligible() { 1 } else { HALVINGS } {
+            let v = from.state.v + step.accelerations * part;
+            let change = |a: usize| (step.multipliers[a] - from.multipliers[a]) * part;
+            let next = self.trial(State { v, ..from.state }, from_fn(|a| from.multipliers[a] + change(a)));
+            let distance = linear.distance(&next);
+            if distance.value < before.value {
+                return Some((next, distance));
+            }
+            part *= L::Scalar::constant(0.5);
+        }
+        None
+    }
+
+    #[cold]
+    fn not_reached(
+        &self,
+        linear: &Linear<'_, L::Scalar, N, M>,
+        trial: &Trial<L::Scalar, N, M>,
+        iterations: usize,
+    ) -> Error {
+        let residual = |i: usize| linear.momentum_residual(trial, i).0;
+        let size = |i: usize| Scalar::abs(residual(i)) * linear.unit[i];
+        let farthest = (1..N).fold(0, |worst, i| if exceeds(size(i), size(worst)) { i } else { worst });
+        Error::MomentumNotReached {
+            coordinate: name(&L::COORDINATES, farthest),
+            residual: residual(farthest).to_f64(),
+            iterations,
+            time: self.phase.t.to_f64(),
+        }
+    }
+}

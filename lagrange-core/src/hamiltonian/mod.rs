@@ -1,0 +1,158 @@
+//! The Hamiltonian side of a system: momenta instead of velocities.
+
+#[cfg(feature = "alloc")]
+mod flow;
+mod legendre;
+mod phase;
+#[cfg(test)]
+mod tests;
+
+#[cfg(feature = "alloc")]
+use core::ops::ControlFlow;
+
+use nalgebra::SVector;
+
+#[cfg(feature = "alloc")]
+pub use flow::HamiltonianFlow;
+pub use phase::{PhaseRate, PhaseState};
+
+use crate::solve::solve_near;
+use crate::{Error, Lagrangian, Real, Scalar, State};
+#[cfg(feature = "alloc")]
+use crate::{Method, Progress, Trajectory, integrate};
+
+/// The Legendre transform, the Hamiltonian and Hamilton's equations with constraints: every [`Lagrangian`] over
+/// `f64` or `f32` has them.
+///
+/// The velocity that belongs to (t, q, p) is the one on the constraints, F q̇ + b = 0, whose momenta ∂L/∂q̇ differ from p
+/// by no more than a part Fᵀμ along the constraints: such a part does no work on any motion allowed. So
+/// ∂²L/∂q̇² may be singular where the constraints make up for it (unit quaternions, massless coordinates). Where L is
+/// quadratic in q̇ the transform is closed, elsewhere Newton's iteration.
+///
+/// ```
+/// use lagrange_core::prelude::*;
+///
+/// /// A free relativistic particle; H = √(m²c⁴ + p²c²).
+/// #[derive(Lagrangian)]
+/// #[coordinates(x)]
+/// #[lagrangian(-m*c^2 * sqrt(1 - x_dot^2/c^2))]
+/// struct Particle { m: f64, c: f64 }
+///
+/// let particle = Particle { m: 1.0, c: 1.0 };
+/// let phase = PhaseState::new([0.0], [0.75]);
+/// assert!((particle.legendre(&phase)?.v[0] - 0.6).abs() < 1e-15);
+/// assert!((particle.hamiltonian(&phase)? - 1.25).abs() < 1e-15);
+/// # #[cfg(feature = "alloc")] {
+/// let path = particle.integrate_hamiltonian(phase, 10.0, Dop853::default())?;
+/// assert!((path.end().coordinate("x")? - 6.0).abs() < 1e-12);
+/// assert!((path.end().momentum("x")? - 0.75).abs() < 1e-15);
+/// # }
+/// # Ok::<(), Error>(())
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no Hamiltonian side",
+    label = "not a Lagrangian system over `f64` or `f32`",
+    note = "`#[derive(Lagrangian)]` gives it to every struct over `f64` or `f32`: the Legendre transform has to decide, which SIMD lanes and dual numbers cannot"
+)]
+pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Real> + Sized {
+    /// The momenta p = ∂L/∂q̇ of a state.
+    fn phase_state(&self, state: &State<Self::Scalar, N>) -> PhaseState<Self::Scalar, N> {
+        PhaseState { t: state.t, q: state.q, p: self.momentum(state) }
+    }
+
+    /// The velocities of a phase state: the Legendre transform q̇(t, q, p), sought from rest.
+    ///
+    /// # Errors
+    /// [`Error::StateNotFinite`]; [`Error::EquationsNotFinite`]; [`Error::VelocityUndetermined`] where ∂²L/∂q̇² is
+    /// singular along the constraints; [`Error::MomentumNotReached`] where Newton's iteration does not get there;
+    /// [`Error::Contradictory`] where dependent constraints demand different velocities.
+    fn legendre(&self, phase: &PhaseState<Self::Scalar, N>) -> Result<State<Self::Scalar, N>, Error> {
+        self.legendre_near(phase, &SVector::from([Self::Scalar::constant(0.0); N]))
+    }
+
+    /// The same, sought from this velocity on: for a Lagrangian that is singular at rest, or one with several
+    /// velocities to the same momenta.
+    ///
+    /// # Errors
+    /// As [`legendre`](Self::legendre).
+    fn legendre_near(
+        &self,
+        phase: &PhaseState<Self::Scalar, N>,
+        velocity: &SVector<Self::Scalar, N>,
+    ) -> Result<State<Self::Scalar, N>, Error> {
+        phase::check_finite(self, phase)?;
+        legendre::invert(self, phase, &(*velocity).into(), None)
+    }
+
+    /// The Hamiltonian H(t, q, p) = p·q̇ − L at the q̇ of [`legendre`](Self::legendre); its value is the energy.
+    ///
+    /// # Errors
+    /// As [`legendre`](Self::legendre).
+    fn hamiltonian(&self, phase: &PhaseState<Self::Scalar, N>) -> Result<Self::Scalar, Error> {
+        let state = self.legendre(phase)?;
+        Ok(phase.p.dot(&state.v) - self.lagrangian(&state))
+    }
+
+    /// Hamilton's equations with constraints: q̇ = ∂H/∂p and ṗ = ∂L/∂q + Q + Fᵀλ, with the λ of
+    /// [`solve`](crate::Simulate::solve). Without constraints and forces ṗ = −∂H/∂q.
+    ///
+    /// # Errors
+    /// As [`legendre`](Self::legendre) and [`solve`](crate::Simulate::solve).
+    fn hamilton_equations(
+        &self,
+        phase: &PhaseState<Self::Scalar, N>,
+    ) -> Result<PhaseRate<Self::Scalar, N, M>, Error> {
+        let state = self.legendre(phase)?;
+        equations(self, &state, None).map(|(rate, ..)| rate)
+    }
+
+    /// The motion from a phase state to the time `end` by Hamilton's equations: as
+    /// [`integrate`](crate::Simulate::integrate), but the method adds up and controls coordinates and momenta.
+    ///
+    /// # Errors
+    /// As [`integrate`](crate::Simulate::integrate) and [`legendre`](Self::legendre).
+    #[cfg(feature = "alloc")]
+    fn integrate_hamiltonian<P: Method<Self, N, M, HamiltonianFlow>>(
+        &self,
+        phase: PhaseState<Self::Scalar, N>,
+        end: Self::Scalar,
+        method: P,
+    ) -> Result<Trajectory<'_, Self, N, M, HamiltonianFlow>, Error> {
+        self.integrate_hamiltonian_with(phase, end, method, |_| ControlFlow::Continue(()))
+    }
+
+    /// The same, with a look at the progress after every step; `ControlFlow::Break` cancels.
+    ///
+    /// # Errors
+    /// As [`integrate_hamiltonian`](Self::integrate_hamiltonian).
+    #[cfg(feature = "alloc")]
+    fn integrate_hamiltonian_with<P: Method<Self, N, M, HamiltonianFlow>>(
+        &self,
+        phase: PhaseState<Self::Scalar, N>,
+        end: Self::Scalar,
+        method: P,
+        watch: impl FnMut(Progress) -> ControlFlow<()>,
+    ) -> Result<Trajectory<'_, Self, N, M, HamiltonianFlow>, Error> {
+        integrate::drive(self, self.legendre(&phase)?, end, &method, watch)
+    }
+}
+
+impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Hamiltonian<N, M> for L {}
+
+/// Rates, how many constraints are independent, and which ones the rates rest on.
+type Rates<T, const N: usize, const M: usize> = (PhaseRate<T, N, M>, usize, [bool; M]);
+
+/// Hamilton's equations at a state whose velocity belongs to its momenta.
+fn equations<L, const N: usize, const M: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+    active: Option<&[bool; M]>,
+) -> Result<Rates<L::Scalar, N, M>, Error>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    let (solution, active) = solve_near(system, state, active)?;
+    let multipliers = solution.multipliers;
+    let p = system.momentum_rate(state) + system.constraint_force(state, &multipliers);
+    Ok((PhaseRate { q: state.v, p, multipliers }, solution.rank, active))
+}

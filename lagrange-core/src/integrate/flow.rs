@@ -1,0 +1,104 @@
+//! What is integrated: a motion in (q, q̇) or in (q, p). The methods are the same for both.
+
+use super::Phase;
+use crate::eliminate::vector;
+use crate::names::Entry;
+use crate::solve::solve_near;
+use crate::{Error, Lagrangian, Real, State, consistent};
+
+/// The equations that a method integrates, of the first order in a [`Phase`] whose first half is q.
+pub trait Flow<L, const N: usize, const M: usize>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    /// Where a state is in the phase space.
+    fn phase(system: &L, state: &State<L::Scalar, N>) -> Phase<L::Scalar, N>;
+
+    /// The rates there, resting on the constraints `active`, or on as many as are independent.
+    ///
+    /// # Errors
+    /// As [`Simulate::solve`](crate::Simulate::solve), and what finding the velocity gives.
+    fn slope(
+        system: &L,
+        point: &Point<L::Scalar, N>,
+        active: Option<&[bool; M]>,
+    ) -> Result<Slope<L::Scalar, N, M>, Error>;
+
+    /// The state there; where no velocity can be found it has the one nearby.
+    fn state(system: &L, point: &Point<L::Scalar, N>) -> State<L::Scalar, N>;
+
+    /// The state on the constraints that is nearest.
+    ///
+    /// # Errors
+    /// As [`Simulate::make_consistent`](crate::Simulate::make_consistent), and what finding the velocity gives.
+    fn project(system: &L, point: &Point<L::Scalar, N>) -> Result<State<L::Scalar, N>, Error>;
+
+    /// What the second half of the phase has for the coordinate of this name.
+    fn entry(coordinate: &'static str) -> Entry;
+}
+
+/// A time and a place in the phase space.
+#[derive(Clone, Copy, Debug)]
+pub struct Point<T, const N: usize> {
+    /// The time.
+    pub t: T,
+    /// The place.
+    pub y: Phase<T, N>,
+    /// A velocity nearby, where the search for the one that belongs to momenta starts.
+    pub velocity: [T; N],
+}
+
+/// The rates of a phase.
+#[derive(Clone, Copy, Debug)]
+pub struct Slope<T, const N: usize, const M: usize> {
+    /// q̇, and the rates of the second half.
+    pub rates: Phase<T, N>,
+    /// The constraints that they rest on.
+    pub active: [bool; M],
+    /// Whether the constraints are independent.
+    pub multipliers_are_unique: bool,
+}
+
+/// Lagrange's equations, in coordinates and velocities.
+#[derive(Clone, Copy, Debug)]
+pub struct LagrangianFlow;
+
+impl<L, const N: usize, const M: usize> Flow<L, N, M> for LagrangianFlow
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    #[inline]
+    fn phase(_: &L, state: &State<L::Scalar, N>) -> Phase<L::Scalar, N> {
+        [state.q.into(), state.v.into()]
+    }
+
+    // Inlined for sure: a call would copy the rates once more in every stage.
+    #[inline(always)]
+    fn slope(
+        system: &L,
+        point: &Point<L::Scalar, N>,
+        active: Option<&[bool; M]>,
+    ) -> Result<Slope<L::Scalar, N, M>, Error> {
+        let (solution, active) = solve_near(system, &Self::state(system, point), active)?;
+        Ok(Slope {
+            rates: [point.y[1], solution.accelerations.into()],
+            active,
+            multipliers_are_unique: solution.multipliers_are_unique(),
+        })
+    }
+
+    #[inline]
+    fn state(_: &L, point: &Point<L::Scalar, N>) -> State<L::Scalar, N> {
+        State { t: point.t, q: vector(point.y[0]), v: vector(point.y[1]) }
+    }
+
+    fn project(system: &L, point: &Point<L::Scalar, N>) -> Result<State<L::Scalar, N>, Error> {
+        let mut state = Self::state(system, point);
+        consistent::project(system, &mut state)?;
+        Ok(state)
+    }
+
+    fn entry(coordinate: &'static str) -> Entry {
+        Entry::Velocity(coordinate)
+    }
+}
