@@ -1,7 +1,9 @@
 //! The system and its equations as text and as LaTeX. Nothing else writes any.
 
+mod binding;
 mod formula;
 mod notation;
+mod supplied;
 mod symbols;
 #[cfg(test)]
 mod tests;
