@@ -1,8 +1,10 @@
 //! The system and its equations as text and as LaTeX. Nothing else writes any.
 
+mod binding;
 mod formula;
 mod kinds;
 mod notation;
+mod supplied;
 mod symbols;
 #[cfg(test)]
 mod tests;

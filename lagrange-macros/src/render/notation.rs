@@ -2,19 +2,11 @@
 
 use num_traits::{One, Signed};
 
+use super::binding::{Binding, PREFIX, begins_with_function, exponent_at_name, is_number, is_prefixed};
 use super::formula::Formula;
 use super::symbols::{GREEK, decimal, superscript, vulgar};
 use crate::resolve::is_built_in;
 use crate::symbolic::Rational;
-
-/// How tightly a formula holds together: what is looser than its surroundings needs parentheses.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Binding {
-    Sum,
-    Product,
-    Power,
-    Atom,
-}
 
 /// A way of writing.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -157,12 +149,7 @@ impl Notation {
     }
 
     fn power(self, base: &Formula, exponent: &Formula, is_followed: bool) -> String {
-        // The exponent of a function stands at its name, sin² x; sin⁻¹ would be its inverse.
-        if let (Formula::Call(name, arguments), Formula::Number(value)) = (base, exponent)
-            && is_prefixed(base)
-            && value.is_integer()
-            && value.is_positive()
-        {
+        if let (Formula::Call(name, arguments), Some(value)) = (base, exponent_at_name(base, exponent)) {
             let exponent = self.superscript(&value.to_string());
             return self.prefix(name, &exponent, &arguments[0], is_followed);
         }
@@ -266,31 +253,6 @@ impl Notation {
         }
     }
 
-    /// How tightly a formula holds together.
-    fn binding(self, formula: &Formula) -> Binding {
-        match formula {
-            Formula::Number(value) if value.is_negative() => Binding::Sum,
-            Formula::Negative(_) | Formula::Sum(_) | Formula::SumOver { .. } => Binding::Sum,
-            Formula::Product(..) => Binding::Product,
-            Formula::Call(name, _) => match name.as_str() {
-                "dot" | "cross" | "der" => Binding::Product,
-                // `sin x` holds like a factor, not like the base of a power.
-                name if PREFIX.contains(&name) => Binding::Power,
-                _ => Binding::Atom,
-            },
-            Formula::Partial { arguments, .. } if arguments.is_empty() => match self {
-                Self::Unicode => Binding::Product,
-                Self::Latex => Binding::Power,
-            },
-            Formula::Power(..) => Binding::Power,
-            Formula::Root(_) if self == Self::Unicode => Binding::Power,
-            Formula::Number(value) if !value.denom().is_one() => Binding::Power,
-            // A further index would run into the first.
-            Formula::Entry(..) if self == Self::Latex => Binding::Power,
-            _ => Binding::Atom,
-        }
-    }
-
     fn number(self, value: Rational) -> String {
         let sign = if value.is_negative() { self.pick("−", "-") } else { "" };
         let (numerator, denominator) = (value.numer().abs(), *value.denom());
@@ -355,28 +317,5 @@ impl Notation {
             Self::Unicode => format!("{base}_{below}"),
             Self::Latex => format!(r"{base}_{{\mathrm{{{}}}}}", below.replace('_', r"\_")),
         }
-    }
-}
-
-/// Functions that are written without parentheses before a single name.
-const PREFIX: [&str; 8] = ["sin", "cos", "tan", "sinh", "cosh", "tanh", "exp", "ln"];
-
-/// Whether it is written as a name before its argument.
-fn is_prefixed(formula: &Formula) -> bool {
-    match formula {
-        Formula::Call(name, arguments) => PREFIX.contains(&name.as_str()) && arguments.len() == 1,
-        _ => false,
-    }
-}
-
-fn is_number(formula: &Formula) -> bool {
-    matches!(formula, Formula::Number(_))
-}
-
-/// `sin x` and `sin² x` end the argument of the function before them.
-fn begins_with_function(formula: &Formula) -> bool {
-    match formula {
-        Formula::Power(base, exponent) => is_prefixed(base) && matches!(**exponent, Formula::Number(_)),
-        other => is_prefixed(other),
     }
 }

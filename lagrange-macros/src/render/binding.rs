@@ -1,0 +1,76 @@
+//! Where a formula needs parentheses.
+
+use num_traits::{One, Signed};
+
+use super::formula::Formula;
+use super::notation::Notation;
+use crate::symbolic::Rational;
+
+/// How tightly a formula holds together: what is looser than its surroundings needs parentheses.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Binding {
+    Sum,
+    Product,
+    Power,
+    Atom,
+}
+
+impl Notation {
+    /// How tightly a formula holds together.
+    pub(super) fn binding(self, formula: &Formula) -> Binding {
+        match formula {
+            Formula::Number(value) if value.is_negative() => Binding::Sum,
+            Formula::Negative(_) | Formula::Sum(_) | Formula::SumOver { .. } => Binding::Sum,
+            Formula::Product(..) => Binding::Product,
+            Formula::Call(name, _) => match name.as_str() {
+                "dot" | "cross" | "der" => Binding::Product,
+                // `sin x` holds like a factor, not like the base of a power.
+                name if PREFIX.contains(&name) => Binding::Power,
+                _ => Binding::Atom,
+            },
+            Formula::Partial { arguments, .. } if arguments.is_empty() => match self {
+                Self::Unicode => Binding::Product,
+                Self::Latex => Binding::Power,
+            },
+            Formula::Power(..) => Binding::Power,
+            Formula::Root(_) if self == Self::Unicode => Binding::Power,
+            Formula::Number(value) if !value.denom().is_one() => Binding::Power,
+            // A further index would run into the first.
+            Formula::Entry(..) if self == Self::Latex => Binding::Power,
+            _ => Binding::Atom,
+        }
+    }
+}
+
+/// Functions that are written without parentheses before a single name.
+pub(super) const PREFIX: [&str; 8] = ["sin", "cos", "tan", "sinh", "cosh", "tanh", "exp", "ln"];
+
+/// Whether it is written as a name before its argument.
+pub(super) fn is_prefixed(formula: &Formula) -> bool {
+    match formula {
+        Formula::Call(name, arguments) => PREFIX.contains(&name.as_str()) && arguments.len() == 1,
+        _ => false,
+    }
+}
+
+/// The exponent that stands at a function's name, sin² x; sin⁻¹ would be its inverse.
+pub(super) fn exponent_at_name(base: &Formula, exponent: &Formula) -> Option<Rational> {
+    match exponent {
+        Formula::Number(value) if is_prefixed(base) && value.is_integer() && value.is_positive() => {
+            Some(*value)
+        }
+        _ => None,
+    }
+}
+
+pub(super) fn is_number(formula: &Formula) -> bool {
+    matches!(formula, Formula::Number(_))
+}
+
+/// `sin x` and `sin² x` end the argument of the function before them.
+pub(super) fn begins_with_function(formula: &Formula) -> bool {
+    match formula {
+        Formula::Power(base, exponent) => exponent_at_name(base, exponent).is_some(),
+        other => is_prefixed(other),
+    }
+}
