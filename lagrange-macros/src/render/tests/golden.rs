@@ -40,7 +40,7 @@ fn sphere_down_an_incline() {
               inertia = ⅖ m a²
 
             Constraints
-              no_slip: ẋ − a φ̇ = 0   (on the velocities)
+              no_slip: ẋ − a φ̇ = 0   (integrable: x − a φ is constant)
 
             Equations of motion
               x: m ẍ = m g sin α + λ_no_slip
