@@ -46,10 +46,13 @@ extern crate self as lagrange_core;
 mod consistent;
 #[cfg(feature = "alloc")]
 mod csv;
+#[cfg(feature = "alloc")]
+mod drift;
 mod dual;
 pub mod eliminate;
 mod equations;
 mod error;
+mod facts;
 #[cfg(test)]
 mod fixtures;
 pub mod function;
@@ -77,9 +80,12 @@ mod trajectory;
 pub use consistent::{Adjustment, Consistent};
 #[cfg(feature = "alloc")]
 pub use csv::Csv;
+#[cfg(feature = "alloc")]
+pub use drift::{Deviation, Drift};
 pub use dual::Dual;
 pub use equations::Equations;
 pub use error::Error;
+pub use facts::{Conserved, Evidence, Facts, LinearPart, TotalDerivative};
 pub use function::{ByHand, Function, HandWritten};
 #[cfg(feature = "alloc")]
 pub use integrate::{Dop853, Dopri5, Ending, Method, Progress, Statistics};

@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::{Scalar, Solution, State};
+use crate::{Facts, Scalar, Solution, State};
 
 /// How a constraint was written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -36,6 +36,9 @@ pub trait Lagrangian<const N: usize, const M: usize> {
     const CONSTRAINT_KINDS: [ConstraintKind; M];
     /// Names of the observables.
     const OBSERVABLES: &'static [&'static str];
+
+    /// What the derive found out: conserved quantities, cyclic coordinates, what the energy is.
+    const FACTS: Facts;
 
     /// L(t, q, q̇).
     fn lagrangian(&self, state: &State<Self::Scalar, N>) -> Self::Scalar;
@@ -86,4 +89,7 @@ pub trait Lagrangian<const N: usize, const M: usize> {
         state: &State<Self::Scalar, N>,
         solution: &Solution<Self::Scalar, N, M>,
     ) -> Option<Self::Scalar>;
+
+    /// The value of the conserved quantity [`FACTS`](Self::FACTS)`.conserved[index]`; `None` beyond the last.
+    fn conserved(&self, index: usize, state: &State<Self::Scalar, N>) -> Option<Self::Scalar>;
 }

@@ -10,7 +10,7 @@ use core::fmt::{self, Debug, Formatter};
 use crate::eliminate::vector;
 use crate::integrate::Phase;
 use crate::{
-    Adjustment, Csv, Ending, Error, Lagrangian, Real, Sample, Scalar, State, Statistics, consistent,
+    Adjustment, Csv, Drift, Ending, Error, Lagrangian, Real, Sample, Scalar, State, Statistics, consistent,
 };
 
 /// The motion of a system from the start to where the integration stopped, which [`ending`](Self::ending) explains.
@@ -86,6 +86,11 @@ where
     /// Print it, or write `path.csv(200).to_string()` to a file.
     pub fn csv(&self, count: usize) -> Csv<'_, 'a, L, N, M> {
         Csv::new(self, count)
+    }
+
+    /// How far each conserved quantity strays from its value at the start.
+    pub fn drift(&self) -> Drift<L::Scalar> {
+        Drift::along(self)
     }
 
     /// Why the trajectory ends where it does.

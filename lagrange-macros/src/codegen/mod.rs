@@ -1,5 +1,6 @@
 //! From [`Equations`] to Rust. Nothing else writes any.
 
+mod facts;
 mod kernel;
 mod schedule;
 mod stub;
@@ -11,7 +12,7 @@ use quote::{format_ident, quote};
 use syn::GenericParam;
 
 use crate::diagnostics::Diagnostics;
-use crate::mechanics::{ConstraintKind, Equations};
+use crate::mechanics::{ConstraintKind, Equations, Facts};
 use crate::render::Rendered;
 use crate::resolve::{Label, Problem, Supplied};
 use crate::symbolic::{Id, Node};
@@ -32,12 +33,13 @@ pub(crate) fn implementation(
     declaration: &Declaration,
     problem: &Problem,
     equations: &Equations,
+    facts: &Facts,
     rendered: &Rendered,
     scalar: &syn::Type,
     diagnostics: &mut Diagnostics,
 ) -> TokenStream {
     let style = Style::new(problem, scalar);
-    let emitter = Emitter { declaration, problem, equations, rendered, style: &style };
+    let emitter = Emitter { declaration, problem, equations, facts, rendered, style: &style };
     let fused = emitter.fused();
     let Count { arithmetic, functions, .. } = fused.count;
     if arithmetic + functions > OPERATION_LIMIT {
@@ -66,6 +68,7 @@ struct Emitter<'a> {
     declaration: &'a Declaration,
     problem: &'a Problem,
     equations: &'a Equations,
+    facts: &'a Facts,
     rendered: &'a Rendered,
     style: &'a Style<'a>,
 }
@@ -118,6 +121,7 @@ impl Emitter<'_> {
             ConstraintKind::Velocity => quote!(__lagrange::ConstraintKind::Velocity),
         });
         let observables = self.observable_names();
+        let facts = self.facts();
         let functions = self.functions(fused);
         let inherent = self.observable_methods();
         let equations = self.equations();
@@ -137,6 +141,7 @@ impl Emitter<'_> {
                     const CONSTRAINTS: [&'static str; #m] = [#(#constraints),*];
                     const CONSTRAINT_KINDS: [__lagrange::ConstraintKind; #m] = [#(#kinds),*];
                     const OBSERVABLES: &'static [&'static str] = &[#(#observables),*];
+                    #facts
                     #functions
                 }
 
@@ -183,7 +188,8 @@ impl Emitter<'_> {
         let force = self.constraint_force();
         let accelerations = self.accelerations(&fused);
         let observable = self.observable_by_index();
-        quote! { #lagrangian #energy #momentum #momentum_rate #mass #forcing #residual #rate #jacobian #bias #force #accelerations #observable }
+        let conserved = self.conserved_by_index();
+        quote! { #lagrangian #energy #momentum #momentum_rate #mass #forcing #residual #rate #jacobian #bias #force #accelerations #observable #conserved }
     }
 
     /// One method of the state that returns what `result` makes of the kernel's results.
@@ -325,7 +331,7 @@ impl Emitter<'_> {
 
     fn equations(&self) -> TokenStream {
         let visibility = &self.declaration.visibility;
-        let Rendered { text, latex } = self.rendered;
+        let Rendered { text, latex, .. } = self.rendered;
         quote! {
             /// The system and its equations of motion, to be read.
             #visibility const fn equations() -> __lagrange::Equations {

@@ -44,7 +44,7 @@ fn energy(problem: &mut Problem, momentum: &[Id]) -> Id {
 }
 
 /// Q: the forces given, and −∂D/∂q̇ of Rayleigh's dissipation function.
-fn generalized_forces(problem: &mut Problem) -> Vec<Id> {
+pub(super) fn generalized_forces(problem: &mut Problem) -> Vec<Id> {
     let n = problem.coordinates.len();
     let Some((dissipation, _)) = problem.dissipation else { return problem.forces.clone() };
     let friction = problem.graph.gradient(dissipation, &symbols(n, Variable::Velocity));

@@ -8,7 +8,7 @@ use crate::{codegen, diagnostics::Diagnostics, mechanics, resolve, syntax};
 struct Times {
     system: String,
     nodes: usize,
-    stages: [Duration; 4],
+    stages: [Duration; 5],
 }
 
 fn times(system: String, source: &str) -> Times {
@@ -22,10 +22,12 @@ fn times(system: String, source: &str) -> Times {
     let resolved = start.elapsed();
     let equations = mechanics::derive(&mut problem, &mut diagnostics).expect("no errors");
     let derived = start.elapsed();
-    let rendered = crate::render::render(&declaration, &mut problem, &equations);
-    codegen::implementation(&declaration, &problem, &equations, &rendered, &scalar, &mut diagnostics);
+    let facts = mechanics::facts(&mut problem, &equations, &mut diagnostics).expect("no errors");
+    let found = start.elapsed();
+    let rendered = crate::render::render(&declaration, &mut problem, &equations, &facts);
+    codegen::implementation(&declaration, &problem, &equations, &facts, &rendered, &scalar, &mut diagnostics);
     let emitted = start.elapsed();
-    let stages = [read, resolved - read, derived - resolved, emitted - derived];
+    let stages = [read, resolved - read, derived - resolved, found - derived, emitted - found];
     Times { system, nodes: problem.graph.len(), stages }
 }
 
@@ -37,14 +39,14 @@ fn times_of_the_stages() {
         [12, 24, 40].map(|n| times(format!("{n}-link chain"), &systems::chain(n))).into();
     rows.push(times("50 rods".to_owned(), &systems::rods(50)));
     println!(
-        "{:14} {:>7} {:>8} {:>8} {:>9} {:>8} {:>8}",
-        "", "nodes", "syntax", "resolve", "mechanics", "codegen", "in all"
+        "{:14} {:>7} {:>8} {:>8} {:>9} {:>8} {:>8} {:>8}",
+        "", "nodes", "syntax", "resolve", "mechanics", "facts", "codegen", "in all"
     );
     for Times { system, nodes, stages } in rows {
-        let [read, resolved, derived, emitted] = stages.map(|stage| stage.as_secs_f64() * 1e3);
-        let all = read + resolved + derived + emitted;
+        let [read, resolved, derived, found, emitted] = stages.map(|stage| stage.as_secs_f64() * 1e3);
+        let all = read + resolved + derived + found + emitted;
         println!(
-            "{system:14} {nodes:7} {read:5.0} ms {resolved:5.0} ms {derived:6.0} ms {emitted:5.0} ms {all:5.0} ms"
+            "{system:14} {nodes:7} {read:5.0} ms {resolved:5.0} ms {derived:6.0} ms {found:5.0} ms {emitted:5.0} ms {all:5.0} ms"
         );
     }
 }

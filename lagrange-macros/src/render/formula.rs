@@ -36,7 +36,10 @@ pub(super) enum Formula {
     },
     Vector(Vec<Self>),
     /// A partial derivative of a function whose arguments are not written.
-    Partial { function: String, by: Vec<Self> },
+    Partial {
+        function: String,
+        by: Vec<Self>,
+    },
 }
 
 impl Formula {
@@ -216,7 +219,11 @@ pub(super) fn derived(id: Id, problem: &Problem) -> Formula {
 fn external_call(external: &External, problem: &Problem) -> Formula {
     let function = &problem.functions[external.function as usize];
     let arguments: Vec<Formula> = external.arguments.iter().map(|&x| derived(x, problem)).collect();
-    let name = if function.outputs == 1 { function.name.clone() } else { format!("{}[{}]", function.name, external.output) };
+    let name = if function.outputs == 1 {
+        function.name.clone()
+    } else {
+        format!("{}[{}]", function.name, external.output)
+    };
     if external.derivatives.is_empty() {
         return Formula::Call(name, arguments);
     }
@@ -225,7 +232,7 @@ fn external_call(external: &External, problem: &Problem) -> Formula {
 }
 
 impl Formula {
-    fn signed(self, negative: bool) -> Self {
+    pub(super) fn signed(self, negative: bool) -> Self {
         if negative { self.negated() } else { self }
     }
 }

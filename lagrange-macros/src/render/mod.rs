@@ -1,9 +1,10 @@
 //! The system and its equations as text and as LaTeX. Nothing else writes any.
 
+mod facts;
 mod formula;
 mod notation;
 
-use crate::mechanics::{ConstraintKind, Equations};
+use crate::mechanics::{ConstraintKind, Equations, Facts};
 use crate::resolve::Problem;
 use crate::symbolic::{Id, Rational};
 use crate::syntax::{Declaration, Define, Name, TargetIndex};
@@ -18,6 +19,8 @@ const READABLE: u64 = 250;
 pub(crate) struct Rendered {
     pub(crate) text: String,
     pub(crate) latex: String,
+    /// The total time derivatives in the Lagrangian, in the order of the facts.
+    pub(crate) total_derivatives: Vec<String>,
 }
 
 /// A heading and the lines below it: a label, an equation and a remark.
@@ -34,20 +37,35 @@ struct Line {
 
 enum Equation {
     Known(Formula, Formula),
+    /// No equation but a single expression.
+    Term(Formula),
     /// Why it is not written out.
     TooLong(u64),
 }
 
 /// Writes the system down.
-pub(crate) fn render(declaration: &Declaration, problem: &mut Problem, equations: &Equations) -> Rendered {
+pub(crate) fn render(
+    declaration: &Declaration,
+    problem: &mut Problem,
+    equations: &Equations,
+    facts: &Facts,
+) -> Rendered {
     let rows = motion(problem, equations);
+    let total_derivatives = facts::total_derivatives(declaration, problem, facts);
+    let texts = facts::texts(&total_derivatives);
+    let term = |formula| Line { label: None, equation: Equation::Term(formula), remark: "" };
     let sections = [
         Section { heading: "Lagrangian", lines: lagrangian(declaration, problem) },
         Section { heading: "Constraints", lines: constraints(declaration, problem, equations) },
         Section { heading: "Equations of motion", lines: rows },
+        Section { heading: "Conserved", lines: facts::conserved(declaration, problem, equations, facts) },
+        Section {
+            heading: "Total time derivatives in the Lagrangian",
+            lines: total_derivatives.into_iter().map(term).collect(),
+        },
     ];
     let name = declaration.ident.to_string();
-    Rendered { text: text(&name, &sections), latex: latex(&sections) }
+    Rendered { text: text(&name, &sections), latex: latex(&sections), total_derivatives: texts }
 }
 
 fn lagrangian(declaration: &Declaration, problem: &Problem) -> Vec<Line> {
@@ -178,6 +196,7 @@ fn text(name: &str, sections: &[Section]) -> String {
             };
             let equation = match equation {
                 Equation::Known(left, right) => Notation::Unicode.equation(left, right),
+                Equation::Term(formula) => Notation::Unicode.write(formula),
                 Equation::TooLong(size) => format!("… ({size} symbols)"),
             };
             let remark = if remark.is_empty() { String::new() } else { format!("   ({remark})") };
@@ -193,6 +212,9 @@ fn latex(sections: &[Section]) -> String {
         let equation = match &line.equation {
             Equation::Known(left, right) => {
                 format!("{} &= {}", Notation::Latex.write(left), Notation::Latex.write(right))
+            }
+            Equation::Term(formula) => {
+                format!(r"&{} = \text{{total time derivative}}", Notation::Latex.write(formula))
             }
             Equation::TooLong(size) => format!(r"&\text{{({size} symbols)}}"),
         };

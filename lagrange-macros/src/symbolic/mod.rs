@@ -10,9 +10,11 @@ mod rational;
 mod simplify;
 #[cfg(test)]
 mod tests;
+mod wave;
 mod zero;
 
 pub(crate) use differentiate::Forward;
+pub(crate) use evaluate::Approximate;
 pub(crate) use graph::{External, Fault, Function, Graph, Id, Node, Symbol};
 pub(crate) use rational::{Rational, parse_decimal, to_f64};
-pub(crate) use zero::Verdict;
+pub(crate) use zero::{Verdict, drawn};

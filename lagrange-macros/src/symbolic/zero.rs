@@ -31,10 +31,7 @@ impl Graph {
         let order = self.reachable(&[root]);
         let mut held = 0;
         for draw in 0..DRAWS {
-            let symbol = |symbol: Symbol| {
-                let (low, high) = range(symbol);
-                low + (high - low) * random(u64::from(symbol.family), u64::from(symbol.index), draw)
-            };
+            let symbol = |symbol: Symbol| drawn(symbol, range(symbol), draw);
             // An unknown function and its derivatives have values of their own at every argument.
             let external = |id: Id| 2.0 * random(u64::MAX, id.index() as u64, draw) - 1.0;
             let sample = self.evaluate_in(&order, symbol, external);
@@ -93,8 +90,13 @@ impl Graph {
     }
 }
 
+/// A value of `symbol` in the range given, the same in every use of one draw.
+pub(crate) fn drawn(symbol: Symbol, (low, high): (f64, f64), draw: u64) -> f64 {
+    low + (high - low) * random(u64::from(symbol.family), u64::from(symbol.index), draw)
+}
+
 /// A number in [0, 1) that depends on nothing but its arguments (Steele, Lea and Flood's SplitMix64).
-fn random(family: u64, index: u64, draw: u64) -> f64 {
+pub(super) fn random(family: u64, index: u64, draw: u64) -> f64 {
     let mut z = (family << 56) ^ (index << 16) ^ draw;
     for _ in 0..2 {
         z = z.wrapping_add(0x9e37_79b9_7f4a_7c15);
