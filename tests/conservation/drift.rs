@@ -34,7 +34,9 @@ fn the_drift_is_the_largest_deviation_of_any_step() {
     let lines: Vec<&str> = table.lines().collect();
     assert_eq!(lines.len(), 4, "{table}");
     assert_eq!(lines[0], "conserved   at the start  largest deviation");
-    assert!(lines[1].starts_with("p_phi ") && lines[2].starts_with("energy ") && lines[3].starts_with("square "));
+    assert!(
+        lines[1].starts_with("p_phi ") && lines[2].starts_with("energy ") && lines[3].starts_with("square ")
+    );
     let width = lines[0].chars().count();
     assert!(lines.iter().all(|line| line.chars().count() == width), "{table}");
 }

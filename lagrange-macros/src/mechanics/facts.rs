@@ -1,12 +1,15 @@
 //! What can be said of a system before it moves.
 
+use num_traits::Zero;
+
 use super::conservation::{Conserved, Quantity, found};
 use super::gauge::{self, LinearPart, TotalDerivative};
 use super::moment::Moments;
+use super::degree::{self, Part};
 use super::{Equations, conservation, vanishes};
 use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
-use crate::symbolic::{Forward, Id};
+use crate::symbolic::{Forward, Id, Rational};
 use crate::variables::Variable;
 
 /// How sure a statement is.
@@ -80,6 +83,11 @@ fn momenta(
 /// With L = L₀ + L₁ + L₂ by degree in the velocities: E = L₂ − L₀, which is T + U if L₁ = 0. With
 /// D = Σ q̇ ∂/∂q̇ that is D(E) = D(L).
 fn energy_is_t_plus_u(problem: &mut Problem, equations: &Equations) -> Option<Evidence> {
+    let two = Rational::from_integer(2);
+    let is_even = |part: &Part| part.degree.is_zero() || part.degree == two;
+    if degree::parts(&problem.graph, problem.lagrangian).is_some_and(|parts| parts.iter().all(is_even)) {
+        return Some(Evidence::Proved);
+    }
     let rate = by_degree(problem, equations.energy);
     let vis_viva = problem.graph.add(equations.energy, problem.lagrangian);
     let difference = problem.graph.sub(rate, vis_viva);

@@ -27,9 +27,16 @@ pub(crate) enum LinearPart {
     Open,
 }
 
+/// Lagrangians of more terms, a `sum` being one, are written by programs and not searched: there are as many
+/// pairs as the square of it.
+const TERMS: usize = 100;
+
 /// The terms that are total derivatives by themselves; of the others, those two that are one together, or all
 /// that are linear in the velocities.
 pub(super) fn total_derivatives(problem: &mut Problem) -> Vec<TotalDerivative> {
+    if problem.terms.len() > TERMS {
+        return Vec::new();
+    }
     let terms = problem.terms.clone();
     let variations: Vec<_> = terms.iter().map(|&term| variation(problem, term)).collect();
     let mut found = Vec::new();
@@ -41,11 +48,13 @@ pub(super) fn total_derivatives(problem: &mut Problem) -> Vec<TotalDerivative> {
         }
     }
     rest.retain(|&term| is_linear(problem, terms[term]));
-    while let Some(pair) = pair(problem, &variations, &rest) {
+    let (mut rest, mut potentials): (Vec<_>, Vec<_>) =
+        rest.into_iter().partition(|&term| has_velocity(problem, terms[term]));
+    while let Some(pair) = pair(problem, &variations, &rest, &potentials) {
         rest.retain(|term| !pair.terms.contains(term));
+        potentials.retain(|term| !pair.terms.contains(term));
         found.push(pair);
     }
-    rest.retain(|&term| has_velocity(problem, terms[term]));
     if rest.len() > 2 {
         found.extend(cancelled(problem, &variations, &rest));
     }
@@ -53,13 +62,23 @@ pub(super) fn total_derivatives(problem: &mut Problem) -> Vec<TotalDerivative> {
     found
 }
 
-fn pair(problem: &mut Problem, variations: &[Vec<Id>], terms: &[usize]) -> Option<TotalDerivative> {
-    let pairs = terms
-        .iter()
-        .enumerate()
-        .flat_map(|(i, &first)| terms[i + 1..].iter().map(move |&second| [first, second]));
-    let mut pairs = pairs.collect::<Vec<_>>().into_iter();
-    pairs.find_map(|pair| cancelled(problem, variations, &pair))
+/// A term with a velocity, and another one that makes it a total derivative.
+fn pair(
+    problem: &mut Problem,
+    variations: &[Vec<Id>],
+    linear: &[usize],
+    potentials: &[usize],
+) -> Option<TotalDerivative> {
+    for (i, &first) in linear.iter().enumerate() {
+        for &second in linear[i + 1..].iter().chain(potentials) {
+            let pair = [first.min(second), first.max(second)];
+            let total = cancelled(problem, variations, &pair);
+            if total.is_some() {
+                return total;
+            }
+        }
+    }
+    None
 }
 
 /// The terms as a total derivative, if their Euler–Lagrange expressions sum to zero.

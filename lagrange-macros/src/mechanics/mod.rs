@@ -2,6 +2,7 @@
 
 mod conservation;
 mod constraints;
+mod degree;
 mod determinacy;
 mod elimination;
 mod euler_lagrange;

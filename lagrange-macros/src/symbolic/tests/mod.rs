@@ -8,6 +8,7 @@ mod faults;
 mod rationals;
 mod tree;
 mod values;
+mod waves;
 mod zero;
 
 use std::cell::Cell;
