@@ -4,7 +4,7 @@ use lagrange_core::prelude::*;
 #[coordinates(x, y, z)]
 #[lagrangian(m/2 * (x_dot^2 + y_dot^2 + z_dot^2))]
 #[constraint(rail: y = a*x^2)]
-#[conserved(momentum = [m*x_dot, m*z_dot])]
+#[conserved(push = [m*x_dot, m*z_dot])]
 struct System {
     m: f64,
     a: f64,

@@ -39,7 +39,7 @@ enum Trial {
     Held(u32),
     /// At the moment of this index it has this value and this rate.
     Broken(usize, Approximate, Approximate),
-    /// There is no moment at which the rate says anything.
+    /// There are not enough moments at which the rate says anything.
     Undecided,
 }
 
@@ -126,13 +126,13 @@ pub(super) fn of_observables(
                 Trial::Broken(index, value, rate) => {
                     let moment = moments.get(index, problem, equations);
                     let moment = moment.map(|moment| written(moment, problem)).unwrap_or_default();
-                    let (value, rate, suspects) = (value.value, rate.value, suspects(problem));
+                    let (value, rate, suspects) = (short(value), short(rate), suspects(problem));
                     diagnostics.error(place, format!(
-                        "`{name}` is not conserved: at {moment} it is {value:.6} and changes at the rate {rate:.6}{suspects}"
+                        "`{name}` is not conserved: at {moment} it is {value} and changes at the rate {rate}{suspects}"
                     ));
                 }
                 Trial::Undecided => diagnostics.error(place, format!(
-                    "whether `{name}` is conserved cannot be tried: no state was found that satisfies the constraints and where its rate of change has a value; give ranges to the parameters, `#[parameter(l: 1..2)]`, or make it an `observable`"
+                    "whether `{name}` is conserved cannot be tried: too few states were found that satisfy the constraints and where its rate of change has a value; give ranges to the parameters, `#[parameter(l: 1..2)]`, or make it an `observable`"
                 )),
             }
         }
@@ -165,24 +165,35 @@ fn trial(problem: &mut Problem, equations: &Equations, moments: &mut Moments, qu
             held += 1;
         }
         if held == STATES {
-            break;
+            return Trial::Held(held);
         }
     }
-    if held > 0 { Trial::Held(held) } else { Trial::Undecided }
+    Trial::Undecided
 }
 
-/// The state, as far as a message has room for it.
+/// The state and the parameters, as far as a message has room for them.
 fn written(moment: &Moment, problem: &Problem) -> String {
     const ROOM: usize = 4;
     let coordinates = problem.coordinates.iter().take(ROOM).enumerate().flat_map(|(i, label)| {
         let (base, index) = label.text.split_at(label.text.find('[').unwrap_or(label.text.len()));
-        [
-            format!("{} = {:.4}", label.text, moment.get(Variable::Coordinate(i)).value),
-            format!("{base}_dot{index} = {:.4}", moment.get(Variable::Velocity(i)).value),
-        ]
+        let (q, v) = (moment.get(Variable::Coordinate(i)), moment.get(Variable::Velocity(i)));
+        [format!("{} = {}", label.text, short(q)), format!("{base}_dot{index} = {}", short(v))]
     });
-    let more = (problem.coordinates.len() > ROOM).then(|| "…".to_owned());
-    coordinates.chain(more).collect::<Vec<_>>().join(", ")
+    let parameters = (0..problem.parameters.entries.len())
+        .take(ROOM)
+        .map(|k| format!("{} = {}", problem.parameters.name(k), short(moment.get(Variable::Parameter(k)))));
+    let more = problem.coordinates.len().max(problem.parameters.entries.len()) > ROOM;
+    let all = coordinates.chain(parameters).chain(more.then(|| "…".to_owned()));
+    all.collect::<Vec<_>>().join(", ")
+}
+
+/// Four digits of a number.
+fn short(number: Approximate) -> String {
+    let value = number.value;
+    match value.abs() {
+        size if size == 0.0 || (1e-3..1e4).contains(&size) => format!("{value:.4}"),
+        _ => format!("{value:.3e}"),
+    }
 }
 
 /// What in this system breaks conservation laws.
@@ -201,6 +212,10 @@ fn suspects(problem: &Problem) -> String {
     }
     let constraints = problem.constraints.iter().take(3);
     suspects.extend(constraints.map(|(label, _)| format!("the force of the constraint `{}`", label.text)));
+    suspects.extend(
+        (!problem.functions.is_empty())
+            .then(|| "a function that it is to hold for, whichever it is".to_owned()),
+    );
     match suspects.is_empty() {
         true => "; look for a wrong sign or factor in it".to_owned(),
         false => format!("; what may change it: a wrong sign or factor in it, {}", suspects.join(", ")),

@@ -62,9 +62,9 @@ fn degrees(graph: &Graph, root: Id) -> Vec<Option<Rational>> {
                 let first = of(terms[0].0);
                 first.filter(|_| terms.iter().all(|&(term, _)| of(term) == first))
             }
-            Node::Product(factors) => factors
-                .iter()
-                .try_fold(Rational::zero(), |sum, &(factor, e)| sum.checked_add(&of(factor)?.checked_mul(&e)?)),
+            Node::Product(factors) => factors.iter().try_fold(Rational::zero(), |sum, &(factor, e)| {
+                sum.checked_add(&of(factor)?.checked_mul(&e)?)
+            }),
             Node::Defined(inner) => of(*inner),
             Node::Function(..) | Node::Atan2(..) | Node::Power(..) | Node::External(_) => {
                 let mut free = true;

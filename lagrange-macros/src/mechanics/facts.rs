@@ -3,9 +3,9 @@
 use num_traits::Zero;
 
 use super::conservation::{Conserved, Quantity, found};
+use super::degree::{self, Part};
 use super::gauge::{self, LinearPart, TotalDerivative};
 use super::moment::Moments;
-use super::degree::{self, Part};
 use super::{Equations, conservation, vanishes};
 use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
