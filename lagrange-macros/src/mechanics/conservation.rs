@@ -214,7 +214,7 @@ fn suspects(problem: &Problem) -> String {
     suspects.extend(constraints.map(|(label, _)| format!("the force of the constraint `{}`", label.text)));
     suspects.extend(
         (!problem.functions.is_empty())
-            .then(|| "a function that it is to hold for, whichever it is".to_owned()),
+            .then(|| "the supplied functions, for which it tries random ones".to_owned()),
     );
     match suspects.is_empty() {
         true => "; look for a wrong sign or factor in it".to_owned(),

@@ -85,8 +85,8 @@ fn pair(
 fn cancelled(problem: &mut Problem, variations: &[Vec<Id>], terms: &[usize]) -> Option<TotalDerivative> {
     let one = Rational::from_integer(1);
     let mut evidence = Evidence::Proved;
-    for i in 0..problem.coordinates.len() {
-        let sum = problem.graph.sum(terms.iter().map(|&term| (variations[term][i], one)));
+    for coordinate in 0..problem.coordinates.len() {
+        let sum = problem.graph.sum(terms.iter().map(|&term| (variations[term][coordinate], one)));
         evidence = evidence.max(vanishes(problem, sum)?);
     }
     Some(TotalDerivative { terms: terms.to_vec(), evidence })

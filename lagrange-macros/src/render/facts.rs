@@ -30,7 +30,7 @@ pub(super) fn conserved(
                 lines.push(line(&conserved.name, Err(equations.momentum[a]), held(conserved.evidence)));
             }
             Quantity::Energy => {
-                lines.push(line("E", Err(equations.energy), energy(conserved.evidence, facts)))
+                lines.push(line("E", Err(equations.energy), energy(conserved.evidence, facts)));
             }
             // A vector is written as such, once.
             Quantity::Observable(observable, 0) => {
