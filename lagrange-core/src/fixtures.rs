@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::eliminate::{eliminate, vector};
-use crate::{ConstraintKind, Lagrangian, Solution, State};
+use crate::{ConstraintKind, Facts, Lagrangian, Solution, State};
 
 pub(crate) type At<const N: usize> = State<f64, N>;
 
@@ -45,6 +45,7 @@ impl<const N: usize, const M: usize, const H: usize> Lagrangian<N, M> for Mechan
     const CONSTRAINTS: [&'static str; M] = first(["c0", "c1", "c2", "c3", "c4"]);
     const CONSTRAINT_KINDS: [ConstraintKind; M] = kinds(H);
     const OBSERVABLES: &'static [&'static str] = &["kinetic"];
+    const FACTS: Facts = Facts::NONE;
 
     fn lagrangian(&self, _: &At<N>) -> f64 {
         0.0
@@ -96,6 +97,10 @@ impl<const N: usize, const M: usize, const H: usize> Lagrangian<N, M> for Mechan
 
     fn observable(&self, index: usize, state: &At<N>, _: &Solution<f64, N, M>) -> Option<f64> {
         (index == 0).then(|| 0.5 * state.v.dot(&self.momentum(state)))
+    }
+
+    fn conserved(&self, _: usize, _: &At<N>) -> Option<f64> {
+        None
     }
 }
 

@@ -1,5 +1,7 @@
 //! What kind of constraint it is: whether it restricts positions, or only velocities.
 
+use crate::Evidence;
+
 /// Whether a constraint can be integrated to one that holds no velocities.
 ///
 /// A velocity constraint Σ F_a q̇_a + b = 0 is the form ω = Σ F_a dq_a + b dt in the space of (q, t), and motions
@@ -28,15 +30,6 @@ impl Integrability {
     pub const fn is_integrable(self) -> bool {
         matches!(self, Self::Holonomic | Self::Exact | Self::IntegratingFactor | Self::Together)
     }
-}
-
-/// How sure a verdict is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Evidence {
-    /// What must vanish vanishes identically, and what must not has a value whose error bound excludes zero.
-    Proved,
-    /// It held at this many random points, within rounding.
-    Held(u32),
 }
 
 /// The kind of one constraint.

@@ -260,6 +260,52 @@
 //! # Ok::<(), lagrange_core::Error>(())
 //! ```
 //!
+//! # What is conserved
+//!
+//! The derive finds cyclic coordinates and their momenta, whether the energy E = p·q̇ − L is conserved and whether it
+//! is T + U, and terms of L that are total time derivatives; constraints and forces are taken into account. All of it
+//! is in [`FACTS`](crate::Lagrangian::FACTS), with how sure it is: proved by the form of the expressions, or seen to
+//! hold at random states that satisfy the constraints.
+//!
+//! `#[conserved(name = expression)]` is an observable that must be conserved. The derive evaluates its rate of change
+//! on such states, with random parameters and random functions in place of those that the user supplies; where it is
+//! not zero within rounding, that is a compile error with the numbers. A
+//! [`Trajectory`](crate::Trajectory::drift) reports how far each conserved quantity strays.
+//!
+#![cfg_attr(
+    feature = "std",
+    doc = r#"
+```
+use lagrange_core::prelude::*;
+
+/// A pendulum bob on a string.
+#[derive(Lagrangian)]
+#[coordinates(x, y, z)]
+#[lagrangian(m/2 * (x_dot^2 + y_dot^2 + z_dot^2) - m*g*z)]
+#[constraint(string: x^2 + y^2 + z^2 = l^2)]
+#[conserved(l_z = m*(x*y_dot - y*x_dot))]
+struct Bob { m: f64, g: f64, l: f64 }
+
+assert_eq!(Bob::FACTS.energy_is_conserved, Some(Evidence::Proved));
+let bob = Bob { m: 0.1, g: 9.81, l: 0.5 };
+let path = bob.integrate(State::new([0.3, 0.0, -0.4], [0.0, 1.0, 0.0]), 5.0, Dop853::default())?;
+println!("{}", path.drift());
+assert!(path.drift().iter().all(|quantity| quantity.largest < 1e-6));
+# Ok::<(), Error>(())
+```
+"#
+)]
+//!
+//! ```compile_fail
+//! use lagrange_core::prelude::*;
+//!
+//! #[derive(Lagrangian)]
+//! #[coordinates(x, y)]
+//! #[lagrangian(m/2 * (x_dot^2 + y_dot^2) - k/2 * (x^2 + 2*y^2))]
+//! #[conserved(rotation = m*(x*y_dot - y*x_dot))] // the springs differ
+//! struct TwoSprings { m: f64, k: f64 }
+//! ```
+//!
 //! # Number types
 //!
 //! The number type is what the fields in use are made of, else `f64`. With a type parameter one derive serves

@@ -47,10 +47,14 @@ extern crate self as lagrange_core;
 mod consistent;
 #[cfg(feature = "alloc")]
 mod csv;
+#[cfg(feature = "alloc")]
+mod drift;
 mod dual;
 pub mod eliminate;
 mod equations;
 mod error;
+mod evidence;
+mod facts;
 #[cfg(test)]
 mod fixtures;
 pub mod function;
@@ -80,14 +84,18 @@ mod trajectory;
 pub use consistent::{Adjustment, Consistent};
 #[cfg(feature = "alloc")]
 pub use csv::Csv;
+#[cfg(feature = "alloc")]
+pub use drift::{Deviation, Drift};
 pub use dual::Dual;
 pub use equations::Equations;
 pub use error::Error;
+pub use evidence::Evidence;
+pub use facts::{Conserved, Facts, LinearPart, TotalDerivative};
 pub use function::{ByHand, Function, HandWritten};
 #[cfg(feature = "alloc")]
 pub use hamiltonian::HamiltonianFlow;
 pub use hamiltonian::{Hamiltonian, PhaseRate, PhaseState};
-pub use integrability::{Classification, Evidence, Extent, Integrability, Integrals};
+pub use integrability::{Classification, Extent, Integrability, Integrals};
 #[cfg(feature = "alloc")]
 pub use integrate::{Dop853, Dopri5, Ending, Method, Progress, Statistics};
 pub use lagrange_macros::Lagrangian;

@@ -2,8 +2,8 @@
 
 pub use crate::{
     Adjustment, ByHand, Classification, ConstraintKind, Error, Evidence, Extent, Function, Hamiltonian,
-    HandWritten, Integrability, Integrals, Lagrangian, PhaseRate, PhaseState, Real, Scalar, Simulate,
-    Solution, State,
+    HandWritten, Integrability, Integrals, Lagrangian, LinearPart, PhaseRate, PhaseState, Real, Scalar,
+    Simulate, Solution, State,
 };
 #[cfg(feature = "alloc")]
 pub use crate::{

@@ -1,5 +1,6 @@
 //! One state of a motion, by names.
 
+use alloc::vec::Vec;
 use core::fmt::{self, Debug, Formatter};
 
 use crate::lookup::{index, unknown};
@@ -105,6 +106,20 @@ where
         let index = index(L::OBSERVABLES, "observable", name)?;
         let value = self.system.observable(index, &self.state, &self.solution()?);
         value.ok_or_else(|| unknown(L::OBSERVABLES, "observable", name))
+    }
+
+    /// The conserved quantity of this name: `p_phi`, `energy`, or one given in `#[conserved(…)]`.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`].
+    pub fn conserved(&self, name: &str) -> Result<L::Scalar, Error> {
+        let names: Vec<&'static str> = L::FACTS.conserved.iter().map(|conserved| conserved.name).collect();
+        let index = index(&names, "conserved quantity", name)?;
+        self.conserved_by_index(index).ok_or_else(|| unknown(&names, "conserved quantity", name))
+    }
+
+    pub(crate) fn conserved_by_index(&self, index: usize) -> Option<L::Scalar> {
+        self.system.conserved(index, &self.state)
     }
 
     pub(crate) fn system(&self) -> &'a L {

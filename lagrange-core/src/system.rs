@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::{Classification, Integrals, Scalar, Solution, State};
+use crate::{Classification, Facts, Integrals, Scalar, Solution, State};
 
 /// How a constraint was written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -40,6 +40,9 @@ pub trait Lagrangian<const N: usize, const M: usize> {
     const INTEGRALS: Option<Integrals> = None;
     /// Names of the observables.
     const OBSERVABLES: &'static [&'static str];
+
+    /// What the derive found out: conserved quantities, cyclic coordinates, what the energy is.
+    const FACTS: Facts;
 
     /// L(t, q, q̇).
     fn lagrangian(&self, state: &State<Self::Scalar, N>) -> Self::Scalar;
@@ -97,4 +100,7 @@ pub trait Lagrangian<const N: usize, const M: usize> {
         state: &State<Self::Scalar, N>,
         solution: &Solution<Self::Scalar, N, M>,
     ) -> Option<Self::Scalar>;
+
+    /// The value of the conserved quantity [`FACTS`](Self::FACTS)`.conserved[index]`; `None` beyond the last.
+    fn conserved(&self, index: usize, state: &State<Self::Scalar, N>) -> Option<Self::Scalar>;
 }

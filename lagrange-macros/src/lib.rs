@@ -42,6 +42,7 @@ use syntax::Declaration;
         force,
         dissipation,
         observable,
+        conserved,
         parameter,
         lagrange
     )
@@ -91,8 +92,10 @@ fn derive(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<To
     let scalar = problem.parameters.scalar(declaration, diagnostics);
     diagnostics.is_empty().then_some(())?;
     let equations = mechanics::derive(&mut problem, diagnostics)?;
-    let rendered = render::render(declaration, &mut problem, &equations);
-    let tokens = codegen::implementation(declaration, &problem, &equations, &rendered, &scalar, diagnostics);
+    let facts = mechanics::facts(&mut problem, &equations, diagnostics)?;
+    let rendered = render::render(declaration, &mut problem, &equations, &facts);
+    let tokens =
+        codegen::implementation(declaration, &problem, &equations, &facts, &rendered, &scalar, diagnostics);
     diagnostics.is_empty().then_some(())?;
     print::if_asked(declaration, &tokens);
     Some(tokens)

@@ -10,7 +10,7 @@ use core::iter::once;
 use core::marker::PhantomData;
 
 use crate::integrate::{Flow, LagrangianFlow, Phase, Point};
-use crate::{Adjustment, Csv, Ending, Error, Lagrangian, Real, Sample, Scalar, State, Statistics};
+use crate::{Adjustment, Csv, Drift, Ending, Error, Lagrangian, Real, Sample, Scalar, State, Statistics};
 
 /// The motion of a system from the start to where the integration stopped, which [`ending`](Self::ending) explains.
 ///
@@ -92,6 +92,11 @@ where
     /// Print it, or write `path.csv(200).to_string()` to a file.
     pub fn csv(&self, count: usize) -> Csv<'_, 'a, L, N, M, F> {
         Csv::new(self, count)
+    }
+
+    /// How far each conserved quantity strays from its value at the start.
+    pub fn drift(&self) -> Drift<L::Scalar> {
+        Drift::along(self)
     }
 
     /// Why the trajectory ends where it does.

@@ -2,6 +2,7 @@
 
 mod accelerations;
 mod eliminate;
+mod facts;
 mod integrability;
 mod kernel;
 mod schedule;
@@ -15,7 +16,7 @@ use syn::GenericParam;
 use syn::spanned::Spanned;
 
 use crate::diagnostics::Diagnostics;
-use crate::mechanics::{ConstraintKind, Equations};
+use crate::mechanics::{ConstraintKind, Equations, Facts};
 use crate::render::Rendered;
 use crate::resolve::{Label, Problem, Supplied};
 use crate::symbolic::{Id, Node};
@@ -37,12 +38,13 @@ pub(crate) fn implementation(
     declaration: &Declaration,
     problem: &Problem,
     equations: &Equations,
+    facts: &Facts,
     rendered: &Rendered,
     scalar: &syn::Type,
     diagnostics: &mut Diagnostics,
 ) -> TokenStream {
     let style = Style::new(problem, scalar);
-    let emitter = Emitter { declaration, problem, equations, rendered, style: &style };
+    let emitter = Emitter { declaration, problem, equations, facts, rendered, style: &style };
     let fused = emitter.fused();
     let Count { arithmetic, functions, .. } = fused.kernel.count;
     if arithmetic + functions > OPERATION_LIMIT {
@@ -92,6 +94,7 @@ struct Emitter<'a> {
     declaration: &'a Declaration,
     problem: &'a Problem,
     equations: &'a Equations,
+    facts: &'a Facts,
     rendered: &'a Rendered,
     style: &'a Style<'a>,
 }
@@ -144,6 +147,7 @@ impl Emitter<'_> {
         });
         let integrability = self.integrability();
         let observables = self.observable_names();
+        let facts = self.facts();
         let functions = self.functions(fused);
         let inherent = self.observable_methods();
         let equations = self.equations();
@@ -164,6 +168,7 @@ impl Emitter<'_> {
                     const CONSTRAINT_KINDS: [__lagrange::ConstraintKind; #m] = [#(#kinds),*];
                     #integrability
                     const OBSERVABLES: &'static [&'static str] = &[#(#observables),*];
+                    #facts
                     #functions
                 }
 
@@ -211,7 +216,8 @@ impl Emitter<'_> {
         let integral = self.constraint_integral();
         let accelerations = self.accelerations(&fused);
         let observable = self.observable_by_index();
-        quote! { #lagrangian #energy #momentum #momentum_rate #mass #forcing #residual #rate #jacobian #bias #integral #force #accelerations #observable }
+        let conserved = self.conserved_by_index();
+        quote! { #lagrangian #energy #momentum #momentum_rate #mass #forcing #residual #rate #jacobian #bias #integral #force #accelerations #observable #conserved }
     }
 
     /// One method of the state that returns what `result` makes of the kernel's results.
@@ -327,7 +333,7 @@ impl Emitter<'_> {
 
     fn equations(&self) -> TokenStream {
         let visibility = &self.declaration.visibility;
-        let Rendered { text, latex } = self.rendered;
+        let Rendered { text, latex, .. } = self.rendered;
         quote! {
             /// The system and its equations of motion, to be read.
             #visibility const fn equations() -> __lagrange::Equations {

@@ -36,6 +36,7 @@ pub(crate) fn stub(declaration: &Declaration) -> TokenStream {
                 const CONSTRAINTS: [&'static str; #m] = [""; #m];
                 const CONSTRAINT_KINDS: [__lagrange::ConstraintKind; #m] = [__lagrange::ConstraintKind::Holonomic; #m];
                 const OBSERVABLES: &'static [&'static str] = &[];
+                const FACTS: __lagrange::Facts = __lagrange::Facts::NONE;
                 fn lagrangian(&self, state: &__lagrange::State<#scalar, #n>) -> #scalar { loop {} }
                 fn energy(&self, state: &__lagrange::State<#scalar, #n>) -> #scalar { loop {} }
                 fn momentum_rate(&self, state: &__lagrange::State<#scalar, #n>) -> __lagrange::nalgebra::SVector<#scalar, #n> { loop {} }
@@ -49,6 +50,7 @@ pub(crate) fn stub(declaration: &Declaration) -> TokenStream {
                 fn constraint_force(&self, state: &__lagrange::State<#scalar, #n>, multipliers: &__lagrange::nalgebra::SVector<#scalar, #m>) -> __lagrange::nalgebra::SVector<#scalar, #n> { loop {} }
                 fn accelerations(&self, state: &__lagrange::State<#scalar, #n>) -> __lagrange::Solution<#scalar, #n, #m> { loop {} }
                 fn observable(&self, index: usize, state: &__lagrange::State<#scalar, #n>, solution: &__lagrange::Solution<#scalar, #n, #m>) -> ::core::option::Option<#scalar> { ::core::option::Option::None }
+                fn conserved(&self, index: usize, state: &__lagrange::State<#scalar, #n>) -> ::core::option::Option<#scalar> { ::core::option::Option::None }
             }
 
             #methods
@@ -75,7 +77,7 @@ fn observables(declaration: &Declaration, scalar: &TokenStream, generics: &syn::
     let (n, m) = (Ident::new("N", Span::mixed_site()), Ident::new("M", Span::mixed_site()));
     let mut known: Vec<(&str, bool)> = Vec::new();
     let mut methods = TokenStream::new();
-    for Named { name, value } in &declaration.observables {
+    for Named { name, value, .. } in &declaration.observables {
         if RESERVED.contains(&name.text.as_str()) || known.iter().any(|(known, _)| *known == name.text) {
             continue;
         }

@@ -2,10 +2,10 @@
 
 use indexmap::IndexMap;
 
-use super::{drift, stop_at_fault, symbols};
+use super::{drift, stop_at_fault, symbols, vanishes};
 use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
-use crate::symbolic::{Graph, Id, Rational, Verdict};
+use crate::symbolic::{Graph, Id, Rational};
 use crate::variables::Variable;
 
 /// How a constraint acts.
@@ -101,7 +101,7 @@ fn reject_malformed(
     diagnostics: &mut Diagnostics,
 ) {
     let place = problem.constraints[index].0.place;
-    if jacobian.iter().all(|&entry| vanishes(problem, entry)) {
+    if jacobian.iter().all(|&entry| vanishes(problem, entry).is_some()) {
         let message = match problem.constraints[index].1 {
             Id::ZERO => "both sides of this constraint are the same",
             _ => "this constraint depends on no coordinate and no velocity: nothing can be done to meet it",
@@ -118,7 +118,7 @@ fn reject_nonlinear(problem: &mut Problem, index: usize, jacobian: &[Id], diagno
     let n = problem.coordinates.len();
     for &entry in jacobian {
         let slopes = problem.graph.gradient(entry, &symbols(n, Variable::Velocity));
-        let nonlinear = slopes.into_iter().position(|slope| !vanishes(problem, slope));
+        let nonlinear = slopes.into_iter().position(|slope| vanishes(problem, slope).is_none());
         if let Some(velocity) = nonlinear {
             let name = &problem.coordinates[velocity].text;
             let message = format!(
@@ -127,16 +127,6 @@ fn reject_nonlinear(problem: &mut Problem, index: usize, jacobian: &[Id], diagno
             return diagnostics.error(problem.constraints[index].0.place, message);
         }
     }
-}
-
-fn vanishes(problem: &mut Problem, entry: Id) -> bool {
-    if entry == Id::ZERO {
-        return true;
-    }
-    let mut graph = std::mem::take(&mut problem.graph);
-    let verdict = graph.is_zero(entry, |symbol| problem.range(symbol));
-    problem.graph = graph;
-    matches!(verdict, Verdict::Zero | Verdict::Held(_))
 }
 
 /// A constraint that is a multiple of an earlier one says nothing new.

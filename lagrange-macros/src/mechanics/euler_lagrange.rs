@@ -1,6 +1,6 @@
 //! d/dt(∂L/∂q̇) = ∂L/∂q + Q, solved for what multiplies the accelerations.
 
-use super::{drift, symbols};
+use super::{degree, drift, symbols};
 use crate::resolve::Problem;
 use crate::symbolic::{Forward, Id, Rational};
 use crate::variables::Variable;
@@ -32,9 +32,15 @@ pub(super) fn derive(problem: &mut Problem) -> Motion {
     Motion { momentum, mass, momentum_rate, forcing, energy }
 }
 
-/// E = p·q̇ − L, Milton (8.17).
+/// E = p·q̇ − L, Milton (8.17). A part of L of degree d in the velocities adds (d − 1) times itself (Euler's
+/// theorem): so the energy reads as T + U where it is that.
 fn energy(problem: &mut Problem, momentum: &[Id]) -> Id {
     let one = Rational::from_integer(1);
+    let parts = degree::parts(&problem.graph, problem.lagrangian).unwrap_or_default();
+    let terms = parts.iter().map(|part| Some((part.term, part.energy()?))).collect::<Option<Vec<_>>>();
+    if let Some(terms) = terms.filter(|terms| !terms.is_empty()) {
+        return problem.graph.sum(terms);
+    }
     let mut terms = vec![(problem.lagrangian, -one)];
     for (i, &p) in momentum.iter().enumerate() {
         let velocity = problem.graph.symbol(Variable::Velocity(i).symbol());
@@ -44,7 +50,7 @@ fn energy(problem: &mut Problem, momentum: &[Id]) -> Id {
 }
 
 /// Q: the forces given, and −∂D/∂q̇ of Rayleigh's dissipation function.
-fn generalized_forces(problem: &mut Problem) -> Vec<Id> {
+pub(super) fn generalized_forces(problem: &mut Problem) -> Vec<Id> {
     let n = problem.coordinates.len();
     let Some((dissipation, _)) = problem.dissipation else { return problem.forces.clone() };
     let friction = problem.graph.gradient(dissipation, &symbols(n, Variable::Velocity));

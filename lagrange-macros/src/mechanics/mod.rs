@@ -1,16 +1,27 @@
 //! From a [`Problem`] to its equations of motion, as the textbook does it.
 
+mod conservation;
 mod constraints;
+mod degree;
 mod determinacy;
+mod elimination;
 mod euler_lagrange;
+mod evidence;
+mod facts;
+mod gauge;
 mod integrability;
+mod moment;
 
 use crate::diagnostics::{Diagnostics, Place};
 use crate::resolve::{Problem, fault_message};
-use crate::symbolic::{Forward, Graph, Id, Symbol};
+use crate::symbolic::{Approximate, Forward, Graph, Id, Symbol, Verdict, drawn};
 use crate::variables::Variable;
+pub(crate) use conservation::Quantity;
 pub(crate) use constraints::ConstraintKind;
-pub(crate) use integrability::{Classification, Evidence, Integrability, Integrals, Kinds};
+pub(crate) use evidence::Evidence;
+pub(crate) use facts::Facts;
+pub(crate) use gauge::LinearPart;
+pub(crate) use integrability::{Classification, Integrability, Integrals, Kinds};
 
 /// M q̈ − Fᵀλ = h and F q̈ + γ = 0, every entry a node of the problem's graph.
 #[derive(Debug)]
@@ -77,6 +88,37 @@ pub(crate) fn derive(problem: &mut Problem, diagnostics: &mut Diagnostics) -> Op
         jacobian: constraints.jacobian,
         bias: constraints.bias,
     })
+}
+
+/// What is found out about the system; `None` where something said of it is wrong, which is then reported.
+pub(crate) fn facts(
+    problem: &mut Problem,
+    equations: &Equations,
+    diagnostics: &mut Diagnostics,
+) -> Option<Facts> {
+    let facts = Facts::find(problem, equations, diagnostics);
+    stop_at_fault(problem, problem.place, diagnostics)?;
+    diagnostics.is_empty().then_some(facts)
+}
+
+/// Whether an expression is zero everywhere, and why one may think so.
+fn vanishes(problem: &mut Problem, root: Id) -> Option<Evidence> {
+    if root == Id::ZERO {
+        return Some(Evidence::Proved);
+    }
+    // Most of what is not zero shows it at the first point, and need not be looked through.
+    let symbol = |symbol| Approximate::exact(drawn(symbol, problem.range(symbol), 0));
+    if problem.graph.sample(&[root], 0, symbol)[0].excludes_zero() {
+        return None;
+    }
+    let mut graph = std::mem::take(&mut problem.graph);
+    let verdict = graph.is_zero(root, |symbol| problem.range(symbol));
+    problem.graph = graph;
+    match verdict {
+        Verdict::Zero => Some(Evidence::Proved),
+        Verdict::Held(points) => Some(Evidence::Held(points)),
+        Verdict::NonZero | Verdict::Undecided => None,
+    }
 }
 
 /// −∂D/∂q̇ is nothing where D has no velocity in it.

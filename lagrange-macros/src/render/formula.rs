@@ -239,7 +239,7 @@ pub(super) fn derived(id: Id, problem: &Problem) -> Formula {
 }
 
 impl Formula {
-    fn signed(self, negative: bool) -> Self {
+    pub(super) fn signed(self, negative: bool) -> Self {
         if negative { self.negated() } else { self }
     }
 }

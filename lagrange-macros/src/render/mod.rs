@@ -1,6 +1,7 @@
 //! The system and its equations as text and as LaTeX. Nothing else writes any.
 
 mod binding;
+mod facts;
 mod formula;
 mod kinds;
 mod notation;
@@ -9,7 +10,7 @@ mod symbols;
 #[cfg(test)]
 mod tests;
 
-use crate::mechanics::Equations;
+use crate::mechanics::{Equations, Facts};
 use crate::resolve::Problem;
 use crate::symbolic::{Id, Rational};
 use crate::syntax::{Declaration, Define, Name, TargetIndex};
@@ -24,6 +25,8 @@ const READABLE: u64 = 250;
 pub(crate) struct Rendered {
     pub(crate) text: String,
     pub(crate) latex: String,
+    /// The total time derivatives in the Lagrangian, in the order of the facts.
+    pub(crate) total_derivatives: Vec<String>,
 }
 
 /// A heading and the lines below it: a label, an equation and a remark. The note says what concerns all lines.
@@ -41,13 +44,23 @@ struct Line {
 
 enum Equation {
     Known(Formula, Formula),
+    /// No equation but a single expression.
+    Term(Formula),
     /// Why it is not written out.
     TooLong(u64),
 }
 
 /// Writes the system down.
-pub(crate) fn render(declaration: &Declaration, problem: &mut Problem, equations: &Equations) -> Rendered {
+pub(crate) fn render(
+    declaration: &Declaration,
+    problem: &mut Problem,
+    equations: &Equations,
+    facts: &Facts,
+) -> Rendered {
     let rows = motion(problem, equations);
+    let total_derivatives = facts::total_derivatives(declaration, problem, facts);
+    let texts = facts::texts(&total_derivatives);
+    let term = |formula| Line { label: None, equation: Equation::Term(formula), remark: String::new() };
     let sections = [
         Section { heading: "Lagrangian", lines: lagrangian(declaration, problem), note: None },
         Section {
@@ -56,9 +69,19 @@ pub(crate) fn render(declaration: &Declaration, problem: &mut Problem, equations
             note: equations.integrability.integrals.and_then(kinds::note),
         },
         Section { heading: "Equations of motion", lines: rows, note: None },
+        Section {
+            heading: "Conserved",
+            lines: facts::conserved(declaration, problem, equations, facts),
+            note: None,
+        },
+        Section {
+            heading: "Total time derivatives in the Lagrangian",
+            lines: total_derivatives.into_iter().map(term).collect(),
+            note: None,
+        },
     ];
     let name = declaration.ident.to_string();
-    Rendered { text: text(&name, &sections), latex: latex(&sections) }
+    Rendered { text: text(&name, &sections), latex: latex(&sections), total_derivatives: texts }
 }
 
 fn lagrangian(declaration: &Declaration, problem: &Problem) -> Vec<Line> {
@@ -185,6 +208,7 @@ fn text(name: &str, sections: &[Section]) -> String {
             };
             let equation = match equation {
                 Equation::Known(left, right) => Notation::Unicode.equation(left, right),
+                Equation::Term(formula) => Notation::Unicode.write(formula),
                 Equation::TooLong(size) => format!("… ({size} symbols)"),
             };
             let remark = if remark.is_empty() { String::new() } else { format!("   ({remark})") };
@@ -201,6 +225,9 @@ fn latex(sections: &[Section]) -> String {
         let equation = match &line.equation {
             Equation::Known(left, right) => {
                 format!("{} &= {}", Notation::Latex.write(left), Notation::Latex.write(right))
+            }
+            Equation::Term(formula) => {
+                format!(r"&{} = \text{{total time derivative}}", Notation::Latex.write(formula))
             }
             Equation::TooLong(size) => format!(r"&\text{{({size} symbols)}}"),
         };

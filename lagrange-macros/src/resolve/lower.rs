@@ -441,7 +441,7 @@ pub(crate) fn fault_message(fault: Fault) -> &'static str {
 }
 
 /// d/dt: coordinates change by velocities, velocities by accelerations, time by 1.
-fn total_time_derivative(graph: &mut Graph, coordinates: usize) -> Forward {
+pub(crate) fn total_time_derivative(graph: &mut Graph, coordinates: usize) -> Forward {
     let mut seeds = vec![(Variable::Time.symbol(), Id::ONE)];
     for i in 0..coordinates {
         seeds.push((Variable::Coordinate(i).symbol(), graph.symbol(Variable::Velocity(i).symbol())));

@@ -14,11 +14,11 @@ use rustc_hash::FxHashMap;
 
 use crate::diagnostics::{Diagnostics, Place};
 use crate::symbolic::{Graph, Id, Rational, Symbol};
-use crate::syntax::{Constraint, Declaration, Expression, Target, TargetIndex};
+use crate::syntax::{Constraint, Declaration, Expression, Sign, Target, TargetIndex};
 use crate::variables::Variable;
 pub(crate) use function::Supplied;
-pub(crate) use lower::fault_message;
 use lower::{Definition, Lowering, MultiplierGroup, Setting, is_literal_zero};
+pub(crate) use lower::{fault_message, total_time_derivative};
 pub(crate) use parameters::{Element, Parameters, is_no_number};
 pub(crate) use scope::is_built_in;
 use scope::{Entity, Scope};
@@ -29,6 +29,8 @@ pub(crate) struct Problem {
     pub(crate) graph: Graph,
     pub(crate) coordinates: Vec<Label>,
     pub(crate) lagrangian: Id,
+    /// The terms of the sum that the Lagrangian is, as written.
+    pub(crate) terms: Vec<Id>,
     /// Where the Lagrangian stands.
     pub(crate) place: Place,
     /// Q of each coordinate without the dissipation.
@@ -37,6 +39,8 @@ pub(crate) struct Problem {
     /// Φ or F q̇ + b as written: left − right.
     pub(crate) constraints: Vec<(Label, Id)>,
     pub(crate) observables: Vec<(Label, Vec<Id>)>,
+    /// The observables that are said to be conserved, and where.
+    pub(crate) conserved: Vec<(usize, Place)>,
     pub(crate) parameters: Parameters,
     pub(crate) functions: Vec<Supplied>,
     /// Names of nodes that are definitions.
@@ -68,11 +72,13 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
     let mut lowering = Lowering::new(scope, parameters, declaration, diagnostics);
     lowering.define_all();
     let lagrangian = declaration.lagrangian.as_ref().and_then(|lagrangian| lowering.scalar(lagrangian));
+    let terms = lowering.terms(declaration);
     let forces = lowering.forces(declaration);
     let dissipation =
         declaration.dissipation.as_ref().map(|function| (lowering.scalar(function), function.place));
     let constraints = lowering.constraints(&declaration.constraints);
     let observables = lowering.observables(declaration);
+    let conserved = lowering.conserved(declaration, &observables);
     let names = lowering.names(declaration);
     let coordinates = labels(declaration);
     let Lowering { graph, parameters, diagnostics, .. } = lowering;
@@ -85,11 +91,13 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
         graph,
         coordinates,
         lagrangian,
+        terms,
         place,
         forces,
         dissipation,
         constraints,
         observables,
+        conserved,
         parameters,
         functions,
         names,
@@ -125,6 +133,41 @@ fn entry_names(name: &str, value: &Value) -> Vec<String> {
 }
 
 impl Lowering<'_> {
+    /// The Lagrangian term by term, once it is known to be right.
+    fn terms(&mut self, declaration: &Declaration) -> Vec<Id> {
+        let Some(lagrangian) = declaration.lagrangian.as_ref().filter(|_| self.diagnostics.is_empty()) else {
+            return Vec::new();
+        };
+        let lower = |(sign, term): (Sign, &Expression)| {
+            let value = self.scalar(term)?;
+            Some(if sign == Sign::Minus { self.graph.neg(value) } else { value })
+        };
+        lagrangian.terms().into_iter().filter_map(lower).collect()
+    }
+
+    /// A conserved quantity has a rate of change, so it contains no accelerations and no multipliers.
+    fn conserved(
+        &mut self,
+        declaration: &Declaration,
+        observables: &[(Label, Vec<Id>)],
+    ) -> Vec<(usize, Place)> {
+        let mut conserved = Vec::new();
+        for (index, (label, values)) in observables.iter().enumerate() {
+            let written = declaration.observables.iter().find(|named| named.name.text == label.text);
+            let Some(written) = written.filter(|named| named.is_conserved) else { continue };
+            let solved =
+                |symbol| matches!(Variable::of(symbol), Variable::Acceleration(_) | Variable::Multiplier(_));
+            if self.graph.symbols(values).any(solved) {
+                self.diagnostics.error(
+                    written.value.place,
+                    "a conserved quantity is a function of time, coordinates and velocities: accelerations and multipliers have no place in it",
+                );
+            }
+            conserved.push((index, written.value.place));
+        }
+        conserved
+    }
+
     fn forces(&mut self, declaration: &Declaration) -> Vec<Id> {
         let count = declaration.coordinates.iter().map(|coordinate| coordinate.length.unwrap_or(1)).sum();
         let mut forces = vec![Id::ZERO; count];
@@ -319,6 +362,8 @@ pub(crate) const RESERVED: &[&str] = &[
     "CONSTRAINT_CLASSES",
     "INTEGRALS",
     "OBSERVABLES",
+    "FACTS",
+    "conserved",
     "check_consistent",
     "lagrangian",
     "momentum",

@@ -121,6 +121,17 @@ impl Parameters {
         })
     }
 
+    /// Entry `k` as an expression names it.
+    pub(crate) fn name(&self, k: usize) -> String {
+        let Entry { field, element } = self.entries[k];
+        let name = &self.fields[field].name.text;
+        match element {
+            Element::All => name.clone(),
+            Element::Item(i) => format!("{name}[{i}]"),
+            Element::RowItem(i, j) | Element::Cell(i, j) => format!("{name}[{i}][{j}]"),
+        }
+    }
+
     /// The number type: what the fields in use are made of, else `f64`.
     pub(crate) fn scalar(&self, declaration: &Declaration, diagnostics: &mut Diagnostics) -> syn::Type {
         let mut found: Option<(syn::Type, usize)> =

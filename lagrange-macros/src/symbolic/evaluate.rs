@@ -1,6 +1,6 @@
 //! Values of expressions, with a bound on their rounding errors.
 
-use num_traits::{One, ToPrimitive};
+use num_traits::ToPrimitive;
 
 use super::graph::{Function, Graph, Id, Node, Symbol};
 use super::rational::{Rational, to_f64};
@@ -20,30 +20,35 @@ impl Approximate {
         Self { value, error: inherited + 4.0 * f64::EPSILON * value.abs() + f64::MIN_POSITIVE }
     }
 
-    fn plus(self, other: Self) -> Self {
+    /// Taken as it is, without an error.
+    pub(crate) fn exact(value: f64) -> Self {
+        Self { value, error: 0.0 }
+    }
+
+    /// Whether the error bound excludes zero. False where there is no value or no bound.
+    pub(crate) fn excludes_zero(self) -> bool {
+        self.error.is_finite() && self.value.abs() > self.error
+    }
+
+    pub(crate) fn plus(self, other: Self) -> Self {
         Self::rounded(self.value + other.value, self.error + other.error)
     }
 
-    fn times(self, other: Self) -> Self {
+    pub(crate) fn minus(self, other: Self) -> Self {
+        Self::rounded(self.value - other.value, self.error + other.error)
+    }
+
+    /// |x/y − x̃/ỹ| ≤ (|x − x̃| + |x/y| |y − ỹ|) / least |ỹ|
+    pub(crate) fn over(self, other: Self) -> Self {
+        let (quotient, (least, _)) = (self.value / other.value, other.magnitudes());
+        let inherited = (self.error + quotient.abs() * other.error) / least;
+        Self::rounded(quotient, if least > 0.0 { inherited } else { f64::INFINITY })
+    }
+
+    pub(crate) fn times(self, other: Self) -> Self {
         let (x, y) = (self, other);
         let inherited = x.error * y.value.abs() + y.error * x.value.abs() + x.error * y.error;
         Self::rounded(x.value * y.value, inherited)
-    }
-
-    /// self − factor · other
-    pub(super) fn minus(self, factor: Self, other: Self) -> Self {
-        let product = factor.times(other);
-        self.plus(Self { value: -product.value, ..product })
-    }
-
-    /// self / other, where other is not zero.
-    pub(super) fn over(self, other: Self) -> Self {
-        self.times(power(other, -Rational::one()))
-    }
-
-    /// Whether its error bound excludes zero.
-    pub(crate) fn is_nonzero(self) -> bool {
-        self.value.abs() > self.error
     }
 
     /// The least and the greatest absolute value that the exact one may have.
@@ -75,16 +80,26 @@ impl Graph {
         mut value: impl FnMut(Symbol) -> f64,
         mut external: impl FnMut(Id) -> f64,
     ) -> Approximate {
-        let mut result = Approximate { value: f64::NAN, error: 0.0 };
-        let mut values = vec![result; order.last().map_or(0, |root| root.index() + 1)];
+        let symbol = |symbol| Approximate::exact(value(symbol));
+        let values = self.values_in(order, symbol, |id, _| Approximate::exact(external(id)));
+        order.last().map_or(Approximate::exact(f64::NAN), |root| values[root.index()])
+    }
+
+    /// The values of all of `order`, by their indices. `external` is given the values of its operands.
+    pub(super) fn values_in(
+        &self,
+        order: &[Id],
+        mut value: impl FnMut(Symbol) -> Approximate,
+        mut external: impl FnMut(Id, &[Approximate]) -> Approximate,
+    ) -> Vec<Approximate> {
+        let mut values = vec![Approximate::exact(f64::NAN); order.last().map_or(0, |root| root.index() + 1)];
         for &id in order {
-            result = match self.node(id) {
-                Node::External(_) => Approximate { value: external(id), error: 0.0 },
+            values[id.index()] = match self.node(id) {
+                Node::External(_) => external(id, &values),
                 _ => self.value_of(id, &values, &mut value),
             };
-            values[id.index()] = result;
         }
-        result
+        values
     }
 
     /// The values of the nodes that have none yet, in order of their ids; `symbol` and `external` give those of
@@ -98,9 +113,9 @@ impl Graph {
         for index in values.len()..self.len() {
             let id = Id(index as u32);
             let value = match self.node(id) {
-                Node::External(_) => Approximate { value: external(id), error: 0.0 },
+                Node::External(_) => Approximate::exact(external(id)),
                 Node::Symbol(name) => symbol(*name),
-                _ => self.value_of(id, values, &mut |_| f64::NAN),
+                _ => self.value_of(id, values, &mut |_| Approximate::exact(f64::NAN)),
             };
             values.push(value);
         }
@@ -110,13 +125,13 @@ impl Graph {
         &self,
         id: Id,
         values: &[Approximate],
-        symbol: &mut impl FnMut(Symbol) -> f64,
+        symbol: &mut impl FnMut(Symbol) -> Approximate,
     ) -> Approximate {
         let at = |id: Id| values[id.index()];
         match self.node(id) {
             Node::Number(value) => (*value).into(),
             Node::Pi => Approximate::rounded(std::f64::consts::PI, 0.0),
-            Node::Symbol(name) => Approximate { value: symbol(*name), error: 0.0 },
+            Node::Symbol(name) => symbol(*name),
             Node::Sum(terms) => {
                 let zero = Approximate { value: 0.0, error: 0.0 };
                 terms.iter().fold(zero, |sum, &(term, c)| sum.plus(at(term).times(c.into())))
@@ -170,7 +185,7 @@ fn angle(y: Approximate, x: Approximate) -> Approximate {
 }
 
 /// |f(x) − f(x̃)| ≤ greatest |f′| · |x − x̃|, with the greatest slope between x and x̃.
-fn apply(function: Function, x: Approximate) -> Approximate {
+pub(super) fn apply(function: Function, x: Approximate) -> Approximate {
     let v = x.value;
     let (least, greatest) = x.magnitudes();
     let inverse = |y: f64| if y > 0.0 { 1.0 / y } else { f64::INFINITY };

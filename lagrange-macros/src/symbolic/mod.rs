@@ -14,6 +14,7 @@ mod sample;
 mod simplify;
 #[cfg(test)]
 mod tests;
+mod wave;
 mod zero;
 
 pub(crate) use differentiate::Forward;
@@ -22,4 +23,4 @@ pub(crate) use graph::{External, Fault, Function, Graph, Id, Node, Symbol};
 pub(crate) use rank::rank;
 pub(crate) use rational::{Rational, parse_decimal, to_f64};
 pub(crate) use sample::Sample;
-pub(crate) use zero::Verdict;
+pub(crate) use zero::{Verdict, drawn};

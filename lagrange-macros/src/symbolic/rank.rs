@@ -13,7 +13,7 @@ pub(crate) fn rank(mut rows: Vec<Vec<Approximate>>) -> usize {
         for row in rest {
             let factor = row[column].over(pivot[column]);
             for (entry, &above) in row.iter_mut().zip(pivot) {
-                *entry = entry.minus(factor, above);
+                *entry = entry.minus(factor.times(above));
             }
             row[column] = Approximate { value: 0.0, error: 0.0 };
         }
@@ -25,7 +25,7 @@ pub(crate) fn rank(mut rows: Vec<Vec<Approximate>>) -> usize {
 /// Where the largest of the entries stands that are surely not zero.
 fn largest(rows: &[Vec<Approximate>]) -> Option<(usize, usize)> {
     let places = rows.iter().enumerate().flat_map(|(i, row)| (0..row.len()).map(move |j| (i, j)));
-    let sure = places.filter(|&(i, j)| rows[i][j].is_nonzero());
+    let sure = places.filter(|&(i, j)| rows[i][j].excludes_zero());
     sure.max_by(|&(i, j), &(k, l)| rows[i][j].value.abs().total_cmp(&rows[k][l].value.abs()))
 }
 

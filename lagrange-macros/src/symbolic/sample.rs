@@ -4,7 +4,7 @@ use rustc_hash::FxHashMap;
 
 use super::evaluate::Approximate;
 use super::graph::{Graph, Id, Symbol};
-use super::zero::{random_external, random_symbol};
+use super::zero::{drawn, random_external};
 
 /// Beyond this error, relative to the largest of the values beside it, a value says nothing.
 const BLUR: f64 = 1e-6;
@@ -24,10 +24,7 @@ impl Sample {
         draw: u64,
         range: impl Fn(Symbol) -> (f64, f64),
     ) -> Self {
-        let value = |symbol| {
-            let (low, high) = range(symbol);
-            Approximate { value: low + (high - low) * random_symbol(symbol, draw), error: 0.0 }
-        };
+        let value = |symbol| Approximate::exact(drawn(symbol, range(symbol), draw));
         let symbols = symbols.into_iter().map(|symbol| (symbol, value(symbol))).collect();
         Self { draw, symbols, values: Vec::new() }
     }
@@ -64,7 +61,7 @@ impl Sample {
             if size < CLOSE {
                 self.blur(unknowns, 2.0 * CLOSE);
                 let residual = self.values(graph, roots)?;
-                return residual.iter().all(|value| !value.is_nonzero()).then_some(());
+                return residual.iter().all(|value| !value.excludes_zero()).then_some(());
             }
         }
         None

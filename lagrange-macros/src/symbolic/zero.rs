@@ -29,10 +29,7 @@ impl Graph {
         let order = self.reachable(&[root]);
         let mut held = 0;
         for draw in 0..DRAWS {
-            let symbol = |symbol: Symbol| {
-                let (low, high) = range(symbol);
-                low + (high - low) * random_symbol(symbol, draw)
-            };
+            let symbol = |symbol: Symbol| drawn(symbol, range(symbol), draw);
             let sample = self.evaluate_in(&order, symbol, |id| random_external(id, draw));
             // Outside its domain an expression has no value: draw again.
             if !sample.value.is_finite() || !sample.error.is_finite() {
@@ -50,18 +47,18 @@ impl Graph {
     }
 }
 
-/// A number in [0, 1) for a symbol.
-pub(super) fn random_symbol(symbol: Symbol, draw: u64) -> f64 {
-    random(u64::from(symbol.family), u64::from(symbol.index), draw)
-}
-
 /// An unknown function and its derivatives have values of their own at every argument.
 pub(super) fn random_external(id: Id, draw: u64) -> f64 {
     2.0 * random(u64::MAX, id.index() as u64, draw) - 1.0
 }
 
+/// A value of `symbol` in the range given, the same in every use of one draw.
+pub(crate) fn drawn(symbol: Symbol, (low, high): (f64, f64), draw: u64) -> f64 {
+    low + (high - low) * random(u64::from(symbol.family), u64::from(symbol.index), draw)
+}
+
 /// A number in [0, 1) that depends on nothing but its arguments (Steele, Lea and Flood's SplitMix64).
-fn random(family: u64, index: u64, draw: u64) -> f64 {
+pub(super) fn random(family: u64, index: u64, draw: u64) -> f64 {
     let mut z = (family << 56) ^ (index << 16) ^ draw;
     for _ in 0..2 {
         z = z.wrapping_add(0x9e37_79b9_7f4a_7c15);

@@ -72,10 +72,11 @@ pub(crate) struct Force {
     pub(crate) value: Expression,
 }
 
-/// `#[observable(name = expression)]`
+/// `#[observable(name = expression)]` or `#[conserved(name = expression)]`
 #[derive(Debug)]
 pub(crate) struct Named {
     pub(crate) name: Name,
+    pub(crate) is_conserved: bool,
     pub(crate) value: Expression,
 }
 
@@ -97,7 +98,7 @@ pub(crate) struct Options {
 /// Beyond, rustc takes minutes, and the matrices exceed the stack.
 const COORDINATE_LIMIT: usize = 1000;
 
-const ATTRIBUTES: [&str; 10] = [
+const ATTRIBUTES: [&str; 11] = [
     "coordinates",
     "define",
     "function",
@@ -106,6 +107,7 @@ const ATTRIBUTES: [&str; 10] = [
     "force",
     "dissipation",
     "observable",
+    "conserved",
     "parameter",
     "lagrange",
 ];
@@ -214,7 +216,7 @@ fn read(declaration: &mut Declaration, word: &str, attribute: &Attribute) -> Res
         "constraint" => declaration.constraints.push(constraint(cursor)?),
         "force" => declaration.forces.push(force(cursor)?),
         "dissipation" => declaration.dissipation = Some(only(cursor)?),
-        "observable" => observable(cursor, &mut declaration.observables)?,
+        "observable" | "conserved" => observable(word, cursor, &mut declaration.observables)?,
         "parameter" => declaration.parameters.push(parameter(cursor)?),
         _ => options(cursor, &mut declaration.options)?,
     }
@@ -231,6 +233,7 @@ fn form(word: &str) -> &'static str {
         "force" => "#[force(coordinate: expression)]",
         "dissipation" => "#[dissipation(expression)]",
         "observable" => "#[observable(name = expression)]",
+        "conserved" => "#[conserved(name = expression)]",
         "parameter" => "#[parameter(name: [3])]` or `#[parameter(name: 0..1)]",
         _ => "#[lagrange(crate = path, scalar = T)]",
     }
@@ -434,20 +437,20 @@ fn force(cursor: &mut Cursor) -> Result<Force> {
 }
 
 /// Even where the value is wrong there is a method of that name, which the program may call.
-fn observable(cursor: &mut Cursor, observables: &mut Vec<Named>) -> Result<()> {
-    let target = target(cursor, "the name of the observable")?;
+fn observable(word: &str, cursor: &mut Cursor, observables: &mut Vec<Named>) -> Result<()> {
+    let target = target(cursor, &format!("a name: write `{}`", form(word)))?;
     if !matches!(target.index, TargetIndex::None) {
         return Err(target.name.place.error("an observable is not a family: write a vector `[a, b]`"));
     }
-    let value = match equals(cursor, "observable") {
+    let value = match equals(cursor, word) {
         Ok(()) => expression::whole(&mut cursor.until_comma()),
         Err(error) => Err(error),
     };
     let (value, result) = match value {
-        Ok(value) => (value, finish(cursor, "observable")),
+        Ok(value) => (value, finish(cursor, word)),
         Err(error) => (Expression { kind: Kind::Vector(Vec::new()), place: target.name.place }, Err(error)),
     };
-    observables.push(Named { name: target.name, value });
+    observables.push(Named { name: target.name, is_conserved: word == "conserved", value });
     result
 }
 

@@ -405,6 +405,14 @@ fn unexpected_point(cursor: &Cursor) -> syn::Error {
 }
 
 impl Expression {
+    /// The terms of a sum; of anything else, itself.
+    pub(crate) fn terms(&self) -> Vec<(Sign, &Self)> {
+        match &self.kind {
+            Kind::Sum(terms) => terms.iter().map(|(sign, term)| (*sign, term)).collect(),
+            _ => vec![(Sign::Plus, self)],
+        }
+    }
+
     /// Calls `visit` with every name that the expression uses.
     pub(crate) fn names(&self, visit: &mut impl FnMut(&Name)) {
         if let Kind::Name(name) | Kind::Call(name, _) = &self.kind {

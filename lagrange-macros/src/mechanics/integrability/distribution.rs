@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeSet, VecDeque};
 
-use super::Evidence;
 use super::space::{Form, Space};
+use crate::mechanics::Evidence;
 use crate::symbolic::{Forward, Id, Symbol};
 
 /// Vector fields that span the directions in which every form vanishes. Each is 1 along a free variable of its
@@ -195,7 +195,7 @@ fn best_pivot(
     for row in among.filter(|row| pivots.iter().all(|(used, _)| used != row)) {
         let entries = rows[row].iter().enumerate().take(space.symbols.len() - 1);
         for (column, &entry) in entries.filter(|&(_, &entry)| entry != Id::ZERO) {
-            let points = space.values(&[entry]).iter().filter(|value| value[0].is_nonzero()).count();
+            let points = space.values(&[entry]).iter().filter(|value| value[0].excludes_zero()).count();
             let key = (space.graph.as_number(entry).is_some(), points);
             if points > 0 && best.is_none_or(|(known, _)| key > known) {
                 best = Some((key, (row, column)));

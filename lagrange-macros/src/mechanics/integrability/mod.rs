@@ -13,6 +13,7 @@ mod integral;
 mod space;
 
 use super::ConstraintKind;
+use super::Evidence;
 use super::constraints::Constraints;
 use crate::resolve::Problem;
 use crate::symbolic::Id;
@@ -33,23 +34,6 @@ pub(crate) enum Integrability {
 impl Integrability {
     fn is_integrable(self) -> bool {
         matches!(self, Self::Holonomic | Self::Exact | Self::IntegratingFactor | Self::Together)
-    }
-}
-
-/// How sure a verdict is: proved, or held at this many points.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Evidence {
-    Proved,
-    Held(u32),
-}
-
-impl Evidence {
-    /// Of a verdict that rests on two others.
-    fn and(self, other: Self) -> Self {
-        match (self, other) {
-            (Self::Proved, other) | (other, Self::Proved) => other,
-            (Self::Held(first), Self::Held(second)) => Self::Held(first.min(second)),
-        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! The space of (q, t), the constraints as forms on it, and the points at which they are judged.
 
-use super::Evidence;
+use crate::mechanics::Evidence;
 use crate::mechanics::constraints::Constraints;
 use crate::mechanics::{ConstraintKind, symbols};
 use crate::resolve::Problem;
@@ -96,7 +96,7 @@ impl Space {
         let (mut evidence, mut decided) = (Evidence::Proved, true);
         for &root in roots.iter().filter(|&&root| root != Id::ZERO) {
             let values = self.values(&[root]);
-            if values.iter().any(|at| at[0].is_nonzero()) {
+            if values.iter().any(|at| at[0].excludes_zero()) {
                 return Some((false, self.seen()));
             }
             decided &= !values.is_empty();

@@ -15,6 +15,23 @@ const _: () = {
             evidence: __lagrange::Evidence::Proved,
         });
         const OBSERVABLES: &'static [&'static str] = &[];
+        const FACTS: __lagrange::Facts = __lagrange::Facts {
+            cyclic: &[],
+            conserved: &[
+                __lagrange::Conserved {
+                    name: "energy",
+                    evidence: __lagrange::Evidence::Proved,
+                },
+            ],
+            energy_is_conserved: ::core::option::Option::Some(
+                __lagrange::Evidence::Proved,
+            ),
+            energy_is_t_plus_u: ::core::option::Option::Some(
+                __lagrange::Evidence::Proved,
+            ),
+            total_derivatives: &[],
+            linear_part: __lagrange::LinearPart::Absent,
+        };
         ///9 operations (+ − × ÷ √), 1 elementary function.
         #[inline]
         #[allow(unused_variables)]
@@ -167,6 +184,21 @@ const _: () = {
                 _ => ::core::option::Option::None,
             }
         }
+        #[allow(unused_variables)]
+        fn conserved(
+            &self,
+            index: usize,
+            state: &__lagrange::State<f64, 1usize>,
+        ) -> ::core::option::Option<f64> {
+            match index {
+                0usize => {
+                    ::core::option::Option::Some(
+                        __lagrange::Lagrangian::energy(self, state),
+                    )
+                }
+                _ => ::core::option::Option::None,
+            }
+        }
     }
     /**```text
 Pendulum
@@ -176,6 +208,9 @@ Lagrangian
 
 Equations of motion
   θ: m l² θ̈ = −m l g sin θ
+
+Conserved
+  E = ½ m l² θ̇² − m l g cos θ   (T + U)
 ```*/
     #[automatically_derived]
     #[allow(clippy::all, unused_parens, dead_code)]
@@ -183,8 +218,8 @@ Equations of motion
         /// The system and its equations of motion, to be read.
         const fn equations() -> __lagrange::Equations {
             __lagrange::Equations::new(
-                "Pendulum\n\nLagrangian\n  L = ½ m l² θ\u{307}² + m g l cos θ\n\nEquations of motion\n  θ: m l² θ\u{308} = −m l g sin θ\n",
-                "\\begin{align*}\n  L &= \\tfrac{1}{2} \\, m \\, l^{2} \\, \\dot{\\theta}^{2} + m \\, g \\, l \\, \\cos \\theta \\\\\n  m \\, l^{2} \\, \\ddot{\\theta} &= -m \\, l \\, g \\, \\sin \\theta \\\\\n\\end{align*}\n",
+                "Pendulum\n\nLagrangian\n  L = ½ m l² θ\u{307}² + m g l cos θ\n\nEquations of motion\n  θ: m l² θ\u{308} = −m l g sin θ\n\nConserved\n  E = ½ m l² θ\u{307}² − m l g cos θ   (T + U)\n",
+                "\\begin{align*}\n  L &= \\tfrac{1}{2} \\, m \\, l^{2} \\, \\dot{\\theta}^{2} + m \\, g \\, l \\, \\cos \\theta \\\\\n  m \\, l^{2} \\, \\ddot{\\theta} &= -m \\, l \\, g \\, \\sin \\theta \\\\\n  E &= \\tfrac{1}{2} \\, m \\, l^{2} \\, \\dot{\\theta}^{2} - m \\, l \\, g \\, \\cos \\theta \\\\\n\\end{align*}\n",
             )
         }
     }

@@ -13,7 +13,8 @@ fn rendered(source: &str) -> Rendered {
     let declaration = syntax::declaration(input, &mut diagnostics);
     let mut problem = resolve::problem(&declaration, &mut diagnostics).expect("no errors");
     let equations = mechanics::derive(&mut problem, &mut diagnostics).expect("no errors");
-    render(&declaration, &mut problem, &equations)
+    let facts = mechanics::facts(&mut problem, &equations, &mut diagnostics).expect("no errors");
+    render(&declaration, &mut problem, &equations, &facts)
 }
 
 fn check(source: &str, text: Expect, latex: Expect) {
@@ -45,6 +46,9 @@ fn sphere_down_an_incline() {
             Equations of motion
               x: m ẍ = m g sin α + λ_no_slip
               φ: inertia φ̈ = −a λ_no_slip
+
+            Conserved
+              E = ½ m ẋ² + ½ inertia φ̇² − m g x sin α   (T + U)
         "#]],
         expect![[r#"
             \begin{align*}
@@ -53,6 +57,7 @@ fn sphere_down_an_incline() {
               \dot{x} - a \, \dot{\phi} &= 0 \\
               m \, \ddot{x} &= m \, g \, \sin \alpha + \lambda_{\mathrm{no\_slip}} \\
               \mathit{inertia} \, \ddot{\phi} &= -a \, \lambda_{\mathrm{no\_slip}} \\
+              E &= \tfrac{1}{2} \, m \, \dot{x}^{2} + \tfrac{1}{2} \, \mathit{inertia} \, \dot{\phi}^{2} - m \, g \, x \, \sin \alpha \\
             \end{align*}
         "#]],
     );
@@ -79,6 +84,9 @@ fn spherical_pendulum() {
               x: m ẍ = λ_string x
               y: m ÿ = λ_string y
               z: m z̈ = −m g + λ_string z
+
+            Conserved
+              E = ½ m (ẋ² + ẏ² + ż²) + m g z   (T + U)
         "#]],
         expect![[r#"
             \begin{align*}
@@ -87,6 +95,7 @@ fn spherical_pendulum() {
               m \, \ddot{x} &= \lambda_{\mathrm{string}} \, x \\
               m \, \ddot{y} &= \lambda_{\mathrm{string}} \, y \\
               m \, \ddot{z} &= -m \, g + \lambda_{\mathrm{string}} \, z \\
+              E &= \tfrac{1}{2} \, m \, \left(\dot{x}^{2} + \dot{y}^{2} + \dot{z}^{2}\right) + m \, g \, z \\
             \end{align*}
         "#]],
     );
@@ -108,12 +117,18 @@ fn spherical_pendulum_in_angles() {
             Equations of motion
               θ: m l² θ̈ = m l² sin θ cos(θ) φ̇² − m l g sin θ
               φ: m l² sin²(θ) φ̈ = −2 m l² sin θ cos(θ) θ̇ φ̇
+
+            Conserved
+              p_phi = m l² sin²(θ) φ̇
+              E = ½ m l² (θ̇² + sin²(θ) φ̇²) − m l g cos θ   (T + U)
         "#]],
         expect![[r#"
             \begin{align*}
               L &= \tfrac{1}{2} \, m \, l^{2} \, \left(\dot{\theta}^{2} + \sin^{2}\left(\theta\right) \, \dot{\phi}^{2}\right) + m \, g \, l \, \cos \theta \\
               m \, l^{2} \, \ddot{\theta} &= m \, l^{2} \, \sin \theta \, \cos\left(\theta\right) \, \dot{\phi}^{2} - m \, l \, g \, \sin \theta \\
               m \, l^{2} \, \sin^{2}\left(\theta\right) \, \ddot{\phi} &= -2 \, m \, l^{2} \, \sin \theta \, \cos\left(\theta\right) \, \dot{\theta} \, \dot{\phi} \\
+              p_{\phi} &= m \, l^{2} \, \sin^{2}\left(\theta\right) \, \dot{\phi} \\
+              E &= \tfrac{1}{2} \, m \, l^{2} \, \left(\dot{\theta}^{2} + \sin^{2}\left(\theta\right) \, \dot{\phi}^{2}\right) - m \, l \, g \, \cos \theta \\
             \end{align*}
         "#]],
     );

@@ -11,6 +11,7 @@ mod rationals;
 mod sample;
 mod tree;
 mod values;
+mod waves;
 mod zero;
 
 use std::cell::Cell;

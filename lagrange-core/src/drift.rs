@@ -1,0 +1,106 @@
+//! How well a trajectory keeps what should be conserved.
+
+use alloc::vec::Vec;
+use core::fmt::{self, Display, Formatter};
+
+use crate::integrate::Flow;
+use crate::{Lagrangian, Real, Trajectory};
+
+/// How far a conserved quantity strays from its value at the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Deviation<T> {
+    /// The name in [`Facts::conserved`](crate::Facts::conserved).
+    pub name: &'static str,
+    /// The value at the start.
+    pub start: T,
+    /// The largest distance from it at any step.
+    pub largest: T,
+}
+
+/// The deviation of every conserved quantity of a system along a trajectory.
+///
+#[cfg_attr(
+    feature = "std",
+    doc = r#"
+```
+use lagrange_core::prelude::*;
+
+#[derive(Lagrangian)]
+#[coordinates(r, phi)]
+#[lagrangian(m/2 * (r_dot^2 + r^2 * phi_dot^2) + k/r)]
+struct Planet { m: f64, k: f64 }
+
+let planet = Planet { m: 1.0, k: 1.0 };
+let path = planet.integrate(State::new([1.0, 0.0], [0.0, 1.2]), 10.0, Dop853::with_tolerance(1e-12))?;
+let drift = path.drift();
+println!("{drift}");
+let names: Vec<&str> = drift.iter().map(|quantity| quantity.name).collect();
+assert_eq!(names, ["p_phi", "energy"]);
+assert!(drift.iter().all(|quantity| quantity.largest < 1e-10));
+# Ok::<(), Error>(())
+```
+"#
+)]
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drift<T> {
+    quantities: Vec<Deviation<T>>,
+}
+
+impl<T: Real> Drift<T> {
+    pub(crate) fn along<L, F, const N: usize, const M: usize>(path: &Trajectory<'_, L, N, M, F>) -> Self
+    where
+        L: Lagrangian<N, M, Scalar = T>,
+        F: Flow<L, N, M>,
+    {
+        let conserved = L::FACTS.conserved.iter().enumerate();
+        let quantities = conserved.filter_map(|(index, conserved)| {
+            let mut values = path.steps().filter_map(|step| step.conserved_by_index(index));
+            let start = values.next()?;
+            let largest = values.fold(T::constant(0.0), |largest, value| farther(largest, value - start));
+            Some(Deviation { name: conserved.name, start, largest })
+        });
+        Self { quantities: quantities.collect() }
+    }
+
+    /// The quantities in the order of [`Facts::conserved`](crate::Facts::conserved).
+    pub fn iter(&self) -> core::slice::Iter<'_, Deviation<T>> {
+        self.quantities.iter()
+    }
+
+    /// The quantity of this name, if there is one.
+    pub fn get(&self, name: &str) -> Option<&Deviation<T>> {
+        self.iter().find(|quantity| quantity.name == name)
+    }
+}
+
+/// The greater distance, and not a number once one of them is none.
+fn farther<T: Real>(largest: T, difference: T) -> T {
+    let distance = if difference < T::constant(0.0) { -difference } else { difference };
+    if distance <= largest {
+        largest
+    } else if largest.is_finite() {
+        distance
+    } else {
+        largest
+    }
+}
+
+impl<'d, T> IntoIterator for &'d Drift<T> {
+    type Item = &'d Deviation<T>;
+    type IntoIter = core::slice::Iter<'d, Deviation<T>>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.quantities.iter()
+    }
+}
+
+impl<T: Real> Display for Drift<T> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let width = self.iter().map(|quantity| quantity.name.chars().count()).max().unwrap_or(0).max(9);
+        writeln!(f, "{:width$}  {:>13}  {:>17}", "conserved", "at the start", "largest deviation")?;
+        for Deviation { name, start, largest } in self {
+            writeln!(f, "{name:width$}  {:>13.6e}  {:>17.1e}", start.to_f64(), largest.to_f64())?;
+        }
+        Ok(())
+    }
+}

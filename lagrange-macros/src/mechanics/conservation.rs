@@ -1,0 +1,223 @@
+//! Conserved quantities: momenta of cyclic coordinates, the energy, and what the user says is conserved.
+//!
+//! What symbols do not settle is put to the test on random states: there the rate of change along the motion is
+//! a number with an error bound.
+
+use super::Evidence;
+use super::moment::{Moment, Moments, dot};
+use super::{ConstraintKind, Equations, euler_lagrange, vanishes};
+use crate::diagnostics::Diagnostics;
+use crate::resolve::Problem;
+use crate::symbolic::{Approximate, Forward, Id, Rational};
+use crate::variables::Variable;
+
+/// States at which a quantity must be seen to be conserved.
+const STATES: u32 = 8;
+/// Of systems beyond this many coordinates and constraints no motion is tried but where the user asks for it.
+const LARGE: usize = 120;
+/// A rate that is zero within an error larger than this, as a fraction of what it is made of, says nothing.
+const INFORMATIVE: f64 = 1e-6;
+
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Quantity {
+    /// p of this coordinate.
+    Momentum(usize),
+    Energy,
+    /// An entry of an observable.
+    Observable(usize, usize),
+}
+
+#[derive(Debug)]
+pub(crate) struct Conserved {
+    pub(crate) name: String,
+    pub(crate) quantity: Quantity,
+    pub(crate) evidence: Evidence,
+}
+
+/// What the trial of a quantity on random motions gave.
+enum Trial {
+    Held(u32),
+    /// At the moment of this index it has this value and this rate.
+    Broken(usize, Approximate, Approximate),
+    /// There are not enough moments at which the rate says anything.
+    Undecided,
+}
+
+/// Whether random motions conserve `quantity`, for systems that are not too large to try.
+pub(super) fn found(
+    problem: &mut Problem,
+    equations: &Equations,
+    moments: &mut Moments,
+    quantity: Id,
+) -> Option<Evidence> {
+    if problem.coordinates.len() + problem.constraints.len() > LARGE {
+        return None;
+    }
+    match trial(problem, equations, moments, quantity) {
+        Trial::Held(states) => Some(Evidence::Held(states)),
+        Trial::Broken(..) | Trial::Undecided => None,
+    }
+}
+
+/// dE/dt = −∂L/∂t + Q·q̇ − Σ_α λ_α b_α
+pub(super) fn of_energy(
+    problem: &mut Problem,
+    equations: &Equations,
+    moments: &mut Moments,
+) -> Option<Conserved> {
+    let rate = energy_rate(problem, equations);
+    let symbolic = vanishes(problem, rate);
+    let evidence = match symbolic {
+        None if !problem.constraints.is_empty() => found(problem, equations, moments, equations.energy),
+        symbolic => symbolic,
+    };
+    evidence.map(|evidence| Conserved { name: "energy".to_owned(), quantity: Quantity::Energy, evidence })
+}
+
+fn energy_rate(problem: &mut Problem, equations: &Equations) -> Id {
+    let one = Rational::from_integer(1);
+    let mut along_time = Forward::along([(Variable::Time.symbol(), Id::ONE)]);
+    let mut terms = vec![(along_time.of(&mut problem.graph, problem.lagrangian), -one)];
+    for (i, force) in euler_lagrange::generalized_forces(problem).into_iter().enumerate() {
+        let velocity = problem.graph.symbol(Variable::Velocity(i).symbol());
+        terms.push((problem.graph.mul(force, velocity), one));
+    }
+    for a in 0..problem.constraints.len() {
+        let inhomogeneous = match equations.kinds[a] {
+            ConstraintKind::Holonomic => along_time.of(&mut problem.graph, equations.residual[a]),
+            ConstraintKind::Velocity => inhomogeneous_part(problem, equations, a),
+        };
+        let multiplier = problem.graph.symbol(Variable::Multiplier(a).symbol());
+        terms.push((problem.graph.mul(multiplier, inhomogeneous), -one));
+    }
+    problem.graph.sum(terms)
+}
+
+/// b of F q̇ + b
+fn inhomogeneous_part(problem: &mut Problem, equations: &Equations, constraint: usize) -> Id {
+    let one = Rational::from_integer(1);
+    let mut terms = vec![(equations.rate[constraint], one)];
+    for (i, &coefficient) in equations.jacobian[constraint].iter().enumerate() {
+        let velocity = problem.graph.symbol(Variable::Velocity(i).symbol());
+        terms.push((problem.graph.mul(coefficient, velocity), -one));
+    }
+    problem.graph.sum(terms)
+}
+
+/// Those that the user says are conserved; where one is not, or cannot be tried, that is reported.
+pub(super) fn of_observables(
+    problem: &mut Problem,
+    equations: &Equations,
+    moments: &mut Moments,
+    diagnostics: &mut Diagnostics,
+) -> Vec<Conserved> {
+    let mut conserved = Vec::new();
+    for (observable, place) in problem.conserved.clone() {
+        let (label, values) = problem.observables[observable].clone();
+        for (entry, &value) in values.iter().enumerate() {
+            let name =
+                if values.len() == 1 { label.text.clone() } else { format!("{}[{entry}]", label.text) };
+            match trial(problem, equations, moments, value) {
+                Trial::Held(states) => conserved.push(Conserved {
+                    name,
+                    quantity: Quantity::Observable(observable, entry),
+                    evidence: Evidence::Held(states),
+                }),
+                Trial::Broken(index, value, rate) => {
+                    let moment = moments.get(index, problem, equations);
+                    let moment = moment.map(|moment| written(moment, problem)).unwrap_or_default();
+                    let (value, rate, suspects) = (short(value), short(rate), suspects(problem));
+                    diagnostics.error(place, format!(
+                        "`{name}` is not conserved: at {moment} it is {value} and changes at the rate {rate}{suspects}"
+                    ));
+                }
+                Trial::Undecided => diagnostics.error(place, format!(
+                    "whether `{name}` is conserved cannot be tried: too few states were found that satisfy the constraints and where its rate of change has a value; give ranges to the parameters, `#[parameter(l: 1..2)]`, or make it an `observable`"
+                )),
+            }
+        }
+    }
+    conserved
+}
+
+/// dX/dt = ∂X/∂t + ∂X/∂q·q̇ + ∂X/∂q̇·q̈ on states that satisfy the constraints.
+fn trial(problem: &mut Problem, equations: &Equations, moments: &mut Moments, quantity: Id) -> Trial {
+    let n = problem.coordinates.len();
+    let state = (0..n).map(Variable::Coordinate).chain((0..n).map(Variable::Velocity));
+    let state: Vec<_> = state.chain([Variable::Time]).map(Variable::symbol).collect();
+    let mut roots = problem.graph.gradient(quantity, &state);
+    roots.push(quantity);
+    let mut held = 0;
+    for index in 0.. {
+        let Some(moment) = moments.get(index, problem, equations) else { break };
+        let mut slopes = moment.values(problem, &roots);
+        let value = slopes.pop().unwrap_or(Approximate::exact(f64::NAN));
+        let rates = (0..n).map(Variable::Velocity).chain((0..n).map(Variable::Acceleration));
+        let rates: Vec<_> =
+            rates.map(|variable| moment.get(variable)).chain([Approximate::exact(1.0)]).collect();
+        let rate = dot(slopes.iter().copied().zip(rates.iter().copied()));
+        if rate.excludes_zero() {
+            return Trial::Broken(index, value, rate);
+        }
+        // Where nothing changes at all, what could have changed is the measure.
+        let size: f64 = slopes.iter().zip(&rates).map(|(s, r)| s.value.abs() * r.value.abs().max(1.0)).sum();
+        if rate.error <= INFORMATIVE * size {
+            held += 1;
+        }
+        if held == STATES {
+            return Trial::Held(held);
+        }
+    }
+    Trial::Undecided
+}
+
+/// The state and the parameters, as far as a message has room for them.
+fn written(moment: &Moment, problem: &Problem) -> String {
+    const ROOM: usize = 4;
+    let coordinates = problem.coordinates.iter().take(ROOM).enumerate().flat_map(|(i, label)| {
+        let (base, index) = label.text.split_at(label.text.find('[').unwrap_or(label.text.len()));
+        let (q, v) = (moment.get(Variable::Coordinate(i)), moment.get(Variable::Velocity(i)));
+        [format!("{} = {}", label.text, short(q)), format!("{base}_dot{index} = {}", short(v))]
+    });
+    let parameters = (0..problem.parameters.entries.len())
+        .take(ROOM)
+        .map(|k| format!("{} = {}", problem.parameters.name(k), short(moment.get(Variable::Parameter(k)))));
+    let more = problem.coordinates.len().max(problem.parameters.entries.len()) > ROOM;
+    let all = coordinates.chain(parameters).chain(more.then(|| "…".to_owned()));
+    all.collect::<Vec<_>>().join(", ")
+}
+
+/// Four digits of a number.
+fn short(number: Approximate) -> String {
+    let value = number.value;
+    match value.abs() {
+        size if size == 0.0 || (1e-3..1e4).contains(&size) => format!("{value:.4}"),
+        _ => format!("{value:.3e}"),
+    }
+}
+
+/// What in this system breaks conservation laws.
+fn suspects(problem: &Problem) -> String {
+    let has_time =
+        |roots: &[Id]| problem.graph.symbols(roots).any(|symbol| Variable::of(symbol) == Variable::Time);
+    let mut suspects = Vec::new();
+    if has_time(&[problem.lagrangian]) {
+        suspects.push("the time in the Lagrangian".to_owned());
+    }
+    if problem.forces.iter().any(|&force| force != Id::ZERO) {
+        suspects.push("the forces".to_owned());
+    }
+    if problem.dissipation.is_some() {
+        suspects.push("the dissipation".to_owned());
+    }
+    let constraints = problem.constraints.iter().take(3);
+    suspects.extend(constraints.map(|(label, _)| format!("the force of the constraint `{}`", label.text)));
+    suspects.extend(
+        (!problem.functions.is_empty())
+            .then(|| "the supplied functions, for which it tries random ones".to_owned()),
+    );
+    match suspects.is_empty() {
+        true => "; look for a wrong sign or factor in it".to_owned(),
+        false => format!("; what may change it: a wrong sign or factor in it, {}", suspects.join(", ")),
+    }
+}

@@ -1,0 +1,77 @@
+//! Parts of an expression by their degree in the velocities: L = L₀ + L₁ + L₂.
+
+use num_traits::{CheckedAdd, CheckedMul, CheckedSub, One, Zero};
+
+use crate::symbolic::{Graph, Id, Node, Rational};
+use crate::variables::Variable;
+
+/// A part of a sum: coefficient and term, and the term's degree in the velocities.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Part {
+    pub(super) coefficient: Rational,
+    pub(super) term: Id,
+    pub(super) degree: Rational,
+}
+
+impl Part {
+    /// What the part is multiplied by in the energy; `None` where exact numbers have no room for it.
+    pub(super) fn energy(&self) -> Option<Rational> {
+        self.degree.checked_sub(&Rational::one())?.checked_mul(&self.coefficient)
+    }
+}
+
+/// Definitions that sum up one another can have more parts than anybody needs.
+const LIMIT: usize = 1 << 14;
+
+/// The parts of `root`, where each can be seen to have a degree.
+pub(super) fn parts(graph: &Graph, root: Id) -> Option<Vec<Part>> {
+    let degrees = degrees(graph, root);
+    let mut parts = Vec::new();
+    let mut pending = vec![(root, Rational::one())];
+    while let Some((term, coefficient)) = pending.pop() {
+        if parts.len() + pending.len() > LIMIT {
+            return None;
+        }
+        match (degrees[term.index()], graph.node(term)) {
+            (Some(degree), _) => parts.push(Part { coefficient, term, degree }),
+            (None, Node::Sum(terms)) => {
+                for (term, c) in terms {
+                    pending.push((*term, c.checked_mul(&coefficient)?));
+                }
+            }
+            (None, Node::Defined(inner)) => pending.push((*inner, coefficient)),
+            (None, _) => return None,
+        }
+    }
+    Some(parts)
+}
+
+/// The degree of homogeneity in the velocities of all that `root` is made of, by index, as far as it shows.
+fn degrees(graph: &Graph, root: Id) -> Vec<Option<Rational>> {
+    let order = graph.reachable(&[root]);
+    let mut degrees: Vec<Option<Rational>> = vec![None; root.index() + 1];
+    for id in order {
+        let of = |id: Id| degrees[id.index()];
+        degrees[id.index()] = match graph.node(id) {
+            Node::Number(_) | Node::Pi => Some(Rational::zero()),
+            Node::Symbol(symbol) => {
+                let is_velocity = matches!(Variable::of(*symbol), Variable::Velocity(_));
+                Some(Rational::from_integer(i128::from(is_velocity)))
+            }
+            Node::Sum(terms) => {
+                let first = of(terms[0].0);
+                first.filter(|_| terms.iter().all(|&(term, _)| of(term) == first))
+            }
+            Node::Product(factors) => factors.iter().try_fold(Rational::zero(), |sum, &(factor, e)| {
+                sum.checked_add(&of(factor)?.checked_mul(&e)?)
+            }),
+            Node::Defined(inner) => of(*inner),
+            Node::Function(..) | Node::Atan2(..) | Node::Power(..) | Node::External(_) => {
+                let mut free = true;
+                graph.operands(id, |operand| free &= of(operand) == Some(Rational::zero()));
+                free.then(Rational::zero)
+            }
+        };
+    }
+    degrees
+}

@@ -1,0 +1,92 @@
+//! The conserved quantities and the total time derivatives, as they are to be read.
+
+use super::formula::{Formula, derived, written};
+use super::notation::Notation;
+use super::{Equation, Line, READABLE, symbols_to_read};
+use crate::mechanics::{Equations, Evidence, Facts, Quantity};
+use crate::resolve::Problem;
+use crate::symbolic::Id;
+use crate::syntax::{Declaration, Expression, Sign};
+
+/// A line for each conserved quantity.
+pub(super) fn conserved(
+    declaration: &Declaration,
+    problem: &Problem,
+    equations: &Equations,
+    facts: &Facts,
+) -> Vec<Line> {
+    let said = |name: &str| {
+        declaration.observables.iter().find(|known| known.is_conserved && known.name.text == name)
+    };
+    let mut lines: Vec<Line> = Vec::new();
+    for conserved in &facts.conserved {
+        let line = |left: &str, equation: Result<Formula, Id>, remark| Line {
+            label: None,
+            equation: either(Formula::labelled(left, 0), equation, problem),
+            remark,
+        };
+        match conserved.quantity {
+            Quantity::Momentum(a) => {
+                lines.push(line(
+                    &conserved.name,
+                    Err(equations.momentum[a]),
+                    held(conserved.evidence).to_owned(),
+                ));
+            }
+            Quantity::Energy => {
+                lines.push(line("E", Err(equations.energy), energy(conserved.evidence, facts).to_owned()));
+            }
+            // A vector is written as such, once.
+            Quantity::Observable(observable, 0) => {
+                let name = &problem.observables[observable].0.text;
+                let value = said(name).map(|said| written(&said.value, problem));
+                lines.extend(value.map(|value| line(name, Ok(value), held(conserved.evidence).to_owned())));
+            }
+            Quantity::Observable(..) => {}
+        }
+    }
+    lines
+}
+
+/// An equation with a formula, or with what is derived if that can be read.
+fn either(left: Formula, right: Result<Formula, Id>, problem: &Problem) -> Equation {
+    match right {
+        Ok(formula) => Equation::Known(left, formula),
+        Err(id) => match symbols_to_read(problem, id) {
+            size if size > READABLE => Equation::TooLong(size),
+            _ => Equation::Known(left, derived(id, problem)),
+        },
+    }
+}
+
+fn energy(evidence: Evidence, facts: &Facts) -> &'static str {
+    match (facts.energy_is_t_plus_u.is_some(), evidence) {
+        (true, Evidence::Proved) => "T + U",
+        (true, Evidence::Held(_)) => "T + U; conserved in all random motions tried",
+        (false, Evidence::Proved) => "not T + U",
+        (false, Evidence::Held(_)) => "not T + U; conserved in all random motions tried",
+    }
+}
+
+fn held(evidence: Evidence) -> &'static str {
+    match evidence {
+        Evidence::Proved => "",
+        Evidence::Held(_) => "in all random motions tried",
+    }
+}
+
+/// The terms of the Lagrangian that are total time derivatives, as formulas.
+pub(super) fn total_derivatives(declaration: &Declaration, problem: &Problem, facts: &Facts) -> Vec<Formula> {
+    let terms = declaration.lagrangian.as_ref().map(Expression::terms).unwrap_or_default();
+    let term = |index: &usize| {
+        let (sign, term) = terms[*index];
+        written(term, problem).signed(sign == Sign::Minus)
+    };
+    let totals = facts.total_derivatives.iter();
+    totals.map(|total| Formula::sum(total.terms.iter().map(term).collect())).collect()
+}
+
+/// The same as text.
+pub(super) fn texts(formulas: &[Formula]) -> Vec<String> {
+    formulas.iter().map(|formula| Notation::Unicode.write(formula)).collect()
+}

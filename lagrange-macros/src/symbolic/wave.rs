@@ -1,0 +1,49 @@
+//! Smooth functions drawn at random stand in for functions of which nothing is known.
+//!
+//! f(x) = Σ_k a_k sin(w_k·x + φ_k): its derivatives belong together, so that an equation with f in it can be
+//! solved, and it has equal values for equal arguments, however these are written.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use super::evaluate::{Approximate, apply};
+use super::graph::{External, Function, Graph, Id, Node, Symbol};
+use super::zero::random;
+
+/// Enough that no relation among a function and its first derivatives holds by chance.
+const WAVES: u64 = 6;
+
+impl Graph {
+    /// The values of `roots` where symbols have the values given and unknown functions are those of this draw.
+    pub(crate) fn sample(
+        &self,
+        roots: &[Id],
+        draw: u64,
+        symbol: impl FnMut(Symbol) -> Approximate,
+    ) -> Vec<Approximate> {
+        let values = self.values_in(&self.reachable(roots), symbol, |id, values| match self.node(id) {
+            Node::External(external) => {
+                let arguments: Vec<_> = external.arguments.iter().map(|x| values[x.index()]).collect();
+                superposition(external, &arguments, draw)
+            }
+            _ => Approximate::exact(f64::NAN),
+        });
+        roots.iter().map(|root| values[root.index()]).collect()
+    }
+}
+
+/// Σ_k a_k Π_j w_kj sin(w_k·x + φ_k + d π/2), where j runs over the d arguments differentiated by.
+fn superposition(external: &External, arguments: &[Approximate], draw: u64) -> Approximate {
+    let quarters = external.derivatives.len() as f64 * FRAC_PI_2;
+    (0..WAVES).fold(Approximate::exact(0.0), |sum, k| {
+        let number = |kind: u64, argument: u64| {
+            let function = u64::from(external.function) << 28 | u64::from(external.output) << 16;
+            random(kind, function | k << 12 | argument, draw)
+        };
+        let frequency = |i: u64| Approximate::exact(0.5 + 1.5 * number(250, i));
+        let phase = Approximate::exact(TAU * number(251, 0)).plus(Approximate::exact(quarters));
+        let phase = arguments.iter().zip(0..).fold(phase, |sum, (&x, i)| sum.plus(frequency(i).times(x)));
+        let amplitude = Approximate::exact(2.0 * number(252, 0) - 1.0);
+        let amplitude = external.derivatives.iter().fold(amplitude, |a, &i| a.times(frequency(u64::from(i))));
+        sum.plus(amplitude.times(apply(Function::Sin, phase)))
+    })
+}

@@ -1,0 +1,11 @@
+use lagrange_core::prelude::*;
+
+#[derive(Lagrangian)]
+#[coordinates(x)]
+#[lagrangian(m/2 * x_dot^2)]
+#[conserved(m * x_dot)]
+struct System {
+    m: f64,
+}
+
+fn main() {}

@@ -1,0 +1,130 @@
+//! L and L + d/dt f(q, t) have the same motion, and the added term is found.
+
+use approx::assert_relative_eq;
+use lagrange_core::prelude::*;
+use lagrange_core::{Facts, LinearPart};
+
+macro_rules! pendulum {
+    ($name:ident $(, $added:expr)?) => {
+        #[derive(Lagrangian)]
+        #[coordinates(x, y)]
+        #[define(l_0 = m/2 * (x_dot^2 + (1 + x^2) * y_dot^2) - m*g*x*cos(y) + b*x*y_dot*sin(t))]
+        #[lagrangian(l_0 $(+ $added)?)]
+        struct $name {
+            m: f64,
+            g: f64,
+            b: f64,
+        }
+    };
+}
+
+pendulum!(Plain);
+pendulum!(Polynomial, der(m * x ^ 2 * y * t));
+pendulum!(Transcendental, der(exp(x * t) * sin(y) + atan2(y, 2 + cos(x))));
+pendulum!(
+    WrittenOut,
+    m * (3 * x ^ 2 * y * x_dot + x ^ 3 * y_dot) / (1 + t ^ 2) - 2 * m * t * x ^ 3 * y / (1 + t ^ 2) ^ 2
+);
+
+fn totals(facts: Facts) -> Vec<&'static str> {
+    facts.total_derivatives.iter().map(|total| total.terms).collect()
+}
+
+fn states() -> impl Iterator<Item = State<f64, 2>> {
+    (0..20).map(|k| {
+        let phase = 0.7 * f64::from(k);
+        let q = [phase.sin(), (1.3 * phase).cos()];
+        State::new(q, [(0.4 * phase).cos(), (2.1 * phase).sin()]).at_time(0.3 * phase)
+    })
+}
+
+macro_rules! check {
+    ($name:ident, $terms:expr) => {
+        let plain = Plain { m: 1.3, g: 9.81, b: 0.7 };
+        let gauged = $name { m: 1.3, g: 9.81, b: 0.7 };
+        let mut differs = false;
+        for state in states() {
+            let (expected, found) = (plain.solve(&state).unwrap(), gauged.solve(&state).unwrap());
+            for i in 0..2 {
+                assert_relative_eq!(
+                    found.accelerations[i],
+                    expected.accelerations[i],
+                    epsilon = 1e-13,
+                    max_relative = 1e-13
+                );
+            }
+            differs |= (plain.momentum(&state) - gauged.momentum(&state)).norm() > 0.1;
+        }
+        assert!(differs, "the added term changes the momenta");
+        assert_eq!(totals($name::FACTS), [$terms]);
+        assert!($name::equations().text().contains("Total time derivatives in the Lagrangian"));
+    };
+}
+
+#[test]
+fn a_total_derivative_changes_no_acceleration_and_is_found() {
+    assert!(totals(Plain::FACTS).is_empty());
+    assert!(!Plain::equations().text().contains("Total time derivatives"));
+    check!(Polynomial, "d/dt (m x² y t)");
+    check!(Transcendental, "d/dt (exp(x t) sin y + atan2(y, 2 + cos x))");
+    check!(WrittenOut, "m (3 x² y ẋ + x³ ẏ)/(1 + t²) − 2 m t x³ y/(1 + t²)²");
+}
+
+#[derive(Lagrangian)]
+#[coordinates(x, y, z)]
+#[lagrangian(
+    m/2 * (x_dot^2 + y_dot^2 + z_dot^2) - m*g*z
+    + a*y*x_dot + b*z*x_dot + a*x*y_dot + c*z_dot - g*t*z_dot - g*z + c
+)]
+struct InPieces {
+    m: f64,
+    g: f64,
+    a: f64,
+    b: f64,
+    c: f64,
+}
+
+#[derive(Lagrangian)]
+#[coordinates(x, y, z)]
+#[lagrangian(m/2 * (x_dot^2 + y_dot^2 + z_dot^2) + y*z*x_dot + z*x*y_dot + x*y*z_dot)]
+struct InThree {
+    m: f64,
+}
+
+#[test]
+fn terms_that_are_total_derivatives_together() {
+    assert_eq!(totals(InPieces::FACTS), ["a y ẋ + a x ẏ", "c ż", "−g t ż − g z", "c"]);
+    assert_eq!(InPieces::FACTS.linear_part, LinearPart::Open, "b z ẋ");
+    assert_eq!(totals(InThree::FACTS), ["y z ẋ + z x ẏ + x y ż"]);
+    assert!(matches!(InThree::FACTS.linear_part, LinearPart::Closed(_)));
+}
+
+/// Milton (8.36) and (8.40): with a prescribed velocity of the frame, m v·V(t) is no total derivative, but
+/// closed: it adds no force that depends on the velocity.
+#[derive(Lagrangian)]
+#[coordinates(r: [3])]
+#[function(V(t): [3] = velocity)]
+#[define(v = r_dot)]
+#[lagrangian(m/2 * dot(v, v) + m * dot(v, V(t)) + m/2 * dot(V(t), V(t)))]
+struct MovingFrame {
+    m: f64,
+    velocity: Ramp,
+}
+
+struct Ramp;
+
+impl Function<1, 3> for Ramp {
+    fn eval<S: Scalar>(&self, [t]: [S; 1]) -> [S; 3] {
+        [t, t * t, t * t * t]
+    }
+}
+
+#[test]
+fn moving_frame_8_36() {
+    assert_eq!(totals(MovingFrame::FACTS).len(), 1, "m/2 V(t)²");
+    assert!(matches!(MovingFrame::FACTS.linear_part, LinearPart::Closed(_)));
+    assert_eq!(MovingFrame::FACTS.energy_is_t_plus_u, None);
+    let frame = MovingFrame { m: 2.0, velocity: Ramp };
+    let solution = frame.solve(&State::new([0.0; 3], [0.1; 3]).at_time(0.5)).unwrap();
+    assert_relative_eq!(solution.accelerations[2], -3.0 * 0.25, max_relative = 1e-14);
+}
