@@ -1,6 +1,7 @@
 //! What the derive finds conserved, and that the motion does conserve it.
 
 mod drift;
+mod energy;
 mod gauge;
 mod said;
 mod symmetries;

@@ -22,7 +22,7 @@ fn laplace_runge_lenz() {
     let expected =
         [vec!["energy".to_owned()], vector("momentum_of_rotation"), vector("eccentricity")].concat();
     assert_eq!(names, expected);
-    assert!(Planet::FACTS.conserved[1..].iter().all(|found| found.evidence == Evidence::Held { states: 8 }));
+    assert!(Planet::FACTS.conserved[1..].iter().all(|found| found.evidence == Evidence::Held(8)));
     // It is an observable too.
     assert_eq!(Planet::OBSERVABLES.len(), 7);
     let planet = Planet { m: 1.0, k: 1.0 };

@@ -85,11 +85,10 @@ fn pair(
 /// The terms as a total derivative, if their Euler–Lagrange expressions sum to zero.
 fn cancelled(problem: &mut Problem, variations: &[Vec<Id>], terms: &[usize]) -> Option<TotalDerivative> {
     let one = Rational::from_integer(1);
-    let mut evidence = Evidence::Proved;
-    for coordinate in 0..problem.coordinates.len() {
-        let sum = problem.graph.sum(terms.iter().map(|&term| (variations[term][coordinate], one)));
-        evidence = evidence.and(vanishes(problem, sum)?);
-    }
+    let evidence = (0..problem.coordinates.len()).try_fold(Evidence::Proved, |evidence, i| {
+        let sum = problem.graph.sum(terms.iter().map(|&term| (variations[term][i], one)));
+        Some(evidence.and(vanishes(problem, sum)?))
+    })?;
     Some(TotalDerivative { terms: terms.to_vec(), evidence })
 }
 
