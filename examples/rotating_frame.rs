@@ -3,7 +3,8 @@
 //! The Lagrangian is (8.44) as it stands; Ω and A are given along the turning axes. The forces of Euler, Coriolis
 //! and the centrifugal force (8.47) come out one by one, and the motion is that of the inertial frame, where the
 //! spring makes a driven oscillation. A second run turns uniformly, with an anisotropic spring that turns too:
-//! E = E₀ − L·Ω is conserved (8.51), and neither E₀ nor L is.
+//! E = E₀ − L·Ω is conserved (8.51), and neither E₀ nor L is. Its Hamiltonian is p²/2m − Ω·(r×p) + U (8.54), and
+//! Hamilton's equations give the same motion.
 
 mod picture;
 
@@ -131,6 +132,7 @@ fn main() -> Result<()> {
     println!("\n{}\n", path.ending());
     checks(&moving, &path)?;
     check_energy(&uniform, &uniform_path);
+    check_hamilton(&uniform, &uniform_path, method)?;
     let file = picture::path("rotating_frame")?;
     draw(&moving, &path, &uniform, &uniform_path, &file)?;
     println!("\npicture: {}", file.display());
@@ -223,6 +225,25 @@ fn check_energy(system: &InFrame, path: &Path<'_>) {
     println!("uniform rotation");
     println!("  {:<50} {worst:8.1e}", "E = E₀ − L·Ω (8.51), in J");
     println!("  {:<50} {drift:8.1e}", "E is conserved, in J");
+}
+
+/// The same motion by Hamilton's equations, and H by hand.
+fn check_hamilton(system: &InFrame, path: &Path<'_>, method: Dop853) -> Result<()> {
+    let start = system.phase_state(path.start().state());
+    let canonical = system.integrate_hamiltonian(start, DURATION, method)?;
+    let (mut motion, mut hamiltonian) = (0.0_f64, 0.0_f64);
+    for sample in path.samples(500) {
+        let s = canonical.at(sample.time())?;
+        let phase = system.phase_state(s.state());
+        let [potential] = system.spring.eval(phase.q.into());
+        let spin = UNIFORM.omega(phase.t).dot(&phase.q.cross(&phase.p));
+        let by_hand = phase.p.norm_squared() / (2.0 * M) - spin + potential;
+        hamiltonian = hamiltonian.max((system.hamiltonian(&phase)? - by_hand).abs());
+        motion = motion.max((s.state().q - sample.state().q).amax());
+    }
+    println!("  {:<50} {hamiltonian:8.1e}", "H = p²/2m − Ω·(r×p) + U (8.54), in J");
+    println!("  {:<50} {motion:8.1e}", "Hamilton's equations (8.57): same motion, in m");
+    Ok(())
 }
 
 fn draw(
