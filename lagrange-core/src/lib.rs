@@ -111,3 +111,8 @@ pub use system::{ConstraintKind, Lagrangian};
 pub use table::Table;
 #[cfg(feature = "alloc")]
 pub use trajectory::Trajectory;
+
+/// The README's program is compiled and run with the documentation's examples.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;

@@ -217,12 +217,18 @@ impl<T: Real, const N: usize, const M: usize> Residual<T, N, M> {
         for a in 0..M {
             let value = Scalar::abs(self.value[a]);
             let distance = if self.sensitivity[a] > zero { value / self.sensitivity[a] } else { value };
-            if exceeds(distance, farthest.0) {
+            // What is not a number is farthest of all, and stays that.
+            if is_number(farthest.0) && exceeds(distance, farthest.0) {
                 farthest = (distance, a);
             }
         }
         farthest
     }
+}
+
+/// Whether `x` is anything but NaN.
+fn is_number<T: Real>(x: T) -> bool {
+    x.partial_cmp(&x).is_some()
 }
 
 /// Σ |x_i|.

@@ -133,3 +133,16 @@ fn an_inconsistent_start_is_refused_with_its_constraint() {
     let moved = path.adjustment().largest_coordinate_change();
     assert!((0.1e-9..1e-9).contains(&moved), "{moved:e}");
 }
+
+#[test]
+fn a_residual_that_is_no_number_is_the_farthest() {
+    let residual = super::Residual::<f64, 1, 3> {
+        value: [1.0, f64::NAN, 5.0],
+        jacobian: [[1.0]; 3],
+        terms: [1.0; 3],
+        sensitivity: [1.0; 3],
+        active: [true; 3],
+    };
+    let (distance, row) = residual.distance();
+    assert!(distance.is_nan() && row == 1, "{distance} in row {row}");
+}
