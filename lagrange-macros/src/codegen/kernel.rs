@@ -7,9 +7,8 @@ use quote::{format_ident, quote};
 use rustc_hash::FxHashMap;
 
 use super::schedule::{Call, Count, Operation, Register, Schedule};
-use crate::resolve::{Element, Problem};
+use super::style::Style;
 use crate::symbolic::{Function, Id, Symbol};
-use crate::variables::Variable;
 
 /// Up to this many locals each have a `let`. Beyond, they are declared in batches of as many, as tuples, and
 /// then assigned: one `let` each overflows rustc's stack near 3,000 in a build with debug information.
@@ -26,121 +25,7 @@ pub(super) struct Kernel {
     pub(super) count: Count,
 }
 
-/// What all functions of a system have in common.
-pub(super) struct Style<'a> {
-    pub(super) problem: &'a Problem,
-    /// The number type.
-    pub(super) scalar: &'a syn::Type,
-    /// Whether the scalar is `f64`, so that constants are plain literals.
-    pub(super) is_f64: bool,
-    /// Names of the inputs and definitions, valid as identifiers and all different.
-    names: FxHashMap<Symbol, Ident>,
-    definition_names: FxHashMap<Id, Ident>,
-    taken: HashSet<String>,
-}
-
-impl<'a> Style<'a> {
-    pub(super) fn new(problem: &'a Problem, scalar: &'a syn::Type) -> Self {
-        let is_f64 = quote!(#scalar).to_string() == "f64";
-        let mut taken =
-            HashSet::from(["state", "solution", "multipliers", "index", "self"].map(String::from));
-        let mut unique = |text: String| identifier(&text, &mut taken);
-        let mut names = FxHashMap::default();
-        names.insert(Variable::Time.symbol(), unique("t".to_owned()));
-        for (i, label) in problem.coordinates.iter().enumerate() {
-            let [base, index] = split(&label.text);
-            names.insert(Variable::Coordinate(i).symbol(), unique(format!("{base}{index}")));
-            names.insert(Variable::Velocity(i).symbol(), unique(format!("{base}_dot{index}")));
-            names.insert(Variable::Acceleration(i).symbol(), unique(format!("{base}_ddot{index}")));
-        }
-        for (a, (label, _)) in problem.constraints.iter().enumerate() {
-            names.insert(Variable::Multiplier(a).symbol(), unique(format!("lambda_{}", label.text)));
-        }
-        for (k, entry) in problem.parameters.entries.iter().enumerate() {
-            let field = &problem.parameters.fields[entry.field].name.text;
-            let text = match entry.element {
-                Element::All => field.clone(),
-                Element::Item(i) => format!("{field}_{i}"),
-                Element::RowItem(i, j) | Element::Cell(i, j) => format!("{field}_{i}_{j}"),
-            };
-            names.insert(Variable::Parameter(k).symbol(), unique(text));
-        }
-        let mut definitions: Vec<_> = problem.names.iter().collect();
-        definitions.sort_unstable();
-        let definition_names =
-            definitions.into_iter().map(|(id, text)| (*id, unique(text.clone()))).collect();
-        Self { problem, scalar, is_f64, names, definition_names, taken }
-    }
-
-    /// The value of a parameter, read from its field.
-    fn parameter(&self, k: usize) -> TokenStream {
-        let entry = self.problem.parameters.entries[k];
-        let field = &self.problem.parameters.fields[entry.field];
-        let ident = &field.ident;
-        let index = Literal::usize_unsuffixed;
-        match entry.element {
-            Element::All if field.shape.as_ref().is_ok_and(|shape| shape.is_reference) => {
-                quote!(*self.#ident)
-            }
-            Element::All => quote!(self.#ident),
-            Element::Item(i) => {
-                let i = index(i);
-                quote!(self.#ident[#i])
-            }
-            Element::RowItem(i, j) => {
-                let (i, j) = (index(i), index(j));
-                quote!(self.#ident[#i][#j])
-            }
-            Element::Cell(i, j) => {
-                let (i, j) = (index(i), index(j));
-                quote!(self.#ident[(#i, #j)])
-            }
-        }
-    }
-
-    /// Statements that bring the inputs in use into scope.
-    fn inputs(&self, used: &[Symbol]) -> TokenStream {
-        let problem = self.problem;
-        let pattern = |count: usize, variable: fn(usize) -> Variable, source: TokenStream| {
-            let names: Vec<_> = (0..count)
-                .map(|i| match used.contains(&variable(i).symbol()) {
-                    true => {
-                        let name = &self.names[&variable(i).symbol()];
-                        quote!(#name)
-                    }
-                    false => quote!(_),
-                })
-                .collect();
-            let any = (0..count).any(|i| used.contains(&variable(i).symbol()));
-            any.then(|| quote! { let [#(#names),*] = #source.data.0[0]; })
-        };
-        let (n, m) = (problem.coordinates.len(), problem.constraints.len());
-        let time = used.contains(&Variable::Time.symbol()).then(|| {
-            let name = &self.names[&Variable::Time.symbol()];
-            quote! { let #name = state.t; }
-        });
-        let coordinates = pattern(n, Variable::Coordinate, quote!(state.q));
-        let velocities = pattern(n, Variable::Velocity, quote!(state.v));
-        let accelerations = pattern(n, Variable::Acceleration, quote!(solution.accelerations));
-        let multipliers = pattern(m, Variable::Multiplier, quote!(multipliers));
-        let parameters = used.iter().filter_map(|symbol| match Variable::of(*symbol) {
-            Variable::Parameter(k) => {
-                let (name, value) = (&self.names[symbol], self.parameter(k));
-                Some(quote! { let #name = #value; })
-            }
-            _ => None,
-        });
-        quote! { #time #coordinates #velocities #accelerations #multipliers #(#parameters)* }
-    }
-
-    fn constant(&self, value: f64) -> TokenStream {
-        // A negative literal would be a sign and a literal.
-        let magnitude = Literal::f64_unsuffixed(value.abs());
-        let literal = if value.is_sign_negative() { quote!((-#magnitude)) } else { quote!(#magnitude) };
-        let scalar = self.scalar;
-        if self.is_f64 { literal } else { quote!(<#scalar as __lagrange::Scalar>::constant(#literal)) }
-    }
-
+impl Style<'_> {
     /// Computes `roots`.
     pub(super) fn kernel(&self, roots: &[Id]) -> Kernel {
         let schedule = Schedule::new(&self.problem.graph, roots);
@@ -368,23 +253,4 @@ fn function_name(function: Function) -> &'static str {
         Function::Ln => "ln",
         Function::Abs => "abs",
     }
-}
-
-/// `r[2]` is `r` and `_2`.
-fn split(text: &str) -> [String; 2] {
-    match text.split_once('[') {
-        Some((base, index)) => [base.to_owned(), format!("_{}", index.trim_end_matches(']'))],
-        None => [text.to_owned(), String::new()],
-    }
-}
-
-/// An identifier like `text` that nothing else bears.
-fn identifier(text: &str, taken: &mut HashSet<String>) -> Ident {
-    let mut name = text.replace("][", "_").replace('[', "_").replace(']', "");
-    if syn::parse_str::<Ident>(&name).is_err() || !taken.insert(name.clone()) {
-        let is_free = |candidate: &String| !taken.contains(candidate);
-        name = (1..).map(|k| format!("{name}__{k}")).find(is_free).unwrap_or(name);
-        taken.insert(name.clone());
-    }
-    Ident::new(&name, Span::mixed_site())
 }

@@ -1,15 +1,13 @@
 //! Expressions into the graph: names bound, shapes checked.
 
-use num_traits::{Signed, Zero};
+use num_traits::Zero;
 
 use super::parameters::Parameters;
 use super::scope::{Entity, Scope};
-use super::value::{Value, dot};
+use super::value::Value;
 use crate::diagnostics::{Diagnostics, Place};
 use crate::symbolic::{Fault, Forward, Graph, Id, Rational};
-use crate::syntax::{
-    Coordinate, Declaration, Define, Expression, Function, Kind, LENGTH_LIMIT, Name, Operator, Sign, SumOver,
-};
+use crate::syntax::{Coordinate, Declaration, Define, Expression, Function, Kind, Name};
 use crate::variables::Variable;
 
 /// What the expression at hand may contain beside coordinates, velocities and time.
@@ -48,8 +46,6 @@ const DEPTH_LIMIT: usize = 600;
 const STEP_LIMIT: usize = 1 << 20;
 /// Numbers in all values lowered: vectors of vectors can run away too.
 const NUMBER_LIMIT: usize = 1 << 24;
-/// The derivatives of a product have the square of its length.
-const FACTOR_LIMIT: usize = 1000;
 
 /// Everything needed to give an expression its meaning.
 pub(super) struct Lowering<'a> {
@@ -200,7 +196,7 @@ impl<'a> Lowering<'a> {
         self.report(place, "with all that it is defined by, this grows beyond what can be derived")
     }
 
-    fn fault<T>(&mut self, fault: Fault, place: Place) -> Option<T> {
+    pub(super) fn fault<T>(&mut self, fault: Fault, place: Place) -> Option<T> {
         self.report(place, fault_message(fault))
     }
 
@@ -282,134 +278,6 @@ impl<'a> Lowering<'a> {
             return self.report(place, "accelerations and multipliers have no time derivative here");
         }
         Some(rate)
-    }
-
-    fn sum(&mut self, terms: &[(Sign, Expression)]) -> Option<Value> {
-        let mut values: Vec<(Value, Rational)> = Vec::with_capacity(terms.len());
-        let mut failed = false;
-        for (sign, term) in terms {
-            let Some(value) = self.lower(term) else {
-                failed = true;
-                continue;
-            };
-            // The literal 0 is the zero of every shape.
-            if is_literal_zero(term) {
-                continue;
-            }
-            match values.first().map(|(first, _)| first.shape()) {
-                Some(first) if first != value.shape() => {
-                    failed = true;
-                    let message = format!("this is {}, but what it is added to is {first}", value.shape());
-                    self.diagnostics.error(term.place, message);
-                }
-                _ => values.push((value, Rational::from_integer(if *sign == Sign::Minus { -1 } else { 1 }))),
-            }
-        }
-        (!failed).then(|| Value::combination(&values, &mut self.graph))
-    }
-
-    /// Scalar factors commute with everything: they are gathered, and multiplied once.
-    fn product(&mut self, factors: &[(Operator, Expression)]) -> Option<Value> {
-        if let Some((_, factor)) = factors.get(FACTOR_LIMIT) {
-            let message = format!("a product has at most {FACTOR_LIMIT} factors: name parts of it");
-            return self.report(factor.place, message);
-        }
-        let values: Vec<_> = factors.iter().map(|(_, factor)| self.lower(factor)).collect();
-        let mut scalars = Vec::with_capacity(factors.len());
-        let mut array: Option<Value> = None;
-        for ((operator, factor), value) in factors.iter().zip(values) {
-            match (operator, value?) {
-                (Operator::Over, Value::Scalar(Id::ZERO)) => {
-                    return self.fault(Fault::DivisionByZero, factor.place);
-                }
-                (Operator::Over, Value::Scalar(x)) => scalars.push((x, Rational::from_integer(-1))),
-                (Operator::Times, Value::Scalar(x)) => scalars.push((x, Rational::from_integer(1))),
-                (Operator::Over, value) => {
-                    return self.report(factor.place, format!("one cannot divide by {}", value.shape()));
-                }
-                (Operator::Times, value) => {
-                    array = Some(match array {
-                        None => value,
-                        Some(array) => self.times(&array, &value, factor.place)?,
-                    });
-                }
-            }
-        }
-        let scalar = self.graph.product(scalars);
-        Some(match array {
-            None => Value::Scalar(scalar),
-            Some(array) => array.map(&mut |x| self.graph.mul(scalar, x)),
-        })
-    }
-
-    /// Matrix times vector: the only product of two arrays.
-    fn times(&mut self, x: &Value, y: &Value, place: Place) -> Option<Value> {
-        let rows = match x {
-            Value::Vector(rows) => rows.iter().map(Value::as_vector).collect::<Option<Vec<_>>>(),
-            Value::Scalar(_) => None,
-        };
-        match (rows, y.as_vector()) {
-            (Some(rows), Some(y)) if rows.iter().all(|row| row.len() == y.len()) => {
-                Some(Value::vector(rows.iter().map(|row| dot(row, &y, &mut self.graph))))
-            }
-            (None, Some(_)) => {
-                self.report(place, "two vectors are multiplied with `dot(a, b)` or `cross(a, b)`")
-            }
-            _ => {
-                let (x, y) = (x.shape(), y.shape());
-                self.report(place, format!("{x} cannot be multiplied by {y}: only matrix times vector"))
-            }
-        }
-    }
-
-    fn power(&mut self, base: &Expression, exponent: &Expression) -> Option<Value> {
-        let (value, exponent) = (self.lower(base), self.scalar(exponent));
-        match value? {
-            Value::Scalar(value) => {
-                let exponent = exponent?;
-                let numbers = (self.graph.as_number(value), self.graph.as_number(exponent));
-                if matches!(numbers, (Some(b), Some(e)) if b.is_negative() && !e.is_integer()) {
-                    return self
-                        .report(base.place, "a negative number to a fractional power has no real value");
-                }
-                Some(Value::Scalar(self.graph.power(value, exponent)))
-            }
-            Value::Vector(_) => self.report(base.place, "a vector has no power: its square is `dot(v, v)`"),
-        }
-    }
-
-    fn vector(&mut self, items: &[Expression], place: Place) -> Option<Value> {
-        let values: Vec<_> = items.iter().map(|item| self.lower(item)).collect();
-        let values: Vec<Value> = values.into_iter().collect::<Option<_>>()?;
-        let Some(first) = values.first() else { return self.report(place, "an empty vector has no meaning") };
-        let shape = first.shape();
-        if let Some(odd) = values.iter().position(|value| value.shape() != shape) {
-            let message = format!("this is {}, but the first entry is {shape}", values[odd].shape());
-            return self.report(items[odd].place, message);
-        }
-        let count: usize = values.iter().map(Value::count).sum();
-        if count > LENGTH_LIMIT {
-            return self.report(place, format!("a vector has at most {LENGTH_LIMIT} numbers"));
-        }
-        Some(Value::Vector(values))
-    }
-
-    fn sum_over(&mut self, sum: &SumOver) -> Option<Value> {
-        let range = self.range(&sum.from, &sum.to)?;
-        self.declare_local(&sum.index)?;
-        let mut values: Vec<(Value, Rational)> = Vec::with_capacity(range.len());
-        for i in range {
-            let index = Value::Scalar(self.graph.integer(i as i128));
-            self.locals.push((sum.index.text.clone(), index));
-            let value = self.lower(&sum.body);
-            self.locals.pop();
-            let value = value?;
-            if values.first().is_some_and(|(first, _)| first.shape() != value.shape()) {
-                return self.report(sum.body.place, "the terms of this sum differ in shape");
-            }
-            values.push((value, Rational::from_integer(1)));
-        }
-        Some(Value::combination(&values, &mut self.graph))
     }
 
     /// Formals and indices may shadow anything but time and π.

@@ -2,13 +2,15 @@
 //!
 //! Sums and products are lists, so that only parentheses, signs and powers nest.
 
-use proc_macro2::{Delimiter, Group, Literal, TokenTree};
+use proc_macro2::{Delimiter, Group, TokenTree};
 use syn::Result;
 
 use super::Name;
 use super::cursor::{Cursor, NESTING_LIMIT};
+use super::number::number;
+use super::slips::{reject_adjacent, reject_keyword, unexpected};
 use crate::diagnostics::Place;
-use crate::symbolic::{Rational, parse_decimal};
+use crate::symbolic::Rational;
 
 /// An expression and where it stands.
 #[derive(Clone, Debug)]
@@ -272,136 +274,6 @@ fn sum_over(cursor: &mut Cursor, depth: usize) -> Result<Kind> {
         return Err(unexpected(cursor));
     }
     Ok(Kind::SumOver(Box::new(SumOver { index, from, to, body })))
-}
-
-fn number(literal: &Literal, place: Place) -> Result<Kind> {
-    let text = literal.to_string();
-    let unsigned = text.strip_prefix('-').unwrap_or(&text);
-    if !unsigned.starts_with(|c: char| c.is_ascii_digit()) {
-        return Err(place.error("text and characters have no meaning here: write a number or a name"));
-    }
-    if ["0x", "0o", "0b"].iter().any(|prefix| unsigned.starts_with(prefix)) {
-        return Err(place.error("numbers are written in decimal"));
-    }
-    let length = number_length(unsigned);
-    let (digits, suffix) = unsigned.split_at(length);
-    if !suffix.is_empty() {
-        return Err(place.error(suffix_message(digits, suffix)));
-    }
-    let value = parse_decimal(&text).ok_or_else(|| {
-        place.error("this number does not fit exact arithmetic (128-bit fractions): make it a field")
-    })?;
-    Ok(Kind::Number(value))
-}
-
-/// How many characters of a literal are the number, as opposed to its suffix.
-fn number_length(text: &str) -> usize {
-    let bytes = text.as_bytes();
-    let digits = |mut at: usize| {
-        while bytes.get(at).is_some_and(|b| b.is_ascii_digit() || *b == b'_' || *b == b'.') {
-            at += 1;
-        }
-        at
-    };
-    let mantissa = digits(0);
-    if !matches!(bytes.get(mantissa), Some(b'e' | b'E')) {
-        return mantissa;
-    }
-    let sign = usize::from(matches!(bytes.get(mantissa + 1), Some(b'+' | b'-')));
-    let end = digits(mantissa + 1 + sign);
-    if end > mantissa + 1 + sign { end } else { mantissa }
-}
-
-fn suffix_message(digits: &str, suffix: &str) -> String {
-    if ["f64", "f32", "i8", "i16", "i32", "i64", "u8", "u16", "u32", "u64", "usize", "isize"]
-        .contains(&suffix)
-    {
-        format!("numbers are exact and have no type: write `{digits}`")
-    } else {
-        format!("a product needs its sign: write `{digits}*{}`", suffix.trim_start_matches('_'))
-    }
-}
-
-/// `2 x` or `2 (x + y)`: a product without its sign.
-fn reject_adjacent(cursor: &Cursor) -> Result<()> {
-    match cursor.peek() {
-        Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Parenthesis => {
-            Err(cursor.error(
-                "a product needs its sign: write `*` before the parenthesis (and `sin(x)^2` for a power of a function)",
-            ))
-        }
-        _ => Ok(()),
-    }
-}
-
-/// `r#loop` is a name, `loop` is not.
-fn reject_keyword(ident: &str, place: Place) -> Result<()> {
-    let message = match ident {
-        "if" | "else" | "match" => {
-            "the Lagrangian is one smooth expression: there is no branching (`abs`, `sqrt` and `tanh` may serve)"
-        }
-        "let" => "intermediate quantities are written `#[define(name = expression)]`",
-        "self" => "fields are named without `self`",
-        "true" | "false" => "there are no truth values here: an expression is a number",
-        "for" | "while" | "loop" => "repetition is written `sum(i in 0..3, expression)`",
-        "as" => AS,
-        _ => return Ok(()),
-    };
-    Err(place.error(message))
-}
-
-const AS: &str = "numbers are exact and have no type: leave `as` out";
-
-/// What to write instead of the token at the cursor, which nothing here begins or goes on with.
-fn unexpected(cursor: &Cursor) -> syn::Error {
-    let message = match cursor.peek() {
-        None => "expected an expression",
-        Some(TokenTree::Punct(punct)) => return unexpected_sign(cursor, punct.as_char()),
-        Some(TokenTree::Ident(word)) if word == "as" => AS,
-        Some(TokenTree::Literal(_) | TokenTree::Ident(_)) => {
-            "two factors stand side by side: a product needs its sign `*`, a function its parentheses `sin(x)`"
-        }
-        Some(TokenTree::Group(_)) => "unexpected group: a product needs its sign `*`",
-    };
-    cursor.error(message)
-}
-
-fn unexpected_sign(cursor: &Cursor, sign: char) -> syn::Error {
-    let message = match sign {
-        '=' => {
-            let place = if cursor.is_pair('=', '=') { cursor.pair_place() } else { cursor.place() };
-            return place.error(
-                "an equation belongs into `#[constraint(name: left = right)]`; here an expression is expected",
-            );
-        }
-        '|' => "the absolute value is written `abs(x)`, and there is no logic here",
-        '<' | '>' | '!' | '&' => {
-            "there are no comparisons or logic here: expressions are smooth, and constraints are equations"
-        }
-        '.' => return unexpected_point(cursor),
-        ':' if cursor.is_pair(':', ':') => {
-            return cursor.pair_place().error("there are no paths here: write `pi`, `sin(x)`");
-        }
-        '%' => "there is no remainder: the expression must be smooth",
-        other => return cursor.error(format!("unexpected `{other}`")),
-    };
-    cursor.error(message)
-}
-
-fn unexpected_point(cursor: &Cursor) -> syn::Error {
-    if cursor.is_pair('.', '.') {
-        return cursor.pair_place().error("a range belongs into `sum(i in 0..3, expression)`");
-    }
-    let message = match (cursor.last(), cursor.follower()) {
-        (_, Some(TokenTree::Literal(_))) => "a number begins with a digit: write `0.5`",
-        (Some(TokenTree::Literal(_)), _) => {
-            "a product needs its sign, and an exponent a digit before it: write `2.0*x`, `2.0e3`"
-        }
-        _ => {
-            "there are no methods or fields here: write `sin(x)` for `x.sin()`, `r[0]` for `r.x`, `m` for `self.m`"
-        }
-    };
-    cursor.error(message)
 }
 
 impl Expression {

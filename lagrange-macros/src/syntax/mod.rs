@@ -2,14 +2,17 @@
 
 mod attribute;
 mod cursor;
+mod declaration;
 mod expression;
 mod field;
+mod forms;
+mod number;
+mod slips;
 mod target;
 
-pub(crate) use attribute::{
-    Constraint, Coordinate, Declaration, Define, Function, Named, Parameter, declaration,
-};
+pub(crate) use attribute::declaration;
 pub(crate) use cursor::{NESTING_LIMIT, shallow, too_deep};
+pub(crate) use declaration::{Constraint, Coordinate, Declaration, Define, Function, Named, Parameter};
 pub(crate) use expression::{Expression, Kind, Operator, Sign, SumOver};
 pub(crate) use field::{Field, FieldShape, LENGTH_LIMIT, Layout};
 pub(crate) use target::{Target, TargetIndex};

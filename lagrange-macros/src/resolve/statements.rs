@@ -1,0 +1,233 @@
+//! Forces, constraints and observables: what is said of the system beside its Lagrangian.
+
+use indexmap::IndexMap;
+use rustc_hash::FxHashMap;
+
+use super::lower::{Definition, Lowering, MultiplierGroup, Setting, is_literal_zero};
+use super::scope::{self, Entity};
+use super::value::Value;
+use super::{Label, RESERVED, element_name, entry_names};
+use crate::diagnostics::Place;
+use crate::symbolic::{Id, Rational};
+use crate::syntax::{Constraint, Declaration, Expression, Sign, Target, TargetIndex};
+use crate::variables::Variable;
+
+/// As many as coordinates, beyond which some would have to be dependent.
+const CONSTRAINT_LIMIT: usize = 1000;
+impl Lowering<'_> {
+    /// The Lagrangian term by term, once it is known to be right.
+    pub(super) fn terms(&mut self, declaration: &Declaration) -> Vec<Id> {
+        let Some(lagrangian) = declaration.lagrangian.as_ref().filter(|_| self.diagnostics.is_empty()) else {
+            return Vec::new();
+        };
+        let lower = |(sign, term): (Sign, &Expression)| {
+            let value = self.scalar(term)?;
+            Some(if sign == Sign::Minus { self.graph.neg(value) } else { value })
+        };
+        lagrangian.terms().into_iter().filter_map(lower).collect()
+    }
+
+    /// A conserved quantity has a rate of change, so it contains no accelerations and no multipliers.
+    pub(super) fn conserved(
+        &mut self,
+        declaration: &Declaration,
+        observables: &[(Label, Vec<Id>)],
+    ) -> Vec<(usize, Place)> {
+        let mut conserved = Vec::new();
+        for (index, (label, values)) in observables.iter().enumerate() {
+            let written = declaration.observables.iter().find(|named| named.name.text == label.text);
+            let Some(written) = written.filter(|named| named.is_conserved) else { continue };
+            let solved =
+                |symbol| matches!(Variable::of(symbol), Variable::Acceleration(_) | Variable::Multiplier(_));
+            if self.graph.symbols(values).any(solved) {
+                self.diagnostics.error(
+                    written.value.place,
+                    "a conserved quantity is a function of time, coordinates and velocities: accelerations and multipliers have no place in it",
+                );
+            }
+            conserved.push((index, written.value.place));
+        }
+        conserved
+    }
+
+    pub(super) fn forces(&mut self, declaration: &Declaration) -> Vec<Id> {
+        let count = declaration.coordinates.iter().map(|coordinate| coordinate.length.unwrap_or(1)).sum();
+        let mut forces = vec![Id::ZERO; count];
+        for force in &declaration.forces {
+            let name = &force.target.name;
+            let Some(Entity::Coordinate(index)) = self.scope.get(&name.text) else {
+                let coordinates = self.coordinates.iter().map(|coordinate| coordinate.name.text.as_str());
+                let near = match self.scope.get(&name.text) {
+                    Some(Entity::Velocity(index)) => Some(self.coordinates[index].name.text.as_str()),
+                    _ => scope::nearest(&name.text, coordinates),
+                };
+                let advice = near.map(|near| format!(": did you mean `{near}`?")).unwrap_or_default();
+                let message = format!("a force acts on a coordinate, and `{}` is none{advice}", name.text);
+                self.diagnostics.error(name.place, message);
+                continue;
+            };
+            for element in self.elements(&force.target) {
+                let value = self.with_index(&force.target, element, |lowering| lowering.lower(&force.value));
+                if let Some(value) = value {
+                    self.add_force(&mut forces, index, element, &force.target, &force.value, &value);
+                }
+            }
+        }
+        forces
+    }
+
+    fn add_force(
+        &mut self,
+        forces: &mut [Id],
+        coordinate: usize,
+        element: Option<usize>,
+        target: &Target,
+        expression: &Expression,
+        value: &Value,
+    ) {
+        let length = self.coordinates[coordinate].length;
+        let offset = self.offsets[coordinate];
+        let (start, wanted) = match (element, length) {
+            (None, length) => (offset, length.unwrap_or(1)),
+            (Some(i), Some(length)) if i < length => (offset + i, 1),
+            (Some(i), _) => {
+                let message = format!("there is no coordinate `{}[{i}]`", target.name.text);
+                return self.diagnostics.error(target.name.place, message);
+            }
+        };
+        let entries = value.flat();
+        let is_vector = element.is_none() && length.is_some();
+        if is_literal_zero(expression) {
+            return;
+        }
+        if entries.len() != wanted || is_vector != value.as_vector().is_some() {
+            let wanted = if is_vector { format!("a vector of {wanted}") } else { "a scalar".to_owned() };
+            let message =
+                format!("the force on `{}` is {wanted}, but this is {}", target.name.text, value.shape());
+            return self.diagnostics.error(expression.place, message);
+        }
+        for (slot, entry) in forces[start..].iter_mut().zip(entries) {
+            *slot = self.graph.add(*slot, entry);
+        }
+    }
+
+    pub(super) fn constraints(&mut self, constraints: &[Constraint]) -> Vec<(Label, Id)> {
+        let mut rows: Vec<(Label, Id)> = Vec::new();
+        let mut seen: IndexMap<String, (Place, bool)> = IndexMap::new();
+        for constraint in constraints {
+            let name = &constraint.target.name;
+            let is_family = !matches!(constraint.target.index, TargetIndex::None);
+            match seen.get(&name.text) {
+                Some((place, family)) if !(is_family && *family) => {
+                    let mut error = name.place.error(format!("two constraints are called `{}`", name.text));
+                    error.combine(place.error("the other one is here"));
+                    self.diagnostics.push(error);
+                    continue;
+                }
+                _ => seen.insert(name.text.clone(), (name.place, is_family)),
+            };
+            for element in self.elements(&constraint.target) {
+                self.constraint(constraint, element, &mut rows);
+                if rows.len() > CONSTRAINT_LIMIT {
+                    let message = format!("a system has at most {CONSTRAINT_LIMIT} constraints");
+                    self.diagnostics.error(name.place, message);
+                    return rows;
+                }
+            }
+        }
+        rows
+    }
+
+    fn constraint(&mut self, constraint: &Constraint, element: Option<usize>, rows: &mut Vec<(Label, Id)>) {
+        let residual = self.with_index(&constraint.target, element, |lowering| lowering.residual(constraint));
+        let Some(residual) = residual else { return };
+        let name = &constraint.target.name;
+        let mut row = rows.len();
+        let symbols = residual.map(&mut |_| {
+            row += 1;
+            self.graph.symbol(Variable::Multiplier(row - 1).symbol())
+        });
+        let texts = entry_names(&element_name(&name.text, element), &residual);
+        for (text, id) in texts.into_iter().zip(residual.flat()) {
+            if rows.iter().any(|(label, _)| label.text == text) {
+                self.diagnostics.error(name.place, format!("the constraint `{text}` is given twice"));
+            }
+            rows.push((Label { text, place: constraint.left.place.to(constraint.right.place) }, id));
+        }
+        match self.multipliers.iter_mut().find(|group| group.name == name.text) {
+            Some(group) => group.elements.push((element, symbols)),
+            None => self
+                .multipliers
+                .push(MultiplierGroup { name: name.text.clone(), elements: vec![(element, symbols)] }),
+        }
+    }
+
+    /// left − right
+    fn residual(&mut self, constraint: &Constraint) -> Option<Value> {
+        let (left, right) = (self.lower(&constraint.left), self.lower(&constraint.right));
+        let (left, right) = (left?, right?);
+        if is_literal_zero(&constraint.right) {
+            return Some(left);
+        }
+        if is_literal_zero(&constraint.left) {
+            return Some(right.map(&mut |id| self.graph.neg(id)));
+        }
+        if left.shape() != right.shape() {
+            let (left, right) = (left.shape(), right.shape());
+            return self
+                .report(constraint.right.place, format!("this is {right}, but the other side is {left}"));
+        }
+        let terms = [(left, Rational::from_integer(1)), (right, Rational::from_integer(-1))];
+        Some(Value::combination(&terms, &mut self.graph))
+    }
+
+    pub(super) fn observables(&mut self, declaration: &Declaration) -> Vec<(Label, Vec<Id>)> {
+        self.setting = Setting::Observable;
+        let mut observables = Vec::new();
+        for (position, observable) in declaration.observables.iter().enumerate() {
+            let name = &observable.name;
+            if RESERVED.contains(&name.text.as_str()) {
+                let message = format!("every system has a method `{}`: choose another name", name.text);
+                self.diagnostics.error(name.place, message);
+                continue;
+            }
+            let earlier =
+                declaration.observables[..position].iter().find(|known| known.name.text == name.text);
+            if let Some(earlier) = earlier {
+                let mut error = name.place.error(format!("two observables are called `{}`", name.text));
+                error.combine(earlier.name.place.error("the other one is here"));
+                self.diagnostics.push(error);
+                continue;
+            }
+            let Some(value) = self.lower(&observable.value) else { continue };
+            if value.as_scalar().is_none() && value.as_vector().is_none() {
+                let message = format!("an observable is a scalar or a vector, but this is {}", value.shape());
+                self.diagnostics.error(observable.value.place, message);
+                continue;
+            }
+            observables.push((Label { text: name.text.clone(), place: name.place }, value.flat()));
+            self.observables.push((name.text.clone(), value));
+        }
+        observables
+    }
+
+    /// The names that definitions give to nodes; of two for one node, the first.
+    pub(super) fn names(&self, declaration: &Declaration) -> FxHashMap<Id, String> {
+        let mut names = FxHashMap::default();
+        for (define, definition) in declaration.defines.iter().zip(&self.definitions) {
+            let name = &define.target.name.text;
+            let elements: Vec<(Option<usize>, &Value)> = match definition {
+                Definition::Value(value) => vec![(None, value)],
+                Definition::Family(elements) => elements.iter().map(|(i, value)| (Some(*i), value)).collect(),
+                _ => continue,
+            };
+            for (element, value) in elements {
+                let texts = entry_names(&element_name(name, element), value);
+                for (text, id) in texts.into_iter().zip(value.flat()) {
+                    names.entry(id).or_insert(text);
+                }
+            }
+        }
+        names
+    }
+}

@@ -1,0 +1,92 @@
+//! What the user wrote, attribute by attribute.
+
+use proc_macro2::TokenStream;
+
+use super::Name;
+use super::expression::Expression;
+use super::field::Field;
+use super::target::Target;
+
+/// The struct and its attributes as written.
+pub(crate) struct Declaration {
+    pub(crate) ident: syn::Ident,
+    pub(crate) visibility: syn::Visibility,
+    pub(crate) generics: syn::Generics,
+    pub(crate) fields: Vec<Field>,
+    pub(crate) coordinates: Vec<Coordinate>,
+    pub(crate) defines: Vec<Define>,
+    pub(crate) functions: Vec<Function>,
+    pub(crate) lagrangian: Option<Expression>,
+    pub(crate) constraints: Vec<Constraint>,
+    pub(crate) forces: Vec<Force>,
+    pub(crate) dissipation: Option<Expression>,
+    pub(crate) observables: Vec<Named>,
+    pub(crate) parameters: Vec<Parameter>,
+    pub(crate) options: Options,
+}
+
+/// `#[coordinates(x, r: [3])]`, one entry.
+#[derive(Clone, Debug)]
+pub(crate) struct Coordinate {
+    pub(crate) name: Name,
+    pub(crate) length: Option<usize>,
+}
+
+/// `#[define(name = expression)]`
+#[derive(Debug)]
+pub(crate) struct Define {
+    pub(crate) target: Target,
+    /// `#[define(f(x) = …)]`
+    pub(crate) formals: Option<Vec<Name>>,
+    pub(crate) body: Expression,
+}
+
+/// `#[function(Omega(t): [3] = omega)]`
+#[derive(Debug)]
+pub(crate) struct Function {
+    pub(crate) name: Name,
+    /// Each formal, with its length if it says one.
+    pub(crate) formals: Vec<(Name, Option<usize>)>,
+    /// The length of the result, if it is a vector.
+    pub(crate) length: Option<usize>,
+    /// The field; by default the one of the function's name.
+    pub(crate) field: Name,
+}
+
+/// `#[constraint(name: left = right)]`
+#[derive(Debug)]
+pub(crate) struct Constraint {
+    pub(crate) target: Target,
+    pub(crate) left: Expression,
+    pub(crate) right: Expression,
+}
+
+/// `#[force(coordinate: expression)]`
+#[derive(Debug)]
+pub(crate) struct Force {
+    pub(crate) target: Target,
+    pub(crate) value: Expression,
+}
+
+/// `#[observable(name = expression)]` or `#[conserved(name = expression)]`
+#[derive(Debug)]
+pub(crate) struct Named {
+    pub(crate) name: Name,
+    pub(crate) is_conserved: bool,
+    pub(crate) value: Expression,
+}
+
+/// `#[parameter(a: [3])]` or `#[parameter(e: 0..1)]`
+#[derive(Debug)]
+pub(crate) struct Parameter {
+    pub(crate) name: Name,
+    pub(crate) length: Option<usize>,
+    pub(crate) range: Option<(Expression, Expression)>,
+}
+
+/// `#[lagrange(crate = path, scalar = T)]`
+#[derive(Default)]
+pub(crate) struct Options {
+    pub(crate) runtime: Option<TokenStream>,
+    pub(crate) scalar: Option<syn::Type>,
+}

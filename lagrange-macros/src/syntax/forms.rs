@@ -1,0 +1,280 @@
+//! The forms of the attributes, one function each.
+
+use proc_macro2::{Delimiter, TokenTree};
+use quote::ToTokens;
+use syn::Result;
+
+use super::Name;
+use super::cursor::Cursor;
+use super::declaration::{Constraint, Coordinate, Define, Force, Function, Named, Options, Parameter};
+use super::expression::{self, Expression, Kind};
+use super::field::LENGTH_LIMIT;
+use super::target::{TargetIndex, target};
+use crate::diagnostics::Place;
+
+/// Beyond, rustc takes minutes, and the matrices exceed the stack.
+const COORDINATE_LIMIT: usize = 1000;
+
+pub(super) fn form(word: &str) -> &'static str {
+    match word {
+        "coordinates" => "#[coordinates(x, y)]",
+        "define" => "#[define(name = expression)]",
+        "function" => "#[function(U(r))]` or `#[function(Omega(t): [3] = field)]",
+        "lagrangian" => "#[lagrangian(expression)]",
+        "constraint" => "#[constraint(name: expression = expression)]",
+        "force" => "#[force(coordinate: expression)]",
+        "dissipation" => "#[dissipation(expression)]",
+        "observable" => "#[observable(name = expression)]",
+        "conserved" => "#[conserved(name = expression)]",
+        "parameter" => "#[parameter(name: [3])]` or `#[parameter(name: 0..1)]",
+        _ => "#[lagrange(crate = path, scalar = T)]",
+    }
+}
+
+/// A trailing comma, and then nothing.
+fn finish(cursor: &mut Cursor, word: &str) -> Result<()> {
+    cursor.take_punct(',');
+    if cursor.is_empty() {
+        return Ok(());
+    }
+    Err(cursor.error(format!("expected the end of the attribute: write `{}`, once for each", form(word))))
+}
+
+pub(super) fn only(cursor: &mut Cursor) -> Result<Expression> {
+    let mut inside = cursor.until_comma();
+    reject_name_of_whole(&inside)?;
+    let expression = expression::whole(&mut inside)?;
+    if !cursor.is_empty() {
+        return Err(cursor.error(
+            "expected one expression, without commas (a thousand is written `1_000`, a vector `[a, b]`)",
+        ));
+    }
+    Ok(expression)
+}
+
+/// `L = …`
+fn reject_name_of_whole(cursor: &Cursor) -> Result<()> {
+    match (cursor.peek(), cursor.follower()) {
+        (Some(TokenTree::Ident(name)), Some(TokenTree::Punct(sign))) if sign.as_char() == '=' => {
+            Err(cursor.pair_place().error(format!("write the expression alone: leave out `{name} =`")))
+        }
+        _ => Ok(()),
+    }
+}
+
+pub(super) fn coordinates(cursor: &mut Cursor) -> Result<Vec<Coordinate>> {
+    let mut coordinates = Vec::new();
+    while !cursor.is_empty() {
+        let name = cursor.name("the name of a coordinate")?;
+        let length = if cursor.take_punct(':') { Some(brackets(cursor)?) } else { None };
+        coordinates.push(Coordinate { name, length });
+        if cursor.is_punct('=') {
+            return Err(cursor.error("a coordinate gets its value at the start from a `State`, not here"));
+        }
+        if !cursor.is_empty() {
+            cursor.expect_punct(',', "expected `,` between coordinates (a vector is written `r: [3]`)")?;
+        }
+    }
+    reject_too_many(&coordinates)?;
+    Ok(coordinates)
+}
+
+/// The mass matrix alone has the square of their number as entries.
+fn reject_too_many(coordinates: &[Coordinate]) -> Result<()> {
+    let mut count = 0;
+    for coordinate in coordinates {
+        count += coordinate.length.unwrap_or(1);
+        if count > COORDINATE_LIMIT {
+            return Err(coordinate.name.place.error(format!(
+                "a system has at most {COORDINATE_LIMIT} coordinates, and up to here there are {count}"
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// `[3]`
+fn brackets(cursor: &mut Cursor) -> Result<usize> {
+    let wanted = "expected a length such as `[3]`, an integer literal";
+    let Some(group) = cursor.take_group(Delimiter::Bracket) else { return Err(cursor.error(wanted)) };
+    let length = expression::whole(&mut Cursor::inside(&group)).map(|length| length.kind);
+    let value = match length {
+        Ok(Kind::Number(value)) if value.is_integer() => usize::try_from(value.to_integer()).ok(),
+        _ => None,
+    };
+    value
+        .filter(|length| (1..=LENGTH_LIMIT).contains(length))
+        .ok_or_else(|| Place::at(group.span()).error(wanted))
+}
+
+pub(super) fn define(cursor: &mut Cursor) -> Result<Define> {
+    let target = target(cursor, "the name of the definition")?;
+    let formals = match cursor.take_group(Delimiter::Parenthesis) {
+        Some(group) => Some(formals(&mut Cursor::inside(&group))?),
+        None => None,
+    };
+    equals(cursor, "define")?;
+    let body = expression::whole(&mut cursor.until_comma())?;
+    finish(cursor, "define")?;
+    Ok(Define { target, formals, body })
+}
+
+pub(super) fn function(cursor: &mut Cursor) -> Result<Function> {
+    let name = cursor.name("the name of the function")?;
+    let Some(group) = cursor.take_group(Delimiter::Parenthesis) else {
+        return Err(cursor.error(format!("expected its arguments: write `{}`", form("function"))));
+    };
+    let formals = shaped_formals(&mut Cursor::inside(&group))?;
+    let length = if cursor.take_punct(':') { Some(brackets(cursor)?) } else { None };
+    let field = if cursor.take_punct('=') { cursor.name("the name of a field")? } else { name.clone() };
+    finish(cursor, "function")?;
+    Ok(Function { name, formals, length, field })
+}
+
+/// `r`, `s: [3]`
+fn shaped_formals(cursor: &mut Cursor) -> Result<Vec<(Name, Option<usize>)>> {
+    let mut formals: Vec<(Name, Option<usize>)> = Vec::new();
+    while !cursor.is_empty() {
+        let formal = cursor.name("the name of an argument")?;
+        let length = if cursor.take_punct(':') { Some(brackets(cursor)?) } else { None };
+        if formals.iter().any(|(earlier, _)| earlier.text == formal.text) {
+            return Err(formal.place.error(format!("the argument `{}` is given twice", formal.text)));
+        }
+        formals.push((formal, length));
+        if !cursor.is_empty() {
+            cursor.expect_punct(',', "expected `,` between arguments")?;
+        }
+    }
+    if formals.is_empty() {
+        return Err(cursor.error("a function has arguments; a constant is a field"));
+    }
+    Ok(formals)
+}
+
+fn formals(cursor: &mut Cursor) -> Result<Vec<Name>> {
+    let mut formals = Vec::new();
+    while !cursor.is_empty() {
+        formals.push(cursor.name("the name of an argument")?);
+        if !cursor.is_empty() {
+            cursor.expect_punct(',', "expected `,` between arguments")?;
+        }
+    }
+    if formals.is_empty() {
+        return Err(
+            cursor.error("a function has arguments; a value is written `#[define(name = expression)]`")
+        );
+    }
+    Ok(formals)
+}
+
+fn equals(cursor: &mut Cursor, word: &str) -> Result<()> {
+    if cursor.is_pair('=', '=') {
+        return Err(cursor.pair_place().error("an equation is written with one `=`"));
+    }
+    cursor.expect_punct('=', &format!("expected `=`: write `{}`", form(word)))
+}
+
+fn colon(cursor: &mut Cursor, word: &str) -> Result<()> {
+    cursor.expect_punct(':', &format!("expected `:` after the name: write `{}`", form(word)))
+}
+
+pub(super) fn constraint(cursor: &mut Cursor) -> Result<Constraint> {
+    let start = cursor.place();
+    let target = match target(cursor, "the name of the constraint") {
+        Ok(target) if cursor.is_punct(':') => target,
+        // Without a name the first thing met is the equation itself.
+        _ => {
+            let message =
+                format!("a constraint begins with a name of one word: write `{}`", form("constraint"));
+            return Err(start.error(message));
+        }
+    };
+    colon(cursor, "constraint")?;
+    let mut equation = cursor.until_comma();
+    let (left, right) = sides(&mut equation)?;
+    finish(cursor, "constraint")?;
+    Ok(Constraint { target, left, right })
+}
+
+/// `left = right`, exactly one `=`.
+fn sides(equation: &mut Cursor) -> Result<(Expression, Expression)> {
+    let mut left = equation.until_equals();
+    let left = expression::whole(&mut left)?;
+    equals(equation, "constraint")?;
+    let mut rest = equation.until_equals();
+    let right = expression::whole(&mut rest)?;
+    if !equation.is_empty() {
+        return Err(equation.error("a constraint has one `=`: write two constraints"));
+    }
+    Ok((left, right))
+}
+
+pub(super) fn force(cursor: &mut Cursor) -> Result<Force> {
+    let wanted = format!("the coordinate that the force acts on: write `{}`", form("force"));
+    let target = target(cursor, &wanted)?;
+    colon(cursor, "force")?;
+    let value = expression::whole(&mut cursor.until_comma())?;
+    finish(cursor, "force")?;
+    Ok(Force { target, value })
+}
+
+/// Even where the value is wrong there is a method of that name, which the program may call.
+pub(super) fn observable(word: &str, cursor: &mut Cursor, observables: &mut Vec<Named>) -> Result<()> {
+    let target = target(cursor, &format!("a name: write `{}`", form(word)))?;
+    if !matches!(target.index, TargetIndex::None) {
+        return Err(target.name.place.error("an observable is not a family: write a vector `[a, b]`"));
+    }
+    let value = match equals(cursor, word) {
+        Ok(()) => expression::whole(&mut cursor.until_comma()),
+        Err(error) => Err(error),
+    };
+    let (value, result) = match value {
+        Ok(value) => (value, finish(cursor, word)),
+        Err(error) => (Expression { kind: Kind::Vector(Vec::new()), place: target.name.place }, Err(error)),
+    };
+    observables.push(Named { name: target.name, is_conserved: word == "conserved", value });
+    result
+}
+
+pub(super) fn parameter(cursor: &mut Cursor) -> Result<Parameter> {
+    let name = cursor.name("the name of a field")?;
+    colon(cursor, "parameter")?;
+    let parameter = match cursor.peek() {
+        Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Bracket => {
+            Parameter { name, length: Some(brackets(cursor)?), range: None }
+        }
+        _ => Parameter { name, length: None, range: Some(expression::range(cursor)?) },
+    };
+    finish(cursor, "parameter")?;
+    Ok(parameter)
+}
+
+pub(super) fn options(cursor: &mut Cursor, options: &mut Options) -> Result<()> {
+    while !cursor.is_empty() {
+        let place = cursor.place();
+        let word = cursor.take_ident().map(|ident| ident.to_string()).unwrap_or_default();
+        let word = word.as_str();
+        if !["crate", "scalar"].contains(&word) {
+            return Err(place.error("the options are `crate = path` and `scalar = T`"));
+        }
+        equals(cursor, "lagrange")?;
+        let value = cursor.until_comma().rest();
+        let given = if word == "crate" { options.runtime.is_some() } else { options.scalar.is_some() };
+        if given {
+            return Err(place.error(format!("`{word}` is given twice")));
+        }
+        let wrong = |message: &'static str| move |_| place.error(message);
+        match word {
+            "crate" => {
+                let path: syn::Path = syn::parse2(value)
+                    .map_err(wrong("a path belongs here: write `crate = path`, without quotation marks"))?;
+                options.runtime = Some(path.into_token_stream());
+            }
+            _ => {
+                let wrong = wrong("a type belongs here: write `scalar = f32`");
+                options.scalar = Some(syn::parse2(value).map_err(wrong)?);
+            }
+        }
+    }
+    Ok(())
+}

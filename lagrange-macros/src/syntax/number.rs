@@ -1,0 +1,56 @@
+//! Numbers as they may be written.
+
+use proc_macro2::Literal;
+use syn::Result;
+
+use super::expression::Kind;
+use crate::diagnostics::Place;
+use crate::symbolic::parse_decimal;
+
+pub(super) fn number(literal: &Literal, place: Place) -> Result<Kind> {
+    let text = literal.to_string();
+    let unsigned = text.strip_prefix('-').unwrap_or(&text);
+    if !unsigned.starts_with(|c: char| c.is_ascii_digit()) {
+        return Err(place.error("text and characters have no meaning here: write a number or a name"));
+    }
+    if ["0x", "0o", "0b"].iter().any(|prefix| unsigned.starts_with(prefix)) {
+        return Err(place.error("numbers are written in decimal"));
+    }
+    let length = number_length(unsigned);
+    let (digits, suffix) = unsigned.split_at(length);
+    if !suffix.is_empty() {
+        return Err(place.error(suffix_message(digits, suffix)));
+    }
+    let value = parse_decimal(&text).ok_or_else(|| {
+        place.error("this number does not fit exact arithmetic (128-bit fractions): make it a field")
+    })?;
+    Ok(Kind::Number(value))
+}
+
+/// How many characters of a literal are the number, as opposed to its suffix.
+fn number_length(text: &str) -> usize {
+    let bytes = text.as_bytes();
+    let digits = |mut at: usize| {
+        while bytes.get(at).is_some_and(|b| b.is_ascii_digit() || *b == b'_' || *b == b'.') {
+            at += 1;
+        }
+        at
+    };
+    let mantissa = digits(0);
+    if !matches!(bytes.get(mantissa), Some(b'e' | b'E')) {
+        return mantissa;
+    }
+    let sign = usize::from(matches!(bytes.get(mantissa + 1), Some(b'+' | b'-')));
+    let end = digits(mantissa + 1 + sign);
+    if end > mantissa + 1 + sign { end } else { mantissa }
+}
+
+fn suffix_message(digits: &str, suffix: &str) -> String {
+    if ["f64", "f32", "i8", "i16", "i32", "i64", "u8", "u16", "u32", "u64", "usize", "isize"]
+        .contains(&suffix)
+    {
+        format!("numbers are exact and have no type: write `{digits}`")
+    } else {
+        format!("a product needs its sign: write `{digits}*{}`", suffix.trim_start_matches('_'))
+    }
+}

@@ -1,0 +1,89 @@
+//! What people write out of other habits, and what to write instead.
+
+use proc_macro2::{Delimiter, TokenTree};
+use syn::Result;
+
+use super::cursor::Cursor;
+use crate::diagnostics::Place;
+
+/// `2 x` or `2 (x + y)`: a product without its sign.
+pub(super) fn reject_adjacent(cursor: &Cursor) -> Result<()> {
+    match cursor.peek() {
+        Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Parenthesis => {
+            Err(cursor.error(
+                "a product needs its sign: write `*` before the parenthesis (and `sin(x)^2` for a power of a function)",
+            ))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// `r#loop` is a name, `loop` is not.
+pub(super) fn reject_keyword(ident: &str, place: Place) -> Result<()> {
+    let message = match ident {
+        "if" | "else" | "match" => {
+            "the Lagrangian is one smooth expression: there is no branching (`abs`, `sqrt` and `tanh` may serve)"
+        }
+        "let" => "intermediate quantities are written `#[define(name = expression)]`",
+        "self" => "fields are named without `self`",
+        "true" | "false" => "there are no truth values here: an expression is a number",
+        "for" | "while" | "loop" => "repetition is written `sum(i in 0..3, expression)`",
+        "as" => AS,
+        _ => return Ok(()),
+    };
+    Err(place.error(message))
+}
+
+const AS: &str = "numbers are exact and have no type: leave `as` out";
+
+/// What to write instead of the token at the cursor, which nothing here begins or goes on with.
+pub(super) fn unexpected(cursor: &Cursor) -> syn::Error {
+    let message = match cursor.peek() {
+        None => "expected an expression",
+        Some(TokenTree::Punct(punct)) => return unexpected_sign(cursor, punct.as_char()),
+        Some(TokenTree::Ident(word)) if word == "as" => AS,
+        Some(TokenTree::Literal(_) | TokenTree::Ident(_)) => {
+            "two factors stand side by side: a product needs its sign `*`, a function its parentheses `sin(x)`"
+        }
+        Some(TokenTree::Group(_)) => "unexpected group: a product needs its sign `*`",
+    };
+    cursor.error(message)
+}
+
+fn unexpected_sign(cursor: &Cursor, sign: char) -> syn::Error {
+    let message = match sign {
+        '=' => {
+            let place = if cursor.is_pair('=', '=') { cursor.pair_place() } else { cursor.place() };
+            return place.error(
+                "an equation belongs into `#[constraint(name: left = right)]`; here an expression is expected",
+            );
+        }
+        '|' => "the absolute value is written `abs(x)`, and there is no logic here",
+        '<' | '>' | '!' | '&' => {
+            "there are no comparisons or logic here: expressions are smooth, and constraints are equations"
+        }
+        '.' => return unexpected_point(cursor),
+        ':' if cursor.is_pair(':', ':') => {
+            return cursor.pair_place().error("there are no paths here: write `pi`, `sin(x)`");
+        }
+        '%' => "there is no remainder: the expression must be smooth",
+        other => return cursor.error(format!("unexpected `{other}`")),
+    };
+    cursor.error(message)
+}
+
+fn unexpected_point(cursor: &Cursor) -> syn::Error {
+    if cursor.is_pair('.', '.') {
+        return cursor.pair_place().error("a range belongs into `sum(i in 0..3, expression)`");
+    }
+    let message = match (cursor.last(), cursor.follower()) {
+        (_, Some(TokenTree::Literal(_))) => "a number begins with a digit: write `0.5`",
+        (Some(TokenTree::Literal(_)), _) => {
+            "a product needs its sign, and an exponent a digit before it: write `2.0*x`, `2.0e3`"
+        }
+        _ => {
+            "there are no methods or fields here: write `sin(x)` for `x.sin()`, `r[0]` for `r.x`, `m` for `self.m`"
+        }
+    };
+    cursor.error(message)
+}
