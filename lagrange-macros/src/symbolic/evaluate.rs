@@ -70,7 +70,7 @@ impl Graph {
     /// exact argument of some function may lie beyond a pole or a cut, it is infinite or NaN.
     #[cfg(test)]
     pub(crate) fn evaluate(&self, root: Id, value: impl FnMut(Symbol) -> f64) -> Approximate {
-        self.evaluate_in(&self.reachable(&[root]), value, |_| f64::NAN)
+        self.evaluate_in(&self.reachable(&[root]), value, |_, _| Approximate::exact(f64::NAN))
     }
 
     /// The value of the last of `order`, which holds all that it is made of, operands first.
@@ -78,10 +78,9 @@ impl Graph {
         &self,
         order: &[Id],
         mut value: impl FnMut(Symbol) -> f64,
-        mut external: impl FnMut(Id) -> f64,
+        external: impl FnMut(Id, &[Approximate]) -> Approximate,
     ) -> Approximate {
-        let symbol = |symbol| Approximate::exact(value(symbol));
-        let values = self.values_in(order, symbol, |id, _| Approximate::exact(external(id)));
+        let values = self.values_in(order, |symbol| Approximate::exact(value(symbol)), external);
         order.last().map_or(Approximate::exact(f64::NAN), |root| values[root.index()])
     }
 
@@ -108,12 +107,12 @@ impl Graph {
         &self,
         values: &mut Vec<Approximate>,
         symbol: impl Fn(Symbol) -> Approximate,
-        external: impl Fn(Id) -> f64,
+        external: impl Fn(Id, &[Approximate]) -> Approximate,
     ) {
         for index in values.len()..self.len() {
             let id = Id(index as u32);
             let value = match self.node(id) {
-                Node::External(_) => Approximate::exact(external(id)),
+                Node::External(_) => external(id, values),
                 Node::Symbol(name) => symbol(*name),
                 _ => self.value_of(id, values, &mut |_| Approximate::exact(f64::NAN)),
             };

@@ -4,7 +4,7 @@ use rustc_hash::FxHashMap;
 
 use super::evaluate::Approximate;
 use super::graph::{Graph, Id, Symbol};
-use super::zero::{drawn, random_external};
+use super::zero::drawn;
 
 /// Beyond this error, relative to the largest of the values beside it, a value says nothing.
 const BLUR: f64 = 1e-6;
@@ -36,7 +36,7 @@ impl Sample {
         graph.extend_values(
             values,
             |symbol| symbols.get(&symbol).copied().unwrap_or(unknown),
-            |id| random_external(id, *draw),
+            |id, values| graph.wave(id, values, *draw),
         );
         let found: Vec<_> = roots.iter().map(|root| values[root.index()]).collect();
         let scale = found.iter().fold(1.0, |scale: f64, value| scale.max(value.value.abs()));
@@ -45,7 +45,7 @@ impl Sample {
     }
 
     /// Moves `unknowns` to a point near by at which `roots` vanish, by Newton's method with the least step.
-    /// Slopes are differences: functions of which nothing is known keep their random values.
+    /// Slopes are differences.
     pub(crate) fn project(&mut self, graph: &Graph, roots: &[Id], unknowns: &[Symbol]) -> Option<()> {
         const STEPS: usize = 40;
         const CLOSE: f64 = 1e-13;

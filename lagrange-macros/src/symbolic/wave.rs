@@ -20,14 +20,15 @@ impl Graph {
         draw: u64,
         symbol: impl FnMut(Symbol) -> Approximate,
     ) -> Vec<Approximate> {
-        let values = self.values_in(&self.reachable(roots), symbol, |id, values| match self.node(id) {
-            Node::External(external) => {
-                let arguments: Vec<_> = external.arguments.iter().map(|x| values[x.index()]).collect();
-                superposition(external, &arguments, draw)
-            }
-            _ => Approximate::exact(f64::NAN),
-        });
+        let values = self.values_in(&self.reachable(roots), symbol, |id, values| self.wave(id, values, draw));
         roots.iter().map(|root| values[root.index()]).collect()
+    }
+
+    /// The value of an unknown function at arguments whose values are known.
+    pub(super) fn wave(&self, id: Id, values: &[Approximate], draw: u64) -> Approximate {
+        let Node::External(external) = self.node(id) else { return Approximate::exact(f64::NAN) };
+        let arguments: Vec<_> = external.arguments.iter().map(|x| values[x.index()]).collect();
+        superposition(external, &arguments, draw)
     }
 }
 

@@ -21,7 +21,6 @@ const DRAWS: u64 = 64;
 impl Graph {
     /// Whether `root` vanishes identically. Each symbol is drawn from the range that `range` gives it.
     pub(crate) fn is_zero(&mut self, root: Id, range: impl Fn(Symbol) -> (f64, f64)) -> Verdict {
-        // Equal arguments of an unknown function are one node only where no boundary hides that.
         let root = self.looked_through(root);
         if root == Id::ZERO {
             return Verdict::Zero;
@@ -30,7 +29,7 @@ impl Graph {
         let mut held = 0;
         for draw in 0..DRAWS {
             let symbol = |symbol: Symbol| drawn(symbol, range(symbol), draw);
-            let sample = self.evaluate_in(&order, symbol, |id| random_external(id, draw));
+            let sample = self.evaluate_in(&order, symbol, |id, values| self.wave(id, values, draw));
             // Outside its domain an expression has no value: draw again.
             if !sample.value.is_finite() || !sample.error.is_finite() {
                 continue;
@@ -45,11 +44,6 @@ impl Graph {
         }
         if held > 0 { Verdict::Held(held) } else { Verdict::Undecided }
     }
-}
-
-/// An unknown function and its derivatives have values of their own at every argument.
-pub(super) fn random_external(id: Id, draw: u64) -> f64 {
-    2.0 * random(u64::MAX, id.index() as u64, draw) - 1.0
 }
 
 /// A value of `symbol` in the range given, the same in every use of one draw.

@@ -173,3 +173,21 @@ fn what_may_differ_is_told_apart() {
         assert_eq!(difference_is(&mut graph, f, other), Verdict::NonZero, "{:?}", graph.node(other));
     }
 }
+
+/// f(x (y + 1)) and f(x y + x) are two nodes and one value.
+#[test]
+fn arguments_that_are_equal_in_value_give_equal_values() {
+    let (mut graph, [x, y, _]) = graph();
+    let sum = graph.add(y, Id::ONE);
+    let factored = graph.mul(x, sum);
+    let product = graph.mul(x, y);
+    let expanded = graph.add(product, x);
+    for derivatives in [&[][..], &[0], &[0, 0]] {
+        let [one, other] = [factored, expanded].map(|x| partial(&mut graph, 0, derivatives, &[x]));
+        assert_ne!(one, other);
+        assert!(matches!(difference_is(&mut graph, one, other), Verdict::Held(_)));
+        let shifted = graph.add(expanded, Id::ONE);
+        let elsewhere = partial(&mut graph, 0, derivatives, &[shifted]);
+        assert_eq!(difference_is(&mut graph, one, elsewhere), Verdict::NonZero);
+    }
+}
