@@ -36,9 +36,9 @@ pub(crate) trait ByHand<const N: usize, const M: usize>:
     /// L(t, q, q̇).
     fn l<D: Number>(&self, t: D, q: &[D; N], v: &[D; N]) -> D;
 
-    /// Φ(t, q) of holonomic constraints, ψ(t, q, q̇) of the others.
+    /// Φ(t, q) of holonomic constraints, ψ(t, q, q̇) of the others. Systems without constraints leave it as it is.
     fn constraints<D: Number>(&self, _t: D, _q: &[D; N], _v: &[D; N]) -> [D; M] {
-        std::array::from_fn(|a| unimplemented!("constraint {a}"))
+        std::array::from_fn(|a| panic!("constraint {a} is not written by hand"))
     }
 
     /// Generalized forces Q.
