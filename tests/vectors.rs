@@ -161,3 +161,20 @@ fn quaternions_turn_vectors_and_rates_are_angular_velocities() {
     let body = UnitQuaternion::from_quaternion(q).inverse() * omega;
     assert!((kit.turning_body(&state) - body).norm() < 1e-15);
 }
+
+/// Pairs of bodies, each once: the inner sum is empty for the first.
+#[derive(Lagrangian)]
+#[coordinates(x: [4])]
+#[lagrangian(sum(i in 0..4, m/2 * x_dot[i]^2 - sum(j in 0..i, k/2 * (x[i] - x[j])^2)))]
+struct Pairs {
+    m: f64,
+    k: f64,
+}
+
+#[test]
+fn the_inner_of_two_sums_may_be_empty() {
+    let pairs = Pairs { m: 1.0, k: 2.0 };
+    let forces = pairs.forcing(&State::at_rest([1.0, 2.0, 4.0, 8.0]));
+    // k Σ_j (x_j − x_i)
+    assert_eq!(forces.as_slice(), [22.0, 14.0, -2.0, -34.0]);
+}

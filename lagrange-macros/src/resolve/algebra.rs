@@ -122,7 +122,17 @@ impl Lowering<'_> {
         Some(Value::Vector(values))
     }
 
+    /// Whether the range is empty because of an index outside: `sum(j in 0..i, …)` where i = 0. An empty range
+    /// that is written as such is a mistake.
+    fn is_first_of_triangle(&mut self, sum: &SumOver) -> Option<bool> {
+        let (from, to) = (self.integer(&sum.from), self.integer(&sum.to));
+        Some(from? == to? && !self.locals.is_empty())
+    }
+
     pub(super) fn sum_over(&mut self, sum: &SumOver) -> Option<Value> {
+        if self.is_first_of_triangle(sum)? {
+            return Some(Value::Scalar(Id::ZERO));
+        }
         let range = self.range(&sum.from, &sum.to)?;
         self.declare_local(&sum.index)?;
         let mut values: Vec<(Value, Rational)> = Vec::with_capacity(range.len());
