@@ -23,7 +23,6 @@ macro_rules! cylinder {
             alpha: f64,
             k: f64,
             pull: f64,
-            #[allow(dead_code)]
             offset: f64,
         }
 

@@ -210,7 +210,6 @@ fn the_power_of_a_constraint_counts_and_not_its_form() {
 struct Damped {
     m: f64,
     k: f64,
-    #[allow(dead_code)]
     c: f64,
 }
 

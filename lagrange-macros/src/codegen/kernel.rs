@@ -132,7 +132,7 @@ impl Writer<'_, '_> {
             Operation::Minimum(x, y) => call("min", &[value(x), value(y)]),
             Operation::Maximum(x, y) => call("max", &[value(x), value(y)]),
             Operation::SquareRoot(x) => call("sqrt", &[value(x)]),
-            Operation::Function(function, x) => call(function_name(function), &[value(x)]),
+            Operation::Function(function, x) => call(function.name(), &[value(x)]),
             Operation::Atan2(y, x) => call("atan2", &[value(y), value(x)]),
             Operation::Power(x, y) => call("powf", &[value(x), value(y)]),
             Operation::Constant(_) | Operation::Input(_) | Operation::Result { .. } => TokenStream::new(),
@@ -180,7 +180,7 @@ impl Writer<'_, '_> {
         let partner =
             schedule.find(Operation::Function(other, x)).filter(|partner| self.uses[partner.index()] > 0);
         let Some(partner) = partner else {
-            let tokens = call(function_name(function), &[self.value(x)]);
+            let tokens = call(function.name(), &[self.value(x)]);
             let value = self.assign(index, &tokens);
             return self.values.push((value, 0));
         };
@@ -236,21 +236,4 @@ fn infix(x: TokenStream, operator: TokenStream, y: TokenStream) -> TokenStream {
 fn call(name: &str, arguments: &[TokenStream]) -> TokenStream {
     let name = Ident::new(name, Span::mixed_site());
     quote!(__lagrange::Scalar::#name(#(#arguments),*))
-}
-
-fn function_name(function: Function) -> &'static str {
-    match function {
-        Function::Sin => "sin",
-        Function::Cos => "cos",
-        Function::Tan => "tan",
-        Function::Asin => "asin",
-        Function::Acos => "acos",
-        Function::Atan => "atan",
-        Function::Sinh => "sinh",
-        Function::Cosh => "cosh",
-        Function::Tanh => "tanh",
-        Function::Exp => "exp",
-        Function::Ln => "ln",
-        Function::Abs => "abs",
-    }
 }

@@ -5,7 +5,7 @@ use num_traits::{One, Signed};
 
 use super::supplied;
 use crate::resolve::{Element, Problem};
-use crate::symbolic::{Function, Id, Node, Rational};
+use crate::symbolic::{Id, Node, Rational};
 use crate::syntax::{Expression, Kind, Operator, Sign};
 use crate::variables::Variable;
 
@@ -221,9 +221,7 @@ pub(super) fn derived(id: Id, problem: &Problem) -> Formula {
             if terms.len() == 1 { terms.remove(0) } else { Formula::Sum(terms) }
         }
         Node::Product(_) => derived_term(id, Rational::one(), problem),
-        Node::Function(function, x) => {
-            Formula::Call(function_name(*function).to_owned(), vec![derived(*x, problem)])
-        }
+        Node::Function(function, x) => Formula::Call(function.name().to_owned(), vec![derived(*x, problem)]),
         Node::External(external) => supplied::call(external, problem),
         Node::Atan2(y, x) => {
             Formula::Call("atan2".to_owned(), vec![derived(*y, problem), derived(*x, problem)])
@@ -306,22 +304,5 @@ fn variable(variable: Variable, problem: &Problem) -> Formula {
             let number = |i: usize| Formula::Number(Rational::from_integer(i as i128));
             Formula::Name { base, dots: 0, indices: indices.into_iter().map(number).collect() }
         }
-    }
-}
-
-fn function_name(function: Function) -> &'static str {
-    match function {
-        Function::Sin => "sin",
-        Function::Cos => "cos",
-        Function::Tan => "tan",
-        Function::Asin => "asin",
-        Function::Acos => "acos",
-        Function::Atan => "atan",
-        Function::Sinh => "sinh",
-        Function::Cosh => "cosh",
-        Function::Tanh => "tanh",
-        Function::Exp => "exp",
-        Function::Ln => "ln",
-        Function::Abs => "abs",
     }
 }

@@ -12,7 +12,7 @@ use crate::syntax::{Expression, Kind, Name};
 
 impl Lowering<'_> {
     pub(super) fn call(&mut self, name: &Name, arguments: &[Expression], place: Place) -> Option<Value> {
-        if let Some(function) = elementary(&name.text) {
+        if let Some(function) = Function::named(&name.text) {
             let [x] = self.arguments(name, arguments, place)?;
             let x = self.inside_domain(name, x)?;
             return Some(Value::Scalar(self.graph.function(function, x)));
@@ -216,22 +216,4 @@ pub(super) fn wrong_number(name: &Name, wanted: usize, given: usize) -> String {
     let plural = if wanted == 1 { "" } else { "s" };
     let are = if given == 1 { "is" } else { "are" };
     format!("`{}` takes {wanted} argument{plural}, but {given} {are} given", name.text)
-}
-
-fn elementary(name: &str) -> Option<Function> {
-    Some(match name {
-        "sin" => Function::Sin,
-        "cos" => Function::Cos,
-        "tan" => Function::Tan,
-        "asin" => Function::Asin,
-        "acos" => Function::Acos,
-        "atan" => Function::Atan,
-        "sinh" => Function::Sinh,
-        "cosh" => Function::Cosh,
-        "tanh" => Function::Tanh,
-        "exp" => Function::Exp,
-        "ln" => Function::Ln,
-        "abs" => Function::Abs,
-        _ => return None,
-    })
 }

@@ -45,6 +45,32 @@ pub(crate) enum Function {
     Abs,
 }
 
+impl Function {
+    /// Every function with the name it has in expressions, in formulas and in emitted code.
+    const NAMES: [(&'static str, Self); 12] = [
+        ("sin", Self::Sin),
+        ("cos", Self::Cos),
+        ("tan", Self::Tan),
+        ("asin", Self::Asin),
+        ("acos", Self::Acos),
+        ("atan", Self::Atan),
+        ("sinh", Self::Sinh),
+        ("cosh", Self::Cosh),
+        ("tanh", Self::Tanh),
+        ("exp", Self::Exp),
+        ("ln", Self::Ln),
+        ("abs", Self::Abs),
+    ];
+
+    pub(crate) fn name(self) -> &'static str {
+        Self::NAMES[self as usize].0
+    }
+
+    pub(crate) fn named(name: &str) -> Option<Self> {
+        Self::NAMES.iter().find(|(known, _)| *known == name).map(|(_, function)| *function)
+    }
+}
+
 /// One expression over earlier ones.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub(crate) enum Node {

@@ -245,3 +245,11 @@ fn multiples_of_one_expression_have_one_monic_form() {
     assert_eq!(graph.monic(sum), graph.monic(multiple));
     assert_ne!(graph.monic(sum), graph.monic(x));
 }
+
+#[test]
+fn every_function_is_found_by_its_name() {
+    for name in ["sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "ln", "abs"] {
+        assert_eq!(Function::named(name).map(Function::name), Some(name));
+    }
+    assert_eq!(Function::named("log"), None);
+}
