@@ -154,3 +154,39 @@ fn a_negative_mass_matrix_is_eliminated_like_a_positive_one() {
     assert_eq!(plus.pivot, minus.pivot);
     assert!(plus.pivot > 0.5 && plus.pivot <= 1.0, "{}", plus.pivot);
 }
+
+/// M = [[a, c], [c, b]]: the second pivot is b − c²/a, of a diagonal entry b.
+#[derive(Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian(a/2*x_dot^2 + b/2*y_dot^2 + c*x_dot*y_dot)]
+struct Coupled {
+    a: f64,
+    b: f64,
+    c: f64,
+}
+
+#[test]
+fn the_pivot_is_what_is_left_of_the_diagonal() {
+    let pivot = |a, b, c| Coupled { a, b, c }.accelerations(&State::at_rest([0.0, 0.0])).pivot;
+    for (a, b, c, left) in [(1.0, 1.0, 0.6, 0.64), (2.0, 8.0, 0.0, 1.0), (-1.0, -1.0, -0.6, 0.64)] {
+        assert!((pivot(a, b, c) - left).abs() < 1e-15, "{a} {b} {c}: {}", pivot(a, b, c));
+    }
+    let nearly = pivot(1.0, 1.0, 1.0 - 1e-9);
+    assert!(nearly > 0.0 && nearly < 1e-8, "nearly singular: {nearly:e}");
+    // Regular, but indefinite: without pivoting the elimination grows by 1/a, which must show too.
+    let grown = pivot(1e-9, -1.0, 1.0);
+    assert!(grown.abs() < 1e-8, "grown: {grown:e}");
+    assert!(pivot(1.0, 1.0, 2.0) < 0.0, "indefinite: {}", pivot(1.0, 1.0, 2.0));
+}
+
+/// Where constraints are only nearly dependent, it is the pivot of the Schur complement that shows it.
+#[test]
+fn nearly_dependent_constraints_show_in_the_pivot() {
+    let crank = SliderCrank { m: 1.0, g: 9.81, l: 1.0 };
+    for distance in [1e-3_f64, 1e-4, 1e-5] {
+        let (x, y) = (distance, (1.0 - distance * distance).sqrt());
+        let pivot = crank.accelerations(&State::new([x, y, 2.0 * x], [y, -x, 2.0 * y])).pivot;
+        let square = distance * distance;
+        assert!(pivot > square && pivot < 10.0 * square, "{distance:e}: {pivot:e}");
+    }
+}
