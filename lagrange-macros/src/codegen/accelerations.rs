@@ -6,8 +6,10 @@ use quote::quote;
 use super::Emitter;
 use super::eliminate::{Solved, eliminate};
 use super::kernel::Kernel;
-use super::schedule::{Register, Schedule};
-use crate::mechanics::Equations;
+use super::passes::Program;
+use super::schedule::Schedule;
+use crate::mechanics::{Equations, Form};
+use crate::resolve::Problem;
 use crate::symbolic::Id;
 
 /// M, h, F and γ in one schedule, so that they share what they have in common, and solved where that is short.
@@ -16,26 +18,37 @@ pub(super) struct Fused {
     is_solved: bool,
 }
 
-/// M, h, F, γ, matrices row by row.
-pub(super) fn kkt_entries(equations: &Equations) -> Vec<Id> {
-    let mut roots: Vec<Id> = equations.mass.concat();
-    roots.extend(&equations.forcing);
+/// The form of Gauss's principle, F and γ, matrices row by row.
+fn entries(form: &Form, equations: &Equations) -> Vec<Id> {
+    let mut roots: Vec<Id> = form.matrix.concat();
+    roots.extend(&form.linear);
+    roots.extend(form.definitions.iter().flatten().map(|(_, entry)| entry));
     roots.extend(equations.jacobian.concat());
     roots.extend(&equations.bias);
     roots
 }
 
+/// The equations of motion solved, by the form that takes the least time; `None` where every one is long.
+fn cheapest(problem: &Problem, equations: &Equations) -> Option<Program> {
+    let plain = Form::of(equations);
+    let forms = equations.over_definitions.iter().chain([&plain]);
+    forms.filter_map(|form| solve(problem, form, equations)).min_by_key(|program| program.time().total())
+}
+
+/// The equations of motion solved by one form: accelerations, multipliers and the pivot.
+pub(super) fn solve(problem: &Problem, form: &Form, equations: &Equations) -> Option<Program> {
+    let mut schedule = Schedule::new(&problem.graph, &entries(form, equations));
+    let Solved { accelerations, multipliers, pivot } = eliminate(&mut schedule, form, equations)?;
+    Some(Program::new(schedule, [accelerations, multipliers, vec![pivot]].concat()))
+}
+
 impl Emitter<'_> {
     pub(super) fn fused(&self) -> Fused {
-        let roots = kkt_entries(self.equations);
-        let schedule = Schedule::new(&self.problem.graph, &roots);
-        let mut solving = schedule.clone();
-        if let Some(Solved { accelerations, multipliers, pivot }) = eliminate(&mut solving, self.equations) {
-            let results = [accelerations, multipliers, vec![pivot]].concat();
-            return Fused { kernel: self.style.write(&solving, &results), is_solved: true };
+        if let Some(program) = cheapest(self.problem, self.equations) {
+            return Fused { kernel: self.style.write(&program), is_solved: true };
         }
-        let results: Vec<Register> = roots.iter().map(|&root| schedule.register(root)).collect();
-        Fused { kernel: self.style.write(&schedule, &results), is_solved: false }
+        let roots = entries(&Form::of(self.equations), self.equations);
+        Fused { kernel: self.style.kernel(&roots), is_solved: false }
     }
 
     pub(super) fn accelerations(&self, fused: &Fused) -> TokenStream {

@@ -6,6 +6,7 @@ use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 use rustc_hash::FxHashMap;
 
+use super::passes::Program;
 use super::schedule::{Call, Count, Operation, Register, Schedule};
 use super::style::Style;
 use crate::symbolic::{Function, Id, Symbol};
@@ -22,19 +23,26 @@ pub(super) struct Kernel {
     pub(super) statements: TokenStream,
     /// One expression for each root.
     pub(super) results: Vec<TokenStream>,
-    pub(super) count: Count,
+    /// What it takes, before the passes and after each of them.
+    pub(super) counts: Vec<(&'static str, Count)>,
+}
+
+impl Kernel {
+    /// What it takes.
+    pub(super) fn count(&self) -> Count {
+        self.counts.last().map(|(_, count)| *count).unwrap_or_default()
+    }
 }
 
 impl Style<'_> {
     /// Computes `roots`.
     pub(super) fn kernel(&self, roots: &[Id]) -> Kernel {
-        let schedule = Schedule::new(&self.problem.graph, roots);
-        let results: Vec<Register> = roots.iter().map(|&root| schedule.register(root)).collect();
-        self.write(&schedule, &results)
+        self.write(&Program::of(&self.problem.graph, roots))
     }
 
-    /// The schedule as statements, and where its results are.
-    pub(super) fn write(&self, schedule: &Schedule, roots: &[Register]) -> Kernel {
+    /// The program as statements, and where its results are.
+    pub(super) fn write(&self, program: &Program) -> Kernel {
+        let Program { schedule, results: roots, .. } = program;
         let mut writer = Writer {
             style: self,
             uses: schedule.uses(roots),
@@ -63,7 +71,7 @@ impl Style<'_> {
             .collect();
         let inputs = self.inputs(&used);
         let computation = writer.finish();
-        Kernel { statements: quote! { #inputs #computation }, results, count: schedule.count(roots) }
+        Kernel { statements: quote! { #inputs #computation }, results, counts: program.counts.clone() }
     }
 }
 

@@ -6,9 +6,11 @@ mod facts;
 mod integrability;
 mod kernel;
 mod observables;
+mod passes;
 mod schedule;
 mod stub;
 mod style;
+mod time;
 
 use std::collections::BTreeMap;
 
@@ -49,7 +51,7 @@ pub(crate) fn implementation(
     let style = Style::new(problem, scalar);
     let emitter = Emitter { declaration, problem, equations, facts, rendered, style: &style };
     let fused = emitter.fused();
-    let Count { arithmetic, functions, .. } = fused.kernel.count;
+    let Count { arithmetic, functions, .. } = fused.kernel.count();
     if arithmetic + functions > OPERATION_LIMIT {
         diagnostics.error(problem.place, format!(
             "the equations of motion take {arithmetic} operations and {functions} elementary functions, beyond what rustc compiles in one function ({OPERATION_LIMIT}): name what recurs with `#[define(…)]`, recursively along chains, so that it is shared"
@@ -79,18 +81,17 @@ fn capability(order: usize) -> (&'static str, &'static str) {
 /// What computing `roots` together takes.
 #[cfg(test)]
 pub(crate) fn operations(graph: &crate::symbolic::Graph, roots: &[Id]) -> Count {
-    let schedule = schedule::Schedule::new(graph, roots);
-    let registers: Vec<_> = roots.iter().map(|&root| schedule.register(root)).collect();
-    schedule.count(&registers)
+    let Some(&(_, count)) = passes::Program::of(graph, roots).counts.last() else { return Count::default() };
+    count
 }
 
-/// What the accelerations take, solved; `None` where that is left to loops.
+/// What the accelerations take, before the passes and after each: solved by the form of M, and by that over
+/// definitions. `None` where that is left to loops.
 #[cfg(test)]
-pub(crate) fn solving(problem: &Problem, equations: &Equations) -> Option<Count> {
-    let mut schedule = schedule::Schedule::new(&problem.graph, &accelerations::kkt_entries(equations));
-    let eliminate::Solved { accelerations, multipliers, pivot } =
-        eliminate::eliminate(&mut schedule, equations)?;
-    Some(schedule.count(&[accelerations, multipliers, vec![pivot]].concat()))
+pub(crate) fn solving(problem: &Problem, equations: &Equations) -> [Option<Vec<(&'static str, Count)>>; 2] {
+    let plain = crate::mechanics::Form::of(equations);
+    [Some(&plain), equations.over_definitions.as_ref()]
+        .map(|form| accelerations::solve(problem, form?, equations).map(|program| program.counts))
 }
 
 struct Emitter<'a> {
@@ -233,8 +234,7 @@ impl Emitter<'_> {
     ) -> TokenStream {
         let name = format_ident!("{name}");
         let (n, scalar) = (self.problem.coordinates.len(), self.style.scalar);
-        let (statements, doc, result) =
-            (&kernel.statements, count_doc(kernel.count), result(&kernel.results));
+        let (statements, doc, result) = (&kernel.statements, count_doc(kernel), result(&kernel.results));
         quote! {
             #[doc = #doc]
             #[inline]
@@ -273,7 +273,7 @@ impl Emitter<'_> {
         let (n, m, scalar) =
             (self.problem.coordinates.len(), self.problem.constraints.len(), self.style.scalar);
         let kernel = self.style.kernel(&self.equations.constraint_force);
-        let (statements, doc) = (&kernel.statements, count_doc(kernel.count));
+        let (statements, doc) = (&kernel.statements, count_doc(&kernel));
         let results = if m == 0 {
             (0..n).map(|_| quote!(__lagrange::Scalar::constant(0.0))).collect()
         } else {
@@ -302,15 +302,21 @@ impl Emitter<'_> {
     }
 }
 
-fn count_doc(count: Count) -> String {
-    let Count { arithmetic, functions, calls } = count;
+/// What a function takes, and what it took before each pass that gained something.
+fn count_doc(kernel: &Kernel) -> String {
+    let Count { arithmetic, functions, calls } = kernel.count();
     let plural = |count| if count == 1 { "" } else { "s" };
     let calls = match calls {
         0 => String::new(),
         calls => format!(", {calls} result{} of supplied functions", plural(calls)),
     };
+    let mut steps = kernel.counts.clone();
+    steps.dedup_by_key(|(_, count)| *count);
+    let steps: Vec<_> =
+        steps.iter().map(|(name, count)| format!("{} {name}", count.arithmetic + count.functions)).collect();
+    let passes = if steps.len() > 1 { format!(" All: {}.", steps.join(", ")) } else { String::new() };
     format!(
-        "{arithmetic} operation{} (+ − × ÷ √), {functions} elementary function{}{calls}.",
+        "{arithmetic} operation{} (+ − × ÷ √), {functions} elementary function{}{calls}.{passes}",
         plural(arithmetic),
         plural(functions)
     )

@@ -74,7 +74,7 @@ impl Emitter<'_> {
         let solved = self.needs_solution(values);
         let solution = solved.then(|| quote!(, solution: &__lagrange::Solution<#scalar, #n, #m>));
         let multipliers = solved.then(|| quote! { let multipliers = &solution.multipliers; });
-        let doc = format!("The observable `{}`. {}", label.text, count_doc(kernel.count));
+        let doc = format!("The observable `{}`. {}", label.text, count_doc(&kernel));
         quote! {
             #[doc = #doc]
             #[inline]

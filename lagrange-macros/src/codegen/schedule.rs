@@ -53,6 +53,40 @@ pub(super) struct Call {
 }
 
 impl Operation {
+    /// Of x + y and y + x, and of the like, the one form that stands for both.
+    fn canonical(self) -> Self {
+        let sorted = |x: Register, y: Register| (x.min(y), x.max(y));
+        match self {
+            Self::Add(x, y) => {
+                let (x, y) = sorted(x, y);
+                Self::Add(x, y)
+            }
+            Self::Multiply(x, y) => {
+                let (x, y) = sorted(x, y);
+                Self::Multiply(x, y)
+            }
+            _ => self,
+        }
+    }
+
+    /// The same operation on other operands, but for those of a call.
+    pub(super) fn with_operands(self, mut new: impl FnMut(Register) -> Register) -> Self {
+        match self {
+            Self::Constant(_) | Self::Input(_) | Self::Result { .. } => self,
+            Self::Negate(x) => Self::Negate(new(x)),
+            Self::SquareRoot(x) => Self::SquareRoot(new(x)),
+            Self::Function(function, x) => Self::Function(function, new(x)),
+            Self::Add(x, y) => Self::Add(new(x), new(y)),
+            Self::Subtract(x, y) => Self::Subtract(new(x), new(y)),
+            Self::Multiply(x, y) => Self::Multiply(new(x), new(y)),
+            Self::Divide(x, y) => Self::Divide(new(x), new(y)),
+            Self::Minimum(x, y) => Self::Minimum(new(x), new(y)),
+            Self::Maximum(x, y) => Self::Maximum(new(x), new(y)),
+            Self::Atan2(x, y) => Self::Atan2(new(x), new(y)),
+            Self::Power(x, y) => Self::Power(new(x), new(y)),
+        }
+    }
+
     /// All but those of a call.
     fn operands(self) -> impl Iterator<Item = Register> {
         let (first, second) = match self {
@@ -151,12 +185,29 @@ impl Schedule {
         count
     }
 
+    /// Those of `results` that no other of them is computed from.
+    pub(super) fn not_used_by_one_another(&self, results: &[Register]) -> Vec<Register> {
+        let mut is_used = vec![false; self.operations.len()];
+        let mut reached = vec![false; self.operations.len()];
+        results.iter().for_each(|result| reached[result.index()] = true);
+        for (index, &operation) in self.operations.iter().enumerate().rev() {
+            if reached[index] || is_used[index] {
+                self.operands(operation).for_each(|operand| is_used[operand.index()] = true);
+            }
+        }
+        let mut ends: Vec<Register> =
+            results.iter().copied().filter(|result| !is_used[result.index()]).collect();
+        ends.dedup();
+        ends
+    }
+
     /// The result of an operation, if it is computed at all.
     pub(super) fn find(&self, operation: Operation) -> Option<Register> {
         self.known.get(&operation).copied()
     }
 
     pub(super) fn push(&mut self, operation: Operation) -> Register {
+        let operation = operation.canonical();
         let next = Register(self.operations.len() as u32);
         let register = *self.known.entry(operation).or_insert(next);
         if register == next {

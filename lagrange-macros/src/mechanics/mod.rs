@@ -9,6 +9,7 @@ mod euler_lagrange;
 mod evidence;
 mod facts;
 mod gauge;
+mod gauss;
 mod integrability;
 mod moment;
 
@@ -21,6 +22,7 @@ pub(crate) use constraints::ConstraintKind;
 pub(crate) use evidence::Evidence;
 pub(crate) use facts::Facts;
 pub(crate) use gauge::LinearPart;
+pub(crate) use gauss::Form;
 pub(crate) use integrability::{Classification, Integrability, Integrals, Kinds};
 
 /// M q̈ − Fᵀλ = h and F q̈ + γ = 0, every entry a node of the problem's graph.
@@ -49,6 +51,8 @@ pub(crate) struct Equations {
     pub(crate) bias: Vec<Id>,
     /// Fᵀλ, in the multipliers' symbols
     pub(crate) constraint_force: Vec<Id>,
+    /// M and h over the velocities that definitions name as well, where there are any
+    pub(crate) over_definitions: Option<Form>,
 }
 
 impl Equations {
@@ -87,6 +91,7 @@ pub(crate) fn derive(problem: &mut Problem, diagnostics: &mut Diagnostics) -> Op
         rate: constraints.rate,
         jacobian: constraints.jacobian,
         bias: constraints.bias,
+        over_definitions: Form::over_definitions(problem),
     })
 }
 

@@ -21,6 +21,15 @@ impl Forward {
         Self { seeds: seeds.into_iter().collect(), known: Vec::new() }
     }
 
+    /// The same, with the rates of some nodes given, whatever these are made of.
+    pub(crate) fn through(mut self, graph: &Graph, rates: impl IntoIterator<Item = (Id, Id)>) -> Self {
+        self.known.resize(graph.len(), None);
+        for (node, rate) in rates {
+            self.known[node.index()] = Some(rate);
+        }
+        self
+    }
+
     /// Rate of change of `root`.
     pub(crate) fn of(&mut self, graph: &mut Graph, root: Id) -> Id {
         self.known.resize(graph.len(), None);
@@ -77,32 +86,30 @@ impl Forward {
 impl Graph {
     /// ∂`root`/∂symbol for each of `symbols`, in one sweep from the root down.
     pub(crate) fn gradient(&mut self, root: Id, symbols: &[Symbol]) -> Vec<Id> {
-        let order = self.reachable(&[root]);
-        let mut adjoints: FxHashMap<Id, Vec<(Id, Rational)>> = FxHashMap::default();
-        adjoints.insert(root, vec![(Id::ONE, Rational::one())]);
-        let mut found = FxHashMap::default();
-        for id in order.into_iter().rev() {
-            let parts = adjoints.remove(&id).unwrap_or_default();
-            let adjoint = self.sum(parts);
-            if adjoint != Id::ZERO {
-                self.pass_down(id, adjoint, &mut adjoints, &mut found);
-            }
-        }
-        symbols.iter().map(|symbol| found.get(symbol).copied().unwrap_or(Id::ZERO)).collect()
+        let variables: Vec<Id> = symbols.iter().map(|&symbol| self.symbol(symbol)).collect();
+        self.gradient_to(root, &variables)
     }
 
-    fn pass_down(
-        &mut self,
-        id: Id,
-        adjoint: Id,
-        adjoints: &mut FxHashMap<Id, Vec<(Id, Rational)>>,
-        found: &mut FxHashMap<Symbol, Id>,
-    ) {
-        match self.node(id) {
-            Node::Number(_) | Node::Pi => {}
-            Node::Symbol(symbol) => {
-                found.insert(*symbol, adjoint);
+    /// The same for nodes of any kind, each a variable of its own whatever it is made of.
+    pub(crate) fn gradient_to(&mut self, root: Id, variables: &[Id]) -> Vec<Id> {
+        let mut found: FxHashMap<Id, Id> = variables.iter().map(|&variable| (variable, Id::ZERO)).collect();
+        let mut adjoints: FxHashMap<Id, Vec<(Id, Rational)>> = FxHashMap::default();
+        adjoints.insert(root, vec![(Id::ONE, Rational::one())]);
+        for id in self.reachable(&[root]).into_iter().rev() {
+            let parts = adjoints.remove(&id).unwrap_or_default();
+            let adjoint = self.sum(parts);
+            match found.get_mut(&id) {
+                Some(slope) => *slope = adjoint,
+                None if adjoint == Id::ZERO => {}
+                None => self.pass_down(id, adjoint, &mut adjoints),
             }
+        }
+        variables.iter().map(|variable| found[variable]).collect()
+    }
+
+    fn pass_down(&mut self, id: Id, adjoint: Id, adjoints: &mut FxHashMap<Id, Vec<(Id, Rational)>>) {
+        match self.node(id) {
+            Node::Number(_) | Node::Pi | Node::Symbol(_) => {}
             Node::Sum(terms) => {
                 for &(term, coefficient) in terms {
                     adjoints.entry(term).or_default().push((adjoint, coefficient));

@@ -1,69 +1,134 @@
-//! The order in which a symmetric matrix is eliminated: always the row with the fewest others left in it
-//! (minimum degree: George and Liu, *SIAM Review* 31, 1989).
+//! The order in which a quadratic form is reduced: a variable as soon as no definition needs it, always the one
+//! with the fewest others left beside it (minimum degree: George and Liu, *SIAM Review* 31, 1989); a definition is
+//! put in where no variable is left that could go.
 
 use std::collections::BTreeSet;
 
-/// The order, and how many multiplications and subtractions it takes.
-pub(super) fn elimination_order(pattern: &[Vec<bool>]) -> (Vec<usize>, usize) {
-    let n = pattern.len();
-    let mut neighbours: Vec<BTreeSet<usize>> =
-        (0..n).map(|i| (0..n).filter(|&j| j != i && (pattern[i][j] || pattern[j][i])).collect()).collect();
-    let mut left: BTreeSet<usize> = (0..n).collect();
-    let (mut order, mut cost) = (Vec::with_capacity(n), 0);
-    while let Some(&next) = left.iter().min_by_key(|&&i| neighbours[i].len()) {
-        left.remove(&next);
-        let clique = std::mem::take(&mut neighbours[next]);
-        for &i in &clique {
-            neighbours[i].remove(&next);
-            neighbours[i].extend(clique.iter().filter(|&&j| j != i));
-        }
-        cost += clique.len() * (clique.len() + 2);
-        order.push(next);
+/// Which entries of a form are there.
+pub(super) struct Pattern {
+    /// Of the matrix, by rows.
+    pub(super) matrix: Vec<Vec<bool>>,
+    /// What the last variables of the form are made of, for each of them.
+    pub(super) definitions: Vec<Vec<usize>>,
+}
+
+/// The order, and how many multiplications and additions it takes.
+pub(super) fn reduction_order(pattern: &Pattern) -> (Vec<usize>, usize) {
+    let mut reduction = Reduction::new(pattern);
+    while let Some(next) = reduction.next() {
+        reduction.cost += match next.checked_sub(reduction.free) {
+            Some(k) => reduction.put_in(next, &pattern.definitions[k]),
+            None => reduction.eliminate(next),
+        };
+        reduction.order.push(next);
     }
-    (order, cost)
+    (reduction.order, reduction.cost)
 }
 
-/// Rows and columns in the order given.
-pub(super) fn permuted<T: Copy>(matrix: Vec<Vec<T>>, order: &[usize]) -> Vec<Vec<T>> {
-    order.iter().map(|&i| order.iter().map(|&j| matrix[i][j]).collect()).collect()
+struct Reduction<'p> {
+    pattern: &'p Pattern,
+    /// The variables before it are free, the others defined.
+    free: usize,
+    neighbours: Vec<BTreeSet<usize>>,
+    /// How many definitions that are left contain each variable.
+    needed: Vec<usize>,
+    left: BTreeSet<usize>,
+    order: Vec<usize>,
+    cost: usize,
 }
 
-pub(super) fn reordered<T: Copy>(x: Vec<T>, order: &[usize]) -> Vec<T> {
-    order.iter().map(|&i| x[i]).collect()
-}
+impl<'p> Reduction<'p> {
+    fn new(pattern: &'p Pattern) -> Self {
+        let n = pattern.matrix.len();
+        let entry = |i: usize, j: usize| pattern.matrix[i][j] || pattern.matrix[j][i];
+        let mut needed = vec![0; n];
+        pattern.definitions.iter().flatten().for_each(|&variable| needed[variable] += 1);
+        Self {
+            pattern,
+            free: n - pattern.definitions.len(),
+            neighbours: (0..n).map(|i| (0..n).filter(|&j| j != i && entry(i, j)).collect()).collect(),
+            needed,
+            left: (0..n).collect(),
+            order: Vec::with_capacity(n),
+            cost: 0,
+        }
+    }
 
-/// Back from the order given.
-pub(super) fn restored<T: Copy>(x: Vec<T>, order: &[usize]) -> Vec<T> {
-    let mut places: Vec<(usize, T)> = order.iter().copied().zip(x).collect();
-    places.sort_unstable_by_key(|(place, _)| *place);
-    places.into_iter().map(|(_, x)| x).collect()
+    /// A free variable before one that is defined; of either the one that ties the fewest others together.
+    fn next(&self) -> Option<usize> {
+        let ready = self.left.iter().copied().filter(|&variable| self.needed[variable] == 0);
+        let rank = |variable: usize| match variable.checked_sub(self.free) {
+            None => (false, self.neighbours[variable].len(), variable),
+            Some(k) => (true, self.tied(variable, &self.pattern.definitions[k]), usize::MAX - variable),
+        };
+        ready.min_by_key(|&variable| rank(variable))
+    }
+
+    /// How many variables are beside one another once a definition is put in.
+    fn tied(&self, variable: usize, definition: &[usize]) -> usize {
+        let beside = &self.neighbours[variable];
+        beside.len() + definition.iter().filter(|&i| !beside.contains(i)).count()
+    }
+
+    fn take(&mut self, variable: usize) -> BTreeSet<usize> {
+        self.left.remove(&variable);
+        let neighbours = std::mem::take(&mut self.neighbours[variable]);
+        for &i in &neighbours {
+            self.neighbours[i].remove(&variable);
+        }
+        neighbours
+    }
+
+    fn eliminate(&mut self, variable: usize) -> usize {
+        let clique = self.take(variable);
+        for &i in &clique {
+            self.neighbours[i].extend(clique.iter().filter(|&&j| j != i));
+        }
+        clique.len() * (clique.len() + 2)
+    }
+
+    fn put_in(&mut self, variable: usize, definition: &[usize]) -> usize {
+        let beside = self.take(variable);
+        for &i in definition {
+            self.needed[i] -= 1;
+            for &j in beside.iter().chain(definition).filter(|&&j| j != i) {
+                self.neighbours[i].insert(j);
+                self.neighbours[j].insert(i);
+            }
+        }
+        definition.len() * (2 * beside.len() + definition.len() + 5)
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn pattern(n: usize, occupied: impl Fn(usize, usize) -> bool) -> Vec<Vec<bool>> {
-        (0..n).map(|i| (0..n).map(|j| i == j || occupied(i, j)).collect()).collect()
+    fn matrix(n: usize, occupied: impl Fn(usize, usize) -> bool) -> Pattern {
+        let matrix = (0..n).map(|i| (0..n).map(|j| i == j || occupied(i, j)).collect()).collect();
+        Pattern { matrix, definitions: Vec::new() }
     }
 
     #[test]
     fn the_hub_of_an_arrow_goes_last_and_nothing_fills_in() {
-        let (order, cost) = elimination_order(&pattern(6, |i, j| i == 0 || j == 0));
+        let (order, cost) = reduction_order(&matrix(6, |i, j| i == 0 || j == 0));
         assert!(order.iter().position(|&i| i == 0) >= Some(4), "{order:?}");
         assert_eq!(cost, 5 * 3);
     }
 
     #[test]
     fn a_band_costs_as_much_as_its_length() {
-        let cost = |n| elimination_order(&pattern(n, |i, j| i.abs_diff(j) == 1)).1;
+        let cost = |n| reduction_order(&matrix(n, |i, j| i.abs_diff(j) == 1)).1;
         assert_eq!((cost(5), cost(10), cost(20)), (4 * 3, 9 * 3, 19 * 3));
     }
 
+    /// Angles 0..n, and the velocity n + i of link i the one before plus what the angle adds.
     #[test]
-    fn what_is_reordered_can_be_restored() {
-        let order = [2, 0, 3, 1];
-        assert_eq!(restored(reordered(vec![10, 11, 12, 13], &order), &order), [10, 11, 12, 13]);
-        assert_eq!(permuted(vec![vec![0, 1], vec![2, 3]], &[1, 0]), [[3, 2], [1, 0]]);
+    fn a_chain_goes_from_its_tip_to_its_root() {
+        let n = 4;
+        let matrix = (0..2 * n).map(|i| (0..2 * n).map(|j| i == j && i >= n).collect()).collect();
+        let definitions = (0..n).map(|i| if i == 0 { vec![0] } else { vec![i, n + i - 1] }).collect();
+        let (order, _) = reduction_order(&Pattern { matrix, definitions });
+        assert_eq!(order, [7, 3, 6, 2, 5, 1, 4, 0]);
     }
 }

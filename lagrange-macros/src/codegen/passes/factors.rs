@@ -1,0 +1,227 @@
+//! Factors are taken out of sums of products: a b + a c is a (b + c), and (p cos x)² + (p sin x)² is p².
+//!
+//! A sum is taken as a whole where its parts are used nowhere else. The factor that most of its terms share goes
+//! first (Horner's rule in several variables: Knuth, *The Art of Computer Programming*, 4.6.4).
+
+use indexmap::IndexMap;
+
+use super::rewrite::{carried_over, carry_definitions};
+use crate::codegen::schedule::{Operation, Register, Schedule};
+use crate::symbolic::Function;
+
+/// Sums of more terms are left as they are: every two of them would be compared.
+const TERMS: usize = 256;
+
+pub(super) fn taken_out(old: &Schedule, results: &[Register]) -> (Schedule, Vec<Register>) {
+    let uses = old.uses(results);
+    let inner = inner_sums(old, &uses);
+    let mut pass = Pass { old, uses, new: Schedule::default(), places: vec![None; old.operations.len()] };
+    for (index, &operation) in old.operations.iter().enumerate() {
+        if pass.uses[index] > 0 {
+            let factored = if is_sum(operation) && !inner[index] { pass.factored(operation) } else { None };
+            pass.places[index] = Some(factored.unwrap_or_else(|| pass.as_it_was(operation)));
+        }
+    }
+    let Pass { mut new, places, .. } = pass;
+    carry_definitions(&mut new, old, |register| places[register.index()]);
+    let results = results.iter().map(|result| places[result.index()].unwrap_or(*result)).collect();
+    (new, results)
+}
+
+fn is_sum(operation: Operation) -> bool {
+    matches!(operation, Operation::Add(..) | Operation::Subtract(..))
+}
+
+/// The sums that only one other sum uses: they are taken with that.
+fn inner_sums(old: &Schedule, uses: &[usize]) -> Vec<bool> {
+    let mut inner = vec![false; uses.len()];
+    for (index, &operation) in old.operations.iter().enumerate() {
+        if uses[index] > 0 && is_sum(operation) {
+            old.operands(operation)
+                .filter(|operand| uses[operand.index()] == 1)
+                .for_each(|operand| inner[operand.index()] = true);
+        }
+    }
+    inner
+}
+
+/// A product with a sign; its factors are registers of the old schedule.
+#[derive(Clone, PartialEq)]
+struct Term {
+    negative: bool,
+    factors: Vec<Register>,
+}
+
+/// A number up to its sign, in the new schedule.
+type Signed = (Register, bool);
+
+struct Pass<'s> {
+    old: &'s Schedule,
+    uses: Vec<usize>,
+    new: Schedule,
+    /// Where a result of the old schedule is in the new one.
+    places: Vec<Option<Register>>,
+}
+
+impl Pass<'_> {
+    fn place(&self, register: Register) -> Register {
+        self.places[register.index()].unwrap_or(register)
+    }
+
+    fn as_it_was(&mut self, operation: Operation) -> Register {
+        let places = &self.places;
+        carried_over(&mut self.new, self.old, operation, |_, operand| {
+            places[operand.index()].unwrap_or(operand)
+        })
+    }
+
+    /// The sum with factors taken out; `None` where no two terms share any.
+    fn factored(&mut self, sum: Operation) -> Option<Register> {
+        let terms = self.terms(sum)?;
+        let (register, negative) = self.grouped(terms)?;
+        Some(if negative { self.new.push(Operation::Negate(register)) } else { register })
+    }
+
+    /// The terms of a sum; `None` where there are too many.
+    fn terms(&self, sum: Operation) -> Option<Vec<Term>> {
+        let mut terms = Vec::new();
+        let mut pending = vec![(sum, false)];
+        while let Some((sum, negative)) = pending.pop() {
+            let (Operation::Add(x, y) | Operation::Subtract(x, y)) = sum else { continue };
+            let flipped = negative != matches!(sum, Operation::Subtract(..));
+            for (operand, negative) in [(x, negative), (y, flipped)] {
+                let operation = self.old.operations[operand.index()];
+                match is_sum(operation) && self.uses[operand.index()] == 1 {
+                    true => pending.push((operation, negative)),
+                    false => terms.push(Term { negative, factors: self.factors(operand) }),
+                }
+            }
+            if terms.len() + pending.len() > TERMS {
+                return None;
+            }
+        }
+        // Parts come before what they are part of.
+        terms.reverse();
+        Some(terms)
+    }
+
+    fn factors(&self, product: Register) -> Vec<Register> {
+        let mut factors = Vec::new();
+        let mut pending = vec![product];
+        while let Some(register) = pending.pop() {
+            match self.old.operations[register.index()] {
+                Operation::Multiply(x, y) if self.uses[register.index()] == 1 => pending.extend([x, y]),
+                _ => factors.push(register),
+            }
+        }
+        factors.sort_unstable();
+        factors
+    }
+
+    /// The sum of the terms where some of them can be put together.
+    fn grouped(&mut self, mut terms: Vec<Term>) -> Option<Signed> {
+        let mut sums = Vec::new();
+        let mut is_better = false;
+        loop {
+            while let Some((i, j, square)) = self.circle(&terms) {
+                terms[i].factors = square;
+                terms.remove(j);
+                is_better = true;
+            }
+            let Some(shared) = most_shared(&terms) else { break };
+            let (with, without) = terms.into_iter().partition(|term| term.factors.contains(&shared));
+            sums.push(self.product_of_sum(shared, with));
+            terms = without;
+            is_better = true;
+        }
+        if !is_better {
+            return None;
+        }
+        let rest: Vec<Signed> = terms.iter().map(|term| self.product(term)).collect();
+        Some(self.sum(rest.into_iter().chain(sums)))
+    }
+
+    fn product_of_sum(&mut self, shared: Register, mut terms: Vec<Term>) -> Signed {
+        for term in &mut terms {
+            let position = term.factors.iter().position(|&factor| factor == shared);
+            position.map(|position| term.factors.remove(position));
+        }
+        let (sum, negative) = match self.grouped(terms.clone()) {
+            Some(sum) => sum,
+            None => {
+                let terms: Vec<Signed> = terms.iter().map(|term| self.product(term)).collect();
+                self.sum(terms.into_iter())
+            }
+        };
+        let shared = self.place(shared);
+        (self.new.push(Operation::Multiply(shared, sum)), negative)
+    }
+
+    fn product(&mut self, term: &Term) -> Signed {
+        let places: Vec<Register> = term.factors.iter().map(|&factor| self.place(factor)).collect();
+        let product =
+            places.into_iter().reduce(|product, factor| self.new.push(Operation::Multiply(product, factor)));
+        (product.unwrap_or_else(|| self.new.constant(1.0)), term.negative)
+    }
+
+    /// A positive term first saves a negation.
+    fn sum(&mut self, terms: impl Iterator<Item = Signed>) -> Signed {
+        let mut terms: Vec<Signed> = terms.collect();
+        let first = terms.iter().position(|(_, negative)| !negative);
+        let (start, all_negative) = terms.remove(first.unwrap_or(0));
+        let total = terms.into_iter().fold(start, |total, (term, negative)| {
+            self.new.push(match negative == all_negative {
+                true => Operation::Add(total, term),
+                false => Operation::Subtract(total, term),
+            })
+        });
+        (total, all_negative)
+    }
+
+    /// Two terms that are (p cos x)² and (p sin x)², and p².
+    fn circle(&self, terms: &[Term]) -> Option<(usize, usize, Vec<Register>)> {
+        let arms: Vec<_> = terms.iter().map(|term| self.arm(term)).collect();
+        for (i, first) in arms.iter().enumerate() {
+            let Some((radius, Function::Cos, angle)) = first else { continue };
+            let partner = Some((radius.clone(), Function::Sin, *angle));
+            for (j, second) in arms.iter().enumerate() {
+                if *second == partner && terms[i].negative == terms[j].negative {
+                    return Some((i, j, [&radius[..], radius].concat()));
+                }
+            }
+        }
+        None
+    }
+
+    /// p, cos or sin, and x, where a term is (p cos x)² or (p sin x)².
+    fn arm(&self, term: &Term) -> Option<(Vec<Register>, Function, Register)> {
+        let [x, y] = term.factors[..] else { return None };
+        let operation = |register: Register| self.old.operations[register.index()];
+        let circular = |register| match operation(register) {
+            Operation::Function(function @ (Function::Sin | Function::Cos), angle) => Some((function, angle)),
+            _ => None,
+        };
+        if x != y {
+            return None;
+        }
+        if let Some((function, angle)) = circular(x) {
+            return Some((Vec::new(), function, angle));
+        }
+        let Operation::Multiply(p, q) = operation(x) else { return None };
+        let (radius, (function, angle)) =
+            circular(q).map(|found| (p, found)).or_else(|| circular(p).map(|found| (q, found)))?;
+        Some((vec![radius], function, angle))
+    }
+}
+
+/// The factor that most terms share, of equals the first.
+fn most_shared(terms: &[Term]) -> Option<Register> {
+    let mut counts: IndexMap<Register, usize> = IndexMap::new();
+    for term in terms {
+        let mut factors = term.factors.clone();
+        factors.dedup();
+        factors.into_iter().for_each(|factor| *counts.entry(factor).or_default() += 1);
+    }
+    let most = counts.values().copied().max().filter(|&most| most > 1)?;
+    counts.into_iter().find(|&(_, count)| count == most).map(|(factor, _)| factor)
+}

@@ -1,0 +1,57 @@
+//! What is done to a schedule before it is written: each pass leaves the same results in fewer operations.
+
+mod factors;
+mod reciprocals;
+mod rewrite;
+mod signs;
+#[cfg(test)]
+mod tests;
+
+use super::schedule::{Count, Register, Schedule};
+use super::time::Time;
+use crate::symbolic::{Graph, Id};
+
+/// A schedule and where its results are, and what each pass left of it.
+pub(super) struct Program {
+    pub(super) schedule: Schedule,
+    pub(super) results: Vec<Register>,
+    /// What the operations were before any pass, and after each.
+    pub(super) counts: Vec<(&'static str, Count)>,
+}
+
+impl Program {
+    /// Computes nodes of the graph.
+    pub(super) fn of(graph: &Graph, roots: &[Id]) -> Self {
+        let schedule = Schedule::new(graph, roots);
+        let results = roots.iter().map(|&root| schedule.register(root)).collect();
+        Self::new(schedule, results)
+    }
+
+    /// The results in as few operations as the passes find.
+    pub(super) fn new(schedule: Schedule, results: Vec<Register>) -> Self {
+        let counts = vec![("as derived", schedule.count(&results))];
+        let program = Self { schedule, results, counts };
+        program
+            .after("signs gathered", signs::gathered)
+            .after("factors taken out", factors::taken_out)
+            .after("reciprocals shared", reciprocals::shared)
+    }
+
+    /// With another pass, unless that leaves more to do.
+    fn after(
+        mut self,
+        name: &'static str,
+        pass: fn(&Schedule, &[Register]) -> (Schedule, Vec<Register>),
+    ) -> Self {
+        let (schedule, results) = pass(&self.schedule, &self.results);
+        if schedule.time(&results).work <= self.time().work {
+            (self.schedule, self.results) = (schedule, results);
+        }
+        self.counts.push((name, self.schedule.count(&self.results)));
+        self
+    }
+
+    pub(super) fn time(&self) -> Time {
+        self.schedule.time(&self.results)
+    }
+}

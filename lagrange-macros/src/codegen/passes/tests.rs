@@ -1,0 +1,166 @@
+//! Passes keep the results: programs at random, computed before and after.
+
+use super::{Program, factors, reciprocals, signs};
+use crate::codegen::schedule::{Operation, Register, Schedule};
+use crate::symbolic::{Function, Symbol};
+
+/// The results, where input k has the value 0.3 + 0.1 k.
+fn values(schedule: &Schedule, results: &[Register]) -> Vec<f64> {
+    let mut values: Vec<f64> = Vec::new();
+    for &operation in &schedule.operations {
+        let of = |register: Register| values[register.index()];
+        values.push(match operation {
+            Operation::Constant(bits) => f64::from_bits(bits),
+            Operation::Input(symbol) => 0.3 + 0.1 * f64::from(symbol.index),
+            Operation::Negate(x) => -of(x),
+            Operation::Add(x, y) => of(x) + of(y),
+            Operation::Subtract(x, y) => of(x) - of(y),
+            Operation::Multiply(x, y) => of(x) * of(y),
+            Operation::Divide(x, y) => of(x) / of(y),
+            Operation::Function(Function::Sin, x) => of(x).sin(),
+            Operation::Function(Function::Cos, x) => of(x).cos(),
+            other => panic!("{other:?} is in no program here"),
+        });
+    }
+    results.iter().map(|result| values[result.index()]).collect()
+}
+
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, limit: usize) -> usize {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        ((self.0 >> 33) as usize) % limit
+    }
+
+    /// Sums and products above all, of few inputs, so that they share factors.
+    fn program(&mut self) -> (Schedule, Vec<Register>) {
+        let mut schedule = Schedule::default();
+        let mut registers: Vec<Register> =
+            (0..4).map(|index| schedule.push(Operation::Input(Symbol { family: 1, index }))).collect();
+        registers.push(schedule.constant(-2.0));
+        for _ in 0..60 {
+            let (x, y) = (registers[self.below(registers.len())], registers[self.below(registers.len())]);
+            let operation = match self.below(16) {
+                0 => Operation::Negate(x),
+                1..=5 => Operation::Add(x, y),
+                6..=8 => Operation::Subtract(x, y),
+                9..=13 => Operation::Multiply(x, y),
+                14 => Operation::Divide(x, registers[self.below(4)]),
+                _ => Operation::Function(
+                    if y < x { Function::Sin } else { Function::Cos },
+                    registers[self.below(4)],
+                ),
+            };
+            registers.push(schedule.push(operation));
+        }
+        let results = (0..6).map(|_| registers[self.below(registers.len())]).collect();
+        (schedule, results)
+    }
+}
+
+fn input(schedule: &mut Schedule, index: u32) -> Register {
+    schedule.push(Operation::Input(Symbol { family: 1, index }))
+}
+
+#[test]
+fn signs_change_no_bit() {
+    let mut random = Random(1);
+    for _ in 0..500 {
+        let (schedule, results) = random.program();
+        let (new, new_results) = signs::gathered(&schedule, &results);
+        let (before, after) = (values(&schedule, &results), values(&new, &new_results));
+        assert!(
+            before.iter().zip(&after).all(|(x, y)| x == y || x.is_nan() && y.is_nan()),
+            "{before:?} {after:?}"
+        );
+        assert!(new.count(&new_results).arithmetic <= schedule.count(&results).arithmetic + results.len());
+    }
+}
+
+#[test]
+fn no_pass_changes_a_result_beyond_rounding_nor_leaves_more_to_do() {
+    let mut random = Random(2);
+    for _ in 0..2000 {
+        let (schedule, results) = random.program();
+        for pass in [factors::taken_out, reciprocals::shared] {
+            let (new, new_results) = pass(&schedule, &results);
+            let (before, after) = (values(&schedule, &results), values(&new, &new_results));
+            // What cancels has as many digits as its parts: programs whose results are of their size are compared.
+            for (x, y) in before.iter().zip(&after).filter(|(x, _)| x.is_finite() && x.abs() > 1e-6) {
+                assert!((x - y).abs() <= 1e-9 * x.abs(), "{before:?} {after:?}");
+            }
+        }
+        let before = schedule.time(&results).work;
+        assert!(Program::new(schedule, results).time().work <= before);
+    }
+}
+
+#[test]
+fn a_negative_is_carried_into_the_sum_that_takes_it() {
+    let mut schedule = Schedule::default();
+    let [x, y, z] = [0, 1, 2].map(|index| input(&mut schedule, index));
+    // z + (−x) y, and −(x y) − z
+    let negative = schedule.push(Operation::Negate(x));
+    let product = schedule.push(Operation::Multiply(negative, y));
+    let first = schedule.push(Operation::Add(z, product));
+    let second = schedule.push(Operation::Subtract(product, z));
+    let (new, results) = signs::gathered(&schedule, &[first, second]);
+    // x y, z − x y, x y + z and one sign.
+    assert_eq!(new.count(&results).arithmetic, 4);
+    assert_eq!(schedule.count(&[first, second]).arithmetic, 4);
+    let (new, results) = signs::gathered(&schedule, &[first]);
+    assert_eq!(new.count(&results).arithmetic, 2);
+}
+
+#[test]
+fn the_factor_that_most_terms_share_goes_first() {
+    let mut schedule = Schedule::default();
+    let [a, b, c, d] = [0, 1, 2, 3].map(|index| input(&mut schedule, index));
+    // a b c + a b d − a d + c
+    let products = [[a, b, c], [a, b, d]].map(|[x, y, z]| {
+        // Each with its own product, so that none is shared already.
+        let product = schedule.push(Operation::Multiply(x, z));
+        schedule.push(Operation::Multiply(product, y))
+    });
+    let sum = schedule.push(Operation::Add(products[0], products[1]));
+    let product = schedule.push(Operation::Multiply(a, d));
+    let sum = schedule.push(Operation::Subtract(sum, product));
+    let sum = schedule.push(Operation::Add(sum, c));
+    let (new, results) = factors::taken_out(&schedule, &[sum]);
+    let [before, after] = [values(&schedule, &[sum])[0], values(&new, &results)[0]];
+    assert!((before - after).abs() < 1e-15);
+    // a d is used twice and stays: (b (a c + a d) − a d) + c, where b is as often a factor as a c.
+    assert!(new.count(&results).arithmetic < schedule.count(&[sum]).arithmetic);
+}
+
+#[test]
+fn sine_and_cosine_squared_are_one() {
+    let mut schedule = Schedule::default();
+    let [angle, radius, mass] = [0, 1, 2].map(|index| input(&mut schedule, index));
+    let squares = [Function::Sin, Function::Cos].map(|function| {
+        let value = schedule.push(Operation::Function(function, angle));
+        let arm = schedule.push(Operation::Multiply(radius, value));
+        let moment = schedule.push(Operation::Multiply(mass, arm));
+        schedule.push(Operation::Multiply(moment, arm))
+    });
+    let sum = schedule.push(Operation::Add(squares[0], squares[1]));
+    let (new, results) = factors::taken_out(&schedule, &[sum]);
+    let count = new.count(&results);
+    assert_eq!((count.arithmetic, count.functions), (2, 0), "m r²");
+    assert!((values(&new, &results)[0] - 0.5 * 0.4 * 0.4).abs() < 1e-15);
+}
+
+#[test]
+fn divisions_by_the_same_share_a_reciprocal() {
+    let mut schedule = Schedule::default();
+    let [x, y, z] = [0, 1, 2].map(|index| input(&mut schedule, index));
+    let results = [x, y].map(|x| schedule.push(Operation::Divide(x, z)));
+    let (new, results) = reciprocals::shared(&schedule, &results);
+    let divisions =
+        new.operations.iter().filter(|operation| matches!(operation, Operation::Divide(..))).count();
+    assert_eq!((divisions, new.count(&results).arithmetic), (1, 3));
+    let alone = schedule.push(Operation::Divide(x, y));
+    let (new, results) = reciprocals::shared(&schedule, &[alone]);
+    assert_eq!(new.count(&results).arithmetic, 1);
+}

@@ -1,0 +1,174 @@
+//! Gauss's principle of least constraint: the accelerations make ½ aᵀMa − hᵀa least, subject to F a + γ = 0.
+//!
+//! Where velocities are named by definitions, `vx[i] = vx[i-1] + …`, the same form over the rates of those
+//! velocities as well is sparse: M of a chain is dense, but its kinetic energy is a sum of squares of link
+//! velocities. Eliminating an acceleration as soon as it occurs in no definition that is left is then the
+//! articulated-body algorithm (Featherstone, *Rigid Body Dynamics Algorithms*, chapter 7), found from the definitions.
+
+use super::euler_lagrange::generalized_forces;
+use super::{Equations, drift, symbols};
+use crate::resolve::Problem;
+use crate::symbolic::{Forward, Graph, Id, Node, Rational};
+use crate::variables::Variable;
+
+/// The most variables that a form has: each is differentiated by each.
+const LIMIT: usize = 500;
+
+/// ½ xᵀHx − bᵀx, where x is the accelerations and then, in the order of their definitions, the rates of the named
+/// velocities that they cause.
+#[derive(Debug)]
+pub(crate) struct Form {
+    /// H, by rows.
+    pub(crate) matrix: Vec<Vec<Id>>,
+    /// b
+    pub(crate) linear: Vec<Id>,
+    /// For each named velocity its rate as a sum over the x before it: which, and its coefficient.
+    pub(crate) definitions: Vec<Vec<(usize, Id)>>,
+}
+
+impl Form {
+    /// Over the accelerations alone.
+    pub(crate) fn of(equations: &Equations) -> Self {
+        let (matrix, linear) = (equations.mass.clone(), equations.forcing.clone());
+        Self { matrix, linear, definitions: Vec::new() }
+    }
+
+    /// Over the accelerations and the velocities that definitions name; `None` where no definition names one.
+    pub(crate) fn over_definitions(problem: &mut Problem) -> Option<Self> {
+        let velocities = Velocities::named(problem);
+        (!velocities.rows.is_empty()).then(|| velocities.form(problem))
+    }
+}
+
+/// The velocities that definitions name, as variables beside the generalized ones.
+struct Velocities {
+    /// q̇, then the named velocities.
+    nodes: Vec<Id>,
+    /// ∂(named velocity)/∂(each of the nodes before it)
+    rows: Vec<Vec<Id>>,
+}
+
+impl Velocities {
+    /// The definitions in L that are linear in the velocities; none where there are very many.
+    fn named(problem: &mut Problem) -> Self {
+        let n = problem.coordinates.len();
+        let graph = &mut problem.graph;
+        let q_dot: Vec<Id> = symbols(n, Variable::Velocity).iter().map(|&v| graph.symbol(v)).collect();
+        let mut named = Self { nodes: q_dot, rows: Vec::new() };
+        let order = graph.reachable(&[problem.lagrangian]);
+        let moves = moving(graph, &order);
+        for id in order {
+            let Node::Defined(inner) = *graph.node(id) else { continue };
+            if !moves[id.index()] {
+                continue;
+            }
+            let row = graph.gradient_to(inner, &named.nodes);
+            let order = graph.reachable(&row);
+            let moves = moving(graph, &order);
+            if row.iter().all(|entry| !moves[entry.index()]) {
+                named.nodes.push(id);
+                named.rows.push(row);
+            }
+            if named.nodes.len() > LIMIT {
+                named.rows.clear();
+                break;
+            }
+        }
+        named
+    }
+
+    /// L is ℓ(q, q̇, w), the named velocities w are f(q, q̇, w) one after the other, and the adjoints of those are
+    /// μ = ∂ℓ/∂w + Σ μ ∂f/∂w. Then p = ∂ℓ/∂q̇ + Σ μ ∂f/∂q̇, and the parts of d/dt p = ∂L/∂q + Q go to the x that
+    /// they are the coefficients of.
+    fn form(&self, problem: &mut Problem) -> Form {
+        let local = problem.graph.gradient_to(problem.lagrangian, &self.nodes);
+        let (matrix, linear) = (self.hessian(&mut problem.graph, &local), self.linear(problem, &local));
+        let entries =
+            |row: &Vec<Id>| row.iter().copied().enumerate().filter(|&(_, entry)| entry != Id::ZERO).collect();
+        Form { matrix, linear, definitions: self.rows.iter().map(entries).collect() }
+    }
+
+    /// ∂²ℓ/∂(q̇, w)²
+    fn hessian(&self, graph: &mut Graph, local: &[Id]) -> Vec<Vec<Id>> {
+        let row = |j: usize| {
+            let rates = self.nodes.iter().enumerate();
+            let rates = rates.map(|(i, &node)| (node, if i == j { Id::ONE } else { Id::ZERO }));
+            let mut along = Forward::along([]).through(graph, rates);
+            local.iter().map(|&part| along.of(graph, part)).collect()
+        };
+        (0..local.len()).map(row).collect()
+    }
+
+    fn linear(&self, problem: &mut Problem, local: &[Id]) -> Vec<Id> {
+        let n = problem.coordinates.len();
+        let one = Rational::from_integer(1);
+        let adjoints = self.adjoints(&mut problem.graph, local);
+        let mut along = drift(&mut problem.graph, n);
+        let mut linear = Vec::with_capacity(local.len());
+        for (j, &part) in local.iter().enumerate() {
+            let mut terms = vec![(along.of(&mut problem.graph, part), -one)];
+            for (row, &adjoint) in self.rows.iter().zip(&adjoints) {
+                let turn = along.of(&mut problem.graph, row.get(j).copied().unwrap_or(Id::ZERO));
+                terms.push((problem.graph.mul(adjoint, turn), -one));
+            }
+            linear.push(terms);
+        }
+        for (terms, force) in linear.iter_mut().zip(self.forces(problem, &adjoints)) {
+            terms.extend(force.into_iter().map(|force| (force, one)));
+        }
+        linear.into_iter().map(|terms| problem.graph.sum(terms)).collect()
+    }
+
+    /// μ: named velocities that build on others hand theirs on.
+    fn adjoints(&self, graph: &mut Graph, local: &[Id]) -> Vec<Id> {
+        let n = local.len() - self.rows.len();
+        let one = Rational::from_integer(1);
+        let mut adjoints: Vec<Id> = vec![Id::ZERO; self.rows.len()];
+        for k in (0..self.rows.len()).rev() {
+            let mut terms = vec![(local[n + k], one)];
+            for (row, &later) in self.rows.iter().zip(&adjoints).skip(k + 1) {
+                terms.push((graph.mul(later, row[n + k]), one));
+            }
+            let adjoint = graph.sum(terms);
+            adjoints[k] = graph.defined(adjoint);
+        }
+        adjoints
+    }
+
+    /// ∂L/∂q + Q by its parts: ∂ℓ/∂q, Q and Σ μ ∂f/∂q.
+    fn forces(&self, problem: &mut Problem, adjoints: &[Id]) -> Vec<Vec<Id>> {
+        let n = problem.coordinates.len();
+        let graph = &mut problem.graph;
+        let q: Vec<Id> = symbols(n, Variable::Coordinate).iter().map(|&q| graph.symbol(q)).collect();
+        let held: Vec<Id> = q.iter().chain(&self.nodes).copied().collect();
+        let slopes = graph.gradient_to(problem.lagrangian, &held);
+        let mut forces: Vec<Vec<Id>> = slopes[..n].iter().map(|&slope| vec![slope]).collect();
+        for (k, &adjoint) in adjoints.iter().enumerate() {
+            let Node::Defined(inner) = *graph.node(self.nodes[n + k]) else { continue };
+            let held: Vec<Id> = q.iter().chain(&self.nodes[..n + k]).copied().collect();
+            for (force, slope) in forces.iter_mut().zip(graph.gradient_to(inner, &held)) {
+                force.push(graph.mul(adjoint, slope));
+            }
+        }
+        for (force, given) in forces.iter_mut().zip(generalized_forces(problem)) {
+            force.push(given);
+        }
+        forces
+    }
+}
+
+/// What contains a velocity, by index.
+fn moving(graph: &Graph, order: &[Id]) -> Vec<bool> {
+    let mut moves = vec![false; graph.len()];
+    for &id in order {
+        moves[id.index()] = match graph.node(id) {
+            Node::Symbol(symbol) => matches!(Variable::of(*symbol), Variable::Velocity(_)),
+            _ => {
+                let mut any = false;
+                graph.operands(id, |operand| any |= moves[operand.index()]);
+                any
+            }
+        };
+    }
+    moves
+}
