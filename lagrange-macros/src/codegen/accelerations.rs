@@ -18,20 +18,23 @@ pub(super) struct Fused {
     is_solved: bool,
 }
 
-/// The form of Gauss's principle, F and γ, matrices row by row.
+/// M, h, F and γ, matrices row by row.
+fn loop_entries(equations: &Equations) -> Vec<Id> {
+    let matrices = [equations.mass.concat(), equations.forcing.clone(), equations.jacobian.concat()];
+    [matrices.concat(), equations.bias.clone()].concat()
+}
+
+/// The entries of the form, F and γ.
 fn entries(form: &Form, equations: &Equations) -> Vec<Id> {
-    let mut roots: Vec<Id> = form.matrix.concat();
-    roots.extend(&form.linear);
-    roots.extend(form.definitions.iter().flatten().map(|(_, entry)| entry));
-    roots.extend(equations.jacobian.concat());
-    roots.extend(&equations.bias);
-    roots
+    let definitions = form.definitions.iter().flatten().map(|(_, entry)| entry);
+    let of_form = form.matrix.iter().flatten().chain(&form.linear).chain(definitions);
+    let of_form = of_form.chain(form.alone.iter().flatten());
+    of_form.chain(equations.jacobian.iter().flatten()).chain(&equations.bias).copied().collect()
 }
 
 /// The equations of motion solved, by the form that takes the least time; `None` where every one is long.
 fn cheapest(problem: &Problem, equations: &Equations) -> Option<Program> {
-    let plain = Form::of(equations);
-    let forms = equations.over_definitions.iter().chain([&plain]);
+    let forms = equations.forms.iter();
     forms.filter_map(|form| solve(problem, form, equations)).min_by_key(|program| program.time().total())
 }
 
@@ -47,8 +50,7 @@ impl Emitter<'_> {
         if let Some(program) = cheapest(self.problem, self.equations) {
             return Fused { kernel: self.style.write(&program), is_solved: true };
         }
-        let roots = entries(&Form::of(self.equations), self.equations);
-        Fused { kernel: self.style.kernel(&roots), is_solved: false }
+        Fused { kernel: self.style.kernel(&loop_entries(self.equations)), is_solved: false }
     }
 
     pub(super) fn accelerations(&self, fused: &Fused) -> TokenStream {

@@ -89,9 +89,9 @@ pub(crate) fn operations(graph: &crate::symbolic::Graph, roots: &[Id]) -> Count 
 /// definitions. `None` where that is left to loops.
 #[cfg(test)]
 pub(crate) fn solving(problem: &Problem, equations: &Equations) -> [Option<Vec<(&'static str, Count)>>; 2] {
-    let plain = crate::mechanics::Form::of(equations);
-    [Some(&plain), equations.over_definitions.as_ref()]
-        .map(|form| accelerations::solve(problem, form?, equations).map(|program| program.counts))
+    [0, 1].map(|form| {
+        accelerations::solve(problem, equations.forms.get(form)?, equations).map(|program| program.counts)
+    })
 }
 
 struct Emitter<'a> {

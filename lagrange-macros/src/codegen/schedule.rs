@@ -185,6 +185,16 @@ impl Schedule {
         count
     }
 
+    /// What is computed from any of `sources`, by index, and those themselves.
+    pub(super) fn depending_on(&self, sources: &[Register]) -> Vec<bool> {
+        let mut depends = vec![false; self.operations.len()];
+        sources.iter().for_each(|source| depends[source.index()] = true);
+        for (index, &operation) in self.operations.iter().enumerate() {
+            depends[index] |= self.operands(operation).any(|operand| depends[operand.index()]);
+        }
+        depends
+    }
+
     /// Those of `results` that no other of them is computed from.
     pub(super) fn not_used_by_one_another(&self, results: &[Register]) -> Vec<Register> {
         let mut is_used = vec![false; self.operations.len()];

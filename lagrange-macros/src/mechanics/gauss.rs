@@ -5,8 +5,8 @@
 //! velocities. Eliminating an acceleration as soon as it occurs in no definition that is left is then the
 //! articulated-body algorithm (Featherstone, *Rigid Body Dynamics Algorithms*, chapter 7), found from the definitions.
 
-use super::euler_lagrange::generalized_forces;
-use super::{Equations, drift, symbols};
+use super::euler_lagrange::{Motion, generalized_forces};
+use super::{drift, symbols};
 use crate::resolve::Problem;
 use crate::symbolic::{Forward, Graph, Id, Node, Rational};
 use crate::variables::Variable;
@@ -24,19 +24,35 @@ pub(crate) struct Form {
     pub(crate) linear: Vec<Id>,
     /// For each named velocity its rate as a sum over the x before it: which, and its coefficient.
     pub(crate) definitions: Vec<Vec<(usize, Id)>>,
+    /// b_i/H_ii of an acceleration that is tied to nothing else.
+    pub(crate) alone: Vec<Option<Id>>,
 }
 
 impl Form {
-    /// Over the accelerations alone.
-    pub(crate) fn of(equations: &Equations) -> Self {
-        let (matrix, linear) = (equations.mass.clone(), equations.forcing.clone());
-        Self { matrix, linear, definitions: Vec::new() }
+    /// Over the accelerations alone, and over the velocities that definitions name as well where there are any.
+    pub(super) fn all(problem: &mut Problem, motion: &Motion) -> Vec<Self> {
+        let plain = Self::new(&mut problem.graph, motion.mass.clone(), motion.forcing.clone(), Vec::new());
+        let velocities = Velocities::named(problem);
+        let named = (!velocities.rows.is_empty()).then(|| velocities.form(problem));
+        [plain].into_iter().chain(named).collect()
     }
 
-    /// Over the accelerations and the velocities that definitions name; `None` where no definition names one.
-    pub(crate) fn over_definitions(problem: &mut Problem) -> Option<Self> {
-        let velocities = Velocities::named(problem);
-        (!velocities.rows.is_empty()).then(|| velocities.form(problem))
+    fn new(
+        graph: &mut Graph,
+        matrix: Vec<Vec<Id>>,
+        linear: Vec<Id>,
+        definitions: Vec<Vec<(usize, Id)>>,
+    ) -> Self {
+        let mut is_tied = vec![false; matrix.len()];
+        definitions.iter().flatten().for_each(|&(i, _)| is_tied[i] = true);
+        let free = matrix.len() - definitions.len();
+        let alone = |i: usize| {
+            let others = matrix[i].iter().enumerate().filter(|&(j, _)| j != i);
+            let is_alone = i < free && !is_tied[i] && others.into_iter().all(|(_, &entry)| entry == Id::ZERO);
+            (is_alone && matrix[i][i] != Id::ZERO).then(|| graph.div(linear[i], matrix[i][i]))
+        };
+        let alone = (0..matrix.len()).map(alone).collect();
+        Self { matrix, linear, definitions, alone }
     }
 }
 
@@ -85,7 +101,8 @@ impl Velocities {
         let (matrix, linear) = (self.hessian(&mut problem.graph, &local), self.linear(problem, &local));
         let entries =
             |row: &Vec<Id>| row.iter().copied().enumerate().filter(|&(_, entry)| entry != Id::ZERO).collect();
-        Form { matrix, linear, definitions: self.rows.iter().map(entries).collect() }
+        let definitions = self.rows.iter().map(entries).collect();
+        Form::new(&mut problem.graph, matrix, linear, definitions)
     }
 
     /// ∂²ℓ/∂(q̇, w)²

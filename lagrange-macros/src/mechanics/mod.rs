@@ -51,8 +51,8 @@ pub(crate) struct Equations {
     pub(crate) bias: Vec<Id>,
     /// Fᵀλ, in the multipliers' symbols
     pub(crate) constraint_force: Vec<Id>,
-    /// M and h over the velocities that definitions name as well, where there are any
-    pub(crate) over_definitions: Option<Form>,
+    /// M and h as quadratic forms: the first over the accelerations alone
+    pub(crate) forms: Vec<Form>,
 }
 
 impl Equations {
@@ -79,6 +79,7 @@ pub(crate) fn derive(problem: &mut Problem, diagnostics: &mut Diagnostics) -> Op
     determinacy::check(problem, &motion, &constraints, diagnostics)?;
     let integrability = integrability::classify(problem, &constraints);
     Some(Equations {
+        forms: Form::all(problem, &motion),
         integrability,
         momentum: motion.momentum,
         mass: motion.mass,
@@ -91,7 +92,6 @@ pub(crate) fn derive(problem: &mut Problem, diagnostics: &mut Diagnostics) -> Op
         rate: constraints.rate,
         jacobian: constraints.jacobian,
         bias: constraints.bias,
-        over_definitions: Form::over_definitions(problem),
     })
 }
 

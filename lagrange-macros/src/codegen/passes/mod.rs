@@ -34,6 +34,8 @@ impl Program {
         program
             .after("signs gathered", signs::gathered)
             .after("factors taken out", factors::taken_out)
+            // What the first time has put together may be a factor in its turn.
+            .after("and taken out again", factors::taken_out)
             .after("reciprocals shared", reciprocals::shared)
     }
 

@@ -155,7 +155,7 @@ const _: () = {
         ) -> __lagrange::nalgebra::SVector<f64, 1usize> {
             __lagrange::eliminate::vector([__lagrange::Scalar::constant(0.0)])
         }
-        ///10 operations (+ − × ÷ √), 1 elementary function.
+        ///5 operations (+ − × ÷ √), 1 elementary function.
         #[inline]
         #[allow(unused_variables)]
         fn accelerations(
@@ -163,15 +163,14 @@ const _: () = {
             state: &__lagrange::State<f64, 1usize>,
         ) -> __lagrange::Solution<f64, 1usize, 0usize> {
             let [theta] = state.q.data.0[0];
-            let m = self.m;
             let l = self.l;
             let g = self.g;
-            let r4 = __lagrange::Scalar::sin(theta);
-            let r12 = (r4 * (g * (m * l))) * (1.0 / (m * (l * l)));
+            let r3 = __lagrange::Scalar::sin(theta);
+            let r5 = (g * r3) / l;
             __lagrange::Solution {
-                accelerations: __lagrange::eliminate::vector([(-r12)]),
+                accelerations: __lagrange::eliminate::vector([(-r5)]),
                 multipliers: __lagrange::eliminate::vector([]),
-                pivot: (1.0 - (r12 * 0.0)),
+                pivot: (1.0 - (r5 * 0.0)),
                 rank: 0usize,
             }
         }

@@ -1,0 +1,74 @@
+//! Arithmetic on registers that knows zeros and ones.
+
+use crate::codegen::schedule::{Operation, Register, Schedule};
+use crate::symbolic::Id;
+
+/// A number, unless it is known to be zero.
+pub(super) type Entry = Option<Register>;
+/// The entries that are not zero, by index.
+pub(super) type Sparse = Vec<(usize, Register)>;
+
+pub(super) fn sparse(x: &[Entry]) -> Sparse {
+    x.iter().enumerate().filter_map(|(i, entry)| entry.map(|entry| (i, entry))).collect()
+}
+
+/// Appends operations to a schedule.
+pub(super) struct Solver<'s> {
+    pub(super) schedule: &'s mut Schedule,
+    /// For each pivot that differs from what it was before anything was subtracted, that over the pivot.
+    pub(super) growth: Vec<Register>,
+}
+
+impl Solver<'_> {
+    pub(super) fn entry(&self, id: Id) -> Entry {
+        (id != Id::ZERO).then(|| self.schedule.register(id))
+    }
+
+    pub(super) fn entries(&self, ids: &[Id]) -> Vec<Entry> {
+        ids.iter().map(|&id| self.entry(id)).collect()
+    }
+
+    pub(super) fn sparse_entries(&self, ids: &[(usize, Id)]) -> Sparse {
+        ids.iter().map(|&(i, id)| (i, self.schedule.register(id))).collect()
+    }
+
+    pub(super) fn add(&mut self, x: Entry, y: Entry) -> Entry {
+        match (x, y) {
+            (Some(x), Some(y)) => Some(self.schedule.push(Operation::Add(x, y))),
+            (x, y) => x.or(y),
+        }
+    }
+
+    pub(super) fn subtract(&mut self, x: Entry, y: Entry) -> Entry {
+        match (x, y) {
+            (Some(x), Some(y)) => Some(self.schedule.push(Operation::Subtract(x, y))),
+            (None, y) => self.negate(y),
+            (x, None) => x,
+        }
+    }
+
+    pub(super) fn negate(&mut self, x: Entry) -> Entry {
+        x.map(|x| self.schedule.push(Operation::Negate(x)))
+    }
+
+    pub(super) fn multiply(&mut self, x: Entry, y: Entry) -> Entry {
+        let one = self.schedule.constant(1.0);
+        match (x?, y?) {
+            (x, y) if x == one => Some(y),
+            (x, y) if y == one => Some(x),
+            (x, y) => Some(self.schedule.push(Operation::Multiply(x, y))),
+        }
+    }
+
+    /// Σ x_i y_i
+    pub(super) fn dot(&mut self, x: &Sparse, y: &[Entry]) -> Entry {
+        x.iter().fold(None, |sum, &(i, x)| {
+            let part = self.multiply(Some(x), y[i]);
+            self.add(sum, part)
+        })
+    }
+
+    pub(super) fn known(&mut self, entry: Entry) -> Register {
+        entry.unwrap_or_else(|| self.schedule.constant(0.0))
+    }
+}

@@ -1,0 +1,249 @@
+//! A quadratic form reduced variable by variable, and what the reduction does to vectors.
+
+use super::arithmetic::{Entry, Solver, Sparse, sparse};
+use crate::codegen::schedule::{Operation, Register};
+
+/// How the form was reduced, step by step.
+pub(super) struct Factors {
+    steps: Vec<Step>,
+    /// 1/D of the variables that were eliminated.
+    pub(super) reciprocals: Vec<Entry>,
+}
+
+struct Step {
+    variable: usize,
+    kind: StepKind,
+}
+
+enum StepKind {
+    /// A free variable, with its column of L below the diagonal.
+    Eliminated(Sparse),
+    /// A defined variable, with its definition.
+    PutIn(Sparse),
+}
+
+/// How many of the first variables are defined by none of one another.
+fn independent(order: &[usize], free: usize, definitions: &[Sparse]) -> usize {
+    let contains = |k: usize, variable: usize| definitions[k - free].iter().any(|&(i, _)| i == variable);
+    let is_apart = |position: usize| {
+        let next = order[position];
+        next >= free && order[..position].iter().all(|&k| !contains(k, next))
+    };
+    (1..order.len()).find(|&position| !is_apart(position)).unwrap_or(order.len())
+}
+
+/// What ties a variable to those that are put in: its coefficients g in their definitions, its entries c of the form,
+/// and w = K g + c.
+struct Tie {
+    variable: usize,
+    g: Vec<Entry>,
+    c: Vec<Entry>,
+    w: Vec<Entry>,
+}
+
+impl Tie {
+    fn is_there(&self) -> bool {
+        self.g.iter().chain(&self.c).any(Option::is_some)
+    }
+}
+
+/// A form while it is reduced.
+struct Reduced {
+    matrix: Vec<Vec<Entry>>,
+    /// The diagonal as it would be had nothing been subtracted.
+    scale: Vec<Entry>,
+}
+
+impl Reduced {
+    /// The entries of a row but for the diagonal.
+    fn beside(&self, i: usize) -> Sparse {
+        sparse(&self.matrix[i]).into_iter().filter(|&(j, _)| j != i).collect()
+    }
+
+    fn set(&mut self, i: usize, j: usize, entry: Entry) {
+        self.matrix[i][j] = entry;
+        self.matrix[j][i] = entry;
+    }
+
+    fn remove(&mut self, variable: usize) {
+        for i in 0..self.matrix.len() {
+            self.set(i, variable, None);
+        }
+    }
+}
+
+impl Solver<'_> {
+    /// Reduces a form of which the matrix is symmetric; the variables behind the free ones have definitions.
+    pub(super) fn factor(
+        &mut self,
+        matrix: Vec<Vec<Entry>>,
+        definitions: Vec<Sparse>,
+        order: &[usize],
+    ) -> Factors {
+        let free = matrix.len() - definitions.len();
+        let scale = (0..matrix.len()).map(|i| matrix[i][i]).collect();
+        let mut form = Reduced { matrix, scale };
+        let mut factors = Factors { steps: Vec::new(), reciprocals: vec![None; form.matrix.len()] };
+        let mut rest = order;
+        while let Some(&variable) = rest.first() {
+            let mut taken = 1;
+            if variable < free {
+                let (column, reciprocal) = self.eliminate(&mut form, variable);
+                factors.reciprocals[variable] = Some(reciprocal);
+                factors.steps.push(Step { variable, kind: StepKind::Eliminated(column) });
+            } else {
+                taken = independent(rest, free, &definitions);
+                let together = rest[..taken].iter().map(|&k| (k, &definitions[k - free])).collect::<Vec<_>>();
+                self.put_in(&mut form, &together);
+                for (variable, definition) in together {
+                    factors.steps.push(Step { variable, kind: StepKind::PutIn(definition.clone()) });
+                }
+            }
+            rest[..taken].iter().for_each(|&variable| form.remove(variable));
+            rest = &rest[taken..];
+        }
+        factors
+    }
+
+    /// What is left where a variable has the value that makes the form least: its column of L, and 1/D.
+    fn eliminate(&mut self, form: &mut Reduced, variable: usize) -> (Sparse, Register) {
+        let one = self.schedule.constant(1.0);
+        // A diagonal that is known to be zero is a pivot of zero, which shows at run time.
+        let pivot = self.known(form.matrix[variable][variable]);
+        let reciprocal = self.schedule.push(Operation::Divide(one, pivot));
+        self.note_growth(form.scale[variable], pivot, reciprocal);
+        let beside = form.beside(variable);
+        let mut column = Sparse::new();
+        for &(i, entry) in &beside {
+            let Some(l) = self.multiply(Some(entry), Some(reciprocal)) else { continue };
+            for &(j, other) in beside.iter().take_while(|(j, _)| *j <= i) {
+                let part = self.multiply(Some(l), Some(other));
+                let rest = self.subtract(form.matrix[i][j], part);
+                form.set(i, j, rest);
+            }
+            column.push((i, l));
+        }
+        (column, reciprocal)
+    }
+
+    /// The form with x_k = Σ g_ki x_i for several k at once: H becomes H + Gᵀ(K G + C) + CᵀG, where K is the block of
+    /// the x_k and C what ties them to the others.
+    fn put_in(&mut self, form: &mut Reduced, definitions: &[(usize, &Sparse)]) {
+        let ties: Vec<Tie> = (0..form.matrix.len())
+            .filter(|i| definitions.iter().all(|(k, _)| k != i))
+            .map(|i| self.tie(form, definitions, i))
+            .filter(Tie::is_there)
+            .collect();
+        for (position, x) in ties.iter().enumerate() {
+            self.put_in_scale(form, definitions, x);
+            for y in &ties[..=position] {
+                let part = if x.variable == y.variable { self.own(x) } else { self.mutual(x, y) };
+                let sum = self.add(form.matrix[x.variable][y.variable], part);
+                form.set(x.variable, y.variable, sum);
+            }
+        }
+    }
+
+    fn tie(&mut self, form: &Reduced, definitions: &[(usize, &Sparse)], i: usize) -> Tie {
+        let coefficient = |definition: &Sparse| definition.iter().find(|(j, _)| *j == i).map(|&(_, g)| g);
+        let g: Vec<Entry> = definitions.iter().map(|(_, definition)| coefficient(definition)).collect();
+        let c: Vec<Entry> = definitions.iter().map(|&(k, _)| form.matrix[k][i]).collect();
+        let w = definitions.iter().zip(&c).map(|(&(k, _), &c)| {
+            let row: Sparse = definitions
+                .iter()
+                .enumerate()
+                .filter_map(|(position, &(other, _))| form.matrix[k][other].map(|entry| (position, entry)))
+                .collect();
+            let through = self.dot(&row, &g);
+            self.add(through, c)
+        });
+        let w = w.collect();
+        Tie { variable: i, g, c, w }
+    }
+
+    /// Σ_k g_k (w_k + c_k)
+    fn own(&mut self, x: &Tie) -> Entry {
+        let mut sum = None;
+        for k in 0..x.g.len() {
+            let both = if x.g[k].is_some() { self.add(x.w[k], x.c[k]) } else { None };
+            let part = self.multiply(x.g[k], both);
+            sum = self.add(sum, part);
+        }
+        sum
+    }
+
+    /// Σ_k (g_k w'_k + c_k g'_k), from the side that takes fewer multiplications.
+    fn mutual(&mut self, x: &Tie, y: &Tie) -> Entry {
+        let one = self.schedule.constant(1.0);
+        let cost = |x: &Tie, y: &Tie| {
+            let is_product =
+                |x: Entry, y: Entry| x.is_some() && y.is_some() && x != Some(one) && y != Some(one);
+            let products =
+                |x: &[Entry], y: &[Entry]| x.iter().zip(y).filter(|&(&x, &y)| is_product(x, y)).count();
+            products(&x.g, &y.w) + products(&x.c, &y.g)
+        };
+        let (x, y) = if cost(x, y) <= cost(y, x) { (x, y) } else { (y, x) };
+        let mut sum = None;
+        for k in 0..x.g.len() {
+            for (factor, other) in [(x.g[k], y.w[k]), (x.c[k], y.g[k])] {
+                let part = self.multiply(factor, other);
+                sum = self.add(sum, part);
+            }
+        }
+        sum
+    }
+
+    fn put_in_scale(&mut self, form: &mut Reduced, definitions: &[(usize, &Sparse)], x: &Tie) {
+        for (&(k, _), &g) in definitions.iter().zip(&x.g) {
+            let scaled = self.multiply(g, form.scale[k]);
+            let square = self.multiply(scaled, g);
+            form.scale[x.variable] = self.add(form.scale[x.variable], square);
+        }
+    }
+
+    fn note_growth(&mut self, scale: Entry, pivot: Register, reciprocal: Register) {
+        if let Some(scale) = scale.filter(|&scale| scale != pivot) {
+            self.growth.push(self.schedule.push(Operation::Multiply(scale, reciprocal)));
+        }
+    }
+
+    /// L⁻¹ x: what the linear part of the form, or a constraint, comes to.
+    pub(super) fn forward(&mut self, factors: &Factors, mut x: Vec<Entry>) -> Vec<Entry> {
+        for Step { variable, kind } in &factors.steps {
+            match kind {
+                StepKind::Eliminated(column) => {
+                    for &(i, l) in column {
+                        let part = self.multiply(Some(l), x[*variable]);
+                        x[i] = self.subtract(x[i], part);
+                    }
+                }
+                StepKind::PutIn(definition) => {
+                    let value = x[*variable].take();
+                    for &(i, g) in definition {
+                        let part = self.multiply(Some(g), value);
+                        x[i] = self.add(x[i], part);
+                    }
+                }
+            }
+        }
+        x
+    }
+
+    /// L⁻ᵀ(x + D⁻¹y): the variables themselves, in the reverse order.
+    pub(super) fn backward(&mut self, factors: &Factors, mut x: Vec<Entry>, y: &[Entry]) -> Vec<Entry> {
+        for Step { variable, kind } in factors.steps.iter().rev() {
+            x[*variable] = match kind {
+                StepKind::Eliminated(column) => {
+                    let pushed = self.multiply(y[*variable], factors.reciprocals[*variable]);
+                    let start = self.add(x[*variable], pushed);
+                    column.iter().fold(start, |rest, &(i, l)| {
+                        let part = self.multiply(Some(l), x[i]);
+                        self.subtract(rest, part)
+                    })
+                }
+                StepKind::PutIn(definition) => self.dot(definition, &x),
+            };
+        }
+        x
+    }
+}

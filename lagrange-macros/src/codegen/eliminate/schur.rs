@@ -1,0 +1,70 @@
+//! The multipliers, from the Schur complement of the constraints.
+
+use super::arithmetic::{Entry, Solver, Sparse};
+use super::order::Pattern;
+use super::reduce::Factors;
+use super::short;
+use crate::mechanics::Equations;
+
+/// A coordinate that at most as many constraints share has its products left apart, for what they have in common to be
+/// taken out; where more share it, every row is scaled once.
+const FEW: usize = 2;
+
+impl Solver<'_> {
+    /// S λ = −γ − Z D⁻¹L⁻¹b, where the last is given but for Z; `None` where it would be too long.
+    pub(super) fn multipliers(
+        &mut self,
+        factors: &Factors,
+        starts: &[Entry],
+        rows: &[Sparse],
+        equations: &Equations,
+    ) -> Option<Vec<Entry>> {
+        let bias = self.entries(&equations.bias);
+        let schur = self.complement(factors, rows);
+        let matrix = schur.iter().map(|row| row.iter().map(Option::is_some).collect()).collect();
+        let order = short(&Pattern { matrix, definitions: Vec::new() })?;
+        let target = rows.iter().zip(bias).map(|(row, bias)| {
+            let reached = self.dot(row, starts);
+            let sum = self.add(bias, reached);
+            self.negate(sum)
+        });
+        let target = target.collect();
+        let factors = self.factor(schur, Vec::new(), &order);
+        let half = self.forward(&factors, target);
+        let starts = half.into_iter().zip(&factors.reciprocals).map(|(x, &r)| self.multiply(x, r)).collect();
+        Some(self.backward(&factors, starts, &vec![None; rows.len()]))
+    }
+
+    /// S = Z D⁻¹ Zᵀ
+    fn complement(&mut self, factors: &Factors, rows: &[Sparse]) -> Vec<Vec<Entry>> {
+        let m = rows.len();
+        let mut sharing = vec![0; factors.reciprocals.len()];
+        rows.iter().flatten().for_each(|&(i, _)| sharing[i] += 1);
+        let mut schur = vec![vec![None; m]; m];
+        for (a, row) in rows.iter().enumerate() {
+            for (b, other) in rows.iter().enumerate().take(a + 1) {
+                schur[a][b] = self.product(row, other, factors, &sharing);
+                schur[b][a] = schur[a][b];
+            }
+        }
+        schur
+    }
+
+    /// Σ_i z_i z'_i / D_i
+    fn product(&mut self, row: &Sparse, other: &Sparse, factors: &Factors, sharing: &[usize]) -> Entry {
+        let mut sum = None;
+        for &(i, z) in row {
+            let Ok(position) = other.binary_search_by_key(&i, |&(j, _)| j) else { continue };
+            let (other, reciprocal) = (Some(other[position].1), factors.reciprocals[i]);
+            let part = if sharing[i] > FEW {
+                let scaled = self.multiply(Some(z), reciprocal);
+                self.multiply(scaled, other)
+            } else {
+                let both = self.multiply(Some(z), other);
+                self.multiply(both, reciprocal)
+            };
+            sum = self.add(sum, part);
+        }
+        sum
+    }
+}
