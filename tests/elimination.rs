@@ -190,3 +190,50 @@ fn nearly_dependent_constraints_show_in_the_pivot() {
         assert!(pivot > square && pivot < 10.0 * square, "{distance:e}: {pivot:e}");
     }
 }
+
+/// What LDLᵀ of M from the last coordinate to the first leaves of the diagonal, at its worst.
+fn least_pivot(mass: &nalgebra::SMatrix<f64, 20, 20>) -> f64 {
+    let mut rest = *mass;
+    let mut least = 1.0_f64;
+    for j in (0..20).rev() {
+        least = least.min(rest[(j, j)] / mass[(j, j)]);
+        let (column, row) = (rest.column(j).into_owned(), rest.row(j).into_owned());
+        rest -= column * row / rest[(j, j)];
+    }
+    least
+}
+
+/// The chain in angles is solved over the velocities of its links, and M is never formed; its pivots are those of M.
+#[test]
+fn the_pivots_over_definitions_are_those_of_the_mass_matrix() {
+    let mut seed = 5;
+    let mut entries = || std::array::from_fn::<f64, 20, _>(|_| 1.5 + random(&mut seed));
+    let angles = Angles { m: entries(), l: entries(), g: 9.81 };
+    for _ in 0..50 {
+        let state = random_angles(&mut seed);
+        let (pivot, expected) = (angles.accelerations(&state).pivot, least_pivot(&angles.mass_matrix(&state)));
+        assert!((pivot - expected).abs() < 1e-11 * expected, "{pivot} {expected}");
+    }
+}
+
+/// Joints without mass in a straight chain: nothing determines how it buckles.
+#[test]
+fn a_straight_chain_of_massless_joints_is_noticed() {
+    let mut m = [0.0; 20];
+    m[19] = 1.0;
+    let straight = State::new([0.3; 20], [1.0; 20]);
+    for mass in [0.0, 1e-15, 1e-9] {
+        m[..19].fill(mass);
+        let chain = Angles { m, l: [1.0; 20], g: 9.81 };
+        let pivot = chain.accelerations(&straight).pivot;
+        assert!(pivot.is_nan() || pivot < 1e-7, "{mass:e}: {pivot:e}");
+        match chain.solve(&straight) {
+            Ok(solution) => {
+                let left = chain.mass_matrix(&straight) * solution.accelerations - chain.forcing(&straight);
+                assert!(left.amax() < 1e-9, "{mass:e}: {left}");
+            }
+            Err(Error::Singular { coordinates, .. }) => assert!(mass < 1e-9, "{coordinates:?}"),
+            Err(error) => panic!("{error}"),
+        }
+    }
+}

@@ -4,6 +4,8 @@ mod accelerations;
 mod eliminate;
 mod facts;
 mod integrability;
+#[cfg(test)]
+mod interpret;
 mod kernel;
 mod observables;
 mod passes;
@@ -85,13 +87,23 @@ pub(crate) fn operations(graph: &crate::symbolic::Graph, roots: &[Id]) -> Count 
     count
 }
 
-/// What the accelerations take, before the passes and after each: solved by the form of M, and by that over
-/// definitions. `None` where that is left to loops.
+/// What the accelerations take, before the passes and after each, solved by each form of the equations; `None` where
+/// that is left to loops.
 #[cfg(test)]
-pub(crate) fn solving(problem: &Problem, equations: &Equations) -> [Option<Vec<(&'static str, Count)>>; 2] {
-    [0, 1].map(|form| {
-        accelerations::solve(problem, equations.forms.get(form)?, equations).map(|program| program.counts)
-    })
+pub(crate) fn solving(problem: &Problem, equations: &Equations) -> Vec<Option<Vec<(&'static str, Count)>>> {
+    let counts = |form| Some(accelerations::solve(problem, form, equations)?.counts);
+    equations.forms.iter().map(counts).collect()
+}
+
+/// Accelerations, multipliers and pivot by each form of the equations.
+#[cfg(test)]
+pub(crate) fn solutions(
+    problem: &Problem,
+    equations: &Equations,
+    input: impl Fn(crate::symbolic::Symbol) -> f64,
+) -> Vec<Option<Vec<f64>>> {
+    let values = |form| Some(accelerations::solve(problem, form, equations)?.values(&input));
+    equations.forms.iter().map(values).collect()
 }
 
 struct Emitter<'a> {

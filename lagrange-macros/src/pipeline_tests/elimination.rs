@@ -3,14 +3,16 @@
 use expect_test::expect;
 
 use super::{equations, systems};
-use crate::codegen::solving;
+use crate::codegen::{Count, solutions, solving};
+use crate::symbolic::Symbol;
+use crate::variables::Variable;
 
 /// Operations of the accelerations and multipliers before the passes and after each, by the form of M and by that over
 /// definitions.
-fn counts(source: &str) -> [Option<Vec<usize>>; 2] {
+fn counts(source: &str) -> Vec<Option<Vec<usize>>> {
     let (problem, equations) = equations(source);
-    solving(&problem, &equations)
-        .map(|counts| counts.map(|counts| counts.iter().map(|(_, count)| count.arithmetic).collect()))
+    let arithmetic = |counts: Vec<(_, Count)>| counts.iter().map(|(_, count)| count.arithmetic).collect();
+    solving(&problem, &equations).into_iter().map(|counts| counts.map(arithmetic)).collect()
 }
 
 fn last(counts: &Option<Vec<usize>>) -> Option<usize> {
@@ -32,8 +34,8 @@ fn a_chain_in_angles_is_solved_in_linearly_many_operations() {
     let mut table = String::from("links: M, over definitions; before the passes and after each\n");
     let mut over_definitions = Vec::new();
     for n in [2, 3, 5, 8, 10, 12, 14, 16, 18, 20] {
-        let [plain, named] = counts(&systems::chain(n));
-        over_definitions.push((n, last(&named).expect("short enough")));
+        let [plain, named] = &counts(&systems::chain(n))[..] else { panic!("two forms") };
+        over_definitions.push((n, last(named).expect("short enough")));
         table += &format!("{n}: {plain:?}, {named:?}\n");
     }
     expect![[r#"
@@ -59,4 +61,87 @@ fn a_dense_mass_matrix_is_unrolled_while_that_is_short() {
     let count = |n| last(&counts(&systems::chain(n))[0]);
     assert!(count(10).is_some_and(|count| count <= 1250), "{:?}", count(10));
     assert_eq!(count(60), None);
+}
+
+/// Systems with velocities that definitions name, of every kind that the form has a term for.
+const NAMED: [&str; 8] = [
+    // A tree: two arms on a trunk.
+    "#[coordinates(trunk, left, right)]
+     #[define(x = l*sin(trunk))] #[define(y = -l*cos(trunk))]
+     #[define(x1 = x + l*sin(left))] #[define(y1 = y - l*cos(left))]
+     #[define(x2 = x + l/2*sin(right))] #[define(y2 = y - l/2*cos(right))]
+     #[lagrangian(m/2*(der(x)^2 + der(y)^2 + der(x1)^2 + der(y1)^2 + 2*(der(x2)^2 + der(y2)^2)) - m*g*(y + y1 + 2*y2))]
+     struct Tree { m: f64, l: f64, g: f64 }",
+    // Angular velocities, which are no rates of anything: the equations of Boltzmann and Hamel.
+    "#[coordinates(phi, theta, psi)]
+     #[define(w1 = phi_dot*sin(theta)*sin(psi) + theta_dot*cos(psi))]
+     #[define(w2 = phi_dot*sin(theta)*cos(psi) - theta_dot*sin(psi))]
+     #[define(w3 = phi_dot*cos(theta) + psi_dot)]
+     #[lagrangian(a/2*w1^2 + b/2*w2^2 + c/2*w3^2 - m*g*cos(theta))]
+     struct Top { a: f64, b: f64, c: f64, m: f64, g: f64 }",
+    // A pivot that is driven, a term of first degree, forces and dissipation of the named velocities.
+    "#[coordinates(alpha, beta)]
+     #[define(vx = a*w*cos(w*t) + l*cos(alpha)*alpha_dot)] #[define(vy = l*sin(alpha)*alpha_dot)]
+     #[define(ux = vx + l*cos(beta)*beta_dot)] #[define(uy = vy + l*sin(beta)*beta_dot)]
+     #[lagrangian(m/2*(vx^2 + vy^2) + m/2*(ux^2 + uy^2) + k*(ux*sin(alpha) - uy*beta) + m*g*l*cos(alpha)*cos(beta))]
+     #[dissipation(c/2*(ux^2 + uy^2))] #[force(alpha: k*sin(t)*beta_dot)]
+     struct Driven { m: f64, l: f64, g: f64, a: f64, w: f64, k: f64, c: f64 }",
+    // Coefficients that turn: a velocity that builds on another by a rotation.
+    "#[coordinates(alpha, beta, gamma)]
+     #[define(u1 = l*alpha_dot*sin(beta))] #[define(u2 = l*alpha_dot*cos(beta))]
+     #[define(v1 = u1*cos(gamma) - u2*sin(gamma))] #[define(v2 = u1*sin(gamma) + u2*cos(gamma) + l*(beta_dot + gamma_dot))]
+     #[lagrangian(m/2*(u1^2 + (u2 + l*beta_dot)^2) + m/2*(v1^2 + v2^2) + m*gamma_dot^2/5 - m*g*cos(alpha))]
+     struct Turning { m: f64, l: f64, g: f64 }",
+    // L is not quadratic.
+    "#[coordinates(x, y)]
+     #[define(v = x_dot + y*y_dot)] #[define(u = v - x*y_dot)]
+     #[lagrangian(-m*c^2*sqrt(1 - (v^2 + u^2)/c^2/9) + y_dot^2/2 - k*x^2)]
+     struct Relativistic { m: f64, c: f64, k: f64 }",
+    // Some velocities outside of every definition, some definitions not linear.
+    "#[coordinates(x, theta)]
+     #[define(v = x_dot + l*cos(theta)*theta_dot)] #[define(T = m/2*(v^2 + l^2*sin(theta)^2*theta_dot^2))]
+     #[lagrangian(T + m*x_dot^2 + x_dot*v/9 + m*g*l*cos(theta))]
+     struct Cart { m: f64, l: f64, g: f64 }",
+    // A chain that is tied to a point.
+    "#[coordinates(q: [4])]
+     #[define(x[0] = l*sin(q[0]))] #[define(x[i in 1..4] = x[i-1] + l*sin(q[i]))]
+     #[define(y[0] = -l*cos(q[0]))] #[define(y[i in 1..4] = y[i-1] - l*cos(q[i]))]
+     #[lagrangian(sum(i in 0..4, m/2*(der(x[i])^2 + der(y[i])^2) - m*g*y[i]))]
+     #[constraint(across: x[3] = l)] #[constraint(down: y[3] = -2*l)]
+     struct Bridge { m: f64, l: f64, g: f64 }",
+    // A family of vectors.
+    "#[coordinates(q: [3])]
+     #[define(v[0] = [cos(q[0]), sin(q[0])]*q_dot[0])]
+     #[define(v[i in 1..3] = v[i-1] + [cos(q[i]), sin(q[i])]*q_dot[i])]
+     #[lagrangian(sum(i in 0..3, m/2*dot(v[i], v[i]) + m*g*cos(q[i])))]
+     struct Vectors { m: f64, g: f64 }",
+];
+
+/// The same accelerations and multipliers by every form, at states at random.
+#[test]
+fn every_form_has_the_same_solution() {
+    for source in NAMED {
+        let (problem, equations) = equations(source);
+        assert_eq!(equations.forms.len(), 2, "{source}");
+        assert!(!equations.forms[1].definitions.is_empty(), "{source}");
+        for point in 0..20 {
+            let input = |symbol: Symbol| {
+                let mixed = (1 + u64::from(symbol.family)) * 7_919
+                    + u64::from(symbol.index) * 104_729
+                    + point * 1_299_709;
+                let part = (mixed as f64 * 0.618_033_988_749_894_9).fract();
+                if matches!(Variable::of(symbol), Variable::Parameter(_)) {
+                    0.5 + part
+                } else {
+                    2.0 * part - 1.0
+                }
+            };
+            let solutions = solutions(&problem, &equations, input);
+            let [Some(plain), Some(named)] = &solutions[..] else { panic!("both are short: {source}") };
+            let scale = plain.iter().fold(0.0_f64, |scale, x| scale.max(x.abs()));
+            for (x, y) in plain.iter().zip(named).take(plain.len() - 1) {
+                assert!((x - y).abs() < 1e-10 * scale, "{source}: {plain:?} {named:?}");
+            }
+        }
+    }
 }

@@ -6,23 +6,7 @@ use crate::symbolic::{Function, Symbol};
 
 /// The results, where input k has the value 0.3 + 0.1 k.
 fn values(schedule: &Schedule, results: &[Register]) -> Vec<f64> {
-    let mut values: Vec<f64> = Vec::new();
-    for &operation in &schedule.operations {
-        let of = |register: Register| values[register.index()];
-        values.push(match operation {
-            Operation::Constant(bits) => f64::from_bits(bits),
-            Operation::Input(symbol) => 0.3 + 0.1 * f64::from(symbol.index),
-            Operation::Negate(x) => -of(x),
-            Operation::Add(x, y) => of(x) + of(y),
-            Operation::Subtract(x, y) => of(x) - of(y),
-            Operation::Multiply(x, y) => of(x) * of(y),
-            Operation::Divide(x, y) => of(x) / of(y),
-            Operation::Function(Function::Sin, x) => of(x).sin(),
-            Operation::Function(Function::Cos, x) => of(x).cos(),
-            other => panic!("{other:?} is in no program here"),
-        });
-    }
-    results.iter().map(|result| values[result.index()]).collect()
+    schedule.values(results, |symbol| 0.3 + 0.1 * f64::from(symbol.index))
 }
 
 struct Random(u64);
