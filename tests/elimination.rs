@@ -211,7 +211,8 @@ fn the_pivots_over_definitions_are_those_of_the_mass_matrix() {
     let angles = Angles { m: entries(), l: entries(), g: 9.81 };
     for _ in 0..50 {
         let state = random_angles(&mut seed);
-        let (pivot, expected) = (angles.accelerations(&state).pivot, least_pivot(&angles.mass_matrix(&state)));
+        let (pivot, expected) =
+            (angles.accelerations(&state).pivot, least_pivot(&angles.mass_matrix(&state)));
         assert!((pivot - expected).abs() < 1e-11 * expected, "{pivot} {expected}");
     }
 }

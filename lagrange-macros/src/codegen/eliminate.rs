@@ -19,8 +19,11 @@ use arithmetic::{Entry, Solver, Sparse};
 use order::{Pattern, reduction_order};
 use reduce::Factors;
 
-/// Beyond as many operations loops over arrays are as fast, and rustc does not have to read them all.
+/// Up to as many operations a matrix is reduced in straight-line code, full as it may be.
 const UNROLLED: usize = 2_500;
+/// Beyond, loops over arrays are as fast, and rustc does not have to read it all, unless they would do so many times as
+/// much.
+const SPARSE: usize = 4;
 
 /// Where the results are.
 pub(super) struct Solved {
@@ -53,9 +56,12 @@ fn order(form: &Form) -> Option<Vec<usize>> {
     short(&Pattern { matrix, definitions })
 }
 
+/// The order of a reduction that is better not left to loops.
 fn short(pattern: &Pattern) -> Option<Vec<usize>> {
     let (order, cost) = reduction_order(pattern);
-    (cost <= UNROLLED).then_some(order)
+    let free = pattern.matrix.len() - pattern.definitions.len();
+    let in_loops = free * free * free / 3;
+    (cost <= UNROLLED || SPARSE * cost <= in_loops).then_some(order)
 }
 
 impl Solver<'_> {
