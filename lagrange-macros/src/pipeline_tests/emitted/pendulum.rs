@@ -151,7 +151,7 @@ const _: () = {
             state: &__lagrange::State<f64, 1usize>,
             multipliers: &__lagrange::nalgebra::SVector<f64, 0usize>,
         ) -> __lagrange::nalgebra::SVector<f64, 1usize> {
-            __lagrange::eliminate::vector([__lagrange::Scalar::constant(0.0)])
+            __lagrange::eliminate::vector([0.0])
         }
         ///10 operations (+ − × ÷ √), 1 elementary function.
         #[inline]

@@ -1,0 +1,239 @@
+//! The order in which operations are computed, so that few results wait for their last use: what waits fills
+//! registers, then the stack, and between the parts of a long function an array.
+//!
+//! Always that operation is next which ends the waiting of most results (a greedy list scheduling: Cooper and
+//! Torczon, *Engineering a Compiler*, 12.3). Among alike operations the derivation's order decides, or the order
+//! depth first from the last result, the operand that takes more registers first (Sethi and Ullman, *Journal of the
+//! ACM* 17, 1970). Of both, and of the order of the derivation itself, that one is taken in which results wait least.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use super::schedule::{Operation, Register, Schedule};
+
+/// What is to be computed, operands first. Constants and inputs are at hand and have no place in it.
+pub(super) struct Order {
+    pub(super) sequence: Vec<usize>,
+    /// How many results wait after each operation.
+    pub(super) waiting: Vec<usize>,
+    /// The most that would wait in the order of the derivation.
+    pub(super) peak_before: usize,
+}
+
+impl Order {
+    pub(super) fn new(schedule: &Schedule, roots: &[Register], uses: &[usize]) -> Self {
+        let derived: Vec<usize> =
+            (0..uses.len()).filter(|&index| uses[index] > 0 && is_computed(schedule, index)).collect();
+        let candidates = [greedy(schedule, &derived), greedy(schedule, &depth_first(schedule, roots))];
+        let mut waiting = self::waiting(schedule, &derived);
+        let peak_before = peak(&waiting);
+        let mut sequence = derived;
+        for candidate in candidates {
+            let of_candidate = self::waiting(schedule, &candidate);
+            if of_candidate.iter().sum::<usize>() < waiting.iter().sum() {
+                (sequence, waiting) = (candidate, of_candidate);
+            }
+        }
+        Self { sequence, waiting, peak_before }
+    }
+
+    /// The most results that wait at once.
+    pub(super) fn peak(&self) -> usize {
+        peak(&self.waiting)
+    }
+}
+
+fn peak(waiting: &[usize]) -> usize {
+    waiting.iter().copied().max().unwrap_or(0)
+}
+
+fn is_computed(schedule: &Schedule, index: usize) -> bool {
+    !matches!(schedule.operations[index], Operation::Constant(_) | Operation::Input(_))
+}
+
+/// The operands that are computed, each once.
+fn operands(schedule: &Schedule, index: usize) -> Vec<usize> {
+    let operands = schedule.operands(schedule.operations[index]).map(Register::index);
+    let mut operands: Vec<usize> = operands.filter(|&operand| is_computed(schedule, operand)).collect();
+    operands.sort_unstable();
+    operands.dedup();
+    operands
+}
+
+/// From the last result to the first. Without recursion: a chain of operations may be as long as there are any.
+fn depth_first(schedule: &Schedule, roots: &[Register]) -> Vec<usize> {
+    let needs = needs(schedule);
+    let (mut sequence, mut is_done) = (Vec::new(), vec![false; schedule.operations.len()]);
+    let mut stack: Vec<(usize, bool)> = roots.iter().map(|root| (root.index(), false)).collect();
+    while let Some((index, are_operands_done)) = stack.pop() {
+        if is_done[index] || !is_computed(schedule, index) {
+            continue;
+        }
+        if are_operands_done {
+            is_done[index] = true;
+            sequence.push(index);
+            continue;
+        }
+        let mut operands = operands(schedule, index);
+        // What is pushed last is computed first.
+        operands.sort_by_key(|&operand| needs[operand]);
+        stack.push((index, true));
+        stack.extend(operands.into_iter().map(|operand| (operand, false)));
+    }
+    sequence
+}
+
+/// How many registers each result takes to compute, were nothing shared.
+fn needs(schedule: &Schedule) -> Vec<usize> {
+    let mut needs: Vec<usize> = Vec::with_capacity(schedule.operations.len());
+    for &operation in &schedule.operations {
+        let mut operands: Vec<usize> = schedule.operands(operation).map(|x| needs[x.index()]).collect();
+        operands.sort_unstable_by(|x, y| y.cmp(x));
+        needs.push(operands.iter().enumerate().map(|(k, need)| k + need).max().unwrap_or(1));
+    }
+    needs
+}
+
+/// Always the operation next that ends the waiting of most results; among alike ones the first of `ranking`.
+fn greedy(schedule: &Schedule, ranking: &[usize]) -> Vec<usize> {
+    let mut list = List::new(schedule, ranking);
+    ranking.iter().for_each(|&index| list.offer(index));
+    let mut sequence = Vec::with_capacity(ranking.len());
+    while let Some((_, _, index)) = list.ready.pop() {
+        if !list.is_done[index] {
+            sequence.push(index);
+            list.take(index);
+        }
+    }
+    sequence
+}
+
+/// The operations not yet computed, by index.
+struct List {
+    rank: Vec<usize>,
+    operands: Vec<Vec<usize>>,
+    users: Vec<Vec<usize>>,
+    /// How many operands of an operation are missing, and how many uses a result has left.
+    missing: Vec<usize>,
+    left: Vec<usize>,
+    is_done: Vec<bool>,
+    /// What can be computed now: how many results it is the last to use, its rank, its index.
+    ready: BinaryHeap<(usize, Reverse<usize>, usize)>,
+}
+
+impl List {
+    fn new(schedule: &Schedule, ranking: &[usize]) -> Self {
+        let length = schedule.operations.len();
+        let (mut rank, mut users) = (vec![0; length], vec![Vec::new(); length]);
+        let mut operands = vec![Vec::new(); length];
+        for (at, &index) in ranking.iter().enumerate() {
+            rank[index] = at;
+            operands[index] = self::operands(schedule, index);
+            operands[index].iter().for_each(|&operand: &usize| users[operand].push(index));
+        }
+        let (missing, left) = (operands.iter().map(Vec::len).collect(), users.iter().map(Vec::len).collect());
+        Self { rank, operands, users, missing, left, is_done: vec![false; length], ready: BinaryHeap::new() }
+    }
+
+    /// Puts an operation among the ready ones if it is; again where it now ends the waiting of more results.
+    fn offer(&mut self, index: usize) {
+        if self.missing[index] == 0 {
+            let ended = self.operands[index].iter().filter(|&&operand| self.left[operand] == 1).count();
+            self.ready.push((ended, Reverse(self.rank[index]), index));
+        }
+    }
+
+    fn take(&mut self, index: usize) {
+        self.is_done[index] = true;
+        for operand in std::mem::take(&mut self.operands[index]) {
+            self.left[operand] -= 1;
+            if self.left[operand] == 1 {
+                let last = self.users[operand].iter().copied().find(|&user| !self.is_done[user]);
+                last.into_iter().for_each(|user| self.offer(user));
+            }
+        }
+        for k in 0..self.users[index].len() {
+            let user = self.users[index][k];
+            self.missing[user] -= 1;
+            self.offer(user);
+        }
+    }
+}
+
+/// How many results are still to be used after each operation.
+fn waiting(schedule: &Schedule, sequence: &[usize]) -> Vec<usize> {
+    let mut last_use = vec![None; schedule.operations.len()];
+    for (at, &index) in sequence.iter().enumerate() {
+        operands(schedule, index).into_iter().for_each(|operand| last_use[operand] = Some(at));
+    }
+    let (mut ending, mut now) = (vec![0; sequence.len()], 0);
+    let counts = sequence.iter().enumerate().map(|(at, &index)| {
+        now -= ending[at];
+        if let Some(end) = last_use[index] {
+            now += 1;
+            ending[end] += 1;
+        }
+        now
+    });
+    counts.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::symbolic::{Function, Symbol};
+
+    fn input(schedule: &mut Schedule, index: u32) -> Register {
+        schedule.push(Operation::Input(Symbol { family: 0, index }))
+    }
+
+    /// Σ sin x_i, all sines before the sum.
+    fn sines(count: u32) -> (Schedule, Register) {
+        let mut schedule = Schedule::default();
+        let sines: Vec<Register> = (0..count)
+            .map(|index| {
+                let x = input(&mut schedule, index);
+                schedule.push(Operation::Function(Function::Sin, x))
+            })
+            .collect();
+        let sum = sines[1..].iter().fold(sines[0], |sum, &sine| schedule.push(Operation::Add(sum, sine)));
+        (schedule, sum)
+    }
+
+    fn order(schedule: &Schedule, roots: &[Register]) -> Order {
+        let order = Order::new(schedule, roots, &schedule.uses(roots));
+        let mut is_done = vec![false; schedule.operations.len()];
+        for &index in &order.sequence {
+            assert!(operands(schedule, index).into_iter().all(|operand| is_done[operand]), "operands first");
+            assert!(!std::mem::replace(&mut is_done[index], true), "each once");
+        }
+        assert!(roots.iter().all(|root| is_done[root.index()]));
+        order
+    }
+
+    #[test]
+    fn terms_are_added_as_they_come() {
+        let (schedule, sum) = sines(50);
+        let order = order(&schedule, &[sum]);
+        assert_eq!((order.peak_before, order.peak()), (50, 2));
+        assert_eq!(order.sequence.len(), 50 + 49);
+    }
+
+    #[test]
+    fn what_no_result_needs_has_no_place() {
+        let (mut schedule, sum) = sines(3);
+        schedule.push(Operation::Negate(sum));
+        assert_eq!(order(&schedule, &[sum]).sequence.len(), 3 + 2);
+    }
+
+    #[test]
+    fn a_chain_of_operations_may_be_long() {
+        let mut schedule = Schedule::default();
+        let x = input(&mut schedule, 0);
+        let last = (0..100_000).fold(x, |last, _| {
+            let negative = schedule.push(Operation::Negate(last));
+            schedule.push(Operation::Add(negative, x))
+        });
+        assert_eq!(order(&schedule, &[last]).peak(), 1);
+    }
+}
