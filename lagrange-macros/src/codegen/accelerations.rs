@@ -8,20 +8,26 @@ use super::eliminate::{Solved, eliminate};
 use super::kernel::Kernel;
 use super::passes::Program;
 use super::schedule::Schedule;
+use super::shape::Shape;
 use crate::mechanics::{Equations, Form};
 use crate::resolve::Problem;
 use crate::symbolic::Id;
 
 /// M, h, F and γ in one schedule, so that they share what they have in common, and solved where that is short.
-pub(super) struct Fused {
-    pub(super) kernel: Kernel,
+struct Fused {
+    kernel: Kernel,
     is_solved: bool,
 }
 
-/// M, h, F and γ, matrices row by row.
+/// M, h, F and γ, matrices row by row. Of M the lower triangle is read.
 fn loop_entries(equations: &Equations) -> Vec<Id> {
-    let matrices = [equations.mass.concat(), equations.forcing.clone(), equations.jacobian.concat()];
-    [matrices.concat(), equations.bias.clone()].concat()
+    let row = |(i, row): (usize, &Vec<Id>)| {
+        row.iter().enumerate().map(|(j, &entry)| if j <= i { entry } else { Id::ZERO }).collect::<Vec<_>>()
+    };
+    let mass = equations.mass.iter().enumerate().flat_map(row);
+    let others =
+        [&equations.forcing, &equations.jacobian.concat(), &equations.bias].map(|entries| entries.clone());
+    mass.chain(others.concat()).collect()
 }
 
 /// The entries of the form, F and γ.
@@ -46,46 +52,32 @@ pub(super) fn solve(problem: &Problem, form: &Form, equations: &Equations) -> Op
 }
 
 impl Emitter<'_> {
-    pub(super) fn fused(&self) -> Fused {
+    fn fused(&self) -> Fused {
+        let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
         if let Some(program) = cheapest(self.problem, self.equations) {
-            return Fused { kernel: self.style.write(&program), is_solved: true };
+            let shapes = [Shape::Vector(n), Shape::Vector(m), Shape::Number];
+            return Fused { kernel: self.style.write("accelerations", &program, &shapes), is_solved: true };
         }
-        Fused { kernel: self.style.kernel(&loop_entries(self.equations)), is_solved: false }
+        let shapes = [Shape::Matrix(n, n), Shape::Vector(n), Shape::Matrix(m, n), Shape::Vector(m)];
+        let kernel = self.style.kernel("accelerations", &loop_entries(self.equations), &shapes);
+        Fused { kernel, is_solved: false }
     }
 
-    pub(super) fn accelerations(&self, fused: &Fused) -> TokenStream {
+    pub(super) fn accelerations(&self) -> TokenStream {
+        let fused = self.fused();
         let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
         let scalar = self.style.scalar;
         let returns = quote!(__lagrange::Solution<#scalar, #n, #m>);
-        self.function("accelerations", &returns, &fused.kernel, |results| match fused.is_solved {
-            true => self.solved(results),
-            false => self.unsolved(results),
+        self.function("accelerations", &returns, &fused.kernel, |results| match (results, fused.is_solved) {
+            ([accelerations, multipliers, pivot], true) => quote! {
+                __lagrange::Solution {
+                    accelerations: __lagrange::eliminate::vector(#accelerations),
+                    multipliers: __lagrange::eliminate::vector(#multipliers),
+                    pivot: #pivot,
+                    rank: #m,
+                }
+            },
+            _ => quote!(__lagrange::eliminate::eliminate(#(#results),*)),
         })
-    }
-
-    fn solved(&self, results: &[TokenStream]) -> TokenStream {
-        let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
-        let (accelerations, rest) = results.split_at(n);
-        let (multipliers, pivot) = rest.split_at(m);
-        quote! {
-            __lagrange::Solution {
-                accelerations: __lagrange::eliminate::vector([#(#accelerations),*]),
-                multipliers: __lagrange::eliminate::vector([#(#multipliers),*]),
-                pivot: #(#pivot)*,
-                rank: #m,
-            }
-        }
-    }
-
-    fn unsolved(&self, results: &[TokenStream]) -> TokenStream {
-        let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
-        let (mass, rest) = results.split_at(n * n);
-        let (forcing, rest) = rest.split_at(n);
-        let (jacobian, bias) = rest.split_at(n * m);
-        let mass = mass.chunks(n).map(|row| quote!([#(#row),*]));
-        let jacobian = jacobian.chunks(n).map(|row| quote!([#(#row),*]));
-        quote! {
-            __lagrange::eliminate::eliminate([#(#mass),*], [#(#forcing),*], [#(#jacobian),*], [#(#bias),*])
-        }
     }
 }

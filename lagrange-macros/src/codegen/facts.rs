@@ -3,6 +3,8 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use super::kernel::Kernel;
+use super::shape::Shape;
 use super::{Emitter, method_name};
 use crate::mechanics::{Evidence, LinearPart, Quantity};
 
@@ -64,8 +66,9 @@ impl Emitter<'_> {
         match quantity {
             Quantity::Energy => quote!(__lagrange::Lagrangian::energy(self, state)),
             Quantity::Momentum(a) => {
-                let kernel = self.style.kernel(&[self.equations.momentum[a]]);
-                let (statements, results) = (&kernel.statements, &kernel.results);
+                let momentum = [self.equations.momentum[a]];
+                let Kernel { statements, results, .. } =
+                    self.style.kernel(&format!("momentum_{a}"), &momentum, &[Shape::Number]);
                 quote!({ #statements #(#results)* })
             }
             Quantity::Observable(observable, entry) => {

@@ -4,6 +4,8 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::Emitter;
+use super::kernel::Kernel;
+use super::shape::Shape;
 use crate::mechanics::{Classification, Evidence, Integrals};
 
 impl Emitter<'_> {
@@ -34,8 +36,8 @@ impl Emitter<'_> {
         let found = self.equations.integrability.functions.iter().enumerate();
         let arms: Vec<_> = found
             .filter_map(|(index, function)| {
-                let kernel = self.style.kernel(&[(*function)?]);
-                let (statements, results) = (&kernel.statements, &kernel.results);
+                let Kernel { statements, results, .. } =
+                    self.style.kernel(&format!("integral_{index}"), &[(*function)?], &[Shape::Number]);
                 Some(quote! {
                     #index => {
                         #statements

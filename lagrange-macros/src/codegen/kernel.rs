@@ -1,247 +1,182 @@
-//! From a schedule to statements.
+//! From a schedule to the body of a function, and to the functions that are parts of it where it is long.
 
-use std::collections::HashSet;
+use std::ops::Range;
 
-use proc_macro2::{Ident, Literal, Span, TokenStream};
+use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use rustc_hash::FxHashMap;
 
+use super::chunks;
+use super::order_of_evaluation::Order;
 use super::passes::Program;
-use super::schedule::{Call, Count, Operation, Register, Schedule};
+use super::schedule::{Count, Operation, Register};
+use super::shape::{Arrays, Shape};
 use super::style::Style;
-use crate::symbolic::{Function, Id, Symbol};
+use super::writer::{Writer, Written};
+use crate::symbolic::{Id, Symbol};
+use crate::variables::Variable;
 
-/// Up to this many locals each have a `let`. Beyond, they are declared in batches of as many, as tuples, and
-/// then assigned: one `let` each overflows rustc's stack near 3,000 in a build with debug information.
-const BATCH: usize = 256;
-/// Single-use results are nested into what uses them to this depth.
-const NESTING: usize = 6;
+/// Longer functions are refused.
+pub(super) const OPERATION_LIMIT: usize = 30_000;
+/// So many results, most of them zero, are not written out.
+const MANY: usize = 256;
 
 /// The body of one emitted function.
+#[derive(Default)]
 pub(super) struct Kernel {
     /// Reads the inputs and computes the results.
     pub(super) statements: TokenStream,
-    /// One expression for each root.
+    /// One expression for each shape.
     pub(super) results: Vec<TokenStream>,
-    /// What it takes, before the passes and after each of them.
-    pub(super) counts: Vec<(&'static str, Count)>,
+    /// What it takes, to be read.
+    pub(super) doc: String,
 }
 
-impl Kernel {
-    /// What it takes.
-    pub(super) fn count(&self) -> Count {
-        self.counts.last().map(|(_, count)| *count).unwrap_or_default()
-    }
+/// A function that takes more than [`OPERATION_LIMIT`].
+pub(super) struct Refused {
+    pub(super) name: String,
+    pub(super) count: Count,
 }
 
 impl Style<'_> {
-    /// Computes `roots`.
-    pub(super) fn kernel(&self, roots: &[Id]) -> Kernel {
-        self.write(&Program::of(&self.problem.graph, roots))
+    /// Computes `roots` for the function of this name.
+    pub(super) fn kernel(&self, name: &str, roots: &[Id], shapes: &[Shape]) -> Kernel {
+        self.write(name, &Program::of(&self.problem.graph, roots), shapes)
     }
 
     /// The program as statements, and where its results are.
-    pub(super) fn write(&self, program: &Program) -> Kernel {
+    pub(super) fn write(&self, name: &str, program: &Program, shapes: &[Shape]) -> Kernel {
         let Program { schedule, results: roots, .. } = program;
-        let mut writer = Writer {
-            style: self,
-            uses: schedule.uses(roots),
-            values: Vec::new(),
-            locals: Vec::new(),
-            assignments: Vec::new(),
-            names: FxHashMap::default(),
-            written_calls: HashSet::new(),
+        let count = program.count();
+        if count.total() > OPERATION_LIMIT {
+            self.refused.borrow_mut().push(Refused { name: name.to_owned(), count });
+            return Kernel::default();
+        }
+        let uses = schedule.uses(roots);
+        let order = Order::new(schedule, roots, &uses);
+        let parts = chunks::parts(&order);
+        let doc = doc(program, &order, parts.len());
+        let writer = Writer::new(self, schedule, uses, &order.sequence, &parts);
+        let zero = schedule.find(Operation::Constant(0.0_f64.to_bits()));
+        let zeros = roots.iter().filter(|&&root| Some(root) == zero).count();
+        let is_sparse = roots.len() >= MANY && zeros > roots.len() / 2;
+        let (statements, results) = if parts.len() == 1 && !is_sparse {
+            self.in_place(writer, &order, roots, shapes)
+        } else {
+            let arrays = Arrays::new(shapes);
+            let roots = roots.iter().copied().zip(arrays.places());
+            let roots: Vec<_> = roots.filter(|(root, _)| Some(*root) != zero).collect();
+            (self.in_arrays(name, writer, &order, &parts, &roots, &arrays), arrays.results())
         };
-        for &(register, id) in &schedule.definitions {
-            if let Some(name) = self.definition_names.get(&id) {
-                writer.names.entry(register).or_insert(name);
-            }
-        }
-        for (index, &operation) in schedule.operations.iter().enumerate() {
-            writer.write(index, operation, schedule);
-        }
-        let results: Vec<_> = roots.iter().map(|&root| writer.value(root)).collect();
-        let used: Vec<Symbol> = schedule
-            .operations
-            .iter()
-            .filter_map(|operation| match operation {
-                Operation::Input(symbol) => Some(*symbol),
-                _ => None,
-            })
-            .collect();
-        let inputs = self.inputs(&used);
-        let computation = writer.finish();
-        Kernel { statements: quote! { #inputs #computation }, results, counts: program.counts.clone() }
-    }
-}
-
-/// Statements under construction.
-struct Writer<'s, 'a> {
-    style: &'s Style<'a>,
-    uses: Vec<usize>,
-    /// For each register the tokens that stand for it, and how deep they nest.
-    values: Vec<(TokenStream, usize)>,
-    locals: Vec<Ident>,
-    assignments: Vec<TokenStream>,
-    names: FxHashMap<Register, &'s Ident>,
-    /// The calls that have been written already.
-    written_calls: HashSet<u32>,
-}
-
-impl Writer<'_, '_> {
-    fn value(&self, register: Register) -> TokenStream {
-        self.values[register.index()].0.clone()
+        Kernel { statements, results, doc }
     }
 
-    fn write(&mut self, index: usize, operation: Operation, schedule: &Schedule) {
-        let entry = match operation {
-            _ if self.uses[index] == 0 => (TokenStream::new(), 0),
-            Operation::Constant(bits) => (self.style.constant(f64::from_bits(bits)), 0),
-            Operation::Input(symbol) => {
-                let name = &self.style.names[&symbol];
-                (quote!(#name), 0)
+    /// The results are expressions.
+    fn in_place(
+        &self,
+        mut writer: Writer,
+        order: &Order,
+        roots: &[Register],
+        shapes: &[Shape],
+    ) -> (TokenStream, Vec<TokenStream>) {
+        order.sequence.iter().for_each(|&index| writer.write(index));
+        let values: Vec<_> = roots.iter().map(|&root| writer.value(root)).collect();
+        let mut values = values.into_iter();
+        let results = shapes.iter().map(|shape| shape.literal(&mut values)).collect();
+        (self.body(&writer.finish()), results)
+    }
+
+    /// The results are put into arrays, as soon as they are there.
+    fn in_arrays(
+        &self,
+        name: &str,
+        mut writer: Writer,
+        order: &Order,
+        parts: &[Range<usize>],
+        roots: &[(Register, TokenStream)],
+        arrays: &Arrays,
+    ) -> TokenStream {
+        let mut places = FxHashMap::<usize, Vec<&TokenStream>>::default();
+        for (root, place) in roots {
+            if writer.is_at_hand(*root) {
+                writer.place(*root, place);
+            } else {
+                places.entry(root.index()).or_default().push(place);
             }
-            Operation::Result { call, output } => {
-                self.write_call(call, output, schedule);
-                return;
+        }
+        let mut part = |range: &Range<usize>| {
+            for &index in &order.sequence[range.clone()] {
+                writer.write(index);
+                let places = places.get(&index).into_iter().flatten();
+                places.for_each(|place| writer.place(Register::at(index), place));
             }
-            Operation::Function(function @ (Function::Sin | Function::Cos), x) => {
-                self.write_sine_or_cosine(index, function, x, schedule);
-                return;
-            }
-            _ => {
-                let depth = 1 + schedule
-                    .operands(operation)
-                    .map(|operand| self.values[operand.index()].1)
-                    .max()
-                    .unwrap_or(0);
-                let tokens = self.operation(operation);
-                if self.uses[index] == 1 && depth < NESTING {
-                    (quote!((#tokens)), depth)
-                } else {
-                    (self.assign(index, &tokens), 0)
-                }
-            }
+            writer.finish()
         };
-        self.values.push(entry);
-    }
-
-    fn operation(&self, operation: Operation) -> TokenStream {
-        let value = |register| self.value(register);
-        match operation {
-            Operation::Negate(x) => {
-                let x = value(x);
-                quote!(-#x)
-            }
-            Operation::Add(x, y) => infix(value(x), quote!(+), value(y)),
-            Operation::Subtract(x, y) => infix(value(x), quote!(-), value(y)),
-            Operation::Multiply(x, y) => infix(value(x), quote!(*), value(y)),
-            Operation::Divide(x, y) => infix(value(x), quote!(/), value(y)),
-            Operation::Minimum(x, y) => call("min", &[value(x), value(y)]),
-            Operation::Maximum(x, y) => call("max", &[value(x), value(y)]),
-            Operation::SquareRoot(x) => call("sqrt", &[value(x)]),
-            Operation::Function(function, x) => call(function.name(), &[value(x)]),
-            Operation::Atan2(y, x) => call("atan2", &[value(y), value(x)]),
-            Operation::Power(x, y) => call("powf", &[value(x), value(y)]),
-            Operation::Constant(_) | Operation::Input(_) | Operation::Result { .. } => TokenStream::new(),
+        let written: Vec<Written> = parts.iter().map(&mut part).collect();
+        let zero = self.constant(0.0);
+        let declarations = arrays.declarations(&zero);
+        if let [whole] = &written[..] {
+            let body = self.body(whole);
+            return quote! { #declarations #body };
         }
-    }
-
-    /// All results of a call are computed together, when the first of them is met.
-    fn write_call(&mut self, call: u32, output: u32, schedule: &Schedule) {
-        let Call { function, derivatives, arguments } = &schedule.calls[call as usize];
-        let function = &self.style.problem.functions[*function as usize];
-        let name = |output: u32| format_ident!("call{call}_{output}", span = Span::mixed_site());
-        let result = name(output);
-        self.values.push((quote!(#result), 0));
-        if !self.written_calls.insert(call) {
-            return;
-        }
-        let used = |output: u32| {
-            schedule
-                .find(Operation::Result { call, output })
-                .is_some_and(|register| self.uses[register.index()] > 0)
-        };
-        let outputs: Vec<u32> = (0..function.outputs as u32).filter(|&output| used(output)).collect();
-        let pattern = (0..function.outputs as u32).map(|output| match outputs.contains(&output) {
-            true => {
-                let name = name(output);
-                quote!(#name)
-            }
-            false => quote!(_),
+        let length = writer.waiting.length;
+        let calls = written.iter().enumerate().map(|(k, part)| {
+            let doc = format!("Part {} of {} of `{name}`.", k + 1, written.len());
+            self.part(name, &doc, part, length, arrays)
         });
-        let field = &function.field;
-        let field = if function.is_reference { quote!(self.#field) } else { quote!(&self.#field) };
-        let arguments = arguments.iter().map(|&argument| self.value(argument));
-        let by = derivatives.iter().map(|&i| Literal::u32_unsuffixed(i));
-        let (capability, method) = super::capability(derivatives.len());
-        let (capability, method) = (format_ident!("{capability}"), format_ident!("{method}"));
-        let (scalar, inputs, results) = (self.style.scalar, function.inputs, function.outputs);
-        let by = if derivatives.is_empty() { quote!() } else { quote!(, [#(#by),*]) };
-        self.assignments.push(quote! { [#(#pattern),*] = __lagrange::function::#capability::<#scalar, #inputs, #results>::#method(#field, [#(#arguments),*] #by); });
-        self.locals.extend(outputs.into_iter().map(name));
+        quote! { #declarations let mut waiting = [#zero; #length]; #(#calls)* }
     }
 
-    /// The sine and the cosine of one argument are computed together, when the first of them is met.
-    fn write_sine_or_cosine(&mut self, index: usize, function: Function, x: Register, schedule: &Schedule) {
-        let other = if function == Function::Sin { Function::Cos } else { Function::Sin };
-        let partner =
-            schedule.find(Operation::Function(other, x)).filter(|partner| self.uses[partner.index()] > 0);
-        let Some(partner) = partner else {
-            let tokens = call(function.name(), &[self.value(x)]);
-            let value = self.assign(index, &tokens);
-            return self.values.push((value, 0));
+    fn body(&self, Written { inputs, statements }: &Written) -> TokenStream {
+        let inputs = self.inputs(inputs);
+        quote! { #inputs #statements }
+    }
+
+    /// Makes a method of a part; what is returned calls it.
+    fn part(&self, name: &str, doc: &str, part: &Written, waiting: usize, arrays: &Arrays) -> TokenStream {
+        let method = format_ident!("__{name}_{}", self.parts.borrow().len());
+        let (scalar, n, m) = (self.scalar, self.problem.coordinates.len(), self.problem.constraints.len());
+        let is_any = |kind: fn(Variable) -> bool| {
+            part.inputs.iter().any(|&symbol: &Symbol| kind(Variable::of(symbol)))
         };
-        if partner.index() < index {
-            let name = self.register_name(index);
-            return self.values.push((quote!(#name), 0));
+        let (mut names, mut types) = (Vec::new(), Vec::new());
+        if is_any(|variable| matches!(variable, Variable::Acceleration(_))) {
+            names.push(quote!(solution));
+            types.push(quote!(&__lagrange::Solution<#scalar, #n, #m>));
         }
-        let (mine, theirs) = (self.register_name(index), self.register_name(partner.index()));
-        let (sine, cosine) = if function == Function::Sin { (&mine, &theirs) } else { (&theirs, &mine) };
-        let x = self.value(x);
-        self.assignments.push(quote! { (#sine, #cosine) = __lagrange::Scalar::sin_cos(#x); });
-        self.locals.extend([mine.clone(), theirs]);
-        self.values.push((quote!(#mine), 0));
-    }
-
-    /// `r12`, unless the user has something of that name.
-    fn register_name(&self, index: usize) -> Ident {
-        let name = format!("r{index}");
-        let suffix = if self.style.taken.contains(&name) { "_" } else { "" };
-        format_ident!("{name}{suffix}", span = Span::mixed_site())
-    }
-
-    /// Puts a result into a local: under its definition's name where it has one.
-    fn assign(&mut self, index: usize, tokens: &TokenStream) -> TokenStream {
-        let register = Register::at(index);
-        let name = match self.names.get(&register) {
-            Some(name) => (*name).clone(),
-            None => self.register_name(index),
-        };
-        self.assignments.push(quote! { #name = #tokens; });
-        self.locals.push(name.clone());
-        quote!(#name)
-    }
-
-    /// All assignments, with the declarations of what they assign to.
-    fn finish(self) -> TokenStream {
-        let assignments = &self.assignments;
-        if self.locals.len() <= BATCH {
-            return quote! { #(let #assignments)* };
+        if is_any(|variable| matches!(variable, Variable::Multiplier(_))) {
+            names.push(quote!(multipliers));
+            types.push(quote!(&__lagrange::nalgebra::SVector<#scalar, #m>));
         }
-        let declarations = self.locals.chunks(BATCH).map(|batch| {
-            let types = batch.iter().map(|_| self.style.scalar);
-            quote! { let (#(#batch,)*): (#(#types,)*); }
+        let (body, array_names, array_types) = (self.body(part), &arrays.names, arrays.types(scalar));
+        self.parts.borrow_mut().push(quote! {
+            #[doc = #doc]
+            #[inline(never)]
+            #[allow(unused_variables)]
+            fn #method(&self, state: &__lagrange::State<#scalar, #n>, #(#names: #types,)* waiting: &mut [#scalar; #waiting], #(#array_names: &mut #array_types),*) {
+                #body
+            }
         });
-        quote! { #(#declarations)* #(#assignments)* }
+        quote! { self.#method(state, #(#names,)* &mut waiting, #(&mut #array_names),*); }
     }
 }
 
-fn infix(x: TokenStream, operator: TokenStream, y: TokenStream) -> TokenStream {
-    quote!(#x #operator #y)
-}
-
-fn call(name: &str, arguments: &[TokenStream]) -> TokenStream {
-    let name = Ident::new(name, Span::mixed_site());
-    quote!(__lagrange::Scalar::#name(#(#arguments),*))
+/// The counts, and what was done about them.
+/// What a function takes, and what each pass that gained something left of it.
+fn doc(program: &Program, order: &Order, parts: usize) -> String {
+    let mut doc = format!("{}.", program.count());
+    let mut steps = program.counts.clone();
+    steps.dedup_by_key(|(_, count)| *count);
+    if steps.len() > 1 {
+        let steps: Vec<_> = steps.iter().map(|(name, count)| format!("{} {name}", count.total())).collect();
+        doc += &format!(" All: {}.", steps.join(", "));
+    }
+    if order.peak() != order.peak_before {
+        let (peak, before) = (order.peak(), order.peak_before);
+        doc += &format!(" Reordered: at most {peak} results wait for their last use, before {before}.");
+    }
+    if parts > 1 {
+        doc += &format!(" In {parts} parts.");
+    }
+    doc
 }

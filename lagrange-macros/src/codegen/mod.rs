@@ -1,6 +1,7 @@
 //! From [`Equations`] to Rust. Nothing else writes any.
 
 mod accelerations;
+mod chunks;
 mod eliminate;
 mod facts;
 mod integrability;
@@ -8,11 +9,14 @@ mod integrability;
 mod interpret;
 mod kernel;
 mod observables;
+mod order_of_evaluation;
 mod passes;
 mod schedule;
+mod shape;
 mod stub;
 mod style;
 mod time;
+mod writer;
 
 use std::collections::BTreeMap;
 
@@ -27,15 +31,13 @@ use crate::render::Rendered;
 use crate::resolve::{Problem, Supplied};
 use crate::symbolic::{Id, Node};
 use crate::syntax::Declaration;
-use accelerations::Fused;
-use kernel::Kernel;
+use kernel::{Kernel, OPERATION_LIMIT, Refused};
 use observables::method_name;
+#[cfg(test)]
 pub(crate) use schedule::Count;
+use shape::Shape;
 pub(crate) use stub::stub;
 use style::Style;
-
-/// rustc takes a function of this many operations in seconds; beyond, the system belongs apart.
-const OPERATION_LIMIT: usize = 30_000;
 
 /// How often a function that the user supplies can be differentiated.
 const FUNCTION_ORDER: usize = 3;
@@ -52,14 +54,6 @@ pub(crate) fn implementation(
 ) -> TokenStream {
     let style = Style::new(problem, scalar);
     let emitter = Emitter { declaration, problem, equations, facts, rendered, style: &style };
-    let fused = emitter.fused();
-    let Count { arithmetic, functions, .. } = fused.kernel.count();
-    if arithmetic + functions > OPERATION_LIMIT {
-        diagnostics.error(problem.place, format!(
-            "the equations of motion take {arithmetic} operations and {functions} elementary functions, beyond what rustc compiles in one function ({OPERATION_LIMIT}): name what recurs with `#[define(…)]`, recursively along chains, so that it is shared"
-        ));
-        return TokenStream::new();
-    }
     let orders = emitter.orders();
     for (&function, order) in orders.iter().filter(|(_, order)| **order > FUNCTION_ORDER) {
         let Supplied { name, place, .. } = &problem.functions[function as usize];
@@ -67,7 +61,9 @@ pub(crate) fn implementation(
             "the equations need the {order}th derivatives of `{name}`, and functions are differentiated {FUNCTION_ORDER} times at most"
         ));
     }
-    emitter.block(fused, &orders)
+    let tokens = emitter.block(&orders);
+    emitter.report_refused(diagnostics);
+    tokens
 }
 
 /// The trait that gives the derivatives of an order, and its method.
@@ -83,8 +79,7 @@ fn capability(order: usize) -> (&'static str, &'static str) {
 /// What computing `roots` together takes.
 #[cfg(test)]
 pub(crate) fn operations(graph: &crate::symbolic::Graph, roots: &[Id]) -> Count {
-    let Some(&(_, count)) = passes::Program::of(graph, roots).counts.last() else { return Count::default() };
-    count
+    passes::Program::of(graph, roots).count()
 }
 
 /// What the accelerations take, before the passes and after each, solved by each form of the equations; `None` where
@@ -146,7 +141,7 @@ impl Emitter<'_> {
         generics
     }
 
-    fn block(&self, fused: Fused, orders: &BTreeMap<u32, usize>) -> TokenStream {
+    fn block(&self, orders: &BTreeMap<u32, usize>) -> TokenStream {
         let runtime = runtime(self.declaration);
         let (ident, scalar) = (&self.declaration.ident, self.style.scalar);
         let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
@@ -164,8 +159,10 @@ impl Emitter<'_> {
         let integrability = self.integrability();
         let observables = self.observable_names();
         let facts = self.facts();
-        let functions = self.functions(fused);
+        let functions = self.functions();
         let inherent = self.observable_methods();
+        // All kernels are written by now.
+        let parts = self.style.parts.borrow();
         let equations = self.equations();
         let Rendered { text, .. } = self.rendered;
         let doc = format!("```text\n{text}```");
@@ -194,43 +191,31 @@ impl Emitter<'_> {
                 impl #impl_generics #ident #type_generics #where_clause {
                     #equations
                     #inherent
+                    #(#parts)*
                 }
             };
         }
     }
 
-    fn functions(&self, fused: Fused) -> TokenStream {
+    fn functions(&self) -> TokenStream {
         let scalar = self.style.scalar;
         let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
         let equations = self.equations;
-        let lagrangian = self.style.kernel(&[self.problem.lagrangian]);
-        let lagrangian =
-            self.function("lagrangian", &quote!(#scalar), &lagrangian, |results| quote!(#(#results)*));
+        let lagrangian = self.number("lagrangian", self.problem.lagrangian);
+        let energy = self.number("energy", equations.energy);
         let of_coordinates = quote!(__lagrange::nalgebra::SVector<#scalar, #n>);
         let of_constraints = quote!(__lagrange::nalgebra::SVector<#scalar, #m>);
-        let energy = self.style.kernel(&[equations.energy]);
-        let energy = self.function("energy", &quote!(#scalar), &energy, |results| quote!(#(#results)*));
         let momentum = self.vector("momentum", &of_coordinates, &equations.momentum);
         let momentum_rate = self.vector("momentum_rate", &of_coordinates, &equations.momentum_rate);
         let forcing = self.vector("forcing", &of_coordinates, &equations.forcing);
         let residual = self.vector("constraint_residual", &of_constraints, &equations.residual);
         let rate = self.vector("constraint_rate", &of_constraints, &equations.rate);
         let bias = self.vector("constraint_bias", &of_constraints, &equations.bias);
-        let mass = self.matrix(
-            "mass_matrix",
-            &quote!(__lagrange::nalgebra::SMatrix<#scalar, #n, #n>),
-            &equations.mass,
-            n,
-        );
-        let jacobian = self.matrix(
-            "constraint_jacobian",
-            &quote!(__lagrange::nalgebra::SMatrix<#scalar, #m, #n>),
-            &equations.jacobian,
-            n,
-        );
+        let mass = self.matrix("mass_matrix", &equations.mass);
+        let jacobian = self.matrix("constraint_jacobian", &equations.jacobian);
         let force = self.constraint_force();
         let integral = self.constraint_integral();
-        let accelerations = self.accelerations(&fused);
+        let accelerations = self.accelerations();
         let observable = self.observable_by_index();
         let conserved = self.conserved_by_index();
         quote! { #lagrangian #energy #momentum #momentum_rate #mass #forcing #residual #rate #jacobian #bias #integral #force #accelerations #observable #conserved }
@@ -246,7 +231,7 @@ impl Emitter<'_> {
     ) -> TokenStream {
         let name = format_ident!("{name}");
         let (n, scalar) = (self.problem.coordinates.len(), self.style.scalar);
-        let (statements, doc, result) = (&kernel.statements, count_doc(kernel), result(&kernel.results));
+        let (statements, doc, result) = (&kernel.statements, &kernel.doc, result(&kernel.results));
         quote! {
             #[doc = #doc]
             #[inline]
@@ -258,47 +243,57 @@ impl Emitter<'_> {
         }
     }
 
-    fn vector(&self, name: &str, returns: &TokenStream, roots: &[Id]) -> TokenStream {
-        self.function(
-            name,
-            returns,
-            &self.style.kernel(roots),
-            |results| quote!(__lagrange::eliminate::vector([#(#results),*])),
-        )
+    fn number(&self, name: &str, root: Id) -> TokenStream {
+        let kernel = self.style.kernel(name, &[root], &[Shape::Number]);
+        let scalar = self.style.scalar;
+        self.function(name, &quote!(#scalar), &kernel, |results| quote!(#(#results)*))
     }
 
-    /// nalgebra's matrices are stored by columns.
-    fn matrix(&self, name: &str, returns: &TokenStream, rows: &[Vec<Id>], columns: usize) -> TokenStream {
-        let roots: Vec<Id> = (0..columns).flat_map(|j| rows.iter().map(move |row| row[j])).collect();
-        let kernel = self.style.kernel(&roots);
+    fn vector(&self, name: &str, returns: &TokenStream, roots: &[Id]) -> TokenStream {
+        let kernel = self.style.kernel(name, roots, &[Shape::Vector(roots.len())]);
+        self.function(name, returns, &kernel, |results| quote!(#(__lagrange::eliminate::vector(#results))*))
+    }
+
+    /// nalgebra's matrices are stored by columns, of which there is one a coordinate.
+    fn matrix(&self, name: &str, rows: &[Vec<Id>]) -> TokenStream {
+        let (n, scalar) = (self.problem.coordinates.len(), self.style.scalar);
+        let roots: Vec<Id> = (0..n).flat_map(|j| rows.iter().map(move |row| row[j])).collect();
         let height = rows.len();
-        self.function(name, returns, &kernel, |results| {
-            let columns = (0..columns).map(|j| {
-                let column = &results[j * height..(j + 1) * height];
-                quote!([#(#column),*])
-            });
-            quote!(__lagrange::eliminate::matrix([#(#columns),*]))
-        })
+        let kernel = self.style.kernel(name, &roots, &[Shape::Matrix(n, height)]);
+        let returns = quote!(__lagrange::nalgebra::SMatrix<#scalar, #height, #n>);
+        self.function(name, &returns, &kernel, |results| quote!(#(__lagrange::eliminate::matrix(#results))*))
     }
 
     fn constraint_force(&self) -> TokenStream {
         let (n, m, scalar) =
             (self.problem.coordinates.len(), self.problem.constraints.len(), self.style.scalar);
-        let kernel = self.style.kernel(&self.equations.constraint_force);
-        let (statements, doc) = (&kernel.statements, count_doc(&kernel));
-        let results = if m == 0 {
-            (0..n).map(|_| quote!(__lagrange::Scalar::constant(0.0))).collect()
-        } else {
-            kernel.results
-        };
+        let force = &self.equations.constraint_force;
+        let roots: Vec<Id> = (0..n).map(|i| force.get(i).copied().unwrap_or(Id::ZERO)).collect();
+        let Kernel { statements, results, doc } =
+            self.style.kernel("constraint_force", &roots, &[Shape::Vector(n)]);
         quote! {
             #[doc = #doc]
             #[inline]
             #[allow(unused_variables)]
             fn constraint_force(&self, state: &__lagrange::State<#scalar, #n>, multipliers: &__lagrange::nalgebra::SVector<#scalar, #m>) -> __lagrange::nalgebra::SVector<#scalar, #n> {
                 #statements
-                __lagrange::eliminate::vector([#(#results),*])
+                #(__lagrange::eliminate::vector(#results))*
             }
+        }
+    }
+
+    /// An error for each observable that is too long, and one for all other functions.
+    fn report_refused(&self, diagnostics: &mut Diagnostics) {
+        let mut of_motion = Vec::new();
+        for Refused { name, count } in self.style.refused.borrow().iter() {
+            let takes = format!("`{name}` takes {count}");
+            match self.problem.observables.iter().find(|(label, _)| label.text == *name) {
+                Some((label, _)) => diagnostics.error(label.place, too_long(&takes)),
+                None => of_motion.push(takes),
+            }
+        }
+        if !of_motion.is_empty() {
+            diagnostics.error(self.problem.place, too_long(&of_motion.join("; ")));
         }
     }
 
@@ -314,23 +309,9 @@ impl Emitter<'_> {
     }
 }
 
-/// What a function takes, and what it took before each pass that gained something.
-fn count_doc(kernel: &Kernel) -> String {
-    let Count { arithmetic, functions, calls } = kernel.count();
-    let plural = |count| if count == 1 { "" } else { "s" };
-    let calls = match calls {
-        0 => String::new(),
-        calls => format!(", {calls} result{} of supplied functions", plural(calls)),
-    };
-    let mut steps = kernel.counts.clone();
-    steps.dedup_by_key(|(_, count)| *count);
-    let steps: Vec<_> =
-        steps.iter().map(|(name, count)| format!("{} {name}", count.arithmetic + count.functions)).collect();
-    let passes = if steps.len() > 1 { format!(" All: {}.", steps.join(", ")) } else { String::new() };
+fn too_long(what: &str) -> String {
     format!(
-        "{arithmetic} operation{} (+ − × ÷ √), {functions} elementary function{}{calls}.{passes}",
-        plural(arithmetic),
-        plural(functions)
+        "{what}: more than the {OPERATION_LIMIT} that one function may have. Name what recurs with `#[define(…)]`, recursively along chains, so that it is shared, or take coordinates with constraints between them"
     )
 }
 

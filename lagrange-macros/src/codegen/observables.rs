@@ -3,7 +3,9 @@
 use proc_macro2::{Span, TokenStream};
 use quote::quote;
 
-use super::{Emitter, count_doc};
+use super::Emitter;
+use super::kernel::Kernel;
+use super::shape::Shape;
 use crate::resolve::Label;
 use crate::symbolic::Id;
 use crate::variables::Variable;
@@ -62,19 +64,20 @@ impl Emitter<'_> {
             (self.problem.coordinates.len(), self.problem.constraints.len(), self.style.scalar);
         let visibility = &self.declaration.visibility;
         let name = method_name(&label.text, label.place.start());
-        let kernel = self.style.kernel(values);
-        let (statements, results) = (&kernel.statements, &kernel.results);
-        let (returns, result) = match results.len() {
-            1 => (quote!(#scalar), quote!(#(#results)*)),
-            length => (
+        let length = values.len();
+        let shape = if length == 1 { Shape::Number } else { Shape::Vector(length) };
+        let Kernel { statements, results, doc } = self.style.kernel(&label.text, values, &[shape]);
+        let (returns, result) = match shape {
+            Shape::Number => (quote!(#scalar), quote!(#(#results)*)),
+            _ => (
                 quote!(__lagrange::nalgebra::SVector<#scalar, #length>),
-                quote!(__lagrange::eliminate::vector([#(#results),*])),
+                quote!(#(__lagrange::eliminate::vector(#results))*),
             ),
         };
         let solved = self.needs_solution(values);
         let solution = solved.then(|| quote!(, solution: &__lagrange::Solution<#scalar, #n, #m>));
         let multipliers = solved.then(|| quote! { let multipliers = &solution.multipliers; });
-        let doc = format!("The observable `{}`. {}", label.text, count_doc(&kernel));
+        let doc = format!("The observable `{}`. {}", label.text, doc);
         quote! {
             #[doc = #doc]
             #[inline]

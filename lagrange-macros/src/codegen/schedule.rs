@@ -1,5 +1,7 @@
 //! From the graph to a sequence of binary operations, each computed once.
 
+use std::fmt;
+
 use indexmap::IndexSet;
 use num_traits::{One, Signed, ToPrimitive};
 use rustc_hash::FxHashMap;
@@ -112,6 +114,26 @@ pub(crate) struct Count {
     pub(crate) functions: usize,
     /// Results of functions that the user supplies.
     pub(crate) calls: usize,
+}
+
+impl Count {
+    /// Supplied functions are not ours to count.
+    pub(super) fn total(self) -> usize {
+        self.arithmetic + self.functions
+    }
+}
+
+impl fmt::Display for Count {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let Self { arithmetic, functions, calls } = *self;
+        let plural = |count| if count == 1 { "" } else { "s" };
+        write!(f, "{arithmetic} operation{} (+ − × ÷ √), ", plural(arithmetic))?;
+        write!(f, "{functions} elementary function{}", plural(functions))?;
+        match calls {
+            0 => Ok(()),
+            calls => write!(f, ", {calls} result{} of supplied functions", plural(calls)),
+        }
+    }
 }
 
 /// Operations in the order in which they are computed.

@@ -1,11 +1,13 @@
 //! What all emitted functions of a system have in common: names, inputs, constants.
 
-use std::collections::HashSet;
+use std::cell::RefCell;
+use std::collections::{BTreeSet, HashSet};
 
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 use rustc_hash::FxHashMap;
 
+use super::kernel::Refused;
 use crate::resolve::{Element, Problem};
 use crate::symbolic::{Id, Symbol};
 use crate::variables::Variable;
@@ -21,13 +23,18 @@ pub(super) struct Style<'a> {
     pub(super) names: FxHashMap<Symbol, Ident>,
     pub(super) definition_names: FxHashMap<Id, Ident>,
     pub(super) taken: HashSet<String>,
+    /// Methods that are parts of long functions.
+    pub(super) parts: RefCell<Vec<TokenStream>>,
+    /// Functions that are too long.
+    pub(super) refused: RefCell<Vec<Refused>>,
 }
 
 impl<'a> Style<'a> {
     pub(super) fn new(problem: &'a Problem, scalar: &'a syn::Type) -> Self {
         let is_f64 = quote!(#scalar).to_string() == "f64";
         let mut taken =
-            HashSet::from(["state", "solution", "multipliers", "index", "self"].map(String::from));
+            HashSet::from(["state", "solution", "multipliers", "index", "self", "waiting"].map(String::from));
+        taken.extend((0..4).map(|k| format!("entries{k}")));
         let mut unique = |text: String| identifier(&text, &mut taken);
         let mut names = FxHashMap::default();
         names.insert(Variable::Time.symbol(), unique("t".to_owned()));
@@ -53,7 +60,16 @@ impl<'a> Style<'a> {
         definitions.sort_unstable();
         let definition_names =
             definitions.into_iter().map(|(id, text)| (*id, unique(text.clone()))).collect();
-        Self { problem, scalar, is_f64, names, definition_names, taken }
+        Self {
+            problem,
+            scalar,
+            is_f64,
+            names,
+            definition_names,
+            taken,
+            parts: RefCell::default(),
+            refused: RefCell::default(),
+        }
     }
 
     /// The value of a parameter, read from its field.
@@ -83,7 +99,7 @@ impl<'a> Style<'a> {
     }
 
     /// Statements that bring the inputs in use into scope.
-    pub(super) fn inputs(&self, used: &[Symbol]) -> TokenStream {
+    pub(super) fn inputs(&self, used: &BTreeSet<Symbol>) -> TokenStream {
         let problem = self.problem;
         let pattern = |count: usize, variable: fn(usize) -> Variable, source: TokenStream| {
             let names: Vec<_> = (0..count)

@@ -21,15 +21,20 @@ impl Time {
 impl Schedule {
     pub(super) fn time(&self, roots: &[Register]) -> Time {
         let uses = self.uses(roots);
-        let mut ready = vec![0; self.operations.len()];
-        let mut work = 0;
-        for (index, &operation) in self.operations.iter().enumerate().filter(|(index, _)| uses[*index] > 0) {
-            let (latency, share) = cost(operation);
+        let needed = self.operations.iter().zip(&uses).filter(|(_, uses)| **uses > 0);
+        let work = needed.map(|(&operation, _)| cost(operation).1).sum();
+        let ready = self.ready();
+        Time { work, path: roots.iter().map(|root| ready[root.index()]).max().unwrap_or(0) }
+    }
+
+    /// When each result is there, were there nothing else to do.
+    pub(super) fn ready(&self) -> Vec<usize> {
+        let mut ready: Vec<usize> = Vec::with_capacity(self.operations.len());
+        for &operation in &self.operations {
             let start = self.operands(operation).map(|operand| ready[operand.index()]).max().unwrap_or(0);
-            ready[index] = start + latency;
-            work += share;
+            ready.push(start + cost(operation).0);
         }
-        Time { work, path: ready.into_iter().max().unwrap_or(0) }
+        ready
     }
 }
 

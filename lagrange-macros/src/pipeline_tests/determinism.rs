@@ -9,8 +9,14 @@ use crate::expand;
 /// Marks the lines of the other process that count.
 const MARK: &str = "expansion: ";
 
-fn sources() -> [String; 4] {
-    [systems::PENDULUM.to_owned(), systems::SPHERE.to_owned(), systems::chain(5), systems::rods(4)]
+fn sources() -> [String; 5] {
+    [
+        systems::PENDULUM.to_owned(),
+        systems::SPHERE.to_owned(),
+        systems::chain(5),
+        systems::chain(40),
+        systems::rods(4),
+    ]
 }
 
 fn expansions() -> Vec<String> {

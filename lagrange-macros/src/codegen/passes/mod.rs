@@ -53,6 +53,10 @@ impl Program {
         self
     }
 
+    pub(super) fn count(&self) -> Count {
+        self.schedule.count(&self.results)
+    }
+
     pub(super) fn time(&self) -> Time {
         self.schedule.time(&self.results)
     }

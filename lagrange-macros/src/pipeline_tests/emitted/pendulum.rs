@@ -153,9 +153,9 @@ const _: () = {
             state: &__lagrange::State<f64, 1usize>,
             multipliers: &__lagrange::nalgebra::SVector<f64, 0usize>,
         ) -> __lagrange::nalgebra::SVector<f64, 1usize> {
-            __lagrange::eliminate::vector([__lagrange::Scalar::constant(0.0)])
+            __lagrange::eliminate::vector([0.0])
         }
-        ///5 operations (+ − × ÷ √), 1 elementary function.
+        ///5 operations (+ − × ÷ √), 1 elementary function. Reordered: at most 1 results wait for their last use, before 2.
         #[inline]
         #[allow(unused_variables)]
         fn accelerations(

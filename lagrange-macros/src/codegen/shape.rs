@@ -1,0 +1,109 @@
+//! The forms in which functions have their results.
+
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::{format_ident, quote};
+
+#[derive(Clone, Copy)]
+pub(super) enum Shape {
+    Number,
+    Vector(usize),
+    /// As many arrays of as many entries each.
+    Matrix(usize, usize),
+}
+
+impl Shape {
+    pub(super) fn length(self) -> usize {
+        match self {
+            Self::Number => 1,
+            Self::Vector(length) => length,
+            Self::Matrix(arrays, entries) => arrays * entries,
+        }
+    }
+
+    /// The next values in this form.
+    pub(super) fn literal(self, values: &mut impl Iterator<Item = TokenStream>) -> TokenStream {
+        let mut vector = |length| {
+            let values = values.by_ref().take(length);
+            quote!([#(#values),*])
+        };
+        match self {
+            Self::Number => values.take(1).collect(),
+            Self::Vector(length) => vector(length),
+            Self::Matrix(arrays, entries) => {
+                let arrays = (0..arrays).map(|_| vector(entries));
+                quote!([#(#arrays),*])
+            }
+        }
+    }
+
+    /// The type of an array of the values; that of a number has one entry.
+    fn array(self, scalar: &syn::Type) -> TokenStream {
+        match self {
+            Self::Number => quote!([#scalar; 1]),
+            Self::Vector(length) => quote!([#scalar; #length]),
+            Self::Matrix(arrays, entries) => quote!([[#scalar; #entries]; #arrays]),
+        }
+    }
+
+    /// An array full of a value.
+    fn filled(self, value: &TokenStream) -> TokenStream {
+        match self {
+            Self::Number => quote!([#value]),
+            Self::Vector(length) => quote!([#value; #length]),
+            Self::Matrix(arrays, entries) => quote!([[#value; #entries]; #arrays]),
+        }
+    }
+
+    /// Where in its array a value is.
+    fn place(self, array: &Ident, index: usize) -> TokenStream {
+        let literal = Literal::usize_unsuffixed;
+        match self {
+            Self::Number | Self::Vector(_) => {
+                let index = literal(index);
+                quote!(#array[#index])
+            }
+            Self::Matrix(_, entries) => {
+                let (outer, inner) = (literal(index / entries), literal(index % entries));
+                quote!(#array[#outer][#inner])
+            }
+        }
+    }
+}
+
+/// Arrays that a function fills with its results, one for each shape.
+pub(super) struct Arrays<'s> {
+    pub(super) names: Vec<Ident>,
+    shapes: &'s [Shape],
+}
+
+impl<'s> Arrays<'s> {
+    pub(super) fn new(shapes: &'s [Shape]) -> Self {
+        let name = |k| format_ident!("entries{k}", span = Span::mixed_site());
+        Self { names: (0..shapes.len()).map(name).collect(), shapes }
+    }
+
+    pub(super) fn declarations(&self, zero: &TokenStream) -> TokenStream {
+        let (names, values) = (&self.names, self.shapes.iter().map(|shape| shape.filled(zero)));
+        quote! { #(let mut #names = #values;)* }
+    }
+
+    pub(super) fn types(&self, scalar: &syn::Type) -> Vec<TokenStream> {
+        self.shapes.iter().map(|shape| shape.array(scalar)).collect()
+    }
+
+    /// The place of each result.
+    pub(super) fn places(&self) -> impl Iterator<Item = TokenStream> {
+        let shapes = self.names.iter().zip(self.shapes);
+        shapes.flat_map(|(name, shape)| (0..shape.length()).map(|index| shape.place(name, index)))
+    }
+
+    /// The whole of each.
+    pub(super) fn results(&self) -> Vec<TokenStream> {
+        let shapes = self.names.iter().zip(self.shapes);
+        let result = |(name, shape): (&Ident, &Shape)| match shape {
+            Shape::Number => shape.place(name, 0),
+            Shape::Vector(_) | Shape::Matrix(..) => quote!(#name),
+        };
+        shapes.map(result).collect()
+    }
+}

@@ -1,0 +1,172 @@
+//! Functions that are so long that they are emitted in parts.
+
+use lagrange_core::prelude::*;
+use nalgebra::{SMatrix, SVector};
+use num_dual::Dual64;
+
+mod chain {
+    use super::*;
+
+    const N: usize = 40;
+
+    /// Links with angles from the downward vertical.
+    #[derive(Lagrangian)]
+    #[coordinates(theta: [40])]
+    #[define(vx[0] = l[0]*cos(theta[0])*theta_dot[0])]
+    #[define(vx[i in 1..40] = vx[i-1] + l[i]*cos(theta[i])*theta_dot[i])]
+    #[define(vy[0] = l[0]*sin(theta[0])*theta_dot[0])]
+    #[define(vy[i in 1..40] = vy[i-1] + l[i]*sin(theta[i])*theta_dot[i])]
+    #[define(y[0] = -l[0]*cos(theta[0]))]
+    #[define(y[i in 1..40] = y[i-1] - l[i]*cos(theta[i]))]
+    #[lagrangian(sum(i in 0..40, m[i]/2*(vx[i]^2 + vy[i]^2) - m[i]*g*y[i]))]
+    struct Chain {
+        m: [f64; 40],
+        l: [f64; 40],
+        g: f64,
+    }
+
+    impl Chain {
+        /// The mass that hangs on the later of two links.
+        fn hanging(&self, i: usize, j: usize) -> f64 {
+            self.m[i.max(j)..].iter().sum()
+        }
+
+        /// M_ij = l_i l_j cos(θ_i − θ_j) Σ_{k ≥ i, j} m_k
+        fn mass(&self, q: &SVector<f64, N>) -> SMatrix<f64, N, N> {
+            SMatrix::from_fn(|i, j| self.l[i] * self.l[j] * (q[i] - q[j]).cos() * self.hanging(i, j))
+        }
+
+        /// h_i = −Σ_j l_i l_j sin(θ_i − θ_j) θ̇_j² Σ m_k − g l_i sin θ_i Σ m_k
+        fn force(&self, q: &SVector<f64, N>, v: &SVector<f64, N>) -> SVector<f64, N> {
+            SVector::from_fn(|i, _| {
+                let turning: f64 =
+                    (0..N).map(|j| self.l[j] * (q[i] - q[j]).sin() * v[j] * v[j] * self.hanging(i, j)).sum();
+                -self.l[i] * (turning + self.g * q[i].sin() * self.hanging(i, i))
+            })
+        }
+    }
+
+    fn chain() -> Chain {
+        Chain {
+            m: std::array::from_fn(|i| 1.0 + 0.3 * (i as f64).sin()),
+            l: std::array::from_fn(|i| 0.5 + 0.2 * (2.0 * i as f64).cos()),
+            g: 9.81,
+        }
+    }
+
+    fn state() -> State<f64, N> {
+        State::new(
+            std::array::from_fn(|i| (1.3 * i as f64).sin()),
+            std::array::from_fn(|i| (0.7 * i as f64).cos()),
+        )
+    }
+
+    #[test]
+    fn the_mass_matrix_is_the_closed_one() {
+        let (chain, state) = (chain(), state());
+        let error = (chain.mass_matrix(&state) - chain.mass(&state.q)).amax();
+        assert!(error < 1e-13 * chain.mass(&state.q).amax(), "{error:e}");
+    }
+
+    #[test]
+    fn the_accelerations_solve_the_closed_equations() {
+        let (chain, state) = (chain(), state());
+        let (mass, force) = (chain.mass(&state.q), chain.force(&state.q, &state.v));
+        let residual = (mass * chain.accelerations(&state).accelerations - force).amax();
+        assert!(residual < 1e-11 * force.amax(), "{residual:e}");
+    }
+}
+
+mod cloud {
+    use super::*;
+
+    const N: usize = 48;
+
+    /// Particles, each bound to each; the first two by a rod.
+    #[derive(Lagrangian)]
+    #[coordinates(x: [24], y: [24])]
+    #[function(U(s) = potential)]
+    #[define(r(i, j) = sqrt((x[i] - x[j])^2 + (y[i] - y[j])^2 + a))]
+    #[define(bond(i, j) = k[i]*k[j]*(1 + r(i, j)^2)*exp(-r(i, j)))]
+    #[lagrangian(sum(i in 0..24, m[i]/2*(x_dot[i]^2 + y_dot[i]^2) - U(x[i]) - sum(j in 0..i, bond(i, j))))]
+    #[constraint(rod: (x[0] - x[1])^2 + (y[0] - y[1])^2 = 1)]
+    #[define(pull[i in 0..24] = sum(j in 0..24, k[i]*k[j]*(x[i] - x[j] + (y[i] + 2*y[j])^3)*sin(r(i, j))) + U(y[i])*x_dot[i])]
+    #[observable(pulls = pull)]
+    #[observable(first = pull[0])]
+    #[observable(eighth = pull[7])]
+    #[observable(last = pull[23])]
+    #[observable(powers = lambda(rod)*pull)]
+    #[observable(second = lambda(rod)*pull[1])]
+    struct Cloud<T> {
+        m: [T; 24],
+        k: [T; 24],
+        a: T,
+        potential: Well,
+    }
+
+    struct Well;
+
+    impl Function<1, 1> for Well {
+        fn eval<S: Scalar>(&self, [s]: [S; 1]) -> [S; 1] {
+            [s * s * s.cos()]
+        }
+    }
+
+    fn cloud<T: Scalar>() -> Cloud<T> {
+        let number = |i: usize| T::constant(1.0 + 0.3 * (i as f64).sin());
+        Cloud {
+            m: std::array::from_fn(number),
+            k: std::array::from_fn(number),
+            a: T::constant(0.1),
+            potential: Well,
+        }
+    }
+
+    fn coordinates() -> [f64; N] {
+        std::array::from_fn(|i| 3.0 * (1.3 * i as f64).sin())
+    }
+
+    fn velocities() -> [f64; N] {
+        std::array::from_fn(|i| (0.7 * i as f64).cos())
+    }
+
+    /// −∂L/∂q by dual numbers, through the parts of the Lagrangian, and by the parts of its own.
+    #[test]
+    fn the_forces_are_the_derivatives_of_the_lagrangian() {
+        let rates = cloud::<f64>().momentum_rate(&State::new(coordinates(), velocities()));
+        let dual = cloud::<Dual64>();
+        for i in 0..N {
+            let mut q = coordinates().map(Dual64::from_re);
+            q[i].eps = 1.0;
+            let expected = dual.lagrangian(&State::new(q, velocities().map(Dual64::from_re))).eps;
+            assert!(
+                (rates[i] - expected).abs() < 1e-11 * (1.0 + expected.abs()),
+                "{i}: {} {expected}",
+                rates[i]
+            );
+        }
+    }
+
+    /// The accelerations by the general solver, from M, h, F and γ of other functions.
+    #[test]
+    fn the_accelerations_are_those_of_the_general_solver() {
+        let (cloud, state) = (cloud::<f64>(), State::new(coordinates(), velocities()));
+        let solution = cloud.accelerations(&state);
+        let force = cloud.forcing(&state) + cloud.constraint_force(&state, &solution.multipliers);
+        let residual = (cloud.mass_matrix(&state) * solution.accelerations - force).amax();
+        assert!(residual < 1e-12 * force.amax(), "{residual:e}");
+        let bias = cloud.constraint_jacobian(&state) * solution.accelerations + cloud.constraint_bias(&state);
+        assert!(bias.amax() < 1e-12 * force.amax(), "{bias}");
+    }
+
+    #[test]
+    fn functions_in_parts_and_whole_ones_agree_to_the_bit() {
+        let (cloud, state) = (cloud::<f64>(), State::new(coordinates(), velocities()));
+        let pulls = cloud.pulls(&state);
+        let whole = [cloud.first(&state), cloud.eighth(&state), cloud.last(&state)];
+        assert_eq!([pulls[0], pulls[7], pulls[23]].map(f64::to_bits), whole.map(f64::to_bits));
+        let solution = cloud.accelerations(&state);
+        let powers = cloud.powers(&state, &solution);
+        assert_eq!(powers[1].to_bits(), cloud.second(&state, &solution).to_bits());
+    }
+}
