@@ -159,14 +159,17 @@ mod cloud {
         assert!(bias.amax() < 1e-12 * force.amax(), "{bias}");
     }
 
+    /// Up to the order of the terms: which factors are taken out depends on what else a function computes.
     #[test]
-    fn functions_in_parts_and_whole_ones_agree_to_the_bit() {
+    fn functions_in_parts_and_whole_ones_agree() {
         let (cloud, state) = (cloud::<f64>(), State::new(coordinates(), velocities()));
         let pulls = cloud.pulls(&state);
-        let whole = [cloud.first(&state), cloud.eighth(&state), cloud.last(&state)];
-        assert_eq!([pulls[0], pulls[7], pulls[23]].map(f64::to_bits), whole.map(f64::to_bits));
+        let agree = |x: f64, y: f64, scale: f64| assert!((x - y).abs() < 1e-14 * scale, "{x} {y}");
+        agree(pulls[0], cloud.first(&state), pulls.amax());
+        agree(pulls[7], cloud.eighth(&state), pulls.amax());
+        agree(pulls[23], cloud.last(&state), pulls.amax());
         let solution = cloud.accelerations(&state);
         let powers = cloud.powers(&state, &solution);
-        assert_eq!(powers[1].to_bits(), cloud.second(&state, &solution).to_bits());
+        agree(powers[1], cloud.second(&state, &solution), powers.amax());
     }
 }
