@@ -12,6 +12,7 @@ OWN_ERROR = 1e-14
 
 def makers(system, n, dimension, flags):
     yield "ours", lambda: peers.ours(f"{system}_{n}", flags)
+    yield "ours with its pivot", lambda: peers.ours(f"{system}_{n}_pivot", flags, "ours, with the pivot")
     yield "CasADi, Schur", lambda: peers.casadi(system, n, "schur", flags)
     yield "CasADi, whole", lambda: peers.casadi(system, n, "kkt", flags)
     yield "by hand", lambda: peers.by_hand("chain", "thomas", "by hand, Schur + Thomas", flags, N=n, DIM=dimension)

@@ -11,6 +11,7 @@ WORST_ERROR = 1e-12
 
 def makers(n, flags, options):
     yield "ours", lambda: peers.ours(f"planar_{n}", flags)
+    yield "ours with its pivot", lambda: peers.ours(f"planar_{n}_pivot", flags, "ours, with the pivot")
     yield "CasADi", lambda: peers.casadi("planar", n, "ldl", flags)
     yield "wrenfold, unrolled", lambda: peers.wrenfold(n, "unrolled", flags)
     yield "wrenfold, M and h", lambda: peers.wrenfold(n, "loops", flags)

@@ -9,6 +9,10 @@ import time
 from pathlib import Path
 
 import rows_chain
+import rows_counts
+import rows_duals
+import rows_ensemble
+import rows_growth
 import rows_lanes
 import rows_planar
 from timing import FULL, QUICK
@@ -16,9 +20,13 @@ from workshop import HERE, SHOP, progress, set_up_python, versions
 
 ROWS = {
     "planar": rows_planar.rows,
+    "counts": rows_counts.rows,
     "chain": rows_chain.chains,
     "spherical": rows_chain.spherical,
     "lanes": rows_lanes.rows,
+    "ensemble": rows_ensemble.rows,
+    "duals": rows_duals.rows,
+    "growth": rows_growth.rows,
 }
 
 

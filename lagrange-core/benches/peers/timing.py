@@ -21,11 +21,11 @@ FULL, QUICK = Effort(21, 20), Effort(7, 3)
 
 @dataclass
 class Timing:
-    """What was measured of one implementation."""
+    """What was measured of one implementation: an error, and a time a sample."""
 
     implementation: Implementation
     error: float
-    nanoseconds: list
+    times: list
 
     @property
     def name(self):
@@ -33,11 +33,11 @@ class Timing:
 
     @property
     def least(self):
-        return min(self.nanoseconds)
+        return min(self.times)
 
     @property
     def median(self):
-        return median(self.nanoseconds)
+        return median(self.times)
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,12 @@ class Ratio:
         return cls(one.least / other.least, one.median / other.median)
 
     def __str__(self):
-        return f"{self.least:.2f} ({self.median:.2f})"
+        return f"{share(self.least)} ({share(self.median)})"
+
+
+def share(value):
+    """Two digits after the point, more where there would be none left."""
+    return f"{value:.2f}" if value >= 0.1 else f"{value:.2g}"
 
 
 def harness():

@@ -37,7 +37,7 @@ double uniform(double low, double high) {
 }
 
 const System *find_system(const char *name) {
-    static const System *const SYSTEMS[] = {&PLANAR, &LANES, &CHAIN, &SPHERICAL};
+    static const System *const SYSTEMS[] = {&PLANAR, &LANES, &CHAIN, &SPHERICAL, &BODIES};
     for (size_t k = 0; k < sizeof SYSTEMS / sizeof *SYSTEMS; k++)
         if (!strcmp(SYSTEMS[k]->name, name)) return SYSTEMS[k];
     return NULL;
@@ -114,7 +114,7 @@ int main(int count, char **arguments) {
         for (int k = 0; k < implementations; k++)
             list[k].nanoseconds[sample] = time(list[k].evaluate, list[k].count) / list[k].count;
     for (int k = 0; k < implementations; k++) {
-        printf("{\"error\": %.3e, \"nanoseconds\": [", isfinite(list[k].error) ? list[k].error : 1e300);
+        printf("{\"error\": %.3e, \"times\": [", isfinite(list[k].error) ? list[k].error : 1e300);
         for (int sample = 0; sample < samples; sample++) printf("%s%.3f", sample ? ", " : "", list[k].nanoseconds[sample]);
         printf("]}\n");
     }

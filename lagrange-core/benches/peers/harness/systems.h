@@ -30,6 +30,6 @@ const System *find_system(const char *name);
 /* A random number in [low, high). */
 double uniform(double low, double high);
 
-extern const System PLANAR, LANES, CHAIN, SPHERICAL;
+extern const System PLANAR, LANES, CHAIN, SPHERICAL, BODIES;
 
 #endif

@@ -62,3 +62,14 @@ pub struct Spherical {
     l: f64,
     g: f64,
 }
+
+/// Three bodies under gravity.
+#[derive(Lagrangian)]
+#[coordinates(a: [3], b: [3], c: [3])]
+#[define(kinetic = m[0]/2*dot(a_dot, a_dot) + m[1]/2*dot(b_dot, b_dot) + m[2]/2*dot(c_dot, c_dot))]
+#[lagrangian(kinetic + gamma*m[0]*m[1]/norm(a - b) + gamma*m[0]*m[2]/norm(a - c) + gamma*m[1]*m[2]/norm(b - c))]
+#[repr(C)]
+pub struct Bodies {
+    m: [f64; 3],
+    gamma: f64,
+}
