@@ -66,8 +66,13 @@ def against(one, other):
 def comparison(section, caption, columns):
     """A table with an implementation a line; `columns` maps a heading to its timings, ours first."""
     names = list(dict.fromkeys(timing.name for timings in columns.values() for timing in timings))
-    cell = lambda name, timings: next((against(timings[0], one) for one in timings if one.name == name), "–")
-    section.table(caption, ["", *columns], [[name, *(cell(name, timings) for timings in columns.values())] for name in names])
+
+    def cell(name, timings):
+        return next((against(timings[0], one) for one in timings if one.name == name), "–")
+
+    section.table(
+        caption, ["", *columns], [[name, *(cell(name, timings) for timings in columns.values())] for name in names]
+    )
 
 
 def fastest(timings, kinds, names=None):

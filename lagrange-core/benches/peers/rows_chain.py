@@ -3,7 +3,7 @@
 import peers
 from report import Bar, Section, bar, comparison, fastest
 from timing import measure
-from workshop import NATIVE, PLAIN
+from workshop import NATIVE, PLAIN, progress
 
 SIZES = (5, 10, 20, 50)
 WORST_ERROR = 1e-9
@@ -12,14 +12,14 @@ OWN_ERROR = 1e-14
 
 def makers(system, n, dimension, flags):
     yield "ours", lambda: peers.ours(f"{system}_{n}", flags)
-    yield "ours with its pivot", lambda: peers.ours(f"{system}_{n}_pivot", flags, "ours, with the pivot")
+    yield "ours, not inlined", lambda: peers.ours_called(f"{system}_{n}", flags)
     yield "CasADi, Schur", lambda: peers.casadi(system, n, "schur", flags)
     yield "CasADi, whole", lambda: peers.casadi(system, n, "kkt", flags)
-    yield "by hand", lambda: peers.by_hand("chain", "thomas", "by hand, Schur + Thomas", flags, N=n, DIM=dimension)
+    yield ("by hand", lambda: peers.by_hand("chain", "thomas", "by hand, Schur + Thomas", flags, N=n, DIM=dimension))
 
 
 def measured(section, system, n, dimension, flags, options):
-    options.progress(f"{system} n = {n}, {flags.name}")
+    progress(f"{system} n = {n}, {flags.name}")
     implementations, missing = peers.gather(makers(system, n, dimension, flags))
     right, wrong = measure(system, n, implementations, options.effort, WORST_ERROR)
     section.missing += missing + wrong
@@ -27,7 +27,9 @@ def measured(section, system, n, dimension, flags, options):
 
 
 def residual(section, where, timings):
-    section.bars.append(Bar(f"{where}, residual of both equations / largest acceleration", timings[0].error, OWN_ERROR))
+    section.bars.append(
+        Bar(f"{where}, residual of both equations / largest acceleration", timings[0].error, OWN_ERROR)
+    )
 
 
 def chains(options):

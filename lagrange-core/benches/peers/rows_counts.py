@@ -17,8 +17,13 @@ def emitted():
     # The expansion is printed when the crate is compiled, so it must be compiled anew.
     (HERE / "ours" / "src" / "lib.rs").touch()
     printed = subprocess.run(
-        ["cargo", "check", "--locked", "--lib"], cwd=HERE / "ours", capture_output=True, text=True, check=True,
-        env=os.environ | {"LAGRANGE_PRINT": "all", "CARGO_TARGET_DIR": str(SHOP / "ours-printed")}).stderr
+        ["cargo", "check", "--lib"],
+        cwd=HERE / "ours",
+        capture_output=True,
+        text=True,
+        check=True,
+        env=os.environ | {"LAGRANGE_PRINT": "all", "CARGO_TARGET_DIR": str(SHOP / "ours-printed")},
+    ).stderr
     parts = re.split(r"// the expansion of derive\(Lagrangian\) on (\w+)", printed)
     return {name: counted(text) for name, text in zip(parts[1::2], parts[2::2])}
 
@@ -58,20 +63,30 @@ def sympy(n):
 
 def rows(options):
     section = Section("Operations (+ − × ÷ √) / sines and cosines")
-    section.text("As each tool counts what it generates, the solution of the equations included. Ours also computes how well the "
-                 "system could be solved (`Solution::pivot`); without that the compiler drops those operations.")
-    options.progress("operation counts")
+    section.text(
+        "As each tool counts what it generates, the solution of the equations included. Ours also computes how well "
+        "the system could be solved (`Solution::pivot`); where that is not used the compiler drops those operations."
+    )
+    progress("operation counts")
     counts = emitted()
-    section.table("planar pendulum", ["", *(f"n = {n}" for n in PLANAR)], [
-        ["ours", *(counts[f"Planar{n}"] for n in PLANAR)],
-        ["CasADi, LDLᵀ", *(casadi("planar", n, "ldl") for n in PLANAR)],
-        ["wrenfold, unrolled LDLᵀ", *map(wrenfold, PLANAR)],
-        ["heyoka", *map(heyoka, PLANAR)],
-        ["SymPy, symbolic LU", *map(sympy, PLANAR)],
-    ])
-    section.table("plane chain of rods in Cartesian coordinates", ["", *(f"n = {n}" for n in CHAIN)], [
-        ["ours", *(counts[f"Chain{n}"] for n in CHAIN)],
-        ["CasADi, Schur + LDLᵀ", *(casadi("chain", n, "schur") for n in CHAIN)],
-        ["CasADi, LDLᵀ of the whole", *(casadi("chain", n, "kkt") for n in CHAIN)],
-    ])
+    section.table(
+        "planar pendulum",
+        ["", *(f"n = {n}" for n in PLANAR)],
+        [
+            ["ours", *(counts[f"Planar{n}"] for n in PLANAR)],
+            ["CasADi, LDLᵀ", *(casadi("planar", n, "ldl") for n in PLANAR)],
+            ["wrenfold, unrolled LDLᵀ", *map(wrenfold, PLANAR)],
+            ["heyoka", *map(heyoka, PLANAR)],
+            ["SymPy, symbolic LU", *map(sympy, PLANAR)],
+        ],
+    )
+    section.table(
+        "plane chain of rods in Cartesian coordinates",
+        ["", *(f"n = {n}" for n in CHAIN)],
+        [
+            ["ours", *(counts[f"Chain{n}"] for n in CHAIN)],
+            ["CasADi, Schur + LDLᵀ", *(casadi("chain", n, "schur") for n in CHAIN)],
+            ["CasADi, LDLᵀ of the whole", *(casadi("chain", n, "kkt") for n in CHAIN)],
+        ],
+    )
     return section

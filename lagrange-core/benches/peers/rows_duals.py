@@ -3,7 +3,7 @@
 from peers import Implementation, gather, ours
 from report import Section, comparison
 from timing import measure
-from workshop import NATIVE, PLAIN, build_ours
+from workshop import NATIVE, PLAIN, build_ours, progress
 
 SIZES = (2, 5, 10)
 WORST_ERROR = 1e-12
@@ -27,13 +27,17 @@ def first_order(flags):
 
 def rows(options):
     section = Section("Against num-dual, which takes the same derivatives at run time: nanoseconds")
-    section.text("The pendulum's accelerations, solved by nalgebra's Cholesky decomposition; the forces and the energy of "
-                 "three bodies under gravity. A cell: least time of a sample · ours divided by it, by minima (by medians).")
+    section.text(
+        "The pendulum's accelerations, solved by nalgebra's Cholesky decomposition; the forces and the energy of "
+        "three bodies under gravity. A cell: least time of a sample · ours divided by it, by minima (by medians)."
+    )
     for flags in (NATIVE, PLAIN):
         columns = {}
-        for system, n, heading, made in [*(("planar", n, f"pendulum n = {n}", makers(n, flags)) for n in SIZES),
-                                         ("bodies", 3, "three bodies", first_order(flags))]:
-            options.progress(f"dual numbers, {heading}, {flags.name}")
+        for system, n, heading, made in [
+            *(("planar", n, f"pendulum n = {n}", makers(n, flags)) for n in SIZES),
+            ("bodies", 3, "three bodies", first_order(flags)),
+        ]:
+            progress(f"dual numbers, {heading}, {flags.name}")
             implementations, missing = gather(made)
             columns[heading], wrong = measure(system, n, implementations, options.effort, WORST_ERROR)
             section.missing += missing + wrong

@@ -9,7 +9,7 @@ from statistics import median, quantiles
 from peers import Implementation
 from report import Section, comparison
 from timing import Timing
-from workshop import HERE, NATIVE, PYTHON, SHOP, Missing, build_ours
+from workshop import HERE, NATIVE, PYTHON, SHOP, Missing, build_ours, progress
 
 PENDULUMS, TOLERANCES, REFERENCE_TOLERANCE = 2000, (1e-6, 1e-9, 1e-12), 1e-15
 ROUNDS, QUICK_ROUNDS = 21, 3
@@ -23,7 +23,11 @@ class Contestant:
         self.ends, self.times = SHOP / f"ends-{name}-{tolerance:g}".replace(" ", "-"), []
         self.process = subprocess.Popen(
             [*map(str, command), str(tolerance), str(SHOP / "starts"), str(self.ends)],
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
 
     def run(self):
         """One run, its time in microseconds a trajectory."""
@@ -77,9 +81,9 @@ def contest(contestants, exact, rounds):
 def rows(options):
     section = Section(f"{PENDULUMS} double pendulums from rest to T = 10: microseconds a trajectory")
     section.text(
-        "One thread, native. One tolerance means other errors with other methods. Large swings are chaotic, so errors "
-        f"of the last states are given by quantiles, against heyoka at {REFERENCE_TOLERANCE:g}. Times are of the wall "
-        "clock. A cell: least time · ours divided by it, by minima (by medians)."
+        "One thread, native. One tolerance means other errors with other methods. Large swings are chaotic, so "
+        f"errors of the last states are given by quantiles, against heyoka at {REFERENCE_TOLERANCE:g}. Times are of "
+        "the wall clock. A cell: least time · ours divided by it, by minima (by medians)."
     )
     starts()
     reference = heyoka(1, REFERENCE_TOLERANCE)
@@ -87,13 +91,16 @@ def rows(options):
     exact = reference.finish()
     columns, quality = {}, {}
     for tolerance in TOLERANCES:
-        options.progress(f"ensemble at {tolerance:g}")
+        progress(f"ensemble at {tolerance:g}")
         contestants = [ours(tolerance), *(heyoka(batch, tolerance) for batch in (1, 4, 8))]
         judged = contest(contestants, exact, QUICK_ROUNDS if options.quick else ROUNDS)
         columns[f"{tolerance:g}"] = [timing for timing, _ in judged]
         for timing, error in judged:
             quality.setdefault(timing.name, []).append(f"{median(error):.0e} / {quantiles(error, n=10)[8]:.0e}")
     comparison(section, "at a tolerance of", columns)
-    section.table("error of the last state: half of them less / nine in ten less", ["", *columns],
-                  [[name, *cells] for name, cells in quality.items()])
+    section.table(
+        "error of the last state: half of them less / nine in ten less",
+        ["", *columns],
+        [[name, *cells] for name, cells in quality.items()],
+    )
     return section

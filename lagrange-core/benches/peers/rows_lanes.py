@@ -3,7 +3,7 @@
 import peers
 from report import Bar, Section, bar, comparison, fastest
 from timing import Ratio, measure
-from workshop import AVX2, NATIVE
+from workshop import AVX2, NATIVE, progress
 
 WORST_ERROR = 1e-12
 
@@ -22,13 +22,15 @@ def rows(options):
     )
     columns = {}
     for flags in (AVX2, NATIVE):
-        options.progress(f"lanes, {flags.name}")
+        progress(f"lanes, {flags.name}")
         implementations, missing = peers.gather(makers(flags))
         timings, wrong = measure("lanes", 2, implementations, options.effort, WORST_ERROR)
         section.missing += missing + wrong
         columns[flags.name] = timings
         gain = Ratio.of(next(one for one in timings if one.name == "ours, one after another"), timings[0])
-        section.bars.append(Bar(f"{flags.name}, throughput against scalar", gain.least, 2.5, f" ({gain.median:.3g})", at_least=True))
+        section.bars.append(
+            Bar(f"{flags.name}, throughput against scalar", gain.least, 2.5, f" ({gain.median:.3g})", at_least=True)
+        )
         bar(section, f"{flags.name}, against", timings, fastest(timings, ["tool"]), 1.0)
     comparison(section, "least time of a sample · ours on lanes divided by it, by minima (by medians)", columns)
     return section

@@ -3,7 +3,7 @@
 import peers
 from report import Section, bar, comparison, fastest
 from timing import measure
-from workshop import NATIVE, PLAIN
+from workshop import NATIVE, PLAIN, progress
 
 SIZES = (2, 3, 5, 8, 10, 20)
 WORST_ERROR = 1e-12
@@ -11,7 +11,7 @@ WORST_ERROR = 1e-12
 
 def makers(n, flags, options):
     yield "ours", lambda: peers.ours(f"planar_{n}", flags)
-    yield "ours with its pivot", lambda: peers.ours(f"planar_{n}_pivot", flags, "ours, with the pivot")
+    yield "ours, not inlined", lambda: peers.ours_called(f"planar_{n}", flags)
     yield "CasADi", lambda: peers.casadi("planar", n, "ldl", flags)
     yield "wrenfold, unrolled", lambda: peers.wrenfold(n, "unrolled", flags)
     yield "wrenfold, M and h", lambda: peers.wrenfold(n, "loops", flags)
@@ -23,7 +23,7 @@ def makers(n, flags, options):
     yield "by hand, dense", lambda: peers.by_hand("planar", "dense", "by hand, dense LDLᵀ", flags, N=n)
     yield "by hand, O(n)", lambda: peers.by_hand("planar", "linear", "by hand, O(n)", flags, N=n)
     if n == 2:
-        yield "by hand, closed form", lambda: peers.by_hand("planar", "closed", "by hand, closed form", flags, N=n)
+        yield ("by hand, closed form", lambda: peers.by_hand("planar", "closed", "by hand, closed form", flags, N=n))
 
 
 def bars(section, n, flags, timings):
@@ -42,7 +42,7 @@ def rows(options):
     for flags in (NATIVE, PLAIN):
         columns, chained = {}, {}
         for n in SIZES:
-            options.progress(f"planar n = {n}, {flags.name}")
+            progress(f"planar n = {n}, {flags.name}")
             implementations, missing = peers.gather(makers(n, flags, options))
             right, wrong = measure("planar", n, implementations, options.effort, WORST_ERROR)
             columns[f"n = {n}"] = right

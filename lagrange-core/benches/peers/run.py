@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs ours and the tools that people use now in one go and prints the tables.
 
-    python3 lagrange-core/benches/peers/run.py [ROW...] [--quick] [--slow] [--output FILE]
+python3 lagrange-core/benches/peers/run.py [ROW...] [--quick] [--slow] [--output FILE]
 """
 
 import argparse
@@ -15,8 +15,9 @@ import rows_ensemble
 import rows_growth
 import rows_lanes
 import rows_planar
+from report import Section
 from timing import FULL, QUICK
-from workshop import HERE, SHOP, progress, set_up_python, versions
+from workshop import HERE, SHOP, Missing, progress, set_up_python, versions
 
 ROWS = {
     "planar": rows_planar.rows,
@@ -35,15 +36,25 @@ def options():
     parser.add_argument("rows", nargs="*", metavar="ROW", help=f"of {', '.join(ROWS)}; default all")
     parser.add_argument("--quick", action="store_true", help="few short samples: to see that it works")
     parser.add_argument("--slow", action="store_true", help="also SymPy at n = 20, which derives for minutes")
-    parser.add_argument("--output", type=Path, help="where the tables go; default RESULTS.md beside this script after a full run")
+    parser.add_argument(
+        "--output", type=Path, help="where the tables go; default RESULTS.md beside this script after a full run"
+    )
     chosen = parser.parse_args()
     if unknown := set(chosen.rows) - set(ROWS):
         parser.error(f"there is no row {', '.join(sorted(unknown))}; there are {', '.join(ROWS)}")
     chosen.effort = QUICK if chosen.quick else FULL
-    chosen.progress = progress
     if chosen.output is None and not chosen.quick and not chosen.rows:
         chosen.output = HERE / "RESULTS.md"
     return chosen
+
+
+def section(name, chosen):
+    """A row's tables, or why there are none."""
+    try:
+        return ROWS[name](chosen)
+    except Missing as reason:
+        progress(f"missing {name}: {reason}")
+        return Section(name, missing=[(name, str(reason))])
 
 
 def main():
@@ -52,9 +63,9 @@ def main():
     set_up_python()
     effort = f"{chosen.effort.samples} samples in rotation, each at least {chosen.effort.milliseconds} ms"
     head = ["# Comparison with other tools", "\n".join(f"- {fact}" for fact in [*versions(), effort])]
-    sections = [ROWS[name](chosen) for name in chosen.rows or ROWS]
-    bars = [bar for section in sections for bar in section.bars]
-    head.append(f"{sum(bar.passes for bar in bars)} of {len(bars)} bars pass; the run took {(time.monotonic() - start) / 60:.1f} minutes.")
+    sections = [section(name, chosen) for name in chosen.rows or ROWS]
+    bars, minutes = [bar for section in sections for bar in section.bars], (time.monotonic() - start) / 60
+    head.append(f"{sum(bar.passes for bar in bars)} of {len(bars)} bars pass; the run took {minutes:.1f} minutes.")
     text = "\n\n".join(head + [section.markdown() for section in sections]) + "\n"
     print(text)
     if chosen.output:

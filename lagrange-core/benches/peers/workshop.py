@@ -46,9 +46,7 @@ def run(*command, seconds=600, **options):
     """The standard output of a command; what it says where it fails is the reason that something is missing."""
     command = [str(part) for part in command]
     try:
-        return subprocess.run(
-            command, check=True, capture_output=True, text=True, timeout=seconds, **options
-        ).stdout
+        return subprocess.run(command, check=True, capture_output=True, text=True, timeout=seconds, **options).stdout
     except subprocess.TimeoutExpired:
         raise Missing(f"`{Path(command[0]).name}` takes more than {seconds} s") from None
     except FileNotFoundError:
@@ -59,17 +57,21 @@ def run(*command, seconds=600, **options):
 
 
 def set_up_python():
-    """A virtual environment with the packages that requirements.txt pins."""
+    """A virtual environment with the packages that requirements.txt pins; one that cannot be had is left out."""
     wanted, stamp = (HERE / "requirements.txt").read_text(), SHOP / "venv" / "requirements.txt"
     if stamp.exists() and stamp.read_text() == wanted:
         return
     progress("packages: " + ", ".join(wanted.split()))
     venv.create(SHOP / "venv", with_pip=True, clear=True)
-    try:
-        run(PYTHON, "-m", "pip", "install", "--quiet", "-r", HERE / "requirements.txt")
+    failed = False
+    for package in wanted.split():
+        try:
+            run(PYTHON, "-m", "pip", "install", "--quiet", package)
+        except Missing as reason:
+            failed = True
+            progress(f"  missing {package}: {reason}")
+    if not failed:
         stamp.write_text(wanted)
-    except Missing as reason:
-        progress(f"  {reason}; the peers that need them will be missing")
 
 
 def generate(script, *arguments, seconds=600):
@@ -77,11 +79,11 @@ def generate(script, *arguments, seconds=600):
     return json.loads(run(PYTHON, HERE / "generators" / script, *arguments, seconds=seconds))
 
 
-def build_ours(package, flags):
+def build_ours(package, flags, *features):
     """The folder with the release build of a crate here, as `cargo build --release` makes it."""
-    target = SHOP / f"{package}-{flags.name}"
-    run("cargo", "build", "--release", "--locked", cwd=HERE / package,
-        env=flags.environment() | {"CARGO_TARGET_DIR": str(target)})
+    target = SHOP / "-".join([package, flags.name, *features])
+    environment = flags.environment() | {"CARGO_TARGET_DIR": str(target)}
+    run("cargo", "build", "--release", "--features", ",".join(features), cwd=HERE / package, env=environment)
     return target / "release"
 
 
@@ -93,5 +95,7 @@ def versions():
     yield f"Date: {date.today()}, commit {commit}"
     yield f"CPU: {cpu[1] if cpu else platform.processor()}, {os.cpu_count()} cores, {platform.system()}"
     yield f"Load average at the start: {os.getloadavg()[0]:.2f}"
-    yield "Compilers: " + run("rustc", "--version", cwd=HERE).strip() + "; " + run("gcc", "--version").splitlines()[0]
+    yield (
+        "Compilers: " + run("rustc", "--version", cwd=HERE).strip() + "; " + run("gcc", "--version").splitlines()[0]
+    )
     yield f"Python {platform.python_version()}: " + ", ".join(packages)

@@ -73,14 +73,14 @@ def generate(function, output):
     os.chdir(folder)
     function.generate("generated_" + name)
     with open(name, "w") as file:
-        file.write(f'''#include "generated_{name}"
+        file.write(f"""#include "generated_{name}"
 void accelerations(const double *q, const double *v, const double *p, double *a, double *lambda) {{
     double w[{max(1, function.sz_w())}];
     const double *in[3] = {{q, v, p}};
     double *out[2] = {{a, lambda}};
     evaluate(in, out, 0, w, 0);
 }}
-''')
+""")
 
 
 def main():
@@ -92,11 +92,15 @@ def main():
     function = ca.Function("evaluate", [stated[0], stated[1], p], [a, multipliers], {"cse": True})
     generate(function, output)
     count = Counter(NAMES[function.instruction_id(k)] for k in range(function.n_instructions()))
-    print(json.dumps({
-        "operations": sum(count[name] for name in ARITHMETIC),
-        "functions": count["SIN"] + count["COS"],
-        "seconds": time.perf_counter() - start,
-    }))
+    print(
+        json.dumps(
+            {
+                "operations": sum(count[name] for name in ARITHMETIC),
+                "functions": count["SIN"] + count["COS"],
+                "seconds": time.perf_counter() - start,
+            }
+        )
+    )
 
 
 main()

@@ -68,7 +68,9 @@ def write(n, results, uses_loops, output):
     body += "".join(f"{name}={printer.doprint(value)};\n" for name, value in zip(results, reduced))
     with open(output, "w") as file:
         file.write(f"#include <math.h>\n#define N {n}\n{SOLVE if uses_loops else ''}")
-        file.write("void accelerations(const double *q, const double *v, const double *p, double *a, double *lambda) {\n")
+        file.write(
+            "void accelerations(const double *q, const double *v, const double *p, double *a, double *lambda) {\n"
+        )
         file.write(f"(void)lambda;\n{inputs}const double g=p[{2 * n}];\n")
         file.write("double M[N][N], b[N];\n" + body + "solve(M, b, a);\n}\n" if uses_loops else body + "}\n")
     values = [value for _, value in shared] + list(reduced)

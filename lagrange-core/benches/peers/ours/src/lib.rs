@@ -5,6 +5,9 @@
 //! ```
 //!
 //! The parameters p are m[0..n], l[0..n], g, in the order of the structs' fields.
+//!
+//! Each system is evaluated in one place, where the compiler takes the emitted function apart and leaves out what is
+//! not used. With the feature `call` it stays a function that gives the whole [`Solution`], as in a larger program.
 
 mod lanes;
 mod systems;
@@ -12,7 +15,16 @@ mod systems;
 use lagrange_core::prelude::*;
 use systems::*;
 
-/// Accelerations and multipliers of the system that `p` points to; its result is how well it could be solved.
+#[cfg_attr(feature = "call", inline(never))]
+#[cfg_attr(not(feature = "call"), inline(always))]
+fn solution<L, const N: usize, const M: usize>(system: &L, state: &State<f64, N>) -> Solution<f64, N, M>
+where
+    L: Lagrangian<N, M, Scalar = f64>,
+{
+    system.accelerations(state)
+}
+
+/// Accelerations and multipliers of the system that `p` points to.
 ///
 /// # Safety
 /// `q`, `v` and `a` point to N numbers, `lambda` to M, and `p` to an `L`, which is `repr(C)` and made of `f64`.
@@ -23,23 +35,19 @@ unsafe fn evaluate<L, const N: usize, const M: usize>(
     p: *const f64,
     a: *mut f64,
     lambda: *mut f64,
-) -> f64
-where
+) where
     L: Lagrangian<N, M, Scalar = f64>,
 {
     unsafe {
         let state = State::new(*q.cast::<[f64; N]>(), *v.cast::<[f64; N]>());
-        let solution = (*p.cast::<L>()).accelerations(&state);
+        let solution = solution(&*p.cast::<L>(), &state);
         *a.cast::<[f64; N]>() = solution.accelerations.into();
         *lambda.cast::<[f64; M]>() = solution.multipliers.into();
-        solution.pivot
     }
 }
 
-/// Two functions for a system: with the results that the other tools have too, and with the pivot after the
-/// multipliers, which an integrator looks at.
 macro_rules! export {
-    ($($name:ident $with_pivot:ident: $system:ident, $n:literal, $m:literal;)*) => {
+    ($($name:ident: $system:ident, $n:literal, $m:literal;)*) => {
         $(
             /// # Safety
             /// See `evaluate`.
@@ -51,37 +59,24 @@ macro_rules! export {
                 a: *mut f64,
                 lambda: *mut f64,
             ) {
-                unsafe { evaluate::<$system, $n, $m>(q, v, p, a, lambda) };
-            }
-
-            /// # Safety
-            /// See `evaluate`; `lambda` points to M + 1 numbers.
-            #[unsafe(no_mangle)]
-            pub unsafe extern "C" fn $with_pivot(
-                q: *const f64,
-                v: *const f64,
-                p: *const f64,
-                a: *mut f64,
-                lambda: *mut f64,
-            ) {
-                unsafe { *lambda.add($m) = evaluate::<$system, $n, $m>(q, v, p, a, lambda) }
+                unsafe { evaluate::<$system, $n, $m>(q, v, p, a, lambda) }
             }
         )*
     };
 }
 
 export! {
-    planar_2 planar_2_pivot: Planar2, 2, 0;
-    planar_3 planar_3_pivot: Planar3, 3, 0;
-    planar_5 planar_5_pivot: Planar5, 5, 0;
-    planar_8 planar_8_pivot: Planar8, 8, 0;
-    planar_10 planar_10_pivot: Planar10, 10, 0;
-    planar_20 planar_20_pivot: Planar20, 20, 0;
-    chain_5 chain_5_pivot: Chain5, 10, 5;
-    chain_10 chain_10_pivot: Chain10, 20, 10;
-    chain_20 chain_20_pivot: Chain20, 40, 20;
-    chain_50 chain_50_pivot: Chain50, 100, 50;
-    spherical_1 spherical_1_pivot: Spherical, 3, 1;
+    planar_2: Planar2, 2, 0;
+    planar_3: Planar3, 3, 0;
+    planar_5: Planar5, 5, 0;
+    planar_8: Planar8, 8, 0;
+    planar_10: Planar10, 10, 0;
+    planar_20: Planar20, 20, 0;
+    chain_5: Chain5, 10, 5;
+    chain_10: Chain10, 20, 10;
+    chain_20: Chain20, 40, 20;
+    chain_50: Chain50, 100, 50;
+    spherical_1: Spherical, 3, 1;
 }
 
 /// The forces ∂L/∂q of three bodies, and their energy.
