@@ -18,7 +18,7 @@ from workshop import SHOP, progress
 # Seconds for the macro, rustc in release and in dev, of the systems that have bars.
 BARS = {("pendulum", 10): (0.3, 0.7, 1), ("pendulum", 20): (1, 2, 2), ("chain", 50): (1.5, 3, 3)}
 PROFILES = ("release", "dev")
-REPEATS, LIMIT_S = 3, 120
+REPEATS, LIMIT_S = 3, 60
 TARGET = SHOP / "growth-target"
 
 

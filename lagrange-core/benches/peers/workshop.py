@@ -90,7 +90,7 @@ def build_ours(package, flags, *features):
 def versions():
     """What was compared, where and when, a line each."""
     cpu = re.search(r"model name\s*: (.*)", Path("/proc/cpuinfo").read_text())
-    commit = run("git", "rev-parse", "--short", "HEAD", cwd=ROOT).strip()
+    commit = run("git", "describe", "--always", "--dirty", cwd=ROOT).strip()
     packages = [line.replace("==", " ") for line in (HERE / "requirements.txt").read_text().split()]
     yield f"Date: {date.today()}, commit {commit}"
     yield f"CPU: {cpu[1] if cpu else platform.processor()}, {os.cpu_count()} cores, {platform.system()}"
