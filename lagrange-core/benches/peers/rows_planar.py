@@ -23,7 +23,7 @@ def makers(n, flags, options):
     yield "by hand, dense", lambda: peers.by_hand("planar", "dense", "by hand, dense LDLᵀ", flags, N=n)
     yield "by hand, O(n)", lambda: peers.by_hand("planar", "linear", "by hand, O(n)", flags, N=n)
     if n == 2:
-        yield ("by hand, closed form", lambda: peers.by_hand("planar", "closed", "by hand, closed form", flags, N=n))
+        yield "by hand, closed", lambda: peers.by_hand("planar", "closed", "by hand, closed form", flags, N=n)
 
 
 def bars(section, n, flags, timings):
