@@ -70,17 +70,17 @@ def wrenfold(n, how, flags):
     return Implementation(WRENFOLD[how], "tool", library)
 
 
-def heyoka(system, n, flags):
+def heyoka(n, flags, batch=1):
     if flags is PLAIN:
         raise Missing("under plain flags, since it compiles for the CPU it runs on whatever the flags")
-    source = place(f"heyoka_{system}_{n}.c", flags)
+    source = place(f"heyoka_{n}_{batch}.c", flags)
     code = source.with_suffix(".o")
-    generate("with_heyoka.py", system, n, code, source)
+    generate("with_heyoka.py", n, batch, code, source)
     found = list((SHOP / "venv").glob("lib/python*/site-packages/heyoka.libs/libheyoka-*"))
     if not found:
         raise Missing("the library of heyoka's package, with its vector functions, is not where it was")
     library = compile_c([source, code, found[0]], source.with_suffix(".so"), flags, f"-Wl,-rpath,{found[0].parent}")
-    return Implementation("heyoka, cfunc", "tool", library)
+    return Implementation("heyoka, cfunc" if batch == 1 else f"heyoka, batches of {batch}", "tool", library)
 
 
 def sympy(n, how, flags, seconds):

@@ -54,7 +54,7 @@ def wrenfold(n):
 
 
 def heyoka(n):
-    return tool("with_heyoka.py", "planar", n, place(f"count_{n}.o", PLAIN), place(f"count_{n}.c", PLAIN))
+    return tool("with_heyoka.py", n, 1, place(f"count_{n}.o", PLAIN), place(f"count_{n}.c", PLAIN))
 
 
 def sympy(n):

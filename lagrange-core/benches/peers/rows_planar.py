@@ -15,7 +15,7 @@ def makers(n, flags, options):
     yield "CasADi", lambda: peers.casadi("planar", n, "ldl", flags)
     yield "wrenfold, unrolled", lambda: peers.wrenfold(n, "unrolled", flags)
     yield "wrenfold, M and h", lambda: peers.wrenfold(n, "loops", flags)
-    yield "heyoka", lambda: peers.heyoka("planar", n, flags)
+    yield "heyoka", lambda: peers.heyoka(n, flags)
     if n <= 10 or options.slow:
         yield "SymPy", lambda: peers.sympy(n, "loops", flags, seconds=600)
     if n <= 3:

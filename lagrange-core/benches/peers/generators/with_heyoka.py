@@ -1,8 +1,9 @@
 """heyoka: `lagrangian` and a compiled function `cfunc`, whose object code for this CPU is linked behind a C wrapper.
 
-usage: with_heyoka.py planar|lanes N OUTPUT.o OUTPUT.c
+usage: with_heyoka.py N BATCH OUTPUT.o OUTPUT.c
 
-`lanes` is the double pendulum on batches of four, the width of AVX2. Prints what the function takes, as JSON.
+With a BATCH of more than one it evaluates eight systems side by side, so many at a time. Prints what the function
+takes, as JSON.
 """
 
 import json
@@ -11,7 +12,7 @@ import time
 
 import heyoka as hy
 
-SYSTEMS, BATCH = 8, 4
+SYSTEMS = 8
 # heyoka's function takes q and v in one array, which is how the harness has them.
 SCALAR = """void cfunc(double *, const double *, const double *, const double *);
 void accelerations(const double *q, const double *v, const double *p, double *a, double *lambda) {{
@@ -43,19 +44,19 @@ def planar(n):
 
 
 def main():
-    system, n = sys.argv[1], int(sys.argv[2])
+    n, batch = int(sys.argv[1]), int(sys.argv[2])
     hy.llvm_state.set_diskcache_enabled(False)
     start = time.perf_counter()
     lagrangian, q, v = planar(n)
     right = hy.lagrangian(lagrangian, q, v)
-    function = hy.cfunc([value for _, value in right[n:]], q + v, batch_size=BATCH)
+    function = hy.cfunc([value for _, value in right[n:]], q + v, batch_size=batch)
     seconds = time.perf_counter() - start
     # The states are: one system, one with a stride, and a batch with a stride.
-    code = function.llvm_states[2 if system == "lanes" else 0].object_code
+    code = function.llvm_states[2 if batch > 1 else 0].object_code
     with open(sys.argv[3], "wb") as file:
         file.write(code)
     with open(sys.argv[4], "w") as file:
-        file.write((LANES if system == "lanes" else SCALAR).format(systems=SYSTEMS, batch=BATCH))
+        file.write((LANES if batch > 1 else SCALAR).format(systems=SYSTEMS, batch=batch))
     steps = [str(step) for step in function.dc[2 * n : -n]]
     functions = sum("sin(" in step or "cos(" in step for step in steps)
     operations = sum(any(sign in step for sign in "+-*/(") for step in steps) - functions
