@@ -1,0 +1,35 @@
+/* What is evaluated, on what states, and how a result is checked. */
+#ifndef SYSTEMS_H
+#define SYSTEMS_H
+
+enum { STATES = 64, ENTRIES = 256 };
+
+/* Every implementation: q, v and p in, v right after q; accelerations and multipliers (where there are any) out. */
+typedef void (*Evaluation)(const double *q, const double *v, const double *p, double *a, double *lambda);
+
+typedef struct {
+    int n, coordinates;
+    /* q, then v, of each state. */
+    double states[STATES][2 * ENTRIES], p[ENTRIES];
+} Inputs;
+
+static inline double *q_of(Inputs *in, long s) { return in->states[s % STATES]; }
+static inline double *v_of(Inputs *in, long s) { return in->states[s % STATES] + in->coordinates; }
+
+typedef struct {
+    const char *name;
+    /* Fills in random states and parameters; all states satisfy the constraints. */
+    void (*prepare)(Inputs *);
+    /* The largest error of a result at state s, as a fraction of the largest acceleration. */
+    double (*error)(Inputs *, int s, const double *a, const double *lambda);
+} System;
+
+/* The system of that name, or NULL. */
+const System *find_system(const char *name);
+
+/* A random number in [low, high). */
+double uniform(double low, double high);
+
+extern const System PLANAR, LANES, CHAIN, SPHERICAL, BODIES;
+
+#endif

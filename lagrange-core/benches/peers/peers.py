@@ -1,0 +1,108 @@
+"""Each implementation as a shared library with the signature of the harness."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from workshop import HERE, PLAIN, SHOP, Missing, build_ours, generate, progress, run
+
+
+@dataclass
+class Implementation:
+    """A function in a shared library."""
+
+    name: str
+    kind: str  # "ours", "tool" or "hand"
+    library: Path | None
+    function: str = "accelerations"
+
+
+def compile_c(sources, output, flags, *extra):
+    output.parent.mkdir(parents=True, exist_ok=True)
+    run("gcc", *flags.gcc, "-w", "-fPIC", "-shared", *extra, *sources, "-o", output, "-lm")
+    return output
+
+
+def place(name, flags):
+    """The path of a built file, without its ending."""
+    folder = SHOP / f"built-{flags.name}"
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder / name
+
+
+def ours(name, flags, label="ours"):
+    return Implementation(label, "ours", build_ours("ours", flags) / "libours.so", name)
+
+
+def ours_called(name, flags):
+    """The emitted function not inlined: what a larger program gets."""
+    return Implementation("ours, not inlined", "ours", build_ours("ours", flags, "call") / "libours.so", name)
+
+
+def by_hand(source, function, label, flags, **defines):
+    name = "_".join(["hand", source, *map(str, defines.values())])
+    library = compile_c(
+        [HERE / "hand" / f"{source}.c"],
+        place(name + ".so", flags),
+        flags,
+        *(f"-D{key}={value}" for key, value in defines.items()),
+    )
+    return Implementation(label, "hand", library, function)
+
+
+CASADI = {"ldl": "CasADi, LDLᵀ", "schur": "CasADi, Schur + LDLᵀ", "kkt": "CasADi, LDLᵀ of the whole"}
+WRENFOLD = {"unrolled": "wrenfold, unrolled LDLᵀ", "loops": "wrenfold, M and h"}
+SYMPY = {"unrolled": "SymPy, symbolic LU", "loops": "SymPy, M and h"}
+
+
+def casadi(system, n, how, flags):
+    source = place(f"casadi_{system}_{how}_{n}.c", flags)
+    generate("with_casadi.py", system, n, how, source)
+    library = compile_c([source], source.with_suffix(".so"), flags)
+    return Implementation(CASADI[how], "tool", library)
+
+
+def wrenfold(n, how, flags):
+    source = place(f"wrenfold_{how}_{n}.rs", flags)
+    generate("with_wrenfold.py", n, how, source)
+    library = source.with_suffix(".so")
+    options = ["--edition=2021", "--crate-type=cdylib", "-Copt-level=3", "-Cpanic=abort"]
+    run("rustc", *options, *flags.rustc, source, "-o", library, cwd=HERE)
+    return Implementation(WRENFOLD[how], "tool", library)
+
+
+def heyoka(n, flags, batch=1):
+    if flags is PLAIN:
+        raise Missing("under plain flags, since it compiles for the CPU it runs on whatever the flags")
+    source = place(f"heyoka_{n}_{batch}.c", flags)
+    code = source.with_suffix(".o")
+    generate("with_heyoka.py", n, batch, code, source)
+    found = list((SHOP / "venv").glob("lib/python*/site-packages/heyoka.libs/libheyoka-*"))
+    if not found:
+        raise Missing("the library of heyoka's package, with its vector functions, is not where it was")
+    library = compile_c([source, code, found[0]], source.with_suffix(".so"), flags, f"-Wl,-rpath,{found[0].parent}")
+    return Implementation("heyoka, cfunc" if batch == 1 else f"heyoka, batches of {batch}", "tool", library)
+
+
+def sympy(n, how, flags, seconds):
+    source = place(f"sympy_{how}_{n}.c", flags)
+    # The derivation takes long, and is the same for all flags and in all runs.
+    written, script = place(source.name, PLAIN), HERE / "generators" / "with_sympy.py"
+    if not written.exists() or written.stat().st_mtime < script.stat().st_mtime:
+        generate(script.name, n, how, written, seconds=seconds)
+    library = compile_c([written], source.with_suffix(".so"), flags)
+    return Implementation(SYMPY[how], "tool", library)
+
+
+def gather(makers):
+    """Those that can be had, ours first, and the reasons why others cannot. Without ours there is no comparison."""
+    had, missing = [], []
+    for label, make in makers:
+        try:
+            progress(f"  building {label}")
+            had.append(make())
+        except Missing as reason:
+            if label.startswith("ours"):
+                raise
+            progress(f"  missing {label}: {reason}")
+            missing.append((label, str(reason)))
+    return had, missing

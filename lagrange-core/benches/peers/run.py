@@ -1,0 +1,76 @@
+#!/usr/bin/env python3
+"""Runs ours and the tools that people use now in one go and prints the tables.
+
+python3 lagrange-core/benches/peers/run.py [ROW...] [--quick] [--slow] [--output FILE]
+"""
+
+import argparse
+import time
+from pathlib import Path
+
+import rows_chain
+import rows_counts
+import rows_duals
+import rows_ensemble
+import rows_growth
+import rows_lanes
+import rows_planar
+from report import Bar, Section
+from timing import FULL, QUICK
+from workshop import HERE, SHOP, Missing, progress, set_up_python, versions
+
+ROWS = {
+    "planar": rows_planar.rows,
+    "counts": rows_counts.rows,
+    "chain": rows_chain.chains,
+    "spherical": rows_chain.spherical,
+    "lanes": rows_lanes.rows,
+    "ensemble": rows_ensemble.rows,
+    "duals": rows_duals.rows,
+    "growth": rows_growth.rows,
+}
+
+
+def options():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("rows", nargs="*", metavar="ROW", help=f"of {', '.join(ROWS)}; default all")
+    parser.add_argument("--quick", action="store_true", help="few short samples: to see that it works")
+    parser.add_argument("--slow", action="store_true", help="also SymPy at n = 20, which derives for minutes")
+    parser.add_argument(
+        "--output", type=Path, help="where the tables go; default RESULTS.md beside this script after a full run"
+    )
+    chosen = parser.parse_args()
+    if unknown := set(chosen.rows) - set(ROWS):
+        parser.error(f"there is no row {', '.join(sorted(unknown))}; there are {', '.join(ROWS)}")
+    chosen.effort = QUICK if chosen.quick else FULL
+    if chosen.output is None and not chosen.quick and not chosen.rows:
+        chosen.output = HERE / "RESULTS.md"
+    return chosen
+
+
+def section(name, chosen):
+    """A row's tables, or why there are none; then no bar of it is reached."""
+    try:
+        return ROWS[name](chosen)
+    except Missing as reason:
+        progress(f"missing {name}: {reason}")
+        return Section(name, bars=[Bar(f"{name}, measured", 0, 1, at_least=True)], missing=[(name, str(reason))])
+
+
+def main():
+    chosen, start = options(), time.monotonic()
+    SHOP.mkdir(parents=True, exist_ok=True)
+    set_up_python()
+    effort = f"{chosen.effort.samples} samples in rotation, each at least {chosen.effort.milliseconds} ms"
+    head = ["# Comparison with other tools", "\n".join(f"- {fact}" for fact in [*versions(), effort])]
+    sections = [section(name, chosen) for name in chosen.rows or ROWS]
+    bars, minutes = [bar for section in sections for bar in section.bars], (time.monotonic() - start) / 60
+    head.append(f"{sum(bar.passes for bar in bars)} of {len(bars)} bars pass; the run took {minutes:.1f} minutes.")
+    text = "\n\n".join(head + [section.markdown() for section in sections]) + "\n"
+    print(text)
+    if chosen.output:
+        chosen.output.write_text(text)
+
+
+if __name__ == "__main__":
+    main()
