@@ -136,6 +136,12 @@ impl fmt::Display for Count {
     }
 }
 
+/// What an operation comes to.
+enum Folded {
+    To(Register),
+    Into(Operation),
+}
+
 /// Operations in the order in which they are computed.
 #[derive(Clone, Default)]
 pub(super) struct Schedule {
@@ -239,13 +245,41 @@ impl Schedule {
     }
 
     pub(super) fn push(&mut self, operation: Operation) -> Register {
-        let operation = operation.canonical();
+        let operation = match self.folded(operation) {
+            Folded::To(register) => return register,
+            Folded::Into(operation) => operation.canonical(),
+        };
         let next = Register(self.operations.len() as u32);
         let register = *self.known.entry(operation).or_insert(next);
         if register == next {
             self.operations.push(operation);
         }
         register
+    }
+
+    /// An operation on constants is one, and a factor of 1 is none. (0 x stays: it is not 0 where x is no number.)
+    fn folded(&self, operation: Operation) -> Folded {
+        let value = |register: Register| match self.operations[register.index()] {
+            Operation::Constant(bits) => Some(f64::from_bits(bits)),
+            _ => None,
+        };
+        // What is no number has no literal.
+        let constant = |value: f64| match value.is_finite() {
+            true => Folded::Into(Operation::Constant(value.to_bits())),
+            false => Folded::Into(operation),
+        };
+        let values = operation.operands().map(value).collect::<Vec<_>>();
+        match (operation, &values[..]) {
+            (Operation::Negate(_), [Some(x)]) => constant(-x),
+            (Operation::SquareRoot(_), [Some(x)]) => constant(x.sqrt()),
+            (Operation::Add(..), [Some(x), Some(y)]) => constant(x + y),
+            (Operation::Subtract(..), [Some(x), Some(y)]) => constant(x - y),
+            (Operation::Multiply(..), [Some(x), Some(y)]) => constant(x * y),
+            (Operation::Divide(..), [Some(x), Some(y)]) => constant(x / y),
+            (Operation::Multiply(x, _) | Operation::Divide(x, _), [_, Some(1.0)]) => Folded::To(x),
+            (Operation::Multiply(_, y), [Some(1.0), _]) => Folded::To(y),
+            _ => Folded::Into(operation),
+        }
     }
 
     pub(super) fn constant(&mut self, value: f64) -> Register {

@@ -1,4 +1,4 @@
-//! Arithmetic on registers that knows zeros and ones.
+//! Arithmetic on registers that knows zeros.
 
 use crate::codegen::schedule::{Operation, Register, Schedule};
 use crate::symbolic::Id;
@@ -52,12 +52,7 @@ impl Solver<'_> {
     }
 
     pub(super) fn multiply(&mut self, x: Entry, y: Entry) -> Entry {
-        let one = self.schedule.constant(1.0);
-        match (x?, y?) {
-            (x, y) if x == one => Some(y),
-            (x, y) if y == one => Some(x),
-            (x, y) => Some(self.schedule.push(Operation::Multiply(x, y))),
-        }
+        Some(self.schedule.push(Operation::Multiply(x?, y?)))
     }
 
     /// Σ x_i y_i

@@ -148,3 +148,20 @@ fn divisions_by_the_same_share_a_reciprocal() {
     let (new, results) = reciprocals::shared(&schedule, &[alone]);
     assert_eq!(new.count(&results).arithmetic, 1);
 }
+
+#[test]
+fn what_is_constant_is_computed_at_once() {
+    let mut schedule = Schedule::default();
+    let x = input(&mut schedule, 0);
+    let [two, half] = [2.0, 0.5].map(|value| schedule.constant(value));
+    let one = schedule.push(Operation::Multiply(two, half));
+    assert_eq!(schedule.push(Operation::Multiply(x, one)), x);
+    assert_eq!(schedule.push(Operation::Divide(x, one)), x);
+    let reciprocal = schedule.push(Operation::Divide(one, two));
+    assert_eq!(reciprocal, half);
+    let zero = schedule.constant(0.0);
+    let poison = schedule.push(Operation::Multiply(zero, x));
+    assert!(matches!(schedule.operations[poison.index()], Operation::Multiply(..)), "0 x shows what x is");
+    let infinite = schedule.push(Operation::Divide(one, zero));
+    assert!(matches!(schedule.operations[infinite.index()], Operation::Divide(..)), "no literal is infinite");
+}
