@@ -70,8 +70,8 @@ impl Style<'_> {
             self.in_place(writer, &order, roots, shapes)
         } else {
             let arrays = Arrays::new(shapes);
-            let roots = roots.iter().copied().zip(arrays.places());
-            let roots: Vec<_> = roots.filter(|(root, _)| Some(*root) != zero).collect();
+            let roots = roots.iter().copied().enumerate().filter(|(_, root)| Some(*root) != zero);
+            let roots: Vec<_> = roots.map(|(k, root)| (root, arrays.place(k))).collect();
             (self.in_arrays(name, writer, &order, &parts, &roots, &arrays), arrays.results())
         };
         Kernel { statements, results, doc }

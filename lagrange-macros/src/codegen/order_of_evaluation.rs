@@ -24,12 +24,14 @@ impl Order {
     pub(super) fn new(schedule: &Schedule, roots: &[Register], uses: &[usize]) -> Self {
         let derived: Vec<usize> =
             (0..uses.len()).filter(|&index| uses[index] > 0 && is_computed(schedule, index)).collect();
-        let candidates = [greedy(schedule, &derived), greedy(schedule, &depth_first(schedule, roots))];
-        let mut waiting = self::waiting(schedule, &derived);
+        let operands: Vec<Vec<usize>> = (0..uses.len()).map(|index| operands(schedule, index)).collect();
+        let candidates =
+            [greedy(&operands, &derived), greedy(&operands, &depth_first(schedule, &operands, roots))];
+        let mut waiting = self::waiting(&operands, &derived);
         let peak_before = peak(&waiting);
         let mut sequence = derived;
         for candidate in candidates {
-            let of_candidate = self::waiting(schedule, &candidate);
+            let of_candidate = self::waiting(&operands, &candidate);
             if of_candidate.iter().sum::<usize>() < waiting.iter().sum() {
                 (sequence, waiting) = (candidate, of_candidate);
             }
@@ -61,8 +63,8 @@ fn operands(schedule: &Schedule, index: usize) -> Vec<usize> {
 }
 
 /// From the last result to the first. Without recursion: a chain of operations may be as long as there are any.
-fn depth_first(schedule: &Schedule, roots: &[Register]) -> Vec<usize> {
-    let needs = needs(schedule);
+fn depth_first(schedule: &Schedule, operands: &[Vec<usize>], roots: &[Register]) -> Vec<usize> {
+    let needs = needs(operands);
     let (mut sequence, mut is_done) = (Vec::new(), vec![false; schedule.operations.len()]);
     let mut stack: Vec<(usize, bool)> = roots.iter().map(|root| (root.index(), false)).collect();
     while let Some((index, are_operands_done)) = stack.pop() {
@@ -74,7 +76,7 @@ fn depth_first(schedule: &Schedule, roots: &[Register]) -> Vec<usize> {
             sequence.push(index);
             continue;
         }
-        let mut operands = operands(schedule, index);
+        let mut operands = operands[index].clone();
         // What is pushed last is computed first.
         operands.sort_by_key(|&operand| needs[operand]);
         stack.push((index, true));
@@ -84,19 +86,19 @@ fn depth_first(schedule: &Schedule, roots: &[Register]) -> Vec<usize> {
 }
 
 /// How many registers each result takes to compute, were nothing shared.
-fn needs(schedule: &Schedule) -> Vec<usize> {
-    let mut needs: Vec<usize> = Vec::with_capacity(schedule.operations.len());
-    for &operation in &schedule.operations {
-        let mut operands: Vec<usize> = schedule.operands(operation).map(|x| needs[x.index()]).collect();
-        operands.sort_unstable_by(|x, y| y.cmp(x));
-        needs.push(operands.iter().enumerate().map(|(k, need)| k + need).max().unwrap_or(1));
+fn needs(operands: &[Vec<usize>]) -> Vec<usize> {
+    let mut needs: Vec<usize> = Vec::with_capacity(operands.len());
+    for operands in operands {
+        let mut of_operands: Vec<usize> = operands.iter().map(|&operand| needs[operand]).collect();
+        of_operands.sort_unstable_by(|x, y| y.cmp(x));
+        needs.push(of_operands.iter().enumerate().map(|(k, need)| k + need).max().unwrap_or(1));
     }
     needs
 }
 
 /// Always the operation next that ends the waiting of most results; among alike ones the first of `ranking`.
-fn greedy(schedule: &Schedule, ranking: &[usize]) -> Vec<usize> {
-    let mut list = List::new(schedule, ranking);
+fn greedy(operands: &[Vec<usize>], ranking: &[usize]) -> Vec<usize> {
+    let mut list = List::new(operands, ranking);
     ranking.iter().for_each(|&index| list.offer(index));
     let mut sequence = Vec::with_capacity(ranking.len());
     while let Some((_, _, index)) = list.ready.pop() {
@@ -109,9 +111,9 @@ fn greedy(schedule: &Schedule, ranking: &[usize]) -> Vec<usize> {
 }
 
 /// The operations not yet computed, by index.
-struct List {
+struct List<'o> {
     rank: Vec<usize>,
-    operands: Vec<Vec<usize>>,
+    operands: &'o [Vec<usize>],
     users: Vec<Vec<usize>>,
     /// How many operands of an operation are missing, and how many uses a result has left.
     missing: Vec<usize>,
@@ -121,15 +123,13 @@ struct List {
     ready: BinaryHeap<(usize, Reverse<usize>, usize)>,
 }
 
-impl List {
-    fn new(schedule: &Schedule, ranking: &[usize]) -> Self {
-        let length = schedule.operations.len();
+impl<'o> List<'o> {
+    fn new(operands: &'o [Vec<usize>], ranking: &[usize]) -> Self {
+        let length = operands.len();
         let (mut rank, mut users) = (vec![0; length], vec![Vec::new(); length]);
-        let mut operands = vec![Vec::new(); length];
         for (at, &index) in ranking.iter().enumerate() {
             rank[index] = at;
-            operands[index] = self::operands(schedule, index);
-            operands[index].iter().for_each(|&operand: &usize| users[operand].push(index));
+            operands[index].iter().for_each(|&operand| users[operand].push(index));
         }
         let (missing, left) = (operands.iter().map(Vec::len).collect(), users.iter().map(Vec::len).collect());
         Self { rank, operands, users, missing, left, is_done: vec![false; length], ready: BinaryHeap::new() }
@@ -145,7 +145,7 @@ impl List {
 
     fn take(&mut self, index: usize) {
         self.is_done[index] = true;
-        for operand in std::mem::take(&mut self.operands[index]) {
+        for &operand in &self.operands[index] {
             self.left[operand] -= 1;
             if self.left[operand] == 1 {
                 let last = self.users[operand].iter().copied().find(|&user| !self.is_done[user]);
@@ -161,10 +161,10 @@ impl List {
 }
 
 /// How many results are still to be used after each operation.
-fn waiting(schedule: &Schedule, sequence: &[usize]) -> Vec<usize> {
-    let mut last_use = vec![None; schedule.operations.len()];
+fn waiting(operands: &[Vec<usize>], sequence: &[usize]) -> Vec<usize> {
+    let mut last_use = vec![None; operands.len()];
     for (at, &index) in sequence.iter().enumerate() {
-        operands(schedule, index).into_iter().for_each(|operand| last_use[operand] = Some(at));
+        operands[index].iter().for_each(|&operand| last_use[operand] = Some(at));
     }
     let (mut ending, mut now) = (vec![0; sequence.len()], 0);
     let counts = sequence.iter().enumerate().map(|(at, &index)| {
