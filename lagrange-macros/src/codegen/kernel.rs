@@ -16,7 +16,7 @@ use crate::symbolic::{Id, Symbol};
 use crate::variables::Variable;
 
 /// Longer functions are refused.
-pub(super) const OPERATION_LIMIT: usize = 30_000;
+pub(super) const OPERATION_LIMIT: usize = 50_000;
 /// So many results, most of them zero, are not written out.
 const MANY: usize = 256;
 
