@@ -80,10 +80,11 @@ fn too_long_functions_are_refused_with_their_counts() {
     let [refusal] = expansion.split("compile_error").skip(1).collect::<Vec<_>>()[..] else {
         panic!("one error: {expansion}")
     };
-    println!("{refusal}");
-    for said in
-        ["`mass_matrix` takes ", "`accelerations` takes ", " operations (+ − × ÷ √), 104 elementary functions"]
-    {
+    for said in [
+        "`mass_matrix` takes ",
+        "`accelerations` takes ",
+        " operations (+ − × ÷ √), 104 elementary functions",
+    ] {
         assert!(refusal.contains(said), "{said}: {refusal}");
     }
     assert!(
