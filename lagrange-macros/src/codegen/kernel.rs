@@ -17,7 +17,7 @@ use crate::symbolic::{Id, Symbol};
 use crate::variables::Variable;
 
 /// Longer functions are refused.
-pub(super) const OPERATION_LIMIT: usize = 30_000;
+pub(super) const OPERATION_LIMIT: usize = 50_000;
 /// So many results, most of them zero, are not written out.
 const MANY: usize = 256;
 
@@ -64,8 +64,8 @@ impl Style<'_> {
             self.in_place(writer, &order, roots, shapes)
         } else {
             let arrays = Arrays::new(shapes);
-            let roots = roots.iter().copied().zip(arrays.places());
-            let roots: Vec<_> = roots.filter(|(root, _)| Some(*root) != zero).collect();
+            let roots = roots.iter().copied().enumerate().filter(|(_, root)| Some(*root) != zero);
+            let roots: Vec<_> = roots.map(|(k, root)| (root, arrays.place(k))).collect();
             (self.in_arrays(name, writer, &order, &parts, &roots, &arrays), arrays.results())
         };
         Kernel { statements, results, doc }

@@ -20,8 +20,9 @@ impl Order {
     pub(super) fn new(schedule: &Schedule, roots: &[Register], uses: &[usize]) -> Self {
         let derived: Vec<usize> =
             (0..uses.len()).filter(|&index| uses[index] > 0 && is_computed(schedule, index)).collect();
-        let nested = depth_first(schedule, roots);
-        let [of_derived, of_nested] = [waiting(schedule, &derived), waiting(schedule, &nested)];
+        let operands: Vec<Vec<usize>> = (0..uses.len()).map(|index| operands(schedule, index)).collect();
+        let nested = depth_first(schedule, &operands, roots);
+        let [of_derived, of_nested] = [&derived, &nested].map(|sequence| waiting(&operands, sequence));
         let peak_before = peak(&of_derived);
         let is_better = of_nested.iter().sum::<usize>() < of_derived.iter().sum();
         let (sequence, waiting) = if is_better { (nested, of_nested) } else { (derived, of_derived) };
@@ -52,7 +53,7 @@ fn operands(schedule: &Schedule, index: usize) -> Vec<usize> {
 }
 
 /// From the first result to the last. Without recursion: a chain of operations may be as long as there are any.
-fn depth_first(schedule: &Schedule, roots: &[Register]) -> Vec<usize> {
+fn depth_first(schedule: &Schedule, operands: &[Vec<usize>], roots: &[Register]) -> Vec<usize> {
     let ready = schedule.ready();
     let (mut sequence, mut is_done) = (Vec::new(), vec![false; schedule.operations.len()]);
     let mut stack: Vec<(usize, bool)> = roots.iter().rev().map(|root| (root.index(), false)).collect();
@@ -65,7 +66,7 @@ fn depth_first(schedule: &Schedule, roots: &[Register]) -> Vec<usize> {
             sequence.push(index);
             continue;
         }
-        let mut operands = operands(schedule, index);
+        let mut operands = operands[index].clone();
         // What is pushed last is computed first.
         operands.sort_by_key(|&operand| ready[operand]);
         stack.push((index, true));
@@ -75,10 +76,10 @@ fn depth_first(schedule: &Schedule, roots: &[Register]) -> Vec<usize> {
 }
 
 /// How many results are still to be used after each operation.
-fn waiting(schedule: &Schedule, sequence: &[usize]) -> Vec<usize> {
-    let mut last_use = vec![None; schedule.operations.len()];
+fn waiting(operands: &[Vec<usize>], sequence: &[usize]) -> Vec<usize> {
+    let mut last_use = vec![None; operands.len()];
     for (at, &index) in sequence.iter().enumerate() {
-        operands(schedule, index).into_iter().for_each(|operand| last_use[operand] = Some(at));
+        operands[index].iter().for_each(|&operand| last_use[operand] = Some(at));
     }
     let (mut ending, mut now) = (vec![0; sequence.len()], 0);
     let counts = sequence.iter().enumerate().map(|(at, &index)| {

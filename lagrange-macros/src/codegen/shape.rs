@@ -91,10 +91,15 @@ impl<'s> Arrays<'s> {
         self.shapes.iter().map(|shape| shape.array(scalar)).collect()
     }
 
-    /// The place of each result.
-    pub(super) fn places(&self) -> impl Iterator<Item = TokenStream> {
-        let shapes = self.names.iter().zip(self.shapes);
-        shapes.flat_map(|(name, shape)| (0..shape.length()).map(|index| shape.place(name, index)))
+    /// The place of a result.
+    pub(super) fn place(&self, mut index: usize) -> TokenStream {
+        for (name, shape) in self.names.iter().zip(self.shapes) {
+            if index < shape.length() {
+                return shape.place(name, index);
+            }
+            index -= shape.length();
+        }
+        TokenStream::new()
     }
 
     /// The whole of each.

@@ -149,6 +149,8 @@ impl<'s, 'a> Writer<'s, 'a> {
         }
     }
 
+    /// Products and sums are not fused. On x86-64 with FMA that made 10 planar links 8 % and 5 of them 10 % slower,
+    /// 20 and 50 rods in Cartesian coordinates 6 to 10 % faster, and results would depend on the target.
     fn operation(&mut self, operation: Operation) -> TokenStream {
         let mut value = |register| self.value(register);
         match operation {

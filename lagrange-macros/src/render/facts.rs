@@ -52,7 +52,7 @@ pub(super) fn conserved(
 fn either(left: Formula, right: Result<Formula, Id>, problem: &Problem) -> Equation {
     match right {
         Ok(formula) => Equation::Known(left, formula),
-        Err(id) => match symbols_to_read(problem, id) {
+        Err(id) => match symbols_to_read(problem, &[id])[&id] {
             size if size > READABLE => Equation::TooLong(size),
             _ => Equation::Known(left, derived(id, problem)),
         },

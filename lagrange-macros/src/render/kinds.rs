@@ -45,7 +45,9 @@ fn of_row(row: usize, problem: &Problem, kinds: &Kinds) -> String {
         Integrability::Undecided => return "on the velocities".to_owned(),
     };
     let kind = qualified(kind, class.evidence);
-    match kinds.functions[row].filter(|&function| symbols_to_read(problem, function) <= READABLE) {
+    match kinds.functions[row]
+        .filter(|&function| symbols_to_read(problem, &[function])[&function] <= READABLE)
+    {
         Some(function) => {
             format!("{kind}: {} is constant", Notation::Unicode.write(&derived(function, problem)))
         }

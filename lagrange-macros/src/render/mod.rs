@@ -10,6 +10,8 @@ mod symbols;
 #[cfg(test)]
 mod tests;
 
+use rustc_hash::FxHashMap;
+
 use crate::mechanics::{Equations, Facts};
 use crate::resolve::Problem;
 use crate::symbolic::{Id, Rational};
@@ -148,48 +150,53 @@ fn constraints(declaration: &Declaration, problem: &Problem, equations: &Equatio
 
 /// Σ_j M_ij q̈_j = h_i + Σ_α λ_α F_αi, a row for each coordinate.
 fn motion(problem: &mut Problem, equations: &Equations) -> Vec<Line> {
-    let one = Rational::from_integer(1);
-    (0..problem.coordinates.len())
+    let sides: Vec<(Id, Vec<Id>)> = (0..problem.coordinates.len())
         .map(|i| {
-            let graph = &mut problem.graph;
-            let inertia: Vec<_> = equations.mass[i]
-                .iter()
-                .enumerate()
-                .map(|(j, &mass)| {
-                    let acceleration = graph.symbol(Variable::Acceleration(j).symbol());
-                    (graph.mul(mass, acceleration), one)
-                })
-                .collect();
-            let left = graph.sum(inertia);
             let right = [Some(&equations.forcing[i]), equations.constraint_force.get(i)];
-            let right: Vec<Id> =
-                right.into_iter().flatten().copied().filter(|&part| part != Id::ZERO).collect();
-            let size = right.iter().chain([&left]).map(|&part| symbols_to_read(problem, part)).sum();
-            let equation = match size <= READABLE {
-                true => {
-                    let right = right.iter().map(|&part| derived(part, problem)).collect();
-                    Equation::Known(derived(left, problem), Formula::sum(right))
-                }
-                false => Equation::TooLong(size),
-            };
-            let label = Notation::Unicode.write(&Formula::labelled(&problem.coordinates[i].text, 0));
-            Line { label: Some(label), equation, remark: String::new() }
+            let right = right.into_iter().flatten().copied().filter(|&part| part != Id::ZERO).collect();
+            (inertia(problem, &equations.mass[i]), right)
         })
-        .collect()
+        .collect();
+    let parts: Vec<Id> = sides.iter().flat_map(|(left, right)| right.iter().chain([left])).copied().collect();
+    let sizes = symbols_to_read(problem, &parts);
+    let equation = |(i, (left, right)): (usize, (Id, Vec<Id>))| {
+        let size = right.iter().chain([&left]).fold(0, |size: u64, part| size.saturating_add(sizes[part]));
+        let equation = match size <= READABLE {
+            true => {
+                let right = right.iter().map(|&part| derived(part, problem)).collect();
+                Equation::Known(derived(left, problem), Formula::sum(right))
+            }
+            false => Equation::TooLong(size),
+        };
+        let label = Notation::Unicode.write(&Formula::labelled(&problem.coordinates[i].text, 0));
+        Line { label: Some(label), equation, remark: String::new() }
+    };
+    sides.into_iter().enumerate().map(equation).collect()
 }
 
-/// How many symbols a node would take written out, where what is shared is written again.
-fn symbols_to_read(problem: &Problem, root: Id) -> u64 {
+/// Σ_j M_ij q̈_j of a row of M.
+fn inertia(problem: &mut Problem, row: &[Id]) -> Id {
+    let graph = &mut problem.graph;
+    let mut term = |(j, &mass)| {
+        let acceleration = graph.symbol(Variable::Acceleration(j).symbol());
+        (graph.mul(mass, acceleration), Rational::from_integer(1))
+    };
+    let terms: Vec<_> = row.iter().enumerate().map(&mut term).collect();
+    graph.sum(terms)
+}
+
+/// How many symbols each node would take written out, where what is shared is written again.
+fn symbols_to_read(problem: &Problem, roots: &[Id]) -> FxHashMap<Id, u64> {
     let graph = &problem.graph;
-    let mut sizes = rustc_hash::FxHashMap::default();
-    for id in graph.reachable(&[root]) {
+    let mut sizes = FxHashMap::default();
+    for id in graph.reachable(roots) {
         let mut size = 1_u64;
         if !problem.names.contains_key(&id) {
             graph.operands(id, |operand| size = size.saturating_add(sizes[&operand]));
         }
         sizes.insert(id, size);
     }
-    sizes[&root]
+    sizes
 }
 
 fn text(name: &str, sections: &[Section]) -> String {
