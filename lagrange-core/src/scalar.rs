@@ -59,6 +59,16 @@ pub trait Scalar:
     fn min(self, other: Self) -> Self;
     /// The larger of the two, lane by lane.
     fn max(self, other: Self) -> Self;
+    /// `self` · `y` + `z`, rounded once where the target has an instruction for that, else twice.
+    #[inline(always)]
+    fn multiply_add(self, y: Self, z: Self) -> Self {
+        self * y + z
+    }
+    /// `z` − `self` · `y`, rounded like [`multiply_add`](Self::multiply_add).
+    #[inline(always)]
+    fn subtract_product(self, y: Self, z: Self) -> Self {
+        z - self * y
+    }
 }
 
 macro_rules! through_simba {
@@ -79,6 +89,18 @@ impl<T: SimdRealField + SupersetOf<f64> + Copy + Debug + 'static> Scalar for T {
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         self.simd_sin_cos()
+    }
+
+    #[cfg(target_feature = "fma")]
+    #[inline(always)]
+    fn multiply_add(self, y: Self, z: Self) -> Self {
+        self.simd_mul_add(y, z)
+    }
+
+    #[cfg(target_feature = "fma")]
+    #[inline(always)]
+    fn subtract_product(self, y: Self, z: Self) -> Self {
+        (-self).simd_mul_add(y, z)
     }
 
     through_simba! {

@@ -41,7 +41,8 @@ fn entries(form: &Form, equations: &Equations) -> Vec<Id> {
 /// The equations of motion solved, by the form that takes the least time; `None` where every one is long.
 fn cheapest(problem: &Problem, equations: &Equations) -> Option<Program> {
     let forms = equations.forms.iter();
-    forms.filter_map(|form| solve(problem, form, equations)).min_by_key(|program| program.time().total())
+    let programs = forms.filter_map(|form| solve(problem, form, equations));
+    programs.min_by_key(|program| program.time().total()).map(Program::fused)
 }
 
 /// The equations of motion solved by one form: accelerations, multipliers and the pivot.

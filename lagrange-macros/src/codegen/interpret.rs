@@ -24,6 +24,8 @@ impl Schedule {
                 Operation::Subtract(x, y) => of(x) - of(y),
                 Operation::Multiply(x, y) => of(x) * of(y),
                 Operation::Divide(x, y) => of(x) / of(y),
+                Operation::MultiplyAdd(x, y, z) => of(x) * of(y) + of(z),
+                Operation::SubtractProduct(x, y, z) => of(z) - of(x) * of(y),
                 Operation::Minimum(x, y) => of(x).min(of(y)),
                 Operation::Maximum(x, y) => of(x).max(of(y)),
                 Operation::SquareRoot(x) => of(x).sqrt(),

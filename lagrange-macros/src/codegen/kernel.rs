@@ -171,6 +171,11 @@ fn doc(program: &Program, order: &Order, parts: usize) -> String {
         let steps: Vec<_> = steps.iter().map(|(name, count)| format!("{} {name}", count.total())).collect();
         doc += &format!(" All: {}.", steps.join(", "));
     }
+    match program.fusions() {
+        0 => {}
+        1 => doc += " One product fused with a sum.",
+        fusions => doc += &format!(" {fusions} products fused with sums."),
+    }
     if order.peak() != order.peak_before {
         let (peak, before) = (order.peak(), order.peak_before);
         doc += &format!(" Reordered: at most {peak} results wait for their last use, before {before}.");

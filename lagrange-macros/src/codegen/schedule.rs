@@ -33,6 +33,10 @@ pub(super) enum Operation {
     Subtract(Register, Register),
     Multiply(Register, Register),
     Divide(Register, Register),
+    /// x y + z, rounded once where the target can.
+    MultiplyAdd(Register, Register, Register),
+    /// z − x y
+    SubtractProduct(Register, Register, Register),
     Minimum(Register, Register),
     Maximum(Register, Register),
     SquareRoot(Register),
@@ -86,14 +90,16 @@ impl Operation {
             Self::Maximum(x, y) => Self::Maximum(new(x), new(y)),
             Self::Atan2(x, y) => Self::Atan2(new(x), new(y)),
             Self::Power(x, y) => Self::Power(new(x), new(y)),
+            Self::MultiplyAdd(x, y, z) => Self::MultiplyAdd(new(x), new(y), new(z)),
+            Self::SubtractProduct(x, y, z) => Self::SubtractProduct(new(x), new(y), new(z)),
         }
     }
 
     /// All but those of a call.
     fn operands(self) -> impl Iterator<Item = Register> {
-        let (first, second) = match self {
-            Self::Constant(_) | Self::Input(_) | Self::Result { .. } => (None, None),
-            Self::Negate(x) | Self::SquareRoot(x) | Self::Function(_, x) => (Some(x), None),
+        let [first, second, third] = match self {
+            Self::Constant(_) | Self::Input(_) | Self::Result { .. } => [None; 3],
+            Self::Negate(x) | Self::SquareRoot(x) | Self::Function(_, x) => [Some(x), None, None],
             Self::Add(x, y)
             | Self::Subtract(x, y)
             | Self::Multiply(x, y)
@@ -101,9 +107,10 @@ impl Operation {
             | Self::Minimum(x, y)
             | Self::Maximum(x, y)
             | Self::Atan2(x, y)
-            | Self::Power(x, y) => (Some(x), Some(y)),
+            | Self::Power(x, y) => [Some(x), Some(y), None],
+            Self::MultiplyAdd(x, y, z) | Self::SubtractProduct(x, y, z) => [Some(x), Some(y), Some(z)],
         };
-        first.into_iter().chain(second)
+        first.into_iter().chain(second).chain(third)
     }
 }
 
@@ -207,6 +214,7 @@ impl Schedule {
                 Operation::Function(Function::Abs, _) => count.arithmetic += 1,
                 Operation::Function(..) | Operation::Atan2(..) | Operation::Power(..) => count.functions += 1,
                 Operation::Result { .. } => count.calls += 1,
+                Operation::MultiplyAdd(..) | Operation::SubtractProduct(..) => count.arithmetic += 2,
                 _ => count.arithmetic += 1,
             }
         }

@@ -24,33 +24,20 @@ impl Solver<'_> {
         let results: Vec<Register> = others.chain(multipliers).copied().collect();
         let ends = self.schedule.not_used_by_one_another(&results);
         let zero = self.schedule.constant(0.0);
-        let sum = self.in_pairs(ends, Operation::Add);
+        let sum = ends.into_iter().reduce(|sum, x| self.schedule.push(Operation::Add(sum, x)));
         sum.map_or(zero, |sum| self.schedule.push(Operation::Multiply(zero, sum)))
     }
 
     /// The least of pivot/diagonal and diagonal/pivot.
     fn smallest_pivot(&mut self) -> Register {
         let one = self.schedule.constant(1.0);
-        let [least, most] = [Operation::Minimum as fn(_, _) -> _, Operation::Maximum]
-            .map(|operation| self.in_pairs(self.growth.clone(), operation));
-        let (Some(least), Some(most)) = (least, most) else { return one };
+        let Some((&first, rest)) = self.growth.split_first() else { return one };
+        let (mut least, mut most) = (first, first);
+        for &growth in rest {
+            least = self.schedule.push(Operation::Minimum(least, growth));
+            most = self.schedule.push(Operation::Maximum(most, growth));
+        }
         let inverse = self.schedule.push(Operation::Divide(one, most));
         self.schedule.push(Operation::Minimum(least, inverse))
-    }
-
-    /// All of them together, pair by pair: none waits for many before it.
-    fn in_pairs(
-        &mut self,
-        mut registers: Vec<Register>,
-        operation: fn(Register, Register) -> Operation,
-    ) -> Option<Register> {
-        while registers.len() > 1 {
-            let pairs = registers.chunks(2).map(|pair| match *pair {
-                [x, y] => self.schedule.push(operation(x, y)),
-                _ => pair[0],
-            });
-            registers = pairs.collect();
-        }
-        registers.pop()
     }
 }

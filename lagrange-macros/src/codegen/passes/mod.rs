@@ -1,13 +1,14 @@
 //! What is done to a schedule before it is written: each pass leaves the same results in fewer operations.
 
 mod factors;
+mod fuse;
 mod reciprocals;
 mod rewrite;
 mod signs;
 #[cfg(test)]
 mod tests;
 
-use super::schedule::{Count, Register, Schedule};
+use super::schedule::{Count, Operation, Register, Schedule};
 use super::time::Time;
 use crate::symbolic::{Graph, Id};
 
@@ -37,6 +38,27 @@ impl Program {
             // What the first time has put together may be a factor in its turn.
             .after("and taken out again", factors::taken_out)
             .after("reciprocals shared", reciprocals::shared)
+    }
+
+    /// The same with products and sums in one operation each. That is harder to read, and for what is called all the
+    /// time.
+    pub(super) fn fused(mut self) -> Self {
+        (self.schedule, self.results) = fuse::fused(&self.schedule, &self.results);
+        self
+    }
+
+    /// How many operations are a product and a sum in one.
+    pub(super) fn fusions(&self) -> usize {
+        let is_fused = |operation: &Operation| {
+            matches!(operation, Operation::MultiplyAdd(..) | Operation::SubtractProduct(..))
+        };
+        let uses = self.schedule.uses(&self.results);
+        self.schedule
+            .operations
+            .iter()
+            .zip(uses)
+            .filter(|(operation, uses)| *uses > 0 && is_fused(operation))
+            .count()
     }
 
     /// With another pass, unless that leaves more to do.

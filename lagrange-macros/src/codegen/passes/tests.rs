@@ -1,6 +1,6 @@
 //! Passes keep the results: programs at random, computed before and after.
 
-use super::{Program, factors, reciprocals, signs};
+use super::{Program, factors, fuse, reciprocals, signs};
 use crate::codegen::schedule::{Operation, Register, Schedule};
 use crate::symbolic::{Function, Symbol};
 
@@ -67,7 +67,7 @@ fn no_pass_changes_a_result_beyond_rounding_nor_leaves_more_to_do() {
     let mut random = Random(2);
     for _ in 0..2000 {
         let (schedule, results) = random.program();
-        for pass in [factors::taken_out, reciprocals::shared] {
+        for pass in [factors::taken_out, reciprocals::shared, fuse::fused] {
             let (new, new_results) = pass(&schedule, &results);
             let (before, after) = (values(&schedule, &results), values(&new, &new_results));
             // What cancels has as many digits as its parts: programs whose results are of their size are compared.
@@ -164,4 +164,19 @@ fn what_is_constant_is_computed_at_once() {
     assert!(matches!(schedule.operations[poison.index()], Operation::Multiply(..)), "0 x shows what x is");
     let infinite = schedule.push(Operation::Divide(one, zero));
     assert!(matches!(schedule.operations[infinite.index()], Operation::Divide(..)), "no literal is infinite");
+}
+
+#[test]
+fn a_product_is_fused_with_the_only_sum_that_uses_it() {
+    let mut schedule = Schedule::default();
+    let [x, y, z] = [0, 1, 2].map(|index| input(&mut schedule, index));
+    let shared = schedule.push(Operation::Multiply(x, y));
+    let own = schedule.push(Operation::Multiply(y, z));
+    let results = [schedule.push(Operation::Add(shared, z)), schedule.push(Operation::Subtract(shared, own))];
+    let (new, new_results) = fuse::fused(&schedule, &results);
+    let of_result = |result: Register| new.operations[result.index()];
+    assert!(matches!(of_result(new_results[0]), Operation::Add(..)), "x y is used twice");
+    assert!(matches!(of_result(new_results[1]), Operation::SubtractProduct(..)));
+    assert_eq!(values(&new, &new_results), values(&schedule, &results));
+    assert_eq!(new.count(&new_results), schedule.count(&results), "fused operations count for two");
 }

@@ -155,7 +155,7 @@ const _: () = {
         ) -> __lagrange::nalgebra::SVector<f64, 1usize> {
             __lagrange::eliminate::vector([0.0])
         }
-        ///5 operations (+ − × ÷ √), 1 elementary function. Reordered: at most 1 results wait for their last use, before 2.
+        ///5 operations (+ − × ÷ √), 1 elementary function. One product fused with a sum.
         #[inline]
         #[allow(unused_variables)]
         fn accelerations(
@@ -170,7 +170,7 @@ const _: () = {
             __lagrange::Solution {
                 accelerations: __lagrange::eliminate::vector([(-r5)]),
                 multipliers: __lagrange::eliminate::vector([]),
-                pivot: (1.0 - (r5 * 0.0)),
+                pivot: (__lagrange::Scalar::subtract_product(r5, 0.0, 1.0)),
                 rank: 0usize,
             }
         }
