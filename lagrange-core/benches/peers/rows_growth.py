@@ -20,6 +20,7 @@ BARS = {("pendulum", 10): (0.3, 0.7, 1), ("pendulum", 20): (1, 2, 2), ("chain", 
 PROFILES = ("release", "dev")
 REPEATS, LIMIT_S = 3, 60
 TARGET = SHOP / "growth-target"
+HEAD = ["", "macro", "memory", *(f"{use}, {profile}" for use in USES for profile in PROFILES)]
 
 
 @dataclass(frozen=True)
@@ -103,6 +104,7 @@ def grow(section, folder, system, empty, options):
                 }
             except Refused as reason:
                 section.text(f"{system} n = {n}, {use}: {reason}")
+                yield cells + ["–"] * (len(HEAD) - len(cells))
                 return
             if use == "every function":
                 cells += [f"{min(cost.macros for cost in costs.values()):.2f}", f"{costs['release'].memory:.0f}"]
@@ -134,7 +136,6 @@ def rows(options):
         for use in USES
         for profile in PROFILES
     }
-    head = ["", "macro", "memory", *(f"{use}, {profile}" for use in USES for profile in PROFILES)]
     lines = [cells for system in SYSTEMS for cells in grow(section, folder, system, empty, options)]
-    section.table("seconds", head, lines)
+    section.table("seconds", HEAD, lines)
     return section
