@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from growth_project import SYSTEMS, USES, project, source
 from report import Bar, Section
-from workshop import SHOP, progress
+from workshop import SHOP, progress, run
 
 # Seconds for the macro, rustc in release and in dev, of the systems that have bars.
 BARS = {("pendulum", 10): (0.3, 0.7, 1), ("pendulum", 20): (1, 2, 2), ("chain", 50): (1.5, 3, 3)}
@@ -124,13 +124,8 @@ def rows(options):
     folder = project()
     for profile in PROFILES:
         progress(f"growth: building the dependencies, {profile}")
-        subprocess.run(
-            ["cargo", "build", "--quiet", "--profile", profile],
-            cwd=folder,
-            check=True,
-            capture_output=True,
-            env=os.environ | {"CARGO_TARGET_DIR": str(TARGET), "RUSTC_BOOTSTRAP": "system"},
-        )
+        environment = os.environ | {"CARGO_TARGET_DIR": str(TARGET), "RUSTC_BOOTSTRAP": "system"}
+        run("cargo", "build", "--quiet", "--profile", profile, cwd=folder, env=environment)
     empty = {
         (use, profile): least(folder, "" if use == "library" else "fn main() {}\n", use, profile, REPEATS)
         for use in USES
