@@ -21,17 +21,21 @@ def emitted():
         cwd=HERE / "ours",
         capture_output=True,
         text=True,
-        check=True,
         env=os.environ | {"LAGRANGE_PRINT": "all", "CARGO_TARGET_DIR": str(SHOP / "ours-printed")},
     ).stderr
     parts = re.split(r"// the expansion of derive\(Lagrangian\) on (\w+)", printed)
+    if len(parts) == 1:
+        raise Missing("no expansion was printed")
     return {name: counted(text) for name, text in zip(parts[1::2], parts[2::2])}
 
 
 def counted(expansion):
     """As the documentation says it; where the solution is left to loops, that is without the solution."""
-    before, body = expansion.split("fn accelerations(")
-    count = " / ".join(COUNT.findall(before)[-1])
+    before, _, body = expansion.partition("fn accelerations(")
+    found = COUNT.findall(before)
+    if not found:
+        raise Missing("the emitted `accelerations` do not say what they take")
+    count = " / ".join(found[-1])
     is_loops = "eliminate::eliminate(" in body.split("\n        }\n")[0]
     return count + " + loops" if is_loops else count
 

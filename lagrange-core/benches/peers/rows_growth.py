@@ -13,13 +13,14 @@ from dataclasses import dataclass
 
 from growth_project import SYSTEMS, USES, project, source
 from report import Bar, Section
-from workshop import SHOP, progress
+from workshop import SHOP, progress, run
 
 # Seconds for the macro, rustc in release and in dev, of the systems that have bars.
 BARS = {("pendulum", 10): (0.3, 0.7, 1), ("pendulum", 20): (1, 2, 2), ("chain", 50): (1.5, 3, 3)}
 PROFILES = ("release", "dev")
 REPEATS, LIMIT_S = 3, 60
 TARGET = SHOP / "growth-target"
+HEAD = ["", "macro", "memory", *(f"{use}, {profile}" for use in USES for profile in PROFILES)]
 
 
 @dataclass(frozen=True)
@@ -103,6 +104,7 @@ def grow(section, folder, system, empty, options):
                 }
             except Refused as reason:
                 section.text(f"{system} n = {n}, {use}: {reason}")
+                yield cells + ["–"] * (len(HEAD) - len(cells))
                 return
             if use == "every function":
                 cells += [f"{min(cost.macros for cost in costs.values()):.2f}", f"{costs['release'].memory:.0f}"]
@@ -122,19 +124,13 @@ def rows(options):
     folder = project()
     for profile in PROFILES:
         progress(f"growth: building the dependencies, {profile}")
-        subprocess.run(
-            ["cargo", "build", "--quiet", "--profile", profile],
-            cwd=folder,
-            check=True,
-            capture_output=True,
-            env=os.environ | {"CARGO_TARGET_DIR": str(TARGET), "RUSTC_BOOTSTRAP": "system"},
-        )
+        environment = os.environ | {"CARGO_TARGET_DIR": str(TARGET), "RUSTC_BOOTSTRAP": "system"}
+        run("cargo", "build", "--quiet", "--profile", profile, cwd=folder, env=environment)
     empty = {
         (use, profile): least(folder, "" if use == "library" else "fn main() {}\n", use, profile, REPEATS)
         for use in USES
         for profile in PROFILES
     }
-    head = ["", "macro", "memory", *(f"{use}, {profile}" for use in USES for profile in PROFILES)]
     lines = [cells for system in SYSTEMS for cells in grow(section, folder, system, empty, options)]
-    section.table("seconds", head, lines)
+    section.table("seconds", HEAD, lines)
     return section

@@ -61,8 +61,7 @@ def main():
     chosen, start = options(), time.monotonic()
     SHOP.mkdir(parents=True, exist_ok=True)
     set_up_python()
-    effort = f"{chosen.effort.samples} samples in rotation, each at least {chosen.effort.milliseconds} ms"
-    head = ["# Comparison with other tools", "\n".join(f"- {fact}" for fact in [*versions(), effort])]
+    head = ["# Comparison with other tools", "\n".join(f"- {fact}" for fact in [*versions(), chosen.effort])]
     sections = [section(name, chosen) for name in chosen.rows or ROWS]
     bars, minutes = [bar for section in sections for bar in section.bars], (time.monotonic() - start) / 60
     head.append(f"{sum(bar.passes for bar in bars)} of {len(bars)} bars pass; the run took {minutes:.1f} minutes.")

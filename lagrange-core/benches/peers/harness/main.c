@@ -15,7 +15,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { IMPLEMENTATIONS = 32, SAMPLES = 256 };
+enum { IMPLEMENTATIONS = 64, SAMPLES = 256 };
 
 typedef struct {
     Evaluation evaluate;
