@@ -63,11 +63,14 @@ mod integrability;
 #[cfg(feature = "alloc")]
 pub mod integrate;
 mod kkt;
+#[cfg(feature = "std")]
+mod lanes;
 pub mod language;
 #[cfg(feature = "alloc")]
 mod lookup;
 mod names;
 mod numeric;
+mod pack;
 pub mod prelude;
 #[cfg(feature = "alloc")]
 mod sample;
@@ -99,8 +102,11 @@ pub use integrability::{Classification, Extent, Integrability, Integrals};
 #[cfg(feature = "alloc")]
 pub use integrate::{Dop853, Dopri5, Ending, Method, Progress, Statistics};
 pub use lagrange_macros::Lagrangian;
+#[cfg(feature = "std")]
+pub use lanes::Lanes;
 pub use nalgebra;
 pub use names::{Entry, Names, Row};
+pub use pack::{Pack, Packed, Shared};
 #[cfg(feature = "alloc")]
 pub use sample::Sample;
 pub use scalar::{Real, Scalar};

@@ -108,6 +108,11 @@ where
         self.limits()
     }
 
+    fn sparse(mut self) -> Self {
+        self.is_dense = false;
+        self
+    }
+
     fn begin(
         &self,
         system: &L,
@@ -152,9 +157,10 @@ where
                     memory.control.accept::<P>(h, error);
                     memory.control.step = self.cut(memory.control.step);
                 }
+                let coefficients = if self.is_dense { 4 + P::INTERPOLATION.len() } else { 0 };
                 return Step::Accepted {
                     state: State { t: time, q: vector(y[0]), v: vector(memory.slopes[0][0]) },
-                    interpolant: &memory.interpolant[..4 + P::INTERPOLATION.len()],
+                    interpolant: &memory.interpolant[..coefficients],
                 };
             }
             Err(Refusal::Inaccurate(error, place)) => {
@@ -207,8 +213,10 @@ impl<P: Pair> Adaptive<P> {
             let slope = slope::<L, F, N, M>(system, &next, None, statistics)?;
             (memory.slopes[last], active) = (slope.rates, slope.active);
         }
-        stages::<P, L, F, N, M>(system, memory, h, (last + 1, P::INTERPOLATION_STAGES), statistics)?;
-        memory.interpolate::<P>(h, &start, &next.y);
+        if self.is_dense {
+            stages::<P, L, F, N, M>(system, memory, h, (last + 1, P::INTERPOLATION_STAGES), statistics)?;
+            memory.interpolate::<P>(h, &start, &next.y);
+        }
         Ok(Accepted { y: next.y, error, active })
     }
 
@@ -220,9 +228,10 @@ impl<P: Pair> Adaptive<P> {
         before: &Phase<T, N>,
         after: &Phase<T, N>,
     ) -> Result<T, Refusal<T>> {
-        let (error, place) = self.error(slopes, h, before, after);
+        let tolerance = self.tolerance::<T>();
+        let error = tolerance.error::<P, T, N>(slopes, h, before, after);
         if self.fixed_step.is_none() && exceeds(error, T::constant(1.0)) {
-            return Err(Refusal::Inaccurate(error, place));
+            return Err(Refusal::Inaccurate(error, tolerance.worst::<P, T, N>(slopes, before, after)));
         }
         Ok(error)
     }

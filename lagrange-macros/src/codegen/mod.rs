@@ -6,6 +6,7 @@ mod facts;
 mod integrability;
 mod kernel;
 mod observables;
+mod pack;
 mod schedule;
 mod stub;
 mod style;
@@ -154,6 +155,7 @@ impl Emitter<'_> {
         let functions = self.functions(fused);
         let inherent = self.observable_methods();
         let equations = self.equations();
+        let pack = self.pack();
         let Rendered { text, .. } = self.rendered;
         let doc = format!("```text\n{text}```");
         quote! {
@@ -182,6 +184,8 @@ impl Emitter<'_> {
                     #equations
                     #inherent
                 }
+
+                #pack
             };
         }
     }
