@@ -51,6 +51,8 @@ mod csv;
 mod drift;
 mod dual;
 pub mod eliminate;
+#[cfg(feature = "std")]
+pub mod ensemble;
 mod equations;
 mod error;
 mod evidence;
@@ -90,6 +92,8 @@ pub use csv::Csv;
 #[cfg(feature = "alloc")]
 pub use drift::{Deviation, Drift};
 pub use dual::Dual;
+#[cfg(feature = "std")]
+pub use ensemble::Ensemble;
 pub use equations::Equations;
 pub use error::Error;
 pub use evidence::Evidence;

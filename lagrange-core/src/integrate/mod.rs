@@ -1,6 +1,8 @@
 //! The loop from the first step to the ending, the same for every method.
 
 mod adaptive;
+#[cfg(feature = "std")]
+mod batch;
 mod control;
 mod dop853;
 mod dopri5;
@@ -16,6 +18,8 @@ use core::ops::ControlFlow;
 use nalgebra::ComplexField;
 
 pub use adaptive::Adaptive;
+#[cfg(feature = "std")]
+pub(crate) use batch::{Batch, Seat};
 pub use dop853::{Dop853, DormandPrince853};
 pub use dopri5::{Dopri5, DormandPrince54};
 pub use ending::Ending;

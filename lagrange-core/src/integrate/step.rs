@@ -19,22 +19,22 @@ const COEFFICIENTS: usize = 8;
 /// What a pair carries from step to step.
 #[derive(Clone, Debug)]
 pub struct Memory<T, const N: usize, const M: usize> {
-    t: T,
-    y: Phase<T, N>,
-    end: T,
+    pub(super) t: T,
+    pub(super) y: Phase<T, N>,
+    pub(super) end: T,
     /// The whole time from start to end.
     span: T,
-    control: Control<T>,
+    pub(super) control: Control<T>,
     /// The first is that of `y`.
-    slopes: Slopes<T, N>,
+    pub(super) slopes: Slopes<T, N>,
     /// Which constraints the first slope rests on: as many as are independent at `y`.
-    active: [bool; M],
+    pub(super) active: [bool; M],
     interpolant: [Phase<T, N>; COEFFICIENTS],
 }
 
 impl<T: Real, const N: usize, const M: usize> Memory<T, N, M> {
     /// The next step and the time after it: exactly the end where that is near.
-    fn next(&self) -> (T, T) {
+    pub(super) fn next(&self) -> (T, T) {
         let (now, step) = (self.t, self.control.step);
         if now + step * T::constant(1.01) >= self.end {
             (self.end - now, self.end)
@@ -44,7 +44,7 @@ impl<T: Real, const N: usize, const M: usize> Memory<T, N, M> {
     }
 
     /// Whether the next step would be lost in the round-off of the time.
-    fn is_step_too_small(&self) -> bool {
+    pub(super) fn is_step_too_small(&self) -> bool {
         let epsilon = T::constant(T::EPSILON);
         let size = larger(Scalar::abs(self.t), epsilon * self.span);
         self.control.step <= T::constant(10.0) * epsilon * size
