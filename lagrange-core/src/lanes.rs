@@ -2,7 +2,7 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use simba::simd::{SimdBool, SimdComplexField, SimdPartialOrd, SimdRealField, SimdValue, WideF64x4};
+use simba::simd::{SimdComplexField, SimdPartialOrd, SimdRealField, SimdValue, WideF64x4};
 
 use crate::{Packed, Scalar};
 
@@ -27,18 +27,6 @@ impl Lanes {
     #[inline(always)]
     pub fn to_array(self) -> [f64; Self::COUNT] {
         self.0.into()
-    }
-
-    /// Which lanes are above the bound, one bit each; NaN is not.
-    #[inline(always)]
-    pub(crate) fn above(self, bound: f64) -> u64 {
-        self.0.simd_gt(WideF64x4::splat(bound)).bitmask()
-    }
-
-    /// Which lanes are below the bound, one bit each; NaN is not.
-    #[inline(always)]
-    pub(crate) fn below(self, bound: f64) -> u64 {
-        self.0.simd_lt(WideF64x4::splat(bound)).bitmask()
     }
 
     /// `self` where `chosen` is positive, `other` elsewhere.

@@ -8,8 +8,6 @@
 mod job;
 mod outcome;
 mod table;
-#[cfg(test)]
-mod tests;
 
 use core::fmt::{self, Debug, Formatter};
 use core::ops::ControlFlow;
@@ -53,8 +51,8 @@ pub struct Ensemble<'a, L, T, const N: usize> {
     watch: Option<Watch<'a, T, N>>,
 }
 
-type Make<'a, L, T, const N: usize> = Box<dyn Fn(usize) -> (L, State<T, N>) + Sync + 'a>;
-type Observer<'a, T, const N: usize> = Box<dyn Fn(usize, &State<T, N>) -> ControlFlow<()> + Sync + 'a>;
+type Make<'a, L, T, const N: usize> = Box<dyn Fn(usize) -> (L, State<T, N>) + Send + Sync + 'a>;
+type Observer<'a, T, const N: usize> = Box<dyn Fn(usize, &State<T, N>) -> ControlFlow<()> + Send + Sync + 'a>;
 type Watch<'a, T, const N: usize> = Box<dyn FnMut(Headway<'_, T, N>) -> ControlFlow<()> + Send + 'a>;
 
 /// How far an ensemble has come.
@@ -70,7 +68,7 @@ pub struct Headway<'m, T, const N: usize> {
 
 impl<'a, L, T: Real, const N: usize> Ensemble<'a, L, T, N> {
     /// `count` members, made from their indices 0, 1, …: always the same from the same.
-    pub fn from_fn(count: usize, member: impl Fn(usize) -> (L, State<T, N>) + Sync + 'a) -> Self {
+    pub fn from_fn(count: usize, member: impl Fn(usize) -> (L, State<T, N>) + Send + Sync + 'a) -> Self {
         let member = Box::new(member);
         Self { count, member, shard: 0, shards: 1, done: Vec::new(), observer: None, watch: None }
     }
@@ -78,7 +76,7 @@ impl<'a, L, T: Real, const N: usize> Ensemble<'a, L, T, N> {
     /// These members.
     pub fn new(members: &'a [(L, State<T, N>)]) -> Self
     where
-        L: Clone + Sync,
+        L: Clone + Send + Sync,
     {
         // The closure is not called with another index.
         Self::from_fn(members.len(), |index| members[index].clone())
@@ -93,7 +91,10 @@ impl<'a, L, T: Real, const N: usize> Ensemble<'a, L, T, N> {
 
     /// Looks at every member after every step, from any thread. `ControlFlow::Break` ends that member there, with
     /// [`Ending::Cancelled`](crate::Ending::Cancelled), and no other.
-    pub fn observe(mut self, observer: impl Fn(usize, &State<T, N>) -> ControlFlow<()> + Sync + 'a) -> Self {
+    pub fn observe(
+        mut self,
+        observer: impl Fn(usize, &State<T, N>) -> ControlFlow<()> + Send + Sync + 'a,
+    ) -> Self {
         self.observer = Some(Box::new(observer));
         self
     }

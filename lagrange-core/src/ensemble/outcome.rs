@@ -104,7 +104,7 @@ impl<T: Real, const N: usize> Outcome<T, N> {
     }
 
     /// A table as comma-separated values, one line a member: `member`, `t`, coordinates `x` and velocities `x_dot` of
-    /// the last state, `accepted`, `rejected`, `evaluations`, `ending`.
+    /// the last state, the [`Statistics`], and `ending`.
     ///
     /// The ending is `complete`, `cancelled` or what went wrong. Numbers are the shortest that read back the same.
     pub fn csv(&self) -> impl Display + '_ {

@@ -24,7 +24,8 @@ impl<T: Real, const N: usize> Display for Csv<'_, T, N> {
 fn header<const N: usize>(names: &[&'static str; N]) -> String {
     let velocities = names.iter().map(|name| Entry::Velocity(name).to_string());
     let names = ["member", "t"].into_iter().chain(names.iter().copied()).map(String::from).chain(velocities);
-    let counts = ["accepted", "rejected", "evaluations", "ending"].map(String::from);
+    let counts =
+        ["accepted", "rejected", "evaluations", "multipliers_are_unique", "ending"].map(String::from);
     names.chain(counts).collect::<Vec<_>>().join(",")
 }
 
@@ -36,15 +37,15 @@ impl<T: Real, const N: usize> Display for Row<'_, T, N> {
         write!(f, "{}", self.0.index)?;
         match &self.0.result {
             Err(error) => {
-                (0..2 * N + 4).try_for_each(|_| write!(f, ","))?;
+                (0..2 * N + 5).try_for_each(|_| write!(f, ","))?;
                 writeln!(f, ",{}", quoted(&error.to_string()))
             }
             Ok(Arrival { state, ending, statistics }) => {
                 // `Debug` of a number is its shortest form that reads back the same.
                 write!(f, ",{:?}", state.t)?;
                 state.q.iter().chain(&state.v).try_for_each(|x| write!(f, ",{x:?}"))?;
-                let Statistics { accepted, rejected, evaluations, .. } = statistics;
-                write!(f, ",{accepted},{rejected},{evaluations},")?;
+                let Statistics { accepted, rejected, evaluations, multipliers_are_unique } = statistics;
+                write!(f, ",{accepted},{rejected},{evaluations},{multipliers_are_unique},")?;
                 match ending {
                     Ending::Complete { .. } => writeln!(f, "complete"),
                     Ending::Cancelled { .. } => writeln!(f, "cancelled"),
@@ -90,33 +91,38 @@ pub(super) fn read<T: Real + FromStr, const N: usize>(
 
 /// The member of a row, `Some(None)` if it failed; `None` for what is no row.
 fn row<T: Real + FromStr, const N: usize>(text: &str) -> Option<Option<Member<T, N>>> {
-    let mut cells = text.splitn(2 * N + 6, ',');
+    let mut cells = text.splitn(2 * N + 7, ',');
     let index = cells.next()?.parse().ok()?;
-    let numbers: Vec<&str> = cells.by_ref().take(2 * N + 4).collect();
-    let ending = cells.next()?;
+    let cells: Vec<&str> = cells.collect();
+    let (numbers, rest) = cells.split_at_checked(2 * N + 1)?;
+    let [accepted, rejected, evaluations, unique, ending] = rest else { return None };
     if ending.starts_with('"') {
         return Some(None);
     }
-    let (numbers, counts) = numbers.split_at_checked(2 * N + 1)?;
-    let numbers: Vec<T> = numbers.iter().map(|cell| cell.parse().ok()).collect::<Option<_>>()?;
-    let [accepted, rejected, evaluations] = counts else { return None };
-    let t = *numbers.first()?;
-    let state = State {
-        t,
-        q: vector(numbers.get(1..=N)?.try_into().ok()?),
-        v: vector(numbers.get(N + 1..)?.try_into().ok()?),
-    };
-    let time = t.to_f64();
-    let ending = match ending {
-        "complete" => Ending::Complete { time },
-        "cancelled" => Ending::Cancelled { time },
-        _ => return None,
-    };
+    let state: State<T, N> = state(numbers)?;
     let statistics = Statistics {
         accepted: accepted.parse().ok()?,
         rejected: rejected.parse().ok()?,
         evaluations: evaluations.parse().ok()?,
-        ..Statistics::default()
+        multipliers_are_unique: unique.parse().ok()?,
     };
+    let ending = ending_of(ending, state.t.to_f64())?;
     Some(Some(Member { index, result: Ok(Arrival { state, ending, statistics }) }))
+}
+
+/// t, q and q̇.
+fn state<T: Real + FromStr, const N: usize>(cells: &[&str]) -> Option<State<T, N>> {
+    let numbers: Option<Vec<T>> = cells.iter().map(|cell| cell.parse().ok()).collect();
+    let numbers = numbers?;
+    let (t, rest) = numbers.split_first()?;
+    let (q, v) = rest.split_at_checked(N)?;
+    Some(State { t: *t, q: vector(q.try_into().ok()?), v: vector(v.try_into().ok()?) })
+}
+
+fn ending_of(text: &str, time: f64) -> Option<Ending> {
+    match text {
+        "complete" => Some(Ending::Complete { time }),
+        "cancelled" => Some(Ending::Cancelled { time }),
+        _ => None,
+    }
 }

@@ -8,8 +8,7 @@
 use core::array::from_fn;
 use core::ops::ControlFlow;
 
-use super::control::Tolerance;
-use super::pair::{Pair, Row, SLOPES, Slopes, advance};
+use super::pair::{Pair, SLOPES, Slopes, advance};
 use super::step::Memory;
 use super::{
     Adaptive, Ending, Flow, LagrangianFlow, Method, Phase, Point, Statistics, Step, Watchdog, begin,
@@ -17,9 +16,6 @@ use super::{
 use crate::eliminate::vector;
 use crate::numeric::{exceeds, power_of_epsilon};
 use crate::{Error, Lagrangian, Lanes, Pack, Packed, Scalar, State};
-
-/// One bit a lane.
-type Bits = u64;
 
 /// A motion that has a lane.
 pub(crate) struct Seat<L, const N: usize, const M: usize> {
@@ -73,8 +69,8 @@ pub(crate) struct Batch<L: Pack<Lanes>, P, const N: usize, const M: usize> {
 struct Attempt<const N: usize> {
     next: Phase<Lanes, N>,
     error: [f64; Lanes::COUNT],
-    /// The lanes that can be relied on.
-    sound: Bits,
+    /// Which lanes can be relied on.
+    sound: [bool; Lanes::COUNT],
 }
 
 /// What became of a step in one lane.
@@ -86,7 +82,37 @@ enum Fate {
     Failed(Ending),
 }
 
-const ALL: Bits = (1 << Lanes::COUNT) - 1;
+/// Whether the numbers of each lane can be relied on, gathered in passing.
+struct Trust {
+    /// The smallest pivot.
+    pivot: Lanes,
+    /// The sum of all magnitudes, which is a number where each is.
+    size: Lanes,
+}
+
+impl Trust {
+    fn new() -> Self {
+        Self { pivot: Lanes::constant(1.0), size: Lanes::constant(0.0) }
+    }
+
+    #[inline(always)]
+    fn numbers<'x>(&mut self, numbers: impl IntoIterator<Item = &'x Lanes>) {
+        self.size = numbers.into_iter().fold(self.size, |sum, x| sum + x.abs());
+    }
+
+    /// A minimum may pass over what is not a number; a sum does not.
+    #[inline(always)]
+    fn pivot(&mut self, pivot: Lanes) {
+        self.pivot = self.pivot.min(pivot);
+        self.size = self.size + pivot * Lanes::constant(0.0);
+    }
+
+    /// As [`is_trustworthy`](crate::solve::is_trustworthy) of a solution alone.
+    fn lanes(&self) -> [bool; Lanes::COUNT] {
+        let (pivot, size) = (self.pivot.to_array(), self.size.to_array());
+        from_fn(|lane| pivot[lane] > power_of_epsilon(1.0 / 3.0) && size[lane] < f64::INFINITY)
+    }
+}
 
 impl<L, P, const N: usize, const M: usize> Batch<L, P, N, M>
 where
@@ -158,71 +184,63 @@ where
     /// Stages, error and projection in all lanes, and the slopes at the end of the step.
     fn attempt(&mut self, plan: &[(f64, f64); Lanes::COUNT]) -> Attempt<N> {
         let h = Lanes::from(plan.map(|(h, _)| h));
-        let times = Lanes::from(plan.map(|(_, time)| time));
-        let mut sound = self.stages(h);
+        let end = Lanes::from(plan.map(|(_, time)| time));
+        let mut trust = Trust::new();
+        self.stages(h, &mut trust);
         let mut next = advance(&self.y, h, &self.slopes, P::WEIGHTS);
-        sound &= are_finite(&next);
+        trust.numbers(next.iter().flatten());
         if Self::error_needs_last() {
-            sound &= self.slope(Self::LAST, times, &next);
+            self.slope(Self::LAST, end, &next, &mut trust);
         }
-        let tolerance: Tolerance = self.method.tolerance::<f64>();
+        let tolerance = self.method.tolerance::<f64>();
         let error = tolerance.error::<P, _, N>(&self.slopes, h, &self.y, &next).to_array();
-        if M > 0 {
-            sound &= self.project(&mut next, plan, &error, sound);
-        }
+        let projected = if M > 0 { self.project(&mut next, plan, &error) } else { [true; Lanes::COUNT] };
         if M > 0 || !Self::error_needs_last() {
-            sound &= self.slope(Self::LAST, times, &next);
+            self.slope(Self::LAST, end, &next, &mut trust);
         }
-        Attempt { next, error, sound }
+        let trusted = trust.lanes();
+        Attempt { next, error, sound: from_fn(|lane| trusted[lane] && projected[lane]) }
     }
 
     fn error_needs_last() -> bool {
         P::ERROR.iter().any(|(slope, _)| *slope == Self::LAST)
     }
 
-    /// The slopes of the stages after the first; which lanes are sound.
+    /// The slopes of the stages after the first.
     #[inline]
-    fn stages(&mut self, h: Lanes) -> Bits {
+    fn stages(&mut self, h: Lanes, trust: &mut Trust) {
         let now = Lanes::from(from_fn(|lane| self.seats[lane].as_ref().map_or(0.0, |seat| seat.memory.t)));
-        let mut sound = ALL;
         for (number, row) in (1..).zip(P::STAGES) {
-            let y = advance(&self.y, h, &self.slopes, row as Row);
-            sound &= self.slope(number, now + h * Lanes::constant(P::NODES[number]), &y);
+            let y = advance(&self.y, h, &self.slopes, row);
+            self.slope(number, now + h * Lanes::constant(P::NODES[number]), &y, trust);
         }
-        sound
     }
 
-    /// Evaluates the slope of this number; which lanes of it are sound.
+    /// Evaluates the slope of this number.
     #[inline(always)]
-    fn slope(&mut self, number: usize, t: Lanes, y: &Phase<Lanes, N>) -> Bits {
-        let state = State { t, q: vector(y[0]), v: vector(y[1]) };
-        let solution = self.system.accelerations(&state);
+    fn slope(&mut self, number: usize, t: Lanes, y: &Phase<Lanes, N>, trust: &mut Trust) {
+        let solution = self.system.accelerations(&State { t, q: vector(y[0]), v: vector(y[1]) });
+        trust.numbers(solution.accelerations.iter().chain(&solution.multipliers));
+        trust.pivot(solution.pivot);
         self.slopes[number] = [y[1], solution.accelerations.into()];
-        let entries = solution.accelerations.iter().chain(&solution.multipliers);
-        let size = entries.fold(Lanes::constant(0.0), |sum, x| sum + x.abs());
-        solution.pivot.above(power_of_epsilon(1.0 / 3.0)) & size.below(f64::INFINITY)
     }
 
-    /// Projects the lanes that are accurate onto the constraints; which lanes are there, or are not to be.
+    /// Projects the lanes that are accurate onto the constraints; whether each is where it is to be.
     fn project(
         &self,
         next: &mut Phase<Lanes, N>,
         plan: &[(f64, f64); Lanes::COUNT],
         error: &[f64; Lanes::COUNT],
-        sound: Bits,
-    ) -> Bits {
-        let mut projected = ALL;
-        for lane in (0..Lanes::COUNT).filter(|lane| sound >> lane & 1 == 1 && self.is_accurate(error[*lane]))
-        {
-            let Some(seat) = &self.seats[lane] else { continue };
-            let y = unpacked(next, lane);
-            let point = Point { t: plan[lane].1, y, velocity: y[1] };
-            match <LagrangianFlow as Flow<L, N, M>>::project(&seat.system, &point) {
-                Ok(state) => place(next, lane, &[state.q.into(), state.v.into()]),
-                Err(_) => projected &= !(1 << lane),
+    ) -> [bool; Lanes::COUNT] {
+        from_fn(|lane| match &self.seats[lane] {
+            Some(seat) if self.is_accurate(error[lane]) => {
+                let y = unpacked(next, lane);
+                let point = Point { t: plan[lane].1, y, velocity: y[1] };
+                let projected = <LagrangianFlow as Flow<L, N, M>>::project(&seat.system, &point);
+                projected.map(|state| next.place(lane, &[state.q.into(), state.v.into()])).is_ok()
             }
-        }
-        projected
+            _ => true,
+        })
     }
 
     fn is_accurate(&self, error: f64) -> bool {
@@ -235,7 +253,7 @@ where
         let seat = self.seats[lane].as_mut()?;
         let error = attempt.error[lane];
         let is_on_all_constraints = !seat.memory.active.contains(&false);
-        if attempt.sound >> lane & 1 == 0 || !is_on_all_constraints {
+        if !attempt.sound[lane] || !is_on_all_constraints {
             return Some(self.step_alone(lane));
         }
         let before = seat.memory.control.clone();
@@ -298,8 +316,8 @@ where
 
     /// Puts a state and its slope into a lane.
     fn load(&mut self, lane: usize, memory: &Memory<f64, N, M>) {
-        place(&mut self.y, lane, &memory.y);
-        place(&mut self.slopes[0], lane, &memory.slopes[0]);
+        self.y.place(lane, &memory.y);
+        self.slopes[0].place(lane, &memory.slopes[0]);
     }
 
     fn state(&self, lane: usize, t: f64) -> State<f64, N> {
@@ -325,14 +343,4 @@ impl Statistics {
 /// What lies in one lane.
 fn unpacked<const N: usize>(packed: &Phase<Lanes, N>, lane: usize) -> Phase<f64, N> {
     packed.map(|half| half.map(|x| x.to_array()[lane]))
-}
-
-fn place<const N: usize>(packed: &mut Phase<Lanes, N>, lane: usize, y: &Phase<f64, N>) {
-    Packed::place(packed, lane, y);
-}
-
-/// Which lanes hold numbers only.
-fn are_finite<const N: usize>(y: &Phase<Lanes, N>) -> Bits {
-    let size = y.iter().flatten().fold(Lanes::constant(0.0), |sum, x| sum + x.abs());
-    size.below(f64::INFINITY)
 }

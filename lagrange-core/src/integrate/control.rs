@@ -48,7 +48,12 @@ impl<T: Real> Control<T> {
 const SAFETY: f64 = 0.9;
 
 fn reduction<P: Pair, T: Real>(error: T) -> T {
-    Scalar::powf(error, T::constant(1.0 / P::ORDER - 0.75 * P::DAMPING))
+    let exponent = 1.0 / P::ORDER - 0.75 * P::DAMPING;
+    if exponent == 0.125 {
+        // Three roots take a third of the time of a power.
+        return Scalar::sqrt(Scalar::sqrt(Scalar::sqrt(error)));
+    }
+    Scalar::powf(error, T::constant(exponent))
 }
 
 /// The place of an entry: half 0 the coordinates, 1 the velocities, and the index.
