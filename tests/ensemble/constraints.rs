@@ -65,12 +65,13 @@ fn neighbours_change_no_bit_on_constraints_either() {
     }
 }
 
-/// Both constraints say the same: what lanes cannot solve is solved alone.
+/// The second constraint says the same as the first, but shows it where that holds only. In the stages of a coarse
+/// step the two look independent, and what they demand together is wrong: such members are integrated alone.
 #[derive(Lagrangian, Clone, Copy)]
 #[coordinates(x, y)]
 #[lagrangian(m/2*(x_dot^2 + y_dot^2) - m*g*y)]
 #[constraint(rod: (x^2 + y^2 - l^2)/2 = 0)]
-#[constraint(again: x*x_dot + y*y_dot = 0)]
+#[constraint(again: (x^2 + y^2 - l^2)*(2 + x) = 0)]
 struct Twice<T> {
     m: T,
     g: T,
@@ -83,12 +84,13 @@ fn constraints_that_depend_on_one_another_are_solved_alone() {
         let (angle, l) = (0.2 + noise(index, 0), 1.0 + noise(index, 1));
         (Twice { m: 1.0, g: 9.81, l }, State::at_rest([l * angle.sin(), -l * angle.cos()]))
     };
-    let outcome = Ensemble::from_fn(9, member).integrate_on_lanes(3.0, Dopri5::default()).unwrap();
+    let method = Dopri5::with_tolerance(0.1);
+    let outcome = Ensemble::from_fn(9, member).integrate_on_lanes(3.0, method).unwrap();
     assert_eq!(outcome.completed().count(), 9);
     for (index, state) in outcome.completed() {
         let (system, start) = member(index);
-        let path = system.integrate(start, 3.0, Dopri5::default()).unwrap();
-        assert!((state.q - path.end().state().q).amax() < 1e-12, "member {index}");
+        let path = system.integrate(start, 3.0, method).unwrap();
+        assert_eq!(state, path.end().state(), "member {index}");
         assert!(!outcome.get(index).unwrap().arrival().unwrap().statistics.multipliers_are_unique);
     }
 }

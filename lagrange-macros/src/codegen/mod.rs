@@ -155,7 +155,7 @@ impl Emitter<'_> {
         let functions = self.functions(fused);
         let inherent = self.observable_methods();
         let equations = self.equations();
-        let pack = self.pack();
+        let pack = pack::pack(self.declaration, scalar);
         let Rendered { text, .. } = self.rendered;
         let doc = format!("```text\n{text}```");
         quote! {

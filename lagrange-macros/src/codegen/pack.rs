@@ -4,50 +4,47 @@ use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
 use quote::{ToTokens, quote, quote_spanned};
 use syn::spanned::Spanned;
 
-use super::{Emitter, bounded_generics};
-use crate::syntax::Field;
+use super::bounded_generics;
+use crate::syntax::{Declaration, Field};
 
-impl Emitter<'_> {
-    /// How systems are put on lanes, where the number type is a type parameter; else there is no other to put in.
-    pub(super) fn pack(&self) -> Option<TokenStream> {
-        let declaration = self.declaration;
-        let scalar = self.style.scalar.to_token_stream().to_string();
-        let parameter = declaration.generics.type_params().find(|parameter| parameter.ident == scalar)?;
-        let exchange = Exchange { from: &parameter.ident, to: Ident::new("__Lanes", Span::mixed_site()) };
-        let fields = || declaration.fields.iter();
-        let mut generics = bounded_generics(declaration, self.style.scalar);
-        exchange.extend(&mut generics, parameter);
-        let bounds = fields().map(|field| exchange.bound(field));
-        generics.make_where_clause().predicates.extend(bounds);
-        let (impl_generics, _, where_clause) = generics.split_for_impl();
-        let (_, type_generics, _) = declaration.generics.split_for_impl();
-        let (ident, lanes) = (&declaration.ident, &exchange.to);
-        let packed = exchange.apply(quote!(#type_generics));
-        let inits = fields().map(|field| exchange.init(field));
-        let shared = fields().filter(|field| !exchange.concerns(field)).map(|field| &field.ident);
-        let places = fields().filter(|field| exchange.concerns(field)).map(|field| exchange.place(field));
-        Some(quote! {
-            #[automatically_derived]
-            #[allow(clippy::all, unused_variables)]
-            impl #impl_generics __lagrange::Pack<#lanes> for #ident #type_generics #where_clause {
-                type Packed = #ident #packed;
+/// How systems are put on lanes, where the number type is a type parameter; else there is no other to put in.
+pub(super) fn pack(declaration: &Declaration, scalar: &syn::Type) -> Option<TokenStream> {
+    let name = scalar.to_token_stream().to_string();
+    let parameter = declaration.generics.type_params().find(|parameter| parameter.ident == name)?;
+    let exchange = Exchange { from: &parameter.ident, to: Ident::new("__Lanes", Span::mixed_site()) };
+    let fields = || declaration.fields.iter();
+    let mut generics = bounded_generics(declaration, scalar);
+    exchange.extend(&mut generics, parameter);
+    let bounds = fields().map(|field| exchange.bound(field));
+    generics.make_where_clause().predicates.extend(bounds);
+    let (impl_generics, _, where_clause) = generics.split_for_impl();
+    let (_, type_generics, _) = declaration.generics.split_for_impl();
+    let (ident, lanes) = (&declaration.ident, &exchange.to);
+    let packed = exchange.apply(quote!(#type_generics));
+    let inits = fields().map(|field| exchange.init(field));
+    let shared = fields().filter(|field| !exchange.concerns(field)).map(|field| &field.ident);
+    let places = fields().filter(|field| exchange.concerns(field)).map(|field| exchange.place(field));
+    Some(quote! {
+        #[automatically_derived]
+        #[allow(clippy::all, unused_variables)]
+        impl #impl_generics __lagrange::Pack<#lanes> for #ident #type_generics #where_clause {
+            type Packed = #ident #packed;
 
-                #[inline]
-                fn pack(&self) -> Self::Packed {
-                    #ident { #(#inits),* }
-                }
-
-                #[inline]
-                fn place(&self, packed: &mut Self::Packed, lane: usize) -> bool {
-                    let fits = true #(&& self.#shared == packed.#shared)*;
-                    if fits {
-                        #(#places)*
-                    }
-                    fits
-                }
+            #[inline]
+            fn pack(&self) -> Self::Packed {
+                #ident { #(#inits),* }
             }
-        })
-    }
+
+            #[inline]
+            fn place(&self, packed: &mut Self::Packed, lane: usize) -> bool {
+                let fits = true #(&& self.#shared == packed.#shared)*;
+                if fits {
+                    #(#places)*
+                }
+                fits
+            }
+        }
+    })
 }
 
 /// One type parameter put in another's place.
