@@ -9,7 +9,8 @@ use crate::{Packed, Scalar};
 /// Four `f64` side by side, on which the equations of four systems are evaluated at once.
 ///
 /// No lane depends on another: what comes out of a lane is bit for bit what comes out with anything else beside it.
-/// Sines and cosines differ from those of the standard library by an ulp or two.
+/// Sines and cosines are within 3·10⁻¹⁶ of those of the standard library, and NaN for angles of 10⁸ and more: there the
+/// vectors of four lose digits, and an [`Ensemble`](crate::Ensemble) takes the step of that member alone.
 ///
 /// The vectors are those of the crate `wide`, which uses AVX2 and FMA where the compiler is told that they exist:
 /// `RUSTFLAGS="-C target-cpu=native"` or `"-C target-feature=+avx2,+fma"`.
@@ -126,3 +127,6 @@ impl Scalar for Lanes {
         Self(SimdComplexField::simd_abs(self.0))
     }
 }
+
+#[cfg(test)]
+mod tests;

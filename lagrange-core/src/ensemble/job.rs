@@ -161,29 +161,40 @@ impl<L, const N: usize> Job<'_, L, f64, N> {
         P: Pair,
         Adaptive<P>: Copy,
     {
-        // One that does not fit beside the others waits until they have ended.
-        let mut waiting = self.next_seat(&method);
-        while let Some(first) = waiting.take() {
+        let mut next = self.next_seat(&method);
+        while let Some(first) = next.take() {
             let mut batch = Batch::new(method, first);
-            waiting = self.next_seat(&method);
+            next = self.next_seat(&method);
             while !batch.is_empty() && !self.stopped.load(Ordering::Relaxed) {
-                while let Some(seat) = waiting.take_if(|_| batch.has_free_lane()) {
-                    match batch.join(seat) {
-                        Ok(()) => waiting = self.next_seat(&method),
-                        Err(seat) => {
-                            waiting = Some(seat);
-                            break;
-                        }
-                    }
-                }
+                self.fill(&mut batch, &mut next, &method);
                 batch.step(
                     |index, state| self.observe(index, state),
-                    |seat, state, ending| {
-                        let Seat { index, statistics, .. } = seat;
+                    |Seat { index, statistics, .. }, state, ending| {
                         self.report(index, Ok(Arrival { state, ending, statistics }));
                     },
                 );
             }
+        }
+    }
+
+    /// Gives free lanes to the next members. One that does not fit beside the others waits until they have ended.
+    fn fill<P, const M: usize>(
+        &self,
+        batch: &mut Batch<L, P, N, M>,
+        next: &mut Option<Seat<L, N, M>>,
+        method: &Adaptive<P>,
+    ) where
+        L: Lagrangian<N, M, Scalar = f64> + Pack<Lanes, Packed: Lagrangian<N, M, Scalar = Lanes>>,
+        P: Pair,
+    {
+        while batch.has_free_lane()
+            && let Some(seat) = next.take()
+        {
+            *next = batch.join(seat);
+            if next.is_some() {
+                break;
+            }
+            *next = self.next_seat(method);
         }
     }
 

@@ -141,15 +141,15 @@ where
     }
 
     /// Gives the motion a free lane; gives it back where there is none that it fits in.
-    pub(crate) fn join(&mut self, seat: Seat<L, N, M>) -> Result<(), Seat<L, N, M>> {
-        let free = self.seats.iter().position(Option::is_none);
-        match free {
-            Some(lane) if seat.system.place(&mut self.system, lane) => {
+    pub(crate) fn join(&mut self, seat: Seat<L, N, M>) -> Option<Seat<L, N, M>> {
+        let lane = self.seats.iter().position(Option::is_none);
+        match lane.filter(|&lane| seat.system.place(&mut self.system, lane)) {
+            None => Some(seat),
+            Some(lane) => {
                 self.load(lane, &seat.memory);
                 self.seats[lane] = Some(seat);
-                Ok(())
+                None
             }
-            _ => Err(seat),
         }
     }
 
