@@ -31,10 +31,11 @@ assert!((friction + 2.0 / 7.0 * 9.81 * 0.3_f64.sin()).abs() < 1e-12);
 //! - [`Hamiltonian`] is the other side: momenta, the Legendre transform, Hamilton's equations, motion in (q, p).
 //! - [`Solution`] holds accelerations and multipliers; the sign of a multiplier is that of Milton (8.7): the constraint
 //!   force on coordinate a is Σ_α λ_α F_αa.
+//! - [`ensemble`]: many members at once, on SIMD lanes and on all threads.
 //! - [`Dop853`] and [`Dopri5`] are the methods, [`Trajectory`] is what they give, [`Ending`] why it stops.
 //!
-//! Features: `std` (default); `alloc`, without it there are no trajectories; `libm`, elementary functions where there
-//! is no `std`.
+//! Features: `std` (default), without it there are no ensembles; `alloc`, without it there are no trajectories; `libm`,
+//! elementary functions where there is no `std`; `rayon`, ensembles on all threads.
 #![cfg_attr(not(feature = "std"), no_std)]
 // Algorithms on matrices read best with indices.
 #![allow(clippy::needless_range_loop)]

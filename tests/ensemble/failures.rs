@@ -13,16 +13,16 @@ fn with(bad: fn() -> (DoublePendulum<f64>, State<f64, 2>)) -> [Outcome<f64, 2>; 
     let members = move |index: usize| if index == BAD { bad() } else { member(index) };
     let ensemble = || Ensemble::from_fn(COUNT, members);
     [
-        on_threads(1, || ensemble().integrate_on_lanes(END, Dop853::default()).unwrap()),
-        ensemble().integrate(END, Dop853::default()).unwrap(),
+        on_threads(1, || ensemble().integrate_on_lanes(END, Dop853::default()).expect("an outcome")),
+        ensemble().integrate(END, Dop853::default()).expect("an outcome"),
     ]
 }
 
 /// All others are as without it, bit for bit; what became of it.
 fn alone_in_its_failure(outcomes: [Outcome<f64, 2>; 2]) -> [Member<f64, 2>; 2] {
     let well = [
-        ensemble().integrate_on_lanes(END, Dop853::default()).unwrap(),
-        ensemble().integrate(END, Dop853::default()).unwrap(),
+        ensemble().integrate_on_lanes(END, Dop853::default()).expect("an outcome"),
+        ensemble().integrate(END, Dop853::default()).expect("an outcome"),
     ];
     let mut outcomes = outcomes.into_iter().zip(well).map(|(outcome, well)| {
         for (member, well) in outcome.members().iter().zip(well.members()).filter(|(m, _)| m.index != BAD) {
@@ -32,7 +32,7 @@ fn alone_in_its_failure(outcomes: [Outcome<f64, 2>; 2]) -> [Member<f64, 2>; 2] {
         assert_eq!((outcome.members().len(), failures.len(), failures[0].index), (COUNT, 1, BAD));
         failures[0].clone()
     });
-    std::array::from_fn(|_| outcomes.next().unwrap())
+    std::array::from_fn(|_| outcomes.next().expect("two outcomes"))
 }
 
 #[test]
@@ -123,16 +123,18 @@ fn stopped<L>(
     // Without it, another stands in its place.
     let well = |index: usize| members(if index == bad { 0 } else { index });
     let run = |member: &(dyn Fn(usize) -> (L, State<f64, 1>) + Send + Sync)| {
-        on_threads(1, || Ensemble::from_fn(8, member).integrate_on_lanes(end, Dop853::default()).unwrap())
+        on_threads(1, || {
+            Ensemble::from_fn(8, member).integrate_on_lanes(end, Dop853::default()).expect("an outcome")
+        })
     };
     let (outcome, well) = (run(&members), run(&well));
     assert_eq!((outcome.completed().count(), well.completed().count()), (7, 8));
     for (member, well) in outcome.members().iter().zip(well.members()).filter(|(m, _)| m.index != bad) {
         assert_eq!(member, well);
     }
-    check(outcome.get(bad).unwrap());
-    let one_by_one = Ensemble::from_fn(8, members).integrate(end, Dop853::default()).unwrap();
-    check(one_by_one.get(bad).unwrap());
+    check(outcome.get(bad).expect("a member"));
+    let one_by_one = Ensemble::from_fn(8, members).integrate(end, Dop853::default()).expect("an outcome");
+    check(one_by_one.get(bad).expect("a member"));
 }
 
 #[test]

@@ -49,5 +49,5 @@ fn ensemble<'a>() -> Ensemble<'a, DoublePendulum<f64>, f64, 2> {
 
 /// On a pool of its own with this many threads.
 fn on_threads<R: Send>(threads: usize, work: impl FnOnce() -> R + Send) -> R {
-    rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(work)
+    rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads").install(work)
 }

@@ -29,7 +29,7 @@ where
     assert_eq!(on_lanes.completed().count(), COUNT);
     on_lanes.completed().fold(0.0, |most, (index, state)| {
         let (system, start) = member(index);
-        let path = system.integrate(start, END, method).unwrap();
+        let path = system.integrate(start, END, method).expect("a consistent start");
         let exact = path.end();
         most.max((state.q - exact.state().q).amax()).max((state.v - exact.state().v).amax())
     })
@@ -126,7 +126,7 @@ fn a_large_angle_is_no_wrong_number() {
 
 #[test]
 fn the_observer_sees_every_step_and_ends_a_member() {
-    let turns = |index: usize, state: &State<f64, 2>| match index % 2 == 0 && state.t > 0.4 {
+    let turns = |index: usize, state: &State<f64, 2>| match index.is_multiple_of(2) && state.t > 0.4 {
         true => ControlFlow::Break(()),
         false => ControlFlow::Continue(()),
     };

@@ -8,7 +8,7 @@ use lagrange_core::prelude::*;
 use crate::{COUNT, DoublePendulum, END, ensemble, member, on_threads};
 
 fn whole() -> Outcome<f64, 2> {
-    ensemble().integrate_on_lanes(END, Dop853::default()).unwrap()
+    ensemble().integrate_on_lanes(END, Dop853::default()).expect("an outcome")
 }
 
 #[test]
