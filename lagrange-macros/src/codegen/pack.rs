@@ -37,7 +37,7 @@ pub(super) fn pack(declaration: &Declaration, scalar: &syn::Type) -> Option<Toke
 
             #[inline]
             fn place(&self, packed: &mut Self::Packed, lane: usize) -> bool {
-                let fits = true #(&& self.#shared == packed.#shared)*;
+                let fits = true #(&& ::core::cmp::PartialEq::eq(&self.#shared, &packed.#shared))*;
                 if fits {
                     #(#places)*
                 }
