@@ -9,51 +9,11 @@ use core::array::from_fn;
 use core::ops::ControlFlow;
 
 use super::pair::{Pair, SLOPES, Slopes, advance};
-use super::step::Memory;
-use super::{
-    Adaptive, Ending, Flow, LagrangianFlow, Method, Phase, Point, Statistics, Step, Watchdog, begin,
-};
+use super::seat::{Fate, Seat};
+use super::{Adaptive, Ending, Flow, LagrangianFlow, Phase, Point};
 use crate::eliminate::vector;
-use crate::numeric::{exceeds, power_of_epsilon};
-use crate::{Error, Lagrangian, Lanes, Pack, Packed, Scalar, State};
-
-/// A motion that has a lane.
-pub(crate) struct Seat<L, const N: usize, const M: usize> {
-    /// Which member of the ensemble it is.
-    pub(crate) index: usize,
-    pub(crate) statistics: Statistics,
-    system: L,
-    /// Its state and slopes are in the lane, and here only while a step is taken alone.
-    memory: Memory<f64, N, M>,
-    limits: Watchdog,
-}
-
-impl<L, const N: usize, const M: usize> Seat<L, N, M>
-where
-    L: Lagrangian<N, M, Scalar = f64>,
-{
-    /// Before the first step, with the state made consistent.
-    pub(crate) fn new<P: Pair>(
-        index: usize,
-        system: L,
-        state: &State<f64, N>,
-        end: f64,
-        method: &Adaptive<P>,
-    ) -> Result<(Self, State<f64, N>), Error> {
-        let mut statistics = Statistics::default();
-        let ((start, _), memory) =
-            begin::<L, LagrangianFlow, _, N, M>(&system, state, end, method, &mut statistics)?;
-        let limits = Watchdog::new(method.limits());
-        Ok((Self { index, system, memory, statistics, limits }, start))
-    }
-
-    /// Why there is no further step to take.
-    pub(crate) fn ending(&self) -> Option<Ending> {
-        let time = self.memory.t;
-        let complete = (time >= self.memory.end).then_some(Ending::Complete { time });
-        complete.or_else(|| self.limits.exceeded(&self.statistics, time))
-    }
-}
+use crate::numeric::power_of_epsilon;
+use crate::{Lagrangian, Lanes, Pack, Packed, Scalar, State};
 
 /// Motions in lock-step.
 pub(crate) struct Batch<L: Pack<Lanes>, P, const N: usize, const M: usize> {
@@ -71,15 +31,6 @@ struct Attempt<const N: usize> {
     error: [f64; Lanes::COUNT],
     /// Which lanes can be relied on.
     sound: [bool; Lanes::COUNT],
-}
-
-/// What became of a step in one lane.
-enum Fate {
-    Accepted,
-    Rejected,
-    /// Taken alone: the lane is to be loaded with the result.
-    AcceptedAlone,
-    Failed(Ending),
 }
 
 /// Whether the numbers of each lane can be relied on, gathered in passing.
@@ -125,11 +76,13 @@ where
     pub(crate) fn new(method: Adaptive<P>, seat: Seat<L, N, M>) -> Self {
         let zero = [[Lanes::constant(0.0); N]; 2];
         let system = seat.system.pack();
-        let mut batch = Self { method, system, y: zero, slopes: [zero; SLOPES], seats: from_fn(|_| None) };
-        // The free lanes compute the same, to no purpose and no harm.
-        (0..Lanes::COUNT).for_each(|lane| batch.load(lane, &seat.memory));
-        batch.seats[0] = Some(seat);
-        batch
+        // Free lanes compute what the first does, to no purpose and no harm.
+        let splat = |y: &Phase<f64, N>| y.map(|half| half.map(Lanes::constant));
+        let mut slopes = [zero; SLOPES];
+        slopes[0] = splat(&seat.memory.slopes[0]);
+        let y = splat(&seat.memory.y);
+        let seats = [Some(seat.begin(&method)), None, None, None];
+        Self { method, system, y, slopes, seats }
     }
 
     pub(crate) fn has_free_lane(&self) -> bool {
@@ -146,8 +99,8 @@ where
         match lane.filter(|&lane| seat.system.place(&mut self.system, lane)) {
             None => Some(seat),
             Some(lane) => {
-                self.load(lane, &seat.memory);
-                self.seats[lane] = Some(seat);
+                self.seats[lane] = Some(seat.begin(&self.method));
+                self.load(lane);
                 None
             }
         }
@@ -233,7 +186,7 @@ where
         error: &[f64; Lanes::COUNT],
     ) -> [bool; Lanes::COUNT] {
         from_fn(|lane| match &self.seats[lane] {
-            Some(seat) if self.is_accurate(error[lane]) => {
+            Some(seat) if self.method.accepts(error[lane]) => {
                 let y = unpacked(next, lane);
                 let point = Point { t: plan[lane].1, y, velocity: y[1] };
                 let projected = <LagrangianFlow as Flow<L, N, M>>::project(&seat.system, &point);
@@ -243,56 +196,16 @@ where
         })
     }
 
-    fn is_accurate(&self, error: f64) -> bool {
-        self.method.fixed_step.is_some() || !exceeds(error, 1.0)
-    }
-
-    /// Accepts or rejects the step of a lane, by its own controller; `None` for a free lane.
-    fn decide(&mut self, lane: usize, (h, time): (f64, f64), attempt: &Attempt<N>) -> Option<Fate> {
-        let accurate = self.is_accurate(attempt.error[lane]);
+    /// What becomes of the step in a lane; `None` for a free one.
+    fn decide(&mut self, lane: usize, plan: (f64, f64), attempt: &Attempt<N>) -> Option<Fate> {
+        let (y, slope) = (&self.y, &self.slopes[0]);
         let seat = self.seats[lane].as_mut()?;
-        let error = attempt.error[lane];
-        let is_on_all_constraints = !seat.memory.active.contains(&false);
-        if !attempt.sound[lane] || !is_on_all_constraints {
-            return Some(self.step_alone(lane));
-        }
-        let before = seat.memory.control.clone();
-        if accurate {
-            seat.memory.t = time;
-            if self.method.fixed_step.is_none() {
-                seat.memory.control.accept::<P>(h, error);
-                seat.memory.control.step = self.method.cut(seat.memory.control.step);
-            }
-        } else {
-            seat.memory.control.refuse::<P>(h, error);
-            if seat.memory.is_step_too_small() {
-                seat.memory.control = before;
-                return Some(self.step_alone(lane));
-            }
-        }
-        seat.statistics.count::<P, M>(accurate);
-        Some(if accurate { Fate::Accepted } else { Fate::Rejected })
-    }
-
-    /// The step of one lane by the scalar method.
-    #[cold]
-    fn step_alone(&mut self, lane: usize) -> Fate {
-        let (y, slope) = (unpacked(&self.y, lane), unpacked(&self.slopes[0], lane));
-        let Some(Seat { system, memory, statistics, .. }) = &mut self.seats[lane] else {
-            return Fate::Rejected;
-        };
-        (memory.y, memory.slopes[0]) = (y, slope);
-        match Method::<L, N, M>::step(&self.method, system, memory, statistics) {
-            Step::Accepted { .. } => {
-                statistics.accepted += 1;
-                Fate::AcceptedAlone
-            }
-            Step::Rejected => {
-                statistics.rejected += 1;
-                Fate::Rejected
-            }
-            Step::Failed(ending) => Fate::Failed(ending),
-        }
+        let decided = attempt.sound[lane].then(|| seat.decide(plan, attempt.error[lane], &self.method));
+        Some(
+            decided
+                .flatten()
+                .unwrap_or_else(|| seat.step_alone(unpacked(y, lane), unpacked(slope, lane), &self.method)),
+        )
     }
 
     /// Moves the lanes whose steps are accepted.
@@ -307,36 +220,21 @@ where
             }
         }
         for lane in (0..Lanes::COUNT).filter(|lane| matches!(fates[*lane], Some(Fate::AcceptedAlone))) {
-            if let Some(seat) = self.seats[lane].take() {
-                self.load(lane, &seat.memory);
-                self.seats[lane] = Some(seat);
-            }
+            self.load(lane);
         }
     }
 
-    /// Puts a state and its slope into a lane.
-    fn load(&mut self, lane: usize, memory: &Memory<f64, N, M>) {
-        self.y.place(lane, &memory.y);
-        self.slopes[0].place(lane, &memory.slopes[0]);
+    /// Puts the state and the slope that its motion holds into a lane.
+    fn load(&mut self, lane: usize) {
+        if let Some(Seat { memory, .. }) = &self.seats[lane] {
+            self.y.place(lane, &memory.y);
+            self.slopes[0].place(lane, &memory.slopes[0]);
+        }
     }
 
     fn state(&self, lane: usize, t: f64) -> State<f64, N> {
         let [q, v] = unpacked(&self.y, lane);
         State { t, q: vector(q), v: vector(v) }
-    }
-}
-
-impl Statistics {
-    /// A step on lanes, with as many evaluations as it takes alone.
-    fn count<P: Pair, const M: usize>(&mut self, accepted: bool) {
-        let error_needs_last = P::ERROR.iter().any(|(slope, _)| *slope == P::STAGES.len() + 1);
-        self.evaluations += P::STAGES.len() + usize::from(error_needs_last);
-        if accepted {
-            self.evaluations += usize::from(M > 0 || !error_needs_last);
-            self.accepted += 1;
-        } else {
-            self.rejected += 1;
-        }
     }
 }
 

@@ -4,7 +4,7 @@ use core::array::from_fn;
 
 use super::pair::{Pair, Slopes, combine};
 use super::{Adaptive, Phase};
-use crate::numeric::{larger, smaller};
+use crate::numeric::{exceeds, larger, smaller};
 use crate::{Real, Scalar};
 
 /// The step to try next, and what its choice remembers.
@@ -114,6 +114,19 @@ impl<P: Pair> Adaptive<P> {
     /// What is asked for, as far as the numbers go.
     pub(super) fn tolerance<T: Real>(&self) -> Tolerance {
         Tolerance { relative: self.relative.max(16.0 * T::EPSILON), absolute: self.absolute }
+    }
+
+    /// Whether a step with this part of the tolerance as its error will do; nothing refuses a fixed step.
+    pub(super) fn accepts<T: Real>(&self, error: T) -> bool {
+        self.fixed_step.is_some() || !exceeds(error, T::constant(1.0))
+    }
+
+    /// Chooses the step after an accepted one.
+    pub(super) fn after_acceptance<T: Real>(&self, control: &mut Control<T>, h: T, error: T) {
+        if self.fixed_step.is_none() {
+            control.accept::<P>(h, error);
+            control.step = self.cut(control.step);
+        }
     }
 
     /// The step cut to the longest allowed.

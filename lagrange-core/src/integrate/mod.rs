@@ -9,6 +9,8 @@ mod dopri5;
 mod ending;
 mod flow;
 mod pair;
+#[cfg(feature = "std")]
+mod seat;
 mod step;
 #[cfg(test)]
 mod tests;
@@ -19,12 +21,14 @@ use nalgebra::ComplexField;
 
 pub use adaptive::Adaptive;
 #[cfg(feature = "std")]
-pub(crate) use batch::{Batch, Seat};
+pub(crate) use batch::Batch;
 pub use dop853::{Dop853, DormandPrince853};
 pub use dopri5::{Dopri5, DormandPrince54};
 pub use ending::Ending;
 pub use flow::{Flow, LagrangianFlow, Point, Slope};
 pub use pair::{Pair, Row};
+#[cfg(feature = "std")]
+pub(crate) use seat::Seat;
 
 use crate::consistent::Consistent;
 use crate::solve::solve;

@@ -9,7 +9,7 @@ use super::pair::{Pair, Row, SLOPES, Slopes, advance};
 use super::{Adaptive, Ending, Flow, Limits, Method, Phase, Point, Slope, Statistics, Step};
 use crate::eliminate::vector;
 use crate::names::{Entry, Row as EquationRow};
-use crate::numeric::{exceeds, larger};
+use crate::numeric::larger;
 use crate::solve::name;
 use crate::{Error, Lagrangian, Real, Scalar, State};
 
@@ -153,10 +153,7 @@ where
                 (memory.t, memory.y) = (time, y);
                 memory.active = active;
                 memory.slopes[0] = memory.slopes[P::STAGES.len() + 1];
-                if self.fixed_step.is_none() {
-                    memory.control.accept::<P>(h, error);
-                    memory.control.step = self.cut(memory.control.step);
-                }
+                self.after_acceptance(&mut memory.control, h, error);
                 let coefficients = if self.is_dense { 4 + P::INTERPOLATION.len() } else { 0 };
                 return Step::Accepted {
                     state: State { t: time, q: vector(y[0]), v: vector(memory.slopes[0][0]) },
@@ -230,7 +227,7 @@ impl<P: Pair> Adaptive<P> {
     ) -> Result<T, Refusal<T>> {
         let tolerance = self.tolerance::<T>();
         let error = tolerance.error::<P, T, N>(slopes, h, before, after);
-        if self.fixed_step.is_none() && exceeds(error, T::constant(1.0)) {
+        if !self.accepts(error) {
             return Err(Refusal::Inaccurate(error, tolerance.worst::<P, T, N>(slopes, before, after)));
         }
         Ok(error)
