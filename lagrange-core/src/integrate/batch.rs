@@ -118,17 +118,15 @@ where
         let fates = from_fn(|lane| self.decide(lane, plan[lane], &attempt));
         self.settle(&fates, &attempt.next);
         for (lane, fate) in fates.into_iter().enumerate() {
-            let Some((seat, fate)) = self.seats[lane].as_ref().zip(fate) else { continue };
+            let Some(seat) = &self.seats[lane] else { continue };
             let state = self.state(lane, seat.memory.t);
-            let ending = match fate {
-                Fate::Failed(ending) => Some(ending),
-                Fate::Rejected => seat.ending(),
-                Fate::Accepted | Fate::AcceptedAlone => match accept(seat.index, &state) {
-                    ControlFlow::Break(()) => Some(Ending::Cancelled { time: state.t }),
-                    ControlFlow::Continue(()) => seat.ending(),
-                },
+            let ending = match fate != Fate::Rejected && accept(seat.index, &state).is_break() {
+                true => Some(Ending::Cancelled { time: state.t }),
+                false => seat.ending(),
             };
-            if let Some((ending, seat)) = ending.and_then(|ending| Some((ending, self.seats[lane].take()?))) {
+            if let Some(ending) = ending
+                && let Some(seat) = self.seats[lane].take()
+            {
                 leave(seat, state, ending);
             }
         }
@@ -196,30 +194,26 @@ where
         })
     }
 
-    /// What becomes of the step in a lane; `None` for a free one.
-    fn decide(&mut self, lane: usize, plan: (f64, f64), attempt: &Attempt<N>) -> Option<Fate> {
-        let (y, slope) = (&self.y, &self.slopes[0]);
-        let seat = self.seats[lane].as_mut()?;
+    /// What becomes of the step in a lane. None is taken in a free one.
+    fn decide(&mut self, lane: usize, plan: (f64, f64), attempt: &Attempt<N>) -> Fate {
+        let Some(seat) = &mut self.seats[lane] else { return Fate::Rejected };
         let decided = attempt.sound[lane].then(|| seat.decide(plan, attempt.error[lane], &self.method));
-        Some(
-            decided
-                .flatten()
-                .unwrap_or_else(|| seat.step_alone(unpacked(y, lane), unpacked(slope, lane), &self.method)),
-        )
+        decided.flatten().unwrap_or_else(|| {
+            seat.step_alone(unpacked(&self.y, lane), unpacked(&self.slopes[0], lane), &self.method)
+        })
     }
 
     /// Moves the lanes whose steps are accepted.
-    fn settle(&mut self, fates: &[Option<Fate>; Lanes::COUNT], next: &Phase<Lanes, N>) {
-        let accepted = from_fn(|lane| f64::from(u8::from(matches!(fates[lane], Some(Fate::Accepted)))));
-        let accepted = Lanes::from(accepted);
+    fn settle(&mut self, fates: &[Fate; Lanes::COUNT], next: &Phase<Lanes, N>) {
+        let accepted = Lanes::from(fates.map(|fate| if fate == Fate::Accepted { 1.0 } else { 0.0 }));
         for half in 0..2 {
             for i in 0..N {
-                self.y[half][i] = next[half][i].select(accepted, self.y[half][i]);
-                self.slopes[0][half][i] =
-                    self.slopes[Self::LAST][half][i].select(accepted, self.slopes[0][half][i]);
+                let (y, slope) = (&mut self.y[half][i], self.slopes[Self::LAST][half][i]);
+                *y = next[half][i].select(accepted, *y);
+                self.slopes[0][half][i] = slope.select(accepted, self.slopes[0][half][i]);
             }
         }
-        for lane in (0..Lanes::COUNT).filter(|lane| matches!(fates[*lane], Some(Fate::AcceptedAlone))) {
+        for lane in (0..Lanes::COUNT).filter(|lane| fates[*lane] == Fate::AcceptedAlone) {
             self.load(lane);
         }
     }

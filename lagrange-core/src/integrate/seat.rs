@@ -14,15 +14,17 @@ pub(crate) struct Seat<L, const N: usize, const M: usize> {
     /// Its state and slopes are in the lane, and here only while a step is taken alone.
     pub(super) memory: Memory<f64, N, M>,
     limits: Watchdog,
+    /// Why no step will do.
+    failure: Option<Ending>,
 }
 
 /// What became of a step in one lane.
+#[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Fate {
     Accepted,
     /// Taken alone: the lane is to be loaded with the result.
     AcceptedAlone,
     Rejected,
-    Failed(Ending),
 }
 
 impl<L, const N: usize, const M: usize> Seat<L, N, M>
@@ -41,7 +43,7 @@ where
         let ((start, _), memory) =
             begin::<L, LagrangianFlow, _, N, M>(&system, state, end, method, &mut statistics)?;
         let limits = Watchdog::new(method.limits());
-        Ok((Self { index, system, memory, statistics, limits }, start))
+        Ok((Self { index, system, memory, statistics, limits, failure: None }, start))
     }
 
     /// The clock on the wall starts when it is given a lane.
@@ -52,8 +54,10 @@ where
     /// Why there is no further step to take.
     pub(crate) fn ending(&self) -> Option<Ending> {
         let time = self.memory.t;
-        let complete = (time >= self.memory.end).then_some(Ending::Complete { time });
-        complete.or_else(|| self.limits.exceeded(&self.statistics, time))
+        if time >= self.memory.end {
+            return Some(Ending::Complete { time });
+        }
+        self.failure.clone().or_else(|| self.limits.exceeded(&self.statistics, time))
     }
 
     /// Accepts or rejects a step computed on lanes; `None` where it is to be taken alone.
@@ -101,7 +105,7 @@ where
         slope: Phase<f64, N>,
         method: &Adaptive<P>,
     ) -> Fate {
-        let Self { system, memory, statistics, .. } = self;
+        let Self { system, memory, statistics, failure, .. } = self;
         (memory.y, memory.slopes[0]) = (y, slope);
         match Method::<L, N, M>::step(method, system, memory, statistics) {
             Step::Accepted { .. } => {
@@ -112,7 +116,10 @@ where
                 statistics.rejected += 1;
                 Fate::Rejected
             }
-            Step::Failed(ending) => Fate::Failed(ending),
+            Step::Failed(ending) => {
+                *failure = Some(ending);
+                Fate::Rejected
+            }
         }
     }
 }
