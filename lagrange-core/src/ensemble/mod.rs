@@ -19,7 +19,9 @@ pub use outcome::{Arrival, Member, Outcome};
 
 /// Many members, each a system with its start, that are integrated to the same time.
 ///
-/// Members are made when they are needed, from their index, so that a million need no memory.
+/// Members are made when they are needed, from their index, so that a million need no memory. With the feature
+/// `rayon` they are spread over the threads of the current pool: to choose how many, integrate inside of
+/// `ThreadPool::install`. The [observer](Self::observe) can keep more of a motion than its end.
 ///
 /// ```
 /// use lagrange_core::prelude::*;
@@ -128,6 +130,21 @@ impl<'a, L, T: Real, const N: usize> Ensemble<'a, L, T, N> {
     ///
     /// Members that failed are tried again, and give the same failure. Rows of another part are ignored, and so is
     /// a last line that was not written to its end.
+    ///
+    /// ```
+    /// # use lagrange_core::prelude::*;
+    /// #[derive(Lagrangian)]
+    /// #[coordinates(x)]
+    /// #[lagrangian(x_dot^2/2 - k/2 * x^2)]
+    /// struct Spring<T> { k: T }
+    ///
+    /// let springs = || Ensemble::from_fn(100, |n| (Spring { k: n as f64 }, State::at_rest([1.0])));
+    /// let part = |k| springs().shard(k, 2).integrate(1.0, Dop853::default());
+    /// let table = part(0)?.csv().to_string();
+    /// let whole = springs().resume(&table)?.integrate(1.0, Dop853::default())?;
+    /// assert_eq!(whole, part(0)?.merge(part(1)?));
+    /// # Ok::<(), Error>(())
+    /// ```
     ///
     /// # Errors
     /// [`Error::Resume`] for what is no row of this ensemble. [`integrate`](Self::integrate) gives it for members
