@@ -115,6 +115,20 @@ pub enum Error {
     },
     /// Points that no function runs through.
     Table,
+    /// A part of an ensemble that does not exist.
+    Shard {
+        /// Which part was asked for, counted from 0.
+        shard: usize,
+        /// How many parts there are.
+        of: usize,
+    },
+    /// A table of members that are done, but not of this ensemble.
+    Resume {
+        /// The line, counted from 1.
+        line: usize,
+        /// What is wrong with it.
+        reason: &'static str,
+    },
     /// A time that the trajectory does not cover.
     OutsideTrajectory {
         /// The time asked for.
@@ -185,6 +199,15 @@ impl Display for Error {
             Self::UnknownName { name, kind, known } => unknown_name(f, name, kind, known),
             #[cfg(feature = "alloc")]
             Self::RepeatedName { name } => write!(f, "`{name}` is given twice: give each entry once"),
+            Self::Shard { shard, of } => {
+                write!(
+                    f,
+                    "there is no part {shard} of {of}: parts are counted from 0, and there is at least one"
+                )
+            }
+            Self::Resume { line, reason } => {
+                write!(f, "line {line} of the table to resume from is not of this ensemble: {reason}")
+            }
             Self::OutsideTrajectory { time, start, end } => {
                 write!(f, "t = {time} lies outside the trajectory, which covers {start} to {end}")
             }

@@ -31,10 +31,11 @@ assert!((friction + 2.0 / 7.0 * 9.81 * 0.3_f64.sin()).abs() < 1e-12);
 //! - [`Hamiltonian`] is the other side: momenta, the Legendre transform, Hamilton's equations, motion in (q, p).
 //! - [`Solution`] holds accelerations and multipliers; the sign of a multiplier is that of Milton (8.7): the constraint
 //!   force on coordinate a is Σ_α λ_α F_αa.
+//! - [`ensemble`]: many members at once, on SIMD lanes and on all threads.
 //! - [`Dop853`] and [`Dopri5`] are the methods, [`Trajectory`] is what they give, [`Ending`] why it stops.
 //!
-//! Features: `std` (default); `alloc`, without it there are no trajectories; `libm`, elementary functions where there
-//! is no `std`.
+//! Features: `std` (default), without it there are no ensembles; `alloc`, without it there are no trajectories; `libm`,
+//! elementary functions where there is no `std`; `rayon`, ensembles on all threads.
 #![cfg_attr(not(feature = "std"), no_std)]
 // Algorithms on matrices read best with indices.
 #![allow(clippy::needless_range_loop)]
@@ -51,6 +52,8 @@ mod csv;
 mod drift;
 mod dual;
 pub mod eliminate;
+#[cfg(feature = "std")]
+pub mod ensemble;
 mod equations;
 mod error;
 mod evidence;
@@ -63,11 +66,14 @@ mod integrability;
 #[cfg(feature = "alloc")]
 pub mod integrate;
 mod kkt;
+#[cfg(feature = "std")]
+mod lanes;
 pub mod language;
 #[cfg(feature = "alloc")]
 mod lookup;
 mod names;
 mod numeric;
+mod pack;
 pub mod prelude;
 #[cfg(feature = "alloc")]
 mod sample;
@@ -87,6 +93,8 @@ pub use csv::Csv;
 #[cfg(feature = "alloc")]
 pub use drift::{Deviation, Drift};
 pub use dual::Dual;
+#[cfg(feature = "std")]
+pub use ensemble::Ensemble;
 pub use equations::Equations;
 pub use error::Error;
 pub use evidence::Evidence;
@@ -99,8 +107,11 @@ pub use integrability::{Classification, Extent, Integrability, Integrals};
 #[cfg(feature = "alloc")]
 pub use integrate::{Dop853, Dopri5, Ending, Method, Progress, Statistics};
 pub use lagrange_macros::Lagrangian;
+#[cfg(feature = "std")]
+pub use lanes::Lanes;
 pub use nalgebra;
 pub use names::{Entry, Names, Row};
+pub use pack::{Pack, Packed, Shared};
 #[cfg(feature = "alloc")]
 pub use sample::Sample;
 pub use scalar::{Real, Scalar};

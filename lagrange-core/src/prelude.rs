@@ -1,5 +1,7 @@
 //! What a program that simulates a system needs: `use lagrange_core::prelude::*`.
 
+#[cfg(feature = "std")]
+pub use crate::Ensemble;
 pub use crate::{
     Adjustment, ByHand, Classification, ConstraintKind, Error, Evidence, Extent, Function, Hamiltonian,
     HandWritten, Integrability, Integrals, Lagrangian, LinearPart, PhaseRate, PhaseState, Real, Scalar,

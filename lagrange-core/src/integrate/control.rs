@@ -4,7 +4,7 @@ use core::array::from_fn;
 
 use super::pair::{Pair, Slopes, combine};
 use super::{Adaptive, Phase};
-use crate::numeric::{larger, smaller};
+use crate::numeric::{exceeds, larger, smaller};
 use crate::{Real, Scalar};
 
 /// The step to try next, and what its choice remembers.
@@ -48,43 +48,90 @@ impl<T: Real> Control<T> {
 const SAFETY: f64 = 0.9;
 
 fn reduction<P: Pair, T: Real>(error: T) -> T {
-    Scalar::powf(error, T::constant(1.0 / P::ORDER - 0.75 * P::DAMPING))
+    let exponent = 1.0 / P::ORDER - 0.75 * P::DAMPING;
+    if exponent == 0.125 {
+        // Three roots take a third of the time of a power.
+        return Scalar::sqrt(Scalar::sqrt(Scalar::sqrt(error)));
+    }
+    Scalar::powf(error, T::constant(exponent))
 }
 
 /// The place of an entry: half 0 the coordinates, 1 the velocities, and the index.
 pub(super) type Place = (usize, usize);
 
-impl<P: Pair> Adaptive<P> {
-    /// The error of a step as a part of the tolerance, and where it is largest.
-    pub(super) fn error<T: Real, const N: usize>(
-        &self,
+/// The error allowed in each entry: `absolute + relative · |x|`.
+#[derive(Clone, Copy)]
+pub(super) struct Tolerance {
+    relative: f64,
+    absolute: f64,
+}
+
+impl Tolerance {
+    /// The error of a step as a part of the tolerance.
+    #[inline]
+    pub(super) fn error<P: Pair, T: Scalar, const N: usize>(
+        self,
         slopes: &Slopes<T, N>,
         h: T,
         before: &Phase<T, N>,
         after: &Phase<T, N>,
-    ) -> (T, Place) {
+    ) -> T {
         let scale = self.scale(before, after);
-        let error = combine(slopes, P::ERROR);
-        let first = norm(&error, &scale);
+        let first = norm(&combine(slopes, P::ERROR), &scale);
+        if P::LOWER_ERROR.is_empty() {
+            return h * first;
+        }
         let second = norm(&combine(slopes, P::LOWER_ERROR), &scale);
-        let both = Scalar::sqrt(first * first + T::constant(0.01) * second * second);
-        let estimate = if both > T::constant(0.0) { h * first * first / both } else { h * first };
+        let both = (first * first + T::constant(0.01) * second * second).sqrt();
+        // Lanes cannot branch where both vanish; so small an error is none.
+        h * first * first / both.max(T::constant(1e-30))
+    }
+
+    /// The entry with the largest error.
+    pub(super) fn worst<P: Pair, T: Real, const N: usize>(
+        self,
+        slopes: &Slopes<T, N>,
+        before: &Phase<T, N>,
+        after: &Phase<T, N>,
+    ) -> Place {
+        let (error, scale) = (combine(slopes, P::ERROR), self.scale(before, after));
         let part = |(half, i): Place| Scalar::abs(error[half][i]) / scale[half][i];
         let places = (0..2).flat_map(|half| (0..N).map(move |i| (half, i)));
-        (estimate, places.fold((0, 0), |worst, place| if part(place) > part(worst) { place } else { worst }))
+        places.fold((0, 0), |worst, place| if part(place) > part(worst) { place } else { worst })
+    }
+
+    /// The error allowed in each entry between two places.
+    #[inline]
+    fn scale<T: Scalar, const N: usize>(self, a: &Phase<T, N>, b: &Phase<T, N>) -> Phase<T, N> {
+        let relative = T::constant(self.relative);
+        let absolute = T::constant(self.absolute);
+        let size = |half: usize, i: usize| a[half][i].abs().max(b[half][i].abs());
+        from_fn(|half| from_fn(|i| absolute + relative * size(half, i)))
+    }
+}
+
+impl<P: Pair> Adaptive<P> {
+    /// What is asked for, as far as the numbers go.
+    pub(super) fn tolerance<T: Real>(&self) -> Tolerance {
+        Tolerance { relative: self.relative.max(16.0 * T::EPSILON), absolute: self.absolute }
+    }
+
+    /// Whether a step with this part of the tolerance as its error will do; nothing refuses a fixed step.
+    pub(super) fn accepts<T: Real>(&self, error: T) -> bool {
+        self.fixed_step.is_some() || !exceeds(error, T::constant(1.0))
+    }
+
+    /// Chooses the step after an accepted one.
+    pub(super) fn after_acceptance<T: Real>(&self, control: &mut Control<T>, h: T, error: T) {
+        if self.fixed_step.is_none() {
+            control.accept::<P>(h, error);
+            control.step = self.cut(control.step);
+        }
     }
 
     /// The step cut to the longest allowed.
     pub(super) fn cut<T: Real>(&self, h: T) -> T {
         self.max_step.map_or(h, |longest| smaller(h, T::constant(longest)))
-    }
-
-    /// The error allowed in each entry.
-    fn scale<T: Real, const N: usize>(&self, a: &Phase<T, N>, b: &Phase<T, N>) -> Phase<T, N> {
-        let relative = T::constant(self.relative.max(16.0 * T::EPSILON));
-        let absolute = T::constant(self.absolute);
-        let size = |half: usize, i: usize| larger(Scalar::abs(a[half][i]), Scalar::abs(b[half][i]));
-        from_fn(|half| from_fn(|i| absolute + relative * size(half, i)))
     }
 
     /// A first guess at the first step: one that moves the state by a hundredth of its size.
@@ -94,7 +141,7 @@ impl<P: Pair> Adaptive<P> {
         slope: &Phase<T, N>,
         span: T,
     ) -> T {
-        let scale = self.scale(y, y);
+        let scale = self.tolerance::<T>().scale(y, y);
         let (size, speed) = (norm(y, &scale), norm(slope, &scale));
         let least = T::constant(1e-5);
         let usable = size > least && speed > least;
@@ -110,7 +157,7 @@ impl<P: Pair> Adaptive<P> {
         before: &Phase<T, N>,
         after: &Phase<T, N>,
     ) -> T {
-        let scale = self.scale(y, y);
+        let scale = self.tolerance::<T>().scale(y, y);
         let change = from_fn(|half| from_fn(|i| after[half][i] - before[half][i]));
         let fastest = larger(norm(&change, &scale) / guess, norm(before, &scale));
         let step = if fastest > T::constant(1e-15) {
@@ -123,8 +170,9 @@ impl<P: Pair> Adaptive<P> {
 }
 
 /// √(mean (x/scale)²).
-fn norm<T: Real, const N: usize>(x: &Phase<T, N>, scale: &Phase<T, N>) -> T {
+#[inline]
+fn norm<T: Scalar, const N: usize>(x: &Phase<T, N>, scale: &Phase<T, N>) -> T {
     let pairs = x.iter().flatten().zip(scale.iter().flatten());
     let sum = pairs.fold(T::constant(0.0), |sum, (x, s)| sum + (*x / *s) * (*x / *s));
-    Scalar::sqrt(sum / T::constant((2 * N) as f64))
+    (sum / T::constant((2 * N) as f64)).sqrt()
 }

@@ -1,12 +1,16 @@
 //! The loop from the first step to the ending, the same for every method.
 
 mod adaptive;
+#[cfg(feature = "std")]
+mod batch;
 mod control;
 mod dop853;
 mod dopri5;
 mod ending;
 mod flow;
 mod pair;
+#[cfg(feature = "std")]
+mod seat;
 mod step;
 #[cfg(test)]
 mod tests;
@@ -16,11 +20,15 @@ use core::ops::ControlFlow;
 use nalgebra::ComplexField;
 
 pub use adaptive::Adaptive;
+#[cfg(feature = "std")]
+pub(crate) use batch::Batch;
 pub use dop853::{Dop853, DormandPrince853};
 pub use dopri5::{Dopri5, DormandPrince54};
 pub use ending::Ending;
 pub use flow::{Flow, LagrangianFlow, Point, Slope};
 pub use pair::{Pair, Row};
+#[cfg(feature = "std")]
+pub(crate) use seat::Seat;
 
 use crate::consistent::Consistent;
 use crate::solve::solve;
@@ -48,6 +56,15 @@ where
 
     /// When to give up.
     fn limits(&self) -> Limits;
+
+    /// The same method where only the states after the steps are of interest: it need not compute interpolants.
+    #[must_use]
+    fn sparse(self) -> Self
+    where
+        Self: Sized,
+    {
+        self
+    }
 
     /// Checks the settings and prepares the first step from a consistent state.
     ///
@@ -77,7 +94,7 @@ pub enum Step<'m, T, const N: usize> {
     Accepted {
         /// The state.
         state: State<T, N>,
-        /// Coefficients r₀, r₁, … (as many in every step) of the interpolant
+        /// Coefficients r₀, r₁, … (as many in every step, none from a [`sparse`](Method::sparse) method) of the interpolant
         /// r₀ + θ(r₁ + (1−θ)(r₂ + θ(r₃ + (1−θ)(…)))), θ from 0 to 1 over the step
         /// (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.6).
         interpolant: &'m [Phase<T, N>],
@@ -111,6 +128,13 @@ pub struct Statistics {
     pub multipliers_are_unique: bool,
 }
 
+/// Of nothing done yet.
+impl Default for Statistics {
+    fn default() -> Self {
+        Self { accepted: 0, rejected: 0, evaluations: 0, multipliers_are_unique: true }
+    }
+}
+
 /// How far an integration has come.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
@@ -137,34 +161,71 @@ where
     F: Flow<L, N, M>,
     P: Method<L, N, M, F>,
 {
-    let (start, adjustment) = check_start(system, &state, end)?;
-    let mut statistics =
-        Statistics { accepted: 0, rejected: 0, evaluations: 0, multipliers_are_unique: true };
-    let mut memory = method.begin(system, &start, end, &mut statistics)?;
+    let mut statistics = Statistics::default();
+    let ((start, adjustment), mut memory) = begin(system, &state, end, method, &mut statistics)?;
     let mut path = Path::from(start);
+    let ending =
+        run(system, start, end, method, &mut memory, &mut statistics, |state, interpolant, steps| {
+            path.push(state, interpolant);
+            watch(Progress { start: start.t.to_f64(), time: state.t.to_f64(), end: end.to_f64(), steps })
+        });
+    Ok(Trajectory::new(system, path, ending, statistics, adjustment))
+}
+
+/// The start made consistent, and what the method prepares there.
+pub(crate) fn begin<L, F, P, const N: usize, const M: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+    end: L::Scalar,
+    method: &P,
+    statistics: &mut Statistics,
+) -> Result<(Consistent<L::Scalar, N>, P::Memory), Error>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: Flow<L, N, M>,
+    P: Method<L, N, M, F>,
+{
+    let consistent = check_start(system, state, end)?;
+    let memory = method.begin(system, &consistent.0, end, statistics)?;
+    Ok((consistent, memory))
+}
+
+/// Steps from the start to the ending; `accept` is told each new state with its interpolant and how many there are.
+pub(crate) fn run<L, F, P, const N: usize, const M: usize>(
+    system: &L,
+    mut state: State<L::Scalar, N>,
+    end: L::Scalar,
+    method: &P,
+    memory: &mut P::Memory,
+    statistics: &mut Statistics,
+    mut accept: impl FnMut(State<L::Scalar, N>, &[Phase<L::Scalar, N>], usize) -> ControlFlow<()>,
+) -> Ending
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: Flow<L, N, M>,
+    P: Method<L, N, M, F>,
+{
     let limits = Watchdog::new(method.limits());
-    let ending = loop {
-        let state = path.last();
+    loop {
+        let time = state.t.to_f64();
         if state.t >= end {
-            break Ending::Complete { time: state.t.to_f64() };
+            return Ending::Complete { time };
         }
-        if let Some(ending) = limits.exceeded(&statistics, state.t.to_f64()) {
-            break ending;
+        if let Some(ending) = limits.exceeded(statistics, time) {
+            return ending;
         }
-        match method.step(system, &mut memory, &mut statistics) {
-            Step::Accepted { state, interpolant } => {
+        match method.step(system, memory, statistics) {
+            Step::Accepted { state: next, interpolant } => {
                 statistics.accepted += 1;
-                path.push(state, interpolant);
-                let (start, time, end) = (start.t.to_f64(), state.t.to_f64(), end.to_f64());
-                if watch(Progress { start, time, end, steps: statistics.accepted }).is_break() {
-                    break Ending::Cancelled { time };
+                state = next;
+                if accept(state, interpolant, statistics.accepted).is_break() {
+                    return Ending::Cancelled { time: state.t.to_f64() };
                 }
             }
             Step::Rejected => statistics.rejected += 1,
-            Step::Failed(ending) => break ending,
+            Step::Failed(ending) => return ending,
         }
-    };
-    Ok(Trajectory::new(system, path, ending, statistics, adjustment))
+    }
 }
 
 /// The start made consistent to round-off, where that is all it lacks.

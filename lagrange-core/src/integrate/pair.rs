@@ -3,7 +3,7 @@
 use core::array::from_fn;
 
 use super::Phase;
-use crate::Real;
+use crate::Scalar;
 
 /// The coefficients of a sum of slopes: (index of the slope, coefficient).
 pub type Row = &'static [(usize, f64)];
@@ -45,7 +45,7 @@ pub(super) type Slopes<T, const N: usize> = [Phase<T, N>; SLOPES];
 
 /// start + h Σ cᵢ slopeᵢ.
 #[inline]
-pub(super) fn advance<T: Real, const N: usize>(
+pub(super) fn advance<T: Scalar, const N: usize>(
     start: &Phase<T, N>,
     h: T,
     slopes: &Slopes<T, N>,
@@ -56,13 +56,13 @@ pub(super) fn advance<T: Real, const N: usize>(
 }
 
 #[inline]
-pub(super) fn combine<T: Real, const N: usize>(slopes: &Slopes<T, N>, row: &[(usize, f64)]) -> Phase<T, N> {
+pub(super) fn combine<T: Scalar, const N: usize>(slopes: &Slopes<T, N>, row: &[(usize, f64)]) -> Phase<T, N> {
     let mut sum = [[T::constant(0.0); N]; 2];
     for (index, coefficient) in row {
         let coefficient = T::constant(*coefficient);
         for half in 0..2 {
             for i in 0..N {
-                sum[half][i] += coefficient * slopes[*index][half][i];
+                sum[half][i] = sum[half][i] + coefficient * slopes[*index][half][i];
             }
         }
     }

@@ -9,7 +9,7 @@ use super::pair::{Pair, Row, SLOPES, Slopes, advance};
 use super::{Adaptive, Ending, Flow, Limits, Method, Phase, Point, Slope, Statistics, Step};
 use crate::eliminate::vector;
 use crate::names::{Entry, Row as EquationRow};
-use crate::numeric::{exceeds, larger};
+use crate::numeric::larger;
 use crate::solve::name;
 use crate::{Error, Lagrangian, Real, Scalar, State};
 
@@ -19,22 +19,22 @@ const COEFFICIENTS: usize = 8;
 /// What a pair carries from step to step.
 #[derive(Clone, Debug)]
 pub struct Memory<T, const N: usize, const M: usize> {
-    t: T,
-    y: Phase<T, N>,
-    end: T,
+    pub(super) t: T,
+    pub(super) y: Phase<T, N>,
+    pub(super) end: T,
     /// The whole time from start to end.
     span: T,
-    control: Control<T>,
+    pub(super) control: Control<T>,
     /// The first is that of `y`.
-    slopes: Slopes<T, N>,
+    pub(super) slopes: Slopes<T, N>,
     /// Which constraints the first slope rests on: as many as are independent at `y`.
-    active: [bool; M],
+    pub(super) active: [bool; M],
     interpolant: [Phase<T, N>; COEFFICIENTS],
 }
 
 impl<T: Real, const N: usize, const M: usize> Memory<T, N, M> {
     /// The next step and the time after it: exactly the end where that is near.
-    fn next(&self) -> (T, T) {
+    pub(super) fn next(&self) -> (T, T) {
         let (now, step) = (self.t, self.control.step);
         if now + step * T::constant(1.01) >= self.end {
             (self.end - now, self.end)
@@ -44,7 +44,7 @@ impl<T: Real, const N: usize, const M: usize> Memory<T, N, M> {
     }
 
     /// Whether the next step would be lost in the round-off of the time.
-    fn is_step_too_small(&self) -> bool {
+    pub(super) fn is_step_too_small(&self) -> bool {
         let epsilon = T::constant(T::EPSILON);
         let size = larger(Scalar::abs(self.t), epsilon * self.span);
         self.control.step <= T::constant(10.0) * epsilon * size
@@ -108,6 +108,11 @@ where
         self.limits()
     }
 
+    fn sparse(mut self) -> Self {
+        self.is_dense = false;
+        self
+    }
+
     fn begin(
         &self,
         system: &L,
@@ -148,13 +153,11 @@ where
                 (memory.t, memory.y) = (time, y);
                 memory.active = active;
                 memory.slopes[0] = memory.slopes[P::STAGES.len() + 1];
-                if self.fixed_step.is_none() {
-                    memory.control.accept::<P>(h, error);
-                    memory.control.step = self.cut(memory.control.step);
-                }
+                self.after_acceptance(&mut memory.control, h, error);
+                let coefficients = if self.is_dense { 4 + P::INTERPOLATION.len() } else { 0 };
                 return Step::Accepted {
                     state: State { t: time, q: vector(y[0]), v: vector(memory.slopes[0][0]) },
-                    interpolant: &memory.interpolant[..4 + P::INTERPOLATION.len()],
+                    interpolant: &memory.interpolant[..coefficients],
                 };
             }
             Err(Refusal::Inaccurate(error, place)) => {
@@ -207,8 +210,10 @@ impl<P: Pair> Adaptive<P> {
             let slope = slope::<L, F, N, M>(system, &next, None, statistics)?;
             (memory.slopes[last], active) = (slope.rates, slope.active);
         }
-        stages::<P, L, F, N, M>(system, memory, h, (last + 1, P::INTERPOLATION_STAGES), statistics)?;
-        memory.interpolate::<P>(h, &start, &next.y);
+        if self.is_dense {
+            stages::<P, L, F, N, M>(system, memory, h, (last + 1, P::INTERPOLATION_STAGES), statistics)?;
+            memory.interpolate::<P>(h, &start, &next.y);
+        }
         Ok(Accepted { y: next.y, error, active })
     }
 
@@ -220,9 +225,10 @@ impl<P: Pair> Adaptive<P> {
         before: &Phase<T, N>,
         after: &Phase<T, N>,
     ) -> Result<T, Refusal<T>> {
-        let (error, place) = self.error(slopes, h, before, after);
-        if self.fixed_step.is_none() && exceeds(error, T::constant(1.0)) {
-            return Err(Refusal::Inaccurate(error, place));
+        let tolerance = self.tolerance::<T>();
+        let error = tolerance.error::<P, T, N>(slopes, h, before, after);
+        if !self.accepts(error) {
+            return Err(Refusal::Inaccurate(error, tolerance.worst::<P, T, N>(slopes, before, after)));
         }
         Ok(error)
     }

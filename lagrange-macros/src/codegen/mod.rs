@@ -11,6 +11,7 @@ mod kernel;
 mod observables;
 mod order_of_evaluation;
 mod passes;
+mod pack;
 mod schedule;
 mod shape;
 mod stub;
@@ -164,6 +165,7 @@ impl Emitter<'_> {
         // All kernels are written by now.
         let parts = self.style.parts.borrow();
         let equations = self.equations();
+        let pack = pack::pack(self.declaration, scalar);
         let Rendered { text, .. } = self.rendered;
         let doc = format!("```text\n{text}```");
         quote! {
@@ -193,6 +195,8 @@ impl Emitter<'_> {
                     #inherent
                     #(#parts)*
                 }
+
+                #pack
             };
         }
     }

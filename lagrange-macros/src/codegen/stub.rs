@@ -21,6 +21,7 @@ pub(crate) fn stub(declaration: &Declaration) -> TokenStream {
     let Ok(scalar_type) = syn::parse2(scalar.clone()) else { return TokenStream::new() };
     let mut generics = super::bounded_generics(declaration, &scalar_type);
     let methods = observables(declaration, &scalar, &generics);
+    let pack = super::pack::pack(declaration, &scalar_type);
     let n = coordinates(declaration, &mut generics);
     let (impl_generics, _, _) = generics.split_for_impl();
     quote! {
@@ -54,6 +55,7 @@ pub(crate) fn stub(declaration: &Declaration) -> TokenStream {
             }
 
             #methods
+            #pack
         };
     }
 }

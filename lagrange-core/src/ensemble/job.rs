@@ -1,0 +1,224 @@
+//! An ensemble at work: who is next, what has become of each, and when to stop.
+
+use core::ops::ControlFlow;
+use std::collections::BTreeSet;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use super::{Arrival, Ensemble, Headway, Make, Member, Observer, Outcome, Watch};
+use crate::integrate::{Adaptive, Batch, LagrangianFlow, Pair, Seat, begin, run};
+use crate::simulate::check_finite;
+use crate::{Error, Lagrangian, Lanes, Method, Pack, Real, State, Statistics};
+
+/// What the threads share.
+pub(super) struct Job<'a, L, T, const N: usize> {
+    make: Make<'a, L, T, N>,
+    observer: Option<Observer<'a, T, N>>,
+    end: T,
+    count: usize,
+    shard: usize,
+    shards: usize,
+    /// Members taken over from another run.
+    done: BTreeSet<usize>,
+    /// How many members of the part have been given out.
+    given: AtomicUsize,
+    stopped: AtomicBool,
+    ledger: Mutex<Ledger<'a, T, N>>,
+}
+
+/// What has been done.
+struct Ledger<'a, T, const N: usize> {
+    members: Vec<Member<T, N>>,
+    of: usize,
+    watch: Option<Watch<'a, T, N>>,
+    /// What is wrong with the whole.
+    error: Option<Error>,
+}
+
+impl<'a, L, T: Real, const N: usize> Job<'a, L, T, N> {
+    pub(super) fn new(ensemble: Ensemble<'a, L, T, N>, end: T) -> Result<Self, Error> {
+        let Ensemble { count, member: make, shard, shards, done, observer, watch } = ensemble;
+        if shard >= shards {
+            return Err(Error::Shard { shard, of: shards });
+        }
+        let strays = |(_, member): &&(usize, Member<T, N>)| {
+            member.arrival().is_some_and(|a| a.ending.is_complete() && a.state.t != end)
+        };
+        if let Some((line, _)) = done.iter().find(strays) {
+            return Err(Error::Resume { line: *line, reason: "it was integrated to another time" });
+        }
+        let of = count.saturating_sub(shard).div_ceil(shards);
+        let members = done.into_iter().map(|(_, member)| member);
+        let mut members: Vec<_> = members.filter(|member| member.index % shards == shard).collect();
+        members.sort_by_key(|member| member.index);
+        members.dedup_by_key(|member| member.index);
+        let done = members.iter().map(|member| member.index).collect();
+        let ledger = Mutex::new(Ledger { members, of, watch, error: None });
+        let (given, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
+        Ok(Self { make, observer, end, count, shard, shards, done, given, stopped, ledger })
+    }
+
+    pub(super) fn outcome(self, names: [&'static str; N]) -> Result<Outcome<T, N>, Error> {
+        let Ledger { members, error, .. } = self.ledger.into_inner().unwrap_or_else(PoisonError::into_inner);
+        match error {
+            Some(error) => Err(error),
+            None => Ok(Outcome::new(members, names)),
+        }
+    }
+
+    /// The member that nobody has yet.
+    fn next(&self) -> Option<usize> {
+        loop {
+            let place = self.given.fetch_add(1, Ordering::Relaxed);
+            let index = place.checked_mul(self.shards)?.checked_add(self.shard)?;
+            if index >= self.count || self.stopped.load(Ordering::Relaxed) {
+                return None;
+            }
+            if !self.done.contains(&index) {
+                return Some(index);
+            }
+        }
+    }
+
+    fn ledger(&self) -> MutexGuard<'_, Ledger<'a, T, N>> {
+        self.ledger.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Writes down what has become of a member, and stops everything where that or the caller says so.
+    fn report(&self, index: usize, result: Result<Arrival<T, N>, Error>) {
+        let mut ledger = self.ledger();
+        if let Err(wrong @ Error::Setting { .. }) = result {
+            ledger.error = Some(wrong);
+            return self.stopped.store(true, Ordering::Relaxed);
+        }
+        let Ledger { members, of, watch, .. } = &mut *ledger;
+        members.push(Member { index, result });
+        let (done, of) = (members.len(), *of);
+        if let Some((watch, member)) = watch.as_mut().zip(members.last())
+            && watch(Headway { done, of, member }).is_break()
+        {
+            self.stopped.store(true, Ordering::Relaxed);
+        }
+    }
+
+    fn observe(&self, index: usize, state: &State<T, N>) -> ControlFlow<()> {
+        match &self.observer {
+            Some(observe) => observe(index, state),
+            None => ControlFlow::Continue(()),
+        }
+    }
+
+    /// Integrates members until there are none left.
+    pub(super) fn one_by_one<P, const M: usize>(&self, method: &P)
+    where
+        L: Lagrangian<N, M, Scalar = T>,
+        P: Method<L, N, M>,
+    {
+        while let Some(index) = self.next() {
+            let (system, start) = (self.make)(index);
+            self.report(index, self.integrate(index, &system, &start, method));
+        }
+    }
+
+    fn integrate<P, const M: usize>(
+        &self,
+        index: usize,
+        system: &L,
+        start: &State<T, N>,
+        method: &P,
+    ) -> Result<Arrival<T, N>, Error>
+    where
+        L: Lagrangian<N, M, Scalar = T>,
+        P: Method<L, N, M>,
+    {
+        check_finite(system, start)?;
+        let mut statistics = Statistics::default();
+        let ((start, _), mut memory) =
+            begin::<L, LagrangianFlow, _, N, M>(system, start, self.end, method, &mut statistics)?;
+        let mut state = start;
+        let accept = |next: State<T, N>, _: &[_], _| {
+            state = next;
+            self.observe(index, &state)
+        };
+        let ending = run::<L, LagrangianFlow, _, N, M>(
+            system,
+            start,
+            self.end,
+            method,
+            &mut memory,
+            &mut statistics,
+            accept,
+        );
+        Ok(Arrival { state, ending, statistics })
+    }
+}
+
+impl<L, const N: usize> Job<'_, L, f64, N> {
+    /// Integrates members four at a time until there are none left.
+    pub(super) fn on_lanes<P, const M: usize>(&self, method: Adaptive<P>)
+    where
+        L: Lagrangian<N, M, Scalar = f64> + Pack<Lanes, Packed: Lagrangian<N, M, Scalar = Lanes>>,
+        P: Pair,
+        Adaptive<P>: Copy,
+    {
+        let mut next = self.next_seat(&method);
+        while let Some(first) = next.take() {
+            let mut batch = Batch::new(method, first);
+            next = self.next_seat(&method);
+            while !batch.is_empty() && !self.stopped.load(Ordering::Relaxed) {
+                self.fill(&mut batch, &mut next, &method);
+                batch.step(
+                    |index, state| self.observe(index, state),
+                    |Seat { index, statistics, .. }, state, ending| {
+                        self.report(index, Ok(Arrival { state, ending, statistics }));
+                    },
+                );
+            }
+        }
+    }
+
+    /// Gives free lanes to the next members. One that does not fit beside the others waits until they have ended.
+    fn fill<P, const M: usize>(
+        &self,
+        batch: &mut Batch<L, P, N, M>,
+        next: &mut Option<Seat<L, N, M>>,
+        method: &Adaptive<P>,
+    ) where
+        L: Lagrangian<N, M, Scalar = f64> + Pack<Lanes, Packed: Lagrangian<N, M, Scalar = Lanes>>,
+        P: Pair,
+    {
+        while batch.has_free_lane()
+            && let Some(seat) = next.take()
+        {
+            *next = batch.join(seat);
+            if next.is_some() {
+                break;
+            }
+            *next = self.next_seat(method);
+        }
+    }
+
+    /// The next member that has a motion; those without are reported.
+    fn next_seat<P, const M: usize>(&self, method: &Adaptive<P>) -> Option<Seat<L, N, M>>
+    where
+        L: Lagrangian<N, M, Scalar = f64>,
+        P: Pair,
+    {
+        loop {
+            let index = self.next()?;
+            let (system, start) = (self.make)(index);
+            let seat = check_finite(&system, &start)
+                .and_then(|()| Seat::new(index, system, &start, self.end, method));
+            match seat {
+                Err(error) => self.report(index, Err(error)),
+                Ok((seat, state)) => match seat.ending() {
+                    None => return Some(seat),
+                    Some(ending) => {
+                        let statistics = seat.statistics;
+                        self.report(index, Ok(Arrival { state, ending, statistics }));
+                    }
+                },
+            }
+        }
+    }
+}

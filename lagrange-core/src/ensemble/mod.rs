@@ -1,0 +1,213 @@
+//! Many motions of one kind of system: other starts, other parameters.
+//!
+//! [`Ensemble::integrate_on_lanes`] integrates four members at once on SIMD lanes, [`Ensemble::integrate`] one after
+//! the other, and both with the feature `rayon` on all threads of rayon's current pool. What a member gives is bit
+//! for bit the same whatever its neighbours, the number of threads and the part of the ensemble that is run. A member
+//! that fails says why, and spoils no other.
+
+mod job;
+mod outcome;
+mod table;
+
+use core::fmt::{self, Debug, Formatter};
+use core::ops::ControlFlow;
+
+use crate::integrate::{Adaptive, Pair};
+use crate::{Error, Lagrangian, Lanes, Method, Pack, Real, State};
+use job::Job;
+pub use outcome::{Arrival, Member, Outcome};
+
+/// Many members, each a system with its start, that are integrated to the same time.
+///
+/// Members are made when they are needed, from their index, so that a million need no memory. With the feature
+/// `rayon` they are spread over the threads of the current pool: to choose how many, integrate inside of
+/// `ThreadPool::install`. The [observer](Self::observe) can keep more of a motion than its end.
+///
+/// ```
+/// use lagrange_core::prelude::*;
+///
+/// #[derive(Lagrangian)]
+/// #[coordinates(theta)]
+/// #[lagrangian(l^2/2 * theta_dot^2 + g*l*cos(theta))]
+/// struct Pendulum<T> { g: T, l: T }
+///
+/// let swings = Ensemble::from_fn(100, |k| {
+///     (Pendulum { g: 9.81, l: 1.0 }, State::at_rest([0.03 * k as f64]))
+/// });
+/// let outcome = swings.integrate_on_lanes(1.0, Dop853::default())?;
+/// assert_eq!(outcome.completed().count(), 100);
+/// // The smallest swings have the period 2π √(l/g).
+/// let (one, phase) = (outcome.get(1).unwrap().arrival().unwrap(), 9.81_f64.sqrt());
+/// assert!((one.state.q[0] - 0.03 * phase.cos()).abs() < 1e-5);
+/// # Ok::<(), Error>(())
+/// ```
+#[must_use = "an ensemble does nothing until it is integrated"]
+pub struct Ensemble<'a, L, T, const N: usize> {
+    count: usize,
+    member: Make<'a, L, T, N>,
+    shard: usize,
+    shards: usize,
+    /// With the lines that they were read from.
+    done: Vec<(usize, Member<T, N>)>,
+    observer: Option<Observer<'a, T, N>>,
+    watch: Option<Watch<'a, T, N>>,
+}
+
+type Make<'a, L, T, const N: usize> = Box<dyn Fn(usize) -> (L, State<T, N>) + Send + Sync + 'a>;
+type Observer<'a, T, const N: usize> = Box<dyn Fn(usize, &State<T, N>) -> ControlFlow<()> + Send + Sync + 'a>;
+type Watch<'a, T, const N: usize> = Box<dyn FnMut(Headway<'_, T, N>) -> ControlFlow<()> + Send + 'a>;
+
+/// How far an ensemble has come.
+#[derive(Clone, Copy, Debug)]
+pub struct Headway<'m, T, const N: usize> {
+    /// The members done, those resumed included.
+    pub done: usize,
+    /// The members to do.
+    pub of: usize,
+    /// The one done last.
+    pub member: &'m Member<T, N>,
+}
+
+impl<'a, L, T: Real, const N: usize> Ensemble<'a, L, T, N> {
+    /// `count` members, made from their indices 0, 1, …: always the same from the same.
+    pub fn from_fn(count: usize, member: impl Fn(usize) -> (L, State<T, N>) + Send + Sync + 'a) -> Self {
+        let member = Box::new(member);
+        Self { count, member, shard: 0, shards: 1, done: Vec::new(), observer: None, watch: None }
+    }
+
+    /// These members.
+    pub fn new(members: &'a [(L, State<T, N>)]) -> Self
+    where
+        L: Clone + Send + Sync,
+    {
+        // The closure is not called with another index.
+        Self::from_fn(members.len(), |index| members[index].clone())
+    }
+
+    /// Only the members whose index leaves the remainder `shard` when divided by `of`: one of `of` parts of about
+    /// the same size, to be run anywhere and put together by [`Outcome::merge`] or by [`resume`](Self::resume).
+    pub fn shard(mut self, shard: usize, of: usize) -> Self {
+        (self.shard, self.shards) = (shard, of);
+        self
+    }
+
+    /// Looks at every member after every step, from any thread. `ControlFlow::Break` ends that member there, with
+    /// [`Ending::Cancelled`](crate::Ending::Cancelled), and no other.
+    pub fn observe(
+        mut self,
+        observer: impl Fn(usize, &State<T, N>) -> ControlFlow<()> + Send + Sync + 'a,
+    ) -> Self {
+        self.observer = Some(Box::new(observer));
+        self
+    }
+
+    /// Looks at the progress whenever a member is done. `ControlFlow::Break` stops the ensemble: members that are
+    /// not done are left out of the outcome, and can be [resumed](Self::resume).
+    pub fn on_progress(
+        mut self,
+        watch: impl FnMut(Headway<'_, T, N>) -> ControlFlow<()> + Send + 'a,
+    ) -> Self {
+        self.watch = Some(Box::new(watch));
+        self
+    }
+
+    /// The motions to the time `end`, one after the other on each thread, by the method named.
+    ///
+    /// # Errors
+    /// What is wrong with the whole: [`Error::Setting`], [`Error::Shard`], [`Error::Resume`]. What is wrong with a
+    /// member is in the outcome.
+    pub fn integrate<P, const M: usize>(self, end: T, method: P) -> Result<Outcome<T, N>, Error>
+    where
+        L: Lagrangian<N, M, Scalar = T>,
+        P: Method<L, N, M> + Sync,
+    {
+        let method = method.sparse();
+        self.run(end, |job| job.one_by_one(&method))
+    }
+
+    /// Leaves out what is done: the members in this table, from [`Outcome::csv`] or from the rows of
+    /// [`Member::csv`], one run's or those of several in a row. They are taken over into the outcome.
+    ///
+    /// Members that failed are tried again, and give the same failure. Rows of another part are ignored, and so is
+    /// a last line that was not written to its end.
+    ///
+    /// ```
+    /// # use lagrange_core::prelude::*;
+    /// #[derive(Lagrangian)]
+    /// #[coordinates(x)]
+    /// #[lagrangian(x_dot^2/2 - k/2 * x^2)]
+    /// struct Spring<T> { k: T }
+    ///
+    /// let springs = || Ensemble::from_fn(100, |n| (Spring { k: n as f64 }, State::at_rest([1.0])));
+    /// let part = |k| springs().shard(k, 2).integrate(1.0, Dop853::default());
+    /// let table = part(0)?.csv().to_string();
+    /// let whole = springs().resume(&table)?.integrate(1.0, Dop853::default())?;
+    /// assert_eq!(whole, part(0)?.merge(part(1)?));
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Resume`] for what is no row of this ensemble. [`integrate`](Self::integrate) gives it for members
+    /// that were integrated to another time.
+    pub fn resume<const M: usize>(mut self, table: &str) -> Result<Self, Error>
+    where
+        L: Lagrangian<N, M, Scalar = T>,
+        T: core::str::FromStr,
+    {
+        self.done = table::read(table, &L::COORDINATES, self.count)?;
+        Ok(self)
+    }
+
+    fn run<const M: usize>(
+        self,
+        end: T,
+        work: impl Fn(&Job<'_, L, T, N>) + Sync,
+    ) -> Result<Outcome<T, N>, Error>
+    where
+        L: Lagrangian<N, M, Scalar = T>,
+    {
+        let job = Job::new(self, end)?;
+        everywhere(|| work(&job));
+        job.outcome(L::COORDINATES)
+    }
+}
+
+impl<L, const N: usize> Ensemble<'_, L, f64, N> {
+    /// The motions to the time `end`, four at once on the [`Lanes`] of each thread, by the method named.
+    ///
+    /// Each lane has its own time, step and error, and is given the next member when its motion has ended. Compile
+    /// with `RUSTFLAGS="-C target-cpu=native"`, so that the lanes are AVX2's. The numbers differ from those of
+    /// [`integrate`](Self::integrate) by rounding, as far as the motion carries that. A limit on wall time counts
+    /// the time that a lane spends with the others.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate).
+    pub fn integrate_on_lanes<P, const M: usize>(
+        self,
+        end: f64,
+        method: Adaptive<P>,
+    ) -> Result<Outcome<f64, N>, Error>
+    where
+        L: Lagrangian<N, M, Scalar = f64> + Pack<Lanes, Packed: Lagrangian<N, M, Scalar = Lanes>>,
+        P: Pair,
+        Adaptive<P>: Copy + Sync,
+    {
+        let method = Method::<L, N, M>::sparse(method);
+        self.run(end, |job| job.on_lanes(method))
+    }
+}
+
+impl<L, T, const N: usize> Debug for Ensemble<'_, L, T, N> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { count, shard, shards, .. } = self;
+        f.debug_struct("Ensemble").field("count", count).field("shard", shard).field("of", shards).finish()
+    }
+}
+
+/// Runs it on every thread of rayon's current pool; without rayon on this thread.
+fn everywhere(work: impl Fn() + Sync) {
+    #[cfg(feature = "rayon")]
+    rayon::broadcast(|_| work());
+    #[cfg(not(feature = "rayon"))]
+    work();
+}

@@ -1,0 +1,113 @@
+//! What has become of the members of an ensemble.
+
+use core::fmt::{self, Display, Formatter};
+
+use super::table::{self, Row};
+use crate::{Ending, Error, Real, State, Statistics};
+
+/// What has become of one member.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Member<T, const N: usize> {
+    /// Its index in the ensemble.
+    pub index: usize,
+    /// Where its motion ended and why, or why there is none.
+    pub result: Result<Arrival<T, N>, Error>,
+}
+
+/// Where a motion ended.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Arrival<T, const N: usize> {
+    /// The last state.
+    pub state: State<T, N>,
+    /// Why there is no later one.
+    pub ending: Ending,
+    /// Steps and evaluations.
+    pub statistics: Statistics,
+}
+
+impl<T: Real, const N: usize> Member<T, N> {
+    /// Where its motion ended, if it has one.
+    pub fn arrival(&self) -> Option<&Arrival<T, N>> {
+        self.result.as_ref().ok()
+    }
+
+    /// Whether it reached the end asked for.
+    pub fn is_complete(&self) -> bool {
+        self.arrival().is_some_and(|arrival| arrival.ending.is_complete())
+    }
+
+    /// Whether something other than the observer kept it from the end.
+    pub fn has_failed(&self) -> bool {
+        let cancelled = |a: &Arrival<T, N>| matches!(a.ending, Ending::Cancelled { .. });
+        !self.is_complete() && !self.arrival().is_some_and(cancelled)
+    }
+
+    /// Its row of the table [`Outcome::csv`], to be written as soon as the member is done.
+    pub fn csv(&self) -> impl Display + '_ {
+        Row(self)
+    }
+}
+
+/// `member 17: stopped at t = 3.2: …`
+impl<T: Real, const N: usize> Display for Member<T, N> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "member {}: ", self.index)?;
+        match &self.result {
+            Ok(arrival) => write!(f, "{}", arrival.ending),
+            Err(error) => write!(f, "{error}"),
+        }
+    }
+}
+
+/// The members that are done, by index.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome<T, const N: usize> {
+    members: Vec<Member<T, N>>,
+    names: [&'static str; N],
+}
+
+impl<T: Real, const N: usize> Outcome<T, N> {
+    pub(super) fn new(mut members: Vec<Member<T, N>>, names: [&'static str; N]) -> Self {
+        members.sort_by_key(|member| member.index);
+        Self { members, names }
+    }
+
+    /// All members that are done, by index.
+    pub fn members(&self) -> &[Member<T, N>] {
+        &self.members
+    }
+
+    /// The member of this index, if it is done.
+    pub fn get(&self, index: usize) -> Option<&Member<T, N>> {
+        let place = self.members.binary_search_by_key(&index, |member| member.index).ok()?;
+        self.members.get(place)
+    }
+
+    /// The members that reached the end, with their last states.
+    pub fn completed(&self) -> impl Iterator<Item = (usize, &State<T, N>)> {
+        let complete = self.members.iter().filter(|member| member.is_complete());
+        complete.filter_map(|member| Some((member.index, &member.arrival()?.state)))
+    }
+
+    /// The members that something kept from the end; each says by its `Display` what.
+    pub fn failures(&self) -> impl Iterator<Item = &Member<T, N>> {
+        self.members.iter().filter(|member| member.has_failed())
+    }
+
+    /// Puts two parts together. Of a member that is in both, this one's is kept.
+    #[must_use]
+    pub fn merge(mut self, other: Self) -> Self {
+        self.members.extend(other.members);
+        self.members.sort_by_key(|member| member.index);
+        self.members.dedup_by_key(|member| member.index);
+        self
+    }
+
+    /// A table as comma-separated values, one line a member: `member`, `t`, coordinates `x` and velocities `x_dot` of
+    /// the last state, the [`Statistics`], and `ending`.
+    ///
+    /// The ending is `complete`, `cancelled` or what went wrong. Numbers are the shortest that read back the same.
+    pub fn csv(&self) -> impl Display + '_ {
+        table::Csv { members: &self.members, names: &self.names }
+    }
+}

@@ -1,0 +1,238 @@
+//! Steps of an embedded Runge–Kutta pair on SIMD lanes: each lane a motion with its own time, step and error.
+//!
+//! The stages are computed for all lanes at once; what decides is done lane by lane, by the same controller as for a
+//! motion alone. Where a lane meets what the lanes cannot do (an elimination that is not to be trusted, constraints
+//! that depend on one another, numbers that are not finite, the end of all steps) its step is taken alone, by the
+//! scalar method. Nothing in a lane depends on the others.
+
+use core::array::from_fn;
+use core::ops::ControlFlow;
+
+use super::pair::{Pair, SLOPES, Slopes, advance};
+use super::seat::{Fate, Seat};
+use super::{Adaptive, Ending, Flow, LagrangianFlow, Phase, Point};
+use crate::eliminate::vector;
+use crate::numeric::power_of_epsilon;
+use crate::{Lagrangian, Lanes, Pack, Packed, Scalar, State};
+
+/// Motions in lock-step.
+pub(crate) struct Batch<L: Pack<Lanes>, P, const N: usize, const M: usize> {
+    method: Adaptive<P>,
+    system: L::Packed,
+    y: Phase<Lanes, N>,
+    /// The first is that of `y`.
+    slopes: Slopes<Lanes, N>,
+    seats: [Option<Seat<L, N, M>>; Lanes::COUNT],
+}
+
+/// What the lanes say about a step, before anyone decides.
+struct Attempt<const N: usize> {
+    next: Phase<Lanes, N>,
+    error: [f64; Lanes::COUNT],
+    /// Which lanes can be relied on.
+    sound: [bool; Lanes::COUNT],
+}
+
+/// Whether the numbers of each lane can be relied on, gathered in passing.
+struct Trust {
+    /// The smallest pivot.
+    pivot: Lanes,
+    /// The sum of all magnitudes, which is a number where each is.
+    size: Lanes,
+}
+
+impl Trust {
+    fn new() -> Self {
+        Self { pivot: Lanes::constant(1.0), size: Lanes::constant(0.0) }
+    }
+
+    #[inline(always)]
+    fn numbers<'x>(&mut self, numbers: impl IntoIterator<Item = &'x Lanes>) {
+        self.size = numbers.into_iter().fold(self.size, |sum, x| sum + x.abs());
+    }
+
+    /// A minimum may pass over what is not a number; a sum does not.
+    #[inline(always)]
+    fn pivot(&mut self, pivot: Lanes) {
+        self.pivot = self.pivot.min(pivot);
+        self.size = self.size + pivot * Lanes::constant(0.0);
+    }
+
+    /// As [`is_trustworthy`](crate::solve::is_trustworthy) of a solution alone.
+    fn lanes(&self) -> [bool; Lanes::COUNT] {
+        let (pivot, size) = (self.pivot.to_array(), self.size.to_array());
+        from_fn(|lane| pivot[lane] > power_of_epsilon(1.0 / 3.0) && size[lane] < f64::INFINITY)
+    }
+}
+
+impl<L, P, const N: usize, const M: usize> Batch<L, P, N, M>
+where
+    P: Pair,
+    L: Lagrangian<N, M, Scalar = f64> + Pack<Lanes, Packed: Lagrangian<N, M, Scalar = Lanes>>,
+{
+    const LAST: usize = P::STAGES.len() + 1;
+
+    /// With a first motion, and the other lanes free.
+    pub(crate) fn new(method: Adaptive<P>, seat: Seat<L, N, M>) -> Self {
+        let zero = [[Lanes::constant(0.0); N]; 2];
+        let system = seat.system.pack();
+        // Free lanes compute what the first does, to no purpose and no harm.
+        let splat = |y: &Phase<f64, N>| y.map(|half| half.map(Lanes::constant));
+        let mut slopes = [zero; SLOPES];
+        slopes[0] = splat(&seat.memory.slopes[0]);
+        let y = splat(&seat.memory.y);
+        let seats = [Some(seat.begin(&method)), None, None, None];
+        Self { method, system, y, slopes, seats }
+    }
+
+    pub(crate) fn has_free_lane(&self) -> bool {
+        self.seats.iter().any(Option::is_none)
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.seats.iter().all(Option::is_none)
+    }
+
+    /// Gives the motion a free lane; gives it back where there is none that it fits in.
+    pub(crate) fn join(&mut self, seat: Seat<L, N, M>) -> Option<Seat<L, N, M>> {
+        let lane = self.seats.iter().position(Option::is_none);
+        match lane.filter(|&lane| seat.system.place(&mut self.system, lane)) {
+            None => Some(seat),
+            Some(lane) => {
+                self.seats[lane] = Some(seat.begin(&self.method));
+                self.load(lane);
+                None
+            }
+        }
+    }
+
+    /// Tries one step in every lane. `accept` is told each new state; `leave` each motion that has ended.
+    pub(crate) fn step(
+        &mut self,
+        mut accept: impl FnMut(usize, &State<f64, N>) -> ControlFlow<()>,
+        mut leave: impl FnMut(Seat<L, N, M>, State<f64, N>, Ending),
+    ) {
+        // In a free lane time stands still.
+        let plan = from_fn(|lane| self.seats[lane].as_ref().map_or((0.0, 0.0), |seat| seat.memory.next()));
+        let attempt = self.attempt(&plan);
+        let fates = from_fn(|lane| self.decide(lane, plan[lane], &attempt));
+        self.settle(&fates, &attempt.next);
+        for (lane, fate) in fates.into_iter().enumerate() {
+            let Some(seat) = &self.seats[lane] else { continue };
+            let state = self.state(lane, seat.memory.t);
+            let ending = match fate != Fate::Rejected && accept(seat.index, &state).is_break() {
+                true => Some(Ending::Cancelled { time: state.t }),
+                false => seat.ending(),
+            };
+            if let Some(ending) = ending
+                && let Some(seat) = self.seats[lane].take()
+            {
+                leave(seat, state, ending);
+            }
+        }
+    }
+
+    /// Stages, error and projection in all lanes, and the slopes at the end of the step.
+    fn attempt(&mut self, plan: &[(f64, f64); Lanes::COUNT]) -> Attempt<N> {
+        let h = Lanes::from(plan.map(|(h, _)| h));
+        let end = Lanes::from(plan.map(|(_, time)| time));
+        let mut trust = Trust::new();
+        self.stages(h, &mut trust);
+        let mut next = advance(&self.y, h, &self.slopes, P::WEIGHTS);
+        trust.numbers(next.iter().flatten());
+        if Self::error_needs_last() {
+            self.slope(Self::LAST, end, &next, &mut trust);
+        }
+        let tolerance = self.method.tolerance::<f64>();
+        let error = tolerance.error::<P, _, N>(&self.slopes, h, &self.y, &next).to_array();
+        let projected = if M > 0 { self.project(&mut next, plan, &error) } else { [true; Lanes::COUNT] };
+        if M > 0 || !Self::error_needs_last() {
+            self.slope(Self::LAST, end, &next, &mut trust);
+        }
+        let trusted = trust.lanes();
+        Attempt { next, error, sound: from_fn(|lane| trusted[lane] && projected[lane]) }
+    }
+
+    fn error_needs_last() -> bool {
+        P::ERROR.iter().any(|(slope, _)| *slope == Self::LAST)
+    }
+
+    /// The slopes of the stages after the first.
+    #[inline]
+    fn stages(&mut self, h: Lanes, trust: &mut Trust) {
+        let now = Lanes::from(from_fn(|lane| self.seats[lane].as_ref().map_or(0.0, |seat| seat.memory.t)));
+        for (number, row) in (1..).zip(P::STAGES) {
+            let y = advance(&self.y, h, &self.slopes, row);
+            self.slope(number, now + h * Lanes::constant(P::NODES[number]), &y, trust);
+        }
+    }
+
+    /// Evaluates the slope of this number.
+    #[inline(always)]
+    fn slope(&mut self, number: usize, t: Lanes, y: &Phase<Lanes, N>, trust: &mut Trust) {
+        let solution = self.system.accelerations(&State { t, q: vector(y[0]), v: vector(y[1]) });
+        trust.numbers(solution.accelerations.iter().chain(&solution.multipliers));
+        trust.pivot(solution.pivot);
+        self.slopes[number] = [y[1], solution.accelerations.into()];
+    }
+
+    /// Projects the lanes that are accurate onto the constraints; whether each is where it is to be.
+    fn project(
+        &self,
+        next: &mut Phase<Lanes, N>,
+        plan: &[(f64, f64); Lanes::COUNT],
+        error: &[f64; Lanes::COUNT],
+    ) -> [bool; Lanes::COUNT] {
+        from_fn(|lane| match &self.seats[lane] {
+            Some(seat) if self.method.accepts(error[lane]) => {
+                let y = unpacked(next, lane);
+                let point = Point { t: plan[lane].1, y, velocity: y[1] };
+                let projected = <LagrangianFlow as Flow<L, N, M>>::project(&seat.system, &point);
+                projected.map(|state| next.place(lane, &[state.q.into(), state.v.into()])).is_ok()
+            }
+            _ => true,
+        })
+    }
+
+    /// What becomes of the step in a lane. None is taken in a free one.
+    fn decide(&mut self, lane: usize, plan: (f64, f64), attempt: &Attempt<N>) -> Fate {
+        let Some(seat) = &mut self.seats[lane] else { return Fate::Rejected };
+        let decided = attempt.sound[lane].then(|| seat.decide(plan, attempt.error[lane], &self.method));
+        decided.flatten().unwrap_or_else(|| {
+            seat.step_alone(unpacked(&self.y, lane), unpacked(&self.slopes[0], lane), &self.method)
+        })
+    }
+
+    /// Moves the lanes whose steps are accepted.
+    fn settle(&mut self, fates: &[Fate; Lanes::COUNT], next: &Phase<Lanes, N>) {
+        let accepted = Lanes::from(fates.map(|fate| if fate == Fate::Accepted { 1.0 } else { 0.0 }));
+        for half in 0..2 {
+            for i in 0..N {
+                let (y, slope) = (&mut self.y[half][i], self.slopes[Self::LAST][half][i]);
+                *y = next[half][i].select(accepted, *y);
+                self.slopes[0][half][i] = slope.select(accepted, self.slopes[0][half][i]);
+            }
+        }
+        for lane in (0..Lanes::COUNT).filter(|lane| fates[*lane] == Fate::AcceptedAlone) {
+            self.load(lane);
+        }
+    }
+
+    /// Puts the state and the slope that its motion holds into a lane.
+    fn load(&mut self, lane: usize) {
+        if let Some(Seat { memory, .. }) = &self.seats[lane] {
+            self.y.place(lane, &memory.y);
+            self.slopes[0].place(lane, &memory.slopes[0]);
+        }
+    }
+
+    fn state(&self, lane: usize, t: f64) -> State<f64, N> {
+        let [q, v] = unpacked(&self.y, lane);
+        State { t, q: vector(q), v: vector(v) }
+    }
+}
+
+/// What lies in one lane.
+fn unpacked<const N: usize>(packed: &Phase<Lanes, N>, lane: usize) -> Phase<f64, N> {
+    packed.map(|half| half.map(|x| x.to_array()[lane]))
+}

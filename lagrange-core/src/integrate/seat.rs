@@ -1,0 +1,125 @@
+//! A motion that has a SIMD lane, and what becomes of its steps.
+
+use super::pair::Pair;
+use super::step::Memory;
+use super::{Adaptive, Ending, LagrangianFlow, Method, Phase, Statistics, Step, Watchdog, begin};
+use crate::{Error, Lagrangian, State};
+
+/// A motion that has a lane, or waits for one.
+pub(crate) struct Seat<L, const N: usize, const M: usize> {
+    /// Which member of the ensemble it is.
+    pub(crate) index: usize,
+    pub(crate) statistics: Statistics,
+    pub(super) system: L,
+    /// Its state and slopes are in the lane, and here only while a step is taken alone.
+    pub(super) memory: Memory<f64, N, M>,
+    limits: Watchdog,
+    /// Why no step will do.
+    failure: Option<Ending>,
+}
+
+/// What became of a step in one lane.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Fate {
+    Accepted,
+    /// Taken alone: the lane is to be loaded with the result.
+    AcceptedAlone,
+    Rejected,
+}
+
+impl<L, const N: usize, const M: usize> Seat<L, N, M>
+where
+    L: Lagrangian<N, M, Scalar = f64>,
+{
+    /// Before the first step, with the state made consistent.
+    pub(crate) fn new<P: Pair>(
+        index: usize,
+        system: L,
+        state: &State<f64, N>,
+        end: f64,
+        method: &Adaptive<P>,
+    ) -> Result<(Self, State<f64, N>), Error> {
+        let mut statistics = Statistics::default();
+        let ((start, _), memory) =
+            begin::<L, LagrangianFlow, _, N, M>(&system, state, end, method, &mut statistics)?;
+        let limits = Watchdog::new(method.limits());
+        Ok((Self { index, system, memory, statistics, limits, failure: None }, start))
+    }
+
+    /// The clock on the wall starts when it is given a lane.
+    pub(super) fn begin<P: Pair>(self, method: &Adaptive<P>) -> Self {
+        Self { limits: Watchdog::new(method.limits()), ..self }
+    }
+
+    /// Why there is no further step to take.
+    pub(crate) fn ending(&self) -> Option<Ending> {
+        let time = self.memory.t;
+        if time >= self.memory.end {
+            return Some(Ending::Complete { time });
+        }
+        self.failure.clone().or_else(|| self.limits.exceeded(&self.statistics, time))
+    }
+
+    /// Accepts or rejects a step computed on lanes; `None` where it is to be taken alone.
+    pub(super) fn decide<P: Pair>(
+        &mut self,
+        (h, time): (f64, f64),
+        error: f64,
+        method: &Adaptive<P>,
+    ) -> Option<Fate> {
+        if self.memory.active.contains(&false) {
+            return None;
+        }
+        let accepted = method.accepts(error);
+        if accepted {
+            self.memory.t = time;
+            method.after_acceptance(&mut self.memory.control, h, error);
+        } else {
+            let before = self.memory.control.clone();
+            self.memory.control.refuse::<P>(h, error);
+            if self.memory.is_step_too_small() {
+                self.memory.control = before;
+                return None;
+            }
+        }
+        self.count::<P>(accepted);
+        Some(if accepted { Fate::Accepted } else { Fate::Rejected })
+    }
+
+    /// As many evaluations as the step takes alone.
+    fn count<P: Pair>(&mut self, accepted: bool) {
+        let last = P::STAGES.len() + 1;
+        let error_needs_last = P::ERROR.iter().any(|(slope, _)| *slope == last);
+        let statistics = &mut self.statistics;
+        statistics.evaluations += P::STAGES.len() + usize::from(error_needs_last);
+        statistics.evaluations += usize::from(accepted && (M > 0 || !error_needs_last));
+        statistics.accepted += usize::from(accepted);
+        statistics.rejected += usize::from(!accepted);
+    }
+
+    /// The step from this state with this slope by the scalar method.
+    #[cold]
+    pub(super) fn step_alone<P: Pair>(
+        &mut self,
+        y: Phase<f64, N>,
+        slope: Phase<f64, N>,
+        method: &Adaptive<P>,
+    ) -> Fate {
+        let Self { system, memory, statistics, failure, .. } = self;
+        (memory.y, memory.slopes[0]) = (y, slope);
+        match Method::<L, N, M>::step(method, system, memory, statistics) {
+            Step::Accepted { .. } => {
+                statistics.accepted += 1;
+                Fate::AcceptedAlone
+            }
+            Step::Rejected => {
+                statistics.rejected += 1;
+                Fate::Rejected
+            }
+            Step::Failed(ending) => {
+                *failure = Some(ending);
+                Fate::Rejected
+            }
+        }
+    }
+}

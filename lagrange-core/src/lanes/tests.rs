@@ -1,0 +1,117 @@
+use super::LARGEST_ANGLE;
+use crate::{Lanes, Scalar};
+
+type Function = (&'static str, fn(Lanes) -> Lanes, fn(f64) -> f64);
+
+const FUNCTIONS: [Function; 14] = [
+    ("sin", |x| x.sin(), f64::sin),
+    ("cos", |x| x.cos(), f64::cos),
+    ("tan", |x| x.tan(), f64::tan),
+    ("asin", |x| x.asin(), f64::asin),
+    ("acos", |x| x.acos(), f64::acos),
+    ("atan", |x| x.atan(), f64::atan),
+    ("sinh", |x| x.sinh(), f64::sinh),
+    ("cosh", |x| x.cosh(), f64::cosh),
+    ("tanh", |x| x.tanh(), f64::tanh),
+    ("exp", |x| x.exp(), f64::exp),
+    ("ln", |x| x.ln(), f64::ln),
+    ("sqrt", |x| x.sqrt(), f64::sqrt),
+    ("abs", |x| x.abs(), f64::abs),
+    ("neg", |x| -x, |x| -x),
+];
+
+type Operation = (&'static str, fn(Lanes, Lanes) -> Lanes, fn(f64, f64) -> f64);
+
+const OPERATIONS: [Operation; 8] = [
+    ("+", |x, y| x + y, |x, y| x + y),
+    ("-", |x, y| x - y, |x, y| x - y),
+    ("*", |x, y| x * y, |x, y| x * y),
+    ("/", |x, y| x / y, |x, y| x / y),
+    ("atan2", |x, y| x.atan2(y), f64::atan2),
+    ("powf", |x, y| x.powf(y), f64::powf),
+    ("min", |x, y| x.min(y), f64::min),
+    ("max", |x, y| x.max(y), f64::max),
+];
+
+const NUMBERS: [f64; 16] = [
+    0.0,
+    -0.0,
+    0.3,
+    -0.7,
+    1.0,
+    -2.5,
+    7.9,
+    1e-300,
+    -1e-12,
+    4e3,
+    -7e7,
+    3e11,
+    1e300,
+    f64::INFINITY,
+    f64::NEG_INFINITY,
+    f64::NAN,
+];
+
+fn same(a: f64, b: f64) -> bool {
+    a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan()
+}
+
+/// Every number in every lane, with every other beside it.
+fn each_beside_each(check: impl Fn(f64, usize, Lanes, Lanes)) {
+    for x in NUMBERS {
+        for other in NUMBERS {
+            for lane in 0..Lanes::COUNT {
+                let beside = std::array::from_fn(|i| if i == lane { x } else { other });
+                check(x, lane, Lanes::constant(x), beside.into());
+            }
+        }
+    }
+}
+
+#[test]
+fn no_lane_depends_on_another() {
+    each_beside_each(|x, lane, alone, beside| {
+        for (name, lanes, _) in FUNCTIONS {
+            let (alone, beside) = (lanes(alone).to_array()[0], lanes(beside).to_array()[lane]);
+            assert!(same(alone, beside), "{name}({x}) is {alone} and {beside} in lane {lane}");
+        }
+        for (name, lanes, _) in OPERATIONS {
+            for y in NUMBERS {
+                let y = Lanes::constant(y);
+                let (alone, beside) = (lanes(alone, y).to_array()[0], lanes(beside, y).to_array()[lane]);
+                assert!(same(alone, beside), "{name} of {x} is {alone} and {beside} in lane {lane}");
+            }
+        }
+    });
+}
+
+/// To two units in the last place, or of 1 for a sine near its zero; NaN where that cannot be.
+#[test]
+fn each_lane_is_what_the_number_alone_gives() {
+    let close = |a: f64, b: f64| same(a, b) || (a - b).abs() <= 4.5e-16 * b.abs().max(1e-3);
+    for x in NUMBERS {
+        for (name, lanes, alone) in FUNCTIONS {
+            let (lane, alone) = (lanes(Lanes::constant(x)).to_array()[1], alone(x));
+            let too_far = ["sin", "cos"].contains(&name) && x.abs() >= LARGEST_ANGLE && lane.is_nan();
+            assert!(too_far || close(lane, alone), "{name}({x}) is {lane}, not {alone}");
+        }
+        for y in NUMBERS.into_iter().filter(|y| !x.is_nan() && !y.is_nan()) {
+            for (name, lanes, alone) in OPERATIONS {
+                let (lane, alone) =
+                    (lanes(Lanes::constant(x), Lanes::constant(y)).to_array()[2], alone(x, y));
+                assert!(close(lane, alone) || lane == alone, "{x} {name} {y} is {lane}, not {alone}");
+            }
+        }
+    }
+}
+
+#[test]
+fn sines_are_accurate_up_to_the_largest_angle() {
+    for k in 0..200_000 {
+        let part = (f64::from(k) * 0.618_033_988_749_894_9).fract();
+        let angle = LARGEST_ANGLE * part.powi(1 + 8 * (k % 2));
+        let (sin, cos) = Lanes::constant(angle).sin_cos();
+        let off = (sin.to_array()[3] - angle.sin()).abs().max((cos.to_array()[3] - angle.cos()).abs());
+        assert!(off < 3e-16, "off by {off:e} at {angle}");
+    }
+}

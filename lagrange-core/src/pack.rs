@@ -1,0 +1,93 @@
+//! Systems side by side: one struct over SIMD lanes with the parameters of another system in each lane.
+
+use core::fmt::Debug;
+
+use nalgebra::SMatrix;
+
+/// A system that can share SIMD lanes of the type `V` with others of its kind.
+///
+/// `#[derive(Lagrangian)]` implements it for a struct whose number type is a type parameter. The numbers of each
+/// member lie in a lane of their own. A field without that parameter in its type (a function, a label) is one for all
+/// lanes: members in which it differs do not fit beside each other.
+///
+/// ```
+/// use lagrange_core::prelude::*;
+/// use lagrange_core::{Lanes, Pack};
+///
+/// #[derive(Lagrangian)]
+/// #[coordinates(x)]
+/// #[lagrangian(m/2 * x_dot^2 - k/2 * x^2)]
+/// struct Spring<T> { m: T, k: T }
+///
+/// let mut packed: Spring<Lanes> = Spring { m: 1.0, k: 4.0 }.pack();
+/// assert!(Spring { m: 2.0, k: 3.0 }.place(&mut packed, 3));
+/// let accelerations = packed.accelerations(&State::at_rest([Lanes::constant(2.0)])).accelerations;
+/// assert_eq!(accelerations[0].to_array(), [-8.0, -8.0, -8.0, -3.0]);
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` cannot be put on SIMD lanes",
+    label = "its number type is fixed",
+    note = "make the number type a parameter, `struct X<T> {{ m: T, l: [T; 2] }}`, and derive `Lagrangian` for that",
+    note = "`Ensemble::integrate` takes any system, and integrates one member at a time"
+)]
+pub trait Pack<V>: Sized {
+    /// The system over lanes.
+    type Packed;
+
+    /// These parameters in every lane.
+    fn pack(&self) -> Self::Packed;
+
+    /// Puts these parameters into one lane and leaves the others as they are; `false`, and nothing done, where a
+    /// field that all lanes share differs.
+    fn place(&self, packed: &mut Self::Packed, lane: usize) -> bool;
+}
+
+/// A field with other numbers in each lane, where a system alone has the field `X`.
+#[diagnostic::on_unimplemented(
+    message = "a field of type `{X}` cannot be put on SIMD lanes",
+    note = "numbers, arrays, and vectors and matrices of nalgebra can, where the field owns them"
+)]
+pub trait Packed<X> {
+    /// The same in every lane.
+    fn splat(field: &X) -> Self;
+
+    /// Puts it into one lane.
+    fn place(&mut self, lane: usize, field: &X);
+}
+
+impl<P: Packed<X>, X, const K: usize> Packed<[X; K]> for [P; K] {
+    #[inline]
+    fn splat(field: &[X; K]) -> Self {
+        field.each_ref().map(P::splat)
+    }
+
+    #[inline]
+    fn place(&mut self, lane: usize, field: &[X; K]) {
+        self.iter_mut().zip(field).for_each(|(packed, x)| packed.place(lane, x));
+    }
+}
+
+impl<P, X, const R: usize, const C: usize> Packed<SMatrix<X, R, C>> for SMatrix<P, R, C>
+where
+    P: Packed<X> + Clone + PartialEq + Debug + 'static,
+    X: Clone + PartialEq + Debug + 'static,
+{
+    #[inline]
+    fn splat(field: &SMatrix<X, R, C>) -> Self {
+        Self::from_fn(|i, j| P::splat(&field[(i, j)]))
+    }
+
+    #[inline]
+    fn place(&mut self, lane: usize, field: &SMatrix<X, R, C>) {
+        self.iter_mut().zip(field.iter()).for_each(|(packed, x)| packed.place(lane, x));
+    }
+}
+
+/// A field that all lanes share: one that can be copied and compared.
+#[diagnostic::on_unimplemented(
+    message = "a field of type `{Self}` cannot be shared by SIMD lanes",
+    note = "derive `Clone` and `PartialEq` for it: members share lanes where such fields are equal"
+)]
+pub trait Shared: Clone + PartialEq {}
+
+impl<F: Clone + PartialEq> Shared for F {}

@@ -1,0 +1,112 @@
+//! Members with constraints stay on them.
+
+use std::ops::ControlFlow;
+use std::sync::Mutex;
+
+use lagrange_core::prelude::*;
+
+use crate::{noise, on_threads};
+
+#[derive(Lagrangian, Clone, Copy)]
+#[coordinates(x, y, z)]
+#[lagrangian(m/2*(x_dot^2 + y_dot^2 + z_dot^2) - m*g*z)]
+#[constraint(string: (x^2 + y^2 + z^2 - l^2)/2 = 0)]
+struct Spherical<T> {
+    m: T,
+    g: T,
+    l: T,
+}
+
+/// On a sphere of its own radius, with a velocity along it.
+fn member(index: usize) -> (Spherical<f64>, State<f64, 3>) {
+    let number = |entry| noise(index, entry);
+    let (l, polar, azimuth) = (0.5 + number(0), 1.0 + 2.0 * number(1), 6.0 * number(2));
+    let (sin, cos) = polar.sin_cos();
+    let q = [l * sin * azimuth.cos(), l * sin * azimuth.sin(), l * cos];
+    let speed = 2.0 * number(3);
+    let v = [-speed * azimuth.sin(), speed * azimuth.cos(), 0.0];
+    (Spherical { m: 1.0 + number(4), g: 9.81, l }, State::new(q, v))
+}
+
+#[test]
+fn every_step_of_every_member_ends_on_the_constraints() {
+    let worst = Mutex::new((0.0_f64, 0.0_f64, 0_usize));
+    let watched = Ensemble::from_fn(21, member).observe(|index, state| {
+        let (system, start) = member(index);
+        let phi = system.constraint_residual(state)[0].abs().max(system.constraint_rate(state)[0].abs());
+        let energy = (system.energy(state) - system.energy(&start)).abs();
+        let mut worst = worst.lock().unwrap();
+        *worst = (worst.0.max(phi), worst.1.max(energy), worst.2 + 1);
+        ControlFlow::Continue(())
+    });
+    let outcome = watched.integrate_on_lanes(3.0, Dop853::with_tolerance(1e-10)).unwrap();
+    let (phi, energy, steps) = worst.into_inner().unwrap();
+    assert_eq!(outcome.completed().count(), 21);
+    assert!(steps > 21 * 50 && phi < 1e-13 && energy < 1e-7, "{steps}, {phi:e}, {energy:e}");
+    for (index, state) in outcome.completed() {
+        let (system, start) = member(index);
+        let path = system.integrate(start, 3.0, Dop853::with_tolerance(1e-10)).unwrap();
+        let off = (state.q - path.end().state().q).amax();
+        assert!(off < 1e-7, "member {index} is off by {off:e}");
+    }
+}
+
+#[test]
+fn neighbours_change_no_bit_on_constraints_either() {
+    for method in [Dop853::default()] {
+        let run = || Ensemble::from_fn(21, member).integrate_on_lanes(2.0, method).unwrap();
+        let whole = on_threads(1, run);
+        assert_eq!(whole, on_threads(3, run));
+        for index in 0..21 {
+            let alone =
+                Ensemble::from_fn(21, member).shard(index, 21).integrate_on_lanes(2.0, method).unwrap();
+            assert_eq!(alone.members(), &whole.members()[index..=index]);
+        }
+    }
+}
+
+/// The second constraint says the same as the first, but shows it where that holds only. In the stages of a coarse
+/// step the two look independent, and what they demand together is wrong: such members are integrated alone.
+#[derive(Lagrangian, Clone, Copy)]
+#[coordinates(x, y)]
+#[lagrangian(m/2*(x_dot^2 + y_dot^2) - m*g*y)]
+#[constraint(rod: (x^2 + y^2 - l^2)/2 = 0)]
+#[constraint(again: (x^2 + y^2 - l^2)*(2 + x) = 0)]
+struct Twice<T> {
+    m: T,
+    g: T,
+    l: T,
+}
+
+#[test]
+fn constraints_that_depend_on_one_another_are_solved_alone() {
+    let member = |index: usize| {
+        let (angle, l) = (0.2 + noise(index, 0), 1.0 + noise(index, 1));
+        (Twice { m: 1.0, g: 9.81, l }, State::at_rest([l * angle.sin(), -l * angle.cos()]))
+    };
+    let method = Dopri5::with_tolerance(0.1);
+    let outcome = Ensemble::from_fn(9, member).integrate_on_lanes(3.0, method).unwrap();
+    assert_eq!(outcome.completed().count(), 9);
+    for (index, state) in outcome.completed() {
+        let (system, start) = member(index);
+        let path = system.integrate(start, 3.0, method).unwrap();
+        assert_eq!(state, path.end().state(), "member {index}");
+        assert!(!outcome.get(index).unwrap().arrival().unwrap().statistics.multipliers_are_unique);
+    }
+}
+
+#[test]
+fn a_start_off_the_constraints_is_named() {
+    let far = |index: usize| {
+        let (system, start) = member(index);
+        (system, if index == 3 { State::at_rest([1.0, 2.0, 3.0]) } else { start })
+    };
+    let outcome = Ensemble::from_fn(8, far).integrate_on_lanes(1.0, Dop853::default()).unwrap();
+    let failures: Vec<String> = outcome.failures().map(ToString::to_string).collect();
+    assert_eq!(failures.len(), 1);
+    assert!(
+        failures[0].starts_with("member 3: the state violates constraint `string` at t = 0"),
+        "{}",
+        failures[0]
+    );
+}

@@ -1,0 +1,177 @@
+//! One bad member is reported by its index, with the reason, and spoils no other.
+
+use lagrange_core::ensemble::{Member, Outcome};
+use lagrange_core::prelude::*;
+use lagrange_core::{Lanes, Pack};
+
+use crate::{COUNT, DoublePendulum, END, ensemble, member, on_threads};
+
+const BAD: usize = 6;
+
+/// The ensemble with another member in one place: on lanes, and one by one.
+fn with(bad: fn() -> (DoublePendulum<f64>, State<f64, 2>)) -> [Outcome<f64, 2>; 2] {
+    let members = move |index: usize| if index == BAD { bad() } else { member(index) };
+    let ensemble = || Ensemble::from_fn(COUNT, members);
+    [
+        on_threads(1, || ensemble().integrate_on_lanes(END, Dop853::default()).expect("an outcome")),
+        ensemble().integrate(END, Dop853::default()).expect("an outcome"),
+    ]
+}
+
+/// All others are as without it, bit for bit; what became of it.
+fn alone_in_its_failure(outcomes: [Outcome<f64, 2>; 2]) -> [Member<f64, 2>; 2] {
+    let well = [
+        ensemble().integrate_on_lanes(END, Dop853::default()).expect("an outcome"),
+        ensemble().integrate(END, Dop853::default()).expect("an outcome"),
+    ];
+    let mut outcomes = outcomes.into_iter().zip(well).map(|(outcome, well)| {
+        for (member, well) in outcome.members().iter().zip(well.members()).filter(|(m, _)| m.index != BAD) {
+            assert_eq!(member, well);
+        }
+        let failures: Vec<_> = outcome.failures().cloned().collect();
+        assert_eq!((outcome.members().len(), failures.len(), failures[0].index), (COUNT, 1, BAD));
+        failures[0].clone()
+    });
+    std::array::from_fn(|_| outcomes.next().expect("two outcomes"))
+}
+
+#[test]
+fn parameters_that_are_no_numbers() {
+    let members = alone_in_its_failure(with(|| {
+        let (system, start) = member(BAD);
+        (DoublePendulum { g: f64::NAN, ..system }, start)
+    }));
+    for member in members {
+        assert!(matches!(member.result, Err(Error::EquationsNotFinite { .. })), "{member}");
+        let message = member.to_string();
+        assert!(
+            message.starts_with("member 6: the equations are not finite at t = 0; row of coordinate `a`"),
+            "{message}"
+        );
+    }
+}
+
+#[test]
+fn a_start_that_is_no_number_and_an_end_before_the_start() {
+    for member in alone_in_its_failure(with(|| (member(BAD).0, State::at_rest([0.1, f64::NAN])))) {
+        assert!(matches!(member.result, Err(Error::StateNotFinite { .. })), "{member}");
+    }
+    for member in alone_in_its_failure(with(|| (member(BAD).0, member(BAD).1.at_time(END + 1.0)))) {
+        assert!(matches!(member.result, Err(Error::EndTime { .. })), "{member}");
+    }
+}
+
+#[test]
+fn a_singular_mass_matrix() {
+    for member in alone_in_its_failure(with(|| {
+        let (system, start) = member(BAD);
+        (DoublePendulum { m: [1.0, 0.0], ..system }, start)
+    })) {
+        assert!(matches!(member.result, Err(Error::Singular { .. })), "{member}");
+        assert!(member.to_string().contains("acceleration of `b`"), "{member}");
+    }
+}
+
+#[derive(Lagrangian)]
+#[coordinates(x)]
+#[lagrangian(x_dot^2/2 + k*x^3/3)]
+struct Runaway<T> {
+    k: T,
+}
+
+/// ẍ = 6x² from x = 1, ẋ = 2 is x = (1 − t)⁻².
+#[test]
+fn a_motion_without_end_ends_where_its_steps_do() {
+    let members = |index: usize| match index {
+        2 => (Runaway { k: 6.0 }, State::new([1.0], [2.0])),
+        _ => (Runaway { k: 0.1 }, State::new([0.1 * index as f64], [0.0])),
+    };
+    stopped(members, 2.0, 2, |member| {
+        let arrival = member.arrival().unwrap();
+        let Ending::StepTooSmall { time, .. } = arrival.ending else { panic!("{member}") };
+        assert_eq!(time, arrival.state.t);
+        assert!((time - 1.0).abs() < 1e-2 && arrival.state.q[0] > 1e4, "{arrival:?}");
+        assert!(member.to_string().starts_with("member 2: stopped at t = "), "{member}");
+    });
+}
+
+#[derive(Lagrangian)]
+#[coordinates(x)]
+#[lagrangian(x_dot^2/2 + c*(1 - x)^(3/2))]
+struct Cliff<T> {
+    c: T,
+}
+
+#[test]
+fn a_motion_to_where_nothing_is_defined_ends_there() {
+    let members = |index: usize| (Cliff { c: 0.01 }, State::new([0.0], [if index == 5 { 1.0 } else { 0.1 }]));
+    stopped(members, 4.0, 5, |member| {
+        let Ending::NotFinite { time, .. } = member.arrival().unwrap().ending else { panic!("{member}") };
+        assert!((time - 1.0).abs() < 0.02, "{member}");
+    });
+}
+
+/// One of eight members stops; checks how, on lanes and one by one, and that the others do not notice.
+fn stopped<L>(
+    members: impl Fn(usize) -> (L, State<f64, 1>) + Send + Sync,
+    end: f64,
+    bad: usize,
+    check: impl Fn(&Member<f64, 1>),
+) where
+    L: Lagrangian<1, 0, Scalar = f64> + Pack<Lanes, Packed: Lagrangian<1, 0, Scalar = Lanes>>,
+{
+    // Without it, another stands in its place.
+    let well = |index: usize| members(if index == bad { 0 } else { index });
+    let run = |member: &(dyn Fn(usize) -> (L, State<f64, 1>) + Send + Sync)| {
+        on_threads(1, || {
+            Ensemble::from_fn(8, member).integrate_on_lanes(end, Dop853::default()).expect("an outcome")
+        })
+    };
+    let (outcome, well) = (run(&members), run(&well));
+    assert_eq!((outcome.completed().count(), well.completed().count()), (7, 8));
+    for (member, well) in outcome.members().iter().zip(well.members()).filter(|(m, _)| m.index != bad) {
+        assert_eq!(member, well);
+    }
+    check(outcome.get(bad).expect("a member"));
+    let one_by_one = Ensemble::from_fn(8, members).integrate(end, Dop853::default()).expect("an outcome");
+    check(one_by_one.get(bad).expect("a member"));
+}
+
+#[test]
+fn a_limit_on_steps_ends_the_member_that_meets_it() {
+    let limited = |steps| Dop853::default().max_steps(steps);
+    let steps = |outcome: &Outcome<f64, 2>| -> Vec<usize> {
+        let total = |m: &Member<f64, 2>| m.arrival().map(|a| a.statistics.accepted + a.statistics.rejected);
+        outcome.members().iter().filter_map(total).collect()
+    };
+    let free = ensemble().integrate_on_lanes(END, limited(100_000)).unwrap();
+    let mut needed = steps(&free);
+    needed.sort_unstable();
+    let limit = needed[COUNT / 2];
+    let outcome = ensemble().integrate_on_lanes(END, limited(limit)).unwrap();
+    for (member, free) in outcome.members().iter().zip(free.members()) {
+        let arrival = member.arrival().unwrap();
+        match &arrival.ending {
+            Ending::StepLimit { steps, time } => {
+                assert_eq!((*steps, *time), (limit, arrival.state.t));
+                assert!(arrival.state.t < END && arrival.state.t > 0.0);
+            }
+            _ => assert_eq!(member, free),
+        }
+    }
+    assert!(outcome.failures().count() > COUNT / 4);
+}
+
+#[test]
+fn what_is_wrong_for_all_is_said_once() {
+    let wrong = || Dop853::with_tolerance(-1.0);
+    for outcome in [ensemble().integrate(END, wrong()), ensemble().integrate_on_lanes(END, wrong())] {
+        assert!(matches!(outcome, Err(Error::Setting { name: "relative tolerance", .. })));
+    }
+    let error = ensemble().shard(3, 3).integrate(END, Dop853::default()).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "there is no part 3 of 3: parts are counted from 0, and there is at least one"
+    );
+    assert!(ensemble().shard(0, 0).integrate(END, Dop853::default()).is_err());
+}
