@@ -29,6 +29,7 @@ assert!((friction + 2.0 / 7.0 * 9.81 * 0.3_f64.sin()).abs() < 1e-12);
 //!
 //! - [`Lagrangian`] is the contract that generated code implements, [`Simulate`] what a program calls.
 //! - [`Hamiltonian`] is the other side: momenta, the Legendre transform, Hamilton's equations, motion in (q, p).
+//! - [`Linearized`] has the derivatives of the motion: Jacobians, equilibria, the linear system near a state.
 //! - [`Solution`] holds accelerations and multipliers; the sign of a multiplier is that of Milton (8.7): the constraint
 //!   force on coordinate a is Σ_α λ_α F_αa.
 //! - [`Dop853`] and [`Dopri5`] are the methods, [`Trajectory`] is what they give, [`Ending`] why it stops.
@@ -64,6 +65,7 @@ mod integrability;
 pub mod integrate;
 mod kkt;
 pub mod language;
+mod linearized;
 #[cfg(feature = "alloc")]
 mod lookup;
 mod names;
@@ -99,6 +101,9 @@ pub use integrability::{Classification, Extent, Integrability, Integrals};
 #[cfg(feature = "alloc")]
 pub use integrate::{Dop853, Dopri5, Ending, Method, Progress, Statistics};
 pub use lagrange_macros::Lagrangian;
+pub use linearized::{Direction, Jacobian, Linearized, Partials, ResidualChange};
+#[cfg(feature = "alloc")]
+pub use linearized::{Equilibrium, Linearization, Stability};
 pub use nalgebra;
 pub use names::{Entry, Names, Row};
 #[cfg(feature = "alloc")]

@@ -12,6 +12,8 @@ mod tests;
 
 use core::array::from_fn;
 
+use nalgebra::SVector;
+
 use crate::eliminate::vector;
 use crate::numeric::{larger, power_of_epsilon, smaller};
 use crate::{Real, Scalar, Solution};
@@ -80,7 +82,7 @@ pub(crate) fn solve<T: Real, const N: usize, const M: usize>(
 /// In these units a direction has no inertia where less than ε^(3/4) of the largest is left (ε: the round-off unit
 /// of `T`).
 pub(crate) struct Factors<T, const N: usize, const M: usize> {
-    rows: Rows<T, N, M>,
+    pub(crate) rows: Rows<T, N, M>,
     /// QᵀMQ.
     m: [[T; N]; N],
     /// ZᵀMZ, and the smallest of its pivots as a part of the largest entry of M.
@@ -93,7 +95,7 @@ pub(crate) struct Factors<T, const N: usize, const M: usize> {
 
 impl<T: Real, const N: usize, const M: usize> Factors<T, N, M> {
     pub(crate) fn of(m: &[[T; N]; N], f: &[[T; N]; M], rank: Rank<T>) -> Self {
-        let rows = Rows::of(m, f, rank.tolerance);
+        let rows = Rows::of(m, f, rank);
         let unit = &rows.unit;
         let m = from_fn(|i| from_fn(|j| m[i][j] * unit[i] * unit[j]));
         let m = in_range_basis(&rows.split, m);
@@ -112,11 +114,10 @@ impl<T: Real, const N: usize, const M: usize> Factors<T, N, M> {
         }
         split.enter_basis(&mut h);
         let free = self.free_accelerations(&h, &fixed)?;
-        let mut q = from_fn(|i| fixed[i] + free[i]);
+        let q = from_fn(|i| fixed[i] + free[i]);
         let force = from_fn(|i| if i < split.rank { dot(&self.m[i], &q) - h[i] } else { T::constant(0.0) });
-        split.leave_basis(&mut q);
         Ok(Solution {
-            accelerations: vector(from_fn(|i| q[i] * unit[i])),
+            accelerations: self.rows.out_of_basis(q),
             multipliers: vector(self.multipliers(&force)),
             pivot: smaller(self.pivot, smallest_diagonal(split)),
             rank: split.rank,
@@ -166,14 +167,33 @@ pub(crate) struct Rows<T, const N: usize, const M: usize> {
 }
 
 impl<T: Real, const N: usize, const M: usize> Rows<T, N, M> {
-    fn of(m: &[[T; N]; N], f: &[[T; N]; M], tolerance: T) -> Self {
+    pub(crate) fn of(m: &[[T; N]; N], f: &[[T; N]; M], rank: Rank<T>) -> Self {
         let unit = natural_units(m, f);
         let length: [T; M] = from_fn(|a| {
             let length = row_length(&f[a], &unit);
             if length > T::constant(0.0) { length } else { T::constant(1.0) }
         });
         let rows = from_fn(|a| from_fn(|i| f[a][i] * unit[i] / length[a]));
-        Self { unit, length, split: Qr::of(rows, tolerance) }
+        Self { unit, length, split: Qr::of(rows, rank.tolerance) }
+    }
+
+    /// A basis of the x with F x = 0.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn null_space(&self) -> impl Iterator<Item = SVector<T, N>> {
+        (self.split.rank..N)
+            .map(|k| self.out_of_basis(from_fn(|i| T::constant(if i == k { 1.0 } else { 0.0 }))))
+    }
+
+    /// The shortest x with F x + γ = 0; dependent constraints are left out.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn least(&self, gamma: &[T; M]) -> SVector<T, N> {
+        self.out_of_basis(self.fixed(gamma))
+    }
+
+    /// From the range basis and natural units.
+    fn out_of_basis(&self, mut x: [T; N]) -> SVector<T, N> {
+        self.split.leave_basis(&mut x);
+        vector(from_fn(|i| x[i] * self.unit[i]))
     }
 
     /// In the range basis, the shortest x with F x + γ = 0.

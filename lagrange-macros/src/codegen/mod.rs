@@ -5,6 +5,7 @@ mod eliminate;
 mod facts;
 mod integrability;
 mod kernel;
+mod linearized;
 mod observables;
 mod schedule;
 mod stub;
@@ -25,6 +26,7 @@ use crate::symbolic::{Id, Node};
 use crate::syntax::Declaration;
 use accelerations::Fused;
 use kernel::Kernel;
+pub(crate) use linearized::linearized;
 use observables::method_name;
 pub(crate) use schedule::Count;
 pub(crate) use stub::stub;
@@ -103,20 +105,9 @@ struct Emitter<'a> {
 }
 
 impl Emitter<'_> {
-    /// Of each function that the user supplies, the highest derivative that the system needs.
+    /// Everything that is emitted, but for the Jacobians.
     fn orders(&self) -> BTreeMap<u32, usize> {
-        let graph = &self.problem.graph;
-        let mut roots = self.equations.roots();
-        roots.push(self.problem.lagrangian);
-        roots.extend(self.problem.observables.iter().flat_map(|(_, values)| values));
-        let mut orders = BTreeMap::new();
-        for id in graph.reachable(&roots) {
-            if let Node::External(external) = graph.node(id) {
-                let order = orders.entry(external.function).or_default();
-                *order = external.derivatives.len().max(*order);
-            }
-        }
-        orders
+        orders(self.problem, self.equations, &[])
     }
 
     /// The struct's generics with what the fields must be able to do, asked for at the fields' types.
@@ -124,11 +115,8 @@ impl Emitter<'_> {
         let scalar = self.style.scalar;
         let mut generics = bounded_generics(self.declaration, scalar);
         for (&function, &order) in orders {
-            let Supplied { ty, inputs, outputs, .. } = &self.problem.functions[function as usize];
-            let capability = format_ident!("{}", capability(order).0);
-            let bound =
-                quote_spanned!(ty.span()=> __lagrange::function::#capability<#scalar, #inputs, #outputs>);
-            generics.make_where_clause().predicates.push(syn::parse_quote!(#ty: #bound));
+            let bound = function_bound(&self.problem.functions[function as usize], order, scalar);
+            generics.make_where_clause().predicates.push(bound);
         }
         generics
     }
@@ -300,6 +288,31 @@ impl Emitter<'_> {
             }
         }
     }
+}
+
+/// Of each function that the user supplies, the highest derivative that the system needs, with `more` expressions.
+fn orders(problem: &Problem, equations: &Equations, more: &[Id]) -> BTreeMap<u32, usize> {
+    let graph = &problem.graph;
+    let mut roots = equations.roots();
+    roots.push(problem.lagrangian);
+    roots.extend(problem.observables.iter().flat_map(|(_, values)| values));
+    roots.extend(more);
+    let mut orders = BTreeMap::new();
+    for id in graph.reachable(&roots) {
+        if let Node::External(external) = graph.node(id) {
+            let order = orders.entry(external.function).or_default();
+            *order = external.derivatives.len().max(*order);
+        }
+    }
+    orders
+}
+
+/// A function's field gives derivatives up to this order.
+fn function_bound(function: &Supplied, order: usize, scalar: &syn::Type) -> syn::WherePredicate {
+    let Supplied { ty, inputs, outputs, .. } = function;
+    let capability = format_ident!("{}", capability(order).0);
+    let bound = quote_spanned!(ty.span()=> __lagrange::function::#capability<#scalar, #inputs, #outputs>);
+    syn::parse_quote!(#ty: #bound)
 }
 
 fn count_doc(count: Count) -> String {

@@ -57,7 +57,7 @@ impl<'a> Style<'a> {
     }
 
     /// The value of a parameter, read from its field.
-    fn parameter(&self, k: usize) -> TokenStream {
+    pub(super) fn parameter(&self, k: usize) -> TokenStream {
         let entry = self.problem.parameters.entries[k];
         let field = &self.problem.parameters.fields[entry.field];
         let ident = &field.ident;
@@ -135,7 +135,7 @@ fn split(text: &str) -> [String; 2] {
 }
 
 /// An identifier like `text` that nothing else bears.
-fn identifier(text: &str, taken: &mut HashSet<String>) -> Ident {
+pub(super) fn identifier(text: &str, taken: &mut HashSet<String>) -> Ident {
     let mut name = text.replace("][", "_").replace('[', "_").replace(']', "");
     if syn::parse_str::<Ident>(&name).is_err() || !taken.insert(name.clone()) {
         let is_free = |candidate: &String| !taken.contains(candidate);

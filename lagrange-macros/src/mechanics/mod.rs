@@ -10,6 +10,7 @@ mod evidence;
 mod facts;
 mod gauge;
 mod integrability;
+mod linearization;
 mod moment;
 
 use crate::diagnostics::{Diagnostics, Place};
@@ -22,6 +23,7 @@ pub(crate) use evidence::Evidence;
 pub(crate) use facts::Facts;
 pub(crate) use gauge::LinearPart;
 pub(crate) use integrability::{Classification, Integrability, Integrals, Kinds};
+pub(crate) use linearization::{Linearization, arguments, linearize};
 
 /// M q̈ − Fᵀλ = h and F q̈ + γ = 0, every entry a node of the problem's graph.
 #[derive(Debug)]

@@ -5,6 +5,7 @@ mod determinism;
 mod elimination;
 mod emitted;
 mod integrability;
+mod linearization;
 mod systems;
 
 use proc_macro2::TokenStream;

@@ -1,0 +1,352 @@
+//! Equilibria and steady motions: where the equations of motion hold with q̈ = 0.
+//!
+//! The method of Levenberg and Marquardt (Moré 1978) on R = (h + Fᵀλ, γ, F q̇ + b, Φ), with the damping in proportion to
+//! |R|: it converges quadratically to equilibria in families too (Fan and Yuan, *Computing* 74, 2005), and a step
+//! never moves what R does not depend on.
+
+use alloc::{format, string::String, vec::Vec};
+
+use nalgebra::{ComplexField, DMatrix, DVector, Dyn, SVD};
+
+use super::tangent::finite;
+use super::{Direction, Linearized, ResidualChange, inputs};
+use crate::eliminate::vector;
+use crate::names::{Entry, Row};
+use crate::numeric::{larger, power_of_epsilon};
+use crate::simulate::check_finite;
+use crate::{Error, Lagrangian, Real, Scalar, Simulate, Solution, State};
+
+/// Steps before giving up.
+const ITERATIONS: usize = 200;
+
+/// An equilibrium, or a steady motion.
+#[derive(Clone, Debug)]
+pub struct Equilibrium<L: Lagrangian<N, M>, const N: usize, const M: usize> {
+    /// The system, its parameters as they were found.
+    pub system: L,
+    /// The state; its time and velocities are those of the guess.
+    pub state: State<L::Scalar, N>,
+    /// The multipliers there.
+    pub multipliers: nalgebra::SVector<L::Scalar, M>,
+    /// Steps taken.
+    pub iterations: usize,
+    undetermined: Vec<String>,
+}
+
+impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Equilibrium<L, N, M> {
+    /// The coordinates and parameters sought that can change, together, and leave it an equilibrium: cyclic
+    /// coordinates, to first order, and whatever is more than the equations determine. They are as near to the
+    /// guess as the others allow.
+    pub fn undetermined(&self) -> &[String] {
+        &self.undetermined
+    }
+}
+
+/// See [`Linearized::equilibrium`].
+pub(super) fn equilibrium<L, const N: usize, const M: usize, const P: usize>(
+    system: &L,
+    guess: &State<L::Scalar, N>,
+    names: &[&str],
+) -> Result<Equilibrium<L, N, M>, Error>
+where
+    L: Linearized<N, M, P, Scalar: Real> + Clone,
+{
+    check_finite(system, guess)?;
+    let unknowns = unknowns::<L, N, M, P>(names)?;
+    let mut search = Search::start(system.clone(), guess, unknowns)?;
+    let iterations = search.run()?;
+    let undetermined = search.undetermined()?;
+    let Point { system, state, multipliers } = search.point;
+    // Of dependent constraints the multipliers of least norm; at a pole, where accelerations are undetermined, those found.
+    let multipliers = system.solve(&state).map_or(multipliers, |solution| solution.multipliers);
+    Ok(Equilibrium { system, state, multipliers, iterations, undetermined })
+}
+
+/// Indices of what is sought: coordinates, then parameters.
+fn unknowns<L, const N: usize, const M: usize, const P: usize>(names: &[&str]) -> Result<Vec<usize>, Error>
+where
+    L: Linearized<N, M, P>,
+{
+    if names.is_empty() {
+        return Ok((0..N).collect());
+    }
+    inputs::indices(&[&L::COORDINATES[..], &L::PARAMETERS[..]].concat(), "coordinate or parameter", names)
+}
+
+/// Where the search is.
+#[derive(Clone)]
+struct Point<L: Lagrangian<N, M>, const N: usize, const M: usize> {
+    system: L,
+    state: State<L::Scalar, N>,
+    multipliers: nalgebra::SVector<L::Scalar, M>,
+}
+
+impl<L, const N: usize, const M: usize> Point<L, N, M>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    /// R, the motion's rows first.
+    fn residual(&self) -> DVector<L::Scalar> {
+        let Self { system, state, multipliers } = self;
+        let motion = -(system.forcing(state) + system.constraint_force(state, multipliers));
+        stacked(&ResidualChange {
+            motion,
+            acceleration: system.constraint_bias(state),
+            rate: system.constraint_rate(state),
+            position: system.constraint_residual(state),
+        })
+    }
+
+    /// Its derivatives by the unknowns and by the multipliers, at least as many rows as columns.
+    fn jacobian<const P: usize>(&self, unknowns: &[usize]) -> Result<DMatrix<L::Scalar>, Error>
+    where
+        L: Linearized<N, M, P>,
+    {
+        let columns = unknowns.len() + M;
+        let mut jacobian = DMatrix::zeros((N + 3 * M).max(columns), columns);
+        let multipliers = self.multipliers;
+        let zero = vector([L::Scalar::constant(0.0); N]);
+        let still = Solution { accelerations: zero, multipliers, pivot: L::Scalar::constant(1.0), rank: M };
+        for (j, &unknown) in unknowns.iter().enumerate() {
+            let (direction, entry) = if unknown < N {
+                (Direction::of_coordinate(unknown), Entry::Coordinate(L::COORDINATES[unknown]))
+            } else {
+                let k = unknown - N;
+                (Direction::of_parameter(k), Entry::Parameter(L::PARAMETERS[k]))
+            };
+            let change = self.system.residual_change(&self.state, &still, &direction);
+            finite::<L, N, M>(&change, entry, &self.state)?;
+            jacobian.view_mut((0, j), (N + 3 * M, 1)).copy_from(&stacked(&change));
+        }
+        let f = self.system.constraint_jacobian(&self.state);
+        jacobian.view_mut((0, unknowns.len()), (N, M)).copy_from(&-f.transpose());
+        Ok(jacobian)
+    }
+
+    /// The value of an unknown.
+    fn value<const P: usize>(&self, unknown: usize) -> L::Scalar
+    where
+        L: Linearized<N, M, P>,
+    {
+        if unknown < N { self.state.q[unknown] } else { self.system.parameters()[unknown - N] }
+    }
+
+    fn set<const P: usize>(&mut self, unknown: usize, value: L::Scalar) -> Result<(), Error>
+    where
+        L: Linearized<N, M, P>,
+    {
+        if unknown < N {
+            self.state.q[unknown] = value;
+        } else if !self.system.set_parameter(unknown - N, value) {
+            return Err(Error::ParameterFixed { name: L::PARAMETERS[unknown - N] });
+        }
+        Ok(())
+    }
+}
+
+fn stacked<T: Real, const N: usize, const M: usize>(residual: &ResidualChange<T, N, M>) -> DVector<T> {
+    let ResidualChange { motion, acceleration, rate, position } = residual;
+    let rows = motion.iter().chain(acceleration).chain(rate).chain(position);
+    DVector::from_iterator(N + 3 * M, rows.copied())
+}
+
+struct Search<L: Lagrangian<N, M>, const N: usize, const M: usize, const P: usize> {
+    point: Point<L, N, M>,
+    unknowns: Vec<usize>,
+    residual: DVector<L::Scalar>,
+    jacobian: DMatrix<L::Scalar>,
+    /// What each row is multiplied by, so that rows of different units compare.
+    weights: DVector<L::Scalar>,
+    /// The length of each column so far: the unit of a step is its inverse.
+    scale: DVector<L::Scalar>,
+    damping: L::Scalar,
+}
+
+impl<L, const N: usize, const M: usize, const P: usize> Search<L, N, M, P>
+where
+    L: Linearized<N, M, P, Scalar: Real> + Clone,
+{
+    fn start(system: L, guess: &State<L::Scalar, N>, unknowns: Vec<usize>) -> Result<Self, Error> {
+        let none = vector([L::Scalar::constant(0.0); M]);
+        let multipliers = system.solve(guess).map_or(none, |solution| solution.multipliers);
+        let mut point = Point { system, state: *guess, multipliers };
+        for &unknown in &unknowns {
+            point.set(unknown, point.value(unknown))?;
+        }
+        let (residual, jacobian) = (point.residual(), point.jacobian(&unknowns)?);
+        finite_residual::<L, N, M>(&residual, &point.state)?;
+        let one = L::Scalar::constant(1.0);
+        let weights = DVector::from_fn(residual.len(), |i, _| {
+            let size = larger(jacobian.row(i).lp_norm(1), Scalar::abs(residual[i]));
+            if size > L::Scalar::constant(0.0) { one / size } else { one }
+        });
+        let scale = DVector::zeros(jacobian.ncols());
+        let damping = L::Scalar::constant(1e-3);
+        Ok(Self { point, unknowns, residual, jacobian, weights, scale, damping })
+    }
+
+    /// Steps until only round-off is left; how many it took.
+    fn run(&mut self) -> Result<usize, Error> {
+        let half = L::Scalar::constant(0.5);
+        for iteration in 0..ITERATIONS {
+            if self.is_below(L::Scalar::constant(4.0 * L::Scalar::EPSILON), L::Scalar::constant(0.0)) {
+                return Ok(iteration);
+            }
+            let (converged, before) = (self.is_negligible(), self.distance(&self.residual));
+            let moved = self.step()?;
+            if converged && (!moved || self.distance(&self.residual) > half * before) {
+                return Ok(iteration);
+            }
+            if !moved {
+                return Err(self.not_found(iteration));
+            }
+        }
+        if self.is_negligible() { Ok(ITERATIONS) } else { Err(self.not_found(ITERATIONS)) }
+    }
+
+    /// Takes the least damped step that leads nearer; false where none does.
+    fn step(&mut self) -> Result<bool, Error> {
+        let factors = self.factorize()?;
+        let before = self.distance(&self.residual);
+        let (less, more) = (L::Scalar::constant(0.1), L::Scalar::constant(10.0));
+        for _ in 0..40 {
+            let step = self.damped(&factors, self.damping * before);
+            let next = self.moved(&step)?;
+            let residual = next.residual();
+            if self.distance(&residual) < before {
+                self.jacobian = next.jacobian(&self.unknowns)?;
+                (self.point, self.residual) = (next, residual);
+                self.damping *= less;
+                return Ok(true);
+            }
+            self.damping *= more;
+        }
+        Ok(false)
+    }
+
+    /// The singular values of the Jacobian in the units of rows and columns.
+    fn factorize(&mut self) -> Result<SVD<L::Scalar, Dyn, Dyn>, Error> {
+        let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
+        let mut scaled = self.jacobian.clone();
+        for (i, weight) in self.weights.iter().enumerate() {
+            scaled.row_mut(i).scale_mut(*weight);
+        }
+        for (j, mut column) in scaled.column_iter_mut().enumerate() {
+            self.scale[j] = larger(self.scale[j], column.norm());
+            let unit = if self.scale[j] > zero { self.scale[j] } else { one };
+            column.unscale_mut(unit);
+        }
+        let size = scaled.nrows();
+        let epsilon = L::Scalar::constant(L::Scalar::EPSILON);
+        SVD::try_new(scaled, true, true, epsilon, 1000 * size).ok_or(Error::EigenvaluesNotFound)
+    }
+
+    /// δ = −Σ_k v_k σ_k (u_k·R)/(σ_k² + μ), over the singular values that are not zero.
+    fn damped(&self, factors: &SVD<L::Scalar, Dyn, Dyn>, damping: L::Scalar) -> DVector<L::Scalar> {
+        let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
+        let mut step = DVector::zeros(self.jacobian.ncols());
+        let (Some(u), Some(v)) = (&factors.u, &factors.v_t) else { return step };
+        let least = factors.singular_values.max() * L::Scalar::constant(L::Scalar::EPSILON);
+        for (k, &sigma) in factors.singular_values.iter().enumerate().filter(|(_, sigma)| **sigma > least) {
+            let rows = self.residual.iter().zip(&self.weights).enumerate();
+            let along = rows.fold(zero, |sum, (i, (r, w))| sum + u[(i, k)] * *r * *w);
+            let length = -sigma * along / (sigma * sigma + damping);
+            for j in 0..step.len() {
+                let unit = if self.scale[j] > zero { self.scale[j] } else { one };
+                step[j] += v[(k, j)] * length / unit;
+            }
+        }
+        step
+    }
+
+    fn moved(&self, step: &DVector<L::Scalar>) -> Result<Point<L, N, M>, Error> {
+        let mut next = self.point.clone();
+        for (j, &unknown) in self.unknowns.iter().enumerate() {
+            next.set(unknown, next.value(unknown) + step[j])?;
+        }
+        for a in 0..M {
+            next.multipliers[a] += step[self.unknowns.len() + a];
+        }
+        Ok(next)
+    }
+
+    /// |R| in the units of the rows.
+    fn distance(&self, residual: &DVector<L::Scalar>) -> L::Scalar {
+        residual.component_mul(&self.weights).norm()
+    }
+
+    /// Whether every row is below this part of its terms, and of its terms where the unknowns are about 1.
+    fn is_below(&self, part: L::Scalar, floor: L::Scalar) -> bool {
+        let values = self.unknowns.iter().map(|&unknown| self.point.value(unknown));
+        let values: Vec<_> = values.chain(self.point.multipliers.iter().copied()).collect();
+        self.residual.iter().enumerate().all(|(i, r)| {
+            let row = self.jacobian.row(i);
+            let bound = row.iter().zip(&values).fold(L::Scalar::constant(0.0), |sum, (slope, x)| {
+                sum + part * Scalar::abs(*slope * *x) + floor * Scalar::abs(*slope)
+            });
+            Scalar::abs(*r) <= bound
+        })
+    }
+
+    /// Whether what is left may be round-off.
+    fn is_negligible(&self) -> bool {
+        self.is_below(L::Scalar::constant(16.0 * L::Scalar::EPSILON), power_of_epsilon(0.75))
+    }
+
+    /// What takes part in the directions along which nothing changes.
+    fn undetermined(&mut self) -> Result<Vec<String>, Error> {
+        let zero = L::Scalar::constant(0.0);
+        let factors = self.factorize()?;
+        let Some(v) = &factors.v_t else { return Ok(Vec::new()) };
+        let least = factors.singular_values.max() * power_of_epsilon(2.0 / 3.0);
+        let free: Vec<usize> = (0..v.nrows()).filter(|&k| factors.singular_values[k] <= least).collect();
+        let share = |j: usize| free.iter().fold(zero, |most, &k| larger(most, Scalar::abs(v[(k, j)])));
+        let shares: Vec<_> = (0..self.unknowns.len()).map(share).collect();
+        let names =
+            self.unknowns.iter().zip(shares).filter(|(_, share)| *share > power_of_epsilon(1.0 / 3.0));
+        Ok(names.map(|(&unknown, _)| name::<L, N, M, P>(unknown).into()).collect())
+    }
+
+    #[cold]
+    fn not_found(&self, iterations: usize) -> Error {
+        let size = |i: usize| Scalar::abs(self.residual[i]) * self.weights[i];
+        let worst =
+            (1..self.residual.len()).fold(0, |worst, i| if size(i) > size(worst) { i } else { worst });
+        let best = self.unknowns.iter().map(|&unknown| {
+            let value = self.point.value(unknown).to_f64();
+            format!("{} = {value}", name::<L, N, M, P>(unknown))
+        });
+        Error::NoEquilibrium {
+            row: row::<L, N, M>(worst),
+            residual: self.residual[worst].to_f64(),
+            iterations,
+            best: best.collect(),
+            time: self.point.state.t.to_f64(),
+        }
+    }
+}
+
+fn name<L, const N: usize, const M: usize, const P: usize>(unknown: usize) -> &'static str
+where
+    L: Linearized<N, M, P>,
+{
+    if unknown < N { L::COORDINATES[unknown] } else { L::PARAMETERS[unknown - N] }
+}
+
+/// What row `i` of R belongs to.
+fn row<L: Lagrangian<N, M>, const N: usize, const M: usize>(i: usize) -> Row {
+    if i < N { Row::Coordinate(L::COORDINATES[i]) } else { Row::Constraint(L::CONSTRAINTS[(i - N) % M]) }
+}
+
+fn finite_residual<L, const N: usize, const M: usize>(
+    residual: &DVector<L::Scalar>,
+    state: &State<L::Scalar, N>,
+) -> Result<(), Error>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    match residual.iter().position(|x| !x.is_finite()) {
+        None => Ok(()),
+        Some(i) => Err(Error::EquationsNotFinite { row: row::<L, N, M>(i), time: state.t.to_f64() }),
+    }
+}
