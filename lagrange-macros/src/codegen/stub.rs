@@ -22,6 +22,7 @@ pub(crate) fn stub(declaration: &Declaration) -> TokenStream {
     let mut generics = super::bounded_generics(declaration, &scalar_type);
     let methods = observables(declaration, &scalar, &generics);
     let n = coordinates(declaration, &mut generics);
+    let linearized = linearized(declaration, &scalar, [&n, &quote!(#m)], generics.clone());
     let (impl_generics, _, _) = generics.split_for_impl();
     quote! {
         const _: () = {
@@ -53,8 +54,33 @@ pub(crate) fn stub(declaration: &Declaration) -> TokenStream {
                 fn conserved(&self, index: usize, state: &__lagrange::State<#scalar, #n>) -> ::core::option::Option<#scalar> { ::core::option::Option::None }
             }
 
+            #linearized
             #methods
         };
+    }
+}
+
+/// The capability of Jacobians, with as many parameters as the caller thinks.
+fn linearized(
+    declaration: &Declaration,
+    scalar: &TokenStream,
+    [n, m]: [&TokenStream; 2],
+    mut generics: syn::Generics,
+) -> TokenStream {
+    let ident = &declaration.ident;
+    let (_, type_generics, where_clause) = declaration.generics.split_for_impl();
+    let p = Ident::new("P", Span::mixed_site());
+    generics.params.push(syn::parse_quote!(const #p: usize));
+    let (impl_generics, _, _) = generics.split_for_impl();
+    quote! {
+        #[automatically_derived]
+        #[allow(unused_variables, clippy::all)]
+        impl #impl_generics __lagrange::Linearized<#n, #m, #p> for #ident #type_generics #where_clause {
+            const PARAMETERS: [&'static str; #p] = [""; #p];
+            fn parameters(&self) -> __lagrange::nalgebra::SVector<#scalar, #p> { loop {} }
+            fn set_parameter(&mut self, index: usize, value: #scalar) -> bool { loop {} }
+            fn residual_change(&self, state: &__lagrange::State<#scalar, #n>, solution: &__lagrange::Solution<#scalar, #n, #m>, direction: &__lagrange::Direction<#scalar, #n, #p>) -> __lagrange::ResidualChange<#scalar, #n, #m> { loop {} }
+        }
     }
 }
 

@@ -224,3 +224,56 @@ Conserved
         }
     }
 };
+const _: () = {
+    use ::lagrange_core as __lagrange;
+    #[automatically_derived]
+    #[allow(clippy::all, unused_parens)]
+    impl __lagrange::Linearized<1usize, 0usize, 3usize> for Pendulum {
+        const PARAMETERS: [&'static str; 3usize] = ["m", "l", "g"];
+        fn parameters(&self) -> __lagrange::nalgebra::SVector<f64, 3usize> {
+            __lagrange::eliminate::vector([self.m, self.l, self.g])
+        }
+        #[allow(unused_variables, unreachable_code)]
+        fn set_parameter(&mut self, index: usize, value: f64) -> bool {
+            match index {
+                0usize => self.m = value,
+                1usize => self.l = value,
+                2usize => self.g = value,
+                _ => return false,
+            }
+            true
+        }
+        ///24 operations (+ − × ÷ √), 2 elementary functions.
+        #[inline]
+        #[allow(unused_variables)]
+        fn residual_change(
+            &self,
+            state: &__lagrange::State<f64, 1usize>,
+            solution: &__lagrange::Solution<f64, 1usize, 0usize>,
+            direction: &__lagrange::Direction<f64, 1usize, 3usize>,
+        ) -> __lagrange::ResidualChange<f64, 1usize, 0usize> {
+            let multipliers = &solution.multipliers;
+            let d_t = direction.t;
+            let [d_theta] = direction.q.data.0[0];
+            let [d_theta_dot] = direction.v.data.0[0];
+            let [d_m, d_l, d_g] = direction.parameters.data.0[0];
+            let [theta] = state.q.data.0[0];
+            let [theta_ddot] = solution.accelerations.data.0[0];
+            let m = self.m;
+            let l = self.l;
+            let g = self.g;
+            let (r6, r5) = __lagrange::Scalar::sin_cos(theta);
+            let r23 = m * l;
+            let r32 = (((theta_ddot * (l * l)) * d_m)
+                + (2.0 * (((theta_ddot * m) * l) * d_l))) + (((l * g) * r6) * d_m);
+            let r35 = ((r32 + (((m * g) * r6) * d_l)) + ((r23 * r6) * d_g))
+                + (((r23 * g) * r5) * d_theta);
+            __lagrange::ResidualChange {
+                motion: __lagrange::eliminate::vector([r35]),
+                acceleration: __lagrange::eliminate::vector([]),
+                rate: __lagrange::eliminate::vector([]),
+                position: __lagrange::eliminate::vector([]),
+            }
+        }
+    }
+};
