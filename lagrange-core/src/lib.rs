@@ -65,7 +65,7 @@ mod integrability;
 pub mod integrate;
 mod kkt;
 pub mod language;
-mod linearized;
+pub mod linearized;
 #[cfg(feature = "alloc")]
 mod lookup;
 mod names;

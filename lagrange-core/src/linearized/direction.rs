@@ -51,6 +51,13 @@ fn unit<T: Scalar, const K: usize>(i: usize) -> SVector<T, K> {
     vector(core::array::from_fn(|j| T::constant(if i == j { 1.0 } else { 0.0 })))
 }
 
+/// `value`, or zero where `activity` is zero. Generated code calls this.
+#[doc(hidden)]
+#[inline]
+pub fn only_where<T: Scalar>(activity: T, value: T) -> T {
+    if activity == T::constant(0.0) { activity } else { value }
+}
+
 /// Derivatives along a direction, at fixed accelerations and multipliers, of what the equations of motion set to zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ResidualChange<T, const N: usize, const M: usize> {

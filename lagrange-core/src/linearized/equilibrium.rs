@@ -5,8 +5,9 @@
 //! never moves what R does not depend on.
 
 use alloc::{format, string::String, vec::Vec};
+use core::fmt::{self, Debug, Formatter};
 
-use nalgebra::{ComplexField, DMatrix, DVector, Dyn, SVD};
+use nalgebra::{ComplexField, DMatrix, DVector, Dyn, SVD, SVector};
 
 use super::tangent::finite;
 use super::{Direction, Linearized, ResidualChange, inputs};
@@ -20,14 +21,14 @@ use crate::{Error, Lagrangian, Real, Scalar, Simulate, Solution, State};
 const ITERATIONS: usize = 200;
 
 /// An equilibrium, or a steady motion.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Equilibrium<L: Lagrangian<N, M>, const N: usize, const M: usize> {
     /// The system, its parameters as they were found.
     pub system: L,
     /// The state; its time and velocities are those of the guess.
     pub state: State<L::Scalar, N>,
     /// The multipliers there.
-    pub multipliers: nalgebra::SVector<L::Scalar, M>,
+    pub multipliers: SVector<L::Scalar, M>,
     /// Steps taken.
     pub iterations: usize,
     undetermined: Vec<String>,
@@ -39,6 +40,18 @@ impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Equilibrium<L, N, M> {
     /// guess as the others allow.
     pub fn undetermined(&self) -> &[String] {
         &self.undetermined
+    }
+}
+
+/// Without the system, which need not have it.
+impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Debug for Equilibrium<L, N, M> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.debug_struct(L::NAME)
+            .field("state", &self.state)
+            .field("multipliers", &self.multipliers)
+            .field("iterations", &self.iterations)
+            .field("undetermined", &self.undetermined)
+            .finish_non_exhaustive()
     }
 }
 
@@ -78,7 +91,7 @@ where
 struct Point<L: Lagrangian<N, M>, const N: usize, const M: usize> {
     system: L,
     state: State<L::Scalar, N>,
-    multipliers: nalgebra::SVector<L::Scalar, M>,
+    multipliers: SVector<L::Scalar, M>,
 }
 
 impl<L, const N: usize, const M: usize> Point<L, N, M>

@@ -14,6 +14,8 @@ mod tangent;
 
 use nalgebra::SVector;
 
+#[doc(hidden)]
+pub use direction::only_where;
 pub use direction::{Direction, ResidualChange};
 #[cfg(feature = "alloc")]
 pub use equilibrium::Equilibrium;

@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::cmp::Ordering;
 
-use nalgebra::{Complex, Schur};
+use nalgebra::{Complex, DMatrix, Schur};
 
 use super::Linearization;
 use crate::numeric::{larger, power_of_epsilon};
@@ -27,13 +27,12 @@ impl<T: Real> Linearization<T> {
     /// # Errors
     /// [`Error::EigenvaluesNotFound`] where the QR iteration does not converge.
     pub fn eigenvalues(&self) -> Result<Vec<Complex<T>>, Error> {
-        let size = self.a.nrows();
-        if size == 0 {
+        if self.a.is_empty() {
             return Ok(Vec::new());
         }
-        let schur = Schur::try_new(self.a.clone(), T::constant(T::EPSILON), 1000 * size);
-        let mut found: Vec<_> =
-            schur.ok_or(Error::EigenvaluesNotFound)?.complex_eigenvalues().iter().copied().collect();
+        let mut shifts = SHIFTS.iter().map(|part| T::constant(*part) * self.a.amax());
+        let found = shifts.find_map(|shift| shifted_eigenvalues(&self.a, shift));
+        let mut found = found.ok_or(Error::EigenvaluesNotFound)?;
         found.sort_by(|x, y| order(y.re, x.re).then(order(y.im, x.im)));
         Ok(found)
     }
@@ -68,6 +67,20 @@ impl<T: Real> Linearization<T> {
             _ => Stability::AsymptoticallyStable,
         })
     }
+}
+
+/// Where a matrix is moved to along the real axis, in units of its largest entry, until the QR iteration converges.
+///
+/// The eigenvalues of a conservative system lie symmetrically about both axes, so that four are equally far from
+/// any shift that the iteration chooses; moved aside they are not.
+const SHIFTS: [f64; 4] = [0.0, 0.125, 0.375, 1.0];
+
+/// The eigenvalues by way of those of A + shift.
+fn shifted_eigenvalues<T: Real>(a: &DMatrix<T>, shift: T) -> Option<Vec<Complex<T>>> {
+    let size = a.nrows();
+    let moved = a + DMatrix::from_diagonal_element(size, size, shift);
+    let schur = Schur::try_new(moved, T::constant(T::EPSILON), 100 * size)?;
+    Some(schur.complex_eigenvalues().iter().map(|s| Complex::new(s.re - shift, s.im)).collect())
 }
 
 /// How small a part of an eigenvalue means something.

@@ -131,6 +131,10 @@ impl Writer<'_, '_> {
             Operation::Divide(x, y) => infix(value(x), quote!(/), value(y)),
             Operation::Minimum(x, y) => call("min", &[value(x), value(y)]),
             Operation::Maximum(x, y) => call("max", &[value(x), value(y)]),
+            Operation::Where(x, y) => {
+                let (x, y) = (value(x), value(y));
+                quote!(__lagrange::linearized::only_where(#x, #y))
+            }
             Operation::SquareRoot(x) => call("sqrt", &[value(x)]),
             Operation::Function(function, x) => call(function.name(), &[value(x)]),
             Operation::Atan2(y, x) => call("atan2", &[value(y), value(x)]),

@@ -3,6 +3,8 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
+use super::guard::guarded;
+use super::schedule::Schedule;
 use super::style::{Style, identifier};
 use super::{
     Count, FUNCTION_ORDER, OPERATION_LIMIT, bounded_generics, count_doc, function_bound, orders, runtime,
@@ -125,7 +127,9 @@ impl Emitter<'_> {
     }
 
     fn residual_change(&self, linearization: &Linearization, changes: &[Ident]) -> Option<TokenStream> {
-        let kernel = self.style.kernel(&linearization.roots());
+        let roots = linearization.roots();
+        let (schedule, results) = guarded(&Schedule::new(&self.problem.graph, &roots), &roots);
+        let kernel = self.style.write(&schedule, &results);
         let Count { arithmetic, functions, .. } = kernel.count;
         if arithmetic + functions > OPERATION_LIMIT {
             return None;

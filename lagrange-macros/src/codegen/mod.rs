@@ -3,6 +3,7 @@
 mod accelerations;
 mod eliminate;
 mod facts;
+mod guard;
 mod integrability;
 mod kernel;
 mod linearized;

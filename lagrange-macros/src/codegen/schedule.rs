@@ -33,6 +33,8 @@ pub(super) enum Operation {
     Divide(Register, Register),
     Minimum(Register, Register),
     Maximum(Register, Register),
+    /// Zero where the first is zero, else the second.
+    Where(Register, Register),
     SquareRoot(Register),
     Function(Function, Register),
     Atan2(Register, Register),
@@ -64,6 +66,7 @@ impl Operation {
             | Self::Divide(x, y)
             | Self::Minimum(x, y)
             | Self::Maximum(x, y)
+            | Self::Where(x, y)
             | Self::Atan2(x, y)
             | Self::Power(x, y) => (Some(x), Some(y)),
         };
