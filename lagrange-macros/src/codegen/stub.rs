@@ -22,7 +22,7 @@ pub(crate) fn stub(declaration: &Declaration) -> TokenStream {
     let mut generics = super::bounded_generics(declaration, &scalar_type);
     let methods = observables(declaration, &scalar, &generics);
     let n = coordinates(declaration, &mut generics);
-    let linearized = linearized(declaration, &scalar, [&n, &quote!(#m)], generics.clone());
+    let linearized = linearized(declaration, &scalar, [&n, &quote!(#m)], &generics);
     let (impl_generics, _, _) = generics.split_for_impl();
     quote! {
         const _: () = {
@@ -60,18 +60,18 @@ pub(crate) fn stub(declaration: &Declaration) -> TokenStream {
     }
 }
 
-/// The capability of Jacobians, with as many parameters as the caller thinks.
+/// The capability of Jacobians, with all numbers in the fields for parameters.
 fn linearized(
     declaration: &Declaration,
     scalar: &TokenStream,
     [n, m]: [&TokenStream; 2],
-    mut generics: syn::Generics,
+    generics: &syn::Generics,
 ) -> TokenStream {
     let ident = &declaration.ident;
     let (_, type_generics, where_clause) = declaration.generics.split_for_impl();
-    let p = Ident::new("P", Span::mixed_site());
-    generics.params.push(syn::parse_quote!(const #p: usize));
     let (impl_generics, _, _) = generics.split_for_impl();
+    let shapes = declaration.fields.iter().filter_map(|field| field.shape.as_ref().ok());
+    let p: usize = shapes.map(|shape| shape.layout.numbers()).sum();
     quote! {
         #[automatically_derived]
         #[allow(unused_variables, clippy::all)]
