@@ -28,7 +28,7 @@ fn values<S, const N: usize, const M: usize, const P: usize>(system: &S, state: 
 where
     S: Linearized<N, M, P, Scalar = f64>,
 {
-    let Solution { accelerations, multipliers, .. } = system.solve(state).unwrap();
+    let Solution { accelerations, multipliers, .. } = system.solve(state).expect("a regular state");
     let (rate, position) = (system.constraint_rate(state), system.constraint_residual(state));
     [dynamic(&accelerations), dynamic(&multipliers), dynamic(&rate), dynamic(&position)]
 }
@@ -115,7 +115,7 @@ pub(crate) fn check_jacobian<S, const N: usize, const M: usize, const P: usize>(
 where
     S: Linearized<N, M, P, Scalar = f64>,
 {
-    let jacobian = system.jacobian(state).unwrap();
+    let jacobian = system.jacobian(state).expect("a regular state");
     let arguments: Vec<Argument> = [Argument::Time]
         .into_iter()
         .chain((0..N).map(Argument::Coordinate))

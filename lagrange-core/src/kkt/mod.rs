@@ -96,9 +96,13 @@ pub(crate) struct Factors<T, const N: usize, const M: usize> {
 impl<T: Real, const N: usize, const M: usize> Factors<T, N, M> {
     pub(crate) fn of(m: &[[T; N]; N], f: &[[T; N]; M], rank: Rank<T>) -> Self {
         let rows = Rows::of(m, f, rank);
-        let unit = &rows.unit;
-        let m = from_fn(|i| from_fn(|j| m[i][j] * unit[i] * unit[j]));
-        let m = in_range_basis(&rows.split, m);
+        let mut m = *m;
+        for i in 0..N {
+            for j in 0..N {
+                m[i][j] *= rows.unit[i] * rows.unit[j];
+            }
+        }
+        to_range_basis(&rows.split, &mut m);
         let (along, pivot) = along_constraints(&m, rows.split.rank);
         let wide = (rows.split.rank < M).then(|| least_norm(&rows.split, &rows.length));
         Self { rows, m, along, pivot, wide, must_agree: rank.must_agree }
@@ -173,7 +177,10 @@ impl<T: Real, const N: usize, const M: usize> Rows<T, N, M> {
             let length = row_length(&f[a], &unit);
             if length > T::constant(0.0) { length } else { T::constant(1.0) }
         });
-        let rows = from_fn(|a| from_fn(|i| f[a][i] * unit[i] / length[a]));
+        let mut rows = *f;
+        for (row, length) in rows.iter_mut().zip(&length) {
+            row.iter_mut().zip(&unit).for_each(|(entry, unit)| *entry *= *unit / *length);
+        }
         Self { unit, length, split: Qr::of(rows, rank.tolerance) }
     }
 
@@ -245,19 +252,18 @@ pub(crate) fn natural_units<T: Real, const N: usize, const M: usize>(
     unit
 }
 
-/// QᵀMQ.
-fn in_range_basis<T: Real, const N: usize, const M: usize>(
-    split: &Qr<T, N, M>,
-    mut m: [[T; N]; N],
-) -> [[T; N]; N] {
-    for row in &mut m {
-        split.enter_basis(row);
+/// m ← Qᵀ m Q, of a symmetric matrix, in place: large arrays are not copied.
+fn to_range_basis<T: Real, const N: usize, const M: usize>(split: &Qr<T, N, M>, m: &mut [[T; N]; N]) {
+    for _ in 0..2 {
+        for row in m.iter_mut() {
+            split.enter_basis(row);
+        }
+        for i in 0..N {
+            for j in 0..i {
+                (m[i][j], m[j][i]) = (m[j][i], m[i][j]);
+            }
+        }
     }
-    let mut transposed = from_fn(|i| from_fn(|j| m[j][i]));
-    for row in &mut transposed {
-        split.enter_basis(row);
-    }
-    transposed
 }
 
 /// ZᵀMZ factorized, from QᵀMQ, and the smallest pivot.
@@ -265,7 +271,10 @@ fn along_constraints<T: Real, const N: usize>(m: &[[T; N]; N], rank: usize) -> (
     let zero = T::constant(0.0);
     let size = N - rank;
     let largest = m.iter().flatten().fold(zero, |largest, x| larger(largest, Scalar::abs(*x)));
-    let along = from_fn(|i| from_fn(|j| if i < size && j < size { m[rank + i][rank + j] } else { zero }));
+    let mut along = [[zero; N]; N];
+    for i in 0..size {
+        along[i][..size].copy_from_slice(&m[rank + i][rank..]);
+    }
     let factors = Symmetric::of(along, size, power_of_epsilon::<T>(0.75) * largest);
     let pivot = if size > 0 { factors.smallest / largest } else { T::constant(1.0) };
     (factors, pivot)

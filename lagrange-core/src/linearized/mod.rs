@@ -11,6 +11,8 @@ mod linearization;
 #[cfg(feature = "alloc")]
 mod spectrum;
 mod tangent;
+#[cfg(test)]
+mod tests;
 
 use nalgebra::SVector;
 

@@ -76,7 +76,7 @@ impl<T: Real> Linearization<T> {
 const SHIFTS: [f64; 4] = [0.0, 0.125, 0.375, 1.0];
 
 /// The eigenvalues by way of those of A + shift.
-fn shifted_eigenvalues<T: Real>(a: &DMatrix<T>, shift: T) -> Option<Vec<Complex<T>>> {
+pub(super) fn shifted_eigenvalues<T: Real>(a: &DMatrix<T>, shift: T) -> Option<Vec<Complex<T>>> {
     let size = a.nrows();
     let moved = a + DMatrix::from_diagonal_element(size, size, shift);
     let schur = Schur::try_new(moved, T::constant(T::EPSILON), 100 * size)?;
