@@ -78,7 +78,7 @@ fn where_nothing_rests_the_force_that_is_left_is_named() {
     assert_eq!(best.len(), 2);
     let text = error.to_string();
     assert!(text.contains("the row of coordinate `y` leaves 1.962e1"), "{text}");
-    assert!(text.contains("y = 1;") && text.contains("start closer, or let other"), "{text}");
+    assert!(text.contains("y = 1.0;") && text.contains("start closer, or let other"), "{text}");
 }
 
 /// Its place is prescribed: it rests at no moment at which that moves.

@@ -15,10 +15,14 @@ use crate::eliminate::vector;
 use crate::names::{Entry, Row};
 use crate::numeric::{larger, power_of_epsilon};
 use crate::simulate::check_finite;
-use crate::{Error, Lagrangian, Real, Scalar, Simulate, Solution, State};
+use crate::{Error, Lagrangian, Real, Scalar, Simulate, Solution, State, consistent};
 
 /// Steps before giving up.
 const ITERATIONS: usize = 200;
+
+/// How much more a constraint counts than a force, both in their own units: a search that keeps near the constraints
+/// does not end where a rod has shrunk to nothing.
+const CONSTRAINTS: f64 = 10.0;
 
 /// An equilibrium, or a steady motion.
 #[derive(Clone)]
@@ -181,18 +185,15 @@ where
 {
     fn start(system: L, guess: &State<L::Scalar, N>, unknowns: Vec<usize>) -> Result<Self, Error> {
         let none = vector([L::Scalar::constant(0.0); M]);
-        let multipliers = system.solve(guess).map_or(none, |solution| solution.multipliers);
-        let mut point = Point { system, state: *guess, multipliers };
+        let state = start(&system, guess, &unknowns);
+        let multipliers = system.solve(&state).map_or(none, |solution| solution.multipliers);
+        let mut point = Point { system, state, multipliers };
         for &unknown in &unknowns {
             point.set(unknown, point.value(unknown))?;
         }
         let (residual, jacobian) = (point.residual(), point.jacobian(&unknowns)?);
         finite_residual::<L, N, M>(&residual, &point.state)?;
-        let one = L::Scalar::constant(1.0);
-        let weights = DVector::from_fn(residual.len(), |i, _| {
-            let size = larger(jacobian.row(i).lp_norm(1), Scalar::abs(residual[i]));
-            if size > L::Scalar::constant(0.0) { one / size } else { one }
-        });
+        let weights = weights(&jacobian, &residual, N);
         let scale = DVector::zeros(jacobian.ncols());
         let damping = L::Scalar::constant(1e-3);
         Ok(Self { point, unknowns, residual, jacobian, weights, scale, damping })
@@ -327,7 +328,7 @@ where
             (1..self.residual.len()).fold(0, |worst, i| if size(i) > size(worst) { i } else { worst });
         let best = self.unknowns.iter().map(|&unknown| {
             let value = self.point.value(unknown).to_f64();
-            format!("{} = {value}", name::<L, N, M, P>(unknown))
+            format!("{} = {value:?}", name::<L, N, M, P>(unknown))
         });
         Error::NoEquilibrium {
             row: row::<L, N, M>(worst),
@@ -337,6 +338,48 @@ where
             time: self.point.state.t.to_f64(),
         }
     }
+}
+
+/// The guess, moved onto the constraints where nothing of it is held.
+fn start<L, const N: usize, const M: usize>(
+    system: &L,
+    guess: &State<L::Scalar, N>,
+    unknowns: &[usize],
+) -> State<L::Scalar, N>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    let mut state = *guess;
+    let is_free = (0..N).all(|i| unknowns.contains(&i));
+    if is_free && consistent::project_coordinates(system, &mut state).is_ok() { state } else { *guess }
+}
+
+/// What brings the entries of the Jacobian nearest to 1, by their logarithms, with factors for rows and columns: the
+/// search then does not depend on units (Curtis and Reid 1972). Times what makes |R| 1. The first `forces` rows are
+/// forces, the others constraints.
+fn weights<T: Real>(jacobian: &DMatrix<T>, residual: &DVector<T>, forces: usize) -> DVector<T> {
+    let (zero, one) = (T::constant(0.0), T::constant(1.0));
+    let mut rows = DVector::repeat(jacobian.nrows(), zero);
+    let mut columns = DVector::repeat(jacobian.ncols(), zero);
+    let mean = |entries: &mut dyn Iterator<Item = (T, T)>| {
+        let (sum, count) = entries
+            .filter(|(entry, _)| *entry != zero)
+            .fold((zero, zero), |(sum, count), (x, y)| (sum + Scalar::ln(Scalar::abs(x)) + y, count + one));
+        if count > zero { sum / count } else { zero }
+    };
+    for _ in 0..20 {
+        for (j, column) in jacobian.column_iter().enumerate() {
+            columns[j] = -mean(&mut column.iter().copied().zip(rows.iter().copied()));
+        }
+        for (i, row) in jacobian.row_iter().enumerate() {
+            rows[i] = -mean(&mut row.iter().copied().zip(columns.iter().copied()));
+        }
+    }
+    let weights = DVector::from_fn(residual.len(), |i, _| {
+        Scalar::exp(rows[i]) * T::constant(if i < forces { 1.0 } else { CONSTRAINTS })
+    });
+    let size = weights.component_mul(residual).norm();
+    if size > zero { weights / size } else { weights }
 }
 
 fn name<L, const N: usize, const M: usize, const P: usize>(unknown: usize) -> &'static str

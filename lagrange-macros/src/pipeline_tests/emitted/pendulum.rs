@@ -263,13 +263,13 @@ const _: () = {
             let l = self.l;
             let g = self.g;
             let (r6, r5) = __lagrange::Scalar::sin_cos(theta);
-            let r23 = m * l;
-            let r32 = (((theta_ddot * (l * l)) * d_m)
+            let r27 = m * l;
+            let r37 = (((theta_ddot * (l * l)) * d_m)
                 + (2.0 * (((theta_ddot * m) * l) * d_l))) + (((l * g) * r6) * d_m);
-            let r35 = ((r32 + (((m * g) * r6) * d_l)) + ((r23 * r6) * d_g))
-                + (((r23 * g) * r5) * d_theta);
+            let r43 = ((r37 + (((m * g) * r6) * d_l)) + ((r27 * r6) * d_g))
+                + (((r27 * g) * r5) * d_theta);
             __lagrange::ResidualChange {
-                motion: __lagrange::eliminate::vector([r35]),
+                motion: __lagrange::eliminate::vector([r43]),
                 acceleration: __lagrange::eliminate::vector([]),
                 rate: __lagrange::eliminate::vector([]),
                 position: __lagrange::eliminate::vector([]),
