@@ -95,10 +95,12 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: Lagrangian
     ) -> ResidualChange<Self::Scalar, N, M>;
 
     /// Accelerations and multipliers at a state, and their derivatives by the time, coordinates, velocities and
-    /// parameters.
+    /// parameters. Nothing is allocated; the matrices of 100 coordinates and 50 constraints take 3 MB of the stack,
+    /// and twice that in a build without optimization.
     ///
     /// # Errors
-    /// As [`solve`](crate::Simulate::solve); [`Error::DerivativeNotFinite`].
+    /// As [`solve`](crate::Simulate::solve); [`Error::DerivativeNotFinite`], also where a parameter is at fault that no one
+    /// asked for, which [`linearize`](Self::linearize) passes over.
     fn jacobian(&self, state: &State<Self::Scalar, N>) -> Result<Jacobian<Self::Scalar, N, M, P>, Error>
     where
         Self: Lagrangian<N, M, Scalar: Real> + Sized,
@@ -148,6 +150,9 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: Lagrangian
     /// the guess: at rest for an equilibrium; not zero for a steady motion, such as the precession of a top, where they are
     /// those of cyclic coordinates. The time stays as it is: where the system depends on the time, the equilibrium is one
     /// of the moment.
+    ///
+    /// The method is that of Levenberg and Marquardt, from the guess on, or from the nearest coordinates on the constraints
+    /// where all coordinates are sought. It finds stable and unstable equilibria alike.
     ///
     /// ```
     /// use lagrange_core::prelude::*;
