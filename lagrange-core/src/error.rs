@@ -29,6 +29,15 @@ pub enum Error {
         /// The time of evaluation.
         time: f64,
     },
+    /// A derivative of the equations of motion evaluates to infinity or not a number.
+    DerivativeNotFinite {
+        /// The first row at fault.
+        row: Row,
+        /// By what it was differentiated; of several at once, the one that changes most.
+        entry: Entry,
+        /// The time of evaluation.
+        time: f64,
+    },
     /// A setting of the method, such as a tolerance, that must be positive and is not.
     Setting {
         /// The name of the setting.
@@ -97,6 +106,34 @@ pub enum Error {
         /// The time of the momenta.
         time: f64,
     },
+    /// No equilibrium was found near the state given.
+    #[cfg(feature = "alloc")]
+    NoEquilibrium {
+        /// The row that is farthest from satisfied.
+        row: Row,
+        /// Its residual: a generalized force, or what a constraint leaves.
+        residual: f64,
+        /// Steps taken.
+        iterations: usize,
+        /// What was sought, where it came nearest: `x = 1.5`.
+        best: Vec<String>,
+        /// The time of the state.
+        time: f64,
+    },
+    /// An input by which a constraint, and with it the set of states allowed, would change.
+    InputShiftsConstraint {
+        /// The parameter.
+        input: &'static str,
+        /// The constraint.
+        constraint: &'static str,
+    },
+    /// A parameter that cannot be changed: it is behind a reference, or in a field whose type says no shape.
+    ParameterFixed {
+        /// The parameter.
+        name: &'static str,
+    },
+    /// The iteration for eigenvalues or singular values did not converge.
+    EigenvaluesNotFound,
     /// A name that the system does not have.
     #[cfg(feature = "alloc")]
     UnknownName {
@@ -160,6 +197,10 @@ impl Display for Error {
                 f,
                 "the equations are not finite at t = {time}; row of {row}: check the parameters, and whether the state is at a pole"
             ),
+            Self::DerivativeNotFinite { row, entry, time } => write!(
+                f,
+                "the derivative of the equations of motion by `{entry}` is not finite at t = {time}; row of {row}: check whether the state is at a pole, or at a point where the equations have a kink"
+            ),
             Self::Table => {
                 write!(f, "a table needs at least two points, finite, with x increasing from one to the next")
             }
@@ -195,6 +236,26 @@ impl Display for Error {
                 f,
                 "no velocity found with the momenta given at t = {time}: that of `{coordinate}` is off by {residual:e} after {iterations} iterations; start the search closer with `legendre_near`, or check that some velocity has these momenta"
             ),
+            #[cfg(feature = "alloc")]
+            Self::NoEquilibrium { row, residual, iterations, best, time } => write!(
+                f,
+                "no equilibrium found near the state given at t = {time}: the row of {row} leaves {residual:e} after {iterations} steps, at {}; start closer, or let other coordinates or parameters change",
+                best.join(", ")
+            ),
+            Self::InputShiftsConstraint { input, constraint } => write!(
+                f,
+                "constraint `{constraint}` changes with the input `{input}`, so that no state near the one given would be allowed: make the input a force, or what it moves a coordinate"
+            ),
+            Self::ParameterFixed { name } => write!(
+                f,
+                "the parameter `{name}` cannot be changed: its field is a reference, or its type says no shape; make the field a number, an array or a vector of nalgebra"
+            ),
+            Self::EigenvaluesNotFound => {
+                write!(
+                    f,
+                    "the iteration for the eigenvalues did not converge: check the scales of the parameters"
+                )
+            }
             #[cfg(feature = "alloc")]
             Self::UnknownName { name, kind, known } => unknown_name(f, name, kind, known),
             #[cfg(feature = "alloc")]

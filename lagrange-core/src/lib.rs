@@ -29,6 +29,7 @@ assert!((friction + 2.0 / 7.0 * 9.81 * 0.3_f64.sin()).abs() < 1e-12);
 //!
 //! - [`Lagrangian`] is the contract that generated code implements, [`Simulate`] what a program calls.
 //! - [`Hamiltonian`] is the other side: momenta, the Legendre transform, Hamilton's equations, motion in (q, p).
+//! - [`Linearized`] has the derivatives of the motion: Jacobians, equilibria, the linear system near a state.
 //! - [`Solution`] holds accelerations and multipliers; the sign of a multiplier is that of Milton (8.7): the constraint
 //!   force on coordinate a is Σ_α λ_α F_αa.
 //! - [`ensemble`]: many members at once, on SIMD lanes and on all threads.
@@ -69,6 +70,7 @@ mod kkt;
 #[cfg(feature = "std")]
 mod lanes;
 pub mod language;
+pub mod linearized;
 #[cfg(feature = "alloc")]
 mod lookup;
 mod names;
@@ -109,6 +111,9 @@ pub use integrate::{Dop853, Dopri5, Ending, Method, Progress, Statistics};
 pub use lagrange_macros::Lagrangian;
 #[cfg(feature = "std")]
 pub use lanes::Lanes;
+pub use linearized::{Direction, Jacobian, Linearized, Partials, ResidualChange};
+#[cfg(feature = "alloc")]
+pub use linearized::{Equilibrium, Linearization, Stability};
 pub use nalgebra;
 pub use names::{Entry, Names, Row};
 pub use pack::{Pack, Packed, Shared};

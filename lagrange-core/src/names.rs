@@ -3,7 +3,7 @@
 use core::fmt::{self, Display, Formatter};
 
 /// An entry of a state: the time, a coordinate `x`, its velocity `x_dot` (`r_dot[0]` for an element `r[0]`), or its
-/// momentum `p(x)`.
+/// momentum `p(x)`; or a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Entry {
     /// The time.
@@ -14,13 +14,15 @@ pub enum Entry {
     Velocity(&'static str),
     /// The generalized momentum of the coordinate of this name.
     Momentum(&'static str),
+    /// The parameter of this name.
+    Parameter(&'static str),
 }
 
 impl Display for Entry {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
             Self::Time => f.write_str("t"),
-            Self::Coordinate(name) => f.write_str(name),
+            Self::Coordinate(name) | Self::Parameter(name) => f.write_str(name),
             Self::Velocity(name) => {
                 let (base, index) = name.split_at(name.find('[').unwrap_or(name.len()));
                 write!(f, "{base}_dot{index}")

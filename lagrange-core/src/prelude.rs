@@ -3,11 +3,12 @@
 #[cfg(feature = "std")]
 pub use crate::Ensemble;
 pub use crate::{
-    Adjustment, ByHand, Classification, ConstraintKind, Error, Evidence, Extent, Function, Hamiltonian,
-    HandWritten, Integrability, Integrals, Lagrangian, LinearPart, PhaseRate, PhaseState, Real, Scalar,
-    Simulate, Solution, State,
+    Adjustment, ByHand, Classification, ConstraintKind, Direction, Error, Evidence, Extent, Function,
+    Hamiltonian, HandWritten, Integrability, Integrals, Jacobian, Lagrangian, LinearPart, Linearized,
+    PhaseRate, PhaseState, Real, Scalar, Simulate, Solution, State,
 };
 #[cfg(feature = "alloc")]
 pub use crate::{
-    Dop853, Dopri5, Ending, HamiltonianFlow, Method, Progress, Sample, Statistics, Table, Trajectory,
+    Dop853, Dopri5, Ending, Equilibrium, HamiltonianFlow, Linearization, Method, Progress, Sample, Stability,
+    Statistics, Table, Trajectory,
 };

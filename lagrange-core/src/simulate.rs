@@ -119,6 +119,7 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
 
 impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Simulate<N, M> for L {}
 
+/// Every entry of a state must be a number.
 pub(crate) fn check_finite<L, const N: usize, const M: usize>(
     _: &L,
     state: &State<L::Scalar, N>,

@@ -76,10 +76,18 @@ where
     for a in (0..M).filter(|&a| !active[a]) {
         (equations.f[a], equations.gamma[a]) = ([L::Scalar::constant(0.0); N], L::Scalar::constant(0.0));
     }
-    kkt::solve(&equations, rank).map_err(|fault| match fault {
-        Fault::Singular(share) => Error::Singular { coordinates: most_involved::<L, N, M>(&share), time },
-        Fault::Contradictory(row) => Error::Contradictory { constraint: name(&L::CONSTRAINTS, row), time },
-    })
+    kkt::solve(&equations, rank).map_err(|found| fault::<L, N, M>(&found, time))
+}
+
+/// A fault of the general solve with the names that belong to it.
+pub(crate) fn fault<L, const N: usize, const M: usize>(fault: &Fault<L::Scalar, N>, time: f64) -> Error
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    match fault {
+        Fault::Singular(share) => Error::Singular { coordinates: most_involved::<L, N, M>(share), time },
+        Fault::Contradictory(row) => Error::Contradictory { constraint: name(&L::CONSTRAINTS, *row), time },
+    }
 }
 
 /// The first row that is not finite.

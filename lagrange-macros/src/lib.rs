@@ -94,9 +94,12 @@ fn derive(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<To
     let equations = mechanics::derive(&mut problem, diagnostics)?;
     let facts = mechanics::facts(&mut problem, &equations, diagnostics)?;
     let rendered = render::render(declaration, &mut problem, &equations, &facts);
-    let tokens =
+    let mut tokens =
         codegen::implementation(declaration, &problem, &equations, &facts, &rendered, &scalar, diagnostics);
     diagnostics.is_empty().then_some(())?;
+    if let Some(linearization) = mechanics::linearize(&mut problem, &equations) {
+        tokens.extend(codegen::linearized(declaration, &problem, &equations, &linearization, &scalar));
+    }
     print::if_asked(declaration, &tokens);
     Some(tokens)
 }

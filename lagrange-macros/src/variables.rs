@@ -12,6 +12,8 @@ pub(crate) enum Variable {
     Multiplier(usize),
     /// An entry of the list of parameters that the expressions use.
     Parameter(usize),
+    /// How fast one of the arguments of the equations changes along a direction.
+    Change(usize),
 }
 
 impl Variable {
@@ -23,6 +25,7 @@ impl Variable {
             Self::Acceleration(i) => (3, i),
             Self::Multiplier(a) => (4, a),
             Self::Parameter(k) => (5, k),
+            Self::Change(i) => (6, i),
         };
         Symbol { family, index: index as u32 }
     }
@@ -35,7 +38,8 @@ impl Variable {
             2 => Self::Velocity(index),
             3 => Self::Acceleration(index),
             4 => Self::Multiplier(index),
-            _ => Self::Parameter(index),
+            5 => Self::Parameter(index),
+            _ => Self::Change(index),
         }
     }
 }

@@ -15,5 +15,8 @@ fn main() {
     let state = State::at_rest([0.0]);
     let solution = system.accelerations(&state);
     let path = system.integrate(state, 1.0, Dop853::default());
+    let near = system.linearize(&state, &["m"]);
+    let jacobian = system.jacobian(&state);
+    println!("{near:?} {jacobian:?}");
     println!("{:?} {} {}", path, system.speed(&state), system.push(&state, &solution));
 }

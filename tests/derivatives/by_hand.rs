@@ -4,6 +4,7 @@ use lagrange_core::nalgebra::{SMatrix, SVector};
 use lagrange_core::prelude::*;
 use num_dual::{DualNum, HyperDual64};
 
+use crate::jacobian::check_jacobian;
 use crate::random::Random;
 
 const STATES: usize = 25;
@@ -184,18 +185,25 @@ impl<S: ByHand<N, M>, const N: usize, const M: usize> Derivatives<'_, S, N, M> {
 }
 
 /// Compares everything that is emitted for a system, at random states and parameters.
-pub(crate) fn check<S: ByHand<N, M>, const N: usize, const M: usize>() {
+pub(crate) fn check<S, const N: usize, const M: usize, const P: usize>()
+where
+    S: ByHand<N, M> + Linearized<N, M, P>,
+{
     assert_eq!(S::CONSTRAINT_KINDS, S::KINDS, "{}", S::NAME);
     let mut random = Random(1);
     let (mut worst, mut regular) = (Worst::default(), 0);
     for _ in 0..STATES {
-        let system = S::random(&mut random);
+        let mut system = S::random(&mut random);
         let state = system.state(&mut random);
         let multipliers = SVector::from_fn(|_, _| random.signed());
         check_derivatives(&system, &state, &multipliers, &mut worst);
-        regular += usize::from(check_accelerations(&system, &state, &mut worst));
+        if check_accelerations(&system, &state, &mut worst) {
+            regular += 1;
+            worst.jacobian = worst.jacobian.max(check_jacobian(&mut system, &state));
+        }
     }
-    println!("{}: off by {:.1e}, residual {:.1e}", S::NAME, worst.deviation, worst.residual);
+    let Worst { deviation, residual, jacobian } = worst;
+    println!("{}: off by {deviation:.1e}, residual {residual:.1e}, Jacobian {jacobian:.1e}", S::NAME);
     assert!(regular >= STATES / 2, "{}: only {regular} states are regular", S::NAME);
 }
 
@@ -212,6 +220,7 @@ pub(crate) fn check_at_origin<S: ByHand<N, M>, const N: usize, const M: usize>()
 struct Worst {
     deviation: f64,
     residual: f64,
+    jacobian: f64,
 }
 
 impl Worst {

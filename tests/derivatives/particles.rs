@@ -30,7 +30,7 @@ impl ByHand<2, 0> for Kepler {
 
 #[test]
 fn kepler_in_polar_coordinates() {
-    check::<Kepler, 2, 0>();
+    check::<Kepler, _, _, _>();
 }
 
 /// The Lagrangian is not quadratic in the velocities.
@@ -60,7 +60,7 @@ impl ByHand<2, 0> for Relativistic {
 
 #[test]
 fn relativistic_particle() {
-    check::<Relativistic, 2, 0>();
+    check::<Relativistic, _, _, _>();
 }
 
 /// A charge in a magnetic field that is not homogeneous and changes with time, from its vector potential.
@@ -98,7 +98,7 @@ impl ByHand<3, 0> for MagneticField {
 
 #[test]
 fn charge_in_a_magnetic_field() {
-    check::<MagneticField, 3, 0>();
+    check::<MagneticField, _, _, _>();
 }
 
 /// Forces by hand and by Rayleigh's function, on a scalar and on a vector coordinate.
@@ -148,7 +148,7 @@ impl ByHand<3, 0> for Driven {
 
 #[test]
 fn forces_and_dissipation() {
-    check::<Driven, 3, 0>();
+    check::<Driven, _, _, _>();
 }
 
 /// A frame with prescribed angular velocity and acceleration, Milton (8.44).
@@ -189,5 +189,5 @@ impl ByHand<3, 0> for RotatingFrame {
 
 #[test]
 fn rotating_and_accelerating_frame() {
-    check::<RotatingFrame, 3, 0>();
+    check::<RotatingFrame, _, _, _>();
 }

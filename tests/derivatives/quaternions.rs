@@ -74,5 +74,5 @@ impl ByHand<4, 2> for Top {
 
 #[test]
 fn a_top_in_quaternions() {
-    check::<Top, 4, 2>();
+    check::<Top, _, _, _>();
 }

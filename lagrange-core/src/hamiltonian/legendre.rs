@@ -164,7 +164,7 @@ where
         if let Some(row) = not_finite::<L, N, M>(&equations) {
             return Err(Error::EquationsNotFinite { row, time: self.phase.t.to_f64() });
         }
-        let unit = natural_units(&equations);
+        let unit = natural_units(&equations.m, &equations.f);
         let length = from_fn(|a| {
             let length = row_length(&equations.f[a], &unit);
             if length > zero { length } else { one }

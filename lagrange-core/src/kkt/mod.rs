@@ -12,6 +12,8 @@ mod tests;
 
 use core::array::from_fn;
 
+use nalgebra::SVector;
+
 use crate::eliminate::vector;
 use crate::numeric::{larger, power_of_epsilon, smaller};
 use crate::{Real, Scalar, Solution};
@@ -64,140 +66,218 @@ impl<T: Real> Rank<T> {
 /// A solution, and which constraints it rests on: as many as are independent.
 pub(crate) type Solved<T, const N: usize, const M: usize> = (Solution<T, N, M>, [bool; M]);
 
-/// Solves the equations in the units in which masses are about 1 and constraint rows have length 1.
-///
-/// In these units a direction has no inertia where less than ε^(3/4) of the largest is left (ε: the round-off unit
-/// of `T`).
+/// Solves the equations; see [`Factors`].
 pub(crate) fn solve<T: Real, const N: usize, const M: usize>(
     equations: &Equations<T, N, M>,
     rank: Rank<T>,
 ) -> Result<Solved<T, N, M>, Fault<T, N>> {
-    let unit = natural_units(equations);
-    let scaled = Scaled::of(equations, &unit);
-    let split = Qr::of(scaled.rows, rank.tolerance);
+    let factors = Factors::of(&equations.m, &equations.f, rank);
+    let solution = factors.solve(&equations.h, &equations.gamma)?;
+    Ok((solution, factors.active()))
+}
 
-    let fixed = split.solve_transposed(&scaled.bias);
-    if rank.must_agree {
-        check_agreement(&split, &scaled, &fixed)?;
+/// The left-hand sides M and F factorized once, for any number of right-hand sides, in the units in which masses are
+/// about 1 and constraint rows have length 1.
+///
+/// In these units a direction has no inertia where less than ε^(3/4) of the largest is left (ε: the round-off unit
+/// of `T`).
+pub(crate) struct Factors<T, const N: usize, const M: usize> {
+    pub(crate) rows: Rows<T, N, M>,
+    /// QᵀMQ.
+    m: [[T; N]; N],
+    /// ZᵀMZ, and the smallest of its pivots as a part of the largest entry of M.
+    along: Symmetric<T, N>,
+    pivot: T,
+    /// Of dependent constraints, the factors that give the multipliers of least norm.
+    wide: Option<Qr<T, M, N>>,
+    must_agree: bool,
+}
+
+impl<T: Real, const N: usize, const M: usize> Factors<T, N, M> {
+    pub(crate) fn of(m: &[[T; N]; N], f: &[[T; N]; M], rank: Rank<T>) -> Self {
+        let rows = Rows::of(m, f, rank);
+        let mut m = *m;
+        for i in 0..N {
+            for j in 0..N {
+                m[i][j] *= rows.unit[i] * rows.unit[j];
+            }
+        }
+        to_range_basis(&rows.split, &mut m);
+        let (along, pivot) = along_constraints(&m, rows.split.rank);
+        let wide = (rows.split.rank < M).then(|| least_norm(&rows.split, &rows.length));
+        Self { rows, m, along, pivot, wide, must_agree: rank.must_agree }
     }
-    let mut h = scaled.h;
-    split.enter_basis(&mut h);
-    let m = in_range_basis(&split, scaled.m);
-    let (free, pivot) = free_accelerations(&split, &m, &h, &fixed)?;
 
-    let mut q = from_fn(|i| fixed[i] + free[i]);
-    let force = from_fn(|i| if i < split.rank { dot(&m[i], &q) - h[i] } else { T::constant(0.0) });
-    let lambda = multipliers(&split, &scaled.length, &force);
-    split.leave_basis(&mut q);
-    let solution = Solution {
-        accelerations: vector(from_fn(|i| q[i] * unit[i])),
-        multipliers: vector(lambda),
-        pivot: smaller(pivot, smallest_diagonal(&split)),
-        rank: split.rank,
-    };
-    Ok((solution, from_fn(|a| split.order.iter().take(split.rank).any(|&row| row == a))))
+    /// M q̈ − Fᵀλ = h, F q̈ + γ = 0.
+    pub(crate) fn solve(&self, h: &[T; N], gamma: &[T; M]) -> Result<Solution<T, N, M>, Fault<T, N>> {
+        let Rows { unit, split, .. } = &self.rows;
+        let mut h = from_fn(|i| h[i] * unit[i]);
+        let fixed = self.rows.fixed(gamma);
+        if self.must_agree {
+            self.rows.check_agreement(gamma, &h, &fixed)?;
+        }
+        split.enter_basis(&mut h);
+        let free = self.free_accelerations(&h, &fixed)?;
+        let q = from_fn(|i| fixed[i] + free[i]);
+        let force = from_fn(|i| if i < split.rank { dot(&self.m[i], &q) - h[i] } else { T::constant(0.0) });
+        Ok(Solution {
+            accelerations: self.rows.out_of_basis(q),
+            multipliers: vector(self.multipliers(&force)),
+            pivot: smaller(self.pivot, smallest_diagonal(split)),
+            rank: split.rank,
+        })
+    }
+
+    /// Which constraints the solutions rest on: as many as are independent.
+    fn active(&self) -> [bool; M] {
+        let split = &self.rows.split;
+        from_fn(|a| split.order.iter().take(split.rank).any(|&row| row == a))
+    }
+
+    /// The accelerations that the constraints leave free, ZᵀMZ y = Zᵀ(h − M x).
+    fn free_accelerations(&self, h: &[T; N], fixed: &[T; N]) -> Result<[T; N], Fault<T, N>> {
+        let zero = T::constant(0.0);
+        let (rank, size) = (self.rows.split.rank, N - self.rows.split.rank);
+        if self.along.rank < size {
+            return Err(Fault::Singular(undetermined(&self.rows.split, &self.along, size)));
+        }
+        let force = from_fn(|i| if i < size { h[rank + i] - dot(&self.m[rank + i], fixed) } else { zero });
+        let y = self.along.solve(&force);
+        Ok(from_fn(|i| if i < rank { zero } else { y[i - rank] }))
+    }
+
+    /// λ with Fᵀλ = M q̈ − h (given in the range basis); of all solutions the one of least Euclidean norm.
+    fn multipliers(&self, force: &[T; N]) -> [T; M] {
+        match &self.wide {
+            None => {
+                let scaled = self.rows.split.solve(force);
+                from_fn(|a| scaled[a] / self.rows.length[a])
+            }
+            Some(wide) => {
+                let mut lambda = wide.solve_transposed(force);
+                wide.leave_basis(&mut lambda);
+                lambda
+            }
+        }
+    }
+}
+
+/// The constraint rows in natural units, each of length 1 (or zero), and what they fix.
+pub(crate) struct Rows<T, const N: usize, const M: usize> {
+    unit: [T; N],
+    /// The length of each row before it became 1; 1 for a row of zeros.
+    length: [T; M],
+    split: Qr<T, N, M>,
+}
+
+impl<T: Real, const N: usize, const M: usize> Rows<T, N, M> {
+    pub(crate) fn of(m: &[[T; N]; N], f: &[[T; N]; M], rank: Rank<T>) -> Self {
+        let unit = natural_units(m, f);
+        let length: [T; M] = from_fn(|a| {
+            let length = row_length(&f[a], &unit);
+            if length > T::constant(0.0) { length } else { T::constant(1.0) }
+        });
+        let mut rows = *f;
+        for (row, length) in rows.iter_mut().zip(&length) {
+            row.iter_mut().zip(&unit).for_each(|(entry, unit)| *entry *= *unit / *length);
+        }
+        Self { unit, length, split: Qr::of(rows, rank.tolerance) }
+    }
+
+    /// A basis of the x with F x = 0.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn null_space(&self) -> impl Iterator<Item = SVector<T, N>> {
+        (self.split.rank..N)
+            .map(|k| self.out_of_basis(from_fn(|i| T::constant(if i == k { 1.0 } else { 0.0 }))))
+    }
+
+    /// The shortest x with F x + γ = 0; dependent constraints are left out.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn least(&self, gamma: &[T; M]) -> SVector<T, N> {
+        self.out_of_basis(self.fixed(gamma))
+    }
+
+    /// From the range basis and natural units.
+    fn out_of_basis(&self, mut x: [T; N]) -> SVector<T, N> {
+        self.split.leave_basis(&mut x);
+        vector(from_fn(|i| x[i] * self.unit[i]))
+    }
+
+    /// In the range basis, the shortest x with F x + γ = 0.
+    fn fixed(&self, gamma: &[T; M]) -> [T; N] {
+        self.split.solve_transposed(&self.demands(gamma))
+    }
+
+    /// What the rows times the accelerations must be.
+    fn demands(&self, gamma: &[T; M]) -> [T; M] {
+        from_fn(|a| -gamma[a] / self.length[a])
+    }
+
+    /// Every dependent constraint must agree with the accelerations that the independent ones fix, to ε^(1/3).
+    fn check_agreement(&self, gamma: &[T; M], h: &[T; N], fixed: &[T; N]) -> Result<(), Fault<T, N>> {
+        let (split, bias) = (&self.split, self.demands(gamma));
+        let size = norm(fixed) + norm(h);
+        for (j, &row) in split.order.iter().enumerate().skip(split.rank) {
+            let demanded = bias[row];
+            let given = (0..split.rank).fold(T::constant(0.0), |sum, i| sum + split.entry(i, j) * fixed[i]);
+            let mismatch = Scalar::abs(demanded - given);
+            if mismatch > power_of_epsilon::<T>(1.0 / 3.0) * (size + Scalar::abs(demanded)) {
+                return Err(Fault::Contradictory(row));
+            }
+        }
+        Ok(())
+    }
 }
 
 /// For each coordinate the unit in which its mass is ±1; where it has none, that in which its strongest coupling is 1.
-pub(crate) fn natural_units<T: Real, const N: usize, const M: usize>(e: &Equations<T, N, M>) -> [T; N] {
+pub(crate) fn natural_units<T: Real, const N: usize, const M: usize>(
+    m: &[[T; N]; N],
+    f: &[[T; N]; M],
+) -> [T; N] {
     let (zero, one) = (T::constant(0.0), T::constant(1.0));
     let mut unit: [T; N] = from_fn(|i| {
-        let mass = Scalar::abs(e.m[i][i]);
+        let mass = Scalar::abs(m[i][i]);
         if mass > zero { one / Scalar::sqrt(mass) } else { zero }
     });
-    let length: [T; M] = from_fn(|a| row_length(&e.f[a], &unit));
+    let length: [T; M] = from_fn(|a| row_length(&f[a], &unit));
     for i in 0..N {
         if unit[i] > zero {
             continue;
         }
-        let inertia = (0..N).map(|j| Scalar::abs(e.m[i][j]) * if unit[j] > zero { unit[j] } else { one });
-        let couplings =
-            (0..M).map(|a| Scalar::abs(e.f[a][i]) / if length[a] > zero { length[a] } else { one });
+        let inertia = (0..N).map(|j| Scalar::abs(m[i][j]) * if unit[j] > zero { unit[j] } else { one });
+        let couplings = (0..M).map(|a| Scalar::abs(f[a][i]) / if length[a] > zero { length[a] } else { one });
         let strongest = inertia.chain(couplings).fold(zero, larger);
         unit[i] = if strongest > zero { one / strongest } else { one };
     }
     unit
 }
 
-/// The equations in natural units, constraint rows of length 1 (or zero).
-struct Scaled<T, const N: usize, const M: usize> {
-    m: [[T; N]; N],
-    h: [T; N],
-    rows: [[T; N]; M],
-    /// What `rows` times the accelerations must be.
-    bias: [T; M],
-    /// The length of each row before it became 1; 1 for a row of zeros.
-    length: [T; M],
-}
-
-impl<T: Real, const N: usize, const M: usize> Scaled<T, N, M> {
-    fn of(e: &Equations<T, N, M>, unit: &[T; N]) -> Self {
-        let length: [T; M] = from_fn(|a| {
-            let length = row_length(&e.f[a], unit);
-            if length > T::constant(0.0) { length } else { T::constant(1.0) }
-        });
-        Self {
-            m: from_fn(|i| from_fn(|j| e.m[i][j] * unit[i] * unit[j])),
-            h: from_fn(|i| e.h[i] * unit[i]),
-            rows: from_fn(|a| from_fn(|i| e.f[a][i] * unit[i] / length[a])),
-            bias: from_fn(|a| -e.gamma[a] / length[a]),
-            length,
+/// m ← Qᵀ m Q, of a symmetric matrix, in place: large arrays are not copied.
+fn to_range_basis<T: Real, const N: usize, const M: usize>(split: &Qr<T, N, M>, m: &mut [[T; N]; N]) {
+    for _ in 0..2 {
+        for row in m.iter_mut() {
+            split.enter_basis(row);
+        }
+        for i in 0..N {
+            for j in 0..i {
+                (m[i][j], m[j][i]) = (m[j][i], m[i][j]);
+            }
         }
     }
 }
 
-/// Every dependent constraint must agree with the accelerations that the independent ones fix, to ε^(1/3).
-fn check_agreement<T: Real, const N: usize, const M: usize>(
-    split: &Qr<T, N, M>,
-    scaled: &Scaled<T, N, M>,
-    fixed: &[T; N],
-) -> Result<(), Fault<T, N>> {
-    let size = norm(fixed) + norm(&scaled.h);
-    for (j, &row) in split.order.iter().enumerate().skip(split.rank) {
-        let demanded = scaled.bias[row];
-        let given = (0..split.rank).fold(T::constant(0.0), |sum, i| sum + split.entry(i, j) * fixed[i]);
-        let mismatch = Scalar::abs(demanded - given);
-        if mismatch > power_of_epsilon::<T>(1.0 / 3.0) * (size + Scalar::abs(demanded)) {
-            return Err(Fault::Contradictory(row));
-        }
-    }
-    Ok(())
-}
-
-/// QᵀMQ.
-fn in_range_basis<T: Real, const N: usize, const M: usize>(
-    split: &Qr<T, N, M>,
-    mut m: [[T; N]; N],
-) -> [[T; N]; N] {
-    for row in &mut m {
-        split.enter_basis(row);
-    }
-    let mut transposed = from_fn(|i| from_fn(|j| m[j][i]));
-    for row in &mut transposed {
-        split.enter_basis(row);
-    }
-    transposed
-}
-
-/// The accelerations that the constraints leave free, ZᵀMZ y = Zᵀ(h − M x), and the smallest pivot of ZᵀMZ.
-fn free_accelerations<T: Real, const N: usize, const M: usize>(
-    split: &Qr<T, N, M>,
-    m: &[[T; N]; N],
-    h: &[T; N],
-    fixed: &[T; N],
-) -> Result<([T; N], T), Fault<T, N>> {
+/// ZᵀMZ factorized, from QᵀMQ, and the smallest pivot.
+fn along_constraints<T: Real, const N: usize>(m: &[[T; N]; N], rank: usize) -> (Symmetric<T, N>, T) {
     let zero = T::constant(0.0);
-    let (rank, size) = (split.rank, N - split.rank);
+    let size = N - rank;
     let largest = m.iter().flatten().fold(zero, |largest, x| larger(largest, Scalar::abs(*x)));
-    let along = from_fn(|i| from_fn(|j| if i < size && j < size { m[rank + i][rank + j] } else { zero }));
-    let factors = Symmetric::of(along, size, power_of_epsilon::<T>(0.75) * largest);
-    if factors.rank < size {
-        return Err(Fault::Singular(undetermined(split, &factors, size)));
+    let mut along = [[zero; N]; N];
+    for i in 0..size {
+        along[i][..size].copy_from_slice(&m[rank + i][rank..]);
     }
-    let force = from_fn(|i| if i < size { h[rank + i] - dot(&m[rank + i], fixed) } else { zero });
-    let y = factors.solve(&force);
+    let factors = Symmetric::of(along, size, power_of_epsilon::<T>(0.75) * largest);
     let pivot = if size > 0 { factors.smallest / largest } else { T::constant(1.0) };
-    Ok((from_fn(|i| if i < rank { zero } else { y[i - rank] }), pivot))
+    (factors, pivot)
 }
 
 /// How much each coordinate takes part in the motions that nothing determines.
@@ -217,17 +297,8 @@ fn undetermined<T: Real, const N: usize, const M: usize>(
     share
 }
 
-/// λ with Fᵀλ = M q̈ − h (given in the range basis); of all solutions the one of least Euclidean norm.
-fn multipliers<T: Real, const N: usize, const M: usize>(
-    split: &Qr<T, N, M>,
-    length: &[T; M],
-    force: &[T; N],
-) -> [T; M] {
-    if split.rank == M {
-        let scaled = split.solve(force);
-        return from_fn(|a| scaled[a] / length[a]);
-    }
-    // C λ = force with C = R times the row lengths, as wide as there are constraints: λ = Q R⁻ᵀ force of Cᵀ.
+/// C λ = force with C = R times the row lengths, as wide as there are constraints: λ = Q R⁻ᵀ force of this QR of Cᵀ.
+fn least_norm<T: Real, const N: usize, const M: usize>(split: &Qr<T, N, M>, length: &[T; M]) -> Qr<T, M, N> {
     let zero = T::constant(0.0);
     let mut transposed = [[zero; M]; N];
     for (i, column) in transposed.iter_mut().enumerate().take(split.rank) {
@@ -235,10 +306,7 @@ fn multipliers<T: Real, const N: usize, const M: usize>(
             column[row] = split.entry(i, j) * length[row];
         }
     }
-    let wide = Qr::of(transposed, zero);
-    let mut lambda = wide.solve_transposed(force);
-    wide.leave_basis(&mut lambda);
-    lambda
+    Qr::of(transposed, zero)
 }
 
 fn smallest_diagonal<T: Real, const N: usize, const M: usize>(split: &Qr<T, N, M>) -> T {

@@ -236,3 +236,36 @@ fn single_precision_is_solved_too() {
     assert!((s.accelerations - vector([2.0, 2.0])).norm() < 1e-6, "{s:?}");
     assert_eq!(s.rank, 1);
 }
+
+/// Two rows that say the same, and one that does not: x + y, 2x + 2y and z of unlike masses.
+fn dependent() -> Factors<f64, 3, 3> {
+    let m = [[4.0, 1.0, 0.0], [1.0, 9.0, 0.5], [0.0, 0.5, 0.01]];
+    let f = [[1.0, 1.0, 0.0], [2.0, 2.0, 0.0], [0.0, 0.0, 1.0]];
+    Factors::of(&m, &f, Rank::off_constraints())
+}
+
+#[test]
+fn one_factorization_serves_all_right_hand_sides() {
+    let factors = dependent();
+    for (h, gamma) in [([1.0, 0.0, 0.0], [0.0; 3]), ([0.0, 2.0, -3.0], [1.0, 2.0, -0.5])] {
+        let s = factors.solve(&h, &gamma).unwrap();
+        let [x, y, z]: [f64; 3] = s.accelerations.into();
+        // x + y = −γ₀, z = −γ₂, and the difference of the first two rows of M q̈ = h + Fᵀλ is free of λ.
+        assert!((x + y + gamma[0]).abs() < 1e-15 && (z + gamma[2]).abs() < 1e-15, "{s:?}");
+        assert!((4.0 * x + y - (x + 9.0 * y + 0.5 * z) - (h[0] - h[1])).abs() < 1e-14, "{s:?}");
+        assert!((s.multipliers[1] - 2.0 * s.multipliers[0]).abs() < 1e-14, "not the least: {s:?}");
+        assert!((0.5 * y + 0.01 * z - h[2] - s.multipliers[2]).abs() < 1e-14, "{s:?}");
+    }
+}
+
+#[test]
+fn rows_leave_a_null_space_and_fix_the_rest() {
+    let rows = dependent().rows;
+    let free: Vec<_> = rows.null_space().collect();
+    assert_eq!(free.len(), 1);
+    assert!((free[0][0] + free[0][1]).abs() < 1e-15 && free[0][2].abs() < 1e-15 && free[0][0].abs() > 0.1);
+    let x = rows.least(&[3.0, 6.0, -2.0]);
+    assert!((x[0] + x[1] + 3.0).abs() < 1e-15 && (x[2] - 2.0).abs() < 1e-15, "{x}");
+    // Shortest in natural units, where a mass is 1: x m_x = y m_y for equal rows.
+    assert!((4.0 * x[0] - 9.0 * x[1]).abs() < 1e-14, "{x}");
+}

@@ -28,6 +28,8 @@ impl Schedule {
                 Operation::SubtractProduct(x, y, z) => of(z) - of(x) * of(y),
                 Operation::Minimum(x, y) => of(x).min(of(y)),
                 Operation::Maximum(x, y) => of(x).max(of(y)),
+                Operation::Where(x, _) if of(x) == 0.0 => 0.0,
+                Operation::Where(_, y) => of(y),
                 Operation::SquareRoot(x) => of(x).sqrt(),
                 Operation::Function(function, x) => elementary(function, of(x)),
                 Operation::Atan2(y, x) => of(y).atan2(of(x)),

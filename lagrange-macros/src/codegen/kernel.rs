@@ -148,6 +148,11 @@ impl Style<'_> {
             names.push(quote!(multipliers));
             types.push(quote!(&__lagrange::nalgebra::SVector<#scalar, #m>));
         }
+        if is_any(|variable| matches!(variable, Variable::Change(_))) {
+            let p = self.problem.parameters.entries.len();
+            names.push(quote!(direction));
+            types.push(quote!(&__lagrange::Direction<#scalar, #n, #p>));
+        }
         let (body, array_names, array_types) = (self.body(part), &arrays.names, arrays.types(scalar));
         self.parts.borrow_mut().push(quote! {
             #[doc = #doc]

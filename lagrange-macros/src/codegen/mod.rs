@@ -8,10 +8,11 @@ mod integrability;
 #[cfg(test)]
 mod interpret;
 mod kernel;
+mod linearized;
 mod observables;
 mod order_of_evaluation;
-mod passes;
 mod pack;
+mod passes;
 mod schedule;
 mod shape;
 mod stub;
@@ -33,6 +34,7 @@ use crate::resolve::{Problem, Supplied};
 use crate::symbolic::{Id, Node};
 use crate::syntax::Declaration;
 use kernel::{Kernel, OPERATION_LIMIT, Refused};
+pub(crate) use linearized::linearized;
 use observables::method_name;
 #[cfg(test)]
 pub(crate) use schedule::Count;
@@ -55,7 +57,7 @@ pub(crate) fn implementation(
 ) -> TokenStream {
     let style = Style::new(problem, scalar);
     let emitter = Emitter { declaration, problem, equations, facts, rendered, style: &style };
-    let orders = emitter.orders();
+    let orders = orders(problem, equations, &[]);
     for (&function, order) in orders.iter().filter(|(_, order)| **order > FUNCTION_ORDER) {
         let Supplied { name, place, .. } = &problem.functions[function as usize];
         diagnostics.error(*place, format!(
@@ -112,32 +114,13 @@ struct Emitter<'a> {
 }
 
 impl Emitter<'_> {
-    /// Of each function that the user supplies, the highest derivative that the system needs.
-    fn orders(&self) -> BTreeMap<u32, usize> {
-        let graph = &self.problem.graph;
-        let mut roots = self.equations.roots();
-        roots.push(self.problem.lagrangian);
-        roots.extend(self.problem.observables.iter().flat_map(|(_, values)| values));
-        let mut orders = BTreeMap::new();
-        for id in graph.reachable(&roots) {
-            if let Node::External(external) = graph.node(id) {
-                let order = orders.entry(external.function).or_default();
-                *order = external.derivatives.len().max(*order);
-            }
-        }
-        orders
-    }
-
     /// The struct's generics with what the fields must be able to do, asked for at the fields' types.
     fn generics(&self, orders: &BTreeMap<u32, usize>) -> syn::Generics {
         let scalar = self.style.scalar;
         let mut generics = bounded_generics(self.declaration, scalar);
         for (&function, &order) in orders {
-            let Supplied { ty, inputs, outputs, .. } = &self.problem.functions[function as usize];
-            let capability = format_ident!("{}", capability(order).0);
-            let bound =
-                quote_spanned!(ty.span()=> __lagrange::function::#capability<#scalar, #inputs, #outputs>);
-            generics.make_where_clause().predicates.push(syn::parse_quote!(#ty: #bound));
+            let bound = function_bound(&self.problem.functions[function as usize], order, scalar);
+            generics.make_where_clause().predicates.push(bound);
         }
         generics
     }
@@ -311,6 +294,31 @@ impl Emitter<'_> {
             }
         }
     }
+}
+
+/// Of each function that the user supplies, the highest derivative that the system needs, with `more` expressions.
+fn orders(problem: &Problem, equations: &Equations, more: &[Id]) -> BTreeMap<u32, usize> {
+    let graph = &problem.graph;
+    let mut roots = equations.roots();
+    roots.push(problem.lagrangian);
+    roots.extend(problem.observables.iter().flat_map(|(_, values)| values));
+    roots.extend(more);
+    let mut orders = BTreeMap::new();
+    for id in graph.reachable(&roots) {
+        if let Node::External(external) = graph.node(id) {
+            let order = orders.entry(external.function).or_default();
+            *order = external.derivatives.len().max(*order);
+        }
+    }
+    orders
+}
+
+/// A function's field gives derivatives up to this order.
+fn function_bound(function: &Supplied, order: usize, scalar: &syn::Type) -> syn::WherePredicate {
+    let Supplied { ty, inputs, outputs, .. } = function;
+    let capability = format_ident!("{}", capability(order).0);
+    let bound = quote_spanned!(ty.span()=> __lagrange::function::#capability<#scalar, #inputs, #outputs>);
+    syn::parse_quote!(#ty: #bound)
 }
 
 fn too_long(what: &str) -> String {

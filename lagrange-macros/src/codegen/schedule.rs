@@ -39,6 +39,8 @@ pub(super) enum Operation {
     SubtractProduct(Register, Register, Register),
     Minimum(Register, Register),
     Maximum(Register, Register),
+    /// Zero where the first is zero, else the second.
+    Where(Register, Register),
     SquareRoot(Register),
     Function(Function, Register),
     Atan2(Register, Register),
@@ -88,6 +90,7 @@ impl Operation {
             Self::Divide(x, y) => Self::Divide(new(x), new(y)),
             Self::Minimum(x, y) => Self::Minimum(new(x), new(y)),
             Self::Maximum(x, y) => Self::Maximum(new(x), new(y)),
+            Self::Where(x, y) => Self::Where(new(x), new(y)),
             Self::Atan2(x, y) => Self::Atan2(new(x), new(y)),
             Self::Power(x, y) => Self::Power(new(x), new(y)),
             Self::MultiplyAdd(x, y, z) => Self::MultiplyAdd(new(x), new(y), new(z)),
@@ -106,6 +109,7 @@ impl Operation {
             | Self::Divide(x, y)
             | Self::Minimum(x, y)
             | Self::Maximum(x, y)
+            | Self::Where(x, y)
             | Self::Atan2(x, y)
             | Self::Power(x, y) => [Some(x), Some(y), None],
             Self::MultiplyAdd(x, y, z) | Self::SubtractProduct(x, y, z) => [Some(x), Some(y), Some(z)],

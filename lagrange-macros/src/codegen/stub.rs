@@ -23,6 +23,7 @@ pub(crate) fn stub(declaration: &Declaration) -> TokenStream {
     let methods = observables(declaration, &scalar, &generics);
     let pack = super::pack::pack(declaration, &scalar_type);
     let n = coordinates(declaration, &mut generics);
+    let linearized = linearized(declaration, &scalar, [&n, &quote!(#m)], &generics);
     let (impl_generics, _, _) = generics.split_for_impl();
     quote! {
         const _: () = {
@@ -54,9 +55,34 @@ pub(crate) fn stub(declaration: &Declaration) -> TokenStream {
                 fn conserved(&self, index: usize, state: &__lagrange::State<#scalar, #n>) -> ::core::option::Option<#scalar> { ::core::option::Option::None }
             }
 
+            #linearized
             #methods
             #pack
         };
+    }
+}
+
+/// The capability of Jacobians, with all numbers in the fields for parameters.
+fn linearized(
+    declaration: &Declaration,
+    scalar: &TokenStream,
+    [n, m]: [&TokenStream; 2],
+    generics: &syn::Generics,
+) -> TokenStream {
+    let ident = &declaration.ident;
+    let (_, type_generics, where_clause) = declaration.generics.split_for_impl();
+    let (impl_generics, _, _) = generics.split_for_impl();
+    let shapes = declaration.fields.iter().filter_map(|field| field.shape.as_ref().ok());
+    let p: usize = shapes.map(|shape| shape.layout.numbers()).sum();
+    quote! {
+        #[automatically_derived]
+        #[allow(unused_variables, clippy::all)]
+        impl #impl_generics __lagrange::Linearized<#n, #m, #p> for #ident #type_generics #where_clause {
+            const PARAMETERS: [&'static str; #p] = [""; #p];
+            fn parameters(&self) -> __lagrange::nalgebra::SVector<#scalar, #p> { loop {} }
+            fn set_parameter(&mut self, index: usize, value: #scalar) -> bool { loop {} }
+            fn residual_change(&self, state: &__lagrange::State<#scalar, #n>, solution: &__lagrange::Solution<#scalar, #n, #m>, direction: &__lagrange::Direction<#scalar, #n, #p>) -> __lagrange::ResidualChange<#scalar, #n, #m> { loop {} }
+        }
     }
 }
 

@@ -73,7 +73,7 @@ impl<'a> Style<'a> {
     }
 
     /// The value of a parameter, read from its field.
-    fn parameter(&self, k: usize) -> TokenStream {
+    pub(super) fn parameter(&self, k: usize) -> TokenStream {
         let entry = self.problem.parameters.entries[k];
         let field = &self.problem.parameters.fields[entry.field];
         let ident = &field.ident;
@@ -123,14 +123,30 @@ impl<'a> Style<'a> {
         let velocities = pattern(n, Variable::Velocity, quote!(state.v));
         let accelerations = pattern(n, Variable::Acceleration, quote!(solution.accelerations));
         let multipliers = pattern(m, Variable::Multiplier, quote!(multipliers));
-        let parameters = used.iter().filter_map(|symbol| match Variable::of(*symbol) {
-            Variable::Parameter(k) => {
-                let (name, value) = (&self.names[symbol], self.parameter(k));
-                Some(quote! { let #name = #value; })
-            }
-            _ => None,
+        let others = used.iter().filter_map(|symbol| {
+            let value = match Variable::of(*symbol) {
+                Variable::Parameter(k) => self.parameter(k),
+                Variable::Change(i) => self.change(i),
+                _ => return None,
+            };
+            let name = &self.names[symbol];
+            Some(quote! { let #name = #value; })
         });
-        quote! { #time #coordinates #velocities #accelerations #multipliers #(#parameters)* }
+        quote! { #time #coordinates #velocities #accelerations #multipliers #(#others)* }
+    }
+
+    /// How fast an argument of the equations changes along `direction`.
+    fn change(&self, i: usize) -> TokenStream {
+        let n = self.problem.coordinates.len();
+        let index = Literal::usize_unsuffixed;
+        let Some(i) = i.checked_sub(1) else { return quote!(direction.t) };
+        if i < 2 * n {
+            let (part, i) = if i < n { (quote!(q), index(i)) } else { (quote!(v), index(i - n)) };
+            return quote!(direction.#part.data.0[0][#i]);
+        }
+        let by_field = self.problem.parameters.by_field();
+        let place = by_field.iter().position(|&k| k == i - 2 * n).map(index);
+        quote!(direction.parameters.data.0[0][#place])
     }
 
     pub(super) fn constant(&self, value: f64) -> TokenStream {
@@ -151,7 +167,7 @@ fn split(text: &str) -> [String; 2] {
 }
 
 /// An identifier like `text` that nothing else bears.
-fn identifier(text: &str, taken: &mut HashSet<String>) -> Ident {
+pub(super) fn identifier(text: &str, taken: &mut HashSet<String>) -> Ident {
     let mut name = text.replace("][", "_").replace('[', "_").replace(']', "");
     if syn::parse_str::<Ident>(&name).is_err() || !taken.insert(name.clone()) {
         let is_free = |candidate: &String| !taken.contains(candidate);

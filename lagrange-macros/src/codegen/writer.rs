@@ -164,6 +164,10 @@ impl<'s, 'a> Writer<'s, 'a> {
             Operation::SubtractProduct(x, y, z) => call("subtract_product", &[value(x), value(y), value(z)]),
             Operation::Minimum(x, y) => call("min", &[value(x), value(y)]),
             Operation::Maximum(x, y) => call("max", &[value(x), value(y)]),
+            Operation::Where(x, y) => {
+                let (x, y) = (value(x), value(y));
+                quote!(__lagrange::linearized::only_where(#x, #y))
+            }
             Operation::SquareRoot(x) => call("sqrt", &[value(x)]),
             Operation::Function(function, x) => call(function.name(), &[value(x)]),
             Operation::Atan2(y, x) => call("atan2", &[value(y), value(x)]),

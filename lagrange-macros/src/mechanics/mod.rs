@@ -11,6 +11,7 @@ mod facts;
 mod gauge;
 mod gauss;
 mod integrability;
+mod linearization;
 mod moment;
 
 use crate::diagnostics::{Diagnostics, Place};
@@ -24,6 +25,7 @@ pub(crate) use facts::Facts;
 pub(crate) use gauge::LinearPart;
 pub(crate) use gauss::Form;
 pub(crate) use integrability::{Classification, Integrability, Integrals, Kinds};
+pub(crate) use linearization::{Linearization, arguments, linearize};
 
 /// M q̈ − Fᵀλ = h and F q̈ + γ = 0, every entry a node of the problem's graph.
 #[derive(Debug)]

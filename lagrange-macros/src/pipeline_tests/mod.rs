@@ -5,6 +5,7 @@ mod determinism;
 mod elimination;
 mod emitted;
 mod integrability;
+mod linearization;
 mod long;
 mod systems;
 

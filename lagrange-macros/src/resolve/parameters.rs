@@ -39,6 +39,13 @@ pub(crate) struct Parameters {
 }
 
 impl Parameters {
+    /// Which entry is which, in the order of the fields and not in that of their first use.
+    pub(crate) fn by_field(&self) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..self.entries.len()).collect();
+        order.sort_by_key(|&k| self.entries[k].field);
+        order
+    }
+
     pub(super) fn new(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Self {
         let fields = declaration.fields.clone();
         let ranges = vec![(0.5, 1.5); fields.len()];

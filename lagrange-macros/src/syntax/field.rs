@@ -39,6 +39,17 @@ pub(crate) enum Layout {
     Matrix(usize, usize),
 }
 
+impl Layout {
+    /// How many numbers that is; more than can be counted count as the most.
+    pub(crate) fn numbers(self) -> usize {
+        match self {
+            Self::Scalar => 1,
+            Self::Vector(length) => length,
+            Self::Rows(rows, columns) | Self::Matrix(rows, columns) => rows.saturating_mul(columns),
+        }
+    }
+}
+
 /// An array in an expression has at most this many numbers.
 pub(crate) const LENGTH_LIMIT: usize = 100_000;
 
@@ -67,14 +78,9 @@ fn shape(ty: &Type) -> Result<FieldShape, String> {
 }
 
 fn short_enough(shape: FieldShape) -> Result<FieldShape, String> {
-    let numbers = match shape.layout {
-        Layout::Scalar => Some(1),
-        Layout::Vector(length) => Some(length),
-        Layout::Rows(rows, columns) | Layout::Matrix(rows, columns) => rows.checked_mul(columns),
-    };
-    match numbers {
-        Some(1..=LENGTH_LIMIT) => Ok(shape),
-        Some(0) => Err("a field without any number cannot stand in an expression".to_owned()),
+    match shape.layout.numbers() {
+        1..=LENGTH_LIMIT => Ok(shape),
+        0 => Err("a field without any number cannot stand in an expression".to_owned()),
         _ => Err(format!("a field of more than {LENGTH_LIMIT} numbers cannot stand in an expression")),
     }
 }

@@ -2,6 +2,7 @@
 
 mod factors;
 mod fuse;
+mod guard;
 mod reciprocals;
 mod rewrite;
 mod signs;
@@ -23,8 +24,14 @@ pub(super) struct Program {
 impl Program {
     /// Computes nodes of the graph.
     pub(super) fn of(graph: &Graph, roots: &[Id]) -> Self {
-        let schedule = Schedule::new(graph, roots);
-        let results = roots.iter().map(|&root| schedule.register(root)).collect();
+        let (schedule, results) = scheduled(graph, roots);
+        Self::new(schedule, results)
+    }
+
+    /// Computes derivatives along a direction, of which none that does not exist spoils another.
+    pub(super) fn of_changes(graph: &Graph, roots: &[Id]) -> Self {
+        let (schedule, results) = scheduled(graph, roots);
+        let (schedule, results) = guard::guarded(&schedule, &results);
         Self::new(schedule, results)
     }
 
@@ -82,4 +89,10 @@ impl Program {
     pub(super) fn time(&self) -> Time {
         self.schedule.time(&self.results)
     }
+}
+
+fn scheduled(graph: &Graph, roots: &[Id]) -> (Schedule, Vec<Register>) {
+    let schedule = Schedule::new(graph, roots);
+    let results = roots.iter().map(|&root| schedule.register(root)).collect();
+    (schedule, results)
 }

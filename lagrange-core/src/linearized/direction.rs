@@ -1,0 +1,72 @@
+//! Directions in time, state and parameters, and how the equations change along one.
+
+use nalgebra::SVector;
+
+use crate::Scalar;
+use crate::eliminate::vector;
+
+/// A direction in which to differentiate: how fast each argument of the equations of motion changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Direction<T, const N: usize, const P: usize> {
+    /// Of the time.
+    pub t: T,
+    /// Of the coordinates.
+    pub q: SVector<T, N>,
+    /// Of the velocities.
+    pub v: SVector<T, N>,
+    /// Of the parameters, in the order of [`Linearized::PARAMETERS`](crate::Linearized::PARAMETERS).
+    pub parameters: SVector<T, P>,
+}
+
+impl<T: Scalar, const N: usize, const P: usize> Direction<T, N, P> {
+    /// Nothing changes.
+    pub fn zero() -> Self {
+        let zero = T::constant(0.0);
+        Self { t: zero, q: vector([zero; N]), v: vector([zero; N]), parameters: vector([zero; P]) }
+    }
+
+    /// The time alone changes, at the rate 1.
+    pub fn of_time() -> Self {
+        Self { t: T::constant(1.0), ..Self::zero() }
+    }
+
+    /// Coordinate `i` alone changes, at the rate 1.
+    pub fn of_coordinate(i: usize) -> Self {
+        Self { q: unit(i), ..Self::zero() }
+    }
+
+    /// Velocity `i` alone changes, at the rate 1.
+    pub fn of_velocity(i: usize) -> Self {
+        Self { v: unit(i), ..Self::zero() }
+    }
+
+    /// Parameter `k` alone changes, at the rate 1.
+    pub fn of_parameter(k: usize) -> Self {
+        Self { parameters: unit(k), ..Self::zero() }
+    }
+}
+
+/// The unit vector `i`; zero beyond the last.
+fn unit<T: Scalar, const K: usize>(i: usize) -> SVector<T, K> {
+    vector(core::array::from_fn(|j| T::constant(if i == j { 1.0 } else { 0.0 })))
+}
+
+/// `value`, or zero where `activity` is zero. Generated code calls this.
+#[doc(hidden)]
+#[inline]
+pub fn only_where<T: Scalar>(activity: T, value: T) -> T {
+    if activity == T::constant(0.0) { activity } else { value }
+}
+
+/// Derivatives along a direction, at fixed accelerations and multipliers, of what the equations of motion set to zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ResidualChange<T, const N: usize, const M: usize> {
+    /// Of M q̈ − h − Fᵀλ.
+    pub motion: SVector<T, N>,
+    /// Of F q̈ + γ.
+    pub acceleration: SVector<T, M>,
+    /// Of F q̇ + b.
+    pub rate: SVector<T, M>,
+    /// Of Φ; zero for velocity constraints.
+    pub position: SVector<T, M>,
+}

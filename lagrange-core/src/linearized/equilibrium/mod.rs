@@ -1,0 +1,82 @@
+//! Equilibria and steady motions: where the equations of motion hold with q̈ = 0.
+
+mod point;
+mod search;
+mod weights;
+
+use alloc::{string::String, vec::Vec};
+use core::fmt::{self, Debug, Formatter};
+
+use nalgebra::SVector;
+
+use super::{Linearized, inputs};
+use crate::simulate::check_finite;
+use crate::{Error, Lagrangian, Real, Simulate, State};
+use point::Point;
+use search::Search;
+
+/// An equilibrium, or a steady motion.
+#[derive(Clone)]
+pub struct Equilibrium<L: Lagrangian<N, M>, const N: usize, const M: usize> {
+    /// The system, its parameters as they were found.
+    pub system: L,
+    /// The state; its time and velocities are those of the guess.
+    pub state: State<L::Scalar, N>,
+    /// The multipliers there.
+    pub multipliers: SVector<L::Scalar, M>,
+    /// Steps taken.
+    pub iterations: usize,
+    undetermined: Vec<String>,
+}
+
+impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Equilibrium<L, N, M> {
+    /// The coordinates and parameters sought that can change, together, and leave it an equilibrium: cyclic
+    /// coordinates, to first order, and whatever is more than the equations determine. They are as near to the
+    /// guess as the others allow.
+    pub fn undetermined(&self) -> &[String] {
+        &self.undetermined
+    }
+}
+
+/// Without the system, which need not have it.
+impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Debug for Equilibrium<L, N, M> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.debug_struct(L::NAME)
+            .field("state", &self.state)
+            .field("multipliers", &self.multipliers)
+            .field("iterations", &self.iterations)
+            .field("undetermined", &self.undetermined)
+            .finish_non_exhaustive()
+    }
+}
+
+/// See [`Linearized::equilibrium`].
+pub(super) fn equilibrium<L, const N: usize, const M: usize, const P: usize>(
+    system: &L,
+    guess: &State<L::Scalar, N>,
+    names: &[&str],
+) -> Result<Equilibrium<L, N, M>, Error>
+where
+    L: Linearized<N, M, P, Scalar: Real> + Clone,
+{
+    check_finite(system, guess)?;
+    let unknowns = unknowns::<L, N, M, P>(names)?;
+    let mut search = Search::start(system.clone(), guess, unknowns)?;
+    let iterations = search.run()?;
+    let undetermined = search.undetermined()?;
+    let Point { system, state, multipliers } = search.point;
+    // Of dependent constraints the multipliers of least norm; at a pole, where accelerations are undetermined, those found.
+    let multipliers = system.solve(&state).map_or(multipliers, |solution| solution.multipliers);
+    Ok(Equilibrium { system, state, multipliers, iterations, undetermined })
+}
+
+/// Indices of what is sought: coordinates, then parameters.
+fn unknowns<L, const N: usize, const M: usize, const P: usize>(names: &[&str]) -> Result<Vec<usize>, Error>
+where
+    L: Linearized<N, M, P>,
+{
+    if names.is_empty() {
+        return Ok((0..N).collect());
+    }
+    inputs::indices(&[&L::COORDINATES[..], &L::PARAMETERS[..]].concat(), "coordinate or parameter", names)
+}

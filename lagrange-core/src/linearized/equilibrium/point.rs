@@ -1,0 +1,113 @@
+//! A point of the search: what is to be zero there, and its derivatives.
+
+use nalgebra::{ComplexField, DMatrix, DVector, SVector};
+
+use crate::eliminate::vector;
+use crate::linearized::tangent::finite;
+use crate::linearized::{Direction, Linearized, ResidualChange};
+use crate::names::{Entry, Row};
+use crate::{Error, Lagrangian, Real, Scalar, Solution, State};
+
+/// Where the search is.
+#[derive(Clone)]
+pub(super) struct Point<L: Lagrangian<N, M>, const N: usize, const M: usize> {
+    pub(super) system: L,
+    pub(super) state: State<L::Scalar, N>,
+    pub(super) multipliers: SVector<L::Scalar, M>,
+}
+
+impl<L, const N: usize, const M: usize> Point<L, N, M>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    /// R, the motion's rows first.
+    pub(super) fn residual(&self) -> DVector<L::Scalar> {
+        let Self { system, state, multipliers } = self;
+        let motion = -(system.forcing(state) + system.constraint_force(state, multipliers));
+        stacked(&ResidualChange {
+            motion,
+            acceleration: system.constraint_bias(state),
+            rate: system.constraint_rate(state),
+            position: system.constraint_residual(state),
+        })
+    }
+
+    /// Its derivatives by the unknowns and by the multipliers, at least as many rows as columns.
+    pub(super) fn jacobian<const P: usize>(&self, unknowns: &[usize]) -> Result<DMatrix<L::Scalar>, Error>
+    where
+        L: Linearized<N, M, P>,
+    {
+        let columns = unknowns.len() + M;
+        let mut jacobian = DMatrix::zeros((N + 3 * M).max(columns), columns);
+        let multipliers = self.multipliers;
+        let zero = vector([L::Scalar::constant(0.0); N]);
+        let still = Solution { accelerations: zero, multipliers, pivot: L::Scalar::constant(1.0), rank: M };
+        for (j, &unknown) in unknowns.iter().enumerate() {
+            let (direction, entry) = if unknown < N {
+                (Direction::of_coordinate(unknown), Entry::Coordinate(L::COORDINATES[unknown]))
+            } else {
+                let k = unknown - N;
+                (Direction::of_parameter(k), Entry::Parameter(L::PARAMETERS[k]))
+            };
+            let change = self.system.residual_change(&self.state, &still, &direction);
+            finite::<L, N, M>(&change, entry, &self.state)?;
+            jacobian.view_mut((0, j), (N + 3 * M, 1)).copy_from(&stacked(&change));
+        }
+        let f = self.system.constraint_jacobian(&self.state);
+        jacobian.view_mut((0, unknowns.len()), (N, M)).copy_from(&-f.transpose());
+        Ok(jacobian)
+    }
+
+    /// The value of an unknown.
+    pub(super) fn value<const P: usize>(&self, unknown: usize) -> L::Scalar
+    where
+        L: Linearized<N, M, P>,
+    {
+        if unknown < N { self.state.q[unknown] } else { self.system.parameters()[unknown - N] }
+    }
+
+    pub(super) fn set<const P: usize>(&mut self, unknown: usize, value: L::Scalar) -> Result<(), Error>
+    where
+        L: Linearized<N, M, P>,
+    {
+        if unknown < N {
+            self.state.q[unknown] = value;
+        } else if !self.system.set_parameter(unknown - N, value) {
+            return Err(Error::ParameterFixed { name: L::PARAMETERS[unknown - N] });
+        }
+        Ok(())
+    }
+}
+
+fn stacked<T: Real, const N: usize, const M: usize>(residual: &ResidualChange<T, N, M>) -> DVector<T> {
+    let ResidualChange { motion, acceleration, rate, position } = residual;
+    let rows = motion.iter().chain(acceleration).chain(rate).chain(position);
+    DVector::from_iterator(N + 3 * M, rows.copied())
+}
+
+/// What an unknown is called.
+pub(super) fn name<L, const N: usize, const M: usize, const P: usize>(unknown: usize) -> &'static str
+where
+    L: Linearized<N, M, P>,
+{
+    if unknown < N { L::COORDINATES[unknown] } else { L::PARAMETERS[unknown - N] }
+}
+
+/// What row `i` of R belongs to.
+pub(super) fn row<L: Lagrangian<N, M>, const N: usize, const M: usize>(i: usize) -> Row {
+    if i < N { Row::Coordinate(L::COORDINATES[i]) } else { Row::Constraint(L::CONSTRAINTS[(i - N) % M]) }
+}
+
+/// Names the first row that is not finite.
+pub(super) fn finite_residual<L, const N: usize, const M: usize>(
+    residual: &DVector<L::Scalar>,
+    state: &State<L::Scalar, N>,
+) -> Result<(), Error>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    match residual.iter().position(|x| !x.is_finite()) {
+        None => Ok(()),
+        Some(i) => Err(Error::EquationsNotFinite { row: row::<L, N, M>(i), time: state.t.to_f64() }),
+    }
+}

@@ -1,0 +1,206 @@
+//! The method of Levenberg and Marquardt (Moré 1978) on R = (h + Fᵀλ, γ, F q̇ + b, Φ), with the damping in proportion to
+//! |R|: it converges quadratically to equilibria in families too (Fan and Yuan, *Computing* 74, 2005), and a step
+//! never moves what R does not depend on.
+
+use alloc::{format, string::String, vec::Vec};
+
+use nalgebra::{DMatrix, DVector, Dyn, SVD};
+
+use super::point::{Point, finite_residual, name, row};
+use super::weights::weights;
+use crate::eliminate::vector;
+use crate::linearized::Linearized;
+use crate::numeric::{larger, power_of_epsilon};
+use crate::{Error, Lagrangian, Real, Scalar, Simulate, State, consistent};
+
+/// Steps before giving up.
+const ITERATIONS: usize = 200;
+
+/// Where the search is, and how it goes on.
+pub(super) struct Search<L: Lagrangian<N, M>, const N: usize, const M: usize, const P: usize> {
+    pub(super) point: Point<L, N, M>,
+    /// Indices of what is sought: coordinates, then parameters.
+    unknowns: Vec<usize>,
+    residual: DVector<L::Scalar>,
+    jacobian: DMatrix<L::Scalar>,
+    /// What each row is multiplied by, so that rows of different units compare.
+    weights: DVector<L::Scalar>,
+    /// The length of each column so far: the unit of a step is its inverse.
+    scale: DVector<L::Scalar>,
+    damping: L::Scalar,
+}
+
+impl<L, const N: usize, const M: usize, const P: usize> Search<L, N, M, P>
+where
+    L: Linearized<N, M, P, Scalar: Real> + Clone,
+{
+    pub(super) fn start(system: L, guess: &State<L::Scalar, N>, unknowns: Vec<usize>) -> Result<Self, Error> {
+        let none = vector([L::Scalar::constant(0.0); M]);
+        let state = start(&system, guess, &unknowns);
+        let multipliers = system.solve(&state).map_or(none, |solution| solution.multipliers);
+        let mut point = Point { system, state, multipliers };
+        for &unknown in &unknowns {
+            point.set(unknown, point.value(unknown))?;
+        }
+        let (residual, jacobian) = (point.residual(), point.jacobian(&unknowns)?);
+        finite_residual::<L, N, M>(&residual, &point.state)?;
+        let weights = weights(&jacobian, &residual, N);
+        let scale = DVector::zeros(jacobian.ncols());
+        let damping = L::Scalar::constant(1e-3);
+        Ok(Self { point, unknowns, residual, jacobian, weights, scale, damping })
+    }
+
+    /// Steps until only round-off is left; how many it took.
+    pub(super) fn run(&mut self) -> Result<usize, Error> {
+        let half = L::Scalar::constant(0.5);
+        for iteration in 0..ITERATIONS {
+            if self.is_below(L::Scalar::constant(4.0 * L::Scalar::EPSILON), L::Scalar::constant(0.0)) {
+                return Ok(iteration);
+            }
+            let (converged, before) = (self.is_negligible(), self.distance(&self.residual));
+            let moved = self.step()?;
+            if converged && (!moved || self.distance(&self.residual) > half * before) {
+                return Ok(iteration);
+            }
+            if !moved {
+                return Err(self.not_found(iteration));
+            }
+        }
+        if self.is_negligible() { Ok(ITERATIONS) } else { Err(self.not_found(ITERATIONS)) }
+    }
+
+    /// Takes the least damped step that leads nearer; false where none does.
+    fn step(&mut self) -> Result<bool, Error> {
+        let factors = self.factorize()?;
+        let before = self.distance(&self.residual);
+        let (less, more) = (L::Scalar::constant(0.1), L::Scalar::constant(10.0));
+        for _ in 0..40 {
+            let step = self.damped(&factors, self.damping * before);
+            let next = self.moved(&step)?;
+            let residual = next.residual();
+            if self.distance(&residual) < before {
+                self.jacobian = next.jacobian(&self.unknowns)?;
+                (self.point, self.residual) = (next, residual);
+                self.damping *= less;
+                return Ok(true);
+            }
+            self.damping *= more;
+        }
+        Ok(false)
+    }
+
+    /// The singular values of the Jacobian in the units of rows and columns.
+    fn factorize(&mut self) -> Result<SVD<L::Scalar, Dyn, Dyn>, Error> {
+        let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
+        let mut scaled = self.jacobian.clone();
+        for (i, weight) in self.weights.iter().enumerate() {
+            scaled.row_mut(i).scale_mut(*weight);
+        }
+        for (j, mut column) in scaled.column_iter_mut().enumerate() {
+            self.scale[j] = larger(self.scale[j], column.norm());
+            let unit = if self.scale[j] > zero { self.scale[j] } else { one };
+            column.unscale_mut(unit);
+        }
+        let size = scaled.nrows();
+        let epsilon = L::Scalar::constant(L::Scalar::EPSILON);
+        SVD::try_new(scaled, true, true, epsilon, 1000 * size).ok_or(Error::EigenvaluesNotFound)
+    }
+
+    /// δ = −Σ_k v_k σ_k (u_k·R)/(σ_k² + μ), over the singular values that are not zero.
+    fn damped(&self, factors: &SVD<L::Scalar, Dyn, Dyn>, damping: L::Scalar) -> DVector<L::Scalar> {
+        let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
+        let mut step = DVector::zeros(self.jacobian.ncols());
+        let (Some(u), Some(v)) = (&factors.u, &factors.v_t) else { return step };
+        let least = factors.singular_values.max() * L::Scalar::constant(L::Scalar::EPSILON);
+        for (k, &sigma) in factors.singular_values.iter().enumerate().filter(|(_, sigma)| **sigma > least) {
+            let rows = self.residual.iter().zip(&self.weights).enumerate();
+            let along = rows.fold(zero, |sum, (i, (r, w))| sum + u[(i, k)] * *r * *w);
+            let length = -sigma * along / (sigma * sigma + damping);
+            for j in 0..step.len() {
+                let unit = if self.scale[j] > zero { self.scale[j] } else { one };
+                step[j] += v[(k, j)] * length / unit;
+            }
+        }
+        step
+    }
+
+    fn moved(&self, step: &DVector<L::Scalar>) -> Result<Point<L, N, M>, Error> {
+        let mut next = self.point.clone();
+        for (j, &unknown) in self.unknowns.iter().enumerate() {
+            next.set(unknown, next.value(unknown) + step[j])?;
+        }
+        for a in 0..M {
+            next.multipliers[a] += step[self.unknowns.len() + a];
+        }
+        Ok(next)
+    }
+
+    /// |R| in the units of the rows.
+    fn distance(&self, residual: &DVector<L::Scalar>) -> L::Scalar {
+        residual.component_mul(&self.weights).norm()
+    }
+
+    /// Whether every row is below this part of its terms, and of its terms where the unknowns are about 1.
+    fn is_below(&self, part: L::Scalar, floor: L::Scalar) -> bool {
+        let values = self.unknowns.iter().map(|&unknown| self.point.value(unknown));
+        let values: Vec<_> = values.chain(self.point.multipliers.iter().copied()).collect();
+        self.residual.iter().enumerate().all(|(i, r)| {
+            let row = self.jacobian.row(i);
+            let bound = row.iter().zip(&values).fold(L::Scalar::constant(0.0), |sum, (slope, x)| {
+                sum + part * Scalar::abs(*slope * *x) + floor * Scalar::abs(*slope)
+            });
+            Scalar::abs(*r) <= bound
+        })
+    }
+
+    /// Whether what is left may be round-off.
+    fn is_negligible(&self) -> bool {
+        self.is_below(L::Scalar::constant(16.0 * L::Scalar::EPSILON), power_of_epsilon(0.75))
+    }
+
+    /// What takes part in the directions along which nothing changes.
+    pub(super) fn undetermined(&mut self) -> Result<Vec<String>, Error> {
+        let zero = L::Scalar::constant(0.0);
+        let factors = self.factorize()?;
+        let Some(v) = &factors.v_t else { return Ok(Vec::new()) };
+        let least = factors.singular_values.max() * power_of_epsilon(2.0 / 3.0);
+        let free: Vec<usize> = (0..v.nrows()).filter(|&k| factors.singular_values[k] <= least).collect();
+        let share = |j: usize| free.iter().fold(zero, |most, &k| larger(most, Scalar::abs(v[(k, j)])));
+        let shares: Vec<_> = (0..self.unknowns.len()).map(share).collect();
+        let names =
+            self.unknowns.iter().zip(shares).filter(|(_, share)| *share > power_of_epsilon(1.0 / 3.0));
+        Ok(names.map(|(&unknown, _)| name::<L, N, M, P>(unknown).into()).collect())
+    }
+
+    #[cold]
+    fn not_found(&self, iterations: usize) -> Error {
+        let size = |i: usize| Scalar::abs(self.residual[i]) * self.weights[i];
+        let worst =
+            (1..self.residual.len()).fold(0, |worst, i| if size(i) > size(worst) { i } else { worst });
+        let best = self.unknowns.iter().map(|&unknown| {
+            let value = self.point.value(unknown).to_f64();
+            format!("{} = {value:?}", name::<L, N, M, P>(unknown))
+        });
+        Error::NoEquilibrium {
+            row: row::<L, N, M>(worst),
+            residual: self.residual[worst].to_f64(),
+            iterations,
+            best: best.collect(),
+            time: self.point.state.t.to_f64(),
+        }
+    }
+}
+
+/// The guess, moved onto the constraints where nothing of it is held.
+fn start<L, const N: usize, const M: usize>(
+    system: &L,
+    guess: &State<L::Scalar, N>,
+    unknowns: &[usize],
+) -> State<L::Scalar, N>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    let mut state = *guess;
+    let is_free = (0..N).all(|i| unknowns.contains(&i));
+    if is_free && consistent::project_coordinates(system, &mut state).is_ok() { state } else { *guess }
+}

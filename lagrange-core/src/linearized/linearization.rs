@@ -1,0 +1,158 @@
+//! The linear system near a state, on the constraints where there are any.
+
+use alloc::{format, string::String, vec::Vec};
+
+use nalgebra::{DMatrix, DVector, SVector};
+
+use super::tangent::Tangent;
+use super::{Direction, Linearized, inputs};
+use crate::eliminate::vector;
+use crate::kkt::{Rank, Rows};
+use crate::names::Entry;
+use crate::{ConstraintKind, Error, Lagrangian, Real, Scalar, Simulate, State};
+
+/// The linear system ż = A z + B u near a state, u the change of the inputs.
+///
+/// Without constraints z is the change of the state (q, q̇). With constraints a change that keeps to them has fewer
+/// degrees of freedom: the columns of [`basis`](Self::basis) Z span the tangent space of {Φ = 0, F q̇ + b = 0} in
+/// (q, q̇), orthonormal, and δ(q, q̇) = Z z. There are 2N less two for each independent holonomic and one for each
+/// independent velocity constraint.
+///
+/// At an equilibrium, or along a steady motion of which nothing but cyclic coordinates moves, A is constant, and its
+/// eigenvalues decide on stability. Elsewhere it is that of the moment: δ(q̇, q̈) = A δ(q, q̇) to first order beside the
+/// motion itself, whose [`rate`](Self::rate) is not zero.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Linearization<T> {
+    /// The system matrix, as large as there are degrees of freedom in the state.
+    pub a: DMatrix<T>,
+    /// The input matrix, a column for each input.
+    pub b: DMatrix<T>,
+    /// Z: a row for each coordinate, then for each velocity; a column for each entry of z. The identity where there are
+    /// no constraints.
+    pub basis: DMatrix<T>,
+    /// (q̇, q̈) at the state itself: zero at an equilibrium.
+    pub rate: DVector<T>,
+    states: Vec<String>,
+    inputs: Vec<String>,
+}
+
+impl<T> Linearization<T> {
+    /// The names of the rows of [`basis`](Self::basis), coordinates and velocities; without constraints those of
+    /// the rows and columns of A.
+    pub fn states(&self) -> &[String] {
+        &self.states
+    }
+
+    /// The names of the inputs, in the order of the columns of B.
+    pub fn inputs(&self) -> &[String] {
+        &self.inputs
+    }
+}
+
+/// See [`Linearized::linearize`].
+pub(super) fn linearize<L, const N: usize, const M: usize, const P: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+    names: &[&str],
+) -> Result<Linearization<L::Scalar>, Error>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+{
+    let parameters = inputs::indices(&L::PARAMETERS, "parameter", names)?;
+    system.check_consistent(state)?;
+    let tangent = Tangent::at(system, state)?;
+    let basis =
+        if M == 0 { DMatrix::identity(2 * N, 2 * N) } else { tangent_space(system, state, &tangent)? };
+    let mut change = DMatrix::zeros(2 * N, basis.ncols());
+    for (j, direction) in basis.column_iter().enumerate() {
+        let (q, v) = (SVector::from_fn(|i, _| direction[i]), SVector::from_fn(|i, _| direction[N + i]));
+        let entry = entry::<L, N, M>(direction.icamax());
+        let solution = tangent.along(&Direction { q, v, ..Direction::zero() }, entry)?;
+        change.view_mut((0, j), (N, 1)).copy_from(&v);
+        change.view_mut((N, j), (N, 1)).copy_from(&solution.accelerations);
+    }
+    let mut push = DMatrix::zeros(2 * N, parameters.len());
+    for (j, &k) in parameters.iter().enumerate() {
+        let direction = Direction::of_parameter(k);
+        stays_on_constraints::<L, N, M, P>(&tangent, k)?;
+        let solution = tangent.along(&direction, Entry::Parameter(L::PARAMETERS[k]))?;
+        push.view_mut((N, j), (N, 1)).copy_from(&solution.accelerations);
+    }
+    let rate = state.v.iter().chain(&tangent.solution.accelerations).copied();
+    Ok(Linearization {
+        a: basis.tr_mul(&change),
+        b: basis.tr_mul(&push),
+        rate: DVector::from_iterator(2 * N, rate),
+        states: (0..2 * N).map(|row| format!("{}", entry::<L, N, M>(row))).collect(),
+        inputs: parameters.iter().map(|&k| L::PARAMETERS[k].into()).collect(),
+        basis,
+    })
+}
+
+/// What row `row` of (q, q̇) is called.
+fn entry<L: Lagrangian<N, M>, const N: usize, const M: usize>(row: usize) -> Entry {
+    let name = L::COORDINATES[row % N];
+    if row < N { Entry::Coordinate(name) } else { Entry::Velocity(name) }
+}
+
+/// An orthonormal basis of the changes (δq, δv) with F δq = 0 for holonomic constraints and δ(F v + b) = 0 for all.
+fn tangent_space<L, const N: usize, const M: usize, const P: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+    tangent: &Tangent<'_, L, N, M>,
+) -> Result<DMatrix<L::Scalar>, Error>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+{
+    let zero = vector([L::Scalar::constant(0.0); N]);
+    let mut changes: Vec<[SVector<L::Scalar, N>; 2]> = Vec::new();
+    for q in holonomic_rows(system, state).null_space() {
+        // Another place turns the constraints: the velocity must follow.
+        let entry = entry::<L, N, M>(q.icamax());
+        let turned = tangent.change(&Direction { q, ..Direction::zero() }, entry)?;
+        changes.push([q, tangent.factors.rows.least(&turned.rate.into())]);
+    }
+    changes.extend(tangent.factors.rows.null_space().map(|v| [zero, v]));
+    let columns: Vec<_> = changes
+        .iter()
+        .map(|[q, v]| DVector::from_iterator(2 * N, q.iter().chain(v).copied()).normalize())
+        .collect();
+    match columns.is_empty() {
+        true => Ok(DMatrix::zeros(2 * N, 0)),
+        false => Ok(DMatrix::from_columns(&columns).qr().q()),
+    }
+}
+
+/// The rows of the holonomic constraints alone.
+fn holonomic_rows<L, const N: usize, const M: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+) -> Rows<L::Scalar, N, M>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    let mut f: [[L::Scalar; N]; M] = system.constraint_jacobian(state).transpose().into();
+    for (row, kind) in f.iter_mut().zip(L::CONSTRAINT_KINDS) {
+        if kind == ConstraintKind::Velocity {
+            *row = [L::Scalar::constant(0.0); N];
+        }
+    }
+    Rows::of(&system.mass_matrix(state).into(), &f, Rank::off_constraints())
+}
+
+/// An input that shifts a constraint has no state on it beside the one given.
+fn stays_on_constraints<L, const N: usize, const M: usize, const P: usize>(
+    tangent: &Tangent<'_, L, N, M>,
+    k: usize,
+) -> Result<(), Error>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+{
+    let input = L::PARAMETERS[k];
+    let change = tangent.change(&Direction::of_parameter(k), Entry::Parameter(input))?;
+    let zero = L::Scalar::constant(0.0);
+    match (0..M).find(|&a| change.position[a] != zero || change.rate[a] != zero) {
+        None => Ok(()),
+        Some(a) => Err(Error::InputShiftsConstraint { input, constraint: L::CONSTRAINTS[a] }),
+    }
+}

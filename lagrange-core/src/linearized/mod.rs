@@ -1,0 +1,187 @@
+//! How the motion depends on where it starts, on the parameters and on the time: Jacobians, equilibria, linearization.
+
+mod direction;
+#[cfg(feature = "alloc")]
+mod equilibrium;
+#[cfg(feature = "alloc")]
+mod inputs;
+mod jacobian;
+#[cfg(feature = "alloc")]
+mod linearization;
+#[cfg(feature = "alloc")]
+mod spectrum;
+mod tangent;
+#[cfg(test)]
+mod tests;
+
+use nalgebra::SVector;
+
+#[doc(hidden)]
+pub use direction::only_where;
+pub use direction::{Direction, ResidualChange};
+#[cfg(feature = "alloc")]
+pub use equilibrium::Equilibrium;
+pub use jacobian::{Jacobian, Partials};
+#[cfg(feature = "alloc")]
+pub use linearization::Linearization;
+#[cfg(feature = "alloc")]
+pub use spectrum::Stability;
+
+use crate::{Error, Lagrangian, Real, Solution, State};
+
+/// A system whose equations of motion can be differentiated: Jacobians, equilibria, linearization.
+///
+/// `#[derive(Lagrangian)]` implements it too, for `N` coordinates, `M` constraints and `P` parameters: the numbers in
+/// the fields that an expression uses. An input of control is a parameter that stands in a
+/// `#[force(…)]`, or anywhere else; it is chosen by name at the call.
+///
+/// The derivatives are exact. With the residual R = (M q̈ − h − Fᵀλ, F q̈ + γ) the change of (q̈, λ) along a direction
+/// solves K δ(q̈, λ) = −∂R at fixed (q̈, λ), where K is the matrix of the equations of motion (implicit differentiation;
+/// Griewank and Walther, *Evaluating Derivatives*, 15.1); the derive differentiates R.
+///
+/// What a function that the user supplies (`#[function(…)]`) holds inside is no parameter of the system. Functions must
+/// have one derivative more than the equations of motion need: where a `Table` or one by hand has not, this
+/// trait is missing and the rest of the system is there. It is missing, too, where fourth derivatives of a function would
+/// be needed or where the function would exceed 30,000 operations.
+///
+/// ```
+/// use lagrange_core::prelude::*;
+///
+/// /// A pendulum with a motor at the pivot.
+/// #[derive(Clone, Lagrangian)]
+/// #[coordinates(theta)]
+/// #[lagrangian(m*l^2/2 * theta_dot^2 + m*g*l*cos(theta))]
+/// #[force(theta: torque)]
+/// struct Pendulum { m: f64, l: f64, g: f64, torque: f64 }
+///
+/// let pendulum = Pendulum { m: 1.0, l: 2.0, g: 9.81, torque: 0.0 };
+/// let jacobian = pendulum.jacobian(&State::at_rest([0.3]))?;
+/// // ∂θ̈/∂θ = −g/l cos θ
+/// assert!((jacobian.accelerations.q[(0, 0)] + 9.81 / 2.0 * 0.3_f64.cos()).abs() < 1e-15);
+///
+/// # #[cfg(feature = "alloc")] {
+/// // The torque that holds it at 30°, and the motion nearby.
+/// let held = pendulum.equilibrium(&State::at_rest([0.5236]), &["torque"])?;
+/// assert!((held.system.torque - 9.81 * 2.0 * 0.5236_f64.sin()).abs() < 1e-14);
+/// let near = held.system.linearize(&held.state, &["torque"])?;
+/// assert!((near.b[(1, 0)] - 1.0 / 4.0).abs() < 1e-15);
+/// let frequency = near.natural_frequencies()?[0];
+/// assert!((frequency - (9.81 / 2.0 * 0.5236_f64.cos()).sqrt()).abs() < 1e-14);
+/// # }
+/// # Ok::<(), Error>(())
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "the Jacobians of `{Self}` are not known",
+    label = "no `Linearized`",
+    note = "`#[derive(Lagrangian)]` gives it to every system whose functions (`#[function(…)]`) have one derivative more than the equations of motion need"
+)]
+pub trait Linearized<const N: usize, const M: usize, const P: usize>: Lagrangian<N, M> {
+    /// Names of the parameters, `m` or `m[0]` or `a[0][1]`, in the order of the fields.
+    const PARAMETERS: [&'static str; P];
+
+    /// The values of the parameters.
+    fn parameters(&self) -> SVector<Self::Scalar, P>;
+
+    /// Sets the parameter [`PARAMETERS`](Self::PARAMETERS)`[index]`; false where there is none, or where it is behind a
+    /// reference or in a type that only `#[parameter(…)]` gives a shape.
+    fn set_parameter(&mut self, index: usize, value: Self::Scalar) -> bool;
+
+    /// The derivative of the residual along a direction, accelerations and multipliers held at those of `solution`.
+    fn residual_change(
+        &self,
+        state: &State<Self::Scalar, N>,
+        solution: &Solution<Self::Scalar, N, M>,
+        direction: &Direction<Self::Scalar, N, P>,
+    ) -> ResidualChange<Self::Scalar, N, M>;
+
+    /// Accelerations and multipliers at a state, and their derivatives by the time, coordinates, velocities and
+    /// parameters. Nothing is allocated; the matrices of 100 coordinates and 50 constraints take 3 MB of the stack,
+    /// and twice that in a build without optimization.
+    ///
+    /// # Errors
+    /// As [`solve`](crate::Simulate::solve); [`Error::DerivativeNotFinite`], also where a parameter is at fault that no one
+    /// asked for, which [`linearize`](Self::linearize) passes over.
+    fn jacobian(&self, state: &State<Self::Scalar, N>) -> Result<Jacobian<Self::Scalar, N, M, P>, Error>
+    where
+        Self: Lagrangian<N, M, Scalar: Real> + Sized,
+    {
+        jacobian::jacobian(self, state)
+    }
+
+    /// The linear system near a state, its inputs the parameters of these names (`u` names all elements of a vector
+    /// `u: [f64; 3]`).
+    ///
+    /// ```
+    /// use lagrange_core::prelude::*;
+    ///
+    /// /// Two equal pendulums, one below the other.
+    /// #[derive(Lagrangian)]
+    /// #[coordinates(a, b)]
+    /// #[lagrangian(a_dot^2 + b_dot^2/2 + a_dot*b_dot*cos(a - b) + 2*cos(a) + cos(b))]
+    /// struct DoublePendulum;
+    ///
+    /// let near = DoublePendulum.linearize(&State::at_rest([0.0, 0.0]), &[])?;
+    /// assert_eq!(near.states(), ["a", "b", "a_dot", "b_dot"]);
+    /// let modes = near.natural_frequencies()?; // in units of √(g/l)
+    /// assert!((modes[0] - (2.0 - 2.0_f64.sqrt()).sqrt()).abs() < 1e-14);
+    /// assert!((modes[1] - (2.0 + 2.0_f64.sqrt()).sqrt()).abs() < 1e-14);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Inconsistent`] where the state is off the constraints; [`Error::InputShiftsConstraint`];
+    /// [`Error::UnknownName`] and [`Error::RepeatedName`]; as [`jacobian`](Self::jacobian).
+    #[cfg(feature = "alloc")]
+    fn linearize(
+        &self,
+        state: &State<Self::Scalar, N>,
+        inputs: &[&str],
+    ) -> Result<Linearization<Self::Scalar>, Error>
+    where
+        Self: Lagrangian<N, M, Scalar: Real> + Sized,
+    {
+        linearization::linearize(self, state, inputs)
+    }
+
+    /// An equilibrium near a state, on the constraints: coordinates and parameters for which q̈ = 0.
+    ///
+    /// What may change is named: coordinates, and parameters where the question is which force (or length, or mass) holds the
+    /// system there; everything else stays as it is. No names are all the coordinates. The velocities stay those of
+    /// the guess: at rest for an equilibrium; not zero for a steady motion, such as the precession of a top, where they are
+    /// those of cyclic coordinates. The time stays as it is: where the system depends on the time, the equilibrium is one
+    /// of the moment.
+    ///
+    /// The method is that of Levenberg and Marquardt, from the guess on, or from the nearest coordinates on the constraints
+    /// where all coordinates are sought. It finds stable and unstable equilibria alike.
+    ///
+    /// ```
+    /// use lagrange_core::prelude::*;
+    ///
+    /// /// A bead on a hoop that turns about its vertical diameter.
+    /// #[derive(Clone, Lagrangian)]
+    /// #[coordinates(theta)]
+    /// #[lagrangian(m*r^2/2 * (theta_dot^2 + omega^2*sin(theta)^2) + m*g*r*cos(theta))]
+    /// struct Bead { m: f64, r: f64, g: f64, omega: f64 }
+    ///
+    /// let bead = Bead { m: 1.0, r: 0.5, g: 9.81, omega: 6.0 };
+    /// let off_the_axis = bead.equilibrium(&State::at_rest([0.5]), &[])?;
+    /// assert!((off_the_axis.state.q[0].cos() - 9.81 / (0.5 * 36.0)).abs() < 1e-15);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::NoEquilibrium`], with the row that is farthest from satisfied and the best point;
+    /// [`Error::UnknownName`], [`Error::RepeatedName`] and [`Error::ParameterFixed`];
+    /// [`Error::StateNotFinite`], [`Error::EquationsNotFinite`] and [`Error::DerivativeNotFinite`].
+    #[cfg(feature = "alloc")]
+    fn equilibrium(
+        &self,
+        guess: &State<Self::Scalar, N>,
+        unknowns: &[&str],
+    ) -> Result<Equilibrium<Self, N, M>, Error>
+    where
+        Self: Lagrangian<N, M, Scalar: Real> + Clone,
+    {
+        equilibrium::equilibrium(self, guess, unknowns)
+    }
+}

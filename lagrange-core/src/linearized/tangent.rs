@@ -1,0 +1,79 @@
+//! How accelerations and multipliers change along a direction: K δ(q̈, λ) = −∂R, with one factorization for all.
+
+use nalgebra::ComplexField;
+
+use super::{Direction, Linearized, ResidualChange};
+use crate::kkt::{Factors, Rank};
+use crate::names::{Entry, Row};
+use crate::solve::{fault, solve};
+use crate::{Error, Lagrangian, Real, Solution, State};
+
+/// The equations of motion at a state, solved and factorized.
+pub(super) struct Tangent<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
+    system: &'a L,
+    state: &'a State<L::Scalar, N>,
+    pub(super) solution: Solution<L::Scalar, N, M>,
+    pub(super) factors: Factors<L::Scalar, N, M>,
+}
+
+impl<'a, L, const N: usize, const M: usize> Tangent<'a, L, N, M>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    pub(super) fn at(system: &'a L, state: &'a State<L::Scalar, N>) -> Result<Self, Error> {
+        let solution = solve(system, state)?;
+        let m = system.mass_matrix(state).into();
+        let f = system.constraint_jacobian(state).transpose().into();
+        // A change that leaves the constraints may make dependent ones disagree: those left out do not count.
+        let factors = Factors::of(&m, &f, Rank::off_constraints());
+        Ok(Self { system, state, solution, factors })
+    }
+
+    /// δq̈ and δλ along a direction; `entry` is what to call it.
+    pub(super) fn along<const P: usize>(
+        &self,
+        direction: &Direction<L::Scalar, N, P>,
+        entry: Entry,
+    ) -> Result<Solution<L::Scalar, N, M>, Error>
+    where
+        L: Linearized<N, M, P>,
+    {
+        let change = self.change(direction, entry)?;
+        let (h, gamma) = ((-change.motion).into(), change.acceleration.into());
+        let time = self.state.t.to_f64();
+        self.factors.solve(&h, &gamma).map_err(|found| fault::<L, N, M>(&found, time))
+    }
+
+    /// The derivative of the residual, which must be finite.
+    pub(super) fn change<const P: usize>(
+        &self,
+        direction: &Direction<L::Scalar, N, P>,
+        entry: Entry,
+    ) -> Result<ResidualChange<L::Scalar, N, M>, Error>
+    where
+        L: Linearized<N, M, P>,
+    {
+        let change = self.system.residual_change(self.state, &self.solution, direction);
+        finite::<L, N, M>(&change, entry, self.state)?;
+        Ok(change)
+    }
+}
+
+/// Names the first row that is not finite.
+pub(super) fn finite<L, const N: usize, const M: usize>(
+    change: &ResidualChange<L::Scalar, N, M>,
+    entry: Entry,
+    state: &State<L::Scalar, N>,
+) -> Result<(), Error>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    let ResidualChange { motion, acceleration, rate, position } = change;
+    let coordinate = (0..N).find(|&i| !motion[i].is_finite()).map(|i| Row::Coordinate(L::COORDINATES[i]));
+    let finite = |a: usize| [acceleration[a], rate[a], position[a]].iter().all(|x| x.is_finite());
+    let constraint = || (0..M).find(|&a| !finite(a)).map(|a| Row::Constraint(L::CONSTRAINTS[a]));
+    match coordinate.or_else(constraint) {
+        None => Ok(()),
+        Some(row) => Err(Error::DerivativeNotFinite { row, entry, time: state.t.to_f64() }),
+    }
+}

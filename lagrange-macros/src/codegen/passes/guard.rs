@@ -1,0 +1,100 @@
+//! Derivatives that do not exist must not spoil those that do.
+//!
+//! A derivative along a direction is a sum over everything that changes. Where one slope is infinite, as that of √x at
+//! 0, or not a number, as that of xⁿ by n there, its product with a rate of change of zero would be none either, and
+//! with it the whole sum. So such a product counts only where something changes that it depends on.
+
+use super::rewrite::{carried_over, carry_definitions};
+use crate::codegen::schedule::{Operation, Register, Schedule};
+use crate::symbolic::Function;
+use crate::variables::Variable;
+
+/// The schedule with its doubtful products guarded, and where the results are then.
+pub(super) fn guarded(source: &Schedule, results: &[Register]) -> (Schedule, Vec<Register>) {
+    let mut guard = Guard { schedule: Schedule::default(), numbers: Vec::new() };
+    for &operation in &source.operations {
+        guard.copy(operation, source);
+    }
+    let Guard { mut schedule, numbers } = guard;
+    let place = |register: Register| numbers[register.index()].register;
+    carry_definitions(&mut schedule, source, |register| Some(place(register)));
+    (schedule, results.iter().map(|&result| place(result)).collect())
+}
+
+/// What is known of a result.
+#[derive(Clone, Copy)]
+struct Number {
+    /// Where it is in the new schedule.
+    register: Register,
+    kind: Kind,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    /// Finite for arguments that are.
+    Finite,
+    /// It may be infinite: something is divided by, or a function has a pole, or is unknown.
+    Unbounded,
+    /// A sum of rates of change, each times a number. The activity is zero where all of them are.
+    Rate { activity: Register },
+}
+
+struct Guard {
+    schedule: Schedule,
+    /// For each operation of the source.
+    numbers: Vec<Number>,
+}
+
+impl Guard {
+    fn copy(&mut self, operation: Operation, source: &Schedule) {
+        let operands: Vec<Kind> =
+            source.operands(operation).map(|operand| self.numbers[operand.index()].kind).collect();
+        let numbers = &self.numbers;
+        let mut register = carried_over(&mut self.schedule, source, operation, |_, operand| {
+            numbers[operand.index()].register
+        });
+        let kind = self.kind(operation, register, &operands);
+        if let Kind::Rate { activity } = kind
+            && is_doubtful(operation, &operands)
+        {
+            register = self.schedule.push(Operation::Where(activity, register));
+        }
+        self.numbers.push(Number { register, kind });
+    }
+
+    fn kind(&mut self, operation: Operation, register: Register, operands: &[Kind]) -> Kind {
+        let activities = operands.iter().filter_map(|kind| match kind {
+            Kind::Rate { activity } => Some(*activity),
+            _ => None,
+        });
+        if let Operation::Input(symbol) = operation
+            && matches!(Variable::of(symbol), Variable::Change(_))
+        {
+            return Kind::Rate { activity: self.schedule.push(Operation::Function(Function::Abs, register)) };
+        }
+        let sum = activities.reduce(|x, y| if x == y { x } else { self.schedule.push(Operation::Add(x, y)) });
+        match sum {
+            Some(activity) => Kind::Rate { activity },
+            None if has_pole(operation) || operands.contains(&Kind::Unbounded) => Kind::Unbounded,
+            None => Kind::Finite,
+        }
+    }
+}
+
+/// A rate of change over a number, or times one that may be infinite.
+fn is_doubtful(operation: Operation, operands: &[Kind]) -> bool {
+    match operation {
+        Operation::Multiply(..) => operands.contains(&Kind::Unbounded),
+        Operation::Divide(..) => true,
+        _ => false,
+    }
+}
+
+/// Whether the result may be infinite for finite operands.
+fn has_pole(operation: Operation) -> bool {
+    match operation {
+        Operation::Divide(..) | Operation::Power(..) | Operation::Result { .. } => true,
+        Operation::Function(function, _) => matches!(function, Function::Ln | Function::Tan),
+        _ => false,
+    }
+}

@@ -1,0 +1,95 @@
+//! How the equations of motion change along a direction in time, state and parameters.
+//!
+//! The residual is written as the textbook does, dp/dt − ∂L/∂q − Q − Fᵀλ and d/dt(F q̇ + b), and not with the entries
+//! of M: so it costs as much as the Lagrangian, and its derivative along one direction a small multiple of that
+//! (forward mode; Griewank and Walther, *Evaluating Derivatives*, 3.1). The whole Jacobian as formulas would
+//! be N² entries, each with second derivatives of M.
+
+use super::{Equations, symbols};
+use crate::resolve::Problem;
+use crate::symbolic::{Forward, Graph, Id, Symbol};
+use crate::variables::Variable;
+
+/// Derivatives along a direction, at given accelerations and multipliers, of …
+pub(crate) struct Linearization {
+    /// … M q̈ − h − Fᵀλ,
+    pub(crate) motion: Vec<Id>,
+    /// F q̈ + γ,
+    pub(crate) acceleration: Vec<Id>,
+    /// F q̇ + b,
+    pub(crate) rate: Vec<Id>,
+    /// Φ of holonomic constraints, zero for the others.
+    pub(crate) position: Vec<Id>,
+}
+
+impl Linearization {
+    /// Every entry.
+    pub(crate) fn roots(&self) -> Vec<Id> {
+        [&self.motion, &self.acceleration, &self.rate, &self.position]
+            .into_iter()
+            .flatten()
+            .copied()
+            .collect()
+    }
+}
+
+/// What the equations depend on, in the order of [`Variable::Change`]: the time, coordinates, velocities, parameters.
+pub(crate) fn arguments(problem: &Problem) -> Vec<Symbol> {
+    let n = problem.coordinates.len();
+    let mut arguments = vec![Variable::Time.symbol()];
+    arguments.extend(symbols(n, Variable::Coordinate));
+    arguments.extend(symbols(n, Variable::Velocity));
+    arguments.extend(symbols(problem.parameters.entries.len(), Variable::Parameter));
+    arguments
+}
+
+/// Differentiates the residual; `None` where exact arithmetic cannot write the result.
+pub(crate) fn linearize(problem: &mut Problem, equations: &Equations) -> Option<Linearization> {
+    let motion = motion(problem, equations);
+    let mut rate = rate(&mut problem.graph, problem.coordinates.len());
+    let acceleration: Vec<Id> =
+        equations.rate.iter().map(|&velocity| rate.of(&mut problem.graph, velocity)).collect();
+    let arguments = arguments(problem);
+    let graph = &mut problem.graph;
+    let seeds: Vec<_> = arguments
+        .into_iter()
+        .enumerate()
+        .map(|(i, argument)| (argument, graph.symbol(Variable::Change(i).symbol())))
+        .collect();
+    let mut along = Forward::along(seeds);
+    let mut changes = |roots: &[Id]| roots.iter().map(|&root| along.of(graph, root)).collect::<Vec<Id>>();
+    let linearization = Linearization {
+        motion: changes(&motion),
+        acceleration: changes(&acceleration),
+        rate: changes(&equations.rate),
+        position: changes(&equations.residual),
+    };
+    graph.take_fault().is_none().then_some(linearization)
+}
+
+/// dp/dt − ∂L/∂q − Q − Fᵀλ, with accelerations and multipliers as symbols.
+fn motion(problem: &mut Problem, equations: &Equations) -> Vec<Id> {
+    let n = problem.coordinates.len();
+    let graph = &mut problem.graph;
+    let mut rate = rate(graph, n);
+    let row = |i: usize| {
+        let inertia = rate.of(graph, equations.momentum[i]);
+        let free = graph.sub(inertia, equations.momentum_rate[i]);
+        match equations.constraint_force.get(i) {
+            Some(&force) => graph.sub(free, force),
+            None => free,
+        }
+    };
+    (0..n).map(row).collect()
+}
+
+/// d/dt along a motion of any accelerations.
+fn rate(graph: &mut Graph, coordinates: usize) -> Forward {
+    let mut seeds = vec![(Variable::Time.symbol(), Id::ONE)];
+    for i in 0..coordinates {
+        let (velocity, acceleration) = (Variable::Velocity(i).symbol(), Variable::Acceleration(i).symbol());
+        seeds.push((Variable::Coordinate(i).symbol(), graph.symbol(velocity)));
+        seeds.push((velocity, graph.symbol(acceleration)));
+    }
+    Forward::along(seeds)
+}

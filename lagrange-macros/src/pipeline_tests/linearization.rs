@@ -1,0 +1,62 @@
+//! The derivative of the residual along a direction is a function as long as the system: that is why it is emitted,
+//! and not the Jacobian entry by entry.
+
+use super::{equations, systems};
+use crate::codegen::operations;
+use crate::mechanics::{Linearization, linearize};
+use crate::resolve::Problem;
+use crate::symbolic::{Graph, Id};
+use crate::variables::Variable;
+
+const LENGTHS: [usize; 5] = [4, 8, 12, 16, 20];
+
+fn linearization(source: &str) -> (Problem, Linearization) {
+    let (mut problem, equations) = equations(source);
+    let linearization = linearize(&mut problem, &equations).expect("no fault");
+    (problem, linearization)
+}
+
+fn count(graph: &Graph, roots: &[Id]) -> usize {
+    let count = operations(graph, roots);
+    count.arithmetic + count.functions
+}
+
+/// ∂R/∂(t, q, q̇), each column a formula of its own.
+fn columns(problem: &mut Problem, linearization: &Linearization) -> Vec<Id> {
+    let mut all = Vec::new();
+    for column in 0..=2 * problem.coordinates.len() {
+        let seed = |symbol| match Variable::of(symbol) {
+            Variable::Change(i) => Some(if i == column { Id::ONE } else { Id::ZERO }),
+            _ => None,
+        };
+        for root in linearization.roots() {
+            all.push(problem.graph.substituted(root, seed));
+        }
+    }
+    all
+}
+
+/// With a dense mass matrix, and with constraints.
+#[test]
+fn the_change_along_a_direction_takes_linearly_many_operations() {
+    for (name, system) in [("angles", systems::chain as fn(usize) -> String), ("rods", systems::rods)] {
+        let counts = LENGTHS.map(|n| {
+            let (problem, linearization) = linearization(&system(n));
+            count(&problem.graph, &linearization.roots())
+        });
+        println!("a chain of {LENGTHS:?} in {name}: {counts:?} operations");
+        assert!(counts.windows(3).all(|c| c[2] + c[0] == 2 * c[1]), "{counts:?}");
+    }
+}
+
+#[test]
+fn the_columns_as_formulas_take_quadratically_many() {
+    let counts = LENGTHS.map(|n| {
+        let (mut problem, linearization) = linearization(&systems::chain(n));
+        let columns = columns(&mut problem, &linearization);
+        count(&problem.graph, &columns)
+    });
+    println!("all columns for a chain of {LENGTHS:?} in angles: {counts:?} operations");
+    // More than half as much again as in proportion to the length.
+    assert!(2 * LENGTHS[2] * counts[4] > 3 * LENGTHS[4] * counts[2], "{counts:?}");
+}

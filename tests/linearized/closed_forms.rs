@@ -1,0 +1,191 @@
+//! Linear systems of textbooks, in coordinates without constraints.
+
+use std::f64::consts::PI;
+
+use lagrange_core::nalgebra::{Complex, DMatrix, dmatrix};
+use lagrange_core::prelude::*;
+
+use crate::{TOLERANCE, assert_close, assert_spectrum, oscillations};
+
+/// The balance system of Åström and Murray, *Feedback Systems*: a pendulum upright on a cart, both with friction.
+#[derive(Clone, Lagrangian)]
+#[coordinates(p, theta)]
+#[lagrangian((cart + m)/2*p_dot^2 - m*l*cos(theta)*p_dot*theta_dot + (inertia + m*l^2)/2*theta_dot^2
+    - m*g*l*cos(theta))]
+#[dissipation(c/2*p_dot^2 + gamma/2*theta_dot^2)]
+#[force(p: force)]
+struct Balance {
+    cart: f64,
+    m: f64,
+    inertia: f64,
+    l: f64,
+    c: f64,
+    gamma: f64,
+    g: f64,
+    force: f64,
+}
+
+#[test]
+fn the_balance_system_is_that_of_the_textbook() {
+    let Balance { cart, m, inertia, l, c, gamma, g, .. } = BALANCE;
+    let (mt, jt) = (cart + m, inertia + m * l * l);
+    let mu = mt * jt - (m * l).powi(2);
+    let a = dmatrix![
+        0.0, 0.0, 1.0, 0.0;
+        0.0, 0.0, 0.0, 1.0;
+        0.0, (m * l).powi(2) * g / mu, -c * jt / mu, -gamma * l * m / mu;
+        0.0, mt * m * g * l / mu, -c * l * m / mu, -gamma * mt / mu;
+    ];
+    let b = dmatrix![0.0; 0.0; jt / mu; l * m / mu];
+    let near = BALANCE.linearize(&State::at_rest([0.7, 0.0]), &["force"]).unwrap();
+    assert_close(&near.a, &a);
+    assert_close(&near.b, &b);
+    assert_eq!(near.basis, DMatrix::identity(4, 4));
+    assert_eq!(near.rate.as_slice(), [0.0; 4]);
+    assert_eq!(near.states(), ["p", "theta", "p_dot", "theta_dot"]);
+    assert_eq!(near.inputs(), ["force"]);
+    assert_eq!(near.stability(), Ok(Stability::Unstable));
+    // Hanging, it comes to rest, but anywhere.
+    let hanging = BALANCE.linearize(&State::at_rest([0.7, PI]), &[]).unwrap();
+    assert_eq!(hanging.stability(), Ok(Stability::Undecided));
+    assert_eq!(hanging.b.shape(), (4, 0));
+}
+
+const BALANCE: Balance =
+    Balance { cart: 10.0, m: 80.0, inertia: 100.0, l: 1.0, c: 0.1, gamma: 0.01, g: 9.8, force: 0.0 };
+
+/// Two unlike pendulums, one below the other.
+#[derive(Lagrangian)]
+#[coordinates(a: [2])]
+#[define(kinetic = (m[0] + m[1])/2*l[0]^2*a_dot[0]^2 + m[1]/2*l[1]^2*a_dot[1]^2
+    + m[1]*l[0]*l[1]*a_dot[0]*a_dot[1]*cos(a[0] - a[1]))]
+#[lagrangian(kinetic + (m[0] + m[1])*g*l[0]*cos(a[0]) + m[1]*g*l[1]*cos(a[1]))]
+struct DoublePendulum {
+    m: [f64; 2],
+    l: [f64; 2],
+    g: f64,
+}
+
+/// l₀ l₁ s⁴ + μ (l₀ + l₁) g s² + μ g² = 0 with μ = 1 + m₁/m₀; for equal rods and masses s² = −(2 ± √2) g/l.
+#[test]
+fn the_normal_modes_of_a_double_pendulum() {
+    let system = DoublePendulum { m: [2.0, 0.7], l: [1.3, 0.4], g: 9.81 };
+    let near = system.linearize(&State::at_rest([0.0; 2]), &[]).unwrap();
+    let (ratio, [l0, l1], g) = (1.0 + 0.7 / 2.0, system.l, system.g);
+    let (a, b, c) = (l0 * l1, ratio * (l0 + l1) * g, ratio * g * g);
+    let root = (b * b - 4.0 * a * c).sqrt();
+    let modes = [((b - root) / (2.0 * a)).sqrt(), ((b + root) / (2.0 * a)).sqrt()];
+    assert_spectrum(&near.eigenvalues().unwrap(), &oscillations(&modes), TOLERANCE);
+    for (frequency, mode) in near.natural_frequencies().unwrap().iter().zip(modes) {
+        assert!((frequency - mode).abs() < 1e-13 * mode);
+    }
+    // Upright: the roots of the same equation with −g.
+    let upright = system.linearize(&State::at_rest([PI; 2]), &[]).unwrap();
+    let expected = modes.iter().flat_map(|&w| [Complex::from(w), Complex::from(-w)]).collect::<Vec<_>>();
+    assert_spectrum(&upright.eigenvalues().unwrap(), &expected, TOLERANCE);
+    assert!(upright.natural_frequencies().unwrap().is_empty());
+}
+
+/// A bead on a hoop that turns about its vertical diameter.
+#[derive(Clone, Lagrangian)]
+#[coordinates(theta)]
+#[lagrangian(m*r^2/2*(theta_dot^2 + omega^2*sin(theta)^2) + m*g*r*cos(theta))]
+struct BeadOnHoop {
+    m: f64,
+    r: f64,
+    g: f64,
+    omega: f64,
+}
+
+#[test]
+fn the_bead_on_a_hoop_leaves_the_bottom_where_the_hoop_turns_fast() {
+    let (g, r) = (9.81, 0.4);
+    let critical = (g / r).sqrt();
+    for (part, stability) in [(0.99, Stability::Undecided), (1.01, Stability::Unstable)] {
+        let bead = BeadOnHoop { m: 0.2, r, g, omega: part * critical };
+        let near = bead.linearize(&State::at_rest([0.0]), &[]).unwrap();
+        assert_eq!(near.stability(), Ok(stability), "at {part} of the critical rate");
+    }
+    let bead = BeadOnHoop { m: 0.2, r, g, omega: 1.5 * critical };
+    let found = bead.equilibrium(&State::at_rest([0.8]), &[]).unwrap();
+    let theta = found.state.q[0];
+    assert!((theta.cos() - 1.0 / 2.25).abs() < 1e-15, "{theta}");
+    let frequency = bead.linearize(&found.state, &[]).unwrap().natural_frequencies().unwrap()[0];
+    assert!((frequency - bead.omega * theta.sin()).abs() < 1e-14);
+}
+
+/// A symmetric top on its tip, tilted about x by α, then about y by β, spinning by ψ about its axis: regular upright.
+#[derive(Clone, Lagrangian)]
+#[coordinates(alpha, beta, psi)]
+#[lagrangian(i1/2*(alpha_dot^2*cos(beta)^2 + beta_dot^2) + i3/2*(psi_dot + alpha_dot*sin(beta))^2
+    - m*g*l*cos(alpha)*cos(beta))]
+struct Top {
+    i1: f64,
+    i3: f64,
+    m: f64,
+    g: f64,
+    l: f64,
+}
+
+/// I₁ z̈ − i I₃ω ż − m g l z = 0 for z = α + iβ (Goldstein, *Classical Mechanics*, 5.7): stable where
+/// I₃²ω² > 4 m g l I₁.
+#[test]
+fn a_top_sleeps_where_it_spins_fast() {
+    let top = Top { i1: 0.3, i3: 0.1, m: 1.2, g: 9.81, l: 0.25 };
+    let weight = top.m * top.g * top.l;
+    let critical = (4.0 * weight * top.i1).sqrt() / top.i3;
+    for (part, stability) in [(0.99, Stability::Unstable), (1.01, Stability::Undecided)] {
+        let spin = part * critical;
+        let upright = State::new([0.0, 0.0, 0.4], [0.0, 0.0, spin]);
+        let near = top.linearize(&upright, &[]).unwrap();
+        assert_eq!(near.stability(), Ok(stability), "at {part} of the critical spin");
+        let (b, i) = (top.i3 * spin, Complex::<f64>::i());
+        let root = Complex::from(b * b - 4.0 * top.i1 * weight).sqrt();
+        let s = [i * (b + root) / (2.0 * top.i1), i * (b - root) / (2.0 * top.i1)];
+        let zero = Complex::from(0.0);
+        // Of the spin, which is cyclic.
+        let expected = [s[0], s[0].conj(), s[1], s[1].conj(), zero, zero];
+        // The pairs are √0.02 apart: near a double eigenvalue round-off counts ten times.
+        assert_spectrum(&near.eigenvalues().unwrap(), &expected, 10.0 * TOLERANCE);
+    }
+}
+
+/// Foucault's pendulum in its plane, as seen in a frame that turns.
+#[derive(Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian(((x_dot - omega*y)^2 + (y_dot + omega*x)^2 - k*(x^2 + y^2))/2)]
+struct Foucault {
+    omega: f64,
+    k: f64,
+}
+
+#[test]
+fn a_turning_frame_splits_the_frequency() {
+    let near = Foucault { omega: 0.3, k: 4.0 }.linearize(&State::at_rest([0.0; 2]), &[]).unwrap();
+    assert_spectrum(&near.eigenvalues().unwrap(), &oscillations(&[1.7, 2.3]), TOLERANCE);
+}
+
+/// Underdamped, critically damped, overdamped, driven apart: ẍ + 2δẋ + k x = 0.
+#[derive(Lagrangian)]
+#[coordinates(x)]
+#[lagrangian((x_dot^2 - k*x^2)/2)]
+#[dissipation(delta*x_dot^2)]
+struct Oscillator {
+    k: f64,
+    delta: f64,
+}
+
+#[test]
+fn damping_decides_the_stability() {
+    let near = |k, delta| Oscillator { k, delta }.linearize(&State::at_rest([0.0]), &[]).unwrap();
+    let damped = near(4.0, 0.1);
+    assert_eq!(damped.stability(), Ok(Stability::AsymptoticallyStable));
+    let decay = Complex::new(-0.1, 3.99_f64.sqrt());
+    assert_spectrum(&damped.eigenvalues().unwrap(), &[decay, decay.conj()], TOLERANCE);
+    assert!((damped.natural_frequencies().unwrap()[0] - 2.0).abs() < 1e-14);
+    assert_eq!(near(4.0, 3.0).stability(), Ok(Stability::AsymptoticallyStable));
+    assert!(near(4.0, 3.0).natural_frequencies().unwrap().is_empty());
+    assert_eq!(near(4.0, -0.1).stability(), Ok(Stability::Unstable));
+    assert_eq!(near(4.0, 0.0).stability(), Ok(Stability::Undecided));
+    assert_eq!(near(0.0, 0.0).stability(), Ok(Stability::Undecided));
+}

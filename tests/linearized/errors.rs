@@ -1,0 +1,159 @@
+//! What is wrong is said, with the names at fault.
+
+use lagrange_core::prelude::*;
+use lagrange_core::{Entry, Row};
+
+/// A pendulum on a rod whose length is said again to be an input.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian(m/2*(x_dot^2 + y_dot^2) - m*g*y)]
+#[constraint(rod: x^2 + y^2 = l^2)]
+#[force(x: push)]
+struct Pendulum<'a> {
+    m: f64,
+    g: &'a f64,
+    l: f64,
+    push: f64,
+}
+
+const PENDULUM: Pendulum<'_> = Pendulum { m: 1.0, g: &9.81, l: 2.0, push: 0.0 };
+const HANGING: [f64; 2] = [0.0, -2.0];
+
+fn message<T: std::fmt::Debug>(result: Result<T, Error>) -> String {
+    result.unwrap_err().to_string()
+}
+
+#[test]
+fn names_are_checked() {
+    let state = State::at_rest(HANGING);
+    let message = message(PENDULUM.linearize(&state, &["pusch"]));
+    assert_eq!(message, "there is no parameter `pusch`; there are `m`, `g`, `l`, `push`");
+    let error = PENDULUM.linearize(&state, &["push", "push"]).unwrap_err();
+    assert_eq!(error, Error::RepeatedName { name: "push".into() });
+    let Err(Error::UnknownName { kind, known, .. }) = PENDULUM.equilibrium(&state, &["z"]) else {
+        panic!("z is no unknown");
+    };
+    assert_eq!((kind, known.len()), ("coordinate or parameter", 6));
+}
+
+#[test]
+fn a_state_off_the_constraints_has_no_linear_system() {
+    let error = PENDULUM.linearize(&State::at_rest([0.0, -1.0]), &[]).unwrap_err();
+    assert!(matches!(error, Error::Inconsistent { constraint: "rod", .. }), "{error}");
+}
+
+#[test]
+fn an_input_that_shifts_a_constraint_is_refused() {
+    let error = PENDULUM.linearize(&State::at_rest(HANGING), &["push", "l"]).unwrap_err();
+    assert_eq!(error, Error::InputShiftsConstraint { input: "l", constraint: "rod" });
+}
+
+#[test]
+fn what_is_behind_a_reference_cannot_be_sought() {
+    let error = PENDULUM.equilibrium(&State::at_rest(HANGING), &["g"]).unwrap_err();
+    assert_eq!(error, Error::ParameterFixed { name: "g" });
+    // It can be differentiated by, though.
+    let jacobian = PENDULUM.jacobian(&State::at_rest(HANGING)).unwrap();
+    let by_g = jacobian.multipliers.parameters[(0, 1)];
+    // 2 λ y = m g
+    assert!((by_g - 1.0 / (2.0 * -2.0)).abs() < 1e-15, "{by_g}");
+}
+
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian(m/2*(x_dot^2 + y_dot^2) - m*g*y - k/2*x^2)]
+struct Falling {
+    m: f64,
+    g: f64,
+    k: f64,
+}
+
+#[test]
+fn where_nothing_rests_the_force_that_is_left_is_named() {
+    let falling = Falling { m: 2.0, g: 9.81, k: 3.0 };
+    let error = falling.equilibrium(&State::at_rest([1.0, 1.0]), &[]).unwrap_err();
+    let Error::NoEquilibrium { row, residual, best, .. } = &error else { panic!("{error}") };
+    assert_eq!(*row, Row::Coordinate("y"));
+    assert!((residual - 2.0 * 9.81).abs() < 1e-14);
+    assert_eq!(best.len(), 2);
+    let text = error.to_string();
+    assert!(text.contains("the row of coordinate `y` leaves 1.962e1"), "{text}");
+    assert!(text.contains("y = 1.0;") && text.contains("start closer, or let other"), "{text}");
+}
+
+/// Its place is prescribed: it rests at no moment at which that moves.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x)]
+#[lagrangian(x_dot^2/2)]
+#[constraint(drive: x = cos(t))]
+struct Driven;
+
+#[test]
+fn what_is_driven_does_not_rest() {
+    let error = Driven.equilibrium(&State::at_rest([0.5]).at_time(1.0), &[]).unwrap_err();
+    assert!(matches!(error, Error::NoEquilibrium { row: Row::Constraint("drive"), .. }), "{error}");
+    // Nor where it turns round: there it is accelerated.
+    assert!(Driven.equilibrium(&State::at_rest([1.0]), &[]).is_err());
+}
+
+/// A force with a kink in its derivative, and one that grows like a root.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian((x_dot^2 + y_dot^2)/2)]
+#[force(y: sqrt(x))]
+struct Root;
+
+#[test]
+fn a_derivative_that_is_not_finite_is_named() {
+    let at_the_root = State::at_rest([0.0, 1.0]).at_time(2.0);
+    let expected =
+        Error::DerivativeNotFinite { row: Row::Coordinate("y"), entry: Entry::Coordinate("x"), time: 2.0 };
+    assert_eq!(Root.jacobian(&at_the_root), Err(expected.clone()));
+    assert_eq!(Root.linearize(&at_the_root, &[]), Err(expected.clone()));
+    assert_eq!(Root.equilibrium(&at_the_root, &[]).unwrap_err(), expected);
+    assert!(expected.to_string().contains("by `x` is not finite at t = 2; row of coordinate `y`"));
+    let off = State::at_rest([f64::NAN, 1.0]);
+    assert!(matches!(Root.equilibrium(&off, &[]), Err(Error::StateNotFinite { .. })));
+    // Beyond the root the force itself is no number.
+    let beyond = Root.equilibrium(&State::at_rest([-1.0, 1.0]), &["y"]).unwrap_err();
+    assert_eq!(beyond, Error::EquationsNotFinite { row: Row::Coordinate("y"), time: 0.0 });
+}
+
+/// A spring of any power: ∂/∂n of xⁿ is xⁿ ln x, which is not a number at 0.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x)]
+#[lagrangian(m*x_dot^2/2)]
+#[force(x: push - k*x^n - c*x)]
+struct Spring {
+    m: f64,
+    k: f64,
+    n: f64,
+    c: f64,
+    push: f64,
+}
+
+#[test]
+fn a_derivative_that_does_not_exist_leaves_the_others() {
+    let spring = Spring { m: 2.0, k: 1.0, n: 3.0, c: 8.0, push: 0.0 };
+    let near = spring.linearize(&State::at_rest([0.0]), &["push"]).unwrap();
+    assert_eq!(near.a.as_slice(), [0.0, -4.0, 1.0, 0.0]);
+    assert_eq!(near.b.as_slice(), [0.0, 0.5]);
+    let error = spring.linearize(&State::at_rest([0.0]), &["n"]).unwrap_err();
+    let entry = Entry::Parameter("n");
+    assert_eq!(error, Error::DerivativeNotFinite { row: Row::Coordinate("x"), entry, time: 0.0 });
+}
+
+/// Without mass at the pole: the azimuth has no inertia where θ = 0.
+#[derive(Clone, Lagrangian)]
+#[coordinates(theta, phi)]
+#[lagrangian((theta_dot^2 + sin(theta)^2*phi_dot^2)/2 + cos(theta))]
+struct Polar;
+
+#[test]
+fn at_a_pole_there_is_an_equilibrium_but_no_motion_to_differentiate() {
+    let found = Polar.equilibrium(&State::at_rest([0.2, 0.7]), &[]).unwrap();
+    assert!(found.state.q[0].abs() < 1e-15);
+    assert_eq!(found.undetermined(), ["phi"]);
+    let error = Polar.linearize(&State::at_rest([0.0, 0.7]), &[]).unwrap_err();
+    assert!(error.to_string().contains("`phi`"), "{error}");
+}

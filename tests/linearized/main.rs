@@ -1,0 +1,38 @@
+//! Jacobians, equilibria and linear systems against closed forms and textbooks.
+
+// What helps tests may panic as they do.
+#![allow(clippy::unwrap_used)]
+
+mod closed_forms;
+mod constrained;
+mod equilibria;
+mod errors;
+mod numbers;
+
+use lagrange_core::nalgebra::{Complex, DMatrix};
+
+/// Largest deviation of eigenvalues that are known exactly, in units of the largest.
+const TOLERANCE: f64 = 1e-13;
+
+fn assert_close(matrix: &DMatrix<f64>, expected: &DMatrix<f64>) {
+    assert_eq!(matrix.shape(), expected.shape());
+    let error = (matrix - expected).amax() / expected.amax();
+    assert!(error < 1e-14, "off by {error:e}: {matrix}, expected {expected}");
+}
+
+/// Each eigenvalue expected is found once, and none beside.
+fn assert_spectrum(found: &[Complex<f64>], expected: &[Complex<f64>], tolerance: f64) {
+    assert_eq!(found.len(), expected.len(), "{found:?}");
+    let size = expected.iter().map(|s| s.norm()).fold(0.0, f64::max);
+    let mut left = found.to_vec();
+    for s in expected {
+        let nearest = (0..left.len()).min_by(|&i, &j| (left[i] - s).norm().total_cmp(&(left[j] - s).norm()));
+        let found = left.remove(nearest.unwrap());
+        assert!((found - s).norm() <= tolerance * size, "{found} in place of {s}");
+    }
+}
+
+/// ± i ω for each frequency.
+fn oscillations(frequencies: &[f64]) -> Vec<Complex<f64>> {
+    frequencies.iter().flat_map(|&w| [Complex::new(0.0, w), Complex::new(0.0, -w)]).collect()
+}
