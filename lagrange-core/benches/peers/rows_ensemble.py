@@ -47,8 +47,9 @@ class Contestant:
         return states
 
 
-def ours(tolerance):
-    return Contestant("ours", "ours", tolerance, build_ours("ours", NATIVE) / "ensemble")
+def ours(way, tolerance):
+    name = "ours, on lanes" if way == "lanes" else "ours, one by one"
+    return Contestant(name, "ours", tolerance, build_ours("ours", NATIVE) / "ensemble", way)
 
 
 def heyoka(batch, tolerance):
@@ -92,7 +93,8 @@ def rows(options):
     columns, quality = {}, {}
     for tolerance in TOLERANCES:
         progress(f"ensemble at {tolerance:g}")
-        contestants = [ours(tolerance), *(heyoka(batch, tolerance) for batch in (1, 4, 8))]
+        contestants = [ours(way, tolerance) for way in ("lanes", "one-by-one")]
+        contestants += [heyoka(batch, tolerance) for batch in (1, 4, 8)]
         judged = contest(contestants, exact, QUICK_ROUNDS if options.quick else ROUNDS)
         columns[f"{tolerance:g}"] = [timing for timing, _ in judged]
         for timing, error in judged:

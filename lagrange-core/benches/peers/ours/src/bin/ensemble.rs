@@ -1,6 +1,6 @@
 //! Many double pendulums from rest to T = 10, timed.
 //!
-//! `ensemble TOLERANCE STARTS ENDS`: STARTS holds the initial angles, two `f64` a pendulum in the machine's byte
+//! `ensemble lanes|one-by-one TOLERANCE STARTS ENDS`: STARTS holds the initial angles, two `f64` a pendulum in the machine's byte
 //! order. Each line on the standard input asks for one run, which answers with the seconds it took as a line of JSON; at
 //! its end the last states are written to ENDS, two angles and two rates a pendulum.
 
@@ -19,32 +19,33 @@ const END: f64 = 10.0;
 #[define(vy[0] = sin(theta[0])*theta_dot[0])]
 #[define(vy[1] = vy[0] + sin(theta[1])*theta_dot[1])]
 #[lagrangian(sum(i in 0..2, (vx[i]^2 + vy[i]^2)/2) + g*(2*cos(theta[0]) + cos(theta[1])))]
-struct DoublePendulum {
-    g: f64,
+struct DoublePendulum<T> {
+    g: T,
 }
 
 type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
 
-fn run(pendulum: &DoublePendulum, starts: &[[f64; 2]], tolerance: f64) -> Outcome<Vec<State<f64, 2>>> {
-    let end = |&angles: &[f64; 2]| -> Outcome<State<f64, 2>> {
-        let method = Dop853::with_tolerance(tolerance);
-        Ok(*pendulum.integrate(State::at_rest(angles), END, method)?.end().state())
-    };
-    starts.iter().map(end).collect()
+fn run(on_lanes: bool, starts: &[[f64; 2]], tolerance: f64) -> Outcome<Vec<State<f64, 2>>> {
+    let method = Dop853::with_tolerance(tolerance);
+    let member = |k: usize| (DoublePendulum { g: 9.81 }, State::at_rest(starts[k]));
+    let ensemble = Ensemble::from_fn(starts.len(), member);
+    let outcome =
+        if on_lanes { ensemble.integrate_on_lanes(END, method)? } else { ensemble.integrate(END, method)? };
+    let ends: Vec<State<f64, 2>> = outcome.completed().map(|(_, state)| *state).collect();
+    if ends.len() == starts.len() { Ok(ends) } else { Err("a member has failed".into()) }
 }
 
 fn main() -> Outcome<()> {
-    let [_, tolerance, starts, ends] = <[String; 4]>::try_from(std::env::args().collect::<Vec<_>>())
-        .map_err(|_| "usage: ensemble TOLERANCE STARTS ENDS")?;
+    let [_, way, tolerance, starts, ends] = <[String; 5]>::try_from(std::env::args().collect::<Vec<_>>())
+        .map_err(|_| "usage: ensemble lanes|one-by-one TOLERANCE STARTS ENDS")?;
     let numbers: Vec<f64> =
         std::fs::read(starts)?.as_chunks().0.iter().map(|&bytes| f64::from_ne_bytes(bytes)).collect();
     let (tolerance, starts) = (tolerance.parse()?, numbers.as_chunks().0);
-    let pendulum = DoublePendulum { g: 9.81 };
     let mut states = Vec::new();
     for line in stdin().lock().lines() {
         line?;
         let begun = Instant::now();
-        states = run(&pendulum, starts, tolerance)?;
+        states = run(way == "lanes", starts, tolerance)?;
         println!("{{\"seconds\": {}}}", begun.elapsed().as_secs_f64());
     }
     let numbers = states.iter().flat_map(|state| state.q.iter().chain(state.v.iter()));
