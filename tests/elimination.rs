@@ -238,3 +238,21 @@ fn a_straight_chain_of_massless_joints_is_noticed() {
         }
     }
 }
+
+/// A mass that cancels out of the acceleration still has to be there.
+#[test]
+fn a_pendulum_without_mass_is_singular() {
+    #[derive(Lagrangian)]
+    #[coordinates(theta)]
+    #[lagrangian(m*l^2/2*theta_dot^2 + m*g*l*cos(theta))]
+    struct Pendulum {
+        m: f64,
+        g: f64,
+        l: f64,
+    }
+    let state = State::at_rest([0.5]);
+    let solution = Pendulum { m: 2.0, g: 9.81, l: 3.0 }.solve(&state).unwrap();
+    assert!((solution.accelerations[0] + 9.81 / 3.0 * 0.5_f64.sin()).abs() < 1e-15);
+    let error = Pendulum { m: 0.0, g: 9.81, l: 3.0 }.solve(&state).unwrap_err();
+    assert!(matches!(error, Error::Singular { .. }), "{error}");
+}

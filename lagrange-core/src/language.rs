@@ -42,7 +42,10 @@
 //! # Definitions
 //!
 //! Values, functions and families. A family over 0..n is a vector. Definitions are kept as they are written: what
-//! is shared is computed once, and a recursion along a chain costs as much as its length.
+//! is shared is computed once, and a recursion along a chain costs as much as its length. That holds for the solved
+//! accelerations too: the rates of velocities that definitions name are unknowns beside the accelerations where that
+//! makes the equations sparse (the articulated-body algorithm). So name the velocities of a chain or a tree, or its places
+//! with `der(…)` in L, each from the one before.
 //!
 //! ```
 //! use lagrange_core::prelude::*;

@@ -79,6 +79,47 @@ fn names_of_the_emitted_code_do_not_clash() {
     assert_eq!(system.results(&state, &solution), solution.multipliers[0] + 0.2);
 }
 
+/// Fields that are called like locals of the emitted code, one of them where a supplied function is called.
+#[test]
+fn fields_may_be_called_like_locals() {
+    #[derive(Lagrangian)]
+    #[coordinates(x, y)]
+    #[function(U(x) = call1)]
+    #[lagrangian(x_dot^2/2 + y_dot^2/2 - r0*r1*x^2/2 - (r2 + r3)*y*x^3 - r4*sin(r5*x*y)*r6 - U(x) - U(y)*call0[0] - call0[1]*x)]
+    struct Locals {
+        r0: f64,
+        r1: f64,
+        r2: f64,
+        r3: f64,
+        r4: f64,
+        r5: f64,
+        r6: f64,
+        call0: [f64; 2],
+        call1: Cube,
+    }
+    struct Cube;
+    impl Function<1, 1> for Cube {
+        fn eval<S: Scalar>(&self, [s]: [S; 1]) -> [S; 1] {
+            [s * s * s]
+        }
+    }
+    let [r0, r1, r2, r3, r4, r5, r6] = [1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.7];
+    let system = Locals { r0, r1, r2, r3, r4, r5, r6, call0: [1.8, 1.9], call1: Cube };
+    let (x, y) = (0.4_f64, 0.3_f64);
+    let force = system.forcing(&State::at_rest([x, y]));
+    let turn = r4 * r5 * r6 * (r5 * x * y).cos();
+    let expected = [
+        -r0 * r1 * x - 3.0 * (r2 + r3) * y * x * x - turn * y - 3.0 * x * x - 1.9,
+        -(r2 + r3) * x * x * x - turn * x - 3.0 * y * y * 1.8,
+    ];
+    assert!(
+        (force[0] - expected[0]).abs() < 1e-14 && (force[1] - expected[1]).abs() < 1e-14,
+        "{force} {expected:?}"
+    );
+    let accelerations = system.accelerations(&State::at_rest([x, y])).accelerations;
+    assert!((accelerations - force).amax() < 1e-14);
+}
+
 macro_rules! oscillator {
     ($(#[$attribute:meta])* $name:ident, $x:ident, $velocity:ident, $field:ident: $number:ty,
      $kinetic:expr, $potential:expr, $stiffness:literal, $left:expr, $constraint:ident, $length:literal) => {

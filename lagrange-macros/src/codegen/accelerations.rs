@@ -5,7 +5,7 @@ use quote::quote;
 
 use super::Emitter;
 use super::eliminate::{Solved, eliminate};
-use super::kernel::Kernel;
+use super::kernel::{Kernel, OPERATION_LIMIT};
 use super::passes::Program;
 use super::schedule::Schedule;
 use super::shape::Shape;
@@ -42,6 +42,7 @@ fn entries(form: &Form, equations: &Equations) -> Vec<Id> {
 fn cheapest(problem: &Problem, equations: &Equations) -> Option<Program> {
     let forms = equations.forms.iter();
     let programs = forms.filter_map(|form| solve(problem, form, equations));
+    let programs = programs.filter(|program| program.count().total() <= OPERATION_LIMIT);
     programs.min_by_key(|program| program.time().total()).map(Program::fused)
 }
 

@@ -12,6 +12,7 @@ mod pivot;
 mod reduce;
 mod schur;
 
+use super::kernel::OPERATION_LIMIT;
 use super::schedule::{Register, Schedule};
 use crate::mechanics::{Equations, Form};
 use crate::symbolic::Id;
@@ -37,7 +38,7 @@ pub(super) struct Solved {
 /// too long.
 pub(super) fn eliminate(schedule: &mut Schedule, form: &Form, equations: &Equations) -> Option<Solved> {
     let order = order(form)?;
-    let mut solver = Solver { schedule, growth: Vec::new() };
+    let mut solver = Solver { schedule, growth: Vec::new(), reciprocals: Vec::new() };
     let matrix = form.matrix.iter().map(|row| solver.entries(row)).collect();
     let definitions = form.definitions.iter().map(|row| solver.sparse_entries(row)).collect();
     let factors = solver.factor(matrix, definitions, &order);
@@ -47,7 +48,7 @@ pub(super) fn eliminate(schedule: &mut Schedule, form: &Form, equations: &Equati
     let pushes = solver.pushes(&multipliers, &rows, starts.len());
     let mut accelerations = solver.backward(&factors, starts, &pushes);
     accelerations.truncate(equations.forcing.len());
-    Some(solver.finish(accelerations, multipliers))
+    Some(solver.finish(accelerations, multipliers, &pushes))
 }
 
 fn order(form: &Form) -> Option<Vec<usize>> {
@@ -56,12 +57,13 @@ fn order(form: &Form) -> Option<Vec<usize>> {
     short(&Pattern { matrix, definitions })
 }
 
-/// The order of a reduction that is better not left to loops.
+/// The order of a reduction that is better not left to loops, and not longer than a function may be.
 fn short(pattern: &Pattern) -> Option<Vec<usize>> {
     let (order, cost) = reduction_order(pattern);
     let free = pattern.matrix.len() - pattern.definitions.len();
     let in_loops = free * free * free / 3;
-    (cost <= UNROLLED || SPARSE * cost <= in_loops).then_some(order)
+    let is_worth_it = cost <= UNROLLED || SPARSE * cost <= in_loops;
+    (is_worth_it && cost <= OPERATION_LIMIT).then_some(order)
 }
 
 impl Solver<'_> {

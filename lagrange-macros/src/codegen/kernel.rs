@@ -166,7 +166,6 @@ impl Style<'_> {
     }
 }
 
-/// The counts, and what was done about them.
 /// What a function takes, and what each pass that gained something left of it.
 fn doc(program: &Program, order: &Order, parts: usize) -> String {
     let mut doc = format!("{}.", program.count());
@@ -174,7 +173,7 @@ fn doc(program: &Program, order: &Order, parts: usize) -> String {
     steps.dedup_by_key(|(_, count)| *count);
     if steps.len() > 1 {
         let steps: Vec<_> = steps.iter().map(|(name, count)| format!("{} {name}", count.total())).collect();
-        doc += &format!(" All: {}.", steps.join(", "));
+        doc += &format!(" Of every kind: {}.", steps.join(", then "));
     }
     match program.fusions() {
         0 => {}

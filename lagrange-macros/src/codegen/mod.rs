@@ -100,7 +100,7 @@ pub(crate) fn solutions(
     equations: &Equations,
     input: impl Fn(crate::symbolic::Symbol) -> f64,
 ) -> Vec<Option<Vec<f64>>> {
-    let values = |form| Some(accelerations::solve(problem, form, equations)?.values(&input));
+    let values = |form| Some(accelerations::solve(problem, form, equations)?.fused().values(&input));
     equations.forms.iter().map(values).collect()
 }
 

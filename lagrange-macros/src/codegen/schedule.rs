@@ -225,32 +225,6 @@ impl Schedule {
         count
     }
 
-    /// What is computed from any of `sources`, by index, and those themselves.
-    pub(super) fn depending_on(&self, sources: &[Register]) -> Vec<bool> {
-        let mut depends = vec![false; self.operations.len()];
-        sources.iter().for_each(|source| depends[source.index()] = true);
-        for (index, &operation) in self.operations.iter().enumerate() {
-            depends[index] |= self.operands(operation).any(|operand| depends[operand.index()]);
-        }
-        depends
-    }
-
-    /// Those of `results` that no other of them is computed from.
-    pub(super) fn not_used_by_one_another(&self, results: &[Register]) -> Vec<Register> {
-        let mut is_used = vec![false; self.operations.len()];
-        let mut reached = vec![false; self.operations.len()];
-        results.iter().for_each(|result| reached[result.index()] = true);
-        for (index, &operation) in self.operations.iter().enumerate().rev() {
-            if reached[index] || is_used[index] {
-                self.operands(operation).for_each(|operand| is_used[operand.index()] = true);
-            }
-        }
-        let mut ends: Vec<Register> =
-            results.iter().copied().filter(|result| !is_used[result.index()]).collect();
-        ends.dedup();
-        ends
-    }
-
     /// The result of an operation, if it is computed at all.
     pub(super) fn find(&self, operation: Operation) -> Option<Register> {
         self.known.get(&operation).copied()

@@ -32,8 +32,9 @@ pub(super) struct Style<'a> {
 impl<'a> Style<'a> {
     pub(super) fn new(problem: &'a Problem, scalar: &'a syn::Type) -> Self {
         let is_f64 = quote!(#scalar).to_string() == "f64";
-        let mut taken =
-            HashSet::from(["state", "solution", "multipliers", "index", "self", "waiting"].map(String::from));
+        let mut taken = HashSet::from(
+            ["state", "solution", "multipliers", "direction", "index", "self", "waiting"].map(String::from),
+        );
         taken.extend((0..4).map(|k| format!("entries{k}")));
         let mut unique = |text: String| identifier(&text, &mut taken);
         let mut names = FxHashMap::default();
@@ -166,10 +167,18 @@ fn split(text: &str) -> [String; 2] {
     }
 }
 
+/// Whether the writer gives such names to what it computes: `r12`, `call3_0`.
+fn is_local(name: &str) -> bool {
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    let call = name.strip_prefix("call").and_then(|rest| rest.split_once('_'));
+    name.strip_prefix('r').is_some_and(is_number)
+        || call.is_some_and(|(call, output)| is_number(call) && is_number(output))
+}
+
 /// An identifier like `text` that nothing else bears.
 pub(super) fn identifier(text: &str, taken: &mut HashSet<String>) -> Ident {
     let mut name = text.replace("][", "_").replace('[', "_").replace(']', "");
-    if syn::parse_str::<Ident>(&name).is_err() || !taken.insert(name.clone()) {
+    if is_local(&name) || syn::parse_str::<Ident>(&name).is_err() || !taken.insert(name.clone()) {
         let is_free = |candidate: &String| !taken.contains(candidate);
         name = (1..).map(|k| format!("{name}__{k}")).find(is_free).unwrap_or(name);
         taken.insert(name.clone());

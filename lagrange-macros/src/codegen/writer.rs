@@ -232,9 +232,7 @@ impl<'s, 'a> Writer<'s, 'a> {
         if let Some(name) = self.names.get(&Register::at(index)) {
             return (*name).clone();
         }
-        let name = format!("r{index}");
-        let suffix = if self.style.taken.contains(&name) { "_" } else { "" };
-        format_ident!("{name}{suffix}", span = Span::mixed_site())
+        format_ident!("r{index}", span = Span::mixed_site())
     }
 
     /// Puts a result into a local.

@@ -29,30 +29,35 @@ pub(crate) struct Form {
 }
 
 impl Form {
-    /// Over the accelerations alone, and over the velocities that definitions name as well where there are any.
+    /// Over the accelerations alone, and over the velocities that definitions name as well where there are any and
+    /// exact arithmetic can write it.
     pub(super) fn all(problem: &mut Problem, motion: &Motion) -> Vec<Self> {
-        let plain = Self::new(&mut problem.graph, motion.mass.clone(), motion.forcing.clone(), Vec::new());
+        let plain = Self::new(motion.mass.clone(), motion.forcing.clone(), Vec::new());
         let velocities = Velocities::named(problem);
         let named = (!velocities.rows.is_empty()).then(|| velocities.form(problem));
-        [plain].into_iter().chain(named).collect()
+        let named = named.filter(|_| problem.graph.take_fault().is_none());
+        let mut forms: Vec<Self> = [plain].into_iter().chain(named).collect();
+        forms.iter_mut().for_each(|form| form.divide_what_is_alone(&mut problem.graph));
+        forms
     }
 
-    fn new(
-        graph: &mut Graph,
-        matrix: Vec<Vec<Id>>,
-        linear: Vec<Id>,
-        definitions: Vec<Vec<(usize, Id)>>,
-    ) -> Self {
-        let mut is_tied = vec![false; matrix.len()];
-        definitions.iter().flatten().for_each(|&(i, _)| is_tied[i] = true);
-        let free = matrix.len() - definitions.len();
-        let alone = |i: usize| {
-            let others = matrix[i].iter().enumerate().filter(|&(j, _)| j != i);
-            let is_alone = i < free && !is_tied[i] && others.into_iter().all(|(_, &entry)| entry == Id::ZERO);
-            (is_alone && matrix[i][i] != Id::ZERO).then(|| graph.div(linear[i], matrix[i][i]))
-        };
-        let alone = (0..matrix.len()).map(alone).collect();
+    fn new(matrix: Vec<Vec<Id>>, linear: Vec<Id>, definitions: Vec<Vec<(usize, Id)>>) -> Self {
+        let alone = vec![None; matrix.len()];
         Self { matrix, linear, definitions, alone }
+    }
+
+    fn divide_what_is_alone(&mut self, graph: &mut Graph) {
+        let free = self.matrix.len() - self.definitions.len();
+        for i in (0..free).filter(|&i| self.is_alone(i)).collect::<Vec<_>>() {
+            let quotient = graph.div(self.linear[i], self.matrix[i][i]);
+            self.alone[i] = graph.take_fault().is_none().then_some(quotient);
+        }
+    }
+
+    fn is_alone(&self, i: usize) -> bool {
+        let is_defined_by = self.definitions.iter().flatten().any(|&(j, _)| j == i);
+        let mut row = self.matrix[i].iter().enumerate();
+        !is_defined_by && row.all(|(j, &entry)| (j == i) == (entry != Id::ZERO))
     }
 }
 
@@ -65,29 +70,30 @@ struct Velocities {
 }
 
 impl Velocities {
-    /// The definitions in L that are linear in the velocities; none where there are very many.
+    /// The definitions in L that are linear in the velocities; none where very many contain a velocity.
     fn named(problem: &mut Problem) -> Self {
         let n = problem.coordinates.len();
         let graph = &mut problem.graph;
         let q_dot: Vec<Id> = symbols(n, Variable::Velocity).iter().map(|&v| graph.symbol(v)).collect();
         let mut named = Self { nodes: q_dot, rows: Vec::new() };
-        let order = graph.reachable(&[problem.lagrangian]);
-        let moves = moving(graph, &order);
-        for id in order {
-            let Node::Defined(inner) = *graph.node(id) else { continue };
-            if !moves[id.index()] {
-                continue;
+        let mut moving = Moving::default();
+        moving.extend(graph);
+        let mut candidates: Vec<(Id, Id)> = Vec::new();
+        for id in graph.reachable(&[problem.lagrangian]) {
+            match *graph.node(id) {
+                Node::Defined(inner) if moving.contains(id) => candidates.push((id, inner)),
+                _ => {}
             }
+        }
+        if n + candidates.len() > LIMIT {
+            return named;
+        }
+        for (id, inner) in candidates {
             let row = graph.gradient_to(inner, &named.nodes);
-            let order = graph.reachable(&row);
-            let moves = moving(graph, &order);
-            if row.iter().all(|entry| !moves[entry.index()]) {
+            moving.extend(graph);
+            if row.iter().all(|&entry| !moving.contains(entry)) {
                 named.nodes.push(id);
                 named.rows.push(row);
-            }
-            if named.nodes.len() > LIMIT {
-                named.rows.clear();
-                break;
             }
         }
         named
@@ -102,7 +108,7 @@ impl Velocities {
         let entries =
             |row: &Vec<Id>| row.iter().copied().enumerate().filter(|&(_, entry)| entry != Id::ZERO).collect();
         let definitions = self.rows.iter().map(entries).collect();
-        Form::new(&mut problem.graph, matrix, linear, definitions)
+        Form::new(matrix, linear, definitions)
     }
 
     /// ∂²ℓ/∂(q̇, w)²
@@ -125,7 +131,8 @@ impl Velocities {
         for (j, &part) in local.iter().enumerate() {
             let mut terms = vec![(along.of(&mut problem.graph, part), -one)];
             for (row, &adjoint) in self.rows.iter().zip(&adjoints) {
-                let turn = along.of(&mut problem.graph, row.get(j).copied().unwrap_or(Id::ZERO));
+                let Some(&entry) = row.get(j).filter(|&&entry| entry != Id::ZERO) else { continue };
+                let turn = along.of(&mut problem.graph, entry);
                 terms.push((problem.graph.mul(adjoint, turn), -one));
             }
             linear.push(terms);
@@ -143,7 +150,8 @@ impl Velocities {
         let mut adjoints: Vec<Id> = vec![Id::ZERO; self.rows.len()];
         for k in (0..self.rows.len()).rev() {
             let mut terms = vec![(local[n + k], one)];
-            for (row, &later) in self.rows.iter().zip(&adjoints).skip(k + 1) {
+            let users = self.rows.iter().zip(&adjoints).skip(k + 1);
+            for (row, &later) in users.filter(|(row, _)| row[n + k] != Id::ZERO) {
                 terms.push((graph.mul(later, row[n + k]), one));
             }
             let adjoint = graph.sum(terms);
@@ -163,7 +171,8 @@ impl Velocities {
         for (k, &adjoint) in adjoints.iter().enumerate() {
             let Node::Defined(inner) = *graph.node(self.nodes[n + k]) else { continue };
             let held: Vec<Id> = q.iter().chain(&self.nodes[..n + k]).copied().collect();
-            for (force, slope) in forces.iter_mut().zip(graph.gradient_to(inner, &held)) {
+            let slopes = graph.gradient_to(inner, &held);
+            for (force, slope) in forces.iter_mut().zip(slopes).filter(|(_, slope)| *slope != Id::ZERO) {
                 force.push(graph.mul(adjoint, slope));
             }
         }
@@ -174,18 +183,23 @@ impl Velocities {
     }
 }
 
-/// What contains a velocity, by index.
-fn moving(graph: &Graph, order: &[Id]) -> Vec<bool> {
-    let mut moves = vec![false; graph.len()];
-    for &id in order {
-        moves[id.index()] = match graph.node(id) {
-            Node::Symbol(symbol) => matches!(Variable::of(*symbol), Variable::Velocity(_)),
-            _ => {
-                let mut any = false;
-                graph.operands(id, |operand| any |= moves[operand.index()]);
-                any
-            }
-        };
+/// What contains a velocity, of all nodes so far.
+#[derive(Default)]
+struct Moving(Vec<bool>);
+
+impl Moving {
+    fn contains(&self, id: Id) -> bool {
+        self.0[id.index()]
     }
-    moves
+
+    fn extend(&mut self, graph: &Graph) {
+        for id in graph.ids().skip(self.0.len()) {
+            let mut any = match graph.node(id) {
+                Node::Symbol(symbol) => matches!(Variable::of(*symbol), Variable::Velocity(_)),
+                _ => false,
+            };
+            graph.operands(id, |operand| any |= self.contains(operand));
+            self.0.push(any);
+        }
+    }
 }

@@ -45,10 +45,10 @@ pub(crate) fn arguments(problem: &Problem) -> Vec<Symbol> {
 
 /// Differentiates the residual; `None` where exact arithmetic cannot write the result.
 pub(crate) fn linearize(problem: &mut Problem, equations: &Equations) -> Option<Linearization> {
-    let motion = motion(problem, equations);
-    let mut rate = rate(&mut problem.graph, problem.coordinates.len());
+    let mut along_motion = along_motion(&mut problem.graph, problem.coordinates.len());
+    let motion = motion(problem, equations, &mut along_motion);
     let acceleration: Vec<Id> =
-        equations.rate.iter().map(|&velocity| rate.of(&mut problem.graph, velocity)).collect();
+        equations.rate.iter().map(|&velocity| along_motion.of(&mut problem.graph, velocity)).collect();
     let arguments = arguments(problem);
     let graph = &mut problem.graph;
     let seeds: Vec<_> = arguments
@@ -68,12 +68,11 @@ pub(crate) fn linearize(problem: &mut Problem, equations: &Equations) -> Option<
 }
 
 /// dp/dt − ∂L/∂q − Q − Fᵀλ, with accelerations and multipliers as symbols.
-fn motion(problem: &mut Problem, equations: &Equations) -> Vec<Id> {
+fn motion(problem: &mut Problem, equations: &Equations, along_motion: &mut Forward) -> Vec<Id> {
     let n = problem.coordinates.len();
     let graph = &mut problem.graph;
-    let mut rate = rate(graph, n);
     let row = |i: usize| {
-        let inertia = rate.of(graph, equations.momentum[i]);
+        let inertia = along_motion.of(graph, equations.momentum[i]);
         let free = graph.sub(inertia, equations.momentum_rate[i]);
         match equations.constraint_force.get(i) {
             Some(&force) => graph.sub(free, force),
@@ -84,7 +83,7 @@ fn motion(problem: &mut Problem, equations: &Equations) -> Vec<Id> {
 }
 
 /// d/dt along a motion of any accelerations.
-fn rate(graph: &mut Graph, coordinates: usize) -> Forward {
+fn along_motion(graph: &mut Graph, coordinates: usize) -> Forward {
     let mut seeds = vec![(Variable::Time.symbol(), Id::ONE)];
     for i in 0..coordinates {
         let (velocity, acceleration) = (Variable::Velocity(i).symbol(), Variable::Acceleration(i).symbol());

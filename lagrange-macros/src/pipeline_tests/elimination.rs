@@ -24,8 +24,9 @@ fn a_chain_of_rods_is_solved_in_linearly_many_operations() {
     let counts: Vec<usize> =
         [5, 10, 15, 20, 25].map(|n| last(&counts(&systems::rods(n))[0]).expect("short enough")).to_vec();
     println!("operations of the accelerations and all multipliers, 5 to 25 rods: {counts:?}");
-    assert!(counts.windows(3).all(|c| c[2] + c[0] == 2 * c[1]), "{counts:?}");
-    assert!(counts[3] < 60 * 20, "{counts:?}");
+    // But for a sign more or less, where results are added in pairs.
+    assert!(counts.windows(3).all(|c| (c[2] + c[0]).abs_diff(2 * c[1]) <= 1), "{counts:?}");
+    assert!(counts[3] <= 45 * 20, "{counts:?}");
 }
 
 /// The articulated-body algorithm, found from the definitions of the links' velocities.
@@ -40,16 +41,16 @@ fn a_chain_in_angles_is_solved_in_linearly_many_operations() {
     }
     expect![[r#"
         links: M, over definitions; before the passes and after each
-        2: Some([88, 86, 79, 79, 79]), Some([82, 75, 72, 70, 70])
-        3: Some([158, 156, 147, 147, 147]), Some([150, 141, 132, 130, 130])
-        5: Some([354, 352, 339, 339, 339]), Some([276, 263, 246, 244, 244])
-        8: Some([818, 816, 797, 797, 797]), Some([465, 446, 417, 415, 415])
-        10: Some([1264, 1262, 1239, 1239, 1239]), Some([591, 568, 531, 529, 529])
-        12: Some([1838, 1836, 1809, 1809, 1809]), Some([717, 690, 645, 643, 643])
-        14: Some([2556, 2554, 2523, 2523, 2523]), Some([843, 812, 759, 757, 757])
-        16: Some([3434, 3432, 3397, 3397, 3397]), Some([969, 934, 873, 871, 871])
-        18: Some([4488, 4486, 4447, 4447, 4447]), Some([1095, 1056, 987, 985, 985])
-        20: None, Some([1221, 1178, 1101, 1099, 1099])
+        2: Some([90, 88, 81, 81, 81]), Some([84, 77, 74, 72, 72])
+        3: Some([161, 159, 150, 150, 150]), Some([153, 144, 135, 133, 133])
+        5: Some([359, 357, 344, 344, 344]), Some([281, 268, 251, 249, 249])
+        8: Some([826, 824, 805, 805, 805]), Some([473, 454, 425, 423, 423])
+        10: Some([1274, 1272, 1249, 1249, 1249]), Some([601, 578, 541, 539, 539])
+        12: Some([1850, 1848, 1821, 1821, 1821]), Some([729, 702, 657, 655, 655])
+        14: Some([2570, 2568, 2537, 2537, 2537]), Some([857, 826, 773, 771, 771])
+        16: Some([3450, 3448, 3413, 3413, 3413]), Some([985, 950, 889, 887, 887])
+        18: Some([4506, 4504, 4465, 4465, 4465]), Some([1113, 1074, 1005, 1003, 1003])
+        20: None, Some([1241, 1198, 1121, 1119, 1119])
     "#]]
     .assert_eq(&table);
     let chains = &over_definitions[4..];
@@ -142,8 +143,61 @@ fn every_form_has_the_same_solution() {
             let [Some(plain), Some(named)] = &solutions[..] else { panic!("both are short: {source}") };
             let scale = plain.iter().fold(0.0_f64, |scale, x| scale.max(x.abs()));
             for (x, y) in plain.iter().zip(named).take(plain.len() - 1) {
-                assert!((x - y).abs() < 1e-10 * scale, "{source}: {plain:?} {named:?}");
+                assert!((x - y).abs() < 1e-10 * x.abs() + 1e-13 * scale, "{source}: {plain:?} {named:?}");
             }
+            let pivots = [plain, named].map(|solution| *solution.last().expect("a pivot"));
+            assert!(pivots.iter().all(|pivot| *pivot > 0.0), "{source}: {pivots:?}");
         }
     }
+}
+
+/// What no result may rest on shows in the pivot, even where the results that it spoils are few, or hide it.
+#[test]
+fn the_pivot_is_no_number_where_a_result_is_none() {
+    let spoilt = [
+        // A singular part beside a multiplier that is zero.
+        "#[coordinates(x, u, w)] #[lagrangian(x_dot^2/2 + u_dot*w_dot - u*w)] #[constraint(c: x = 0)] struct A {}",
+        // An infinite force that shares a term with a multiplier.
+        "#[coordinates(x, u)] #[lagrangian(x_dot^2/2 + u_dot^2/2)] #[force(u: exp(-t)/u)]
+         #[constraint(c: t^3/6 = x)] struct B {}",
+        // An infinite acceleration that another hides.
+        "#[coordinates(x, u)] #[lagrangian(x_dot^2/2 + u_dot^2/2)] #[force(x: 1/x)] #[force(u: 1/(1 + 1/x))]
+         struct C {}",
+        // A mass of zero, whose reciprocal makes the multiplier zero.
+        "#[coordinates(x, y)] #[lagrangian(m*(x_dot^2 + y_dot^2)/2 - m*y)] #[constraint(c: x^2 + y^2 = 1)]
+         struct D { m: f64 }",
+        // One that cancels.
+        "#[coordinates(x)] #[lagrangian(m*x_dot^2/2 - m*x)] struct E { m: f64 }",
+    ];
+    for source in spoilt {
+        let (problem, equations) = equations(source);
+        for solution in solutions(&problem, &equations, |_| 0.0) {
+            let solution = solution.expect("short");
+            assert!(
+                !solution.last().is_some_and(|pivot| pivot.is_finite() && *pivot > 0.0),
+                "{source}: {solution:?}"
+            );
+        }
+    }
+}
+
+/// A lattice of rods: its Schur complement is sparse, but not sparse enough.
+#[test]
+fn what_would_be_too_long_is_left_to_loops() {
+    let (n, mut rods) = (14, String::new());
+    for i in 0..n * n {
+        if i % n + 1 < n {
+            rods += &format!("#[constraint(across{i}: (x[{i}] - x[{}])^2 + y[{i}]^2 = 1)]", i + 1);
+        }
+        if i + n < n * n {
+            rods += &format!("#[constraint(down{i}: (x[{i}] - x[{}])^2 + y[{i}]^2 = 1)]", i + n);
+        }
+    }
+    let m = n * n;
+    let source = format!(
+        "#[coordinates(x: [{m}], y: [{m}])] #[lagrangian(sum(i in 0..{m}, x_dot[i]^2 + y_dot[i]^2)/2)] {rods}
+         struct Lattice {{}}"
+    );
+    let (problem, equations) = equations(&source);
+    assert!(solving(&problem, &equations).iter().all(Option::is_none));
 }

@@ -95,8 +95,8 @@ impl Graph {
         let mut found: FxHashMap<Id, Id> = variables.iter().map(|&variable| (variable, Id::ZERO)).collect();
         let mut adjoints: FxHashMap<Id, Vec<(Id, Rational)>> = FxHashMap::default();
         adjoints.insert(root, vec![(Id::ONE, Rational::one())]);
-        for id in self.reachable(&[root]).into_iter().rev() {
-            let parts = adjoints.remove(&id).unwrap_or_default();
+        for id in self.reachable_to(&[root], variables).into_iter().rev() {
+            let Some(parts) = adjoints.remove(&id) else { continue };
             let adjoint = self.sum(parts);
             match found.get_mut(&id) {
                 Some(slope) => *slope = adjoint,

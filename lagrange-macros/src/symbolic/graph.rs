@@ -216,15 +216,29 @@ impl Graph {
         }
     }
 
+    /// Every node, operands before what uses them.
+    pub(crate) fn ids(&self) -> impl Iterator<Item = Id> + use<> {
+        (0..self.len() as u32).map(Id)
+    }
+
     /// All nodes that `roots` are made of, operands before what uses them.
     pub(crate) fn reachable(&self, roots: &[Id]) -> Vec<Id> {
+        self.reachable_to(roots, &[])
+    }
+
+    /// The same down to `leaves`, whatever those are made of.
+    pub(super) fn reachable_to(&self, roots: &[Id], leaves: &[Id]) -> Vec<Id> {
         let mut seen = vec![false; self.len()];
+        let mut is_leaf = vec![false; self.len()];
+        leaves.iter().for_each(|leaf| is_leaf[leaf.index()] = true);
         let mut pending = roots.to_vec();
         let mut found = Vec::new();
         while let Some(id) = pending.pop() {
             if !std::mem::replace(&mut seen[id.index()], true) {
                 found.push(id);
-                self.operands(id, |operand| pending.push(operand));
+                if !is_leaf[id.index()] {
+                    self.operands(id, |operand| pending.push(operand));
+                }
             }
         }
         found.sort_unstable();

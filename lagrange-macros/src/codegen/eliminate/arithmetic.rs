@@ -17,6 +17,8 @@ pub(super) struct Solver<'s> {
     pub(super) schedule: &'s mut Schedule,
     /// For each pivot that differs from what it was before anything was subtracted, that over the pivot.
     pub(super) growth: Vec<Register>,
+    /// The reciprocals of the other pivots.
+    pub(super) reciprocals: Vec<Register>,
 }
 
 impl Solver<'_> {

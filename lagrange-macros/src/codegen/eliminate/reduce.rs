@@ -111,7 +111,7 @@ impl Solver<'_> {
         // A diagonal that is known to be zero is a pivot of zero, which shows at run time.
         let pivot = self.known(form.matrix[variable][variable]);
         let reciprocal = self.schedule.push(Operation::Divide(one, pivot));
-        self.note_growth(form.scale[variable], pivot, reciprocal);
+        self.note_pivot(form.scale[variable], pivot, reciprocal);
         let beside = form.beside(variable);
         let mut column = Sparse::new();
         for &(i, entry) in &beside {
@@ -129,9 +129,15 @@ impl Solver<'_> {
     /// The form with x_k = Σ g_ki x_i for several k at once: H becomes H + Gᵀ(K G + C) + CᵀG, where K is the block of
     /// the x_k and C what ties them to the others.
     fn put_in(&mut self, form: &mut Reduced, definitions: &[(usize, &Sparse)]) {
+        let block: Vec<Sparse> = definitions
+            .iter()
+            .map(|&(k, _)| {
+                sparse(&definitions.iter().map(|&(other, _)| form.matrix[k][other]).collect::<Vec<_>>())
+            })
+            .collect();
         let ties: Vec<Tie> = (0..form.matrix.len())
             .filter(|i| definitions.iter().all(|(k, _)| k != i))
-            .map(|i| self.tie(form, definitions, i))
+            .map(|i| self.tie(form, definitions, &block, i))
             .filter(Tie::is_there)
             .collect();
         for (position, x) in ties.iter().enumerate() {
@@ -141,20 +147,17 @@ impl Solver<'_> {
                 let sum = self.add(form.matrix[x.variable][y.variable], part);
                 form.set(x.variable, y.variable, sum);
             }
+            // Of what only ties between others make there is nothing else to compare with.
+            form.scale[x.variable] = form.scale[x.variable].or(form.matrix[x.variable][x.variable]);
         }
     }
 
-    fn tie(&mut self, form: &Reduced, definitions: &[(usize, &Sparse)], i: usize) -> Tie {
+    fn tie(&mut self, form: &Reduced, definitions: &[(usize, &Sparse)], block: &[Sparse], i: usize) -> Tie {
         let coefficient = |definition: &Sparse| definition.iter().find(|(j, _)| *j == i).map(|&(_, g)| g);
         let g: Vec<Entry> = definitions.iter().map(|(_, definition)| coefficient(definition)).collect();
         let c: Vec<Entry> = definitions.iter().map(|&(k, _)| form.matrix[k][i]).collect();
-        let w = definitions.iter().zip(&c).map(|(&(k, _), &c)| {
-            let row: Sparse = definitions
-                .iter()
-                .enumerate()
-                .filter_map(|(position, &(other, _))| form.matrix[k][other].map(|entry| (position, entry)))
-                .collect();
-            let through = self.dot(&row, &g);
+        let w = block.iter().zip(&c).map(|(row, &c)| {
+            let through = self.dot(row, &g);
             self.add(through, c)
         });
         let w = w.collect();
@@ -198,12 +201,6 @@ impl Solver<'_> {
             let scaled = self.multiply(g, form.scale[k]);
             let square = self.multiply(scaled, g);
             form.scale[x.variable] = self.add(form.scale[x.variable], square);
-        }
-    }
-
-    fn note_growth(&mut self, scale: Entry, pivot: Register, reciprocal: Register) {
-        if let Some(scale) = scale.filter(|&scale| scale != pivot) {
-            self.growth.push(self.schedule.push(Operation::Multiply(scale, reciprocal)));
         }
     }
 

@@ -11,6 +11,8 @@ use crate::symbolic::Function;
 
 /// Sums of more terms are left as they are: every two of them would be compared.
 const TERMS: usize = 256;
+/// Products of more factors are taken as they are: each one taken out is a step of recursion.
+const FACTORS: usize = 64;
 
 pub(super) fn taken_out(old: &Schedule, results: &[Register]) -> (Schedule, Vec<Register>) {
     let uses = old.uses(results);
@@ -110,7 +112,11 @@ impl Pass<'_> {
         let mut pending = vec![product];
         while let Some(register) = pending.pop() {
             match self.old.operations[register.index()] {
-                Operation::Multiply(x, y) if self.uses[register.index()] == 1 => pending.extend([x, y]),
+                Operation::Multiply(x, y)
+                    if self.uses[register.index()] == 1 && factors.len() + pending.len() < FACTORS =>
+                {
+                    pending.extend([x, y]);
+                }
                 _ => factors.push(register),
             }
         }

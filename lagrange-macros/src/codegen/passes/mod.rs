@@ -1,4 +1,4 @@
-//! What is done to a schedule before it is written: each pass leaves the same results in fewer operations.
+//! What is done to a schedule before it is written: the same results, up to rounding, for less work.
 
 mod factors;
 mod fuse;

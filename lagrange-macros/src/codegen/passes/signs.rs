@@ -1,5 +1,5 @@
-//! Signs are gathered: −x is carried on until a sum takes it for nothing. Every step is exact, as rounding does not
-//! depend on signs.
+//! Signs are gathered: −x is carried on until a sum takes it for nothing. Every step is exact but for the sign of zero, as
+//! rounding does not depend on signs.
 
 use super::rewrite::{carried_over, carry_definitions};
 use crate::codegen::schedule::{Operation, Register, Schedule};

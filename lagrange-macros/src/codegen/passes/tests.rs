@@ -1,8 +1,9 @@
 //! Passes keep the results: programs at random, computed before and after.
 
-use super::{Program, factors, fuse, reciprocals, signs};
+use super::{Program, factors, fuse, guard, reciprocals, signs};
 use crate::codegen::schedule::{Operation, Register, Schedule};
 use crate::symbolic::{Function, Symbol};
+use crate::variables::Variable;
 
 /// The results, where input k has the value 0.3 + 0.1 k.
 fn values(schedule: &Schedule, results: &[Register]) -> Vec<f64> {
@@ -179,4 +180,36 @@ fn a_product_is_fused_with_the_only_sum_that_uses_it() {
     assert!(matches!(of_result(new_results[1]), Operation::SubtractProduct(..)));
     assert_eq!(values(&new, &new_results), values(&schedule, &results));
     assert_eq!(new.count(&new_results), schedule.count(&results), "fused operations count for two");
+}
+
+#[test]
+fn differences_of_products_are_not_fused() {
+    let mut schedule = Schedule::default();
+    let [x, y] = [0, 1].map(|index| input(&mut schedule, index));
+    let squares = [x, y].map(|x| schedule.push(Operation::Multiply(x, x)));
+    let difference = schedule.push(Operation::Subtract(squares[0], squares[1]));
+    let (new, results) = fuse::fused(&schedule, &[difference]);
+    assert!(matches!(new.operations[results[0].index()], Operation::Subtract(..)));
+}
+
+/// d√x + dy: at x = 0 the slope is infinite, and nothing to dy.
+#[test]
+fn a_slope_that_does_not_exist_counts_only_where_something_changes() {
+    let mut schedule = Schedule::default();
+    let x = input(&mut schedule, 0);
+    let changes = [0, 1].map(|i| schedule.push(Operation::Input(Variable::Change(i).symbol())));
+    let root = schedule.push(Operation::SquareRoot(x));
+    let rate = schedule.push(Operation::Divide(changes[0], root));
+    let sum = schedule.push(Operation::Add(rate, changes[1]));
+    let (new, results) = guard::guarded(&schedule, &[sum]);
+    let value = |schedule: &Schedule, results: &[Register], x: f64, changes: [f64; 2]| {
+        schedule.values(results, |symbol| match Variable::of(symbol) {
+            Variable::Change(i) => changes[i],
+            _ => x,
+        })[0]
+    };
+    assert!(value(&schedule, &[sum], 0.0, [0.0, 2.0]).is_nan());
+    assert_eq!(value(&new, &results, 0.0, [0.0, 2.0]), 2.0);
+    assert_eq!(value(&new, &results, 4.0, [3.0, 2.0]), 3.5);
+    assert_eq!(value(&new, &results, 0.0, [1.0, 2.0]), f64::INFINITY);
 }
