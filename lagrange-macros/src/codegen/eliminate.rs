@@ -13,7 +13,8 @@ mod reduce;
 mod schur;
 
 use super::kernel::OPERATION_LIMIT;
-use super::schedule::{Register, Schedule};
+use super::operation::Register;
+use super::schedule::Schedule;
 use crate::mechanics::{Equations, Form};
 use crate::symbolic::Id;
 use arithmetic::{Entry, Solver, Sparse};

@@ -1,7 +1,8 @@
 //! Schedules computed without a compiler, for tests.
 
+use super::operation::{Operation, Register};
 use super::passes::Program;
-use super::schedule::{Operation, Register, Schedule};
+use super::schedule::Schedule;
 use crate::symbolic::{Function, Symbol};
 
 impl Program {

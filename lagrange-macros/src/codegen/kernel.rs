@@ -7,9 +7,10 @@ use quote::{format_ident, quote};
 use rustc_hash::FxHashMap;
 
 use super::chunks;
+use super::count::Count;
+use super::operation::{Operation, Register};
 use super::order_of_evaluation::Order;
 use super::passes::Program;
-use super::schedule::{Count, Operation, Register};
 use super::shape::{Arrays, Shape};
 use super::style::Style;
 use super::writer::{Writer, Written};

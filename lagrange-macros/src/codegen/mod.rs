@@ -2,6 +2,7 @@
 
 mod accelerations;
 mod chunks;
+mod count;
 mod eliminate;
 mod facts;
 mod integrability;
@@ -10,6 +11,7 @@ mod interpret;
 mod kernel;
 mod linearized;
 mod observables;
+mod operation;
 mod order_of_evaluation;
 mod pack;
 mod passes;
@@ -33,11 +35,11 @@ use crate::render::Rendered;
 use crate::resolve::{Problem, Supplied};
 use crate::symbolic::{Id, Node};
 use crate::syntax::Declaration;
+#[cfg(test)]
+pub(crate) use count::Count;
 use kernel::{Kernel, OPERATION_LIMIT, Refused};
 pub(crate) use linearized::linearized;
 use observables::method_name;
-#[cfg(test)]
-pub(crate) use schedule::Count;
 use shape::Shape;
 pub(crate) use stub::stub;
 use style::Style;

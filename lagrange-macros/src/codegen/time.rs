@@ -1,6 +1,7 @@
 //! About how long a schedule takes on a processor of our day, in cycles: enough to choose between two of them.
 
-use super::schedule::{Operation, Register, Schedule};
+use super::operation::{Operation, Register};
+use super::schedule::Schedule;
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Time {

@@ -8,7 +8,8 @@ use quote::{format_ident, quote};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::chunks::Waiting;
-use super::schedule::{Call, Operation, Register, Schedule};
+use super::operation::{Call, Operation, Register};
+use super::schedule::Schedule;
 use super::style::Style;
 use crate::symbolic::{Function, Symbol};
 

@@ -1,6 +1,7 @@
 //! Arithmetic on registers that knows zeros.
 
-use crate::codegen::schedule::{Operation, Register, Schedule};
+use crate::codegen::operation::{Operation, Register};
+use crate::codegen::schedule::Schedule;
 use crate::symbolic::Id;
 
 /// A number, unless it is known to be zero.

@@ -2,7 +2,8 @@
 
 use super::Solved;
 use super::arithmetic::{Entry, Solver};
-use crate::codegen::schedule::{Operation, Register, Schedule};
+use crate::codegen::operation::{Operation, Register};
+use crate::codegen::schedule::Schedule;
 
 impl Solver<'_> {
     /// For a pivot that differs from what it was before anything was subtracted, that over the pivot; else the pivot's

@@ -1,7 +1,7 @@
 //! A quadratic form reduced variable by variable, and what the reduction does to vectors.
 
 use super::arithmetic::{Entry, Solver, Sparse, sparse};
-use crate::codegen::schedule::{Operation, Register};
+use crate::codegen::operation::{Operation, Register};
 
 /// How the form was reduced, step by step.
 pub(super) struct Factors {

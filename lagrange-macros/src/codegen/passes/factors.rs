@@ -6,7 +6,8 @@
 use indexmap::IndexMap;
 
 use super::rewrite::{carried_over, carry_definitions};
-use crate::codegen::schedule::{Operation, Register, Schedule};
+use crate::codegen::operation::{Operation, Register};
+use crate::codegen::schedule::Schedule;
 use crate::symbolic::Function;
 
 /// Sums of more terms are left as they are: every two of them would be compared.

@@ -4,7 +4,8 @@
 //! chains of 8 links or more.
 
 use super::rewrite::{carried_over, carry_definitions};
-use crate::codegen::schedule::{Operation, Register, Schedule};
+use crate::codegen::operation::{Operation, Register};
+use crate::codegen::schedule::Schedule;
 
 pub(super) fn fused(old: &Schedule, results: &[Register]) -> (Schedule, Vec<Register>) {
     let uses = old.uses(results);

@@ -5,7 +5,8 @@
 //! with it the whole sum. So such a product counts only where something changes that it depends on.
 
 use super::rewrite::{carried_over, carry_definitions};
-use crate::codegen::schedule::{Operation, Register, Schedule};
+use crate::codegen::operation::{Operation, Register};
+use crate::codegen::schedule::Schedule;
 use crate::symbolic::Function;
 use crate::variables::Variable;
 

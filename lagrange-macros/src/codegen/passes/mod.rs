@@ -9,7 +9,9 @@ mod signs;
 #[cfg(test)]
 mod tests;
 
-use super::schedule::{Count, Operation, Register, Schedule};
+use super::count::Count;
+use super::operation::{Operation, Register};
+use super::schedule::Schedule;
 use super::time::Time;
 use crate::symbolic::{Graph, Id};
 

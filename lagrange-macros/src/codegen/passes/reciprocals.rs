@@ -3,7 +3,8 @@
 use rustc_hash::FxHashMap;
 
 use super::rewrite::{carried_over, carry_definitions};
-use crate::codegen::schedule::{Operation, Register, Schedule};
+use crate::codegen::operation::{Operation, Register};
+use crate::codegen::schedule::Schedule;
 
 pub(super) fn shared(old: &Schedule, results: &[Register]) -> (Schedule, Vec<Register>) {
     let uses = old.uses(results);

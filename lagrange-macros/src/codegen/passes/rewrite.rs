@@ -1,6 +1,7 @@
 //! A schedule built anew from another one, operation by operation.
 
-use crate::codegen::schedule::{Call, Operation, Register, Schedule};
+use crate::codegen::operation::{Call, Operation, Register};
+use crate::codegen::schedule::Schedule;
 
 /// Computes in `new` what `operation` of `old` computes, where `at` tells where its operands are.
 pub(super) fn carried_over(

@@ -2,7 +2,8 @@
 //! rounding does not depend on signs.
 
 use super::rewrite::{carried_over, carry_definitions};
-use crate::codegen::schedule::{Operation, Register, Schedule};
+use crate::codegen::operation::{Operation, Register};
+use crate::codegen::schedule::Schedule;
 
 /// A number up to its sign: the register, and whether the number is the negative of what it holds.
 type Signed = (Register, bool);

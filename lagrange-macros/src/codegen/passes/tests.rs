@@ -1,7 +1,8 @@
 //! Passes keep the results: programs at random, computed before and after.
 
 use super::{Program, factors, fuse, guard, reciprocals, signs};
-use crate::codegen::schedule::{Operation, Register, Schedule};
+use crate::codegen::operation::{Operation, Register};
+use crate::codegen::schedule::Schedule;
 use crate::symbolic::{Function, Symbol};
 use crate::variables::Variable;
 
