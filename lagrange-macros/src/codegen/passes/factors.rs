@@ -5,7 +5,7 @@
 
 use indexmap::IndexMap;
 
-use super::rewrite::{carried_over, carry_definitions};
+use super::rewrite::{Places, carried_over, rebuilt};
 use crate::codegen::operation::{Operation, Register};
 use crate::codegen::schedule::Schedule;
 use crate::symbolic::Function;
@@ -18,17 +18,12 @@ const FACTORS: usize = 64;
 pub(super) fn taken_out(old: &Schedule, results: &[Register]) -> (Schedule, Vec<Register>) {
     let uses = old.uses(results);
     let inner = inner_sums(old, &uses);
-    let mut pass = Pass { old, uses, new: Schedule::default(), places: vec![None; old.operations.len()] };
-    for (index, &operation) in old.operations.iter().enumerate() {
-        if pass.uses[index] > 0 {
-            let factored = if is_sum(operation) && !inner[index] { pass.factored(operation) } else { None };
-            pass.places[index] = Some(factored.unwrap_or_else(|| pass.as_it_was(operation)));
-        }
-    }
-    let Pass { mut new, places, .. } = pass;
-    carry_definitions(&mut new, old, |register| places[register.index()]);
-    let results = results.iter().map(|result| places[result.index()].unwrap_or(*result)).collect();
-    (new, results)
+    rebuilt(old, results, |new, index, places| {
+        let operation = old.operations[index];
+        let mut pass = Pass { old, uses: &uses, new, places };
+        let factored = if is_sum(operation) && !inner[index] { pass.factored(operation) } else { None };
+        factored.unwrap_or_else(|| carried_over(new, old, operation, |_, operand| places.at(operand)))
+    })
 }
 
 fn is_sum(operation: Operation) -> bool {
@@ -60,24 +55,13 @@ type Signed = (Register, bool);
 
 struct Pass<'s> {
     old: &'s Schedule,
-    uses: Vec<usize>,
-    new: Schedule,
+    uses: &'s [usize],
+    new: &'s mut Schedule,
     /// Where a result of the old schedule is in the new one.
-    places: Vec<Option<Register>>,
+    places: &'s Places,
 }
 
 impl Pass<'_> {
-    fn place(&self, register: Register) -> Register {
-        self.places[register.index()].unwrap_or(register)
-    }
-
-    fn as_it_was(&mut self, operation: Operation) -> Register {
-        let places = &self.places;
-        carried_over(&mut self.new, self.old, operation, |_, operand| {
-            places[operand.index()].unwrap_or(operand)
-        })
-    }
-
     /// The sum with factors taken out; `None` where no two terms share any.
     fn factored(&mut self, sum: Operation) -> Option<Register> {
         let terms = self.terms(sum)?;
@@ -160,12 +144,12 @@ impl Pass<'_> {
                 self.sum(terms.into_iter())
             }
         };
-        let shared = self.place(shared);
+        let shared = self.places.at(shared);
         (self.new.push(Operation::Multiply(shared, sum)), negative)
     }
 
     fn product(&mut self, term: &Term) -> Signed {
-        let places: Vec<Register> = term.factors.iter().map(|&factor| self.place(factor)).collect();
+        let places: Vec<Register> = term.factors.iter().map(|&factor| self.places.at(factor)).collect();
         let product =
             places.into_iter().reduce(|product, factor| self.new.push(Operation::Multiply(product, factor)));
         (product.unwrap_or_else(|| self.new.constant(1.0)), term.negative)

@@ -2,31 +2,22 @@
 
 use rustc_hash::FxHashMap;
 
-use super::rewrite::{carried_over, carry_definitions};
+use super::rewrite::{carried_over, rebuilt};
 use crate::codegen::operation::{Operation, Register};
 use crate::codegen::schedule::Schedule;
 
 pub(super) fn shared(old: &Schedule, results: &[Register]) -> (Schedule, Vec<Register>) {
     let uses = old.uses(results);
     let mut divisions: FxHashMap<Register, usize> = FxHashMap::default();
-    let operations = || old.operations.iter().enumerate().filter(|(index, _)| uses[*index] > 0);
-    for (_, &operation) in operations() {
+    for (&operation, _) in old.operations.iter().zip(&uses).filter(|(_, uses)| **uses > 0) {
         if let Operation::Divide(_, divisor) = operation {
             *divisions.entry(divisor).or_default() += 1;
         }
     }
-    let mut new = Schedule::default();
-    let mut places: Vec<Option<Register>> = vec![None; old.operations.len()];
-    for (index, &operation) in operations() {
-        let place = |register: Register| places[register.index()].unwrap_or(register);
-        places[index] = Some(match operation {
-            Operation::Divide(x, y) if divisions[&y] > 1 => over(&mut new, place(x), place(y)),
-            _ => carried_over(&mut new, old, operation, |_, operand| place(operand)),
-        });
-    }
-    carry_definitions(&mut new, old, |register| places[register.index()]);
-    let results = results.iter().map(|result| places[result.index()].unwrap_or(*result)).collect();
-    (new, results)
+    rebuilt(old, results, |new, index, places| match old.operations[index] {
+        Operation::Divide(x, y) if divisions[&y] > 1 => over(new, places.at(x), places.at(y)),
+        operation => carried_over(new, old, operation, |_, operand| places.at(operand)),
+    })
 }
 
 fn over(new: &mut Schedule, x: Register, y: Register) -> Register {

@@ -22,6 +22,32 @@ pub(super) fn carried_over(
     new.push(operation)
 }
 
+/// Where the results of a schedule are in the one built anew, as far as it is.
+pub(super) struct Places(Vec<Option<Register>>);
+
+impl Places {
+    /// Operands come before what uses them, so each is placed when it is asked for.
+    pub(super) fn at(&self, register: Register) -> Register {
+        self.0[register.index()].unwrap_or(register)
+    }
+}
+
+/// The schedule built anew, as far as `results` need it: `step` says how, operation by operation.
+pub(super) fn rebuilt(
+    old: &Schedule,
+    results: &[Register],
+    mut step: impl FnMut(&mut Schedule, usize, &Places) -> Register,
+) -> (Schedule, Vec<Register>) {
+    let uses = old.uses(results);
+    let (mut new, mut places) = (Schedule::default(), Places(vec![None; old.operations.len()]));
+    for index in (0..old.operations.len()).filter(|&index| uses[index] > 0) {
+        places.0[index] = Some(step(&mut new, index, &places));
+    }
+    carry_definitions(&mut new, old, |register| places.0[register.index()]);
+    let results = results.iter().map(|&result| places.at(result)).collect();
+    (new, results)
+}
+
 /// Which registers hold the named definitions, in a schedule built anew.
 pub(super) fn carry_definitions(
     new: &mut Schedule,
