@@ -157,3 +157,68 @@ fn at_a_pole_there_is_an_equilibrium_but_no_motion_to_differentiate() {
     let error = Polar.linearize(&State::at_rest([0.0, 0.7]), &[]).unwrap_err();
     assert!(error.to_string().contains("`phi`"), "{error}");
 }
+
+/// A sphere that rolls down a slope, held by a spring.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, phi)]
+#[lagrangian(m/2*x_dot^2 + 2/5*m*a^2/2*phi_dot^2 + m*g*sin(0.3)*x - k/2*x^2)]
+#[constraint(no_slip: x_dot - a*phi_dot = 0)]
+struct RollingSphere {
+    m: f64,
+    a: f64,
+    g: f64,
+    k: f64,
+}
+
+/// As it starts, ẍ = a φ̈: another radius is another acceleration across the constraint.
+#[test]
+fn an_input_that_changes_what_accelerations_are_allowed_is_refused() {
+    let sphere = RollingSphere { m: 2.1, a: 0.1, g: 9.81, k: 5.0 };
+    let start = State::at_rest([0.0, 1.0]);
+    let error = sphere.linearize(&start, &["a"]).unwrap_err();
+    assert_eq!(error, Error::InputShiftsConstraint { input: "a", constraint: "no_slip" });
+    assert!(error.to_string().contains("which motions are allowed"), "{error}");
+    assert!(sphere.linearize(&start, &["k", "g"]).is_ok());
+    // Where it rests, but for round-off, nothing rolls, with any radius.
+    let rest = sphere.equilibrium(&start, &["x"]).unwrap().state;
+    let nearly = State::at_rest([rest.q[0] * (1.0 + 4.0 * f64::EPSILON), 1.0]);
+    assert!(sphere.solve(&nearly).unwrap().accelerations[1] != 0.0);
+    let near = sphere.linearize(&nearly, &["a"]).unwrap();
+    assert!(near.b.amax() < 1e-12, "{}", near.b);
+}
+
+#[derive(Clone, Lagrangian)]
+#[coordinates(x)]
+#[lagrangian(m*x_dot^2/2 - k*x^2/2)]
+struct Oscillator {
+    m: f64,
+    k: f64,
+}
+
+#[test]
+fn numbers_too_large_are_named_and_never_stable() {
+    let error = Oscillator { m: 1e-200, k: 1e200 }.linearize(&State::at_rest([0.0]), &[]).unwrap_err();
+    let (row, entry) = (Row::Coordinate("x"), Entry::Coordinate("x"));
+    assert_eq!(error, Error::DerivativeNotFinite { row, entry, time: 0.0 });
+    let mut near = Oscillator { m: 1.0, k: 1.0 }.linearize(&State::at_rest([0.0]), &[]).unwrap();
+    for entry in [f64::NAN, f64::INFINITY] {
+        near.a[(1, 0)] = entry;
+        assert_eq!(near.stability(), Err(Error::EigenvaluesNotFound));
+        assert_eq!(near.natural_frequencies(), Err(Error::EigenvaluesNotFound));
+    }
+    let text = Error::EigenvaluesNotFound.to_string();
+    assert!(text.contains("eigenvalues or singular values"), "{text}");
+}
+
+/// Two constraints leave nothing to move.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x)]
+#[lagrangian(x_dot^2/2)]
+#[constraint(wall: x = 1)]
+struct Fixed;
+
+#[test]
+fn what_cannot_move_comes_back() {
+    let near = Fixed.linearize(&State::at_rest([1.0]), &[]).unwrap();
+    assert_eq!((near.a.shape(), near.stability()), ((0, 0), Ok(Stability::AsymptoticallyStable)));
+}
