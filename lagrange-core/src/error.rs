@@ -120,6 +120,15 @@ pub enum Error {
         /// The time of the state.
         time: f64,
     },
+    /// Accelerations can be zero, but do not stay so: the velocities given lead to where the equations are others.
+    NotSteady {
+        /// The coordinate whose motion changes the equations most.
+        coordinate: &'static str,
+        /// The first row that changes.
+        row: Row,
+        /// The time of the state.
+        time: f64,
+    },
     /// An input by which a constraint, and with it the states or accelerations that it allows, would change.
     InputShiftsConstraint {
         /// The parameter.
@@ -241,6 +250,10 @@ impl Display for Error {
                 f,
                 "no equilibrium found near the state given at t = {time}: the row of {row} leaves {residual:e} after {iterations} steps, at {}; start closer, or let other coordinates or parameters change",
                 best.join(", ")
+            ),
+            Self::NotSteady { coordinate, row, time } => write!(
+                f,
+                "no steady motion with the velocities given at t = {time}: the row of {row} changes as `{coordinate}` moves; give it no velocity"
             ),
             Self::InputShiftsConstraint { input, constraint } => write!(
                 f,
