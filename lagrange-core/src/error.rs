@@ -120,7 +120,16 @@ pub enum Error {
         /// The time of the state.
         time: f64,
     },
-    /// An input by which a constraint, and with it the set of states allowed, would change.
+    /// Accelerations can be zero, but do not stay so: the velocities given lead to where the equations are others.
+    NotSteady {
+        /// The coordinate whose motion changes the equations most.
+        coordinate: &'static str,
+        /// The first row that changes.
+        row: Row,
+        /// The time of the state.
+        time: f64,
+    },
+    /// An input by which a constraint, and with it the states or accelerations that it allows, would change.
     InputShiftsConstraint {
         /// The parameter.
         input: &'static str,
@@ -132,7 +141,7 @@ pub enum Error {
         /// The parameter.
         name: &'static str,
     },
-    /// The iteration for eigenvalues or singular values did not converge.
+    /// The iteration for eigenvalues or singular values did not converge, or an entry of the matrix is not finite.
     EigenvaluesNotFound,
     /// A name that the system does not have.
     #[cfg(feature = "alloc")]
@@ -242,20 +251,22 @@ impl Display for Error {
                 "no equilibrium found near the state given at t = {time}: the row of {row} leaves {residual:e} after {iterations} steps, at {}; start closer, or let other coordinates or parameters change",
                 best.join(", ")
             ),
+            Self::NotSteady { coordinate, row, time } => write!(
+                f,
+                "no steady motion with the velocities given at t = {time}: the row of {row} changes as `{coordinate}` moves; give it no velocity"
+            ),
             Self::InputShiftsConstraint { input, constraint } => write!(
                 f,
-                "constraint `{constraint}` changes with the input `{input}`, so that no state near the one given would be allowed: make the input a force, or what it moves a coordinate"
+                "constraint `{constraint}` changes with the input `{input}`, and with it which motions are allowed: make the input a force, or what it moves a coordinate"
             ),
             Self::ParameterFixed { name } => write!(
                 f,
                 "the parameter `{name}` cannot be changed: its field is a reference, or its type says no shape; make the field a number, an array or a vector of nalgebra"
             ),
-            Self::EigenvaluesNotFound => {
-                write!(
-                    f,
-                    "the iteration for the eigenvalues did not converge: check the scales of the parameters"
-                )
-            }
+            Self::EigenvaluesNotFound => write!(
+                f,
+                "the eigenvalues or singular values of a matrix were not found: check that its entries are finite, and the scales of the parameters"
+            ),
             #[cfg(feature = "alloc")]
             Self::UnknownName { name, kind, known } => unknown_name(f, name, kind, known),
             #[cfg(feature = "alloc")]

@@ -189,3 +189,22 @@ fn damping_decides_the_stability() {
     assert_eq!(near(4.0, 0.0).stability(), Ok(Stability::Undecided));
     assert_eq!(near(0.0, 0.0).stability(), Ok(Stability::Undecided));
 }
+
+/// Two equal oscillators and a spring between them: ω² = k and 3k.
+#[derive(Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian((x_dot^2 + y_dot^2 - k*(x^2 + y^2 + (x - y)^2))/2)]
+struct Coupled {
+    k: f64,
+}
+
+/// However far the unit of time is from a period.
+#[test]
+fn fast_and_slow_oscillations_are_found_alike() {
+    for k in [1e-200, 1e-20, 1e-14, 1.0, 1e14, 1e20, 1e200] {
+        let near = Coupled { k }.linearize(&State::at_rest([0.0; 2]), &[]).unwrap();
+        assert_eq!(near.stability(), Ok(Stability::Undecided), "k = {k:e}");
+        let expected = oscillations(&[k.sqrt(), (3.0 * k).sqrt()]);
+        assert_spectrum(&near.eigenvalues().unwrap(), &expected, TOLERANCE);
+    }
+}

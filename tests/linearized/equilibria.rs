@@ -175,5 +175,63 @@ fn the_search_does_not_depend_on_units() {
             let carried = -2.0 * found.multipliers[i] * length / (mass * 9.81);
             assert!((carried - (4 - i) as f64).abs() < 1e-12, "rod {i} carries {carried}");
         }
+        // What is found is found again from there.
+        let again = rods.equilibrium(&found.state, &[]).unwrap().state;
+        assert!((again.q - found.state.q).amax() < 1e-14 * length, "{:?}", again.q - found.state.q);
+    }
+}
+
+/// Two weights on one spring cannot both be held by its stretch.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian((x_dot^2 + y_dot^2)/2)]
+#[force(x: k*s - f[0])]
+#[force(y: k*s - f[1])]
+struct Shared {
+    k: f64,
+    s: f64,
+    f: [f64; 2],
+}
+
+#[test]
+fn forces_that_cannot_balance_are_told_from_round_off_in_any_unit() {
+    for (k, f) in [(1e3, 1e-9), (1.0, 1.0), (1e-3, 1e9), (1.0, 1e-14)] {
+        for s in [0.0, 1.5 * f / k, 100.0 * f / k] {
+            let shared = Shared { k, s, f: [f, 2.0 * f] };
+            let found = shared.equilibrium(&State::at_rest([0.0; 2]), &["s"]);
+            assert!(matches!(found, Err(Error::NoEquilibrium { .. })), "k = {k:e}, f = {f:e}: {found:?}");
+            // Where they can, they do.
+            let found = Shared { f: [f, f], ..shared }.equilibrium(&State::at_rest([0.0; 2]), &["s"]);
+            let stretch = found.unwrap().system.s;
+            assert!((stretch * k / f - 1.0).abs() < 1e-15, "k = {k:e}, f = {f:e}: {stretch:e}");
+        }
+    }
+}
+
+/// A potential turned by π, so that round-off is all that is left of the force at θ = 0.
+#[derive(Clone, Lagrangian)]
+#[coordinates(theta)]
+#[lagrangian(theta_dot^2/2 - cos(theta + 3.141592653589793))]
+struct Turned;
+
+#[test]
+fn what_rests_already_is_found_to_rest() {
+    let found = Turned.equilibrium(&State::at_rest([0.0]), &[]).unwrap();
+    assert!(found.state.q[0].abs() < 1e-15, "{:?}", found.state.q);
+    let again = Turned.equilibrium(&found.state, &[]).unwrap();
+    assert!(again.state.q[0].abs() < 1e-15, "{:?}", again.state.q);
+}
+
+/// A quartic well about zero, where neither the place nor the stiffness gives a unit of length.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x)]
+#[lagrangian(x_dot^2/2 - x^4)]
+struct Quartic;
+
+#[test]
+fn a_flat_equilibrium_at_zero_is_found_from_any_distance() {
+    for start in [1e-9, 1.0, 1e9] {
+        let x = Quartic.equilibrium(&State::at_rest([start]), &[]).unwrap().state.q[0];
+        assert!(x.abs() < 1e-10 * start, "{x:e} from {start:e}");
     }
 }

@@ -157,3 +157,147 @@ fn at_a_pole_there_is_an_equilibrium_but_no_motion_to_differentiate() {
     let error = Polar.linearize(&State::at_rest([0.0, 0.7]), &[]).unwrap_err();
     assert!(error.to_string().contains("`phi`"), "{error}");
 }
+
+/// A pendulum in its angle.
+#[derive(Clone, Lagrangian)]
+#[coordinates(theta)]
+#[lagrangian(theta_dot^2/2 + g*cos(theta))]
+struct Swing {
+    g: f64,
+}
+
+/// Two carts that a spring joins, on a rail that is straight, or bends where x = 0.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian((x_dot^2 + y_dot^2)/2 - k/2*(y - x - l)^2 - bend*x^2/2)]
+struct Carts {
+    k: f64,
+    l: f64,
+    bend: f64,
+}
+
+#[test]
+fn what_moves_on_into_other_forces_is_not_steady() {
+    let swing = Swing { g: 9.81 };
+    // At π/2 the force does not change to first order; where it vanishes, it does.
+    for guess in [0.1, std::f64::consts::FRAC_PI_2 - 1e-3] {
+        let error = swing.equilibrium(&State::new([guess], [1.0]), &[]).unwrap_err();
+        let row = Row::Coordinate("theta");
+        assert_eq!(error, Error::NotSteady { coordinate: "theta", row, time: 0.0 });
+    }
+    let text = message(swing.equilibrium(&State::new([0.1], [1.0]).at_time(2.0), &[]));
+    let expected = "no steady motion with the velocities given at t = 2: the row of coordinate `theta` changes as `theta` moves; give it no velocity";
+    assert_eq!(text, expected);
+    // Together the carts may move, with the spring as long as it likes to be.
+    let carts = Carts { k: 7.3, l: 0.3, bend: 0.0 };
+    let found = carts.equilibrium(&State::new([0.1, 0.2], [1.7, 1.7]), &[]).unwrap();
+    assert!((found.state.q[1] - found.state.q[0] - 0.3).abs() < 1e-15, "{found:?}");
+    let apart = carts.equilibrium(&State::new([0.1, 0.2], [1.7, 1.6]), &[]).unwrap_err();
+    assert!(matches!(apart, Error::NotSteady { coordinate: "x", .. }), "{apart}");
+    let bent = Carts { bend: 1.0, ..carts };
+    let error = bent.equilibrium(&State::new([0.1, 0.2], [1.7, 1.7]), &[]).unwrap_err();
+    assert!(matches!(error, Error::NotSteady { row: Row::Coordinate("x"), .. }), "{error}");
+}
+
+/// A groove whose walls steepen and flatten along it, but that runs straight.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian((x_dot^2 + y_dot^2)/2)]
+#[force(y: (1 - y - sin(y))*(2 + cos(x)))]
+struct Groove;
+
+/// At its bottom, which is hit but for round-off, the forces stay zero.
+#[test]
+fn what_moves_along_equilibria_is_steady() {
+    for x in [0.5, 1.0, 2.0, 4.0] {
+        let y = Groove.equilibrium(&State::new([x, 0.9], [1.0, 0.0]), &["y"]).unwrap().state.q[1];
+        assert!((y + y.sin() - 1.0).abs() < 1e-15, "{y}");
+    }
+}
+
+/// Three carts that two springs join, pulled apart.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y, z)]
+#[lagrangian((x_dot^2 + y_dot^2 + z_dot^2)/2 - k/2*(0.3*(y - x - 1)^2 + 0.7*(z - y - 1)^2))]
+#[force(x: -1.3)]
+#[force(z: 1.3)]
+struct Train {
+    k: f64,
+}
+
+/// The changes by each coordinate cancel but for round-off; at the guess the springs are too soft for any.
+#[test]
+fn what_moves_as_one_is_steady() {
+    for speed in [0.3, 1.1, 1.7, 2.9] {
+        let guess = State::new([0.0, 3.0, 7.0], [speed; 3]);
+        let found = Train { k: 1e-9 }.equilibrium(&guess, &["k", "y"]).unwrap();
+        let stretch = found.state.q[1] - 1.0;
+        assert!((stretch - 3.5).abs() < 1e-14, "{found:?}");
+        assert!((0.3 * found.system.k * stretch - 1.3).abs() < 1e-14, "{}", found.system.k);
+    }
+}
+
+/// A sphere that rolls down a slope, held by a spring.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, phi)]
+#[lagrangian(m/2*x_dot^2 + 2/5*m*a^2/2*phi_dot^2 + m*g*sin(0.3)*x - k/2*x^2)]
+#[constraint(no_slip: x_dot - a*phi_dot = 0)]
+struct RollingSphere {
+    m: f64,
+    a: f64,
+    g: f64,
+    k: f64,
+}
+
+/// As it starts, ẍ = a φ̈: another radius is another acceleration across the constraint.
+#[test]
+fn an_input_that_changes_what_accelerations_are_allowed_is_refused() {
+    let sphere = RollingSphere { m: 2.1, a: 0.1, g: 9.81, k: 5.0 };
+    let start = State::at_rest([0.0, 1.0]);
+    let error = sphere.linearize(&start, &["a"]).unwrap_err();
+    assert_eq!(error, Error::InputShiftsConstraint { input: "a", constraint: "no_slip" });
+    assert!(error.to_string().contains("which motions are allowed"), "{error}");
+    assert!(sphere.linearize(&start, &["k", "g"]).is_ok());
+    // Where it rests, but for round-off, nothing rolls, with any radius.
+    let rest = sphere.equilibrium(&start, &["x"]).unwrap().state;
+    let nearly = State::at_rest([rest.q[0] * (1.0 + 4.0 * f64::EPSILON), 1.0]);
+    assert!(sphere.solve(&nearly).unwrap().accelerations[1] != 0.0);
+    let near = sphere.linearize(&nearly, &["a"]).unwrap();
+    assert!(near.b.amax() < 1e-12, "{}", near.b);
+}
+
+#[derive(Clone, Lagrangian)]
+#[coordinates(x)]
+#[lagrangian(m*x_dot^2/2 - k*x^2/2)]
+struct Oscillator {
+    m: f64,
+    k: f64,
+}
+
+#[test]
+fn numbers_too_large_are_named_and_never_stable() {
+    let error = Oscillator { m: 1e-200, k: 1e200 }.linearize(&State::at_rest([0.0]), &[]).unwrap_err();
+    let (row, entry) = (Row::Coordinate("x"), Entry::Coordinate("x"));
+    assert_eq!(error, Error::DerivativeNotFinite { row, entry, time: 0.0 });
+    let mut near = Oscillator { m: 1.0, k: 1.0 }.linearize(&State::at_rest([0.0]), &[]).unwrap();
+    for entry in [f64::NAN, f64::INFINITY] {
+        near.a[(1, 0)] = entry;
+        assert_eq!(near.stability(), Err(Error::EigenvaluesNotFound));
+        assert_eq!(near.natural_frequencies(), Err(Error::EigenvaluesNotFound));
+    }
+    let text = Error::EigenvaluesNotFound.to_string();
+    assert!(text.contains("eigenvalues or singular values"), "{text}");
+}
+
+/// Two constraints leave nothing to move.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x)]
+#[lagrangian(x_dot^2/2)]
+#[constraint(wall: x = 1)]
+struct Fixed;
+
+#[test]
+fn what_cannot_move_comes_back() {
+    let near = Fixed.linearize(&State::at_rest([1.0]), &[]).unwrap();
+    assert_eq!((near.a.shape(), near.stability()), ((0, 0), Ok(Stability::AsymptoticallyStable)));
+}

@@ -164,7 +164,8 @@ impl<T: Real, const N: usize, const M: usize> Factors<T, N, M> {
 
 /// The constraint rows in natural units, each of length 1 (or zero), and what they fix.
 pub(crate) struct Rows<T, const N: usize, const M: usize> {
-    unit: [T; N],
+    /// In which a mass is 1.
+    pub(crate) unit: [T; N],
     /// The length of each row before it became 1; 1 for a row of zeros.
     length: [T; M],
     split: Qr<T, N, M>,

@@ -20,12 +20,6 @@ pub struct Partials<T, const R: usize, const N: usize, const P: usize> {
     pub parameters: SMatrix<T, R, P>,
 }
 
-impl<T: Real, const R: usize, const N: usize, const P: usize> Partials<T, R, N, P> {
-    fn zero() -> Self {
-        Self { t: SVector::zeros(), q: SMatrix::zeros(), v: SMatrix::zeros(), parameters: SMatrix::zeros() }
-    }
-}
-
 /// What the equations of motion give at a state, and its partial derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jacobian<T, const N: usize, const M: usize, const P: usize> {
@@ -46,21 +40,35 @@ where
     L: Linearized<N, M, P, Scalar: Real>,
 {
     let tangent = Tangent::at(system, state)?;
-    let (mut q2, mut lambda) = (Partials::zero(), Partials::zero());
-    let change = tangent.along(&Direction::of_time(), Entry::Time)?;
-    (q2.t, lambda.t) = (change.accelerations, change.multipliers);
-    for (i, name) in L::COORDINATES.iter().enumerate() {
-        let change = tangent.along(&Direction::of_coordinate(i), Entry::Coordinate(name))?;
-        q2.q.set_column(i, &change.accelerations);
-        lambda.q.set_column(i, &change.multipliers);
-        let change = tangent.along(&Direction::of_velocity(i), Entry::Velocity(name))?;
-        q2.v.set_column(i, &change.accelerations);
-        lambda.v.set_column(i, &change.multipliers);
+    let by_time = tangent.along(&Direction::of_time(), Entry::Time)?;
+    let (q2_q, lambda_q) = columns(&tangent, L::COORDINATES, Direction::of_coordinate, Entry::Coordinate)?;
+    let (q2_v, lambda_v) = columns(&tangent, L::COORDINATES, Direction::of_velocity, Entry::Velocity)?;
+    let (q2_p, lambda_p) = columns(&tangent, L::PARAMETERS, Direction::of_parameter, Entry::Parameter)?;
+    Ok(Jacobian {
+        solution: tangent.solution,
+        accelerations: Partials { t: by_time.accelerations, q: q2_q, v: q2_v, parameters: q2_p },
+        multipliers: Partials { t: by_time.multipliers, q: lambda_q, v: lambda_v, parameters: lambda_p },
+    })
+}
+
+/// Derivatives of the accelerations and of the multipliers by the `K` entries of these names, a column each.
+type Columns<T, const N: usize, const M: usize, const K: usize> = (SMatrix<T, N, K>, SMatrix<T, M, K>);
+
+fn columns<L, const N: usize, const M: usize, const P: usize, const K: usize>(
+    tangent: &Tangent<'_, L, N, M>,
+    names: [&'static str; K],
+    direction: fn(usize) -> Direction<L::Scalar, N, P>,
+    entry: fn(&'static str) -> Entry,
+) -> Result<Columns<L::Scalar, N, M, K>, Error>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+{
+    let mut accelerations = SMatrix::<_, N, K>::zeros();
+    let mut multipliers = SMatrix::<_, M, K>::zeros();
+    for (k, name) in names.into_iter().enumerate() {
+        let change = tangent.along(&direction(k), entry(name))?;
+        accelerations.set_column(k, &change.accelerations);
+        multipliers.set_column(k, &change.multipliers);
     }
-    for (k, name) in L::PARAMETERS.iter().enumerate() {
-        let change = tangent.along(&Direction::of_parameter(k), Entry::Parameter(name))?;
-        q2.parameters.set_column(k, &change.accelerations);
-        lambda.parameters.set_column(k, &change.multipliers);
-    }
-    Ok(Jacobian { solution: tangent.solution, accelerations: q2, multipliers: lambda })
+    Ok((accelerations, multipliers))
 }

@@ -9,7 +9,8 @@ use super::{Direction, Linearized, inputs};
 use crate::eliminate::vector;
 use crate::kkt::{Rank, Rows};
 use crate::names::Entry;
-use crate::{ConstraintKind, Error, Lagrangian, Real, Scalar, Simulate, State};
+use crate::numeric::{larger, power_of_epsilon};
+use crate::{ConstraintKind, Error, Lagrangian, Real, Scalar, Simulate, Solution, State};
 
 /// The linear system ż = A z + B u near a state, u the change of the inputs.
 ///
@@ -19,13 +20,15 @@ use crate::{ConstraintKind, Error, Lagrangian, Real, Scalar, Simulate, State};
 /// independent velocity constraint.
 ///
 /// At an equilibrium, or along a steady motion of which nothing but cyclic coordinates moves, A is constant, and its
-/// eigenvalues decide on stability. Elsewhere it is that of the moment: δ(q̇, q̈) = A δ(q, q̇) to first order beside the
-/// motion itself, whose [`rate`](Self::rate) is not zero.
+/// eigenvalues decide on stability. Elsewhere it is that of the moment, A = Zᵀ ∂(q̇, q̈)/∂(q, q̇) Z, beside the motion
+/// itself, whose [`rate`](Self::rate) is not zero; on curved constraints, which turn Z as the state moves, A is then only
+/// the part along Z of how δ(q, q̇) changes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Linearization<T> {
-    /// The system matrix, as large as there are degrees of freedom in the state.
+    /// The system matrix, as large as there are degrees of freedom in the state: the change of ż per unit of z.
     pub a: DMatrix<T>,
-    /// The input matrix, a column for each input.
+    /// The input matrix, a column for each input: the change of ż per unit of the input. Without constraints its rows
+    /// are (q̇, q̈), as [`states`](Self::states) names them; Z B is that with constraints.
     pub b: DMatrix<T>,
     /// Z: a row for each coordinate, then for each velocity; a column for each entry of z. The identity where there are
     /// no constraints.
@@ -61,8 +64,26 @@ where
     let parameters = inputs::indices(&L::PARAMETERS, "parameter", names)?;
     system.check_consistent(state)?;
     let tangent = Tangent::at(system, state)?;
-    let basis =
-        if M == 0 { DMatrix::identity(2 * N, 2 * N) } else { tangent_space(system, state, &tangent)? };
+    let basis = if M == 0 { DMatrix::identity(2 * N, 2 * N) } else { tangent_space(&tangent)? };
+    let rate = state.v.iter().chain(&tangent.solution.accelerations).copied();
+    Ok(Linearization {
+        a: basis.tr_mul(&change_along(&basis, &tangent)?),
+        b: basis.tr_mul(&change_by(&parameters, &tangent)?),
+        rate: DVector::from_iterator(2 * N, rate),
+        states: (0..2 * N).map(|row| format!("{}", entry::<L, N, M>(row))).collect(),
+        inputs: parameters.iter().map(|&k| L::PARAMETERS[k].into()).collect(),
+        basis,
+    })
+}
+
+/// The change of (q̇, q̈) along each column of the basis.
+fn change_along<L, const N: usize, const M: usize, const P: usize>(
+    basis: &DMatrix<L::Scalar>,
+    tangent: &Tangent<'_, L, N, M>,
+) -> Result<DMatrix<L::Scalar>, Error>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+{
     let mut change = DMatrix::zeros(2 * N, basis.ncols());
     for (j, direction) in basis.column_iter().enumerate() {
         let (q, v) = (SVector::from_fn(|i, _| direction[i]), SVector::from_fn(|i, _| direction[N + i]));
@@ -71,22 +92,24 @@ where
         change.view_mut((0, j), (N, 1)).copy_from(&v);
         change.view_mut((N, j), (N, 1)).copy_from(&solution.accelerations);
     }
-    let mut push = DMatrix::zeros(2 * N, parameters.len());
+    Ok(change)
+}
+
+/// The change of (q̇, q̈) by each of these parameters.
+fn change_by<L, const N: usize, const M: usize, const P: usize>(
+    parameters: &[usize],
+    tangent: &Tangent<'_, L, N, M>,
+) -> Result<DMatrix<L::Scalar>, Error>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+{
+    let mut change = DMatrix::zeros(2 * N, parameters.len());
     for (j, &k) in parameters.iter().enumerate() {
-        let direction = Direction::of_parameter(k);
-        stays_on_constraints::<L, N, M, P>(&tangent, k)?;
-        let solution = tangent.along(&direction, Entry::Parameter(L::PARAMETERS[k]))?;
-        push.view_mut((N, j), (N, 1)).copy_from(&solution.accelerations);
+        stays_on_constraints::<L, N, M, P>(tangent, k)?;
+        let solution = tangent.along(&Direction::of_parameter(k), Entry::Parameter(L::PARAMETERS[k]))?;
+        change.view_mut((N, j), (N, 1)).copy_from(&solution.accelerations);
     }
-    let rate = state.v.iter().chain(&tangent.solution.accelerations).copied();
-    Ok(Linearization {
-        a: basis.tr_mul(&change),
-        b: basis.tr_mul(&push),
-        rate: DVector::from_iterator(2 * N, rate),
-        states: (0..2 * N).map(|row| format!("{}", entry::<L, N, M>(row))).collect(),
-        inputs: parameters.iter().map(|&k| L::PARAMETERS[k].into()).collect(),
-        basis,
-    })
+    Ok(change)
 }
 
 /// What row `row` of (q, q̇) is called.
@@ -97,8 +120,6 @@ fn entry<L: Lagrangian<N, M>, const N: usize, const M: usize>(row: usize) -> Ent
 
 /// An orthonormal basis of the changes (δq, δv) with F δq = 0 for holonomic constraints and δ(F v + b) = 0 for all.
 fn tangent_space<L, const N: usize, const M: usize, const P: usize>(
-    system: &L,
-    state: &State<L::Scalar, N>,
     tangent: &Tangent<'_, L, N, M>,
 ) -> Result<DMatrix<L::Scalar>, Error>
 where
@@ -106,7 +127,7 @@ where
 {
     let zero = vector([L::Scalar::constant(0.0); N]);
     let mut changes: Vec<[SVector<L::Scalar, N>; 2]> = Vec::new();
-    for q in holonomic_rows(system, state).null_space() {
+    for q in holonomic_rows(tangent).null_space() {
         // Another place turns the constraints: the velocity must follow.
         let entry = entry::<L, N, M>(q.icamax());
         let turned = tangent.change(&Direction { q, ..Direction::zero() }, entry)?;
@@ -124,23 +145,20 @@ where
 }
 
 /// The rows of the holonomic constraints alone.
-fn holonomic_rows<L, const N: usize, const M: usize>(
-    system: &L,
-    state: &State<L::Scalar, N>,
-) -> Rows<L::Scalar, N, M>
+fn holonomic_rows<L, const N: usize, const M: usize>(tangent: &Tangent<'_, L, N, M>) -> Rows<L::Scalar, N, M>
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {
-    let mut f: [[L::Scalar; N]; M] = system.constraint_jacobian(state).transpose().into();
+    let mut f = tangent.f;
     for (row, kind) in f.iter_mut().zip(L::CONSTRAINT_KINDS) {
         if kind == ConstraintKind::Velocity {
             *row = [L::Scalar::constant(0.0); N];
         }
     }
-    Rows::of(&system.mass_matrix(state).into(), &f, Rank::off_constraints())
+    Rows::of(&tangent.m, &f, Rank::off_constraints())
 }
 
-/// An input that shifts a constraint has no state on it beside the one given.
+/// An input that shifts a constraint has no state, or no acceleration, on it beside the one given.
 fn stays_on_constraints<L, const N: usize, const M: usize, const P: usize>(
     tangent: &Tangent<'_, L, N, M>,
     k: usize,
@@ -148,11 +166,43 @@ fn stays_on_constraints<L, const N: usize, const M: usize, const P: usize>(
 where
     L: Linearized<N, M, P, Scalar: Real>,
 {
-    let input = L::PARAMETERS[k];
-    let change = tangent.change(&Direction::of_parameter(k), Entry::Parameter(input))?;
-    let zero = L::Scalar::constant(0.0);
-    match (0..M).find(|&a| change.position[a] != zero || change.rate[a] != zero) {
+    let (input, zero) = (L::PARAMETERS[k], L::Scalar::constant(0.0));
+    let first_shifted = |solution: &Solution<L::Scalar, N, M>| {
+        let direction = Direction::of_parameter(k);
+        let change = tangent.change_with(solution, &direction, Entry::Parameter(input))?;
+        let levels = |a: usize| [change.position[a], change.rate[a], change.acceleration[a]];
+        Ok((0..M).find(|&a| levels(a) != [zero; 3]))
+    };
+    if first_shifted(&tangent.solution)?.is_none() {
+        return Ok(());
+    }
+    match first_shifted(&without_round_off(tangent)?)? {
         None => Ok(()),
         Some(a) => Err(Error::InputShiftsConstraint { input, constraint: L::CONSTRAINTS[a] }),
     }
+}
+
+/// Accelerations and multipliers at the state; no accelerations where they are nothing but round-off, of forces that
+/// balance to √ε of their terms in the units in which masses are 1.
+fn without_round_off<L, const N: usize, const M: usize, const P: usize>(
+    tangent: &Tangent<'_, L, N, M>,
+) -> Result<Solution<L::Scalar, N, M>, Error>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+{
+    let Tangent { state, solution, m, f, factors, .. } = tangent;
+    let zero = L::Scalar::constant(0.0);
+    let largest = |force: &dyn Fn(usize) -> L::Scalar| {
+        (0..N).fold(zero, |most, i| larger(most, Scalar::abs(force(i) * factors.rows.unit[i])))
+    };
+    let mut terms =
+        (0..M).fold(zero, |most, a| larger(most, largest(&|i| f[a][i] * solution.multipliers[a])));
+    for (j, name) in L::COORDINATES.iter().enumerate() {
+        let change = tangent.change(&Direction::of_coordinate(j), Entry::Coordinate(name))?;
+        terms = larger(terms, largest(&|i| change.motion[i] * state.q[j]));
+    }
+    let left = largest(&|i| (0..N).fold(zero, |sum, j| sum + m[i][j] * solution.accelerations[j]));
+    let rests = left <= power_of_epsilon::<L::Scalar>(0.5) * terms;
+    let accelerations = if rests { vector([zero; N]) } else { solution.accelerations };
+    Ok(Solution { accelerations, ..*solution })
 }

@@ -42,7 +42,7 @@ use crate::{Error, Lagrangian, Real, Solution, State};
 /// What a function that the user supplies (`#[function(…)]`) holds inside is no parameter of the system. Functions must
 /// have one derivative more than the equations of motion need: where a `Table` or one by hand has not, this
 /// trait is missing and the rest of the system is there. It is missing, too, where fourth derivatives of a function would
-/// be needed or where the function would exceed 30,000 operations.
+/// be needed or where the function would exceed 50,000 operations.
 ///
 /// ```
 /// use lagrange_core::prelude::*;
@@ -109,7 +109,8 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: Lagrangian
     }
 
     /// The linear system near a state, its inputs the parameters of these names (`u` names all elements of a vector
-    /// `u: [f64; 3]`).
+    /// `u: [f64; 3]`). An input may change forces and masses; not a constraint, be it only the accelerations that the
+    /// constraint allows at the state.
     ///
     /// ```
     /// use lagrange_core::prelude::*;
@@ -148,8 +149,8 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: Lagrangian
     /// What may change is named: coordinates, and parameters where the question is which force (or length, or mass) holds the
     /// system there; everything else stays as it is. No names are all the coordinates. The velocities stay those of
     /// the guess: at rest for an equilibrium; not zero for a steady motion, such as the precession of a top, where they are
-    /// those of cyclic coordinates. The time stays as it is: where the system depends on the time, the equilibrium is one
-    /// of the moment.
+    /// those of cyclic coordinates. That nothing changes with what moves is checked to first order, with the multipliers
+    /// as they are. The time stays as it is: where the system depends on the time, the equilibrium is one of the moment.
     ///
     /// The method is that of Levenberg and Marquardt, from the guess on, or from the nearest coordinates on the constraints
     /// where all coordinates are sought. It finds stable and unstable equilibria alike.
@@ -171,8 +172,10 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: Lagrangian
     ///
     /// # Errors
     /// [`Error::NoEquilibrium`], with the row that is farthest from satisfied and the best point;
+    /// [`Error::NotSteady`], with the coordinate that should not move;
     /// [`Error::UnknownName`], [`Error::RepeatedName`] and [`Error::ParameterFixed`];
-    /// [`Error::StateNotFinite`], [`Error::EquationsNotFinite`] and [`Error::DerivativeNotFinite`].
+    /// [`Error::StateNotFinite`], [`Error::EquationsNotFinite`] and [`Error::DerivativeNotFinite`];
+    /// [`Error::EigenvaluesNotFound`] where the singular values of a step do not converge.
     #[cfg(feature = "alloc")]
     fn equilibrium(
         &self,

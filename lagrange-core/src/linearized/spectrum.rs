@@ -25,13 +25,14 @@ impl<T: Real> Linearization<T> {
     /// The eigenvalues of A, the largest real part first.
     ///
     /// # Errors
-    /// [`Error::EigenvaluesNotFound`] where the QR iteration does not converge.
+    /// [`Error::EigenvaluesNotFound`] where the QR iteration does not converge, or an entry of A is not finite.
     pub fn eigenvalues(&self) -> Result<Vec<Complex<T>>, Error> {
         if self.a.is_empty() {
             return Ok(Vec::new());
         }
-        let mut shifts = SHIFTS.iter().map(|part| T::constant(*part) * self.a.amax());
-        let found = shifts.find_map(|shift| shifted_eigenvalues(&self.a, shift));
+        let balanced = balanced(self.a.clone());
+        let mut shifts = SHIFTS.iter().map(|part| T::constant(*part) * balanced.amax());
+        let found = shifts.find_map(|shift| shifted_eigenvalues(&balanced, shift));
         let mut found = found.ok_or(Error::EigenvaluesNotFound)?;
         found.sort_by(|x, y| order(y.re, x.re).then(order(y.im, x.im)));
         Ok(found)
@@ -63,10 +64,36 @@ impl<T: Real> Linearization<T> {
         let resolution = resolution(&eigenvalues);
         Ok(match eigenvalues.first() {
             Some(first) if first.re > resolution => Stability::Unstable,
-            Some(first) if first.re >= -resolution => Stability::Undecided,
-            _ => Stability::AsymptoticallyStable,
+            Some(first) if first.re < -resolution => Stability::AsymptoticallyStable,
+            Some(_) => Stability::Undecided,
+            // The constraints leave nothing that could move.
+            None => Stability::AsymptoticallyStable,
         })
     }
+}
+
+/// D⁻¹ A D with a diagonal D of powers of 2, rows as large as columns (Parlett and Reinsch, *Numerische Mathematik* 13,
+/// 1969): entries of unlike units would drown the eigenvalues in the round-off of the largest.
+fn balanced<T: Real>(mut a: DMatrix<T>) -> DMatrix<T> {
+    let (zero, two) = (T::constant(0.0), T::constant(2.0));
+    let mut is_balanced = false;
+    while !is_balanced {
+        is_balanced = true;
+        for i in 0..a.nrows() {
+            let (column, row) = (a.column(i).lp_norm(1), a.row(i).lp_norm(1));
+            if column == zero || row == zero {
+                continue;
+            }
+            let octaves = (Scalar::ln(row) - Scalar::ln(column)) / (two * Scalar::ln(two));
+            let factor = Scalar::powf(two, octaves.round());
+            if column * factor + row / factor < T::constant(0.95) * (column + row) {
+                a.column_mut(i).scale_mut(factor);
+                a.row_mut(i).unscale_mut(factor);
+                is_balanced = false;
+            }
+        }
+    }
+    a
 }
 
 /// Where a matrix is moved to along the real axis, in units of its largest entry, until the QR iteration converges.
@@ -80,7 +107,9 @@ pub(super) fn shifted_eigenvalues<T: Real>(a: &DMatrix<T>, shift: T) -> Option<V
     let size = a.nrows();
     let moved = a + DMatrix::from_diagonal_element(size, size, shift);
     let schur = Schur::try_new(moved, T::constant(T::EPSILON), 100 * size)?;
-    Some(schur.complex_eigenvalues().iter().map(|s| Complex::new(s.re - shift, s.im)).collect())
+    let found: Vec<_> =
+        schur.complex_eigenvalues().iter().map(|s| Complex::new(s.re - shift, s.im)).collect();
+    found.iter().all(|s| s.re.is_finite() && s.im.is_finite()).then_some(found)
 }
 
 /// How small a part of an eigenvalue means something.

@@ -1,6 +1,6 @@
 //! How accelerations and multipliers change along a direction: K δ(q̈, λ) = −∂R, with one factorization for all.
 
-use nalgebra::ComplexField;
+use nalgebra::{ComplexField, SVector};
 
 use super::{Direction, Linearized, ResidualChange};
 use crate::kkt::{Factors, Rank};
@@ -11,8 +11,13 @@ use crate::{Error, Lagrangian, Real, Solution, State};
 /// The equations of motion at a state, solved and factorized.
 pub(super) struct Tangent<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
     system: &'a L,
-    state: &'a State<L::Scalar, N>,
+    pub(super) state: &'a State<L::Scalar, N>,
     pub(super) solution: Solution<L::Scalar, N, M>,
+    /// The mass matrix and the constraint Jacobian, row by row.
+    #[cfg(feature = "alloc")]
+    pub(super) m: [[L::Scalar; N]; N],
+    #[cfg(feature = "alloc")]
+    pub(super) f: [[L::Scalar; N]; M],
     pub(super) factors: Factors<L::Scalar, N, M>,
 }
 
@@ -26,7 +31,16 @@ where
         let f = system.constraint_jacobian(state).transpose().into();
         // A change that leaves the constraints may make dependent ones disagree: those left out do not count.
         let factors = Factors::of(&m, &f, Rank::off_constraints());
-        Ok(Self { system, state, solution, factors })
+        Ok(Self {
+            system,
+            state,
+            solution,
+            #[cfg(feature = "alloc")]
+            m,
+            #[cfg(feature = "alloc")]
+            f,
+            factors,
+        })
     }
 
     /// δq̈ and δλ along a direction; `entry` is what to call it.
@@ -41,7 +55,9 @@ where
         let change = self.change(direction, entry)?;
         let (h, gamma) = ((-change.motion).into(), change.acceleration.into());
         let time = self.state.t.to_f64();
-        self.factors.solve(&h, &gamma).map_err(|found| fault::<L, N, M>(&found, time))
+        let solution = self.factors.solve(&h, &gamma).map_err(|found| fault::<L, N, M>(&found, time))?;
+        finite::<L, N, M>(&solution.accelerations, &[solution.multipliers], entry, self.state)?;
+        Ok(solution)
     }
 
     /// The derivative of the residual, which must be finite.
@@ -53,14 +69,27 @@ where
     where
         L: Linearized<N, M, P>,
     {
-        let change = self.system.residual_change(self.state, &self.solution, direction);
-        finite::<L, N, M>(&change, entry, self.state)?;
+        self.change_with(&self.solution, direction, entry)
+    }
+
+    /// The same with other accelerations or multipliers than those of the state.
+    pub(super) fn change_with<const P: usize>(
+        &self,
+        solution: &Solution<L::Scalar, N, M>,
+        direction: &Direction<L::Scalar, N, P>,
+        entry: Entry,
+    ) -> Result<ResidualChange<L::Scalar, N, M>, Error>
+    where
+        L: Linearized<N, M, P>,
+    {
+        let change = self.system.residual_change(self.state, solution, direction);
+        finite_change::<L, N, M>(&change, entry, self.state)?;
         Ok(change)
     }
 }
 
 /// Names the first row that is not finite.
-pub(super) fn finite<L, const N: usize, const M: usize>(
+pub(super) fn finite_change<L, const N: usize, const M: usize>(
     change: &ResidualChange<L::Scalar, N, M>,
     entry: Entry,
     state: &State<L::Scalar, N>,
@@ -68,9 +97,22 @@ pub(super) fn finite<L, const N: usize, const M: usize>(
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {
-    let ResidualChange { motion, acceleration, rate, position } = change;
+    let ResidualChange { motion, acceleration, rate, position } = *change;
+    finite::<L, N, M>(&motion, &[acceleration, rate, position], entry, state)
+}
+
+/// Names the first entry that is not finite, of a coordinate or of a constraint.
+fn finite<L, const N: usize, const M: usize>(
+    motion: &SVector<L::Scalar, N>,
+    constraints: &[SVector<L::Scalar, M>],
+    entry: Entry,
+    state: &State<L::Scalar, N>,
+) -> Result<(), Error>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
     let coordinate = (0..N).find(|&i| !motion[i].is_finite()).map(|i| Row::Coordinate(L::COORDINATES[i]));
-    let finite = |a: usize| [acceleration[a], rate[a], position[a]].iter().all(|x| x.is_finite());
+    let finite = |a: usize| constraints.iter().all(|x| x[a].is_finite());
     let constraint = || (0..M).find(|&a| !finite(a)).map(|a| Row::Constraint(L::CONSTRAINTS[a]));
     match coordinate.or_else(constraint) {
         None => Ok(()),

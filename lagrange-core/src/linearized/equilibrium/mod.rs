@@ -2,6 +2,7 @@
 
 mod point;
 mod search;
+mod steady;
 mod weights;
 
 use alloc::{string::String, vec::Vec};
@@ -14,6 +15,7 @@ use crate::simulate::check_finite;
 use crate::{Error, Lagrangian, Real, Simulate, State};
 use point::Point;
 use search::Search;
+use steady::Drift;
 
 /// An equilibrium, or a steady motion.
 #[derive(Clone)]
@@ -22,7 +24,9 @@ pub struct Equilibrium<L: Lagrangian<N, M>, const N: usize, const M: usize> {
     pub system: L,
     /// The state; its time and velocities are those of the guess.
     pub state: State<L::Scalar, N>,
-    /// The multipliers there.
+    /// The multipliers λ there, with the sign of [`Solution`](crate::Solution): the constraint force on coordinate i is
+    /// Σ_α λ_α F_αi. The unit is that of the generalized force by that of F: for Φ = 0 an energy per unit of Φ, for a
+    /// velocity constraint a power per unit of F q̇.
     pub multipliers: SVector<L::Scalar, M>,
     /// Steps taken.
     pub iterations: usize,
@@ -62,7 +66,9 @@ where
     check_finite(system, guess)?;
     let unknowns = unknowns::<L, N, M, P>(names)?;
     let mut search = Search::start(system.clone(), guess, unknowns)?;
+    let at_the_guess = Drift::of(&search.point)?;
     let iterations = search.run()?;
+    Drift::of(&search.point)?.check(&at_the_guess, &search.point)?;
     let undetermined = search.undetermined()?;
     let Point { system, state, multipliers } = search.point;
     // Of dependent constraints the multipliers of least norm; at a pole, where accelerations are undetermined, those found.

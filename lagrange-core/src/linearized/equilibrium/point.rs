@@ -3,7 +3,7 @@
 use nalgebra::{ComplexField, DMatrix, DVector, SVector};
 
 use crate::eliminate::vector;
-use crate::linearized::tangent::finite;
+use crate::linearized::tangent::finite_change;
 use crate::linearized::{Direction, Linearized, ResidualChange};
 use crate::names::{Entry, Row};
 use crate::{Error, Lagrangian, Real, Scalar, Solution, State};
@@ -50,7 +50,7 @@ where
                 (Direction::of_parameter(k), Entry::Parameter(L::PARAMETERS[k]))
             };
             let change = self.system.residual_change(&self.state, &still, &direction);
-            finite::<L, N, M>(&change, entry, &self.state)?;
+            finite_change::<L, N, M>(&change, entry, &self.state)?;
             jacobian.view_mut((0, j), (N + 3 * M, 1)).copy_from(&stacked(&change));
         }
         let f = self.system.constraint_jacobian(&self.state);

@@ -16,6 +16,8 @@ use crate::{Error, Lagrangian, Real, Scalar, Simulate, State, consistent};
 /// Steps before giving up.
 const ITERATIONS: usize = 200;
 
+type Factors<T> = SVD<T, Dyn, Dyn>;
+
 /// Where the search is, and how it goes on.
 pub(super) struct Search<L: Lagrangian<N, M>, const N: usize, const M: usize, const P: usize> {
     pub(super) point: Point<L, N, M>,
@@ -54,11 +56,12 @@ where
     pub(super) fn run(&mut self) -> Result<usize, Error> {
         let half = L::Scalar::constant(0.5);
         for iteration in 0..ITERATIONS {
-            if self.is_below(L::Scalar::constant(4.0 * L::Scalar::EPSILON), L::Scalar::constant(0.0)) {
+            if self.is_exact() {
                 return Ok(iteration);
             }
-            let (converged, before) = (self.is_negligible(), self.distance(&self.residual));
-            let moved = self.step()?;
+            let factors = self.factorize()?;
+            let (converged, before) = (self.is_negligible(&factors), self.distance(&self.residual));
+            let moved = self.step(&factors)?;
             if converged && (!moved || self.distance(&self.residual) > half * before) {
                 return Ok(iteration);
             }
@@ -66,16 +69,16 @@ where
                 return Err(self.not_found(iteration));
             }
         }
-        if self.is_negligible() { Ok(ITERATIONS) } else { Err(self.not_found(ITERATIONS)) }
+        let factors = self.factorize()?;
+        if self.is_negligible(&factors) { Ok(ITERATIONS) } else { Err(self.not_found(ITERATIONS)) }
     }
 
     /// Takes the least damped step that leads nearer; false where none does.
-    fn step(&mut self) -> Result<bool, Error> {
-        let factors = self.factorize()?;
+    fn step(&mut self, factors: &Factors<L::Scalar>) -> Result<bool, Error> {
         let before = self.distance(&self.residual);
         let (less, more) = (L::Scalar::constant(0.1), L::Scalar::constant(10.0));
         for _ in 0..40 {
-            let step = self.damped(&factors, self.damping * before);
+            let step = self.damped(factors, self.damping * before);
             let next = self.moved(&step)?;
             let residual = next.residual();
             if self.distance(&residual) < before {
@@ -90,16 +93,14 @@ where
     }
 
     /// The singular values of the Jacobian in the units of rows and columns.
-    fn factorize(&mut self) -> Result<SVD<L::Scalar, Dyn, Dyn>, Error> {
-        let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
+    fn factorize(&mut self) -> Result<Factors<L::Scalar>, Error> {
         let mut scaled = self.jacobian.clone();
         for (i, weight) in self.weights.iter().enumerate() {
             scaled.row_mut(i).scale_mut(*weight);
         }
         for (j, mut column) in scaled.column_iter_mut().enumerate() {
             self.scale[j] = larger(self.scale[j], column.norm());
-            let unit = if self.scale[j] > zero { self.scale[j] } else { one };
-            column.unscale_mut(unit);
+            column.scale_mut(self.unit(j));
         }
         let size = scaled.nrows();
         let epsilon = L::Scalar::constant(L::Scalar::EPSILON);
@@ -107,8 +108,8 @@ where
     }
 
     /// δ = −Σ_k v_k σ_k (u_k·R)/(σ_k² + μ), over the singular values that are not zero.
-    fn damped(&self, factors: &SVD<L::Scalar, Dyn, Dyn>, damping: L::Scalar) -> DVector<L::Scalar> {
-        let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
+    fn damped(&self, factors: &Factors<L::Scalar>, damping: L::Scalar) -> DVector<L::Scalar> {
+        let zero = L::Scalar::constant(0.0);
         let mut step = DVector::zeros(self.jacobian.ncols());
         let (Some(u), Some(v)) = (&factors.u, &factors.v_t) else { return step };
         let least = factors.singular_values.max() * L::Scalar::constant(L::Scalar::EPSILON);
@@ -117,11 +118,16 @@ where
             let along = rows.fold(zero, |sum, (i, (r, w))| sum + u[(i, k)] * *r * *w);
             let length = -sigma * along / (sigma * sigma + damping);
             for j in 0..step.len() {
-                let unit = if self.scale[j] > zero { self.scale[j] } else { one };
-                step[j] += v[(k, j)] * length / unit;
+                step[j] += v[(k, j)] * length * self.unit(j);
             }
         }
         step
+    }
+
+    /// The unit of a step in unknown `j`: it changes R about as much as the guess is off.
+    fn unit(&self, j: usize) -> L::Scalar {
+        let one = L::Scalar::constant(1.0);
+        if self.scale[j] > L::Scalar::constant(0.0) { one / self.scale[j] } else { one }
     }
 
     fn moved(&self, step: &DVector<L::Scalar>) -> Result<Point<L, N, M>, Error> {
@@ -140,22 +146,34 @@ where
         residual.component_mul(&self.weights).norm()
     }
 
-    /// Whether every row is below this part of its terms, and of its terms where the unknowns are about 1.
-    fn is_below(&self, part: L::Scalar, floor: L::Scalar) -> bool {
-        let values = self.unknowns.iter().map(|&unknown| self.point.value(unknown));
-        let values: Vec<_> = values.chain(self.point.multipliers.iter().copied()).collect();
-        self.residual.iter().enumerate().all(|(i, r)| {
-            let row = self.jacobian.row(i);
-            let bound = row.iter().zip(&values).fold(L::Scalar::constant(0.0), |sum, (slope, x)| {
-                sum + part * Scalar::abs(*slope * *x) + floor * Scalar::abs(*slope)
-            });
-            Scalar::abs(*r) <= bound
-        })
+    /// Whether every row is round-off of its terms.
+    fn is_exact(&self) -> bool {
+        let part = L::Scalar::constant(4.0 * L::Scalar::EPSILON);
+        let bound = self.terms(|_, x| part * x);
+        self.residual.iter().zip(&bound).all(|(r, bound)| Scalar::abs(*r) <= *bound)
     }
 
-    /// Whether what is left may be round-off.
-    fn is_negligible(&self) -> bool {
-        self.is_below(L::Scalar::constant(16.0 * L::Scalar::EPSILON), power_of_epsilon(0.75))
+    /// Whether what is left may be round-off: it is small, of the terms of each row and of those where the unknowns
+    /// are about 1; and what no step could take away is round-off of the terms here or at the guess. The second
+    /// tells forces that cannot balance, however small their unit makes them.
+    fn is_negligible(&self, factors: &Factors<L::Scalar>) -> bool {
+        let part = L::Scalar::constant(16.0 * L::Scalar::EPSILON);
+        let floor = power_of_epsilon(0.75);
+        let small = self.terms(|_, x| part * x + floor);
+        let round_off = self.terms(|j, x| part * (x + self.unit(j)));
+        let moved = &self.jacobian * self.damped(factors, L::Scalar::constant(0.0));
+        let stays = &self.residual + moved.rows(0, self.residual.len());
+        (0..self.residual.len())
+            .all(|i| Scalar::abs(self.residual[i]) <= small[i] && Scalar::abs(stays[i]) <= round_off[i])
+    }
+
+    /// Σ_j |∂R_i/∂x_j| size(j, |x_j|) over the unknowns and multipliers, for each row i.
+    fn terms(&self, size: impl Fn(usize, L::Scalar) -> L::Scalar) -> DVector<L::Scalar> {
+        let unknowns = self.unknowns.iter().map(|&unknown| self.point.value(unknown));
+        let values = unknowns.chain(self.point.multipliers.iter().copied());
+        let sizes = values.enumerate().map(|(j, x)| size(j, Scalar::abs(x)));
+        let sizes = DVector::from_iterator(self.jacobian.ncols(), sizes);
+        self.jacobian.map(Scalar::abs) * sizes
     }
 
     /// What takes part in the directions along which nothing changes.

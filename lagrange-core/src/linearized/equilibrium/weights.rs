@@ -12,21 +12,15 @@ const CONSTRAINTS: f64 = 10.0;
 /// search then does not depend on units (Curtis and Reid 1972). Times what makes |R| 1. The first `forces` rows are
 /// forces, the others constraints.
 pub(super) fn weights<T: Real>(jacobian: &DMatrix<T>, residual: &DVector<T>, forces: usize) -> DVector<T> {
-    let (zero, one) = (T::constant(0.0), T::constant(1.0));
+    let zero = T::constant(0.0);
     let mut rows = DVector::repeat(jacobian.nrows(), zero);
     let mut columns = DVector::repeat(jacobian.ncols(), zero);
-    let mean = |entries: &mut dyn Iterator<Item = (T, T)>| {
-        let (sum, count) = entries
-            .filter(|(entry, _)| *entry != zero)
-            .fold((zero, zero), |(sum, count), (x, y)| (sum + Scalar::ln(Scalar::abs(x)) + y, count + one));
-        if count > zero { sum / count } else { zero }
-    };
     for _ in 0..20 {
         for (j, column) in jacobian.column_iter().enumerate() {
-            columns[j] = -mean(&mut column.iter().copied().zip(rows.iter().copied()));
+            columns[j] = -mean(column.iter().zip(&rows));
         }
         for (i, row) in jacobian.row_iter().enumerate() {
-            rows[i] = -mean(&mut row.iter().copied().zip(columns.iter().copied()));
+            rows[i] = -mean(row.iter().zip(&columns));
         }
     }
     let weights = DVector::from_fn(residual.len(), |i, _| {
@@ -34,4 +28,13 @@ pub(super) fn weights<T: Real>(jacobian: &DMatrix<T>, residual: &DVector<T>, for
     });
     let size = weights.component_mul(residual).norm();
     if size > zero { weights / size } else { weights }
+}
+
+/// The mean of ln |x| + y over the pairs with x ≠ 0; zero where there are none.
+fn mean<'a, T: Real>(pairs: impl Iterator<Item = (&'a T, &'a T)>) -> T {
+    let (zero, one) = (T::constant(0.0), T::constant(1.0));
+    let (sum, count) = pairs
+        .filter(|(x, _)| **x != zero)
+        .fold((zero, zero), |(sum, count), (x, y)| (sum + Scalar::ln(Scalar::abs(*x)) + *y, count + one));
+    if count > zero { sum / count } else { zero }
 }

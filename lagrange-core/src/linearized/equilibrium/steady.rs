@@ -1,0 +1,63 @@
+//! Whether a motion with q̈ = 0 goes on so: nothing may change with what moves.
+
+use alloc::vec::Vec;
+
+use nalgebra::DMatrix;
+
+use super::point::{Point, row};
+use crate::linearized::Linearized;
+use crate::numeric::{larger, power_of_epsilon};
+use crate::{Error, Lagrangian, Real, Scalar};
+
+/// How fast (M q̈ − h − Fᵀλ, F q̈ + γ) at q̈ = 0 changes with the coordinates that move, a column each. The rows of
+/// F q̇ + b and Φ follow from the second.
+pub(super) struct Drift<T> {
+    moving: Vec<usize>,
+    columns: DMatrix<T>,
+}
+
+impl<T: Real> Drift<T> {
+    pub(super) fn of<L, const N: usize, const M: usize, const P: usize>(
+        point: &Point<L, N, M>,
+    ) -> Result<Self, Error>
+    where
+        L: Linearized<N, M, P, Scalar = T>,
+    {
+        let v = &point.state.v;
+        let moving: Vec<usize> = (0..N).filter(|&i| v[i] != T::constant(0.0)).collect();
+        let jacobian = point.jacobian(&moving)?;
+        let mut columns = jacobian.view((0, 0), (N + M, moving.len())).into_owned();
+        for (mut column, &i) in columns.column_iter_mut().zip(&moving) {
+            column.scale_mut(v[i]);
+        }
+        Ok(Self { moving, columns })
+    }
+
+    /// Each row must cancel, but for √ε of its terms here or at the guess.
+    pub(super) fn check<L, const N: usize, const M: usize>(
+        &self,
+        guess: &Self,
+        point: &Point<L, N, M>,
+    ) -> Result<(), Error>
+    where
+        L: Lagrangian<N, M, Scalar = T>,
+    {
+        let part = power_of_epsilon::<T>(0.5);
+        let changes = |i: &usize| {
+            let terms = larger(self.terms(*i), guess.terms(*i));
+            Scalar::abs(self.columns.row(*i).sum()) > part * terms
+        };
+        match (0..N + M).find(changes) {
+            None => Ok(()),
+            Some(i) => {
+                let most = self.moving[self.columns.row(i).transpose().icamax()];
+                let (coordinate, time) = (L::COORDINATES[most], point.state.t.to_f64());
+                Err(Error::NotSteady { coordinate, row: row::<L, N, M>(i), time })
+            }
+        }
+    }
+
+    fn terms(&self, row: usize) -> T {
+        self.columns.row(row).iter().fold(T::constant(0.0), |sum, x| sum + Scalar::abs(*x))
+    }
+}
