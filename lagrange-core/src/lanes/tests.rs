@@ -113,11 +113,13 @@ fn products_and_sums_are_fused_as_for_the_number_alone() {
     each_beside_each(|x, lane, _, beside| {
         // The rounding of 0.1 · 10 − 1 and the like is all that is left of it.
         for (y, z) in [(3.0, -3.0 * x), (0.1, -0.1 * x), (x, -x * x), (1e300, x), (x, f64::NAN)] {
-            let [sum, difference] = [Lanes::multiply_add, Lanes::subtract_product]
-                .map(|f| f(beside, Lanes::constant(y), Lanes::constant(z)).to_array()[lane]);
+            let sum = beside.multiply_add(Lanes::constant(y), Lanes::constant(z)).to_array()[lane];
             assert!(same(sum, product_and_sum(x, y, z)), "{x} · {y} + {z} is {sum}");
-            assert!(same(difference, product_and_sum(-x, y, z)), "{z} − {x} · {y} is {difference}");
-            assert!(same(sum, Scalar::multiply_add(x, y, z)) && same(difference, x.subtract_product(y, z)));
+            assert!(same(sum, x.multiply_add(y, z)), "{x} · {y} + {z} is {sum}");
+            let difference =
+                beside.subtract_product(Lanes::constant(y), Lanes::constant(-z)).to_array()[lane];
+            assert!(same(difference, product_and_sum(-x, y, -z)), "{z} − {x} · {y} is {difference}");
+            assert!(same(difference, x.subtract_product(y, -z)), "{z} − {x} · {y} is {difference}");
         }
     });
 }
