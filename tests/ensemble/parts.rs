@@ -214,7 +214,7 @@ fn a_table_of_another_ensemble_is_refused() {
     };
     let fewer = Ensemble::from_fn(COUNT - 1, member);
     assert_eq!(reason(fewer.resume(&table)), (COUNT + 1, "there is no such member"));
-    assert_eq!(reason(ensemble().resume(&table.replace(",b,", ",c,"))), (1, "its coordinates are others"));
+    assert_eq!(reason(ensemble().resume(&table.replace(",b,", ",c,"))), (1, "its columns are others"));
     for broken in ["x\n", "3,1.0,1,2,3,4,5,6,7,true,fine,3\n", "3,1.0,1,2,3,4.x,5,6,7,true,complete,3\n"] {
         let rows = format!("{}{broken}", table.lines().next().unwrap().to_owned() + "\n");
         assert_eq!(reason(ensemble().resume(&rows)), (2, "it is no row of such a table"));

@@ -10,6 +10,8 @@
 mod job;
 mod outcome;
 mod table;
+#[cfg(test)]
+mod tests;
 
 use core::fmt::{self, Debug, Formatter};
 use core::ops::ControlFlow;
@@ -18,8 +20,6 @@ use crate::integrate::{Adaptive, Pair, check_end};
 use crate::{Error, Lagrangian, Lanes, Method, Pack, Real, State};
 use job::Job;
 pub use outcome::{Arrival, Member, Outcome};
-#[cfg(test)]
-mod tests;
 
 /// Many members, each a system with its start, that are integrated to the same time.
 ///
@@ -135,8 +135,8 @@ impl<'a, L, T: Real, const N: usize> Ensemble<'a, L, T, N> {
     }
 
     /// Leaves out what is done: the members in this table, from [`Outcome::csv`] or from the rows of
-    /// [`Member::csv`], one run's or those of several in a row. They are taken over into the outcome. Of several
-    /// tables none replaces another, and of several rows of one member the first counts.
+    /// [`Member::csv`], one run's or those of several in a row. They are taken over into the outcome. Several
+    /// tables add up, and of several rows of one member the first counts.
     ///
     /// Members that failed are tried again: with the same settings they give the same failure, but for a limit on
     /// wall time. Rows of another part are ignored, and so are lines that were not written to their end, also where

@@ -76,7 +76,7 @@ pub(super) fn read<T: Real + FromStr, const N: usize>(
         let text = text.strip_suffix('\r').unwrap_or(text);
         let read = match text.starts_with("member,") {
             true if text == header => Ok(None),
-            true => Err("its coordinates are others"),
+            true => Err("its columns are others"),
             false => row(text, count),
         };
         members.extend(read.map_err(|reason| Error::Resume { line, reason })?);
