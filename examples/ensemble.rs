@@ -9,8 +9,8 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use lagrange_core::ensemble::{Member, Outcome};
 use lagrange_core::prelude::*;
+use lagrange_core::{Member, Outcome};
 use picture::{BLUE, GREY, Points, RED, Result};
 use plotters::prelude::*;
 
@@ -44,10 +44,10 @@ fn main() -> Result<()> {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         })
-        .on_progress(|headway| {
-            if 4 * headway.done / headway.of > quarters {
+        .on_progress(|progress| {
+            if 4 * progress.done / progress.of > quarters {
                 quarters += 1;
-                println!("{:6} of {} members", headway.done, headway.of);
+                println!("{:6} of {} members", progress.done, progress.of);
             }
             ControlFlow::Continue(())
         })

@@ -45,7 +45,12 @@ pub enum Error {
         /// Its value.
         value: f64,
     },
-    /// The end time lies before the start, or one of them is not finite.
+    /// The end time is infinite or not a number.
+    EndNotFinite {
+        /// The end asked for.
+        end: f64,
+    },
+    /// The end time lies before the start.
     EndTime {
         /// The time of the state given.
         start: f64,
@@ -168,6 +173,20 @@ pub enum Error {
         /// How many parts there are.
         of: usize,
     },
+    /// Outcomes of different ensembles, which are no parts of one.
+    Merge {
+        /// In what they differ.
+        reason: &'static str,
+    },
+    /// A member taken over from another run, which was to another time.
+    OtherEnd {
+        /// The index of the member.
+        member: usize,
+        /// The time that it was integrated to.
+        time: f64,
+        /// The end asked for.
+        end: f64,
+    },
     /// A table of members that are done, but not of this ensemble.
     Resume {
         /// The line, counted from 1.
@@ -216,9 +235,10 @@ impl Display for Error {
             Self::Setting { name, value } => {
                 write!(f, "the {name} is {value}: it must be positive and finite")
             }
+            Self::EndNotFinite { end } => write!(f, "cannot integrate to t = {end}: the end must be finite"),
             Self::EndTime { start, end } => write!(
                 f,
-                "cannot integrate from t = {start} to t = {end}: the end must be finite and not before the start"
+                "cannot integrate from t = {start} to t = {end}: the end must not be before the start"
             ),
             Self::Singular { coordinates, time } => write!(
                 f,
@@ -277,6 +297,11 @@ impl Display for Error {
                     "there is no part {shard} of {of}: parts are counted from 0, and there is at least one"
                 )
             }
+            Self::Merge { reason } => write!(f, "the outcomes are not parts of one ensemble: {reason}"),
+            Self::OtherEnd { member, time, end } => write!(
+                f,
+                "member {member} of the table to resume from was integrated to t = {time}, not to t = {end}: ask for the same end"
+            ),
             Self::Resume { line, reason } => {
                 write!(f, "line {line} of the table to resume from is not of this ensemble: {reason}")
             }

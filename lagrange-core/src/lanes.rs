@@ -115,6 +115,18 @@ impl Scalar for Lanes {
         self.sin_cos().1
     }
 
+    #[cfg(target_feature = "fma")]
+    #[inline(always)]
+    fn multiply_add(self, y: Self, z: Self) -> Self {
+        Self(self.0.simd_mul_add(y.0, z.0))
+    }
+
+    #[cfg(target_feature = "fma")]
+    #[inline(always)]
+    fn subtract_product(self, y: Self, z: Self) -> Self {
+        (-self).multiply_add(y, z)
+    }
+
     through_simba! {
         tan => simd_tan(), asin => simd_asin(), acos => simd_acos(), atan => simd_atan(), atan2 => simd_atan2(x),
         sinh => simd_sinh(), cosh => simd_cosh(), tanh => simd_tanh(),

@@ -96,7 +96,7 @@ pub use csv::Csv;
 pub use drift::{Deviation, Drift};
 pub use dual::Dual;
 #[cfg(feature = "std")]
-pub use ensemble::Ensemble;
+pub use ensemble::{Arrival, Ensemble, EnsembleProgress, Member, Outcome};
 pub use equations::Equations;
 pub use error::Error;
 pub use evidence::Evidence;

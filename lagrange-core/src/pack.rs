@@ -8,7 +8,8 @@ use nalgebra::SMatrix;
 ///
 /// `#[derive(Lagrangian)]` implements it for a struct whose number type is a type parameter. The numbers of each
 /// member lie in a lane of their own. A field without that parameter in its type (a function, a label) is one for all
-/// lanes: members in which it differs do not fit beside each other.
+/// lanes: members in which it differs do not fit beside each other, and an [`Ensemble`](crate::Ensemble) fills its
+/// lanes only where members that agree in it follow each other.
 ///
 /// ```
 /// use lagrange_core::prelude::*;

@@ -59,7 +59,7 @@ pub trait Scalar:
     fn min(self, other: Self) -> Self;
     /// The larger of the two, lane by lane.
     fn max(self, other: Self) -> Self;
-    /// `self` · `y` + `z`, rounded once where the target has an instruction for that, else twice.
+    /// `self` · `y` + `z`: rounded once on x86 with the target feature `fma`, else twice.
     #[inline(always)]
     fn multiply_add(self, y: Self, z: Self) -> Self {
         self * y + z

@@ -1,8 +1,7 @@
 //! One bad member is reported by its index, with the reason, and spoils no other.
 
-use lagrange_core::ensemble::{Member, Outcome};
 use lagrange_core::prelude::*;
-use lagrange_core::{Lanes, Pack};
+use lagrange_core::{Lanes, Member, Outcome, Pack};
 
 use crate::{COUNT, DoublePendulum, END, ensemble, member, on_threads};
 
@@ -164,9 +163,22 @@ fn a_limit_on_steps_ends_the_member_that_meets_it() {
 
 #[test]
 fn what_is_wrong_for_all_is_said_once() {
-    let wrong = || Dop853::with_tolerance(-1.0);
-    for outcome in [ensemble().integrate(END, wrong()), ensemble().integrate_on_lanes(END, wrong())] {
-        assert!(matches!(outcome, Err(Error::Setting { name: "relative tolerance", .. })));
+    let both = |part, parts, end, method| {
+        let ensemble = || ensemble().shard(part, parts);
+        [ensemble().integrate(end, method), ensemble().integrate_on_lanes(end, method)]
+            .map(Result::unwrap_err)
+    };
+    // The last part is empty.
+    for (part, parts) in [(0, 1), (2, 3), (COUNT + 2, COUNT + 3)] {
+        for error in both(part, parts, END, Dop853::with_tolerance(-1.0)) {
+            assert_eq!(error, Error::Setting { name: "relative tolerance", value: -1.0 });
+        }
+        for error in both(part, parts, f64::NAN, Dop853::default()) {
+            assert_eq!(error.to_string(), "cannot integrate to t = NaN: the end must be finite");
+        }
+        for error in both(part, parts, f64::INFINITY, Dop853::default()) {
+            assert_eq!(error, Error::EndNotFinite { end: f64::INFINITY });
+        }
     }
     let error = ensemble().shard(3, 3).integrate(END, Dop853::default()).unwrap_err();
     assert_eq!(

@@ -1,8 +1,9 @@
 //! Parts of an ensemble, stopped and resumed, make the whole.
 
 use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
-use lagrange_core::ensemble::Outcome;
+use lagrange_core::Outcome;
 use lagrange_core::prelude::*;
 
 use crate::{COUNT, DoublePendulum, END, ensemble, member, on_threads};
@@ -19,7 +20,7 @@ fn the_parts_are_the_whole() {
         assert!(
             sizes.clone().sum::<usize>() == COUNT && sizes.clone().max().unwrap() <= COUNT.div_ceil(parts)
         );
-        let together = (0..parts).rev().map(run).reduce(Outcome::merge).unwrap();
+        let together = (0..parts).rev().map(run).reduce(|a, b| a.merge(b).unwrap()).unwrap();
         assert_eq!(together, whole());
     }
 }
@@ -37,16 +38,18 @@ fn a_table_reads_back_the_same() {
     let mut lines = table.lines();
     assert_eq!(
         lines.next(),
-        Some("member,t,a,b,a_dot,b_dot,accepted,rejected,evaluations,multipliers_are_unique,ending")
+        Some(
+            "member,t,a,b,a_dot,b_dot,accepted,rejected,evaluations,multipliers_are_unique,ending,member_again"
+        )
     );
     assert_eq!(lines.clone().count(), COUNT);
     let line = lines.nth(4).unwrap();
     assert!(line.starts_with("4,,,,,,,,,,\"the equations are not finite at t = 0; row of"), "{line}");
     // What is done is not done again, and what failed is.
-    let count = std::sync::atomic::AtomicUsize::new(0);
-    let again = failing().resume(&table).unwrap().on_progress(|headway| {
-        count.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-        assert_eq!((headway.done, headway.of, headway.member.index), (COUNT, COUNT, 4));
+    let count = AtomicUsize::new(0);
+    let again = failing().resume(&table).unwrap().on_progress(|progress| {
+        count.fetch_add(1, Ordering::Relaxed);
+        assert_eq!((progress.done, progress.of, progress.member.index), (COUNT, COUNT, 4));
         ControlFlow::Continue(())
     });
     assert_eq!(again.integrate_on_lanes(END, Dop853::default()).unwrap().csv().to_string(), table);
@@ -57,8 +60,8 @@ fn a_table_reads_back_the_same() {
 fn progress_never_goes_back() {
     for threads in [1, 4] {
         let mut seen = Vec::new();
-        let watched = ensemble().on_progress(|headway| {
-            seen.push((headway.done, headway.of));
+        let watched = ensemble().on_progress(|progress| {
+            seen.push((progress.done, progress.of));
             ControlFlow::Continue(())
         });
         on_threads(threads, || watched.integrate_on_lanes(END, Dop853::default()).unwrap());
@@ -70,19 +73,126 @@ fn progress_never_goes_back() {
 fn what_was_stopped_goes_on() {
     for threads in [1, 3] {
         let mut rows = String::new();
-        let stopped = ensemble().on_progress(|headway| {
-            rows += &headway.member.csv().to_string();
-            if headway.done == 10 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        let stopped = ensemble().on_progress(|progress| {
+            rows += &progress.member.csv().to_string();
+            if progress.done == 10 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
         let first = on_threads(threads, || stopped.integrate_on_lanes(END, Dop853::default()).unwrap());
-        assert!(first.members().len() >= 10 && first.members().len() < COUNT);
+        assert_eq!(first.members().len(), 10);
         // The last row was not written to its end.
         rows.truncate(rows.len() - 3);
         let resumed = || ensemble().resume(&rows).unwrap();
         assert_eq!(resumed().integrate_on_lanes(END, Dop853::default()).unwrap(), whole());
         // Each part takes from the table what is its own.
         let part = |k| resumed().shard(k, 3).integrate_on_lanes(END, Dop853::default()).unwrap();
-        assert_eq!(part(0).merge(part(1)).merge(part(2)), whole());
+        assert_eq!(part(0).merge(part(1)).and_then(|two| two.merge(part(2))).unwrap(), whole());
+    }
+}
+
+/// The first is ended after a few steps, and all with it, while the others are on their way to their limit on steps.
+#[test]
+fn members_on_their_way_stop_too() {
+    const LIMIT: usize = 10_000;
+    for (threads, on_lanes) in [(1, true), (3, true), (3, false)] {
+        let steps: [AtomicUsize; 8] = std::array::from_fn(|_| AtomicUsize::new(0));
+        let others = || steps.iter().skip(1).map(|steps| steps.load(Ordering::SeqCst));
+        let mut calls = Vec::new();
+        let ensemble = Ensemble::from_fn(8, member)
+            .observe(|index, _| {
+                let taken = steps[index].fetch_add(1, Ordering::SeqCst);
+                if (index, taken) == (0, 5) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            })
+            .on_progress(|progress| {
+                calls.push(progress.member.index);
+                while others().sum::<usize>() == 0 {
+                    std::thread::yield_now();
+                }
+                ControlFlow::Break(())
+            });
+        let method = Dop853::default().max_steps(LIMIT);
+        let outcome = on_threads(threads, || match on_lanes {
+            true => ensemble.integrate_on_lanes(1e6, method).unwrap(),
+            false => ensemble.integrate(1e6, method).unwrap(),
+        });
+        assert!(outcome.members().iter().map(|member| member.index).eq([0]), "{outcome:?}");
+        assert_eq!(calls, [0]);
+        assert!(others().all(|steps| steps < LIMIT / 2), "{:?}", others().collect::<Vec<_>>());
+    }
+}
+
+#[test]
+fn members_that_end_after_the_stop_are_not_shown() {
+    for on_lanes in [false, true] {
+        let mut shown = Vec::new();
+        let ensemble = ensemble().on_progress(|progress| {
+            shown.push(progress.member.index);
+            if progress.done == 5 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        let outcome = on_threads(4, || match on_lanes {
+            // Steps of one size, so that four end at once.
+            true => ensemble.integrate_on_lanes(END, Dop853::default().fixed_step(0.1)).unwrap(),
+            false => ensemble.integrate(END, Dop853::default()).unwrap(),
+        });
+        shown.sort_unstable();
+        assert_eq!(shown.len(), 5);
+        assert!(shown.iter().copied().eq(outcome.members().iter().map(|member| member.index)));
+    }
+}
+
+#[test]
+fn tables_given_one_after_the_other_are_all_taken() {
+    let part = |k| ensemble().shard(k, 3).integrate_on_lanes(END, Dop853::default()).unwrap();
+    let tables = [part(2), part(0)].map(|part| part.csv().to_string());
+    let mut done = Vec::new();
+    let rest = tables.iter().fold(ensemble(), |ensemble, table| ensemble.resume(table).unwrap());
+    let rest = rest.on_progress(|progress| {
+        done.push(progress.member.index);
+        ControlFlow::Continue(())
+    });
+    assert_eq!(on_threads(1, || rest.integrate_on_lanes(END, Dop853::default()).unwrap()), whole());
+    done.sort_unstable();
+    assert!(done.into_iter().eq((1..COUNT).step_by(3)));
+}
+
+/// Killed in the middle of a row, and the rows of the next run written behind it.
+#[test]
+fn rows_that_ran_into_each_other_are_no_row() {
+    let whole = whole();
+    let rows: Vec<String> = whole.members().iter().map(|member| member.csv().to_string()).collect();
+    for torn in [1, 3, 12] {
+        for next in [3, 12] {
+            for length in 1..rows[torn].len() {
+                let table = rows[0].clone() + &rows[torn][..length] + &rows[next] + &rows[5];
+                let mut done = Vec::new();
+                let resumed = ensemble().resume(&table).unwrap().on_progress(|progress| {
+                    done.push(progress.member.index);
+                    ControlFlow::Break(())
+                });
+                let coarse = Dopri5::with_tolerance(0.1);
+                let taken = on_threads(1, || resumed.integrate(END, coarse).unwrap());
+                let known: Vec<_> = taken.members().iter().filter(|m| !done.contains(&m.index)).collect();
+                assert!(known.into_iter().eq([&whole.members()[0], &whole.members()[5]]), "{table}");
+            }
+        }
+    }
+}
+
+#[test]
+fn parts_of_different_ensembles_are_not_put_together() {
+    #[derive(Lagrangian)]
+    #[coordinates(x, y)]
+    #[lagrangian(m*(x_dot^2 + y_dot^2)/2)]
+    struct Free {
+        m: f64,
+    }
+    let free = Ensemble::from_fn(2, |_| (Free { m: 1.0 }, State::at_rest([0.0; 2])));
+    let free = free.integrate(END, Dop853::default()).unwrap();
+    let later = ensemble().integrate(END + 1.0, Dop853::default()).unwrap();
+    for (other, reason) in
+        [(free, "their coordinates differ"), (later, "they were integrated to different times")]
+    {
+        let error = whole().merge(other).unwrap_err();
+        assert_eq!(error.to_string(), format!("the outcomes are not parts of one ensemble: {reason}"));
     }
 }
 
@@ -104,16 +214,25 @@ fn a_table_of_another_ensemble_is_refused() {
     };
     let fewer = Ensemble::from_fn(COUNT - 1, member);
     assert_eq!(reason(fewer.resume(&table)), (COUNT + 1, "there is no such member"));
-    assert_eq!(reason(ensemble().resume(&table.replace(",b,", ",c,"))), (1, "its coordinates are others"));
-    for broken in
-        ["3,1.0,2.0\n", "x\n", "3,1.0,1,2,3,4,5,6,7,true,fine\n", "3,1.0,1,2,3,4.x,5,6,7,true,complete\n"]
-    {
+    assert_eq!(reason(ensemble().resume(&table.replace(",b,", ",c,"))), (1, "its columns are others"));
+    for broken in ["x\n", "3,1.0,1,2,3,4,5,6,7,true,fine,3\n", "3,1.0,1,2,3,4.x,5,6,7,true,complete,3\n"] {
         let rows = format!("{}{broken}", table.lines().next().unwrap().to_owned() + "\n");
         assert_eq!(reason(ensemble().resume(&rows)), (2, "it is no row of such a table"));
     }
-    let other_end = ensemble().resume(&table).unwrap().integrate_on_lanes(END + 1.0, Dop853::default());
+    let failed = format!("{COUNT}{}\"why, no more\",{COUNT}\n", ",".repeat(10));
+    assert_eq!(reason(ensemble().resume(&failed)), (1, "there is no such member"));
+}
+
+#[test]
+fn members_integrated_to_another_time_are_refused_where_they_belong_to_the_part() {
+    let table = whole().get(4).unwrap().csv().to_string();
+    let later = |part| {
+        let resumed = ensemble().resume(&table).unwrap().shard(part, 3);
+        resumed.integrate_on_lanes(END + 1.0, Dop853::default())
+    };
     assert_eq!(
-        other_end.unwrap_err().to_string(),
-        "line 2 of the table to resume from is not of this ensemble: it was integrated to another time"
+        later(1).unwrap_err().to_string(),
+        "member 4 of the table to resume from was integrated to t = 1, not to t = 2: ask for the same end"
     );
+    assert!(later(0).is_ok());
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use super::{Arrival, Ensemble, Headway, Make, Member, Observer, Outcome, Watch};
+use super::{Arrival, Ensemble, EnsembleProgress, Make, Member, Observer, Outcome, Watch};
 use crate::integrate::{Adaptive, Batch, LagrangianFlow, Pair, Seat, begin, run};
 use crate::simulate::check_finite;
 use crate::{Error, Lagrangian, Lanes, Method, Pack, Real, State, Statistics};
@@ -31,8 +31,6 @@ struct Ledger<'a, T, const N: usize> {
     members: Vec<Member<T, N>>,
     of: usize,
     watch: Option<Watch<'a, T, N>>,
-    /// What is wrong with the whole.
-    error: Option<Error>,
 }
 
 impl<'a, L, T: Real, const N: usize> Job<'a, L, T, N> {
@@ -41,29 +39,21 @@ impl<'a, L, T: Real, const N: usize> Job<'a, L, T, N> {
         if shard >= shards {
             return Err(Error::Shard { shard, of: shards });
         }
-        let strays = |(_, member): &&(usize, Member<T, N>)| {
-            member.arrival().is_some_and(|a| a.ending.is_complete() && a.state.t != end)
-        };
-        if let Some((line, _)) = done.iter().find(strays) {
-            return Err(Error::Resume { line: *line, reason: "it was integrated to another time" });
-        }
-        let of = count.saturating_sub(shard).div_ceil(shards);
-        let members = done.into_iter().map(|(_, member)| member);
-        let mut members: Vec<_> = members.filter(|member| member.index % shards == shard).collect();
+        let mut members = done;
+        members.retain(|member| member.index % shards == shard);
+        members.iter().try_for_each(|member| check_end_of(member, end))?;
         members.sort_by_key(|member| member.index);
         members.dedup_by_key(|member| member.index);
         let done = members.iter().map(|member| member.index).collect();
-        let ledger = Mutex::new(Ledger { members, of, watch, error: None });
+        let of = count.saturating_sub(shard).div_ceil(shards);
+        let ledger = Mutex::new(Ledger { members, of, watch });
         let (given, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
         Ok(Self { make, observer, end, count, shard, shards, done, given, stopped, ledger })
     }
 
-    pub(super) fn outcome(self, names: [&'static str; N]) -> Result<Outcome<T, N>, Error> {
-        let Ledger { members, error, .. } = self.ledger.into_inner().unwrap_or_else(PoisonError::into_inner);
-        match error {
-            Some(error) => Err(error),
-            None => Ok(Outcome::new(members, names)),
-        }
+    pub(super) fn outcome(self, names: [&'static str; N]) -> Outcome<T, N> {
+        let ledger = self.ledger.into_inner().unwrap_or_else(PoisonError::into_inner);
+        Outcome::new(ledger.members, names, self.end)
     }
 
     /// The member that nobody has yet.
@@ -71,7 +61,7 @@ impl<'a, L, T: Real, const N: usize> Job<'a, L, T, N> {
         loop {
             let place = self.given.fetch_add(1, Ordering::Relaxed);
             let index = place.checked_mul(self.shards)?.checked_add(self.shard)?;
-            if index >= self.count || self.stopped.load(Ordering::Relaxed) {
+            if index >= self.count || self.is_stopped() {
                 return None;
             }
             if !self.done.contains(&index) {
@@ -80,28 +70,36 @@ impl<'a, L, T: Real, const N: usize> Job<'a, L, T, N> {
         }
     }
 
+    fn is_stopped(&self) -> bool {
+        self.stopped.load(Ordering::Relaxed)
+    }
+
     fn ledger(&self) -> MutexGuard<'_, Ledger<'a, T, N>> {
         self.ledger.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Writes down what has become of a member, and stops everything where that or the caller says so.
+    /// Writes down what has become of a member, and stops everything where the caller says so. Once it is stopped
+    /// nothing is written down: members that were on their way were cut short.
     fn report(&self, index: usize, result: Result<Arrival<T, N>, Error>) {
         let mut ledger = self.ledger();
-        if let Err(wrong @ Error::Setting { .. }) = result {
-            ledger.error = Some(wrong);
-            return self.stopped.store(true, Ordering::Relaxed);
+        if self.is_stopped() {
+            return;
         }
-        let Ledger { members, of, watch, .. } = &mut *ledger;
+        let Ledger { members, of, watch } = &mut *ledger;
         members.push(Member { index, result });
         let (done, of) = (members.len(), *of);
         if let Some((watch, member)) = watch.as_mut().zip(members.last())
-            && watch(Headway { done, of, member }).is_break()
+            && watch(EnsembleProgress { done, of, member }).is_break()
         {
             self.stopped.store(true, Ordering::Relaxed);
         }
     }
 
+    /// After a step of a member: whether it goes on.
     fn observe(&self, index: usize, state: &State<T, N>) -> ControlFlow<()> {
+        if self.is_stopped() {
+            return ControlFlow::Break(());
+        }
         match &self.observer {
             Some(observe) => observe(index, state),
             None => ControlFlow::Continue(()),
@@ -153,6 +151,16 @@ impl<'a, L, T: Real, const N: usize> Job<'a, L, T, N> {
     }
 }
 
+/// A member taken over must have reached this end, if any.
+fn check_end_of<T: Real, const N: usize>(member: &Member<T, N>, end: T) -> Result<(), Error> {
+    match member.arrival() {
+        Some(Arrival { state, ending, .. }) if ending.is_complete() && state.t != end => {
+            Err(Error::OtherEnd { member: member.index, time: state.t.to_f64(), end: end.to_f64() })
+        }
+        _ => Ok(()),
+    }
+}
+
 impl<L, const N: usize> Job<'_, L, f64, N> {
     /// Integrates members four at a time until there are none left.
     pub(super) fn on_lanes<P, const M: usize>(&self, method: Adaptive<P>)
@@ -165,7 +173,7 @@ impl<L, const N: usize> Job<'_, L, f64, N> {
         while let Some(first) = next.take() {
             let mut batch = Batch::new(method, first);
             next = self.next_seat(&method);
-            while !batch.is_empty() && !self.stopped.load(Ordering::Relaxed) {
+            while !batch.is_empty() && !self.is_stopped() {
                 self.fill(&mut batch, &mut next, &method);
                 batch.step(
                     |index, state| self.observe(index, state),

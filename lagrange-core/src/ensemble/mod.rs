@@ -4,15 +4,19 @@
 //! the other, and both with the feature `rayon` on all threads of rayon's current pool. What a member gives is bit
 //! for bit the same whatever its neighbours, the number of threads and the part of the ensemble that is run. A member
 //! that fails says why, and spoils no other.
+//!
+//! Members move in coordinates and velocities; there are no ensembles of motions in (q, p).
 
 mod job;
 mod outcome;
 mod table;
+#[cfg(test)]
+mod tests;
 
 use core::fmt::{self, Debug, Formatter};
 use core::ops::ControlFlow;
 
-use crate::integrate::{Adaptive, Pair};
+use crate::integrate::{Adaptive, Pair, check_end};
 use crate::{Error, Lagrangian, Lanes, Method, Pack, Real, State};
 use job::Job;
 pub use outcome::{Arrival, Member, Outcome};
@@ -47,29 +51,30 @@ pub struct Ensemble<'a, L, T, const N: usize> {
     member: Make<'a, L, T, N>,
     shard: usize,
     shards: usize,
-    /// With the lines that they were read from.
-    done: Vec<(usize, Member<T, N>)>,
+    /// Taken over from other runs.
+    done: Vec<Member<T, N>>,
     observer: Option<Observer<'a, T, N>>,
     watch: Option<Watch<'a, T, N>>,
 }
 
 type Make<'a, L, T, const N: usize> = Box<dyn Fn(usize) -> (L, State<T, N>) + Send + Sync + 'a>;
 type Observer<'a, T, const N: usize> = Box<dyn Fn(usize, &State<T, N>) -> ControlFlow<()> + Send + Sync + 'a>;
-type Watch<'a, T, const N: usize> = Box<dyn FnMut(Headway<'_, T, N>) -> ControlFlow<()> + Send + 'a>;
+type Watch<'a, T, const N: usize> = Box<dyn FnMut(EnsembleProgress<'_, T, N>) -> ControlFlow<()> + Send + 'a>;
 
 /// How far an ensemble has come.
 #[derive(Clone, Copy, Debug)]
-pub struct Headway<'m, T, const N: usize> {
+pub struct EnsembleProgress<'m, T, const N: usize> {
     /// The members done, those resumed included.
     pub done: usize,
-    /// The members to do.
+    /// The members of this [part](Ensemble::shard), done or not.
     pub of: usize,
     /// The one done last.
     pub member: &'m Member<T, N>,
 }
 
 impl<'a, L, T: Real, const N: usize> Ensemble<'a, L, T, N> {
-    /// `count` members, made from their indices 0, 1, …: always the same from the same.
+    /// `count` members, made from their indices 0, 1, …: always the same from the same. `member` is called from any
+    /// thread, and from several at once.
     pub fn from_fn(count: usize, member: impl Fn(usize) -> (L, State<T, N>) + Send + Sync + 'a) -> Self {
         let member = Box::new(member);
         Self { count, member, shard: 0, shards: 1, done: Vec::new(), observer: None, watch: None }
@@ -101,11 +106,14 @@ impl<'a, L, T: Real, const N: usize> Ensemble<'a, L, T, N> {
         self
     }
 
-    /// Looks at the progress whenever a member is done. `ControlFlow::Break` stops the ensemble: members that are
-    /// not done are left out of the outcome, and can be [resumed](Self::resume).
+    /// Looks at the progress whenever a member is done, under a lock: threads whose members are done meanwhile wait.
+    ///
+    /// `ControlFlow::Break` stops the ensemble, the members that are on their way at the end of their steps, and
+    /// `watch` is not called again. Members that are not done are left out of the outcome, and can be
+    /// [resumed](Self::resume).
     pub fn on_progress(
         mut self,
-        watch: impl FnMut(Headway<'_, T, N>) -> ControlFlow<()> + Send + 'a,
+        watch: impl FnMut(EnsembleProgress<'_, T, N>) -> ControlFlow<()> + Send + 'a,
     ) -> Self {
         self.watch = Some(Box::new(watch));
         self
@@ -114,22 +122,25 @@ impl<'a, L, T: Real, const N: usize> Ensemble<'a, L, T, N> {
     /// The motions to the time `end`, one after the other on each thread, by the method named.
     ///
     /// # Errors
-    /// What is wrong with the whole: [`Error::Setting`], [`Error::Shard`], [`Error::Resume`]. What is wrong with a
-    /// member is in the outcome.
+    /// What is wrong with the whole: [`Error::Setting`], [`Error::EndNotFinite`], [`Error::Shard`],
+    /// [`Error::OtherEnd`]. What is wrong with a member is in the outcome.
     pub fn integrate<P, const M: usize>(self, end: T, method: P) -> Result<Outcome<T, N>, Error>
     where
         L: Lagrangian<N, M, Scalar = T>,
         P: Method<L, N, M> + Sync,
     {
+        method.check()?;
         let method = method.sparse();
         self.run(end, |job| job.one_by_one(&method))
     }
 
     /// Leaves out what is done: the members in this table, from [`Outcome::csv`] or from the rows of
-    /// [`Member::csv`], one run's or those of several in a row. They are taken over into the outcome.
+    /// [`Member::csv`], one run's or those of several in a row. They are taken over into the outcome. Several
+    /// tables add up, and of several rows of one member the first counts.
     ///
-    /// Members that failed are tried again, and give the same failure. Rows of another part are ignored, and so is
-    /// a last line that was not written to its end.
+    /// Members that failed are tried again: with the same settings they give the same failure, but for a limit on
+    /// wall time. Rows of another part are ignored, and so are lines that were not written to their end, also where
+    /// another row was appended to one.
     ///
     /// ```
     /// # use lagrange_core::prelude::*;
@@ -142,19 +153,19 @@ impl<'a, L, T: Real, const N: usize> Ensemble<'a, L, T, N> {
     /// let part = |k| springs().shard(k, 2).integrate(1.0, Dop853::default());
     /// let table = part(0)?.csv().to_string();
     /// let whole = springs().resume(&table)?.integrate(1.0, Dop853::default())?;
-    /// assert_eq!(whole, part(0)?.merge(part(1)?));
+    /// assert_eq!(whole, part(0)?.merge(part(1)?)?);
     /// # Ok::<(), Error>(())
     /// ```
     ///
     /// # Errors
-    /// [`Error::Resume`] for what is no row of this ensemble. [`integrate`](Self::integrate) gives it for members
-    /// that were integrated to another time.
+    /// [`Error::Resume`] for what is no row of this ensemble. For members that were integrated to another time
+    /// [`integrate`](Self::integrate) gives [`Error::OtherEnd`].
     pub fn resume<const M: usize>(mut self, table: &str) -> Result<Self, Error>
     where
         L: Lagrangian<N, M, Scalar = T>,
         T: core::str::FromStr,
     {
-        self.done = table::read(table, &L::COORDINATES, self.count)?;
+        self.done.extend(table::read(table, &L::COORDINATES, self.count)?);
         Ok(self)
     }
 
@@ -166,9 +177,10 @@ impl<'a, L, T: Real, const N: usize> Ensemble<'a, L, T, N> {
     where
         L: Lagrangian<N, M, Scalar = T>,
     {
+        check_end(end)?;
         let job = Job::new(self, end)?;
         everywhere(|| work(&job));
-        job.outcome(L::COORDINATES)
+        Ok(job.outcome(L::COORDINATES))
     }
 }
 
@@ -178,7 +190,8 @@ impl<L, const N: usize> Ensemble<'_, L, f64, N> {
     /// Each lane has its own time, step and error, and is given the next member when its motion has ended. Compile
     /// with `RUSTFLAGS="-C target-cpu=native"`, so that the lanes are AVX2's. The numbers differ from those of
     /// [`integrate`](Self::integrate) by rounding, as far as the motion carries that. A limit on wall time counts
-    /// the time that a lane spends with the others.
+    /// the time that a lane spends with the others. Where members differ in a field that lanes [share](Pack), order
+    /// them so that equal ones follow each other: one that does not fit waits until the lanes beside are empty.
     ///
     /// # Errors
     /// As [`integrate`](Self::integrate).
@@ -192,6 +205,7 @@ impl<L, const N: usize> Ensemble<'_, L, f64, N> {
         P: Pair,
         Adaptive<P>: Copy + Sync,
     {
+        Method::<L, N, M>::check(&method)?;
         let method = Method::<L, N, M>::sparse(method);
         self.run(end, |job| job.on_lanes(method))
     }

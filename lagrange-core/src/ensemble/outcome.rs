@@ -64,12 +64,13 @@ impl<T: Real, const N: usize> Display for Member<T, N> {
 pub struct Outcome<T, const N: usize> {
     members: Vec<Member<T, N>>,
     names: [&'static str; N],
+    end: T,
 }
 
 impl<T: Real, const N: usize> Outcome<T, N> {
-    pub(super) fn new(mut members: Vec<Member<T, N>>, names: [&'static str; N]) -> Self {
+    pub(super) fn new(mut members: Vec<Member<T, N>>, names: [&'static str; N], end: T) -> Self {
         members.sort_by_key(|member| member.index);
-        Self { members, names }
+        Self { members, names, end }
     }
 
     /// All members that are done, by index.
@@ -95,16 +96,24 @@ impl<T: Real, const N: usize> Outcome<T, N> {
     }
 
     /// Puts two parts together. Of a member that is in both, this one's is kept.
-    #[must_use]
-    pub fn merge(mut self, other: Self) -> Self {
+    ///
+    /// # Errors
+    /// [`Error::Merge`] for parts with other coordinates or of motions to another time.
+    pub fn merge(mut self, other: Self) -> Result<Self, Error> {
+        if self.names != other.names {
+            return Err(Error::Merge { reason: "their coordinates differ" });
+        }
+        if self.end != other.end {
+            return Err(Error::Merge { reason: "they were integrated to different times" });
+        }
         self.members.extend(other.members);
         self.members.sort_by_key(|member| member.index);
         self.members.dedup_by_key(|member| member.index);
-        self
+        Ok(self)
     }
 
     /// A table as comma-separated values, one line a member: `member`, `t`, coordinates `x` and velocities `x_dot` of
-    /// the last state, the [`Statistics`], and `ending`.
+    /// the last state, the [`Statistics`], `ending`, and `member_again`, by which a line written to its end is known.
     ///
     /// The ending is `complete`, `cancelled` or what went wrong. Numbers are the shortest that read back the same.
     pub fn csv(&self) -> impl Display + '_ {

@@ -24,21 +24,23 @@ impl<T: Real, const N: usize> Display for Csv<'_, T, N> {
 fn header<const N: usize>(names: &[&'static str; N]) -> String {
     let velocities = names.iter().map(|name| Entry::Velocity(name).to_string());
     let names = ["member", "t"].into_iter().chain(names.iter().copied()).map(String::from).chain(velocities);
-    let counts =
-        ["accepted", "rejected", "evaluations", "multipliers_are_unique", "ending"].map(String::from);
+    let counts = ["accepted", "rejected", "evaluations", "multipliers_are_unique", "ending", "member_again"]
+        .map(String::from);
     names.chain(counts).collect::<Vec<_>>().join(",")
 }
 
-/// One line of it.
+/// One line of it. The index stands at both ends: a line that was not written to its end, and the row that is then
+/// appended to it, do not pass for a row of a third member.
 pub(super) struct Row<'m, T, const N: usize>(pub(super) &'m Member<T, N>);
 
 impl<T: Real, const N: usize> Display for Row<'_, T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.0.index)?;
+        let index = self.0.index;
+        write!(f, "{index}")?;
         match &self.0.result {
             Err(error) => {
                 (0..2 * N + 5).try_for_each(|_| write!(f, ","))?;
-                writeln!(f, ",{}", quoted(&error.to_string()))
+                write!(f, ",{}", quoted(&error.to_string()))?;
             }
             Ok(Arrival { state, ending, statistics }) => {
                 // `Debug` of a number is its shortest form that reads back the same.
@@ -47,12 +49,13 @@ impl<T: Real, const N: usize> Display for Row<'_, T, N> {
                 let Statistics { accepted, rejected, evaluations, multipliers_are_unique } = statistics;
                 write!(f, ",{accepted},{rejected},{evaluations},{multipliers_are_unique},")?;
                 match ending {
-                    Ending::Complete { .. } => writeln!(f, "complete"),
-                    Ending::Cancelled { .. } => writeln!(f, "cancelled"),
-                    other => writeln!(f, "{}", quoted(&other.to_string())),
+                    Ending::Complete { .. } => write!(f, "complete")?,
+                    Ending::Cancelled { .. } => write!(f, "cancelled")?,
+                    other => write!(f, "{}", quoted(&other.to_string()))?,
                 }
             }
         }
+        writeln!(f, ",{index}")
     }
 }
 
@@ -60,45 +63,60 @@ fn quoted(text: &str) -> String {
     format!("\"{}\"", text.replace('"', "\"\""))
 }
 
-/// The members of a table that need not be done again, with their lines.
+/// The members of a table that need not be done again.
 pub(super) fn read<T: Real + FromStr, const N: usize>(
     table: &str,
     names: &[&'static str; N],
     count: usize,
-) -> Result<Vec<(usize, Member<T, N>)>, Error> {
+) -> Result<Vec<Member<T, N>>, Error> {
     let header = header(names);
     let mut members = Vec::new();
     for (line, text) in (1..).zip(table.split_inclusive('\n')) {
-        // A line that was not written to its end is no line.
         let Some(text) = text.strip_suffix('\n') else { break };
         let text = text.strip_suffix('\r').unwrap_or(text);
-        let wrong = |reason| Error::Resume { line, reason };
-        if text.starts_with("member,") {
-            if text != header {
-                return Err(wrong("its coordinates are others"));
-            }
-            continue;
-        }
-        if let Some(member) = row(text).ok_or(wrong("it is no row of such a table"))? {
-            if member.index >= count {
-                return Err(wrong("there is no such member"));
-            }
-            members.push((line, member));
-        }
+        let read = match text.starts_with("member,") {
+            true if text == header => Ok(None),
+            true => Err("its columns are others"),
+            false => row(text, count),
+        };
+        members.extend(read.map_err(|reason| Error::Resume { line, reason })?);
     }
     Ok(members)
 }
 
-/// The member of a row, `Some(None)` if it failed; `None` for what is no row.
-fn row<T: Real + FromStr, const N: usize>(text: &str) -> Option<Option<Member<T, N>>> {
-    let mut cells = text.splitn(2 * N + 7, ',');
-    let index = cells.next()?.parse().ok()?;
-    let cells: Vec<&str> = cells.collect();
+/// The member of a row; none if it failed, or if the row was not written to its end.
+fn row<T: Real + FromStr, const N: usize>(
+    text: &str,
+    count: usize,
+) -> Result<Option<Member<T, N>>, &'static str> {
+    const WRONG: &str = "it is no row of such a table";
+    if !text.starts_with(|first: char| first.is_ascii_digit()) {
+        return Err(WRONG);
+    }
+    let Some((index, cells)) = whole::<N>(text) else { return Ok(None) };
+    if index >= count {
+        return Err("there is no such member");
+    }
+    if cells.last().is_some_and(|ending| ending.starts_with('"')) {
+        return Ok(None);
+    }
+    let arrival = arrival(&cells).ok_or(WRONG)?;
+    Ok(Some(Member { index, result: Ok(arrival) }))
+}
+
+/// The cells between the two indices of a row that was written to its end.
+fn whole<const N: usize>(text: &str) -> Option<(usize, Vec<&str>)> {
+    let (index, rest) = text.split_once(',')?;
+    let (rest, again) = rest.rsplit_once(',')?;
+    let cells: Vec<&str> = rest.splitn(2 * N + 6, ',').collect();
+    let ending = cells.get(2 * N + 5)?;
+    let is_whole = index == again && (ending.starts_with('"') || !ending.contains(','));
+    is_whole.then_some((index.parse().ok()?, cells))
+}
+
+fn arrival<T: Real + FromStr, const N: usize>(cells: &[&str]) -> Option<Arrival<T, N>> {
     let (numbers, rest) = cells.split_at_checked(2 * N + 1)?;
     let [accepted, rejected, evaluations, unique, ending] = rest else { return None };
-    if ending.starts_with('"') {
-        return Some(None);
-    }
     let state: State<T, N> = state(numbers)?;
     let statistics = Statistics {
         accepted: accepted.parse().ok()?,
@@ -107,7 +125,7 @@ fn row<T: Real + FromStr, const N: usize>(text: &str) -> Option<Option<Member<T,
         multipliers_are_unique: unique.parse().ok()?,
     };
     let ending = ending_of(ending, state.t.to_f64())?;
-    Some(Some(Member { index, result: Ok(Arrival { state, ending, statistics }) }))
+    Some(Arrival { state, ending, statistics })
 }
 
 /// t, q and q̇.

@@ -67,8 +67,8 @@ impl<P> Adaptive<P> {
         Self { absolute: tolerance, ..self }
     }
 
-    /// How many steps may be tried. Each accepted one stores 5 (`Dopri5`) or 8 (`Dop853`) times 2N numbers, so this
-    /// bounds the memory.
+    /// How many steps may be tried. In a trajectory each accepted one stores 5 (`Dopri5`) or 8 (`Dop853`) times 2N
+    /// numbers, so this bounds its memory; an ensemble stores no steps.
     pub fn max_steps(mut self, steps: usize) -> Self {
         self.limits.max_steps = steps;
         self

@@ -70,8 +70,6 @@ where
     P: Pair,
     L: Lagrangian<N, M, Scalar = f64> + Pack<Lanes, Packed: Lagrangian<N, M, Scalar = Lanes>>,
 {
-    const LAST: usize = P::STAGES.len() + 1;
-
     /// With a first motion, and the other lanes free.
     pub(crate) fn new(method: Adaptive<P>, seat: Seat<L, N, M>) -> Self {
         let zero = [[Lanes::constant(0.0); N]; 2];
@@ -81,7 +79,7 @@ where
         let mut slopes = [zero; SLOPES];
         slopes[0] = splat(&seat.memory.slopes[0]);
         let y = splat(&seat.memory.y);
-        let seats = [Some(seat.begin(&method)), None, None, None];
+        let seats = [Some(seat.begin()), None, None, None];
         Self { method, system, y, slopes, seats }
     }
 
@@ -99,7 +97,7 @@ where
         match lane.filter(|&lane| seat.system.place(&mut self.system, lane)) {
             None => Some(seat),
             Some(lane) => {
-                self.seats[lane] = Some(seat.begin(&self.method));
+                self.seats[lane] = Some(seat.begin());
                 self.load(lane);
                 None
             }
@@ -140,21 +138,17 @@ where
         self.stages(h, &mut trust);
         let mut next = advance(&self.y, h, &self.slopes, P::WEIGHTS);
         trust.numbers(next.iter().flatten());
-        if Self::error_needs_last() {
-            self.slope(Self::LAST, end, &next, &mut trust);
+        if P::error_needs_last() {
+            self.slope(P::LAST, end, &next, &mut trust);
         }
         let tolerance = self.method.tolerance::<f64>();
         let error = tolerance.error::<P, _, N>(&self.slopes, h, &self.y, &next).to_array();
         let projected = if M > 0 { self.project(&mut next, plan, &error) } else { [true; Lanes::COUNT] };
-        if M > 0 || !Self::error_needs_last() {
-            self.slope(Self::LAST, end, &next, &mut trust);
+        if M > 0 || !P::error_needs_last() {
+            self.slope(P::LAST, end, &next, &mut trust);
         }
         let trusted = trust.lanes();
         Attempt { next, error, sound: from_fn(|lane| trusted[lane] && projected[lane]) }
-    }
-
-    fn error_needs_last() -> bool {
-        P::ERROR.iter().any(|(slope, _)| *slope == Self::LAST)
     }
 
     /// The slopes of the stages after the first.
@@ -208,7 +202,7 @@ where
         let accepted = Lanes::from(fates.map(|fate| if fate == Fate::Accepted { 1.0 } else { 0.0 }));
         for half in 0..2 {
             for i in 0..N {
-                let (y, slope) = (&mut self.y[half][i], self.slopes[Self::LAST][half][i]);
+                let (y, slope) = (&mut self.y[half][i], self.slopes[P::LAST][half][i]);
                 *y = next[half][i].select(accepted, *y);
                 self.slopes[0][half][i] = slope.select(accepted, self.slopes[0][half][i]);
             }

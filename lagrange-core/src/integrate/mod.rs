@@ -17,8 +17,6 @@ mod tests;
 
 use core::ops::ControlFlow;
 
-use nalgebra::ComplexField;
-
 pub use adaptive::Adaptive;
 #[cfg(feature = "std")]
 pub(crate) use batch::Batch;
@@ -57,6 +55,12 @@ where
     /// When to give up.
     fn limits(&self) -> Limits;
 
+    /// Checks the settings.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for one that cannot work.
+    fn check(&self) -> Result<(), Error>;
+
     /// The same method where only the states after the steps are of interest: it need not compute interpolants.
     #[must_use]
     fn sparse(self) -> Self
@@ -66,10 +70,10 @@ where
         self
     }
 
-    /// Checks the settings and prepares the first step from a consistent state.
+    /// Prepares the first step from a consistent state, with settings that have been checked.
     ///
     /// # Errors
-    /// [`Error::Setting`] for a setting that cannot work, and what evaluating the equations gives.
+    /// What evaluating the equations gives.
     fn begin(
         &self,
         system: &L,
@@ -172,7 +176,7 @@ where
     Ok(Trajectory::new(system, path, ending, statistics, adjustment))
 }
 
-/// The start made consistent, and what the method prepares there.
+/// Settings and start checked, the start made consistent, and what the method prepares there.
 pub(crate) fn begin<L, F, P, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
@@ -185,6 +189,7 @@ where
     F: Flow<L, N, M>,
     P: Method<L, N, M, F>,
 {
+    method.check()?;
     let consistent = check_start(system, state, end)?;
     let memory = method.begin(system, &consistent.0, end, statistics)?;
     Ok((consistent, memory))
@@ -237,12 +242,18 @@ fn check_start<L, const N: usize, const M: usize>(
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {
-    if !end.is_finite() || end < state.t {
+    check_end(end)?;
+    if end < state.t {
         return Err(Error::EndTime { start: state.t.to_f64(), end: end.to_f64() });
     }
     solve(system, state)?;
     consistent::check(system, state)?;
     consistent::make_consistent(system, state)
+}
+
+/// An end that can be reached.
+pub(crate) fn check_end<T: Real>(end: T) -> Result<(), Error> {
+    if end.is_finite() { Ok(()) } else { Err(Error::EndNotFinite { end: end.to_f64() }) }
 }
 
 struct Watchdog {
@@ -258,6 +269,11 @@ impl Watchdog {
             #[cfg(feature = "std")]
             started: std::time::Instant::now(),
         }
+    }
+
+    #[cfg(feature = "std")]
+    fn restart(&mut self) {
+        self.started = std::time::Instant::now();
     }
 
     fn exceeded(&self, statistics: &Statistics, time: f64) -> Option<Ending> {

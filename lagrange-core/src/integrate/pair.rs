@@ -10,7 +10,7 @@ pub type Row = &'static [(usize, f64)];
 
 /// The coefficients of an explicit embedded pair with a continuous extension.
 ///
-/// Slopes are numbered 0 at the start, then the stages, then `STAGES.len() + 1` at the end of the step, then the
+/// Slopes are numbered 0 at the start, then the stages, then [`LAST`](Self::LAST) at the end of the step, then the
 /// stages of the interpolant.
 pub trait Pair {
     /// The time of each slope as a fraction of the step.
@@ -31,10 +31,17 @@ pub trait Pair {
     const ORDER: f64;
     /// Weight of the previous error in the choice of the step (β of the PI controller).
     const DAMPING: f64;
+    /// The slope at the end of the step.
+    const LAST: usize = Self::STAGES.len() + 1;
     /// The new step is at least this times the old one …
     const SHRINK: f64;
     /// … and at most this times.
     const GROWTH: f64;
+
+    /// Whether the error can be had only with the slope at the end of the step.
+    fn error_needs_last() -> bool {
+        Self::ERROR.iter().any(|(slope, _)| *slope == Self::LAST)
+    }
 }
 
 /// Room for the slopes of the longest method here.

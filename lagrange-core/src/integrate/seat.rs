@@ -47,8 +47,9 @@ where
     }
 
     /// The clock on the wall starts when it is given a lane.
-    pub(super) fn begin<P: Pair>(self, method: &Adaptive<P>) -> Self {
-        Self { limits: Watchdog::new(method.limits()), ..self }
+    pub(super) fn begin(mut self) -> Self {
+        self.limits.restart();
+        self
     }
 
     /// Why there is no further step to take.
@@ -88,11 +89,9 @@ where
 
     /// As many evaluations as the step takes alone.
     fn count<P: Pair>(&mut self, accepted: bool) {
-        let last = P::STAGES.len() + 1;
-        let error_needs_last = P::ERROR.iter().any(|(slope, _)| *slope == last);
         let statistics = &mut self.statistics;
-        statistics.evaluations += P::STAGES.len() + usize::from(error_needs_last);
-        statistics.evaluations += usize::from(accepted && (M > 0 || !error_needs_last));
+        statistics.evaluations += P::STAGES.len() + usize::from(P::error_needs_last());
+        statistics.evaluations += usize::from(accepted && (M > 0 || !P::error_needs_last()));
         statistics.accepted += usize::from(accepted);
         statistics.rejected += usize::from(!accepted);
     }

@@ -57,7 +57,7 @@ impl<T: Real, const N: usize, const M: usize> Memory<T, N, M> {
 
     /// The interpolant from `start` to `next`, with the slopes at both (II.6 and the code DOP853).
     fn interpolate<P: Pair>(&mut self, h: T, start: &Phase<T, N>, next: &Phase<T, N>) {
-        let (first, last) = (&self.slopes[0], &self.slopes[P::STAGES.len() + 1]);
+        let (first, last) = (&self.slopes[0], &self.slopes[P::LAST]);
         for half in 0..2 {
             for i in 0..N {
                 let rise = next[half][i] - start[half][i];
@@ -108,6 +108,10 @@ where
         self.limits()
     }
 
+    fn check(&self) -> Result<(), Error> {
+        self.check()
+    }
+
     fn sparse(mut self) -> Self {
         self.is_dense = false;
         self
@@ -120,7 +124,6 @@ where
         end: L::Scalar,
         statistics: &mut Statistics,
     ) -> Result<Self::Memory, Error> {
-        self.check()?;
         let zero = [[L::Scalar::constant(0.0); N]; 2];
         let mut slopes = [zero; SLOPES];
         let point = Point { t: start.t, y: F::phase(system, start), velocity: start.v.into() };
@@ -152,7 +155,7 @@ where
             Ok(Accepted { y, error, active }) => {
                 (memory.t, memory.y) = (time, y);
                 memory.active = active;
-                memory.slopes[0] = memory.slopes[P::STAGES.len() + 1];
+                memory.slopes[0] = memory.slopes[P::LAST];
                 self.after_acceptance(&mut memory.control, h, error);
                 let coefficients = if self.is_dense { 4 + P::INTERPOLATION.len() } else { 0 };
                 return Step::Accepted {
@@ -190,28 +193,23 @@ impl<P: Pair> Adaptive<P> {
         L: Lagrangian<N, M, Scalar: Real>,
         F: Flow<L, N, M>,
     {
-        let last = P::STAGES.len() + 1;
-        let error_needs_last = P::ERROR.iter().any(|(slope, _)| *slope == last);
         let start = memory.y;
-
         stages::<P, L, F, N, M>(system, memory, h, (1, P::STAGES), statistics)?;
         let mut next = memory.point(time, advance(&start, h, &memory.slopes, P::WEIGHTS));
         check_finite::<L, N, M>(time, &next.y)?;
         let mut active = memory.active;
-        if error_needs_last {
-            let slope = slope::<L, F, N, M>(system, &next, Some(&active), statistics)?;
-            (memory.slopes[last], active) = (slope.rates, slope.active);
+        if P::error_needs_last() {
+            active = last::<P, L, F, N, M>(system, memory, &next, Some(&active), statistics)?;
         }
         let error = self.check_error(&memory.slopes, h, &start, &next.y)?;
         if M > 0 {
             next.y = F::phase(system, &F::project(system, &next)?);
         }
-        if M > 0 || !error_needs_last {
-            let slope = slope::<L, F, N, M>(system, &next, None, statistics)?;
-            (memory.slopes[last], active) = (slope.rates, slope.active);
+        if M > 0 || !P::error_needs_last() {
+            active = last::<P, L, F, N, M>(system, memory, &next, None, statistics)?;
         }
         if self.is_dense {
-            stages::<P, L, F, N, M>(system, memory, h, (last + 1, P::INTERPOLATION_STAGES), statistics)?;
+            stages::<P, L, F, N, M>(system, memory, h, (P::LAST + 1, P::INTERPOLATION_STAGES), statistics)?;
             memory.interpolate::<P>(h, &start, &next.y);
         }
         Ok(Accepted { y: next.y, error, active })
@@ -278,6 +276,24 @@ where
         memory.slopes[number] = slope::<L, F, N, M>(system, &point, active, statistics)?.rates;
     }
     Ok(())
+}
+
+/// Evaluates the slope at the end of the step; which constraints it rests on.
+fn last<P, L, F, const N: usize, const M: usize>(
+    system: &L,
+    memory: &mut Memory<L::Scalar, N, M>,
+    end: &Point<L::Scalar, N>,
+    active: Option<&[bool; M]>,
+    statistics: &mut Statistics,
+) -> Result<[bool; M], Error>
+where
+    P: Pair,
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: Flow<L, N, M>,
+{
+    let slope = slope::<L, F, N, M>(system, end, active, statistics)?;
+    memory.slopes[P::LAST] = slope.rates;
+    Ok(slope.active)
 }
 
 /// The rates of the phase, counted.

@@ -105,6 +105,25 @@ fn each_lane_is_what_the_number_alone_gives() {
     }
 }
 
+/// Rounded once with FMA and twice without, as for the number alone.
+#[test]
+fn products_and_sums_are_fused_as_for_the_number_alone() {
+    let fused = cfg!(target_feature = "fma");
+    let product_and_sum = |x: f64, y, z| if fused { x.mul_add(y, z) } else { x * y + z };
+    each_beside_each(|x, lane, _, beside| {
+        // The rounding of 0.1 · 10 − 1 and the like is all that is left of it.
+        for (y, z) in [(3.0, -3.0 * x), (0.1, -0.1 * x), (x, -x * x), (1e300, x), (x, f64::NAN)] {
+            let sum = beside.multiply_add(Lanes::constant(y), Lanes::constant(z)).to_array()[lane];
+            assert!(same(sum, product_and_sum(x, y, z)), "{x} · {y} + {z} is {sum}");
+            assert!(same(sum, x.multiply_add(y, z)), "{x} · {y} + {z} is {sum}");
+            let difference =
+                beside.subtract_product(Lanes::constant(y), Lanes::constant(-z)).to_array()[lane];
+            assert!(same(difference, product_and_sum(-x, y, -z)), "{z} − {x} · {y} is {difference}");
+            assert!(same(difference, x.subtract_product(y, -z)), "{z} − {x} · {y} is {difference}");
+        }
+    });
+}
+
 #[test]
 fn sines_are_accurate_up_to_the_largest_angle() {
     for k in 0..200_000 {

@@ -1,0 +1,89 @@
+//! What holds with and without the feature `rayon`. `tests/ensemble` of the workspace has it.
+
+use core::ops::ControlFlow;
+
+use crate::integrate::{Adaptive, Pair};
+use crate::prelude::*;
+use crate::{Lanes, Pack};
+
+#[derive(Lagrangian, Clone, Copy)]
+#[coordinates(x)]
+#[lagrangian(x_dot^2/2 - k/2 * x^2)]
+struct Spring<T> {
+    k: T,
+}
+
+const END: f64 = 1.0;
+
+/// ω = 1, 2, …: x = cos ωt.
+fn springs<'a>() -> Ensemble<'a, Spring<f64>, f64, 1> {
+    let omega = |index: usize| 1.0 + index as f64;
+    Ensemble::from_fn(10, move |index| (Spring { k: omega(index).powi(2) }, State::at_rest([1.0])))
+}
+
+/// On circles of the radii 1, 2, ….
+#[derive(Lagrangian, Clone, Copy)]
+#[coordinates(x, y)]
+#[lagrangian((x_dot^2 + y_dot^2)/2 - g*y)]
+#[constraint(rod: (x^2 + y^2 - l^2)/2 = 0)]
+struct Circle<T> {
+    g: T,
+    l: T,
+}
+
+fn circles<'a>() -> Ensemble<'a, Circle<f64>, f64, 2> {
+    let radius = |index: usize| 1.0 + index as f64;
+    Ensemble::from_fn(10, move |index| {
+        (Circle { g: 9.81, l: radius(index) }, State::at_rest([radius(index), 0.0]))
+    })
+}
+
+#[test]
+fn springs_arrive_on_lanes_and_one_by_one() {
+    let method = Dop853::with_tolerance(1e-12);
+    for outcome in [springs().integrate_on_lanes(END, method), springs().integrate(END, method)] {
+        let outcome = outcome.expect("an outcome");
+        assert_eq!(outcome.completed().count(), 10);
+        for (index, state) in outcome.completed() {
+            let off = state.q[0] - (1.0 + index as f64).cos();
+            assert!(off.abs() < 1e-10, "member {index} is off by {off:e}");
+        }
+    }
+}
+
+/// What has only sums, products and roots is the same to the bit, and takes as many evaluations.
+#[test]
+fn lanes_count_what_each_member_takes_alone() {
+    count(springs, Dop853::default().first_step(1.0));
+    count(springs, Dopri5::default().first_step(1.0));
+    count(circles, Dop853::default().first_step(1.0));
+    count(circles, Dopri5::default().first_step(1.0));
+}
+
+fn count<L, P, const N: usize, const M: usize>(
+    ensemble: fn() -> Ensemble<'static, L, f64, N>,
+    method: Adaptive<P>,
+) where
+    L: Lagrangian<N, M, Scalar = f64> + Pack<Lanes, Packed: Lagrangian<N, M, Scalar = Lanes>>,
+    P: Pair,
+    Adaptive<P>: Copy + Sync,
+{
+    let on_lanes = ensemble().integrate_on_lanes(END, method).expect("an outcome");
+    assert_eq!(on_lanes, ensemble().integrate(END, method).expect("an outcome"));
+    let rejected = on_lanes.members().iter().filter_map(|member| Some(member.arrival()?.statistics.rejected));
+    assert!(rejected.sum::<usize>() > 0);
+}
+
+#[test]
+fn what_was_stopped_goes_on() {
+    let method = Dop853::default();
+    let stopped = springs().on_progress(|progress| match progress.done {
+        4 => ControlFlow::Break(()),
+        _ => ControlFlow::Continue(()),
+    });
+    let first = stopped.integrate_on_lanes(END, method).expect("an outcome");
+    assert_eq!(first.members().len(), 4);
+    let rest = springs().resume(&first.csv().to_string()).expect("the same ensemble");
+    let whole = springs().integrate_on_lanes(END, method).expect("an outcome");
+    assert_eq!(rest.integrate_on_lanes(END, method).expect("an outcome"), whole);
+}
