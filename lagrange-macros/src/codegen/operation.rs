@@ -39,7 +39,7 @@ pub(super) enum Operation {
     Function(Function, Register),
     Atan2(Register, Register),
     Power(Register, Register),
-    /// One result of a call in [`Schedule::calls`].
+    /// One result of a call, by its place among the calls of the schedule.
     Result {
         call: u32,
         output: u32,
