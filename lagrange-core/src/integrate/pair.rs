@@ -39,6 +39,7 @@ pub trait Pair {
     const GROWTH: f64;
 
     /// Whether the error can be had only with the slope at the end of the step.
+    #[inline]
     fn error_needs_last() -> bool {
         Self::ERROR.iter().any(|(slope, _)| *slope == Self::LAST)
     }

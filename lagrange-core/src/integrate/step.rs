@@ -279,6 +279,7 @@ where
 }
 
 /// Evaluates the slope at the end of the step; which constraints it rests on.
+#[inline]
 fn last<P, L, F, const N: usize, const M: usize>(
     system: &L,
     memory: &mut Memory<L::Scalar, N, M>,
