@@ -76,7 +76,7 @@ fn a_system_may_stand_in_a_function() {
 /// The emitted code names nothing that its surroundings could redefine.
 #[test]
 fn surroundings_may_shadow_the_prelude() {
-    #[allow(dead_code, non_camel_case_types)]
+    #[allow(dead_code, non_camel_case_types, reason = "they are there to shadow")]
     mod shadowing {
         type f64 = lagrange_core::Error;
         struct Option;

@@ -3,7 +3,7 @@
 use super::operation::{Operation, Register};
 use super::passes::Program;
 use super::schedule::Schedule;
-use crate::symbolic::{Function, Symbol};
+use crate::symbolic::{Symbol, apply};
 
 impl Program {
     /// The results, of these inputs.
@@ -32,29 +32,12 @@ impl Schedule {
                 Operation::Where(x, _) if of(x) == 0.0 => 0.0,
                 Operation::Where(_, y) => of(y),
                 Operation::SquareRoot(x) => of(x).sqrt(),
-                Operation::Function(function, x) => elementary(function, of(x)),
+                Operation::Function(function, x) => apply(function, &of(x)),
                 Operation::Atan2(y, x) => of(y).atan2(of(x)),
                 Operation::Power(x, y) => of(x).powf(of(y)),
                 Operation::Result { .. } => f64::NAN,
             });
         }
         results.iter().map(|result| values[result.index()]).collect()
-    }
-}
-
-fn elementary(function: Function, x: f64) -> f64 {
-    match function {
-        Function::Sin => x.sin(),
-        Function::Cos => x.cos(),
-        Function::Tan => x.tan(),
-        Function::Asin => x.asin(),
-        Function::Acos => x.acos(),
-        Function::Atan => x.atan(),
-        Function::Sinh => x.sinh(),
-        Function::Cosh => x.cosh(),
-        Function::Tanh => x.tanh(),
-        Function::Exp => x.exp(),
-        Function::Ln => x.ln(),
-        Function::Abs => x.abs(),
     }
 }

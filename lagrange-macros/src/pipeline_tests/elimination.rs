@@ -201,3 +201,28 @@ fn what_would_be_too_long_is_left_to_loops() {
     let (problem, equations) = equations(&source);
     assert!(solving(&problem, &equations).iter().all(Option::is_none));
 }
+
+/// h/M of x is −10⁵⁰ x, which is no exact number here; the equations have it as a quotient.
+#[test]
+fn a_quotient_that_exact_arithmetic_cannot_write_is_left_to_run_time() {
+    let source = "#[coordinates(x)] #[lagrangian(1e-25*x_dot^2/2 - 1e25*x^2/2)] struct Stiff {}";
+    let (problem, equations) = equations(source);
+    assert_eq!(equations.forms[0].alone, [None]);
+    let solution = &solutions(&problem, &equations, |_| 0.5)[0];
+    let acceleration = solution.as_ref().expect("short")[0];
+    assert!((acceleration + 0.5e50).abs() < 1e36, "{acceleration:e}");
+    assert!(!crate::expand(super::tokens(source)).to_string().contains("compile_error"));
+}
+
+/// Each velocity is differentiated by each: of very many there is no form, and the accelerations alone are solved for.
+#[test]
+fn very_many_named_velocities_are_not_solved_over() {
+    let named = |count: usize| {
+        let source = format!(
+            "#[coordinates(x, y)] #[define(v[i in 0..{count}] = cos(i*x)*x_dot + y_dot)]
+             #[lagrangian(dot(v, v)/2 + x_dot^2)] struct Many {{}}"
+        );
+        equations(&source).1.forms.len()
+    };
+    assert_eq!((named(40), named(600)), (2, 1));
+}

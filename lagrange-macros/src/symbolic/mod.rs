@@ -23,4 +23,6 @@ pub(crate) use graph::{External, Fault, Function, Graph, Id, Node, Symbol};
 pub(crate) use rank::rank;
 pub(crate) use rational::{Rational, parse_decimal, to_f64};
 pub(crate) use sample::Sample;
+#[cfg(test)]
+pub(crate) use tests::tree::apply;
 pub(crate) use zero::{Verdict, drawn};

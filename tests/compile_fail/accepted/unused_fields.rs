@@ -4,7 +4,7 @@ use lagrange_core::prelude::*;
 #[derive(Lagrangian)]
 #[coordinates(x)]
 #[lagrangian(m/2 * x_dot^2)]
-#[allow(dead_code)]
+#[allow(dead_code, reason = "that fields may be unused is what is shown")]
 struct System<'a, T, const N: usize> {
     m: f64,
     label: String,

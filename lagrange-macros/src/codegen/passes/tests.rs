@@ -50,7 +50,7 @@ fn input(schedule: &mut Schedule, index: u32) -> Register {
 }
 
 #[test]
-fn signs_change_no_bit() {
+fn signs_change_no_value() {
     let mut random = Random(1);
     for _ in 0..500 {
         let (schedule, results) = random.program();

@@ -9,7 +9,7 @@ mod external;
 mod faults;
 mod rationals;
 mod sample;
-mod tree;
+pub(super) mod tree;
 mod values;
 mod waves;
 mod zero;

@@ -184,7 +184,8 @@ fn quotient(value: Rational) -> f64 {
     value.numer().to_f64().expect("a number") / value.denom().to_f64().expect("a number")
 }
 
-fn apply<D: DualNum<Primitive = f64>>(function: Function, x: &D) -> D {
+/// The function of a number of any kind.
+pub(crate) fn apply<D: DualNum<Primitive = f64>>(function: Function, x: &D) -> D {
     match function {
         Function::Sin => x.sin(),
         Function::Cos => x.cos(),
