@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::eliminate::{eliminate, vector};
+use crate::solution::eliminate::{eliminate, vector};
 use crate::{ConstraintKind, Facts, Lagrangian, Solution, State};
 
 pub(crate) type At<const N: usize> = State<f64, N>;

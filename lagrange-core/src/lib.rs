@@ -46,87 +46,52 @@ assert!((friction + 2.0 / 7.0 * 9.81 * 0.3_f64.sin()).abs() < 1e-12);
 extern crate alloc;
 extern crate self as lagrange_core;
 
-mod consistent;
-#[cfg(feature = "alloc")]
-mod csv;
-#[cfg(feature = "alloc")]
-mod drift;
-mod dual;
-pub mod eliminate;
 #[cfg(feature = "std")]
 pub mod ensemble;
-mod equations;
 mod error;
-mod evidence;
-mod facts;
 #[cfg(test)]
 mod fixtures;
 pub mod function;
 mod hamiltonian;
-mod integrability;
-#[cfg(feature = "alloc")]
-pub mod integrate;
-mod kkt;
-#[cfg(feature = "std")]
-mod lanes;
 pub mod language;
 pub mod linearized;
-#[cfg(feature = "alloc")]
-mod lookup;
+pub mod motion;
 mod names;
-mod numeric;
-mod pack;
+mod number;
 pub mod prelude;
-#[cfg(feature = "alloc")]
-mod sample;
-mod scalar;
-mod simulate;
-mod solve;
-mod state;
+mod solution;
 mod system;
-#[cfg(feature = "alloc")]
-mod table;
 #[cfg(feature = "alloc")]
 mod trajectory;
 
-pub use consistent::{Adjustment, Consistent};
-#[cfg(feature = "alloc")]
-pub use csv::Csv;
-#[cfg(feature = "alloc")]
-pub use drift::{Deviation, Drift};
-pub use dual::Dual;
 #[cfg(feature = "std")]
 pub use ensemble::{Arrival, Ensemble, EnsembleProgress, Member, Outcome};
-pub use equations::Equations;
 pub use error::Error;
-pub use evidence::Evidence;
-pub use facts::{Conserved, Facts, LinearPart, TotalDerivative};
+#[cfg(feature = "alloc")]
+pub use function::Table;
 pub use function::{ByHand, Function, HandWritten};
 #[cfg(feature = "alloc")]
 pub use hamiltonian::HamiltonianFlow;
 pub use hamiltonian::{Hamiltonian, PhaseRate, PhaseState};
-pub use integrability::{Classification, Extent, Integrability, Integrals};
-#[cfg(feature = "alloc")]
-pub use integrate::{Dop853, Dopri5, Ending, Method, Progress, Statistics};
 pub use lagrange_macros::Lagrangian;
-#[cfg(feature = "std")]
-pub use lanes::Lanes;
 pub use linearized::{Direction, Jacobian, Linearized, Partials, ResidualChange};
 #[cfg(feature = "alloc")]
 pub use linearized::{Equilibrium, Linearization, Stability};
+pub use motion::Simulate;
+#[cfg(feature = "alloc")]
+pub use motion::{Dop853, Dopri5, Method, Progress};
 pub use nalgebra;
 pub use names::{Entry, Names, Row};
-pub use pack::{Pack, Packed, Shared};
+#[cfg(feature = "std")]
+pub use number::Lanes;
+pub use number::{Dual, Real, Scalar};
+pub use solution::{Adjustment, Consistent, eliminate};
+pub use system::{
+    Classification, Conserved, ConstraintKind, Equations, Evidence, Extent, Facts, Integrability, Integrals,
+    Lagrangian, LinearPart, Pack, Packed, Shared, Solution, State, TotalDerivative,
+};
 #[cfg(feature = "alloc")]
-pub use sample::Sample;
-pub use scalar::{Real, Scalar};
-pub use simulate::Simulate;
-pub use state::{Solution, State};
-pub use system::{ConstraintKind, Lagrangian};
-#[cfg(feature = "alloc")]
-pub use table::Table;
-#[cfg(feature = "alloc")]
-pub use trajectory::Trajectory;
+pub use trajectory::{Csv, Deviation, Drift, Ending, Sample, Statistics, Trajectory};
 
 /// The README's program is compiled and run with the documentation's examples.
 #[cfg(doctest)]

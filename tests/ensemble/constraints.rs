@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 
-use lagrange_core::integrate::{Adaptive, Pair};
+use lagrange_core::motion::{Adaptive, Pair};
 use lagrange_core::prelude::*;
 
 use crate::{noise, on_threads};

@@ -6,8 +6,9 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use super::{Arrival, Ensemble, EnsembleProgress, Make, Member, Observer, Outcome, Watch};
-use crate::integrate::{Adaptive, Batch, LagrangianFlow, Pair, Seat, begin, run};
-use crate::simulate::check_finite;
+use crate::motion::run::{begin, run};
+use crate::motion::simulate::check_finite;
+use crate::motion::{Adaptive, Batch, LagrangianFlow, Pair, Seat};
 use crate::{Error, Lagrangian, Lanes, Method, Pack, Real, State, Statistics};
 
 /// What the threads share.

@@ -16,7 +16,8 @@ mod tests;
 use core::fmt::{self, Debug, Formatter};
 use core::ops::ControlFlow;
 
-use crate::integrate::{Adaptive, Pair, check_end};
+use crate::motion::run::check_end;
+use crate::motion::{Adaptive, Pair};
 use crate::{Error, Lagrangian, Lanes, Method, Pack, Real, State};
 use job::Job;
 pub use outcome::{Arrival, Member, Outcome};

@@ -4,8 +4,8 @@ use core::fmt::{self, Display, Formatter};
 use core::str::FromStr;
 
 use super::{Arrival, Member};
-use crate::eliminate::vector;
 use crate::names::Entry;
+use crate::solution::eliminate::vector;
 use crate::{Ending, Error, Real, State, Statistics};
 
 /// The whole table.

@@ -2,7 +2,7 @@
 
 use core::ops::ControlFlow;
 
-use crate::integrate::{Adaptive, Pair};
+use crate::motion::{Adaptive, Pair};
 use crate::prelude::*;
 use crate::{Lanes, Pack};
 

@@ -1,10 +1,11 @@
 //! Hamilton's equations as a flow: the methods for Lagrange's equations integrate them as well.
 
 use super::{PhaseState, equations, legendre};
-use crate::eliminate::vector;
-use crate::integrate::{Flow, Phase, Point, Slope};
 use crate::names::Entry;
-use crate::{Error, Lagrangian, Real, State, consistent};
+use crate::solution::consistent;
+use crate::solution::eliminate::vector;
+use crate::solution::flow::{Flow, Phase, Point, Slope};
+use crate::{Error, Lagrangian, Real, State};
 
 /// Hamilton's equations, in coordinates and momenta.
 ///

@@ -8,10 +8,10 @@
 use core::array::from_fn;
 
 use super::PhaseState;
-use crate::eliminate::{eliminate_active, vector};
-use crate::kkt::{self, Equations, Fault, Rank, natural_units, row_length};
-use crate::numeric::{exceeds, power_of_epsilon};
-use crate::solve::{is_trustworthy, most_involved, name, not_finite};
+use crate::number::numeric::{exceeds, power_of_epsilon};
+use crate::solution::eliminate::{eliminate_active, vector};
+use crate::solution::kkt::{self, Equations, Fault, Rank, natural_units, row_length};
+use crate::solution::solve::{is_trustworthy, most_involved, name, not_finite};
 use crate::{Error, Lagrangian, Real, Scalar, Solution, State};
 
 /// Newton iterations before giving up.

@@ -16,10 +16,12 @@ use nalgebra::SVector;
 pub use flow::HamiltonianFlow;
 pub use phase::{PhaseRate, PhaseState};
 
-use crate::solve::solve_near;
+#[cfg(feature = "alloc")]
+use crate::motion::run;
+use crate::solution::solve::solve_near;
 use crate::{Error, Lagrangian, Real, Scalar, State};
 #[cfg(feature = "alloc")]
-use crate::{Method, Progress, Trajectory, integrate};
+use crate::{Method, Progress, Trajectory};
 
 /// The Legendre transform, the Hamiltonian and Hamilton's equations with constraints: every [`Lagrangian`] over
 /// `f64` or `f32` has them.
@@ -133,7 +135,7 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
         method: P,
         watch: impl FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<Trajectory<'_, Self, N, M, HamiltonianFlow>, Error> {
-        integrate::drive(self, self.legendre(&phase)?, end, &method, watch)
+        run::drive(self, self.legendre(&phase)?, end, &method, watch)
     }
 }
 

@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use crate::Scalar;
-use crate::eliminate::vector;
+use crate::solution::eliminate::vector;
 
 /// A direction in which to differentiate: how fast each argument of the equations of motion changes.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,7 +2,8 @@
 
 use alloc::{format, vec::Vec};
 
-use crate::{Error, lookup};
+use crate::Error;
+use crate::system::lookup;
 
 /// The indices of the entries of these names; `r` names all elements `r[0]`, `r[1]`, … of a vector.
 pub(super) fn indices(

@@ -6,10 +6,10 @@ use nalgebra::{DMatrix, DVector, SVector};
 
 use super::tangent::Tangent;
 use super::{Direction, Linearized, inputs};
-use crate::eliminate::vector;
-use crate::kkt::{Rank, Rows};
 use crate::names::Entry;
-use crate::numeric::{larger, power_of_epsilon};
+use crate::number::numeric::{larger, power_of_epsilon};
+use crate::solution::eliminate::vector;
+use crate::solution::kkt::{Rank, Rows};
 use crate::{ConstraintKind, Error, Lagrangian, Real, Scalar, Simulate, Solution, State};
 
 /// The linear system ż = A z + B u near a state, u the change of the inputs.

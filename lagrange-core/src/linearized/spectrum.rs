@@ -6,7 +6,7 @@ use core::cmp::Ordering;
 use nalgebra::{Complex, DMatrix, Schur};
 
 use super::Linearization;
-use crate::numeric::{larger, power_of_epsilon};
+use crate::number::numeric::{larger, power_of_epsilon};
 use crate::{Error, Real, Scalar};
 
 /// What the linear part says about an equilibrium (Lyapunov's indirect method).

@@ -3,9 +3,9 @@
 use nalgebra::{ComplexField, SVector};
 
 use super::{Direction, Linearized, ResidualChange};
-use crate::kkt::{Factors, Rank};
 use crate::names::{Entry, Row};
-use crate::solve::{fault, solve};
+use crate::solution::kkt::{Factors, Rank};
+use crate::solution::solve::{fault, solve};
 use crate::{Error, Lagrangian, Real, Solution, State};
 
 /// The equations of motion at a state, solved and factorized.

@@ -11,7 +11,7 @@ use core::fmt::{self, Debug, Formatter};
 use nalgebra::SVector;
 
 use super::{Linearized, inputs};
-use crate::simulate::check_finite;
+use crate::motion::simulate::check_finite;
 use crate::{Error, Lagrangian, Real, Simulate, State};
 use point::Point;
 use search::Search;

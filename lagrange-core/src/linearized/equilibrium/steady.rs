@@ -6,7 +6,7 @@ use nalgebra::DMatrix;
 
 use super::point::{Point, row};
 use crate::linearized::Linearized;
-use crate::numeric::{larger, power_of_epsilon};
+use crate::number::numeric::{larger, power_of_epsilon};
 use crate::{Error, Lagrangian, Real, Scalar};
 
 /// How fast (M q̈ − h − Fᵀλ, F q̈ + γ) at q̈ = 0 changes with the coordinates that move, a column each. The rows of

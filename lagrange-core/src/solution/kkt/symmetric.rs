@@ -2,7 +2,7 @@
 
 use core::array::from_fn;
 
-use crate::numeric::smaller;
+use crate::number::numeric::smaller;
 use crate::{Real, Scalar};
 
 /// P A Pᵀ = L D Lᵀ of a symmetric matrix of order `size` ≤ N, with D of 1×1 and 2×2 blocks, by complete pivoting

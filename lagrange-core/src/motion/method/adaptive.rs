@@ -96,7 +96,7 @@ impl<P> Adaptive<P> {
         self
     }
 
-    pub(super) fn limits(&self) -> Limits {
+    pub(crate) fn limits(&self) -> Limits {
         self.limits
     }
 

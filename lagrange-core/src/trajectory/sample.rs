@@ -3,8 +3,8 @@
 use alloc::vec::Vec;
 use core::fmt::{self, Debug, Formatter};
 
-use crate::lookup::{index, unknown};
-use crate::solve::solve;
+use crate::solution::solve::solve;
+use crate::system::lookup::{index, unknown};
 use crate::{Error, Lagrangian, Real, Solution, State};
 
 /// A state of a system with what follows from it.

@@ -5,7 +5,7 @@ use crate::fixtures::{
     GRAVITY, Mechanism, dependent_on_the_manifold, free, oscillator, plane_pendulum, rolling_sphere,
     spherical_pendulum,
 };
-use crate::integrate::Pair;
+use crate::motion::Pair;
 use crate::prelude::*;
 
 type Pendulum = Mechanism<3, 1, 1>;

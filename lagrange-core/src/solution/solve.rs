@@ -2,9 +2,9 @@
 
 use nalgebra::ComplexField;
 
-use crate::kkt::{self, Equations, Fault, Rank, Solved};
 use crate::names::Row;
-use crate::numeric::{larger, power_of_epsilon};
+use crate::number::numeric::{larger, power_of_epsilon};
+use crate::solution::kkt::{self, Equations, Fault, Rank, Solved};
 use crate::{Error, Lagrangian, Names, Real, Scalar, Solution, State};
 
 /// See [`Simulate::solve`](crate::Simulate::solve).

@@ -11,10 +11,10 @@ use core::array::from_fn;
 use core::fmt::{self, Display, Formatter};
 use nalgebra::{ComplexField, SVector};
 
-use crate::eliminate::eliminate_active;
-use crate::kkt::{self, Equations, Rank};
-use crate::numeric::{exceeds, larger, power_of_epsilon};
-use crate::solve::{is_trustworthy, name};
+use crate::number::numeric::{exceeds, larger, power_of_epsilon};
+use crate::solution::eliminate::eliminate_active;
+use crate::solution::kkt::{self, Equations, Rank};
+use crate::solution::solve::{is_trustworthy, name};
 use crate::{ConstraintKind, Error, Lagrangian, Real, Scalar, State};
 
 /// Newton iterations before giving up; a start within its reach takes four or five.

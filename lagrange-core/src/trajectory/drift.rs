@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::fmt::{self, Display, Formatter};
 
-use crate::integrate::Flow;
+use crate::solution::flow::Flow;
 use crate::{Lagrangian, Real, Trajectory};
 
 /// How far a conserved quantity strays from its value at the start.

@@ -2,8 +2,8 @@
 
 use core::fmt::{self, Debug, Display, Formatter};
 
-use crate::integrate::{Flow, LagrangianFlow};
 use crate::names::Entry;
+use crate::solution::flow::{Flow, LagrangianFlow};
 use crate::{Lagrangian, Real, Sample, Scalar, Trajectory};
 
 /// A table of a trajectory, one line a sample: `t`, coordinates `x`, velocities `x_dot`, multipliers

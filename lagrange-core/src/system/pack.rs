@@ -4,6 +4,9 @@ use core::fmt::Debug;
 
 use nalgebra::SMatrix;
 
+#[cfg(feature = "std")]
+use crate::number::{Lanes, Scalar};
+
 /// A system that can share SIMD lanes of the type `V` with others of its kind.
 ///
 /// `#[derive(Lagrangian)]` implements it for a struct whose number type is a type parameter. The numbers of each
@@ -54,6 +57,21 @@ pub trait Packed<X> {
 
     /// Puts it into one lane.
     fn place(&mut self, lane: usize, field: &X);
+}
+
+#[cfg(feature = "std")]
+impl Packed<f64> for Lanes {
+    #[inline(always)]
+    fn splat(x: &f64) -> Self {
+        Self::constant(*x)
+    }
+
+    #[inline(always)]
+    fn place(&mut self, lane: usize, x: &f64) {
+        let mut all = self.to_array();
+        all[lane] = *x;
+        *self = all.into();
+    }
 }
 
 impl<P: Packed<X>, X, const K: usize> Packed<[X; K]> for [P; K] {

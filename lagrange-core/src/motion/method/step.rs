@@ -6,11 +6,13 @@ use nalgebra::ComplexField;
 
 use super::control::{Control, Place};
 use super::pair::{Pair, Row, SLOPES, Slopes, advance};
-use super::{Adaptive, Ending, Flow, Limits, Method, Phase, Point, Slope, Statistics, Step};
-use crate::eliminate::vector;
+use super::{Adaptive, Limits, Method, Step};
 use crate::names::{Entry, Row as EquationRow};
-use crate::numeric::larger;
-use crate::solve::name;
+use crate::number::numeric::larger;
+use crate::solution::eliminate::vector;
+use crate::solution::flow::{Flow, Phase, Point, Slope};
+use crate::solution::solve::name;
+use crate::trajectory::{Ending, Statistics};
 use crate::{Error, Lagrangian, Real, Scalar, State};
 
 /// Room for the longest interpolant here.
@@ -19,22 +21,22 @@ const COEFFICIENTS: usize = 8;
 /// What a pair carries from step to step.
 #[derive(Clone, Debug)]
 pub struct Memory<T, const N: usize, const M: usize> {
-    pub(super) t: T,
-    pub(super) y: Phase<T, N>,
-    pub(super) end: T,
+    pub(crate) t: T,
+    pub(crate) y: Phase<T, N>,
+    pub(crate) end: T,
     /// The whole time from start to end.
     span: T,
-    pub(super) control: Control<T>,
+    pub(crate) control: Control<T>,
     /// The first is that of `y`.
-    pub(super) slopes: Slopes<T, N>,
+    pub(crate) slopes: Slopes<T, N>,
     /// Which constraints the first slope rests on: as many as are independent at `y`.
-    pub(super) active: [bool; M],
+    pub(crate) active: [bool; M],
     interpolant: [Phase<T, N>; COEFFICIENTS],
 }
 
 impl<T: Real, const N: usize, const M: usize> Memory<T, N, M> {
     /// The next step and the time after it: exactly the end where that is near.
-    pub(super) fn next(&self) -> (T, T) {
+    pub(crate) fn next(&self) -> (T, T) {
         let (now, step) = (self.t, self.control.step);
         if now + step * T::constant(1.01) >= self.end {
             (self.end - now, self.end)
@@ -44,7 +46,7 @@ impl<T: Real, const N: usize, const M: usize> Memory<T, N, M> {
     }
 
     /// Whether the next step would be lost in the round-off of the time.
-    pub(super) fn is_step_too_small(&self) -> bool {
+    pub(crate) fn is_step_too_small(&self) -> bool {
         let epsilon = T::constant(T::EPSILON);
         let size = larger(Scalar::abs(self.t), epsilon * self.span);
         self.control.step <= T::constant(10.0) * epsilon * size

@@ -3,11 +3,16 @@
 #[cfg(feature = "alloc")]
 use core::ops::ControlFlow;
 
-use crate::names::Entry;
-use crate::solve::solve;
-use crate::{Consistent, Error, Lagrangian, Real, Solution, State, consistent};
 #[cfg(feature = "alloc")]
-use crate::{Method, Progress, Scalar, Trajectory, integrate, lookup};
+use super::run;
+use crate::names::Entry;
+use crate::solution::consistent;
+use crate::solution::solve::solve;
+#[cfg(feature = "alloc")]
+use crate::system::lookup;
+use crate::{Consistent, Error, Lagrangian, Real, Solution, State};
+#[cfg(feature = "alloc")]
+use crate::{Method, Progress, Scalar, Trajectory};
 
 /// Solving, integrating and setting up a system: every [`Lagrangian`] over `f64` or `f32` has it.
 pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Real> + Sized {
@@ -94,7 +99,7 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
         watch: impl FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<Trajectory<'_, Self, N, M>, Error> {
         check_finite(self, &state)?;
-        integrate::drive(self, state, end, &method, watch)
+        run::drive(self, state, end, &method, watch)
     }
 
     /// A state at t = 0 from names: `x` a coordinate, `x_dot` its velocity, `r[0]` and `r_dot[0]` those of a vector;

@@ -1,143 +1,13 @@
 //! The loop from the first step to the ending, the same for every method.
 
-mod adaptive;
-#[cfg(feature = "std")]
-mod batch;
-mod control;
-mod dop853;
-mod dopri5;
-mod ending;
-mod flow;
-mod pair;
-#[cfg(feature = "std")]
-mod seat;
-mod step;
-#[cfg(test)]
-mod tests;
-
 use core::ops::ControlFlow;
 
-pub use adaptive::Adaptive;
-#[cfg(feature = "std")]
-pub(crate) use batch::Batch;
-pub use dop853::{Dop853, DormandPrince853};
-pub use dopri5::{Dopri5, DormandPrince54};
-pub use ending::Ending;
-pub use flow::{Flow, LagrangianFlow, Point, Slope};
-pub use pair::{Pair, Row};
-#[cfg(feature = "std")]
-pub(crate) use seat::Seat;
-
-use crate::consistent::Consistent;
-use crate::solve::solve;
-use crate::trajectory::Path;
-use crate::{Error, Lagrangian, Real, State, Trajectory, consistent};
-
-/// Coordinates and velocities, or coordinates and momenta, as arrays: what a one-step method adds up.
-pub type Phase<T, const N: usize> = [[T; N]; 2];
-
-/// A way to step from one state to the next; a value, whose type says by its bounds where it applies, and
-/// whether it integrates Lagrange's equations or Hamilton's, the flow `F`.
-///
-/// [`drive`](crate::Simulate::integrate) checks the start, loops, stores and ends; a method proposes steps.
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` is not a method that integrates `{L}`",
-    note = "use `Dop853::default()` or `Dopri5::default()`; the system must be over `f64` or `f32`"
-)]
-pub trait Method<L, const N: usize, const M: usize, F = LagrangianFlow>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
-{
-    /// What is carried from step to step, working arrays included.
-    type Memory;
-
-    /// When to give up.
-    fn limits(&self) -> Limits;
-
-    /// Checks the settings.
-    ///
-    /// # Errors
-    /// [`Error::Setting`] for one that cannot work.
-    fn check(&self) -> Result<(), Error>;
-
-    /// The same method where only the states after the steps are of interest: it need not compute interpolants.
-    #[must_use]
-    fn sparse(self) -> Self
-    where
-        Self: Sized,
-    {
-        self
-    }
-
-    /// Prepares the first step from a consistent state, with settings that have been checked.
-    ///
-    /// # Errors
-    /// What evaluating the equations gives.
-    fn begin(
-        &self,
-        system: &L,
-        start: &State<L::Scalar, N>,
-        end: L::Scalar,
-        statistics: &mut Statistics,
-    ) -> Result<Self::Memory, Error>;
-
-    /// Tries one step. It never passes the end, and reaches it exactly.
-    fn step<'m>(
-        &self,
-        system: &L,
-        memory: &'m mut Self::Memory,
-        statistics: &mut Statistics,
-    ) -> Step<'m, L::Scalar, N>;
-}
-
-/// What became of a step.
-#[derive(Debug)]
-pub enum Step<'m, T, const N: usize> {
-    /// A new state on the constraints.
-    Accepted {
-        /// The state.
-        state: State<T, N>,
-        /// Coefficients r₀, r₁, … (as many in every step, none from a [`sparse`](Method::sparse) method) of the interpolant
-        /// r₀ + θ(r₁ + (1−θ)(r₂ + θ(r₃ + (1−θ)(…)))), θ from 0 to 1 over the step
-        /// (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.6).
-        interpolant: &'m [Phase<T, N>],
-    },
-    /// Too long; the next attempt is shorter.
-    Rejected,
-    /// No step is short enough, or none will do.
-    Failed(Ending),
-}
-
-/// When an integration gives up.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limits {
-    /// Attempted steps, rejected ones included.
-    pub max_steps: usize,
-    /// Time by the clock on the wall.
-    #[cfg(feature = "std")]
-    pub wall_time: Option<std::time::Duration>,
-}
-
-/// What an integration took.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Statistics {
-    /// Steps taken.
-    pub accepted: usize,
-    /// Steps tried and repeated shorter.
-    pub rejected: usize,
-    /// Evaluations of the equations of motion.
-    pub evaluations: usize,
-    /// Whether the constraints were independent in every evaluation.
-    pub multipliers_are_unique: bool,
-}
-
-/// Of nothing done yet.
-impl Default for Statistics {
-    fn default() -> Self {
-        Self { accepted: 0, rejected: 0, evaluations: 0, multipliers_are_unique: true }
-    }
-}
+use super::method::{Limits, Method, Step};
+use crate::solution::consistent::{self, Consistent};
+use crate::solution::flow::{Flow, Phase};
+use crate::solution::solve::solve;
+use crate::trajectory::{Ending, Path, Statistics, Trajectory};
+use crate::{Error, Lagrangian, Real, State};
 
 /// How far an integration has come.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -256,14 +126,14 @@ pub(crate) fn check_end<T: Real>(end: T) -> Result<(), Error> {
     if end.is_finite() { Ok(()) } else { Err(Error::EndNotFinite { end: end.to_f64() }) }
 }
 
-struct Watchdog {
+pub(super) struct Watchdog {
     limits: Limits,
     #[cfg(feature = "std")]
     started: std::time::Instant,
 }
 
 impl Watchdog {
-    fn new(limits: Limits) -> Self {
+    pub(super) fn new(limits: Limits) -> Self {
         Self {
             limits,
             #[cfg(feature = "std")]
@@ -272,11 +142,11 @@ impl Watchdog {
     }
 
     #[cfg(feature = "std")]
-    fn restart(&mut self) {
+    pub(super) fn restart(&mut self) {
         self.started = std::time::Instant::now();
     }
 
-    fn exceeded(&self, statistics: &Statistics, time: f64) -> Option<Ending> {
+    pub(super) fn exceeded(&self, statistics: &Statistics, time: f64) -> Option<Ending> {
         let steps = statistics.accepted + statistics.rejected;
         if steps >= self.limits.max_steps {
             return Some(Ending::StepLimit { time, steps });

@@ -2,26 +2,27 @@
 
 use core::array::from_fn;
 
+use super::Adaptive;
 use super::pair::{Pair, Slopes, combine};
-use super::{Adaptive, Phase};
-use crate::numeric::{exceeds, larger, smaller};
+use crate::number::numeric::{exceeds, larger, smaller};
+use crate::solution::flow::Phase;
 use crate::{Real, Scalar};
 
 /// The step to try next, and what its choice remembers.
 #[derive(Clone, Debug)]
-pub(super) struct Control<T> {
-    pub(super) step: T,
+pub(crate) struct Control<T> {
+    pub(crate) step: T,
     previous_error: T,
     was_refused: bool,
 }
 
 impl<T: Real> Control<T> {
-    pub(super) fn new(step: T) -> Self {
+    pub(crate) fn new(step: T) -> Self {
         Self { step, previous_error: T::constant(1e-4), was_refused: false }
     }
 
     /// After a step h with an error of this part of the tolerance: the PI controller, and no growth after a refusal.
-    pub(super) fn accept<P: Pair>(&mut self, h: T, error: T) {
+    pub(crate) fn accept<P: Pair>(&mut self, h: T, error: T) {
         let growth = T::constant(if self.was_refused { 1.0 } else { P::GROWTH });
         let damping = Scalar::powf(self.previous_error, T::constant(P::DAMPING));
         let factor = T::constant(SAFETY) * damping / larger(reduction::<P, T>(error), T::constant(1e-30));
@@ -31,14 +32,14 @@ impl<T: Real> Control<T> {
     }
 
     /// After a step h with too large an error.
-    pub(super) fn refuse<P: Pair>(&mut self, h: T, error: T) {
+    pub(crate) fn refuse<P: Pair>(&mut self, h: T, error: T) {
         let factor = T::constant(SAFETY) / reduction::<P, T>(error);
         self.step = h * larger(T::constant(P::SHRINK), factor);
         self.was_refused = true;
     }
 
     /// After a step h into a region where the equations have no solution.
-    pub(super) fn halve(&mut self, h: T) {
+    pub(crate) fn halve(&mut self, h: T) {
         self.step = h * T::constant(0.5);
         self.was_refused = true;
     }
@@ -57,11 +58,11 @@ fn reduction<P: Pair, T: Real>(error: T) -> T {
 }
 
 /// The place of an entry: half 0 the coordinates, 1 the velocities, and the index.
-pub(super) type Place = (usize, usize);
+pub(crate) type Place = (usize, usize);
 
 /// The error allowed in each entry: `absolute + relative · |x|`.
 #[derive(Clone, Copy)]
-pub(super) struct Tolerance {
+pub(crate) struct Tolerance {
     relative: f64,
     absolute: f64,
 }
@@ -69,7 +70,7 @@ pub(super) struct Tolerance {
 impl Tolerance {
     /// The error of a step as a part of the tolerance.
     #[inline]
-    pub(super) fn error<P: Pair, T: Scalar, const N: usize>(
+    pub(crate) fn error<P: Pair, T: Scalar, const N: usize>(
         self,
         slopes: &Slopes<T, N>,
         h: T,
@@ -88,7 +89,7 @@ impl Tolerance {
     }
 
     /// The entry with the largest error.
-    pub(super) fn worst<P: Pair, T: Real, const N: usize>(
+    pub(crate) fn worst<P: Pair, T: Real, const N: usize>(
         self,
         slopes: &Slopes<T, N>,
         before: &Phase<T, N>,
@@ -112,17 +113,17 @@ impl Tolerance {
 
 impl<P: Pair> Adaptive<P> {
     /// What is asked for, as far as the numbers go.
-    pub(super) fn tolerance<T: Real>(&self) -> Tolerance {
+    pub(crate) fn tolerance<T: Real>(&self) -> Tolerance {
         Tolerance { relative: self.relative.max(16.0 * T::EPSILON), absolute: self.absolute }
     }
 
     /// Whether a step with this part of the tolerance as its error will do; nothing refuses a fixed step.
-    pub(super) fn accepts<T: Real>(&self, error: T) -> bool {
+    pub(crate) fn accepts<T: Real>(&self, error: T) -> bool {
         self.fixed_step.is_some() || !exceeds(error, T::constant(1.0))
     }
 
     /// Chooses the step after an accepted one.
-    pub(super) fn after_acceptance<T: Real>(&self, control: &mut Control<T>, h: T, error: T) {
+    pub(crate) fn after_acceptance<T: Real>(&self, control: &mut Control<T>, h: T, error: T) {
         if self.fixed_step.is_none() {
             control.accept::<P>(h, error);
             control.step = self.cut(control.step);
@@ -130,12 +131,12 @@ impl<P: Pair> Adaptive<P> {
     }
 
     /// The step cut to the longest allowed.
-    pub(super) fn cut<T: Real>(&self, h: T) -> T {
+    pub(crate) fn cut<T: Real>(&self, h: T) -> T {
         self.max_step.map_or(h, |longest| smaller(h, T::constant(longest)))
     }
 
     /// A first guess at the first step: one that moves the state by a hundredth of its size.
-    pub(super) fn guess_step<T: Real, const N: usize>(
+    pub(crate) fn guess_step<T: Real, const N: usize>(
         &self,
         y: &Phase<T, N>,
         slope: &Phase<T, N>,
@@ -150,7 +151,7 @@ impl<P: Pair> Adaptive<P> {
 
     /// The first step from that guess and the slopes before and after it: the error of a step of Euler's method of
     /// this size would be a hundredth.
-    pub(super) fn first_step_from<T: Real, const N: usize>(
+    pub(crate) fn first_step_from<T: Real, const N: usize>(
         &self,
         guess: T,
         y: &Phase<T, N>,

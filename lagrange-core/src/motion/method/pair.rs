@@ -2,8 +2,8 @@
 
 use core::array::from_fn;
 
-use super::Phase;
 use crate::Scalar;
+use crate::solution::flow::Phase;
 
 /// The coefficients of a sum of slopes: (index of the slope, coefficient).
 pub type Row = &'static [(usize, f64)];
@@ -46,14 +46,14 @@ pub trait Pair {
 }
 
 /// Room for the slopes of the longest method here.
-pub(super) const SLOPES: usize = 16;
+pub(crate) const SLOPES: usize = 16;
 
 /// The slopes (q̇, q̈) of a step.
-pub(super) type Slopes<T, const N: usize> = [Phase<T, N>; SLOPES];
+pub(crate) type Slopes<T, const N: usize> = [Phase<T, N>; SLOPES];
 
 /// start + h Σ cᵢ slopeᵢ.
 #[inline]
-pub(super) fn advance<T: Scalar, const N: usize>(
+pub(crate) fn advance<T: Scalar, const N: usize>(
     start: &Phase<T, N>,
     h: T,
     slopes: &Slopes<T, N>,
@@ -64,7 +64,7 @@ pub(super) fn advance<T: Scalar, const N: usize>(
 }
 
 #[inline]
-pub(super) fn combine<T: Scalar, const N: usize>(slopes: &Slopes<T, N>, row: &[(usize, f64)]) -> Phase<T, N> {
+pub(crate) fn combine<T: Scalar, const N: usize>(slopes: &Slopes<T, N>, row: &[(usize, f64)]) -> Phase<T, N> {
     let mut sum = [[T::constant(0.0); N]; 2];
     for (index, coefficient) in row {
         let coefficient = T::constant(*coefficient);

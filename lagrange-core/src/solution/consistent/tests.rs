@@ -1,6 +1,6 @@
-use crate::eliminate::eliminate_active;
 use crate::fixtures::{Mechanism, dependent_on_the_manifold, identity, rolling_sphere, spherical_pendulum};
 use crate::prelude::*;
+use crate::solution::eliminate::eliminate_active;
 
 #[test]
 fn a_state_off_the_sphere_is_put_on_it() {

@@ -1,10 +1,13 @@
 //! What is integrated: a motion in (q, q̇) or in (q, p). The methods are the same for both.
 
-use super::Phase;
-use crate::eliminate::vector;
+use super::consistent;
+use super::eliminate::vector;
+use super::solve::solve_near;
 use crate::names::Entry;
-use crate::solve::solve_near;
-use crate::{Error, Lagrangian, Real, State, consistent};
+use crate::{Error, Lagrangian, Real, State};
+
+/// Coordinates and velocities, or coordinates and momenta, as arrays: what a one-step method adds up.
+pub type Phase<T, const N: usize> = [[T; N]; 2];
 
 /// The equations that a method integrates, of the first order in a [`Phase`] whose first half is q.
 pub trait Flow<L, const N: usize, const M: usize>

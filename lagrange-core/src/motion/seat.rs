@@ -1,8 +1,10 @@
 //! A motion that has a SIMD lane, and what becomes of its steps.
 
-use super::pair::Pair;
-use super::step::Memory;
-use super::{Adaptive, Ending, LagrangianFlow, Method, Phase, Statistics, Step, Watchdog, begin};
+use super::method::step::Memory;
+use super::method::{Adaptive, Method, Pair, Step};
+use super::run::{Watchdog, begin};
+use crate::solution::flow::{LagrangianFlow, Phase};
+use crate::trajectory::{Ending, Statistics};
 use crate::{Error, Lagrangian, State};
 
 /// A motion that has a lane, or waits for one.

@@ -4,7 +4,15 @@
 //! order is a trait of its own here, so that a form that does not go far enough is a compile-time error that says so.
 //! Whoever implements [`Function`] has them all.
 
-use crate::{Dual, Scalar};
+#[cfg(feature = "alloc")]
+mod table;
+#[cfg(test)]
+mod tests;
+
+#[cfg(feature = "alloc")]
+pub use table::Table;
+
+use crate::number::{Dual, Scalar};
 
 /// A function of `I` numbers with `O` results, written once for every scalar; its derivatives follow.
 ///
@@ -148,6 +156,3 @@ impl<F: HandWritten<I, O>, const I: usize, const O: usize> Second<f64, I, O> for
         self.0.hessian(x).map(|hessian| hessian[i][j])
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -8,11 +8,13 @@
 use core::array::from_fn;
 use core::ops::ControlFlow;
 
-use super::pair::{Pair, SLOPES, Slopes, advance};
+use super::Adaptive;
+use super::method::pair::{Pair, SLOPES, Slopes, advance};
 use super::seat::{Fate, Seat};
-use super::{Adaptive, Ending, Flow, LagrangianFlow, Phase, Point};
-use crate::eliminate::vector;
-use crate::numeric::power_of_epsilon;
+use crate::number::numeric::power_of_epsilon;
+use crate::solution::eliminate::vector;
+use crate::solution::flow::{Flow, LagrangianFlow, Phase, Point};
+use crate::trajectory::Ending;
 use crate::{Lagrangian, Lanes, Pack, Packed, Scalar, State};
 
 /// Motions in lock-step.
@@ -58,7 +60,7 @@ impl Trust {
         self.size = self.size + pivot * Lanes::constant(0.0);
     }
 
-    /// As [`is_trustworthy`](crate::solve::is_trustworthy) of a solution alone.
+    /// As [`is_trustworthy`](crate::solution::solve::is_trustworthy) of a solution alone.
     fn lanes(&self) -> [bool; Lanes::COUNT] {
         let (pivot, size) = (self.pivot.to_array(), self.size.to_array());
         from_fn(|lane| pivot[lane] > power_of_epsilon(1.0 / 3.0) && size[lane] < f64::INFINITY)

@@ -4,7 +4,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use simba::simd::{SimdComplexField, SimdPartialOrd, SimdRealField, SimdValue, WideF64x4};
 
-use crate::{Packed, Scalar};
+use crate::Scalar;
 
 /// Four `f64` side by side, on which the equations of four systems are evaluated at once.
 ///
@@ -41,20 +41,6 @@ impl From<[f64; Self::COUNT]> for Lanes {
     #[inline(always)]
     fn from(all: [f64; Self::COUNT]) -> Self {
         Self(all.into())
-    }
-}
-
-impl Packed<f64> for Lanes {
-    #[inline(always)]
-    fn splat(x: &f64) -> Self {
-        Self::constant(*x)
-    }
-
-    #[inline(always)]
-    fn place(&mut self, lane: usize, x: &f64) {
-        let mut all = self.to_array();
-        all[lane] = *x;
-        *self = all.into();
     }
 }
 

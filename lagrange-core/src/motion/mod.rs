@@ -1,0 +1,28 @@
+//! A motion is computed: methods, and the run from the start to the ending.
+
+#[cfg(feature = "std")]
+mod batch;
+#[cfg(feature = "alloc")]
+pub(crate) mod method;
+#[cfg(feature = "alloc")]
+pub(crate) mod run;
+#[cfg(feature = "std")]
+mod seat;
+pub(crate) mod simulate;
+#[cfg(test)]
+mod tests;
+
+#[cfg(feature = "std")]
+pub(crate) use batch::Batch;
+#[cfg(feature = "alloc")]
+pub use method::{
+    Adaptive, Dop853, Dopri5, DormandPrince54, DormandPrince853, Limits, Method, Pair, Row, Step,
+};
+#[cfg(feature = "alloc")]
+pub use run::Progress;
+#[cfg(feature = "std")]
+pub(crate) use seat::Seat;
+pub use simulate::Simulate;
+
+#[cfg(feature = "alloc")]
+pub use crate::solution::flow::{Flow, LagrangianFlow, Phase, Point, Slope};

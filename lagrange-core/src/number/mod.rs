@@ -1,0 +1,12 @@
+//! The numbers that everything is computed with.
+
+mod dual;
+#[cfg(feature = "std")]
+mod lanes;
+pub(crate) mod numeric;
+mod scalar;
+
+pub use dual::Dual;
+#[cfg(feature = "std")]
+pub use lanes::Lanes;
+pub use scalar::{Real, Scalar};

@@ -1,0 +1,10 @@
+//! The equations of motion solved: accelerations and multipliers, consistent states, the rates of a motion.
+
+pub(crate) mod consistent;
+pub mod eliminate;
+#[cfg(feature = "alloc")]
+pub(crate) mod flow;
+pub(crate) mod kkt;
+pub(crate) mod solve;
+
+pub use consistent::{Adjustment, Consistent};

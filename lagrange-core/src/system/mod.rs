@@ -1,0 +1,19 @@
+//! What a system is: the contract that generated code implements, its state, and what is known about it.
+
+mod equations;
+mod evidence;
+mod facts;
+mod integrability;
+mod lagrangian;
+#[cfg(feature = "alloc")]
+pub(crate) mod lookup;
+mod pack;
+mod state;
+
+pub use equations::Equations;
+pub use evidence::Evidence;
+pub use facts::{Conserved, Facts, LinearPart, TotalDerivative};
+pub use integrability::{Classification, Extent, Integrability, Integrals};
+pub use lagrangian::{ConstraintKind, Lagrangian};
+pub use pack::{Pack, Packed, Shared};
+pub use state::{Solution, State};
