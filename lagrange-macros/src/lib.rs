@@ -88,17 +88,15 @@ fn nests_too_deep(input: TokenStream, span: Span) -> TokenStream {
 
 fn derive(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<TokenStream> {
     diagnostics.is_empty().then_some(())?;
-    let mut problem = resolve::problem(declaration, diagnostics)?;
-    let scalar = problem.parameters.scalar(declaration, diagnostics);
-    diagnostics.is_empty().then_some(())?;
-    let equations = mechanics::derive(&mut problem, diagnostics)?;
-    let facts = mechanics::facts(&mut problem, &equations, diagnostics)?;
-    let rendered = render::render(declaration, &mut problem, &equations, &facts);
+    let (mut graph, problem) = resolve::problem(declaration, diagnostics)?;
+    let equations = mechanics::derive(&mut graph, &problem, diagnostics)?;
+    let facts = mechanics::facts(&mut graph, &problem, &equations, diagnostics)?;
+    let rendered = render::render(declaration, &mut graph, &problem, &equations, &facts);
     let mut tokens =
-        codegen::implementation(declaration, &problem, &equations, &facts, &rendered, &scalar, diagnostics);
+        codegen::implementation(declaration, &graph, &problem, &equations, &facts, &rendered, diagnostics);
     diagnostics.is_empty().then_some(())?;
-    if let Some(linearization) = mechanics::linearize(&mut problem, &equations) {
-        tokens.extend(codegen::linearized(declaration, &problem, &equations, &linearization, &scalar));
+    if let Some(linearization) = mechanics::linearize(&mut graph, &problem, &equations) {
+        tokens.extend(codegen::linearized(declaration, &graph, &problem, &equations, &linearization));
     }
     print::if_asked(declaration, &tokens);
     Some(tokens)

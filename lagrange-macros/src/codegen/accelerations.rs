@@ -10,8 +10,7 @@ use super::passes::Program;
 use super::schedule::Schedule;
 use super::shape::Shape;
 use crate::mechanics::{Equations, Form};
-use crate::resolve::Problem;
-use crate::symbolic::Id;
+use crate::symbolic::{Graph, Id};
 
 /// M, h, F and γ in one schedule, so that they share what they have in common, and solved where that is short.
 struct Fused {
@@ -39,16 +38,16 @@ fn entries(form: &Form, equations: &Equations) -> Vec<Id> {
 }
 
 /// The equations of motion solved, by the form that takes the least time; `None` where every one is long.
-fn cheapest(problem: &Problem, equations: &Equations) -> Option<Program> {
+fn cheapest(graph: &Graph, equations: &Equations) -> Option<Program> {
     let forms = equations.forms.iter();
-    let programs = forms.filter_map(|form| solve(problem, form, equations));
+    let programs = forms.filter_map(|form| solve(graph, form, equations));
     let programs = programs.filter(|program| program.count().total() <= OPERATION_LIMIT);
     programs.min_by_key(|program| program.time().total()).map(Program::fused)
 }
 
 /// The equations of motion solved by one form: accelerations, multipliers and the pivot.
-pub(super) fn solve(problem: &Problem, form: &Form, equations: &Equations) -> Option<Program> {
-    let mut schedule = Schedule::new(&problem.graph, &entries(form, equations));
+pub(super) fn solve(graph: &Graph, form: &Form, equations: &Equations) -> Option<Program> {
+    let mut schedule = Schedule::new(graph, &entries(form, equations));
     let Solved { accelerations, multipliers, pivot } = eliminate(&mut schedule, form, equations)?;
     Some(Program::new(schedule, [accelerations, multipliers, vec![pivot]].concat()))
 }
@@ -56,7 +55,7 @@ pub(super) fn solve(problem: &Problem, form: &Form, equations: &Equations) -> Op
 impl Emitter<'_> {
     fn fused(&self) -> Fused {
         let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
-        if let Some(program) = cheapest(self.problem, self.equations) {
+        if let Some(program) = cheapest(self.style.graph, self.equations) {
             let shapes = [Shape::Vector(n), Shape::Vector(m), Shape::Number];
             return Fused { kernel: self.style.write("accelerations", &program, &shapes), is_solved: true };
         }

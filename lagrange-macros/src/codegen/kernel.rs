@@ -42,7 +42,7 @@ pub(super) struct Refused {
 impl Style<'_> {
     /// Computes `roots` for the function of this name.
     pub(super) fn kernel(&self, name: &str, roots: &[Id], shapes: &[Shape]) -> Kernel {
-        self.write(name, &Program::of(&self.problem.graph, roots), shapes)
+        self.write(name, &Program::of(self.graph, roots), shapes)
     }
 
     /// The program as statements, and where its results are.

@@ -10,6 +10,7 @@ use super::style::{Style, identifier};
 use super::{FUNCTION_ORDER, bounded_generics, function_bound, orders, runtime};
 use crate::mechanics::{Equations, Linearization, arguments};
 use crate::resolve::Problem;
+use crate::symbolic::Graph;
 use crate::syntax::Declaration;
 use crate::variables::Variable;
 
@@ -17,16 +18,17 @@ use crate::variables::Variable;
 /// than functions have.
 pub(crate) fn linearized(
     declaration: &Declaration,
+    graph: &Graph,
     problem: &Problem,
     equations: &Equations,
     linearization: &Linearization,
-    scalar: &syn::Type,
 ) -> TokenStream {
-    let orders = orders(problem, equations, &linearization.roots());
+    let scalar = &problem.scalar;
+    let orders = orders(graph, problem, equations, &linearization.roots());
     if orders.values().any(|&order| order > FUNCTION_ORDER) {
         return TokenStream::new();
     }
-    let mut style = Style::new(problem, scalar);
+    let mut style = Style::new(graph, problem);
     name_changes(&mut style);
     let emitter = Emitter { problem, style: &style, parameters: problem.parameters.by_field() };
     let change = emitter.residual_change(linearization);
@@ -131,7 +133,7 @@ impl Emitter<'_> {
 
     fn residual_change(&self, linearization: &Linearization) -> TokenStream {
         let [n, m, p] = self.dimensions();
-        let program = Program::of_changes(&self.problem.graph, &linearization.roots());
+        let program = Program::of_changes(self.style.graph, &linearization.roots());
         let shapes = [n, m, m, m].map(Shape::Vector);
         let Kernel { statements, results, doc } = self.style.write("residual_change", &program, &shapes);
         let scalar = self.style.scalar;

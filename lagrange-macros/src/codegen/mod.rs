@@ -33,7 +33,7 @@ use crate::diagnostics::Diagnostics;
 use crate::mechanics::{ConstraintKind, Equations, Facts};
 use crate::render::Rendered;
 use crate::resolve::{Problem, Supplied};
-use crate::symbolic::{Id, Node};
+use crate::symbolic::{Graph, Id, Node};
 use crate::syntax::Declaration;
 #[cfg(test)]
 pub(crate) use count::Count;
@@ -50,16 +50,16 @@ const FUNCTION_ORDER: usize = 3;
 /// The implementation of the trait, and a method for each observable.
 pub(crate) fn implementation(
     declaration: &Declaration,
+    graph: &Graph,
     problem: &Problem,
     equations: &Equations,
     facts: &Facts,
     rendered: &Rendered,
-    scalar: &syn::Type,
     diagnostics: &mut Diagnostics,
 ) -> TokenStream {
-    let style = Style::new(problem, scalar);
+    let style = Style::new(graph, problem);
     let emitter = Emitter { declaration, problem, equations, facts, rendered, style: &style };
-    let orders = orders(problem, equations, &[]);
+    let orders = orders(graph, problem, equations, &[]);
     for (&function, order) in orders.iter().filter(|(_, order)| **order > FUNCTION_ORDER) {
         let Supplied { name, place, .. } = &problem.functions[function as usize];
         diagnostics.error(*place, format!(
@@ -83,26 +83,26 @@ fn capability(order: usize) -> (&'static str, &'static str) {
 
 /// What computing `roots` together takes.
 #[cfg(test)]
-pub(crate) fn operations(graph: &crate::symbolic::Graph, roots: &[Id]) -> Count {
+pub(crate) fn operations(graph: &Graph, roots: &[Id]) -> Count {
     passes::Program::of(graph, roots).count()
 }
 
 /// What the accelerations take, before the passes and after each, solved by each form of the equations; `None` where
 /// that is left to loops.
 #[cfg(test)]
-pub(crate) fn solving(problem: &Problem, equations: &Equations) -> Vec<Option<Vec<(&'static str, Count)>>> {
-    let counts = |form| Some(accelerations::solve(problem, form, equations)?.counts);
+pub(crate) fn solving(graph: &Graph, equations: &Equations) -> Vec<Option<Vec<(&'static str, Count)>>> {
+    let counts = |form| Some(accelerations::solve(graph, form, equations)?.counts);
     equations.forms.iter().map(counts).collect()
 }
 
 /// Accelerations, multipliers and pivot by each form of the equations.
 #[cfg(test)]
 pub(crate) fn solutions(
-    problem: &Problem,
+    graph: &Graph,
     equations: &Equations,
     input: impl Fn(crate::symbolic::Symbol) -> f64,
 ) -> Vec<Option<Vec<f64>>> {
-    let values = |form| Some(accelerations::solve(problem, form, equations)?.fused().values(&input));
+    let values = |form| Some(accelerations::solve(graph, form, equations)?.fused().values(&input));
     equations.forms.iter().map(values).collect()
 }
 
@@ -299,8 +299,7 @@ impl Emitter<'_> {
 }
 
 /// Of each function that the user supplies, the highest derivative that the system needs, with `more` expressions.
-fn orders(problem: &Problem, equations: &Equations, more: &[Id]) -> BTreeMap<u32, usize> {
-    let graph = &problem.graph;
+fn orders(graph: &Graph, problem: &Problem, equations: &Equations, more: &[Id]) -> BTreeMap<u32, usize> {
     let mut roots = equations.roots();
     roots.push(problem.lagrangian);
     roots.extend(problem.observables.iter().flat_map(|(_, values)| values));

@@ -9,11 +9,12 @@ use rustc_hash::FxHashMap;
 
 use super::kernel::Refused;
 use crate::resolve::{Element, Problem};
-use crate::symbolic::{Id, Symbol};
+use crate::symbolic::{Graph, Id, Symbol};
 use crate::variables::Variable;
 
 /// What all functions of a system have in common.
 pub(super) struct Style<'a> {
+    pub(super) graph: &'a Graph,
     pub(super) problem: &'a Problem,
     /// The number type.
     pub(super) scalar: &'a syn::Type,
@@ -30,7 +31,8 @@ pub(super) struct Style<'a> {
 }
 
 impl<'a> Style<'a> {
-    pub(super) fn new(problem: &'a Problem, scalar: &'a syn::Type) -> Self {
+    pub(super) fn new(graph: &'a Graph, problem: &'a Problem) -> Self {
+        let scalar = &problem.scalar;
         let is_f64 = quote!(#scalar).to_string() == "f64";
         let mut taken = HashSet::from(
             ["state", "solution", "multipliers", "direction", "index", "self", "waiting"].map(String::from),
@@ -62,6 +64,7 @@ impl<'a> Style<'a> {
         let definition_names =
             definitions.into_iter().map(|(id, text)| (*id, unique(text.clone()))).collect();
         Self {
+            graph,
             problem,
             scalar,
             is_f64,

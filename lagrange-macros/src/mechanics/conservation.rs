@@ -8,7 +8,7 @@ use super::moment::{Moment, Moments, dot};
 use super::{ConstraintKind, Equations, euler_lagrange, vanishes};
 use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
-use crate::symbolic::{Approximate, Forward, Id, Rational};
+use crate::symbolic::{Approximate, Forward, Graph, Id, Rational};
 use crate::variables::Variable;
 
 /// States at which a quantity must be seen to be conserved.
@@ -45,7 +45,8 @@ enum Trial {
 
 /// Whether random motions conserve `quantity`, for systems that are not too large to try.
 pub(super) fn found(
-    problem: &mut Problem,
+    graph: &mut Graph,
+    problem: &Problem,
     equations: &Equations,
     moments: &mut Moments,
     quantity: Id,
@@ -53,7 +54,7 @@ pub(super) fn found(
     if problem.coordinates.len() + problem.constraints.len() > LARGE {
         return None;
     }
-    match trial(problem, equations, moments, quantity) {
+    match trial(graph, problem, equations, moments, quantity) {
         Trial::Held(states) => Some(Evidence::Held(states)),
         Trial::Broken(..) | Trial::Undecided => None,
     }
@@ -61,72 +62,76 @@ pub(super) fn found(
 
 /// dE/dt = −∂L/∂t + Q·q̇ − Σ_α λ_α b_α
 pub(super) fn of_energy(
-    problem: &mut Problem,
+    graph: &mut Graph,
+    problem: &Problem,
     equations: &Equations,
     moments: &mut Moments,
 ) -> Option<Conserved> {
-    let rate = energy_rate(problem, equations);
-    let symbolic = vanishes(problem, rate);
+    let rate = energy_rate(graph, problem, equations);
+    let symbolic = vanishes(graph, problem, rate);
     let evidence = match symbolic {
-        None if !problem.constraints.is_empty() => found(problem, equations, moments, equations.energy),
+        None if !problem.constraints.is_empty() => {
+            found(graph, problem, equations, moments, equations.energy)
+        }
         symbolic => symbolic,
     };
     evidence.map(|evidence| Conserved { name: "energy".to_owned(), quantity: Quantity::Energy, evidence })
 }
 
-fn energy_rate(problem: &mut Problem, equations: &Equations) -> Id {
+fn energy_rate(graph: &mut Graph, problem: &Problem, equations: &Equations) -> Id {
     let one = Rational::from_integer(1);
     let mut along_time = Forward::along([(Variable::Time.symbol(), Id::ONE)]);
-    let mut terms = vec![(along_time.of(&mut problem.graph, problem.lagrangian), -one)];
-    for (i, force) in euler_lagrange::generalized_forces(problem).into_iter().enumerate() {
-        let velocity = problem.graph.symbol(Variable::Velocity(i).symbol());
-        terms.push((problem.graph.mul(force, velocity), one));
+    let mut terms = vec![(along_time.of(graph, problem.lagrangian), -one)];
+    for (i, force) in euler_lagrange::generalized_forces(graph, problem).into_iter().enumerate() {
+        let velocity = graph.symbol(Variable::Velocity(i).symbol());
+        terms.push((graph.mul(force, velocity), one));
     }
     for a in 0..problem.constraints.len() {
         let inhomogeneous = match equations.kinds[a] {
-            ConstraintKind::Holonomic => along_time.of(&mut problem.graph, equations.residual[a]),
-            ConstraintKind::Velocity => inhomogeneous_part(problem, equations, a),
+            ConstraintKind::Holonomic => along_time.of(graph, equations.residual[a]),
+            ConstraintKind::Velocity => inhomogeneous_part(graph, equations, a),
         };
-        let multiplier = problem.graph.symbol(Variable::Multiplier(a).symbol());
-        terms.push((problem.graph.mul(multiplier, inhomogeneous), -one));
+        let multiplier = graph.symbol(Variable::Multiplier(a).symbol());
+        terms.push((graph.mul(multiplier, inhomogeneous), -one));
     }
-    problem.graph.sum(terms)
+    graph.sum(terms)
 }
 
 /// b of F q̇ + b
-fn inhomogeneous_part(problem: &mut Problem, equations: &Equations, constraint: usize) -> Id {
+fn inhomogeneous_part(graph: &mut Graph, equations: &Equations, constraint: usize) -> Id {
     let one = Rational::from_integer(1);
     let mut terms = vec![(equations.rate[constraint], one)];
     for (i, &coefficient) in equations.jacobian[constraint].iter().enumerate() {
-        let velocity = problem.graph.symbol(Variable::Velocity(i).symbol());
-        terms.push((problem.graph.mul(coefficient, velocity), -one));
+        let velocity = graph.symbol(Variable::Velocity(i).symbol());
+        terms.push((graph.mul(coefficient, velocity), -one));
     }
-    problem.graph.sum(terms)
+    graph.sum(terms)
 }
 
 /// Those that the user says are conserved; where one is not, or cannot be tried, that is reported.
 pub(super) fn of_observables(
-    problem: &mut Problem,
+    graph: &mut Graph,
+    problem: &Problem,
     equations: &Equations,
     moments: &mut Moments,
     diagnostics: &mut Diagnostics,
 ) -> Vec<Conserved> {
     let mut conserved = Vec::new();
-    for (observable, place) in problem.conserved.clone() {
-        let (label, values) = problem.observables[observable].clone();
+    for &(observable, place) in &problem.conserved {
+        let (label, values) = &problem.observables[observable];
         for (entry, &value) in values.iter().enumerate() {
             let name =
                 if values.len() == 1 { label.text.clone() } else { format!("{}[{entry}]", label.text) };
-            match trial(problem, equations, moments, value) {
+            match trial(graph, problem, equations, moments, value) {
                 Trial::Held(states) => conserved.push(Conserved {
                     name,
                     quantity: Quantity::Observable(observable, entry),
                     evidence: Evidence::Held(states),
                 }),
                 Trial::Broken(index, value, rate) => {
-                    let moment = moments.get(index, problem, equations);
+                    let moment = moments.get(index, graph, problem, equations);
                     let moment = moment.map(|moment| written(moment, problem)).unwrap_or_default();
-                    let (value, rate, suspects) = (short(value), short(rate), suspects(problem));
+                    let (value, rate, suspects) = (short(value), short(rate), suspects(graph, problem));
                     diagnostics.error(place, format!(
                         "`{name}` is not conserved: at {moment} it is {value} and changes at the rate {rate}{suspects}"
                     ));
@@ -141,16 +146,22 @@ pub(super) fn of_observables(
 }
 
 /// dX/dt = ∂X/∂t + ∂X/∂q·q̇ + ∂X/∂q̇·q̈ on states that satisfy the constraints.
-fn trial(problem: &mut Problem, equations: &Equations, moments: &mut Moments, quantity: Id) -> Trial {
+fn trial(
+    graph: &mut Graph,
+    problem: &Problem,
+    equations: &Equations,
+    moments: &mut Moments,
+    quantity: Id,
+) -> Trial {
     let n = problem.coordinates.len();
     let state = (0..n).map(Variable::Coordinate).chain((0..n).map(Variable::Velocity));
     let state: Vec<_> = state.chain([Variable::Time]).map(Variable::symbol).collect();
-    let mut roots = problem.graph.gradient(quantity, &state);
+    let mut roots = graph.gradient(quantity, &state);
     roots.push(quantity);
     let mut held = 0;
     for index in 0.. {
-        let Some(moment) = moments.get(index, problem, equations) else { break };
-        let mut slopes = moment.values(problem, &roots);
+        let Some(moment) = moments.get(index, graph, problem, equations) else { break };
+        let mut slopes = moment.values(graph, &roots);
         let value = slopes.pop().unwrap_or(Approximate::exact(f64::NAN));
         let rates = (0..n).map(Variable::Velocity).chain((0..n).map(Variable::Acceleration));
         let rates: Vec<_> =
@@ -197,9 +208,8 @@ fn short(number: Approximate) -> String {
 }
 
 /// What in this system breaks conservation laws.
-fn suspects(problem: &Problem) -> String {
-    let has_time =
-        |roots: &[Id]| problem.graph.symbols(roots).any(|symbol| Variable::of(symbol) == Variable::Time);
+fn suspects(graph: &Graph, problem: &Problem) -> String {
+    let has_time = |roots: &[Id]| graph.symbols(roots).any(|symbol| Variable::of(symbol) == Variable::Time);
     let mut suspects = Vec::new();
     if has_time(&[problem.lagrangian]) {
         suspects.push("the time in the Lagrangian".to_owned());

@@ -46,7 +46,11 @@ impl Constraints {
 }
 
 /// Differentiates the constraints; `None` where one of them is none, which is then reported.
-pub(super) fn derive(problem: &mut Problem, diagnostics: &mut Diagnostics) -> Option<Constraints> {
+pub(super) fn derive(
+    graph: &mut Graph,
+    problem: &Problem,
+    diagnostics: &mut Diagnostics,
+) -> Option<Constraints> {
     let mut constraints = Constraints {
         kinds: Vec::new(),
         residual: Vec::new(),
@@ -55,35 +59,34 @@ pub(super) fn derive(problem: &mut Problem, diagnostics: &mut Diagnostics) -> Op
         bias: Vec::new(),
     };
     for index in 0..problem.constraints.len() {
-        push_row(problem, index, &mut constraints, diagnostics);
-        stop_at_fault(problem, problem.constraints[index].0.place, diagnostics);
+        push_row(graph, problem, index, &mut constraints, diagnostics);
+        stop_at_fault(graph, problem.constraints[index].0.place, diagnostics);
     }
-    reject_repeated(problem, &constraints, diagnostics);
+    reject_repeated(graph, problem, &constraints, diagnostics);
     diagnostics.is_empty().then_some(constraints)
 }
 
 fn push_row(
-    problem: &mut Problem,
+    graph: &mut Graph,
+    problem: &Problem,
     index: usize,
     constraints: &mut Constraints,
     diagnostics: &mut Diagnostics,
 ) {
     let n = problem.coordinates.len();
     let expression = problem.constraints[index].1;
-    let kind = kind(&problem.graph, expression);
-    let mut drift = drift(&mut problem.graph, n);
+    let kind = kind(graph, expression);
+    let mut drift = drift(graph, n);
     let (residual, rate, variable): (_, _, fn(usize) -> Variable) = match kind {
-        ConstraintKind::Holonomic => {
-            (expression, drift.of(&mut problem.graph, expression), Variable::Coordinate)
-        }
+        ConstraintKind::Holonomic => (expression, drift.of(graph, expression), Variable::Coordinate),
         ConstraintKind::Velocity => (Id::ZERO, expression, Variable::Velocity),
     };
-    let jacobian = problem.graph.gradient(expression, &symbols(n, variable));
-    reject_malformed(problem, index, kind, &jacobian, diagnostics);
+    let jacobian = graph.gradient(expression, &symbols(n, variable));
+    reject_malformed(graph, problem, index, kind, &jacobian, diagnostics);
     constraints.kinds.push(kind);
     constraints.residual.push(residual);
     constraints.rate.push(rate);
-    constraints.bias.push(drift.of(&mut problem.graph, rate));
+    constraints.bias.push(drift.of(graph, rate));
     constraints.jacobian.push(jacobian);
 }
 
@@ -94,14 +97,15 @@ fn kind(graph: &Graph, expression: Id) -> ConstraintKind {
 }
 
 fn reject_malformed(
-    problem: &mut Problem,
+    graph: &mut Graph,
+    problem: &Problem,
     index: usize,
     kind: ConstraintKind,
     jacobian: &[Id],
     diagnostics: &mut Diagnostics,
 ) {
     let place = problem.constraints[index].0.place;
-    if jacobian.iter().all(|&entry| vanishes(problem, entry).is_some()) {
+    if jacobian.iter().all(|&entry| vanishes(graph, problem, entry).is_some()) {
         let message = match problem.constraints[index].1 {
             Id::ZERO => "both sides of this constraint are the same",
             _ => "this constraint depends on no coordinate and no velocity: nothing can be done to meet it",
@@ -109,16 +113,22 @@ fn reject_malformed(
         return diagnostics.error(place, message);
     }
     if kind == ConstraintKind::Velocity {
-        reject_nonlinear(problem, index, jacobian, diagnostics);
+        reject_nonlinear(graph, problem, index, jacobian, diagnostics);
     }
 }
 
 /// A velocity constraint is F q̇ + b: its Jacobian holds no velocity.
-fn reject_nonlinear(problem: &mut Problem, index: usize, jacobian: &[Id], diagnostics: &mut Diagnostics) {
+fn reject_nonlinear(
+    graph: &mut Graph,
+    problem: &Problem,
+    index: usize,
+    jacobian: &[Id],
+    diagnostics: &mut Diagnostics,
+) {
     let n = problem.coordinates.len();
     for &entry in jacobian {
-        let slopes = problem.graph.gradient(entry, &symbols(n, Variable::Velocity));
-        let nonlinear = slopes.into_iter().position(|slope| vanishes(problem, slope).is_none());
+        let slopes = graph.gradient(entry, &symbols(n, Variable::Velocity));
+        let nonlinear = slopes.into_iter().position(|slope| vanishes(graph, problem, slope).is_none());
         if let Some(velocity) = nonlinear {
             let name = &problem.coordinates[velocity].text;
             let message = format!(
@@ -130,11 +140,16 @@ fn reject_nonlinear(problem: &mut Problem, index: usize, jacobian: &[Id], diagno
 }
 
 /// A constraint that is a multiple of an earlier one says nothing new.
-fn reject_repeated(problem: &mut Problem, constraints: &Constraints, diagnostics: &mut Diagnostics) {
+fn reject_repeated(
+    graph: &mut Graph,
+    problem: &Problem,
+    constraints: &Constraints,
+    diagnostics: &mut Diagnostics,
+) {
     let mut seen: IndexMap<Id, usize> = IndexMap::new();
     for later in 0..constraints.kinds.len() {
-        let expression = problem.graph.looked_through(problem.constraints[later].1);
-        let monic = problem.graph.monic(expression);
+        let expression = graph.looked_through(problem.constraints[later].1);
+        let monic = graph.monic(expression);
         let Some(&earlier) = seen.get(&monic) else {
             seen.insert(monic, later);
             continue;

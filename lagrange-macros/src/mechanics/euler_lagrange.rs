@@ -2,7 +2,7 @@
 
 use super::{degree, drift, symbols};
 use crate::resolve::Problem;
-use crate::symbolic::{Forward, Id, Rational};
+use crate::symbolic::{Forward, Graph, Id, Rational};
 use crate::variables::Variable;
 
 /// M q̈ = h without constraints.
@@ -14,58 +14,58 @@ pub(super) struct Motion {
     pub(super) energy: Id,
 }
 
-pub(super) fn derive(problem: &mut Problem) -> Motion {
+pub(super) fn derive(graph: &mut Graph, problem: &Problem) -> Motion {
     let n = problem.coordinates.len();
     let both = [symbols(n, Variable::Coordinate), symbols(n, Variable::Velocity)].concat();
-    let mut gradient = problem.graph.gradient(problem.lagrangian, &both);
+    let mut gradient = graph.gradient(problem.lagrangian, &both);
     let momentum = gradient.split_off(n);
-    let forces = generalized_forces(problem);
-    let mass = mass_matrix(problem, &momentum);
-    let mut drift = drift(&mut problem.graph, n);
-    let momentum_rate: Vec<Id> = (0..n).map(|i| problem.graph.add(gradient[i], forces[i])).collect();
+    let forces = generalized_forces(graph, problem);
+    let mass = mass_matrix(graph, &momentum);
+    let mut drift = drift(graph, n);
+    let momentum_rate: Vec<Id> = (0..n).map(|i| graph.add(gradient[i], forces[i])).collect();
     let forcing = (0..n).map(|i| {
-        let rate = drift.of(&mut problem.graph, momentum[i]);
-        problem.graph.sub(momentum_rate[i], rate)
+        let rate = drift.of(graph, momentum[i]);
+        graph.sub(momentum_rate[i], rate)
     });
     let forcing = forcing.collect();
-    let energy = energy(problem, &momentum);
+    let energy = energy(graph, problem, &momentum);
     Motion { momentum, mass, momentum_rate, forcing, energy }
 }
 
 /// E = p·q̇ − L, Milton (8.17). A part of L of degree d in the velocities adds (d − 1) times itself (Euler's
 /// theorem): so the energy reads as T + U where it is that.
-fn energy(problem: &mut Problem, momentum: &[Id]) -> Id {
+fn energy(graph: &mut Graph, problem: &Problem, momentum: &[Id]) -> Id {
     let one = Rational::from_integer(1);
-    let parts = degree::parts(&problem.graph, problem.lagrangian).unwrap_or_default();
+    let parts = degree::parts(graph, problem.lagrangian).unwrap_or_default();
     let terms = parts.iter().map(|part| Some((part.term, part.energy()?))).collect::<Option<Vec<_>>>();
     if let Some(terms) = terms.filter(|terms| !terms.is_empty()) {
-        return problem.graph.sum(terms);
+        return graph.sum(terms);
     }
     let mut terms = vec![(problem.lagrangian, -one)];
     for (i, &p) in momentum.iter().enumerate() {
-        let velocity = problem.graph.symbol(Variable::Velocity(i).symbol());
-        terms.push((problem.graph.mul(p, velocity), one));
+        let velocity = graph.symbol(Variable::Velocity(i).symbol());
+        terms.push((graph.mul(p, velocity), one));
     }
-    problem.graph.sum(terms)
+    graph.sum(terms)
 }
 
 /// Q: the forces given, and −∂D/∂q̇ of Rayleigh's dissipation function.
-pub(super) fn generalized_forces(problem: &mut Problem) -> Vec<Id> {
+pub(super) fn generalized_forces(graph: &mut Graph, problem: &Problem) -> Vec<Id> {
     let n = problem.coordinates.len();
     let Some((dissipation, _)) = problem.dissipation else { return problem.forces.clone() };
-    let friction = problem.graph.gradient(dissipation, &symbols(n, Variable::Velocity));
-    (0..n).map(|i| problem.graph.sub(problem.forces[i], friction[i])).collect()
+    let friction = graph.gradient(dissipation, &symbols(n, Variable::Velocity));
+    (0..n).map(|i| graph.sub(problem.forces[i], friction[i])).collect()
 }
 
 /// M_ij = ∂p_i/∂q̇_j, of which the lower triangle is differentiated.
-fn mass_matrix(problem: &mut Problem, momentum: &[Id]) -> Vec<Vec<Id>> {
+fn mass_matrix(graph: &mut Graph, momentum: &[Id]) -> Vec<Vec<Id>> {
     let n = momentum.len();
     let mut mass = vec![vec![Id::ZERO; n]; n];
     for (j, p) in momentum.iter().enumerate() {
         let mut along = Forward::along([(Variable::Velocity(j).symbol(), Id::ONE)]);
-        mass[j][j] = along.of(&mut problem.graph, *p);
+        mass[j][j] = along.of(graph, *p);
         for i in j + 1..n {
-            mass[i][j] = along.of(&mut problem.graph, momentum[i]);
+            mass[i][j] = along.of(graph, momentum[i]);
             mass[j][i] = mass[i][j];
         }
     }

@@ -9,7 +9,7 @@ use super::moment::Moments;
 use super::{Equations, Evidence, conservation, vanishes};
 use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
-use crate::symbolic::{Forward, Id, Rational};
+use crate::symbolic::{Forward, Graph, Id, Rational};
 use crate::variables::Variable;
 
 /// Statements about the system as a whole. What is not among them is false or could not be decided.
@@ -25,19 +25,24 @@ pub(crate) struct Facts {
 
 impl Facts {
     /// Finds what there is to find, and reports what is said to be conserved and is not.
-    pub(super) fn find(problem: &mut Problem, equations: &Equations, diagnostics: &mut Diagnostics) -> Self {
+    pub(super) fn find(
+        graph: &mut Graph,
+        problem: &Problem,
+        equations: &Equations,
+        diagnostics: &mut Diagnostics,
+    ) -> Self {
         let mut moments = Moments::default();
-        let (cyclic, mut conserved) = momenta(problem, equations, &mut moments);
-        conserved.extend(conservation::of_energy(problem, equations, &mut moments));
-        let said = conservation::of_observables(problem, equations, &mut moments, diagnostics);
+        let (cyclic, mut conserved) = momenta(graph, problem, equations, &mut moments);
+        conserved.extend(conservation::of_energy(graph, problem, equations, &mut moments));
+        let said = conservation::of_observables(graph, problem, equations, &mut moments, diagnostics);
         conserved.retain(|found| said.iter().all(|said| said.name != found.name));
         conserved.extend(said);
-        let energy_is_t_plus_u = energy_is_t_plus_u(problem, equations);
+        let energy_is_t_plus_u = energy_is_t_plus_u(graph, problem, equations);
         let linear_part = match energy_is_t_plus_u {
             Some(_) => LinearPart::Absent,
-            None => gauge::linear_part(problem, equations),
+            None => gauge::linear_part(graph, problem, equations),
         };
-        let total_derivatives = gauge::total_derivatives(problem);
+        let total_derivatives = gauge::total_derivatives(graph, problem);
         Self { cyclic, conserved, energy_is_t_plus_u, total_derivatives, linear_part }
     }
 }
@@ -45,21 +50,22 @@ impl Facts {
 /// The cyclic coordinates, and the momenta that are conserved because L and the forces do not depend on their
 /// coordinates and no constraint acts along them.
 fn momenta(
-    problem: &mut Problem,
+    graph: &mut Graph,
+    problem: &Problem,
     equations: &Equations,
     moments: &mut Moments,
 ) -> (Vec<usize>, Vec<Conserved>) {
     let (mut cyclic, mut conserved) = (Vec::new(), Vec::new());
     for a in 0..problem.coordinates.len() {
-        let Some(free) = vanishes(problem, equations.momentum_rate[a]) else { continue };
+        let Some(free) = vanishes(graph, problem, equations.momentum_rate[a]) else { continue };
         let force = equations.constraint_force.get(a).copied().unwrap_or(Id::ZERO);
-        let evidence = match vanishes(problem, force) {
+        let evidence = match vanishes(graph, problem, force) {
             Some(constrained) => {
                 cyclic.push(a);
                 Some(free.and(constrained))
             }
             // A constraint that could act along the coordinate may do so in no motion.
-            None => found(problem, equations, moments, equations.momentum[a]),
+            None => found(graph, problem, equations, moments, equations.momentum[a]),
         };
         let name = format!("p_{}", problem.coordinates[a].text);
         conserved.extend(evidence.map(|evidence| Conserved {
@@ -73,22 +79,22 @@ fn momenta(
 
 /// With L = L₀ + L₁ + L₂ by degree in the velocities: E = L₂ − L₀, which is T + U if L₁ = 0. With
 /// D = Σ q̇ ∂/∂q̇ that is D(E) = D(L).
-fn energy_is_t_plus_u(problem: &mut Problem, equations: &Equations) -> Option<Evidence> {
+fn energy_is_t_plus_u(graph: &mut Graph, problem: &Problem, equations: &Equations) -> Option<Evidence> {
     let two = Rational::from_integer(2);
     let is_even = |part: &Part| part.degree.is_zero() || part.degree == two;
-    if degree::parts(&problem.graph, problem.lagrangian).is_some_and(|parts| parts.iter().all(is_even)) {
+    if degree::parts(graph, problem.lagrangian).is_some_and(|parts| parts.iter().all(is_even)) {
         return Some(Evidence::Proved);
     }
-    let rate = by_degree(problem, equations.energy);
-    let vis_viva = problem.graph.add(equations.energy, problem.lagrangian);
-    let difference = problem.graph.sub(rate, vis_viva);
-    vanishes(problem, difference)
+    let rate = by_degree(graph, problem, equations.energy);
+    let vis_viva = graph.add(equations.energy, problem.lagrangian);
+    let difference = graph.sub(rate, vis_viva);
+    vanishes(graph, problem, difference)
 }
 
 /// Σ q̇ ∂/∂q̇, which multiplies each part by its degree in the velocities.
-pub(super) fn by_degree(problem: &mut Problem, expression: Id) -> Id {
+pub(super) fn by_degree(graph: &mut Graph, problem: &Problem, expression: Id) -> Id {
     let n = problem.coordinates.len();
     let velocities = (0..n).map(|i| Variable::Velocity(i).symbol());
-    let seeds: Vec<_> = velocities.map(|symbol| (symbol, problem.graph.symbol(symbol))).collect();
-    Forward::along(seeds).of(&mut problem.graph, expression)
+    let seeds: Vec<_> = velocities.map(|symbol| (symbol, graph.symbol(symbol))).collect();
+    Forward::along(seeds).of(graph, expression)
 }

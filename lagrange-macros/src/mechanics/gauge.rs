@@ -6,7 +6,7 @@ use super::Evidence;
 use super::facts::by_degree;
 use super::{Equations, symbols, vanishes};
 use crate::resolve::{Problem, total_time_derivative};
-use crate::symbolic::{Forward, Id, Rational};
+use crate::symbolic::{Forward, Graph, Id, Rational};
 use crate::variables::Variable;
 
 /// A total time derivative: one term of the Lagrangian as written, or several that are one together.
@@ -34,30 +34,30 @@ const TERMS: usize = 100;
 
 /// The terms that are total derivatives by themselves; of the others, those two that are one together, or all
 /// that are linear in the velocities.
-pub(super) fn total_derivatives(problem: &mut Problem) -> Vec<TotalDerivative> {
+pub(super) fn total_derivatives(graph: &mut Graph, problem: &Problem) -> Vec<TotalDerivative> {
     if problem.terms.len() > TERMS {
         return Vec::new();
     }
-    let terms = problem.terms.clone();
-    let variations: Vec<_> = terms.iter().map(|&term| variation(problem, term)).collect();
+    let terms = &problem.terms;
+    let variations: Vec<_> = terms.iter().map(|&term| variation(graph, problem, term)).collect();
     let mut found = Vec::new();
     let mut rest = Vec::new();
     for term in 0..terms.len() {
-        match cancelled(problem, &variations, &[term]) {
+        match cancelled(graph, problem, &variations, &[term]) {
             Some(total) => found.push(total),
             None => rest.push(term),
         }
     }
-    rest.retain(|&term| is_linear(problem, terms[term]));
+    rest.retain(|&term| is_linear(graph, problem, terms[term]));
     let (mut rest, mut potentials): (Vec<_>, Vec<_>) =
-        rest.into_iter().partition(|&term| has_velocity(problem, terms[term]));
-    while let Some(pair) = pair(problem, &variations, &rest, &potentials) {
+        rest.into_iter().partition(|&term| has_velocity(graph, terms[term]));
+    while let Some(pair) = pair(graph, problem, &variations, &rest, &potentials) {
         rest.retain(|term| !pair.terms.contains(term));
         potentials.retain(|term| !pair.terms.contains(term));
         found.push(pair);
     }
     if rest.len() > 2 {
-        found.extend(cancelled(problem, &variations, &rest));
+        found.extend(cancelled(graph, problem, &variations, &rest));
     }
     found.sort_by_key(|total| total.terms[0]);
     found
@@ -65,7 +65,8 @@ pub(super) fn total_derivatives(problem: &mut Problem) -> Vec<TotalDerivative> {
 
 /// A term with a velocity, and another one that makes it a total derivative.
 fn pair(
-    problem: &mut Problem,
+    graph: &mut Graph,
+    problem: &Problem,
     variations: &[Vec<Id>],
     linear: &[usize],
     potentials: &[usize],
@@ -73,7 +74,7 @@ fn pair(
     for (i, &first) in linear.iter().enumerate() {
         for &second in linear[i + 1..].iter().chain(potentials) {
             let pair = [first.min(second), first.max(second)];
-            let total = cancelled(problem, variations, &pair);
+            let total = cancelled(graph, problem, variations, &pair);
             if total.is_some() {
                 return total;
             }
@@ -83,65 +84,70 @@ fn pair(
 }
 
 /// The terms as a total derivative, if their Euler–Lagrange expressions sum to zero.
-fn cancelled(problem: &mut Problem, variations: &[Vec<Id>], terms: &[usize]) -> Option<TotalDerivative> {
+fn cancelled(
+    graph: &mut Graph,
+    problem: &Problem,
+    variations: &[Vec<Id>],
+    terms: &[usize],
+) -> Option<TotalDerivative> {
     let one = Rational::from_integer(1);
     let evidence = (0..problem.coordinates.len()).try_fold(Evidence::Proved, |evidence, i| {
-        let sum = problem.graph.sum(terms.iter().map(|&term| (variations[term][i], one)));
-        Some(evidence.and(vanishes(problem, sum)?))
+        let sum = graph.sum(terms.iter().map(|&term| (variations[term][i], one)));
+        Some(evidence.and(vanishes(graph, problem, sum)?))
     })?;
     Some(TotalDerivative { terms: terms.to_vec(), evidence })
 }
 
 /// d/dt ∂T/∂q̇ − ∂T/∂q of a term T, for each coordinate.
-fn variation(problem: &mut Problem, term: Id) -> Vec<Id> {
+fn variation(graph: &mut Graph, problem: &Problem, term: Id) -> Vec<Id> {
     let n = problem.coordinates.len();
-    let total = total_time_derivative(&mut problem.graph, n);
-    variation_along(problem, term, total)
+    let total = total_time_derivative(graph, n);
+    variation_along(graph, problem, term, total)
 }
 
-fn variation_along(problem: &mut Problem, term: Id, mut rate: Forward) -> Vec<Id> {
+fn variation_along(graph: &mut Graph, problem: &Problem, term: Id, mut rate: Forward) -> Vec<Id> {
     let n = problem.coordinates.len();
     let state = [symbols(n, Variable::Coordinate), symbols(n, Variable::Velocity)].concat();
-    let gradient = problem.graph.gradient(term, &state);
+    let gradient = graph.gradient(term, &state);
     let (force, momentum) = gradient.split_at(n);
     let rows = momentum.iter().zip(force);
     rows.map(|(&p, &force)| {
-        let rate = rate.of(&mut problem.graph, p);
-        problem.graph.sub(rate, force)
+        let rate = rate.of(graph, p);
+        graph.sub(rate, force)
     })
     .collect()
 }
 
 /// Whether a term has no parts but those of degree 0 and 1 in the velocities: D(D − 1) makes them zero.
-fn is_linear(problem: &mut Problem, term: Id) -> bool {
-    let first = by_degree(problem, term);
-    let second = by_degree(problem, first);
-    let difference = problem.graph.sub(second, first);
-    vanishes(problem, difference).is_some()
+fn is_linear(graph: &mut Graph, problem: &Problem, term: Id) -> bool {
+    let first = by_degree(graph, problem, term);
+    let second = by_degree(graph, problem, first);
+    let difference = graph.sub(second, first);
+    vanishes(graph, problem, difference).is_some()
 }
 
-fn has_velocity(problem: &Problem, term: Id) -> bool {
+fn has_velocity(graph: &Graph, term: Id) -> bool {
     let is_velocity = |symbol| matches!(Variable::of(symbol), Variable::Velocity(_));
-    problem.graph.symbols(&[term]).any(is_velocity)
+    graph.symbols(&[term]).any(is_velocity)
 }
 
 /// With D L = L₁ + 2 L₂ the linear part is L₁ = 2 D L − D² L, if there are no parts of other degrees. Its own
 /// Euler–Lagrange equations with the time held fixed are (∂A_i/∂q_j − ∂A_j/∂q_i) q̇_j = 0.
-pub(super) fn linear_part(problem: &mut Problem, equations: &Equations) -> LinearPart {
+pub(super) fn linear_part(graph: &mut Graph, problem: &Problem, equations: &Equations) -> LinearPart {
     let (one, two) = (Rational::from_integer(1), Rational::from_integer(2));
-    let vis_viva = problem.graph.add(equations.energy, problem.lagrangian);
-    let rate = by_degree(problem, vis_viva);
-    let linear = problem.graph.sum([(vis_viva, two), (rate, -one)]);
-    let degree = by_degree(problem, linear);
-    let difference = problem.graph.sub(degree, linear);
-    if vanishes(problem, difference).is_none() {
+    let vis_viva = graph.add(equations.energy, problem.lagrangian);
+    let rate = by_degree(graph, problem, vis_viva);
+    let linear = graph.sum([(vis_viva, two), (rate, -one)]);
+    let degree = by_degree(graph, problem, linear);
+    let difference = graph.sub(degree, linear);
+    if vanishes(graph, problem, difference).is_none() {
         return LinearPart::Open;
     }
     let n = problem.coordinates.len();
     let motion = (0..n).map(|i| (Variable::Coordinate(i).symbol(), Variable::Velocity(i).symbol()));
-    let seeds: Vec<_> = motion.map(|(q, v)| (q, problem.graph.symbol(v))).collect();
-    let rows = variation_along(problem, linear, Forward::along(seeds));
-    let evidence = rows.into_iter().map(|row| vanishes(problem, row)).collect::<Option<Vec<_>>>();
+    let seeds: Vec<_> = motion.map(|(q, v)| (q, graph.symbol(v))).collect();
+    let rows = variation_along(graph, problem, linear, Forward::along(seeds));
+    let evidence = rows.into_iter().map(|row| vanishes(graph, problem, row)).collect::<Option<Vec<_>>>();
     match evidence {
         Some(rows) => LinearPart::Closed(rows.into_iter().fold(Evidence::Proved, Evidence::and)),
         None => LinearPart::Open,

@@ -31,13 +31,13 @@ pub(crate) struct Form {
 impl Form {
     /// Over the accelerations alone, and over the velocities that definitions name as well where there are any and
     /// exact arithmetic can write it.
-    pub(super) fn all(problem: &mut Problem, motion: &Motion) -> Vec<Self> {
+    pub(super) fn all(graph: &mut Graph, problem: &Problem, motion: &Motion) -> Vec<Self> {
         let plain = Self::new(motion.mass.clone(), motion.forcing.clone(), Vec::new());
-        let velocities = Velocities::named(problem);
-        let named = (!velocities.rows.is_empty()).then(|| velocities.form(problem));
-        let named = named.filter(|_| problem.graph.take_fault().is_none());
+        let velocities = Velocities::named(graph, problem);
+        let named = (!velocities.rows.is_empty()).then(|| velocities.form(graph, problem));
+        let named = named.filter(|_| graph.take_fault().is_none());
         let mut forms: Vec<Self> = [plain].into_iter().chain(named).collect();
-        forms.iter_mut().for_each(|form| form.divide_what_is_alone(&mut problem.graph));
+        forms.iter_mut().for_each(|form| form.divide_what_is_alone(graph));
         forms
     }
 
@@ -71,9 +71,8 @@ struct Velocities {
 
 impl Velocities {
     /// The definitions in L that are linear in the velocities; none where very many contain a velocity.
-    fn named(problem: &mut Problem) -> Self {
+    fn named(graph: &mut Graph, problem: &Problem) -> Self {
         let n = problem.coordinates.len();
-        let graph = &mut problem.graph;
         let q_dot: Vec<Id> = symbols(n, Variable::Velocity).iter().map(|&v| graph.symbol(v)).collect();
         let mut named = Self { nodes: q_dot, rows: Vec::new() };
         let mut moving = Moving::default();
@@ -102,9 +101,9 @@ impl Velocities {
     /// L is ℓ(q, q̇, w), the named velocities w are f(q, q̇, w) one after the other, and the adjoints of those are
     /// μ = ∂ℓ/∂w + Σ μ ∂f/∂w. Then p = ∂ℓ/∂q̇ + Σ μ ∂f/∂q̇, and the parts of d/dt p = ∂L/∂q + Q go to the x that
     /// they are the coefficients of.
-    fn form(&self, problem: &mut Problem) -> Form {
-        let local = problem.graph.gradient_to(problem.lagrangian, &self.nodes);
-        let (matrix, linear) = (self.hessian(&mut problem.graph, &local), self.linear(problem, &local));
+    fn form(&self, graph: &mut Graph, problem: &Problem) -> Form {
+        let local = graph.gradient_to(problem.lagrangian, &self.nodes);
+        let (matrix, linear) = (self.hessian(graph, &local), self.linear(graph, problem, &local));
         let entries =
             |row: &Vec<Id>| row.iter().copied().enumerate().filter(|&(_, entry)| entry != Id::ZERO).collect();
         let definitions = self.rows.iter().map(entries).collect();
@@ -122,25 +121,25 @@ impl Velocities {
         (0..local.len()).map(row).collect()
     }
 
-    fn linear(&self, problem: &mut Problem, local: &[Id]) -> Vec<Id> {
+    fn linear(&self, graph: &mut Graph, problem: &Problem, local: &[Id]) -> Vec<Id> {
         let n = problem.coordinates.len();
         let one = Rational::from_integer(1);
-        let adjoints = self.adjoints(&mut problem.graph, local);
-        let mut along = drift(&mut problem.graph, n);
+        let adjoints = self.adjoints(graph, local);
+        let mut along = drift(graph, n);
         let mut linear = Vec::with_capacity(local.len());
         for (j, &part) in local.iter().enumerate() {
-            let mut terms = vec![(along.of(&mut problem.graph, part), -one)];
+            let mut terms = vec![(along.of(graph, part), -one)];
             for (row, &adjoint) in self.rows.iter().zip(&adjoints) {
                 let Some(&entry) = row.get(j).filter(|&&entry| entry != Id::ZERO) else { continue };
-                let turn = along.of(&mut problem.graph, entry);
-                terms.push((problem.graph.mul(adjoint, turn), -one));
+                let turn = along.of(graph, entry);
+                terms.push((graph.mul(adjoint, turn), -one));
             }
             linear.push(terms);
         }
-        for (terms, force) in linear.iter_mut().zip(self.forces(problem, &adjoints)) {
+        for (terms, force) in linear.iter_mut().zip(self.forces(graph, problem, &adjoints)) {
             terms.extend(force.into_iter().map(|force| (force, one)));
         }
-        linear.into_iter().map(|terms| problem.graph.sum(terms)).collect()
+        linear.into_iter().map(|terms| graph.sum(terms)).collect()
     }
 
     /// μ: named velocities that build on others hand theirs on.
@@ -161,9 +160,8 @@ impl Velocities {
     }
 
     /// ∂L/∂q + Q by its parts: ∂ℓ/∂q, Q and Σ μ ∂f/∂q.
-    fn forces(&self, problem: &mut Problem, adjoints: &[Id]) -> Vec<Vec<Id>> {
+    fn forces(&self, graph: &mut Graph, problem: &Problem, adjoints: &[Id]) -> Vec<Vec<Id>> {
         let n = problem.coordinates.len();
-        let graph = &mut problem.graph;
         let q: Vec<Id> = symbols(n, Variable::Coordinate).iter().map(|&q| graph.symbol(q)).collect();
         let held: Vec<Id> = q.iter().chain(&self.nodes).copied().collect();
         let slopes = graph.gradient_to(problem.lagrangian, &held);
@@ -176,7 +174,7 @@ impl Velocities {
                 force.push(graph.mul(adjoint, slope));
             }
         }
-        for (force, given) in forces.iter_mut().zip(generalized_forces(problem)) {
+        for (force, given) in forces.iter_mut().zip(generalized_forces(graph, problem)) {
             force.push(given);
         }
         forces

@@ -44,13 +44,16 @@ pub(crate) fn arguments(problem: &Problem) -> Vec<Symbol> {
 }
 
 /// Differentiates the residual; `None` where exact arithmetic cannot write the result.
-pub(crate) fn linearize(problem: &mut Problem, equations: &Equations) -> Option<Linearization> {
-    let mut along_motion = along_motion(&mut problem.graph, problem.coordinates.len());
-    let motion = motion(problem, equations, &mut along_motion);
+pub(crate) fn linearize(
+    graph: &mut Graph,
+    problem: &Problem,
+    equations: &Equations,
+) -> Option<Linearization> {
+    let mut along_motion = along_motion(graph, problem.coordinates.len());
+    let motion = motion(graph, problem, equations, &mut along_motion);
     let acceleration: Vec<Id> =
-        equations.rate.iter().map(|&velocity| along_motion.of(&mut problem.graph, velocity)).collect();
+        equations.rate.iter().map(|&velocity| along_motion.of(graph, velocity)).collect();
     let arguments = arguments(problem);
-    let graph = &mut problem.graph;
     let seeds: Vec<_> = arguments
         .into_iter()
         .enumerate()
@@ -68,9 +71,13 @@ pub(crate) fn linearize(problem: &mut Problem, equations: &Equations) -> Option<
 }
 
 /// dp/dt − ∂L/∂q − Q − Fᵀλ, with accelerations and multipliers as symbols.
-fn motion(problem: &mut Problem, equations: &Equations, along_motion: &mut Forward) -> Vec<Id> {
+fn motion(
+    graph: &mut Graph,
+    problem: &Problem,
+    equations: &Equations,
+    along_motion: &mut Forward,
+) -> Vec<Id> {
     let n = problem.coordinates.len();
-    let graph = &mut problem.graph;
     let row = |i: usize| {
         let inertia = along_motion.of(graph, equations.momentum[i]);
         let free = graph.sub(inertia, equations.momentum_rate[i]);

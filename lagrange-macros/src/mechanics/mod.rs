@@ -73,22 +73,26 @@ impl Equations {
 }
 
 /// Derives the equations of motion; `None` where they do not exist, which is then reported.
-pub(crate) fn derive(problem: &mut Problem, diagnostics: &mut Diagnostics) -> Option<Equations> {
-    let motion = euler_lagrange::derive(problem);
-    reject_idle_dissipation(problem, diagnostics);
-    stop_at_fault(problem, problem.place, diagnostics)?;
-    let constraints = constraints::derive(problem, diagnostics)?;
+pub(crate) fn derive(
+    graph: &mut Graph,
+    problem: &Problem,
+    diagnostics: &mut Diagnostics,
+) -> Option<Equations> {
+    let motion = euler_lagrange::derive(graph, problem);
+    reject_idle_dissipation(graph, problem, diagnostics);
+    stop_at_fault(graph, problem.place, diagnostics)?;
+    let constraints = constraints::derive(graph, problem, diagnostics)?;
     determinacy::check(problem, &motion, &constraints, diagnostics)?;
-    let integrability = integrability::classify(problem, &constraints);
+    let integrability = integrability::classify(graph, problem, &constraints);
     Some(Equations {
-        forms: Form::all(problem, &motion),
+        forms: Form::all(graph, problem, &motion),
         integrability,
         momentum: motion.momentum,
         mass: motion.mass,
         momentum_rate: motion.momentum_rate,
         forcing: motion.forcing,
         energy: motion.energy,
-        constraint_force: constraints.force(&mut problem.graph),
+        constraint_force: constraints.force(graph),
         kinds: constraints.kinds,
         residual: constraints.residual,
         rate: constraints.rate,
@@ -99,29 +103,27 @@ pub(crate) fn derive(problem: &mut Problem, diagnostics: &mut Diagnostics) -> Op
 
 /// What is found out about the system; `None` where something said of it is wrong, which is then reported.
 pub(crate) fn facts(
-    problem: &mut Problem,
+    graph: &mut Graph,
+    problem: &Problem,
     equations: &Equations,
     diagnostics: &mut Diagnostics,
 ) -> Option<Facts> {
-    let facts = Facts::find(problem, equations, diagnostics);
-    stop_at_fault(problem, problem.place, diagnostics)?;
+    let facts = Facts::find(graph, problem, equations, diagnostics);
+    stop_at_fault(graph, problem.place, diagnostics)?;
     diagnostics.is_empty().then_some(facts)
 }
 
 /// Whether an expression is zero everywhere, and why one may think so.
-fn vanishes(problem: &mut Problem, root: Id) -> Option<Evidence> {
+fn vanishes(graph: &mut Graph, problem: &Problem, root: Id) -> Option<Evidence> {
     if root == Id::ZERO {
         return Some(Evidence::Proved);
     }
     // Most of what is not zero shows it at the first point, and need not be looked through.
     let symbol = |symbol| Approximate::exact(drawn(symbol, problem.range(symbol), 0));
-    if problem.graph.sample(&[root], 0, symbol)[0].excludes_zero() {
+    if graph.sample(&[root], 0, symbol)[0].excludes_zero() {
         return None;
     }
-    let mut graph = std::mem::take(&mut problem.graph);
-    let verdict = graph.is_zero(root, |symbol| problem.range(symbol));
-    problem.graph = graph;
-    match verdict {
+    match graph.is_zero(root, |symbol| problem.range(symbol)) {
         Verdict::Zero => Some(Evidence::Proved),
         Verdict::Held(points) => Some(Evidence::Held(points)),
         Verdict::NonZero | Verdict::Undecided => None,
@@ -129,17 +131,17 @@ fn vanishes(problem: &mut Problem, root: Id) -> Option<Evidence> {
 }
 
 /// −∂D/∂q̇ is nothing where D has no velocity in it.
-fn reject_idle_dissipation(problem: &Problem, diagnostics: &mut Diagnostics) {
+fn reject_idle_dissipation(graph: &Graph, problem: &Problem, diagnostics: &mut Diagnostics) {
     let is_velocity = |symbol| matches!(Variable::of(symbol), Variable::Velocity(_));
     if let Some((function, place)) = problem.dissipation
-        && !problem.graph.symbols(&[function]).any(is_velocity)
+        && !graph.symbols(&[function]).any(is_velocity)
     {
         diagnostics.error(place, "no velocity occurs in this dissipation function, so it does nothing");
     }
 }
 
-fn stop_at_fault(problem: &mut Problem, place: Place, diagnostics: &mut Diagnostics) -> Option<()> {
-    let fault = problem.graph.take_fault();
+fn stop_at_fault(graph: &mut Graph, place: Place, diagnostics: &mut Diagnostics) -> Option<()> {
+    let fault = graph.take_fault();
     if let Some(fault) = fault {
         diagnostics.error(place, format!("in the derivatives of this: {}", fault_message(fault)));
     }

@@ -8,7 +8,7 @@ use rustc_hash::FxHashMap;
 use super::elimination::solve;
 use super::{ConstraintKind, Equations};
 use crate::resolve::Problem;
-use crate::symbolic::{Approximate, Id, Symbol, drawn};
+use crate::symbolic::{Approximate, Graph, Id, Symbol, drawn};
 use crate::variables::Variable;
 
 /// How often a state is drawn anew where no motion is found from it.
@@ -24,10 +24,16 @@ pub(super) struct Moments {
 
 impl Moments {
     /// The moment of this index, unless states become too hard to find before.
-    pub(super) fn get(&mut self, index: usize, problem: &Problem, equations: &Equations) -> Option<&Moment> {
+    pub(super) fn get(
+        &mut self,
+        index: usize,
+        graph: &Graph,
+        problem: &Problem,
+        equations: &Equations,
+    ) -> Option<&Moment> {
         while self.found.len() <= index && self.draws < DRAWS {
             self.draws += 1;
-            self.found.extend(Moment::drawn(problem, equations, self.draws - 1));
+            self.found.extend(Moment::drawn(graph, problem, equations, self.draws - 1));
         }
         self.found.get(index)
     }
@@ -40,7 +46,7 @@ pub(super) struct Moment {
 }
 
 impl Moment {
-    fn drawn(problem: &Problem, equations: &Equations, draw: u64) -> Option<Self> {
+    fn drawn(graph: &Graph, problem: &Problem, equations: &Equations, draw: u64) -> Option<Self> {
         let n = problem.coordinates.len();
         let parameters = (0..problem.parameters.entries.len()).map(Variable::Parameter);
         let state = (0..n).flat_map(|i| [Variable::Coordinate(i), Variable::Velocity(i)]);
@@ -52,15 +58,9 @@ impl Moment {
         let is_holonomic = |a: &usize| equations.kinds[*a] == ConstraintKind::Holonomic;
         let holonomic: Vec<usize> = (0..equations.kinds.len()).filter(is_holonomic).collect();
         let all: Vec<usize> = (0..equations.kinds.len()).collect();
-        moment.project(
-            problem,
-            &equations.residual,
-            &equations.jacobian,
-            &holonomic,
-            Variable::Coordinate,
-        )?;
-        moment.project(problem, &equations.rate, &equations.jacobian, &all, Variable::Velocity)?;
-        moment.accelerate(problem, equations)?;
+        moment.project(graph, &equations.residual, &equations.jacobian, &holonomic, Variable::Coordinate)?;
+        moment.project(graph, &equations.rate, &equations.jacobian, &all, Variable::Velocity)?;
+        moment.accelerate(graph, problem, equations)?;
         Some(moment)
     }
 
@@ -68,14 +68,14 @@ impl Moment {
         self.values.get(&variable.symbol()).copied().unwrap_or(Approximate::exact(f64::NAN))
     }
 
-    pub(super) fn values(&self, problem: &Problem, roots: &[Id]) -> Vec<Approximate> {
-        problem.graph.sample(roots, self.draw, |symbol| self.get(Variable::of(symbol)))
+    pub(super) fn values(&self, graph: &Graph, roots: &[Id]) -> Vec<Approximate> {
+        graph.sample(roots, self.draw, |symbol| self.get(Variable::of(symbol)))
     }
 
     /// Moves the coordinates or the velocities to where the residuals of `rows` vanish.
     fn project(
         &mut self,
-        problem: &Problem,
+        graph: &Graph,
         residual: &[Id],
         jacobian: &[Vec<Id>],
         rows: &[usize],
@@ -87,7 +87,7 @@ impl Moment {
         let residual: Vec<Id> = rows.iter().map(|&a| residual[a]).collect();
         let jacobian: Vec<&[Id]> = rows.iter().map(|&a| jacobian[a].as_slice()).collect();
         for _ in 0..NEWTON_STEPS {
-            let correction = self.correction(problem, &residual, &jacobian)?;
+            let correction = self.correction(graph, &residual, &jacobian)?;
             let mut met = true;
             for (i, step) in correction.iter().enumerate() {
                 let x = self.values.get_mut(&variable(i).symbol())?;
@@ -113,9 +113,9 @@ impl Moment {
     }
 
     /// The shortest Δ with F Δ = residual: Fᵀ (F Fᵀ)⁻¹ residual.
-    fn correction(&self, problem: &Problem, residual: &[Id], jacobian: &[&[Id]]) -> Option<Vec<Approximate>> {
-        let n = problem.coordinates.len();
-        let values = self.values(problem, &[&jacobian.concat(), residual].concat());
+    fn correction(&self, graph: &Graph, residual: &[Id], jacobian: &[&[Id]]) -> Option<Vec<Approximate>> {
+        let n = jacobian[0].len();
+        let values = self.values(graph, &[&jacobian.concat(), residual].concat());
         let (jacobian, residual) = values.split_at(n * residual.len());
         let jacobian: Vec<&[Approximate]> = jacobian.chunks(n).collect();
         let gram = jacobian.iter().zip(residual).map(|(row, &right)| {
@@ -129,12 +129,12 @@ impl Moment {
     }
 
     /// M q̈ − Fᵀλ = h, F q̈ = −γ
-    fn accelerate(&mut self, problem: &Problem, equations: &Equations) -> Option<()> {
+    fn accelerate(&mut self, graph: &Graph, problem: &Problem, equations: &Equations) -> Option<()> {
         let (n, m) = (problem.coordinates.len(), problem.constraints.len());
         let zero = Approximate::exact(0.0);
         let roots =
             [&equations.mass.concat(), &equations.forcing, &equations.jacobian.concat(), &equations.bias];
-        let values = self.values(problem, &roots.map(Vec::as_slice).concat());
+        let values = self.values(graph, &roots.map(Vec::as_slice).concat());
         let (mass, rest) = values.split_at(n * n);
         let (forcing, rest) = rest.split_at(n);
         let (jacobian, bias) = rest.split_at(n * m);

@@ -48,8 +48,8 @@ fn momenta_and_forces_of_a_chain_cost_linearly_many_operations() {
     let mut table = String::from("operations (operands in the graph)\n");
     table += &format!("links {:>12} {:>14} {:>22} {:>14}\n", "p", "∂L/∂q", "p, no boundaries", "∂L/∂q");
     for n in LENGTHS {
-        let (problem, equations) = equations(&systems::chain(n));
-        let (mut graph, lagrangian) = (problem.graph, problem.lagrangian);
+        let (mut graph, problem, equations) = equations(&systems::chain(n));
+        let lagrangian = problem.lagrangian;
         let of_chain = costs(&mut graph, lagrangian, n);
         assert_eq!(cost(&graph, &equations.momentum).operations, of_chain[0].operations, "this is p");
         let without = graph.looked_through(lagrangian);

@@ -10,9 +10,9 @@ use crate::variables::Variable;
 /// Operations of the accelerations and multipliers before the passes and after each, by the form of M and by that over
 /// definitions.
 fn counts(source: &str) -> Vec<Option<Vec<usize>>> {
-    let (problem, equations) = equations(source);
+    let (graph, _, equations) = equations(source);
     let arithmetic = |counts: Vec<(_, Count)>| counts.iter().map(|(_, count)| count.arithmetic).collect();
-    solving(&problem, &equations).into_iter().map(|counts| counts.map(arithmetic)).collect()
+    solving(&graph, &equations).into_iter().map(|counts| counts.map(arithmetic)).collect()
 }
 
 fn last(counts: &Option<Vec<usize>>) -> Option<usize> {
@@ -124,7 +124,7 @@ const NAMED: [&str; 8] = [
 #[test]
 fn every_form_has_the_same_solution() {
     for source in NAMED {
-        let (problem, equations) = equations(source);
+        let (graph, _, equations) = equations(source);
         assert_eq!(equations.forms.len(), 2, "{source}");
         assert!(!equations.forms[1].definitions.is_empty(), "{source}");
         for point in 0..20 {
@@ -139,7 +139,7 @@ fn every_form_has_the_same_solution() {
                     2.0 * part - 1.0
                 }
             };
-            let solutions = solutions(&problem, &equations, input);
+            let solutions = solutions(&graph, &equations, input);
             let [Some(plain), Some(named)] = &solutions[..] else { panic!("both are short: {source}") };
             let scale = plain.iter().fold(0.0_f64, |scale, x| scale.max(x.abs()));
             for (x, y) in plain.iter().zip(named).take(plain.len() - 1) {
@@ -170,8 +170,8 @@ fn the_pivot_is_no_number_where_a_result_is_none() {
         "#[coordinates(x)] #[lagrangian(m*x_dot^2/2 - m*x)] struct E { m: f64 }",
     ];
     for source in spoilt {
-        let (problem, equations) = equations(source);
-        for solution in solutions(&problem, &equations, |_| 0.0) {
+        let (graph, _, equations) = equations(source);
+        for solution in solutions(&graph, &equations, |_| 0.0) {
             let solution = solution.expect("short");
             assert!(
                 !solution.last().is_some_and(|pivot| pivot.is_finite() && *pivot > 0.0),
@@ -198,17 +198,17 @@ fn what_would_be_too_long_is_left_to_loops() {
         "#[coordinates(x: [{m}], y: [{m}])] #[lagrangian(sum(i in 0..{m}, x_dot[i]^2 + y_dot[i]^2)/2)] {rods}
          struct Lattice {{}}"
     );
-    let (problem, equations) = equations(&source);
-    assert!(solving(&problem, &equations).iter().all(Option::is_none));
+    let (graph, _, equations) = equations(&source);
+    assert!(solving(&graph, &equations).iter().all(Option::is_none));
 }
 
 /// h/M of x is −10⁵⁰ x, which is no exact number here; the equations have it as a quotient.
 #[test]
 fn a_quotient_that_exact_arithmetic_cannot_write_is_left_to_run_time() {
     let source = "#[coordinates(x)] #[lagrangian(1e-25*x_dot^2/2 - 1e25*x^2/2)] struct Stiff {}";
-    let (problem, equations) = equations(source);
+    let (graph, _, equations) = equations(source);
     assert_eq!(equations.forms[0].alone, [None]);
-    let solution = &solutions(&problem, &equations, |_| 0.5)[0];
+    let solution = &solutions(&graph, &equations, |_| 0.5)[0];
     let acceleration = solution.as_ref().expect("short")[0];
     assert!((acceleration + 0.5e50).abs() < 1e36, "{acceleration:e}");
     assert!(!crate::expand(super::tokens(source)).to_string().contains("compile_error"));
@@ -222,7 +222,7 @@ fn very_many_named_velocities_are_not_solved_over() {
             "#[coordinates(x, y)] #[define(v[i in 0..{count}] = cos(i*x)*x_dot + y_dot)]
              #[lagrangian(dot(v, v)/2 + x_dot^2)] struct Many {{}}"
         );
-        equations(&source).1.forms.len()
+        equations(&source).2.forms.len()
     };
     assert_eq!((named(40), named(600)), (2, 1));
 }

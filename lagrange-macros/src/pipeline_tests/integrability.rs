@@ -21,7 +21,7 @@ fn kinds(coordinates: &str, constraints: &str) -> Kinds {
         squares.join(" + "),
         constraints.join("\n")
     ))
-    .1
+    .2
     .integrability
 }
 

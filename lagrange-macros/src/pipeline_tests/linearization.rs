@@ -10,10 +10,10 @@ use crate::variables::Variable;
 
 const LENGTHS: [usize; 5] = [4, 8, 12, 16, 20];
 
-fn linearization(source: &str) -> (Problem, Linearization) {
-    let (mut problem, equations) = equations(source);
-    let linearization = linearize(&mut problem, &equations).expect("no fault");
-    (problem, linearization)
+fn linearization(source: &str) -> (Graph, Problem, Linearization) {
+    let (mut graph, problem, equations) = equations(source);
+    let linearization = linearize(&mut graph, &problem, &equations).expect("no fault");
+    (graph, problem, linearization)
 }
 
 fn count(graph: &Graph, roots: &[Id]) -> usize {
@@ -22,7 +22,7 @@ fn count(graph: &Graph, roots: &[Id]) -> usize {
 }
 
 /// ∂R/∂(t, q, q̇), each column a formula of its own.
-fn columns(problem: &mut Problem, linearization: &Linearization) -> Vec<Id> {
+fn columns(graph: &mut Graph, problem: &Problem, linearization: &Linearization) -> Vec<Id> {
     let mut all = Vec::new();
     for column in 0..=2 * problem.coordinates.len() {
         let seed = |symbol| match Variable::of(symbol) {
@@ -30,7 +30,7 @@ fn columns(problem: &mut Problem, linearization: &Linearization) -> Vec<Id> {
             _ => None,
         };
         for root in linearization.roots() {
-            all.push(problem.graph.substituted(root, seed));
+            all.push(graph.substituted(root, seed));
         }
     }
     all
@@ -41,8 +41,8 @@ fn columns(problem: &mut Problem, linearization: &Linearization) -> Vec<Id> {
 fn the_change_along_a_direction_takes_linearly_many_operations() {
     for (name, system) in [("angles", systems::chain as fn(usize) -> String), ("rods", systems::rods)] {
         let counts = LENGTHS.map(|n| {
-            let (problem, linearization) = linearization(&system(n));
-            count(&problem.graph, &linearization.roots())
+            let (graph, _, linearization) = linearization(&system(n));
+            count(&graph, &linearization.roots())
         });
         println!("a chain of {LENGTHS:?} in {name}: {counts:?} operations");
         assert!(counts.windows(3).all(|c| c[2] + c[0] == 2 * c[1]), "{counts:?}");
@@ -52,9 +52,9 @@ fn the_change_along_a_direction_takes_linearly_many_operations() {
 #[test]
 fn the_columns_as_formulas_take_quadratically_many() {
     let counts = LENGTHS.map(|n| {
-        let (mut problem, linearization) = linearization(&systems::chain(n));
-        let columns = columns(&mut problem, &linearization);
-        count(&problem.graph, &columns)
+        let (mut graph, problem, linearization) = linearization(&systems::chain(n));
+        let columns = columns(&mut graph, &problem, &linearization);
+        count(&graph, &columns)
     });
     println!("all columns for a chain of {LENGTHS:?} in angles: {counts:?} operations");
     // More than half as much again as in proportion to the length.

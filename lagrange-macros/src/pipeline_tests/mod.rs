@@ -14,6 +14,7 @@ use proc_macro2::TokenStream;
 use crate::diagnostics::Diagnostics;
 use crate::mechanics::{self, Equations};
 use crate::resolve::{self, Problem};
+use crate::symbolic::Graph;
 use crate::syntax::{self, Declaration};
 
 fn tokens(source: &str) -> TokenStream {
@@ -28,9 +29,9 @@ fn declaration(source: &str) -> (Declaration, Diagnostics) {
 }
 
 /// The stages up to the equations, for a source without errors.
-fn equations(source: &str) -> (Problem, Equations) {
+fn equations(source: &str) -> (Graph, Problem, Equations) {
     let (declaration, mut diagnostics) = declaration(source);
-    let mut problem = resolve::problem(&declaration, &mut diagnostics).expect("no errors");
-    let equations = mechanics::derive(&mut problem, &mut diagnostics).expect("no errors");
-    (problem, equations)
+    let (mut graph, problem) = resolve::problem(&declaration, &mut diagnostics).expect("no errors");
+    let equations = mechanics::derive(&mut graph, &problem, &mut diagnostics).expect("no errors");
+    (graph, problem, equations)
 }

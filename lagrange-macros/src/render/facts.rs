@@ -5,12 +5,13 @@ use super::notation::Notation;
 use super::{Equation, Line, READABLE, symbols_to_read};
 use crate::mechanics::{Equations, Evidence, Facts, Quantity};
 use crate::resolve::Problem;
-use crate::symbolic::Id;
+use crate::symbolic::{Graph, Id};
 use crate::syntax::{Declaration, Expression, Sign};
 
 /// A line for each conserved quantity.
 pub(super) fn conserved(
     declaration: &Declaration,
+    graph: &Graph,
     problem: &Problem,
     equations: &Equations,
     facts: &Facts,
@@ -22,7 +23,7 @@ pub(super) fn conserved(
     for conserved in &facts.conserved {
         let line = |left: &str, equation: Result<Formula, Id>, remark| Line {
             label: None,
-            equation: either(Formula::labelled(left, 0), equation, problem),
+            equation: either(Formula::labelled(left, 0), equation, graph, problem),
             remark,
         };
         match conserved.quantity {
@@ -49,12 +50,12 @@ pub(super) fn conserved(
 }
 
 /// An equation with a formula, or with what is derived if that can be read.
-fn either(left: Formula, right: Result<Formula, Id>, problem: &Problem) -> Equation {
+fn either(left: Formula, right: Result<Formula, Id>, graph: &Graph, problem: &Problem) -> Equation {
     match right {
         Ok(formula) => Equation::Known(left, formula),
-        Err(id) => match symbols_to_read(problem, &[id])[&id] {
+        Err(id) => match symbols_to_read(graph, problem, &[id])[&id] {
             size if size > READABLE => Equation::TooLong(size),
-            _ => Equation::Known(left, derived(id, problem)),
+            _ => Equation::Known(left, derived(id, graph, problem)),
         },
     }
 }

@@ -5,7 +5,7 @@ use num_traits::{One, Signed};
 
 use super::supplied;
 use crate::resolve::{Element, Problem};
-use crate::symbolic::{Id, Node, Rational};
+use crate::symbolic::{Graph, Id, Node, Rational};
 use crate::syntax::{Expression, Kind, Operator, Sign};
 use crate::variables::Variable;
 
@@ -210,28 +210,32 @@ fn call(name: &str, mut arguments: Vec<Formula>) -> Formula {
 }
 
 /// A node of the graph, as a formula. Definitions appear by name.
-pub(super) fn derived(id: Id, problem: &Problem) -> Formula {
-    match problem.graph.node(id) {
+pub(super) fn derived(id: Id, graph: &Graph, problem: &Problem) -> Formula {
+    match graph.node(id) {
         Node::Number(value) => Formula::Number(value.abs()).signed(value.is_negative()),
         Node::Pi => Formula::Pi,
         Node::Symbol(symbol) => variable(Variable::of(*symbol), problem),
         Node::Sum(terms) => {
-            let mut terms: Vec<_> = terms.iter().map(|&(term, c)| derived_term(term, c, problem)).collect();
+            let mut terms: Vec<_> =
+                terms.iter().map(|&(term, c)| derived_term(term, c, graph, problem)).collect();
             terms.sort_by_key(Formula::is_negative);
             if terms.len() == 1 { terms.remove(0) } else { Formula::Sum(terms) }
         }
-        Node::Product(_) => derived_term(id, Rational::one(), problem),
-        Node::Function(function, x) => Formula::Call(function.name().to_owned(), vec![derived(*x, problem)]),
-        Node::External(external) => supplied::call(external, problem),
+        Node::Product(_) => derived_term(id, Rational::one(), graph, problem),
+        Node::Function(function, x) => {
+            Formula::Call(function.name().to_owned(), vec![derived(*x, graph, problem)])
+        }
+        Node::External(external) => supplied::call(external, graph, problem),
         Node::Atan2(y, x) => {
-            Formula::Call("atan2".to_owned(), vec![derived(*y, problem), derived(*x, problem)])
+            Formula::Call("atan2".to_owned(), vec![derived(*y, graph, problem), derived(*x, graph, problem)])
         }
-        Node::Power(base, exponent) => {
-            Formula::Power(Box::new(derived(*base, problem)), Box::new(derived(*exponent, problem)))
-        }
+        Node::Power(base, exponent) => Formula::Power(
+            Box::new(derived(*base, graph, problem)),
+            Box::new(derived(*exponent, graph, problem)),
+        ),
         Node::Defined(inner) => match problem.names.get(&id) {
             Some(name) => Formula::labelled(name, 0),
-            None => derived(*inner, problem),
+            None => derived(*inner, graph, problem),
         },
     }
 }
@@ -243,16 +247,16 @@ impl Formula {
 }
 
 /// coefficient · term
-fn derived_term(term: Id, coefficient: Rational, problem: &Problem) -> Formula {
-    let Node::Product(factors) = problem.graph.node(term) else {
-        let above = if term == Id::ONE { Vec::new() } else { vec![derived(term, problem)] };
+fn derived_term(term: Id, coefficient: Rational, graph: &Graph, problem: &Problem) -> Formula {
+    let Node::Product(factors) = graph.node(term) else {
+        let above = if term == Id::ONE { Vec::new() } else { vec![derived(term, graph, problem)] };
         return product(coefficient, above, Vec::new());
     };
     let mut factors: Vec<_> = factors.to_vec();
-    factors.sort_by_key(|&(factor, _)| reading_order(factor, problem));
+    factors.sort_by_key(|&(factor, _)| reading_order(factor, graph));
     let (mut above, mut below) = (Vec::new(), Vec::new());
     for (factor, exponent) in factors {
-        let power = power(derived(factor, problem), exponent.abs());
+        let power = power(derived(factor, graph, problem), exponent.abs());
         if exponent.is_negative() { below.push(power) } else { above.push(power) }
     }
     product(coefficient, above, below)
@@ -269,8 +273,8 @@ fn power(base: Formula, exponent: Rational) -> Formula {
 }
 
 /// Parameters come first, then multipliers, definitions, coordinates, functions, velocities, accelerations.
-fn reading_order(factor: Id, problem: &Problem) -> (u8, u32) {
-    match problem.graph.node(factor) {
+fn reading_order(factor: Id, graph: &Graph) -> (u8, u32) {
+    match graph.node(factor) {
         Node::Symbol(symbol) => match Variable::of(*symbol) {
             Variable::Parameter(_) => (0, symbol.index),
             Variable::Multiplier(_) => (1, symbol.index),

@@ -6,12 +6,18 @@ use super::notation::Notation;
 use super::symbols_to_read;
 use crate::mechanics::{Evidence, Integrability, Integrals, Kinds};
 use crate::resolve::Problem;
+use crate::symbolic::Graph;
 
 /// The remark behind a constraint that stands for `rows`: each kind among them, once.
-pub(super) fn remark(rows: impl Iterator<Item = usize>, problem: &Problem, kinds: &Kinds) -> String {
+pub(super) fn remark(
+    rows: impl Iterator<Item = usize>,
+    graph: &Graph,
+    problem: &Problem,
+    kinds: &Kinds,
+) -> String {
     let mut remarks: Vec<String> = Vec::new();
     for row in rows {
-        let remark = of_row(row, problem, kinds);
+        let remark = of_row(row, graph, problem, kinds);
         if !remarks.contains(&remark) {
             remarks.push(remark);
         }
@@ -34,7 +40,7 @@ fn qualified(text: &str, evidence: Evidence) -> String {
     }
 }
 
-fn of_row(row: usize, problem: &Problem, kinds: &Kinds) -> String {
+fn of_row(row: usize, graph: &Graph, problem: &Problem, kinds: &Kinds) -> String {
     let class = kinds.classes[row];
     let kind = match class.integrability {
         Integrability::Holonomic => "holonomic",
@@ -46,10 +52,10 @@ fn of_row(row: usize, problem: &Problem, kinds: &Kinds) -> String {
     };
     let kind = qualified(kind, class.evidence);
     match kinds.functions[row]
-        .filter(|&function| symbols_to_read(problem, &[function])[&function] <= READABLE)
+        .filter(|&function| symbols_to_read(graph, problem, &[function])[&function] <= READABLE)
     {
         Some(function) => {
-            format!("{kind}: {} is constant", Notation::Unicode.write(&derived(function, problem)))
+            format!("{kind}: {} is constant", Notation::Unicode.write(&derived(function, graph, problem)))
         }
         None => kind,
     }

@@ -14,7 +14,7 @@ use rustc_hash::FxHashMap;
 
 use crate::mechanics::{Equations, Facts};
 use crate::resolve::Problem;
-use crate::symbolic::{Id, Rational};
+use crate::symbolic::{Graph, Id, Rational};
 use crate::syntax::{Declaration, Define, Name, TargetIndex};
 use crate::variables::Variable;
 use formula::{Formula, derived, written};
@@ -55,11 +55,12 @@ enum Equation {
 /// Writes the system down.
 pub(crate) fn render(
     declaration: &Declaration,
-    problem: &mut Problem,
+    graph: &mut Graph,
+    problem: &Problem,
     equations: &Equations,
     facts: &Facts,
 ) -> Rendered {
-    let rows = motion(problem, equations);
+    let rows = motion(graph, problem, equations);
     let total_derivatives = facts::total_derivatives(declaration, problem, facts);
     let texts = facts::texts(&total_derivatives);
     let term = |formula| Line { label: None, equation: Equation::Term(formula), remark: String::new() };
@@ -67,13 +68,13 @@ pub(crate) fn render(
         Section { heading: "Lagrangian", lines: lagrangian(declaration, problem), note: None },
         Section {
             heading: "Constraints",
-            lines: constraints(declaration, problem, equations),
+            lines: constraints(declaration, graph, problem, equations),
             note: equations.integrability.integrals.and_then(kinds::note),
         },
         Section { heading: "Equations of motion", lines: rows, note: None },
         Section {
             heading: "Conserved",
-            lines: facts::conserved(declaration, problem, equations, facts),
+            lines: facts::conserved(declaration, graph, problem, equations, facts),
             note: None,
         },
         Section {
@@ -127,7 +128,12 @@ fn target(name: &Name, index: &TargetIndex, problem: &Problem) -> Formula {
     Formula::Name { base: name.text.clone(), dots: 0, indices: index.into_iter().collect() }
 }
 
-fn constraints(declaration: &Declaration, problem: &Problem, equations: &Equations) -> Vec<Line> {
+fn constraints(
+    declaration: &Declaration,
+    graph: &Graph,
+    problem: &Problem,
+    equations: &Equations,
+) -> Vec<Line> {
     let line = |constraint: &crate::syntax::Constraint| {
         let name = &constraint.target.name.text;
         let is_it = |text: &str| text == name || text.starts_with(&format!("{name}["));
@@ -142,29 +148,29 @@ fn constraints(declaration: &Declaration, problem: &Problem, equations: &Equatio
                 written(&constraint.left, problem),
                 written(&constraint.right, problem),
             ),
-            remark: kinds::remark(rows, problem, &equations.integrability),
+            remark: kinds::remark(rows, graph, problem, &equations.integrability),
         }
     };
     declaration.constraints.iter().map(line).collect()
 }
 
 /// Σ_j M_ij q̈_j = h_i + Σ_α λ_α F_αi, a row for each coordinate.
-fn motion(problem: &mut Problem, equations: &Equations) -> Vec<Line> {
+fn motion(graph: &mut Graph, problem: &Problem, equations: &Equations) -> Vec<Line> {
     let sides: Vec<(Id, Vec<Id>)> = (0..problem.coordinates.len())
         .map(|i| {
             let right = [Some(&equations.forcing[i]), equations.constraint_force.get(i)];
             let right = right.into_iter().flatten().copied().filter(|&part| part != Id::ZERO).collect();
-            (inertia(problem, &equations.mass[i]), right)
+            (inertia(graph, &equations.mass[i]), right)
         })
         .collect();
     let parts: Vec<Id> = sides.iter().flat_map(|(left, right)| right.iter().chain([left])).copied().collect();
-    let sizes = symbols_to_read(problem, &parts);
+    let sizes = symbols_to_read(graph, problem, &parts);
     let equation = |(i, (left, right)): (usize, (Id, Vec<Id>))| {
         let size = right.iter().chain([&left]).fold(0, |size: u64, part| size.saturating_add(sizes[part]));
         let equation = match size <= READABLE {
             true => {
-                let right = right.iter().map(|&part| derived(part, problem)).collect();
-                Equation::Known(derived(left, problem), Formula::sum(right))
+                let right = right.iter().map(|&part| derived(part, graph, problem)).collect();
+                Equation::Known(derived(left, graph, problem), Formula::sum(right))
             }
             false => Equation::TooLong(size),
         };
@@ -175,8 +181,7 @@ fn motion(problem: &mut Problem, equations: &Equations) -> Vec<Line> {
 }
 
 /// Σ_j M_ij q̈_j of a row of M.
-fn inertia(problem: &mut Problem, row: &[Id]) -> Id {
-    let graph = &mut problem.graph;
+fn inertia(graph: &mut Graph, row: &[Id]) -> Id {
     let mut term = |(j, &mass)| {
         let acceleration = graph.symbol(Variable::Acceleration(j).symbol());
         (graph.mul(mass, acceleration), Rational::from_integer(1))
@@ -186,8 +191,7 @@ fn inertia(problem: &mut Problem, row: &[Id]) -> Id {
 }
 
 /// How many symbols each node would take written out, where what is shared is written again.
-fn symbols_to_read(problem: &Problem, roots: &[Id]) -> FxHashMap<Id, u64> {
-    let graph = &problem.graph;
+fn symbols_to_read(graph: &Graph, problem: &Problem, roots: &[Id]) -> FxHashMap<Id, u64> {
     let mut sizes = FxHashMap::default();
     for id in graph.reachable(roots) {
         let mut size = 1_u64;

@@ -2,12 +2,12 @@
 
 use super::formula::{Formula, derived};
 use crate::resolve::{Problem, Supplied};
-use crate::symbolic::External;
+use crate::symbolic::{External, Graph};
 
 /// `A[0](r)`, `U′(s)`, `∂U/∂r[0]`
-pub(super) fn call(external: &External, problem: &Problem) -> Formula {
+pub(super) fn call(external: &External, graph: &Graph, problem: &Problem) -> Formula {
     let function = &problem.functions[external.function as usize];
-    let flat: Vec<Formula> = external.arguments.iter().map(|&x| derived(x, problem)).collect();
+    let flat: Vec<Formula> = external.arguments.iter().map(|&x| derived(x, graph, problem)).collect();
     let name = match function.outputs {
         1 => function.name.clone(),
         _ => format!("{}[{}]", function.name, external.output),

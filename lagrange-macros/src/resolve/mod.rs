@@ -25,9 +25,10 @@ use scope::Scope;
 pub(crate) use scope::is_built_in;
 use value::Value;
 
-/// A mechanical system in the graph.
+/// A mechanical system: what it is made of are nodes of a graph beside it.
 pub(crate) struct Problem {
-    pub(crate) graph: Graph,
+    /// The number type.
+    pub(crate) scalar: syn::Type,
     pub(crate) coordinates: Vec<Label>,
     pub(crate) lagrangian: Id,
     /// The terms of the sum that the Lagrangian is, as written.
@@ -66,7 +67,7 @@ impl Problem {
 }
 
 /// Gives every expression its meaning; `None` where something was wrong, which is then reported.
-pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<Problem> {
+pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<(Graph, Problem)> {
     let scope = Scope::new(declaration, diagnostics);
     let functions = function::supplied(declaration, &scope, diagnostics);
     let parameters = Parameters::new(declaration, diagnostics);
@@ -88,8 +89,10 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
         Some((value, place)) => Some((value?, place)),
         None => None,
     };
-    diagnostics.is_empty().then_some(Problem {
-        graph,
+    diagnostics.is_empty().then_some(())?;
+    let scalar = parameters.scalar(declaration, diagnostics);
+    let problem = Problem {
+        scalar,
         coordinates,
         lagrangian,
         terms,
@@ -102,7 +105,8 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
         parameters,
         functions,
         names,
-    })
+    };
+    diagnostics.is_empty().then_some((graph, problem))
 }
 
 /// Flat names of the coordinates: `x`, `r[0]`, `r[1]`.

@@ -140,7 +140,7 @@ impl Parameters {
     }
 
     /// The number type: what the fields in use are made of, else `f64`.
-    pub(crate) fn scalar(&self, declaration: &Declaration, diagnostics: &mut Diagnostics) -> syn::Type {
+    pub(super) fn scalar(&self, declaration: &Declaration, diagnostics: &mut Diagnostics) -> syn::Type {
         let mut found: Option<(syn::Type, usize)> =
             declaration.options.scalar.clone().map(|scalar| (scalar, usize::MAX));
         if let Some((scalar, _)) = &found

@@ -9,19 +9,24 @@ use crate::symbolic::{Graph, Id, Rational, Symbol, Verdict};
 
 /// I(q, t) with dI = ω, or dI = μ ω for some simple factors μ, in the problem's graph; `None` where none is
 /// found by integrating term by term.
-pub(super) fn of(problem: &mut Problem, space: &mut Space, form: &Form, kind: Integrability) -> Option<Id> {
+pub(super) fn of(
+    graph: &mut Graph,
+    problem: &Problem,
+    space: &mut Space,
+    form: &Form,
+    kind: Integrability,
+) -> Option<Id> {
     let candidates = match kind {
         Integrability::Exact => vec![form.clone()],
         Integrability::IntegratingFactor => divided(&mut space.graph, form),
         _ => Vec::new(),
     };
-    let Space { graph, symbols, .. } = space;
     let integral = candidates.iter().find_map(|form| {
-        let integral = potential(graph, symbols, form)?;
-        is_potential(graph, symbols, form, integral, problem).then_some(integral)
+        let integral = potential(&mut space.graph, &space.symbols, form)?;
+        is_potential(space, form, integral, problem).then_some(integral)
     })?;
-    let copy = problem.graph.copied(graph, &[integral])[0];
-    problem.graph.take_fault().is_none().then_some(copy)
+    let copy = graph.copied(&space.graph, &[integral])[0];
+    graph.take_fault().is_none().then_some(copy)
 }
 
 /// The form divided by each factor of its coefficients, by its square, and by all factors.
@@ -55,7 +60,8 @@ fn potential(graph: &mut Graph, symbols: &[Symbol], form: &Form) -> Option<Id> {
 }
 
 /// Whether the gradient of `integral` is the form.
-fn is_potential(graph: &mut Graph, symbols: &[Symbol], form: &Form, integral: Id, problem: &Problem) -> bool {
+fn is_potential(space: &mut Space, form: &Form, integral: Id, problem: &Problem) -> bool {
+    let Space { graph, symbols, .. } = space;
     let gradient = graph.gradient(integral, symbols);
     gradient.into_iter().zip(form).all(|(slope, &entry)| {
         let difference = graph.sub(slope, entry);

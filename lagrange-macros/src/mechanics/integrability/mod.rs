@@ -16,7 +16,7 @@ use super::ConstraintKind;
 use super::Evidence;
 use super::constraints::Constraints;
 use crate::resolve::Problem;
-use crate::symbolic::Id;
+use crate::symbolic::{Graph, Id};
 use distribution::{Closure, Distribution};
 use space::{Form, Space};
 
@@ -63,7 +63,7 @@ pub(crate) struct Kinds {
 }
 
 /// Classifies every constraint and the set of them.
-pub(super) fn classify(problem: &mut Problem, constraints: &Constraints) -> Kinds {
+pub(super) fn classify(graph: &mut Graph, problem: &Problem, constraints: &Constraints) -> Kinds {
     let classes = constraints.kinds.iter().map(|kind| match kind {
         ConstraintKind::Holonomic => verdict(Integrability::Holonomic, Evidence::Proved),
         ConstraintKind::Velocity => verdict(Integrability::Undecided, Evidence::Held(0)),
@@ -72,8 +72,8 @@ pub(super) fn classify(problem: &mut Problem, constraints: &Constraints) -> Kind
     let mut kinds = Kinds { classes: classes.collect(), integrals: None, functions: vec![None; count] };
     if !constraints.kinds.contains(&ConstraintKind::Velocity) {
         kinds.integrals = Some(Integrals { count: 0, of: 0, evidence: Evidence::Proved });
-    } else if let Some(mut space) = Space::new(problem, constraints) {
-        fill(problem, &mut space, &mut kinds);
+    } else if let Some(mut space) = Space::new(graph, problem, constraints) {
+        fill(graph, problem, &mut space, &mut kinds);
     }
     kinds
 }
@@ -82,7 +82,7 @@ fn verdict(integrability: Integrability, evidence: Evidence) -> Classification {
     Classification { integrability, evidence }
 }
 
-fn fill(problem: &mut Problem, space: &mut Space, kinds: &mut Kinds) {
+fn fill(graph: &mut Graph, problem: &Problem, space: &mut Space, kinds: &mut Kinds) {
     let rows = space.velocity.clone();
     // First what is cheap: the brackets of a large set may grow out of hand.
     let alone: Vec<_> = rows.iter().map(|(_, form)| classify_alone(space, form)).collect();
@@ -102,7 +102,7 @@ fn fill(problem: &mut Problem, space: &mut Space, kinds: &mut Kinds) {
         };
         let Some(class) = class else { continue };
         kinds.classes[row] = class;
-        kinds.functions[row] = integral::of(problem, space, &form, class.integrability);
+        kinds.functions[row] = integral::of(graph, problem, space, &form, class.integrability);
     }
 }
 

@@ -29,7 +29,7 @@ pub(super) struct Space {
 
 impl Space {
     /// `None` where the forms are at fault or no point was found on Φ = 0.
-    pub(super) fn new(problem: &Problem, constraints: &Constraints) -> Option<Self> {
+    pub(super) fn new(graph: &Graph, problem: &Problem, constraints: &Constraints) -> Option<Self> {
         let n = problem.coordinates.len();
         let mut symbols = symbols(n, Variable::Coordinate);
         symbols.push(Variable::Time.symbol());
@@ -43,11 +43,11 @@ impl Space {
         let is_holonomic = |row: &usize| constraints.kinds[*row] == ConstraintKind::Holonomic;
         let (holonomic, velocity): (Vec<_>, Vec<_>) = (0..constraints.kinds.len()).partition(is_holonomic);
         let residuals: Vec<Id> = holonomic.iter().map(|&row| constraints.residual[row]).collect();
-        let residuals = space.graph.copied(&problem.graph, &residuals);
+        let residuals = space.graph.copied(graph, &residuals);
         space.holonomic =
             residuals.iter().map(|&residual| space.graph.gradient(residual, &space.symbols)).collect();
         for row in velocity {
-            let rate = space.graph.copied(&problem.graph, &[constraints.rate[row]])[0];
+            let rate = space.graph.copied(graph, &[constraints.rate[row]])[0];
             let form = space.form(rate, n);
             space.velocity.push((row, form));
         }

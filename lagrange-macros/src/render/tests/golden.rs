@@ -11,10 +11,10 @@ fn rendered(source: &str) -> Rendered {
     let mut diagnostics = Diagnostics::default();
     let input = syn::parse_str(source).expect("a struct");
     let declaration = syntax::declaration(input, &mut diagnostics);
-    let mut problem = resolve::problem(&declaration, &mut diagnostics).expect("no errors");
-    let equations = mechanics::derive(&mut problem, &mut diagnostics).expect("no errors");
-    let facts = mechanics::facts(&mut problem, &equations, &mut diagnostics).expect("no errors");
-    render(&declaration, &mut problem, &equations, &facts)
+    let (mut graph, problem) = resolve::problem(&declaration, &mut diagnostics).expect("no errors");
+    let equations = mechanics::derive(&mut graph, &problem, &mut diagnostics).expect("no errors");
+    let facts = mechanics::facts(&mut graph, &problem, &equations, &mut diagnostics).expect("no errors");
+    render(&declaration, &mut graph, &problem, &equations, &facts)
 }
 
 fn check(source: &str, text: Expect, latex: Expect) {
