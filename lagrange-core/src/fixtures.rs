@@ -2,7 +2,8 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::solution::eliminate::{eliminate, vector};
+use crate::number::array::vector;
+use crate::solution::eliminate::eliminate;
 use crate::{ConstraintKind, Facts, Lagrangian, Solution, State};
 
 pub(crate) type At<const N: usize> = State<f64, N>;

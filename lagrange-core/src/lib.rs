@@ -52,6 +52,8 @@ mod error;
 #[cfg(test)]
 mod fixtures;
 pub mod function;
+#[doc(hidden)]
+pub mod generated;
 mod hamiltonian;
 pub mod language;
 pub mod linearized;
@@ -85,7 +87,7 @@ pub use names::{Entry, Names, Row};
 #[cfg(feature = "std")]
 pub use number::Lanes;
 pub use number::{Dual, Real, Scalar};
-pub use solution::{Adjustment, Consistent, eliminate};
+pub use solution::{Adjustment, Consistent};
 pub use system::{
     Classification, Conserved, ConstraintKind, Equations, Evidence, Extent, Facts, Integrability, Integrals,
     Lagrangian, LinearPart, Pack, Packed, Shared, Solution, State, TotalDerivative,

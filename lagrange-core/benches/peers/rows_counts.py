@@ -36,7 +36,7 @@ def counted(expansion):
     if not found:
         raise Missing("the emitted `accelerations` do not say what they take")
     count = " / ".join(found[-1])
-    is_loops = "eliminate::eliminate(" in body.split("\n        }\n")[0]
+    is_loops = "generated::eliminate(" in body.split("\n        }\n")[0]
     return count + " + loops" if is_loops else count
 
 

@@ -5,7 +5,7 @@ use core::str::FromStr;
 
 use super::{Arrival, Member};
 use crate::names::Entry;
-use crate::solution::eliminate::vector;
+use crate::number::array::vector;
 use crate::{Ending, Error, Real, State, Statistics};
 
 /// The whole table.

@@ -2,8 +2,8 @@
 
 use super::{PhaseState, equations, legendre};
 use crate::names::Entry;
+use crate::number::array::vector;
 use crate::solution::consistent;
-use crate::solution::eliminate::vector;
 use crate::solution::flow::{Flow, Phase, Point, Slope};
 use crate::{Error, Lagrangian, Real, State};
 

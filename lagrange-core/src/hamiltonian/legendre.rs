@@ -8,8 +8,9 @@
 use core::array::from_fn;
 
 use super::PhaseState;
+use crate::number::array::vector;
 use crate::number::numeric::{exceeds, power_of_epsilon};
-use crate::solution::eliminate::{eliminate_active, vector};
+use crate::solution::eliminate::eliminate_active;
 use crate::solution::kkt::{self, Equations, Fault, Rank, natural_units, row_length};
 use crate::solution::solve::{is_trustworthy, most_involved, name, not_finite};
 use crate::{Error, Lagrangian, Real, Scalar, Solution, State};

@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use crate::Scalar;
-use crate::solution::eliminate::vector;
+use crate::number::array::vector;
 
 /// A direction in which to differentiate: how fast each argument of the equations of motion changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,13 +49,6 @@ impl<T: Scalar, const N: usize, const P: usize> Direction<T, N, P> {
 /// The unit vector `i`; zero beyond the last.
 fn unit<T: Scalar, const K: usize>(i: usize) -> SVector<T, K> {
     vector(core::array::from_fn(|j| T::constant(if i == j { 1.0 } else { 0.0 })))
-}
-
-/// `value`, or zero where `activity` is zero. Generated code calls this.
-#[doc(hidden)]
-#[inline]
-pub fn only_where<T: Scalar>(activity: T, value: T) -> T {
-    if activity == T::constant(0.0) { activity } else { value }
 }
 
 /// Derivatives along a direction, at fixed accelerations and multipliers, of what the equations of motion set to zero.

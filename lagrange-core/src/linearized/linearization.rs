@@ -7,8 +7,8 @@ use nalgebra::{DMatrix, DVector, SVector};
 use super::tangent::Tangent;
 use super::{Direction, Linearized, inputs};
 use crate::names::Entry;
+use crate::number::array::vector;
 use crate::number::numeric::{larger, power_of_epsilon};
-use crate::solution::eliminate::vector;
 use crate::solution::kkt::{Rank, Rows};
 use crate::{ConstraintKind, Error, Lagrangian, Real, Scalar, Simulate, Solution, State};
 

@@ -16,8 +16,6 @@ mod tests;
 
 use nalgebra::SVector;
 
-#[doc(hidden)]
-pub use direction::only_where;
 pub use direction::{Direction, ResidualChange};
 #[cfg(feature = "alloc")]
 pub use equilibrium::Equilibrium;

@@ -1,5 +1,6 @@
 //! The numbers that everything is computed with.
 
+pub(crate) mod array;
 mod dual;
 #[cfg(feature = "std")]
 mod lanes;

@@ -23,3 +23,9 @@ pub(crate) fn exceeds<T: Real>(x: T, bound: T) -> bool {
 pub(crate) fn power_of_epsilon<T: Real>(exponent: f64) -> T {
     Scalar::powf(T::constant(T::EPSILON), T::constant(exponent))
 }
+
+/// `value`, or zero where `activity` is zero.
+#[inline]
+pub fn only_where<T: Scalar>(activity: T, value: T) -> T {
+    if activity == T::constant(0.0) { activity } else { value }
+}

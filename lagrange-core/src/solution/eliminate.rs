@@ -1,7 +1,6 @@
 //! Elimination of the equations of motion without a branch, for any scalar.
 
-use nalgebra::{ArrayStorage, SMatrix, SVector};
-
+use crate::number::array::vector;
 use crate::{Scalar, Solution};
 
 /// Solves M q̈ − Fᵀλ = h, F q̈ = −γ by LDLᵀ of M and of the Schur complement F M⁻¹ Fᵀ, without pivoting.
@@ -127,16 +126,4 @@ fn dot<T: Scalar, const K: usize>(a: &[T; K], b: &[T; K]) -> T {
         sum = sum + a[i] * b[i];
     }
     sum
-}
-
-/// A column vector of an array, without a copy.
-#[inline]
-pub fn vector<T, const K: usize>(entries: [T; K]) -> SVector<T, K> {
-    SVector::from_array_storage(ArrayStorage([entries]))
-}
-
-/// A matrix of an array of its columns, without a copy.
-#[inline]
-pub fn matrix<T, const R: usize, const C: usize>(columns: [[T; R]; C]) -> SMatrix<T, R, C> {
-    SMatrix::from_array_storage(ArrayStorage(columns))
 }

@@ -1,9 +1,9 @@
 //! What is integrated: a motion in (q, q̇) or in (q, p). The methods are the same for both.
 
 use super::consistent;
-use super::eliminate::vector;
 use super::solve::solve_near;
 use crate::names::Entry;
+use crate::number::array::vector;
 use crate::{Error, Lagrangian, Real, State};
 
 /// Coordinates and velocities, or coordinates and momenta, as arrays: what a one-step method adds up.

@@ -1,7 +1,7 @@
 //! The equations of motion solved: accelerations and multipliers, consistent states, the rates of a motion.
 
 pub(crate) mod consistent;
-pub mod eliminate;
+pub(crate) mod eliminate;
 #[cfg(feature = "alloc")]
 pub(crate) mod flow;
 pub(crate) mod kkt;

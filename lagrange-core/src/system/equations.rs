@@ -25,12 +25,6 @@ pub struct Equations {
 }
 
 impl Equations {
-    /// Generated code calls this.
-    #[doc(hidden)]
-    pub const fn new(text: &'static str, latex: &'static str) -> Self {
-        Self { text, latex }
-    }
-
     /// In Unicode, a line for each equation.
     pub const fn text(&self) -> &'static str {
         self.text
@@ -40,6 +34,11 @@ impl Equations {
     pub const fn latex(&self) -> &'static str {
         self.latex
     }
+}
+
+/// Of these forms.
+pub const fn equations(text: &'static str, latex: &'static str) -> Equations {
+    Equations { text, latex }
 }
 
 impl Display for Equations {

@@ -1,6 +1,6 @@
 //! What a system is: the contract that generated code implements, its state, and what is known about it.
 
-mod equations;
+pub(crate) mod equations;
 mod evidence;
 mod facts;
 mod integrability;

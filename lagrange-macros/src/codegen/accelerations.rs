@@ -72,13 +72,13 @@ impl Emitter<'_> {
         self.function("accelerations", &returns, &fused.kernel, |results| match (results, fused.is_solved) {
             ([accelerations, multipliers, pivot], true) => quote! {
                 __lagrange::Solution {
-                    accelerations: __lagrange::eliminate::vector(#accelerations),
-                    multipliers: __lagrange::eliminate::vector(#multipliers),
+                    accelerations: __lagrange::generated::vector(#accelerations),
+                    multipliers: __lagrange::generated::vector(#multipliers),
                     pivot: #pivot,
                     rank: #m,
                 }
             },
-            _ => quote!(__lagrange::eliminate::eliminate(#(#results),*)),
+            _ => quote!(__lagrange::generated::eliminate(#(#results),*)),
         })
     }
 }

@@ -104,7 +104,7 @@ impl Emitter<'_> {
         let values = self.parameters.iter().map(|&k| self.style.parameter(k));
         quote! {
             fn parameters(&self) -> __lagrange::nalgebra::SVector<#scalar, #p> {
-                __lagrange::eliminate::vector([#(#values),*])
+                __lagrange::generated::vector([#(#values),*])
             }
         }
     }
@@ -150,7 +150,7 @@ impl Emitter<'_> {
             ) -> __lagrange::ResidualChange<#scalar, #n, #m> {
                 let multipliers = &solution.multipliers;
                 #statements
-                __lagrange::ResidualChange { #(#names: __lagrange::eliminate::vector(#results)),* }
+                __lagrange::ResidualChange { #(#names: __lagrange::generated::vector(#results)),* }
             }
         }
     }

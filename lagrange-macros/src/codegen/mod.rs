@@ -240,7 +240,7 @@ impl Emitter<'_> {
 
     fn vector(&self, name: &str, returns: &TokenStream, roots: &[Id]) -> TokenStream {
         let kernel = self.style.kernel(name, roots, &[Shape::Vector(roots.len())]);
-        self.function(name, returns, &kernel, |results| quote!(#(__lagrange::eliminate::vector(#results))*))
+        self.function(name, returns, &kernel, |results| quote!(#(__lagrange::generated::vector(#results))*))
     }
 
     /// nalgebra's matrices are stored by columns, of which there is one a coordinate.
@@ -250,7 +250,7 @@ impl Emitter<'_> {
         let height = rows.len();
         let kernel = self.style.kernel(name, &roots, &[Shape::Matrix(n, height)]);
         let returns = quote!(__lagrange::nalgebra::SMatrix<#scalar, #height, #n>);
-        self.function(name, &returns, &kernel, |results| quote!(#(__lagrange::eliminate::matrix(#results))*))
+        self.function(name, &returns, &kernel, |results| quote!(#(__lagrange::generated::matrix(#results))*))
     }
 
     fn constraint_force(&self) -> TokenStream {
@@ -266,7 +266,7 @@ impl Emitter<'_> {
             #[allow(unused_variables)]
             fn constraint_force(&self, state: &__lagrange::State<#scalar, #n>, multipliers: &__lagrange::nalgebra::SVector<#scalar, #m>) -> __lagrange::nalgebra::SVector<#scalar, #n> {
                 #statements
-                #(__lagrange::eliminate::vector(#results))*
+                #(__lagrange::generated::vector(#results))*
             }
         }
     }
@@ -292,7 +292,7 @@ impl Emitter<'_> {
         quote! {
             /// The system and its equations of motion, to be read.
             #visibility const fn equations() -> __lagrange::Equations {
-                __lagrange::Equations::new(#text, #latex)
+                __lagrange::generated::equations(#text, #latex)
             }
         }
     }

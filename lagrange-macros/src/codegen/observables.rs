@@ -71,7 +71,7 @@ impl Emitter<'_> {
             Shape::Number => (quote!(#scalar), quote!(#(#results)*)),
             _ => (
                 quote!(__lagrange::nalgebra::SVector<#scalar, #length>),
-                quote!(#(__lagrange::eliminate::vector(#results))*),
+                quote!(#(__lagrange::generated::vector(#results))*),
             ),
         };
         let solved = self.needs_solution(values);

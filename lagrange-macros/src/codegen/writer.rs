@@ -167,7 +167,7 @@ impl<'s, 'a> Writer<'s, 'a> {
             Operation::Maximum(x, y) => call("max", &[value(x), value(y)]),
             Operation::Where(x, y) => {
                 let (x, y) = (value(x), value(y));
-                quote!(__lagrange::linearized::only_where(#x, #y))
+                quote!(__lagrange::generated::only_where(#x, #y))
             }
             Operation::SquareRoot(x) => call("sqrt", &[value(x)]),
             Operation::Function(function, x) => call(function.name(), &[value(x)]),

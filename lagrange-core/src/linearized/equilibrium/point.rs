@@ -5,7 +5,7 @@ use nalgebra::{ComplexField, DMatrix, DVector, SVector};
 use crate::linearized::tangent::finite_change;
 use crate::linearized::{Direction, Linearized, ResidualChange};
 use crate::names::{Entry, Row};
-use crate::solution::eliminate::vector;
+use crate::number::array::vector;
 use crate::{Error, Lagrangian, Real, Scalar, Solution, State};
 
 /// Where the search is.

@@ -9,9 +9,9 @@ use nalgebra::{DMatrix, DVector, Dyn, SVD};
 use super::point::{Point, finite_residual, name, row};
 use super::weights::weights;
 use crate::linearized::Linearized;
+use crate::number::array::vector;
 use crate::number::numeric::{larger, power_of_epsilon};
 use crate::solution::consistent;
-use crate::solution::eliminate::vector;
 use crate::{Error, Lagrangian, Real, Scalar, Simulate, State};
 
 /// Steps before giving up.

@@ -14,8 +14,8 @@ use core::array::from_fn;
 
 use nalgebra::SVector;
 
+use crate::number::array::vector;
 use crate::number::numeric::{larger, power_of_epsilon, smaller};
-use crate::solution::eliminate::vector;
 use crate::{Real, Scalar, Solution};
 use qr::Qr;
 use symmetric::Symmetric;

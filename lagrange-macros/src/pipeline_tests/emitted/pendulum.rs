@@ -68,7 +68,7 @@ const _: () = {
             let [theta_dot] = state.v.data.0[0];
             let m = self.m;
             let l = self.l;
-            __lagrange::eliminate::vector([((theta_dot * m) * (l * l))])
+            __lagrange::generated::vector([((theta_dot * m) * (l * l))])
         }
         ///4 operations (+ − × ÷ √), 1 elementary function.
         #[inline]
@@ -82,7 +82,7 @@ const _: () = {
             let l = self.l;
             let g = self.g;
             let r4 = __lagrange::Scalar::sin(theta);
-            __lagrange::eliminate::vector([(-(r4 * (g * (m * l))))])
+            __lagrange::generated::vector([(-(r4 * (g * (m * l))))])
         }
         ///2 operations (+ − × ÷ √), 0 elementary functions.
         #[inline]
@@ -93,7 +93,7 @@ const _: () = {
         ) -> __lagrange::nalgebra::SMatrix<f64, 1usize, 1usize> {
             let m = self.m;
             let l = self.l;
-            __lagrange::eliminate::matrix([[(m * (l * l))]])
+            __lagrange::generated::matrix([[(m * (l * l))]])
         }
         ///4 operations (+ − × ÷ √), 1 elementary function.
         #[inline]
@@ -107,7 +107,7 @@ const _: () = {
             let l = self.l;
             let g = self.g;
             let r4 = __lagrange::Scalar::sin(theta);
-            __lagrange::eliminate::vector([(-(r4 * (g * (m * l))))])
+            __lagrange::generated::vector([(-(r4 * (g * (m * l))))])
         }
         ///0 operations (+ − × ÷ √), 0 elementary functions.
         #[inline]
@@ -116,7 +116,7 @@ const _: () = {
             &self,
             state: &__lagrange::State<f64, 1usize>,
         ) -> __lagrange::nalgebra::SVector<f64, 0usize> {
-            __lagrange::eliminate::vector([])
+            __lagrange::generated::vector([])
         }
         ///0 operations (+ − × ÷ √), 0 elementary functions.
         #[inline]
@@ -125,7 +125,7 @@ const _: () = {
             &self,
             state: &__lagrange::State<f64, 1usize>,
         ) -> __lagrange::nalgebra::SVector<f64, 0usize> {
-            __lagrange::eliminate::vector([])
+            __lagrange::generated::vector([])
         }
         ///0 operations (+ − × ÷ √), 0 elementary functions.
         #[inline]
@@ -134,7 +134,7 @@ const _: () = {
             &self,
             state: &__lagrange::State<f64, 1usize>,
         ) -> __lagrange::nalgebra::SMatrix<f64, 0usize, 1usize> {
-            __lagrange::eliminate::matrix([[]])
+            __lagrange::generated::matrix([[]])
         }
         ///0 operations (+ − × ÷ √), 0 elementary functions.
         #[inline]
@@ -143,7 +143,7 @@ const _: () = {
             &self,
             state: &__lagrange::State<f64, 1usize>,
         ) -> __lagrange::nalgebra::SVector<f64, 0usize> {
-            __lagrange::eliminate::vector([])
+            __lagrange::generated::vector([])
         }
         ///0 operations (+ − × ÷ √), 0 elementary functions.
         #[inline]
@@ -153,7 +153,7 @@ const _: () = {
             state: &__lagrange::State<f64, 1usize>,
             multipliers: &__lagrange::nalgebra::SVector<f64, 0usize>,
         ) -> __lagrange::nalgebra::SVector<f64, 1usize> {
-            __lagrange::eliminate::vector([0.0])
+            __lagrange::generated::vector([0.0])
         }
         ///9 operations (+ − × ÷ √), 1 elementary function. One product fused with a sum.
         #[inline]
@@ -169,8 +169,8 @@ const _: () = {
             let r4 = __lagrange::Scalar::sin(theta);
             let r8 = (g * r4) / l;
             __lagrange::Solution {
-                accelerations: __lagrange::eliminate::vector([(-r8)]),
-                multipliers: __lagrange::eliminate::vector([]),
+                accelerations: __lagrange::generated::vector([(-r8)]),
+                multipliers: __lagrange::generated::vector([]),
                 pivot: (__lagrange::Scalar::multiply_add(
                     0.0,
                     ((1.0 / (m * (l * l))) - r8),
@@ -223,7 +223,7 @@ Conserved
     impl Pendulum {
         /// The system and its equations of motion, to be read.
         const fn equations() -> __lagrange::Equations {
-            __lagrange::Equations::new(
+            __lagrange::generated::equations(
                 "Pendulum\n\nLagrangian\n  L = ½ m l² θ\u{307}² + m g l cos θ\n\nEquations of motion\n  θ: m l² θ\u{308} = −m l g sin θ\n\nConserved\n  E = ½ m l² θ\u{307}² − m l g cos θ   (T + U)\n",
                 "\\begin{align*}\n  L &= \\tfrac{1}{2} \\, m \\, l^{2} \\, \\dot{\\theta}^{2} + m \\, g \\, l \\, \\cos \\theta \\\\\n  m \\, l^{2} \\, \\ddot{\\theta} &= -m \\, l \\, g \\, \\sin \\theta \\\\\n  E &= \\tfrac{1}{2} \\, m \\, l^{2} \\, \\dot{\\theta}^{2} - m \\, l \\, g \\, \\cos \\theta \\\\\n\\end{align*}\n",
             )
@@ -237,7 +237,7 @@ const _: () = {
     impl __lagrange::Linearized<1usize, 0usize, 3usize> for Pendulum {
         const PARAMETERS: [&'static str; 3usize] = ["m", "l", "g"];
         fn parameters(&self) -> __lagrange::nalgebra::SVector<f64, 3usize> {
-            __lagrange::eliminate::vector([self.m, self.l, self.g])
+            __lagrange::generated::vector([self.m, self.l, self.g])
         }
         #[allow(unused_variables, unreachable_code)]
         fn set_parameter(&mut self, index: usize, value: f64) -> bool {
@@ -273,13 +273,13 @@ const _: () = {
                 * ((theta_ddot * ((2.0 * (m * d_l)) + (l * d_m))) + (d_m * (g * r6)));
             let r11 = m * l;
             __lagrange::ResidualChange {
-                motion: __lagrange::eliminate::vector([
+                motion: __lagrange::generated::vector([
                     ((g * ((d_l * (m * r6)) + (r11 * (r5 * d_theta))))
                         + (r21 + (r11 * (r6 * d_g)))),
                 ]),
-                acceleration: __lagrange::eliminate::vector([]),
-                rate: __lagrange::eliminate::vector([]),
-                position: __lagrange::eliminate::vector([]),
+                acceleration: __lagrange::generated::vector([]),
+                rate: __lagrange::generated::vector([]),
+                position: __lagrange::generated::vector([]),
             }
         }
     }
