@@ -52,3 +52,39 @@ fn tighter_tolerances_drift_less() {
     assert!(tight < loose / 100.0, "{tight} {loose}");
     assert!(pendulum.integrate(start, 1.0, Dop853::default()).unwrap().end().conserved("p_x").is_err());
 }
+
+/// Counts how often it is asked, so that the work can be told.
+struct Counted<'a>(&'a std::cell::Cell<usize>);
+
+impl Function<1, 1> for Counted<'_> {
+    fn eval<S: Scalar>(&self, [x]: [S; 1]) -> [S; 1] {
+        self.0.set(self.0.get() + 1);
+        [x * x]
+    }
+}
+
+#[derive(Lagrangian)]
+#[coordinates(x, y, z)]
+#[function(mass(x))]
+#[lagrangian((1 + mass(x))/2 * (x_dot^2 + y_dot^2 + z_dot^2))]
+struct Heavier<'a> {
+    mass: Counted<'a>,
+}
+
+/// In momenta each step takes a search for its velocity.
+#[test]
+fn all_quantities_take_one_walk_along_the_steps() {
+    let asked = std::cell::Cell::new(0);
+    let system = Heavier { mass: Counted(&asked) };
+    let start = PhaseState::new([0.1, 0.0, 0.0], [0.5, 1.0, -1.0]);
+    let path = system.integrate_hamiltonian(start, 5.0, Dopri5::default()).unwrap();
+    let work = |walk: &dyn Fn()| {
+        asked.set(0);
+        walk();
+        asked.get()
+    };
+    let names = ["p_y", "p_z", "energy"];
+    let walk = || path.steps().for_each(|step| names.iter().for_each(|name| drop(step.conserved(name))));
+    assert_eq!(path.drift().iter().map(|quantity| quantity.name).collect::<Vec<_>>(), names);
+    assert_eq!(work(&|| drop(path.drift())), work(&walk));
+}

@@ -52,14 +52,24 @@ impl<T: Real> Drift<T> {
         L: Lagrangian<N, M, Scalar = T>,
         F: Flow<L, N, M>,
     {
-        let conserved = L::FACTS.conserved.iter().enumerate();
-        let quantities = conserved.filter_map(|(index, conserved)| {
-            let mut values = path.steps().filter_map(|step| step.conserved_by_index(index));
-            let start = values.next()?;
-            let largest = values.fold(T::constant(0.0), |largest, value| farther(largest, value - start));
-            Some(Deviation { name: conserved.name, start, largest })
+        // One walk for all: the steps of a motion in (q, p) take a search for the velocity each.
+        let mut steps = path.steps();
+        let start = steps.next().into_iter().flat_map(|start| {
+            let conserved = L::FACTS.conserved.iter().enumerate();
+            conserved.filter_map(move |(index, conserved)| {
+                let (name, start) = (conserved.name, start.conserved_by_index(index)?);
+                Some((index, Deviation { name, start, largest: T::constant(0.0) }))
+            })
         });
-        Self { quantities: quantities.collect() }
+        let mut quantities: Vec<_> = start.collect();
+        for step in steps {
+            for (index, Deviation { start, largest, .. }) in &mut quantities {
+                if let Some(value) = step.conserved_by_index(*index) {
+                    *largest = farther(*largest, value - *start);
+                }
+            }
+        }
+        Self { quantities: quantities.into_iter().map(|(_, deviation)| deviation).collect() }
     }
 
     /// The quantities in the order of [`Facts::conserved`](crate::Facts::conserved).
