@@ -20,8 +20,9 @@ pub(crate) use path::Path;
 pub use sample::Sample;
 pub use statistics::Statistics;
 
+use crate::number::numeric::smaller;
 use crate::solution::flow::{Flow, LagrangianFlow};
-use crate::{Adjustment, Error, Lagrangian, Real, Scalar, State};
+use crate::{Adjustment, Error, Lagrangian, Real, State};
 
 /// The motion of a system from the start to where the integration stopped, which [`ending`](Self::ending) explains.
 ///
@@ -91,10 +92,7 @@ where
         let (first, last) = (self.path.first().t, self.path.last().t);
         let intervals = count.saturating_sub(1).max(1);
         (0..count).filter_map(move |i| {
-            let part = L::Scalar::constant(i as f64 / intervals as f64);
-            // Exactly the last time, whatever rounding does to the sum.
-            let t = if i > 0 && i == intervals { last } else { first + (last - first) * part };
-            self.state_at(t).map(|state| self.sample(state))
+            self.state_at(between(first, last, i as f64 / intervals as f64)).map(|state| self.sample(state))
         })
     }
 
@@ -157,5 +155,17 @@ where
             .field("ending", &self.ending)
             .field("statistics", &self.statistics)
             .finish()
+    }
+}
+
+/// The time after this part of the way, which rounding carries neither past the last nor past all numbers.
+fn between<T: Real>(first: T, last: T, part: f64) -> T {
+    let (span, done) = (last - first, T::constant(part));
+    if part == 1.0 {
+        last
+    } else if span.is_finite() {
+        smaller(first + span * done, last)
+    } else {
+        first * (T::constant(1.0) - done) + last * done
     }
 }
