@@ -78,14 +78,15 @@ impl Tolerance {
         after: &Phase<T, N>,
     ) -> T {
         let scale = self.scale(before, after);
-        let first = norm(&combine(slopes, P::ERROR), &scale);
+        // Times h before they are squared: slopes depend on the unit of time, and their squares leave the numbers.
+        let first = norm(h, &combine(slopes, P::ERROR), &scale);
         if P::LOWER_ERROR.is_empty() {
-            return h * first;
+            return first;
         }
-        let second = norm(&combine(slopes, P::LOWER_ERROR), &scale);
+        let second = norm(h, &combine(slopes, P::LOWER_ERROR), &scale);
         let both = (first * first + T::constant(0.01) * second * second).sqrt();
         // Lanes cannot branch where both vanish; so small an error is none.
-        h * first * first / both.max(T::constant(1e-30))
+        first * first / both.max(T::constant(1e-30))
     }
 
     /// The entry with the largest error.
@@ -143,9 +144,10 @@ impl<P: Pair> Adaptive<P> {
         span: T,
     ) -> T {
         let scale = self.tolerance::<T>().scale(y, y);
-        let (size, speed) = (norm(y, &scale), norm(slope, &scale));
+        let one = T::constant(1.0);
+        let (size, speed) = (norm(one, y, &scale), norm(one, slope, &scale));
         let least = T::constant(1e-5);
-        let usable = size > least && speed > least;
+        let usable = size > least && speed > least && speed.is_finite();
         smaller(if usable { T::constant(0.01) * size / speed } else { span * T::constant(1e-6) }, span)
     }
 
@@ -160,8 +162,9 @@ impl<P: Pair> Adaptive<P> {
     ) -> T {
         let scale = self.tolerance::<T>().scale(y, y);
         let change = from_fn(|half| from_fn(|i| after[half][i] - before[half][i]));
-        let fastest = larger(norm(&change, &scale) / guess, norm(before, &scale));
-        let step = if fastest > T::constant(1e-15) {
+        let one = T::constant(1.0);
+        let fastest = larger(norm(one, &change, &scale) / guess, norm(one, before, &scale));
+        let step = if fastest > T::constant(1e-15) && fastest.is_finite() {
             Scalar::powf(T::constant(0.01) / fastest, T::constant(1.0 / P::ORDER))
         } else {
             guess
@@ -170,10 +173,10 @@ impl<P: Pair> Adaptive<P> {
     }
 }
 
-/// √(mean (x/scale)²).
+/// √(mean (h x/scale)²).
 #[inline]
-fn norm<T: Scalar, const N: usize>(x: &Phase<T, N>, scale: &Phase<T, N>) -> T {
-    let pairs = x.iter().flatten().zip(scale.iter().flatten());
-    let sum = pairs.fold(T::constant(0.0), |sum, (x, s)| sum + (*x / *s) * (*x / *s));
+fn norm<T: Scalar, const N: usize>(h: T, x: &Phase<T, N>, scale: &Phase<T, N>) -> T {
+    let parts = x.iter().flatten().zip(scale.iter().flatten()).map(|(x, s)| h * *x / *s);
+    let sum = parts.fold(T::constant(0.0), |sum, part| sum + part * part);
     (sum / T::constant((2 * N) as f64)).sqrt()
 }
