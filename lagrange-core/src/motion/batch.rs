@@ -119,7 +119,7 @@ where
         self.settle(&fates, &attempt.next);
         for (lane, fate) in fates.into_iter().enumerate() {
             let Some(seat) = &self.seats[lane] else { continue };
-            let state = self.state(lane, seat.memory.t);
+            let state = self.state(lane, seat.memory.clock.now);
             let ending = match fate != Fate::Rejected && accept(seat.index, &state).is_break() {
                 true => Some(Ending::Cancelled { time: state.t }),
                 false => seat.ending(),
@@ -156,7 +156,8 @@ where
     /// The slopes of the stages after the first.
     #[inline]
     fn stages(&mut self, h: Lanes, trust: &mut Trust) {
-        let now = Lanes::from(from_fn(|lane| self.seats[lane].as_ref().map_or(0.0, |seat| seat.memory.t)));
+        let now =
+            Lanes::from(from_fn(|lane| self.seats[lane].as_ref().map_or(0.0, |seat| seat.memory.clock.now)));
         for (number, row) in (1..).zip(P::STAGES) {
             let y = advance(&self.y, h, &self.slopes, row);
             self.slope(number, now + h * Lanes::constant(P::NODES[number]), &y, trust);

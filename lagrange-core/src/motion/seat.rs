@@ -56,8 +56,8 @@ where
 
     /// Why there is no further step to take.
     pub(crate) fn ending(&self) -> Option<Ending> {
-        let time = self.memory.t;
-        if time >= self.memory.end {
+        let time = self.memory.clock.now;
+        if time >= self.memory.clock.end {
             return Some(Ending::Complete { time });
         }
         self.failure.clone().or_else(|| self.limits.exceeded(&self.statistics, time))
@@ -70,18 +70,18 @@ where
         error: f64,
         method: &Adaptive<P>,
     ) -> Option<Fate> {
-        if self.memory.active.contains(&false) {
+        let Memory { clock, control, active, .. } = &mut self.memory;
+        if active.contains(&false) || time <= clock.now {
             return None;
         }
         let accepted = method.accepts(error);
         if accepted {
-            self.memory.t = time;
-            method.after_acceptance(&mut self.memory.control, h, error);
+            method.after_acceptance(control, clock, (h, time), error);
         } else {
-            let before = self.memory.control.clone();
-            self.memory.control.refuse::<P>(h, error);
-            if self.memory.is_step_too_small() {
-                self.memory.control = before;
+            let before = control.clone();
+            control.refuse::<P>(h, error);
+            if !clock.advances_by(control.step) {
+                *control = before;
                 return None;
             }
         }

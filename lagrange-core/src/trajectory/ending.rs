@@ -22,6 +22,14 @@ pub enum Ending {
         /// The coordinate or velocity with the largest error.
         entry: Entry,
     },
+    /// The settings demand steps too short to advance the time: where it is counted from far away, the numbers near it
+    /// lie farther apart.
+    TimeTooCoarse {
+        /// The last time reached.
+        time: f64,
+        /// The longest step allowed.
+        step: f64,
+    },
     /// The equations became singular or contradictory.
     Singular {
         /// The last time reached.
@@ -69,6 +77,7 @@ impl Ending {
         match *self {
             Self::Complete { time }
             | Self::StepTooSmall { time, .. }
+            | Self::TimeTooCoarse { time, .. }
             | Self::Singular { time, .. }
             | Self::NotFinite { time, .. }
             | Self::OffConstraints { time, .. }
@@ -100,6 +109,10 @@ impl Display for Ending {
             Self::StepTooSmall { time, entry } => write!(
                 f,
                 "stopped at t = {time}: the error of `{entry}` demands a step too small to advance the time"
+            ),
+            Self::TimeTooCoarse { time, step } => write!(
+                f,
+                "stopped at t = {time}: a step of {step:e} does not advance the time; allow longer ones, or count the time from nearby"
             ),
             Self::Singular { time, error } | Self::OffConstraints { time, error } => {
                 write!(f, "stopped at t = {time}: {error}")

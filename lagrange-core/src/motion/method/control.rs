@@ -3,6 +3,7 @@
 use core::array::from_fn;
 
 use super::Adaptive;
+use super::clock::Clock;
 use super::pair::{Pair, Slopes, combine};
 use crate::number::numeric::{exceeds, larger, smaller};
 use crate::solution::flow::Phase;
@@ -123,17 +124,33 @@ impl<P: Pair> Adaptive<P> {
         self.fixed_step.is_some() || !exceeds(error, T::constant(1.0))
     }
 
-    /// Chooses the step after an accepted one.
-    pub(crate) fn after_acceptance<T: Real>(&self, control: &mut Control<T>, h: T, error: T) {
-        if self.fixed_step.is_none() {
+    /// After an accepted step of this length to this time: moves the clock, and chooses the next step.
+    pub(crate) fn after_acceptance<T: Real>(
+        &self,
+        control: &mut Control<T>,
+        clock: &mut Clock<T>,
+        (h, time): (T, T),
+        error: T,
+    ) {
+        clock.now = time;
+        if let Some(step) = self.fixed_step {
+            // What the rounding of the time has taken is given back.
+            control.step = T::constant(step) + (control.step - h);
+        } else {
             control.accept::<P>(h, error);
-            control.step = self.cut(control.step);
+            control.step = self.fit(control.step, clock);
         }
     }
 
-    /// The step cut to the longest allowed.
-    pub(crate) fn cut<T: Real>(&self, h: T) -> T {
-        self.max_step.map_or(h, |longest| smaller(h, T::constant(longest)))
+    /// The step made long enough to advance the time, and cut to the longest allowed.
+    pub(crate) fn fit<T: Real>(&self, step: T, clock: &Clock<T>) -> T {
+        if self.fixed_step.is_some() {
+            return step;
+        }
+        let step = clock.at_least(step);
+        // Not a number, or nothing where the numbers end.
+        let step = if step > T::constant(0.0) { step } else { clock.left() };
+        self.max_step.map_or(step, |longest| smaller(step, T::constant(longest)))
     }
 
     /// A first guess at the first step: one that moves the state by a hundredth of its size.

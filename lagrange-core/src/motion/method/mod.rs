@@ -1,6 +1,7 @@
 //! The methods: one step of each, and how a step is chosen.
 
 mod adaptive;
+pub(super) mod clock;
 pub(super) mod control;
 mod dop853;
 mod dopri5;

@@ -4,12 +4,12 @@ use core::array::from_fn;
 
 use nalgebra::ComplexField;
 
+use super::clock::Clock;
 use super::control::{Control, Place};
 use super::pair::{Pair, Row, SLOPES, Slopes, advance};
 use super::{Adaptive, Limits, Method, Step};
 use crate::names::{Entry, Row as EquationRow};
 use crate::number::array::vector;
-use crate::number::numeric::larger;
 use crate::solution::flow::{Flow, Phase, Point, Slope};
 use crate::solution::solve::name;
 use crate::trajectory::{Ending, Statistics};
@@ -21,11 +21,8 @@ const COEFFICIENTS: usize = 8;
 /// What a pair carries from step to step.
 #[derive(Clone, Debug)]
 pub struct Memory<T, const N: usize, const M: usize> {
-    pub(crate) t: T,
+    pub(crate) clock: Clock<T>,
     pub(crate) y: Phase<T, N>,
-    pub(crate) end: T,
-    /// The whole time from start to end.
-    span: T,
     pub(crate) control: Control<T>,
     /// The first is that of `y`.
     pub(crate) slopes: Slopes<T, N>,
@@ -35,21 +32,9 @@ pub struct Memory<T, const N: usize, const M: usize> {
 }
 
 impl<T: Real, const N: usize, const M: usize> Memory<T, N, M> {
-    /// The next step and the time after it: exactly the end where that is near.
+    /// The length of the next step and the time after it.
     pub(crate) fn next(&self) -> (T, T) {
-        let (now, step) = (self.t, self.control.step);
-        if now + step * T::constant(1.01) >= self.end {
-            (self.end - now, self.end)
-        } else {
-            (step, now + step)
-        }
-    }
-
-    /// Whether the next step would be lost in the round-off of the time.
-    pub(crate) fn is_step_too_small(&self) -> bool {
-        let epsilon = T::constant(T::EPSILON);
-        let size = larger(Scalar::abs(self.t), epsilon * self.span);
-        self.control.step <= T::constant(10.0) * epsilon * size
+        self.clock.next(self.control.step)
     }
 
     /// A place in the step that starts here.
@@ -131,18 +116,17 @@ where
         let point = Point { t: start.t, y: F::phase(system, start), velocity: start.v.into() };
         let Slope { rates, active, .. } = slope::<L, F, N, M>(system, &point, None, statistics)?;
         slopes[0] = rates;
-        let span = end - start.t;
+        let clock = Clock::new(start.t, end, self.fixed_step.map(L::Scalar::constant));
         let step = match self.fixed_step.or(self.first_step) {
             Some(step) => L::Scalar::constant(step),
             None => {
                 let first = (&slopes[0], &active);
-                let estimate = self.estimate_step::<L, F, N, M>(system, &point, span, first, statistics);
-                larger(self.cut(estimate), span * L::Scalar::constant(L::Scalar::EPSILON))
+                self.estimate_step::<L, F, N, M>(system, &point, clock.left(), first, statistics)
             }
         };
-        let control = Control::new(step);
+        let control = Control::new(self.fit(step, &clock));
         let interpolant = [zero; COEFFICIENTS];
-        Ok(Memory { t: point.t, y: point.y, end, span, control, slopes, active, interpolant })
+        Ok(Memory { clock, y: point.y, control, slopes, active, interpolant })
     }
 
     fn step<'m>(
@@ -152,13 +136,15 @@ where
         statistics: &mut Statistics,
     ) -> Step<'m, L::Scalar, N> {
         let (h, time) = memory.next();
-        let now = memory.t.to_f64();
+        let now = memory.clock.now.to_f64();
+        if time <= memory.clock.now {
+            return Step::Failed(Ending::TimeTooCoarse { time: now, step: memory.control.step.to_f64() });
+        }
         let ending = match self.attempt::<L, F, N, M>(system, memory, h, time, statistics) {
             Ok(Accepted { y, error, active }) => {
-                (memory.t, memory.y) = (time, y);
-                memory.active = active;
+                (memory.y, memory.active) = (y, active);
                 memory.slopes[0] = memory.slopes[P::LAST];
-                self.after_acceptance(&mut memory.control, h, error);
+                self.after_acceptance(&mut memory.control, &mut memory.clock, (h, time), error);
                 let coefficients = if self.is_dense { 4 + P::INTERPOLATION.len() } else { 0 };
                 return Step::Accepted {
                     state: State { t: time, q: vector(y[0]), v: vector(memory.slopes[0][0]) },
@@ -174,7 +160,7 @@ where
                 Ending::of(error, now)
             }
         };
-        if self.fixed_step.is_some() || memory.is_step_too_small() {
+        if self.fixed_step.is_some() || !memory.clock.advances_by(memory.control.step) {
             return Step::Failed(ending);
         }
         Step::Rejected
@@ -269,7 +255,7 @@ where
     L: Lagrangian<N, M, Scalar: Real>,
     F: Flow<L, N, M>,
 {
-    let (t, start) = (memory.t, memory.y);
+    let (t, start) = (memory.clock.now, memory.y);
     let mut point = memory.point(t, start);
     for (number, row) in rows.iter().enumerate().map(|(i, row)| (first + i, row)) {
         point.y = advance(&start, h, &memory.slopes, row);

@@ -1,0 +1,30 @@
+//! Times: counted from far away, near the round-off, very short and very long, and steps of the length asked for.
+
+mod extremes;
+mod far;
+mod steps;
+
+use lagrange_core::prelude::*;
+
+/// From (1, 0) at t₀: x = cos ω(t − t₀).
+#[derive(Lagrangian, Clone, Copy)]
+#[coordinates(x)]
+#[lagrangian(x_dot^2/2 - omega^2/2 * x^2)]
+struct Spring<T> {
+    omega: T,
+}
+
+/// cos ω(t − start), the rounding of the product taken into account.
+fn exact(omega: f64, start: f64, t: f64) -> f64 {
+    let elapsed = t - start;
+    assert_eq!(elapsed + start, t, "the test needs a difference without rounding");
+    let phase = omega * elapsed;
+    let rest = omega.mul_add(elapsed, -phase);
+    phase.cos() - rest * phase.sin()
+}
+
+/// What so many steps may be off. The norm of the error of each is kept below 1, so that (x, v/ω) is off by at most
+/// √2 · `tolerance` · (1 + 1); ten times that, as it is an estimate.
+fn allowed(steps: usize, tolerance: f64) -> f64 {
+    10.0 * 2.0 * 2_f64.sqrt() * tolerance * steps as f64
+}
