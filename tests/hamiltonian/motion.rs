@@ -129,3 +129,20 @@ fn methods_and_progress_are_those_of_lagranges_equations() {
     let header = path.csv(2).to_string();
     assert!(header.starts_with("t,theta,phi,theta_dot,phi_dot\n"), "{header}");
 }
+
+/// p = q̇³ − q̇ falls to −2/√27, below which no velocity near has it.
+#[test]
+fn a_momentum_that_no_velocity_has_ends_the_motion() {
+    #[derive(Lagrangian)]
+    #[coordinates(x)]
+    #[lagrangian(x_dot^4/4 - x_dot^2/2 - x)]
+    struct Fold;
+    let phase = Fold.phase_state(&State::new([0.0], [1.1]));
+    let path = Fold.integrate_hamiltonian(phase, 2.0, Dop853::default()).unwrap();
+    let Ending::Unsolved { time, error: Error::MomentumNotReached { coordinate: "x", .. } } = path.ending()
+    else {
+        panic!("{}", path.ending());
+    };
+    let fold = 1.1_f64.powi(3) - 1.1 + 2.0 / 27_f64.sqrt();
+    assert!((time - fold).abs() < 1e-9, "{time} is not {fold}");
+}

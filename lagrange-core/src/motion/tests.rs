@@ -248,6 +248,51 @@ fn a_mass_that_vanishes_ends_the_motion() {
 }
 
 #[test]
+fn constraints_that_come_to_contradict_end_the_motion() {
+    // From t = 0.5 on the second asks for another acceleration than the first.
+    let system = Mechanism::<2, 2, 2> {
+        mass: crate::fixtures::identity,
+        forcing: |_| [0.0; 2],
+        residual: |s| [s.q[0]; 2],
+        rate: |s| [s.v[0]; 2],
+        jacobian: |_| [[1.0, 0.0]; 2],
+        bias: |s| [0.0, if s.t < 0.5 { 0.0 } else { 1.0 }],
+    };
+    let path = system.integrate(State::new([0.0, 0.0], [0.0, 1.0]), 1.0, Dop853::default()).unwrap();
+    let Ending::Contradictory { time, error: Error::Contradictory { constraint: "c0" | "c1", .. } } =
+        path.ending()
+    else {
+        panic!("{}", path.ending());
+    };
+    assert!((time - 0.5).abs() < 1e-12);
+}
+
+/// An error that says nothing about singular equations is not called that.
+#[test]
+fn each_error_is_the_ending_that_says_it() {
+    let (time, constraint) = (2.0, "rod");
+    let of = |error: Error| Ending::of(error, time);
+    let row = crate::names::Row::Constraint(constraint);
+    assert_eq!(of(Error::EquationsNotFinite { row, time: 3.0 }), Ending::NotFinite { time, row });
+    let error = Error::NotProjected { constraint, residual: 1.0, iterations: 3, time: 3.0 };
+    assert_eq!(of(error.clone()), Ending::OffConstraints { time, error });
+    let error = Error::Contradictory { constraint, time: 3.0 };
+    assert_eq!(of(error.clone()), Ending::Contradictory { time, error });
+    let coordinates = crate::names::Names::default();
+    for error in
+        [Error::Singular { coordinates, time: 3.0 }, Error::VelocityUndetermined { coordinates, time: 3.0 }]
+    {
+        assert_eq!(of(error.clone()), Ending::Singular { time, error });
+    }
+    for error in [
+        Error::MomentumNotReached { coordinate: "x", residual: 1.0, iterations: 3, time: 3.0 },
+        Error::EigenvaluesNotFound,
+    ] {
+        assert_eq!(of(error.clone()), Ending::Unsolved { time, error });
+    }
+}
+
+#[test]
 fn constraints_that_part_end_the_motion() {
     // x = 0 on the circle of radius 1 − t, which is gone after t = 1.
     let system = Mechanism::<2, 1, 1> {

@@ -30,12 +30,25 @@ pub enum Ending {
         /// The longest step allowed.
         step: f64,
     },
-    /// The equations became singular or contradictory.
+    /// Nothing determines some accelerations any more, or in (q, p) some velocities.
     Singular {
         /// The last time reached.
         time: f64,
-        /// The coordinates or constraint at fault: [`Error::Singular`] or [`Error::Contradictory`]; in (q, p) also
-        /// [`Error::VelocityUndetermined`] or [`Error::MomentumNotReached`].
+        /// The coordinates at fault: [`Error::Singular`], or in (q, p) [`Error::VelocityUndetermined`].
+        error: Error,
+    },
+    /// Constraints that depend on one another demand different accelerations, or in (q, p) different velocities.
+    Contradictory {
+        /// The last time reached.
+        time: f64,
+        /// The constraint at fault: [`Error::Contradictory`].
+        error: Error,
+    },
+    /// What the equations need was not found.
+    Unsolved {
+        /// The last time reached.
+        time: f64,
+        /// In (q, p) the velocity that belongs to momenta: [`Error::MomentumNotReached`].
         error: Error,
     },
     /// The equations became infinite or not a number.
@@ -79,6 +92,8 @@ impl Ending {
             | Self::StepTooSmall { time, .. }
             | Self::TimeTooCoarse { time, .. }
             | Self::Singular { time, .. }
+            | Self::Contradictory { time, .. }
+            | Self::Unsolved { time, .. }
             | Self::NotFinite { time, .. }
             | Self::OffConstraints { time, .. }
             | Self::StepLimit { time, .. }
@@ -97,7 +112,9 @@ impl Ending {
         match error {
             Error::EquationsNotFinite { row, .. } => Self::NotFinite { time, row },
             Error::NotProjected { .. } => Self::OffConstraints { time, error },
-            _ => Self::Singular { time, error },
+            Error::Singular { .. } | Error::VelocityUndetermined { .. } => Self::Singular { time, error },
+            Error::Contradictory { .. } => Self::Contradictory { time, error },
+            _ => Self::Unsolved { time, error },
         }
     }
 }
@@ -114,9 +131,10 @@ impl Display for Ending {
                 f,
                 "stopped at t = {time}: a step of {step:e} does not advance the time; allow longer ones, or count the time from nearby"
             ),
-            Self::Singular { time, error } | Self::OffConstraints { time, error } => {
-                write!(f, "stopped at t = {time}: {error}")
-            }
+            Self::Singular { time, error }
+            | Self::Contradictory { time, error }
+            | Self::Unsolved { time, error }
+            | Self::OffConstraints { time, error } => write!(f, "stopped at t = {time}: {error}"),
             Self::NotFinite { time, row } => {
                 write!(f, "stopped at t = {time}: the equations are not finite in the row of {row}")
             }
