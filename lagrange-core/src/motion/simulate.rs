@@ -71,6 +71,9 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     ///
     /// The state must pass [`check_consistent`](Self::check_consistent); what is left is projected away, and [`Trajectory::adjustment`] tells how far that moved it.
     ///
+    /// Steps lead from one time that the scalar can hold to the next, which at a Unix time in seconds are 2.4·10⁻⁷
+    /// apart: where a motion is faster, count the time from nearby.
+    ///
     /// # Errors
     /// What is wrong before the first step: entries, equations, settings or times that are not finite or not
     /// positive, a state off the constraints ([`make_consistent`](Self::make_consistent) helps), singular or

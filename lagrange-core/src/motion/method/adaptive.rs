@@ -84,7 +84,8 @@ impl<P> Adaptive<P> {
         Self { first_step: Some(step), ..self }
     }
 
-    /// All steps of this size (the last may be shorter), whatever the error: to measure orders of convergence.
+    /// All steps of this size, to the round-off of the time (the last may be shorter), whatever the error: to measure
+    /// orders of convergence.
     pub fn fixed_step(self, step: f64) -> Self {
         Self { fixed_step: Some(step), ..self }
     }
