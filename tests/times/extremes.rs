@@ -30,7 +30,7 @@ fn spans_of_all_sizes_are_integrated() {
 
 #[test]
 fn spans_of_all_sizes_are_integrated_in_single_precision() {
-    for scale in [1e-18, 1e-15, 1e-9, 1e9, 1e15, 1e18] {
+    for scale in [1e-18_f32, 1e-15, 1e-9, 1e9, 1e15, 1e18] {
         let (omega, end) = (1.0 / scale, 20.0 * scale);
         let spring = Spring { omega };
         let method = Dop853::with_tolerance(1e-5).absolute(1e-5 * f64::from(omega.min(1.0)));

@@ -7,7 +7,7 @@ use crate::{Spring, exact};
 /// The lengths of the steps, and the end reached.
 fn lengths(start: f64, end: f64, method: Dop853) -> Vec<f64> {
     let spring = Spring { omega: 1.0 };
-    let path = spring.integrate(State::at_rest([1.0]).at_time(start), end, method).unwrap();
+    let path = spring.integrate(State::at_rest([1.0]).at_time(start), end, method).expect("a motion");
     assert_eq!(*path.ending(), Ending::Complete { time: end });
     let times: Vec<f64> = path.steps().map(|step| step.time()).collect();
     times.windows(2).map(|t| t[1] - t[0]).collect()
