@@ -66,7 +66,7 @@ fn expand(input: TokenStream) -> TokenStream {
         Some(tokens) => tokens,
         None => {
             let mut tokens = diagnostics.into_tokens();
-            tokens.extend(codegen::stub(&declaration));
+            tokens.extend(stub(&declaration));
             tokens
         }
     }
@@ -81,9 +81,14 @@ fn nests_too_deep(input: TokenStream, span: Span) -> TokenStream {
     let mut tokens = Place::at(span).error(message).to_compile_error();
     if let Ok(rest) = syn::parse2(syntax::shallow(input)) {
         let declaration = syntax::declaration(rest, &mut Diagnostics::default());
-        tokens.extend(codegen::stub(&declaration));
+        tokens.extend(stub(&declaration));
     }
     tokens
+}
+
+/// What stands in for a system with something wrong in it.
+fn stub(declaration: &Declaration) -> TokenStream {
+    codegen::stub(declaration, &resolve::outline(declaration))
 }
 
 fn derive(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<TokenStream> {

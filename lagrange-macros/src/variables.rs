@@ -30,6 +30,11 @@ impl Variable {
         Symbol { family, index: index as u32 }
     }
 
+    /// Whether only the solution of the equations of motion gives it a value.
+    pub(crate) fn is_solved(self) -> bool {
+        matches!(self, Self::Acceleration(_) | Self::Multiplier(_))
+    }
+
     pub(crate) fn of(symbol: Symbol) -> Self {
         let index = symbol.index as usize;
         match symbol.family {

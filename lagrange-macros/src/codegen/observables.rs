@@ -50,9 +50,7 @@ impl Emitter<'_> {
     }
 
     fn needs_solution(&self, values: &[Id]) -> bool {
-        let solved =
-            |symbol| matches!(Variable::of(symbol), Variable::Acceleration(_) | Variable::Multiplier(_));
-        self.style.graph.symbols(values).any(solved)
+        self.style.graph.symbols(values).any(|symbol| Variable::of(symbol).is_solved())
     }
 
     pub(super) fn observable_methods(&self) -> TokenStream {

@@ -7,6 +7,7 @@ mod emitted;
 mod integrability;
 mod linearization;
 mod long;
+mod stub;
 mod systems;
 
 use proc_macro2::TokenStream;

@@ -40,7 +40,7 @@ impl Lowering<'_> {
                     .error(formal.place, format!("the argument `{}` is given twice", formal.text));
             }
         }
-        let sound = self.names_are_known(index);
+        let sound = self.names_are_known(index) || self.is_guessing;
         self.definitions[index] = if sound { Definition::Function } else { Definition::Wrong };
     }
 

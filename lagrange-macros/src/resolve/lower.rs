@@ -63,6 +63,8 @@ pub(super) struct Lowering<'a> {
     pub(super) multipliers: Vec<MultiplierGroup>,
     pub(super) observables: Vec<(String, Value)>,
     pub(super) setting: Setting,
+    /// Whether something stands in for what is wrong.
+    pub(super) is_guessing: bool,
     /// Formals and indices, the innermost last.
     pub(super) locals: Vec<(String, Value)>,
     /// The calls of definitions around the expression at hand, the outermost first.
@@ -104,6 +106,7 @@ impl<'a> Lowering<'a> {
             multipliers: Vec::new(),
             observables: Vec::new(),
             setting: Setting::Equations,
+            is_guessing: false,
             locals: Vec::new(),
             calls: Vec::new(),
             depth: 0,
@@ -119,7 +122,10 @@ impl<'a> Lowering<'a> {
             return self.runaway(expression.place);
         }
         self.depth += 1;
-        let value = self.lower_kind(expression);
+        let mut value = self.lower_kind(expression);
+        if value.is_none() && self.is_guessing {
+            value = Some(self.stand_in(expression));
+        }
         self.depth -= 1;
         self.numbers += value.as_ref().map_or(0, Value::count);
         if let Some(fault) = self.graph.take_fault() {
@@ -272,9 +278,7 @@ impl<'a> Lowering<'a> {
         if self.setting != Setting::Observable && self.graph.symbols(&rate.flat()).any(accelerations) {
             return self.report(place, NO_ACCELERATIONS);
         }
-        let multipliers =
-            |symbol| matches!(Variable::of(symbol), Variable::Acceleration(_) | Variable::Multiplier(_));
-        if self.graph.symbols(&value.flat()).any(multipliers) {
+        if self.graph.symbols(&value.flat()).any(|symbol| Variable::of(symbol).is_solved()) {
             return self.report(place, "accelerations and multipliers have no time derivative here");
         }
         Some(rate)

@@ -178,6 +178,20 @@ impl Parameters {
         }
         found.map_or_else(|| syn::parse_quote!(f64), |(scalar, _)| scalar)
     }
+
+    /// The number type as far as it can be told: the one asked for or used, or a type parameter, or `f64`.
+    pub(super) fn likely_scalar(&self, declaration: &Declaration) -> syn::Type {
+        let used = self.scalar(declaration, &mut Diagnostics::default());
+        let is_given = declaration.options.scalar.is_some() && !is_no_number(&text(&used));
+        if is_given || (!self.entries.is_empty() && is_scalar_name(&text(&used), declaration)) {
+            return used;
+        }
+        let shapes = self.fields.iter().filter_map(|field| field.shape.as_ref().ok()?.scalar.as_ref());
+        let is_parameter = |scalar: &&syn::Type| {
+            declaration.generics.type_params().any(|parameter| parameter.ident == text(scalar))
+        };
+        shapes.clone().find(is_parameter).cloned().unwrap_or_else(|| syn::parse_quote!(f64))
+    }
 }
 
 fn text(ty: &syn::Type) -> String {

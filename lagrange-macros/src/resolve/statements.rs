@@ -37,9 +37,7 @@ impl Lowering<'_> {
         for (index, (label, values)) in observables.iter().enumerate() {
             let written = declaration.observables.iter().find(|named| named.name.text == label.text);
             let Some(written) = written.filter(|named| named.is_conserved) else { continue };
-            let solved =
-                |symbol| matches!(Variable::of(symbol), Variable::Acceleration(_) | Variable::Multiplier(_));
-            if self.graph.symbols(values).any(solved) {
+            if self.graph.symbols(values).any(|symbol| Variable::of(symbol).is_solved()) {
                 self.diagnostics.error(
                     written.value.place,
                     "a conserved quantity is a function of time, coordinates and velocities: accelerations and multipliers have no place in it",
@@ -163,7 +161,7 @@ impl Lowering<'_> {
     }
 
     /// left − right
-    fn residual(&mut self, constraint: &Constraint) -> Option<Value> {
+    pub(super) fn residual(&mut self, constraint: &Constraint) -> Option<Value> {
         let (left, right) = (self.lower(&constraint.left), self.lower(&constraint.right));
         let (left, right) = (left?, right?);
         if is_literal_zero(&constraint.right) {

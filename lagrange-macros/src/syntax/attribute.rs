@@ -35,6 +35,7 @@ pub(crate) fn declaration(input: DeriveInput, diagnostics: &mut Diagnostics) -> 
         generics: input.generics,
         fields,
         coordinates: Vec::new(),
+        are_coordinates_read: false,
         defines: Vec::new(),
         functions: Vec::new(),
         lagrangian: None,
@@ -123,13 +124,16 @@ fn read(declaration: &mut Declaration, word: &str, attribute: &Attribute) -> Res
     let mut cursor = content(word, attribute)?;
     let cursor = &mut cursor;
     match word {
-        "coordinates" => declaration.coordinates = coordinates(cursor)?,
-        "define" => declaration.defines.push(define(cursor)?),
+        "coordinates" => {
+            coordinates(cursor, &mut declaration.coordinates)?;
+            declaration.are_coordinates_read = true;
+        }
+        "define" => define(cursor, &mut declaration.defines)?,
         "function" => declaration.functions.push(function(cursor)?),
-        "lagrangian" => declaration.lagrangian = Some(only(cursor)?),
-        "constraint" => declaration.constraints.push(constraint(cursor)?),
-        "force" => declaration.forces.push(force(cursor)?),
-        "dissipation" => declaration.dissipation = Some(only(cursor)?),
+        "lagrangian" => only(cursor, &mut declaration.lagrangian)?,
+        "constraint" => constraint(cursor, &mut declaration.constraints)?,
+        "force" => force(cursor, &mut declaration.forces)?,
+        "dissipation" => only(cursor, &mut declaration.dissipation)?,
         "observable" | "conserved" => observable(word, cursor, &mut declaration.observables)?,
         "parameter" => declaration.parameters.push(parameter(cursor)?),
         _ => options(cursor, &mut declaration.options)?,

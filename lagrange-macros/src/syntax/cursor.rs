@@ -37,6 +37,7 @@ pub(crate) fn shallow(tokens: TokenStream) -> TokenStream {
 }
 
 /// A position in a sequence of tokens.
+#[derive(Clone)]
 pub(super) struct Cursor {
     tokens: Vec<TokenTree>,
     position: usize,

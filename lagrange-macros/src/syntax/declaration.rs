@@ -14,6 +14,8 @@ pub(crate) struct Declaration {
     pub(crate) generics: syn::Generics,
     pub(crate) fields: Vec<Field>,
     pub(crate) coordinates: Vec<Coordinate>,
+    /// Whether these are all.
+    pub(crate) are_coordinates_read: bool,
     pub(crate) defines: Vec<Define>,
     pub(crate) functions: Vec<Function>,
     pub(crate) lagrangian: Option<Expression>,

@@ -301,7 +301,8 @@ impl Expression {
         self.parts().into_iter().for_each(|part| part.indices(visit));
     }
 
-    fn parts(&self) -> Vec<&Self> {
+    /// The expressions that it is made of.
+    pub(crate) fn parts(&self) -> Vec<&Self> {
         match &self.kind {
             Kind::Number(_) | Kind::Name(_) => Vec::new(),
             Kind::Negative(inner) => vec![inner],

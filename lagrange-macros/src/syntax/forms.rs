@@ -9,7 +9,8 @@ use super::cursor::Cursor;
 use super::declaration::{Constraint, Coordinate, Define, Force, Function, Named, Options, Parameter};
 use super::expression::{self, Expression, Kind};
 use super::field::LENGTH_LIMIT;
-use super::target::{TargetIndex, target};
+use super::target::{Target, TargetIndex, target};
+use super::unread::unread;
 use crate::diagnostics::Place;
 
 /// Beyond, rustc takes minutes, and the matrices exceed the stack.
@@ -40,7 +41,25 @@ fn finish(cursor: &mut Cursor, word: &str) -> Result<()> {
     Err(cursor.error(format!("expected the end of the attribute: write `{}`, once for each", form(word))))
 }
 
-pub(super) fn only(cursor: &mut Cursor) -> Result<Expression> {
+/// What `read` makes of the tokens, or what was probably meant by them: the rest of the program relies on what it is.
+fn read_or_guess(
+    cursor: &mut Cursor,
+    read: impl FnOnce(&mut Cursor) -> Result<Expression>,
+) -> (Expression, Result<()>) {
+    let written = cursor.clone();
+    match read(cursor) {
+        Ok(value) => (value, Ok(())),
+        Err(error) => (unread(written), Err(error)),
+    }
+}
+
+pub(super) fn only(cursor: &mut Cursor, slot: &mut Option<Expression>) -> Result<()> {
+    let (value, result) = read_or_guess(cursor, alone);
+    *slot = Some(value);
+    result
+}
+
+fn alone(cursor: &mut Cursor) -> Result<Expression> {
     let mut inside = cursor.until_comma();
     reject_name_of_whole(&inside)?;
     let expression = expression::whole(&mut inside)?;
@@ -62,11 +81,13 @@ fn reject_name_of_whole(cursor: &Cursor) -> Result<()> {
     }
 }
 
-pub(super) fn coordinates(cursor: &mut Cursor) -> Result<Vec<Coordinate>> {
-    let mut coordinates = Vec::new();
+pub(super) fn coordinates(cursor: &mut Cursor, coordinates: &mut Vec<Coordinate>) -> Result<()> {
+    let mut count = 0;
     while !cursor.is_empty() {
         let name = cursor.name("the name of a coordinate")?;
         let length = if cursor.take_punct(':') { Some(brackets(cursor)?) } else { None };
+        count += length.unwrap_or(1);
+        reject_too_many(count, &name)?;
         coordinates.push(Coordinate { name, length });
         if cursor.is_punct('=') {
             return Err(cursor.error("a coordinate gets its value at the start from a `State`, not here"));
@@ -75,22 +96,17 @@ pub(super) fn coordinates(cursor: &mut Cursor) -> Result<Vec<Coordinate>> {
             cursor.expect_punct(',', "expected `,` between coordinates (a vector is written `r: [3]`)")?;
         }
     }
-    reject_too_many(&coordinates)?;
-    Ok(coordinates)
+    Ok(())
 }
 
 /// The mass matrix alone has the square of their number as entries.
-fn reject_too_many(coordinates: &[Coordinate]) -> Result<()> {
-    let mut count = 0;
-    for coordinate in coordinates {
-        count += coordinate.length.unwrap_or(1);
-        if count > COORDINATE_LIMIT {
-            return Err(coordinate.name.place.error(format!(
-                "a system has at most {COORDINATE_LIMIT} coordinates, and up to here there are {count}"
-            )));
-        }
+fn reject_too_many(count: usize, last: &Name) -> Result<()> {
+    if count <= COORDINATE_LIMIT {
+        return Ok(());
     }
-    Ok(())
+    Err(last.place.error(format!(
+        "a system has at most {COORDINATE_LIMIT} coordinates, and up to here there are {count}"
+    )))
 }
 
 /// `[3]`
@@ -107,16 +123,23 @@ fn brackets(cursor: &mut Cursor) -> Result<usize> {
         .ok_or_else(|| Place::at(group.span()).error(wanted))
 }
 
-pub(super) fn define(cursor: &mut Cursor) -> Result<Define> {
+/// `= expression`
+fn value(cursor: &mut Cursor, word: &str) -> Result<Expression> {
+    equals(cursor, word)?;
+    let value = expression::whole(&mut cursor.until_comma())?;
+    finish(cursor, word)?;
+    Ok(value)
+}
+
+pub(super) fn define(cursor: &mut Cursor, defines: &mut Vec<Define>) -> Result<()> {
     let target = target(cursor, "the name of the definition")?;
     let formals = match cursor.take_group(Delimiter::Parenthesis) {
         Some(group) => Some(formals(&mut Cursor::inside(&group))?),
         None => None,
     };
-    equals(cursor, "define")?;
-    let body = expression::whole(&mut cursor.until_comma())?;
-    finish(cursor, "define")?;
-    Ok(Define { target, formals, body })
+    let (body, result) = read_or_guess(cursor, |cursor| value(cursor, "define"));
+    defines.push(Define { target, formals, body });
+    result
 }
 
 pub(super) fn function(cursor: &mut Cursor) -> Result<Function> {
@@ -178,22 +201,40 @@ fn colon(cursor: &mut Cursor, word: &str) -> Result<()> {
     cursor.expect_punct(':', &format!("expected `:` after the name: write `{}`", form(word)))
 }
 
-pub(super) fn constraint(cursor: &mut Cursor) -> Result<Constraint> {
+/// Even where it is wrong the constraint counts as one, or as many as its name says.
+pub(super) fn constraint(cursor: &mut Cursor, constraints: &mut Vec<Constraint>) -> Result<()> {
+    let written = cursor.clone();
+    let target = constraint_target(cursor);
+    let sides = target.clone().and_then(|_| {
+        colon(cursor, "constraint")?;
+        let sides = sides(&mut cursor.until_comma())?;
+        finish(cursor, "constraint")?;
+        Ok(sides)
+    });
+    let name = Name { text: String::new(), place: written.place() };
+    let target = target.unwrap_or(Target { name, index: TargetIndex::None });
+    let (left, right, result) = match sides {
+        Ok((left, right)) => (left, right, Ok(())),
+        Err(error) => {
+            let left = unread(written);
+            (left.clone(), left, Err(error))
+        }
+    };
+    constraints.push(Constraint { target, left, right });
+    result
+}
+
+fn constraint_target(cursor: &mut Cursor) -> Result<Target> {
     let start = cursor.place();
-    let target = match target(cursor, "the name of the constraint") {
-        Ok(target) if cursor.is_punct(':') => target,
+    match target(cursor, "the name of the constraint") {
+        Ok(target) if cursor.is_punct(':') => Ok(target),
         // Without a name the first thing met is the equation itself.
         _ => {
             let message =
                 format!("a constraint begins with a name of one word: write `{}`", form("constraint"));
-            return Err(start.error(message));
+            Err(start.error(message))
         }
-    };
-    colon(cursor, "constraint")?;
-    let mut equation = cursor.until_comma();
-    let (left, right) = sides(&mut equation)?;
-    finish(cursor, "constraint")?;
-    Ok(Constraint { target, left, right })
+    }
 }
 
 /// `left = right`, exactly one `=`.
@@ -209,13 +250,17 @@ fn sides(equation: &mut Cursor) -> Result<(Expression, Expression)> {
     Ok((left, right))
 }
 
-pub(super) fn force(cursor: &mut Cursor) -> Result<Force> {
+pub(super) fn force(cursor: &mut Cursor, forces: &mut Vec<Force>) -> Result<()> {
     let wanted = format!("the coordinate that the force acts on: write `{}`", form("force"));
     let target = target(cursor, &wanted)?;
-    colon(cursor, "force")?;
-    let value = expression::whole(&mut cursor.until_comma())?;
-    finish(cursor, "force")?;
-    Ok(Force { target, value })
+    let (value, result) = read_or_guess(cursor, |cursor| {
+        colon(cursor, "force")?;
+        let value = expression::whole(&mut cursor.until_comma())?;
+        finish(cursor, "force")?;
+        Ok(value)
+    });
+    forces.push(Force { target, value });
+    result
 }
 
 /// Even where the value is wrong there is a method of that name, which the program may call.
@@ -224,14 +269,7 @@ pub(super) fn observable(word: &str, cursor: &mut Cursor, observables: &mut Vec<
     if !matches!(target.index, TargetIndex::None) {
         return Err(target.name.place.error("an observable is not a family: write a vector `[a, b]`"));
     }
-    let value = match equals(cursor, word) {
-        Ok(()) => expression::whole(&mut cursor.until_comma()),
-        Err(error) => Err(error),
-    };
-    let (value, result) = match value {
-        Ok(value) => (value, finish(cursor, word)),
-        Err(error) => (Expression { kind: Kind::Vector(Vec::new()), place: target.name.place }, Err(error)),
-    };
+    let (value, result) = read_or_guess(cursor, |cursor| value(cursor, word));
     observables.push(Named { name: target.name, is_conserved: word == "conserved", value });
     result
 }

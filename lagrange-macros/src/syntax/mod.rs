@@ -9,10 +9,11 @@ mod forms;
 mod number;
 mod slips;
 mod target;
+mod unread;
 
 pub(crate) use attribute::declaration;
 pub(crate) use cursor::{NESTING_LIMIT, shallow, too_deep};
-pub(crate) use declaration::{Constraint, Coordinate, Declaration, Define, Function, Named, Parameter};
+pub(crate) use declaration::{Constraint, Coordinate, Declaration, Define, Function, Parameter};
 pub(crate) use expression::{Expression, Kind, Operator, Sign, SumOver};
 pub(crate) use field::{Field, FieldShape, LENGTH_LIMIT, Layout};
 pub(crate) use target::{Target, TargetIndex};

@@ -27,6 +27,11 @@ pub(super) fn number(literal: &Literal, place: Place) -> Result<Kind> {
     Ok(Kind::Number(value))
 }
 
+/// The name in a product without its sign, such as `2x`.
+pub(super) fn suffix(literal: &str) -> &str {
+    literal[number_length(literal)..].trim_start_matches('_')
+}
+
 /// How many characters of a literal are the number, as opposed to its suffix.
 fn number_length(text: &str) -> usize {
     let bytes = text.as_bytes();

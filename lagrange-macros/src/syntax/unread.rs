@@ -1,0 +1,65 @@
+//! What was probably meant by tokens that are no expression: what the rest of the program relies on must be guessed.
+
+use proc_macro2::{Delimiter, Group, Ident, Span, TokenTree};
+
+use super::Name;
+use super::cursor::Cursor;
+use super::expression::{Expression, Kind, Operator};
+use super::number::{number, suffix};
+use crate::diagnostics::Place;
+
+/// The names, calls, elements and vectors in the tokens, as one product: it contains what they contain, and is a vector
+/// where one of them is.
+pub(super) fn unread(mut cursor: Cursor) -> Expression {
+    let whole = cursor.place();
+    let mut factors = Vec::new();
+    while !cursor.is_empty() {
+        let place = cursor.place();
+        let kind = factor(&mut cursor, place);
+        factors.extend(kind.map(|kind| (Operator::Times, Expression { kind, place })));
+    }
+    Expression { kind: Kind::Product(factors), place: whole }
+}
+
+fn factor(cursor: &mut Cursor, place: Place) -> Option<Kind> {
+    let ident = match cursor.take_ident() {
+        Some(ident) => ident,
+        None => match cursor.next()? {
+            TokenTree::Group(group) if group.delimiter() == Delimiter::Bracket => {
+                return Some(Kind::Vector(items(&group)));
+            }
+            TokenTree::Group(group) => return Some(unread(Cursor::inside(&group)).kind),
+            TokenTree::Literal(literal) => match number(&literal, place) {
+                Ok(kind) => return Some(kind),
+                // `2x`
+                Err(_) => identifier(suffix(&literal.to_string()), literal.span())?,
+            },
+            _ => return None,
+        },
+    };
+    let name = Name::new(&ident);
+    let mut kind = match cursor.take_group(Delimiter::Parenthesis) {
+        Some(group) => Kind::Call(name, items(&group)),
+        None => Kind::Name(name),
+    };
+    while let Some(brackets) = cursor.take_group(Delimiter::Bracket) {
+        let index = Box::new(unread(Cursor::inside(&brackets)));
+        kind = Kind::Index(Box::new(Expression { kind, place }), index);
+    }
+    Some(kind)
+}
+
+fn items(group: &Group) -> Vec<Expression> {
+    let mut inside = Cursor::inside(group);
+    let mut items = Vec::new();
+    while !inside.is_empty() {
+        items.push(unread(inside.until_comma()));
+    }
+    items
+}
+
+fn identifier(text: &str, span: Span) -> Option<Ident> {
+    let mut ident = syn::parse_str::<Ident>(text).ok()?;
+    ident.set_span(span);
+    Some(ident)
+}
