@@ -1,6 +1,7 @@
 //! The linear system near a state, on the constraints where there are any.
 
 use alloc::{format, string::String, vec::Vec};
+use core::array::from_fn;
 
 use nalgebra::{DMatrix, DVector, SVector};
 
@@ -8,7 +9,7 @@ use super::tangent::Tangent;
 use super::{Direction, Linearized, inputs};
 use crate::names::Entry;
 use crate::number::array::vector;
-use crate::number::numeric::{larger, power_of_epsilon};
+use crate::number::numeric::{larger, largest, power_of_epsilon};
 use crate::solution::kkt::{Rank, Rows};
 use crate::{ConstraintKind, Error, Lagrangian, Real, Scalar, Simulate, Solution, State};
 
@@ -192,16 +193,16 @@ where
 {
     let Tangent { state, solution, m, f, factors, .. } = tangent;
     let zero = L::Scalar::constant(0.0);
-    let largest = |force: &dyn Fn(usize) -> L::Scalar| {
-        (0..N).fold(zero, |most, i| larger(most, Scalar::abs(force(i) * factors.rows.unit[i])))
+    let strongest = |force: &dyn Fn(usize) -> L::Scalar| {
+        largest(&from_fn::<_, N, _>(|i| force(i) * factors.rows.unit[i]))
     };
     let mut terms =
-        (0..M).fold(zero, |most, a| larger(most, largest(&|i| f[a][i] * solution.multipliers[a])));
+        (0..M).fold(zero, |most, a| larger(most, strongest(&|i| f[a][i] * solution.multipliers[a])));
     for (j, name) in L::COORDINATES.iter().enumerate() {
         let change = tangent.change(&Direction::of_coordinate(j), Entry::Coordinate(name))?;
-        terms = larger(terms, largest(&|i| change.motion[i] * state.q[j]));
+        terms = larger(terms, strongest(&|i| change.motion[i] * state.q[j]));
     }
-    let left = largest(&|i| (0..N).fold(zero, |sum, j| sum + m[i][j] * solution.accelerations[j]));
+    let left = strongest(&|i| (0..N).fold(zero, |sum, j| sum + m[i][j] * solution.accelerations[j]));
     let rests = left <= power_of_epsilon::<L::Scalar>(0.5) * terms;
     let accelerations = if rests { vector([zero; N]) } else { solution.accelerations };
     Ok(Solution { accelerations, ..*solution })

@@ -11,7 +11,7 @@ use core::array::from_fn;
 use core::fmt::{self, Display, Formatter};
 use nalgebra::{ComplexField, SVector};
 
-use crate::number::numeric::{exceeds, larger, power_of_epsilon};
+use crate::number::numeric::{exceeds, largest, power_of_epsilon};
 use crate::solution::eliminate::eliminate_active;
 use crate::solution::kkt::{self, Equations, Rank};
 use crate::solution::solve::{is_trustworthy, name};
@@ -32,12 +32,12 @@ pub struct Adjustment<T, const N: usize> {
 impl<T: Real, const N: usize> Adjustment<T, N> {
     /// The largest change of a coordinate, in magnitude.
     pub fn largest_coordinate_change(&self) -> T {
-        largest(&self.q)
+        largest(self.q.as_slice())
     }
 
     /// The largest change of a velocity, in magnitude.
     pub fn largest_velocity_change(&self) -> T {
-        largest(&self.v)
+        largest(self.v.as_slice())
     }
 }
 
@@ -46,10 +46,6 @@ impl<T: Real, const N: usize> Display for Adjustment<T, N> {
         let (q, v) = (self.largest_coordinate_change().to_f64(), self.largest_velocity_change().to_f64());
         write!(f, "coordinates moved by at most {q:e}, velocities by at most {v:e}")
     }
-}
-
-fn largest<T: Real, const N: usize>(x: &SVector<T, N>) -> T {
-    x.iter().fold(T::constant(0.0), |most, x| larger(most, Scalar::abs(*x)))
 }
 
 /// The consistent state and how far it is from the one given.

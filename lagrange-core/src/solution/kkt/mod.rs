@@ -15,7 +15,7 @@ use core::array::from_fn;
 use nalgebra::SVector;
 
 use crate::number::array::vector;
-use crate::number::numeric::{larger, power_of_epsilon, smaller};
+use crate::number::numeric::{larger, largest, power_of_epsilon, smaller};
 use crate::{Real, Scalar, Solution};
 use qr::Qr;
 use symmetric::Symmetric;
@@ -271,7 +271,7 @@ fn to_range_basis<T: Real, const N: usize, const M: usize>(split: &Qr<T, N, M>, 
 fn along_constraints<T: Real, const N: usize>(m: &[[T; N]; N], rank: usize) -> (Symmetric<T, N>, T) {
     let zero = T::constant(0.0);
     let size = N - rank;
-    let largest = m.iter().flatten().fold(zero, |largest, x| larger(largest, Scalar::abs(*x)));
+    let largest = m.iter().fold(zero, |most, row| larger(most, largest(row)));
     let mut along = [[zero; N]; N];
     for i in 0..size {
         along[i][..size].copy_from_slice(&m[rank + i][rank..]);
