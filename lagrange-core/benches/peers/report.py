@@ -25,6 +25,19 @@ class Bar:
 
 
 @dataclass
+class Table:
+    """Cells of text; `head` has one more at the left, above the names of the rows."""
+
+    caption: str
+    head: list
+    rows: list
+
+    def markdown(self):
+        rule = ["---"] + ["---:"] * (len(self.head) - 1)
+        return "\n".join([f"**{self.caption}**", "", *map(line, [self.head, rule, *self.rows])])
+
+
+@dataclass
 class Section:
     """One row of the comparison: text, tables, bars, and what is missing."""
 
@@ -34,24 +47,36 @@ class Section:
     missing: list = field(default_factory=list)
 
     def table(self, caption, head, rows):
-        lines = [f"**{caption}**", "", line(head), line(["---"] + ["---:"] * (len(head) - 1)), *map(line, rows)]
-        self.parts.append("\n".join(lines))
+        self.parts.append(Table(caption, head, [[str(cell) for cell in cells] for cells in rows]))
 
     def text(self, words):
         self.parts.append(words)
 
+    def captioned(self, caption):
+        """The table of this caption; an empty one where that is missing."""
+        tables = (part for part in self.parts if isinstance(part, Table) and part.caption == caption)
+        return next(tables, Table(caption, [], []))
+
+    def names(self, caption):
+        """Of the rows of a table."""
+        return [cells[0] for cells in self.captioned(caption).rows]
+
+    def cell(self, caption, column, name):
+        table = self.captioned(caption)
+        return next((cells[table.head.index(column)] for cells in table.rows if cells[0] == name), "–")
+
     def markdown(self):
-        parts = [f"## {self.title}", *self.parts]
+        parts = [f"## {self.title}", *(part if isinstance(part, str) else part.markdown() for part in self.parts)]
         if self.bars:
             head = ["| bar | reached | limit | |", "|---|---:|---:|---|"]
             parts.append("\n".join(head + [bar.line() for bar in self.bars]))
-        for name, reason in dict.fromkeys(self.missing):
+        for name, reason in dict.fromkeys(map(tuple, self.missing)):
             parts.append(f"Missing: {name}: {reason}.")
         return "\n\n".join(parts)
 
 
 def line(cells):
-    return "| " + " | ".join(map(str, cells)) + " |"
+    return "| " + " | ".join(cells) + " |"
 
 
 def number(value):

@@ -8,6 +8,7 @@ import argparse
 import time
 from pathlib import Path
 
+import results
 import rows_chain
 import rows_counts
 import rows_duals
@@ -15,9 +16,11 @@ import rows_ensemble
 import rows_growth
 import rows_lanes
 import rows_planar
+import tables
+import workshop
 from report import Bar, Section
 from timing import FULL, QUICK
-from workshop import HERE, SHOP, Missing, progress, set_up_python, versions
+from workshop import SHOP, Missing, progress, set_up_python
 
 ROWS = {
     "planar": rows_planar.rows,
@@ -37,14 +40,12 @@ def options():
     parser.add_argument("--quick", action="store_true", help="few short samples: to see that it works")
     parser.add_argument("--slow", action="store_true", help="also SymPy at n = 20, which derives for minutes")
     parser.add_argument(
-        "--output", type=Path, help="where the tables go; default RESULTS.md beside this script after a full run"
+        "--output", type=Path, help="where the tables go; default results.json, RESULTS.md and README.md after a full run"
     )
     chosen = parser.parse_args()
     if unknown := set(chosen.rows) - set(ROWS):
         parser.error(f"there is no row {', '.join(sorted(unknown))}; there are {', '.join(ROWS)}")
     chosen.effort = QUICK if chosen.quick else FULL
-    if chosen.output is None and not chosen.quick and not chosen.rows:
-        chosen.output = HERE / "RESULTS.md"
     return chosen
 
 
@@ -61,14 +62,16 @@ def main():
     chosen, start = options(), time.monotonic()
     SHOP.mkdir(parents=True, exist_ok=True)
     set_up_python()
-    head = ["# Comparison with other tools", "\n".join(f"- {fact}" for fact in [*versions(), chosen.effort])]
-    sections = [section(name, chosen) for name in chosen.rows or ROWS]
-    bars, minutes = [bar for section in sections for bar in section.bars], (time.monotonic() - start) / 60
-    head.append(f"{sum(bar.passes for bar in bars)} of {len(bars)} bars pass; the run took {minutes:.1f} minutes.")
-    text = "\n\n".join(head + [section.markdown() for section in sections]) + "\n"
+    about = workshop.about() | {"notes": [], "effort": str(chosen.effort)}
+    sections = {name: section(name, chosen) for name in chosen.rows or ROWS}
+    about["minutes"] = (time.monotonic() - start) / 60
+    text = results.markdown(about, sections)
     print(text)
     if chosen.output:
         chosen.output.write_text(text)
+    elif not chosen.quick and not chosen.rows:
+        results.save(about, sections)
+        tables.write()
 
 
 if __name__ == "__main__":

@@ -87,15 +87,20 @@ def build_ours(package, flags, *features):
     return target / "release"
 
 
-def versions():
-    """What was compared, where and when, a line each."""
+def about():
+    """What is compared, where, when and with what."""
     cpu = re.search(r"model name\s*: (.*)", Path("/proc/cpuinfo").read_text())
-    commit = run("git", "describe", "--always", "--dirty", cwd=ROOT).strip()
-    packages = [line.replace("==", " ") for line in (HERE / "requirements.txt").read_text().split()]
-    yield f"Date: {date.today()}, commit {commit}"
-    yield f"CPU: {cpu[1] if cpu else platform.processor()}, {os.cpu_count()} cores, {platform.system()}"
-    yield f"Load average at the start: {os.getloadavg()[0]:.2f}"
-    yield (
-        "Compilers: " + run("rustc", "--version", cwd=HERE).strip() + "; " + run("gcc", "--version").splitlines()[0]
-    )
-    yield f"Python {platform.python_version()}: " + ", ".join(packages)
+    lock = (HERE / "dual-numbers" / "Cargo.lock").read_text()
+    return {
+        "date": str(date.today()),
+        "commit": run("git", "describe", "--always", "--dirty", cwd=ROOT).strip(),
+        "cpu": cpu[1] if cpu else platform.processor(),
+        "cores": os.cpu_count(),
+        "system": platform.system(),
+        "load": os.getloadavg()[0],
+        "rustc": run("rustc", "--version", cwd=HERE).strip(),
+        "gcc": run("gcc", "--version").splitlines()[0],
+        "python": platform.python_version(),
+        "packages": dict(line.split("==") for line in (HERE / "requirements.txt").read_text().split()),
+        "num-dual": re.search(r'name = "num-dual"\nversion = "(.*)"', lock)[1],
+    }

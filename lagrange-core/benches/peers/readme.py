@@ -1,0 +1,121 @@
+"""What the README says about speed, from what was measured."""
+
+import re
+
+TOOLS = ("CasADi", "wrenfold", "heyoka", "SymPy")
+
+TEXT = """\
+Against the tools that people use, in one run of `python3 lagrange-core/benches/peers/run.py`, which builds, checks and
+times all of them in turn ([its folder](lagrange-core/benches/peers/README.md) says how, `RESULTS.md` there has everything,
+plain flags too). {about}
+
+{fastest}
+
+What one writes by hand is C for this one system. CasADi, wrenfold, heyoka and SymPy are used as serves each best. Against
+dual numbers, which take the same derivatives at run time (num-dual {num_dual}, `HyperDual`, nalgebra's Cholesky):
+
+{duals}
+
+2,000 double pendulums from rest to t = 10. Methods of different order are compared: heyoka's Taylor series are more exact
+at the same tolerance, and 8 is the width of AVX-512, for which there are no lanes here.
+
+{ensemble}
+
+Compile times beyond an empty crate, all functions in use; functions of more than 4,000 operations are compiled in parts:
+
+{growth}
+"""
+
+
+def text(about, sections):
+    return TEXT.format(
+        about=where(about),
+        num_dual=about["num-dual"],
+        fastest=fastest(sections),
+        duals=duals(sections["duals"]),
+        ensemble=ensemble(sections["ensemble"]),
+        growth=growth(sections["growth"]),
+    )
+
+
+def where(about):
+    rustc, gcc = (re.search(r"\d+\.\d+\.\d+(?= \(|$)", about[name])[0] for name in ("rustc", "gcc"))
+    spelled = {tool.lower(): tool for tool in TOOLS}
+    tools = ", ".join(f"{spelled[name]} {version}" for name, version in about["packages"].items() if name in spelled)
+    return (
+        f"{about['date']}, {about['cpu']}, {about['cores']} cores, {about['system']},\n"
+        f"native flags; rustc {rustc}, gcc {gcc}; {tools}.\nLeast of {about['effort'].split()[0]} samples."
+    )
+
+
+def table(head, rows):
+    """All columns but the first are numbers."""
+    lines = ["| " + " | ".join(head) + " |", "|---|" + "---:|" * (len(head) - 1)]
+    return "\n".join(lines + ["| " + " | ".join(cells) + " |" for cells in rows])
+
+
+def time(section, caption, column, name):
+    """The time in a cell, without what it is compared with."""
+    return section.cell(caption, column, name).split(" · ")[0]
+
+
+def fastest_tool(section, caption, column):
+    times = [(time(section, caption, column, name), name) for name in section.names(caption) if name.startswith(TOOLS)]
+    had = [one for one in times if one[0] != "–"]
+    if not had:
+        return "–"
+    least, name = min(had, key=lambda one: float(one[0]))
+    return f"{least} ({re.match('|'.join(TOOLS), name)[0]})"
+
+
+def fastest(sections):
+    def row(what, section, caption, column, hand):
+        ours = time(section, caption, column, next(iter(section.names(caption)), "ours"))
+        return [what, ours, fastest_tool(section, caption, column), hand and time(section, caption, column, hand)]
+
+    planar, chain, spherical, lanes = (sections[name] for name in ("planar", "chain", "spherical", "lanes"))
+    independent, thomas = "native: independent evaluations", "by hand, Schur + Thomas"
+    least = "least time of a sample · ours divided by it, by minima (by medians)"
+    rows = [
+        *(
+            row(f"accelerations, {n} planar links in angles", planar, independent, f"n = {n}", "by hand, O(n)")
+            for n in (2, 5, 10, 20)
+        ),
+        *(
+            row(f"accelerations and multipliers, {n} rods in the plane", chain, "native", f"n = {n}", thomas)
+            for n in (5, 20, 50)
+        ),
+        row("the same, spherical pendulum", spherical, least, "native", thomas),
+        row("accelerations of 8 double pendulums, AVX2 lanes", lanes, least.replace("ours", "ours on lanes"), "avx2", ""),
+    ]
+    return table(["nanoseconds", "ours", "the fastest tool", "by hand, O(n)"], rows)
+
+
+def duals(section):
+    entries, gradient = "num-dual, HyperDual entry by entry", "num-dual, gradient and Dual"
+    rows = [
+        (f"accelerations, {n} planar links", f"pendulum n = {n}", entries) for n in (2, 5, 10)
+    ] + [("forces and energy of three bodies", "three bodies", gradient)]
+    return table(
+        ["nanoseconds", "ours", "num-dual"],
+        [[what, *(time(section, "native", column, name) for name in ("ours", other))] for what, column, other in rows],
+    )
+
+
+def ensemble(section):
+    times, errors = "at a tolerance of", "error of the last state: half of them less / nine in ten less"
+    rows = [
+        [name, time(section, times, "1e-09", name), section.cell(errors, "1e-09", name).split(" / ")[0]]
+        for name in section.names(times)
+    ]
+    return table(["µs a trajectory, tolerance 10⁻⁹, one thread", "time", "median error"], rows)
+
+
+def growth(section):
+    columns = ["macro", "every function, dev", "every function, release", "integrates, release"]
+    systems = [(f"{n} planar links in angles", f"pendulum n = {n}") for n in (10, 20, 40, 80)]
+    systems += [(f"{n} rods in Cartesian coordinates", f"chain n = {n}") for n in (50, 200, 400)]
+    return table(
+        ["seconds", "the macro", "every function, dev", "release", "with integration, release"],
+        [[what, *(section.cell("seconds", column, name) for column in columns)] for what, name in systems],
+    )

@@ -1,0 +1,43 @@
+"""What was measured: `results.json`, from which all tables are written."""
+
+import json
+from dataclasses import asdict
+
+from report import Bar, Section, Table
+from workshop import HERE
+
+FILE = HERE / "results.json"
+
+
+def save(about, sections):
+    """`about` says where, when and with what; `sections` maps a row's name to what was measured."""
+    measured = {"about": about, "sections": {name: asdict(section) for name, section in sections.items()}}
+    FILE.write_text(json.dumps(measured, ensure_ascii=False, indent=1) + "\n")
+
+
+def load():
+    measured = json.loads(FILE.read_text())
+    return measured["about"], {name: section(**fields) for name, fields in measured["sections"].items()}
+
+
+def section(title, parts, bars, missing):
+    parts = [part if isinstance(part, str) else Table(**part) for part in parts]
+    return Section(title, parts, [Bar(**bar) for bar in bars], missing)
+
+
+def markdown(about, sections):
+    """All tables, as RESULTS.md has them."""
+    bars = [bar for section in sections.values() for bar in section.bars]
+    packages = ", ".join(f"{name} {version}" for name, version in about["packages"].items())
+    facts = [
+        f"Date: {about['date']}, commit {about['commit']}",
+        f"CPU: {about['cpu']}, {about['cores']} cores, {about['system']}",
+        f"Load average at the start: {about['load']:.2f}",
+        f"Compilers: {about['rustc']}; {about['gcc']}",
+        f"Python {about['python']}: {packages}; num-dual {about['num-dual']}",
+        *about["notes"],
+        about["effort"],
+    ]
+    passed = f"{sum(bar.passes for bar in bars)} of {len(bars)} bars pass; the run took {about['minutes']:.1f} minutes."
+    head = ["# Comparison with other tools", "\n".join(f"- {fact}" for fact in facts), passed]
+    return "\n\n".join(head + [section.markdown() for section in sections.values()]) + "\n"
