@@ -3,11 +3,11 @@
 //! A pipeline, each stage a folder with one way in:
 //!
 //! ```text
-//! tokens ─syntax→ Declaration ─resolve→ Problem ─mechanics→ Equations ─codegen→ tokens
-//!                                                                 └─render→ text and LaTeX
+//! tokens ─syntax→ Declaration ─resolve→ Problem ─mechanics→ Derived ─render→ text and LaTeX ─codegen→ tokens
 //! ```
 //!
-//! `symbolic` is the ground floor. Every stage stops if anything was wrong, with all errors at once.
+//! `symbolic` is the ground floor: the expressions of all stages are nodes of one graph, which `resolve` begins,
+//! `mechanics` adds to, and the stages after it read. Every stage stops if anything was wrong, with all errors at once.
 
 mod codegen;
 mod diagnostics;
@@ -94,15 +94,9 @@ fn stub(declaration: &Declaration) -> TokenStream {
 fn derive(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<TokenStream> {
     diagnostics.is_empty().then_some(())?;
     let (mut graph, problem) = resolve::problem(declaration, diagnostics)?;
-    let equations = mechanics::derive(&mut graph, &problem, diagnostics)?;
-    let facts = mechanics::facts(&mut graph, &problem, &equations, diagnostics)?;
-    let rendered = render::render(declaration, &mut graph, &problem, &equations, &facts);
-    let mut tokens =
-        codegen::implementation(declaration, &graph, &problem, &equations, &facts, &rendered, diagnostics);
-    diagnostics.is_empty().then_some(())?;
-    if let Some(linearization) = mechanics::linearize(&mut graph, &problem, &equations) {
-        tokens.extend(codegen::linearized(declaration, &graph, &problem, &equations, &linearization));
-    }
+    let derived = mechanics::derive(&mut graph, &problem, diagnostics)?;
+    let rendered = render::render(declaration, &graph, &problem, &derived);
+    let tokens = codegen::implementation(declaration, &graph, &problem, &derived, &rendered, diagnostics)?;
     print::if_asked(declaration, &tokens);
     Some(tokens)
 }

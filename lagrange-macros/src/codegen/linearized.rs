@@ -16,7 +16,7 @@ use crate::variables::Variable;
 
 /// The implementation of `Linearized`; nothing where it would be too long, or take derivatives of a higher order
 /// than functions have.
-pub(crate) fn linearized(
+pub(super) fn linearized(
     declaration: &Declaration,
     graph: &Graph,
     problem: &Problem,

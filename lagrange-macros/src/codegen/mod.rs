@@ -30,7 +30,7 @@ use syn::GenericParam;
 use syn::spanned::Spanned;
 
 use crate::diagnostics::Diagnostics;
-use crate::mechanics::{ConstraintKind, Equations, Facts};
+use crate::mechanics::{ConstraintKind, Derived, Equations, Facts};
 use crate::render::Rendered;
 use crate::resolve::{Problem, Supplied};
 use crate::symbolic::{Graph, Id, Node};
@@ -38,7 +38,7 @@ use crate::syntax::Declaration;
 #[cfg(test)]
 pub(crate) use count::Count;
 use kernel::{Kernel, OPERATION_LIMIT, Refused};
-pub(crate) use linearized::linearized;
+use linearized::linearized;
 use observables::method_name;
 use shape::Shape;
 pub(crate) use stub::stub;
@@ -47,16 +47,17 @@ use style::Style;
 /// How often a function that the user supplies can be differentiated.
 const FUNCTION_ORDER: usize = 3;
 
-/// The implementation of the trait, and a method for each observable.
+/// The implementation of the traits, and a method for each observable; `None` where a function would be too long,
+/// which is then reported.
 pub(crate) fn implementation(
     declaration: &Declaration,
     graph: &Graph,
     problem: &Problem,
-    equations: &Equations,
-    facts: &Facts,
+    derived: &Derived,
     rendered: &Rendered,
     diagnostics: &mut Diagnostics,
-) -> TokenStream {
+) -> Option<TokenStream> {
+    let Derived { equations, facts, .. } = derived;
     let style = Style::new(graph, problem);
     let emitter = Emitter { declaration, problem, equations, facts, rendered, style: &style };
     let orders = orders(graph, problem, equations, &[]);
@@ -66,9 +67,13 @@ pub(crate) fn implementation(
             "the equations need the {order}th derivatives of `{name}`, and functions are differentiated {FUNCTION_ORDER} times at most"
         ));
     }
-    let tokens = emitter.block(&orders);
+    let mut tokens = emitter.block(&orders);
     emitter.report_refused(diagnostics);
-    tokens
+    diagnostics.is_empty().then_some(())?;
+    if let Some(linearization) = &derived.linearization {
+        tokens.extend(linearized(declaration, graph, problem, equations, linearization));
+    }
+    Some(tokens)
 }
 
 /// The trait that gives the derivatives of an order, and its method.

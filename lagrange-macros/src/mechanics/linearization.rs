@@ -44,7 +44,7 @@ pub(crate) fn arguments(problem: &Problem) -> Vec<Symbol> {
 }
 
 /// Differentiates the residual; `None` where exact arithmetic cannot write the result.
-pub(crate) fn linearize(
+pub(super) fn linearize(
     graph: &mut Graph,
     problem: &Problem,
     equations: &Equations,

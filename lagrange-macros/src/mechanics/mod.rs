@@ -1,4 +1,4 @@
-//! From a [`Problem`] to its equations of motion, as the textbook does it.
+//! From a [`Problem`] to its equations of motion and what they tell, as the textbook does it.
 
 mod conservation;
 mod constraints;
@@ -16,7 +16,7 @@ mod moment;
 
 use crate::diagnostics::{Diagnostics, Place};
 use crate::resolve::{Problem, fault_message};
-use crate::symbolic::{Approximate, Forward, Graph, Id, Symbol, Verdict, drawn};
+use crate::symbolic::{Approximate, Forward, Graph, Id, Rational, Symbol, Verdict, drawn};
 use crate::variables::Variable;
 pub(crate) use conservation::Quantity;
 pub(crate) use constraints::ConstraintKind;
@@ -25,7 +25,18 @@ pub(crate) use facts::Facts;
 pub(crate) use gauge::LinearPart;
 pub(crate) use gauss::Form;
 pub(crate) use integrability::{Classification, Integrability, Integrals, Kinds};
-pub(crate) use linearization::{Linearization, arguments, linearize};
+use linearization::linearize;
+pub(crate) use linearization::{Linearization, arguments};
+
+/// What follows from a problem. Its expressions are nodes of the problem's graph.
+pub(crate) struct Derived {
+    pub(crate) equations: Equations,
+    pub(crate) facts: Facts,
+    /// M q̈, as it is read
+    pub(crate) inertia: Vec<Id>,
+    /// `None` where exact arithmetic cannot write it
+    pub(crate) linearization: Option<Linearization>,
+}
 
 /// M q̈ − Fᵀλ = h and F q̈ + γ = 0, every entry a node of the problem's graph.
 #[derive(Debug)]
@@ -72,12 +83,19 @@ impl Equations {
     }
 }
 
-/// Derives the equations of motion; `None` where they do not exist, which is then reported.
-pub(crate) fn derive(
-    graph: &mut Graph,
-    problem: &Problem,
-    diagnostics: &mut Diagnostics,
-) -> Option<Equations> {
+/// All that follows from a problem; `None` where it has no equations of motion or something said of it is wrong,
+/// which is then reported.
+pub(crate) fn derive(graph: &mut Graph, problem: &Problem, diagnostics: &mut Diagnostics) -> Option<Derived> {
+    let equations = equations(graph, problem, diagnostics)?;
+    let facts = Facts::find(graph, problem, &equations, diagnostics);
+    let inertia = equations.mass.iter().map(|row| inertia(graph, row)).collect();
+    stop_at_fault(graph, problem.place, diagnostics)?;
+    diagnostics.is_empty().then_some(())?;
+    let linearization = linearize(graph, problem, &equations);
+    Some(Derived { equations, facts, inertia, linearization })
+}
+
+fn equations(graph: &mut Graph, problem: &Problem, diagnostics: &mut Diagnostics) -> Option<Equations> {
     let motion = euler_lagrange::derive(graph, problem);
     reject_idle_dissipation(graph, problem, diagnostics);
     stop_at_fault(graph, problem.place, diagnostics)?;
@@ -101,16 +119,14 @@ pub(crate) fn derive(
     })
 }
 
-/// What is found out about the system; `None` where something said of it is wrong, which is then reported.
-pub(crate) fn facts(
-    graph: &mut Graph,
-    problem: &Problem,
-    equations: &Equations,
-    diagnostics: &mut Diagnostics,
-) -> Option<Facts> {
-    let facts = Facts::find(graph, problem, equations, diagnostics);
-    stop_at_fault(graph, problem.place, diagnostics)?;
-    diagnostics.is_empty().then_some(facts)
+/// Σ_j M_ij q̈_j of a row of M.
+fn inertia(graph: &mut Graph, row: &[Id]) -> Id {
+    let mut term = |(j, &mass)| {
+        let acceleration = graph.symbol(Variable::Acceleration(j).symbol());
+        (graph.mul(mass, acceleration), Rational::from_integer(1))
+    };
+    let terms: Vec<_> = row.iter().enumerate().map(&mut term).collect();
+    graph.sum(terms)
 }
 
 /// Whether an expression is zero everywhere, and why one may think so.

@@ -1,9 +1,9 @@
 //! The derivative of the residual along a direction is a function as long as the system: that is why it is emitted,
 //! and not the Jacobian entry by entry.
 
-use super::{equations, systems};
+use super::{derived, systems};
 use crate::codegen::operations;
-use crate::mechanics::{Linearization, linearize};
+use crate::mechanics::Linearization;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};
 use crate::variables::Variable;
@@ -11,9 +11,8 @@ use crate::variables::Variable;
 const LENGTHS: [usize; 5] = [4, 8, 12, 16, 20];
 
 fn linearization(source: &str) -> (Graph, Problem, Linearization) {
-    let (mut graph, problem, equations) = equations(source);
-    let linearization = linearize(&mut graph, &problem, &equations).expect("no fault");
-    (graph, problem, linearization)
+    let (graph, problem, derived) = derived(source);
+    (graph, problem, derived.linearization.expect("no fault"))
 }
 
 fn count(graph: &Graph, roots: &[Id]) -> usize {

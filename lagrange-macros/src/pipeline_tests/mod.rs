@@ -13,7 +13,7 @@ mod systems;
 use proc_macro2::TokenStream;
 
 use crate::diagnostics::Diagnostics;
-use crate::mechanics::{self, Equations};
+use crate::mechanics::{self, Derived, Equations};
 use crate::resolve::{self, Problem};
 use crate::symbolic::Graph;
 use crate::syntax::{self, Declaration};
@@ -29,10 +29,16 @@ fn declaration(source: &str) -> (Declaration, Diagnostics) {
     (syntax::declaration(input, &mut diagnostics), diagnostics)
 }
 
-/// The stages up to the equations, for a source without errors.
-fn equations(source: &str) -> (Graph, Problem, Equations) {
+/// The stages up to mechanics, for a source without errors.
+fn derived(source: &str) -> (Graph, Problem, Derived) {
     let (declaration, mut diagnostics) = declaration(source);
     let (mut graph, problem) = resolve::problem(&declaration, &mut diagnostics).expect("no errors");
-    let equations = mechanics::derive(&mut graph, &problem, &mut diagnostics).expect("no errors");
-    (graph, problem, equations)
+    let derived = mechanics::derive(&mut graph, &problem, &mut diagnostics).expect("no errors");
+    (graph, problem, derived)
+}
+
+/// The same, of which the equations are looked at.
+fn equations(source: &str) -> (Graph, Problem, Equations) {
+    let (graph, problem, derived) = derived(source);
+    (graph, problem, derived.equations)
 }

@@ -12,11 +12,10 @@ mod tests;
 
 use rustc_hash::FxHashMap;
 
-use crate::mechanics::{Equations, Facts};
+use crate::mechanics::{Derived, Equations};
 use crate::resolve::Problem;
-use crate::symbolic::{Graph, Id, Rational};
+use crate::symbolic::{Graph, Id};
 use crate::syntax::{Declaration, Define, Name, TargetIndex};
-use crate::variables::Variable;
 use formula::{Formula, derived, written};
 use notation::Notation;
 
@@ -55,12 +54,11 @@ enum Equation {
 /// Writes the system down.
 pub(crate) fn render(
     declaration: &Declaration,
-    graph: &mut Graph,
+    graph: &Graph,
     problem: &Problem,
-    equations: &Equations,
-    facts: &Facts,
+    derived: &Derived,
 ) -> Rendered {
-    let rows = motion(graph, problem, equations);
+    let Derived { equations, facts, .. } = derived;
     let total_derivatives = facts::total_derivatives(declaration, problem, facts);
     let texts = facts::texts(&total_derivatives);
     let term = |formula| Line { label: None, equation: Equation::Term(formula), remark: String::new() };
@@ -71,7 +69,7 @@ pub(crate) fn render(
             lines: constraints(declaration, graph, problem, equations),
             note: equations.integrability.integrals.and_then(kinds::note),
         },
-        Section { heading: "Equations of motion", lines: rows, note: None },
+        Section { heading: "Equations of motion", lines: motion(graph, problem, derived), note: None },
         Section {
             heading: "Conserved",
             lines: facts::conserved(declaration, graph, problem, equations, facts),
@@ -155,12 +153,12 @@ fn constraints(
 }
 
 /// Σ_j M_ij q̈_j = h_i + Σ_α λ_α F_αi, a row for each coordinate.
-fn motion(graph: &mut Graph, problem: &Problem, equations: &Equations) -> Vec<Line> {
+fn motion(graph: &Graph, problem: &Problem, Derived { equations, inertia, .. }: &Derived) -> Vec<Line> {
     let sides: Vec<(Id, Vec<Id>)> = (0..problem.coordinates.len())
         .map(|i| {
             let right = [Some(&equations.forcing[i]), equations.constraint_force.get(i)];
             let right = right.into_iter().flatten().copied().filter(|&part| part != Id::ZERO).collect();
-            (inertia(graph, &equations.mass[i]), right)
+            (inertia[i], right)
         })
         .collect();
     let parts: Vec<Id> = sides.iter().flat_map(|(left, right)| right.iter().chain([left])).copied().collect();
@@ -178,16 +176,6 @@ fn motion(graph: &mut Graph, problem: &Problem, equations: &Equations) -> Vec<Li
         Line { label: Some(label), equation, remark: String::new() }
     };
     sides.into_iter().enumerate().map(equation).collect()
-}
-
-/// Σ_j M_ij q̈_j of a row of M.
-fn inertia(graph: &mut Graph, row: &[Id]) -> Id {
-    let mut term = |(j, &mass)| {
-        let acceleration = graph.symbol(Variable::Acceleration(j).symbol());
-        (graph.mul(mass, acceleration), Rational::from_integer(1))
-    };
-    let terms: Vec<_> = row.iter().enumerate().map(&mut term).collect();
-    graph.sum(terms)
 }
 
 /// How many symbols each node would take written out, where what is shared is written again.

@@ -12,9 +12,8 @@ fn rendered(source: &str) -> Rendered {
     let input = syn::parse_str(source).expect("a struct");
     let declaration = syntax::declaration(input, &mut diagnostics);
     let (mut graph, problem) = resolve::problem(&declaration, &mut diagnostics).expect("no errors");
-    let equations = mechanics::derive(&mut graph, &problem, &mut diagnostics).expect("no errors");
-    let facts = mechanics::facts(&mut graph, &problem, &equations, &mut diagnostics).expect("no errors");
-    render(&declaration, &mut graph, &problem, &equations, &facts)
+    let derived = mechanics::derive(&mut graph, &problem, &mut diagnostics).expect("no errors");
+    render(&declaration, &graph, &problem, &derived)
 }
 
 fn check(source: &str, text: Expect, latex: Expect) {
