@@ -3,6 +3,8 @@
 use proc_macro2::{Span, TokenStream, TokenTree};
 use syn::Error;
 
+use crate::symbolic::{Fault, Graph};
+
 /// From the first to the last token of something the user wrote.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place {
@@ -54,6 +56,13 @@ impl Diagnostics {
         result.map_err(|error| self.push(error)).ok()
     }
 
+    /// `None` where the derivatives of what stands at `place` are beyond exact arithmetic, which is then noted.
+    pub(crate) fn stop_at_fault(&mut self, place: Place, graph: &mut Graph) -> Option<()> {
+        let Some(fault) = graph.take_fault() else { return Some(()) };
+        self.error(place, format!("in the derivatives of this: {}", fault_message(fault)));
+        None
+    }
+
     pub(crate) fn is_empty(&self) -> bool {
         self.errors.is_empty()
     }
@@ -61,5 +70,15 @@ impl Diagnostics {
     /// All errors as `compile_error!` calls.
     pub(crate) fn into_tokens(self) -> TokenStream {
         self.errors.iter().map(Error::to_compile_error).collect()
+    }
+}
+
+pub(crate) fn fault_message(fault: Fault) -> &'static str {
+    match fault {
+        Fault::Overflow => {
+            "a numerator or denominator grows beyond 128 bits here: make one of the constants a field"
+        }
+        Fault::DivisionByZero => "this divides by zero",
+        Fault::TooLarge => "the expression grows beyond a million nodes here",
     }
 }

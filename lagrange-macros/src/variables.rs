@@ -1,6 +1,6 @@
-//! Which symbol of the graph stands for which variable of mechanics.
+//! Which symbol of the graph stands for which variable of mechanics, and how these change along a motion.
 
-use crate::symbolic::Symbol;
+use crate::symbolic::{Forward, Graph, Id, Symbol};
 
 /// What a symbol stands for.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -47,4 +47,34 @@ impl Variable {
             _ => Self::Change(index),
         }
     }
+}
+
+/// The symbols of one variable of every coordinate.
+pub(crate) fn symbols(count: usize, variable: fn(usize) -> Variable) -> Vec<Symbol> {
+    (0..count).map(|i| variable(i).symbol()).collect()
+}
+
+/// Of a variable of every coordinate, the variable that is its rate of change.
+type Rate = (fn(usize) -> Variable, fn(usize) -> Variable);
+
+/// d/dt: coordinates change by velocities, velocities by accelerations, time by 1.
+pub(crate) fn total_time_derivative(graph: &mut Graph, coordinates: usize) -> Forward {
+    let rates: [Rate; 2] =
+        [(Variable::Coordinate, Variable::Velocity), (Variable::Velocity, Variable::Acceleration)];
+    in_time(directions(graph, coordinates, &rates))
+}
+
+/// d/dt along a motion whose accelerations are zero.
+pub(crate) fn drift(graph: &mut Graph, coordinates: usize) -> Forward {
+    in_time(directions(graph, coordinates, &[(Variable::Coordinate, Variable::Velocity)]))
+}
+
+fn in_time(rates: Vec<(Symbol, Id)>) -> Forward {
+    Forward::along([(Variable::Time.symbol(), Id::ONE)].into_iter().chain(rates))
+}
+
+/// How the variables of each coordinate in turn change at these rates.
+pub(crate) fn directions(graph: &mut Graph, coordinates: usize, rates: &[Rate]) -> Vec<(Symbol, Id)> {
+    let pairs = (0..coordinates).flat_map(|i| rates.iter().map(move |(of, rate)| (of(i), rate(i))));
+    pairs.map(|(of, rate)| (of.symbol(), graph.symbol(rate.symbol()))).collect()
 }

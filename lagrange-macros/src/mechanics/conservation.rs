@@ -3,9 +3,11 @@
 //! What symbols do not settle is put to the test on random states: there the rate of change along the motion is
 //! a number with an error bound.
 
-use super::Evidence;
+use super::constraints::ConstraintKind;
+use super::equations::Equations;
+use super::euler_lagrange;
+use super::evidence::{Evidence, vanishes};
 use super::moment::{Moment, Moments, dot};
-use super::{ConstraintKind, Equations, euler_lagrange, vanishes};
 use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
 use crate::symbolic::{Approximate, Forward, Graph, Id, Rational};

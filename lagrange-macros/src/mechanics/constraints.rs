@@ -2,11 +2,11 @@
 
 use indexmap::IndexMap;
 
-use super::{drift, stop_at_fault, symbols, vanishes};
+use super::evidence::vanishes;
 use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id, Rational};
-use crate::variables::Variable;
+use crate::variables::{Variable, drift, symbols};
 
 /// How a constraint acts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -60,7 +60,7 @@ pub(super) fn derive(
     };
     for index in 0..problem.constraints.len() {
         push_row(graph, problem, index, &mut constraints, diagnostics);
-        stop_at_fault(graph, problem.constraints[index].0.place, diagnostics);
+        diagnostics.stop_at_fault(problem.constraints[index].0.place, graph);
     }
     reject_repeated(graph, problem, &constraints, diagnostics);
     diagnostics.is_empty().then_some(constraints)

@@ -2,8 +2,9 @@
 
 use num_traits::{CheckedAdd, CheckedMul, CheckedSub, One, Zero};
 
-use crate::symbolic::{Graph, Id, Node, Rational};
-use crate::variables::Variable;
+use crate::resolve::Problem;
+use crate::symbolic::{Forward, Graph, Id, Node, Rational};
+use crate::variables::{Variable, directions};
 
 /// A part of a sum: coefficient and term, and the term's degree in the velocities.
 #[derive(Clone, Copy, Debug)]
@@ -74,4 +75,11 @@ fn degrees(graph: &Graph, root: Id) -> Vec<Option<Rational>> {
         };
     }
     degrees
+}
+
+/// Σ q̇ ∂/∂q̇, which multiplies each part by its degree in the velocities.
+pub(super) fn by_degree(graph: &mut Graph, problem: &Problem, expression: Id) -> Id {
+    let n = problem.coordinates.len();
+    let rates = directions(graph, n, &[(Variable::Velocity, Variable::Velocity)]);
+    Forward::along(rates).of(graph, expression)
 }

@@ -1,9 +1,9 @@
 //! d/dt(∂L/∂q̇) = ∂L/∂q + Q, solved for what multiplies the accelerations.
 
-use super::{degree, drift, symbols};
+use super::degree;
 use crate::resolve::Problem;
 use crate::symbolic::{Forward, Graph, Id, Rational};
-use crate::variables::Variable;
+use crate::variables::{Variable, drift, symbols};
 
 /// M q̈ = h without constraints.
 pub(super) struct Motion {

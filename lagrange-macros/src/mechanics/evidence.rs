@@ -1,5 +1,8 @@
 //! How sure a statement about a system is.
 
+use crate::resolve::Problem;
+use crate::symbolic::{Approximate, Graph, Id, Verdict, drawn};
+
 /// Proved, or only tried.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Evidence {
@@ -16,5 +19,22 @@ impl Evidence {
             (Self::Proved, other) | (other, Self::Proved) => other,
             (Self::Held(first), Self::Held(second)) => Self::Held(first.min(second)),
         }
+    }
+}
+
+/// Whether an expression is zero everywhere, and why one may think so.
+pub(super) fn vanishes(graph: &mut Graph, problem: &Problem, root: Id) -> Option<Evidence> {
+    if root == Id::ZERO {
+        return Some(Evidence::Proved);
+    }
+    // Most of what is not zero shows it at the first point, and need not be looked through.
+    let symbol = |symbol| Approximate::exact(drawn(symbol, problem.range(symbol), 0));
+    if graph.sample(&[root], 0, symbol)[0].excludes_zero() {
+        return None;
+    }
+    match graph.is_zero(root, |symbol| problem.range(symbol)) {
+        Verdict::Zero => Some(Evidence::Proved),
+        Verdict::Held(points) => Some(Evidence::Held(points)),
+        Verdict::NonZero | Verdict::Undecided => None,
     }
 }

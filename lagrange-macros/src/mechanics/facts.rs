@@ -2,15 +2,16 @@
 
 use num_traits::Zero;
 
+use super::conservation;
 use super::conservation::{Conserved, Quantity, found};
-use super::degree::{self, Part};
+use super::degree::{self, Part, by_degree};
+use super::equations::Equations;
+use super::evidence::{Evidence, vanishes};
 use super::gauge::{self, LinearPart, TotalDerivative};
 use super::moment::Moments;
-use super::{Equations, Evidence, conservation, vanishes};
 use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
-use crate::symbolic::{Forward, Graph, Id, Rational};
-use crate::variables::Variable;
+use crate::symbolic::{Graph, Id, Rational};
 
 /// Statements about the system as a whole. What is not among them is false or could not be decided.
 #[derive(Debug)]
@@ -89,12 +90,4 @@ fn energy_is_t_plus_u(graph: &mut Graph, problem: &Problem, equations: &Equation
     let vis_viva = graph.add(equations.energy, problem.lagrangian);
     let difference = graph.sub(rate, vis_viva);
     vanishes(graph, problem, difference)
-}
-
-/// Σ q̇ ∂/∂q̇, which multiplies each part by its degree in the velocities.
-pub(super) fn by_degree(graph: &mut Graph, problem: &Problem, expression: Id) -> Id {
-    let n = problem.coordinates.len();
-    let velocities = (0..n).map(|i| Variable::Velocity(i).symbol());
-    let seeds: Vec<_> = velocities.map(|symbol| (symbol, graph.symbol(symbol))).collect();
-    Forward::along(seeds).of(graph, expression)
 }

@@ -2,12 +2,12 @@
 //!
 //! An expression is one exactly where its own Euler–Lagrange equations say 0 = 0.
 
-use super::Evidence;
-use super::facts::by_degree;
-use super::{Equations, symbols, vanishes};
-use crate::resolve::{Problem, total_time_derivative};
+use super::degree::by_degree;
+use super::equations::Equations;
+use super::evidence::{Evidence, vanishes};
+use crate::resolve::Problem;
 use crate::symbolic::{Forward, Graph, Id, Rational};
-use crate::variables::Variable;
+use crate::variables::{Variable, directions, symbols, total_time_derivative};
 
 /// A total time derivative: one term of the Lagrangian as written, or several that are one together.
 #[derive(Debug)]
@@ -144,8 +144,7 @@ pub(super) fn linear_part(graph: &mut Graph, problem: &Problem, equations: &Equa
         return LinearPart::Open;
     }
     let n = problem.coordinates.len();
-    let motion = (0..n).map(|i| (Variable::Coordinate(i).symbol(), Variable::Velocity(i).symbol()));
-    let seeds: Vec<_> = motion.map(|(q, v)| (q, graph.symbol(v))).collect();
+    let seeds = directions(graph, n, &[(Variable::Coordinate, Variable::Velocity)]);
     let rows = variation_along(graph, problem, linear, Forward::along(seeds));
     let evidence = rows.into_iter().map(|row| vanishes(graph, problem, row)).collect::<Option<Vec<_>>>();
     match evidence {

@@ -6,10 +6,9 @@
 //! articulated-body algorithm (Featherstone, *Rigid Body Dynamics Algorithms*, chapter 7), found from the definitions.
 
 use super::euler_lagrange::{Motion, generalized_forces};
-use super::{drift, symbols};
 use crate::resolve::Problem;
 use crate::symbolic::{Forward, Graph, Id, Node, Rational};
-use crate::variables::Variable;
+use crate::variables::{Variable, drift, symbols};
 
 /// The most variables that a form has: each is differentiated by each.
 const LIMIT: usize = 500;

@@ -5,10 +5,10 @@
 //! (forward mode; Griewank and Walther, *Evaluating Derivatives*, 3.1). The whole Jacobian as formulas would
 //! be N² entries, each with second derivatives of M.
 
-use super::{Equations, symbols};
+use super::equations::Equations;
 use crate::resolve::Problem;
 use crate::symbolic::{Forward, Graph, Id, Symbol};
-use crate::variables::Variable;
+use crate::variables::{Variable, symbols, total_time_derivative};
 
 /// Derivatives along a direction, at given accelerations and multipliers, of …
 pub(crate) struct Linearization {
@@ -49,7 +49,7 @@ pub(super) fn linearize(
     problem: &Problem,
     equations: &Equations,
 ) -> Option<Linearization> {
-    let mut along_motion = along_motion(graph, problem.coordinates.len());
+    let mut along_motion = total_time_derivative(graph, problem.coordinates.len());
     let motion = motion(graph, problem, equations, &mut along_motion);
     let acceleration: Vec<Id> =
         equations.rate.iter().map(|&velocity| along_motion.of(graph, velocity)).collect();
@@ -87,15 +87,4 @@ fn motion(
         }
     };
     (0..n).map(row).collect()
-}
-
-/// d/dt along a motion of any accelerations.
-fn along_motion(graph: &mut Graph, coordinates: usize) -> Forward {
-    let mut seeds = vec![(Variable::Time.symbol(), Id::ONE)];
-    for i in 0..coordinates {
-        let (velocity, acceleration) = (Variable::Velocity(i).symbol(), Variable::Acceleration(i).symbol());
-        seeds.push((Variable::Coordinate(i).symbol(), graph.symbol(velocity)));
-        seeds.push((velocity, graph.symbol(acceleration)));
-    }
-    Forward::along(seeds)
 }

@@ -5,8 +5,9 @@
 
 use rustc_hash::FxHashMap;
 
+use super::constraints::ConstraintKind;
 use super::elimination::solve;
-use super::{ConstraintKind, Equations};
+use super::equations::Equations;
 use crate::resolve::Problem;
 use crate::symbolic::{Approximate, Graph, Id, Symbol, drawn};
 use crate::variables::Variable;

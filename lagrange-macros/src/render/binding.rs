@@ -3,7 +3,7 @@
 use num_traits::{One, Signed};
 
 use super::formula::Formula;
-use super::notation::Notation;
+use super::symbols::Notation;
 use crate::symbolic::Rational;
 
 /// How tightly a formula holds together: what is looser than its surroundings needs parentheses.

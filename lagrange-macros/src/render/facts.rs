@@ -1,8 +1,10 @@
 //! The conserved quantities and the total time derivatives, as they are to be read.
 
-use super::formula::{Formula, derived, written};
-use super::notation::Notation;
-use super::{Equation, Line, READABLE, symbols_to_read};
+use super::derived::derived;
+use super::formula::Formula;
+use super::lines::{Equation, Line, READABLE, symbols_to_read};
+use super::symbols::Notation;
+use super::written::written;
 use crate::mechanics::{Equations, Evidence, Facts, Quantity};
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};

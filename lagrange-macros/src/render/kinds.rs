@@ -1,9 +1,8 @@
 //! What kind of constraint it is, in words.
 
-use super::READABLE;
-use super::formula::derived;
-use super::notation::Notation;
-use super::symbols_to_read;
+use super::derived::derived;
+use super::lines::{READABLE, symbols_to_read};
+use super::symbols::Notation;
 use crate::mechanics::{Evidence, Integrability, Integrals, Kinds};
 use crate::resolve::Problem;
 use crate::symbolic::Graph;

@@ -1,26 +1,27 @@
 //! The system and its equations as text and as LaTeX. Nothing else writes any.
 
 mod binding;
+mod derived;
 mod facts;
 mod formula;
 mod kinds;
+mod lines;
 mod notation;
 mod supplied;
 mod symbols;
 #[cfg(test)]
 mod tests;
-
-use rustc_hash::FxHashMap;
+mod written;
 
 use crate::mechanics::{Derived, Equations};
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};
 use crate::syntax::{Declaration, Define, Name, TargetIndex};
-use formula::{Formula, derived, written};
-use notation::Notation;
-
-/// A row of more symbols than this is not for reading.
-const READABLE: u64 = 250;
+use derived::derived;
+use formula::Formula;
+use lines::{Equation, Line, READABLE, Section, symbols_to_read};
+use symbols::Notation;
+use written::written;
 
 /// The same system, written twice.
 pub(crate) struct Rendered {
@@ -28,27 +29,6 @@ pub(crate) struct Rendered {
     pub(crate) latex: String,
     /// The total time derivatives in the Lagrangian, in the order of the facts.
     pub(crate) total_derivatives: Vec<String>,
-}
-
-/// A heading and the lines below it: a label, an equation and a remark. The note says what concerns all lines.
-struct Section {
-    heading: &'static str,
-    lines: Vec<Line>,
-    note: Option<String>,
-}
-
-struct Line {
-    label: Option<String>,
-    equation: Equation,
-    remark: String,
-}
-
-enum Equation {
-    Known(Formula, Formula),
-    /// No equation but a single expression.
-    Term(Formula),
-    /// Why it is not written out.
-    TooLong(u64),
 }
 
 /// Writes the system down.
@@ -82,7 +62,7 @@ pub(crate) fn render(
         },
     ];
     let name = declaration.ident.to_string();
-    Rendered { text: text(&name, &sections), latex: latex(&sections), total_derivatives: texts }
+    Rendered { text: lines::text(&name, &sections), latex: lines::latex(&sections), total_derivatives: texts }
 }
 
 fn lagrangian(declaration: &Declaration, problem: &Problem) -> Vec<Line> {
@@ -176,61 +156,4 @@ fn motion(graph: &Graph, problem: &Problem, Derived { equations, inertia, .. }: 
         Line { label: Some(label), equation, remark: String::new() }
     };
     sides.into_iter().enumerate().map(equation).collect()
-}
-
-/// How many symbols each node would take written out, where what is shared is written again.
-fn symbols_to_read(graph: &Graph, problem: &Problem, roots: &[Id]) -> FxHashMap<Id, u64> {
-    let mut sizes = FxHashMap::default();
-    for id in graph.reachable(roots) {
-        let mut size = 1_u64;
-        if !problem.names.contains_key(&id) {
-            graph.operands(id, |operand| size = size.saturating_add(sizes[&operand]));
-        }
-        sizes.insert(id, size);
-    }
-    sizes
-}
-
-fn text(name: &str, sections: &[Section]) -> String {
-    let mut text = format!("{name}\n");
-    for Section { heading, lines, note } in sections.iter().filter(|section| !section.lines.is_empty()) {
-        text += &format!("\n{heading}\n");
-        let width =
-            lines.iter().filter_map(|line| line.label.as_ref()).map(|label| label.chars().count()).max();
-        for Line { label, equation, remark } in lines {
-            let label = match (label, width) {
-                (Some(label), Some(width)) => {
-                    let padding = " ".repeat(width - label.chars().count());
-                    format!("{label}:{padding} ")
-                }
-                _ => String::new(),
-            };
-            let equation = match equation {
-                Equation::Known(left, right) => Notation::Unicode.equation(left, right),
-                Equation::Term(formula) => Notation::Unicode.write(formula),
-                Equation::TooLong(size) => format!("… ({size} symbols)"),
-            };
-            let remark = if remark.is_empty() { String::new() } else { format!("   ({remark})") };
-            text += &format!("  {label}{equation}{remark}\n");
-        }
-        text.extend(note.iter().map(|note| format!("  {note}\n")));
-    }
-    text
-}
-
-fn latex(sections: &[Section]) -> String {
-    let mut latex = String::from("\\begin{align*}\n");
-    for line in sections.iter().flat_map(|section| &section.lines) {
-        let equation = match &line.equation {
-            Equation::Known(left, right) => {
-                format!("{} &= {}", Notation::Latex.write(left), Notation::Latex.write(right))
-            }
-            Equation::Term(formula) => {
-                format!(r"&{} = \text{{total time derivative}}", Notation::Latex.write(formula))
-            }
-            Equation::TooLong(size) => format!(r"&\text{{({size} symbols)}}"),
-        };
-        latex += &format!("  {equation} \\\\\n");
-    }
-    latex + "\\end{align*}\n"
 }

@@ -4,16 +4,9 @@ use num_traits::{One, Signed};
 
 use super::binding::{Binding, PREFIX, begins_with_function, exponent_at_name, is_number, is_prefixed};
 use super::formula::Formula;
-use super::symbols::{GREEK, decimal, superscript, vulgar};
+use super::symbols::{GREEK, Notation, decimal, superscript, vulgar};
 use crate::resolve::is_built_in;
 use crate::symbolic::Rational;
-
-/// A way of writing.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Notation {
-    Unicode,
-    Latex,
-}
 
 impl Notation {
     pub(super) fn write(self, formula: &Formula) -> String {

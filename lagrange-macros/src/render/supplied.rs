@@ -1,13 +1,12 @@
 //! Functions that the user supplies, as formulas.
 
-use super::formula::{Formula, derived};
+use super::formula::Formula;
 use crate::resolve::{Problem, Supplied};
-use crate::symbolic::{External, Graph};
+use crate::symbolic::External;
 
 /// `A[0](r)`, `U′(s)`, `∂U/∂r[0]`
-pub(super) fn call(external: &External, graph: &Graph, problem: &Problem) -> Formula {
+pub(super) fn call(external: &External, flat: Vec<Formula>, problem: &Problem) -> Formula {
     let function = &problem.functions[external.function as usize];
-    let flat: Vec<Formula> = external.arguments.iter().map(|&x| derived(x, graph, problem)).collect();
     let name = match function.outputs {
         1 => function.name.clone(),
         _ => format!("{}[{}]", function.name, external.output),

@@ -2,6 +2,13 @@
 
 use crate::symbolic::Rational;
 
+/// A way of writing.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Notation {
+    Unicode,
+    Latex,
+}
+
 /// A finite decimal such as 9.81; simple fractions are read better as such.
 pub(super) fn decimal(value: Rational) -> Option<String> {
     let mut denominator = *value.denom();

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
 use super::formula::Formula;
-use super::notation::Notation;
+use super::symbols::Notation;
 use crate::symbolic::Rational;
 
 /// Where x, y and z are.

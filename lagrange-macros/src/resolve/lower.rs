@@ -5,10 +5,10 @@ use num_traits::Zero;
 use super::parameters::Parameters;
 use super::scope::{Entity, Scope};
 use super::value::Value;
-use crate::diagnostics::{Diagnostics, Place};
+use crate::diagnostics::{Diagnostics, Place, fault_message};
 use crate::symbolic::{Fault, Forward, Graph, Id, Rational};
 use crate::syntax::{Coordinate, Declaration, Define, Expression, Function, Kind, Name};
-use crate::variables::Variable;
+use crate::variables::{Variable, total_time_derivative};
 
 /// What the expression at hand may contain beside coordinates, velocities and time.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -300,24 +300,4 @@ pub(super) const NO_ACCELERATIONS: &str =
 
 pub(super) fn is_literal_zero(expression: &Expression) -> bool {
     matches!(&expression.kind, Kind::Number(value) if value.is_zero())
-}
-
-pub(crate) fn fault_message(fault: Fault) -> &'static str {
-    match fault {
-        Fault::Overflow => {
-            "a numerator or denominator grows beyond 128 bits here: make one of the constants a field"
-        }
-        Fault::DivisionByZero => "this divides by zero",
-        Fault::TooLarge => "the expression grows beyond a million nodes here",
-    }
-}
-
-/// d/dt: coordinates change by velocities, velocities by accelerations, time by 1.
-pub(crate) fn total_time_derivative(graph: &mut Graph, coordinates: usize) -> Forward {
-    let mut seeds = vec![(Variable::Time.symbol(), Id::ONE)];
-    for i in 0..coordinates {
-        seeds.push((Variable::Coordinate(i).symbol(), graph.symbol(Variable::Velocity(i).symbol())));
-        seeds.push((Variable::Velocity(i).symbol(), graph.symbol(Variable::Acceleration(i).symbol())));
-    }
-    Forward::along(seeds)
 }

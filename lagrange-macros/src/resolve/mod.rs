@@ -20,7 +20,6 @@ use crate::syntax::Declaration;
 use crate::variables::Variable;
 pub(crate) use function::Supplied;
 use lower::Lowering;
-pub(crate) use lower::{fault_message, total_time_derivative};
 pub(crate) use outline::{Observable, Outline, outline};
 pub(crate) use parameters::{Element, Parameters};
 use scope::Scope;

@@ -3,7 +3,7 @@
 use proc_macro2::{Delimiter, Group, Ident, Spacing, Span, TokenStream, TokenTree};
 use syn::{Error, Result};
 
-use super::Name;
+use super::name::Name;
 use crate::diagnostics::Place;
 
 /// Parentheses, operators and powers may nest this deep.

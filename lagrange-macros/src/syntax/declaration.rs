@@ -2,9 +2,9 @@
 
 use proc_macro2::TokenStream;
 
-use super::Name;
 use super::expression::Expression;
 use super::field::Field;
+use super::name::Name;
 use super::target::Target;
 
 /// The struct and its attributes as written.

@@ -5,8 +5,8 @@
 use proc_macro2::{Delimiter, Group, TokenTree};
 use syn::Result;
 
-use super::Name;
 use super::cursor::{Cursor, NESTING_LIMIT};
+use super::name::Name;
 use super::number::number;
 use super::slips::{reject_adjacent, reject_keyword, unexpected};
 use crate::diagnostics::Place;

@@ -3,7 +3,7 @@
 use quote::ToTokens;
 use syn::{Expr, ExprLit, GenericArgument, Lit, PathArguments, PathSegment, Type};
 
-use super::Name;
+use super::name::Name;
 use crate::diagnostics::Place;
 
 /// A field, usable as a parameter or not.

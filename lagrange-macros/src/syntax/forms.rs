@@ -4,11 +4,11 @@ use proc_macro2::{Delimiter, TokenTree};
 use quote::ToTokens;
 use syn::Result;
 
-use super::Name;
 use super::cursor::Cursor;
 use super::declaration::{Constraint, Coordinate, Define, Force, Function, Named, Options, Parameter};
 use super::expression::{self, Expression, Kind};
 use super::field::LENGTH_LIMIT;
+use super::name::Name;
 use super::target::{Target, TargetIndex, target};
 use super::unread::unread;
 use crate::diagnostics::Place;

@@ -3,9 +3,9 @@
 use proc_macro2::Delimiter;
 use syn::Result;
 
-use super::Name;
 use super::cursor::Cursor;
 use super::expression::{self, Expression};
+use super::name::Name;
 
 /// `name`, `name[0]` or `name[i in 1..10]`.
 #[derive(Clone, Debug)]

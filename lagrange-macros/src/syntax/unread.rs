@@ -2,9 +2,9 @@
 
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenTree};
 
-use super::Name;
 use super::cursor::Cursor;
 use super::expression::{Expression, Kind, Operator};
+use super::name::Name;
 use super::number::{number, suffix};
 use crate::diagnostics::Place;
 

@@ -2,7 +2,7 @@
 
 use num_traits::One;
 
-use super::Integrability;
+use super::kinds::Integrability;
 use super::space::{Form, Space};
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id, Rational, Symbol, Verdict};

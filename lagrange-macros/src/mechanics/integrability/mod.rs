@@ -10,6 +10,7 @@
 
 mod distribution;
 mod integral;
+mod kinds;
 mod space;
 
 use super::ConstraintKind;
@@ -18,49 +19,8 @@ use super::constraints::Constraints;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};
 use distribution::{Closure, Distribution};
+pub(crate) use kinds::{Classification, Integrability, Integrals, Kinds};
 use space::{Form, Space};
-
-/// As the enumeration of the same name in lagrange-core, which documents it.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Integrability {
-    Holonomic,
-    Exact,
-    IntegratingFactor,
-    Together,
-    Nonholonomic,
-    Undecided,
-}
-
-impl Integrability {
-    fn is_integrable(self) -> bool {
-        matches!(self, Self::Holonomic | Self::Exact | Self::IntegratingFactor | Self::Together)
-    }
-}
-
-/// The verdict on one constraint.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Classification {
-    pub(crate) integrability: Integrability,
-    pub(crate) evidence: Evidence,
-}
-
-/// The verdict on the velocity constraints as a set.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Integrals {
-    pub(crate) count: usize,
-    pub(crate) of: usize,
-    pub(crate) evidence: Evidence,
-}
-
-/// The verdicts on all constraints.
-#[derive(Clone, Debug)]
-pub(crate) struct Kinds {
-    pub(crate) classes: Vec<Classification>,
-    /// `None` where it could not be decided.
-    pub(crate) integrals: Option<Integrals>,
-    /// For each constraint the function whose rate it is, as written or times a factor, where it was found.
-    pub(crate) functions: Vec<Option<Id>>,
-}
 
 /// Classifies every constraint and the set of them.
 pub(super) fn classify(graph: &mut Graph, problem: &Problem, constraints: &Constraints) -> Kinds {

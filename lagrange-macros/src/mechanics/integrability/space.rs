@@ -1,12 +1,12 @@
 //! The space of (q, t), the constraints as forms on it, and the points at which they are judged.
 
+use crate::mechanics::ConstraintKind;
 use crate::mechanics::Evidence;
 use crate::mechanics::constraints::Constraints;
-use crate::mechanics::{ConstraintKind, symbols};
 use crate::resolve::Problem;
 use crate::symbolic::{Approximate, Graph, Id, Sample};
 use crate::symbolic::{Symbol, rank};
-use crate::variables::Variable;
+use crate::variables::{Variable, symbols};
 
 /// So many points are looked at, and so many draws made to find them.
 const POINTS: usize = 8;

@@ -1,0 +1,94 @@
+//! The equations of motion, and with them all that a system is asked for while it moves.
+
+use super::constraints::ConstraintKind;
+use super::gauss::Form;
+use super::integrability::Kinds;
+use super::{constraints, determinacy, euler_lagrange, integrability};
+use crate::diagnostics::Diagnostics;
+use crate::resolve::Problem;
+use crate::symbolic::{Graph, Id};
+use crate::variables::Variable;
+
+/// M q̈ − Fᵀλ = h and F q̈ + γ = 0, every entry a node of the problem's graph.
+#[derive(Debug)]
+pub(crate) struct Equations {
+    /// p = ∂L/∂q̇
+    pub(crate) momentum: Vec<Id>,
+    /// M = ∂p/∂q̇, row by row
+    pub(crate) mass: Vec<Vec<Id>>,
+    /// ∂L/∂q + Q: dp/dt without constraints
+    pub(crate) momentum_rate: Vec<Id>,
+    /// h = ∂L/∂q + Q − (dp/dt where q̈ = 0)
+    pub(crate) forcing: Vec<Id>,
+    /// E = p·q̇ − L
+    pub(crate) energy: Id,
+    pub(crate) kinds: Vec<ConstraintKind>,
+    /// What is integrable
+    pub(crate) integrability: Kinds,
+    /// Φ of holonomic constraints, zero for the others
+    pub(crate) residual: Vec<Id>,
+    /// F q̇ + b
+    pub(crate) rate: Vec<Id>,
+    /// F, row by row
+    pub(crate) jacobian: Vec<Vec<Id>>,
+    /// γ
+    pub(crate) bias: Vec<Id>,
+    /// Fᵀλ, in the multipliers' symbols
+    pub(crate) constraint_force: Vec<Id>,
+    /// M and h as quadratic forms: the first over the accelerations alone
+    pub(crate) forms: Vec<Form>,
+}
+
+impl Equations {
+    /// Derives the equations of motion; `None` where they do not exist, which is then reported.
+    pub(super) fn derive(
+        graph: &mut Graph,
+        problem: &Problem,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<Self> {
+        let motion = euler_lagrange::derive(graph, problem);
+        reject_idle_dissipation(graph, problem, diagnostics);
+        diagnostics.stop_at_fault(problem.place, graph)?;
+        let constraints = constraints::derive(graph, problem, diagnostics)?;
+        determinacy::check(problem, &motion, &constraints, diagnostics)?;
+        let integrability = integrability::classify(graph, problem, &constraints);
+        Some(Self {
+            forms: Form::all(graph, problem, &motion),
+            integrability,
+            momentum: motion.momentum,
+            mass: motion.mass,
+            momentum_rate: motion.momentum_rate,
+            forcing: motion.forcing,
+            energy: motion.energy,
+            constraint_force: constraints.force(graph),
+            kinds: constraints.kinds,
+            residual: constraints.residual,
+            rate: constraints.rate,
+            jacobian: constraints.jacobian,
+            bias: constraints.bias,
+        })
+    }
+
+    /// Every entry.
+    pub(crate) fn roots(&self) -> Vec<Id> {
+        let matrices = self.mass.iter().chain(&self.jacobian).flatten();
+        let vectors =
+            [&self.momentum, &self.momentum_rate, &self.forcing, &self.residual, &self.rate, &self.bias];
+        matrices
+            .chain(vectors.into_iter().flatten())
+            .chain([&self.energy])
+            .chain(self.integrability.functions.iter().flatten())
+            .copied()
+            .collect()
+    }
+}
+
+/// −∂D/∂q̇ is nothing where D has no velocity in it.
+fn reject_idle_dissipation(graph: &Graph, problem: &Problem, diagnostics: &mut Diagnostics) {
+    let is_velocity = |symbol| matches!(Variable::of(symbol), Variable::Velocity(_));
+    if let Some((function, place)) = problem.dissipation
+        && !graph.symbols(&[function]).any(is_velocity)
+    {
+        diagnostics.error(place, "no velocity occurs in this dissipation function, so it does nothing");
+    }
+}

@@ -1,0 +1,89 @@
+//! Headings and lines, and how both texts are put together from them.
+
+use rustc_hash::FxHashMap;
+
+use super::formula::Formula;
+use super::symbols::Notation;
+use crate::resolve::Problem;
+use crate::symbolic::{Graph, Id};
+
+/// A row of more symbols than this is not for reading.
+pub(super) const READABLE: u64 = 250;
+
+/// A heading and the lines below it: a label, an equation and a remark. The note says what concerns all lines.
+pub(super) struct Section {
+    pub(super) heading: &'static str,
+    pub(super) lines: Vec<Line>,
+    pub(super) note: Option<String>,
+}
+
+pub(super) struct Line {
+    pub(super) label: Option<String>,
+    pub(super) equation: Equation,
+    pub(super) remark: String,
+}
+
+pub(super) enum Equation {
+    Known(Formula, Formula),
+    /// No equation but a single expression.
+    Term(Formula),
+    /// Why it is not written out.
+    TooLong(u64),
+}
+
+/// How many symbols each node would take written out, where what is shared is written again.
+pub(super) fn symbols_to_read(graph: &Graph, problem: &Problem, roots: &[Id]) -> FxHashMap<Id, u64> {
+    let mut sizes = FxHashMap::default();
+    for id in graph.reachable(roots) {
+        let mut size = 1_u64;
+        if !problem.names.contains_key(&id) {
+            graph.operands(id, |operand| size = size.saturating_add(sizes[&operand]));
+        }
+        sizes.insert(id, size);
+    }
+    sizes
+}
+
+pub(super) fn text(name: &str, sections: &[Section]) -> String {
+    let mut text = format!("{name}\n");
+    for Section { heading, lines, note } in sections.iter().filter(|section| !section.lines.is_empty()) {
+        text += &format!("\n{heading}\n");
+        let width =
+            lines.iter().filter_map(|line| line.label.as_ref()).map(|label| label.chars().count()).max();
+        for Line { label, equation, remark } in lines {
+            let label = match (label, width) {
+                (Some(label), Some(width)) => {
+                    let padding = " ".repeat(width - label.chars().count());
+                    format!("{label}:{padding} ")
+                }
+                _ => String::new(),
+            };
+            let equation = match equation {
+                Equation::Known(left, right) => Notation::Unicode.equation(left, right),
+                Equation::Term(formula) => Notation::Unicode.write(formula),
+                Equation::TooLong(size) => format!("… ({size} symbols)"),
+            };
+            let remark = if remark.is_empty() { String::new() } else { format!("   ({remark})") };
+            text += &format!("  {label}{equation}{remark}\n");
+        }
+        text.extend(note.iter().map(|note| format!("  {note}\n")));
+    }
+    text
+}
+
+pub(super) fn latex(sections: &[Section]) -> String {
+    let mut latex = String::from("\\begin{align*}\n");
+    for line in sections.iter().flat_map(|section| &section.lines) {
+        let equation = match &line.equation {
+            Equation::Known(left, right) => {
+                format!("{} &= {}", Notation::Latex.write(left), Notation::Latex.write(right))
+            }
+            Equation::Term(formula) => {
+                format!(r"&{} = \text{{total time derivative}}", Notation::Latex.write(formula))
+            }
+            Equation::TooLong(size) => format!(r"&\text{{({size} symbols)}}"),
+        };
+        latex += &format!("  {equation} \\\\\n");
+    }
+    latex + "\\end{align*}\n"
+}
