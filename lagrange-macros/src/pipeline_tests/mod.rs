@@ -2,6 +2,7 @@
 
 mod counts;
 mod determinism;
+mod doubling;
 mod elimination;
 mod emitted;
 mod integrability;

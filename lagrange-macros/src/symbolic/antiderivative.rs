@@ -1,6 +1,7 @@
 //! Antiderivatives where a term is a constant times f(u) ∂u/∂x; none elsewhere.
 
 use num_traits::{One, Signed};
+use rustc_hash::FxHashMap;
 
 use super::differentiate::Forward;
 use super::graph::{External, Function, Graph, Id, Node, Symbol};
@@ -8,6 +9,12 @@ use super::rational::Rational;
 
 /// The greatest power of a sum that is multiplied out.
 const EXPANDED: i128 = 4;
+
+/// Products of more factors that vary are left: each is tried, and what it costs is a power of their number.
+const FACTORS: usize = 16;
+
+/// The most terms to which a product is multiplied out: there are exponentially many in the number of its factors.
+const TERMS: u64 = 256;
 
 impl Graph {
     /// A function whose derivative by `symbol` is `root`, if it is found.
@@ -40,6 +47,9 @@ impl Graph {
     fn integrate_product(&mut self, factors: &[(Id, Rational)], symbol: Symbol) -> Option<Id> {
         let (varying, constant): (Vec<_>, Vec<_>) =
             factors.iter().copied().partition(|&(factor, _)| self.depends(factor, symbol));
+        if varying.len() > FACTORS {
+            return None;
+        }
         let integrand = self.product(varying.iter().copied());
         let integral = self.substitute(&varying, integrand, symbol);
         let integral = integral.or_else(|| self.multiply_out(&varying, symbol))?;
@@ -96,18 +106,43 @@ impl Graph {
 
     /// (Σ term) ^ n · rest = Σ term · (Σ term) ^ (n − 1) · rest
     fn multiply_out(&mut self, factors: &[(Id, Rational)], symbol: Symbol) -> Option<Id> {
-        let is_sum = |&(factor, exponent): &(Id, Rational)| {
-            let expands = exponent.is_integer()
-                && exponent.is_positive()
-                && exponent <= Rational::from_integer(EXPANDED);
-            expands && matches!(self.node(factor), Node::Sum(terms) if terms.len() > 1)
-        };
-        let position = factors.iter().position(is_sum)?;
+        let position = factors.iter().position(|&factor| self.expands(factor))?;
+        if self.terms_multiplied_out(factors) > TERMS {
+            return None;
+        }
         let mut rest = factors.to_vec();
         let Node::Sum(terms) = self.node(rest[position].0).clone() else { return None };
         rest[position].1 -= Rational::one();
         let rest = self.product(rest);
         self.integrate_terms(&terms, rest, symbol)
+    }
+
+    fn expands(&self, (factor, exponent): (Id, Rational)) -> bool {
+        let is_power =
+            exponent.is_integer() && exponent.is_positive() && exponent <= Rational::from_integer(EXPANDED);
+        is_power && matches!(self.node(factor), Node::Sum(terms) if terms.len() > 1)
+    }
+
+    /// How many terms a product has where nothing is left to multiply out, counted without doing it.
+    fn terms_multiplied_out(&self, factors: &[(Id, Rational)]) -> u64 {
+        let mut counts: FxHashMap<Id, u64> = FxHashMap::default();
+        let of_product = |factors: &[(Id, Rational)], counts: &FxHashMap<Id, u64>| {
+            let expanding = factors.iter().filter(|&&factor| self.expands(factor));
+            expanding.fold(1_u64, |count, (factor, exponent)| {
+                count.saturating_mul(counts[factor].saturating_pow(exponent.to_integer() as u32))
+            })
+        };
+        for id in self.reachable(&factors.iter().map(|&(factor, _)| factor).collect::<Vec<_>>()) {
+            let count = match self.node(id) {
+                Node::Sum(terms) => {
+                    terms.iter().fold(0, |sum: u64, (term, _)| sum.saturating_add(counts[term]))
+                }
+                Node::Product(factors) => of_product(factors, &counts),
+                _ => 1,
+            };
+            counts.insert(id, count);
+        }
+        of_product(factors, &counts)
     }
 }
 

@@ -4,6 +4,46 @@ use crate::symbolic::{Function, Graph, Id, Rational};
 
 use super::symbol;
 
+/// (x + y + 1)ᵉ (x + 2 y + 2)ᵉ …
+fn sums(graph: &mut Graph, count: i128, exponent: i128) -> Id {
+    let one = Rational::from_integer(1);
+    let [x, y] = [0, 1].map(|i| graph.symbol(symbol(i)));
+    let sum = |k| [(x, one), (y, Rational::from_integer(k)), (Id::ONE, Rational::from_integer(k))];
+    let factors: Vec<_> =
+        (1..=count).map(|k| (graph.sum(sum(k)), Rational::from_integer(exponent))).collect();
+    graph.product(factors)
+}
+
+/// Thirty sums of three terms have 3³⁰ multiplied out, and the fourth powers of ten have 15¹⁰.
+#[test]
+fn what_has_too_many_terms_is_not_multiplied_out() {
+    let mut graph = Graph::default();
+    for (count, exponent) in [(30, 1), (10, 4)] {
+        let product = sums(&mut graph, count, exponent);
+        let before = graph.len();
+        assert_eq!(graph.antiderivative(product, symbol(0)), None);
+        assert!(graph.len() < before + 10_000, "{} nodes after {before}", graph.len());
+    }
+    for (count, exponent) in [(5, 1), (2, 2)] {
+        let product = sums(&mut graph, count, exponent);
+        assert!(graph.antiderivative(product, symbol(0)).is_some(), "few terms: {count}, {exponent}");
+    }
+}
+
+/// a₀ = x + y, aₖ₊₁ = aₖ (aₖ + k): few nodes, and as many terms as 2 to the power 2ᵏ.
+#[test]
+fn sums_within_sums_count() {
+    let mut graph = Graph::default();
+    let [x, y] = [0, 1].map(|i| graph.symbol(symbol(i)));
+    let mut product = graph.add(x, y);
+    for k in 1..60 {
+        let k = graph.integer(k);
+        let sum = graph.add(product, k);
+        product = graph.mul(product, sum);
+    }
+    assert_eq!(graph.antiderivative(product, symbol(0)), None);
+}
+
 /// The central difference of `root` by symbol 0 at x, with symbol 1 at 0.7.
 fn slope(graph: &Graph, root: Id, x: f64) -> f64 {
     let at = |x: f64| graph.evaluate(root, |name| if name == symbol(0) { x } else { 0.7 }).value;

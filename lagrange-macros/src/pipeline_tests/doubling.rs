@@ -1,0 +1,49 @@
+//! Definitions that use the one before twice: written out they are 2⁶⁰ times as long as the first. Wherever they
+//! stand, nothing takes them apart.
+
+use super::tokens;
+use crate::expand;
+
+const DEPTH: usize = 60;
+
+/// aₖ₊₁ of aₖ.
+const STEPS: [&str; 3] = ["A + A*sin(A)*x", "A/(1 + A^2)", "A*(A + x)"];
+
+/// What is made of the last definition.
+const USES: [&str; 7] = [
+    "#[lagrangian(m/2*(x_dot^2 + y_dot^2) - A)]",
+    "#[lagrangian((1 + A^2)*x_dot^2 + y_dot^2 + der(A))]",
+    "#[lagrangian(x_dot^2 + y_dot^2)] #[constraint(c: A = 0)]",
+    "#[lagrangian(x_dot^2 + y_dot^2)] #[constraint(c: A*x_dot + y_dot = 0)]",
+    "#[lagrangian(x_dot^2 + y_dot^2)] #[constraint(c: A*(x_dot + m*y_dot) = 0)]",
+    "#[lagrangian(x_dot^2 + y_dot^2)] #[observable(o = der(A))] #[force(x: A)]",
+    "#[lagrangian(x_dot^2 + y_dot^2)] #[conserved(o = A)]",
+];
+
+fn expansion(step: &str, uses: &str) -> String {
+    let mut source = String::from("#[coordinates(x, y)] #[define(a0 = x + m*y)]");
+    for k in 1..=DEPTH {
+        source += &format!("#[define(a{k} = {})]", step.replace('A', &format!("a{}", k - 1)));
+    }
+    source += &format!("{} struct Doubling {{ m: f64 }}", uses.replace('A', &format!("a{DEPTH}")));
+    expand(tokens(&source)).to_string()
+}
+
+#[test]
+fn what_doubles_sixty_times_is_derived() {
+    for step in STEPS {
+        for uses in USES {
+            let expansion = expansion(step, uses);
+            let is_refused = expansion.contains("compile_error");
+            assert_eq!(is_refused, uses.contains("conserved"), "{step}, {uses}");
+            assert!(expansion.len() < 1_000_000, "{} characters for {step}, {uses}", expansion.len());
+        }
+    }
+}
+
+/// The equations as text name the last definition, and say how long it is where its derivatives do not.
+#[test]
+fn what_doubles_sixty_times_is_not_written_out() {
+    let written = expansion(STEPS[0], USES[0]);
+    assert!(written.contains("− a60") && written.contains(" symbols)"), "{written}");
+}
