@@ -3,7 +3,7 @@
 use super::{PhaseState, equations, legendre};
 use crate::names::Entry;
 use crate::number::array::vector;
-use crate::solution::consistent;
+use crate::solution::consistent::{Level, project};
 use crate::solution::flow::{Flow, Phase, Point, Slope};
 use crate::{Error, Lagrangian, Real, State};
 
@@ -38,7 +38,7 @@ where
 
     fn project(system: &L, point: &Point<L::Scalar, N>) -> Result<State<L::Scalar, N>, Error> {
         let mut state = nearby(point);
-        consistent::project_coordinates(system, &mut state)?;
+        project(system, &[Level::Position], &mut state)?;
         let phase = PhaseState { q: state.q, ..phase_state(point) };
         legendre::invert(system, &phase, &point.velocity, None)
     }

@@ -12,14 +12,9 @@ use crate::number::array::vector;
 use crate::number::numeric::{exceeds, power_of_epsilon};
 use crate::solution::eliminate::eliminate_active;
 use crate::solution::kkt::{self, Equations, Fault, Rank, natural_units, row_length};
+use crate::solution::newton::{self, Left, Search, halvings};
 use crate::solution::solve::{is_trustworthy, most_involved, name, not_finite};
 use crate::{Error, Lagrangian, Real, Scalar, Solution, State};
-
-/// Newton iterations before giving up.
-const ITERATIONS: usize = 100;
-
-/// Halvings of a step before giving up.
-const HALVINGS: usize = 50;
 
 /// The state with these momenta, its velocity sought from `guess` on, on the constraints `active` or on as many as
 /// are independent.
@@ -32,39 +27,13 @@ pub(crate) fn invert<L, const N: usize, const M: usize>(
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {
-    let search = Search { system, phase, active: active.copied().unwrap_or([true; M]) };
-    let half = L::Scalar::constant(0.5);
+    let mut inversion = Inversion { system, phase, active: active.copied().unwrap_or([true; M]) };
     let state = State { t: phase.t, q: phase.q, v: vector(*guess) };
-    let mut trial = search.trial(state, [L::Scalar::constant(0.0); M]);
-    let mut iteration = 0;
-    loop {
-        let linear = search.linearize(&trial)?;
-        let before = linear.distance(&trial);
-        if before.is_rounded() {
-            return Ok(trial.state);
-        }
-        let step = match search.step(&linear.equations) {
-            Ok(step) => step,
-            // The search ran to where nothing determines the velocity any more: that is not the fault of the start.
-            Err(_) if iteration > 0 => return Err(search.not_reached(&linear, &trial, iteration)),
-            Err(error) => return Err(error),
-        };
-        match search.descend(&linear, (&trial, &before), &step) {
-            Some((next, after)) if iteration < ITERATIONS => {
-                trial = next;
-                let stands = after.is_negligible() && after.value > half * before.value;
-                if stands || after.is_rounded() {
-                    return Ok(trial.state);
-                }
-            }
-            _ if before.is_negligible() => return Ok(trial.state),
-            _ => return Err(search.not_reached(&linear, &trial, iteration)),
-        }
-        iteration += 1;
-    }
+    let start = inversion.trial(state, [L::Scalar::constant(0.0); M]);
+    newton::find(&mut inversion, start).map(|(found, _)| found.state)
 }
 
-struct Search<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
+struct Inversion<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
     system: &'a L,
     phase: &'a PhaseState<L::Scalar, N>,
     active: [bool; M],
@@ -81,33 +50,12 @@ struct Trial<T, const N: usize, const M: usize> {
     rate: [T; M],
 }
 
-/// A better velocity, and how far that is.
-type Found<T, const N: usize, const M: usize> = (Trial<T, N, M>, Distance<T>);
-
 /// Newton's system at a trial, and the units in which its rows compare.
 struct Linear<'a, T, const N: usize, const M: usize> {
     wanted: &'a PhaseState<T, N>,
     equations: Equations<T, N, M>,
     unit: [T; N],
     length: [T; M],
-}
-
-/// A distance, in the natural units of the dynamics, and the size of the terms that it is the difference of.
-struct Distance<T> {
-    value: T,
-    terms: T,
-}
-
-impl<T: Real> Distance<T> {
-    /// Whether nothing but round-off is left.
-    fn is_rounded(&self) -> bool {
-        self.value <= T::constant(4.0 * T::EPSILON) * self.terms
-    }
-
-    /// Whether what is left may be round-off of terms that cancel.
-    fn is_negligible(&self) -> bool {
-        self.value <= power_of_epsilon::<T>(0.75) * self.terms
-    }
 }
 
 impl<T: Real, const N: usize, const M: usize> Linear<'_, T, N, M> {
@@ -122,24 +70,25 @@ impl<T: Real, const N: usize, const M: usize> Linear<'_, T, N, M> {
         })
     }
 
-    fn distance(&self, trial: &Trial<T, N, M>) -> Distance<T> {
-        let mut distance = Distance { value: T::constant(0.0), terms: T::constant(0.0) };
+    /// A distance, in the natural units of the dynamics, and the size of the terms that it is the difference of.
+    fn distance(&self, trial: &Trial<T, N, M>) -> (T, T) {
+        let (mut distance, mut size) = (T::constant(0.0), T::constant(0.0));
         for i in 0..N {
             let (residual, terms) = self.momentum_residual(trial, i);
-            distance.value += Scalar::abs(residual) * self.unit[i];
-            distance.terms += terms * self.unit[i];
+            distance += Scalar::abs(residual) * self.unit[i];
+            size += terms * self.unit[i];
         }
         for a in 0..M {
             let row = &self.equations.f[a];
             let terms = (0..N).fold(T::constant(0.0), |sum, i| sum + Scalar::abs(row[i] * trial.state.v[i]));
-            distance.value += Scalar::abs(trial.rate[a]) / self.length[a];
-            distance.terms += terms / self.length[a];
+            distance += Scalar::abs(trial.rate[a]) / self.length[a];
+            size += terms / self.length[a];
         }
-        distance
+        (distance, size)
     }
 }
 
-impl<'a, L, const N: usize, const M: usize> Search<'a, L, N, M>
+impl<L, const N: usize, const M: usize> Inversion<'_, L, N, M>
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {
@@ -151,26 +100,6 @@ where
             state,
             multipliers,
         }
-    }
-
-    fn linearize(&self, trial: &Trial<L::Scalar, N, M>) -> Result<Linear<'a, L::Scalar, N, M>, Error> {
-        let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
-        let jacobian = self.system.constraint_jacobian(&trial.state);
-        let equations = Equations {
-            m: self.system.mass_matrix(&trial.state).into(),
-            h: from_fn(|i| self.phase.p[i] - trial.momentum[i]),
-            f: from_fn(|a| from_fn(|i| if self.active[a] { jacobian[(a, i)] } else { zero })),
-            gamma: trial.rate,
-        };
-        if let Some(row) = not_finite::<L, N, M>(&equations) {
-            return Err(Error::EquationsNotFinite { row, time: self.phase.t.to_f64() });
-        }
-        let unit = natural_units(&equations.m, &equations.f);
-        let length = from_fn(|a| {
-            let length = row_length(&equations.f[a], &unit);
-            if length > zero { length } else { one }
-        });
-        Ok(Linear { wanted: self.phase, equations, unit, length })
     }
 
     /// Newton's step: the change of the velocity, and the new μ.
@@ -192,43 +121,68 @@ where
             }
         })
     }
+}
 
-    /// Takes the step, halved while it leads away; `None` where nothing helps.
-    fn descend(
+impl<'a, L, const N: usize, const M: usize> Search for Inversion<'a, L, N, M>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    type Scalar = L::Scalar;
+    type Trial = Trial<L::Scalar, N, M>;
+    type Linear = Linear<'a, L::Scalar, N, M>;
+
+    const STEPS: usize = 100;
+
+    fn linearize(&mut self, trial: &Self::Trial) -> Result<Self::Linear, Error> {
+        let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
+        let jacobian = self.system.constraint_jacobian(&trial.state);
+        let equations = Equations {
+            m: self.system.mass_matrix(&trial.state).into(),
+            h: from_fn(|i| self.phase.p[i] - trial.momentum[i]),
+            f: from_fn(|a| from_fn(|i| if self.active[a] { jacobian[(a, i)] } else { zero })),
+            gamma: trial.rate,
+        };
+        if let Some(row) = not_finite::<L, N, M>(&equations) {
+            return Err(Error::EquationsNotFinite { row, time: self.phase.t.to_f64() });
+        }
+        let unit = natural_units(&equations.m, &equations.f);
+        let length = from_fn(|a| {
+            let length = row_length(&equations.f[a], &unit);
+            if length > zero { length } else { one }
+        });
+        Ok(Linear { wanted: self.phase, equations, unit, length })
+    }
+
+    fn left(&self, near: &Self::Linear, trial: &Self::Trial) -> Left<L::Scalar> {
+        let (distance, size) = near.distance(trial);
+        let is_rounded = distance <= L::Scalar::constant(4.0 * L::Scalar::EPSILON) * size;
+        let is_negligible = is_rounded || distance <= power_of_epsilon::<L::Scalar>(0.75) * size;
+        Left { distance, is_rounded, is_negligible }
+    }
+
+    fn corrected(
         &self,
-        linear: &Linear<'_, L::Scalar, N, M>,
-        (from, before): (&Trial<L::Scalar, N, M>, &Distance<L::Scalar>),
-        step: &Solution<L::Scalar, N, M>,
-    ) -> Option<Found<L::Scalar, N, M>> {
-        let mut part = L::Scalar::constant(1.0);
-        // Where only round-off is left, halving cannot help.
-        for _ in 0..if before.is_negligible() { 1 } else { HALVINGS } {
+        linear: &Self::Linear,
+        from: &Self::Trial,
+        converged: bool,
+    ) -> Result<impl Iterator<Item = Self::Trial>, Error> {
+        let step = self.step(&linear.equations)?;
+        Ok(halvings(if converged { 1 } else { 50 }).map(move |part| {
             let v = from.state.v + step.accelerations * part;
             let change = |a: usize| (step.multipliers[a] - from.multipliers[a]) * part;
-            let next = self.trial(State { v, ..from.state }, from_fn(|a| from.multipliers[a] + change(a)));
-            let distance = linear.distance(&next);
-            if distance.value < before.value {
-                return Some((next, distance));
-            }
-            part *= L::Scalar::constant(0.5);
-        }
-        None
+            self.trial(State { v, ..from.state }, from_fn(|a| from.multipliers[a] + change(a)))
+        }))
     }
 
     #[cold]
-    fn not_reached(
-        &self,
-        linear: &Linear<'_, L::Scalar, N, M>,
-        trial: &Trial<L::Scalar, N, M>,
-        iterations: usize,
-    ) -> Error {
+    fn not_found(&self, linear: &Self::Linear, trial: &Self::Trial, steps: usize) -> Error {
         let residual = |i: usize| linear.momentum_residual(trial, i).0;
         let size = |i: usize| Scalar::abs(residual(i)) * linear.unit[i];
         let farthest = (1..N).fold(0, |worst, i| if exceeds(size(i), size(worst)) { i } else { worst });
         Error::MomentumNotReached {
             coordinate: name(&L::COORDINATES, farthest),
             residual: residual(farthest).to_f64(),
-            iterations,
+            iterations: steps,
             time: self.phase.t.to_f64(),
         }
     }

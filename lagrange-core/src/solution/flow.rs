@@ -1,6 +1,6 @@
 //! What is integrated: a motion in (q, q̇) or in (q, p). The methods are the same for both.
 
-use super::consistent;
+use super::consistent::{BOTH, project};
 use super::solve::solve_near;
 use crate::names::Entry;
 use crate::number::array::vector;
@@ -97,7 +97,7 @@ where
 
     fn project(system: &L, point: &Point<L::Scalar, N>) -> Result<State<L::Scalar, N>, Error> {
         let mut state = Self::state(system, point);
-        consistent::project(system, &mut state)?;
+        project(system, &BOTH, &mut state)?;
         Ok(state)
     }
 

@@ -5,6 +5,7 @@ pub(crate) mod eliminate;
 #[cfg(feature = "alloc")]
 pub(crate) mod flow;
 pub(crate) mod kkt;
+pub(crate) mod newton;
 pub(crate) mod solve;
 
 pub use consistent::{Adjustment, Consistent};

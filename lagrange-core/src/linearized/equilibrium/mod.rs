@@ -12,9 +12,10 @@ use nalgebra::SVector;
 
 use super::{Linearized, inputs};
 use crate::motion::simulate::check_finite;
+use crate::solution::newton;
 use crate::{Error, Lagrangian, Real, Simulate, State};
 use point::Point;
-use search::Search;
+use search::Balance;
 use steady::Drift;
 
 /// An equilibrium, or a steady motion.
@@ -65,12 +66,12 @@ where
 {
     check_finite(system, guess)?;
     let unknowns = unknowns::<L, N, M, P>(names)?;
-    let mut search = Search::start(system.clone(), guess, unknowns)?;
-    let at_the_guess = Drift::of(&search.point)?;
-    let iterations = search.run()?;
-    Drift::of(&search.point)?.check(&at_the_guess, &search.point)?;
-    let undetermined = search.undetermined()?;
-    let Point { system, state, multipliers } = search.point;
+    let (mut balance, start) = Balance::start(system.clone(), guess, unknowns)?;
+    let at_the_guess = Drift::of(&start.point)?;
+    let (found, iterations) = newton::find(&mut balance, start)?;
+    Drift::of(&found.point)?.check(&at_the_guess, &found.point)?;
+    let undetermined = balance.undetermined(&found)?;
+    let Point { system, state, multipliers } = found.point;
     // Of dependent constraints the multipliers of least norm; at a pole, where accelerations are undetermined, those found.
     let multipliers = system.solve(&state).map_or(multipliers, |solution| solution.multipliers);
     Ok(Equilibrium { system, state, multipliers, iterations, undetermined })

@@ -2,7 +2,6 @@
 
 use nalgebra::{ComplexField, DMatrix, DVector, SVector};
 
-use crate::linearized::tangent::finite_change;
 use crate::linearized::{Direction, Linearized, ResidualChange};
 use crate::names::{Entry, Row};
 use crate::number::array::vector;
@@ -33,7 +32,7 @@ where
     }
 
     /// Its derivatives by the unknowns and by the multipliers, at least as many rows as columns.
-    pub(super) fn jacobian<const P: usize>(&self, unknowns: &[usize]) -> Result<DMatrix<L::Scalar>, Error>
+    pub(super) fn jacobian<const P: usize>(&self, unknowns: &[usize]) -> DMatrix<L::Scalar>
     where
         L: Linearized<N, M, P>,
     {
@@ -43,19 +42,38 @@ where
         let zero = vector([L::Scalar::constant(0.0); N]);
         let still = Solution { accelerations: zero, multipliers, pivot: L::Scalar::constant(1.0), rank: M };
         for (j, &unknown) in unknowns.iter().enumerate() {
-            let (direction, entry) = if unknown < N {
-                (Direction::of_coordinate(unknown), Entry::Coordinate(L::COORDINATES[unknown]))
-            } else {
-                let k = unknown - N;
-                (Direction::of_parameter(k), Entry::Parameter(L::PARAMETERS[k]))
+            let direction = match unknown.checked_sub(N) {
+                None => Direction::of_coordinate(unknown),
+                Some(k) => Direction::of_parameter(k),
             };
             let change = self.system.residual_change(&self.state, &still, &direction);
-            finite_change::<L, N, M>(&change, entry, &self.state)?;
             jacobian.view_mut((0, j), (N + 3 * M, 1)).copy_from(&stacked(&change));
         }
         let f = self.system.constraint_jacobian(&self.state);
         jacobian.view_mut((0, unknowns.len()), (N, M)).copy_from(&-f.transpose());
-        Ok(jacobian)
+        jacobian
+    }
+
+    /// Names the first derivative by an unknown that is not finite.
+    pub(super) fn check_derivatives<const P: usize>(
+        &self,
+        jacobian: &DMatrix<L::Scalar>,
+        unknowns: &[usize],
+    ) -> Result<(), Error>
+    where
+        L: Linearized<N, M, P>,
+    {
+        for (&unknown, column) in unknowns.iter().zip(jacobian.column_iter()) {
+            if let Some(i) = column.iter().position(|x| !x.is_finite()) {
+                let entry = match unknown.checked_sub(N) {
+                    None => Entry::Coordinate(L::COORDINATES[unknown]),
+                    Some(k) => Entry::Parameter(L::PARAMETERS[k]),
+                };
+                let time = self.state.t.to_f64();
+                return Err(Error::DerivativeNotFinite { row: row::<L, N, M>(i), entry, time });
+            }
+        }
+        Ok(())
     }
 
     /// The value of an unknown.
@@ -66,16 +84,16 @@ where
         if unknown < N { self.state.q[unknown] } else { self.system.parameters()[unknown - N] }
     }
 
-    pub(super) fn set<const P: usize>(&mut self, unknown: usize, value: L::Scalar) -> Result<(), Error>
+    /// Sets an unknown; false where it is a parameter that cannot be changed.
+    pub(super) fn set<const P: usize>(&mut self, unknown: usize, value: L::Scalar) -> bool
     where
         L: Linearized<N, M, P>,
     {
-        if unknown < N {
-            self.state.q[unknown] = value;
-        } else if !self.system.set_parameter(unknown - N, value) {
-            return Err(Error::ParameterFixed { name: L::PARAMETERS[unknown - N] });
+        match unknown.checked_sub(N) {
+            None => self.state.q[unknown] = value,
+            Some(k) => return self.system.set_parameter(k, value),
         }
-        Ok(())
+        true
     }
 }
 

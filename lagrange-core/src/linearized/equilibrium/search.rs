@@ -3,6 +3,7 @@
 //! never moves what R does not depend on.
 
 use alloc::{format, string::String, vec::Vec};
+use core::iter::successors;
 
 use nalgebra::{DMatrix, DVector, Dyn, SVD};
 
@@ -11,111 +12,78 @@ use super::weights::weights;
 use crate::linearized::Linearized;
 use crate::number::array::vector;
 use crate::number::numeric::{larger, power_of_epsilon};
-use crate::solution::consistent;
+use crate::solution::consistent::{Level, project};
+use crate::solution::newton::{Left, Search};
 use crate::{Error, Lagrangian, Real, Scalar, Simulate, State};
-
-/// Steps before giving up.
-const ITERATIONS: usize = 200;
 
 type Factors<T> = SVD<T, Dyn, Dyn>;
 
-/// Where the search is, and how it goes on.
-pub(super) struct Search<L: Lagrangian<N, M>, const N: usize, const M: usize, const P: usize> {
-    pub(super) point: Point<L, N, M>,
+/// What is sought, and in which units.
+pub(super) struct Balance<L: Lagrangian<N, M>, const N: usize, const M: usize, const P: usize> {
     /// Indices of what is sought: coordinates, then parameters.
     unknowns: Vec<usize>,
-    residual: DVector<L::Scalar>,
-    jacobian: DMatrix<L::Scalar>,
     /// What each row is multiplied by, so that rows of different units compare.
     weights: DVector<L::Scalar>,
     /// The length of each column so far: the unit of a step is its inverse.
     scale: DVector<L::Scalar>,
+}
+
+/// Where the search is.
+pub(super) struct Trial<L: Lagrangian<N, M>, const N: usize, const M: usize> {
+    pub(super) point: Point<L, N, M>,
+    residual: DVector<L::Scalar>,
+    jacobian: DMatrix<L::Scalar>,
     damping: L::Scalar,
 }
 
-impl<L, const N: usize, const M: usize, const P: usize> Search<L, N, M, P>
+impl<L, const N: usize, const M: usize, const P: usize> Balance<L, N, M, P>
 where
     L: Linearized<N, M, P, Scalar: Real> + Clone,
 {
-    pub(super) fn start(system: L, guess: &State<L::Scalar, N>, unknowns: Vec<usize>) -> Result<Self, Error> {
+    /// The search, and its first trial.
+    pub(super) fn start(
+        system: L,
+        guess: &State<L::Scalar, N>,
+        unknowns: Vec<usize>,
+    ) -> Result<(Self, Trial<L, N, M>), Error> {
         let none = vector([L::Scalar::constant(0.0); M]);
-        let state = start(&system, guess, &unknowns);
+        let mut state = *guess;
+        // Onto the constraints where nothing of it is held, and where that can be.
+        if (0..N).all(|i| unknowns.contains(&i)) {
+            project(&system, &[Level::Position], &mut state).unwrap_or_default();
+        }
         let multipliers = system.solve(&state).map_or(none, |solution| solution.multipliers);
         let mut point = Point { system, state, multipliers };
         for &unknown in &unknowns {
-            point.set(unknown, point.value(unknown))?;
+            if !point.set(unknown, point.value(unknown)) {
+                return Err(Error::ParameterFixed { name: name::<L, N, M, P>(unknown) });
+            }
         }
-        let (residual, jacobian) = (point.residual(), point.jacobian(&unknowns)?);
-        finite_residual::<L, N, M>(&residual, &point.state)?;
-        let weights = weights(&jacobian, &residual, N);
-        let scale = DVector::zeros(jacobian.ncols());
-        let damping = L::Scalar::constant(1e-3);
-        Ok(Self { point, unknowns, residual, jacobian, weights, scale, damping })
+        let mut balance = Self { unknowns, weights: DVector::zeros(0), scale: DVector::zeros(0) };
+        let start = balance.trial(point, L::Scalar::constant(1e-3));
+        finite_residual::<L, N, M>(&start.residual, &start.point.state)?;
+        balance.weights = weights(&start.jacobian, &start.residual, N);
+        balance.scale = DVector::zeros(start.jacobian.ncols());
+        Ok((balance, start))
     }
 
-    /// Steps until only round-off is left; how many it took.
-    pub(super) fn run(&mut self) -> Result<usize, Error> {
-        let half = L::Scalar::constant(0.5);
-        for iteration in 0..ITERATIONS {
-            if self.is_exact() {
-                return Ok(iteration);
-            }
-            let factors = self.factorize()?;
-            let (converged, before) = (self.is_negligible(&factors), self.distance(&self.residual));
-            let moved = self.step(&factors)?;
-            if converged && (!moved || self.distance(&self.residual) > half * before) {
-                return Ok(iteration);
-            }
-            if !moved {
-                return Err(self.not_found(iteration));
-            }
-        }
-        let factors = self.factorize()?;
-        if self.is_negligible(&factors) { Ok(ITERATIONS) } else { Err(self.not_found(ITERATIONS)) }
-    }
-
-    /// Takes the least damped step that leads nearer; false where none does.
-    fn step(&mut self, factors: &Factors<L::Scalar>) -> Result<bool, Error> {
-        let before = self.distance(&self.residual);
-        let (less, more) = (L::Scalar::constant(0.1), L::Scalar::constant(10.0));
-        for _ in 0..40 {
-            let step = self.damped(factors, self.damping * before);
-            let next = self.moved(&step)?;
-            let residual = next.residual();
-            if self.distance(&residual) < before {
-                self.jacobian = next.jacobian(&self.unknowns)?;
-                (self.point, self.residual) = (next, residual);
-                self.damping *= less;
-                return Ok(true);
-            }
-            self.damping *= more;
-        }
-        Ok(false)
-    }
-
-    /// The singular values of the Jacobian in the units of rows and columns.
-    fn factorize(&mut self) -> Result<Factors<L::Scalar>, Error> {
-        let mut scaled = self.jacobian.clone();
-        for (i, weight) in self.weights.iter().enumerate() {
-            scaled.row_mut(i).scale_mut(*weight);
-        }
-        for (j, mut column) in scaled.column_iter_mut().enumerate() {
-            self.scale[j] = larger(self.scale[j], column.norm());
-            column.scale_mut(self.unit(j));
-        }
-        let size = scaled.nrows();
-        let epsilon = L::Scalar::constant(L::Scalar::EPSILON);
-        SVD::try_new(scaled, true, true, epsilon, 1000 * size).ok_or(Error::EigenvaluesNotFound)
+    fn trial(&self, point: Point<L, N, M>, damping: L::Scalar) -> Trial<L, N, M> {
+        Trial { residual: point.residual(), jacobian: point.jacobian(&self.unknowns), point, damping }
     }
 
     /// δ = −Σ_k v_k σ_k (u_k·R)/(σ_k² + μ), over the singular values that are not zero.
-    fn damped(&self, factors: &Factors<L::Scalar>, damping: L::Scalar) -> DVector<L::Scalar> {
+    fn damped(
+        &self,
+        factors: &Factors<L::Scalar>,
+        residual: &DVector<L::Scalar>,
+        damping: L::Scalar,
+    ) -> DVector<L::Scalar> {
         let zero = L::Scalar::constant(0.0);
-        let mut step = DVector::zeros(self.jacobian.ncols());
+        let mut step = DVector::zeros(self.scale.len());
         let (Some(u), Some(v)) = (&factors.u, &factors.v_t) else { return step };
         let least = factors.singular_values.max() * L::Scalar::constant(L::Scalar::EPSILON);
         for (k, &sigma) in factors.singular_values.iter().enumerate().filter(|(_, sigma)| **sigma > least) {
-            let rows = self.residual.iter().zip(&self.weights).enumerate();
+            let rows = residual.iter().zip(&self.weights).enumerate();
             let along = rows.fold(zero, |sum, (i, (r, w))| sum + u[(i, k)] * *r * *w);
             let length = -sigma * along / (sigma * sigma + damping);
             for j in 0..step.len() {
@@ -131,56 +99,61 @@ where
         if self.scale[j] > L::Scalar::constant(0.0) { one / self.scale[j] } else { one }
     }
 
-    fn moved(&self, step: &DVector<L::Scalar>) -> Result<Point<L, N, M>, Error> {
-        let mut next = self.point.clone();
+    fn moved(&self, trial: &Point<L, N, M>, step: &DVector<L::Scalar>) -> Point<L, N, M> {
+        let mut next = trial.clone();
         for (j, &unknown) in self.unknowns.iter().enumerate() {
-            next.set(unknown, next.value(unknown) + step[j])?;
+            next.set(unknown, next.value(unknown) + step[j]);
         }
         for a in 0..M {
             next.multipliers[a] += step[self.unknowns.len() + a];
         }
-        Ok(next)
+        next
+    }
+
+    /// Σ_j |∂R_i/∂x_j| size(j, |x_j|) over the unknowns and multipliers, for each row i.
+    fn terms(
+        &self,
+        trial: &Trial<L, N, M>,
+        size: impl Fn(usize, L::Scalar) -> L::Scalar,
+    ) -> DVector<L::Scalar> {
+        let unknowns = self.unknowns.iter().map(|&unknown| trial.point.value(unknown));
+        let values = unknowns.chain(trial.point.multipliers.iter().copied());
+        let sizes = values.enumerate().map(|(j, x)| size(j, Scalar::abs(x)));
+        let sizes = DVector::from_iterator(trial.jacobian.ncols(), sizes);
+        trial.jacobian.map(Scalar::abs) * sizes
     }
 
     /// |R| in the units of the rows.
-    fn distance(&self, residual: &DVector<L::Scalar>) -> L::Scalar {
-        residual.component_mul(&self.weights).norm()
+    fn distance(&self, trial: &Trial<L, N, M>) -> L::Scalar {
+        trial.residual.component_mul(&self.weights).norm()
     }
 
     /// Whether every row is round-off of its terms.
-    fn is_exact(&self) -> bool {
+    fn is_rounded(&self, trial: &Trial<L, N, M>) -> bool {
         let part = L::Scalar::constant(4.0 * L::Scalar::EPSILON);
-        let bound = self.terms(|_, x| part * x);
-        self.residual.iter().zip(&bound).all(|(r, bound)| Scalar::abs(*r) <= *bound)
+        let bound = self.terms(trial, |_, x| part * x);
+        trial.residual.iter().zip(&bound).all(|(r, bound)| Scalar::abs(*r) <= *bound)
     }
 
     /// Whether what is left may be round-off: it is small, of the terms of each row and of those where the unknowns
     /// are about 1; and what no step could take away is round-off of the terms here or at the guess. The second
     /// tells forces that cannot balance, however small their unit makes them.
-    fn is_negligible(&self, factors: &Factors<L::Scalar>) -> bool {
+    fn is_negligible(&self, factors: &Factors<L::Scalar>, trial: &Trial<L, N, M>) -> bool {
         let part = L::Scalar::constant(16.0 * L::Scalar::EPSILON);
         let floor = power_of_epsilon(0.75);
-        let small = self.terms(|_, x| part * x + floor);
-        let round_off = self.terms(|j, x| part * (x + self.unit(j)));
-        let moved = &self.jacobian * self.damped(factors, L::Scalar::constant(0.0));
-        let stays = &self.residual + moved.rows(0, self.residual.len());
-        (0..self.residual.len())
-            .all(|i| Scalar::abs(self.residual[i]) <= small[i] && Scalar::abs(stays[i]) <= round_off[i])
-    }
-
-    /// Σ_j |∂R_i/∂x_j| size(j, |x_j|) over the unknowns and multipliers, for each row i.
-    fn terms(&self, size: impl Fn(usize, L::Scalar) -> L::Scalar) -> DVector<L::Scalar> {
-        let unknowns = self.unknowns.iter().map(|&unknown| self.point.value(unknown));
-        let values = unknowns.chain(self.point.multipliers.iter().copied());
-        let sizes = values.enumerate().map(|(j, x)| size(j, Scalar::abs(x)));
-        let sizes = DVector::from_iterator(self.jacobian.ncols(), sizes);
-        self.jacobian.map(Scalar::abs) * sizes
+        let small = self.terms(trial, |_, x| part * x + floor);
+        let round_off = self.terms(trial, |j, x| part * (x + self.unit(j)));
+        let residual = &trial.residual;
+        let moved = &trial.jacobian * self.damped(factors, residual, L::Scalar::constant(0.0));
+        let stays = residual + moved.rows(0, residual.len());
+        (0..residual.len())
+            .all(|i| Scalar::abs(residual[i]) <= small[i] && Scalar::abs(stays[i]) <= round_off[i])
     }
 
     /// What takes part in the directions along which nothing changes.
-    pub(super) fn undetermined(&mut self) -> Result<Vec<String>, Error> {
+    pub(super) fn undetermined(&mut self, found: &Trial<L, N, M>) -> Result<Vec<String>, Error> {
         let zero = L::Scalar::constant(0.0);
-        let factors = self.factorize()?;
+        let factors = self.linearize(found)?;
         let Some(v) = &factors.v_t else { return Ok(Vec::new()) };
         let least = factors.singular_values.max() * power_of_epsilon(2.0 / 3.0);
         let free: Vec<usize> = (0..v.nrows()).filter(|&k| factors.singular_values[k] <= least).collect();
@@ -190,36 +163,70 @@ where
             self.unknowns.iter().zip(shares).filter(|(_, share)| *share > power_of_epsilon(1.0 / 3.0));
         Ok(names.map(|(&unknown, _)| name::<L, N, M, P>(unknown).into()).collect())
     }
+}
+
+impl<L, const N: usize, const M: usize, const P: usize> Search for Balance<L, N, M, P>
+where
+    L: Linearized<N, M, P, Scalar: Real> + Clone,
+{
+    type Scalar = L::Scalar;
+    type Trial = Trial<L, N, M>;
+    type Linear = Factors<L::Scalar>;
+
+    const STEPS: usize = 200;
+
+    /// The singular values of the Jacobian in the units of rows and columns.
+    fn linearize(&mut self, trial: &Self::Trial) -> Result<Self::Linear, Error> {
+        trial.point.check_derivatives(&trial.jacobian, &self.unknowns)?;
+        let mut scaled = trial.jacobian.clone();
+        for (i, weight) in self.weights.iter().enumerate() {
+            scaled.row_mut(i).scale_mut(*weight);
+        }
+        for (j, mut column) in scaled.column_iter_mut().enumerate() {
+            self.scale[j] = larger(self.scale[j], column.norm());
+            column.scale_mut(self.unit(j));
+        }
+        let size = scaled.nrows();
+        let epsilon = L::Scalar::constant(L::Scalar::EPSILON);
+        SVD::try_new(scaled, true, true, epsilon, 1000 * size).ok_or(Error::EigenvaluesNotFound)
+    }
+
+    fn left(&self, near: &Self::Linear, trial: &Self::Trial) -> Left<L::Scalar> {
+        let (distance, is_rounded) = (self.distance(trial), self.is_rounded(trial));
+        Left { distance, is_rounded, is_negligible: is_rounded || self.is_negligible(near, trial) }
+    }
+
+    /// The damping grows until a step leads nearer, and shrinks where one has.
+    fn corrected(
+        &self,
+        factors: &Self::Linear,
+        from: &Self::Trial,
+        _: bool,
+    ) -> Result<impl Iterator<Item = Self::Trial>, Error> {
+        let (less, more) = (L::Scalar::constant(0.1), L::Scalar::constant(10.0));
+        let distance = self.distance(from);
+        let dampings = successors(Some(from.damping), move |damping| Some(*damping * more)).take(40);
+        Ok(dampings.map(move |damping| {
+            let step = self.damped(factors, &from.residual, damping * distance);
+            self.trial(self.moved(&from.point, &step), damping * less)
+        }))
+    }
 
     #[cold]
-    fn not_found(&self, iterations: usize) -> Error {
-        let size = |i: usize| Scalar::abs(self.residual[i]) * self.weights[i];
+    fn not_found(&self, _: &Self::Linear, trial: &Self::Trial, steps: usize) -> Error {
+        let size = |i: usize| Scalar::abs(trial.residual[i]) * self.weights[i];
         let worst =
-            (1..self.residual.len()).fold(0, |worst, i| if size(i) > size(worst) { i } else { worst });
+            (1..trial.residual.len()).fold(0, |worst, i| if size(i) > size(worst) { i } else { worst });
         let best = self.unknowns.iter().map(|&unknown| {
-            let value = self.point.value(unknown).to_f64();
+            let value = trial.point.value(unknown).to_f64();
             format!("{} = {value:?}", name::<L, N, M, P>(unknown))
         });
         Error::NoEquilibrium {
             row: row::<L, N, M>(worst),
-            residual: self.residual[worst].to_f64(),
-            iterations,
+            residual: trial.residual[worst].to_f64(),
+            iterations: steps,
             best: best.collect(),
-            time: self.point.state.t.to_f64(),
+            time: trial.point.state.t.to_f64(),
         }
     }
-}
-
-/// The guess, moved onto the constraints where nothing of it is held.
-fn start<L, const N: usize, const M: usize>(
-    system: &L,
-    guess: &State<L::Scalar, N>,
-    unknowns: &[usize],
-) -> State<L::Scalar, N>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
-    let mut state = *guess;
-    let is_free = (0..N).all(|i| unknowns.contains(&i));
-    if is_free && consistent::project_coordinates(system, &mut state).is_ok() { state } else { *guess }
 }

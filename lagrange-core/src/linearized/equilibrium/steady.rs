@@ -25,7 +25,8 @@ impl<T: Real> Drift<T> {
     {
         let v = &point.state.v;
         let moving: Vec<usize> = (0..N).filter(|&i| v[i] != T::constant(0.0)).collect();
-        let jacobian = point.jacobian(&moving)?;
+        let jacobian = point.jacobian(&moving);
+        point.check_derivatives(&jacobian, &moving)?;
         let mut columns = jacobian.view((0, 0), (N + M, moving.len())).into_owned();
         for (mut column, &i) in columns.column_iter_mut().zip(&moving) {
             column.scale_mut(v[i]);

@@ -14,11 +14,9 @@ use nalgebra::{ComplexField, SVector};
 use crate::number::numeric::{exceeds, largest, power_of_epsilon};
 use crate::solution::eliminate::eliminate_active;
 use crate::solution::kkt::{self, Equations, Rank};
+use crate::solution::newton::{self, Left, Search, halvings};
 use crate::solution::solve::{is_trustworthy, name};
 use crate::{ConstraintKind, Error, Lagrangian, Real, Scalar, State};
-
-/// Newton iterations before giving up; a start within its reach takes four or five.
-const ITERATIONS: usize = 50;
 
 /// How far a projection onto the constraints moved a state.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,31 +58,27 @@ where
     L: Lagrangian<N, M, Scalar: Real>,
 {
     let mut consistent = *state;
-    project(system, &mut consistent)?;
+    project(system, &BOTH, &mut consistent)?;
     Ok((consistent, Adjustment { q: consistent.q - state.q, v: consistent.v - state.v }))
 }
 
-/// Moves the state to the nearest consistent one.
+/// Moves the coordinates, the velocities or both, the coordinates first, to the nearest ones on their constraints.
 pub(crate) fn project<L, const N: usize, const M: usize>(
     system: &L,
+    levels: &[Level],
     state: &mut State<L::Scalar, N>,
 ) -> Result<(), Error>
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {
-    project_coordinates(system, state)?;
-    newton::<L, Velocity, N, M>(system, state)
-}
-
-/// Moves the coordinates to the nearest ones on Φ = 0.
-pub(crate) fn project_coordinates<L, const N: usize, const M: usize>(
-    system: &L,
-    state: &mut State<L::Scalar, N>,
-) -> Result<(), Error>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
-    newton::<L, Position, N, M>(system, state)
+    for &level in levels {
+        if L::CONSTRAINT_KINDS.iter().any(|kind| level.is_active(*kind)) {
+            let mut projection = Projection { system, level };
+            let start = projection.trial(*state);
+            *state = newton::find(&mut projection, start)?.0.0;
+        }
+    }
+    Ok(())
 }
 
 /// See [`Simulate::check_consistent`](crate::Simulate::check_consistent).
@@ -95,64 +89,40 @@ pub(crate) fn check<L, const N: usize, const M: usize>(
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {
-    check_level::<L, Position, N, M>(system, state)?;
-    check_level::<L, Velocity, N, M>(system, state)
-}
-
-fn check_level<L, K, const N: usize, const M: usize>(
-    system: &L,
-    state: &State<L::Scalar, N>,
-) -> Result<(), Error>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-    K: Level,
-{
-    let residual = Residual::of::<L, K>(system, state);
-    match residual.first_above(power_of_epsilon(0.5)) {
-        None => Ok(()),
-        Some(row) => Err(Error::Inconsistent {
-            constraint: name(&L::CONSTRAINTS, row),
-            rate: K::RATE,
-            residual: residual.value[row].to_f64(),
-            time: state.t.to_f64(),
-        }),
+    for level in BOTH {
+        let residual = Residual::of(system, level, state);
+        if let Some(row) = residual.first_above(power_of_epsilon(0.5)) {
+            return Err(Error::Inconsistent {
+                constraint: name(&L::CONSTRAINTS, row),
+                rate: level == Level::Velocity,
+                residual: residual.value[row].to_f64(),
+                time: state.t.to_f64(),
+            });
+        }
     }
+    Ok(())
 }
 
 /// What is projected: the coordinates onto the holonomic constraints, or the velocities onto all.
-trait Level {
-    const RATE: bool;
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum Level {
+    Position,
+    Velocity,
+}
 
+pub(crate) const BOTH: [Level; 2] = [Level::Position, Level::Velocity];
+
+impl Level {
     /// The entries that move.
-    fn unknowns<T, const N: usize>(state: &mut State<T, N>) -> &mut SVector<T, N>;
-
-    fn is_active(kind: ConstraintKind) -> bool;
-}
-
-struct Position;
-struct Velocity;
-
-impl Level for Position {
-    const RATE: bool = false;
-
-    fn unknowns<T, const N: usize>(state: &mut State<T, N>) -> &mut SVector<T, N> {
-        &mut state.q
+    fn unknowns<T, const N: usize>(self, state: &mut State<T, N>) -> &mut SVector<T, N> {
+        match self {
+            Self::Position => &mut state.q,
+            Self::Velocity => &mut state.v,
+        }
     }
 
-    fn is_active(kind: ConstraintKind) -> bool {
-        kind == ConstraintKind::Holonomic
-    }
-}
-
-impl Level for Velocity {
-    const RATE: bool = true;
-
-    fn unknowns<T, const N: usize>(state: &mut State<T, N>) -> &mut SVector<T, N> {
-        &mut state.v
-    }
-
-    fn is_active(_: ConstraintKind) -> bool {
-        true
+    fn is_active(self, kind: ConstraintKind) -> bool {
+        self == Self::Velocity || kind == ConstraintKind::Holonomic
     }
 }
 
@@ -168,17 +138,19 @@ struct Residual<T, const N: usize, const M: usize> {
 }
 
 impl<T: Real, const N: usize, const M: usize> Residual<T, N, M> {
-    fn of<L, K>(system: &L, state: &State<T, N>) -> Self
+    fn of<L>(system: &L, level: Level, state: &State<T, N>) -> Self
     where
         L: Lagrangian<N, M, Scalar = T>,
-        K: Level,
     {
         let zero = T::constant(0.0);
-        let active = L::CONSTRAINT_KINDS.map(K::is_active);
+        let active = L::CONSTRAINT_KINDS.map(|kind| level.is_active(kind));
         let jacobian = system.constraint_jacobian(state);
         let jacobian = from_fn(|a| from_fn(|i| if active[a] { jacobian[(a, i)] } else { zero }));
-        let value = if K::RATE { system.constraint_rate(state) } else { system.constraint_residual(state) };
-        let x = *K::unknowns(&mut { *state });
+        let value = match level {
+            Level::Position => system.constraint_residual(state),
+            Level::Velocity => system.constraint_rate(state),
+        };
+        let x = *level.unknowns(&mut { *state });
         Self {
             value: from_fn(|a| if active[a] { value[a] } else { zero }),
             terms: jacobian.map(|row| magnitude(from_fn::<T, N, _>(|i| row[i] * x[i]))),
@@ -195,19 +167,8 @@ impl<T: Real, const N: usize, const M: usize> Residual<T, N, M> {
         (0..M).find(|&a| exceeds(Scalar::abs(self.value[a]), bound(a)))
     }
 
-    /// Whether nothing but round-off is left.
-    fn is_rounded(&self) -> bool {
-        let bound = |a: usize| T::constant(4.0 * T::EPSILON) * self.terms[a];
-        (0..M).all(|a| Scalar::abs(self.value[a]) <= bound(a))
-    }
-
-    /// Whether what is left may be round-off of terms that cancel.
-    fn is_negligible(&self) -> bool {
-        self.first_above(T::constant(16.0 * T::EPSILON)).is_none()
-    }
-
     /// The distance to the constraint farthest off, as if each stood alone, and which one that is.
-    fn distance(&self) -> (T, usize) {
+    fn farthest(&self) -> (T, usize) {
         let zero = T::constant(0.0);
         let mut farthest = (zero, 0);
         for a in 0..M {
@@ -232,90 +193,95 @@ fn magnitude<T: Real, const N: usize>(x: [T; N]) -> T {
     x.iter().fold(T::constant(0.0), |sum, x| sum + Scalar::abs(*x))
 }
 
-/// Newton's iteration to round-off.
-fn newton<L, K, const N: usize, const M: usize>(
-    system: &L,
-    state: &mut State<L::Scalar, N>,
-) -> Result<(), Error>
+/// The search for the nearest state on the constraints of a level.
+struct Projection<'a, L, const N: usize, const M: usize> {
+    system: &'a L,
+    level: Level,
+}
+
+/// A state, and what is left at it.
+type Trial<T, const N: usize, const M: usize> = (State<T, N>, Residual<T, N, M>);
+
+impl<L, const N: usize, const M: usize> Projection<'_, L, N, M>
 where
     L: Lagrangian<N, M, Scalar: Real>,
-    K: Level,
 {
-    if !L::CONSTRAINT_KINDS.iter().any(|kind| K::is_active(*kind)) {
-        return Ok(());
+    fn trial(&self, state: State<L::Scalar, N>) -> Trial<L::Scalar, N, M> {
+        (state, Residual::of(self.system, self.level, &state))
     }
-    let half = L::Scalar::constant(0.5);
-    let mut residual = Residual::of::<L, K>(system, state);
-    for iteration in 0..ITERATIONS {
-        if residual.is_rounded() {
-            return Ok(());
+
+    /// The least δ with F δ = −residual.
+    fn correction(
+        &self,
+        (state, residual): &Trial<L::Scalar, N, M>,
+        rank: Rank<L::Scalar>,
+    ) -> Option<SVector<L::Scalar, N>> {
+        let h = [L::Scalar::constant(0.0); N];
+        let m: [[L::Scalar; N]; N] = self.system.mass_matrix(state).into();
+        let fast = eliminate_active(m, h, residual.jacobian, residual.value, residual.active);
+        if is_trustworthy(&fast) {
+            return Some(fast.accelerations);
         }
-        let before = residual.distance().0;
-        // Constraints nearly dependent here are dependent where they hold, as a rule; if not, they all count.
-        let mut step_with = |rank| {
-            let step = correction(system, state, &residual, rank)?;
-            descend::<L, K, N, M>(system, state, &residual, step)
+        let general = |m| {
+            let equations = Equations { m, h, f: residual.jacobian, gamma: residual.value };
+            kkt::solve(&equations, rank).ok().map(|(solution, _)| solution.accelerations)
         };
-        let next = step_with(Rank::towards_constraints()).or_else(|| step_with(Rank::off_constraints()));
-        let converged = residual.is_negligible();
-        match next {
-            Some(next) if converged && next.distance().0 > half * before => return Ok(()),
-            Some(next) => residual = next,
-            None if converged => return Ok(()),
-            None => return Err(not_projected::<L, N, M>(state, &residual, iteration)),
-        }
+        // Without the velocity constraints a massless coordinate may have no metric: take the plain one.
+        general(m).or_else(|| general(diagonal(&m))).filter(|step| step.iter().all(|x| x.is_finite()))
     }
-    Err(not_projected::<L, N, M>(state, &residual, ITERATIONS))
 }
 
-/// Takes the step, halved while it leads away from the constraints; `None`, and no step, where nothing helps.
-fn descend<L, K, const N: usize, const M: usize>(
-    system: &L,
-    state: &mut State<L::Scalar, N>,
-    residual: &Residual<L::Scalar, N, M>,
-    mut step: SVector<L::Scalar, N>,
-) -> Option<Residual<L::Scalar, N, M>>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-    K: Level,
-{
-    let start = *K::unknowns(state);
-    // Where only round-off is left, halving cannot help.
-    let attempts = if residual.is_negligible() { 1 } else { 12 };
-    for _ in 0..attempts {
-        *K::unknowns(state) = start + step;
-        let next = Residual::of::<L, K>(system, state);
-        if next.distance().0 < residual.distance().0 {
-            return Some(next);
-        }
-        step *= L::Scalar::constant(0.5);
-    }
-    *K::unknowns(state) = start;
-    None
-}
-
-/// The least δ with F δ = −residual.
-fn correction<L, const N: usize, const M: usize>(
-    system: &L,
-    state: &State<L::Scalar, N>,
-    residual: &Residual<L::Scalar, N, M>,
-    rank: Rank<L::Scalar>,
-) -> Option<SVector<L::Scalar, N>>
+impl<L, const N: usize, const M: usize> Search for Projection<'_, L, N, M>
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {
-    let h = [L::Scalar::constant(0.0); N];
-    let m: [[L::Scalar; N]; N] = system.mass_matrix(state).into();
-    let fast = eliminate_active(m, h, residual.jacobian, residual.value, residual.active);
-    if is_trustworthy(&fast) {
-        return Some(fast.accelerations);
+    type Scalar = L::Scalar;
+    type Trial = Trial<L::Scalar, N, M>;
+    type Linear = ();
+
+    /// A start within its reach takes four or five.
+    const STEPS: usize = 50;
+
+    fn linearize(&mut self, _: &Self::Trial) -> Result<(), Error> {
+        Ok(())
     }
-    let general = |m| {
-        let equations = Equations { m, h, f: residual.jacobian, gamma: residual.value };
-        kkt::solve(&equations, rank).ok().map(|(solution, _)| solution.accelerations)
-    };
-    // Without the velocity constraints a massless coordinate may have no metric: take the plain one.
-    general(m).or_else(|| general(diagonal(&m))).filter(|step| step.iter().all(|x| x.is_finite()))
+
+    fn left(&self, (): &(), (_, residual): &Self::Trial) -> Left<L::Scalar> {
+        let part = |of: f64| L::Scalar::constant(of * L::Scalar::EPSILON);
+        let is_small = |a: usize| Scalar::abs(residual.value[a]) <= part(4.0) * residual.terms[a];
+        let is_rounded = (0..M).all(is_small);
+        let is_negligible = is_rounded || residual.first_above(part(16.0)).is_none();
+        Left { distance: residual.farthest().0, is_rounded, is_negligible }
+    }
+
+    fn corrected(
+        &self,
+        (): &(),
+        trial: &Self::Trial,
+        converged: bool,
+    ) -> Result<impl Iterator<Item = Self::Trial>, Error> {
+        // Constraints nearly dependent here are dependent where they hold, as a rule; if not, they all count.
+        let ranks = [Rank::towards_constraints(), Rank::off_constraints()].into_iter();
+        let steps = ranks.filter_map(|rank| self.correction(trial, rank));
+        Ok(steps.flat_map(move |step| {
+            halvings::<L::Scalar>(if converged { 1 } else { 12 }).map(move |part| {
+                let mut state = trial.0;
+                *self.level.unknowns(&mut state) += step * part;
+                self.trial(state)
+            })
+        }))
+    }
+
+    #[cold]
+    fn not_found(&self, (): &(), (state, residual): &Self::Trial, steps: usize) -> Error {
+        let (_, row) = residual.farthest();
+        Error::NotProjected {
+            constraint: name(&L::CONSTRAINTS, row),
+            residual: residual.value.get(row).map_or(f64::NAN, |value| value.to_f64()),
+            iterations: steps,
+            time: state.t.to_f64(),
+        }
+    }
 }
 
 /// The masses on the diagonal, 1 where there is none.
@@ -323,22 +289,4 @@ fn diagonal<T: Real, const N: usize>(m: &[[T; N]; N]) -> [[T; N]; N] {
     let (zero, one) = (T::constant(0.0), T::constant(1.0));
     let mass = |i: usize| if m[i][i] == zero { one } else { Scalar::abs(m[i][i]) };
     from_fn(|i| from_fn(|j| if i == j { mass(i) } else { zero }))
-}
-
-#[cold]
-fn not_projected<L, const N: usize, const M: usize>(
-    state: &State<L::Scalar, N>,
-    residual: &Residual<L::Scalar, N, M>,
-    iterations: usize,
-) -> Error
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
-    let (_, row) = residual.distance();
-    Error::NotProjected {
-        constraint: name(&L::CONSTRAINTS, row),
-        residual: residual.value.get(row).map_or(f64::NAN, |value| value.to_f64()),
-        iterations,
-        time: state.t.to_f64(),
-    }
 }

@@ -143,6 +143,6 @@ fn a_residual_that_is_no_number_is_the_farthest() {
         sensitivity: [1.0; 3],
         active: [true; 3],
     };
-    let (distance, row) = residual.distance();
+    let (distance, row) = residual.farthest();
     assert!(distance.is_nan() && row == 1, "{distance} in row {row}");
 }
