@@ -153,8 +153,10 @@ pub enum Error {
     UnknownName {
         /// The name asked for.
         name: String,
-        /// What it should name: `coordinate`, `multiplier`, …
+        /// What it should name: `coordinate`, `constraint`, …
         kind: &'static str,
+        /// What it is instead, or which name is near: `it is the velocity of …`, `did you mean …`.
+        hint: Option<String>,
         /// The names that exist.
         known: Vec<String>,
     },
@@ -288,7 +290,14 @@ impl Display for Error {
                 "the eigenvalues or singular values of a matrix were not found: check that its entries are finite, and the scales of the parameters"
             ),
             #[cfg(feature = "alloc")]
-            Self::UnknownName { name, kind, known } => unknown_name(f, name, kind, known),
+            Self::UnknownName { name, kind, hint: Some(hint), .. } => {
+                write!(f, "there is no {kind} `{name}`: {hint}")
+            }
+            #[cfg(feature = "alloc")]
+            Self::UnknownName { name, kind, hint: None, known } => match known.as_slice() {
+                [] => write!(f, "there is no {kind} `{name}`; the system has none"),
+                _ => write!(f, "there is no {kind} `{name}`; there are `{}`", known.join("`, `")),
+            },
             #[cfg(feature = "alloc")]
             Self::RepeatedName { name } => write!(f, "`{name}` is given twice: give each entry once"),
             Self::Shard { shard, of } => {
@@ -310,19 +319,6 @@ impl Display for Error {
             }
         }
     }
-}
-
-#[cfg(feature = "alloc")]
-fn unknown_name(f: &mut Formatter<'_>, name: &str, kind: &str, known: &[String]) -> fmt::Result {
-    write!(f, "there is no {kind} `{name}`; ")?;
-    if known.is_empty() {
-        return write!(f, "the system has none");
-    }
-    write!(f, "there are ")?;
-    for (i, one) in known.iter().enumerate() {
-        write!(f, "{}`{one}`", if i == 0 { "" } else { ", " })?;
-    }
-    Ok(())
 }
 
 impl core::error::Error for Error {}

@@ -27,7 +27,7 @@ fn message<T: std::fmt::Debug>(result: Result<T, Error>) -> String {
 fn names_are_checked() {
     let state = State::at_rest(HANGING);
     let message = message(PENDULUM.linearize(&state, &["pusch"]));
-    assert_eq!(message, "there is no parameter `pusch`; there are `m`, `g`, `l`, `push`");
+    assert_eq!(message, "there is no parameter `pusch`: did you mean `push`?");
     let error = PENDULUM.linearize(&state, &["push", "push"]).unwrap_err();
     assert_eq!(error, Error::RepeatedName { name: "push".into() });
     let Err(Error::UnknownName { kind, known, .. }) = PENDULUM.equilibrium(&state, &["z"]) else {

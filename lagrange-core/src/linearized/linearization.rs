@@ -1,16 +1,17 @@
 //! The linear system near a state, on the constraints where there are any.
 
-use alloc::{format, string::String, vec::Vec};
+use alloc::{string::String, vec::Vec};
 use core::array::from_fn;
 
 use nalgebra::{DMatrix, DVector, SVector};
 
 use super::tangent::Tangent;
-use super::{Direction, Linearized, inputs};
+use super::{Direction, Linearized};
 use crate::names::Entry;
 use crate::number::array::vector;
 use crate::number::numeric::{larger, largest, power_of_epsilon};
 use crate::solution::kkt::{Rank, Rows};
+use crate::system::lookup;
 use crate::{ConstraintKind, Error, Lagrangian, Real, Scalar, Simulate, Solution, State};
 
 /// The linear system ż = A z + B u near a state, u the change of the inputs.
@@ -62,7 +63,7 @@ pub(super) fn linearize<L, const N: usize, const M: usize, const P: usize>(
 where
     L: Linearized<N, M, P, Scalar: Real>,
 {
-    let parameters = inputs::indices(&L::PARAMETERS, "parameter", names)?;
+    let parameters = lookup::indices::<L, N, M>(&L::PARAMETERS, "parameter", names)?;
     system.check_consistent(state)?;
     let tangent = Tangent::at(system, state)?;
     let basis = if M == 0 { DMatrix::identity(2 * N, 2 * N) } else { tangent_space(&tangent)? };
@@ -71,7 +72,7 @@ where
         a: basis.tr_mul(&change_along(&basis, &tangent)?),
         b: basis.tr_mul(&change_by(&parameters, &tangent)?),
         rate: DVector::from_iterator(2 * N, rate),
-        states: (0..2 * N).map(|row| format!("{}", entry::<L, N, M>(row))).collect(),
+        states: lookup::entries::<L, N, M>(),
         inputs: parameters.iter().map(|&k| L::PARAMETERS[k].into()).collect(),
         basis,
     })

@@ -3,8 +3,6 @@
 mod direction;
 #[cfg(feature = "alloc")]
 mod equilibrium;
-#[cfg(feature = "alloc")]
-mod inputs;
 mod jacobian;
 #[cfg(feature = "alloc")]
 mod linearization;

@@ -109,17 +109,18 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     /// what is not named is zero.
     ///
     /// # Errors
-    /// [`Error::UnknownName`], which lists the names, and [`Error::RepeatedName`].
+    /// [`Error::UnknownName`], which says what the name means instead or lists the names, and [`Error::RepeatedName`].
     #[cfg(feature = "alloc")]
     fn state_from(&self, entries: &[(&str, Self::Scalar)]) -> Result<State<Self::Scalar, N>, Error> {
         let mut state = State::at_rest([Self::Scalar::constant(0.0); N]);
+        let known = lookup::entries::<Self, N, M>();
         for (i, (name, value)) in entries.iter().enumerate() {
             if entries.iter().take(i).any(|(earlier, _)| earlier == name) {
                 return Err(Error::RepeatedName { name: (*name).into() });
             }
-            let (half, index) = lookup::entry(&Self::COORDINATES, name)?;
-            let half = if half == 0 { &mut state.q } else { &mut state.v };
-            half[index] = *value;
+            let index = lookup::index::<Self, N, M>(&known, "coordinate or velocity", name)?;
+            let half = if index < N { &mut state.q } else { &mut state.v };
+            half[index % N] = *value;
         }
         Ok(state)
     }

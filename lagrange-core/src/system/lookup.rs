@@ -1,29 +1,128 @@
-//! From names to indices.
+//! From names to indices, and what a name means that was asked for in the wrong place.
 
-use alloc::{format, string::ToString, vec::Vec};
+#[cfg(test)]
+mod tests;
 
-use crate::Error;
+use alloc::{format, string::String, vec::Vec};
+
 use crate::names::Entry;
+use crate::{Error, Lagrangian};
 
-/// The index of `name` among `names`.
-pub(crate) fn index(names: &[&'static str], kind: &'static str, name: &str) -> Result<usize, Error> {
-    names.iter().position(|known| *known == name).ok_or_else(|| unknown(names, kind, name))
+/// The names of the coordinates, then of the velocities.
+pub(crate) fn entries<L: Lagrangian<N, M>, const N: usize, const M: usize>() -> Vec<String> {
+    let coordinates = L::COORDINATES.into_iter().map(Entry::Coordinate);
+    coordinates
+        .chain(L::COORDINATES.into_iter().map(Entry::Velocity))
+        .map(|entry| format!("{entry}"))
+        .collect()
 }
 
-pub(crate) fn unknown(names: &[&'static str], kind: &'static str, name: &str) -> Error {
-    Error::UnknownName { name: name.into(), kind, known: names.iter().map(ToString::to_string).collect() }
+/// The index of `name` among `known`.
+pub(crate) fn index<L: Lagrangian<N, M>, const N: usize, const M: usize>(
+    known: &[impl AsRef<str>],
+    kind: &'static str,
+    name: &str,
+) -> Result<usize, Error> {
+    let found = known.iter().position(|known| known.as_ref() == name);
+    found.ok_or_else(|| unknown::<L, N, M>(known, kind, name))
 }
 
-/// The coordinate (0) or velocity (1) called `name`, and its index.
-pub(crate) fn entry(coordinates: &[&'static str], name: &str) -> Result<(usize, usize), Error> {
-    let velocity = |coordinate: &&'static str| format!("{}", Entry::Velocity(coordinate));
-    if let Some(index) = coordinates.iter().position(|known| *known == name) {
-        return Ok((0, index));
+/// The indices of the entries of these names; `r` names all elements `r[0]`, `r[1]`, … of a vector.
+pub(crate) fn indices<L: Lagrangian<N, M>, const N: usize, const M: usize>(
+    known: &[impl AsRef<str>],
+    kind: &'static str,
+    names: &[&str],
+) -> Result<Vec<usize>, Error> {
+    let mut found = Vec::new();
+    for name in names {
+        let before = found.len();
+        found.extend((0..known.len()).filter(|&i| is_part(known[i].as_ref(), name)));
+        if found.len() == before {
+            return Err(unknown::<L, N, M>(known, kind, name));
+        }
+        if let Some(again) = found[before..].iter().find(|index| found[..before].contains(index)) {
+            return Err(Error::RepeatedName { name: known[*again].as_ref().into() });
+        }
     }
-    if let Some(index) = coordinates.iter().position(|known| velocity(known) == name) {
-        return Ok((1, index));
+    Ok(found)
+}
+
+/// Whether `entry` is what `name` says, or an element of the vector of this name.
+fn is_part(entry: &str, name: &str) -> bool {
+    entry.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('['))
+}
+
+pub(crate) fn unknown<L: Lagrangian<N, M>, const N: usize, const M: usize>(
+    known: &[impl AsRef<str>],
+    kind: &'static str,
+    name: &str,
+) -> Error {
+    let known: Vec<String> = known.iter().map(|known| known.as_ref().into()).collect();
+    let hint = if let Some(element) = known.iter().find(|known| is_part(known, name)) {
+        Some(format!("it is a vector: name an element, such as `{element}`"))
+    } else {
+        meaning::<L, N, M>(name).or_else(|| Some(format!("did you mean `{}`?", nearest(name, &known)?)))
+    };
+    Error::UnknownName { name: name.into(), kind, hint, known }
+}
+
+/// What a name stands for, and the method of a sample that gives it.
+fn meaning<L: Lagrangian<N, M>, const N: usize, const M: usize>(name: &str) -> Option<String> {
+    let coordinates = L::COORDINATES.into_iter().flat_map(|x| {
+        let (base, index) = x.split_at(x.find('[').unwrap_or(x.len()));
+        let derived = |name, method| (name, format!("the {method} of `{x}`"), method, x);
+        [
+            (x.into(), "a coordinate".into(), "coordinate", x),
+            derived(format!("{base}_dot{index}"), "velocity"),
+            derived(format!("{base}_ddot{index}"), "acceleration"),
+            derived(format!("p_{x}"), "momentum"),
+            derived(format!("p({x})"), "momentum"),
+        ]
+    });
+    let constraints = L::CONSTRAINTS.into_iter().flat_map(|c| {
+        let multiplier = format!("the multiplier of constraint `{c}`");
+        [
+            (c.into(), "a constraint".into(), "multiplier", c),
+            (format!("lambda({c})"), multiplier, "multiplier", c),
+        ]
+    });
+    let observables = L::OBSERVABLES.iter().map(|o| ((*o).into(), "an observable".into(), "observable", *o));
+    let mut named = coordinates.chain(constraints).chain(observables);
+    let found = named.find(|(known, ..): &(String, String, &str, &str)| is_part(known, name));
+    let said = found.map(|(known, what, method, of)| {
+        let it = if known == name { "it".into() } else { format!("its element `{known}`") };
+        format!("{it} is {what}, which a sample's `{method}(\"{of}\")` gives")
+    });
+    said.or_else(|| match name {
+        "t" | "time" => Some("it is the time, which a sample's `time()` gives".into()),
+        "E" | "H" | "energy" => Some("it is the energy, which a sample's `energy()` gives".into()),
+        _ => None,
+    })
+}
+
+/// The name that differs by the least, if it differs by little; in capital letters least of all.
+fn nearest<'a>(name: &str, known: &'a [String]) -> Option<&'a String> {
+    let allowed = match name.chars().count() {
+        0 | 1 => return None,
+        2..=4 => 1,
+        5..=8 => 2,
+        _ => 3,
+    };
+    let distance = |known: &&String| if known.eq_ignore_ascii_case(name) { 0 } else { distance(name, known) };
+    known.iter().filter(|known| distance(known) <= allowed).min_by_key(distance)
+}
+
+/// How many letters are to be changed, left out, put in or swapped with the next (Damerau 1964).
+fn distance(from: &str, to: &str) -> usize {
+    let (from, to): (Vec<char>, Vec<char>) = (from.chars().collect(), to.chars().collect());
+    let mut rows: Vec<Vec<usize>> = (0..=from.len()).map(|i| (i..=i + to.len()).collect()).collect();
+    for i in 1..=from.len() {
+        for j in 1..=to.len() {
+            let changed = rows[i - 1][j - 1] + usize::from(from[i - 1] != to[j - 1]);
+            let least = changed.min(rows[i - 1][j] + 1).min(rows[i][j - 1] + 1);
+            let swaps = i > 1 && j > 1 && from[i - 2] == to[j - 1] && from[i - 1] == to[j - 2];
+            rows[i][j] = if swaps { least.min(rows[i - 2][j - 2] + 1) } else { least };
+        }
     }
-    let known: Vec<_> =
-        coordinates.iter().map(ToString::to_string).chain(coordinates.iter().map(velocity)).collect();
-    Err(Error::UnknownName { name: name.into(), kind: "coordinate or velocity", known })
+    rows[from.len()][to.len()]
 }

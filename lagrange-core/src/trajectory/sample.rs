@@ -85,7 +85,7 @@ where
     /// # Errors
     /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
     pub fn multiplier(&self, name: &str) -> Result<L::Scalar, Error> {
-        let index = index(&L::CONSTRAINTS, "constraint", name)?;
+        let index = index::<L, N, M>(&L::CONSTRAINTS, "constraint", name)?;
         Ok(self.solution()?.multipliers[index])
     }
 
@@ -103,9 +103,9 @@ where
     /// # Errors
     /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
     pub fn observable(&self, name: &str) -> Result<L::Scalar, Error> {
-        let index = index(L::OBSERVABLES, "observable", name)?;
+        let index = index::<L, N, M>(L::OBSERVABLES, "observable", name)?;
         let value = self.system.observable(index, &self.state, &self.solution()?);
-        value.ok_or_else(|| unknown(L::OBSERVABLES, "observable", name))
+        value.ok_or_else(|| unknown::<L, N, M>(L::OBSERVABLES, "observable", name))
     }
 
     /// The conserved quantity of this name: `p_phi`, `energy`, or one given in `#[conserved(…)]`.
@@ -114,8 +114,8 @@ where
     /// [`Error::UnknownName`].
     pub fn conserved(&self, name: &str) -> Result<L::Scalar, Error> {
         let names: Vec<&'static str> = L::FACTS.conserved.iter().map(|conserved| conserved.name).collect();
-        let index = index(&names, "conserved quantity", name)?;
-        self.conserved_by_index(index).ok_or_else(|| unknown(&names, "conserved quantity", name))
+        let index = index::<L, N, M>(&names, "conserved quantity", name)?;
+        self.conserved_by_index(index).ok_or_else(|| unknown::<L, N, M>(&names, "conserved quantity", name))
     }
 
     pub(crate) fn conserved_by_index(&self, index: usize) -> Option<L::Scalar> {
@@ -131,7 +131,7 @@ fn coordinate<L, const N: usize, const M: usize>(name: &str) -> Result<usize, Er
 where
     L: Lagrangian<N, M>,
 {
-    index(&L::COORDINATES, "coordinate", name)
+    index::<L, N, M>(&L::COORDINATES, "coordinate", name)
 }
 
 impl<L, const N: usize, const M: usize> Debug for Sample<'_, L, N, M>

@@ -10,9 +10,10 @@ use core::fmt::{self, Debug, Formatter};
 
 use nalgebra::SVector;
 
-use super::{Linearized, inputs};
+use super::Linearized;
 use crate::motion::simulate::check_finite;
 use crate::solution::newton;
+use crate::system::lookup;
 use crate::{Error, Lagrangian, Real, Simulate, State};
 use point::Point;
 use search::Balance;
@@ -85,5 +86,6 @@ where
     if names.is_empty() {
         return Ok((0..N).collect());
     }
-    inputs::indices(&[&L::COORDINATES[..], &L::PARAMETERS[..]].concat(), "coordinate or parameter", names)
+    let known = [&L::COORDINATES[..], &L::PARAMETERS[..]].concat();
+    lookup::indices::<L, N, M>(&known, "coordinate or parameter", names)
 }
