@@ -93,6 +93,19 @@ pub enum Error {
         /// The time of the state.
         time: f64,
     },
+    /// Entries of the state that are held leave the others too little freedom to satisfy a constraint.
+    HeldTooMuch {
+        /// The constraint that is farthest from satisfied.
+        constraint: &'static str,
+        /// Whether its rate of change F q̇ + b is meant, and velocities are held (else Φ and coordinates).
+        rate: bool,
+        /// What is left of it.
+        residual: f64,
+        /// The coordinates that are held, or whose velocities are.
+        held: Names,
+        /// The time of the state.
+        time: f64,
+    },
     /// The momenta do not determine some velocities: ∂p/∂q̇ is singular along the constraints.
     VelocityUndetermined {
         /// The coordinates whose velocities can change and leave the momenta as they are.
@@ -258,6 +271,12 @@ impl Display for Error {
             Self::NotProjected { constraint, residual, iterations, time } => write!(
                 f,
                 "no consistent state found near the one given at t = {time}: constraint `{constraint}` has residual {residual:e} after {iterations} iterations; start closer to the constraints, or check that they can hold together"
+            ),
+            Self::HeldTooMuch { constraint, rate, residual, held, time } => write!(
+                f,
+                "what is held, {}{held}, leaves too little freedom for constraint `{constraint}` at t = {time}: its {} stays {residual:e}; hold less, or give what is held other values",
+                if *rate { "the velocity of " } else { "" },
+                if *rate { "rate F q_dot + b" } else { "residual" }
             ),
             Self::VelocityUndetermined { coordinates, time } => write!(
                 f,

@@ -118,7 +118,7 @@ where
     }
     solve(system, state)?;
     consistent::check(system, state)?;
-    consistent::make_consistent(system, state)
+    consistent::make_consistent(system, state, &[[false; N]; 2])
 }
 
 /// An end that can be reached.

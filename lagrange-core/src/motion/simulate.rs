@@ -1,7 +1,7 @@
 //! What a program does with a system.
 
 #[cfg(feature = "alloc")]
-use core::ops::ControlFlow;
+use core::{array::from_fn, ops::ControlFlow};
 
 #[cfg(feature = "alloc")]
 use super::run;
@@ -64,7 +64,42 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     /// [`Error::StateNotFinite`], and [`Error::NotProjected`] where Newton's iteration does not get there.
     fn make_consistent(&self, state: &State<Self::Scalar, N>) -> Result<Consistent<Self::Scalar, N>, Error> {
         check_finite(self, state)?;
-        consistent::make_consistent(self, state)
+        consistent::make_consistent(self, state, &[[false; N]; 2])
+    }
+
+    /// The same, with some entries as they are given: named as in [`state_from`](Self::state_from), `r` and `r_dot` for
+    /// all of a vector. The others move, to the nearest state in the metric of their part of the mass matrix.
+    ///
+    /// ```
+    /// # use lagrange_core::prelude::*;
+    /// # #[derive(Lagrangian)]
+    /// # #[coordinates(x, y)]
+    /// # #[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
+    /// # #[constraint(rod: 1/2 * (x^2 + y^2 - l^2) = 0)]
+    /// # struct Pendulum { m: f64, g: f64, l: f64 }
+    /// let pendulum = Pendulum { m: 1.0, g: 9.81, l: 2.0 };
+    /// // Its place and speed along x are given; y is sought from below.
+    /// let start = pendulum.state_from(&[("x", 1.2), ("y", -1.0), ("x_dot", 0.4)])?;
+    /// let (start, _) = pendulum.make_consistent_holding(&start, &["x", "x_dot"])?;
+    /// assert_eq!((start.q[0], start.v[0]), (1.2, 0.4));
+    /// assert!((start.q[1] + 1.6).abs() < 1e-15 && (start.v[1] - 0.3).abs() < 1e-15);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`make_consistent`](Self::make_consistent); [`Error::HeldTooMuch`], with the constraint that the other
+    /// entries cannot satisfy; [`Error::UnknownName`] and [`Error::RepeatedName`].
+    #[cfg(feature = "alloc")]
+    fn make_consistent_holding(
+        &self,
+        state: &State<Self::Scalar, N>,
+        held: &[&str],
+    ) -> Result<Consistent<Self::Scalar, N>, Error> {
+        check_finite(self, state)?;
+        let known = lookup::entries::<Self, N, M>();
+        let held = lookup::indices::<Self, N, M>(&known, "coordinate or velocity", held)?;
+        let [q, v] = [0, N].map(|half| from_fn(|i| held.contains(&(half + i))));
+        consistent::make_consistent(self, state, &[q, v])
     }
 
     /// The motion from a state to the time `end`, by the method named.

@@ -11,6 +11,7 @@ use core::array::from_fn;
 use core::fmt::{self, Display, Formatter};
 use nalgebra::{ComplexField, SVector};
 
+use crate::number::array::vector;
 use crate::number::numeric::{exceeds, largest, power_of_epsilon};
 use crate::solution::eliminate::eliminate_active;
 use crate::solution::kkt::{self, Equations, Rank};
@@ -49,16 +50,20 @@ impl<T: Real, const N: usize> Display for Adjustment<T, N> {
 /// The consistent state and how far it is from the one given.
 pub type Consistent<T, const N: usize> = (State<T, N>, Adjustment<T, N>);
 
-/// See [`Simulate::make_consistent`](crate::Simulate::make_consistent).
+/// See [`Simulate::make_consistent_holding`](crate::Simulate::make_consistent_holding); `held` are coordinates and
+/// velocities.
 pub(crate) fn make_consistent<L, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
+    held: &[[bool; N]; 2],
 ) -> Result<Consistent<L::Scalar, N>, Error>
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {
     let mut consistent = *state;
-    project(system, &BOTH, &mut consistent)?;
+    for (level, held) in BOTH.into_iter().zip(held) {
+        project_holding(system, level, held, &mut consistent)?;
+    }
     Ok((consistent, Adjustment { q: consistent.q - state.q, v: consistent.v - state.v }))
 }
 
@@ -71,13 +76,29 @@ pub(crate) fn project<L, const N: usize, const M: usize>(
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {
-    for &level in levels {
-        if L::CONSTRAINT_KINDS.iter().any(|kind| level.is_active(*kind)) {
-            let mut projection = Projection { system, level };
-            let start = projection.trial(*state);
-            *state = newton::find(&mut projection, start)?.0.0;
-        }
+    levels.iter().try_for_each(|level| project_holding(system, *level, &[false; N], state))
+}
+
+fn project_holding<L, const N: usize, const M: usize>(
+    system: &L,
+    level: Level,
+    held: &[bool; N],
+    state: &mut State<L::Scalar, N>,
+) -> Result<(), Error>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    if !L::CONSTRAINT_KINDS.iter().any(|kind| level.is_active(*kind)) {
+        return Ok(());
     }
+    let mut projection = Projection { system, level, held };
+    let start = projection.trial(*state);
+    let found = newton::find(&mut projection, start);
+    if found.is_err() && held.contains(&true) {
+        // What cannot hold at all is not the fault of what is held.
+        project(system, &[level], &mut { *state })?;
+    }
+    *state = found?.0.0;
     Ok(())
 }
 
@@ -197,6 +218,8 @@ fn magnitude<T: Real, const N: usize>(x: [T; N]) -> T {
 struct Projection<'a, L, const N: usize, const M: usize> {
     system: &'a L,
     level: Level,
+    /// Entries that stay as they are.
+    held: &'a [bool; N],
 }
 
 /// A state, and what is left at it.
@@ -210,24 +233,32 @@ where
         (state, Residual::of(self.system, self.level, &state))
     }
 
-    /// The least δ with F δ = −residual.
+    /// The least δ with F δ = −residual, of the entries that move.
     fn correction(
         &self,
         (state, residual): &Trial<L::Scalar, N, M>,
         rank: Rank<L::Scalar>,
     ) -> Option<SVector<L::Scalar, N>> {
-        let h = [L::Scalar::constant(0.0); N];
-        let m: [[L::Scalar; N]; N] = self.system.mass_matrix(state).into();
-        let fast = eliminate_active(m, h, residual.jacobian, residual.value, residual.active);
+        let zero = L::Scalar::constant(0.0);
+        let h = [zero; N];
+        let mut m: [[L::Scalar; N]; N] = self.system.mass_matrix(state).into();
+        let mut f = residual.jacobian;
+        for i in (0..N).filter(|&i| self.held[i]) {
+            m.iter_mut().chain(&mut f).for_each(|row| row[i] = zero);
+            m[i] = from_fn(|j| L::Scalar::constant(if i == j { 1.0 } else { 0.0 }));
+        }
+        let fast = eliminate_active(m, h, f, residual.value, residual.active);
         if is_trustworthy(&fast) {
             return Some(fast.accelerations);
         }
         let general = |m| {
-            let equations = Equations { m, h, f: residual.jacobian, gamma: residual.value };
+            let equations = Equations { m, h, f, gamma: residual.value };
             kkt::solve(&equations, rank).ok().map(|(solution, _)| solution.accelerations)
         };
         // Without the velocity constraints a massless coordinate may have no metric: take the plain one.
-        general(m).or_else(|| general(diagonal(&m))).filter(|step| step.iter().all(|x| x.is_finite()))
+        let step = general(m).or_else(|| general(diagonal(&m)))?;
+        let moving: SVector<_, N> = vector(from_fn(|i| if self.held[i] { zero } else { step[i] }));
+        moving.iter().all(|x| x.is_finite()).then_some(moving)
     }
 }
 
@@ -275,12 +306,14 @@ where
     #[cold]
     fn not_found(&self, (): &(), (state, residual): &Self::Trial, steps: usize) -> Error {
         let (_, row) = residual.farthest();
-        Error::NotProjected {
-            constraint: name(&L::CONSTRAINTS, row),
-            residual: residual.value.get(row).map_or(f64::NAN, |value| value.to_f64()),
-            iterations: steps,
-            time: state.t.to_f64(),
+        let constraint = name(&L::CONSTRAINTS, row);
+        let left = residual.value.get(row).map_or(f64::NAN, |value| value.to_f64());
+        let time = state.t.to_f64();
+        if !self.held.contains(&true) {
+            return Error::NotProjected { constraint, residual: left, iterations: steps, time };
         }
+        let held = (0..N).filter(|&i| self.held[i]).map(|i| L::COORDINATES[i]).collect();
+        Error::HeldTooMuch { constraint, rate: self.level == Level::Velocity, residual: left, held, time }
     }
 }
 

@@ -146,3 +146,92 @@ fn a_residual_that_is_no_number_is_the_farthest() {
     let (distance, row) = residual.farthest();
     assert!(distance.is_nan() && row == 1, "{distance} in row {row}");
 }
+
+/// Three coordinates on x + y + z = 3, with a full mass matrix.
+fn coupled() -> Mechanism<3, 1, 1> {
+    Mechanism {
+        mass: |_| [[2.0, 1.0, 0.5], [1.0, 3.0, 1.0], [0.5, 1.0, 4.0]],
+        forcing: |_| [0.0; 3],
+        residual: |s| [s.q.sum() - 3.0],
+        rate: |s| [s.v.sum() - 6.0],
+        jacobian: |_| [[1.0; 3]],
+        bias: |_| [0.0],
+    }
+}
+
+/// With x held, δ = (y, z) is least in the metric ((3, 1), (1, 4)) on y + z = 3: δ ∝ its inverse times (1, 1).
+#[test]
+fn what_is_held_stays_and_the_rest_is_nearest_in_its_own_metric() {
+    let start = State::new([0.0; 3], [1.0, 0.0, 0.0]);
+    let (state, moved) = coupled().make_consistent_holding(&start, &["x", "x_dot"]).unwrap();
+    assert_eq!((state.q[0], state.v[0]), (0.0, 1.0));
+    assert!((state.q - State::at_rest([0.0, 1.8, 1.2]).q).norm() < 1e-15, "{state:?}");
+    assert!((state.v - State::at_rest([1.0, 3.0, 2.0]).q).norm() < 1e-14, "{state:?}");
+    assert!((moved.largest_coordinate_change() - 1.8).abs() < 1e-15);
+    // Two held leave one way.
+    let (state, _) = coupled().make_consistent_holding(&start, &["y_dot", "z", "x"]).unwrap();
+    assert!((state.q - State::at_rest([0.0, 3.0, 0.0]).q).norm() < 1e-15 && state.v[1] == 0.0, "{state:?}");
+    // Nothing held is the nearest state of all.
+    assert_eq!(coupled().make_consistent_holding(&start, &[]), coupled().make_consistent(&start));
+}
+
+#[test]
+fn what_is_held_stays_in_the_general_solve_too() {
+    // Dependent constraints; the velocity tangential to the circle.
+    let start = State::new([0.6, -0.7], [0.4, 0.0]);
+    let (state, _) = dependent_on_the_manifold().make_consistent_holding(&start, &["x", "x_dot"]).unwrap();
+    assert_eq!((state.q[0], state.v[0]), (0.6, 0.4));
+    assert!((state.q[1] + 0.8).abs() < 1e-11 && (state.v[1] - 0.3).abs() < 1e-11, "{state:?}");
+    // A coordinate without mass.
+    let start = State::new([1.2, 1.6, 5.0], [0.0, 0.0, 0.25]);
+    let (state, _) = mixed().make_consistent_holding(&start, &["z"]).unwrap();
+    assert!((state.q - State::at_rest([0.6, 0.8, 5.0]).q).norm() < 1e-15, "{state:?}");
+    let (state, _) = mixed().make_consistent_holding(&State::at_rest([0.6, 0.7, 5.0]), &["x", "z"]).unwrap();
+    assert_eq!((state.q[0], state.q[2]), (0.6, 5.0));
+    assert!((state.q[1] - 0.8).abs() < 1e-15, "{state:?}");
+}
+
+#[test]
+fn too_much_held_is_said_with_the_constraint() {
+    let pendulum = spherical_pendulum();
+    let off = State::new([0.6, 0.0, -0.9], [1.0, 0.0, 0.5]);
+    let hold = |held: &[&str]| pendulum.make_consistent_holding(&off, held).unwrap_err();
+    let error = hold(&["z", "x", "y", "y_dot"]);
+    assert!(matches!(error, Error::HeldTooMuch { constraint: "c0", rate: false, .. }), "{error}");
+    let text = std::format!("{error}");
+    assert!(
+        text.starts_with("what is held, `x`, `y`, `z`, leaves too little freedom for constraint `c0`"),
+        "{text}"
+    );
+    // Velocities: x ẋ + z ż = 0 has no ẏ in it at y = 0.
+    let error = hold(&["x", "x_dot", "z_dot"]);
+    assert!(matches!(error, Error::HeldTooMuch { constraint: "c0", rate: true, .. }), "{error}");
+    assert!(std::format!("{error}").contains("the velocity of `x`, `z`, leaves"), "{error}");
+    // A place beyond the sphere, though something is left to move.
+    let beyond = State::at_rest([1.5, 0.1, 0.1]);
+    let error = pendulum.make_consistent_holding(&beyond, &["x"]).unwrap_err();
+    assert!(
+        matches!(error, Error::HeldTooMuch { constraint: "c0", residual, .. } if residual >= 0.625),
+        "{error}"
+    );
+    // What cannot hold whatever moves is not the fault of what is held.
+    let error = pendulum.make_consistent_holding(&State::at_rest([0.0; 3]), &["x"]).unwrap_err();
+    assert!(matches!(error, Error::NotProjected { constraint: "c0", residual: -0.5, .. }), "{error}");
+    // All may be held where it is consistent already.
+    let on = State::new([0.6, 0.0, -0.8], [0.8, 3.0, 0.6]);
+    assert_eq!(
+        pendulum.make_consistent_holding(&on, &["x", "y", "z", "x_dot", "y_dot", "z_dot"]).unwrap().0,
+        on
+    );
+}
+
+#[test]
+fn names_of_what_is_held_are_checked() {
+    let hold = |held: &[&str]| rolling_sphere().make_consistent_holding(&State::at_rest([0.0; 2]), held);
+    assert_eq!(hold(&["x", "x"]), Err(Error::RepeatedName { name: "x".into() }));
+    let error = hold(&["lambda(c0)"]).unwrap_err();
+    assert!(std::format!("{error}").contains("it is the multiplier of constraint `c0`"), "{error}");
+    let off = State::at_rest([f64::NAN, 0.0]);
+    let error = rolling_sphere().make_consistent_holding(&off, &["x"]).unwrap_err();
+    assert!(matches!(error, Error::StateNotFinite { .. }), "{error}");
+}
