@@ -138,7 +138,7 @@ pub enum Error {
         /// The time of the state.
         time: f64,
     },
-    /// Accelerations can be zero, but do not stay so: the velocities given lead to where the equations are others.
+    /// Accelerations can be zero, but do not stay so: the velocities lead to where the equations are others.
     NotSteady {
         /// The coordinate whose motion changes the equations most.
         coordinate: &'static str,
@@ -289,12 +289,12 @@ impl Display for Error {
             #[cfg(feature = "alloc")]
             Self::NoEquilibrium { row, residual, iterations, best, time } => write!(
                 f,
-                "no equilibrium found near the state given at t = {time}: the row of {row} leaves {residual:e} after {iterations} steps, at {}; start closer, or let other coordinates or parameters change",
+                "no equilibrium found near the state given at t = {time}: the row of {row} leaves {residual:e} after {iterations} steps, at {}; start closer, or let other coordinates, velocities or parameters change",
                 best.join(", ")
             ),
             Self::NotSteady { coordinate, row, time } => write!(
                 f,
-                "no steady motion with the velocities given at t = {time}: the row of {row} changes as `{coordinate}` moves; give it no velocity"
+                "no steady motion with these velocities at t = {time}: the row of {row} changes as `{coordinate}` moves; give it no velocity"
             ),
             Self::InputShiftsConstraint { input, constraint } => write!(
                 f,

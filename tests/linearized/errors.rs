@@ -33,7 +33,7 @@ fn names_are_checked() {
     let Err(Error::UnknownName { kind, known, .. }) = PENDULUM.equilibrium(&state, &["z"]) else {
         panic!("z is no unknown");
     };
-    assert_eq!((kind, known.len()), ("coordinate or parameter", 6));
+    assert_eq!((kind, known.len()), ("coordinate, velocity or parameter", 8));
 }
 
 #[test]
@@ -186,7 +186,7 @@ fn what_moves_on_into_other_forces_is_not_steady() {
         assert_eq!(error, Error::NotSteady { coordinate: "theta", row, time: 0.0 });
     }
     let text = message(swing.equilibrium(&State::new([0.1], [1.0]).at_time(2.0), &[]));
-    let expected = "no steady motion with the velocities given at t = 2: the row of coordinate `theta` changes as `theta` moves; give it no velocity";
+    let expected = "no steady motion with these velocities at t = 2: the row of coordinate `theta` changes as `theta` moves; give it no velocity";
     assert_eq!(text, expected);
     // Together the carts may move, with the spring as long as it likes to be.
     let carts = Carts { k: 7.3, l: 0.3, bend: 0.0 };

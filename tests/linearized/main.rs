@@ -8,6 +8,7 @@ mod constrained;
 mod equilibria;
 mod errors;
 mod numbers;
+mod steady;
 
 use lagrange_core::nalgebra::{Complex, DMatrix};
 

@@ -140,13 +140,14 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: Lagrangian
         linearization::linearize(self, state, inputs)
     }
 
-    /// An equilibrium near a state, on the constraints: coordinates and parameters for which q̈ = 0.
+    /// An equilibrium or a steady motion near a state, on the constraints: where q̈ = 0.
     ///
-    /// What may change is named: coordinates, and parameters where the question is which force (or length, or mass) holds the
-    /// system there; everything else stays as it is. No names are all the coordinates. The velocities stay those of
-    /// the guess: at rest for an equilibrium; not zero for a steady motion, such as the precession of a top, where they are
-    /// those of cyclic coordinates. That nothing changes with what moves is checked to first order, with the multipliers
-    /// as they are. The time stays as it is: where the system depends on the time, the equilibrium is one of the moment.
+    /// What may change is named: coordinates; parameters, where the question is which force (or length, or mass) holds the
+    /// system there; velocities, `phi_dot`, where it is how fast it moves steadily. Everything else stays as it is. No
+    /// names are all the coordinates. Velocities are zero for an equilibrium; for a steady motion, such as the
+    /// precession of a top, those of cyclic coordinates are not. That nothing changes with what moves is checked to first
+    /// order, with the multipliers as they are. The time stays as it is: where the system depends on the time, the
+    /// equilibrium is one of the moment.
     ///
     /// The method is that of Levenberg and Marquardt, from the guess on, or from the nearest coordinates on the constraints
     /// where all coordinates are sought. It finds stable and unstable equilibria alike.
@@ -163,6 +164,25 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: Lagrangian
     /// let bead = Bead { m: 1.0, r: 0.5, g: 9.81, omega: 6.0 };
     /// let off_the_axis = bead.equilibrium(&State::at_rest([0.5]), &[])?;
     /// assert!((off_the_axis.state.q[0].cos() - 9.81 / (0.5 * 36.0)).abs() < 1e-15);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// Of several velocities the guess says which: a top precesses slowly or fast, a pendulum either way round. Where forces
+    /// grow with the square of a velocity, zero does not say.
+    ///
+    /// ```
+    /// use lagrange_core::prelude::*;
+    ///
+    /// /// A pendulum in polar angles.
+    /// #[derive(Clone, Lagrangian)]
+    /// #[coordinates(theta, phi)]
+    /// #[lagrangian(m*l^2/2 * (theta_dot^2 + sin(theta)^2 * phi_dot^2) + m*g*l*cos(theta))]
+    /// struct Pendulum { m: f64, l: f64, g: f64 }
+    ///
+    /// let pendulum = Pendulum { m: 1.0, l: 0.5, g: 9.81 };
+    /// let guess = pendulum.state_from(&[("theta", 0.3), ("phi_dot", 1.0)])?;
+    /// let cone = pendulum.equilibrium(&guess, &["phi_dot"])?;
+    /// assert!((cone.state.v[1] - (9.81 / (0.5 * 0.3_f64.cos())).sqrt()).abs() < 1e-14);
     /// # Ok::<(), Error>(())
     /// ```
     ///

@@ -3,6 +3,7 @@
 mod point;
 mod search;
 mod steady;
+mod unknown;
 mod weights;
 
 use alloc::{string::String, vec::Vec};
@@ -13,18 +14,18 @@ use nalgebra::SVector;
 use super::Linearized;
 use crate::motion::simulate::check_finite;
 use crate::solution::newton;
-use crate::system::lookup;
 use crate::{Error, Lagrangian, Real, Simulate, State};
 use point::Point;
 use search::Balance;
 use steady::Drift;
+use unknown::Unknown;
 
 /// An equilibrium, or a steady motion.
 #[derive(Clone)]
 pub struct Equilibrium<L: Lagrangian<N, M>, const N: usize, const M: usize> {
     /// The system, its parameters as they were found.
     pub system: L,
-    /// The state; its time and velocities are those of the guess.
+    /// The state; its time is that of the guess, and so is what was not sought.
     pub state: State<L::Scalar, N>,
     /// The multipliers λ there, with the sign of [`Solution`](crate::Solution): the constraint force on coordinate i is
     /// Σ_α λ_α F_αi. The unit is that of the generalized force by that of F: for Φ = 0 an energy per unit of Φ, for a
@@ -36,9 +37,9 @@ pub struct Equilibrium<L: Lagrangian<N, M>, const N: usize, const M: usize> {
 }
 
 impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Equilibrium<L, N, M> {
-    /// The coordinates and parameters sought that can change, together, and leave it an equilibrium: cyclic
-    /// coordinates, to first order, and whatever is more than the equations determine. They are as near to the
-    /// guess as the others allow.
+    /// What was sought and can change, together, and leave it an equilibrium or a steady motion: cyclic coordinates, to
+    /// first order, and whatever is more than the equations determine. They are as near to the guess as the others
+    /// allow.
     pub fn undetermined(&self) -> &[String] {
         &self.undetermined
     }
@@ -66,7 +67,7 @@ where
     L: Linearized<N, M, P, Scalar: Real> + Clone,
 {
     check_finite(system, guess)?;
-    let unknowns = unknowns::<L, N, M, P>(names)?;
+    let unknowns = Unknown::of::<L, N, M, P>(names)?;
     let (mut balance, start) = Balance::start(system.clone(), guess, unknowns)?;
     let at_the_guess = Drift::of(&start.point)?;
     let (found, iterations) = newton::find(&mut balance, start)?;
@@ -76,16 +77,4 @@ where
     // Of dependent constraints the multipliers of least norm; at a pole, where accelerations are undetermined, those found.
     let multipliers = system.solve(&state).map_or(multipliers, |solution| solution.multipliers);
     Ok(Equilibrium { system, state, multipliers, iterations, undetermined })
-}
-
-/// Indices of what is sought: coordinates, then parameters.
-fn unknowns<L, const N: usize, const M: usize, const P: usize>(names: &[&str]) -> Result<Vec<usize>, Error>
-where
-    L: Linearized<N, M, P>,
-{
-    if names.is_empty() {
-        return Ok((0..N).collect());
-    }
-    let known = [&L::COORDINATES[..], &L::PARAMETERS[..]].concat();
-    lookup::indices::<L, N, M>(&known, "coordinate or parameter", names)
 }

@@ -2,8 +2,9 @@
 
 use nalgebra::{ComplexField, DMatrix, DVector, SVector};
 
-use crate::linearized::{Direction, Linearized, ResidualChange};
-use crate::names::{Entry, Row};
+use super::unknown::Unknown;
+use crate::linearized::{Linearized, ResidualChange};
+use crate::names::Row;
 use crate::number::array::vector;
 use crate::{Error, Lagrangian, Real, Scalar, Solution, State};
 
@@ -32,7 +33,7 @@ where
     }
 
     /// Its derivatives by the unknowns and by the multipliers, at least as many rows as columns.
-    pub(super) fn jacobian<const P: usize>(&self, unknowns: &[usize]) -> DMatrix<L::Scalar>
+    pub(super) fn jacobian<const P: usize>(&self, unknowns: &[Unknown]) -> DMatrix<L::Scalar>
     where
         L: Linearized<N, M, P>,
     {
@@ -42,11 +43,7 @@ where
         let zero = vector([L::Scalar::constant(0.0); N]);
         let still = Solution { accelerations: zero, multipliers, pivot: L::Scalar::constant(1.0), rank: M };
         for (j, &unknown) in unknowns.iter().enumerate() {
-            let direction = match unknown.checked_sub(N) {
-                None => Direction::of_coordinate(unknown),
-                Some(k) => Direction::of_parameter(k),
-            };
-            let change = self.system.residual_change(&self.state, &still, &direction);
+            let change = self.system.residual_change(&self.state, &still, &unknown.direction());
             jacobian.view_mut((0, j), (N + 3 * M, 1)).copy_from(&stacked(&change));
         }
         let f = self.system.constraint_jacobian(&self.state);
@@ -58,40 +55,41 @@ where
     pub(super) fn check_derivatives<const P: usize>(
         &self,
         jacobian: &DMatrix<L::Scalar>,
-        unknowns: &[usize],
+        unknowns: &[Unknown],
     ) -> Result<(), Error>
     where
         L: Linearized<N, M, P>,
     {
         for (&unknown, column) in unknowns.iter().zip(jacobian.column_iter()) {
             if let Some(i) = column.iter().position(|x| !x.is_finite()) {
-                let entry = match unknown.checked_sub(N) {
-                    None => Entry::Coordinate(L::COORDINATES[unknown]),
-                    Some(k) => Entry::Parameter(L::PARAMETERS[k]),
-                };
-                let time = self.state.t.to_f64();
-                return Err(Error::DerivativeNotFinite { row: row::<L, N, M>(i), entry, time });
+                let (row, entry) = (row::<L, N, M>(i), unknown.entry::<L, N, M, P>());
+                return Err(Error::DerivativeNotFinite { row, entry, time: self.state.t.to_f64() });
             }
         }
         Ok(())
     }
 
     /// The value of an unknown.
-    pub(super) fn value<const P: usize>(&self, unknown: usize) -> L::Scalar
+    pub(super) fn value<const P: usize>(&self, unknown: Unknown) -> L::Scalar
     where
         L: Linearized<N, M, P>,
     {
-        if unknown < N { self.state.q[unknown] } else { self.system.parameters()[unknown - N] }
+        match unknown {
+            Unknown::Coordinate(i) => self.state.q[i],
+            Unknown::Velocity(i) => self.state.v[i],
+            Unknown::Parameter(k) => self.system.parameters()[k],
+        }
     }
 
     /// Sets an unknown; false where it is a parameter that cannot be changed.
-    pub(super) fn set<const P: usize>(&mut self, unknown: usize, value: L::Scalar) -> bool
+    pub(super) fn set<const P: usize>(&mut self, unknown: Unknown, value: L::Scalar) -> bool
     where
         L: Linearized<N, M, P>,
     {
-        match unknown.checked_sub(N) {
-            None => self.state.q[unknown] = value,
-            Some(k) => return self.system.set_parameter(k, value),
+        match unknown {
+            Unknown::Coordinate(i) => self.state.q[i] = value,
+            Unknown::Velocity(i) => self.state.v[i] = value,
+            Unknown::Parameter(k) => return self.system.set_parameter(k, value),
         }
         true
     }
@@ -101,14 +99,6 @@ fn stacked<T: Real, const N: usize, const M: usize>(residual: &ResidualChange<T,
     let ResidualChange { motion, acceleration, rate, position } = residual;
     let rows = motion.iter().chain(acceleration).chain(rate).chain(position);
     DVector::from_iterator(N + 3 * M, rows.copied())
-}
-
-/// What an unknown is called.
-pub(super) fn name<L, const N: usize, const M: usize, const P: usize>(unknown: usize) -> &'static str
-where
-    L: Linearized<N, M, P>,
-{
-    if unknown < N { L::COORDINATES[unknown] } else { L::PARAMETERS[unknown - N] }
 }
 
 /// What row `i` of R belongs to.

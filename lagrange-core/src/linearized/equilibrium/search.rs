@@ -7,7 +7,8 @@ use core::iter::successors;
 
 use nalgebra::{DMatrix, DVector, Dyn, SVD};
 
-use super::point::{Point, finite_residual, name, row};
+use super::point::{Point, finite_residual, row};
+use super::unknown::Unknown;
 use super::weights::weights;
 use crate::linearized::Linearized;
 use crate::number::array::vector;
@@ -20,8 +21,7 @@ type Factors<T> = SVD<T, Dyn, Dyn>;
 
 /// What is sought, and in which units.
 pub(super) struct Balance<L: Lagrangian<N, M>, const N: usize, const M: usize, const P: usize> {
-    /// Indices of what is sought: coordinates, then parameters.
-    unknowns: Vec<usize>,
+    unknowns: Vec<Unknown>,
     /// What each row is multiplied by, so that rows of different units compare.
     weights: DVector<L::Scalar>,
     /// The length of each column so far: the unit of a step is its inverse.
@@ -44,19 +44,20 @@ where
     pub(super) fn start(
         system: L,
         guess: &State<L::Scalar, N>,
-        unknowns: Vec<usize>,
+        unknowns: Vec<Unknown>,
     ) -> Result<(Self, Trial<L, N, M>), Error> {
         let none = vector([L::Scalar::constant(0.0); M]);
         let mut state = *guess;
         // Onto the constraints where nothing of it is held, and where that can be.
-        if (0..N).all(|i| unknowns.contains(&i)) {
+        if (0..N).all(|i| unknowns.contains(&Unknown::Coordinate(i))) {
             project(&system, &[Level::Position], &mut state).unwrap_or_default();
         }
         let multipliers = system.solve(&state).map_or(none, |solution| solution.multipliers);
         let mut point = Point { system, state, multipliers };
         for &unknown in &unknowns {
+            let Unknown::Parameter(k) = unknown else { continue };
             if !point.set(unknown, point.value(unknown)) {
-                return Err(Error::ParameterFixed { name: name::<L, N, M, P>(unknown) });
+                return Err(Error::ParameterFixed { name: L::PARAMETERS[k] });
             }
         }
         let mut balance = Self { unknowns, weights: DVector::zeros(0), scale: DVector::zeros(0) };
@@ -161,7 +162,7 @@ where
         let shares: Vec<_> = (0..self.unknowns.len()).map(share).collect();
         let names =
             self.unknowns.iter().zip(shares).filter(|(_, share)| *share > power_of_epsilon(1.0 / 3.0));
-        Ok(names.map(|(&unknown, _)| name::<L, N, M, P>(unknown).into()).collect())
+        Ok(names.map(|(unknown, _)| format!("{}", unknown.entry::<L, N, M, P>())).collect())
     }
 }
 
@@ -219,7 +220,7 @@ where
             (1..trial.residual.len()).fold(0, |worst, i| if size(i) > size(worst) { i } else { worst });
         let best = self.unknowns.iter().map(|&unknown| {
             let value = trial.point.value(unknown).to_f64();
-            format!("{} = {value:?}", name::<L, N, M, P>(unknown))
+            format!("{} = {value:?}", unknown.entry::<L, N, M, P>())
         });
         Error::NoEquilibrium {
             row: row::<L, N, M>(worst),

@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 use nalgebra::DMatrix;
 
 use super::point::{Point, row};
+use super::unknown::Unknown;
 use crate::linearized::Linearized;
 use crate::number::numeric::{larger, power_of_epsilon};
 use crate::{Error, Lagrangian, Real, Scalar};
@@ -25,8 +26,9 @@ impl<T: Real> Drift<T> {
     {
         let v = &point.state.v;
         let moving: Vec<usize> = (0..N).filter(|&i| v[i] != T::constant(0.0)).collect();
-        let jacobian = point.jacobian(&moving);
-        point.check_derivatives(&jacobian, &moving)?;
+        let coordinates: Vec<_> = moving.iter().copied().map(Unknown::Coordinate).collect();
+        let jacobian = point.jacobian(&coordinates);
+        point.check_derivatives(&jacobian, &coordinates)?;
         let mut columns = jacobian.view((0, 0), (N + M, moving.len())).into_owned();
         for (mut column, &i) in columns.column_iter_mut().zip(&moving) {
             column.scale_mut(v[i]);
