@@ -138,7 +138,7 @@ fn named_layout(name: &str) -> Option<Layout> {
 fn argument_length(argument: &GenericArgument) -> Result<usize, String> {
     match argument {
         GenericArgument::Const(expression) => length(expression),
-        _ => Err(not_a_literal()),
+        _ => Err(NOT_A_LITERAL.to_owned()),
     }
 }
 
@@ -148,11 +148,9 @@ fn length(expression: &Expr) -> Result<usize, String> {
             literal.base10_parse().map_err(|_| "this length is too large".to_owned())
         }
         Expr::Group(group) => length(&group.expr),
-        _ => Err(not_a_literal()),
+        _ => Err(NOT_A_LITERAL.to_owned()),
     }
 }
 
-fn not_a_literal() -> String {
-    "the length must be an integer literal: the equations are derived before const generics have values"
-        .to_owned()
-}
+pub(super) const NOT_A_LITERAL: &str =
+    "the length must be an integer literal: the equations are derived before const generics have values";

@@ -7,7 +7,7 @@ use syn::Result;
 use super::cursor::Cursor;
 use super::declaration::{Constraint, Coordinate, Define, Force, Function, Named, Options, Parameter};
 use super::expression::{self, Expression, Kind};
-use super::field::LENGTH_LIMIT;
+use super::field::{LENGTH_LIMIT, NOT_A_LITERAL};
 use super::name::Name;
 use super::target::{Target, TargetIndex, target};
 use super::unread::unread;
@@ -113,14 +113,14 @@ fn reject_too_many(count: usize, last: &Name) -> Result<()> {
 fn brackets(cursor: &mut Cursor) -> Result<usize> {
     let wanted = "expected a length such as `[3]`, an integer literal";
     let Some(group) = cursor.take_group(Delimiter::Bracket) else { return Err(cursor.error(wanted)) };
+    let place = Place::at(group.span());
     let length = expression::whole(&mut Cursor::inside(&group)).map(|length| length.kind);
     let value = match length {
         Ok(Kind::Number(value)) if value.is_integer() => usize::try_from(value.to_integer()).ok(),
+        Ok(Kind::Name(_)) => return Err(place.error(NOT_A_LITERAL)),
         _ => None,
     };
-    value
-        .filter(|length| (1..=LENGTH_LIMIT).contains(length))
-        .ok_or_else(|| Place::at(group.span()).error(wanted))
+    value.filter(|length| (1..=LENGTH_LIMIT).contains(length)).ok_or_else(|| place.error(wanted))
 }
 
 /// `= expression`
