@@ -94,6 +94,7 @@ fn stub(declaration: &Declaration) -> TokenStream {
 fn derive(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<TokenStream> {
     diagnostics.is_empty().then_some(())?;
     let (mut graph, problem) = resolve::problem(declaration, diagnostics)?;
+    codegen::refuse_hopeless(&graph, &problem, diagnostics)?;
     let derived = mechanics::derive(&mut graph, &problem, diagnostics)?;
     let rendered = render::render(declaration, &graph, &problem, &derived);
     let tokens = codegen::implementation(declaration, &graph, &problem, &derived, &rendered, diagnostics)?;

@@ -72,7 +72,8 @@ use crate::{Error, Lagrangian, Real, Solution, State};
     note = "`#[derive(Lagrangian)]` gives it to every system whose functions (`#[function(…)]`) have one derivative more than the equations of motion need"
 )]
 pub trait Linearized<const N: usize, const M: usize, const P: usize>: Lagrangian<N, M> {
-    /// Names of the parameters, `m` or `m[0]` or `a[0][1]`, in the order of the fields.
+    /// Names of the parameters, `m` or `m[0]` or `a[0][1]`, in the order of the fields: all numbers that the expressions
+    /// name, and no others. Of an array of which they name `a[0]` alone, the rest are none.
     const PARAMETERS: [&'static str; P];
 
     /// The values of the parameters.

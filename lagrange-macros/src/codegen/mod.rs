@@ -76,6 +76,13 @@ pub(crate) fn implementation(
     Some(tokens)
 }
 
+/// Reports a Lagrangian that is too long for any function, before it is differentiated.
+pub(crate) fn refuse_hopeless(graph: &Graph, problem: &Problem, diagnostics: &mut Diagnostics) -> Option<()> {
+    let Some(count) = passes::hopeless(graph, problem.lagrangian) else { return Some(()) };
+    diagnostics.error(problem.place, too_long(&format!("the Lagrangian takes {count}")));
+    None
+}
+
 /// The trait that gives the derivatives of an order, and its method.
 fn capability(order: usize) -> (&'static str, &'static str) {
     match order {

@@ -148,8 +148,7 @@ impl<'a> Style<'a> {
             let (part, i) = if i < n { (quote!(q), index(i)) } else { (quote!(v), index(i - n)) };
             return quote!(direction.#part.data.0[0][#i]);
         }
-        let by_field = self.problem.parameters.by_field();
-        let place = by_field.iter().position(|&k| k == i - 2 * n).map(index);
+        let place = index(i - 2 * n);
         quote!(direction.parameters.data.0[0][#place])
     }
 

@@ -39,7 +39,7 @@ pub(crate) fn arguments(problem: &Problem) -> Vec<Symbol> {
     let mut arguments = vec![Variable::Time.symbol()];
     arguments.extend(symbols(n, Variable::Coordinate));
     arguments.extend(symbols(n, Variable::Velocity));
-    arguments.extend(symbols(problem.parameters.entries.len(), Variable::Parameter));
+    arguments.extend(problem.parameters.by_field().into_iter().map(|k| Variable::Parameter(k).symbol()));
     arguments
 }
 

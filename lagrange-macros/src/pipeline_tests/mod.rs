@@ -8,6 +8,7 @@ mod emitted;
 mod integrability;
 mod linearization;
 mod long;
+mod sizes;
 mod stub;
 mod systems;
 

@@ -5,10 +5,15 @@ use std::collections::BTreeMap;
 use super::lower::{Definition, Lowering};
 use super::scope::{Entity, is_built_in};
 use super::value::Value;
+use crate::diagnostics::Place;
 use crate::syntax::{Expression, Kind, Name, Target, TargetIndex};
 
 /// The longest range: a system of more parts belongs into a loop at run time.
 const RANGE_LIMIT: i128 = 100_000;
+const NO_ELEMENTS: &str = "this is a scalar: it has no elements";
+
+/// A field, and where an expression names it.
+type Field<'e> = (usize, &'e Name);
 
 impl Lowering<'_> {
     /// Gives the definitions their values, in the order written.
@@ -166,17 +171,61 @@ impl Lowering<'_> {
         {
             return self.family_element(first, name, index);
         }
-        let (value, i) = (self.lower(base)?, self.integer(index)?);
-        let Value::Vector(items) = value else {
-            return self.report(base.place, "this is a scalar: it has no elements");
-        };
-        let found = usize::try_from(i).ok().and_then(|i| items.get(i));
-        if found.is_none() {
-            let last = items.len().saturating_sub(1);
-            return self
-                .report(index.place, format!("the index {i} is out of range: the elements are 0 to {last}"));
+        if let Some((field, indices)) = self.element_of_field(base, index) {
+            return self.field_element(field, &indices);
         }
-        found.cloned()
+        let (value, i) = (self.lower(base)?, self.integer(index)?);
+        let Value::Vector(items) = value else { return self.report(base.place, NO_ELEMENTS) };
+        let i = self.checked(i, items.len(), index.place)?;
+        items.into_iter().nth(i)
+    }
+
+    /// `i` where it is one of the indices 0 to `length` − 1.
+    fn checked(&mut self, i: i128, length: usize, place: Place) -> Option<usize> {
+        let found = usize::try_from(i).ok().filter(|&i| i < length);
+        if found.is_none() {
+            let last = length.saturating_sub(1);
+            self.diagnostics
+                .error(place, format!("the index {i} is out of range: the elements are 0 to {last}"));
+        }
+        found
+    }
+
+    /// The field, and its indices, where `base[index]` is an element of one.
+    fn element_of_field<'e>(
+        &self,
+        base: &'e Expression,
+        index: &'e Expression,
+    ) -> Option<(Field<'e>, Vec<&'e Expression>)> {
+        match &base.kind {
+            Kind::Index(base, first) => {
+                let (field, mut indices) = self.element_of_field(base, first)?;
+                indices.push(index);
+                Some((field, indices))
+            }
+            Kind::Name(name) if !self.locals.iter().any(|(local, _)| *local == name.text) => {
+                match self.scope.get(&name.text)? {
+                    Entity::Field(field) => Some(((field, name), vec![index])),
+                    _ => None,
+                }
+            }
+            _ => None,
+        }
+    }
+
+    /// Of a large field only the elements in use may cost.
+    fn field_element(&mut self, (field, name): Field<'_>, indices: &[&Expression]) -> Option<Value> {
+        let layout = self.parameters.layout(field, name.place, self.diagnostics)?;
+        let mut path = Vec::new();
+        for (level, index) in indices.iter().enumerate() {
+            let i = self.integer(index)?;
+            let Some(&length) = layout.lengths().get(level) else {
+                let end = indices[..level].last().map_or(name.place, |before| before.place);
+                return self.report(name.place.to(end), NO_ELEMENTS);
+            };
+            path.push(self.checked(i, length, index.place)?);
+        }
+        self.parameters.value(field, &path, name.place, &mut self.graph, self.diagnostics)
     }
 
     fn family_element(&mut self, first: usize, name: &Name, index: &Expression) -> Option<Value> {

@@ -229,7 +229,7 @@ impl<'a> Lowering<'a> {
         }
         match self.scope.get(&name.text) {
             Some(Entity::Field(index)) => {
-                self.parameters.value(index, name.place, &mut self.graph, self.diagnostics)
+                self.parameters.value(index, &[], name.place, &mut self.graph, self.diagnostics)
             }
             Some(Entity::Coordinate(index)) => Some(self.variable(index, Variable::Coordinate)),
             Some(Entity::Velocity(index)) => Some(self.variable(index, Variable::Velocity)),

@@ -11,13 +11,13 @@ use crate::syntax::{Declaration, Expression, Field, FieldShape, Kind, Layout, Op
 use crate::variables::Variable;
 
 /// A number in a field: the field's index and the path to the number inside of it.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub(crate) struct Entry {
     pub(crate) field: usize,
     pub(crate) element: Element,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub(crate) enum Element {
     All,
     Item(usize),
@@ -42,7 +42,7 @@ impl Parameters {
     /// Which entry is which, in the order of the fields and not in that of their first use.
     pub(crate) fn by_field(&self) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.entries.len()).collect();
-        order.sort_by_key(|&k| self.entries[k].field);
+        order.sort_by_key(|&k| self.entries[k]);
         order
     }
 
@@ -92,16 +92,48 @@ impl Parameters {
         }
     }
 
-    /// The value of a field, its numbers entered among those in use.
+    /// The value of a field, or of its element at `path`; only what is asked for is entered among the numbers in use.
     pub(super) fn value(
         &mut self,
         index: usize,
+        path: &[usize],
         place: Place,
         graph: &mut Graph,
         diagnostics: &mut Diagnostics,
     ) -> Option<Value> {
-        let layout = match &self.fields[index].shape {
-            Ok(shape) => shape.layout,
+        let layout = self.layout(index, place, diagnostics)?;
+        let mut entry = |element| {
+            let (k, _) = self.entries.insert_full(Entry { field: index, element });
+            Value::Scalar(graph.symbol(Variable::Parameter(k).symbol()))
+        };
+        let mut row = |i, columns, element: fn(usize, usize) -> Element| match path.get(1) {
+            Some(&j) => entry(element(i, j)),
+            None => Value::Vector((0..columns).map(|j| entry(element(i, j))).collect()),
+        };
+        let mut table = |rows, columns, element| match path.first() {
+            Some(&i) => row(i, columns, element),
+            None => Value::Vector((0..rows).map(|i| row(i, columns, element)).collect()),
+        };
+        Some(match layout {
+            Layout::Rows(rows, columns) => table(rows, columns, Element::RowItem),
+            Layout::Matrix(rows, columns) => table(rows, columns, Element::Cell),
+            Layout::Vector(length) => match path.first() {
+                Some(&i) => entry(Element::Item(i)),
+                None => Value::Vector((0..length).map(|i| entry(Element::Item(i))).collect()),
+            },
+            Layout::Scalar => entry(Element::All),
+        })
+    }
+
+    /// How the numbers of a field in use are laid out; that it has none is reported once.
+    pub(super) fn layout(
+        &mut self,
+        index: usize,
+        place: Place,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<Layout> {
+        match &self.fields[index].shape {
+            Ok(shape) => Some(shape.layout),
             Err(reason) => {
                 if !self.reported.contains(&index) {
                     let mut error = self.fields[index].place.error(reason);
@@ -109,23 +141,9 @@ impl Parameters {
                     diagnostics.push(error);
                     self.reported.push(index);
                 }
-                return None;
+                None
             }
-        };
-        let mut entry = |element| {
-            let (k, _) = self.entries.insert_full(Entry { field: index, element });
-            Value::Scalar(graph.symbol(Variable::Parameter(k).symbol()))
-        };
-        let mut table = |rows: usize, columns: usize, element: fn(usize, usize) -> Element| {
-            let mut row = |i| Value::Vector((0..columns).map(|j| entry(element(i, j))).collect());
-            Value::Vector((0..rows).map(&mut row).collect())
-        };
-        Some(match layout {
-            Layout::Rows(rows, columns) => table(rows, columns, Element::RowItem),
-            Layout::Matrix(rows, columns) => table(rows, columns, Element::Cell),
-            Layout::Scalar => entry(Element::All),
-            Layout::Vector(length) => Value::Vector((0..length).map(|i| entry(Element::Item(i))).collect()),
-        })
+        }
     }
 
     /// Entry `k` as an expression names it.

@@ -40,13 +40,18 @@ pub(crate) enum Layout {
 }
 
 impl Layout {
+    /// The lengths from the outside in: none for a scalar.
+    pub(crate) fn lengths(self) -> Vec<usize> {
+        match self {
+            Self::Scalar => Vec::new(),
+            Self::Vector(length) => vec![length],
+            Self::Rows(rows, columns) | Self::Matrix(rows, columns) => vec![rows, columns],
+        }
+    }
+
     /// How many numbers that is; more than can be counted count as the most.
     pub(crate) fn numbers(self) -> usize {
-        match self {
-            Self::Scalar => 1,
-            Self::Vector(length) => length,
-            Self::Rows(rows, columns) | Self::Matrix(rows, columns) => rows.saturating_mul(columns),
-        }
+        self.lengths().into_iter().fold(1, usize::saturating_mul)
     }
 }
 

@@ -10,10 +10,14 @@ mod signs;
 mod tests;
 
 use super::count::Count;
+use super::kernel::OPERATION_LIMIT;
 use super::operation::{Operation, Register};
 use super::schedule::Schedule;
 use super::time::Time;
 use crate::symbolic::{Graph, Id};
+
+/// The passes do not make a function half as long: beyond, they are not tried.
+const HOPELESS: usize = 2 * OPERATION_LIMIT;
 
 /// A schedule and where its results are, and what each pass left of it.
 pub(super) struct Program {
@@ -39,8 +43,11 @@ impl Program {
 
     /// The results in as few operations as the passes find.
     pub(super) fn new(schedule: Schedule, results: Vec<Register>) -> Self {
-        let counts = vec![("as derived", schedule.count(&results))];
-        let program = Self { schedule, results, counts };
+        let derived = schedule.count(&results);
+        let program = Self { schedule, results, counts: vec![("as derived", derived)] };
+        if derived.total() > HOPELESS {
+            return program;
+        }
         program
             .after("signs gathered", signs::gathered)
             .after("factors taken out", factors::taken_out)
@@ -91,6 +98,12 @@ impl Program {
     pub(super) fn time(&self) -> Time {
         self.schedule.time(&self.results)
     }
+}
+
+/// What computing `root` takes as it is, if that is far too much.
+pub(super) fn hopeless(graph: &Graph, root: Id) -> Option<Count> {
+    let (schedule, results) = scheduled(graph, &[root]);
+    Some(schedule.count(&results)).filter(|count| count.total() > HOPELESS)
 }
 
 fn scheduled(graph: &Graph, roots: &[Id]) -> (Schedule, Vec<Register>) {
