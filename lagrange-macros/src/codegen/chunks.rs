@@ -13,7 +13,7 @@ const LONGEST: usize = 4_000;
 const SHORTEST: usize = 1_000;
 
 /// The parts of a function as ranges of the sequence, cut where fewest results wait.
-pub(super) fn parts(order: &Order) -> Vec<Range<usize>> {
+pub(super) fn cuts(order: &Order) -> Vec<Range<usize>> {
     let length = order.sequence.len();
     let (mut parts, mut start) = (Vec::new(), 0);
     while length > LONGEST && length - start > 2 * SHORTEST {
@@ -66,13 +66,13 @@ mod tests {
     #[test]
     fn parts_follow_on_one_another_and_none_is_short_or_long() {
         for length in [LONGEST + 1, 5_000, 9_999, 30_000] {
-            let parts = parts(&order((0..length).map(|k| k * 7 % 13).collect()));
+            let parts = cuts(&order((0..length).map(|k| k * 7 % 13).collect()));
             assert_eq!((parts[0].start, parts.last().map(|part| part.end)), (0, Some(length)));
             assert!(parts.windows(2).all(|pair| pair[0].end == pair[1].start));
             assert!(parts.iter().all(|part| (SHORTEST..=2 * SHORTEST).contains(&part.len())), "{parts:?}");
         }
         for length in [0, 1, LONGEST] {
-            let parts = parts(&order(vec![0; length]));
+            let parts = cuts(&order(vec![0; length]));
             assert!(parts.len() == 1 && parts[0] == (0..length), "{parts:?}");
         }
     }
@@ -81,7 +81,7 @@ mod tests {
     fn a_cut_is_where_fewest_results_wait() {
         let mut waiting = vec![5; LONGEST + 1];
         waiting[1_233] = 1;
-        assert_eq!(parts(&order(waiting))[0], 0..1_234);
+        assert_eq!(cuts(&order(waiting))[0], 0..1_234);
     }
 
     #[test]

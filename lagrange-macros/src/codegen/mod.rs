@@ -1,6 +1,7 @@
 //! From [`Equations`] to Rust. Nothing else writes any.
 
 mod accelerations;
+mod body;
 mod chunks;
 mod count;
 mod eliminate;
@@ -15,6 +16,7 @@ mod operation;
 mod order_of_evaluation;
 mod pack;
 mod passes;
+mod plan;
 mod schedule;
 mod shape;
 mod stub;

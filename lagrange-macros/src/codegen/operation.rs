@@ -16,29 +16,29 @@ impl Register {
     }
 }
 
-/// One operation on earlier results.
+/// One operation, on earlier results or on whatever else stands for its operands.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(super) enum Operation {
+pub(super) enum Operation<X = Register> {
     /// A constant, by the bits of its value.
     Constant(u64),
     Input(Symbol),
-    Negate(Register),
-    Add(Register, Register),
-    Subtract(Register, Register),
-    Multiply(Register, Register),
-    Divide(Register, Register),
+    Negate(X),
+    Add(X, X),
+    Subtract(X, X),
+    Multiply(X, X),
+    Divide(X, X),
     /// x y + z, rounded once where the target can.
-    MultiplyAdd(Register, Register, Register),
+    MultiplyAdd(X, X, X),
     /// z − x y
-    SubtractProduct(Register, Register, Register),
-    Minimum(Register, Register),
-    Maximum(Register, Register),
+    SubtractProduct(X, X, X),
+    Minimum(X, X),
+    Maximum(X, X),
     /// Zero where the first is zero, else the second.
-    Where(Register, Register),
-    SquareRoot(Register),
-    Function(Function, Register),
-    Atan2(Register, Register),
-    Power(Register, Register),
+    Where(X, X),
+    SquareRoot(X),
+    Function(Function, X),
+    Atan2(X, X),
+    Power(X, X),
     /// One result of a call, by its place among the calls of the schedule.
     Result {
         call: u32,
@@ -48,10 +48,10 @@ pub(super) enum Operation {
 
 /// A call of a function that the user supplies, or of a partial derivative of it.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
-pub(super) struct Call {
+pub(super) struct Call<X = Register> {
     pub(super) function: u32,
     pub(super) derivatives: Box<[u32]>,
-    pub(super) arguments: Box<[Register]>,
+    pub(super) arguments: Box<[X]>,
 }
 
 impl Operation {
@@ -70,32 +70,36 @@ impl Operation {
             _ => self,
         }
     }
+}
 
+impl<X> Operation<X> {
     /// The same operation on other operands, but for those of a call.
-    pub(super) fn with_operands(self, mut new: impl FnMut(Register) -> Register) -> Self {
+    pub(super) fn with_operands<Y>(self, mut new: impl FnMut(X) -> Y) -> Operation<Y> {
         match self {
-            Self::Constant(_) | Self::Input(_) | Self::Result { .. } => self,
-            Self::Negate(x) => Self::Negate(new(x)),
-            Self::SquareRoot(x) => Self::SquareRoot(new(x)),
-            Self::Function(function, x) => Self::Function(function, new(x)),
-            Self::Add(x, y) => Self::Add(new(x), new(y)),
-            Self::Subtract(x, y) => Self::Subtract(new(x), new(y)),
-            Self::Multiply(x, y) => Self::Multiply(new(x), new(y)),
-            Self::Divide(x, y) => Self::Divide(new(x), new(y)),
-            Self::Minimum(x, y) => Self::Minimum(new(x), new(y)),
-            Self::Maximum(x, y) => Self::Maximum(new(x), new(y)),
-            Self::Where(x, y) => Self::Where(new(x), new(y)),
-            Self::Atan2(x, y) => Self::Atan2(new(x), new(y)),
-            Self::Power(x, y) => Self::Power(new(x), new(y)),
-            Self::MultiplyAdd(x, y, z) => Self::MultiplyAdd(new(x), new(y), new(z)),
-            Self::SubtractProduct(x, y, z) => Self::SubtractProduct(new(x), new(y), new(z)),
+            Self::Constant(bits) => Operation::Constant(bits),
+            Self::Input(symbol) => Operation::Input(symbol),
+            Self::Result { call, output } => Operation::Result { call, output },
+            Self::Negate(x) => Operation::Negate(new(x)),
+            Self::SquareRoot(x) => Operation::SquareRoot(new(x)),
+            Self::Function(function, x) => Operation::Function(function, new(x)),
+            Self::Add(x, y) => Operation::Add(new(x), new(y)),
+            Self::Subtract(x, y) => Operation::Subtract(new(x), new(y)),
+            Self::Multiply(x, y) => Operation::Multiply(new(x), new(y)),
+            Self::Divide(x, y) => Operation::Divide(new(x), new(y)),
+            Self::Minimum(x, y) => Operation::Minimum(new(x), new(y)),
+            Self::Maximum(x, y) => Operation::Maximum(new(x), new(y)),
+            Self::Where(x, y) => Operation::Where(new(x), new(y)),
+            Self::Atan2(x, y) => Operation::Atan2(new(x), new(y)),
+            Self::Power(x, y) => Operation::Power(new(x), new(y)),
+            Self::MultiplyAdd(x, y, z) => Operation::MultiplyAdd(new(x), new(y), new(z)),
+            Self::SubtractProduct(x, y, z) => Operation::SubtractProduct(new(x), new(y), new(z)),
         }
     }
 
     /// All but those of a call.
-    pub(super) fn operands(self) -> impl Iterator<Item = Register> {
+    pub(super) fn operands(self) -> impl Iterator<Item = X> {
         let [first, second, third] = match self {
-            Self::Constant(_) | Self::Input(_) | Self::Result { .. } => [None; 3],
+            Self::Constant(_) | Self::Input(_) | Self::Result { .. } => [None, None, None],
             Self::Negate(x) | Self::SquareRoot(x) | Self::Function(_, x) => [Some(x), None, None],
             Self::Add(x, y)
             | Self::Subtract(x, y)

@@ -6,6 +6,7 @@
 //! of the next link meanwhile. Or the order of the derivation, where results wait less in that.
 
 use super::operation::{Operation, Register};
+use super::passes::Program;
 use super::schedule::Schedule;
 
 /// What is to be computed, operands first. Constants and inputs are at hand and have no place in it.
@@ -18,7 +19,9 @@ pub(super) struct Order {
 }
 
 impl Order {
-    pub(super) fn new(schedule: &Schedule, roots: &[Register], uses: &[usize]) -> Self {
+    pub(super) fn new(program: &Program) -> Self {
+        let Program { schedule, results: roots, .. } = program;
+        let uses = schedule.uses(roots);
         let derived: Vec<usize> =
             (0..uses.len()).filter(|&index| uses[index] > 0 && is_computed(schedule, index)).collect();
         let operands: Vec<Vec<usize>> = (0..uses.len()).map(|index| operands(schedule, index)).collect();
@@ -117,7 +120,8 @@ mod tests {
     }
 
     fn order(schedule: &Schedule, roots: &[Register]) -> Order {
-        let order = Order::new(schedule, roots, &schedule.uses(roots));
+        let order =
+            Order::new(&Program { schedule: schedule.clone(), results: roots.to_vec(), counts: Vec::new() });
         let mut is_done = vec![false; schedule.operations.len()];
         for &index in &order.sequence {
             assert!(operands(schedule, index).into_iter().all(|operand| is_done[operand]), "operands first");

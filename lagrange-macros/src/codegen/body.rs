@@ -1,0 +1,67 @@
+//! A function's body before it is said in a language: what is computed in which part, in which local or nested in what, and
+//! where results go. [`plan`](super::plan) decides all that, [`writer`](super::writer) says it in Rust.
+
+use std::collections::BTreeSet;
+
+use super::operation::{Call, Operation};
+use crate::symbolic::{Id, Symbol};
+
+pub(super) struct Body {
+    /// One after the other; more than one where the function is long.
+    pub(super) parts: Vec<Part>,
+    /// How many results wait at once for a later part.
+    pub(super) waiting: usize,
+    /// The results, in locals of the only part; where there are none the parts store them, all but zeros.
+    pub(super) results: Option<Vec<Expression>>,
+}
+
+/// Statements that see no locals but their own.
+#[derive(Default)]
+pub(super) struct Part {
+    pub(super) inputs: BTreeSet<Symbol>,
+    /// What the statements give values to, each once.
+    pub(super) locals: Vec<Local>,
+    pub(super) statements: Vec<Statement>,
+}
+
+pub(super) enum Statement {
+    Let(Local, Expression),
+    /// The sine and the cosine of one argument.
+    Turn {
+        sine: Local,
+        cosine: Local,
+        angle: Expression,
+    },
+    /// A call of a function that the user supplies, and those of its results that are used.
+    Call(Call<Expression>, Vec<(u32, Local)>),
+    Store(Place, Expression),
+}
+
+#[derive(Clone)]
+pub(super) enum Expression {
+    Local(Local),
+    /// What an earlier part has stored.
+    Waiting(usize),
+    /// A constant, an input, or an operation on what is nested in it.
+    Of(Box<Operation<Expression>>),
+}
+
+/// What a local is called after.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(super) enum Local {
+    Definition(Id),
+    /// The operation that computes it.
+    Operation(usize),
+    /// One result of a call.
+    Result {
+        call: u32,
+        output: u32,
+    },
+}
+
+/// Where a value is stored.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Place {
+    Result(usize),
+    Waiting(usize),
+}

@@ -1,0 +1,267 @@
+//! From a schedule to a [`Body`], part by part.
+
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+use rustc_hash::{FxHashMap};
+
+use super::body::{Body, Expression, Local, Part, Place, Statement};
+use super::chunks::Waiting;
+use super::operation::{Call, Operation, Register};
+use super::passes::Program;
+use super::schedule::Schedule;
+use crate::symbolic::{Function, Id};
+
+/// Single-use results are nested into what uses them to this depth.
+const NESTING: usize = 6;
+/// So many results, most of them zero, are not written out.
+const MANY: usize = 256;
+
+impl Body {
+    /// Computes the results of a program in the order of a sequence, cut into parts; definitions of these names have locals
+    /// called after them.
+    pub(super) fn new(
+        program: &Program,
+        sequence: &[usize],
+        cuts: &[Range<usize>],
+        names: &FxHashMap<Id, String>,
+    ) -> Self {
+        let Program { schedule, results, .. } = program;
+        let mut planner = Planner::new(program, sequence, cuts, names);
+        let zero = schedule.find(Operation::Constant(0.0_f64.to_bits()));
+        let stored = results.iter().copied().enumerate().filter(|(_, result)| Some(*result) != zero);
+        let stored: Vec<(usize, Register)> = stored.collect();
+        let is_sparse = results.len() >= MANY && stored.len() < results.len().div_ceil(2);
+        let in_locals = cuts.len() == 1 && !is_sparse;
+        if !in_locals {
+            planner.will_store(&stored);
+        }
+        let mut last = None;
+        let parts = cuts.iter().map(|cut| {
+            sequence[cut.clone()].iter().for_each(|&index| planner.compute(index));
+            last = in_locals.then(|| results.iter().map(|&result| planner.value(result)).collect());
+            planner.end_part()
+        });
+        let parts = parts.collect();
+        Self { parts, waiting: planner.waiting.length, results: last }
+    }
+}
+
+/// A body under construction.
+struct Planner<'p> {
+    schedule: &'p Schedule,
+    uses: Vec<usize>,
+    /// For each register the last part that uses it.
+    reach: Vec<usize>,
+    /// What stands for each register that is computed.
+    values: Vec<Option<Value>>,
+    definitions: FxHashMap<Register, Id>,
+    /// For each call the results of it that are used.
+    outputs: FxHashMap<u32, Vec<u32>>,
+    /// For each register where it is stored as soon as it is computed.
+    places: FxHashMap<Register, Vec<Place>>,
+    waiting: Waiting,
+    index: usize,
+    part: Part,
+    /// What earlier parts computed and this one has in a local.
+    fetched: BTreeSet<Register>,
+    /// What is in a local and which a later part uses.
+    kept: Vec<Register>,
+}
+
+struct Value {
+    expression: Expression,
+    /// How deep it nests.
+    depth: usize,
+    part: usize,
+}
+
+impl<'p> Planner<'p> {
+    fn new(
+        program: &'p Program,
+        sequence: &[usize],
+        cuts: &[Range<usize>],
+        names: &FxHashMap<Id, String>,
+    ) -> Self {
+        let schedule = &program.schedule;
+        let mut definitions = FxHashMap::default();
+        for &(register, id) in schedule.definitions.iter().filter(|(_, id)| names.contains_key(id)) {
+            definitions.entry(register).or_insert(id);
+        }
+        let mut reach = vec![0; schedule.operations.len()];
+        for (part, cut) in cuts.iter().enumerate() {
+            for &index in &sequence[cut.clone()] {
+                reach[index] = part;
+                schedule.operands(schedule.operations[index]).for_each(|x| reach[x.index()] = part);
+            }
+        }
+        let uses = schedule.uses(&program.results);
+        let mut outputs = FxHashMap::<u32, Vec<u32>>::default();
+        for (operation, _) in schedule.operations.iter().zip(&uses).filter(|(_, uses)| **uses > 0) {
+            if let &Operation::Result { call, output } = operation {
+                outputs.entry(call).or_default().push(output);
+            }
+        }
+        outputs.values_mut().for_each(|outputs| outputs.sort_unstable());
+        let values = schedule.operations.iter().map(|_| None).collect();
+        let (places, waiting, index, part, fetched, kept) = Default::default();
+        Self {
+            schedule,
+            uses,
+            reach,
+            values,
+            definitions,
+            outputs,
+            places,
+            waiting,
+            index,
+            part,
+            fetched,
+            kept,
+        }
+    }
+
+    /// What stands for a result, here.
+    fn value(&mut self, register: Register) -> Expression {
+        let operation = self.schedule.operations[register.index()];
+        if let Operation::Input(symbol) = operation {
+            self.part.inputs.insert(symbol);
+        }
+        self.fetch(register);
+        match &self.values[register.index()] {
+            Some(value) => value.expression.clone(),
+            // A constant or an input.
+            None => Expression::Of(Box::new(operation.with_operands(|operand| self.value(operand)))),
+        }
+    }
+
+    /// Brings what an earlier part computed into a local.
+    fn fetch(&mut self, register: Register) {
+        let Some(value) = &self.values[register.index()] else { return };
+        let Some(place) = self.waiting.place(register).filter(|_| value.part < self.index) else { return };
+        if self.fetched.insert(register) {
+            self.assign(self.local(register), Expression::Waiting(place));
+        }
+    }
+
+    /// Computes one operation, if it has not come with another, and stores it where it is a result.
+    fn compute(&mut self, index: usize) {
+        let register = Register::at(index);
+        match self.schedule.operations[index] {
+            _ if self.values[index].is_some() => {}
+            Operation::Result { call, .. } => self.call(call),
+            Operation::Function(function @ (Function::Sin | Function::Cos), x)
+                if self.partner(function, x).is_some() =>
+            {
+                self.turn(register, function, x);
+            }
+            operation => {
+                let operands = self.schedule.operands(operation);
+                let depth = 1 + operands.map(|operand| self.depth(operand)).max().unwrap_or(0);
+                let expression =
+                    Expression::Of(Box::new(operation.with_operands(|operand| self.value(operand))));
+                let is_sine = matches!(operation, Operation::Function(Function::Sin | Function::Cos, _));
+                let is_used_here = self.uses[index] == 1 && self.reach[index] == self.index;
+                if is_used_here && depth < NESTING && !is_sine {
+                    self.values[index] = Some(Value { expression, depth, part: self.index });
+                } else {
+                    let local = self.local(register);
+                    self.assign(local, expression);
+                    self.keep(register, local);
+                }
+            }
+        }
+        for place in self.places.remove(&register).unwrap_or_default() {
+            self.store(place, register);
+        }
+    }
+
+    fn depth(&self, register: Register) -> usize {
+        self.values[register.index()].as_ref().map_or(0, |value| value.depth)
+    }
+
+    /// All results of a call are computed together, when the first of them is met.
+    fn call(&mut self, call: u32) {
+        let Call { function, derivatives, arguments } = self.schedule.calls[call as usize].clone();
+        let mut results = Vec::new();
+        for output in self.outputs.remove(&call).unwrap_or_default() {
+            let local = Local::Result { call, output };
+            results.push((output, local));
+            self.schedule
+                .find(Operation::Result { call, output })
+                .into_iter()
+                .for_each(|register| self.keep(register, local));
+        }
+        let arguments = arguments.iter().map(|&argument| self.value(argument)).collect();
+        self.part.locals.extend(results.iter().map(|(_, local)| local));
+        self.part.statements.push(Statement::Call(Call { function, derivatives, arguments }, results));
+    }
+
+    /// The sine and the cosine of one argument are computed together, when the first of them is met.
+    fn turn(&mut self, mine: Register, function: Function, x: Register) {
+        let angle = self.value(x);
+        let theirs = self.partner(function, x).unwrap_or(mine);
+        let locals = [mine, theirs].map(|register| self.local(register));
+        let [sine, cosine] = if function == Function::Sin { locals } else { [locals[1], locals[0]] };
+        self.part.locals.extend(locals);
+        self.part.statements.push(Statement::Turn { sine, cosine, angle });
+        [mine, theirs].into_iter().zip(locals).for_each(|(register, local)| self.keep(register, local));
+    }
+
+    /// The cosine of what this is the sine of, or the sine, if it is used.
+    fn partner(&self, function: Function, x: Register) -> Option<Register> {
+        let other = if function == Function::Sin { Function::Cos } else { Function::Sin };
+        self.schedule.find(Operation::Function(other, x)).filter(|register| self.uses[register.index()] > 0)
+    }
+
+    fn local(&self, register: Register) -> Local {
+        match self.definitions.get(&register) {
+            Some(&id) => Local::Definition(id),
+            None => Local::Operation(register.index()),
+        }
+    }
+
+    fn assign(&mut self, local: Local, expression: Expression) {
+        self.part.locals.push(local);
+        self.part.statements.push(Statement::Let(local, expression));
+    }
+
+    /// Notes in which local a result is.
+    fn keep(&mut self, register: Register, local: Local) {
+        if self.reach[register.index()] > self.index {
+            self.kept.push(register);
+        }
+        let expression = Expression::Local(local);
+        self.values[register.index()] = Some(Value { expression, depth: 0, part: self.index });
+    }
+
+    /// Says which results are stored where: what is at hand at once, the others when they are computed.
+    fn will_store(&mut self, results: &[(usize, Register)]) {
+        for &(k, register) in results {
+            match self.schedule.operations[register.index()] {
+                Operation::Constant(_) | Operation::Input(_) => self.store(Place::Result(k), register),
+                _ => self.places.entry(register).or_default().push(Place::Result(k)),
+            }
+        }
+    }
+
+    fn store(&mut self, place: Place, register: Register) {
+        let value = self.value(register);
+        self.part.statements.push(Statement::Store(place, value));
+    }
+
+    /// The part as it stands; the next one begins.
+    fn end_part(&mut self) -> Part {
+        for register in std::mem::take(&mut self.fetched) {
+            if self.reach[register.index()] == self.index {
+                self.waiting.remove(register);
+            }
+        }
+        for register in std::mem::take(&mut self.kept) {
+            let place = self.waiting.add(register);
+            self.store(Place::Waiting(place), register);
+        }
+        self.index += 1;
+        std::mem::take(&mut self.part)
+    }
+}
