@@ -1,43 +1,123 @@
-//! Schedules computed without a compiler, for tests.
+//! Schedules and bodies computed without a compiler, for tests.
 
-use super::operation::{Operation, Register};
-use super::passes::Program;
+use rustc_hash::FxHashMap;
+
+use super::body::{Body, Expression, Local, Part, Place, Statement};
+use super::operation::{Call, Operation, Register};
 use super::schedule::Schedule;
 use crate::symbolic::{Symbol, apply};
 
-impl Program {
-    /// The results, of these inputs.
-    pub(super) fn values(&self, input: impl Fn(Symbol) -> f64) -> Vec<f64> {
-        self.schedule.values(&self.results, input)
+impl Operation<f64> {
+    /// What it comes to, of operands that are there already.
+    fn value(self, input: impl Fn(Symbol) -> f64) -> f64 {
+        match self {
+            Self::Constant(bits) => f64::from_bits(bits),
+            Self::Input(symbol) => input(symbol),
+            Self::Negate(x) => -x,
+            Self::Add(x, y) => x + y,
+            Self::Subtract(x, y) => x - y,
+            Self::Multiply(x, y) => x * y,
+            Self::Divide(x, y) => x / y,
+            Self::MultiplyAdd(x, y, z) => x * y + z,
+            Self::SubtractProduct(x, y, z) => z - x * y,
+            Self::Minimum(x, y) => x.min(y),
+            Self::Maximum(x, y) => x.max(y),
+            Self::Where(x, y) => {
+                if x == 0.0 {
+                    0.0
+                } else {
+                    y
+                }
+            }
+            Self::SquareRoot(x) => x.sqrt(),
+            Self::Function(function, x) => apply(function, &x),
+            Self::Atan2(y, x) => y.atan2(x),
+            Self::Power(x, y) => x.powf(y),
+            Self::Result { .. } => f64::NAN,
+        }
     }
 }
 
 impl Schedule {
+    /// The results, of these inputs.
     pub(super) fn values(&self, results: &[Register], input: impl Fn(Symbol) -> f64) -> Vec<f64> {
         let mut values: Vec<f64> = Vec::new();
         for &operation in &self.operations {
-            let of = |register: Register| values[register.index()];
-            values.push(match operation {
-                Operation::Constant(bits) => f64::from_bits(bits),
-                Operation::Input(symbol) => input(symbol),
-                Operation::Negate(x) => -of(x),
-                Operation::Add(x, y) => of(x) + of(y),
-                Operation::Subtract(x, y) => of(x) - of(y),
-                Operation::Multiply(x, y) => of(x) * of(y),
-                Operation::Divide(x, y) => of(x) / of(y),
-                Operation::MultiplyAdd(x, y, z) => of(x) * of(y) + of(z),
-                Operation::SubtractProduct(x, y, z) => of(z) - of(x) * of(y),
-                Operation::Minimum(x, y) => of(x).min(of(y)),
-                Operation::Maximum(x, y) => of(x).max(of(y)),
-                Operation::Where(x, _) if of(x) == 0.0 => 0.0,
-                Operation::Where(_, y) => of(y),
-                Operation::SquareRoot(x) => of(x).sqrt(),
-                Operation::Function(function, x) => apply(function, &of(x)),
-                Operation::Atan2(y, x) => of(y).atan2(of(x)),
-                Operation::Power(x, y) => of(x).powf(of(y)),
-                Operation::Result { .. } => f64::NAN,
-            });
+            values.push(operation.with_operands(|register| values[register.index()]).value(&input));
         }
         results.iter().map(|result| values[result.index()]).collect()
+    }
+}
+
+impl Body {
+    /// The results, of which there are so many; functions that the user supplies are given a call and the place of a result.
+    pub(super) fn values(
+        &self,
+        count: usize,
+        input: impl Fn(Symbol) -> f64,
+        function: impl Fn(&Call<f64>, u32) -> f64,
+    ) -> Vec<f64> {
+        let (mut waiting, mut results) = (vec![f64::NAN; self.waiting], vec![0.0; count]);
+        for part in &self.parts {
+            let input = |symbol| {
+                assert!(part.inputs.contains(&symbol), "{symbol:?} is not among the inputs");
+                input(symbol)
+            };
+            let mut frame = Frame { part, input, waiting: &mut waiting, locals: FxHashMap::default() };
+            part.statements.iter().for_each(|statement| frame.run(statement, &function, &mut results));
+            assert!(frame.locals.len() == part.locals.len(), "every local has a value");
+            if let Some(values) = &self.results {
+                results = values.iter().map(|value| frame.value(value)).collect();
+            }
+        }
+        results
+    }
+}
+
+/// What a part sees.
+struct Frame<'b, I> {
+    part: &'b Part,
+    input: I,
+    waiting: &'b mut [f64],
+    locals: FxHashMap<Local, f64>,
+}
+
+impl<I: Fn(Symbol) -> f64> Frame<'_, I> {
+    fn run(
+        &mut self,
+        statement: &Statement,
+        function: &impl Fn(&Call<f64>, u32) -> f64,
+        results: &mut [f64],
+    ) {
+        match statement {
+            Statement::Let(local, value) => self.define(*local, self.value(value)),
+            Statement::Turn { sine, cosine, angle } => {
+                let angle = self.value(angle);
+                self.define(*sine, angle.sin());
+                self.define(*cosine, angle.cos());
+            }
+            Statement::Call(Call { function: f, derivatives, arguments }, outputs) => {
+                let arguments = arguments.iter().map(|argument| self.value(argument)).collect();
+                let call = Call { function: *f, derivatives: derivatives.clone(), arguments };
+                outputs.iter().for_each(|&(output, local)| self.define(local, function(&call, output)));
+            }
+            Statement::Store(Place::Result(index), value) => results[*index] = self.value(value),
+            Statement::Store(Place::Waiting(index), value) => self.waiting[*index] = self.value(value),
+        }
+    }
+
+    fn define(&mut self, local: Local, value: f64) {
+        assert!(self.part.locals.contains(&local), "{local:?} is not declared");
+        assert!(self.locals.insert(local, value).is_none(), "{local:?} has two values");
+    }
+
+    fn value(&self, expression: &Expression) -> f64 {
+        match expression {
+            Expression::Local(local) => self.locals[local],
+            Expression::Waiting(place) => self.waiting[*place],
+            Expression::Of(operation) => {
+                operation.as_ref().clone().with_operands(|operand| self.value(&operand)).value(&self.input)
+            }
+        }
     }
 }

@@ -4,9 +4,7 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::body::{Body, Part};
-use super::chunks;
 use super::count::Count;
-use super::order_of_evaluation::Order;
 use super::passes::Program;
 use super::shape::{Arrays, Shape};
 use super::style::Style;
@@ -46,12 +44,9 @@ impl Style<'_> {
             self.refused.borrow_mut().push(Refused { name: name.to_owned(), count });
             return Kernel::default();
         }
-        let order = Order::new(program);
-        let cuts = chunks::cuts(&order);
-        let body = Body::new(program, &order.sequence, &cuts, &self.problem.names);
-        let arrays = Arrays::new(shapes);
-        let doc = doc(program, &order, cuts.len());
-        let Body { parts, waiting, results } = body;
+        let body = Body::new(program, &self.problem.names);
+        let (doc, arrays) = (doc(program, &body), Arrays::new(shapes));
+        let Body { parts, waiting, results, .. } = body;
         let (declarations, results) = match results {
             Some(values) => {
                 let mut values = values.into_iter().map(|value| self.operand(value));
@@ -111,7 +106,7 @@ impl Style<'_> {
 }
 
 /// What a function takes, and what each pass that gained something left of it.
-fn doc(program: &Program, order: &Order, parts: usize) -> String {
+fn doc(program: &Program, body: &Body) -> String {
     let mut doc = format!("{}.", program.count());
     let mut steps = program.counts.clone();
     steps.dedup_by_key(|(_, count)| *count);
@@ -124,12 +119,12 @@ fn doc(program: &Program, order: &Order, parts: usize) -> String {
         1 => doc += " One product fused with a sum.",
         fusions => doc += &format!(" {fusions} products fused with sums."),
     }
-    if order.peak() != order.peak_before {
-        let (peak, before) = (order.peak(), order.peak_before);
+    let [before, peak] = body.peaks;
+    if peak != before {
         doc += &format!(" Reordered: at most {peak} results wait for their last use, before {before}.");
     }
-    if parts > 1 {
-        doc += &format!(" In {parts} parts.");
+    if body.parts.len() > 1 {
+        doc += &format!(" In {} parts.", body.parts.len());
     }
     doc
 }

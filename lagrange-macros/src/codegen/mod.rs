@@ -2,7 +2,6 @@
 
 mod accelerations;
 mod body;
-mod chunks;
 mod count;
 mod eliminate;
 mod facts;
@@ -13,10 +12,8 @@ mod kernel;
 mod linearized;
 mod observables;
 mod operation;
-mod order_of_evaluation;
 mod pack;
 mod passes;
-mod plan;
 mod schedule;
 mod shape;
 mod stub;
@@ -116,7 +113,13 @@ pub(crate) fn solutions(
     equations: &Equations,
     input: impl Fn(crate::symbolic::Symbol) -> f64,
 ) -> Vec<Option<Vec<f64>>> {
-    let values = |form| Some(accelerations::solve(graph, form, equations)?.fused().values(&input));
+    let values = |form| {
+        let program = accelerations::solve(graph, form, equations)?.fused();
+        Some(
+            body::Body::new(&program, &Default::default())
+                .values(program.results.len(), &input, |_, _| f64::NAN),
+        )
+    };
     equations.forms.iter().map(values).collect()
 }
 

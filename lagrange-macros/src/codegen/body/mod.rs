@@ -1,11 +1,18 @@
-//! A function's body before it is said in a language: what is computed in which part, in which local or nested in what, and
-//! where results go. [`plan`](super::plan) decides all that, [`writer`](super::writer) says it in Rust.
+//! A function's body before it is said in a language: what is computed in which part, in which local or nested in what,
+//! and where results go. The [writer](super::writer) says it in Rust.
+
+mod chunks;
+mod order_of_evaluation;
+mod plan;
+#[cfg(test)]
+mod tests;
 
 use std::collections::BTreeSet;
 
 use super::operation::{Call, Operation};
 use crate::symbolic::{Id, Symbol};
 
+#[derive(Clone, Debug)]
 pub(super) struct Body {
     /// One after the other; more than one where the function is long.
     pub(super) parts: Vec<Part>,
@@ -13,10 +20,12 @@ pub(super) struct Body {
     pub(super) waiting: usize,
     /// The results, in locals of the only part; where there are none the parts store them, all but zeros.
     pub(super) results: Option<Vec<Expression>>,
+    /// How many results wait for their last use at once, at most, in the order of the derivation and in this one.
+    pub(super) peaks: [usize; 2],
 }
 
 /// Statements that see no locals but their own.
-#[derive(Default)]
+#[derive(Clone, Default, Debug)]
 pub(super) struct Part {
     pub(super) inputs: BTreeSet<Symbol>,
     /// What the statements give values to, each once.
@@ -24,6 +33,7 @@ pub(super) struct Part {
     pub(super) statements: Vec<Statement>,
 }
 
+#[derive(Clone, Debug)]
 pub(super) enum Statement {
     Let(Local, Expression),
     /// The sine and the cosine of one argument.
@@ -37,13 +47,13 @@ pub(super) enum Statement {
     Store(Place, Expression),
 }
 
-#[derive(Clone)]
+#[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) enum Expression {
     Local(Local),
     /// What an earlier part has stored.
     Waiting(usize),
     /// A constant, an input, or an operation on what is nested in it.
-    Of(Box<Operation<Expression>>),
+    Of(Box<Operation<Self>>),
 }
 
 /// What a local is called after.

@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use rustc_hash::FxHashMap;
 
-use super::operation::Register;
 use super::order_of_evaluation::Order;
+use crate::codegen::operation::Register;
 
 /// Longer functions are cut: the time that LLVM takes grows faster than the length.
 const LONGEST: usize = 4_000;

@@ -5,9 +5,9 @@
 //! 17, 1970, take the one of more registers first): an elimination, which waits for its pivots, then computes the sines
 //! of the next link meanwhile. Or the order of the derivation, where results wait less in that.
 
-use super::operation::{Operation, Register};
-use super::passes::Program;
-use super::schedule::Schedule;
+use crate::codegen::operation::{Operation, Register};
+use crate::codegen::passes::Program;
+use crate::codegen::schedule::Schedule;
 
 /// What is to be computed, operands first. Constants and inputs are at hand and have no place in it.
 pub(super) struct Order {

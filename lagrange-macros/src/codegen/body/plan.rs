@@ -3,13 +3,14 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use rustc_hash::{FxHashMap};
+use rustc_hash::FxHashMap;
 
-use super::body::{Body, Expression, Local, Part, Place, Statement};
-use super::chunks::Waiting;
-use super::operation::{Call, Operation, Register};
-use super::passes::Program;
-use super::schedule::Schedule;
+use super::chunks::{self, Waiting};
+use super::order_of_evaluation::Order;
+use super::{Body, Expression, Local, Part, Place, Statement};
+use crate::codegen::operation::{Call, Operation, Register};
+use crate::codegen::passes::Program;
+use crate::codegen::schedule::Schedule;
 use crate::symbolic::{Function, Id};
 
 /// Single-use results are nested into what uses them to this depth.
@@ -18,16 +19,12 @@ const NESTING: usize = 6;
 const MANY: usize = 256;
 
 impl Body {
-    /// Computes the results of a program in the order of a sequence, cut into parts; definitions of these names have locals
-    /// called after them.
-    pub(super) fn new(
-        program: &Program,
-        sequence: &[usize],
-        cuts: &[Range<usize>],
-        names: &FxHashMap<Id, String>,
-    ) -> Self {
+    /// Computes the results of a program; definitions with names have locals called after them.
+    pub(in crate::codegen) fn new(program: &Program, names: &FxHashMap<Id, String>) -> Self {
         let Program { schedule, results, .. } = program;
-        let mut planner = Planner::new(program, sequence, cuts, names);
+        let order = Order::new(program);
+        let cuts = chunks::cuts(&order);
+        let mut planner = Planner::new(program, &order.sequence, &cuts, names);
         let zero = schedule.find(Operation::Constant(0.0_f64.to_bits()));
         let stored = results.iter().copied().enumerate().filter(|(_, result)| Some(*result) != zero);
         let stored: Vec<(usize, Register)> = stored.collect();
@@ -38,12 +35,13 @@ impl Body {
         }
         let mut last = None;
         let parts = cuts.iter().map(|cut| {
-            sequence[cut.clone()].iter().for_each(|&index| planner.compute(index));
+            order.sequence[cut.clone()].iter().for_each(|&index| planner.compute(index));
             last = in_locals.then(|| results.iter().map(|&result| planner.value(result)).collect());
             planner.end_part()
         });
         let parts = parts.collect();
-        Self { parts, waiting: planner.waiting.length, results: last }
+        let peaks = [order.peak_before, order.peak()];
+        Self { parts, waiting: planner.waiting.length, results: last, peaks }
     }
 }
 
