@@ -204,3 +204,21 @@ fn a_function_may_be_borrowed_and_named_twice() {
     // −(x³ + 8x³)′ at 2
     assert_eq!(shared.forcing(&State::at_rest([2.0]))[0], -108.0);
 }
+
+/// The smaller of x and a number that nothing here comes near.
+struct Capped;
+
+impl Function<1, 1> for Capped {
+    fn eval<S: Scalar>(&self, [x]: [S; 1]) -> [S; 1] {
+        [x.min(S::constant(1e16))]
+    }
+}
+
+#[test]
+fn a_bound_far_away_leaves_value_and_force() {
+    let capped = Shared { potential: &Capped };
+    let state = State::at_rest([1.5]);
+    // −U(x) − U(2x) with U(x) = x
+    assert_eq!(capped.lagrangian(&state), -4.5);
+    assert_eq!(capped.forcing(&state)[0], -3.0);
+}

@@ -29,6 +29,12 @@ impl<S: Scalar> Dual<S> {
     fn chain(self, value: S, derivative: S) -> Self {
         Self { value, slope: derivative * self.slope }
     }
+
+    /// The same where the derivative may be infinite: what does not move has no slope there either.
+    #[inline(always)]
+    fn chain_if_moving(self, value: S, derivative: S) -> Self {
+        Self { value, slope: self.slope.zero_or_product(derivative) }
+    }
 }
 
 impl<S: Scalar> Add for Dual<S> {
@@ -108,13 +114,13 @@ impl<S: Scalar> Scalar for Dual<S> {
     #[inline(always)]
     fn asin(self) -> Self {
         let x = self.value;
-        self.chain(x.asin(), S::constant(1.0) / (S::constant(1.0) - x * x).sqrt())
+        self.chain_if_moving(x.asin(), S::constant(1.0) / beside(x).sqrt())
     }
 
     #[inline(always)]
     fn acos(self) -> Self {
         let x = self.value;
-        self.chain(x.acos(), -(S::constant(1.0) / (S::constant(1.0) - x * x).sqrt()))
+        self.chain_if_moving(x.acos(), S::constant(-1.0) / beside(x).sqrt())
     }
 
     #[inline(always)]
@@ -123,11 +129,13 @@ impl<S: Scalar> Scalar for Dual<S> {
         self.chain(x.atan(), S::constant(1.0) / (S::constant(1.0) + x * x))
     }
 
+    /// The squares are of numbers about 1, which neither overflow nor vanish.
     #[inline(always)]
     fn atan2(self, x: Self) -> Self {
-        let radius2 = self.value * self.value + x.value * x.value;
-        let slope = (x.value * self.slope - self.value * x.slope) / radius2;
-        Self { value: self.value.atan2(x.value), slope }
+        let size = self.value.abs().max(x.value.abs());
+        let (sine, cosine) = (self.value / size, x.value / size);
+        let turn = (cosine * self.slope - sine * x.slope) / (sine * sine + cosine * cosine);
+        Self { value: self.value.atan2(x.value), slope: turn / size }
     }
 
     #[inline(always)]
@@ -140,10 +148,13 @@ impl<S: Scalar> Scalar for Dual<S> {
         self.chain(self.value.cosh(), self.value.sinh())
     }
 
+    /// The derivative 1/cosh² as 4 y/(1 + y)² with y = exp(−2 |x|): 1 − tanh² cancels far from zero.
     #[inline(always)]
     fn tanh(self) -> Self {
-        let tangent = self.value.tanh();
-        self.chain(tangent, S::constant(1.0) - tangent * tangent)
+        let (x, zero, one) = (self.value, S::constant(0.0), S::constant(1.0));
+        let y = (S::constant(2.0) * x.by_order(zero, x, x, -x)).exp();
+        let root = S::constant(2.0) / (one + y);
+        self.chain(x.tanh(), y * root * root)
     }
 
     #[inline(always)]
@@ -160,46 +171,77 @@ impl<S: Scalar> Scalar for Dual<S> {
     #[inline(always)]
     fn sqrt(self) -> Self {
         let root = self.value.sqrt();
-        self.chain(root, S::constant(0.5) / root)
+        self.chain_if_moving(root, S::constant(0.5) / root)
     }
 
+    /// At zero the slope is the mean of those beside, which is zero.
     #[inline(always)]
     fn abs(self) -> Self {
-        let value = self.value.abs();
-        self.chain(value, self.value / value)
+        let zero = S::constant(0.0);
+        let slope = self.value.by_order(zero, -self.slope, zero, self.slope);
+        Self { value: self.value.abs(), slope }
     }
 
     /// For a constant exponent no logarithm is taken of the base, which may then be negative.
     #[inline(always)]
     fn powf(self, exponent: Self) -> Self {
-        let zero = S::constant(0.0);
         let value = self.value.powf(exponent.value);
-        let mut slope = zero;
         // x⁰ is 1 everywhere; by the rule its slope at zero would be 0 · 0⁻¹.
-        if self.slope != zero && exponent.value != zero {
-            slope = exponent.value * self.value.powf(exponent.value - S::constant(1.0)) * self.slope;
+        let below = self.value.powf(exponent.value - S::constant(1.0));
+        let power = self.chain_if_moving(value, exponent.value.zero_or_product(below));
+        // What changes in no lane needs no logarithm.
+        if exponent.slope == S::constant(0.0) {
+            return power;
         }
-        if exponent.slope != zero {
-            slope = slope + value * self.value.ln() * exponent.slope;
-        }
-        Self { value, slope }
+        let Self { slope, .. } = exponent.chain_if_moving(value, value * self.value.ln());
+        Self { value, slope: power.slope + slope }
+    }
+
+    /// The slope is that of the smaller, the mean of both where they agree, and NaN where one of them is not a number.
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        let (x, y) = (self.slope, other.slope);
+        let slope = self.value.by_order(other.value, x, mean(x, y), y);
+        Self { value: self.value.min(other.value), slope }
     }
 
     /// As [`min`](Self::min).
     #[inline(always)]
     fn max(self, other: Self) -> Self {
-        -(-self).min(-other)
+        let (x, y) = (self.slope, other.slope);
+        let slope = self.value.by_order(other.value, y, mean(x, y), x);
+        Self { value: self.value.max(other.value), slope }
     }
 
-    /// The smaller value; its slope is that of the smaller where they differ, and their mean where they agree.
     #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        if self.value == other.value {
-            return (self + other) * Self::constant(0.5);
+    fn by_order(self, other: Self, less: Self, equal: Self, greater: Self) -> Self {
+        let choose = |l: S, e: S, g: S| self.value.by_order(other.value, l, e, g);
+        Self {
+            value: choose(less.value, equal.value, greater.value),
+            slope: choose(less.slope, equal.slope, greater.slope),
         }
-        // (x + y − |x − y|)/2 decides lane by lane.
-        (self + other - (self - other).abs()) * Self::constant(0.5)
     }
+
+    #[inline(always)]
+    fn zero_or_product(self, y: Self) -> Self {
+        Self {
+            value: self.value.zero_or_product(y.value),
+            slope: self.slope.zero_or_product(y.value) + self.value.zero_or_product(y.slope),
+        }
+    }
+}
+
+/// 1 − x², which cancels near 1 if the square is rounded.
+#[inline(always)]
+fn beside<S: Scalar>(x: S) -> S {
+    (S::constant(1.0) - x) * (S::constant(1.0) + x)
+}
+
+/// The mean, of the largest numbers too.
+#[inline(always)]
+fn mean<S: Scalar>(x: S, y: S) -> S {
+    let half = S::constant(0.5);
+    x * half + y * half
 }
 
 #[cfg(test)]

@@ -101,16 +101,19 @@ impl Scalar for Lanes {
         self.sin_cos().1
     }
 
-    #[cfg(target_feature = "fma")]
     #[inline(always)]
-    fn multiply_add(self, y: Self, z: Self) -> Self {
-        Self(self.0.simd_mul_add(y.0, z.0))
+    fn by_order(self, other: Self, less: Self, equal: Self, greater: Self) -> Self {
+        Self(self.0.by_order(other.0, less.0, equal.0, greater.0))
     }
 
-    #[cfg(target_feature = "fma")]
+    #[inline(always)]
+    fn multiply_add(self, y: Self, z: Self) -> Self {
+        Self(self.0.multiply_add(y.0, z.0))
+    }
+
     #[inline(always)]
     fn subtract_product(self, y: Self, z: Self) -> Self {
-        (-self).multiply_add(y, z)
+        Self(self.0.subtract_product(y.0, z.0))
     }
 
     through_simba! {

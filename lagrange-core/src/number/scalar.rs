@@ -55,11 +55,23 @@ pub trait Scalar:
     fn abs(self) -> Self;
     /// `self` to the power `exponent`.
     fn powf(self, exponent: Self) -> Self;
-    /// The smaller of the two, lane by lane.
+    /// The smaller of the two, lane by lane; where one is not a number, what the type makes of it.
     fn min(self, other: Self) -> Self;
-    /// The larger of the two, lane by lane.
+    /// The larger of the two, as [`min`](Self::min).
     fn max(self, other: Self) -> Self;
-    /// `self` · `y` + `z`: rounded once on x86 with the target feature `fma`, else twice.
+    /// `less`, `equal` or `greater` as `self` is to `other`, and NaN where one of them is, lane by lane. Of numbers with
+    /// derivatives the values are compared.
+    #[must_use]
+    fn by_order(self, other: Self, less: Self, equal: Self, greater: Self) -> Self;
+    /// `self` · `y`, and zero where `self` is zero, be `y` infinite or not a number.
+    #[inline(always)]
+    #[must_use]
+    fn zero_or_product(self, y: Self) -> Self {
+        let (zero, product) = (Self::constant(0.0), self * y);
+        self.by_order(zero, product, zero, product)
+    }
+    /// `self` · `y` + `z`: rounded once where the target has an instruction for it (always on aarch64, on x86 with the
+    /// target feature `fma`), else twice.
     #[inline(always)]
     fn multiply_add(self, y: Self, z: Self) -> Self {
         self * y + z
@@ -70,6 +82,9 @@ pub trait Scalar:
         z - self * y
     }
 }
+
+/// Whether the target has an instruction that rounds a product and a sum once; without, that would be a slow function.
+pub(crate) const FUSED: bool = cfg!(any(target_feature = "fma", target_arch = "aarch64"));
 
 macro_rules! through_simba {
     ($($name:ident => $simd:ident($($argument:ident),*)),* $(,)?) => {
@@ -91,16 +106,21 @@ impl<T: SimdRealField + SupersetOf<f64> + Copy + Debug + 'static> Scalar for T {
         self.simd_sin_cos()
     }
 
-    #[cfg(target_feature = "fma")]
     #[inline(always)]
-    fn multiply_add(self, y: Self, z: Self) -> Self {
-        self.simd_mul_add(y, z)
+    fn by_order(self, other: Self, less: Self, equal: Self, greater: Self) -> Self {
+        let ordered = equal.select(self.simd_eq(other), greater);
+        let ordered = less.select(self.simd_lt(other), ordered);
+        ordered.select(self.simd_eq(self) & other.simd_eq(other), Self::constant(f64::NAN))
     }
 
-    #[cfg(target_feature = "fma")]
+    #[inline(always)]
+    fn multiply_add(self, y: Self, z: Self) -> Self {
+        if FUSED { self.simd_mul_add(y, z) } else { self * y + z }
+    }
+
     #[inline(always)]
     fn subtract_product(self, y: Self, z: Self) -> Self {
-        (-self).simd_mul_add(y, z)
+        if FUSED { (-self).simd_mul_add(y, z) } else { z - self * y }
     }
 
     through_simba! {

@@ -1,4 +1,5 @@
 use super::LARGEST_ANGLE;
+use crate::scalar::FUSED;
 use crate::{Lanes, Scalar};
 
 type Function = (&'static str, fn(Lanes) -> Lanes, fn(f64) -> f64);
@@ -108,8 +109,7 @@ fn each_lane_is_what_the_number_alone_gives() {
 /// Rounded once with FMA and twice without, as for the number alone.
 #[test]
 fn products_and_sums_are_fused_as_for_the_number_alone() {
-    let fused = cfg!(target_feature = "fma");
-    let product_and_sum = |x: f64, y, z| if fused { x.mul_add(y, z) } else { x * y + z };
+    let product_and_sum = |x: f64, y, z| if FUSED { x.mul_add(y, z) } else { x * y + z };
     each_beside_each(|x, lane, _, beside| {
         // The rounding of 0.1 · 10 − 1 and the like is all that is left of it.
         for (y, z) in [(3.0, -3.0 * x), (0.1, -0.1 * x), (x, -x * x), (1e300, x), (x, f64::NAN)] {
