@@ -11,7 +11,7 @@ use super::PhaseState;
 use crate::number::array::vector;
 use crate::number::numeric::{exceeds, power_of_epsilon};
 use crate::solution::eliminate::eliminate_active;
-use crate::solution::kkt::{self, Equations, Fault, Rank, natural_units, row_length};
+use crate::solution::kkt::{self, Equations, Fault, Rank, Units};
 use crate::solution::newton::{self, Left, Search, halvings};
 use crate::solution::solve::{is_trustworthy, most_involved, name, not_finite};
 use crate::{Error, Lagrangian, Real, Scalar, Solution, State};
@@ -54,8 +54,7 @@ struct Trial<T, const N: usize, const M: usize> {
 struct Linear<'a, T, const N: usize, const M: usize> {
     wanted: &'a PhaseState<T, N>,
     equations: Equations<T, N, M>,
-    unit: [T; N],
-    length: [T; M],
+    units: Units<T, N, M>,
 }
 
 impl<T: Real, const N: usize, const M: usize> Linear<'_, T, N, M> {
@@ -75,14 +74,14 @@ impl<T: Real, const N: usize, const M: usize> Linear<'_, T, N, M> {
         let (mut distance, mut size) = (T::constant(0.0), T::constant(0.0));
         for i in 0..N {
             let (residual, terms) = self.momentum_residual(trial, i);
-            distance += Scalar::abs(residual) * self.unit[i];
-            size += terms * self.unit[i];
+            distance += Scalar::abs(residual) * self.units.coordinates[i];
+            size += terms * self.units.coordinates[i];
         }
         for a in 0..M {
             let row = &self.equations.f[a];
             let terms = (0..N).fold(T::constant(0.0), |sum, i| sum + Scalar::abs(row[i] * trial.state.v[i]));
-            distance += Scalar::abs(trial.rate[a]) / self.length[a];
-            size += terms / self.length[a];
+            distance += Scalar::abs(self.units.of_row(a, trial.rate[a]));
+            size += self.units.of_row(a, terms);
         }
         (distance, size)
     }
@@ -134,7 +133,7 @@ where
     const STEPS: usize = 100;
 
     fn linearize(&mut self, trial: &Self::Trial) -> Result<Self::Linear, Error> {
-        let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
+        let zero = L::Scalar::constant(0.0);
         let jacobian = self.system.constraint_jacobian(&trial.state);
         let equations = Equations {
             m: self.system.mass_matrix(&trial.state).into(),
@@ -145,12 +144,8 @@ where
         if let Some(row) = not_finite::<L, N, M>(&equations) {
             return Err(Error::EquationsNotFinite { row, time: self.phase.t.to_f64() });
         }
-        let unit = natural_units(&equations.m, &equations.f);
-        let length = from_fn(|a| {
-            let length = row_length(&equations.f[a], &unit);
-            if length > zero { length } else { one }
-        });
-        Ok(Linear { wanted: self.phase, equations, unit, length })
+        let units = Units::of(&equations.m, &equations.f);
+        Ok(Linear { wanted: self.phase, equations, units })
     }
 
     fn left(&self, near: &Self::Linear, trial: &Self::Trial) -> Left<L::Scalar> {
@@ -177,7 +172,7 @@ where
     #[cold]
     fn not_found(&self, linear: &Self::Linear, trial: &Self::Trial, steps: usize) -> Error {
         let residual = |i: usize| linear.momentum_residual(trial, i).0;
-        let size = |i: usize| Scalar::abs(residual(i)) * linear.unit[i];
+        let size = |i: usize| Scalar::abs(residual(i)) * linear.units.coordinates[i];
         let farthest = (1..N).fold(0, |worst, i| if exceeds(size(i), size(worst)) { i } else { worst });
         Error::MomentumNotReached {
             coordinate: name(&L::COORDINATES, farthest),

@@ -9,7 +9,7 @@ use super::tangent::Tangent;
 use super::{Direction, Linearized};
 use crate::names::Entry;
 use crate::number::array::vector;
-use crate::number::numeric::{larger, largest, power_of_epsilon};
+use crate::number::numeric::{larger, largest, norm, power_of_epsilon};
 use crate::solution::kkt::{Rank, Rows};
 use crate::system::lookup;
 use crate::{ConstraintKind, Error, Lagrangian, Real, Scalar, Simulate, Solution, State};
@@ -138,7 +138,11 @@ where
     changes.extend(tangent.factors.rows.null_space().map(|v| [zero, v]));
     let columns: Vec<_> = changes
         .iter()
-        .map(|[q, v]| DVector::from_iterator(2 * N, q.iter().chain(v).copied()).normalize())
+        .map(|[q, v]| {
+            let change = DVector::from_iterator(2 * N, q.iter().chain(v).copied());
+            let length = norm(change.as_slice());
+            change / length
+        })
         .collect();
     match columns.is_empty() {
         true => Ok(DMatrix::zeros(2 * N, 0)),
@@ -195,7 +199,7 @@ where
     let Tangent { state, solution, m, f, factors, .. } = tangent;
     let zero = L::Scalar::constant(0.0);
     let strongest = |force: &dyn Fn(usize) -> L::Scalar| {
-        largest(&from_fn::<_, N, _>(|i| force(i) * factors.rows.unit[i]))
+        largest(&from_fn::<_, N, _>(|i| force(i) * factors.rows.units.coordinates[i]))
     };
     let mut terms =
         (0..M).fold(zero, |most, a| larger(most, strongest(&|i| f[a][i] * solution.multipliers[a])));

@@ -3,9 +3,9 @@
 use nalgebra::{ComplexField, SVector};
 
 use super::{Direction, Linearized, ResidualChange};
-use crate::names::{Entry, Row};
+use crate::names::Entry;
 use crate::solution::kkt::{Factors, Rank};
-use crate::solution::solve::{fault, solve};
+use crate::solution::solve::{fault, first_row, solve};
 use crate::{Error, Lagrangian, Real, Solution, State};
 
 /// The equations of motion at a state, solved and factorized.
@@ -111,10 +111,8 @@ fn finite<L, const N: usize, const M: usize>(
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {
-    let coordinate = (0..N).find(|&i| !motion[i].is_finite()).map(|i| Row::Coordinate(L::COORDINATES[i]));
     let finite = |a: usize| constraints.iter().all(|x| x[a].is_finite());
-    let constraint = || (0..M).find(|&a| !finite(a)).map(|a| Row::Constraint(L::CONSTRAINTS[a]));
-    match coordinate.or_else(constraint) {
+    match first_row::<L, N, M>(|i| !motion[i].is_finite(), |a| !finite(a)) {
         None => Ok(()),
         Some(row) => Err(Error::DerivativeNotFinite { row, entry, time: state.t.to_f64() }),
     }

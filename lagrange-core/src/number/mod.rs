@@ -5,7 +5,7 @@ mod dual;
 #[cfg(feature = "std")]
 mod lanes;
 pub(crate) mod numeric;
-mod scalar;
+pub(crate) mod scalar;
 
 pub use dual::Dual;
 #[cfg(feature = "std")]

@@ -40,3 +40,19 @@ pub(crate) fn power_of_epsilon<T: Real>(exponent: f64) -> T {
 pub fn only_where<T: Scalar>(activity: T, value: T) -> T {
     if activity == T::constant(0.0) { activity } else { value }
 }
+
+/// A power of two not far below `x` ≥ 0, by which to divide before numbers of its size are multiplied; 1 for zero.
+pub(crate) fn power_of_two<T: Real>(x: T) -> T {
+    if x == T::constant(0.0) {
+        return T::constant(1.0);
+    }
+    let without_fraction = f64::from_bits(x.to_f64().to_bits() & f64::INFINITY.to_bits());
+    T::constant(without_fraction.max(f64::MIN_POSITIVE))
+}
+
+/// √Σx², which neither overflows nor vanishes unless the numbers do.
+pub(crate) fn norm<T: Real>(x: &[T]) -> T {
+    let unit = power_of_two(largest(x));
+    let square = |x: T| (x / unit) * (x / unit);
+    Scalar::sqrt(x.iter().fold(T::constant(0.0), |sum, x| sum + square(*x))) * unit
+}

@@ -76,7 +76,12 @@ where
     for a in (0..M).filter(|&a| !active[a]) {
         (equations.f[a], equations.gamma[a]) = ([L::Scalar::constant(0.0); N], L::Scalar::constant(0.0));
     }
-    kkt::solve(&equations, rank).map_err(|found| fault::<L, N, M>(&found, time))
+    let solved = kkt::solve(&equations, rank).map_err(|found| fault::<L, N, M>(&found, time))?;
+    let Solution { accelerations, multipliers, .. } = &solved.0;
+    match first_row::<L, N, M>(|i| !accelerations[i].is_finite(), |a| !multipliers[a].is_finite()) {
+        None => Ok(solved),
+        Some(row) => Err(Error::EquationsNotFinite { row, time }),
+    }
 }
 
 /// A fault of the general solve with the names that belong to it.
@@ -96,9 +101,16 @@ where
     L: Lagrangian<N, M, Scalar: Real>,
 {
     let finite = |row: &[L::Scalar; N], rhs: L::Scalar| row.iter().all(|x| x.is_finite()) && rhs.is_finite();
-    let coordinate = (0..N).find(|&i| !finite(&e.m[i], e.h[i])).map(|i| Row::Coordinate(L::COORDINATES[i]));
-    let constraint =
-        || (0..M).find(|&a| !finite(&e.f[a], e.gamma[a])).map(|a| Row::Constraint(L::CONSTRAINTS[a]));
+    first_row::<L, N, M>(|i| !finite(&e.m[i], e.h[i]), |a| !finite(&e.f[a], e.gamma[a]))
+}
+
+/// The first coordinate, or else constraint, of which this holds.
+pub(crate) fn first_row<L: Lagrangian<N, M>, const N: usize, const M: usize>(
+    coordinate: impl Fn(usize) -> bool,
+    constraint: impl Fn(usize) -> bool,
+) -> Option<Row> {
+    let coordinate = (0..N).find(|&i| coordinate(i)).map(|i| Row::Coordinate(L::COORDINATES[i]));
+    let constraint = || (0..M).find(|&a| constraint(a)).map(|a| Row::Constraint(L::CONSTRAINTS[a]));
     coordinate.or_else(constraint)
 }
 

@@ -1,5 +1,5 @@
 use super::LARGEST_ANGLE;
-use crate::scalar::FUSED;
+use crate::number::scalar::FUSED;
 use crate::{Lanes, Scalar};
 
 type Function = (&'static str, fn(Lanes) -> Lanes, fn(f64) -> f64);

@@ -9,16 +9,18 @@ mod qr;
 mod symmetric;
 #[cfg(test)]
 mod tests;
+mod units;
 
 use core::array::from_fn;
 
 use nalgebra::SVector;
 
 use crate::number::array::vector;
-use crate::number::numeric::{larger, largest, power_of_epsilon, smaller};
+use crate::number::numeric::{larger, largest, norm, power_of_epsilon, smaller};
 use crate::{Real, Scalar, Solution};
 use qr::Qr;
 use symmetric::Symmetric;
+pub(crate) use units::Units;
 
 /// M q̈ − Fᵀλ = h, F q̈ + γ = 0, rows as arrays.
 pub(crate) struct Equations<T, const N: usize, const M: usize> {
@@ -99,19 +101,19 @@ impl<T: Real, const N: usize, const M: usize> Factors<T, N, M> {
         let mut m = *m;
         for i in 0..N {
             for j in 0..N {
-                m[i][j] *= rows.unit[i] * rows.unit[j];
+                m[i][j] *= rows.units.coordinates[i] * rows.units.coordinates[j];
             }
         }
         to_range_basis(&rows.split, &mut m);
         let (along, pivot) = along_constraints(&m, rows.split.rank);
-        let wide = (rows.split.rank < M).then(|| least_norm(&rows.split, &rows.length));
+        let wide = (rows.split.rank < M).then(|| least_norm(&rows));
         Self { rows, m, along, pivot, wide, must_agree: rank.must_agree }
     }
 
     /// M q̈ − Fᵀλ = h, F q̈ + γ = 0.
     pub(crate) fn solve(&self, h: &[T; N], gamma: &[T; M]) -> Result<Solution<T, N, M>, Fault<T, N>> {
-        let Rows { unit, split, .. } = &self.rows;
-        let mut h = from_fn(|i| h[i] * unit[i]);
+        let Rows { units, split } = &self.rows;
+        let mut h = from_fn(|i| h[i] * units.coordinates[i]);
         let fixed = self.rows.fixed(gamma);
         if self.must_agree {
             self.rows.check_agreement(gamma, &h, &fixed)?;
@@ -151,7 +153,7 @@ impl<T: Real, const N: usize, const M: usize> Factors<T, N, M> {
         match &self.wide {
             None => {
                 let scaled = self.rows.split.solve(force);
-                from_fn(|a| scaled[a] / self.rows.length[a])
+                from_fn(|a| self.rows.units.of_row(a, scaled[a]))
             }
             Some(wide) => {
                 let mut lambda = wide.solve_transposed(force);
@@ -164,25 +166,15 @@ impl<T: Real, const N: usize, const M: usize> Factors<T, N, M> {
 
 /// The constraint rows in natural units, each of length 1 (or zero), and what they fix.
 pub(crate) struct Rows<T, const N: usize, const M: usize> {
-    /// In which a mass is 1.
-    pub(crate) unit: [T; N],
-    /// The length of each row before it became 1; 1 for a row of zeros.
-    length: [T; M],
+    pub(crate) units: Units<T, N, M>,
     split: Qr<T, N, M>,
 }
 
 impl<T: Real, const N: usize, const M: usize> Rows<T, N, M> {
     pub(crate) fn of(m: &[[T; N]; N], f: &[[T; N]; M], rank: Rank<T>) -> Self {
-        let unit = natural_units(m, f);
-        let length: [T; M] = from_fn(|a| {
-            let length = row_length(&f[a], &unit);
-            if length > T::constant(0.0) { length } else { T::constant(1.0) }
-        });
-        let mut rows = *f;
-        for (row, length) in rows.iter_mut().zip(&length) {
-            row.iter_mut().zip(&unit).for_each(|(entry, unit)| *entry *= *unit / *length);
-        }
-        Self { unit, length, split: Qr::of(rows, rank.tolerance) }
+        let units = Units::of(m, f);
+        let rows = from_fn(|a| units.unit_row(a, &f[a]));
+        Self { units, split: Qr::of(rows, rank.tolerance) }
     }
 
     /// A basis of the x with F x = 0.
@@ -201,7 +193,7 @@ impl<T: Real, const N: usize, const M: usize> Rows<T, N, M> {
     /// From the range basis and natural units.
     fn out_of_basis(&self, mut x: [T; N]) -> SVector<T, N> {
         self.split.leave_basis(&mut x);
-        vector(from_fn(|i| x[i] * self.unit[i]))
+        vector(from_fn(|i| x[i] * self.units.coordinates[i]))
     }
 
     /// In the range basis, the shortest x with F x + γ = 0.
@@ -211,7 +203,7 @@ impl<T: Real, const N: usize, const M: usize> Rows<T, N, M> {
 
     /// What the rows times the accelerations must be.
     fn demands(&self, gamma: &[T; M]) -> [T; M] {
-        from_fn(|a| -gamma[a] / self.length[a])
+        from_fn(|a| -self.units.of_row(a, gamma[a]))
     }
 
     /// Every dependent constraint must agree with the accelerations that the independent ones fix, to ε^(1/3).
@@ -228,29 +220,6 @@ impl<T: Real, const N: usize, const M: usize> Rows<T, N, M> {
         }
         Ok(())
     }
-}
-
-/// For each coordinate the unit in which its mass is ±1; where it has none, that in which its strongest coupling is 1.
-pub(crate) fn natural_units<T: Real, const N: usize, const M: usize>(
-    m: &[[T; N]; N],
-    f: &[[T; N]; M],
-) -> [T; N] {
-    let (zero, one) = (T::constant(0.0), T::constant(1.0));
-    let mut unit: [T; N] = from_fn(|i| {
-        let mass = Scalar::abs(m[i][i]);
-        if mass > zero { one / Scalar::sqrt(mass) } else { zero }
-    });
-    let length: [T; M] = from_fn(|a| row_length(&f[a], &unit));
-    for i in 0..N {
-        if unit[i] > zero {
-            continue;
-        }
-        let inertia = (0..N).map(|j| Scalar::abs(m[i][j]) * if unit[j] > zero { unit[j] } else { one });
-        let couplings = (0..M).map(|a| Scalar::abs(f[a][i]) / if length[a] > zero { length[a] } else { one });
-        let strongest = inertia.chain(couplings).fold(zero, larger);
-        unit[i] = if strongest > zero { one / strongest } else { one };
-    }
-    unit
 }
 
 /// m ← Qᵀ m Q, of a symmetric matrix, in place: large arrays are not copied.
@@ -299,12 +268,13 @@ fn undetermined<T: Real, const N: usize, const M: usize>(
 }
 
 /// C λ = force with C = R times the row lengths, as wide as there are constraints: λ = Q R⁻ᵀ force of this QR of Cᵀ.
-fn least_norm<T: Real, const N: usize, const M: usize>(split: &Qr<T, N, M>, length: &[T; M]) -> Qr<T, M, N> {
+fn least_norm<T: Real, const N: usize, const M: usize>(rows: &Rows<T, N, M>) -> Qr<T, M, N> {
+    let Rows { units, split } = rows;
     let zero = T::constant(0.0);
     let mut transposed = [[zero; M]; N];
     for (i, column) in transposed.iter_mut().enumerate().take(split.rank) {
         for (j, &row) in split.order.iter().enumerate().skip(i) {
-            column[row] = split.entry(i, j) * length[row];
+            column[row] = split.entry(i, j) * units.lengths[row] * units.powers[row];
         }
     }
     Qr::of(transposed, zero)
@@ -312,15 +282,6 @@ fn least_norm<T: Real, const N: usize, const M: usize>(split: &Qr<T, N, M>, leng
 
 fn smallest_diagonal<T: Real, const N: usize, const M: usize>(split: &Qr<T, N, M>) -> T {
     (0..split.rank).fold(T::constant(1.0), |least, i| smaller(least, Scalar::abs(split.entry(i, i))))
-}
-
-/// The length of a constraint row in these units.
-pub(crate) fn row_length<T: Real, const N: usize>(row: &[T; N], unit: &[T; N]) -> T {
-    norm(&from_fn::<T, N, _>(|i| row[i] * unit[i]))
-}
-
-fn norm<T: Real, const N: usize>(x: &[T; N]) -> T {
-    Scalar::sqrt(dot(x, x))
 }
 
 fn dot<T: Real, const N: usize>(a: &[T; N], b: &[T; N]) -> T {

@@ -2,6 +2,7 @@
 
 use core::array::from_fn;
 
+use crate::number::numeric::{norm, power_of_two};
 use crate::{Real, Scalar};
 
 /// A P = Q R of a K×C matrix A (Golub and Van Loan, *Matrix Computations*, 5.4.2).
@@ -37,12 +38,12 @@ impl<T: Real, const K: usize, const C: usize> Qr<T, K, C> {
     fn longest_remainder(&self, k: usize) -> (usize, T) {
         let mut best = (k, T::constant(0.0));
         for j in k..C {
-            let square = dot(&self.r[j][k..], &self.r[j][k..]);
-            if square > best.1 {
-                best = (j, square);
+            let length = norm(&self.r[j][k..]);
+            if length > best.1 {
+                best = (j, length);
             }
         }
-        (best.0, Scalar::sqrt(best.1))
+        best
     }
 
     fn eliminate(&mut self, k: usize, length: T) {
@@ -50,7 +51,8 @@ impl<T: Real, const K: usize, const C: usize> Qr<T, K, C> {
         let head = self.r[k][k];
         let diagonal = if head > zero { -length } else { length };
         // vᵀv = 2 ‖x‖ (‖x‖ + |x₀|) for v = x − diagonal·e₀; scaled to vᵀv = 2.
-        let scale = T::constant(1.0) / Scalar::sqrt(length * (length + Scalar::abs(head)));
+        let (unit, sum) = (power_of_two(length), length + Scalar::abs(head));
+        let scale = T::constant(1.0) / (Scalar::sqrt(length / unit * (sum / unit)) * unit);
         let v = &mut self.reflectors[k];
         v[k] = (head - diagonal) * scale;
         for (entry, x) in v.iter_mut().zip(&self.r[k]).skip(k + 1) {

@@ -1,0 +1,64 @@
+//! Units in which masses are about 1 and constraint rows of length 1.
+
+use core::array::from_fn;
+
+use crate::number::numeric::{larger, largest, norm, power_of_two};
+use crate::{Real, Scalar};
+
+/// The natural units of a mass matrix and a constraint Jacobian.
+///
+/// The length of a row is a product of two, since the entries and the units of the coordinates may be so large, or so
+/// small, that it is no number itself.
+pub(crate) struct Units<T, const N: usize, const M: usize> {
+    /// For each coordinate the unit in which its mass is ±1; where it has none, that in which its strongest coupling is 1.
+    pub(crate) coordinates: [T; N],
+    /// For each row a power of two about as large as its entries …
+    pub(super) powers: [T; M],
+    /// … and in its unit the length in those of the coordinates; 1 for a row of zeros.
+    pub(super) lengths: [T; M],
+}
+
+impl<T: Real, const N: usize, const M: usize> Units<T, N, M> {
+    pub(crate) fn of(m: &[[T; N]; N], f: &[[T; N]; M]) -> Self {
+        let (zero, one) = (T::constant(0.0), T::constant(1.0));
+        let mass = |i: usize| Scalar::abs(m[i][i]);
+        let mut units = Self {
+            coordinates: from_fn(|i| if mass(i) > zero { one / Scalar::sqrt(mass(i)) } else { zero }),
+            powers: from_fn(|a| power_of_two(largest(&f[a]))),
+            lengths: [one; M],
+        };
+        // Where a row ties massless coordinates only, their units are those of its entries.
+        units.lengths = units.lengths_of(f);
+        for i in (0..N).filter(|&i| mass(i) == zero) {
+            units.coordinates[i] = units.of_massless(i, m, f);
+        }
+        units.lengths = units.lengths_of(f);
+        units
+    }
+
+    /// The row of this index, of length 1.
+    pub(super) fn unit_row(&self, a: usize, row: &[T; N]) -> [T; N] {
+        from_fn(|i| row[i] / self.powers[a] * (self.coordinates[i] / self.lengths[a]))
+    }
+
+    /// What belongs to a row, such as its residual, in the unit of that row.
+    pub(crate) fn of_row(&self, a: usize, x: T) -> T {
+        x / self.powers[a] / self.lengths[a]
+    }
+
+    fn lengths_of(&self, f: &[[T; N]; M]) -> [T; M] {
+        from_fn(|a| {
+            let length = norm::<T>(&from_fn::<T, N, _>(|i| f[a][i] / self.powers[a] * self.coordinates[i]));
+            if length > T::constant(0.0) { length } else { T::constant(1.0) }
+        })
+    }
+
+    fn of_massless(&self, i: usize, m: &[[T; N]; N], f: &[[T; N]; M]) -> T {
+        let (zero, one) = (T::constant(0.0), T::constant(1.0));
+        let unit = |j: usize| if self.coordinates[j] > zero { self.coordinates[j] } else { one };
+        let inertia = (0..N).map(|j| Scalar::abs(m[i][j]) * unit(j));
+        let couplings = (0..M).map(|a| Scalar::abs(self.of_row(a, f[a][i])));
+        let strongest = inertia.chain(couplings).fold(zero, larger);
+        if strongest > zero { one / strongest } else { one }
+    }
+}
