@@ -39,7 +39,7 @@ pub(super) struct Solved {
 /// too long.
 pub(super) fn eliminate(schedule: &mut Schedule, form: &Form, equations: &Equations) -> Option<Solved> {
     let order = order(form)?;
-    let mut solver = Solver { schedule, growth: Vec::new(), reciprocals: Vec::new() };
+    let mut solver = Solver { schedule, growth: Vec::new(), plain: Vec::new(), reciprocals: Vec::new() };
     let matrix = form.matrix.iter().map(|row| solver.entries(row)).collect();
     let definitions = form.definitions.iter().map(|row| solver.sparse_entries(row)).collect();
     let factors = solver.factor(matrix, definitions, &order);

@@ -18,7 +18,9 @@ pub(super) struct Solver<'s> {
     pub(super) schedule: &'s mut Schedule,
     /// For each pivot that differs from what it was before anything was subtracted, that over the pivot.
     pub(super) growth: Vec<Register>,
-    /// The reciprocals of the other pivots.
+    /// The other pivots, and their reciprocals.
+    pub(super) plain: Vec<[Register; 2]>,
+    /// The reciprocals of all pivots.
     pub(super) reciprocals: Vec<Register>,
 }
 

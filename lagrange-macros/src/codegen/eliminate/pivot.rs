@@ -6,12 +6,12 @@ use crate::codegen::operation::{Operation, Register};
 use crate::codegen::schedule::Schedule;
 
 impl Solver<'_> {
-    /// For a pivot that differs from what it was before anything was subtracted, that over the pivot; else the pivot's
-    /// reciprocal, which may cancel out of all results.
+    /// For a pivot that differs from what it was before anything was subtracted, that over the pivot.
     pub(super) fn note_pivot(&mut self, scale: Entry, pivot: Register, reciprocal: Register) {
+        self.reciprocals.push(reciprocal);
         match scale.filter(|&scale| scale != pivot) {
             Some(scale) => self.growth.push(self.schedule.push(Operation::Multiply(scale, reciprocal))),
-            None => self.reciprocals.push(reciprocal),
+            None => self.plain.push([pivot, reciprocal]),
         }
     }
 
@@ -29,7 +29,7 @@ impl Solver<'_> {
         let pivot = self.smallest_pivot();
         let free = accelerations.iter().zip(pushes).filter(|(_, push)| push.is_none());
         let results: Vec<Register> = free.map(|(&free, _)| free).chain(multipliers.iter().copied()).collect();
-        let poison = self.poison(&results);
+        let poison = self.poison(&results, !multipliers.is_empty());
         let pivot = self.schedule.push(Operation::Add(pivot, poison));
         Solved { accelerations, multipliers, pivot }
     }
@@ -38,16 +38,38 @@ impl Solver<'_> {
     ///
     /// What a constraint pushes has a part in its multiplier, so these results are the multipliers and what no
     /// constraint pushes, and of these those that are not seen in another one.
-    fn poison(&mut self, results: &[Register]) -> Register {
-        let ends = ends(self.schedule, results);
-        let seen = ends.iter().chain(&self.reciprocals).chain(&self.growth).copied();
-        let mut seen: Vec<Register> =
-            seen.filter(|&register| !is_constant(self.schedule, register)).collect();
-        seen.sort_unstable();
-        seen.dedup();
+    fn poison(&mut self, results: &[Register], is_constrained: bool) -> Register {
+        let mut seen = ends(self.schedule, results);
+        seen.extend(&self.growth);
+        // One that is infinite leaves finite results, and one that is zero may cancel out of them.
+        for [pivot, reciprocal] in self.plain.clone() {
+            seen.extend((!self.is_input(pivot)).then_some(pivot));
+            seen.extend((!is_constrained).then_some(reciprocal));
+        }
+        if is_constrained {
+            seen.extend(self.square_of_reciprocals());
+        }
         let zero = self.schedule.constant(0.0);
-        let sum = seen.into_iter().reduce(|sum, x| self.schedule.push(Operation::Add(sum, x)));
-        sum.map_or(zero, |sum| self.schedule.push(Operation::Multiply(zero, sum)))
+        self.sum(seen).map_or(zero, |sum| self.schedule.push(Operation::Multiply(zero, sum)))
+    }
+
+    /// Infinite where a reciprocal is beyond the root of the largest number. So it is where entries of F are so small that
+    /// their squares have lost digits: be it the pivot of the Schur complement that is too small then, or a mass.
+    fn square_of_reciprocals(&mut self) -> Option<Register> {
+        let sum = self.sum(self.reciprocals.clone())?;
+        Some(self.schedule.push(Operation::Multiply(sum, sum)))
+    }
+
+    fn is_input(&self, register: Register) -> bool {
+        matches!(self.schedule.operations[register.index()], Operation::Input(_))
+    }
+
+    /// The sum of those that differ, without constants.
+    fn sum(&mut self, mut terms: Vec<Register>) -> Option<Register> {
+        terms.retain(|&register| !is_ordinary_constant(self.schedule, register));
+        terms.sort_unstable();
+        terms.dedup();
+        terms.into_iter().reduce(|sum, x| self.schedule.push(Operation::Add(sum, x)))
     }
 
     /// The least of pivot/diagonal and diagonal/pivot.
@@ -64,8 +86,10 @@ impl Solver<'_> {
     }
 }
 
-fn is_constant(schedule: &Schedule, register: Register) -> bool {
-    matches!(schedule.operations[register.index()], Operation::Constant(_))
+/// Whether it is a constant whose square is a number in any precision.
+fn is_ordinary_constant(schedule: &Schedule, register: Register) -> bool {
+    let ordinary = 1e-15..1e15;
+    matches!(schedule.operations[register.index()], Operation::Constant(bits) if ordinary.contains(&f64::from_bits(bits).abs()))
 }
 
 /// Those of `results` that are seen in no other: sums and products of what is no number, or infinite, are too, but a

@@ -155,7 +155,7 @@ const _: () = {
         ) -> __lagrange::nalgebra::SVector<f64, 1usize> {
             __lagrange::generated::vector([0.0])
         }
-        ///9 operations (+ − × ÷ √), 1 elementary function. One product fused with a sum.
+        ///10 operations (+ − × ÷ √), 1 elementary function. One product fused with a sum. Reordered: at most 2 results wait for their last use, before 3.
         #[inline]
         #[allow(unused_variables)]
         fn accelerations(
@@ -168,12 +168,13 @@ const _: () = {
             let g = self.g;
             let r4 = __lagrange::Scalar::sin(theta);
             let r8 = (g * r4) / l;
+            let r6 = m * (l * l);
             __lagrange::Solution {
                 accelerations: __lagrange::generated::vector([(-r8)]),
                 multipliers: __lagrange::generated::vector([]),
                 pivot: (__lagrange::Scalar::multiply_add(
                     0.0,
-                    ((1.0 / (m * (l * l))) - r8),
+                    ((1.0 / r6) + (r6 - r8)),
                     1.0,
                 )),
                 rank: 0usize,
