@@ -1,0 +1,186 @@
+//! Units in which numbers are huge or tiny: the answer is the same motion in those units, or a named error.
+
+use lagrange_core::prelude::*;
+
+/// A bead on an inclined line, y = −¾ x, the constraint in units of its own.
+#[derive(Lagrangian, Clone)]
+#[coordinates(x, y)]
+#[lagrangian(m/2*(x_dot^2 + y_dot^2) - m*g*y)]
+#[constraint(line: 0.6*s*x + 0.8*s*y = 0)]
+struct Bead<T> {
+    m: T,
+    g: T,
+    s: T,
+}
+
+/// The same, held twice: by a row and by a multiple of it.
+#[derive(Lagrangian, Clone)]
+#[coordinates(x, y)]
+#[lagrangian(m/2*(x_dot^2 + y_dot^2) - m*g*y)]
+#[constraint(line: 0.6*s*x + 0.8*s*y = 0)]
+#[constraint(again: 1.2*r*x + 1.6*r*y = 0)]
+struct Twice<T> {
+    m: T,
+    g: T,
+    s: T,
+    r: T,
+}
+
+const DOUBLE: [f64; 13] =
+    [1e-300, 1e-200, 1e-165, 1e-161, 1e-155, 1e-80, 1.0, 1e80, 1e152, 1e155, 1e165, 1e200, 1e300];
+const SINGLE: [f32; 9] = [1e-37, 1e-30, 1e-22, 1e-10, 1.0, 1e10, 1e20, 1e30, 1e37];
+
+/// m ẍ = 0.6 s λ, m ÿ = −m g + 0.8 s λ, ẍ = −4/3 ÿ: s λ = 0.8 m g, ẍ = 0.48 g, ÿ = −0.36 g. Whether it is so; where s λ, or
+/// what `is_beyond` says, is no number, it may be an error instead.
+fn slides<L, const M: usize>(bead: &L, is_beyond: bool, tolerance: f64)
+where
+    L: Lagrangian<2, M, Scalar: Real>,
+{
+    let state = State::at_rest([L::Scalar::constant(0.0); 2]);
+    let Solution { accelerations, rank, .. } = match bead.solve(&state) {
+        Err(Error::EquationsNotFinite { .. }) if is_beyond => return,
+        solution => solution.expect("a solution"),
+    };
+    let [x, y] = [0, 1].map(|i| accelerations[i].to_f64());
+    assert!((x / 4.8 - 1.0).abs() < tolerance && (y / -3.6 - 1.0).abs() < tolerance, "({x}, {y})");
+    assert_eq!(rank, 1);
+}
+
+#[test]
+fn a_row_of_any_length_constrains() {
+    for s in DOUBLE {
+        for m in [1e-200, 1e-160, 1e-150, 1.0, 1e150, 1e160, 1e200] {
+            let (bead, lambda) = (Bead { m, g: 10.0, s }, 8.0 * m / s);
+            slides(&bead, lambda.is_infinite(), 1e-13);
+            if lambda.is_normal() {
+                let solution = bead.solve(&State::at_rest([0.0; 2])).expect("a solution");
+                assert!((solution.multipliers[0] / lambda - 1.0).abs() < 1e-13, "{solution:?} {lambda}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_row_of_any_length_constrains_in_single_precision() {
+    for s in SINGLE {
+        for m in [1e-30, 1e-20, 1.0, 1e20, 1e30] {
+            slides(&Bead { m, g: 10.0_f32, s }, (8.0 * m / s).is_infinite(), 1e-5);
+        }
+    }
+}
+
+#[test]
+fn rows_of_unlike_lengths_that_depend_on_one_another_share_the_force() {
+    for s in DOUBLE {
+        for r in DOUBLE {
+            let twice = Twice { m: 1.0, g: 10.0, s, r };
+            let (lambda, state) = (8.0 / (s.max(2.0 * r)), State::at_rest([0.0; 2]));
+            slides(&twice, lambda.is_infinite(), 1e-13);
+            if lambda.is_normal() {
+                let [first, second]: [f64; 2] = twice.solve(&state).expect("a solution").multipliers.into();
+                assert!(((first * s + 2.0 * second * r) / 8.0 - 1.0).abs() < 1e-13, "{first} {second}");
+                // Of least norm: in proportion to the rows.
+                let (first, second) = (first / lambda, second / lambda);
+                let (s, r) = (s / s.max(2.0 * r), 2.0 * r / s.max(2.0 * r));
+                assert!((first * r - second * s).abs() < 1e-13, "{first} {second} for {s} {r}");
+            }
+        }
+    }
+}
+
+#[test]
+fn it_moves_as_far_in_any_unit() {
+    for s in DOUBLE {
+        let bead = Bead { m: 1.0, g: 10.0, s };
+        let path = bead.integrate(State::at_rest([0.0; 2]), 1.0, Dop853::default()).expect("a path");
+        let [x, y]: [f64; 2] = path.end().state().q.into();
+        assert!(path.ending().is_complete() && path.multipliers_are_unique());
+        assert!((x - 2.4).abs() < 1e-12 && (y + 1.8).abs() < 1e-12, "({x}, {y}) for {s}");
+        let phase = bead.phase_state(&State::at_rest([0.0; 2]));
+        let path = bead.integrate_hamiltonian(phase, 1.0, Dop853::default()).expect("a path");
+        let [x, y]: [f64; 2] = path.end().state().q.into();
+        assert!((x - 2.4).abs() < 1e-12 && (y + 1.8).abs() < 1e-12, "({x}, {y}) for {s} in (q, p)");
+    }
+}
+
+#[test]
+fn on_lanes_too() {
+    let beads = Ensemble::from_fn(DOUBLE.len(), |k| {
+        (Bead { m: 1.0, g: 10.0, s: DOUBLE[k] }, State::at_rest([0.0; 2]))
+    });
+    let outcome = beads.integrate_on_lanes(1.0, Dop853::default()).expect("an outcome");
+    assert_eq!(outcome.completed().count(), DOUBLE.len());
+    for (k, state) in outcome.completed() {
+        let [x, y]: [f64; 2] = state.q.into();
+        assert!((x - 2.4).abs() < 1e-12 && (y + 1.8).abs() < 1e-12, "({x}, {y}) for {}", DOUBLE[k]);
+    }
+}
+
+/// A pendulum with a rod: M = m, rows of the length l, λ in m g / l, in units of length and mass.
+#[derive(Lagrangian, Clone)]
+#[coordinates(x, y)]
+#[lagrangian(m/2*(x_dot^2 + y_dot^2) - m*g*y)]
+#[constraint(rod: (x^2 + y^2 - l^2)/2 = 0)]
+struct Rod<T> {
+    m: T,
+    g: T,
+    l: T,
+}
+
+/// The pendulum with an angle: M = m l².
+#[derive(Lagrangian, Clone)]
+#[coordinates(theta)]
+#[lagrangian(m*l^2/2*theta_dot^2 + m*g*l*cos(theta))]
+struct Swing<T> {
+    m: T,
+    g: T,
+    l: T,
+}
+
+#[test]
+fn a_pendulum_swings_alike_in_any_unit_or_is_refused() {
+    let along = |state: &State<f64, 2>, unit: f64| state.q[0] / unit;
+    let reference = Rod { m: 1.0, g: 10.0, l: 1.0 };
+    let path = reference.integrate(State::at_rest([0.6, -0.8]), 1.0, Dop853::default()).expect("a path");
+    let expected = along(&path.end().state(), 1.0);
+    let (mut refused, mut swung) = (0, 0);
+    for unit in [1e-150, 1e-100, 1e-8, 1e8, 1e100, 1e150, 1e165, 1e200] {
+        for m in [1e-200, 1.0, 1e200] {
+            // What the Lagrangian itself loses nobody can see.
+            if m * unit * unit < f64::MIN_POSITIVE {
+                continue;
+            }
+            let rod = Rod { m, g: 10.0 * unit, l: unit };
+            let start = State::at_rest([0.6 * unit, -0.8 * unit]);
+            let Ok(path) = rod.integrate(start, 1.0, Dop853::default().absolute(1e-9 * unit)) else {
+                refused += 1;
+                continue;
+            };
+            assert!(path.ending().is_complete(), "{}", path.ending());
+            let arrived = along(&path.end().state(), unit);
+            assert!(
+                (arrived - expected).abs() < 1e-7,
+                "{arrived} for {expected} in units of {unit}, m = {m}"
+            );
+            swung += 1;
+        }
+    }
+    // l² is no number for the two largest, nor m g for the next and the largest mass.
+    assert_eq!((refused, swung), (7, 15));
+}
+
+#[test]
+fn a_mass_matrix_that_is_no_number_is_refused() {
+    for (m, l) in [(1e200, 1e60), (1e-200, 1e-70), (1e-320, 1.0), (1.0, 1e-160)] {
+        let swing = Swing { m, g: 10.0 * l, l };
+        match swing.solve(&State::at_rest([0.5])) {
+            Ok(solution) => {
+                let expected = -10.0 * 0.5_f64.sin();
+                assert!((solution.accelerations[0] / expected - 1.0).abs() < 1e-12, "{solution:?}");
+            }
+            Err(error) => {
+                assert!(matches!(error, Error::EquationsNotFinite { .. } | Error::Singular { .. }), "{error}")
+            }
+        }
+    }
+}
