@@ -142,7 +142,7 @@ fn a_pendulum_swings_alike_in_any_unit_or_is_refused() {
     let along = |state: &State<f64, 2>, unit: f64| state.q[0] / unit;
     let reference = Rod { m: 1.0, g: 10.0, l: 1.0 };
     let path = reference.integrate(State::at_rest([0.6, -0.8]), 1.0, Dop853::default()).expect("a path");
-    let expected = along(&path.end().state(), 1.0);
+    let expected = along(path.end().state(), 1.0);
     let (mut refused, mut swung) = (0, 0);
     for unit in [1e-150, 1e-100, 1e-8, 1e8, 1e100, 1e150, 1e165, 1e200] {
         for m in [1e-200, 1.0, 1e200] {
@@ -157,7 +157,7 @@ fn a_pendulum_swings_alike_in_any_unit_or_is_refused() {
                 continue;
             };
             assert!(path.ending().is_complete(), "{}", path.ending());
-            let arrived = along(&path.end().state(), unit);
+            let arrived = along(path.end().state(), unit);
             assert!(
                 (arrived - expected).abs() < 1e-7,
                 "{arrived} for {expected} in units of {unit}, m = {m}"
@@ -179,7 +179,40 @@ fn a_mass_matrix_that_is_no_number_is_refused() {
                 assert!((solution.accelerations[0] / expected - 1.0).abs() < 1e-12, "{solution:?}");
             }
             Err(error) => {
-                assert!(matches!(error, Error::EquationsNotFinite { .. } | Error::Singular { .. }), "{error}")
+                assert!(
+                    matches!(error, Error::EquationsNotFinite { .. } | Error::Singular { .. }),
+                    "{error}"
+                );
+            }
+        }
+    }
+}
+
+/// A sphere that rolls down an incline.
+#[derive(Lagrangian, Clone)]
+#[coordinates(x, phi)]
+#[lagrangian(m/2*x_dot^2 + m*a^2/5*phi_dot^2 + m*g*x)]
+#[constraint(no_slip: x_dot - a*phi_dot = 0)]
+struct Sphere {
+    m: f64,
+    a: f64,
+    g: f64,
+}
+
+#[test]
+fn a_sphere_rolls_as_fast_whatever_its_radius_or_is_refused() {
+    for a in [1e-170, 1e-160, 1e-150, 1e-100, 1.0, 1e100, 1e150, 1e160, 1e170] {
+        match (Sphere { m: 1.0, a, g: 7.0 }).solve(&State::at_rest([0.0; 2])) {
+            Ok(solution) => {
+                let x = solution.accelerations[0];
+                assert!((x - 5.0).abs() < 1e-13, "{x} for {a}");
+            }
+            Err(error) => {
+                assert!(
+                    matches!(error, Error::EquationsNotFinite { .. } | Error::Singular { .. }),
+                    "{error}"
+                );
+                assert!(!(1e-150..=1e150).contains(&a), "{a}: {error}");
             }
         }
     }
