@@ -98,7 +98,7 @@ fn inherent(declaration: &Declaration, outline: &Outline, generics: &syn::Generi
         #[allow(unused_variables, dead_code, clippy::all)]
         impl #impl_generics #ident #type_generics #where_clause {
             #visibility const fn equations() -> __lagrange::Equations {
-                __lagrange::Equations::new("", "")
+                __lagrange::generated::equations("", "")
             }
             #(#observables)*
         }
