@@ -2,7 +2,7 @@
 
 use core::fmt::{self, Display, Formatter};
 
-use super::table::{self, Row};
+use super::table::{Line, Lines};
 use crate::{Ending, Error, Real, State, Statistics};
 
 /// What has become of one member.
@@ -44,7 +44,7 @@ impl<T: Real, const N: usize> Member<T, N> {
 
     /// Its row of the table [`Outcome::csv`], to be written as soon as the member is done.
     pub fn csv(&self) -> impl Display + '_ {
-        Row(self)
+        Line(self)
     }
 }
 
@@ -117,6 +117,6 @@ impl<T: Real, const N: usize> Outcome<T, N> {
     ///
     /// The ending is `complete`, `cancelled` or what went wrong. Numbers are the shortest that read back the same.
     pub fn csv(&self) -> impl Display + '_ {
-        table::Csv { members: &self.members, names: &self.names }
+        Lines { members: &self.members, names: &self.names }
     }
 }

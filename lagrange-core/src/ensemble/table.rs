@@ -9,15 +9,15 @@ use crate::number::array::vector;
 use crate::{Ending, Error, Real, State, Statistics};
 
 /// The whole table.
-pub(super) struct Csv<'o, T, const N: usize> {
+pub(super) struct Lines<'o, T, const N: usize> {
     pub(super) members: &'o [Member<T, N>],
     pub(super) names: &'o [&'static str; N],
 }
 
-impl<T: Real, const N: usize> Display for Csv<'_, T, N> {
+impl<T: Real, const N: usize> Display for Lines<'_, T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}", header(self.names))?;
-        self.members.iter().try_for_each(|member| write!(f, "{}", Row(member)))
+        self.members.iter().try_for_each(|member| write!(f, "{}", Line(member)))
     }
 }
 
@@ -31,9 +31,9 @@ fn header<const N: usize>(names: &[&'static str; N]) -> String {
 
 /// One line of it. The index stands at both ends: a line that was not written to its end, and the row that is then
 /// appended to it, do not pass for a row of a third member.
-pub(super) struct Row<'m, T, const N: usize>(pub(super) &'m Member<T, N>);
+pub(super) struct Line<'m, T, const N: usize>(pub(super) &'m Member<T, N>);
 
-impl<T: Real, const N: usize> Display for Row<'_, T, N> {
+impl<T: Real, const N: usize> Display for Line<'_, T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let index = self.0.index;
         write!(f, "{index}")?;

@@ -4,7 +4,7 @@ use super::{PhaseState, equations, legendre};
 use crate::names::Entry;
 use crate::number::array::vector;
 use crate::solution::consistent::{Level, project};
-use crate::solution::flow::{Flow, Phase, Point, Slope};
+use crate::solution::flow::{Flow, Phase, PhasePoint, Slope};
 use crate::{Error, Lagrangian, Real, State};
 
 /// Hamilton's equations, in coordinates and momenta.
@@ -24,7 +24,7 @@ where
 
     fn slope(
         system: &L,
-        point: &Point<L::Scalar, N>,
+        point: &PhasePoint<L::Scalar, N>,
         active: Option<&[bool; M]>,
     ) -> Result<Slope<L::Scalar, N, M>, Error> {
         let state = legendre::invert(system, &phase_state(point), &point.velocity, active)?;
@@ -32,11 +32,11 @@ where
         Ok(Slope { rates: [rate.q.into(), rate.p.into()], active, multipliers_are_unique: rank == M })
     }
 
-    fn state(system: &L, point: &Point<L::Scalar, N>) -> State<L::Scalar, N> {
+    fn state(system: &L, point: &PhasePoint<L::Scalar, N>) -> State<L::Scalar, N> {
         legendre::invert(system, &phase_state(point), &point.velocity, None).unwrap_or(nearby(point))
     }
 
-    fn project(system: &L, point: &Point<L::Scalar, N>) -> Result<State<L::Scalar, N>, Error> {
+    fn project(system: &L, point: &PhasePoint<L::Scalar, N>) -> Result<State<L::Scalar, N>, Error> {
         let mut state = nearby(point);
         project(system, &[Level::Position], &mut state)?;
         let phase = PhaseState { q: state.q, ..phase_state(point) };
@@ -48,11 +48,11 @@ where
     }
 }
 
-fn phase_state<T: Real, const N: usize>(point: &Point<T, N>) -> PhaseState<T, N> {
+fn phase_state<T: Real, const N: usize>(point: &PhasePoint<T, N>) -> PhaseState<T, N> {
     PhaseState { t: point.t, q: vector(point.y[0]), p: vector(point.y[1]) }
 }
 
 /// With the velocity nearby instead of the one that belongs to the momenta.
-fn nearby<T: Real, const N: usize>(point: &Point<T, N>) -> State<T, N> {
+fn nearby<T: Real, const N: usize>(point: &PhasePoint<T, N>) -> State<T, N> {
     State { t: point.t, q: vector(point.y[0]), v: vector(point.velocity) }
 }

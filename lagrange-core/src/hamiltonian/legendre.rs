@@ -11,7 +11,7 @@ use super::PhaseState;
 use crate::number::array::vector;
 use crate::number::numeric::{exceeds, power_of_epsilon};
 use crate::solution::eliminate::eliminate_active;
-use crate::solution::kkt::{self, Equations, Fault, Rank, Units};
+use crate::solution::kkt::{self, Fault, KktSystem, Rank, Units};
 use crate::solution::newton::{self, Left, Search, halvings};
 use crate::solution::solve::{is_trustworthy, most_involved, name, not_finite};
 use crate::{Error, Lagrangian, Real, Scalar, Solution, State};
@@ -53,7 +53,7 @@ struct Trial<T, const N: usize, const M: usize> {
 /// Newton's system at a trial, and the units in which its rows compare.
 struct Linear<'a, T, const N: usize, const M: usize> {
     wanted: &'a PhaseState<T, N>,
-    equations: Equations<T, N, M>,
+    equations: KktSystem<T, N, M>,
     units: Units<T, N, M>,
 }
 
@@ -102,8 +102,8 @@ where
     }
 
     /// Newton's step: the change of the velocity, and the new μ.
-    fn step(&self, equations: &Equations<L::Scalar, N, M>) -> Result<Solution<L::Scalar, N, M>, Error> {
-        let Equations { m, h, f, gamma } = equations;
+    fn step(&self, equations: &KktSystem<L::Scalar, N, M>) -> Result<Solution<L::Scalar, N, M>, Error> {
+        let KktSystem { m, h, f, gamma } = equations;
         let fast = eliminate_active(*m, *h, *f, *gamma, self.active);
         if is_trustworthy(&fast) {
             return Ok(fast);
@@ -135,7 +135,7 @@ where
     fn linearize(&mut self, trial: &Self::Trial) -> Result<Self::Linear, Error> {
         let zero = L::Scalar::constant(0.0);
         let jacobian = self.system.constraint_jacobian(&trial.state);
-        let equations = Equations {
+        let equations = KktSystem {
             m: self.system.mass_matrix(&trial.state).into(),
             h: from_fn(|i| self.phase.p[i] - trial.momentum[i]),
             f: from_fn(|a| from_fn(|i| if self.active[a] { jacobian[(a, i)] } else { zero })),

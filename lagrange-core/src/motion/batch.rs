@@ -13,7 +13,7 @@ use super::method::pair::{Pair, SLOPES, Slopes, advance};
 use super::seat::{Fate, Seat};
 use crate::number::array::vector;
 use crate::number::numeric::power_of_epsilon;
-use crate::solution::flow::{Flow, LagrangianFlow, Phase, Point};
+use crate::solution::flow::{Flow, LagrangianFlow, Phase, PhasePoint};
 use crate::trajectory::Ending;
 use crate::{Lagrangian, Lanes, Pack, Packed, Scalar, State};
 
@@ -183,7 +183,7 @@ where
         from_fn(|lane| match &self.seats[lane] {
             Some(seat) if self.method.accepts(error[lane]) => {
                 let y = unpacked(next, lane);
-                let point = Point { t: plan[lane].1, y, velocity: y[1] };
+                let point = PhasePoint { t: plan[lane].1, y, velocity: y[1] };
                 let projected = <LagrangianFlow as Flow<L, N, M>>::project(&seat.system, &point);
                 projected.map(|state| next.place(lane, &[state.q.into(), state.v.into()])).is_ok()
             }

@@ -16,7 +16,7 @@ mod tests;
 pub(crate) use batch::Batch;
 #[cfg(feature = "alloc")]
 pub use method::{
-    Adaptive, Dop853, Dopri5, DormandPrince54, DormandPrince853, Limits, Method, Pair, Row, Step,
+    Adaptive, Combination, Dop853, Dopri5, DormandPrince54, DormandPrince853, Limits, Method, Pair, Step,
 };
 #[cfg(feature = "alloc")]
 pub use run::Progress;
@@ -25,4 +25,4 @@ pub(crate) use seat::Seat;
 pub use simulate::Simulate;
 
 #[cfg(feature = "alloc")]
-pub use crate::solution::flow::{Flow, LagrangianFlow, Phase, Point, Slope};
+pub use crate::solution::flow::{Flow, LagrangianFlow, Phase, PhasePoint, Slope};

@@ -28,7 +28,7 @@ pub(crate) fn eliminate_active<T: Scalar, const N: usize, const M: usize>(
     gamma: [T; M],
     active: [bool; M],
 ) -> Solution<T, N, M> {
-    let mass = Factors::of(m);
+    let mass = Ldl::of(m);
     let mut q = h;
     mass.solve(&mut q);
     let mut w = f;
@@ -46,7 +46,7 @@ pub(crate) fn eliminate_active<T: Scalar, const N: usize, const M: usize>(
             schur[a][a] = T::constant(1.0);
         }
     }
-    let schur = Factors::of(schur);
+    let schur = Ldl::of(schur);
     schur.solve(&mut lambda);
     for a in 0..M {
         for i in 0..N {
@@ -62,12 +62,12 @@ pub(crate) fn eliminate_active<T: Scalar, const N: usize, const M: usize>(
 }
 
 /// L below the diagonal, 1/D on it.
-struct Factors<T, const K: usize> {
+struct Ldl<T, const K: usize> {
     l: [[T; K]; K],
     pivot: T,
 }
 
-impl<T: Scalar, const K: usize> Factors<T, K> {
+impl<T: Scalar, const K: usize> Ldl<T, K> {
     #[inline]
     fn of(mut a: [[T; K]; K]) -> Self {
         let one = T::constant(1.0);

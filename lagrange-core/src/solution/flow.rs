@@ -23,18 +23,18 @@ where
     /// As [`Simulate::solve`](crate::Simulate::solve), and what finding the velocity gives.
     fn slope(
         system: &L,
-        point: &Point<L::Scalar, N>,
+        point: &PhasePoint<L::Scalar, N>,
         active: Option<&[bool; M]>,
     ) -> Result<Slope<L::Scalar, N, M>, Error>;
 
     /// The state there; where no velocity can be found it has the one nearby.
-    fn state(system: &L, point: &Point<L::Scalar, N>) -> State<L::Scalar, N>;
+    fn state(system: &L, point: &PhasePoint<L::Scalar, N>) -> State<L::Scalar, N>;
 
     /// The state on the constraints that is nearest.
     ///
     /// # Errors
     /// As [`Simulate::make_consistent`](crate::Simulate::make_consistent), and what finding the velocity gives.
-    fn project(system: &L, point: &Point<L::Scalar, N>) -> Result<State<L::Scalar, N>, Error>;
+    fn project(system: &L, point: &PhasePoint<L::Scalar, N>) -> Result<State<L::Scalar, N>, Error>;
 
     /// What the second half of the phase has for the coordinate of this name.
     fn entry(coordinate: &'static str) -> Entry;
@@ -42,7 +42,7 @@ where
 
 /// A time and a place in the phase space.
 #[derive(Clone, Copy, Debug)]
-pub struct Point<T, const N: usize> {
+pub struct PhasePoint<T, const N: usize> {
     /// The time.
     pub t: T,
     /// The place.
@@ -79,7 +79,7 @@ where
     #[inline(always)]
     fn slope(
         system: &L,
-        point: &Point<L::Scalar, N>,
+        point: &PhasePoint<L::Scalar, N>,
         active: Option<&[bool; M]>,
     ) -> Result<Slope<L::Scalar, N, M>, Error> {
         let (solution, active) = solve_near(system, &Self::state(system, point), active)?;
@@ -91,11 +91,11 @@ where
     }
 
     #[inline]
-    fn state(_: &L, point: &Point<L::Scalar, N>) -> State<L::Scalar, N> {
+    fn state(_: &L, point: &PhasePoint<L::Scalar, N>) -> State<L::Scalar, N> {
         State { t: point.t, q: vector(point.y[0]), v: vector(point.y[1]) }
     }
 
-    fn project(system: &L, point: &Point<L::Scalar, N>) -> Result<State<L::Scalar, N>, Error> {
+    fn project(system: &L, point: &PhasePoint<L::Scalar, N>) -> Result<State<L::Scalar, N>, Error> {
         let mut state = Self::state(system, point);
         project(system, &BOTH, &mut state)?;
         Ok(state)

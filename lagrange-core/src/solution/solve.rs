@@ -4,7 +4,7 @@ use nalgebra::ComplexField;
 
 use crate::names::Row;
 use crate::number::numeric::{larger, power_of_epsilon};
-use crate::solution::kkt::{self, Equations, Fault, Rank, Solved};
+use crate::solution::kkt::{self, Fault, KktSystem, Rank, Solved};
 use crate::{Error, Lagrangian, Names, Real, Scalar, Solution, State};
 
 /// See [`Simulate::solve`](crate::Simulate::solve).
@@ -63,7 +63,7 @@ fn solve_in_general<L, const N: usize, const M: usize>(
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {
-    let mut equations = Equations {
+    let mut equations = KktSystem {
         m: system.mass_matrix(state).into(),
         h: system.forcing(state).into(),
         f: system.constraint_jacobian(state).transpose().into(),
@@ -96,7 +96,7 @@ where
 }
 
 /// The first row that is not finite.
-pub(crate) fn not_finite<L, const N: usize, const M: usize>(e: &Equations<L::Scalar, N, M>) -> Option<Row>
+pub(crate) fn not_finite<L, const N: usize, const M: usize>(e: &KktSystem<L::Scalar, N, M>) -> Option<Row>
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {

@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::array::from_fn;
 
-use crate::solution::flow::{Phase, Point};
+use crate::solution::flow::{Phase, PhasePoint};
 use crate::{Real, State};
 
 /// The states at the ends of the steps, and the interpolants between them.
@@ -38,12 +38,12 @@ impl<T: Real, const N: usize> Path<T, N> {
     }
 
     /// Where step `step` starts.
-    pub(super) fn start_of(&self, step: usize) -> Option<Point<T, N>> {
+    pub(super) fn start_of(&self, step: usize) -> Option<PhasePoint<T, N>> {
         Some(self.point(step, *self.times.get(step)?))
     }
 
     /// `None` before the start and from the last state on.
-    pub(super) fn at(&self, t: T) -> Option<Point<T, N>> {
+    pub(super) fn at(&self, t: T) -> Option<PhasePoint<T, N>> {
         if !(t >= self.start.t && t < self.last.t) {
             return None;
         }
@@ -51,11 +51,11 @@ impl<T: Real, const N: usize> Path<T, N> {
         Some(self.point(step, t))
     }
 
-    fn point(&self, step: usize, t: T) -> Point<T, N> {
+    fn point(&self, step: usize, t: T) -> PhasePoint<T, N> {
         let time = |step: usize| self.times.get(step).copied().unwrap_or(self.last.t);
         let (begin, length) = (time(step), time(step + 1) - time(step));
         let (y, velocity) = evaluate(self.interpolant(step), (t - begin) / length);
-        Point { t, y, velocity: velocity.map(|x| x / length) }
+        PhasePoint { t, y, velocity: velocity.map(|x| x / length) }
     }
 
     fn interpolant(&self, step: usize) -> &[Phase<T, N>] {

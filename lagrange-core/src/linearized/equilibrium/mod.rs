@@ -17,7 +17,7 @@ use crate::solution::newton;
 use crate::{Error, Lagrangian, Real, Simulate, State};
 use point::Point;
 use search::Balance;
-use steady::Drift;
+use steady::Unsteadiness;
 use unknown::Unknown;
 
 /// An equilibrium, or a steady motion.
@@ -69,9 +69,9 @@ where
     check_finite(system, guess)?;
     let unknowns = Unknown::of::<L, N, M, P>(names)?;
     let (mut balance, start) = Balance::start(system.clone(), guess, unknowns)?;
-    let at_the_guess = Drift::of(&start.point)?;
+    let at_the_guess = Unsteadiness::of(&start.point)?;
     let (found, iterations) = newton::find(&mut balance, start)?;
-    Drift::of(&found.point)?.check(&at_the_guess, &found.point)?;
+    Unsteadiness::of(&found.point)?.check(&at_the_guess, &found.point)?;
     let undetermined = balance.undetermined(&found)?;
     let Point { system, state, multipliers } = found.point;
     // Of dependent constraints the multipliers of least norm; at a pole, where accelerations are undetermined, those found.

@@ -17,8 +17,6 @@ use crate::solution::consistent::{Level, project};
 use crate::solution::newton::{Left, Search};
 use crate::{Error, Lagrangian, Real, Scalar, Simulate, State};
 
-type Factors<T> = SVD<T, Dyn, Dyn>;
-
 /// What is sought, and in which units.
 pub(super) struct Balance<L: Lagrangian<N, M>, const N: usize, const M: usize, const P: usize> {
     unknowns: Vec<Unknown>,
@@ -75,7 +73,7 @@ where
     /// δ = −Σ_k v_k σ_k (u_k·R)/(σ_k² + μ), over the singular values that are not zero.
     fn damped(
         &self,
-        factors: &Factors<L::Scalar>,
+        factors: &SVD<L::Scalar, Dyn, Dyn>,
         residual: &DVector<L::Scalar>,
         damping: L::Scalar,
     ) -> DVector<L::Scalar> {
@@ -139,7 +137,7 @@ where
     /// Whether what is left may be round-off: it is small, of the terms of each row and of those where the unknowns
     /// are about 1; and what no step could take away is round-off of the terms here or at the guess. The second
     /// tells forces that cannot balance, however small their unit makes them.
-    fn is_negligible(&self, factors: &Factors<L::Scalar>, trial: &Trial<L, N, M>) -> bool {
+    fn is_negligible(&self, factors: &SVD<L::Scalar, Dyn, Dyn>, trial: &Trial<L, N, M>) -> bool {
         let part = L::Scalar::constant(16.0 * L::Scalar::EPSILON);
         let floor = power_of_epsilon(0.75);
         let small = self.terms(trial, |_, x| part * x + floor);
@@ -172,7 +170,7 @@ where
 {
     type Scalar = L::Scalar;
     type Trial = Trial<L, N, M>;
-    type Linear = Factors<L::Scalar>;
+    type Linear = SVD<L::Scalar, Dyn, Dyn>;
 
     const STEPS: usize = 200;
 

@@ -12,12 +12,12 @@ use crate::{Error, Lagrangian, Real, Scalar};
 
 /// How fast (M q̈ − h − Fᵀλ, F q̈ + γ) at q̈ = 0 changes with the coordinates that move, a column each. The rows of
 /// F q̇ + b and Φ follow from the second.
-pub(super) struct Drift<T> {
+pub(super) struct Unsteadiness<T> {
     moving: Vec<usize>,
     columns: DMatrix<T>,
 }
 
-impl<T: Real> Drift<T> {
+impl<T: Real> Unsteadiness<T> {
     pub(super) fn of<L, const N: usize, const M: usize, const P: usize>(
         point: &Point<L, N, M>,
     ) -> Result<Self, Error>

@@ -11,7 +11,7 @@ pub(super) mod step;
 pub use adaptive::Adaptive;
 pub use dop853::{Dop853, DormandPrince853};
 pub use dopri5::{Dopri5, DormandPrince54};
-pub use pair::{Pair, Row};
+pub use pair::{Combination, Pair};
 
 use crate::solution::flow::{Flow, LagrangianFlow, Phase};
 use crate::trajectory::{Ending, Statistics};

@@ -6,7 +6,7 @@ use crate::Scalar;
 use crate::solution::flow::Phase;
 
 /// The coefficients of a sum of slopes: (index of the slope, coefficient).
-pub type Row = &'static [(usize, f64)];
+pub type Combination = &'static [(usize, f64)];
 
 /// The coefficients of an explicit embedded pair with a continuous extension.
 ///
@@ -16,17 +16,17 @@ pub trait Pair {
     /// The time of each slope as a fraction of the step.
     const NODES: &'static [f64];
     /// Each stage but the first as a sum of the slopes before it.
-    const STAGES: &'static [Row];
+    const STAGES: &'static [Combination];
     /// The new state.
-    const WEIGHTS: Row;
+    const WEIGHTS: Combination;
     /// The error e that decides.
-    const ERROR: Row;
+    const ERROR: Combination;
     /// A second error e′ of lower order, or nothing: the estimate is then |e|²/√(|e|² + 0.01 |e′|²) instead of |e|.
-    const LOWER_ERROR: Row;
+    const LOWER_ERROR: Combination;
     /// Stages that only the interpolant needs.
-    const INTERPOLATION_STAGES: &'static [Row];
+    const INTERPOLATION_STAGES: &'static [Combination];
     /// Coefficients of the interpolant beyond the fourth.
-    const INTERPOLATION: &'static [Row];
+    const INTERPOLATION: &'static [Combination];
     /// The estimate behaves as this power of the step.
     const ORDER: f64;
     /// Weight of the previous error in the choice of the step (β of the PI controller).

@@ -6,11 +6,11 @@ use nalgebra::ComplexField;
 
 use super::clock::Clock;
 use super::control::{Control, Place};
-use super::pair::{Pair, Row, SLOPES, Slopes, advance};
+use super::pair::{Combination, Pair, SLOPES, Slopes, advance};
 use super::{Adaptive, Limits, Method, Step};
-use crate::names::{Entry, Row as EquationRow};
+use crate::names::{Entry, Row};
 use crate::number::array::vector;
-use crate::solution::flow::{Flow, Phase, Point, Slope};
+use crate::solution::flow::{Flow, Phase, PhasePoint, Slope};
 use crate::solution::solve::name;
 use crate::trajectory::{Ending, Statistics};
 use crate::{Error, Lagrangian, Real, Scalar, State};
@@ -38,8 +38,8 @@ impl<T: Real, const N: usize, const M: usize> Memory<T, N, M> {
     }
 
     /// A place in the step that starts here.
-    fn point(&self, t: T, y: Phase<T, N>) -> Point<T, N> {
-        Point { t, y, velocity: self.slopes[0][0] }
+    fn point(&self, t: T, y: Phase<T, N>) -> PhasePoint<T, N> {
+        PhasePoint { t, y, velocity: self.slopes[0][0] }
     }
 
     /// The interpolant from `start` to `next`, with the slopes at both (II.6 and the code DOP853).
@@ -113,7 +113,7 @@ where
     ) -> Result<Self::Memory, Error> {
         let zero = [[L::Scalar::constant(0.0); N]; 2];
         let mut slopes = [zero; SLOPES];
-        let point = Point { t: start.t, y: F::phase(system, start), velocity: start.v.into() };
+        let point = PhasePoint { t: start.t, y: F::phase(system, start), velocity: start.v.into() };
         let Slope { rates, active, .. } = slope::<L, F, N, M>(system, &point, None, statistics)?;
         slopes[0] = rates;
         let clock = Clock::new(start.t, end, self.fixed_step.map(L::Scalar::constant));
@@ -222,7 +222,7 @@ impl<P: Pair> Adaptive<P> {
     fn estimate_step<L, F, const N: usize, const M: usize>(
         &self,
         system: &L,
-        start: &Point<L::Scalar, N>,
+        start: &PhasePoint<L::Scalar, N>,
         span: L::Scalar,
         (first, active): (&Phase<L::Scalar, N>, &[bool; M]),
         statistics: &mut Statistics,
@@ -234,7 +234,7 @@ impl<P: Pair> Adaptive<P> {
         let y = &start.y;
         let guess = self.guess_step(y, first, span);
         let euler = from_fn(|half| from_fn(|i| y[half][i] + guess * first[half][i]));
-        let point = Point { t: start.t + guess, y: euler, ..*start };
+        let point = PhasePoint { t: start.t + guess, y: euler, ..*start };
         match slope::<L, F, N, M>(system, &point, Some(active), statistics) {
             Ok(second) => self.first_step_from(guess, y, first, &second.rates),
             Err(_) => guess,
@@ -247,7 +247,7 @@ fn stages<P, L, F, const N: usize, const M: usize>(
     system: &L,
     memory: &mut Memory<L::Scalar, N, M>,
     h: L::Scalar,
-    (first, rows): (usize, &[Row]),
+    (first, rows): (usize, &[Combination]),
     statistics: &mut Statistics,
 ) -> Result<(), Error>
 where
@@ -271,7 +271,7 @@ where
 fn last<P, L, F, const N: usize, const M: usize>(
     system: &L,
     memory: &mut Memory<L::Scalar, N, M>,
-    end: &Point<L::Scalar, N>,
+    end: &PhasePoint<L::Scalar, N>,
     active: Option<&[bool; M]>,
     statistics: &mut Statistics,
 ) -> Result<[bool; M], Error>
@@ -289,7 +289,7 @@ where
 #[inline]
 fn slope<L, F, const N: usize, const M: usize>(
     system: &L,
-    point: &Point<L::Scalar, N>,
+    point: &PhasePoint<L::Scalar, N>,
     active: Option<&[bool; M]>,
     statistics: &mut Statistics,
 ) -> Result<Slope<L::Scalar, N, M>, Error>
@@ -310,7 +310,7 @@ fn check_finite<L, const N: usize, const M: usize>(
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {
-    let row = |i: usize| EquationRow::Coordinate(name(&L::COORDINATES, i));
+    let row = |i: usize| Row::Coordinate(name(&L::COORDINATES, i));
     match (0..N).find(|&i| !(q[i].is_finite() && rest[i].is_finite())) {
         None => Ok(()),
         Some(i) => Err(Error::EquationsNotFinite { row: row(i), time: t.to_f64() }),

@@ -14,7 +14,7 @@ use nalgebra::{ComplexField, SVector};
 use crate::number::array::vector;
 use crate::number::numeric::{exceeds, largest, power_of_epsilon};
 use crate::solution::eliminate::eliminate_active;
-use crate::solution::kkt::{self, Equations, Rank};
+use crate::solution::kkt::{self, KktSystem, Rank};
 use crate::solution::newton::{self, Left, Search, halvings};
 use crate::solution::solve::{is_trustworthy, name};
 use crate::{ConstraintKind, Error, Lagrangian, Real, Scalar, State};
@@ -252,7 +252,7 @@ where
             return Some(fast.accelerations);
         }
         let general = |m| {
-            let equations = Equations { m, h, f, gamma: residual.value };
+            let equations = KktSystem { m, h, f, gamma: residual.value };
             kkt::solve(&equations, rank).ok().map(|(solution, _)| solution.accelerations)
         };
         // Without the velocity constraints a massless coordinate may have no metric: take the plain one.

@@ -23,7 +23,7 @@ use symmetric::Symmetric;
 pub(crate) use units::Units;
 
 /// M q̈ − Fᵀλ = h, F q̈ + γ = 0, rows as arrays.
-pub(crate) struct Equations<T, const N: usize, const M: usize> {
+pub(crate) struct KktSystem<T, const N: usize, const M: usize> {
     pub(crate) m: [[T; N]; N],
     pub(crate) h: [T; N],
     pub(crate) f: [[T; N]; M],
@@ -70,7 +70,7 @@ pub(crate) type Solved<T, const N: usize, const M: usize> = (Solution<T, N, M>, 
 
 /// Solves the equations; see [`Factors`].
 pub(crate) fn solve<T: Real, const N: usize, const M: usize>(
-    equations: &Equations<T, N, M>,
+    equations: &KktSystem<T, N, M>,
     rank: Rank<T>,
 ) -> Result<Solved<T, N, M>, Fault<T, N>> {
     let factors = Factors::of(&equations.m, &equations.f, rank);

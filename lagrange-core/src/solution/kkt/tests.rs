@@ -8,7 +8,7 @@ fn general<const N: usize, const M: usize, const H: usize>(
     system: &Mechanism<N, M, H>,
     state: &At<N>,
 ) -> Result<Solution<f64, N, M>, Fault<f64, N>> {
-    let equations = Equations {
+    let equations = KktSystem {
         m: (system.mass)(state),
         h: (system.forcing)(state),
         f: (system.jacobian)(state),
@@ -226,7 +226,7 @@ fn equations_that_are_not_finite_are_named() {
 
 #[test]
 fn single_precision_is_solved_too() {
-    let equations = Equations::<f32, 2, 2> {
+    let equations = KktSystem::<f32, 2, 2> {
         m: [[2.0, 0.0], [0.0, 0.0]],
         h: [4.0, 0.0],
         f: [[3.0, -3.0], [1.0, -1.0]],
