@@ -5,7 +5,6 @@ use core::fmt::{self, Display, Formatter};
 #[cfg(feature = "alloc")]
 use alloc::{string::String, vec::Vec};
 
-use crate::Real;
 use crate::names::{Entry, Names, Row};
 
 /// Why a computation did not start, or what a query asked in vain.
@@ -218,16 +217,6 @@ pub enum Error {
         /// Where it ends.
         end: f64,
     },
-}
-
-impl Error {
-    /// The first of these entries that is not a number.
-    pub(crate) fn of_entries<T: Real>(mut entries: impl Iterator<Item = (Entry, T)>) -> Result<(), Self> {
-        match entries.find(|(_, x)| !x.is_finite()) {
-            None => Ok(()),
-            Some((entry, x)) => Err(Self::StateNotFinite { entry, value: x.to_f64() }),
-        }
-    }
 }
 
 impl Display for Error {

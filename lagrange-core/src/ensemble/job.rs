@@ -5,11 +5,38 @@ use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use super::{Arrival, Ensemble, EnsembleProgress, Make, Member, Observer, Outcome, Watch};
+use super::outcome::{Arrival, Member, Outcome};
 use crate::motion::run::{begin, run};
-use crate::motion::simulate::check_finite;
 use crate::motion::{Adaptive, Batch, LagrangianFlow, Pair, Seat};
+use crate::system::finite::check_finite;
 use crate::{Error, Lagrangian, Lanes, Method, Pack, Real, State, Statistics};
+
+/// What an ensemble is to do.
+pub(super) struct Plan<'a, L, T, const N: usize> {
+    pub(super) count: usize,
+    pub(super) make: Make<'a, L, T, N>,
+    pub(super) shard: usize,
+    pub(super) shards: usize,
+    /// Taken over from other runs.
+    pub(super) done: Vec<Member<T, N>>,
+    pub(super) observer: Option<Observer<'a, T, N>>,
+    pub(super) watch: Option<Watch<'a, T, N>>,
+}
+
+type Make<'a, L, T, const N: usize> = Box<dyn Fn(usize) -> (L, State<T, N>) + Send + Sync + 'a>;
+type Observer<'a, T, const N: usize> = Box<dyn Fn(usize, &State<T, N>) -> ControlFlow<()> + Send + Sync + 'a>;
+type Watch<'a, T, const N: usize> = Box<dyn FnMut(EnsembleProgress<'_, T, N>) -> ControlFlow<()> + Send + 'a>;
+
+/// How far an ensemble has come.
+#[derive(Clone, Copy, Debug)]
+pub struct EnsembleProgress<'m, T, const N: usize> {
+    /// The members done, those resumed included.
+    pub done: usize,
+    /// The members of this [part](crate::Ensemble::shard), done or not.
+    pub of: usize,
+    /// The one done last.
+    pub member: &'m Member<T, N>,
+}
 
 /// What the threads share.
 pub(super) struct Job<'a, L, T, const N: usize> {
@@ -35,8 +62,8 @@ struct Ledger<'a, T, const N: usize> {
 }
 
 impl<'a, L, T: Real, const N: usize> Job<'a, L, T, N> {
-    pub(super) fn new(ensemble: Ensemble<'a, L, T, N>, end: T) -> Result<Self, Error> {
-        let Ensemble { count, member: make, shard, shards, done, observer, watch } = ensemble;
+    pub(super) fn new(plan: Plan<'a, L, T, N>, end: T) -> Result<Self, Error> {
+        let Plan { count, make, shard, shards, done, observer, watch } = plan;
         if shard >= shards {
             return Err(Error::Shard { shard, of: shards });
         }

@@ -19,7 +19,8 @@ use core::ops::ControlFlow;
 use crate::motion::run::check_end;
 use crate::motion::{Adaptive, Pair};
 use crate::{Error, Lagrangian, Lanes, Method, Pack, Real, State};
-use job::Job;
+pub use job::EnsembleProgress;
+use job::{Job, Plan};
 pub use outcome::{Arrival, Member, Outcome};
 
 /// Many members, each a system with its start, that are integrated to the same time.
@@ -48,37 +49,16 @@ pub use outcome::{Arrival, Member, Outcome};
 /// ```
 #[must_use = "an ensemble does nothing until it is integrated"]
 pub struct Ensemble<'a, L, T, const N: usize> {
-    count: usize,
-    member: Make<'a, L, T, N>,
-    shard: usize,
-    shards: usize,
-    /// Taken over from other runs.
-    done: Vec<Member<T, N>>,
-    observer: Option<Observer<'a, T, N>>,
-    watch: Option<Watch<'a, T, N>>,
-}
-
-type Make<'a, L, T, const N: usize> = Box<dyn Fn(usize) -> (L, State<T, N>) + Send + Sync + 'a>;
-type Observer<'a, T, const N: usize> = Box<dyn Fn(usize, &State<T, N>) -> ControlFlow<()> + Send + Sync + 'a>;
-type Watch<'a, T, const N: usize> = Box<dyn FnMut(EnsembleProgress<'_, T, N>) -> ControlFlow<()> + Send + 'a>;
-
-/// How far an ensemble has come.
-#[derive(Clone, Copy, Debug)]
-pub struct EnsembleProgress<'m, T, const N: usize> {
-    /// The members done, those resumed included.
-    pub done: usize,
-    /// The members of this [part](Ensemble::shard), done or not.
-    pub of: usize,
-    /// The one done last.
-    pub member: &'m Member<T, N>,
+    plan: Plan<'a, L, T, N>,
 }
 
 impl<'a, L, T: Real, const N: usize> Ensemble<'a, L, T, N> {
     /// `count` members, made from their indices 0, 1, …: always the same from the same. `member` is called from any
     /// thread, and from several at once.
     pub fn from_fn(count: usize, member: impl Fn(usize) -> (L, State<T, N>) + Send + Sync + 'a) -> Self {
-        let member = Box::new(member);
-        Self { count, member, shard: 0, shards: 1, done: Vec::new(), observer: None, watch: None }
+        let make = Box::new(member);
+        let plan = Plan { count, make, shard: 0, shards: 1, done: Vec::new(), observer: None, watch: None };
+        Self { plan }
     }
 
     /// These members.
@@ -93,7 +73,7 @@ impl<'a, L, T: Real, const N: usize> Ensemble<'a, L, T, N> {
     /// Only the members whose index leaves the remainder `shard` when divided by `of`: one of `of` parts of about
     /// the same size, to be run anywhere and put together by [`Outcome::merge`] or by [`resume`](Self::resume).
     pub fn shard(mut self, shard: usize, of: usize) -> Self {
-        (self.shard, self.shards) = (shard, of);
+        (self.plan.shard, self.plan.shards) = (shard, of);
         self
     }
 
@@ -103,7 +83,7 @@ impl<'a, L, T: Real, const N: usize> Ensemble<'a, L, T, N> {
         mut self,
         observer: impl Fn(usize, &State<T, N>) -> ControlFlow<()> + Send + Sync + 'a,
     ) -> Self {
-        self.observer = Some(Box::new(observer));
+        self.plan.observer = Some(Box::new(observer));
         self
     }
 
@@ -116,7 +96,7 @@ impl<'a, L, T: Real, const N: usize> Ensemble<'a, L, T, N> {
         mut self,
         watch: impl FnMut(EnsembleProgress<'_, T, N>) -> ControlFlow<()> + Send + 'a,
     ) -> Self {
-        self.watch = Some(Box::new(watch));
+        self.plan.watch = Some(Box::new(watch));
         self
     }
 
@@ -166,7 +146,7 @@ impl<'a, L, T: Real, const N: usize> Ensemble<'a, L, T, N> {
         L: Lagrangian<N, M, Scalar = T>,
         T: core::str::FromStr,
     {
-        self.done.extend(table::read(table, &L::COORDINATES, self.count)?);
+        self.plan.done.extend(table::read(table, &L::COORDINATES, self.plan.count)?);
         Ok(self)
     }
 
@@ -179,7 +159,7 @@ impl<'a, L, T: Real, const N: usize> Ensemble<'a, L, T, N> {
         L: Lagrangian<N, M, Scalar = T>,
     {
         check_end(end)?;
-        let job = Job::new(self, end)?;
+        let job = Job::new(self.plan, end)?;
         everywhere(|| work(&job));
         Ok(job.outcome(L::COORDINATES))
     }
@@ -214,7 +194,7 @@ impl<L, const N: usize> Ensemble<'_, L, f64, N> {
 
 impl<L, T, const N: usize> Debug for Ensemble<'_, L, T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let Self { count, shard, shards, .. } = self;
+        let Plan { count, shard, shards, .. } = &self.plan;
         f.debug_struct("Ensemble").field("count", count).field("shard", shard).field("of", shards).finish()
     }
 }

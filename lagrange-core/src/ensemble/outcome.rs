@@ -2,7 +2,6 @@
 
 use core::fmt::{self, Display, Formatter};
 
-use super::table::{Line, Lines};
 use crate::{Ending, Error, Real, State, Statistics};
 
 /// What has become of one member.
@@ -41,11 +40,6 @@ impl<T: Real, const N: usize> Member<T, N> {
         let cancelled = |a: &Arrival<T, N>| matches!(a.ending, Ending::Cancelled { .. });
         !self.is_complete() && !self.arrival().is_some_and(cancelled)
     }
-
-    /// Its row of the table [`Outcome::csv`], to be written as soon as the member is done.
-    pub fn csv(&self) -> impl Display + '_ {
-        Line(self)
-    }
 }
 
 /// `member 17: stopped at t = 3.2: …`
@@ -62,8 +56,8 @@ impl<T: Real, const N: usize> Display for Member<T, N> {
 /// The members that are done, by index.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome<T, const N: usize> {
-    members: Vec<Member<T, N>>,
-    names: [&'static str; N],
+    pub(super) members: Vec<Member<T, N>>,
+    pub(super) names: [&'static str; N],
     end: T,
 }
 
@@ -110,13 +104,5 @@ impl<T: Real, const N: usize> Outcome<T, N> {
         self.members.sort_by_key(|member| member.index);
         self.members.dedup_by_key(|member| member.index);
         Ok(self)
-    }
-
-    /// A table as comma-separated values, one line a member: `member`, `t`, coordinates `x` and velocities `x_dot` of
-    /// the last state, the [`Statistics`], `ending`, and `member_again`, by which a line written to its end is known.
-    ///
-    /// The ending is `complete`, `cancelled` or what went wrong. Numbers are the shortest that read back the same.
-    pub fn csv(&self) -> impl Display + '_ {
-        Lines { members: &self.members, names: &self.names }
     }
 }

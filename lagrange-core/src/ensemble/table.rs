@@ -3,15 +3,32 @@
 use core::fmt::{self, Display, Formatter};
 use core::str::FromStr;
 
-use super::{Arrival, Member};
+use super::outcome::{Arrival, Member, Outcome};
 use crate::names::Entry;
 use crate::number::array::vector;
 use crate::{Ending, Error, Real, State, Statistics};
 
+impl<T: Real, const N: usize> Member<T, N> {
+    /// Its row of the table [`Outcome::csv`], to be written as soon as the member is done.
+    pub fn csv(&self) -> impl Display + '_ {
+        Line(self)
+    }
+}
+
+impl<T: Real, const N: usize> Outcome<T, N> {
+    /// A table as comma-separated values, one line a member: `member`, `t`, coordinates `x` and velocities `x_dot` of
+    /// the last state, the [`Statistics`], `ending`, and `member_again`, by which a line written to its end is known.
+    ///
+    /// The ending is `complete`, `cancelled` or what went wrong. Numbers are the shortest that read back the same.
+    pub fn csv(&self) -> impl Display + '_ {
+        Lines { members: &self.members, names: &self.names }
+    }
+}
+
 /// The whole table.
-pub(super) struct Lines<'o, T, const N: usize> {
-    pub(super) members: &'o [Member<T, N>],
-    pub(super) names: &'o [&'static str; N],
+struct Lines<'o, T, const N: usize> {
+    members: &'o [Member<T, N>],
+    names: &'o [&'static str; N],
 }
 
 impl<T: Real, const N: usize> Display for Lines<'_, T, N> {
@@ -31,7 +48,7 @@ fn header<const N: usize>(names: &[&'static str; N]) -> String {
 
 /// One line of it. The index stands at both ends: a line that was not written to its end, and the row that is then
 /// appended to it, do not pass for a row of a third member.
-pub(super) struct Line<'m, T, const N: usize>(pub(super) &'m Member<T, N>);
+struct Line<'m, T, const N: usize>(&'m Member<T, N>);
 
 impl<T: Real, const N: usize> Display for Line<'_, T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {

@@ -1,6 +1,8 @@
 //! Hamilton's equations as a flow: the methods for Lagrange's equations integrate them as well.
 
-use super::{PhaseState, equations, legendre};
+use super::equations::equations;
+use super::legendre;
+use super::phase::PhaseState;
 use crate::names::Entry;
 use crate::number::array::vector;
 use crate::solution::consistent::{Level, project};

@@ -7,7 +7,7 @@
 
 use core::array::from_fn;
 
-use super::PhaseState;
+use super::phase::PhaseState;
 use crate::number::array::vector;
 use crate::number::numeric::{exceeds, power_of_epsilon};
 use crate::solution::eliminate::eliminate_active;

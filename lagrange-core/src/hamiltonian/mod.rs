@@ -1,5 +1,6 @@
 //! The Hamiltonian side of a system: momenta instead of velocities.
 
+mod equations;
 #[cfg(feature = "alloc")]
 mod flow;
 mod legendre;
@@ -18,10 +19,10 @@ pub use phase::{PhaseRate, PhaseState};
 
 #[cfg(feature = "alloc")]
 use crate::motion::run;
-use crate::solution::solve::solve_near;
 use crate::{Error, Lagrangian, Real, Scalar, State};
 #[cfg(feature = "alloc")]
 use crate::{Method, Progress, Trajectory};
+use equations::equations;
 
 /// The Legendre transform, the Hamiltonian and Hamilton's equations with constraints: every [`Lagrangian`] over
 /// `f64` or `f32` has them.
@@ -140,21 +141,3 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
 }
 
 impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Hamiltonian<N, M> for L {}
-
-/// Rates, how many constraints are independent, and which ones the rates rest on.
-type Rates<T, const N: usize, const M: usize> = (PhaseRate<T, N, M>, usize, [bool; M]);
-
-/// Hamilton's equations at a state whose velocity belongs to its momenta.
-fn equations<L, const N: usize, const M: usize>(
-    system: &L,
-    state: &State<L::Scalar, N>,
-    active: Option<&[bool; M]>,
-) -> Result<Rates<L::Scalar, N, M>, Error>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
-    let (solution, active) = solve_near(system, state, active)?;
-    let multipliers = solution.multipliers;
-    let p = system.momentum_rate(state) + system.constraint_force(state, &multipliers);
-    Ok((PhaseRate { q: state.v, p, multipliers }, solution.rank, active))
-}

@@ -3,6 +3,7 @@
 use nalgebra::SVector;
 
 use crate::names::Entry;
+use crate::system::finite::all_finite;
 use crate::{Error, Lagrangian, Real, Scalar};
 
 /// The time `t`, the generalized coordinates `q` and the generalized momenta `p` = ∂L/∂q̇.
@@ -56,5 +57,5 @@ where
 {
     let q = L::COORDINATES.iter().zip(&phase.q).map(|(name, x)| (Entry::Coordinate(name), *x));
     let p = L::COORDINATES.iter().zip(&phase.p).map(|(name, x)| (Entry::Momentum(name), *x));
-    Error::of_entries(core::iter::once((Entry::Time, phase.t)).chain(q).chain(p))
+    all_finite(core::iter::once((Entry::Time, phase.t)).chain(q).chain(p))
 }

@@ -10,9 +10,10 @@ use super::{Direction, Linearized};
 use crate::names::Entry;
 use crate::number::array::vector;
 use crate::number::numeric::{larger, largest, norm, power_of_epsilon};
+use crate::solution::consistent;
 use crate::solution::kkt::{Rank, Rows};
 use crate::system::lookup;
-use crate::{ConstraintKind, Error, Lagrangian, Real, Scalar, Simulate, Solution, State};
+use crate::{ConstraintKind, Error, Lagrangian, Real, Scalar, Solution, State};
 
 /// The linear system ż = A z + B u near a state, u the change of the inputs.
 ///
@@ -64,7 +65,7 @@ where
     L: Linearized<N, M, P, Scalar: Real>,
 {
     let parameters = lookup::indices::<L, N, M>(&L::PARAMETERS, "parameter", names)?;
-    system.check_consistent(state)?;
+    consistent::check(system, state)?;
     let tangent = Tangent::at(system, state)?;
     let basis = if M == 0 { DMatrix::identity(2 * N, 2 * N) } else { tangent_space(&tangent)? };
     let rate = state.v.iter().chain(&tangent.solution.accelerations).copied();

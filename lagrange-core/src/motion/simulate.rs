@@ -5,9 +5,9 @@ use core::{array::from_fn, ops::ControlFlow};
 
 #[cfg(feature = "alloc")]
 use super::run;
-use crate::names::Entry;
 use crate::solution::consistent;
 use crate::solution::solve::solve;
+use crate::system::finite::check_finite;
 #[cfg(feature = "alloc")]
 use crate::system::lookup;
 use crate::{Consistent, Error, Lagrangian, Real, Solution, State};
@@ -162,16 +162,3 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
 }
 
 impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Simulate<N, M> for L {}
-
-/// Every entry of a state must be a number.
-pub(crate) fn check_finite<L, const N: usize, const M: usize>(
-    _: &L,
-    state: &State<L::Scalar, N>,
-) -> Result<(), Error>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
-    let q = L::COORDINATES.iter().zip(&state.q).map(|(name, x)| (Entry::Coordinate(name), *x));
-    let v = L::COORDINATES.iter().zip(&state.v).map(|(name, x)| (Entry::Velocity(name), *x));
-    Error::of_entries(core::iter::once((Entry::Time, state.t)).chain(q).chain(v))
-}

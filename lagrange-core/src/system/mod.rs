@@ -3,6 +3,7 @@
 pub(crate) mod equations;
 mod evidence;
 mod facts;
+pub(crate) mod finite;
 mod integrability;
 mod lagrangian;
 #[cfg(feature = "alloc")]

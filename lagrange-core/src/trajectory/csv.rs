@@ -16,9 +16,16 @@ pub struct Csv<'t, 'a, L: Lagrangian<N, M>, const N: usize, const M: usize, F = 
     count: usize,
 }
 
-impl<'t, 'a, L: Lagrangian<N, M>, const N: usize, const M: usize, F> Csv<'t, 'a, L, N, M, F> {
-    pub(crate) fn new(trajectory: &'t Trajectory<'a, L, N, M, F>, count: usize) -> Self {
-        Self { trajectory, count }
+impl<'a, L, F, const N: usize, const M: usize> Trajectory<'a, L, N, M, F>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: Flow<L, N, M>,
+{
+    /// A table of `count` states at evenly spaced times, as comma-separated values.
+    ///
+    /// Print it, or write `path.csv(200).to_string()` to a file.
+    pub fn csv(&self, count: usize) -> Csv<'_, 'a, L, N, M, F> {
+        Csv { trajectory: self, count }
     }
 }
 

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 use core::fmt::{self, Display, Formatter};
 
 use crate::solution::flow::Flow;
-use crate::{Lagrangian, Real, Trajectory};
+use crate::{Lagrangian, Real, Scalar, Trajectory};
 
 /// How far a conserved quantity strays from its value at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,19 +46,20 @@ pub struct Drift<T> {
     quantities: Vec<Deviation<T>>,
 }
 
-impl<T: Real> Drift<T> {
-    pub(crate) fn along<L, F, const N: usize, const M: usize>(path: &Trajectory<'_, L, N, M, F>) -> Self
-    where
-        L: Lagrangian<N, M, Scalar = T>,
-        F: Flow<L, N, M>,
-    {
+impl<L, F, const N: usize, const M: usize> Trajectory<'_, L, N, M, F>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: Flow<L, N, M>,
+{
+    /// How far each conserved quantity strays from its value at the start.
+    pub fn drift(&self) -> Drift<L::Scalar> {
         // One walk for all: the steps of a motion in (q, p) take a search for the velocity each.
-        let mut steps = path.steps();
+        let mut steps = self.steps();
         let start = steps.next().into_iter().flat_map(|start| {
             let conserved = L::FACTS.conserved.iter().enumerate();
             conserved.filter_map(move |(index, conserved)| {
                 let (name, start) = (conserved.name, start.conserved_by_index(index)?);
-                Some((index, Deviation { name, start, largest: T::constant(0.0) }))
+                Some((index, Deviation { name, start, largest: L::Scalar::constant(0.0) }))
             })
         });
         let mut quantities: Vec<_> = start.collect();
@@ -69,9 +70,11 @@ impl<T: Real> Drift<T> {
                 }
             }
         }
-        Self { quantities: quantities.into_iter().map(|(_, deviation)| deviation).collect() }
+        Drift { quantities: quantities.into_iter().map(|(_, deviation)| deviation).collect() }
     }
+}
 
+impl<T: Real> Drift<T> {
     /// The quantities in the order of [`Facts::conserved`](crate::Facts::conserved).
     pub fn iter(&self) -> core::slice::Iter<'_, Deviation<T>> {
         self.quantities.iter()

@@ -96,18 +96,6 @@ where
         })
     }
 
-    /// A table of `count` states at evenly spaced times, as comma-separated values.
-    ///
-    /// Print it, or write `path.csv(200).to_string()` to a file.
-    pub fn csv(&self, count: usize) -> Csv<'_, 'a, L, N, M, F> {
-        Csv::new(self, count)
-    }
-
-    /// How far each conserved quantity strays from its value at the start.
-    pub fn drift(&self) -> Drift<L::Scalar> {
-        Drift::along(self)
-    }
-
     /// Why the trajectory ends where it does.
     pub fn ending(&self) -> &Ending {
         &self.ending

@@ -12,9 +12,10 @@ use core::fmt::{self, Debug, Formatter};
 use nalgebra::SVector;
 
 use super::Linearized;
-use crate::motion::simulate::check_finite;
 use crate::solution::newton;
-use crate::{Error, Lagrangian, Real, Simulate, State};
+use crate::solution::solve::solve;
+use crate::system::finite::check_finite;
+use crate::{Error, Lagrangian, Real, State};
 use point::Point;
 use search::Balance;
 use steady::Unsteadiness;
@@ -75,6 +76,6 @@ where
     let undetermined = balance.undetermined(&found)?;
     let Point { system, state, multipliers } = found.point;
     // Of dependent constraints the multipliers of least norm; at a pole, where accelerations are undetermined, those found.
-    let multipliers = system.solve(&state).map_or(multipliers, |solution| solution.multipliers);
+    let multipliers = solve(&system, &state).map_or(multipliers, |solution| solution.multipliers);
     Ok(Equilibrium { system, state, multipliers, iterations, undetermined })
 }

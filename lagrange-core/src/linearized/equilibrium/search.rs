@@ -15,7 +15,8 @@ use crate::number::array::vector;
 use crate::number::numeric::{larger, power_of_epsilon};
 use crate::solution::consistent::{Level, project};
 use crate::solution::newton::{Left, Search};
-use crate::{Error, Lagrangian, Real, Scalar, Simulate, State};
+use crate::solution::solve::solve;
+use crate::{Error, Lagrangian, Real, Scalar, State};
 
 /// What is sought, and in which units.
 pub(super) struct Balance<L: Lagrangian<N, M>, const N: usize, const M: usize, const P: usize> {
@@ -50,7 +51,7 @@ where
         if (0..N).all(|i| unknowns.contains(&Unknown::Coordinate(i))) {
             project(&system, &[Level::Position], &mut state).unwrap_or_default();
         }
-        let multipliers = system.solve(&state).map_or(none, |solution| solution.multipliers);
+        let multipliers = solve(&system, &state).map_or(none, |solution| solution.multipliers);
         let mut point = Point { system, state, multipliers };
         for &unknown in &unknowns {
             let Unknown::Parameter(k) = unknown else { continue };
