@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::number::array::vector;
 use crate::solution::eliminate::eliminate;
-use crate::{ConstraintKind, Facts, Lagrangian, Solution, State};
+use crate::system::{ConstraintKind, Facts, Lagrangian, Solution, State};
 
 pub(crate) type At<const N: usize> = State<f64, N>;
 

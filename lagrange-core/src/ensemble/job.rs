@@ -6,10 +6,14 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use super::outcome::{Arrival, Member, Outcome};
+use crate::error::Error;
+use crate::motion::Method;
 use crate::motion::run::{begin, run};
 use crate::motion::{Adaptive, Batch, LagrangianFlow, Pair, Seat};
+use crate::number::{Lanes, Real};
 use crate::system::finite::check_finite;
-use crate::{Error, Lagrangian, Lanes, Method, Pack, Real, State, Statistics};
+use crate::system::{Lagrangian, Pack, State};
+use crate::trajectory::Statistics;
 
 /// What an ensemble is to do.
 pub(super) struct Plan<'a, L, T, const N: usize> {

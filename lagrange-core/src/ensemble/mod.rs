@@ -16,9 +16,12 @@ mod tests;
 use core::fmt::{self, Debug, Formatter};
 use core::ops::ControlFlow;
 
+use crate::error::Error;
+use crate::motion::Method;
 use crate::motion::run::check_end;
 use crate::motion::{Adaptive, Pair};
-use crate::{Error, Lagrangian, Lanes, Method, Pack, Real, State};
+use crate::number::{Lanes, Real};
+use crate::system::{Lagrangian, Pack, State};
 pub use job::EnsembleProgress;
 use job::{Job, Plan};
 pub use outcome::{Arrival, Member, Outcome};

@@ -2,7 +2,10 @@
 
 use core::fmt::{self, Display, Formatter};
 
-use crate::{Ending, Error, Real, State, Statistics};
+use crate::error::Error;
+use crate::number::Real;
+use crate::system::State;
+use crate::trajectory::{Ending, Statistics};
 
 /// What has become of one member.
 #[derive(Clone, Debug, PartialEq)]

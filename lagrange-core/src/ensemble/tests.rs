@@ -3,8 +3,9 @@
 use core::ops::ControlFlow;
 
 use crate::motion::{Adaptive, Pair};
+use crate::number::Lanes;
 use crate::prelude::*;
-use crate::{Lanes, Pack};
+use crate::system::Pack;
 
 #[derive(Lagrangian, Clone, Copy)]
 #[coordinates(x)]

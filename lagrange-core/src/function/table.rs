@@ -3,7 +3,7 @@
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
-use crate::Error;
+use crate::error::Error;
 use crate::function::{First, Second, Value};
 
 /// The natural cubic spline through given points: twice continuously differentiable, with the second derivative

@@ -1,7 +1,7 @@
 //! Derivatives of supplied functions against closed forms.
 
 use super::{ByHand, First, Function, HandWritten, Second, Third, Value};
-use crate::Scalar;
+use crate::number::Scalar;
 
 /// x² y z³ and x y⁴
 struct Monomials;

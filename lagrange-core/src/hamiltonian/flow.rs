@@ -3,11 +3,13 @@
 use super::equations::equations;
 use super::legendre;
 use super::phase::PhaseState;
+use crate::error::Error;
 use crate::names::Entry;
+use crate::number::Real;
 use crate::number::array::vector;
 use crate::solution::consistent::{Level, project};
 use crate::solution::flow::{Flow, Phase, PhasePoint, Slope};
-use crate::{Error, Lagrangian, Real, State};
+use crate::system::{Lagrangian, State};
 
 /// Hamilton's equations, in coordinates and momenta.
 ///

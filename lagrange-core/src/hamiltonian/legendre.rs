@@ -8,13 +8,15 @@
 use core::array::from_fn;
 
 use super::phase::PhaseState;
+use crate::error::Error;
 use crate::number::array::vector;
 use crate::number::numeric::{exceeds, power_of_epsilon};
+use crate::number::{Real, Scalar};
 use crate::solution::eliminate::eliminate_active;
 use crate::solution::kkt::{self, Fault, KktSystem, Rank, Units};
 use crate::solution::newton::{self, Left, Search, halvings};
 use crate::solution::solve::{is_trustworthy, most_involved, name, not_finite};
-use crate::{Error, Lagrangian, Real, Scalar, Solution, State};
+use crate::system::{Lagrangian, Solution, State};
 
 /// The state with these momenta, its velocity sought from `guess` on, on the constraints `active` or on as many as
 /// are independent.

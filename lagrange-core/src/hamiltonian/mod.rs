@@ -17,11 +17,15 @@ use nalgebra::SVector;
 pub use flow::HamiltonianFlow;
 pub use phase::{PhaseRate, PhaseState};
 
+use crate::error::Error;
 #[cfg(feature = "alloc")]
 use crate::motion::run;
-use crate::{Error, Lagrangian, Real, Scalar, State};
 #[cfg(feature = "alloc")]
-use crate::{Method, Progress, Trajectory};
+use crate::motion::{Method, Progress};
+use crate::number::{Real, Scalar};
+use crate::system::{Lagrangian, State};
+#[cfg(feature = "alloc")]
+use crate::trajectory::Trajectory;
 use equations::equations;
 
 /// The Legendre transform, the Hamiltonian and Hamilton's equations with constraints: every [`Lagrangian`] over

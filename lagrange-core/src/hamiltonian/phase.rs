@@ -2,9 +2,11 @@
 
 use nalgebra::SVector;
 
+use crate::error::Error;
 use crate::names::Entry;
+use crate::number::{Real, Scalar};
+use crate::system::Lagrangian;
 use crate::system::finite::all_finite;
-use crate::{Error, Lagrangian, Real, Scalar};
 
 /// The time `t`, the generalized coordinates `q` and the generalized momenta `p` = ∂L/∂q̇.
 ///

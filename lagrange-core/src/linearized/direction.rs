@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use crate::Scalar;
+use crate::number::Scalar;
 use crate::number::array::vector;
 
 /// A direction in which to differentiate: how fast each argument of the equations of motion changes.

@@ -4,8 +4,10 @@ use nalgebra::{SMatrix, SVector};
 
 use super::tangent::Tangent;
 use super::{Direction, Linearized};
+use crate::error::Error;
 use crate::names::Entry;
-use crate::{Error, Real, Solution, State};
+use crate::number::Real;
+use crate::system::{Solution, State};
 
 /// Partial derivatives of `R` quantities by the time, `N` coordinates, `N` velocities and `P` parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,13 +7,15 @@ use nalgebra::{DMatrix, DVector, SVector};
 
 use super::tangent::Tangent;
 use super::{Direction, Linearized};
+use crate::error::Error;
 use crate::names::Entry;
 use crate::number::array::vector;
 use crate::number::numeric::{larger, largest, norm, power_of_epsilon};
+use crate::number::{Real, Scalar};
 use crate::solution::consistent;
 use crate::solution::kkt::{Rank, Rows};
 use crate::system::lookup;
-use crate::{ConstraintKind, Error, Lagrangian, Real, Scalar, Solution, State};
+use crate::system::{ConstraintKind, Lagrangian, Solution, State};
 
 /// The linear system ż = A z + B u near a state, u the change of the inputs.
 ///

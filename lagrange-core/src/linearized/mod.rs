@@ -23,7 +23,9 @@ pub use linearization::Linearization;
 #[cfg(feature = "alloc")]
 pub use spectrum::Stability;
 
-use crate::{Error, Lagrangian, Real, Solution, State};
+use crate::error::Error;
+use crate::number::Real;
+use crate::system::{Lagrangian, Solution, State};
 
 /// A system whose equations of motion can be differentiated: Jacobians, equilibria, linearization.
 ///

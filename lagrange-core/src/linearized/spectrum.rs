@@ -6,8 +6,9 @@ use core::cmp::Ordering;
 use nalgebra::{Complex, DMatrix, Schur};
 
 use super::Linearization;
+use crate::error::Error;
 use crate::number::numeric::{larger, power_of_epsilon};
-use crate::{Error, Real, Scalar};
+use crate::number::{Real, Scalar};
 
 /// What the linear part says about an equilibrium (Lyapunov's indirect method).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -3,10 +3,12 @@
 use nalgebra::{ComplexField, SVector};
 
 use super::{Direction, Linearized, ResidualChange};
+use crate::error::Error;
 use crate::names::Entry;
+use crate::number::Real;
 use crate::solution::kkt::{Factors, Rank};
 use crate::solution::solve::{fault, first_row, solve};
-use crate::{Error, Lagrangian, Real, Solution, State};
+use crate::system::{Lagrangian, Solution, State};
 
 /// The equations of motion at a state, solved and factorized.
 pub(super) struct Tangent<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {

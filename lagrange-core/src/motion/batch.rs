@@ -13,9 +13,10 @@ use super::method::pair::{Pair, SLOPES, Slopes, advance};
 use super::seat::{Fate, Seat};
 use crate::number::array::vector;
 use crate::number::numeric::power_of_epsilon;
+use crate::number::{Lanes, Scalar};
 use crate::solution::flow::{Flow, LagrangianFlow, Phase, PhasePoint};
+use crate::system::{Lagrangian, Pack, Packed, State};
 use crate::trajectory::Ending;
-use crate::{Lagrangian, Lanes, Pack, Packed, Scalar, State};
 
 /// Motions in lock-step.
 pub(crate) struct Batch<L: Pack<Lanes>, P, const N: usize, const M: usize> {

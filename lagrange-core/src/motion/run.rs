@@ -3,11 +3,13 @@
 use core::ops::ControlFlow;
 
 use super::method::{Limits, Method, Step};
+use crate::error::Error;
+use crate::number::Real;
 use crate::solution::consistent::{self, Consistent};
 use crate::solution::flow::{Flow, Phase};
 use crate::solution::solve::solve;
+use crate::system::{Lagrangian, State};
 use crate::trajectory::{Ending, Path, Statistics, Trajectory};
-use crate::{Error, Lagrangian, Real, State};
 
 /// How far an integration has come.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,9 +3,10 @@
 use super::method::step::Memory;
 use super::method::{Adaptive, Method, Pair, Step};
 use super::run::{Watchdog, begin};
+use crate::error::Error;
 use crate::solution::flow::{LagrangianFlow, Phase};
+use crate::system::{Lagrangian, State};
 use crate::trajectory::{Ending, Statistics};
-use crate::{Error, Lagrangian, State};
 
 /// A motion that has a lane, or waits for one.
 pub(crate) struct Seat<L, const N: usize, const M: usize> {

@@ -4,15 +4,24 @@
 use core::{array::from_fn, ops::ControlFlow};
 
 #[cfg(feature = "alloc")]
+use super::method::Method;
+#[cfg(feature = "alloc")]
 use super::run;
+#[cfg(feature = "alloc")]
+use super::run::Progress;
+use crate::error::Error;
+use crate::number::Real;
+#[cfg(feature = "alloc")]
+use crate::number::Scalar;
+use crate::solution::Consistent;
 use crate::solution::consistent;
 use crate::solution::solve::solve;
 use crate::system::finite::check_finite;
 #[cfg(feature = "alloc")]
 use crate::system::lookup;
-use crate::{Consistent, Error, Lagrangian, Real, Solution, State};
+use crate::system::{Lagrangian, Solution, State};
 #[cfg(feature = "alloc")]
-use crate::{Method, Progress, Scalar, Trajectory};
+use crate::trajectory::Trajectory;
 
 /// Solving, integrating and setting up a system: every [`Lagrangian`] over `f64` or `f32` has it.
 pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Real> + Sized {

@@ -2,7 +2,7 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::Scalar;
+use super::scalar::Scalar;
 
 /// `value` + ε `slope` with ε² = 0: a value and its derivative, over any scalar and so over itself.
 ///

@@ -4,7 +4,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use simba::simd::{SimdComplexField, SimdPartialOrd, SimdRealField, SimdValue, WideF64x4};
 
-use crate::Scalar;
+use super::scalar::Scalar;
 
 /// Four `f64` side by side, on which the equations of four systems are evaluated at once.
 ///

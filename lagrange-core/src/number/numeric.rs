@@ -2,7 +2,7 @@
 
 use core::cmp::Ordering;
 
-use crate::{Real, Scalar};
+use super::scalar::{Real, Scalar};
 
 /// The larger of the two; where one is NaN, `a`.
 pub(crate) fn larger<T: Real>(a: T, b: T) -> T {

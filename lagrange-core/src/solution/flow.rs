@@ -2,9 +2,11 @@
 
 use super::consistent::{BOTH, project};
 use super::solve::solve_near;
+use crate::error::Error;
 use crate::names::Entry;
+use crate::number::Real;
 use crate::number::array::vector;
-use crate::{Error, Lagrangian, Real, State};
+use crate::system::{Lagrangian, State};
 
 /// Coordinates and velocities, or coordinates and momenta, as arrays: what a one-step method adds up.
 pub type Phase<T, const N: usize> = [[T; N]; 2];

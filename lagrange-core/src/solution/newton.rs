@@ -5,7 +5,8 @@
 
 use core::iter::successors;
 
-use crate::{Error, Real, Scalar};
+use crate::error::Error;
+use crate::number::{Real, Scalar};
 
 pub(crate) trait Search {
     type Scalar: Real;

@@ -2,10 +2,13 @@
 
 use nalgebra::ComplexField;
 
+use crate::error::Error;
+use crate::names::Names;
 use crate::names::Row;
 use crate::number::numeric::{larger, power_of_epsilon};
+use crate::number::{Real, Scalar};
 use crate::solution::kkt::{self, Fault, KktSystem, Rank, Solved};
-use crate::{Error, Lagrangian, Names, Real, Scalar, Solution, State};
+use crate::system::{Lagrangian, Solution, State};
 
 /// See [`Simulate::solve`](crate::Simulate::solve).
 #[inline]

@@ -1,6 +1,6 @@
 //! What the derive finds out about a system before it moves.
 
-use crate::Evidence;
+use super::evidence::Evidence;
 
 /// A quantity that the motion conserves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

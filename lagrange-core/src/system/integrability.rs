@@ -1,6 +1,6 @@
 //! What kind of constraint it is: whether it restricts positions, or only velocities.
 
-use crate::Evidence;
+use super::evidence::Evidence;
 
 /// Whether a constraint can be integrated to one that holds no velocities.
 ///

@@ -2,7 +2,10 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::{Classification, Facts, Integrals, Scalar, Solution, State};
+use super::facts::Facts;
+use super::integrability::{Classification, Integrals};
+use super::state::{Solution, State};
+use crate::number::Scalar;
 
 /// How a constraint was written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

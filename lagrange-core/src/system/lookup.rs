@@ -5,8 +5,9 @@ mod tests;
 
 use alloc::{format, string::String, vec::Vec};
 
+use super::lagrangian::Lagrangian;
+use crate::error::Error;
 use crate::names::Entry;
-use crate::{Error, Lagrangian};
 
 /// The names of the coordinates, then of the velocities.
 pub(crate) fn entries<L: Lagrangian<N, M>, const N: usize, const M: usize>() -> Vec<String> {

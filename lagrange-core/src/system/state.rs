@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use crate::Scalar;
+use crate::number::Scalar;
 
 /// The time `t`, the generalized coordinates `q` and the generalized velocities `v` = q̇.
 ///

@@ -2,9 +2,12 @@
 
 use core::fmt::{self, Debug, Display, Formatter};
 
+use super::Trajectory;
+use super::sample::Sample;
 use crate::names::Entry;
+use crate::number::{Real, Scalar};
 use crate::solution::flow::{Flow, LagrangianFlow};
-use crate::{Lagrangian, Real, Sample, Scalar, Trajectory};
+use crate::system::Lagrangian;
 
 /// A table of a trajectory, one line a sample: `t`, coordinates `x`, velocities `x_dot`, multipliers
 /// `lambda(no_slip)`, constraint forces `force(x)` and observables.

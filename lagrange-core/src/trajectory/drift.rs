@@ -3,8 +3,10 @@
 use alloc::vec::Vec;
 use core::fmt::{self, Display, Formatter};
 
+use super::Trajectory;
+use crate::number::{Real, Scalar};
 use crate::solution::flow::Flow;
-use crate::{Lagrangian, Real, Scalar, Trajectory};
+use crate::system::Lagrangian;
 
 /// How far a conserved quantity strays from its value at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use core::fmt::{self, Display, Formatter};
 
-use crate::Error;
+use crate::error::Error;
 use crate::names::{Entry, Row};
 
 /// Why a trajectory ends where it does. Everything up to `time` has been computed and kept.

@@ -20,9 +20,12 @@ pub(crate) use path::Path;
 pub use sample::Sample;
 pub use statistics::Statistics;
 
+use crate::error::Error;
+use crate::number::Real;
 use crate::number::numeric::smaller;
+use crate::solution::Adjustment;
 use crate::solution::flow::{Flow, LagrangianFlow};
-use crate::{Adjustment, Error, Lagrangian, Real, State};
+use crate::system::{Lagrangian, State};
 
 /// The motion of a system from the start to where the integration stopped, which [`ending`](Self::ending) explains.
 ///

@@ -3,8 +3,9 @@
 use alloc::vec::Vec;
 use core::array::from_fn;
 
+use crate::number::Real;
 use crate::solution::flow::{Phase, PhasePoint};
-use crate::{Real, State};
+use crate::system::State;
 
 /// The states at the ends of the steps, and the interpolants between them.
 pub(crate) struct Path<T, const N: usize> {

@@ -3,9 +3,11 @@
 use alloc::vec::Vec;
 use core::fmt::{self, Debug, Formatter};
 
+use crate::error::Error;
+use crate::number::Real;
 use crate::solution::solve::solve;
 use crate::system::lookup::{index, unknown};
-use crate::{Error, Lagrangian, Real, Solution, State};
+use crate::system::{Lagrangian, Solution, State};
 
 /// A state of a system with what follows from it.
 ///

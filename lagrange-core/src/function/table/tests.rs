@@ -1,7 +1,7 @@
 //! The natural spline: what defines it, a published one, and how fast it converges.
 
 use super::Table;
-use crate::Error;
+use crate::error::Error;
 use crate::function::{First, Second, Value};
 
 fn table(points: &[(f64, f64)]) -> Table {

@@ -12,10 +12,12 @@ use core::fmt::{self, Debug, Formatter};
 use nalgebra::SVector;
 
 use super::Linearized;
+use crate::error::Error;
+use crate::number::Real;
 use crate::solution::newton;
 use crate::solution::solve::solve;
 use crate::system::finite::check_finite;
-use crate::{Error, Lagrangian, Real, State};
+use crate::system::{Lagrangian, State};
 use point::Point;
 use search::Balance;
 use steady::Unsteadiness;

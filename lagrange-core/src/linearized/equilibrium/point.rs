@@ -3,10 +3,12 @@
 use nalgebra::{ComplexField, DMatrix, DVector, SVector};
 
 use super::unknown::Unknown;
+use crate::error::Error;
 use crate::linearized::{Linearized, ResidualChange};
 use crate::names::Row;
 use crate::number::array::vector;
-use crate::{Error, Lagrangian, Real, Scalar, Solution, State};
+use crate::number::{Real, Scalar};
+use crate::system::{Lagrangian, Solution, State};
 
 /// Where the search is.
 #[derive(Clone)]

@@ -10,13 +10,15 @@ use nalgebra::{DMatrix, DVector, Dyn, SVD};
 use super::point::{Point, finite_residual, row};
 use super::unknown::Unknown;
 use super::weights::weights;
+use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::number::array::vector;
 use crate::number::numeric::{larger, power_of_epsilon};
+use crate::number::{Real, Scalar};
 use crate::solution::consistent::{Level, project};
 use crate::solution::newton::{Left, Search};
 use crate::solution::solve::solve;
-use crate::{Error, Lagrangian, Real, Scalar, State};
+use crate::system::{Lagrangian, State};
 
 /// What is sought, and in which units.
 pub(super) struct Balance<L: Lagrangian<N, M>, const N: usize, const M: usize, const P: usize> {

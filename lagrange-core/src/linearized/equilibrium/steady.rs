@@ -6,9 +6,11 @@ use nalgebra::DMatrix;
 
 use super::point::{Point, row};
 use super::unknown::Unknown;
+use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::number::numeric::{larger, power_of_epsilon};
-use crate::{Error, Lagrangian, Real, Scalar};
+use crate::number::{Real, Scalar};
+use crate::system::Lagrangian;
 
 /// How fast (M q̈ − h − Fᵀλ, F q̈ + γ) at q̈ = 0 changes with the coordinates that move, a column each. The rows of
 /// F q̇ + b and Φ follow from the second.

@@ -2,10 +2,11 @@
 
 use alloc::vec::Vec;
 
+use crate::error::Error;
 use crate::linearized::{Direction, Linearized};
 use crate::names::Entry;
+use crate::number::Real;
 use crate::system::lookup;
-use crate::{Error, Real};
 
 /// A coordinate, a velocity or a parameter, by its index.
 #[derive(Clone, Copy, PartialEq)]

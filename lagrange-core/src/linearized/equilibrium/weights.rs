@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::{Real, Scalar};
+use crate::number::{Real, Scalar};
 
 /// How much more a constraint counts than a force, both in their own units: a search that keeps near the constraints
 /// does not end where a rod has shrunk to nothing.

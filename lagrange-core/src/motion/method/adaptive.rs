@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 
 use super::Limits;
-use crate::Error;
+use crate::error::Error;
 
 /// An embedded Runge–Kutta pair `P` with its settings.
 ///

@@ -5,7 +5,7 @@
 //! asked for, and always down.
 
 use crate::number::numeric::{larger, smaller};
-use crate::{Real, Scalar};
+use crate::number::{Real, Scalar};
 
 /// Where a motion is on its way to the end.
 #[derive(Clone, Debug)]

@@ -6,8 +6,8 @@ use super::Adaptive;
 use super::clock::Clock;
 use super::pair::{Pair, Slopes, combine};
 use crate::number::numeric::{exceeds, larger, smaller};
+use crate::number::{Real, Scalar};
 use crate::solution::flow::Phase;
-use crate::{Real, Scalar};
 
 /// The step to try next, and what its choice remembers.
 #[derive(Clone, Debug)]

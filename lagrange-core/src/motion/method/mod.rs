@@ -13,9 +13,11 @@ pub use dop853::{Dop853, DormandPrince853};
 pub use dopri5::{Dopri5, DormandPrince54};
 pub use pair::{Combination, Pair};
 
+use crate::error::Error;
+use crate::number::Real;
 use crate::solution::flow::{Flow, LagrangianFlow, Phase};
+use crate::system::{Lagrangian, State};
 use crate::trajectory::{Ending, Statistics};
-use crate::{Error, Lagrangian, Real, State};
 
 /// A way to step from one state to the next; a value, whose type says by its bounds where it applies, and
 /// whether it integrates Lagrange's equations or Hamilton's, the flow `F`.

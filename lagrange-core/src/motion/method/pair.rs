@@ -2,7 +2,7 @@
 
 use core::array::from_fn;
 
-use crate::Scalar;
+use crate::number::Scalar;
 use crate::solution::flow::Phase;
 
 /// The coefficients of a sum of slopes: (index of the slope, coefficient).

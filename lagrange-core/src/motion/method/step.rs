@@ -8,12 +8,14 @@ use super::clock::Clock;
 use super::control::{Control, Place};
 use super::pair::{Combination, Pair, SLOPES, Slopes, advance};
 use super::{Adaptive, Limits, Method, Step};
+use crate::error::Error;
 use crate::names::{Entry, Row};
 use crate::number::array::vector;
+use crate::number::{Real, Scalar};
 use crate::solution::flow::{Flow, Phase, PhasePoint, Slope};
 use crate::solution::solve::name;
+use crate::system::{Lagrangian, State};
 use crate::trajectory::{Ending, Statistics};
-use crate::{Error, Lagrangian, Real, Scalar, State};
 
 /// Room for the longest interpolant here.
 const COEFFICIENTS: usize = 8;

@@ -5,7 +5,7 @@ use core::cmp::Ordering;
 use num_dual::Dual3_64;
 use simba::simd::{SimdPartialOrd, SimdValue, WideF64x4};
 
-use crate::{Dual, Scalar};
+use crate::number::{Dual, Scalar};
 
 type Thrice<S> = Dual<Dual<Dual<S>>>;
 

@@ -1,6 +1,6 @@
 use super::LARGEST_ANGLE;
 use crate::number::scalar::FUSED;
-use crate::{Lanes, Scalar};
+use crate::number::{Lanes, Scalar};
 
 type Function = (&'static str, fn(Lanes) -> Lanes, fn(f64) -> f64);
 

@@ -11,13 +11,15 @@ use core::array::from_fn;
 use core::fmt::{self, Display, Formatter};
 use nalgebra::{ComplexField, SVector};
 
+use crate::error::Error;
 use crate::number::array::vector;
 use crate::number::numeric::{exceeds, largest, power_of_epsilon};
+use crate::number::{Real, Scalar};
 use crate::solution::eliminate::eliminate_active;
 use crate::solution::kkt::{self, KktSystem, Rank};
 use crate::solution::newton::{self, Left, Search, halvings};
 use crate::solution::solve::{is_trustworthy, name};
-use crate::{ConstraintKind, Error, Lagrangian, Real, Scalar, State};
+use crate::system::{ConstraintKind, Lagrangian, State};
 
 /// How far a projection onto the constraints moved a state.
 #[derive(Clone, Copy, Debug, PartialEq)]

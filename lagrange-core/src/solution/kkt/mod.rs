@@ -17,7 +17,8 @@ use nalgebra::SVector;
 
 use crate::number::array::vector;
 use crate::number::numeric::{larger, largest, norm, power_of_epsilon, smaller};
-use crate::{Real, Scalar, Solution};
+use crate::number::{Real, Scalar};
+use crate::system::Solution;
 use qr::Qr;
 use symmetric::Symmetric;
 pub(crate) use units::Units;

@@ -3,7 +3,7 @@
 use core::array::from_fn;
 
 use crate::number::numeric::{larger, largest, norm, power_of_two};
-use crate::{Real, Scalar};
+use crate::number::{Real, Scalar};
 
 /// The natural units of a mass matrix and a constraint Jacobian.
 ///
