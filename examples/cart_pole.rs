@@ -7,7 +7,7 @@
 mod picture;
 
 use lagrange_core::nalgebra::{Complex, DMatrix, DVector, Vector4};
-use lagrange_core::prelude::*;
+use lagrange_core::{Linearization, prelude::*};
 use picture::{BLUE, GREY, Points, RED, Result};
 use plotters::prelude::*;
 

@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use lagrange_core::prelude::*;
+use lagrange_core::{Ending, prelude::*};
 use lagrange_core::{Member, Outcome};
 use picture::{BLUE, GREY, Points, RED, Result};
 use plotters::prelude::*;

@@ -1,6 +1,6 @@
 //! Functions that the user supplies, in every form and over every number type.
 
-use lagrange_core::prelude::*;
+use lagrange_core::{ByHand, prelude::*};
 use lagrange_core::{HandWritten, Table};
 use num_dual::Dual64;
 use simba::simd::{SimdValue, WideF64x4};

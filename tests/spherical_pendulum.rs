@@ -4,7 +4,7 @@
 //! outward component is λ l and the tension −λ l.
 
 use approx::assert_abs_diff_eq;
-use lagrange_core::prelude::*;
+use lagrange_core::{Method, prelude::*};
 
 #[derive(Lagrangian, Clone)]
 #[coordinates(x, y, z)]

@@ -151,7 +151,7 @@
 //! of a function are no parameters of the system: none can be differentiated by or sought.
 //!
 //! ```
-//! use lagrange_core::prelude::*;
+//! use lagrange_core::{ByHand, prelude::*};
 //! use lagrange_core::{HandWritten, Table};
 //!
 //! /// z = x² − y²
@@ -222,7 +222,7 @@
 //! equations.
 //!
 //! ```
-//! use lagrange_core::prelude::*;
+//! use lagrange_core::{Classification, Evidence, Extent, Integrability, Integrals, prelude::*};
 //!
 //! /// A cylinder that rolls, and a skate beside it.
 //! #[derive(Lagrangian)]
@@ -281,7 +281,7 @@
     feature = "std",
     doc = r#"
 ```
-use lagrange_core::prelude::*;
+use lagrange_core::{Evidence, prelude::*};
 
 /// A pendulum bob on a string.
 #[derive(Lagrangian)]

@@ -1,14 +1,17 @@
-//! What a program that simulates a system needs: `use lagrange_core::prelude::*`.
+//! What a program that simulates a system needs: `use lagrange_core::prelude::*`. All else is at the crate's root.
 
 #[cfg(feature = "std")]
-pub use crate::Ensemble;
-pub use crate::{
-    Adjustment, ByHand, Classification, ConstraintKind, Direction, Error, Evidence, Extent, Function,
-    Hamiltonian, HandWritten, Integrability, Integrals, Jacobian, Lagrangian, LinearPart, Linearized,
-    PhaseRate, PhaseState, Real, Scalar, Simulate, Solution, State,
-};
+pub use crate::ensemble::Ensemble;
+pub use crate::error::Error;
+pub use crate::function::Function;
+pub use crate::hamiltonian::{Hamiltonian, PhaseState};
+pub use crate::linearized::Linearized;
+pub use crate::motion::Simulate;
 #[cfg(feature = "alloc")]
-pub use crate::{
-    Dop853, Dopri5, Ending, Equilibrium, HamiltonianFlow, Linearization, Method, Progress, Sample, Stability,
-    Statistics, Table, Trajectory,
-};
+pub use crate::motion::{Dop853, Dopri5};
+pub use crate::number::Scalar;
+pub use crate::system::State;
+#[cfg(feature = "alloc")]
+pub use crate::trajectory::Trajectory;
+// Trait and derive.
+pub use crate::Lagrangian;

@@ -2,7 +2,7 @@
 //!
 //! m Ẍ = F_X + λ and I φ̈ = F_φ − a λ with Ẍ = a φ̈ give λ = (m F_φ a − I F_X)/(I + m a²), in both forms.
 
-use lagrange_core::prelude::*;
+use lagrange_core::{ConstraintKind, Sample, prelude::*};
 
 use crate::largest;
 use crate::random::Random;

@@ -1,4 +1,4 @@
-use lagrange_core::prelude::*;
+use lagrange_core::{Solution, prelude::*};
 
 #[derive(Lagrangian)]
 #[coordinates(r: [3], x = 1)]

@@ -1,4 +1,4 @@
-use lagrange_core::prelude::*;
+use lagrange_core::{Jacobian, prelude::*};
 
 #[derive(Clone, Lagrangian)]
 #[coordinates(x)]

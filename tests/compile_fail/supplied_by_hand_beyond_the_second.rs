@@ -1,5 +1,5 @@
 use lagrange_core::HandWritten;
-use lagrange_core::prelude::*;
+use lagrange_core::{ByHand, prelude::*};
 
 struct Parabola;
 

@@ -2,7 +2,7 @@
 
 use approx::assert_relative_eq;
 use lagrange_core::LinearPart;
-use lagrange_core::prelude::*;
+use lagrange_core::{Evidence, prelude::*};
 
 #[derive(Lagrangian)]
 #[coordinates(x, y)]

@@ -1,6 +1,6 @@
 //! Noether: cyclic coordinates, their momenta and the energy of systems with known answers.
 
-use lagrange_core::prelude::*;
+use lagrange_core::{Evidence, prelude::*};
 use lagrange_core::{Facts, LinearPart};
 
 /// The names of what is conserved, for sure or in all random motions tried.

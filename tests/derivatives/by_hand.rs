@@ -1,7 +1,7 @@
 //! Systems written by hand, and the comparison with what the macro emits for them.
 
 use lagrange_core::nalgebra::{SMatrix, SVector};
-use lagrange_core::prelude::*;
+use lagrange_core::{ConstraintKind, Solution, prelude::*};
 use num_dual::{DualNum, HyperDual64};
 
 use crate::jacobian::check_jacobian;

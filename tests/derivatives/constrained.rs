@@ -1,6 +1,6 @@
 //! Constraints: holonomic and not, homogeneous and not, with and without time.
 
-use lagrange_core::prelude::*;
+use lagrange_core::{ConstraintKind, prelude::*};
 
 use crate::by_hand::{ByHand, Number, check};
 use crate::random::Random;

@@ -1,7 +1,7 @@
 //! Functions that the user supplies: potentials, fields, surfaces and prescribed motions, with all derivatives that
 //! the equations ask of them.
 
-use lagrange_core::prelude::*;
+use lagrange_core::{ConstraintKind, prelude::*};
 
 use crate::by_hand::{ByHand, Number, check};
 use crate::random::Random;

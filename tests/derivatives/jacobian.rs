@@ -1,7 +1,7 @@
 //! Jacobians of accelerations, multipliers and constraints against differences of them.
 
 use lagrange_core::nalgebra::{DVector, SVector};
-use lagrange_core::prelude::*;
+use lagrange_core::{Direction, Jacobian, Solution, prelude::*};
 
 /// Largest deviation, as a fraction of the largest entry of the Jacobian.
 const TOLERANCE: f64 = 1e-9;

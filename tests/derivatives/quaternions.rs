@@ -1,7 +1,7 @@
 //! Orientations as quaternions, against rotation matrices written out.
 
 use lagrange_core::nalgebra::Matrix3;
-use lagrange_core::prelude::*;
+use lagrange_core::{ConstraintKind, prelude::*};
 
 use crate::by_hand::{ByHand, Number, check};
 use crate::random::Random;

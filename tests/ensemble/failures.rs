@@ -1,6 +1,6 @@
 //! One bad member is reported by its index, with the reason, and spoils no other.
 
-use lagrange_core::prelude::*;
+use lagrange_core::{Ending, prelude::*};
 use lagrange_core::{Lanes, Member, Outcome, Pack};
 
 use crate::{COUNT, DoublePendulum, END, ensemble, member, on_threads};

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use lagrange_core::prelude::*;
+use lagrange_core::{Ending, Method, prelude::*};
 
 use crate::{COUNT, END, ensemble, member, noise, on_threads};
 

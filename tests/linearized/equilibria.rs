@@ -1,7 +1,7 @@
 //! Where systems rest, and what holds them there.
 
 use lagrange_core::nalgebra::Vector2;
-use lagrange_core::prelude::*;
+use lagrange_core::{Stability, prelude::*};
 
 /// Two bobs between two hinges on three equal rods: the arch of a hanging bridge.
 #[derive(Clone, Lagrangian)]

@@ -1,7 +1,7 @@
 //! What is wrong is said, with the names at fault.
 
-use lagrange_core::prelude::*;
 use lagrange_core::{Entry, Row};
+use lagrange_core::{Stability, prelude::*};
 
 /// A pendulum on a rod whose length is said again to be an input.
 #[derive(Clone, Lagrangian)]

@@ -1,14 +1,14 @@
 //! N oscillators of which the first M are held, and all that the runtime does with a system, on one of them. Also compiled by
 //! `.ci/sizes`, for every N.
 
-use lagrange_core::prelude::*;
+use lagrange_core::{Real, prelude::*};
 
 /// A module of this name with N oscillators on `scalar`, the first M of them held at 1.
 #[macro_export]
 macro_rules! oscillators {
     ($name:ident, $scalar:ident, $n:tt $(, $m:tt)?) => {
         mod $name {
-            use lagrange_core::prelude::*;
+            use lagrange_core::{Real, prelude::*};
 
             #[derive(Clone, Lagrangian)]
             #[coordinates(x: [$n])]

@@ -1,6 +1,6 @@
 //! Times counted from far away: the span asked for is integrated, whatever the numbers near the start are.
 
-use lagrange_core::prelude::*;
+use lagrange_core::{Ending, Sample, prelude::*};
 
 use crate::{Spring, allowed, exact};
 

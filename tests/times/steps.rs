@@ -1,6 +1,6 @@
 //! The lengths of steps.
 
-use lagrange_core::prelude::*;
+use lagrange_core::{Ending, prelude::*};
 
 use crate::{Spring, exact};
 

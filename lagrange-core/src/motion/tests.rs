@@ -6,7 +6,9 @@ use crate::fixtures::{
     spherical_pendulum,
 };
 use crate::motion::Pair;
+use crate::motion::{Method, Progress};
 use crate::prelude::*;
+use crate::trajectory::{Ending, Sample};
 
 type Pendulum = Mechanism<3, 1, 1>;
 

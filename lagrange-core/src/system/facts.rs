@@ -37,7 +37,7 @@ pub enum LinearPart {
 /// What is not listed is false or could not be decided.
 ///
 /// ```
-/// use lagrange_core::prelude::*;
+/// use lagrange_core::{Evidence, prelude::*};
 ///
 /// /// A planet around a fixed sun.
 /// #[derive(Lagrangian)]

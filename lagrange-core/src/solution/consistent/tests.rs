@@ -1,5 +1,6 @@
 use crate::fixtures::{Mechanism, dependent_on_the_manifold, identity, rolling_sphere, spherical_pendulum};
 use crate::prelude::*;
+use crate::solution::Adjustment;
 use crate::solution::eliminate::eliminate_active;
 
 #[test]

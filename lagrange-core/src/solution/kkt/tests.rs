@@ -3,6 +3,7 @@ use nalgebra::SMatrix;
 use super::*;
 use crate::fixtures::{At, Mechanism, identity, rolling_sphere, spherical_pendulum};
 use crate::prelude::*;
+use crate::system::Solution;
 
 fn general<const N: usize, const M: usize, const H: usize>(
     system: &Mechanism<N, M, H>,

@@ -12,7 +12,7 @@
 mod lanes;
 mod systems;
 
-use lagrange_core::prelude::*;
+use lagrange_core::{Solution, prelude::*};
 use systems::*;
 
 #[cfg_attr(feature = "call", inline(never))]
