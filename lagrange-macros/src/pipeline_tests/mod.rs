@@ -10,6 +10,7 @@ mod linearization;
 mod long;
 mod sizes;
 mod stub;
+mod suggestions;
 mod systems;
 
 use proc_macro2::TokenStream;

@@ -4,9 +4,10 @@ use num_traits::{One, Signed};
 
 use super::binding::{Binding, PREFIX, begins_with_function, exponent_at_name, is_number, is_prefixed};
 use super::formula::Formula;
-use super::symbols::{GREEK, Notation, decimal, superscript, vulgar};
+use super::symbols::{Notation, decimal, superscript, vulgar};
 use crate::resolve::is_built_in;
 use crate::symbolic::Rational;
+use crate::syntax::GREEK;
 
 impl Notation {
     pub(super) fn write(self, formula: &Formula) -> String {

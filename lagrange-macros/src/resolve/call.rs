@@ -185,7 +185,7 @@ impl Lowering<'_> {
     fn multiplier(&mut self, constraint: &Name, index: Option<i128>) -> Option<Value> {
         let Some(group) = self.multipliers.iter().find(|group| group.name == constraint.text) else {
             let names = self.multipliers.iter().map(|group| group.name.as_str());
-            let near = super::scope::nearest(&constraint.text, names);
+            let near = super::unknown::nearest(&constraint.text, names);
             let advice = near.map(|near| format!(": did you mean `{near}`?")).unwrap_or_default();
             return self
                 .report(constraint.place, format!("no constraint is called `{}`{advice}", constraint.text));
@@ -215,5 +215,12 @@ impl Lowering<'_> {
 pub(super) fn wrong_number(name: &Name, wanted: usize, given: usize) -> String {
     let plural = if wanted == 1 { "" } else { "s" };
     let are = if given == 1 { "is" } else { "are" };
-    format!("`{}` takes {wanted} argument{plural}, but {given} {are} given", name.text)
+    let advice = match (name.text.as_str(), given) {
+        ("atan", 2) => ": the angle of the point (x, y) is `atan2(y, x)`",
+        ("der", 2) => ": it is by the time, `der(x)`",
+        ("dot", 1) => ": the velocity of `x` is `x_dot`",
+        ("norm", 2 | 3) => ": a vector is written `[x, y]`",
+        _ => "",
+    };
+    format!("`{}` takes {wanted} argument{plural}, but {given} {are} given{advice}", name.text)
 }

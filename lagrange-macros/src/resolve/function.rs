@@ -2,7 +2,8 @@
 
 use super::call::wrong_number;
 use super::lower::Lowering;
-use super::scope::{Entity, Scope, nearest};
+use super::scope::{Entity, Scope};
+use super::unknown::nearest;
 use super::value::Value;
 use crate::diagnostics::{Diagnostics, Place};
 use crate::symbolic::External;

@@ -10,6 +10,7 @@ mod parameters;
 mod quaternion;
 mod scope;
 mod statements;
+mod unknown;
 mod value;
 
 use rustc_hash::FxHashMap;

@@ -3,7 +3,7 @@
 use indexmap::IndexSet;
 use quote::ToTokens;
 
-use super::scope::nearest;
+use super::unknown::nearest;
 use super::value::Value;
 use crate::diagnostics::{Diagnostics, Place};
 use crate::symbolic::{Graph, to_f64};

@@ -1,4 +1,4 @@
-//! Names: what each one means, and what was probably meant by one that means nothing.
+//! Names: what each one means.
 
 use indexmap::IndexMap;
 
@@ -48,23 +48,26 @@ pub(super) const FUNCTIONS: [&str; 24] = [
 ];
 
 /// Names with a fixed meaning that are not functions.
-const CONSTANTS: [&str; 2] = ["t", "pi"];
+pub(super) const CONSTANTS: [&str; 2] = ["t", "pi"];
 
 /// The one namespace of fields, coordinates and definitions.
 #[derive(Debug)]
 pub(super) struct Scope {
-    entities: IndexMap<String, (Entity, Place)>,
+    pub(super) entities: IndexMap<String, (Entity, Place)>,
     /// Fields that bear a built-in's name, which is fine while no expression uses it.
     shadowing: IndexMap<String, Place>,
     /// Fields that are functions, by the functions' names.
-    functions: IndexMap<String, String>,
+    pub(super) functions: IndexMap<String, String>,
+    /// How many elements coordinates and fields have, if they have any.
+    pub(super) lengths: IndexMap<String, usize>,
 }
 
 impl Scope {
     pub(super) fn new(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Self {
         let names = |function: &Function| (function.field.text.clone(), function.name.text.clone());
         let functions = declaration.functions.iter().map(names).collect();
-        let mut scope = Self { entities: IndexMap::new(), shadowing: IndexMap::new(), functions };
+        let lengths = lengths(declaration).map(|(name, length)| (name.text.clone(), length)).collect();
+        let mut scope = Self { entities: IndexMap::new(), shadowing: IndexMap::new(), functions, lengths };
         for (index, coordinate) in declaration.coordinates.iter().enumerate() {
             scope.declare(&coordinate.name, Entity::Coordinate(index), diagnostics);
         }
@@ -162,93 +165,16 @@ impl Scope {
     pub(super) fn shadowing(&self, name: &str) -> Option<Place> {
         self.shadowing.get(name).copied()
     }
+}
 
-    /// An error for a name that means nothing, with the nearest that does.
-    pub(super) fn unknown(&self, name: &Name, more: &[String]) -> syn::Error {
-        let text = &name.text;
-        if let Some(error) = self.is_field_of_function(name) {
-            return error;
-        }
-        if let Some(base) = text.strip_suffix("_dot").or_else(|| text.strip_suffix("_ddot"))
-            && let Some(entity @ (Entity::Definition(_) | Entity::Field(_))) = self.get(base)
-        {
-            let kind = entity.describe();
-            return name.place.error(format!(
-                "`{text}` would be the velocity of a coordinate, but `{base}` is {kind}: write `der({base})`"
-            ));
-        }
-        if ["e", "E"].contains(&text.as_str()) {
-            return name
-                .place
-                .error(format!("nothing is called `{text}`: the exponential function is `exp(x)`"));
-        }
-        if let Some(function) = FUNCTIONS.into_iter().find(|function| function.eq_ignore_ascii_case(text)) {
-            return name
-                .place
-                .error(format!("nothing is called `{text}`: functions are written `{function}(x)`"));
-        }
-        let candidates =
-            self.entities.keys().map(String::as_str).chain(CONSTANTS).chain(more.iter().map(String::as_str));
-        match nearest(text, candidates) {
-            Some(near) => name.place.error(format!("nothing is called `{text}`: did you mean `{near}`?")),
-            None => name.place.error(format!(
-                "nothing is called `{text}`: make it a field, a coordinate or a `#[define(…)]`"
-            )),
-        }
-    }
-
-    /// An error for a function that does not exist.
-    pub(super) fn unknown_function(&self, name: &Name) -> syn::Error {
-        let text = name.text.as_str();
-        if let Some(error) = self.is_field_of_function(name) {
-            return error;
-        }
-        let advice = match text {
-            "log" | "Log" | "log2" | "log10" => Some("the natural logarithm is `ln`"),
-            "pow" | "Pow" | "powi" | "powf" => Some("a power is written `x^2`"),
-            "arcsin" | "arccos" | "arctan" | "ArcSin" | "ArcCos" | "ArcTan" => {
-                Some("inverse functions are `asin`, `acos`, `atan`")
-            }
-            "min" | "max" | "floor" | "ceil" | "round" | "mod" | "sign" | "sgn" | "signum" | "heaviside"
-            | "Heaviside" | "step" | "Piecewise" => {
-                Some("the expression must be smooth (`abs`, `sqrt` and `tanh` may serve)")
-            }
-            "cot" => Some("write `1/tan(x)`"),
-            "sec" => Some("write `1/cos(x)`"),
-            "csc" => Some("write `1/sin(x)`"),
-            "asinh" | "acosh" | "atanh" | "arcsinh" | "arccosh" | "arctanh" => {
-                Some("write it with `ln`, as in `ln(x + sqrt(x^2 + 1))`")
-            }
-            "cbrt" => Some("write `x^(1/3)`"),
-            "hypot" => Some("write `sqrt(x^2 + y^2)`, or `norm(v)` of a vector"),
-            "arctan2" => Some("the angle of a point is `atan2(y, x)`"),
-            "diff" | "d" | "D" | "Derivative" | "derivative" | "ddt" => {
-                Some("the total time derivative is `der(x)`, a velocity `x_dot`")
-            }
-            "Rational" | "Fraction" | "frac" => Some("fractions are exact as they are: write `1/2`"),
-            "Vector" | "Matrix" | "vec" => Some("a vector is written `[a, b, c]`"),
-            "integrate" | "Integral" => Some("there are no integrals"),
-            _ => None,
-        };
-        let near = nearest(text, self.entities.keys().map(String::as_str).chain(FUNCTIONS));
-        match (advice, near) {
-            (Some(advice), _) => name.place.error(format!("there is no function `{text}`: {advice}")),
-            (None, Some(near)) => {
-                name.place.error(format!("there is no function `{text}`: did you mean `{near}`?"))
-            }
-            (None, None) => name
-                .place
-                .error(format!("there is no function `{text}`: define it with `#[define({text}(x) = …)]`, or supply it as a field named in `#[function({text}(x))]`")),
-        }
-    }
-
-    /// The field of a function does not stand in expressions: the function does.
-    fn is_field_of_function(&self, name: &Name) -> Option<syn::Error> {
-        let function = self.functions.get(&name.text)?;
-        let message =
-            format!("the field `{}` is the function `{function}`: write `{function}(…)`", name.text);
-        Some(name.place.error(message))
-    }
+/// The arrays among coordinates and fields.
+fn lengths(declaration: &Declaration) -> impl Iterator<Item = (&Name, usize)> {
+    let coordinates = declaration.coordinates.iter().filter_map(|known| Some((&known.name, known.length?)));
+    let fields = declaration.fields.iter().filter_map(|field| {
+        let length = *field.shape.as_ref().ok()?.layout.lengths().first()?;
+        Some((&field.name, length))
+    });
+    coordinates.chain(fields)
 }
 
 impl Entity {
@@ -266,19 +192,4 @@ impl Entity {
 
 pub(crate) fn is_built_in(name: &str) -> bool {
     FUNCTIONS.contains(&name) || CONSTANTS.contains(&name)
-}
-
-/// The candidate that differs by the least, if it differs by little; in capital letters least of all.
-pub(super) fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    let allowed = match name.chars().count() {
-        0 | 1 => return None,
-        2..=5 => 1,
-        6..=8 => 2,
-        _ => 3,
-    };
-    let distance = |candidate: &&str| match candidate.eq_ignore_ascii_case(name) {
-        true => 0,
-        false => strsim::damerau_levenshtein(name, candidate),
-    };
-    candidates.filter(|candidate| distance(candidate) <= allowed && *candidate != name).min_by_key(distance)
 }

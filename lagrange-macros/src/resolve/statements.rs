@@ -4,7 +4,8 @@ use indexmap::IndexMap;
 use rustc_hash::FxHashMap;
 
 use super::lower::{Definition, Lowering, MultiplierGroup, Setting, is_literal_zero};
-use super::scope::{self, Entity};
+use super::scope::Entity;
+use super::unknown::nearest;
 use super::value::Value;
 use super::{Label, RESERVED, element_name, entry_names};
 use crate::diagnostics::Place;
@@ -57,7 +58,7 @@ impl Lowering<'_> {
                 let coordinates = self.coordinates.iter().map(|coordinate| coordinate.name.text.as_str());
                 let near = match self.scope.get(&name.text) {
                     Some(Entity::Velocity(index)) => Some(self.coordinates[index].name.text.as_str()),
-                    _ => scope::nearest(&name.text, coordinates),
+                    _ => nearest(&name.text, coordinates),
                 };
                 let advice = near.map(|near| format!(": did you mean `{near}`?")).unwrap_or_default();
                 let message = format!("a force acts on a coordinate, and `{}` is none{advice}", name.text);

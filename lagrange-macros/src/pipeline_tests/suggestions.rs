@@ -1,0 +1,105 @@
+//! What is said of a name that means nothing.
+
+use super::tokens;
+use crate::expand;
+
+/// The messages for a system in which one term of L is `term`.
+fn said(term: &str) -> String {
+    let source = format!(
+        "#[coordinates(theta, phi, stiffening, r: [3])]
+         #[lagrangian(theta_dot^2/2 + phi_dot^2 + stiffening_dot^2 + dot(r_dot, r_dot) + {term})]
+         struct System {{ g: f64, mass: f64, k2: f64, l: [f64; 4] }}"
+    );
+    expand(tokens(&source)).to_string()
+}
+
+fn assert_said(term: &str, wanted: &str) {
+    let found = said(term);
+    let first = found.split("compile_error").nth(1).unwrap_or_default();
+    assert!(first.contains(wanted), "{term}: {}", first.chars().take(200).collect::<String>());
+}
+
+#[test]
+fn slips_of_the_fingers() {
+    for (term, meant) in [
+        ("cos(tetha)", "theta"),
+        ("tehta", "theta"),
+        ("thetta", "theta"),
+        ("Theta", "theta"),
+        ("masss", "mass"),
+        ("stifening", "stiffening"),
+        ("k_2", "k2"),
+        ("thetadot^2", "theta_dot"),
+        ("snin(theta)", "sin"),
+        ("tahn(theta)", "tanh"),
+        ("PI", "pi"),
+    ] {
+        assert_said(term, &format!("did you mean `{meant}`?"));
+    }
+}
+
+#[test]
+fn other_names_for_the_same() {
+    for (term, meant) in [
+        ("m*theta", "mass"),
+        ("gravity", "g"),
+        ("θ", "theta"),
+        ("ϑ", "theta"),
+        ("θ_dot", "theta_dot"),
+        ("varphi", "phi"),
+        ("dtheta", "theta_dot"),
+        ("dot_theta", "theta_dot"),
+        ("vphi", "phi_dot"),
+        ("v_phi", "phi_dot"),
+        ("theta_d", "theta_dot"),
+        ("phi_prime", "phi_dot"),
+        ("theta_dot_dot", "theta_ddot"),
+        ("thetaddot", "theta_ddot"),
+        ("ddtheta", "theta_ddot"),
+        ("rdot[0]", "r_dot"),
+    ] {
+        assert_said(term, &format!("did you mean `{meant}`?"));
+    }
+    for (term, advice) in [
+        ("cos(time)", "the time is `t`"),
+        ("exp1", "the exponential function is `exp(x)`"),
+        ("30*deg", "a degree is `pi/180`"),
+        ("vel^2", "the velocity of `theta` is `theta_dot`"),
+        ("l1", "the elements of `l` are `l[0]` to `l[3]`"),
+        ("r_2", "the elements of `r` are `r[0]` to `r[2]`"),
+        ("r1_dot", "the elements of `r` are `r_dot[0]` to `r_dot[2]`"),
+        ("r_dot_1", "the elements of `r` are `r_dot[0]` to `r_dot[2]`"),
+    ] {
+        assert_said(term, advice);
+    }
+}
+
+#[test]
+fn functions_of_other_tools() {
+    for (term, advice) in [
+        ("arcsin(theta)", "inverse functions are `asin`"),
+        ("log(theta)", "the natural logarithm is `ln`"),
+        ("pow(theta, 2)", "a power is written `x^2`"),
+        ("sqr(theta)", "a square is written `x^2`"),
+        ("fabs(theta)", "the absolute value is `abs(x)`"),
+        ("diff(theta, t)", "the total time derivative is `der(x)`"),
+        ("Derivative(theta, t)", "the total time derivative is `der(x)`"),
+        ("dot(theta)", "the velocity of `x` is `x_dot`"),
+        ("der(theta, t)", "it is by the time, `der(x)`"),
+        ("atan(theta, phi)", "is `atan2(y, x)`"),
+        ("norm(theta, phi)", "a vector is written `[x, y]`"),
+        ("sind(theta)", "angles are in radians"),
+        ("product(theta)", "defined one by one"),
+    ] {
+        assert_said(term, advice);
+    }
+}
+
+/// A wrong guess is worse than none.
+#[test]
+fn no_guesses() {
+    for term in ["m2", "k3", "omega", "U(theta)", "alpha", "psi", "W", "x", "tau", "delta", "v1", "energy"] {
+        let found = said(term);
+        assert!(!found.contains("did you mean") && !found.contains("elements of"), "{term}: {found:.300}");
+    }
+}

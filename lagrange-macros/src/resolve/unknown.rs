@@ -1,0 +1,266 @@
+//! Names that mean nothing here: what was probably meant.
+
+use super::scope::{CONSTANTS, Entity, FUNCTIONS, Scope};
+use crate::syntax::{GREEK, Name};
+
+/// Names of fixed quantities elsewhere, and what to write here.
+const NAMES: [(&[&str], &str); 5] = [
+    (&["time", "Time"], "the time is `t`"),
+    (&["e", "E", "exp1"], "the exponential function is `exp(x)`"),
+    (&["deg", "degree", "degrees", "rad", "radians"], "angles are in radians, and a degree is `pi/180`"),
+    (&["inf", "Inf", "infinity", "oo", "nan", "NaN"], "the expression must have a value everywhere"),
+    (&["TAU"], "a full turn is `2*pi`"),
+];
+
+/// What is called by a letter here and by a word there.
+const SYNONYMS: [&[&str]; 8] = [
+    &["m", "mass"],
+    &["g", "gravity", "gravitation"],
+    &["l", "L", "len", "length"],
+    &["k", "stiffness", "spring", "spring_constant"],
+    &["c", "b", "damping", "friction"],
+    &["r", "R", "radius"],
+    &["q", "charge"],
+    &["omega", "w", "frequency", "angular_velocity"],
+];
+
+/// Functions of other tools, and what to write here.
+const CALLS: [(&[&str], &str); 20] = [
+    (&["log", "Log", "log2", "log10"], "the natural logarithm is `ln`"),
+    (&["pow", "Pow", "powi", "powf", "Power"], "a power is written `x^2`"),
+    (&["sqr", "square", "sq", "squared"], "a square is written `x^2`"),
+    (&["fabs", "magnitude"], "the absolute value is `abs(x)`, the length of a vector `norm(v)`"),
+    (
+        &["arcsin", "arccos", "arctan", "ArcSin", "ArcCos", "ArcTan"],
+        "inverse functions are `asin`, `acos`, `atan`",
+    ),
+    (
+        &[
+            "min",
+            "max",
+            "Min",
+            "Max",
+            "floor",
+            "ceil",
+            "round",
+            "mod",
+            "sign",
+            "sgn",
+            "signum",
+            "heaviside",
+            "Heaviside",
+            "step",
+            "Piecewise",
+        ],
+        "the expression must be smooth (`abs`, `sqrt` and `tanh` may serve)",
+    ),
+    (&["cot"], "write `1/tan(x)`"),
+    (&["sec"], "write `1/cos(x)`"),
+    (&["csc"], "write `1/sin(x)`"),
+    (
+        &["asinh", "acosh", "atanh", "arcsinh", "arccosh", "arctanh"],
+        "write it with `ln`, as in `ln(x + sqrt(x^2 + 1))`",
+    ),
+    (&["cbrt"], "write `x^(1/3)`"),
+    (&["hypot"], "write `sqrt(x^2 + y^2)`, or `norm(v)` of a vector"),
+    (&["arctan2", "ArcTan2", "Atan2"], "the angle of a point is `atan2(y, x)`"),
+    (
+        &["diff", "Diff", "d", "D", "Dt", "Derivative", "derivative", "ddt"],
+        "the total time derivative is `der(x)`, a velocity `x_dot`",
+    ),
+    (&["Rational", "Fraction", "frac"], "fractions are exact as they are: write `1/2`"),
+    (&["Vector", "Matrix", "vec"], "a vector is written `[a, b, c]`"),
+    (&["integrate", "Integral"], "there are no integrals"),
+    (&["deg", "rad", "radians", "degrees", "deg2rad"], "angles are in radians: write `x*pi/180`"),
+    (&["sind", "cosd", "tand"], "angles are in radians: write `sin(x*pi/180)`"),
+    (
+        &["prod", "product", "Product"],
+        "products of many are defined one by one: `#[define(p[i in 1..3] = p[i-1]*a[i])]`",
+    ),
+];
+
+/// How the rates of a coordinate are written elsewhere, the longer ones first.
+const RATE_SUFFIXES: [(&str, &str); 10] = [
+    ("_dot_dot", "_ddot"),
+    ("_dotdot", "_ddot"),
+    ("dotdot", "_ddot"),
+    ("_ddot", "_ddot"),
+    ("ddot", "_ddot"),
+    ("_dot", "_dot"),
+    ("dot", "_dot"),
+    ("_prime", "_dot"),
+    ("_d", "_dot"),
+    ("_t", "_dot"),
+];
+const RATE_PREFIXES: [(&str, &str); 6] =
+    [("dd", "_ddot"), ("d2", "_ddot"), ("dot_", "_dot"), ("d", "_dot"), ("v_", "_dot"), ("v", "_dot")];
+
+fn listed(table: &[(&[&str], &'static str)], name: &str) -> Option<&'static str> {
+    table.iter().find(|(names, _)| names.contains(&name)).map(|(_, advice)| *advice)
+}
+
+impl Scope {
+    /// An error for a name that means nothing, with what was probably meant.
+    pub(super) fn unknown(&self, name: &Name, more: &[String]) -> syn::Error {
+        let text = &name.text;
+        if let Some(error) = self.is_field_of_function(name).or_else(|| self.is_no_velocity(name)) {
+            return error;
+        }
+        let candidates = self.known().chain(CONSTANTS).chain(more.iter().map(String::as_str));
+        let advice = listed(&NAMES, text)
+            .map(String::from)
+            .or_else(|| is_function(text))
+            .or_else(|| self.element(text))
+            .or_else(|| self.velocity(text))
+            .or_else(|| self.synonym(text).or_else(|| nearest(text, candidates)).map(did_you_mean));
+        let advice = advice.unwrap_or_else(|| "make it a field, a coordinate or a `#[define(…)]`".to_owned());
+        name.place.error(format!("nothing is called `{text}`: {advice}"))
+    }
+
+    /// An error for a function that does not exist.
+    pub(super) fn unknown_function(&self, name: &Name) -> syn::Error {
+        let text = &name.text;
+        if let Some(error) = self.is_field_of_function(name) {
+            return error;
+        }
+        let callable = FUNCTIONS.into_iter().filter(|&function| function != "in");
+        let advice = listed(&CALLS, text).map(String::from);
+        let advice = advice.or_else(|| nearest(text, self.known().chain(callable)).map(did_you_mean));
+        let advice = advice.unwrap_or_else(|| {
+            format!("define it with `#[define({text}(x) = …)]`, or supply it as a field named in `#[function({text}(x))]`")
+        });
+        name.place.error(format!("there is no function `{text}`: {advice}"))
+    }
+
+    /// The field of a function does not stand in expressions: the function does.
+    fn is_field_of_function(&self, name: &Name) -> Option<syn::Error> {
+        let function = self.functions.get(&name.text)?;
+        let message =
+            format!("the field `{}` is the function `{function}`: write `{function}(…)`", name.text);
+        Some(name.place.error(message))
+    }
+
+    /// `z_dot` where z is no coordinate.
+    fn is_no_velocity(&self, name: &Name) -> Option<syn::Error> {
+        let text = &name.text;
+        let base = text.strip_suffix("_dot").or_else(|| text.strip_suffix("_ddot"))?;
+        let entity = self.get(base)?;
+        let kind = entity.describe();
+        matches!(entity, Entity::Definition(_) | Entity::Field(_)).then(|| {
+            name.place.error(format!(
+                "`{text}` would be the velocity of a coordinate, but `{base}` is {kind}: write `der({base})`"
+            ))
+        })
+    }
+
+    /// `m1`, `theta2_dot`, `theta_dot_2` of an array.
+    fn element(&self, text: &str) -> Option<String> {
+        let (base, rate) = self.rate(text).unwrap_or((text, ""));
+        let name = without_number(base);
+        let (array, inner) = self.rate(name).unwrap_or((name, ""));
+        let length = self.lengths.get(array).filter(|_| name != base)?;
+        Some(format!(
+            "the elements of `{array}` are `{array}{rate}{inner}[0]` to `{array}{rate}{inner}[{}]`",
+            length - 1
+        ))
+    }
+
+    /// `xdot`, `dx`, `x_dot_dot`, `vel`: what may be meant for the rate of a coordinate.
+    fn velocity(&self, text: &str) -> Option<String> {
+        if let Some((base, rate)) = self.rate(text).filter(|(base, _)| self.is_coordinate(base)) {
+            return Some(did_you_mean(&format!("{base}{rate}")));
+        }
+        let first = self.known().find(|name| self.is_coordinate(name))?;
+        let is_velocity = ["v", "vel", "velocity", "speed"].contains(&text);
+        is_velocity.then(|| format!("the velocity of `{first}` is `{first}_dot`"))
+    }
+
+    /// What a coordinate, or an element of one, is called in `text`, and which of its rates that is.
+    fn rate<'t>(&self, text: &'t str) -> Option<(&'t str, &'static str)> {
+        let suffixed = RATE_SUFFIXES.iter().map(|(suffix, rate)| (text.strip_suffix(suffix), *rate));
+        let prefixed = RATE_PREFIXES.iter().map(|(prefix, rate)| (text.strip_prefix(prefix), *rate));
+        let mut split = suffixed.chain(prefixed).filter_map(|(base, rate)| Some((base?, rate)));
+        split.find(|(base, _)| self.is_coordinate(without_number(base)) || self.is_coordinate(base))
+    }
+
+    fn is_coordinate(&self, name: &str) -> bool {
+        matches!(self.get(name), Some(Entity::Coordinate(_)))
+    }
+
+    /// Another name for the same thing, if there is one that is known.
+    fn synonym(&self, text: &str) -> Option<&str> {
+        let plain = latin(text);
+        if let Some(same) = self.known().find(|known| latin(known) == plain) {
+            return Some(same);
+        }
+        let group = SYNONYMS.iter().find(|group| group.contains(&text))?;
+        self.known().find(|known| group.contains(known))
+    }
+
+    fn known(&self) -> impl Iterator<Item = &str> {
+        self.entities.keys().map(String::as_str)
+    }
+}
+
+fn did_you_mean(name: &str) -> String {
+    format!("did you mean `{name}`?")
+}
+
+/// `Sin` where a value belongs.
+fn is_function(text: &str) -> Option<String> {
+    let function = FUNCTIONS.into_iter().find(|function| function.eq_ignore_ascii_case(text))?;
+    Some(format!("functions are written `{function}(x)`"))
+}
+
+/// `m` of `m2` and of `m_2`.
+fn without_number(text: &str) -> &str {
+    let name = text.trim_end_matches(|c: char| c.is_ascii_digit());
+    if name.len() < text.len() { name.trim_end_matches('_') } else { text }
+}
+
+/// With Greek letters and dots by their names.
+fn latin(text: &str) -> String {
+    let text = GREEK.iter().fold(text.to_owned(), |text, (latin, greek)| text.replace(greek, latin));
+    text.replace("var", "").replace('\u{307}', "_dot").replace('\u{308}', "_ddot")
+}
+
+/// The candidate that differs by the least, if it differs by little; in capital letters least of all.
+pub(super) fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    let allowed = match name.chars().count() {
+        0..=2 => 0,
+        3..=5 => 2,
+        6..=8 => 4,
+        _ => 6,
+    };
+    let near = candidates.filter(|candidate| *candidate != name && !are_apart(name, candidate));
+    near.map(|candidate| (distance(name, candidate), candidate))
+        .filter(|(distance, _)| *distance <= allowed)
+        .min_by_key(|(distance, _)| *distance)
+        .map(|(_, candidate)| candidate)
+}
+
+/// `m1` is not a slip for `m2`, nor `psi` for `phi`.
+fn are_apart(name: &str, other: &str) -> bool {
+    let digits = |text: &str| text.chars().filter(char::is_ascii_digit).collect::<String>();
+    let is_letter = |text: &str| GREEK.iter().any(|(latin, _)| latin.eq_ignore_ascii_case(text));
+    let numbers = [digits(name), digits(other)];
+    let have_numbers = numbers.iter().all(|number| !number.is_empty());
+    let are_letters = is_letter(name) && is_letter(other) && !name.eq_ignore_ascii_case(other);
+    have_numbers && numbers[0] != numbers[1] || are_letters
+}
+
+/// Twice the number of slips between two names. Letters in another order, `tetha`, are less than one.
+fn distance(name: &str, other: &str) -> usize {
+    let sorted = |text: &str| {
+        let mut letters: Vec<char> = text.chars().collect();
+        letters.sort_unstable();
+        letters
+    };
+    if other.eq_ignore_ascii_case(name) {
+        0
+    } else if sorted(name) == sorted(other) {
+        1
+    } else {
+        2 * strsim::damerau_levenshtein(name, other)
+    }
+}
