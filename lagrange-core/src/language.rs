@@ -193,7 +193,8 @@
 //! and velocities; with them it must be linear in them, and it is enforced on the velocities. Each scalar equation
 //! has one multiplier, and the constraint force on coordinate a is Σ_α λ_α F_αa, with F = ∂Φ/∂q or the coefficients
 //! of q̇. A vector equation is one constraint a component, `c[0]`, `c[1]`, …; a family is written
-//! `rod[i in 0..3]: …`.
+//! `rod[i in 0..3]: …`. Constraints that contradict each other, `y = 0` and `y = 1`, and one that says the same as another
+//! are errors while compiling where that is certain; other dependent constraints are for the numbers to tell.
 //!
 //! ```
 //! use lagrange_core::prelude::*;

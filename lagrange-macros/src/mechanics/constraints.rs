@@ -1,7 +1,5 @@
 //! The constraints and their derivatives: F, γ and the kind of each.
 
-use indexmap::IndexMap;
-
 use super::evidence::vanishes;
 use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
@@ -62,7 +60,6 @@ pub(super) fn derive(
         push_row(graph, problem, index, &mut constraints, diagnostics);
         diagnostics.stop_at_fault(problem.constraints[index].0.place, graph);
     }
-    reject_repeated(graph, problem, &constraints, diagnostics);
     diagnostics.is_empty().then_some(constraints)
 }
 
@@ -136,28 +133,5 @@ fn reject_nonlinear(
             );
             return diagnostics.error(problem.constraints[index].0.place, message);
         }
-    }
-}
-
-/// A constraint that is a multiple of an earlier one says nothing new.
-fn reject_repeated(
-    graph: &mut Graph,
-    problem: &Problem,
-    constraints: &Constraints,
-    diagnostics: &mut Diagnostics,
-) {
-    let mut seen: IndexMap<Id, usize> = IndexMap::new();
-    for later in 0..constraints.kinds.len() {
-        let expression = graph.looked_through(problem.constraints[later].1);
-        let monic = graph.monic(expression);
-        let Some(&earlier) = seen.get(&monic) else {
-            seen.insert(monic, later);
-            continue;
-        };
-        let (first, second) = (&problem.constraints[earlier].0, &problem.constraints[later].0);
-        let message = format!("`{}` says the same as `{}`: leave one of them out", second.text, first.text);
-        let mut error = second.place.error(message);
-        error.combine(first.place.error("the other one is here"));
-        diagnostics.push(error);
     }
 }

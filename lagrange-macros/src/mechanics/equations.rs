@@ -3,7 +3,7 @@
 use super::constraints::ConstraintKind;
 use super::gauss::Form;
 use super::integrability::Kinds;
-use super::{constraints, determinacy, euler_lagrange, integrability};
+use super::{consistency, constraints, determinacy, euler_lagrange, integrability};
 use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};
@@ -50,6 +50,7 @@ impl Equations {
         reject_idle_dissipation(graph, problem, diagnostics);
         diagnostics.stop_at_fault(problem.place, graph)?;
         let constraints = constraints::derive(graph, problem, diagnostics)?;
+        consistency::check(graph, problem, &constraints, diagnostics)?;
         determinacy::check(problem, &motion, &constraints, diagnostics)?;
         let integrability = integrability::classify(graph, problem, &constraints);
         Some(Self {

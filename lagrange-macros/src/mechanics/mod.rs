@@ -1,6 +1,7 @@
 //! From a [`Problem`] to its equations of motion and what they tell, as the textbook does it.
 
 mod conservation;
+mod consistency;
 mod constraints;
 mod degree;
 mod determinacy;

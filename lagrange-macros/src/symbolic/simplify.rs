@@ -77,17 +77,6 @@ impl Graph {
         }
     }
 
-    /// The multiple of `x` whose leading coefficient is 1.
-    pub(crate) fn monic(&mut self, x: Id) -> Id {
-        match self.node(x) {
-            Node::Sum(terms) => {
-                let leading = terms[0].1;
-                self.sum([(x, leading.recip())])
-            }
-            _ => x,
-        }
-    }
-
     fn push_term(&self, flat: &mut Vec<(Id, Rational)>, term: Id, coefficient: Rational) -> Option<()> {
         match self.node(term) {
             Node::Number(value) => flat.push((Id::ONE, times(*value, coefficient)?)),

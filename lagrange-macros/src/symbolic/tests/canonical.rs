@@ -238,15 +238,6 @@ fn inverse_functions_cancel() {
 }
 
 #[test]
-fn multiples_of_one_expression_have_one_monic_form() {
-    let (mut graph, [x, y, _]) = graph();
-    let sum = graph.sum([(x, rational(-3, 7)), (y, rational(2, 5))]);
-    let multiple = graph.sum([(sum, rational(-11, 3))]);
-    assert_eq!(graph.monic(sum), graph.monic(multiple));
-    assert_ne!(graph.monic(sum), graph.monic(x));
-}
-
-#[test]
 fn every_function_is_found_by_its_name() {
     for name in ["sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "ln", "abs"] {
         assert_eq!(Function::named(name).map(Function::name), Some(name));
