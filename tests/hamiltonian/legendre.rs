@@ -120,3 +120,27 @@ fn entries_that_are_no_numbers_are_named() {
     ));
     assert_eq!(text, "`r[0]` is inf in the state given: every entry must be finite");
 }
+
+/// One coordinate with a large momentum beside one whose momentum grows with the cube of its velocity.
+#[derive(Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian(m/2*x_dot^2 + y_dot^2/2 + y_dot^4/12)]
+struct Beside {
+    m: f64,
+}
+
+/// The round-off of one momentum is no excuse for another: p_y = v + v³/3 to its own.
+#[test]
+fn a_large_momentum_hides_no_small_one() {
+    for (mass, large) in [(1.0, 1e12), (1e-6, 1e9), (1e10, 1e17), (1.0, 1.0)] {
+        let velocity = Beside { m: mass }.legendre(&PhaseState::new([0.0; 2], [large, 10.0])).unwrap().v;
+        // v³ + 3 v = 30, by Cardano.
+        let expected = 2.0 * (15.0_f64.asinh() / 3.0).sinh();
+        assert!((velocity[0] * mass / large - 1.0).abs() < 1e-15, "{velocity:?}");
+        assert!(
+            (velocity[1] / expected - 1.0).abs() < 1e-15,
+            "beside {large:e}: {} for {expected}",
+            velocity[1]
+        );
+    }
+}

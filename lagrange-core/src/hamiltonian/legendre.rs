@@ -71,21 +71,23 @@ impl<T: Real, const N: usize, const M: usize> Linear<'_, T, N, M> {
         })
     }
 
-    /// A distance, in the natural units of the dynamics, and the size of the terms that it is the difference of.
+    /// A distance, in the natural units of the dynamics, and the size of the terms that it is the difference of. What is
+    /// round-off of the terms of its row does not count: it must not hide another row.
     fn distance(&self, trial: &Trial<T, N, M>) -> (T, T) {
-        let (mut distance, mut size) = (T::constant(0.0), T::constant(0.0));
-        for i in 0..N {
+        let momenta = (0..N).map(|i| {
             let (residual, terms) = self.momentum_residual(trial, i);
-            distance += Scalar::abs(residual) * self.units.coordinates[i];
-            size += terms * self.units.coordinates[i];
-        }
-        for a in 0..M {
+            (residual * self.units.coordinates[i], terms * self.units.coordinates[i])
+        });
+        let rates = (0..M).map(|a| {
             let row = &self.equations.f[a];
             let terms = (0..N).fold(T::constant(0.0), |sum, i| sum + Scalar::abs(row[i] * trial.state.v[i]));
-            distance += Scalar::abs(self.units.of_row(a, trial.rate[a]));
-            size += self.units.of_row(a, terms);
-        }
-        (distance, size)
+            (self.units.of_row(a, trial.rate[a]), self.units.of_row(a, terms))
+        });
+        let zero = T::constant(0.0);
+        momenta.chain(rates).fold((zero, zero), |(distance, size), (residual, terms)| {
+            let left = Scalar::abs(residual) - T::constant(4.0 * T::EPSILON) * terms;
+            (if exceeds(left, zero) { distance + left } else { distance }, size + terms)
+        })
     }
 }
 
@@ -152,7 +154,7 @@ where
 
     fn left(&self, near: &Self::Linear, trial: &Self::Trial) -> Left<L::Scalar> {
         let (distance, size) = near.distance(trial);
-        let is_rounded = distance <= L::Scalar::constant(4.0 * L::Scalar::EPSILON) * size;
+        let is_rounded = distance == L::Scalar::constant(0.0);
         let is_negligible = is_rounded || distance <= power_of_epsilon::<L::Scalar>(0.75) * size;
         Left { distance, is_rounded, is_negligible }
     }

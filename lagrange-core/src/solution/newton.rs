@@ -64,8 +64,9 @@ pub(crate) fn find<S: Search>(search: &mut S, start: S::Trial) -> Result<(S::Tri
                     return Ok((trial, steps));
                 }
             }
-            Ok(_) if converged => return Ok((trial, steps)),
             Err(error) if steps == 0 => return Err(error),
+            // Round-off may have no correction, too.
+            _ if converged => return Ok((trial, steps)),
             // It may have run to where there is no correction: that is not the fault of the start.
             _ => return Err(search.not_found(&linear, &trial, steps)),
         }
