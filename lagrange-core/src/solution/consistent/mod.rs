@@ -190,12 +190,13 @@ impl<T: Real, const N: usize, const M: usize> Residual<T, N, M> {
         (0..M).find(|&a| exceeds(Scalar::abs(self.value[a]), bound(a)))
     }
 
-    /// The distance to the constraint farthest off, as if each stood alone, and which one that is.
+    /// The distance to the constraint farthest off, as if each stood alone, and which one that is. Round-off of the terms
+    /// of a constraint is no distance: it must not hide another.
     fn farthest(&self) -> (T, usize) {
         let zero = T::constant(0.0);
         let mut farthest = (zero, 0);
         for a in 0..M {
-            let value = Scalar::abs(self.value[a]);
+            let value = Scalar::abs(self.value[a]) - T::constant(4.0 * T::EPSILON) * self.terms[a];
             let distance = if self.sensitivity[a] > zero { value / self.sensitivity[a] } else { value };
             // What is not a number is farthest of all, and stays that.
             if is_number(farthest.0) && exceeds(distance, farthest.0) {
@@ -280,11 +281,11 @@ where
     }
 
     fn left(&self, (): &(), (_, residual): &Self::Trial) -> Left<L::Scalar> {
-        let part = |of: f64| L::Scalar::constant(of * L::Scalar::EPSILON);
-        let is_small = |a: usize| Scalar::abs(residual.value[a]) <= part(4.0) * residual.terms[a];
-        let is_rounded = (0..M).all(is_small);
-        let is_negligible = is_rounded || residual.first_above(part(16.0)).is_none();
-        Left { distance: residual.farthest().0, is_rounded, is_negligible }
+        let (distance, _) = residual.farthest();
+        let is_rounded = distance == L::Scalar::constant(0.0);
+        let part = L::Scalar::constant(16.0 * L::Scalar::EPSILON);
+        let is_negligible = is_rounded || residual.first_above(part).is_none();
+        Left { distance, is_rounded, is_negligible }
     }
 
     fn corrected(

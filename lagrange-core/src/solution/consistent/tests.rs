@@ -236,3 +236,21 @@ fn names_of_what_is_held_are_checked() {
     let error = rolling_sphere().make_consistent_holding(&off, &["x"]).unwrap_err();
     assert!(matches!(error, Error::StateNotFinite { .. }), "{error}");
 }
+
+/// Two circles, one a trillion times the other, reached from afar.
+#[test]
+fn a_large_constraint_hides_no_small_one() {
+    let system = Mechanism::<4, 2, 2> {
+        mass: identity,
+        forcing: |_| [0.0; 4],
+        residual: |s| [s.q[0].powi(2) + s.q[1].powi(2) - 1e24, s.q[2].powi(2) + s.q[3].powi(2) - 1.0],
+        rate: |s| [2.0 * (s.q[0] * s.v[0] + s.q[1] * s.v[1]), 2.0 * (s.q[2] * s.v[2] + s.q[3] * s.v[3])],
+        jacobian: |s| [[2.0 * s.q[0], 2.0 * s.q[1], 0.0, 0.0], [0.0, 0.0, 2.0 * s.q[2], 2.0 * s.q[3]]],
+        bias: |_| [0.0; 2],
+    };
+    for (far, near) in [(1.1e12, 3.0), (1.3e12, 1e3), (0.7e12, 1e-3), (1e12, 1e5)] {
+        let start = State::at_rest([0.6 * far, 0.8 * far, 0.6 * near, 0.8 * near]);
+        let (state, _) = system.make_consistent(&start).unwrap();
+        assert!((state.q[2] - 0.6).abs() < 1e-15 && (state.q[3] - 0.8).abs() < 1e-15, "{state:?}");
+    }
+}
