@@ -65,6 +65,8 @@ pub(super) struct Lowering<'a> {
     pub(super) setting: Setting,
     /// Whether something stands in for what is wrong.
     pub(super) is_guessing: bool,
+    /// For how many values something does.
+    pub(super) guesses: usize,
     /// Formals and indices, the innermost last.
     pub(super) locals: Vec<(String, Value)>,
     /// The calls of definitions around the expression at hand, the outermost first.
@@ -107,6 +109,7 @@ impl<'a> Lowering<'a> {
             observables: Vec::new(),
             setting: Setting::Equations,
             is_guessing: false,
+            guesses: 0,
             locals: Vec::new(),
             calls: Vec::new(),
             depth: 0,

@@ -1,5 +1,7 @@
 //! What was probably meant by tokens that are no expression: what the rest of the program relies on must be guessed.
 
+use std::iter::from_fn;
+
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenTree};
 
 use super::cursor::Cursor;
@@ -42,7 +44,8 @@ fn factor(cursor: &mut Cursor, place: Place) -> Option<Kind> {
         Some(group) => Kind::Call(name, items(&group)),
         None => Kind::Name(name),
     };
-    while let Some(brackets) = cursor.take_group(Delimiter::Bracket) {
+    // What has more indices than a matrix is left at that, however many there are.
+    for brackets in from_fn(|| cursor.take_group(Delimiter::Bracket)).take(2) {
         let index = Box::new(unread(Cursor::inside(&brackets)));
         kind = Kind::Index(Box::new(Expression { kind, place }), index);
     }
