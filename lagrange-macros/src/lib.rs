@@ -10,6 +10,7 @@
 //! `mechanics` adds to, and the stages after it read. Every stage stops if anything was wrong, with all errors at once.
 
 mod codegen;
+mod contract;
 mod diagnostics;
 mod mechanics;
 #[cfg(test)]

@@ -3,20 +3,15 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::Emitter;
 use super::eliminate::{Solved, eliminate};
-use super::kernel::{Kernel, OPERATION_LIMIT};
+use super::kernel::OPERATION_LIMIT;
 use super::passes::Program;
 use super::schedule::Schedule;
 use super::shape::Shape;
+use super::{Emitter, Written};
+use crate::contract::Method;
 use crate::mechanics::{Equations, Form};
 use crate::symbolic::{Graph, Id};
-
-/// M, h, F and γ in one schedule, so that they share what they have in common, and solved where that is short.
-struct Fused {
-    kernel: Kernel,
-    is_solved: bool,
-}
 
 /// M, h, F and γ, matrices row by row. Of M the lower triangle is read.
 fn loop_entries(equations: &Equations) -> Vec<Id> {
@@ -53,32 +48,31 @@ pub(super) fn solve(graph: &Graph, form: &Form, equations: &Equations) -> Option
 }
 
 impl Emitter<'_> {
-    fn fused(&self) -> Fused {
+    /// M, h, F and γ in one schedule, so that they share what they have in common, and solved where that is short.
+    pub(super) fn accelerations(&self, method: &Method) -> Written {
         let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
-        if let Some(program) = cheapest(self.style.graph, self.equations) {
-            let shapes = [Shape::Vector(n), Shape::Vector(m), Shape::Number];
-            return Fused { kernel: self.style.write("accelerations", &program, &shapes), is_solved: true };
-        }
-        let shapes = [Shape::Matrix(n, n), Shape::Vector(n), Shape::Matrix(m, n), Shape::Vector(m)];
-        let kernel = self.style.kernel("accelerations", &loop_entries(self.equations), &shapes);
-        Fused { kernel, is_solved: false }
-    }
-
-    pub(super) fn accelerations(&self) -> TokenStream {
-        let fused = self.fused();
-        let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
-        let scalar = self.style.scalar;
-        let returns = quote!(__lagrange::Solution<#scalar, #n, #m>);
-        self.function("accelerations", &returns, &fused.kernel, |results| match (results, fused.is_solved) {
-            ([accelerations, multipliers, pivot], true) => quote! {
+        let equations = &self.derived.equations;
+        let Some(program) = cheapest(self.style.graph, equations) else {
+            let shapes = [Shape::Matrix(n, n), Shape::Vector(n), Shape::Matrix(m, n), Shape::Vector(m)];
+            let kernel = self.style.kernel(method.name, &loop_entries(equations), &shapes);
+            return self.function(
+                method,
+                kernel,
+                |results| quote!(__lagrange::generated::eliminate(#(#results),*)),
+            );
+        };
+        let kernel =
+            self.style.write(method.name, &program, &[Shape::Vector(n), Shape::Vector(m), Shape::Number]);
+        self.function(method, kernel, |results| {
+            let [accelerations, multipliers, pivot] = results else { return TokenStream::new() };
+            quote! {
                 __lagrange::Solution {
                     accelerations: __lagrange::generated::vector(#accelerations),
                     multipliers: __lagrange::generated::vector(#multipliers),
                     pivot: #pivot,
                     rank: #m,
                 }
-            },
-            _ => quote!(__lagrange::generated::eliminate(#(#results),*)),
+            }
         })
     }
 }

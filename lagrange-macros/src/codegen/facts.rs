@@ -3,14 +3,15 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::kernel::Kernel;
+use super::observables::method_name;
 use super::shape::Shape;
-use super::{Emitter, method_name};
+use super::{Emitter, Written};
+use crate::contract::Method;
 use crate::mechanics::{Evidence, LinearPart, Quantity};
 
 impl Emitter<'_> {
     pub(super) fn facts(&self) -> TokenStream {
-        let facts = self.facts;
+        let facts = &self.derived.facts;
         let cyclic = facts.cyclic.iter().map(|&a| &self.problem.coordinates[a].text);
         let conserved = facts.conserved.iter().map(|conserved| {
             let (name, evidence) = (&conserved.name, evidence(conserved.evidence));
@@ -45,31 +46,38 @@ impl Emitter<'_> {
     }
 
     /// The conserved quantity of an index.
-    pub(super) fn conserved_by_index(&self) -> TokenStream {
-        let (n, scalar) = (self.problem.coordinates.len(), self.style.scalar);
-        let arms = self.facts.conserved.iter().enumerate().map(|(index, conserved)| {
-            let value = self.conserved_value(conserved.quantity);
-            quote!(#index => ::core::option::Option::Some(#value),)
-        });
-        quote! {
+    pub(super) fn conserved_by_index(&self, method: &Method) -> Written {
+        let signature = self.style.types.signature(method);
+        let conserved = self.derived.facts.conserved.iter().enumerate();
+        let arms: Written = conserved
+            .map(|(index, conserved)| {
+                let Written { tokens: value, kernels } = self.conserved_value(conserved.quantity);
+                let tokens = quote!(#index => ::core::option::Option::Some(#value),);
+                Written { tokens, kernels }
+            })
+            .collect();
+        let cases = arms.tokens;
+        let tokens = quote! {
             #[allow(unused_variables)]
-            fn conserved(&self, index: usize, state: &__lagrange::State<#scalar, #n>) -> ::core::option::Option<#scalar> {
+            #signature {
                 match index {
-                    #(#arms)*
+                    #cases
                     _ => ::core::option::Option::None,
                 }
             }
-        }
+        };
+        Written { tokens, kernels: arms.kernels }
     }
 
-    fn conserved_value(&self, quantity: Quantity) -> TokenStream {
-        match quantity {
+    fn conserved_value(&self, quantity: Quantity) -> Written {
+        let tokens = match quantity {
             Quantity::Energy => quote!(__lagrange::Lagrangian::energy(self, state)),
             Quantity::Momentum(a) => {
-                let momentum = [self.equations.momentum[a]];
-                let Kernel { statements, results, .. } =
-                    self.style.kernel(&format!("momentum_{a}"), &momentum, &[Shape::Number]);
-                quote!({ #statements #(#results)* })
+                let momentum = [self.derived.equations.momentum[a]];
+                let kernel = self.style.kernel(&format!("momentum_{a}"), &momentum, &[Shape::Number]);
+                let (statements, results) = (&kernel.statements, &kernel.results);
+                let tokens = quote!({ #statements #(#results)* });
+                return Written { tokens, kernels: vec![kernel] };
             }
             Quantity::Observable(observable, entry) => {
                 let (label, values) = &self.problem.observables[observable];
@@ -77,11 +85,12 @@ impl Emitter<'_> {
                 let entry = (values.len() > 1).then(|| quote!(.data.0[0][#entry]));
                 quote!(self.#method(state) #entry)
             }
-        }
+        };
+        Written { tokens, kernels: Vec::new() }
     }
 }
 
-fn evidence(evidence: Evidence) -> TokenStream {
+pub(super) fn evidence(evidence: Evidence) -> TokenStream {
     match evidence {
         Evidence::Proved => quote!(__lagrange::Evidence::Proved),
         Evidence::Held(states) => quote!(__lagrange::Evidence::Held(#states)),

@@ -3,15 +3,16 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::Emitter;
-use super::kernel::Kernel;
+use super::facts::evidence;
 use super::shape::Shape;
-use crate::mechanics::{Classification, Evidence, Integrals};
+use super::{Emitter, Written};
+use crate::contract::Method;
+use crate::mechanics::{Classification, Integrals};
 
 impl Emitter<'_> {
     /// The constants of the trait.
     pub(super) fn integrability(&self) -> TokenStream {
-        let kinds = &self.equations.integrability;
+        let kinds = &self.derived.equations.integrability;
         let m = kinds.classes.len();
         let classes = kinds.classes.iter().map(|&Classification { integrability, evidence }| {
             let (integrability, evidence) = (format_ident!("{integrability:?}"), self::evidence(evidence));
@@ -31,40 +32,34 @@ impl Emitter<'_> {
     }
 
     /// The method of the trait; nothing where no integral was found.
-    pub(super) fn constraint_integral(&self) -> TokenStream {
-        let (n, scalar) = (self.problem.coordinates.len(), self.style.scalar);
-        let found = self.equations.integrability.functions.iter().enumerate();
-        let arms: Vec<_> = found
-            .filter_map(|(index, function)| {
-                let Kernel { statements, results, .. } =
-                    self.style.kernel(&format!("integral_{index}"), &[(*function)?], &[Shape::Number]);
-                Some(quote! {
-                    #index => {
-                        #statements
-                        ::core::option::Option::Some(#(#results)*)
-                    }
-                })
-            })
-            .collect();
-        if arms.is_empty() {
-            return TokenStream::new();
+    pub(super) fn constraint_integral(&self, method: &Method) -> Written {
+        let found = self.derived.equations.integrability.functions.iter().enumerate();
+        let arms = found.filter_map(|(index, function)| {
+            let kernel = self.style.kernel(&format!("integral_{index}"), &[(*function)?], &[Shape::Number]);
+            let (statements, results) = (&kernel.statements, &kernel.results);
+            let tokens = quote! {
+                #index => {
+                    #statements
+                    ::core::option::Option::Some(#(#results)*)
+                }
+            };
+            Some(Written { tokens, kernels: vec![kernel] })
+        });
+        let mut arms: Written = arms.collect();
+        if arms.tokens.is_empty() {
+            return arms;
         }
-        quote! {
+        let (cases, signature) = (&arms.tokens, self.style.types.signature(method));
+        arms.tokens = quote! {
             #[inline]
             #[allow(unused_variables)]
-            fn constraint_integral(&self, index: usize, state: &__lagrange::State<#scalar, #n>) -> ::core::option::Option<#scalar> {
+            #signature {
                 match index {
-                    #(#arms)*
+                    #cases
                     _ => ::core::option::Option::None,
                 }
             }
-        }
-    }
-}
-
-fn evidence(evidence: Evidence) -> TokenStream {
-    match evidence {
-        Evidence::Proved => quote!(__lagrange::Evidence::Proved),
-        Evidence::Held(points) => quote!(__lagrange::Evidence::Held(#points)),
+        };
+        arms
     }
 }

@@ -1,6 +1,6 @@
 //! From a schedule to the body of a function, and to the functions that are parts of it where it is long.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::body::{Body, Part};
@@ -8,7 +8,8 @@ use super::count::Count;
 use super::passes::Program;
 use super::shape::{Arrays, Shape};
 use super::style::Style;
-use crate::symbolic::Id;
+use crate::contract::Argument;
+use crate::symbolic::{Id, Symbol};
 use crate::variables::Variable;
 
 /// Longer functions are refused.
@@ -17,18 +18,17 @@ pub(super) const OPERATION_LIMIT: usize = 50_000;
 /// The body of one emitted function.
 #[derive(Default)]
 pub(super) struct Kernel {
+    pub(super) name: String,
     /// Reads the inputs and computes the results.
     pub(super) statements: TokenStream,
     /// One expression for each shape.
     pub(super) results: Vec<TokenStream>,
     /// What it takes, to be read.
     pub(super) doc: String,
-}
-
-/// A function that takes more than [`OPERATION_LIMIT`].
-pub(super) struct Refused {
-    pub(super) name: String,
-    pub(super) count: Count,
+    /// Methods that the statements call.
+    pub(super) parts: Vec<TokenStream>,
+    /// What it takes where that is more than [`OPERATION_LIMIT`]; then there is nothing else.
+    pub(super) refused: Option<Count>,
 }
 
 impl Style<'_> {
@@ -41,8 +41,7 @@ impl Style<'_> {
     pub(super) fn write(&self, name: &str, program: &Program, shapes: &[Shape]) -> Kernel {
         let count = program.count();
         if count.total() > OPERATION_LIMIT {
-            self.refused.borrow_mut().push(Refused { name: name.to_owned(), count });
-            return Kernel::default();
+            return Kernel { name: name.to_owned(), refused: Some(count), ..Kernel::default() };
         }
         let body = Body::new(program, &self.problem.names);
         let (doc, arrays) = (doc(program, &body), Arrays::new(shapes));
@@ -54,54 +53,70 @@ impl Style<'_> {
             }
             None => (Some(arrays.declarations(&self.constant(0.0))), arrays.results()),
         };
-        let statements = self.parts(name, parts, waiting, &arrays);
-        Kernel { statements: quote! { #declarations #statements }, results, doc }
+        let (statements, parts) = self.parts(name, parts, waiting, &arrays);
+        let statements = quote! { #declarations #statements };
+        Kernel { name: name.to_owned(), statements, results, doc, parts, refused: None }
     }
 
-    /// The only part, or calls of the methods that become of several.
-    fn parts(&self, name: &str, mut parts: Vec<Part>, waiting: usize, arrays: &Arrays) -> TokenStream {
+    /// The only part; or calls of the methods that become of several, and these.
+    fn parts(
+        &self,
+        name: &str,
+        mut parts: Vec<Part>,
+        waiting: usize,
+        arrays: &Arrays,
+    ) -> (TokenStream, Vec<TokenStream>) {
         if parts.len() == 1 {
-            return parts.drain(..).map(|part| self.statements(part, arrays)).collect();
+            return (parts.drain(..).map(|part| self.statements(part, arrays)).collect(), Vec::new());
         }
         let (zero, count) = (self.constant(0.0), parts.len());
-        let calls = parts.into_iter().enumerate().map(|(k, part)| {
+        let parts = parts.into_iter().enumerate().map(|(k, part)| {
             let doc = format!("Part {} of {count} of `{name}`.", k + 1);
-            self.part(name, &doc, part, waiting, arrays)
+            self.part(&format_ident!("__{name}_{k}"), &doc, part, waiting, arrays)
         });
-        quote! { let mut waiting = [#zero; #waiting]; #(#calls)* }
+        let (calls, methods): (Vec<_>, Vec<_>) = parts.unzip();
+        (quote! { let mut waiting = [#zero; #waiting]; #(#calls)* }, methods)
     }
 
-    /// Makes a method of a part; what is returned calls it.
-    fn part(&self, name: &str, doc: &str, part: Part, waiting: usize, arrays: &Arrays) -> TokenStream {
-        let method = format_ident!("__{name}_{}", self.parts.borrow().len());
-        let (scalar, n, m) = (self.scalar, self.problem.coordinates.len(), self.problem.constraints.len());
-        let is_any =
-            |kind: fn(Variable) -> bool| part.inputs.iter().any(|&symbol| kind(Variable::of(symbol)));
-        let (mut names, mut types) = (Vec::new(), Vec::new());
-        if is_any(|variable| matches!(variable, Variable::Acceleration(_))) {
-            names.push(quote!(solution));
-            types.push(quote!(&__lagrange::Solution<#scalar, #n, #m>));
-        }
-        if is_any(|variable| matches!(variable, Variable::Multiplier(_))) {
-            names.push(quote!(multipliers));
-            types.push(quote!(&__lagrange::nalgebra::SVector<#scalar, #m>));
-        }
-        if is_any(|variable| matches!(variable, Variable::Change(_))) {
-            let p = self.problem.parameters.entries.len();
-            names.push(quote!(direction));
-            types.push(quote!(&__lagrange::Direction<#scalar, #n, #p>));
-        }
-        let (body, array_names, array_types) =
-            (self.statements(part, arrays), &arrays.names, arrays.types(scalar));
-        self.parts.borrow_mut().push(quote! {
+    /// The call of a part, and the method that it becomes.
+    fn part(
+        &self,
+        method: &Ident,
+        doc: &str,
+        part: Part,
+        waiting: usize,
+        arrays: &Arrays,
+    ) -> (TokenStream, TokenStream) {
+        let is_read = |argument: &Argument| part.inputs.iter().any(|&symbol| source(symbol) == *argument);
+        let read =
+            [Argument::Solution, Argument::Multipliers, Argument::Direction].into_iter().filter(is_read);
+        let (arguments, types): (Vec<_>, Vec<_>) = read
+            .map(|argument| (format_ident!("{}", argument.name()), self.types.argument(argument)))
+            .unzip();
+        let (state, scalar) = (self.types.argument(Argument::State), self.types.scalar);
+        let (names, array_types) = (&arrays.names, arrays.types(scalar));
+        let body = self.statements(part, arrays);
+        let call = quote! { self.#method(state, #(#arguments,)* &mut waiting, #(&mut #names),*); };
+        let method = quote! {
             #[doc = #doc]
             #[inline(never)]
             #[allow(unused_variables)]
-            fn #method(&self, state: &__lagrange::State<#scalar, #n>, #(#names: #types,)* waiting: &mut [#scalar; #waiting], #(#array_names: &mut #array_types),*) {
+            fn #method(&self, #state, #(#types,)* waiting: &mut [#scalar; #waiting], #(#names: &mut #array_types),*) {
                 #body
             }
-        });
-        quote! { self.#method(state, #(#names,)* &mut waiting, #(&mut #array_names),*); }
+        };
+        (call, method)
+    }
+}
+
+/// Which argument an input is read from; parameters are in the system.
+fn source(symbol: Symbol) -> Argument {
+    match Variable::of(symbol) {
+        Variable::Time | Variable::Coordinate(_) | Variable::Velocity(_) => Argument::State,
+        Variable::Acceleration(_) => Argument::Solution,
+        Variable::Multiplier(_) => Argument::Multipliers,
+        Variable::Parameter(_) => Argument::System,
+        Variable::Change(_) => Argument::Direction,
     }
 }
 

@@ -1,14 +1,17 @@
 //! Observables: a method for each, and all of them by index.
 
-use proc_macro2::{Span, TokenStream};
+use proc_macro2::Span;
 use quote::quote;
 
-use super::Emitter;
-use super::kernel::Kernel;
 use super::shape::Shape;
+use super::{Emitter, Written};
+use crate::contract::Method;
 use crate::resolve::Label;
 use crate::symbolic::Id;
 use crate::variables::Variable;
+
+/// Kernels of observables are called so, and no others.
+pub(super) const OBSERVABLE: &str = "observable_";
 
 impl Emitter<'_> {
     /// Flat names, in the order of [`observable_by_index`](Self::observable_by_index).
@@ -20,72 +23,62 @@ impl Emitter<'_> {
         names.collect()
     }
 
-    pub(super) fn observable_by_index(&self) -> TokenStream {
-        let (n, m, scalar) =
-            (self.problem.coordinates.len(), self.problem.constraints.len(), self.style.scalar);
+    pub(super) fn observable_by_index(&self, method: &Method) -> Written {
         let mut index = 0_usize;
         let mut arms = Vec::new();
         for (label, values) in &self.problem.observables {
             let method = method_name(&label.text, label.place.start());
-            let call = if self.needs_solution(values) {
-                quote!(self.#method(state, solution))
-            } else {
-                quote!(self.#method(state))
-            };
+            let solution = self.needs_solution(values).then(|| quote!(, solution));
+            let call = quote!(self.#method(state #solution));
             for i in 0..values.len() {
                 let value = if values.len() == 1 { call.clone() } else { quote!(#call.data.0[0][#i]) };
                 arms.push(quote!(#index => ::core::option::Option::Some(#value),));
                 index += 1;
             }
         }
-        quote! {
+        let signature = self.style.types.signature(method);
+        let tokens = quote! {
             #[allow(unused_variables)]
-            fn observable(&self, index: usize, state: &__lagrange::State<#scalar, #n>, solution: &__lagrange::Solution<#scalar, #n, #m>) -> ::core::option::Option<#scalar> {
+            #signature {
                 match index {
                     #(#arms)*
                     _ => ::core::option::Option::None,
                 }
             }
-        }
+        };
+        Written { tokens, kernels: Vec::new() }
     }
 
     fn needs_solution(&self, values: &[Id]) -> bool {
         self.style.graph.symbols(values).any(|symbol| Variable::of(symbol).is_solved())
     }
 
-    pub(super) fn observable_methods(&self) -> TokenStream {
-        self.problem.observables.iter().map(|(label, values)| self.observable_method(label, values)).collect()
-    }
-
-    fn observable_method(&self, label: &Label, values: &[Id]) -> TokenStream {
-        let (n, m, scalar) =
-            (self.problem.coordinates.len(), self.problem.constraints.len(), self.style.scalar);
+    /// The method of an observable.
+    pub(super) fn observable(&self, (label, values): &(Label, Vec<Id>)) -> Written {
         let visibility = &self.declaration.visibility;
         let name = method_name(&label.text, label.place.start());
-        let length = values.len();
-        let shape = if length == 1 { Shape::Number } else { Shape::Vector(length) };
-        let Kernel { statements, results, doc } = self.style.kernel(&label.text, values, &[shape]);
-        let (returns, result) = match shape {
-            Shape::Number => (quote!(#scalar), quote!(#(#results)*)),
-            _ => (
-                quote!(__lagrange::nalgebra::SVector<#scalar, #length>),
-                quote!(#(__lagrange::generated::vector(#results))*),
-            ),
+        let shape = if values.len() == 1 { Shape::Number } else { Shape::Vector(values.len()) };
+        let kernel = self.style.kernel(&format!("{OBSERVABLE}{}", label.text), values, &[shape]);
+        let (statements, results) = (&kernel.statements, &kernel.results);
+        let result = match shape {
+            Shape::Number => quote!(#(#results)*),
+            _ => quote!(#(__lagrange::generated::vector(#results))*),
         };
         let solved = self.needs_solution(values);
-        let solution = solved.then(|| quote!(, solution: &__lagrange::Solution<#scalar, #n, #m>));
+        let signature = self.style.types.of_observable(&name, values.len(), solved);
         let multipliers = solved.then(|| quote! { let multipliers = &solution.multipliers; });
-        let doc = format!("The observable `{}`. {}", label.text, doc);
-        quote! {
+        let doc = format!("The observable `{}`. {}", label.text, kernel.doc);
+        let tokens = quote! {
             #[doc = #doc]
             #[inline]
             #[allow(unused_variables)]
-            #visibility fn #name(&self, state: &__lagrange::State<#scalar, #n> #solution) -> #returns {
+            #visibility #signature {
                 #multipliers
                 #statements
                 #result
             }
-        }
+        };
+        Written { tokens, kernels: vec![kernel] }
     }
 }
 

@@ -4,7 +4,7 @@ use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
 use quote::{ToTokens, quote, quote_spanned};
 use syn::spanned::Spanned;
 
-use super::bounded_generics;
+use super::bounds::bounded_generics;
 use crate::syntax::{Declaration, Field};
 
 /// How systems are put on lanes, where the number type is a type parameter; else there is no other to put in.

@@ -1,13 +1,13 @@
 //! What all emitted functions of a system have in common: names, inputs, constants.
 
-use std::cell::RefCell;
 use std::collections::{BTreeSet, HashSet};
 
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 use rustc_hash::FxHashMap;
 
-use super::kernel::Refused;
+use super::signature::Types;
+use crate::mechanics::arguments;
 use crate::resolve::{Element, Problem};
 use crate::symbolic::{Graph, Id, Symbol};
 use crate::variables::Variable;
@@ -16,18 +16,12 @@ use crate::variables::Variable;
 pub(super) struct Style<'a> {
     pub(super) graph: &'a Graph,
     pub(super) problem: &'a Problem,
-    /// The number type.
-    pub(super) scalar: &'a syn::Type,
+    pub(super) types: Types<'a>,
     /// Whether the scalar is `f64`, so that constants are plain literals.
-    pub(super) is_f64: bool,
+    is_f64: bool,
     /// Names of the inputs and definitions, valid as identifiers and all different.
     pub(super) names: FxHashMap<Symbol, Ident>,
     pub(super) definition_names: FxHashMap<Id, Ident>,
-    pub(super) taken: HashSet<String>,
-    /// Methods that are parts of long functions.
-    pub(super) parts: RefCell<Vec<TokenStream>>,
-    /// Functions that are too long.
-    pub(super) refused: RefCell<Vec<Refused>>,
 }
 
 impl<'a> Style<'a> {
@@ -63,17 +57,17 @@ impl<'a> Style<'a> {
         definitions.sort_unstable();
         let definition_names =
             definitions.into_iter().map(|(id, text)| (*id, unique(text.clone()))).collect();
-        Self {
-            graph,
-            problem,
-            scalar,
-            is_f64,
-            names,
-            definition_names,
-            taken,
-            parts: RefCell::default(),
-            refused: RefCell::default(),
+        for (i, argument) in arguments(problem).into_iter().enumerate() {
+            let name = unique(format!("d_{}", names[&argument]));
+            names.insert(Variable::Change(i).symbol(), name);
         }
+        let types = Types {
+            scalar,
+            coordinates: Some(problem.coordinates.len()),
+            constraints: problem.constraints.len(),
+            parameters: problem.parameters.entries.len(),
+        };
+        Self { graph, problem, types, is_f64, names, definition_names }
     }
 
     /// The value of a parameter, read from its field.
@@ -156,7 +150,7 @@ impl<'a> Style<'a> {
         // A negative literal would be a sign and a literal.
         let magnitude = Literal::f64_unsuffixed(value.abs());
         let literal = if value.is_sign_negative() { quote!((-#magnitude)) } else { quote!(#magnitude) };
-        let scalar = self.scalar;
+        let scalar = self.types.scalar;
         if self.is_f64 { literal } else { quote!(<#scalar as __lagrange::Scalar>::constant(#literal)) }
     }
 }
@@ -178,7 +172,7 @@ fn is_local(name: &str) -> bool {
 }
 
 /// An identifier like `text` that nothing else bears.
-pub(super) fn identifier(text: &str, taken: &mut HashSet<String>) -> Ident {
+fn identifier(text: &str, taken: &mut HashSet<String>) -> Ident {
     let mut name = text.replace("][", "_").replace('[', "_").replace(']', "");
     if is_local(&name) || syn::parse_str::<Ident>(&name).is_err() || !taken.insert(name.clone()) {
         let is_free = |candidate: &String| !taken.contains(candidate);

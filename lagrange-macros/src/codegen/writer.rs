@@ -4,6 +4,7 @@ use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use super::body::{Expression, Local, Part, Place, Statement};
+use super::bounds::capability;
 use super::operation::{Call, Operation};
 use super::shape::Arrays;
 use super::style::Style;
@@ -20,7 +21,7 @@ impl Style<'_> {
         let batches = if is_short { &[] } else { &part.locals[..] }.chunks(BATCH);
         let declarations = batches.map(|batch| {
             let (names, types) =
-                (batch.iter().map(|&local| self.local(local)), batch.iter().map(|_| self.scalar));
+                (batch.iter().map(|&local| self.local(local)), batch.iter().map(|_| self.types.scalar));
             quote! { let (#(#names,)*): (#(#types,)*); }
         });
         let word = is_short.then(|| quote!(let));
@@ -114,9 +115,9 @@ impl Style<'_> {
         let arguments = arguments.into_iter().map(|argument| self.operand(argument));
         let by = derivatives.iter().map(|&i| Literal::u32_unsuffixed(i));
         let by = (!derivatives.is_empty()).then(|| quote!(, [#(#by),*]));
-        let (capability, method) = super::capability(derivatives.len());
+        let (capability, method) = capability(derivatives.len());
         let (capability, method) = (format_ident!("{capability}"), format_ident!("{method}"));
-        let (scalar, inputs, results) = (self.scalar, function.inputs, function.outputs);
+        let (scalar, inputs, results) = (self.types.scalar, function.inputs, function.outputs);
         quote!(__lagrange::function::#capability::<#scalar, #inputs, #results>::#method(#field, [#(#arguments),*] #by))
     }
 

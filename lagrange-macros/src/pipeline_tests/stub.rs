@@ -63,15 +63,14 @@ fn promises(expansion: TokenStream) -> BTreeSet<String> {
             promises.insert(format!("{of} {promise}"));
         }
     }
+    // What the trait gives to a system that has nothing to say of it.
+    let provided = ["constraint_integral", "CONSTRAINT_CLASSES", "INTEGRALS"];
+    promises.retain(|promise| !provided.iter().any(|name| promise.contains(name)));
     promises
 }
 
-/// What the traits demand, and the methods beside.
 fn given(source: &str) -> BTreeSet<String> {
-    let provided = ["constraint_integral", "CONSTRAINT_CLASSES", "INTEGRALS"];
-    let mut given = promises(expand(tokens(source)));
-    given.retain(|promise| !provided.iter().any(|name| promise.contains(name)));
-    given
+    promises(expand(tokens(source)))
 }
 
 fn promised(source: &str) -> BTreeSet<String> {

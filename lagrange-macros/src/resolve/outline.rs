@@ -1,10 +1,11 @@
 //! What the rest of a program relies on: how many of what there is, and which methods. It is found where something is
 //! wrong too, as far as it can be, so that one error does not bring others about.
 
-use super::{Parameters, RESERVED};
+use super::Parameters;
 use super::lower::{Lowering, Setting};
 use super::scope::{Entity, Scope};
 use super::value::Value;
+use crate::contract::is_reserved;
 use crate::diagnostics::Diagnostics;
 use crate::symbolic::Rational;
 use crate::syntax::{Constraint, Declaration, Expression, Kind, Name};
@@ -79,7 +80,7 @@ impl Lowering<'_> {
         let mut seen: Vec<Observable> = Vec::new();
         for observable in &declaration.observables {
             let name = &observable.name;
-            if RESERVED.contains(&name.text.as_str()) || seen.iter().any(|known| known.name.text == name.text) {
+            if is_reserved(&name.text) || seen.iter().any(|known| known.name.text == name.text) {
                 continue;
             }
             let value = self.lower(&observable.value).unwrap_or(Value::Vector(Vec::new()));

@@ -7,7 +7,8 @@ use super::lower::{Definition, Lowering, MultiplierGroup, Setting, is_literal_ze
 use super::scope::Entity;
 use super::unknown::nearest;
 use super::value::Value;
-use super::{Label, RESERVED, element_name, entry_names};
+use super::{Label, element_name, entry_names};
+use crate::contract::is_reserved;
 use crate::diagnostics::Place;
 use crate::symbolic::{Id, Rational};
 use crate::syntax::{Constraint, Declaration, Expression, Sign, Target, TargetIndex};
@@ -185,7 +186,7 @@ impl Lowering<'_> {
         let mut observables = Vec::new();
         for (position, observable) in declaration.observables.iter().enumerate() {
             let name = &observable.name;
-            if RESERVED.contains(&name.text.as_str()) {
+            if is_reserved(&name.text) {
                 let message = format!("every system has a method `{}`: choose another name", name.text);
                 self.diagnostics.error(name.place, message);
                 continue;

@@ -1,0 +1,171 @@
+//! The implementation of `Lagrangian`, and the struct's own methods beside it.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::kernel::Kernel;
+use super::observables::OBSERVABLE;
+use super::shape::Shape;
+use super::{Emitter, Written, pack, runtime, too_long};
+use crate::contract::{Gives, LAGRANGIAN, Method, Quantity};
+use crate::diagnostics::Diagnostics;
+use crate::mechanics::ConstraintKind;
+use crate::render::Rendered;
+use crate::symbolic::Id;
+
+impl Emitter<'_> {
+    /// Functions that are too long are reported.
+    pub(super) fn lagrangian(&self, diagnostics: &mut Diagnostics) -> TokenStream {
+        let problem = self.problem;
+        let runtime = runtime(self.declaration);
+        let (ident, scalar, [n, m, _]) =
+            (&self.declaration.ident, self.style.types.scalar, self.style.types.dimensions());
+        let (_, type_generics, _) = self.declaration.generics.split_for_impl();
+        let generics = self.generics(&self.orders(&[]), true);
+        let (impl_generics, _, where_clause) = generics.split_for_impl();
+        let name = ident.to_string();
+        let name = name.trim_start_matches("r#");
+        let coordinates = problem.coordinates.iter().map(|label| &label.text);
+        let constraints = problem.constraints.iter().map(|(label, _)| &label.text);
+        let kinds = self.derived.equations.kinds.iter().map(|kind| match kind {
+            ConstraintKind::Holonomic => quote!(__lagrange::ConstraintKind::Holonomic),
+            ConstraintKind::Velocity => quote!(__lagrange::ConstraintKind::Velocity),
+        });
+        let (integrability, facts) = (self.integrability(), self.facts());
+        let observables = self.observable_names();
+        let methods: Written = LAGRANGIAN.iter().map(|method| self.method(method)).collect();
+        let inherent: Written =
+            problem.observables.iter().map(|observable| self.observable(observable)).collect();
+        let kernels = || methods.kernels.iter().chain(&inherent.kernels);
+        self.report_refused(kernels(), diagnostics);
+        let parts = kernels().flat_map(|kernel| &kernel.parts);
+        let (methods, inherent) = (&methods.tokens, &inherent.tokens);
+        let equations = self.equations();
+        let pack = pack::pack(self.declaration, scalar);
+        let Rendered { text, .. } = self.rendered;
+        let doc = format!("```text\n{text}```");
+        quote! {
+            const _: () = {
+                // One name is imported, and none that a user would give.
+                use #runtime as __lagrange;
+
+                #[automatically_derived]
+                #[allow(clippy::all, unused_parens)]
+                impl #impl_generics __lagrange::Lagrangian<#n, #m> for #ident #type_generics #where_clause {
+                    type Scalar = #scalar;
+                    const NAME: &'static str = #name;
+                    const COORDINATES: [&'static str; #n] = [#(#coordinates),*];
+                    const CONSTRAINTS: [&'static str; #m] = [#(#constraints),*];
+                    const CONSTRAINT_KINDS: [__lagrange::ConstraintKind; #m] = [#(#kinds),*];
+                    #integrability
+                    const OBSERVABLES: &'static [&'static str] = &[#(#observables),*];
+                    #facts
+                    #methods
+                }
+
+                #[doc = #doc]
+                #[automatically_derived]
+                #[allow(clippy::all, unused_parens, dead_code)]
+                impl #impl_generics #ident #type_generics #where_clause {
+                    #equations
+                    #inherent
+                    #(#parts)*
+                }
+
+                #pack
+            };
+        }
+    }
+
+    fn method(&self, method: &Method) -> Written {
+        let (problem, equations) = (self.problem, &self.derived.equations);
+        let columns = |rows: &[Vec<Id>]| -> Vec<Id> {
+            (0..problem.coordinates.len()).flat_map(|j| rows.iter().map(move |row| row[j])).collect()
+        };
+        let entries = match method.quantity {
+            Quantity::Lagrangian => vec![problem.lagrangian],
+            Quantity::Energy => vec![equations.energy],
+            Quantity::Momentum => equations.momentum.clone(),
+            Quantity::MomentumRate => equations.momentum_rate.clone(),
+            Quantity::MassMatrix => columns(&equations.mass),
+            Quantity::Forcing => equations.forcing.clone(),
+            Quantity::Residual => equations.residual.clone(),
+            Quantity::Rate => equations.rate.clone(),
+            Quantity::Jacobian => columns(&equations.jacobian),
+            Quantity::Bias => equations.bias.clone(),
+            Quantity::ConstraintForce => {
+                let force = |i| equations.constraint_force.get(i).copied().unwrap_or(Id::ZERO);
+                (0..problem.coordinates.len()).map(force).collect()
+            }
+            Quantity::Integral => return self.constraint_integral(method),
+            Quantity::Accelerations => return self.accelerations(method),
+            Quantity::Observable => return self.observable_by_index(method),
+            Quantity::Conserved => return self.conserved_by_index(method),
+            Quantity::Parameters | Quantity::SetParameter | Quantity::ResidualChange => Vec::new(),
+        };
+        // nalgebra's matrices are stored by columns, of which there is one a coordinate.
+        let (shape, wrapped) = match method.gives {
+            Gives::Vector(_) => (Shape::Vector(entries.len()), Some(quote!(vector))),
+            Gives::Matrix(..) => {
+                let n = problem.coordinates.len();
+                (Shape::Matrix(n, entries.len() / n), Some(quote!(matrix)))
+            }
+            _ => (Shape::Number, None),
+        };
+        let kernel = self.style.kernel(method.name, &entries, &[shape]);
+        self.function(method, kernel, |results| match &wrapped {
+            Some(wrapped) => quote!(#(__lagrange::generated::#wrapped(#results))*),
+            None => quote!(#(#results)*),
+        })
+    }
+
+    /// The method that returns what `result` makes of the kernel's results.
+    pub(super) fn function(
+        &self,
+        method: &Method,
+        kernel: Kernel,
+        result: impl Fn(&[TokenStream]) -> TokenStream,
+    ) -> Written {
+        let signature = self.style.types.signature(method);
+        let (statements, doc, result) = (&kernel.statements, &kernel.doc, result(&kernel.results));
+        let tokens = quote! {
+            #[doc = #doc]
+            #[inline]
+            #[allow(unused_variables)]
+            #signature {
+                #statements
+                #result
+            }
+        };
+        Written { tokens, kernels: vec![kernel] }
+    }
+
+    /// An error for each observable that is too long, and one for all other functions.
+    fn report_refused<'k>(&self, kernels: impl Iterator<Item = &'k Kernel>, diagnostics: &mut Diagnostics) {
+        let mut of_motion = Vec::new();
+        for kernel in kernels {
+            let Some(count) = kernel.refused else { continue };
+            let observable = kernel.name.strip_prefix(OBSERVABLE);
+            let takes = format!("`{}` takes {count}", observable.unwrap_or(&kernel.name));
+            let observables = &self.problem.observables;
+            match observables.iter().find(|(label, _)| Some(label.text.as_str()) == observable) {
+                Some((label, _)) => diagnostics.error(label.place, too_long(&takes)),
+                None => of_motion.push(takes),
+            }
+        }
+        if !of_motion.is_empty() {
+            diagnostics.error(self.problem.place, too_long(&of_motion.join("; ")));
+        }
+    }
+
+    fn equations(&self) -> TokenStream {
+        let visibility = &self.declaration.visibility;
+        let Rendered { text, latex, .. } = self.rendered;
+        quote! {
+            /// The system and its equations of motion, to be read.
+            #visibility const fn equations() -> __lagrange::Equations {
+                __lagrange::generated::equations(#text, #latex)
+            }
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! Signatures of methods, as the traits spell them for one system.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+use crate::contract::{Argument, Dimension, Gives, Method};
+
+/// The number type of a system and how many of what it has.
+pub(super) struct Types<'a> {
+    pub(super) scalar: &'a syn::Type,
+    /// How many coordinates there are; `None` where nobody knows, and methods leave it to the caller.
+    pub(super) coordinates: Option<usize>,
+    pub(super) constraints: usize,
+    pub(super) parameters: usize,
+}
+
+impl Types<'_> {
+    pub(super) fn signature(&self, method: &Method) -> TokenStream {
+        let (name, returns) = (format_ident!("{}", method.name), self.returns(method.gives));
+        let arguments = method.takes.iter().map(|&argument| self.argument(argument));
+        quote!(fn #name(#(#arguments),*) -> #returns)
+    }
+
+    /// Of the method of an observable of so many numbers.
+    pub(super) fn of_observable(&self, name: &Ident, length: usize, needs_solution: bool) -> TokenStream {
+        let takes =
+            &[Argument::System, Argument::State, Argument::Solution][..2 + usize::from(needs_solution)];
+        let arguments = takes.iter().map(|&argument| self.argument(argument));
+        let generic = self.open().map(|n| quote!(<#n>));
+        let returns = if length == 1 { self.returns(Gives::Number) } else { self.vector(&quote!(#length)) };
+        quote!(fn #name #generic(#(#arguments),*) -> #returns)
+    }
+
+    /// The number of coordinates as a generic parameter, where it must be one.
+    pub(super) fn open(&self) -> Option<TokenStream> {
+        let n = self.dimension(Dimension::Coordinates);
+        self.coordinates.is_none().then(|| quote!(const #n: usize))
+    }
+
+    pub(super) fn dimension(&self, dimension: Dimension) -> TokenStream {
+        let length = match dimension {
+            Dimension::Coordinates => self.coordinates,
+            Dimension::Constraints => Some(self.constraints),
+            Dimension::Parameters => Some(self.parameters),
+        };
+        length.map_or_else(|| quote!(__N), |length| quote!(#length))
+    }
+
+    /// N, M and P
+    pub(super) fn dimensions(&self) -> [TokenStream; 3] {
+        [Dimension::Coordinates, Dimension::Constraints, Dimension::Parameters]
+            .map(|dimension| self.dimension(dimension))
+    }
+
+    pub(super) fn argument(&self, argument: Argument) -> TokenStream {
+        let (scalar, [n, m, p]) = (self.scalar, self.dimensions());
+        let ty = match argument {
+            Argument::System => return quote!(&self),
+            Argument::MutableSystem => return quote!(&mut self),
+            Argument::State => quote!(&__lagrange::State<#scalar, #n>),
+            Argument::Solution => quote!(&__lagrange::Solution<#scalar, #n, #m>),
+            Argument::Multipliers => quote!(&__lagrange::nalgebra::SVector<#scalar, #m>),
+            Argument::Direction => quote!(&__lagrange::Direction<#scalar, #n, #p>),
+            Argument::Index => quote!(usize),
+            Argument::Value => quote!(#scalar),
+        };
+        let name = format_ident!("{}", argument.name());
+        quote!(#name: #ty)
+    }
+
+    fn returns(&self, gives: Gives) -> TokenStream {
+        let (scalar, [n, m, _]) = (self.scalar, self.dimensions());
+        match gives {
+            Gives::Number => quote!(#scalar),
+            Gives::Vector(length) => self.vector(&self.dimension(length)),
+            Gives::Matrix(rows, columns) => {
+                let (rows, columns) = (self.dimension(rows), self.dimension(columns));
+                quote!(__lagrange::nalgebra::SMatrix<#scalar, #rows, #columns>)
+            }
+            Gives::Solution => quote!(__lagrange::Solution<#scalar, #n, #m>),
+            Gives::ResidualChange => quote!(__lagrange::ResidualChange<#scalar, #n, #m>),
+            Gives::Optional => quote!(::core::option::Option<#scalar>),
+            Gives::Success => quote!(bool),
+        }
+    }
+
+    fn vector(&self, length: &TokenStream) -> TokenStream {
+        let scalar = self.scalar;
+        quote!(__lagrange::nalgebra::SVector<#scalar, #length>)
+    }
+}

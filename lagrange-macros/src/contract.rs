@@ -1,0 +1,259 @@
+//! The traits of the runtime that the derive implements: what is emitted, what stands in for it after an error, and the
+//! names that no observable can bear follow from these lists.
+
+/// A method of a trait.
+#[derive(Clone, Copy)]
+pub(crate) struct Method {
+    pub(crate) quantity: Quantity,
+    pub(crate) name: &'static str,
+    pub(crate) takes: &'static [Argument],
+    pub(crate) gives: Gives,
+}
+
+/// What a method computes.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Quantity {
+    Lagrangian,
+    Energy,
+    Momentum,
+    MomentumRate,
+    MassMatrix,
+    Forcing,
+    Residual,
+    Rate,
+    Jacobian,
+    Bias,
+    Integral,
+    ConstraintForce,
+    Accelerations,
+    Observable,
+    Conserved,
+    Parameters,
+    SetParameter,
+    ResidualChange,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Argument {
+    System,
+    MutableSystem,
+    State,
+    Solution,
+    Multipliers,
+    Direction,
+    Index,
+    Value,
+}
+
+impl Argument {
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            System => "&self",
+            MutableSystem => "&mut self",
+            State => "state",
+            Solution => "solution",
+            Multipliers => "multipliers",
+            Direction => "direction",
+            Index => "index",
+            Value => "value",
+        }
+    }
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Gives {
+    Number,
+    Vector(Dimension),
+    /// Rows and columns.
+    Matrix(Dimension, Dimension),
+    Solution,
+    ResidualChange,
+    /// A number, if there is one of that index.
+    Optional,
+    /// Whether it could be done.
+    Success,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Dimension {
+    Coordinates,
+    Constraints,
+    Parameters,
+}
+
+use Argument::{Direction, Index, Multipliers, MutableSystem, Solution, State, System, Value};
+use Dimension::{Constraints, Coordinates, Parameters};
+use Gives::{Matrix, Number, Optional, Vector};
+
+const fn method(quantity: Quantity, name: &'static str, takes: &'static [Argument], gives: Gives) -> Method {
+    Method { quantity, name, takes, gives }
+}
+
+/// What a state gives.
+const fn of_state(quantity: Quantity, name: &'static str, gives: Gives) -> Method {
+    method(quantity, name, &[System, State], gives)
+}
+
+/// The methods of `Lagrangian`, as they are emitted.
+pub(crate) const LAGRANGIAN: [Method; 15] = [
+    of_state(Quantity::Lagrangian, "lagrangian", Number),
+    of_state(Quantity::Energy, "energy", Number),
+    of_state(Quantity::Momentum, "momentum", Vector(Coordinates)),
+    of_state(Quantity::MomentumRate, "momentum_rate", Vector(Coordinates)),
+    of_state(Quantity::MassMatrix, "mass_matrix", Matrix(Coordinates, Coordinates)),
+    of_state(Quantity::Forcing, "forcing", Vector(Coordinates)),
+    of_state(Quantity::Residual, "constraint_residual", Vector(Constraints)),
+    of_state(Quantity::Rate, "constraint_rate", Vector(Constraints)),
+    of_state(Quantity::Jacobian, "constraint_jacobian", Matrix(Constraints, Coordinates)),
+    of_state(Quantity::Bias, "constraint_bias", Vector(Constraints)),
+    method(Quantity::Integral, "constraint_integral", &[System, Index, State], Optional),
+    method(Quantity::ConstraintForce, "constraint_force", &[System, State, Multipliers], Vector(Coordinates)),
+    of_state(Quantity::Accelerations, "accelerations", Gives::Solution),
+    method(Quantity::Observable, "observable", &[System, Index, State, Solution], Optional),
+    method(Quantity::Conserved, "conserved", &[System, Index, State], Optional),
+];
+
+/// The methods of `Linearized` that are not provided.
+pub(crate) const LINEARIZED: [Method; 3] = [
+    method(Quantity::Parameters, "parameters", &[System], Vector(Parameters)),
+    method(Quantity::SetParameter, "set_parameter", &[MutableSystem, Index, Value], Gives::Success),
+    method(
+        Quantity::ResidualChange,
+        "residual_change",
+        &[System, State, Solution, Direction],
+        Gives::ResidualChange,
+    ),
+];
+
+/// The constants of both.
+const CONSTANTS: [&str; 9] = [
+    "NAME",
+    "COORDINATES",
+    "CONSTRAINTS",
+    "CONSTRAINT_KINDS",
+    "CONSTRAINT_CLASSES",
+    "INTEGRALS",
+    "OBSERVABLES",
+    "FACTS",
+    "PARAMETERS",
+];
+
+/// What every system has beside: methods of `Simulate`, `Hamiltonian` and `Linearized`.
+const PROVIDED: [&str; 17] = [
+    "solve",
+    "check_consistent",
+    "make_consistent",
+    "make_consistent_holding",
+    "state_from",
+    "integrate",
+    "integrate_with",
+    "hamiltonian",
+    "hamilton_equations",
+    "integrate_hamiltonian",
+    "integrate_hamiltonian_with",
+    "legendre",
+    "legendre_near",
+    "phase_state",
+    "jacobian",
+    "linearize",
+    "equilibrium",
+];
+
+/// The function of the struct itself, and methods that other derives give.
+const OTHERS: [&str; 10] =
+    ["equations", "clone", "clone_from", "fmt", "eq", "ne", "hash", "cmp", "partial_cmp", "default"];
+
+/// Whether no observable can bear the name, because every system has something so called.
+pub(crate) fn is_reserved(name: &str) -> bool {
+    let is_method = LAGRANGIAN.iter().chain(&LINEARIZED).any(|method| method.name == name);
+    is_method || CONSTANTS.contains(&name) || PROVIDED.contains(&name) || OTHERS.contains(&name)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+    use std::path::{Path, PathBuf};
+
+    use quote::quote;
+    use syn::{FnArg, Item, ItemTrait, Pat, TraitItem};
+
+    use super::*;
+
+    fn sources(folder: &Path) -> Vec<PathBuf> {
+        let entries = std::fs::read_dir(folder).expect("the runtime beside this crate");
+        let paths = entries.map(|entry| entry.expect("an entry").path());
+        paths.flat_map(|path| if path.is_dir() { sources(&path) } else { vec![path] }).collect()
+    }
+
+    /// The traits of the runtime by their names.
+    fn traits() -> BTreeMap<String, ItemTrait> {
+        let runtime = Path::new(env!("CARGO_MANIFEST_DIR")).join("../lagrange-core/src");
+        let files =
+            sources(&runtime).into_iter().filter(|path| path.extension().is_some_and(|end| end == "rs"));
+        let items = files.flat_map(|path| {
+            let text = std::fs::read_to_string(path).expect("a source");
+            syn::parse_file(&text).expect("Rust").items
+        });
+        let traits = items.filter_map(|item| match item {
+            Item::Trait(item) => Some((item.ident.to_string(), item)),
+            _ => None,
+        });
+        traits.collect()
+    }
+
+    /// The trait's methods by their names: what they are called with, and whether they are provided.
+    fn methods(of: &ItemTrait) -> BTreeMap<String, (Vec<String>, bool)> {
+        let methods = of.items.iter().filter_map(|item| {
+            let TraitItem::Fn(method) = item else { return None };
+            let arguments = method.sig.inputs.iter().map(|argument| match argument {
+                FnArg::Receiver(receiver) => quote!(#receiver).to_string().replace("& ", "&"),
+                FnArg::Typed(argument) => match &*argument.pat {
+                    Pat::Ident(name) => name.ident.to_string(),
+                    _ => String::new(),
+                },
+            });
+            Some((method.sig.ident.to_string(), (arguments.collect(), method.default.is_some())))
+        });
+        methods.collect()
+    }
+
+    #[test]
+    fn the_lists_are_those_of_the_runtime() {
+        let traits = traits();
+        let mut provided = Vec::new();
+        let mut constants = Vec::new();
+        for (name, emitted) in [("Lagrangian", &LAGRANGIAN[..]), ("Linearized", &LINEARIZED[..])] {
+            let methods = methods(&traits[name]);
+            for method in emitted {
+                let arguments: Vec<String> =
+                    method.takes.iter().map(|argument| argument.name().to_owned()).collect();
+                assert_eq!(
+                    methods.get(method.name).map(|found| &found.0),
+                    Some(&arguments),
+                    "{}",
+                    method.name
+                );
+            }
+            for (method, (_, is_provided)) in methods {
+                let is_emitted = emitted.iter().any(|known| known.name == method);
+                assert!(is_emitted || is_provided, "{name}::{method} is not implemented");
+                provided.extend((!is_emitted).then_some(method));
+            }
+            constants.extend(traits[name].items.iter().filter_map(|item| match item {
+                TraitItem::Const(constant) => Some(constant.ident.to_string()),
+                _ => None,
+            }));
+        }
+        for name in ["Simulate", "Hamiltonian"] {
+            provided.extend(methods(&traits[name]).into_keys());
+        }
+        let sorted = |names: &[&str]| {
+            let mut names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
+            names.sort();
+            names
+        };
+        provided.sort();
+        constants.sort();
+        assert_eq!((provided, constants), (sorted(&PROVIDED), sorted(&CONSTANTS)));
+    }
+}
