@@ -205,7 +205,9 @@ pub enum Error {
     Resume {
         /// The line, counted from 1.
         line: usize,
-        /// What is wrong with it.
+        /// The column, counted from 1.
+        column: usize,
+        /// What is wrong there.
         reason: &'static str,
     },
     /// A time that the trajectory does not cover.
@@ -319,9 +321,10 @@ impl Display for Error {
                 f,
                 "member {member} of the table to resume from was integrated to t = {time}, not to t = {end}: ask for the same end"
             ),
-            Self::Resume { line, reason } => {
-                write!(f, "line {line} of the table to resume from is not of this ensemble: {reason}")
-            }
+            Self::Resume { line, column, reason } => write!(
+                f,
+                "line {line}, column {column} of the table to resume from is not of this ensemble: {reason}"
+            ),
             Self::OutsideTrajectory { time, start, end } => {
                 write!(f, "t = {time} lies outside the trajectory, which covers {start} to {end}")
             }

@@ -209,18 +209,22 @@ fn tables_of_several_parts_may_stand_in_one_file() {
 fn a_table_of_another_ensemble_is_refused() {
     let table = whole().csv().to_string();
     let reason = |ensemble: Result<Ensemble<'_, DoublePendulum<f64>, f64, 2>, Error>| match ensemble {
-        Err(Error::Resume { line, reason }) => (line, reason),
+        Err(Error::Resume { line, column, reason }) => (line, column, reason),
         _ => panic!("not refused"),
     };
     let fewer = Ensemble::from_fn(COUNT - 1, member);
-    assert_eq!(reason(fewer.resume(&table)), (COUNT + 1, "there is no such member"));
-    assert_eq!(reason(ensemble().resume(&table.replace(",b,", ",c,"))), (1, "its columns are others"));
-    for broken in ["x\n", "3,1.0,1,2,3,4,5,6,7,true,fine,3\n", "3,1.0,1,2,3,4.x,5,6,7,true,complete,3\n"] {
+    assert_eq!(reason(fewer.resume(&table)), (COUNT + 1, 1, "there is no such member"));
+    assert_eq!(reason(ensemble().resume(&table.replace(",b,", ",c,"))), (1, 4, "its columns are others"));
+    for (broken, column, why) in [
+        ("x\n", 1, "a row starts with the index of a member"),
+        ("3,1.0,1,2,3,4,5,6,7,true,fine,3\n", 11, "it cannot be read"),
+        ("3,1.0,1,2,3,4.x,5,6,7,true,complete,3\n", 6, "it is no finite number"),
+    ] {
         let rows = format!("{}{broken}", table.lines().next().unwrap().to_owned() + "\n");
-        assert_eq!(reason(ensemble().resume(&rows)), (2, "it is no row of such a table"));
+        assert_eq!(reason(ensemble().resume(&rows)), (2, column, why));
     }
     let failed = format!("{COUNT}{}\"why, no more\",{COUNT}\n", ",".repeat(10));
-    assert_eq!(reason(ensemble().resume(&failed)), (1, "there is no such member"));
+    assert_eq!(reason(ensemble().resume(&failed)), (1, 1, "there is no such member"));
 }
 
 #[test]

@@ -83,6 +83,9 @@ fn quoted(text: &str) -> String {
     format!("\"{}\"", text.replace('"', "\"\""))
 }
 
+/// The column, counted from 1, and what is wrong there.
+type Wrong = (usize, &'static str);
+
 /// The members of a table that need not be done again.
 pub(super) fn read<T: Real + FromStr, const N: usize>(
     table: &str,
@@ -91,76 +94,85 @@ pub(super) fn read<T: Real + FromStr, const N: usize>(
 ) -> Result<Vec<Member<T, N>>, Error> {
     let header = header(names);
     let mut members = Vec::new();
-    for (line, text) in (1..).zip(table.split_inclusive('\n')) {
-        let Some(text) = text.strip_suffix('\n') else { break };
+    // Spreadsheets write a mark before the first line.
+    let table = table.strip_prefix('\u{feff}').unwrap_or(table);
+    for (line, text) in (1..).zip(table.lines()) {
         let text = text.strip_suffix('\r').unwrap_or(text);
-        let read = match text.starts_with("member,") {
-            true if text == header => Ok(None),
-            true => Err("its columns are others"),
-            false => row(text, count),
+        let read = match text.trim_start_matches(|digit: char| digit.is_ascii_digit()) {
+            // A row that was cut in its first number, and the header of the next table.
+            rest if rest == header => Ok(None),
+            _ if text.starts_with('m') => check_header::<N>(text, &header).map(|()| None),
+            _ => row(text, count),
         };
-        members.extend(read.map_err(|reason| Error::Resume { line, reason })?);
+        members.extend(read.map_err(|(column, reason)| Error::Resume { line, column, reason })?);
     }
     Ok(members)
 }
 
+/// The header, or the beginning of one that was not written to its end, also where another line was appended to it.
+fn check_header<const N: usize>(text: &str, header: &str) -> Result<(), Wrong> {
+    let is_same = |(a, b): &(char, char)| a == b;
+    let common: usize = text.chars().zip(header.chars()).take_while(is_same).map(|(a, _)| a.len_utf8()).sum();
+    let starts_line = |rest: &str| rest.is_empty() || rest == header || whole::<N>(rest).is_some();
+    match text[..common].char_indices().any(|(k, c)| starts_line(&text[k + c.len_utf8()..])) {
+        true => Ok(()),
+        false => Err((1 + text[..common].matches(',').count(), "its columns are others")),
+    }
+}
+
 /// The member of a row; none if it failed, or if the row was not written to its end.
-fn row<T: Real + FromStr, const N: usize>(
-    text: &str,
-    count: usize,
-) -> Result<Option<Member<T, N>>, &'static str> {
-    const WRONG: &str = "it is no row of such a table";
-    if !text.starts_with(|first: char| first.is_ascii_digit()) {
-        return Err(WRONG);
+fn row<T: Real + FromStr, const N: usize>(text: &str, count: usize) -> Result<Option<Member<T, N>>, Wrong> {
+    let (index, _) = text.split_once(',').unwrap_or((text, ""));
+    if !index.chars().all(|digit| digit.is_ascii_digit()) || text.starts_with(',') {
+        return Err((1, "a row starts with the index of a member"));
     }
-    let Some((index, cells)) = whole::<N>(text) else { return Ok(None) };
-    if index >= count {
-        return Err("there is no such member");
-    }
+    let Some(cells) = whole::<N>(text) else { return Ok(None) };
+    let index = index.parse().ok().filter(|index| *index < count).ok_or((1, "there is no such member"))?;
     if cells.last().is_some_and(|ending| ending.starts_with('"')) {
         return Ok(None);
     }
-    let arrival = arrival(&cells).ok_or(WRONG)?;
-    Ok(Some(Member { index, result: Ok(arrival) }))
+    Ok(Some(Member { index, result: Ok(arrival(&cells)?) }))
 }
 
 /// The cells between the two indices of a row that was written to its end.
-fn whole<const N: usize>(text: &str) -> Option<(usize, Vec<&str>)> {
+fn whole<const N: usize>(text: &str) -> Option<Vec<&str>> {
     let (index, rest) = text.split_once(',')?;
     let (rest, again) = rest.rsplit_once(',')?;
     let cells: Vec<&str> = rest.splitn(2 * N + 6, ',').collect();
     let ending = cells.get(2 * N + 5)?;
-    let is_whole = index == again && (ending.starts_with('"') || !ending.contains(','));
-    is_whole.then_some((index.parse().ok()?, cells))
+    (index == again && (ending.starts_with('"') || !ending.contains(','))).then_some(cells)
 }
 
-fn arrival<T: Real + FromStr, const N: usize>(cells: &[&str]) -> Option<Arrival<T, N>> {
-    let (numbers, rest) = cells.split_at_checked(2 * N + 1)?;
-    let [accepted, rejected, evaluations, unique, ending] = rest else { return None };
-    let state: State<T, N> = state(numbers)?;
-    let statistics = Statistics {
-        accepted: accepted.parse().ok()?,
-        rejected: rejected.parse().ok()?,
-        evaluations: evaluations.parse().ok()?,
-        multipliers_are_unique: unique.parse().ok()?,
+fn arrival<T: Real + FromStr, const N: usize>(cells: &[&str]) -> Result<Arrival<T, N>, Wrong> {
+    let number = |k: usize| {
+        let number = cells[k].parse().ok().filter(|x: &T| x.is_finite());
+        number.ok_or((k + 2, "it is no finite number"))
     };
-    let ending = ending_of(ending, state.t.to_f64())?;
-    Some(Arrival { state, ending, statistics })
-}
-
-/// t, q and q̇.
-fn state<T: Real + FromStr, const N: usize>(cells: &[&str]) -> Option<State<T, N>> {
-    let numbers: Option<Vec<T>> = cells.iter().map(|cell| cell.parse().ok()).collect();
-    let numbers = numbers?;
-    let (t, rest) = numbers.split_first()?;
-    let (q, v) = rest.split_at_checked(N)?;
-    Some(State { t: *t, q: vector(q.try_into().ok()?), v: vector(v.try_into().ok()?) })
-}
-
-fn ending_of(text: &str, time: f64) -> Option<Ending> {
-    match text {
-        "complete" => Some(Ending::Complete { time }),
-        "cancelled" => Some(Ending::Cancelled { time }),
-        _ => None,
+    let mut state =
+        State { t: number(0)?, q: vector([T::constant(0.0); N]), v: vector([T::constant(0.0); N]) };
+    for i in 0..N {
+        (state.q[i], state.v[i]) = (number(1 + i)?, number(1 + N + i)?);
     }
+    let statistics = Statistics {
+        accepted: cell(cells, 2 * N + 1)?,
+        rejected: cell(cells, 2 * N + 2)?,
+        evaluations: cell(cells, 2 * N + 3)?,
+        multipliers_are_unique: cell(cells, 2 * N + 4)?,
+    };
+    let time = state.t.to_f64();
+    let ending = match cells[2 * N + 5] {
+        "complete" => Ending::Complete { time },
+        "cancelled" => Ending::Cancelled { time },
+        _ => return Err((2 * N + 7, UNREADABLE)),
+    };
+    Ok(Arrival { state, ending, statistics })
 }
+
+const UNREADABLE: &str = "it cannot be read";
+
+fn cell<V: FromStr>(cells: &[&str], k: usize) -> Result<V, Wrong> {
+    cells[k].parse().map_err(|_| (k + 2, UNREADABLE))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,158 @@
+//! Tables that were cut, put together, edited or are of something else: understood, or refused with the place.
+
+use super::*;
+
+const NAMES: [&str; 1] = ["x"];
+const COUNT: usize = 30;
+
+/// A whole one, of members 3, 12 (which failed) and 21.
+fn table() -> String {
+    let arrived = |index: usize, time: f64, ending| Member {
+        index,
+        result: Ok(Arrival {
+            state: State::new([-1.0 / 3.0], [2e-300]).at_time(time),
+            ending,
+            statistics: Statistics {
+                accepted: 12,
+                rejected: 3,
+                evaluations: 123,
+                multipliers_are_unique: true,
+            },
+        }),
+    };
+    let failed =
+        Member { index: 12, result: Err(Error::Setting { name: "a \"setting\", 12", value: f64::NAN }) };
+    let complete = arrived(3, 1.0, Ending::Complete { time: 1.0 });
+    let members = [complete, failed, arrived(21, 0.25, Ending::Cancelled { time: 0.25 })];
+    Csv { members: &members, names: &NAMES }.to_string()
+}
+
+fn resume(table: &str) -> Result<Vec<Member<f64, 1>>, Error> {
+    read(table, &NAMES, COUNT)
+}
+
+fn taken(table: &str) -> Vec<Member<f64, 1>> {
+    resume(table).unwrap_or_else(|error| panic!("{error} in {table:?}"))
+}
+
+#[track_caller]
+fn refused(table: &str, place: (usize, usize)) {
+    match resume(table) {
+        Err(Error::Resume { line, column, .. }) => assert_eq!((line, column), place, "{table:?}"),
+        other => panic!("{other:?} for {table:?}"),
+    }
+}
+
+/// As many members as rows that are there to their ends, and those.
+#[test]
+fn a_table_cut_anywhere_loses_and_invents_nothing() {
+    let table = table();
+    let all = taken(&table);
+    assert_eq!(all.iter().map(|member| member.index).collect::<Vec<_>>(), [3, 21]);
+    for table in [table.clone(), table.replace('\n', "\r\n"), format!("\u{feff}{table}")] {
+        let mut lines = table.split_inclusive('\n').scan(0, |end, line| {
+            *end += line.len();
+            Some((*end - (line.len() - line.trim_end().len()), line))
+        });
+        let ends: Vec<usize> =
+            lines.by_ref().filter(|(_, line)| !line.contains("member")).map(|(end, _)| end).collect();
+        for cut in (0..=table.len()).filter(|&cut| table.is_char_boundary(cut)) {
+            let whole = usize::from(cut >= ends[0]) + usize::from(cut >= ends[2]);
+            assert_eq!(taken(&table[..cut]), all[..whole], "cut at {cut}");
+        }
+    }
+}
+
+#[test]
+fn what_is_appended_to_a_cut_table_counts_from_the_next_line_on() {
+    let table = table();
+    let all = taken(&table);
+    for cut in 0..=table.len() {
+        let joined = taken(&format!("{}{table}", &table[..cut]));
+        // Of rows that are whole in both halves the first counts, later.
+        assert!(joined.iter().all(|member| all.contains(member)), "cut at {cut}: {joined:?}");
+        assert!(all.iter().all(|member| joined.contains(member)), "cut at {cut}: {joined:?}");
+        // Rows alone: the one in the line that was cut is lost, and is done again.
+        let rows = table.split_once('\n').unwrap().1;
+        let joined = taken(&format!("{}{rows}", &table[..cut]));
+        assert!(joined.iter().all(|member| all.contains(member)) && joined.contains(&all[1]), "cut at {cut}");
+    }
+}
+
+#[test]
+fn lines_twice_and_empty_lines_change_nothing() {
+    let table = table();
+    let twice: String = table.lines().map(|line| format!("{line}\n\n{line}\n")).collect();
+    let mut members = taken(&twice);
+    members.dedup();
+    assert_eq!(members, taken(&table));
+}
+
+const ROW: &str = "3,1.0,0.5,-0.25,12,3,123,true,complete,3";
+
+/// The row with another cell in this column.
+fn with(column: usize, cell: &str) -> String {
+    let mut cells: Vec<&str> = ROW.split(',').collect();
+    cells[column - 1] = cell;
+    cells.join(",") + "\n"
+}
+
+#[test]
+fn a_number_that_is_none_is_refused_with_its_place() {
+    assert_eq!(taken(ROW).len(), 1);
+    for number in [
+        "NaN", "inf", "-inf", "infinity", "1e999", "-1e999", " 1.0", "1.0 ", "1,0", "", "0x1", "1.0f64",
+        "--1",
+    ] {
+        for column in [2, 3, 4] {
+            if !number.contains(',') {
+                refused(&(with(3, "1.5") + &with(column, number)), (2, column));
+            }
+        }
+    }
+    for (column, cell) in [
+        (5, "-1"),
+        (5, "1e3"),
+        (6, "99999999999999999999999"),
+        (7, ""),
+        (8, "True"),
+        (9, "fine"),
+        (9, "complete "),
+    ] {
+        refused(&with(column, cell), (1, column));
+    }
+}
+
+#[test]
+fn numbers_of_every_size_are_read() {
+    for number in ["-0", "0", "-0.0", "5e-324", "1e-400", "1.7976931348623157e308", "007", "1", "+1.5"] {
+        let [member] = &taken(&with(3, number))[..] else { panic!("{number}") };
+        let read = member.arrival().expect("it arrived").state.q[0];
+        assert_eq!(read.to_bits(), number.parse::<f64>().unwrap().to_bits(), "{number}");
+    }
+}
+
+#[test]
+fn an_index_that_is_none_is_refused() {
+    let index = |index: &str| format!("{index},1.0,0.5,-0.25,12,3,123,true,complete,{index}\n");
+    for wrong in ["30", "99999999999999999999999", "-0", "+3", " 3", "3 ", "", "x", "3.0"] {
+        refused(&index(wrong), (1, 1));
+    }
+    assert_eq!(taken(&index("29")).len(), 1);
+}
+
+#[test]
+fn other_columns_are_refused() {
+    let header = header(&NAMES);
+    for (other, column) in [
+        (header.replace(",x,", ",y,"), 3),
+        (header.replace("x_dot,", ""), 4),
+        (header.replace("x,x_dot", "x,y,x_dot,y_dot"), 4),
+        (header.replace(",t,", ",time,"), 2),
+        (header.clone() + ",more", 10),
+        (header.replace(',', ";"), 1),
+    ] {
+        refused(&format!("{other}\n{ROW}\n"), (1, column));
+    }
+    refused(&format!("\"member\",\"t\"\n{ROW}\n"), (1, 1));
+}
