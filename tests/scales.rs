@@ -217,3 +217,88 @@ fn a_sphere_rolls_as_fast_whatever_its_radius_or_is_refused() {
         }
     }
 }
+
+/// A weight on a spring of which the length without it is far away.
+#[derive(Lagrangian, Clone)]
+#[coordinates(x)]
+#[lagrangian(m/2*x_dot^2 - k/2*(x - far)^2 + m*g*x)]
+struct Spring {
+    m: f64,
+    g: f64,
+    k: f64,
+    far: f64,
+}
+
+/// At 10¹⁶ an angle is known to ±1: whatever stands there is no equilibrium. A length may be as large.
+#[test]
+fn an_equilibrium_is_where_the_forces_vanish() {
+    let swing = Swing { m: 1.0, g: 9.81, l: 1.0 };
+    for guess in [0.1, 3.0, 1e3, 1e6, 1e9, 1e12, 1e14, 1e16, 1e200] {
+        match swing.equilibrium(&State::at_rest([guess]), &[]) {
+            Ok(found) => {
+                assert!(guess < 1e10, "{found:?}");
+                let acceleration = swing.solve(&found.state).expect("a solution").accelerations[0];
+                assert!(acceleration.abs() < 1e-15 * guess.max(1.0), "{acceleration} at {found:?}");
+            }
+            Err(error) => {
+                assert!(guess > 1e7 && matches!(error, Error::NoEquilibrium { .. }), "{error}");
+            }
+        }
+    }
+    for far in [0.0, 1.0, 1e9, 1e16, 1e100] {
+        for guess in [0.0, far, 1.1 * far] {
+            let spring = Spring { m: 1.0, g: 9.81, k: 0.3, far };
+            let found = spring.equilibrium(&State::at_rest([guess]), &[]).expect("an equilibrium");
+            let expected = far + 9.81 / 0.3;
+            assert!((found.state.q[0] / expected - 1.0).abs() < 1e-14, "{found:?}, not {expected}");
+        }
+    }
+}
+
+/// A point whose height is the sine of an angle.
+#[derive(Lagrangian, Clone)]
+#[coordinates(theta, y)]
+#[lagrangian(theta_dot^2/2 + y_dot^2/2)]
+#[constraint(wave: y = sin(theta))]
+struct Wave;
+
+#[test]
+fn a_state_is_consistent_where_the_constraint_holds_however_large_an_angle() {
+    for theta in [0.3, 1e6, 1e9, 1e12, 1e16] {
+        let at = |y: f64| State::at_rest([theta, y]);
+        assert!(Wave.check_consistent(&at(theta.sin())).is_ok(), "{theta}");
+        let error = Wave.check_consistent(&at(theta.sin() + 3.0)).expect_err("three off");
+        assert!(matches!(error, Error::Inconsistent { .. }), "{error}");
+        match Wave.make_consistent(&at(theta.sin() + 3.0)) {
+            Ok((state, _)) => {
+                let left = state.q[1] - state.q[0].sin();
+                assert!(left.abs() < 1e-7, "{left} at {theta}");
+            }
+            Err(error) => assert!(theta > 1e8 && matches!(error, Error::NotProjected { .. }), "{error}"),
+        }
+    }
+}
+
+/// Two points that hold together, by a row so large that the size of its terms is no number.
+#[derive(Lagrangian, Clone)]
+#[coordinates(x, y)]
+#[lagrangian(x_dot^2/2 + y_dot^2/2)]
+#[constraint(together: s*(x - y) = 0)]
+struct Together {
+    s: f64,
+}
+
+#[test]
+fn what_is_too_large_to_compare_is_refused() {
+    let together = Together { s: 1e160 };
+    assert!(together.check_consistent(&State::at_rest([1e140, 1e140])).is_ok());
+    for y in [1.001e150, f64::MAX] {
+        let state = State::at_rest([1e150, y]);
+        let error = together.check_consistent(&state).expect_err("off");
+        assert!(matches!(error, Error::Inconsistent { .. }), "{error}");
+        match together.make_consistent(&state) {
+            Ok((state, _)) => assert!((state.q[0] / state.q[1] - 1.0).abs() < 1e-15, "{state:?}"),
+            Err(error) => assert!(matches!(error, Error::NotProjected { .. }), "{error}"),
+        }
+    }
+}

@@ -10,7 +10,7 @@ use core::array::from_fn;
 use super::phase::PhaseState;
 use crate::error::Error;
 use crate::number::array::vector;
-use crate::number::numeric::{exceeds, power_of_epsilon};
+use crate::number::numeric::{beyond_round_off, exceeds, is_within, power_of_epsilon};
 use crate::number::{Real, Scalar};
 use crate::solution::eliminate::eliminate_active;
 use crate::solution::kkt::{self, Fault, KktSystem, Rank, Units};
@@ -85,7 +85,7 @@ impl<T: Real, const N: usize, const M: usize> Linear<'_, T, N, M> {
         });
         let zero = T::constant(0.0);
         momenta.chain(rates).fold((zero, zero), |(distance, size), (residual, terms)| {
-            let left = Scalar::abs(residual) - T::constant(4.0 * T::EPSILON) * terms;
+            let left = beyond_round_off(residual, terms);
             (if exceeds(left, zero) { distance + left } else { distance }, size + terms)
         })
     }
@@ -155,7 +155,7 @@ where
     fn left(&self, near: &Self::Linear, trial: &Self::Trial) -> Left<L::Scalar> {
         let (distance, size) = near.distance(trial);
         let is_rounded = distance == L::Scalar::constant(0.0);
-        let is_negligible = is_rounded || distance <= power_of_epsilon::<L::Scalar>(0.75) * size;
+        let is_negligible = is_rounded || is_within(distance, power_of_epsilon::<L::Scalar>(0.75) * size);
         Left { distance, is_rounded, is_negligible }
     }
 

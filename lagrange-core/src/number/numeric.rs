@@ -30,6 +30,17 @@ pub(crate) fn exceeds<T: Real>(x: T, bound: T) -> bool {
     !matches!(x.partial_cmp(&bound), Some(Ordering::Less | Ordering::Equal))
 }
 
+/// Whether `x` is known to be at most `bound`: not where one of them is NaN, nor where the bound is infinite.
+pub(crate) fn is_within<T: Real>(x: T, bound: T) -> bool {
+    x <= bound && bound.is_finite()
+}
+
+/// What of `x` is more than round-off of terms of this size; infinite where the size is.
+pub(crate) fn beyond_round_off<T: Real>(x: T, terms: T) -> T {
+    let round_off = T::constant(4.0 * T::EPSILON) * terms;
+    if round_off.is_finite() { Scalar::abs(x) - round_off } else { round_off }
+}
+
 /// ε to this power, ε the distance from 1 to the next larger number.
 pub(crate) fn power_of_epsilon<T: Real>(exponent: f64) -> T {
     Scalar::powf(T::constant(T::EPSILON), T::constant(exponent))

@@ -24,7 +24,7 @@ fn table() -> String {
         Member { index: 12, result: Err(Error::Setting { name: "a \"setting\", 12", value: f64::NAN }) };
     let complete = arrived(3, 1.0, Ending::Complete { time: 1.0 });
     let members = [complete, failed, arrived(21, 0.25, Ending::Cancelled { time: 0.25 })];
-    Csv { members: &members, names: &NAMES }.to_string()
+    Lines { members: &members, names: &NAMES }.to_string()
 }
 
 fn resume(table: &str) -> Result<Vec<Member<f64, 1>>, Error> {

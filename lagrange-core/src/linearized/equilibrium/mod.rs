@@ -74,6 +74,7 @@ where
     let (mut balance, start) = Balance::start(system.clone(), guess, unknowns)?;
     let at_the_guess = Unsteadiness::of(&start.point)?;
     let (found, iterations) = newton::find(&mut balance, start)?;
+    balance.check_resolved(&found, iterations)?;
     Unsteadiness::of(&found.point)?.check(&at_the_guess, &found.point)?;
     let undetermined = balance.undetermined(&found)?;
     let Point { system, state, multipliers } = found.point;

@@ -13,7 +13,7 @@ use super::weights::weights;
 use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::number::array::vector;
-use crate::number::numeric::{larger, power_of_epsilon};
+use crate::number::numeric::{is_within, larger, power_of_epsilon, smaller};
 use crate::number::{Real, Scalar};
 use crate::solution::consistent::{Level, project};
 use crate::solution::newton::{Left, Search};
@@ -134,7 +134,7 @@ where
     fn is_rounded(&self, trial: &Trial<L, N, M>) -> bool {
         let part = L::Scalar::constant(4.0 * L::Scalar::EPSILON);
         let bound = self.terms(trial, |_, x| part * x);
-        trial.residual.iter().zip(&bound).all(|(r, bound)| Scalar::abs(*r) <= *bound)
+        trial.residual.iter().zip(&bound).all(|(r, bound)| is_within(Scalar::abs(*r), *bound))
     }
 
     /// Whether what is left may be round-off: it is small, of the terms of each row and of those where the unknowns
@@ -148,8 +148,33 @@ where
         let residual = &trial.residual;
         let moved = &trial.jacobian * self.damped(factors, residual, L::Scalar::constant(0.0));
         let stays = residual + moved.rows(0, residual.len());
-        (0..residual.len())
-            .all(|i| Scalar::abs(residual[i]) <= small[i] && Scalar::abs(stays[i]) <= round_off[i])
+        (0..residual.len()).all(|i| {
+            is_within(Scalar::abs(residual[i]), small[i]) && is_within(Scalar::abs(stays[i]), round_off[i])
+        })
+    }
+
+    /// Refuses what is round-off only by a gradient: at the angle 10¹⁶, which is known to ±1, every force is round-off of
+    /// the angle times its gradient. Of each term counts what the row really changes by with the unknown.
+    pub(super) fn check_resolved(&self, found: &Trial<L, N, M>, steps: usize) -> Result<(), Error> {
+        let (part, root) =
+            (L::Scalar::constant(32.0 * L::Scalar::EPSILON), power_of_epsilon::<L::Scalar>(0.5));
+        let unknowns = self.unknowns.len();
+        let floor = power_of_epsilon(0.75);
+        // R is linear in the multipliers.
+        let mut bound = self.terms(found, |j, x| if j < unknowns { floor } else { part * x + floor });
+        for (j, &unknown) in self.unknowns.iter().enumerate() {
+            let (mut moved, x) = (found.point.clone(), found.point.value(unknown));
+            moved.set(unknown, x + root * x);
+            let change = (moved.residual() - &found.residual) / root;
+            for i in 0..change.len() {
+                let by_gradient = Scalar::abs(found.jacobian[(i, j)] * x);
+                bound[i] += part * smaller(by_gradient, Scalar::abs(change[i]));
+            }
+        }
+        match found.residual.iter().zip(&bound).all(|(r, bound)| is_within(Scalar::abs(*r), *bound)) {
+            true => Ok(()),
+            false => Err(self.no_equilibrium(found, steps)),
+        }
     }
 
     /// What takes part in the directions along which nothing changes.
@@ -216,6 +241,15 @@ where
 
     #[cold]
     fn not_found(&self, _: &Self::Linear, trial: &Self::Trial, steps: usize) -> Error {
+        self.no_equilibrium(trial, steps)
+    }
+}
+
+impl<L, const N: usize, const M: usize, const P: usize> Balance<L, N, M, P>
+where
+    L: Linearized<N, M, P, Scalar: Real> + Clone,
+{
+    fn no_equilibrium(&self, trial: &Trial<L, N, M>, steps: usize) -> Error {
         let size = |i: usize| Scalar::abs(trial.residual[i]) * self.weights[i];
         let worst =
             (1..trial.residual.len()).fold(0, |worst, i| if size(i) > size(worst) { i } else { worst });
