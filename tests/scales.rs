@@ -302,3 +302,51 @@ fn what_is_too_large_to_compare_is_refused() {
         }
     }
 }
+
+/// Two oscillators, coupled, the second in a unit of length of its own.
+#[derive(Lagrangian, Clone)]
+#[coordinates(x, y)]
+#[lagrangian(x_dot^2/2 + u^2*y_dot^2/2 - w^2*(3*x^2 + 3*(u*y)^2 - 2*x*u*y)/2)]
+#[dissipation(c*(x_dot^2 + u^2*y_dot^2)/2)]
+struct Pair {
+    w: f64,
+    u: f64,
+    c: f64,
+}
+
+/// The frequencies are w √2 and 2 w: slow, fast, and in any unit of length.
+#[test]
+fn frequencies_and_stability_do_not_depend_on_units() {
+    let mut tried = 0;
+    for w in [1e-140, 1e-120, 1e-80, 1e-3, 1.0, 1e5, 1e80, 1e120, 1e140] {
+        for u in [1e-140, 1e-20, 1e-5, 1.0, 1e5, 1e20, 1e140] {
+            // What an entry of the matrices themselves loses nobody can see.
+            let entries = [u * u, w * w, w * w * u * u, w * w * u, w * w / u];
+            if !entries.iter().all(|entry| (1e-290..1e290).contains(entry)) {
+                continue;
+            }
+            tried += 1;
+            let near = |c| Pair { w, u, c }.linearize(&State::at_rest([0.0; 2]), &[]).expect("linear");
+            let still = near(0.0);
+            let found = still.natural_frequencies().expect("frequencies");
+            assert!(found.len() == 2, "{found:?} for {w:e} {u:e}");
+            for (frequency, expected) in found.iter().zip([2.0_f64.sqrt(), 2.0]) {
+                assert!((frequency / w / expected - 1.0).abs() < 1e-12, "{found:?} for {w:e} {u:e}");
+            }
+            assert_eq!(still.stability().expect("decided"), Stability::Undecided, "{w:e} {u:e}");
+            let damped = near(0.1 * w).stability().expect("decided");
+            assert_eq!(damped, Stability::AsymptoticallyStable, "{w:e} {u:e}");
+        }
+    }
+    assert!(tried >= 25, "{tried}");
+    // Growth so fast that its square is no number.
+    for c in [-1e150, -1e160, -1e200, -1e300] {
+        let near = Pair { w: 1.0, u: 1.0, c }.linearize(&State::at_rest([0.0; 2]), &[]).expect("linear");
+        assert_eq!(near.stability().expect("decided"), Stability::Unstable, "{c:e}");
+        let [first, second, ..] = near.eigenvalues().expect("eigenvalues")[..] else { panic!("four") };
+        assert!(
+            (first.re / -c - 1.0).abs() < 1e-14 && (second.re / -c - 1.0).abs() < 1e-14,
+            "{first} {second}"
+        );
+    }
+}

@@ -7,7 +7,7 @@ use nalgebra::{Complex, DMatrix, Schur};
 
 use super::Linearization;
 use crate::error::Error;
-use crate::number::numeric::{larger, power_of_epsilon};
+use crate::number::numeric::{larger, norm, power_of_epsilon, power_of_two};
 use crate::number::{Real, Scalar};
 
 /// What the linear part says about an equilibrium (Lyapunov's indirect method).
@@ -32,15 +32,23 @@ impl<T: Real> Linearization<T> {
             return Ok(Vec::new());
         }
         let balanced = balanced(self.a.clone());
+        // In a unit of time in which no square overflows.
+        let unit = power_of_two(balanced.amax());
+        let balanced = balanced / unit;
         let mut shifts = SHIFTS.iter().map(|part| T::constant(*part) * balanced.amax());
         let found = shifts.find_map(|shift| shifted_eigenvalues(&balanced, shift));
         let mut found = found.ok_or(Error::EigenvaluesNotFound)?;
+        found.iter_mut().for_each(|s| *s = Complex::new(s.re * unit, s.im * unit));
         found.sort_by(|x, y| order(y.re, x.re).then(order(y.im, x.im)));
         Ok(found)
     }
 
     /// The natural frequencies |s| of the pairs s, s̄ of complex eigenvalues, in radians per unit of time, ascending.
     /// Where nothing is damped they are the frequencies of the normal modes.
+    ///
+    /// An imaginary part counts as zero below ε^(1/3) of the largest |s| (6·10⁻⁶ for `f64`), as for
+    /// [`stability`](Self::stability): what swings slower than that beside something faster is left out.
+    /// [`eigenvalues`](Self::eigenvalues) has all. No choice of units changes this.
     ///
     /// # Errors
     /// As [`eigenvalues`](Self::eigenvalues).
@@ -120,7 +128,7 @@ fn resolution<T: Real>(eigenvalues: &[Complex<T>]) -> T {
 }
 
 fn magnitude<T: Real>(s: Complex<T>) -> T {
-    Scalar::sqrt(s.re * s.re + s.im * s.im)
+    norm(&[s.re, s.im])
 }
 
 fn order<T: Real>(x: T, y: T) -> Ordering {
