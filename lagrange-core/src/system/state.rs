@@ -56,7 +56,8 @@ pub struct Solution<T, const N: usize, const M: usize> {
     /// Lagrange multipliers λ, one a scalar constraint, in the order written.
     pub multipliers: SVector<T, M>,
     /// The smallest pivot of the elimination, as a fraction of the diagonal entry it came from: 1 is
-    /// perfect, 0 singular, NaN or negative a system that this elimination cannot solve.
+    /// perfect, 0 singular, NaN or negative a system that this elimination cannot solve, or of which the numbers are so
+    /// large or small that their products are none, or have lost digits.
     pub pivot: T,
     /// How many of the `M` constraints are independent here. Where it is less than `M` the multipliers
     /// are not unique; those given are the ones of least Euclidean norm.
