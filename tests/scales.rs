@@ -1,6 +1,6 @@
 //! Units in which numbers are huge or tiny: the answer is the same motion in those units, or a named error.
 
-use lagrange_core::{Real, Solution, prelude::*};
+use lagrange_core::{Real, Solution, Stability, prelude::*};
 
 /// A bead on an inclined line, y = −¾ x, the constraint in units of its own.
 #[derive(Lagrangian, Clone)]
@@ -348,5 +348,16 @@ fn frequencies_and_stability_do_not_depend_on_units() {
             (first.re / -c - 1.0).abs() < 1e-14 && (second.re / -c - 1.0).abs() < 1e-14,
             "{first} {second}"
         );
+    }
+}
+
+/// In (q, p) too: the size of the terms of a row is no number.
+#[test]
+fn a_velocity_across_a_constraint_is_refused_where_its_terms_are_too_large() {
+    let together = Together { s: 1e160 };
+    let phase = PhaseState::new([0.0, 0.0], [1e150, 1.002e150]);
+    match together.legendre(&phase) {
+        Ok(state) => assert!((state.v[0] / state.v[1] - 1.0).abs() < 1e-15, "{state:?}"),
+        Err(error) => assert!(matches!(error, Error::MomentumNotReached { .. }), "{error}"),
     }
 }
