@@ -16,10 +16,10 @@ pub(crate) fn smaller<T: Real>(a: T, b: T) -> T {
 
 /// The largest magnitude among these; a NaN is passed over.
 ///
-/// Never inlined: rustc did not end where LLVM 22 unrolled this along the rows of a matrix of 32 columns. The maximum of a
-/// row is then a chain of 32 selections, each of which needs the one before it twice, in a loop of 32 rounds; and in a loop
-/// of a multiple of 8 rounds LLVM looks for cyclic redundancy checks (`HashRecognize`) by following every path through that
-/// chain, of which there are 2³².
+/// Never inlined: rustc did not end where LLVM 22 unrolled this along the rows of a matrix of 32 columns (or 40, with
+/// `target-cpu=native`). The maximum of a row is then a chain of 32 selections, each of which needs the one before it twice,
+/// in a loop of 32 rounds; and in a loop of a multiple of 8 rounds LLVM looks for cyclic redundancy checks (`HashRecognize`)
+/// by following every path through that chain, of which there are 2³².
 #[inline(never)]
 pub(crate) fn largest<T: Real>(x: &[T]) -> T {
     x.iter().fold(T::constant(0.0), |most, x| larger(most, Scalar::abs(*x)))
