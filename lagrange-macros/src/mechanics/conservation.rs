@@ -7,7 +7,7 @@ use super::constraints::ConstraintKind;
 use super::equations::Equations;
 use super::euler_lagrange;
 use super::evidence::{Evidence, vanishes};
-use super::moment::{Moment, Moments, dot};
+use super::moment::{Moment, Moments};
 use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
 use crate::symbolic::{Approximate, Forward, Graph, Id, Rational};
@@ -168,7 +168,7 @@ fn trial(
         let rates = (0..n).map(Variable::Velocity).chain((0..n).map(Variable::Acceleration));
         let rates: Vec<_> =
             rates.map(|variable| moment.get(variable)).chain([Approximate::exact(1.0)]).collect();
-        let rate = dot(slopes.iter().copied().zip(rates.iter().copied()));
+        let rate = Approximate::dot(slopes.iter().copied().zip(rates.iter().copied()));
         if rate.excludes_zero() {
             return Trial::Broken(index, value, rate);
         }

@@ -10,7 +10,7 @@ use rustc_hash::FxHashMap;
 use super::constraints::{ConstraintKind, Constraints};
 use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
-use crate::symbolic::{Approximate, Graph, Id, Node, Rational, drawn};
+use crate::symbolic::{Graph, Id, Node, Rational, Sample};
 use crate::variables::Variable;
 
 /// So many random points are tried before an expression is taken to be zero.
@@ -102,8 +102,8 @@ fn unknown(graph: &Graph, problem: &Problem, root: Id) -> Vec<String> {
 /// Whether a value of it has an error bound that excludes 0.
 fn is_surely_something(graph: &Graph, problem: &Problem, root: Id) -> bool {
     (0..DRAWS).any(|draw| {
-        let symbol = |symbol| Approximate::exact(drawn(symbol, problem.range(symbol), draw));
-        graph.sample(&[root], draw, symbol)[0].excludes_zero()
+        let mut sample = Sample::new(graph.symbols(&[root]), draw, |symbol| problem.range(symbol));
+        sample.values(graph, &[root])[0].excludes_zero()
     })
 }
 

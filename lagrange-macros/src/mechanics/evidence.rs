@@ -1,7 +1,7 @@
 //! How sure a statement about a system is.
 
 use crate::resolve::Problem;
-use crate::symbolic::{Approximate, Graph, Id, Verdict, drawn};
+use crate::symbolic::{Graph, Id, Sample, Verdict};
 
 /// Proved, or only tried.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -28,8 +28,8 @@ pub(super) fn vanishes(graph: &mut Graph, problem: &Problem, root: Id) -> Option
         return Some(Evidence::Proved);
     }
     // Most of what is not zero shows it at the first point, and need not be looked through.
-    let symbol = |symbol| Approximate::exact(drawn(symbol, problem.range(symbol), 0));
-    if graph.sample(&[root], 0, symbol)[0].excludes_zero() {
+    let mut first = Sample::new(graph.symbols(&[root]), 0, |symbol| problem.range(symbol));
+    if first.values(graph, &[root])[0].excludes_zero() {
         return None;
     }
     match graph.is_zero(root, |symbol| problem.range(symbol)) {

@@ -5,7 +5,6 @@ mod consistency;
 mod constraints;
 mod degree;
 mod determinacy;
-mod elimination;
 mod equations;
 mod euler_lagrange;
 mod evidence;

@@ -2,7 +2,7 @@
 
 use num_traits::ToPrimitive;
 
-use super::graph::{Function, Graph, Id, Node, Symbol};
+use super::graph::{External, Function, Graph, Id, Node, Symbol};
 use super::rational::{Rational, to_f64};
 
 /// A value and how far the exact one may be from it (running error analysis: Higham, *Accuracy and
@@ -25,9 +25,18 @@ impl Approximate {
         Self { value, error: 0.0 }
     }
 
+    /// Whether it is zero and nothing else.
+    pub(super) fn is_zero(self) -> bool {
+        self.value == 0.0 && self.error == 0.0
+    }
+
     /// Whether the error bound excludes zero. False where there is no value or no bound.
     pub(crate) fn excludes_zero(self) -> bool {
         self.error.is_finite() && self.value.abs() > self.error
+    }
+
+    pub(crate) fn negated(self) -> Self {
+        Self { value: -self.value, error: self.error }
     }
 
     pub(crate) fn plus(self, other: Self) -> Self {
@@ -51,6 +60,11 @@ impl Approximate {
         Self::rounded(x.value * y.value, inherited)
     }
 
+    /// Σ x y
+    pub(crate) fn dot(pairs: impl Iterator<Item = (Self, Self)>) -> Self {
+        pairs.fold(Self::exact(0.0), |sum, (x, y)| sum.plus(x.times(y)))
+    }
+
     /// The least and the greatest absolute value that the exact one may have.
     fn magnitudes(self) -> (f64, f64) {
         (self.value.abs() - self.error, self.value.abs() + self.error)
@@ -66,67 +80,15 @@ impl From<Rational> for Approximate {
 }
 
 impl Graph {
-    /// The value of `root`, where each symbol has the value given. Where the error has no bound, because the
+    /// The value of a node whose operands have the values that `at` gives. Where the error has no bound, because the
     /// exact argument of some function may lie beyond a pole or a cut, it is infinite or NaN.
-    #[cfg(test)]
-    pub(crate) fn evaluate(&self, root: Id, value: impl FnMut(Symbol) -> f64) -> Approximate {
-        self.evaluate_in(&self.reachable(&[root]), value, |_, _| Approximate::exact(f64::NAN))
-    }
-
-    /// The value of the last of `order`, which holds all that it is made of, operands first.
-    pub(super) fn evaluate_in(
-        &self,
-        order: &[Id],
-        mut value: impl FnMut(Symbol) -> f64,
-        external: impl FnMut(Id, &[Approximate]) -> Approximate,
-    ) -> Approximate {
-        let values = self.values_in(order, |symbol| Approximate::exact(value(symbol)), external);
-        order.last().map_or(Approximate::exact(f64::NAN), |root| values[root.index()])
-    }
-
-    /// The values of all of `order`, by their indices. `external` is given the values of its operands.
-    pub(super) fn values_in(
-        &self,
-        order: &[Id],
-        mut value: impl FnMut(Symbol) -> Approximate,
-        mut external: impl FnMut(Id, &[Approximate]) -> Approximate,
-    ) -> Vec<Approximate> {
-        let mut values = vec![Approximate::exact(f64::NAN); order.last().map_or(0, |root| root.index() + 1)];
-        for &id in order {
-            values[id.index()] = match self.node(id) {
-                Node::External(_) => external(id, &values),
-                _ => self.value_of(id, &values, &mut value),
-            };
-        }
-        values
-    }
-
-    /// The values of the nodes that have none yet, in order of their ids; `symbol` and `external` give those of
-    /// what has no operands.
-    pub(super) fn extend_values(
-        &self,
-        values: &mut Vec<Approximate>,
-        symbol: impl Fn(Symbol) -> Approximate,
-        external: impl Fn(Id, &[Approximate]) -> Approximate,
-    ) {
-        for index in values.len()..self.len() {
-            let id = Id(index as u32);
-            let value = match self.node(id) {
-                Node::External(_) => external(id, values),
-                Node::Symbol(name) => symbol(*name),
-                _ => self.value_of(id, values, &mut |_| Approximate::exact(f64::NAN)),
-            };
-            values.push(value);
-        }
-    }
-
-    fn value_of(
+    pub(super) fn value_of(
         &self,
         id: Id,
-        values: &[Approximate],
-        symbol: &mut impl FnMut(Symbol) -> Approximate,
+        at: impl Fn(Id) -> Approximate,
+        symbol: impl Fn(Symbol) -> Approximate,
+        external: impl Fn(&External, &[Approximate]) -> Approximate,
     ) -> Approximate {
-        let at = |id: Id| values[id.index()];
         match self.node(id) {
             Node::Number(value) => (*value).into(),
             Node::Pi => Approximate::rounded(std::f64::consts::PI, 0.0),
@@ -143,7 +105,10 @@ impl Graph {
             Node::Atan2(y, x) => angle(at(*y), at(*x)),
             Node::Power(base, exponent) => general_power(at(*base), at(*exponent)),
             Node::Defined(inner) => at(*inner),
-            Node::External(_) => Approximate { value: f64::NAN, error: 0.0 },
+            Node::External(function) => {
+                let arguments: Vec<_> = function.arguments.iter().map(|&x| at(x)).collect();
+                external(function, &arguments)
+            }
         }
     }
 }

@@ -5,9 +5,10 @@
 
 mod antiderivative;
 mod differentiate;
+mod elimination;
 mod evaluate;
 mod graph;
-mod rank;
+mod random;
 mod rational;
 mod rebuild;
 mod sample;
@@ -18,11 +19,11 @@ mod wave;
 mod zero;
 
 pub(crate) use differentiate::Forward;
+pub(crate) use elimination::{rank, solve};
 pub(crate) use evaluate::Approximate;
 pub(crate) use graph::{External, Fault, Function, Graph, Id, Node, Symbol};
-pub(crate) use rank::rank;
 pub(crate) use rational::{Rational, parse_decimal, to_f64};
 pub(crate) use sample::Sample;
 #[cfg(test)]
 pub(crate) use tests::tree::apply;
-pub(crate) use zero::{Verdict, drawn};
+pub(crate) use zero::Verdict;

@@ -4,17 +4,15 @@ use rustc_hash::FxHashMap;
 
 use super::evaluate::Approximate;
 use super::graph::{Graph, Id, Symbol};
-use super::zero::drawn;
+use super::random::drawn;
+use super::wave::superposition;
 
-/// Beyond this error, relative to the largest of the values beside it, a value says nothing.
-const BLUR: f64 = 1e-6;
-
-/// A point in the space of the symbols. It remembers the values of all nodes, so that expressions that are
-/// built one on the other are evaluated once.
+/// A point in the space of the symbols, where unknown functions are those of its draw. It remembers the value of
+/// every node it was asked for, so that expressions that are built one on the other are evaluated once.
 pub(crate) struct Sample {
     draw: u64,
     symbols: FxHashMap<Symbol, Approximate>,
-    values: Vec<Approximate>,
+    values: Vec<Option<Approximate>>,
 }
 
 impl Sample {
@@ -24,108 +22,119 @@ impl Sample {
         draw: u64,
         range: impl Fn(Symbol) -> (f64, f64),
     ) -> Self {
-        let value = |symbol| Approximate::exact(drawn(symbol, range(symbol), draw));
-        let symbols = symbols.into_iter().map(|symbol| (symbol, value(symbol))).collect();
-        Self { draw, symbols, values: Vec::new() }
+        let value = |symbol| (symbol, Approximate::exact(drawn(symbol, range(symbol), draw)));
+        Self { draw, symbols: symbols.into_iter().map(value).collect(), values: Vec::new() }
     }
 
-    /// The values of `roots`; `None` where one of them has none there, or too inaccurate a one.
-    pub(crate) fn values(&mut self, graph: &Graph, roots: &[Id]) -> Option<Vec<Approximate>> {
-        let Self { draw, symbols, values } = self;
-        let unknown = Approximate { value: f64::NAN, error: 0.0 };
-        graph.extend_values(
-            values,
-            |symbol| symbols.get(&symbol).copied().unwrap_or(unknown),
-            |id, values| graph.wave(id, values, *draw),
-        );
-        let found: Vec<_> = roots.iter().map(|root| values[root.index()]).collect();
-        let scale = found.iter().fold(1.0, |scale: f64, value| scale.max(value.value.abs()));
-        let usable = |value: &Approximate| value.value.is_finite() && value.error <= BLUR * scale;
-        found.iter().all(usable).then_some(found)
+    /// The value of a symbol; of one that the point does not have it is NaN.
+    pub(crate) fn get(&self, symbol: Symbol) -> Approximate {
+        self.symbols.get(&symbol).copied().unwrap_or(Approximate::exact(f64::NAN))
     }
 
-    /// Moves `unknowns` to a point near by at which `roots` vanish, by Newton's method with the least step.
-    /// Slopes are differences.
-    pub(crate) fn project(&mut self, graph: &Graph, roots: &[Id], unknowns: &[Symbol]) -> Option<()> {
-        const STEPS: usize = 40;
+    /// Gives symbols values.
+    pub(crate) fn set(&mut self, values: impl IntoIterator<Item = (Symbol, Approximate)>) {
+        self.values.clear();
+        self.symbols.extend(values);
+    }
+
+    pub(crate) fn values(&mut self, graph: &Graph, roots: &[Id]) -> Vec<Approximate> {
+        self.values.resize(graph.len(), None);
+        let mut pending = roots.to_vec();
+        while let Some(&id) = pending.last() {
+            let before = pending.len();
+            if self.values[id.index()].is_none() {
+                graph.operands(id, |operand| {
+                    if self.values[operand.index()].is_none() {
+                        pending.push(operand);
+                    }
+                });
+            }
+            if pending.len() == before {
+                pending.pop();
+                let value = self.values[id.index()].unwrap_or_else(|| self.value(graph, id));
+                self.values[id.index()] = Some(value);
+            }
+        }
+        roots.iter().map(|&root| self.known(root)).collect()
+    }
+
+    /// The value of a node whose operands have one.
+    fn value(&self, graph: &Graph, id: Id) -> Approximate {
+        let external = |function: &_, arguments: &[_]| superposition(function, arguments, self.draw);
+        graph.value_of(id, |operand| self.known(operand), |symbol| self.get(symbol), external)
+    }
+
+    fn known(&self, id: Id) -> Approximate {
+        self.values[id.index()].unwrap_or(Approximate::exact(f64::NAN))
+    }
+
+    /// Moves `unknowns` to a point near by at which `residual` vanishes, by Newton's method with the least step;
+    /// `slopes` are the derivatives of each by the unknowns.
+    pub(crate) fn project(
+        &mut self,
+        graph: &Graph,
+        residual: &[Id],
+        slopes: &[&[Id]],
+        unknowns: &[Symbol],
+    ) -> Option<()> {
+        const STEPS: usize = 30;
         const CLOSE: f64 = 1e-13;
-        if roots.is_empty() {
+        if residual.is_empty() {
             return Some(());
         }
         for _ in 0..STEPS {
-            let residual = self.values(graph, roots)?;
-            let slopes = self.slopes(graph, roots, unknowns, &residual)?;
-            let step = least_step(&slopes, &residual);
-            self.shift(unknowns.iter().copied().zip(step.iter().map(|x| -x)));
-            let size = step.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
-            if size < CLOSE {
-                self.blur(unknowns, 2.0 * CLOSE);
-                let residual = self.values(graph, roots)?;
-                return residual.iter().all(|value| !value.excludes_zero()).then_some(());
+            let right = self.values(graph, residual);
+            let rows: Vec<_> = slopes.iter().map(|row| self.values(graph, row)).collect();
+            let step = least_step(&rows, &right);
+            let mut is_met = true;
+            for (symbol, step) in unknowns.iter().zip(&step) {
+                let is_finite = step.value.is_finite() && step.error.is_finite();
+                let x = self.symbols.get_mut(symbol).filter(|_| is_finite)?;
+                *x = Approximate::exact(x.value - step.value);
+                is_met &= step.value.abs() <= CLOSE * (1.0 + x.value.abs());
+            }
+            self.values.clear();
+            if is_met {
+                self.blur(unknowns, &step);
+                let left = self.values(graph, residual);
+                return left.iter().all(|value| !value.excludes_zero()).then_some(());
             }
         }
         None
     }
 
-    /// ∂root/∂unknown, a column for each root.
-    fn slopes(
-        &mut self,
-        graph: &Graph,
-        roots: &[Id],
-        unknowns: &[Symbol],
-        here: &[Approximate],
-    ) -> Option<Vec<Vec<f64>>> {
-        const STEP: f64 = 1e-7;
-        let mut slopes = vec![Vec::new(); roots.len()];
-        for &unknown in unknowns {
-            self.shift([(unknown, STEP)]);
-            let there = self.values(graph, roots)?;
-            self.shift([(unknown, -STEP)]);
-            for (row, (there, here)) in slopes.iter_mut().zip(there.iter().zip(here)) {
-                row.push((there.value - here.value) / STEP);
-            }
-        }
-        Some(slopes)
-    }
-
-    fn shift(&mut self, steps: impl IntoIterator<Item = (Symbol, f64)>) {
+    /// What was still to be corrected is how far the point may be from an exact one: twice, because the correction
+    /// is that of linearized equations.
+    fn blur(&mut self, unknowns: &[Symbol], step: &[Approximate]) {
         self.values.clear();
-        for (symbol, step) in steps {
-            if let Some(value) = self.symbols.get_mut(&symbol) {
-                value.value += step;
-            }
-        }
-    }
-
-    /// The exact point is this far from here, in each coordinate, at most.
-    fn blur(&mut self, unknowns: &[Symbol], error: f64) {
-        self.values.clear();
-        for symbol in unknowns {
-            if let Some(value) = self.symbols.get_mut(symbol) {
-                value.error = error * (1.0 + value.value.abs());
+        for (symbol, step) in unknowns.iter().zip(step) {
+            if let Some(x) = self.symbols.get_mut(symbol) {
+                x.error = 2.0 * (step.value.abs() + step.error) + f64::EPSILON * x.value.abs();
             }
         }
     }
 }
 
-/// The shortest x with `rows` · x = `right`, by orthonormalising the rows; a row that depends on earlier ones
-/// is left out.
-fn least_step(rows: &[Vec<f64>], right: &[Approximate]) -> Vec<f64> {
+/// The shortest x with `rows` · x = `right`, by making the rows orthogonal one after the other. A row that all but
+/// depends on earlier ones is left out: where it matters, the right side that it leaves does not vanish.
+fn least_step(rows: &[Vec<Approximate>], right: &[Approximate]) -> Vec<Approximate> {
     const DEPENDENT: f64 = 1e-5;
-    let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
-    let mut basis: Vec<(Vec<f64>, f64)> = Vec::new();
-    for (row, right) in rows.iter().zip(right) {
-        let (mut rest, mut value, length) = (row.clone(), right.value, dot(row, row).sqrt());
-        for (unit, along) in &basis {
-            let part = dot(&rest, unit);
-            rest.iter_mut().zip(unit).for_each(|(x, unit)| *x -= part * unit);
-            value -= part * along;
+    let dot =
+        |x: &[Approximate], y: &[Approximate]| Approximate::dot(x.iter().copied().zip(y.iter().copied()));
+    let mut basis: Vec<(Vec<Approximate>, Approximate, Approximate)> = Vec::new();
+    for (row, &right) in rows.iter().zip(right) {
+        let (mut rest, mut value) = (row.clone(), right);
+        for (direction, square, along) in &basis {
+            let part = dot(&rest, direction).over(*square);
+            rest.iter_mut().zip(direction).for_each(|(x, &y)| *x = x.minus(part.times(y)));
+            value = value.minus(part.times(*along));
         }
-        let left = dot(&rest, &rest).sqrt();
-        if left > DEPENDENT * length {
-            basis.push((rest.iter().map(|x| x / left).collect(), value / left));
+        let square = dot(&rest, &rest);
+        if square.excludes_zero() && square.value > DEPENDENT * DEPENDENT * dot(row, row).value {
+            basis.push((rest, square, value));
         }
     }
-    let width = rows.first().map_or(0, Vec::len);
-    (0..width).map(|i| basis.iter().map(|(unit, along)| unit[i] * along).sum()).collect()
+    let parts = basis.iter().map(|(direction, square, along)| (direction, along.over(*square)));
+    let along = |i: usize| Approximate::dot(parts.clone().map(|(direction, part)| (direction[i], part)));
+    (0..rows[0].len()).map(along).collect()
 }

@@ -6,34 +6,15 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::evaluate::{Approximate, apply};
-use super::graph::{External, Function, Graph, Id, Node, Symbol};
-use super::zero::random;
+use super::graph::{External, Function};
+use super::random::random;
 
 /// Enough that no relation among a function and its first derivatives holds by chance.
 const WAVES: u64 = 6;
 
-impl Graph {
-    /// The values of `roots` where symbols have the values given and unknown functions are those of this draw.
-    pub(crate) fn sample(
-        &self,
-        roots: &[Id],
-        draw: u64,
-        symbol: impl FnMut(Symbol) -> Approximate,
-    ) -> Vec<Approximate> {
-        let values = self.values_in(&self.reachable(roots), symbol, |id, values| self.wave(id, values, draw));
-        roots.iter().map(|root| values[root.index()]).collect()
-    }
-
-    /// The value of an unknown function at arguments whose values are known.
-    pub(super) fn wave(&self, id: Id, values: &[Approximate], draw: u64) -> Approximate {
-        let Node::External(external) = self.node(id) else { return Approximate::exact(f64::NAN) };
-        let arguments: Vec<_> = external.arguments.iter().map(|x| values[x.index()]).collect();
-        superposition(external, &arguments, draw)
-    }
-}
-
+/// The value of an unknown function, drawn at random, at arguments whose values are known:
 /// Σ_k a_k Π_j w_kj sin(w_k·x + φ_k + d π/2), where j runs over the d arguments differentiated by.
-fn superposition(external: &External, arguments: &[Approximate], draw: u64) -> Approximate {
+pub(super) fn superposition(external: &External, arguments: &[Approximate], draw: u64) -> Approximate {
     let quarters = external.derivatives.len() as f64 * FRAC_PI_2;
     (0..WAVES).fold(Approximate::exact(0.0), |sum, k| {
         let number = |kind: u64, argument: u64| {

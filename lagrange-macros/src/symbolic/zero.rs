@@ -1,6 +1,7 @@
 //! Is an expression zero everywhere?
 
 use super::graph::{Graph, Id, Symbol};
+use super::sample::Sample;
 
 /// How sure the answer is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -25,11 +26,10 @@ impl Graph {
         if root == Id::ZERO {
             return Verdict::Zero;
         }
-        let order = self.reachable(&[root]);
+        let symbols: Vec<Symbol> = self.symbols(&[root]).collect();
         let mut held = 0;
         for draw in 0..DRAWS {
-            let symbol = |symbol: Symbol| drawn(symbol, range(symbol), draw);
-            let sample = self.evaluate_in(&order, symbol, |id, values| self.wave(id, values, draw));
+            let sample = Sample::new(symbols.iter().copied(), draw, &range).values(self, &[root])[0];
             // Outside its domain an expression has no value: draw again.
             if !sample.value.is_finite() || !sample.error.is_finite() {
                 continue;
@@ -44,21 +44,4 @@ impl Graph {
         }
         if held > 0 { Verdict::Held(held) } else { Verdict::Undecided }
     }
-}
-
-/// A value of `symbol` in the range given, the same in every use of one draw.
-pub(crate) fn drawn(symbol: Symbol, (low, high): (f64, f64), draw: u64) -> f64 {
-    low + (high - low) * random(u64::from(symbol.family), u64::from(symbol.index), draw)
-}
-
-/// A number in [0, 1) that depends on nothing but its arguments (Steele, Lea and Flood's SplitMix64).
-pub(super) fn random(family: u64, index: u64, draw: u64) -> f64 {
-    let mut z = (family << 56) ^ (index << 16) ^ draw;
-    for _ in 0..2 {
-        z = z.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^= z >> 31;
-    }
-    (z >> 11) as f64 / (1_u64 << 53) as f64
 }

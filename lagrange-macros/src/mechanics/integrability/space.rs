@@ -12,6 +12,9 @@ use crate::variables::{Variable, symbols};
 const POINTS: usize = 8;
 const DRAWS: u64 = 64;
 
+/// Beyond this error, relative to the largest of the values beside it, a value says nothing.
+const BLUR: f64 = 1e-6;
+
 /// ω = Σ F_a dq_a + b dt: the coefficients, time's the last.
 pub(super) type Form = Vec<Id>;
 
@@ -69,12 +72,14 @@ impl Space {
     fn draw(&mut self, residuals: &[Id], problem: &Problem) {
         let forms = self.holonomic.iter().chain(self.velocity.iter().map(|(_, form)| form));
         let roots: Vec<Id> = forms.flatten().copied().collect();
-        let symbols: Vec<Symbol> = self.graph.symbols(&[residuals, &roots].concat()).collect();
+        let all = [residuals, &roots].concat();
+        let symbols: Vec<Symbol> = self.graph.symbols(&all).chain(self.symbols.iter().copied()).collect();
         let coordinates = &self.symbols[..self.symbols.len() - 1];
+        let slopes: Vec<&[Id]> = self.holonomic.iter().map(|form| &form[..coordinates.len()]).collect();
         let samples = (0..DRAWS).filter_map(|draw| {
             let mut sample = Sample::new(symbols.iter().copied(), draw, |symbol| problem.range(symbol));
-            sample.project(&self.graph, residuals, coordinates)?;
-            sample.values(&self.graph, &roots)?;
+            sample.project(&self.graph, residuals, &slopes, coordinates)?;
+            usable(sample.values(&self.graph, &roots))?;
             Some(sample)
         });
         self.samples = samples.take(POINTS).collect();
@@ -88,7 +93,8 @@ impl Space {
 
     /// The values at the points where all of `roots` have one.
     pub(super) fn values(&mut self, roots: &[Id]) -> Vec<Vec<Approximate>> {
-        self.samples.iter_mut().filter_map(|sample| sample.values(&self.graph, roots)).collect()
+        let values = self.samples.iter_mut().map(|sample| sample.values(&self.graph, roots));
+        values.filter_map(usable).collect()
     }
 
     /// Whether all of `roots` vanish, and how sure that is; `None` where they have no values.
@@ -117,4 +123,11 @@ impl Space {
     pub(super) fn seen(&self) -> Evidence {
         if self.holonomic.is_empty() { Evidence::Proved } else { Evidence::Held(self.samples.len() as u32) }
     }
+}
+
+/// `None` where one of the values is none, or too inaccurate.
+fn usable(values: Vec<Approximate>) -> Option<Vec<Approximate>> {
+    let scale = values.iter().fold(1.0, |scale: f64, value| scale.max(value.value.abs()));
+    let usable = |value: &Approximate| value.value.is_finite() && value.error <= BLUR * scale;
+    values.iter().all(usable).then_some(values)
 }

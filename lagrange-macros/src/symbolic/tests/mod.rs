@@ -20,7 +20,7 @@ use std::fmt::Debug;
 use proptest::strategy::Strategy;
 use proptest::test_runner::{Config, RngSeed, TestCaseError, TestRunner};
 
-use super::{Graph, Id, Rational, Symbol};
+use super::{Approximate, Graph, Id, Rational, Sample, Symbol};
 
 /// How one random case went.
 enum Outcome {
@@ -57,6 +57,26 @@ fn for_all<T: Debug>(
     }
     let (runs, checked) = (runs.get(), checked.get());
     assert!(f64::from(checked) >= share * f64::from(runs), "only {checked} of {runs} cases could be checked");
+}
+
+impl Graph {
+    /// The values of `roots` where symbols have the values given and unknown functions are those of this draw.
+    pub(crate) fn sample(
+        &self,
+        roots: &[Id],
+        draw: u64,
+        value: impl Fn(Symbol) -> Approximate,
+    ) -> Vec<Approximate> {
+        let symbols: Vec<Symbol> = self.symbols(roots).collect();
+        let mut sample = Sample::new([], draw, |_| (0.0, 1.0));
+        sample.set(symbols.into_iter().map(|symbol| (symbol, value(symbol))));
+        sample.values(self, roots)
+    }
+
+    /// The value of `root`, where each symbol has the value given.
+    pub(crate) fn evaluate(&self, root: Id, value: impl Fn(Symbol) -> f64) -> Approximate {
+        self.sample(&[root], 0, |symbol| Approximate::exact(value(symbol)))[0]
+    }
 }
 
 fn symbol(index: usize) -> Symbol {

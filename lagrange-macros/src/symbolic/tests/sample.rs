@@ -1,6 +1,6 @@
 //! Points on surfaces.
 
-use crate::symbolic::{Function, Graph, Sample};
+use crate::symbolic::{Function, Graph, Id, Rational, Sample};
 
 use super::symbol;
 
@@ -20,11 +20,13 @@ fn a_point_is_moved_onto_a_surface() {
         let mut sample = Sample::new([0, 1, 2].map(symbol), draw, |_| (0.5, 1.5));
         let unknowns = [0, 1, 2].map(symbol);
         // From far away the second equation of the circle can lead astray; then one draws again.
-        if sample.project(&graph, &[circle, again, sheet], &unknowns).is_none() {
+        let slopes = [circle, again, sheet].map(|root| graph.gradient(root, &unknowns));
+        let slopes = slopes.each_ref().map(Vec::as_slice);
+        if sample.project(&graph, &[circle, again, sheet], &slopes, &unknowns).is_none() {
             continue;
         }
         found += 1;
-        let [x, y, z] = [x, y, z].map(|id| sample.values(&graph, &[id]).expect("a value")[0]);
+        let [x, y, z] = [x, y, z].map(|id| sample.values(&graph, &[id])[0]);
         // The exact point with the same x is within the bounds that are stated.
         assert!(((2.0 - x.value * x.value).sqrt() - y.value).abs() < y.error, "{x:?} {y:?}");
         assert!((x.value.sin() - z.value).abs() < z.error, "{x:?} {z:?}");
@@ -38,7 +40,26 @@ fn where_there_is_no_surface_there_is_no_point() {
     let mut graph = Graph::default();
     let x = graph.symbol(symbol(0));
     let square = graph.square(x);
-    let root = graph.add(square, crate::symbolic::Id::ONE);
+    let root = graph.add(square, Id::ONE);
     let mut sample = Sample::new([symbol(0)], 0, |_| (0.5, 1.5));
-    assert!(sample.project(&graph, &[root], &[symbol(0)]).is_none());
+    let slope = graph.gradient(root, &[symbol(0)]);
+    assert!(sample.project(&graph, &[root], &[&slope], &[symbol(0)]).is_none());
+}
+
+/// Where surfaces touch, what they have in common lies within the root of the rounding errors only.
+#[test]
+fn where_surfaces_touch_there_is_no_point() {
+    let mut graph = Graph::default();
+    let [x, y] = [0, 1].map(|i| graph.symbol(symbol(i)));
+    // x² + y² = 1 and x² + 2 y² = 1.
+    let [x2, y2] = [x, y].map(|id| graph.square(id));
+    let one = Rational::from_integer(1);
+    let surfaces = [1, 2].map(|k| graph.sum([(x2, one), (y2, Rational::from_integer(k)), (Id::ONE, -one)]));
+    let unknowns = [0, 1].map(symbol);
+    let slopes = surfaces.map(|root| graph.gradient(root, &unknowns));
+    let slopes = slopes.each_ref().map(Vec::as_slice);
+    for draw in 0..20 {
+        let mut sample = Sample::new(unknowns, draw, |_| (0.5, 1.5));
+        assert!(sample.project(&graph, &surfaces, &slopes, &unknowns).is_none());
+    }
 }
