@@ -197,15 +197,17 @@ impl Lowering<'_> {
         base: &'e Expression,
         index: &'e Expression,
     ) -> Option<(Field<'e>, Vec<&'e Expression>)> {
+        // As many indices may follow one another as there is room for: no recursion.
+        let (mut base, mut indices) = (base, vec![index]);
+        while let Kind::Index(inner, index) = &base.kind {
+            indices.push(index);
+            base = inner;
+        }
+        indices.reverse();
         match &base.kind {
-            Kind::Index(base, first) => {
-                let (field, mut indices) = self.element_of_field(base, first)?;
-                indices.push(index);
-                Some((field, indices))
-            }
             Kind::Name(name) if !self.locals.iter().any(|(local, _)| *local == name.text) => {
                 match self.scope.get(&name.text)? {
-                    Entity::Field(field) => Some(((field, name), vec![index])),
+                    Entity::Field(field) => Some(((field, name), indices)),
                     _ => None,
                 }
             }
