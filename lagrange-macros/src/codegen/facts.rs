@@ -47,26 +47,13 @@ impl Emitter<'_> {
 
     /// The conserved quantity of an index.
     pub(super) fn conserved_by_index(&self, method: &Method) -> Written {
-        let signature = self.style.types.signature(method);
         let conserved = self.derived.facts.conserved.iter().enumerate();
-        let arms: Written = conserved
-            .map(|(index, conserved)| {
-                let Written { tokens: value, kernels } = self.conserved_value(conserved.quantity);
-                let tokens = quote!(#index => ::core::option::Option::Some(#value),);
-                Written { tokens, kernels }
-            })
-            .collect();
-        let cases = arms.tokens;
-        let tokens = quote! {
-            #[allow(unused_variables)]
-            #signature {
-                match index {
-                    #cases
-                    _ => ::core::option::Option::None,
-                }
-            }
-        };
-        Written { tokens, kernels: arms.kernels }
+        let arms = conserved.map(|(index, conserved)| {
+            let Written { tokens: value, kernels } = self.conserved_value(conserved.quantity);
+            let tokens = quote!(#index => ::core::option::Option::Some(#value),);
+            Written { tokens, kernels }
+        });
+        self.by_index(method, arms.collect())
     }
 
     fn conserved_value(&self, quantity: Quantity) -> Written {

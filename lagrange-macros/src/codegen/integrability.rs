@@ -45,21 +45,11 @@ impl Emitter<'_> {
             };
             Some(Written { tokens, kernels: vec![kernel] })
         });
-        let mut arms: Written = arms.collect();
+        let arms: Written = arms.collect();
         if arms.tokens.is_empty() {
             return arms;
         }
-        let (cases, signature) = (&arms.tokens, self.style.types.signature(method));
-        arms.tokens = quote! {
-            #[inline]
-            #[allow(unused_variables)]
-            #signature {
-                match index {
-                    #cases
-                    _ => ::core::option::Option::None,
-                }
-            }
-        };
-        arms
+        let Written { tokens, kernels } = self.by_index(method, arms);
+        Written { tokens: quote!(#[inline] #tokens), kernels }
     }
 }

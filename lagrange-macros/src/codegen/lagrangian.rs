@@ -140,6 +140,21 @@ impl Emitter<'_> {
         Written { tokens, kernels: vec![kernel] }
     }
 
+    /// The method that gives the number of an index, by its arms.
+    pub(super) fn by_index(&self, method: &Method, Written { tokens: arms, kernels }: Written) -> Written {
+        let signature = self.style.types.signature(method);
+        let tokens = quote! {
+            #[allow(unused_variables)]
+            #signature {
+                match index {
+                    #arms
+                    _ => ::core::option::Option::None,
+                }
+            }
+        };
+        Written { tokens, kernels }
+    }
+
     /// An error for each observable that is too long, and one for all other functions.
     fn report_refused<'k>(&self, kernels: impl Iterator<Item = &'k Kernel>, diagnostics: &mut Diagnostics) {
         let mut of_motion = Vec::new();

@@ -24,29 +24,18 @@ impl Emitter<'_> {
     }
 
     pub(super) fn observable_by_index(&self, method: &Method) -> Written {
-        let mut index = 0_usize;
-        let mut arms = Vec::new();
-        for (label, values) in &self.problem.observables {
+        let entries = self.problem.observables.iter().flat_map(|(label, values)| {
             let method = method_name(&label.text, label.place.start());
             let solution = self.needs_solution(values).then(|| quote!(, solution));
             let call = quote!(self.#method(state #solution));
-            for i in 0..values.len() {
-                let value = if values.len() == 1 { call.clone() } else { quote!(#call.data.0[0][#i]) };
-                arms.push(quote!(#index => ::core::option::Option::Some(#value),));
-                index += 1;
-            }
-        }
-        let signature = self.style.types.signature(method);
-        let tokens = quote! {
-            #[allow(unused_variables)]
-            #signature {
-                match index {
-                    #(#arms)*
-                    _ => ::core::option::Option::None,
-                }
-            }
-        };
-        Written { tokens, kernels: Vec::new() }
+            (0..values.len()).map(move |i| match values.len() {
+                1 => call.clone(),
+                _ => quote!(#call.data.0[0][#i]),
+            })
+        });
+        let arms =
+            entries.enumerate().map(|(index, value)| quote!(#index => ::core::option::Option::Some(#value),));
+        self.by_index(method, Written { tokens: arms.collect(), kernels: Vec::new() })
     }
 
     fn needs_solution(&self, values: &[Id]) -> bool {

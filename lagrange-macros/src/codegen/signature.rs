@@ -33,23 +33,23 @@ impl Types<'_> {
 
     /// The number of coordinates as a generic parameter, where it must be one.
     pub(super) fn open(&self) -> Option<TokenStream> {
-        let n = self.dimension(Dimension::Coordinates);
+        let [n, ..] = self.dimensions();
         self.coordinates.is_none().then(|| quote!(const #n: usize))
-    }
-
-    pub(super) fn dimension(&self, dimension: Dimension) -> TokenStream {
-        let length = match dimension {
-            Dimension::Coordinates => self.coordinates,
-            Dimension::Constraints => Some(self.constraints),
-            Dimension::Parameters => Some(self.parameters),
-        };
-        length.map_or_else(|| quote!(__N), |length| quote!(#length))
     }
 
     /// N, M and P
     pub(super) fn dimensions(&self) -> [TokenStream; 3] {
-        [Dimension::Coordinates, Dimension::Constraints, Dimension::Parameters]
-            .map(|dimension| self.dimension(dimension))
+        let (m, p) = (self.constraints, self.parameters);
+        [self.coordinates.map_or_else(|| quote!(__N), |n| quote!(#n)), quote!(#m), quote!(#p)]
+    }
+
+    fn dimension(&self, dimension: Dimension) -> TokenStream {
+        let [n, m, p] = self.dimensions();
+        match dimension {
+            Dimension::Coordinates => n,
+            Dimension::Constraints => m,
+            Dimension::Parameters => p,
+        }
     }
 
     pub(super) fn argument(&self, argument: Argument) -> TokenStream {

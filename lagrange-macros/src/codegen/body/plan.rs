@@ -71,7 +71,6 @@ struct Value {
     expression: Expression,
     /// How deep it nests.
     depth: usize,
-    part: usize,
 }
 
 impl<'p> Planner<'p> {
@@ -135,9 +134,9 @@ impl<'p> Planner<'p> {
 
     /// Brings what an earlier part computed into a local.
     fn fetch(&mut self, register: Register) {
-        let Some(value) = &self.values[register.index()] else { return };
-        let Some(place) = self.waiting.place(register).filter(|_| value.part < self.index) else { return };
-        if self.fetched.insert(register) {
+        if let Some(place) = self.waiting.place(register)
+            && self.fetched.insert(register)
+        {
             self.assign(self.local(register), Expression::Waiting(place));
         }
     }
@@ -161,7 +160,7 @@ impl<'p> Planner<'p> {
                 let is_sine = matches!(operation, Operation::Function(Function::Sin | Function::Cos, _));
                 let is_used_here = self.uses[index] == 1 && self.reach[index] == self.index;
                 if is_used_here && depth < NESTING && !is_sine {
-                    self.values[index] = Some(Value { expression, depth, part: self.index });
+                    self.values[index] = Some(Value { expression, depth });
                 } else {
                     let local = self.local(register);
                     self.assign(local, expression);
@@ -230,7 +229,7 @@ impl<'p> Planner<'p> {
             self.kept.push(register);
         }
         let expression = Expression::Local(local);
-        self.values[register.index()] = Some(Value { expression, depth: 0, part: self.index });
+        self.values[register.index()] = Some(Value { expression, depth: 0 });
     }
 
     /// Says which results are stored where: what is at hand at once, the others when they are computed.
@@ -256,8 +255,9 @@ impl<'p> Planner<'p> {
             }
         }
         for register in std::mem::take(&mut self.kept) {
-            let place = self.waiting.add(register);
-            self.store(Place::Waiting(place), register);
+            let value = self.value(register);
+            let place = Place::Waiting(self.waiting.add(register));
+            self.part.statements.push(Statement::Store(place, value));
         }
         self.index += 1;
         std::mem::take(&mut self.part)
