@@ -24,7 +24,7 @@
 //!
 //! | written | meaning |
 //! |---|---|
-//! | `2/5`, `9.81`, `1_000`, `6.02e23` | exact numbers; no suffixes, no hexadecimal |
+//! | `2/5`, `9.81`, `1_000`, `6.62607015e-34` | exact numbers of up to 38 digits, in the range of `f64`; no suffixes, no hexadecimal |
 //! | `t`, `pi` | time, π |
 //! | `x`, `x_dot` or `ẋ` | a coordinate and its velocity; `x_ddot` or `ẍ` in observables only |
 //! | `+ - * / ^` | the usual precedence; `-x^2` is `-(x^2)`, `^` groups to the right |

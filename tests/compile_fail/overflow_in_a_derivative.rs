@@ -2,7 +2,7 @@ use lagrange_core::prelude::*;
 
 #[derive(Lagrangian)]
 #[coordinates(x)]
-#[lagrangian(m/2 * x_dot^2 - sin(10^20 * x)*sin(10^20 * x) * 10^25 * x)]
+#[lagrangian(m/2 * x_dot^2 - sin(1e200 * x) * 1e200)]
 struct System {
     m: f64,
 }

@@ -5,6 +5,7 @@
 //! compared with differences of the accelerations, and with dual numbers put through them.
 
 mod by_hand;
+mod constants;
 mod constrained;
 mod expressions;
 mod fields;

@@ -117,6 +117,13 @@ pub(crate) fn operations(graph: &Graph, roots: &[Id]) -> Count {
     passes::Program::of(graph, roots).count()
 }
 
+/// The value of a constant as it is emitted.
+#[cfg(test)]
+pub(crate) fn value(graph: &Graph, root: Id) -> f64 {
+    let program = passes::Program::of(graph, &[root]);
+    program.schedule.values(&program.results, |_| f64::NAN)[0]
+}
+
 /// What the accelerations take, before the passes and after each, solved by each form of the equations; `None` where
 /// that is left to loops.
 #[cfg(test)]

@@ -6,7 +6,7 @@ use rustc_hash::FxHashMap;
 
 use super::count::Count;
 use super::operation::{Call, Operation, Register};
-use crate::symbolic::{Function, Graph, Id, Node, Rational, to_f64};
+use crate::symbolic::{Function, Graph, Id, Node, Rational, Scaled, to_f64};
 
 /// What an operation comes to.
 enum Folded {
@@ -214,7 +214,8 @@ impl Schedule {
             return self.register_of(graph, term);
         }
         if let Node::Product(factors) = graph.node(term)
-            && factors.iter().all(|(_, exponent)| exponent.is_negative())
+            && (factors.iter().all(|(_, exponent)| exponent.is_negative())
+                || graph.power_of_ten(factors) != 0)
         {
             return self.product(graph, factors, coefficient);
         }
@@ -225,7 +226,10 @@ impl Schedule {
 
     /// Numerator over denominator; `scale` stands in the numerator.
     fn product(&mut self, graph: &Graph, factors: &[(Id, Rational)], scale: Rational) -> Register {
-        let mut numerator = (!scale.is_one()).then(|| self.number(scale));
+        let scale = Scaled { fraction: scale, exponent: graph.power_of_ten(factors) };
+        let factors = factors.iter().filter(|factor| !graph.is_power_of_ten(**factor));
+        let is_one = scale == Rational::one().into();
+        let mut numerator = (!is_one).then(|| self.constant(scale.to_f64()));
         let mut denominator = None;
         for &(factor, exponent) in factors {
             let base = self.register_of(graph, factor);

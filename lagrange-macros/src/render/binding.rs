@@ -35,6 +35,7 @@ impl Notation {
             Formula::Power(..) => Binding::Power,
             Formula::Root(_) if self == Self::Unicode => Binding::Power,
             Formula::Number(value) if !value.denom().is_one() => Binding::Power,
+            Formula::Scaled(_) => Binding::Power,
             // A further index would run into the first.
             Formula::Entry(..) if self == Self::Latex => Binding::Power,
             _ => Binding::Atom,

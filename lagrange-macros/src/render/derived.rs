@@ -5,12 +5,12 @@ use num_traits::{One, Signed};
 use super::formula::Formula;
 use super::supplied;
 use crate::resolve::{Element, Problem};
-use crate::symbolic::{Graph, Id, Node, Rational};
+use crate::symbolic::{Graph, Id, Node, Rational, Scaled};
 use crate::variables::Variable;
 
 pub(super) fn derived(id: Id, graph: &Graph, problem: &Problem) -> Formula {
     match graph.node(id) {
-        Node::Number(value) => Formula::Number(value.abs()).signed(value.is_negative()),
+        Node::Number(value) => Formula::number((*value).into()),
         Node::Pi => Formula::Pi,
         Node::Symbol(symbol) => variable(Variable::of(*symbol), problem),
         Node::Sum(terms) => {
@@ -45,9 +45,11 @@ pub(super) fn derived(id: Id, graph: &Graph, problem: &Problem) -> Formula {
 fn derived_term(term: Id, coefficient: Rational, graph: &Graph, problem: &Problem) -> Formula {
     let Node::Product(factors) = graph.node(term) else {
         let above = if term == Id::ONE { Vec::new() } else { vec![derived(term, graph, problem)] };
-        return Formula::product(coefficient, above, Vec::new());
+        return Formula::product(coefficient.into(), above, Vec::new());
     };
+    let coefficient = Scaled { fraction: coefficient, exponent: graph.power_of_ten(factors) };
     let mut factors: Vec<_> = factors.to_vec();
+    factors.retain(|&factor| !graph.is_power_of_ten(factor));
     factors.sort_by_key(|&(factor, _)| reading_order(factor, graph));
     let (mut above, mut below) = (Vec::new(), Vec::new());
     for (factor, exponent) in factors {

@@ -1,13 +1,15 @@
 //! A formula as it is to be read: names, fractions, powers. It comes from what the user [wrote](super::written) or
 //! from the [graph](super::derived), and goes to a [`Notation`](super::notation::Notation).
 
-use num_traits::{One, Signed};
+use num_traits::{One, Signed, Zero};
 
-use crate::symbolic::Rational;
+use crate::symbolic::{Rational, Scaled, finite_decimal};
 
 #[derive(Clone, PartialEq, Debug)]
 pub(super) enum Formula {
     Number(Rational),
+    /// A number with a power of ten.
+    Scaled(Scaled),
     Pi,
     /// A name with dots above it and indices behind it.
     Name {
@@ -112,16 +114,31 @@ impl Formula {
         if negative { self.negated() } else { self }
     }
 
+    /// With a power of ten where there are many zeros before or behind its digits.
+    pub(super) fn number(value: Scaled) -> Self {
+        const ZEROS: u32 = 12;
+        let Scaled { fraction, exponent } = value;
+        let is_negative = fraction.is_negative();
+        let magnitude = Scaled { fraction: fraction.abs(), exponent };
+        let is_long = match finite_decimal(fraction) {
+            Some((digits, 0)) => !digits.is_zero() && digits % 10_i128.pow(ZEROS) == 0,
+            Some((_, places)) => places > ZEROS,
+            None => false,
+        };
+        let apart = magnitude.apart().filter(|apart| apart.exponent != 0 && (is_long || exponent != 0));
+        apart.map_or(Self::Number(magnitude.fraction), Self::Scaled).signed(is_negative)
+    }
+
     /// number · above / below
-    pub(super) fn product(number: Rational, mut above: Vec<Self>, below: Vec<Self>) -> Self {
-        let magnitude = number.abs();
-        if !magnitude.is_one() || above.is_empty() {
-            above.insert(0, Self::Number(magnitude));
+    pub(super) fn product(number: Scaled, mut above: Vec<Self>, below: Vec<Self>) -> Self {
+        let Scaled { fraction, exponent } = number;
+        if !fraction.abs().is_one() || exponent != 0 || above.is_empty() {
+            above.insert(0, Self::number(Scaled { fraction: fraction.abs(), exponent }));
         }
         let formula = match (above.len(), below.is_empty()) {
             (1, true) => above.remove(0),
             _ => Self::Product(above, below),
         };
-        if number.is_negative() { formula.negated() } else { formula }
+        formula.signed(fraction.is_negative())
     }
 }

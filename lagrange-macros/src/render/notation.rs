@@ -4,15 +4,16 @@ use num_traits::{One, Signed};
 
 use super::binding::{Binding, PREFIX, begins_with_function, exponent_at_name, is_number, is_prefixed};
 use super::formula::Formula;
-use super::symbols::{Notation, decimal, superscript, vulgar};
+use super::symbols::{Notation, decimal, point, superscript, vulgar};
 use crate::resolve::is_built_in;
-use crate::symbolic::Rational;
+use crate::symbolic::{Rational, Scaled, finite_decimal};
 use crate::syntax::GREEK;
 
 impl Notation {
     pub(super) fn write(self, formula: &Formula) -> String {
         match formula {
             Formula::Number(value) => self.number(*value),
+            Formula::Scaled(value) => self.scaled(*value),
             Formula::Pi => self.pick("π", r"\pi").to_owned(),
             Formula::Name { base, dots, indices } => self.name(base, *dots, indices),
             Formula::Entry(whole, index) => self.entry(self.at_least(whole, Binding::Atom), index),
@@ -96,6 +97,7 @@ impl Notation {
                 let below = match below {
                     // a/2/3 could be read in two ways.
                     [Formula::Number(value)] if !value.is_integer() => self.parentheses(&self.number(*value)),
+                    [Formula::Scaled(value)] => self.parentheses(&self.scaled(*value)),
                     [single] => self.at_least(single, Binding::Power),
                     several => self.parentheses(&self.factors(several, false)),
                 };
@@ -263,6 +265,13 @@ impl Notation {
                 None => format!("{sign}{numerator}/{denominator}"),
             },
         }
+    }
+
+    /// 6.62607015×10⁻³⁴
+    fn scaled(self, Scaled { fraction, exponent }: Scaled) -> String {
+        let power = format!("10{}", self.superscript(&exponent.to_string()));
+        let digits = finite_decimal(fraction).map_or_else(|| self.parentheses(&self.number(fraction)), point);
+        if fraction.is_one() { power } else { format!("{digits}{}{power}", self.pick("×", r" \times ")) }
     }
 
     /// Greek by their names; dots above the last letter; indices below.

@@ -1,6 +1,6 @@
 //! Greek letters, fractions, exponents: the signs that formulas are written with.
 
-use crate::symbolic::Rational;
+use crate::symbolic::{Rational, finite_decimal};
 
 /// A way of writing.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -11,27 +11,18 @@ pub(super) enum Notation {
 
 /// A finite decimal such as 9.81; simple fractions are read better as such.
 pub(super) fn decimal(value: Rational) -> Option<String> {
-    let mut denominator = *value.denom();
-    if denominator < 16 {
-        return None;
+    if *value.denom() < 16 { None } else { finite_decimal(value).map(point) }
+}
+
+/// Digits, with so many of them after the point.
+pub(super) fn point((digits, places): (i128, u32)) -> String {
+    let places = places as usize;
+    let text = format!("{digits:0>width$}", width = places + 1);
+    let (whole, fraction) = text.split_at(text.len() - places);
+    match fraction.trim_end_matches('0') {
+        "" => whole.to_owned(),
+        fraction => format!("{whole}.{fraction}"),
     }
-    let mut digits = 0;
-    while denominator % 10 == 0 {
-        denominator /= 10;
-        digits += 1;
-    }
-    while denominator > 1 && digits < 12 {
-        let factor = if denominator % 2 == 0 { 2 } else { 5 };
-        if denominator % factor != 0 {
-            return None;
-        }
-        denominator /= factor;
-        digits += 1;
-    }
-    let scaled = value.numer().checked_mul(10_i128.checked_pow(digits)?)? / value.denom();
-    let text = format!("{scaled:0>width$}", width = digits as usize + 1);
-    let (whole, fraction) = text.split_at(text.len() - digits as usize);
-    Some(format!("{whole}.{}", fraction.trim_end_matches('0')))
 }
 
 pub(super) fn vulgar(numerator: i128, denominator: i128) -> Option<char> {

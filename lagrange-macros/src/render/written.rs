@@ -4,13 +4,13 @@ use num_traits::One;
 
 use super::formula::Formula;
 use crate::resolve::Problem;
-use crate::symbolic::Rational;
+use crate::symbolic::{Rational, Scaled};
 use crate::syntax::{Expression, Kind, Operator, Sign};
 
 pub(super) fn written(expression: &Expression, problem: &Problem) -> Formula {
     let inner = |part: &Expression| written(part, problem);
     match &expression.kind {
-        Kind::Number(value) => Formula::Number(*value),
+        Kind::Number(value) => Formula::number(*value),
         Kind::Name(name) if name.text == "pi" => Formula::Pi,
         Kind::Name(name) => named(&name.text, problem),
         Kind::Index(base, index) => indexed(inner(base), index, problem),
@@ -36,17 +36,20 @@ pub(super) fn written(expression: &Expression, problem: &Problem) -> Formula {
 
 /// A leading `m/2` is read as ½ m: numbers gather in front.
 fn written_product(factors: &[(Operator, Expression)], problem: &Problem) -> Formula {
-    let (mut above, mut below, mut number) = (Vec::new(), Vec::new(), Rational::one());
+    let (mut above, mut below, mut number) = (Vec::new(), Vec::new(), Scaled::from(Rational::one()));
     for (operator, factor) in factors {
-        match (&factor.kind, operator) {
-            (Kind::Number(value), Operator::Times) => number *= value,
-            (Kind::Number(value), Operator::Over) if !num_traits::Zero::is_zero(value) => number /= value,
-            (_, operator) => {
-                let (is_negative, magnitude) = written(factor, problem).sign_and_magnitude();
-                number = if is_negative { -number } else { number };
-                if *operator == Operator::Times { above.push(magnitude) } else { below.push(magnitude) }
-            }
+        let exponent = if *operator == Operator::Times { 1 } else { -1 };
+        let gathered = match &factor.kind {
+            Kind::Number(value) => value.power(exponent).and_then(|value| number.times(value)),
+            _ => None,
+        };
+        if let Some(gathered) = gathered {
+            number = gathered;
+            continue;
         }
+        let (is_negative, magnitude) = written(factor, problem).sign_and_magnitude();
+        number.fraction = if is_negative { -number.fraction } else { number.fraction };
+        if *operator == Operator::Times { above.push(magnitude) } else { below.push(magnitude) }
     }
     Formula::product(number, above, below)
 }

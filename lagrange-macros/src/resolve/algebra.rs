@@ -95,8 +95,8 @@ impl Lowering<'_> {
         match value? {
             Value::Scalar(value) => {
                 let exponent = exponent?;
-                let numbers = (self.graph.as_number(value), self.graph.as_number(exponent));
-                if matches!(numbers, (Some(b), Some(e)) if b.is_negative() && !e.is_integer()) {
+                let numbers = (self.graph.as_scaled(value), self.graph.as_scaled(exponent));
+                if matches!(numbers, (Some(b), Some(e)) if b.fraction.is_negative() && !e.is_integer()) {
                     return self
                         .report(base.place, "a negative number to a fractional power has no real value");
                 }

@@ -7,7 +7,7 @@ use super::quaternion;
 use super::scope::Entity;
 use super::value::{Value, cross, dot};
 use crate::diagnostics::Place;
-use crate::symbolic::{Function, Id, Rational};
+use crate::symbolic::{Function, Id, Rational, Scaled};
 use crate::syntax::{Expression, Kind, Name};
 
 impl Lowering<'_> {
@@ -79,11 +79,11 @@ impl Lowering<'_> {
     /// A scalar at which the function has a real value, as far as it is a number.
     fn inside_domain(&mut self, name: &Name, argument: &Expression) -> Option<Id> {
         let x = self.scalar(argument)?;
-        let Some(value) = self.graph.as_number(x) else { return Some(x) };
+        let Some(Scaled { fraction: value, exponent }) = self.graph.as_scaled(x) else { return Some(x) };
         let message = match name.text.as_str() {
             "sqrt" if value.is_negative() => "the root of a negative number has no real value",
             "ln" if !value.is_positive() => "only positive numbers have a logarithm",
-            "asin" | "acos" if value.abs() > Rational::from_integer(1) => {
+            "asin" | "acos" if exponent > 0 || exponent == 0 && value.abs() > Rational::from_integer(1) => {
                 "`asin` and `acos` take numbers from -1 to 1"
             }
             _ => return Some(x),

@@ -140,7 +140,7 @@ impl<'a> Lowering<'a> {
     fn lower_kind(&mut self, expression: &Expression) -> Option<Value> {
         let place = expression.place;
         match &expression.kind {
-            Kind::Number(value) => Some(Value::Scalar(self.graph.number(*value))),
+            Kind::Number(value) => Some(Value::Scalar(self.graph.scaled(*value))),
             Kind::Name(name) => self.name(name),
             Kind::Index(base, index) => self.index(base, index),
             Kind::Call(name, arguments) => self.call(name, arguments, place),
@@ -302,5 +302,5 @@ pub(super) const NO_ACCELERATIONS: &str =
     "accelerations are what the equations are solved for: they may appear in observables only";
 
 pub(super) fn is_literal_zero(expression: &Expression) -> bool {
-    matches!(&expression.kind, Kind::Number(value) if value.is_zero())
+    matches!(&expression.kind, Kind::Number(value) if value.fraction.is_zero())
 }

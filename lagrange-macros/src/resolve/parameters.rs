@@ -6,7 +6,7 @@ use quote::ToTokens;
 use super::unknown::nearest;
 use super::value::Value;
 use crate::diagnostics::{Diagnostics, Place};
-use crate::symbolic::{Graph, to_f64};
+use crate::symbolic::Graph;
 use crate::syntax::{Declaration, Expression, Field, FieldShape, Kind, Layout, Operator, Parameter};
 use crate::variables::Variable;
 
@@ -274,7 +274,7 @@ fn bounds(low: &Expression, high: &Expression) -> syn::Result<(f64, f64)> {
 
 fn literal(expression: &Expression) -> syn::Result<f64> {
     match &expression.kind {
-        Kind::Number(value) => Ok(to_f64(*value)),
+        Kind::Number(value) => Ok(value.to_f64()),
         Kind::Negative(inner) => literal(inner).map(|value| -value),
         Kind::Product(factors) => factors.iter().try_fold(1.0, |product, (operator, factor)| {
             let factor = literal(factor)?;

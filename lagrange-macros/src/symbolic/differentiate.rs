@@ -129,10 +129,11 @@ impl Graph {
         }
     }
 
-    /// The operands of a product, a power or a function, each once: of xˣ there is one.
+    /// The operands of a product, a power or a function that are no numbers, each once: of xˣ there is one.
     fn distinct_operands(&self, id: Id) -> Vec<Id> {
         let mut operands = Vec::new();
         self.operands(id, |operand| operands.push(operand));
+        operands.retain(|&operand| self.as_number(operand).is_none());
         operands.sort_unstable();
         operands.dedup();
         operands

@@ -5,6 +5,7 @@ use num_traits::{One, Zero};
 use rustc_hash::FxBuildHasher;
 
 use super::rational::{self, Rational};
+use super::scaled::Scaled;
 
 /// A node of one [`Graph`].
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -79,7 +80,8 @@ pub(crate) enum Node {
     Symbol(Symbol),
     /// Σ coefficient · term, sorted by term, no term twice; a constant is a multiple of [`Id::ONE`].
     Sum(Box<[(Id, Rational)]>),
-    /// Π factor ^ exponent, sorted by factor, no factor twice; never a number but for its roots.
+    /// Π factor ^ exponent, sorted by factor, no factor twice; never a number but for its roots and for a power of 10
+    /// that with the coefficient before it does not fit into 128 bits.
     Product(Box<[(Id, Rational)]>),
     Function(Function, Id),
     /// The angle of the point (second, first).
@@ -106,7 +108,7 @@ pub(crate) struct External {
 /// What exact arithmetic could not do. The first one stays until it is [taken](Graph::take_fault).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Fault {
-    /// A numerator or denominator beyond 128 bits.
+    /// A number of too many digits, or beyond the range of `f64`.
     Overflow,
     /// Division by what is identically zero.
     DivisionByZero,
@@ -118,12 +120,14 @@ pub(crate) enum Fault {
 #[derive(Debug)]
 pub(crate) struct Graph {
     nodes: IndexSet<Node, FxBuildHasher>,
+    /// The number 10, once a power of it stands in a product.
+    pub(super) ten: Option<Id>,
     fault: Option<Fault>,
 }
 
 impl Default for Graph {
     fn default() -> Self {
-        let mut graph = Self { nodes: IndexSet::default(), fault: None };
+        let mut graph = Self { nodes: IndexSet::default(), ten: None, fault: None };
         graph.number(Rational::zero());
         graph.number(Rational::one());
         graph
@@ -158,6 +162,32 @@ impl Graph {
         self.intern(Node::Pi)
     }
 
+    /// The value of a node that is a number of any size.
+    pub(crate) fn as_scaled(&self, id: Id) -> Option<Scaled> {
+        let (term, fraction) = match self.node(id) {
+            Node::Number(value) => return Some((*value).into()),
+            Node::Sum(terms) if terms.len() == 1 => terms[0],
+            _ => (id, Rational::one()),
+        };
+        match self.node(term) {
+            Node::Product(factors) if factors.len() == 1 && self.is_power_of_ten(factors[0]) => {
+                Some(Scaled { fraction, exponent: self.power_of_ten(factors) })
+            }
+            _ => None,
+        }
+    }
+
+    /// The exponent of 10 in a product.
+    pub(crate) fn power_of_ten(&self, factors: &[(Id, Rational)]) -> i32 {
+        let ten = factors.iter().find(|factor| self.is_power_of_ten(**factor));
+        ten.and_then(|(_, exponent)| i32::try_from(exponent.to_integer()).ok()).unwrap_or(0)
+    }
+
+    /// Whether a factor is 10 to a whole power.
+    pub(crate) fn is_power_of_ten(&self, (factor, exponent): (Id, Rational)) -> bool {
+        Some(factor) == self.ten && exponent.is_integer()
+    }
+
     /// The value of a node that is a number.
     pub(crate) fn as_number(&self, id: Id) -> Option<Rational> {
         match self.node(id) {
@@ -170,6 +200,7 @@ impl Graph {
     pub(crate) fn defined(&mut self, inner: Id) -> Id {
         match self.node(inner) {
             Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Defined(_) => inner,
+            _ if self.as_scaled(inner).is_some() => inner,
             _ => self.intern(Node::Defined(inner)),
         }
     }

@@ -12,6 +12,7 @@ mod random;
 mod rational;
 mod rebuild;
 mod sample;
+mod scaled;
 mod simplify;
 #[cfg(test)]
 mod tests;
@@ -22,8 +23,9 @@ pub(crate) use differentiate::Forward;
 pub(crate) use elimination::{rank, solve};
 pub(crate) use evaluate::Approximate;
 pub(crate) use graph::{External, Fault, Function, Graph, Id, Node, Symbol};
-pub(crate) use rational::{Rational, parse_decimal, to_f64};
+pub(crate) use rational::{Rational, to_f64};
 pub(crate) use sample::Sample;
+pub(crate) use scaled::{Scaled, finite_decimal, parse_decimal};
 #[cfg(test)]
 pub(crate) use tests::tree::apply;
 pub(crate) use zero::Verdict;

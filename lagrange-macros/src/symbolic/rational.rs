@@ -6,20 +6,6 @@ use num_traits::{CheckedAdd, CheckedMul, One, Signed, Zero};
 /// A fraction of two `i128`, in lowest terms, its denominator positive.
 pub(crate) type Rational = Ratio<i128>;
 
-/// The value of a decimal literal such as `1_000`, `9.81` or `6.02e23`; `None` where it does not fit.
-pub(crate) fn parse_decimal(text: &str) -> Option<Rational> {
-    let text = text.replace('_', "");
-    let (mantissa, exponent) = match text.split_once(['e', 'E']) {
-        Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>().ok()?),
-        None => (text.as_str(), 0),
-    };
-    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-    let fraction = fraction.trim_end_matches('0');
-    let digits = format!("{whole}{fraction}").parse::<i128>().ok()?;
-    let shift = exponent.checked_sub(i32::try_from(fraction.len()).ok()?)?;
-    times(Rational::from_integer(digits), power(Rational::from_integer(10), shift.into())?)
-}
-
 /// Whether a fraction may stand in the graph. All but those of `i128::MIN` do: it has no negative, and so no
 /// absolute value and no reciprocal that could be computed without care.
 pub(super) fn fits(x: &Rational) -> bool {

@@ -4,7 +4,8 @@
 use num_traits::{One, Signed, Zero};
 
 use super::graph::{External, Fault, Function, Graph, Id, Node};
-use super::rational::{self, Rational, plus, times};
+use super::rational::{self, Rational, plus, times, to_f64};
+use super::scaled::Scaled;
 
 impl Graph {
     pub(crate) fn add(&mut self, x: Id, y: Id) -> Id {
@@ -58,15 +59,24 @@ impl Graph {
         self.intern(Node::Atan2(y, x))
     }
 
+    /// A number of any size.
+    pub(crate) fn scaled(&mut self, value: Scaled) -> Id {
+        self.sum_of([(Id::ONE, value)])
+    }
+
     /// Σ coefficient · term.
     pub(crate) fn sum(&mut self, terms: impl IntoIterator<Item = (Id, Rational)>) -> Id {
+        self.sum_of(terms.into_iter().map(|(term, coefficient)| (term, coefficient.into())))
+    }
+
+    fn sum_of(&mut self, terms: impl IntoIterator<Item = (Id, Scaled)>) -> Id {
         let mut flat = Vec::new();
         for (term, coefficient) in terms {
             if self.push_term(&mut flat, term, coefficient).is_none() {
                 return self.fail(Fault::Overflow);
             }
         }
-        match merge(flat) {
+        match self.collected(flat) {
             None => self.fail(Fault::Overflow),
             Some(terms) => match terms[..] {
                 [] => Id::ZERO,
@@ -77,12 +87,12 @@ impl Graph {
         }
     }
 
-    fn push_term(&self, flat: &mut Vec<(Id, Rational)>, term: Id, coefficient: Rational) -> Option<()> {
+    fn push_term(&self, flat: &mut Vec<(Id, Scaled)>, term: Id, coefficient: Scaled) -> Option<()> {
         match self.node(term) {
-            Node::Number(value) => flat.push((Id::ONE, times(*value, coefficient)?)),
+            Node::Number(value) => flat.push((Id::ONE, coefficient.times((*value).into())?)),
             Node::Sum(terms) => {
                 for (inner, c) in terms {
-                    flat.push((*inner, times(*c, coefficient)?));
+                    flat.push((*inner, coefficient.times((*c).into())?));
                 }
             }
             _ => flat.push((term, coefficient)),
@@ -90,10 +100,77 @@ impl Graph {
         Some(())
     }
 
+    /// Like terms added. A coefficient that needs a power of ten has it among the factors of its term; 1 and 10⁻⁵⁰, whose
+    /// sum has too many digits, are two terms.
+    fn collected(&mut self, flat: Vec<(Id, Scaled)>) -> Option<Vec<(Id, Rational)>> {
+        let mut flat = match self.ten {
+            None => flat,
+            Some(_) => flat.into_iter().map(|(term, c)| self.without_tens(term, c)).collect::<Option<_>>()?,
+        };
+        flat.sort_unstable_by(|(x, a), (y, b)| x.cmp(y).then_with(|| b.cmp_size(a)));
+        let mut merged: Vec<(Id, Scaled)> = Vec::with_capacity(flat.len());
+        for (term, value) in flat {
+            let start = merged.iter().rposition(|&(known, _)| known != term).map_or(0, |before| before + 1);
+            let like = &mut merged[start..];
+            if like.iter_mut().find_map(|(_, sum)| sum.plus(value).map(|total| *sum = total)).is_none() {
+                merged.push((term, value));
+            }
+        }
+        merged.retain(|(_, value)| !value.fraction.is_zero());
+        let mut terms = Vec::with_capacity(merged.len());
+        let mut is_sorted = true;
+        for like in merged.chunk_by(|(x, _), (y, _)| x == y) {
+            for &(term, value) in like {
+                let Scaled { fraction, exponent } = if like.len() == 1 { value } else { value.apart()? };
+                is_sorted &= exponent == 0;
+                terms.push((if exponent == 0 { term } else { self.times_ten(term, exponent) }, fraction));
+            }
+        }
+        if !is_sorted {
+            terms.sort_unstable_by_key(|&(term, _)| term);
+        }
+        terms.windows(2).all(|pair| pair[0].0 != pair[1].0).then_some(terms)
+    }
+
+    /// The term and its coefficient, with a power of ten that is a factor in the coefficient.
+    fn without_tens(&mut self, term: Id, coefficient: Scaled) -> Option<(Id, Scaled)> {
+        let Node::Product(factors) = self.node(term) else { return Some((term, coefficient)) };
+        let exponent = self.power_of_ten(factors);
+        if exponent == 0 {
+            return Some((term, coefficient));
+        }
+        let rest: Vec<_> = factors.iter().copied().filter(|&factor| !self.is_power_of_ten(factor)).collect();
+        let tens = Scaled { fraction: Rational::one(), exponent };
+        Some((self.factors_of(rest), coefficient.times(tens)?))
+    }
+
+    /// `term` · 10^`exponent`, where that is not multiplied out.
+    fn times_ten(&mut self, term: Id, exponent: i32) -> Id {
+        let ten = self.integer(10);
+        self.ten = Some(ten);
+        let mut factors = match self.node(term) {
+            Node::Product(factors) => factors.to_vec(),
+            _ if term == Id::ONE => Vec::new(),
+            _ => vec![(term, Rational::one())],
+        };
+        factors.push((ten, Rational::from_integer(exponent.into())));
+        factors.sort_unstable_by_key(|&(factor, _)| factor);
+        self.intern(Node::Product(factors.into()))
+    }
+
+    /// Factors in their order, which are not to be taken apart further.
+    fn factors_of(&mut self, factors: Vec<(Id, Rational)>) -> Id {
+        match factors[..] {
+            [] => Id::ONE,
+            [(factor, exponent)] if exponent.is_one() => factor,
+            _ => self.intern(Node::Product(factors.into())),
+        }
+    }
+
     /// Π factor ^ exponent.
     pub(crate) fn product(&mut self, factors: impl IntoIterator<Item = (Id, Rational)>) -> Id {
         let mut flat: Vec<(Id, Rational)> = factors.into_iter().collect();
-        let mut coefficient = Rational::one();
+        let mut coefficient = Scaled::from(Rational::one());
         loop {
             let mut next = Vec::with_capacity(flat.len());
             let mut changed = false;
@@ -105,41 +182,55 @@ impl Graph {
             }
             let Some(merged) = merge(next) else { return self.fail(Fault::Overflow) };
             flat = merged;
-            if !changed && flat.iter().all(|&(factor, exponent)| self.is_irreducible(factor, exponent)) {
+            if !changed
+                && flat.iter().all(|&(factor, exponent)| self.is_irreducible(coefficient, factor, exponent))
+            {
                 break;
             }
         }
-        if coefficient.is_zero() {
+        if coefficient.fraction.is_zero() {
             return Id::ZERO;
         }
-        let product = match flat[..] {
-            [] => return self.number(coefficient),
-            [(factor, exponent)] if exponent.is_one() => factor,
-            _ => self.intern(Node::Product(flat.into())),
-        };
-        self.sum([(product, coefficient)])
+        if !self.is_in_range(&flat, coefficient) {
+            return self.fail(Fault::Overflow);
+        }
+        let product = self.factors_of(flat);
+        self.sum_of([(product, coefficient)])
+    }
+
+    /// Whether the numbers in a product can be multiplied in floating point, in any order.
+    fn is_in_range(&self, factors: &[(Id, Rational)], coefficient: Scaled) -> bool {
+        let (mut least, mut greatest) = (0.0, 0.0);
+        for &(factor, exponent) in factors {
+            if let Some(value) = self.as_number(factor) {
+                let magnitude = Scaled::from(value).magnitude() * to_f64(exponent);
+                least += magnitude.min(0.0);
+                greatest += magnitude.max(0.0);
+            }
+        }
+        let magnitude = coefficient.magnitude();
+        least == 0.0 && greatest == 0.0 || least.min(magnitude) > -RANGE && greatest.max(magnitude) < RANGE
     }
 
     /// Takes `factor ^ exponent` apart as far as that is exact; true where parts may merge anew.
     fn push_factor(
         &mut self,
         flat: &mut Vec<(Id, Rational)>,
-        coefficient: &mut Rational,
+        coefficient: &mut Scaled,
         factor: Id,
         exponent: Rational,
     ) -> Result<bool, Fault> {
         if factor == Id::ZERO && exponent.is_negative() {
             return Err(Fault::DivisionByZero);
         }
-        let mut scale = |c| times(*coefficient, c).map(|c| *coefficient = c).ok_or(Fault::Overflow);
         match self.node(factor) {
-            Node::Number(value) => match exact_power(*value, exponent)? {
-                Some(value) => scale(value)?,
+            Node::Number(value) => match folded(*coefficient, *value, exponent) {
+                Some(folded) => *coefficient = folded,
                 None => flat.push((factor, exponent)),
             },
             Node::Sum(terms) if exponent.is_integer() && !common_coefficient(terms).is_one() => {
                 let common = common_coefficient(terms);
-                scale(rational::power(common, exponent.to_integer()).ok_or(Fault::Overflow)?)?;
+                flat.push((self.number(common), exponent));
                 flat.push((self.sum([(factor, common.recip())]), exponent));
                 return Ok(true);
             }
@@ -159,9 +250,9 @@ impl Graph {
     }
 
     /// Whether [`push_factor`](Self::push_factor) would leave `factor ^ exponent` as it is.
-    fn is_irreducible(&self, factor: Id, exponent: Rational) -> bool {
+    fn is_irreducible(&self, coefficient: Scaled, factor: Id, exponent: Rational) -> bool {
         match self.node(factor) {
-            Node::Number(value) => matches!(exact_power(*value, exponent), Ok(None)),
+            Node::Number(value) => folded(coefficient, *value, exponent).is_none(),
             Node::Sum(terms) => !exponent.is_integer() || common_coefficient(terms).is_one(),
             Node::Product(_) => !exponent.is_integer(),
             Node::Function(Function::Abs, _) => !is_even(exponent),
@@ -224,6 +315,9 @@ impl Graph {
     }
 }
 
+/// Numbers in a product are from 10^−`RANGE` to 10^`RANGE`, well inside of the range of `f64`.
+const RANGE: f64 = 150.0;
+
 #[derive(Clone, Copy, PartialEq)]
 enum Parity {
     Even,
@@ -253,18 +347,15 @@ fn common_coefficient(terms: &[(Id, Rational)]) -> Rational {
     if alike { first } else { first.signum() }
 }
 
-/// value ^ exponent where that is rational.
-fn exact_power(value: Rational, exponent: Rational) -> Result<Option<Rational>, Fault> {
-    if exponent.is_integer() {
-        return rational::power(value, exponent.to_integer()).map(Some).ok_or(Fault::Overflow);
-    }
-    if value.is_zero() || value.is_one() {
-        return Ok(Some(value));
-    }
-    match (*exponent.denom(), rational::square_root(value)) {
-        (2, Some(root)) => rational::power(root, *exponent.numer()).map(Some).ok_or(Fault::Overflow),
-        _ => Ok(None),
-    }
+/// coefficient · value ^ exponent where that is rational and its digits fit; a number of more stays a factor.
+fn folded(coefficient: Scaled, value: Rational, exponent: Rational) -> Option<Scaled> {
+    let power = match *exponent.denom() {
+        1 => Scaled::from(value).power(*exponent.numer())?,
+        _ if value.is_zero() || value.is_one() => value.into(),
+        2 => Scaled::from(rational::square_root(value)?).power(*exponent.numer())?,
+        _ => return None,
+    };
+    coefficient.times(power)
 }
 
 /// Sorts by node and adds what stands at the same one; entries that add to zero go.

@@ -10,7 +10,7 @@ use super::name::Name;
 use super::number::number;
 use super::slips::{reject_adjacent, reject_keyword, unexpected};
 use crate::diagnostics::Place;
-use crate::symbolic::Rational;
+use crate::symbolic::Scaled;
 
 /// An expression and where it stands.
 #[derive(Clone, Debug)]
@@ -33,7 +33,7 @@ pub(crate) enum Operator {
 
 #[derive(Clone, Debug)]
 pub(crate) enum Kind {
-    Number(Rational),
+    Number(Scaled),
     Name(Name),
     Index(Box<Expression>, Box<Expression>),
     Call(Name, Vec<Expression>),

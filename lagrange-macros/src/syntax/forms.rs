@@ -116,7 +116,7 @@ fn brackets(cursor: &mut Cursor) -> Result<usize> {
     let place = Place::at(group.span());
     let length = expression::whole(&mut Cursor::inside(&group)).map(|length| length.kind);
     let value = match length {
-        Ok(Kind::Number(value)) if value.is_integer() => usize::try_from(value.to_integer()).ok(),
+        Ok(Kind::Number(value)) => value.to_integer().and_then(|value| usize::try_from(value).ok()),
         Ok(Kind::Name(_)) => return Err(place.error(NOT_A_LITERAL)),
         _ => None,
     };

@@ -21,15 +21,26 @@ pub(super) fn number(literal: &Literal, place: Place) -> Result<Kind> {
     if !suffix.is_empty() {
         return Err(place.error(suffix_message(digits, suffix)));
     }
-    let value = parse_decimal(&text).ok_or_else(|| {
-        place.error("this number does not fit exact arithmetic (128-bit fractions): make it a field")
-    })?;
+    let value = parse_decimal(&text).ok_or_else(|| place.error(refusal(digits)))?;
     Ok(Kind::Number(value))
 }
 
 /// The name in a product without its sign, such as `2x`.
 pub(super) fn suffix(literal: &str) -> &str {
     literal[number_length(literal)..].trim_start_matches('_')
+}
+
+/// Why a number cannot be read.
+fn refusal(digits: &str) -> &'static str {
+    match digits.replace('_', "").parse::<f64>() {
+        Ok(value) if value.is_infinite() => "this number is beyond the largest `f64`, about 1.8e308",
+        Ok(value) if !value.is_normal() => {
+            "this number is closer to zero than an `f64` can be exactly, about 2.2e-308"
+        }
+        _ => {
+            "this number has more digits than fit exact arithmetic (about 38): write fewer, or make it a field"
+        }
+    }
 }
 
 /// How many characters of a literal are the number, as opposed to its suffix.

@@ -2,8 +2,9 @@
 
 use proptest::prelude::*;
 
-use super::super::{Rational, parse_decimal, to_f64};
-use super::{Outcome, for_all};
+use super::super::{Graph, Id, Rational, Scaled, parse_decimal, to_f64};
+use super::{Outcome, for_all, graph, rational};
+use crate::codegen;
 
 /// `-12_345.678e9` and the like: signless, as the tokens are.
 fn decimals(exponent: std::ops::Range<i32>) -> impl Strategy<Value = String> {
@@ -18,21 +19,19 @@ fn decimals(exponent: std::ops::Range<i32>) -> impl Strategy<Value = String> {
     )
 }
 
+/// And it is read wherever f64 holds it with all its digits.
 #[test]
 fn a_literal_becomes_the_nearest_f64() {
-    for_all(3000, 0.6, decimals(-26..26), |text| {
-        let Some(value) = parse_decimal(&text) else { return Ok(Outcome::Skipped) };
-        prop_assert_eq!(to_f64(value), text.parse::<f64>().expect("a number"), "{}", text);
-        Ok(Outcome::Checked)
-    });
-}
-
-#[test]
-fn a_literal_of_any_size_is_exact_or_refused() {
-    for_all(2000, 0.0, decimals(-300..300), |text| {
-        if let Some(value) = parse_decimal(&text) {
-            prop_assert_eq!(to_f64(value), text.parse::<f64>().expect("a number"), "{}", text);
-        }
+    for_all(6000, 0.9, decimals(-330..330), |text| {
+        let expected = text.parse::<f64>().expect("a number");
+        let digits =
+            text.split(['e', 'E']).next().unwrap_or_default().bytes().filter(u8::is_ascii_digit).count();
+        let Some(value) = parse_decimal(&text) else {
+            // The fewest digits of ten that do not fit.
+            prop_assert!(!expected.is_normal() || digits > 34, "{}", text);
+            return Ok(Outcome::Skipped);
+        };
+        prop_assert_eq!(value.to_f64().to_bits(), expected.to_bits(), "{}", text);
         Ok(Outcome::Checked)
     });
 }
@@ -53,11 +52,23 @@ fn literals_are_exact() {
         ("170141183460469231731687303715884105727", (i128::MAX, 1)),
     ];
     for (text, (numerator, denominator)) in cases {
-        assert_eq!(parse_decimal(text), Some(Rational::new(numerator, denominator)), "{text}");
+        assert_eq!(parse_decimal(text), Some(Rational::new(numerator, denominator).into()), "{text}");
     }
-    for text in
-        ["170141183460469231731687303715884105728", "1e39", "1e-39", "1e300", "1e-300", "1e99999999999"]
-    {
+    for (text, (numerator, denominator), exponent) in [
+        ("1e39", (1, 1), 39),
+        ("1e-39", (1, 1), -39),
+        ("100000000000000000000000000000000000000000", (1, 1), 41),
+        ("0.0000000000000000000000000000000006626070150", (662_607_015, 100_000_000), -34),
+        ("6.62607015e-34", (662_607_015, 100_000_000), -34),
+        ("662607015e-42", (662_607_015, 100_000_000), -34),
+        ("1.7e308", (17, 10), 308),
+    ] {
+        let fraction = Rational::new(numerator, denominator);
+        assert_eq!(parse_decimal(text), Some(Scaled { fraction, exponent }), "{text}");
+    }
+    let refused =
+        ["170141183460469231731687303715884105728", "1.8e308", "1e-308", "5e-324", "1e-400", "1e99999999999"];
+    for text in refused {
         assert_eq!(parse_decimal(text), None, "{text}");
     }
 }
@@ -108,4 +119,90 @@ fn the_largest_fractions_have_values() {
     assert_eq!(to_f64(Rational::new(1, i128::MAX)), 2.0_f64.powi(-127));
     assert_eq!(to_f64(Rational::new(i128::MAX - 1, i128::MAX)), 1.0);
     assert_eq!(to_f64(Rational::new(0, 1)).to_bits(), 0);
+}
+
+fn read(graph: &mut Graph, text: &str) -> Id {
+    graph.scaled(parse_decimal(text).expect("a number"))
+}
+
+/// Planck, Boltzmann, Avogadro: powers, quotients, roots and sums of them, against f64.
+#[test]
+fn constants_of_nature() {
+    let (mut graph, [x, ..]) = graph();
+    let [h, k, n, c] =
+        ["6.62607015e-34", "1.380649e-23", "6.02214076e23", "299792458"].map(|text| read(&mut graph, text));
+    assert_eq!(codegen::value(&graph, h).to_bits(), 6.62607015e-34_f64.to_bits());
+    assert_eq!(codegen::value(&graph, n).to_bits(), 6.02214076e23_f64.to_bits());
+    let (squared, gas) = (graph.square(h), graph.mul(k, n));
+    let pi = graph.pi();
+    let radiation = graph.product([
+        (h, rational(-3, 1)),
+        (c, rational(-2, 1)),
+        (k, rational(4, 1)),
+        (pi, rational(5, 1)),
+    ]);
+    let sum = graph.add(Id::ONE, h);
+    let root = graph.sqrt(h);
+    for (id, expected) in [
+        (squared, 6.62607015e-34_f64.powi(2)),
+        (gas, 1.380649e-23 * 6.02214076e23),
+        (
+            radiation,
+            1.380649e-23_f64.powi(4) * std::f64::consts::PI.powi(5)
+                / (6.62607015e-34_f64.powi(3) * 299_792_458.0_f64.powi(2)),
+        ),
+        (sum, 1.0),
+        (root, 6.62607015e-34_f64.sqrt()),
+    ] {
+        // A rounding for each of at most 20 operations.
+        assert!((codegen::value(&graph, id) / expected - 1.0).abs() < 20.0 * f64::EPSILON, "{expected:e}");
+    }
+    assert!(graph.take_fault().is_none());
+    // Exact numbers stay exact, like terms collect, and what is tiny is not zero.
+    let twice = graph.sum([(h, rational(1, 1)), (h, rational(1, 1))]);
+    assert_eq!(twice, read(&mut graph, "1.32521403e-33"));
+    assert_eq!(graph.sum([(h, rational(3, 1)), (h, rational(-3, 1))]), Id::ZERO);
+    assert_eq!(graph.sub(sum, Id::ONE), h);
+    assert_eq!(graph.sub(sum, h), Id::ONE);
+    assert_eq!(graph.div(h, h), Id::ONE);
+    assert_eq!(graph.div(squared, h), h);
+    let (one, other) = (graph.mul(squared, x), graph.mul(h, x));
+    assert_eq!(graph.mul(h, other), one);
+    assert_eq!(gas, graph.number(Rational::new(831_446_261_815_324, 100_000_000_000_000)));
+    assert_ne!(graph.add(sum, x), graph.add(Id::ONE, x));
+}
+
+/// Sums and products of numbers of any size, against a computation with as many digits as it takes.
+#[test]
+fn scaled_numbers_compute_as_floating_point_does() {
+    let number = || (1..1_000_000_i128, -90..90_i32);
+    for_all(4000, 0.9, (number(), number(), number()), |numbers| {
+        let (mut graph, [x, ..]) = graph();
+        let ((a, ea), (b, eb), (c, ec)) = numbers;
+        let [p, q, r] = [(a, ea), (b, eb), (c, ec)].map(|(digits, exponent)| {
+            graph.scaled(Scaled::new(rational(digits, 1), exponent).expect("in range"))
+        });
+        let [u, v, w] = [(a, ea), (b, eb), (c, ec)]
+            .map(|(digits, exponent)| format!("{digits}e{exponent}").parse::<f64>().expect("a number"));
+        // (p + q) r = p r + q r, term by term, whatever the order.
+        let (pr, qr) = (graph.mul(p, r), graph.mul(q, r));
+        let (one, other) = (graph.add(pr, qr), graph.add(qr, pr));
+        prop_assert_eq!(one, other);
+        let all = graph.sum([(one, rational(1, 1)), (pr, rational(-1, 1)), (qr, rational(-1, 1))]);
+        prop_assert_eq!(all, Id::ZERO);
+        let (px, qx) = (graph.mul(p, x), graph.mul(q, x));
+        let along = graph.sum([(px, rational(1, 1)), (qx, rational(1, 1))]);
+        prop_assert_eq!(graph.sum([(along, rational(1, 1)), (px, rational(-1, 1))]), qx);
+        if graph.take_fault().is_some() {
+            return Ok(Outcome::Skipped);
+        }
+        let expected = u * w + v * w;
+        prop_assert!(
+            (codegen::value(&graph, one) / expected - 1.0).abs() < 8.0 * f64::EPSILON,
+            "{} {}",
+            codegen::value(&graph, one),
+            expected
+        );
+        Ok(Outcome::Checked)
+    });
 }

@@ -1,0 +1,160 @@
+//! Numbers of any size: fractions, times a power of ten where 128 bits are not enough.
+
+use std::cmp::Ordering;
+
+use num_traits::Zero;
+
+use super::rational::{Rational, plus, power, times, to_f64};
+
+/// `fraction` · 10^`exponent`, within the range of `f64`. The exponent is 0 wherever the number is a fraction that fits;
+/// elsewhere the fraction is from 1 to 10 (but for fractions of very long numbers), so that equal numbers are equal.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Scaled {
+    pub(crate) fraction: Rational,
+    pub(crate) exponent: i32,
+}
+
+impl From<Rational> for Scaled {
+    fn from(fraction: Rational) -> Self {
+        Self { fraction, exponent: 0 }
+    }
+}
+
+impl Scaled {
+    /// `fraction` · 10^`exponent`; `None` beyond the range of `f64`.
+    pub(crate) fn new(fraction: Rational, exponent: i32) -> Option<Self> {
+        if exponent == 0 || fraction.is_zero() {
+            return Some(fraction.into());
+        }
+        let scaled = Self { fraction, exponent }.apart()?;
+        if let Some(fraction) = ten_to(scaled.exponent).and_then(|scale| times(scaled.fraction, scale)) {
+            return Some(fraction.into());
+        }
+        scaled.to_f64().is_normal().then_some(scaled)
+    }
+
+    /// The same number with a fraction from 1 to 10.
+    pub(crate) fn apart(self) -> Option<Self> {
+        let size = |n: i128| n.unsigned_abs().checked_ilog10().unwrap_or(0) as i32;
+        let mut shift = size(*self.fraction.numer()) - size(*self.fraction.denom());
+        let shifted = |shift: i32| times(self.fraction, ten_to(-shift)?);
+        if shifted(shift).is_some_and(|x| x.numer().unsigned_abs() < x.denom().unsigned_abs()) {
+            shift -= 1;
+        }
+        let (fraction, shift) = shifted(shift).map_or((self.fraction, 0), |fraction| (fraction, shift));
+        Some(Self { fraction, exponent: self.exponent.checked_add(shift)? })
+    }
+
+    /// The product; `None` where its digits do not fit.
+    pub(crate) fn times(self, other: Self) -> Option<Self> {
+        if self.exponent == 0
+            && other.exponent == 0
+            && let Some(fraction) = times(self.fraction, other.fraction)
+        {
+            return Some(fraction.into());
+        }
+        if self.fraction.is_zero() || other.fraction.is_zero() {
+            return Some(Rational::zero().into());
+        }
+        let (x, y) = (self.apart()?, other.apart()?);
+        Self::new(times(x.fraction, y.fraction)?, x.exponent.checked_add(y.exponent)?)
+    }
+
+    /// The sum; `None` where its digits do not fit: 1 + 10⁻⁵⁰ has too many.
+    pub(super) fn plus(self, other: Self) -> Option<Self> {
+        if self.exponent == 0
+            && other.exponent == 0
+            && let Some(fraction) = plus(self.fraction, other.fraction)
+        {
+            return Some(fraction.into());
+        }
+        let (x, y) = (self.apart()?, other.apart()?);
+        let (low, high) = if x.exponent < y.exponent { (x, y) } else { (y, x) };
+        let raised = times(high.fraction, ten_to(high.exponent.checked_sub(low.exponent)?)?)?;
+        Self::new(plus(low.fraction, raised)?, low.exponent)
+    }
+
+    /// The power; `None` where its digits do not fit.
+    pub(crate) fn power(self, exponent: i128) -> Option<Self> {
+        if self.exponent == 0
+            && let Some(fraction) = power(self.fraction, exponent)
+        {
+            return Some(fraction.into());
+        }
+        let Self { fraction, exponent: tens } = self.apart()?;
+        Self::new(power(fraction, exponent)?, tens.checked_mul(exponent.try_into().ok()?)?)
+    }
+
+    pub(crate) fn is_integer(self) -> bool {
+        self.exponent > 0 || self.exponent == 0 && self.fraction.is_integer()
+    }
+
+    /// The value of a whole number that fits.
+    pub(crate) fn to_integer(self) -> Option<i128> {
+        (self.exponent == 0 && self.is_integer()).then(|| self.fraction.to_integer())
+    }
+
+    /// By exponent and absolute value: any order that tells numbers apart.
+    pub(super) fn cmp_size(&self, other: &Self) -> Ordering {
+        let key = |x: &Self| {
+            (x.exponent, x.fraction.numer().unsigned_abs(), -x.fraction.denom(), *x.fraction.numer())
+        };
+        key(self).cmp(&key(other))
+    }
+
+    /// How many digits it has before the point, or zeros behind it.
+    pub(super) fn magnitude(self) -> f64 {
+        to_f64(self.fraction).abs().log10() + f64::from(self.exponent)
+    }
+
+    /// The nearest `f64`, for finite decimals and numbers without a power of ten; else within two roundings.
+    pub(crate) fn to_f64(self) -> f64 {
+        let Self { fraction, exponent } = self;
+        let read = |text: String| text.parse::<f64>().unwrap_or(f64::NAN);
+        match finite_decimal(fraction) {
+            _ if exponent == 0 => to_f64(fraction),
+            Some((digits, places)) => read(format!("{digits}e{}", i64::from(exponent) - i64::from(places))),
+            None => to_f64(fraction) * read(format!("1e{exponent}")),
+        }
+    }
+}
+
+fn ten_to(exponent: i32) -> Option<Rational> {
+    power(Rational::from_integer(10), exponent.into())
+}
+
+/// The digits of a finite decimal, and how many of them stand after the point.
+pub(crate) fn finite_decimal(value: Rational) -> Option<(i128, u32)> {
+    let (mut rest, mut places) = (*value.denom(), 0);
+    while rest % 10 == 0 {
+        rest /= 10;
+        places += 1;
+    }
+    while rest > 1 {
+        rest /= [2, 5].into_iter().find(|factor| rest % factor == 0)?;
+        places += 1;
+    }
+    let digits = times(value, ten_to(i32::try_from(places).ok()?)?)?;
+    Some((digits.to_integer(), places))
+}
+
+/// The value of a decimal literal such as `1_000`, `9.81` or `6.62607015e-34`; `None` where its digits do not fit or it
+/// is beyond the range of `f64`.
+pub(crate) fn parse_decimal(text: &str) -> Option<Scaled> {
+    let text = text.replace('_', "");
+    let (mantissa, exponent) = match text.split_once(['e', 'E']) {
+        Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>().ok()?),
+        None => (text.as_str(), 0),
+    };
+    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let fraction = fraction.trim_end_matches('0');
+    let digits = format!("{whole}{fraction}");
+    let significant = digits.trim_end_matches('0');
+    let zeros = i32::try_from(digits.len() - significant.len()).ok()?;
+    let places = i32::try_from(fraction.len()).ok()?;
+    let value = match significant {
+        "" => 0,
+        digits => digits.parse::<i128>().ok()?,
+    };
+    Scaled::new(Rational::from_integer(value), exponent.checked_add(zeros)?.checked_sub(places)?)
+}
