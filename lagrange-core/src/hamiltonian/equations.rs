@@ -10,14 +10,11 @@ use crate::system::{Lagrangian, State};
 pub(super) type Rates<T, const N: usize, const M: usize> = (PhaseRate<T, N, M>, usize, [bool; M]);
 
 /// Hamilton's equations at a state whose velocity belongs to its momenta.
-pub(super) fn equations<L, const N: usize, const M: usize>(
+pub(super) fn equations<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
     active: Option<&[bool; M]>,
-) -> Result<Rates<L::Scalar, N, M>, Error>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
+) -> Result<Rates<L::Scalar, N, M>, Error> {
     let (solution, active) = solve_near(system, state, active)?;
     let multipliers = solution.multipliers;
     let p = system.momentum_rate(state) + system.constraint_force(state, &multipliers);

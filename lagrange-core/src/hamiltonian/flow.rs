@@ -18,10 +18,7 @@ use crate::system::{Lagrangian, State};
 #[derive(Clone, Copy, Debug)]
 pub struct HamiltonianFlow;
 
-impl<L, const N: usize, const M: usize> Flow<L, N, M> for HamiltonianFlow
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
+impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Flow<L, N, M> for HamiltonianFlow {
     fn phase(system: &L, state: &State<L::Scalar, N>) -> Phase<L::Scalar, N> {
         [state.q.into(), system.momentum(state).into()]
     }

@@ -20,15 +20,12 @@ use crate::system::{Lagrangian, Solution, State};
 
 /// The state with these momenta, its velocity sought from `guess` on, on the constraints `active` or on as many as
 /// are independent.
-pub(crate) fn invert<L, const N: usize, const M: usize>(
+pub(crate) fn invert<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     phase: &PhaseState<L::Scalar, N>,
     guess: &[L::Scalar; N],
     active: Option<&[bool; M]>,
-) -> Result<State<L::Scalar, N>, Error>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
+) -> Result<State<L::Scalar, N>, Error> {
     let mut inversion = Inversion { system, phase, active: active.copied().unwrap_or([true; M]) };
     let state = State { t: phase.t, q: phase.q, v: vector(*guess) };
     let start = inversion.trial(state, [L::Scalar::constant(0.0); M]);
@@ -91,10 +88,7 @@ impl<T: Real, const N: usize, const M: usize> Linear<'_, T, N, M> {
     }
 }
 
-impl<L, const N: usize, const M: usize> Inversion<'_, L, N, M>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
+impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Inversion<'_, L, N, M> {
     fn trial(&self, state: State<L::Scalar, N>, multipliers: [L::Scalar; M]) -> Trial<L::Scalar, N, M> {
         let rate = self.system.constraint_rate(&state);
         Trial {

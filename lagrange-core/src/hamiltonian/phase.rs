@@ -50,13 +50,10 @@ pub struct PhaseRate<T, const N: usize, const M: usize> {
 }
 
 /// Every entry must be a number.
-pub(super) fn check_finite<L, const N: usize, const M: usize>(
+pub(super) fn check_finite<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     _: &L,
     phase: &PhaseState<L::Scalar, N>,
-) -> Result<(), Error>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
+) -> Result<(), Error> {
     let q = L::COORDINATES.iter().zip(&phase.q).map(|(name, x)| (Entry::Coordinate(name), *x));
     let p = L::COORDINATES.iter().zip(&phase.p).map(|(name, x)| (Entry::Momentum(name), *x));
     all_finite(core::iter::once((Entry::Time, phase.t)).chain(q).chain(p))

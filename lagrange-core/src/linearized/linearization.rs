@@ -82,13 +82,10 @@ where
 }
 
 /// The change of (q̇, q̈) along each column of the basis.
-fn change_along<L, const N: usize, const M: usize, const P: usize>(
+fn change_along<L: Linearized<N, M, P, Scalar: Real>, const N: usize, const M: usize, const P: usize>(
     basis: &DMatrix<L::Scalar>,
     tangent: &Tangent<'_, L, N, M>,
-) -> Result<DMatrix<L::Scalar>, Error>
-where
-    L: Linearized<N, M, P, Scalar: Real>,
-{
+) -> Result<DMatrix<L::Scalar>, Error> {
     let mut change = DMatrix::zeros(2 * N, basis.ncols());
     for (j, direction) in basis.column_iter().enumerate() {
         let (q, v) = (SVector::from_fn(|i, _| direction[i]), SVector::from_fn(|i, _| direction[N + i]));
@@ -101,13 +98,10 @@ where
 }
 
 /// The change of (q̇, q̈) by each of these parameters.
-fn change_by<L, const N: usize, const M: usize, const P: usize>(
+fn change_by<L: Linearized<N, M, P, Scalar: Real>, const N: usize, const M: usize, const P: usize>(
     parameters: &[usize],
     tangent: &Tangent<'_, L, N, M>,
-) -> Result<DMatrix<L::Scalar>, Error>
-where
-    L: Linearized<N, M, P, Scalar: Real>,
-{
+) -> Result<DMatrix<L::Scalar>, Error> {
     let mut change = DMatrix::zeros(2 * N, parameters.len());
     for (j, &k) in parameters.iter().enumerate() {
         stays_on_constraints::<L, N, M, P>(tangent, k)?;
@@ -124,12 +118,9 @@ fn entry<L: Lagrangian<N, M>, const N: usize, const M: usize>(row: usize) -> Ent
 }
 
 /// An orthonormal basis of the changes (δq, δv) with F δq = 0 for holonomic constraints and δ(F v + b) = 0 for all.
-fn tangent_space<L, const N: usize, const M: usize, const P: usize>(
+fn tangent_space<L: Linearized<N, M, P, Scalar: Real>, const N: usize, const M: usize, const P: usize>(
     tangent: &Tangent<'_, L, N, M>,
-) -> Result<DMatrix<L::Scalar>, Error>
-where
-    L: Linearized<N, M, P, Scalar: Real>,
-{
+) -> Result<DMatrix<L::Scalar>, Error> {
     let zero = vector([L::Scalar::constant(0.0); N]);
     let mut changes: Vec<[SVector<L::Scalar, N>; 2]> = Vec::new();
     for q in holonomic_rows(tangent).null_space() {
@@ -193,12 +184,9 @@ where
 
 /// Accelerations and multipliers at the state; no accelerations where they are nothing but round-off, of forces that
 /// balance to √ε of their terms in the units in which masses are 1.
-fn without_round_off<L, const N: usize, const M: usize, const P: usize>(
+fn without_round_off<L: Linearized<N, M, P, Scalar: Real>, const N: usize, const M: usize, const P: usize>(
     tangent: &Tangent<'_, L, N, M>,
-) -> Result<Solution<L::Scalar, N, M>, Error>
-where
-    L: Linearized<N, M, P, Scalar: Real>,
-{
+) -> Result<Solution<L::Scalar, N, M>, Error> {
     let Tangent { state, solution, m, f, factors, .. } = tangent;
     let zero = L::Scalar::constant(0.0);
     let strongest = |force: &dyn Fn(usize) -> L::Scalar| {

@@ -23,10 +23,7 @@ pub(super) struct Tangent<'a, L: Lagrangian<N, M>, const N: usize, const M: usiz
     pub(super) factors: Factors<L::Scalar, N, M>,
 }
 
-impl<'a, L, const N: usize, const M: usize> Tangent<'a, L, N, M>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
+impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Tangent<'a, L, N, M> {
     pub(super) fn at(system: &'a L, state: &'a State<L::Scalar, N>) -> Result<Self, Error> {
         let solution = solve(system, state)?;
         let m = system.mass_matrix(state).into();
@@ -91,28 +88,22 @@ where
 }
 
 /// Names the first row that is not finite.
-pub(super) fn finite_change<L, const N: usize, const M: usize>(
+pub(super) fn finite_change<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     change: &ResidualChange<L::Scalar, N, M>,
     entry: Entry,
     state: &State<L::Scalar, N>,
-) -> Result<(), Error>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
+) -> Result<(), Error> {
     let ResidualChange { motion, acceleration, rate, position } = *change;
     finite::<L, N, M>(&motion, &[acceleration, rate, position], entry, state)
 }
 
 /// Names the first entry that is not finite, of a coordinate or of a constraint.
-fn finite<L, const N: usize, const M: usize>(
+fn finite<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     motion: &SVector<L::Scalar, N>,
     constraints: &[SVector<L::Scalar, M>],
     entry: Entry,
     state: &State<L::Scalar, N>,
-) -> Result<(), Error>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
+) -> Result<(), Error> {
     let finite = |a: usize| constraints.iter().all(|x| x[a].is_finite());
     match first_row::<L, N, M>(|i| !motion[i].is_finite(), |a| !finite(a)) {
         None => Ok(()),

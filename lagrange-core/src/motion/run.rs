@@ -106,14 +106,11 @@ where
 }
 
 /// The start made consistent to round-off, where that is all it lacks.
-fn check_start<L, const N: usize, const M: usize>(
+fn check_start<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
     end: L::Scalar,
-) -> Result<Consistent<L::Scalar, N>, Error>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
+) -> Result<Consistent<L::Scalar, N>, Error> {
     check_end(end)?;
     if end < state.t {
         return Err(Error::EndTime { start: state.t.to_f64(), end: end.to_f64() });

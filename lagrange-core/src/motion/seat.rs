@@ -30,10 +30,7 @@ pub(super) enum Fate {
     Rejected,
 }
 
-impl<L, const N: usize, const M: usize> Seat<L, N, M>
-where
-    L: Lagrangian<N, M, Scalar = f64>,
-{
+impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Seat<L, N, M> {
     /// Before the first step, with the state made consistent.
     pub(crate) fn new<P: Pair>(
         index: usize,

@@ -12,10 +12,7 @@ use crate::system::{Lagrangian, State};
 pub type Phase<T, const N: usize> = [[T; N]; 2];
 
 /// The equations that a method integrates, of the first order in a [`Phase`] whose first half is q.
-pub trait Flow<L, const N: usize, const M: usize>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
+pub trait Flow<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> {
     /// Where a state is in the phase space.
     fn phase(system: &L, state: &State<L::Scalar, N>) -> Phase<L::Scalar, N>;
 
@@ -68,10 +65,7 @@ pub struct Slope<T, const N: usize, const M: usize> {
 #[derive(Clone, Copy, Debug)]
 pub struct LagrangianFlow;
 
-impl<L, const N: usize, const M: usize> Flow<L, N, M> for LagrangianFlow
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
+impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Flow<L, N, M> for LagrangianFlow {
     #[inline]
     fn phase(_: &L, state: &State<L::Scalar, N>) -> Phase<L::Scalar, N> {
         [state.q.into(), state.v.into()]

@@ -12,13 +12,10 @@ use crate::system::{Lagrangian, Solution, State};
 
 /// See [`Simulate::solve`](crate::Simulate::solve).
 #[inline]
-pub(crate) fn solve<L, const N: usize, const M: usize>(
+pub(crate) fn solve<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
-) -> Result<Solution<L::Scalar, N, M>, Error>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
+) -> Result<Solution<L::Scalar, N, M>, Error> {
     solve_near(system, state, None).map(|(solution, _)| solution)
 }
 
@@ -27,14 +24,11 @@ where
 /// Near a state where only those `active` are independent, it rests on them. Off the constraints, by the error of a
 /// stage, the others may look independent too, but what they demand is nothing but that error.
 #[inline]
-pub(crate) fn solve_near<L, const N: usize, const M: usize>(
+pub(crate) fn solve_near<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
     active: Option<&[bool; M]>,
-) -> Result<Solved<L::Scalar, N, M>, Error>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
+) -> Result<Solved<L::Scalar, N, M>, Error> {
     match active {
         Some(active) if active.contains(&false) => {
             solve_in_general(system, state, active, Rank::off_constraints())
@@ -57,15 +51,12 @@ pub(crate) fn is_trustworthy<T: Real, const N: usize, const M: usize>(s: &Soluti
 }
 
 #[cold]
-fn solve_in_general<L, const N: usize, const M: usize>(
+fn solve_in_general<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
     active: &[bool; M],
     rank: Rank<L::Scalar>,
-) -> Result<Solved<L::Scalar, N, M>, Error>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
+) -> Result<Solved<L::Scalar, N, M>, Error> {
     let mut equations = KktSystem {
         m: system.mass_matrix(state).into(),
         h: system.forcing(state).into(),

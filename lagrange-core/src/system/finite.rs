@@ -7,13 +7,10 @@ use crate::names::Entry;
 use crate::number::Real;
 
 /// Every entry of a state must be a number.
-pub(crate) fn check_finite<L, const N: usize, const M: usize>(
+pub(crate) fn check_finite<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     _: &L,
     state: &State<L::Scalar, N>,
-) -> Result<(), Error>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
+) -> Result<(), Error> {
     let q = L::COORDINATES.iter().zip(&state.q).map(|(name, x)| (Entry::Coordinate(name), *x));
     let v = L::COORDINATES.iter().zip(&state.v).map(|(name, x)| (Entry::Velocity(name), *x));
     all_finite(core::iter::once((Entry::Time, state.t)).chain(q).chain(v))

@@ -19,10 +19,8 @@ pub struct Csv<'t, 'a, L: Lagrangian<N, M>, const N: usize, const M: usize, F = 
     count: usize,
 }
 
-impl<'a, L, F, const N: usize, const M: usize> Trajectory<'a, L, N, M, F>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
+impl<'a, L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize>
+    Trajectory<'a, L, N, M, F>
 {
     /// A table of `count` states at evenly spaced times, as comma-separated values.
     ///
@@ -32,10 +30,8 @@ where
     }
 }
 
-impl<L, F, const N: usize, const M: usize> Display for Csv<'_, '_, L, N, M, F>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
+impl<L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize> Display
+    for Csv<'_, '_, L, N, M, F>
 {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         header::<L, N, M>(f)?;
@@ -43,19 +39,13 @@ where
     }
 }
 
-impl<L, F, const N: usize, const M: usize> Debug for Csv<'_, '_, L, N, M, F>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
+impl<L: Lagrangian<N, M, Scalar: Real>, F, const N: usize, const M: usize> Debug for Csv<'_, '_, L, N, M, F> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_struct("Csv").field("trajectory", self.trajectory).field("count", &self.count).finish()
     }
 }
 
-fn header<L, const N: usize, const M: usize>(f: &mut Formatter<'_>) -> fmt::Result
-where
-    L: Lagrangian<N, M>,
-{
+fn header<L: Lagrangian<N, M>, const N: usize, const M: usize>(f: &mut Formatter<'_>) -> fmt::Result {
     f.write_str("t")?;
     L::COORDINATES.iter().try_for_each(|name| write!(f, ",{name}"))?;
     L::COORDINATES.iter().try_for_each(|name| write!(f, ",{}", Entry::Velocity(name)))?;

@@ -48,10 +48,8 @@ pub struct Drift<T> {
     quantities: Vec<Deviation<T>>,
 }
 
-impl<L, F, const N: usize, const M: usize> Trajectory<'_, L, N, M, F>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
+impl<L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize>
+    Trajectory<'_, L, N, M, F>
 {
     /// How far each conserved quantity strays from its value at the start.
     pub fn drift(&self) -> Drift<L::Scalar> {

@@ -43,10 +43,8 @@ pub struct Trajectory<'a, L: Lagrangian<N, M>, const N: usize, const M: usize, F
     flow: PhantomData<F>,
 }
 
-impl<'a, L, F, const N: usize, const M: usize> Trajectory<'a, L, N, M, F>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
+impl<'a, L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize>
+    Trajectory<'a, L, N, M, F>
 {
     pub(crate) fn new(
         system: &'a L,

@@ -18,10 +18,7 @@ pub struct Sample<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
     state: State<L::Scalar, N>,
 }
 
-impl<'a, L, const N: usize, const M: usize> Sample<'a, L, N, M>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
+impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<'a, L, N, M> {
     pub(crate) fn new(system: &'a L, state: State<L::Scalar, N>) -> Self {
         Self { system, state }
     }
@@ -129,17 +126,11 @@ where
     }
 }
 
-fn coordinate<L, const N: usize, const M: usize>(name: &str) -> Result<usize, Error>
-where
-    L: Lagrangian<N, M>,
-{
+fn coordinate<L: Lagrangian<N, M>, const N: usize, const M: usize>(name: &str) -> Result<usize, Error> {
     index::<L, N, M>(&L::COORDINATES, "coordinate", name)
 }
 
-impl<L, const N: usize, const M: usize> Debug for Sample<'_, L, N, M>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
+impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Debug for Sample<'_, L, N, M> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_struct("Sample").field("system", &L::NAME).field("state", &self.state).finish()
     }

@@ -18,10 +18,7 @@ pub(super) struct Point<L: Lagrangian<N, M>, const N: usize, const M: usize> {
     pub(super) multipliers: SVector<L::Scalar, M>,
 }
 
-impl<L, const N: usize, const M: usize> Point<L, N, M>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
+impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Point<L, N, M> {
     /// R, the motion's rows first.
     pub(super) fn residual(&self) -> DVector<L::Scalar> {
         let Self { system, state, multipliers } = self;
@@ -109,13 +106,10 @@ pub(super) fn row<L: Lagrangian<N, M>, const N: usize, const M: usize>(i: usize)
 }
 
 /// Names the first row that is not finite.
-pub(super) fn finite_residual<L, const N: usize, const M: usize>(
+pub(super) fn finite_residual<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     residual: &DVector<L::Scalar>,
     state: &State<L::Scalar, N>,
-) -> Result<(), Error>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
+) -> Result<(), Error> {
     match residual.iter().position(|x| !x.is_finite()) {
         None => Ok(()),
         Some(i) => Err(Error::EquationsNotFinite { row: row::<L, N, M>(i), time: state.t.to_f64() }),

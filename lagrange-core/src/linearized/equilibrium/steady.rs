@@ -20,12 +20,9 @@ pub(super) struct Unsteadiness<T> {
 }
 
 impl<T: Real> Unsteadiness<T> {
-    pub(super) fn of<L, const N: usize, const M: usize, const P: usize>(
+    pub(super) fn of<L: Linearized<N, M, P, Scalar = T>, const N: usize, const M: usize, const P: usize>(
         point: &Point<L, N, M>,
-    ) -> Result<Self, Error>
-    where
-        L: Linearized<N, M, P, Scalar = T>,
-    {
+    ) -> Result<Self, Error> {
         let v = &point.state.v;
         let moving: Vec<usize> = (0..N).filter(|&i| v[i] != T::constant(0.0)).collect();
         let coordinates: Vec<_> = moving.iter().copied().map(Unknown::Coordinate).collect();
@@ -39,14 +36,11 @@ impl<T: Real> Unsteadiness<T> {
     }
 
     /// Each row must cancel, but for √ε of its terms here or at the guess.
-    pub(super) fn check<L, const N: usize, const M: usize>(
+    pub(super) fn check<L: Lagrangian<N, M, Scalar = T>, const N: usize, const M: usize>(
         &self,
         guess: &Self,
         point: &Point<L, N, M>,
-    ) -> Result<(), Error>
-    where
-        L: Lagrangian<N, M, Scalar = T>,
-    {
+    ) -> Result<(), Error> {
         let part = power_of_epsilon::<T>(0.5);
         let changes = |i: &usize| {
             let terms = larger(self.terms(*i), guess.terms(*i));

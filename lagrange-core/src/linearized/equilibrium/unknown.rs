@@ -18,12 +18,9 @@ pub(super) enum Unknown {
 
 impl Unknown {
     /// Those of these names; all coordinates where there are none.
-    pub(super) fn of<L, const N: usize, const M: usize, const P: usize>(
+    pub(super) fn of<L: Linearized<N, M, P>, const N: usize, const M: usize, const P: usize>(
         names: &[&str],
-    ) -> Result<Vec<Self>, Error>
-    where
-        L: Linearized<N, M, P>,
-    {
+    ) -> Result<Vec<Self>, Error> {
         if names.is_empty() {
             return Ok((0..N).map(Self::Coordinate).collect());
         }

@@ -171,18 +171,14 @@ where
 
 impl<P: Pair> Adaptive<P> {
     /// Stages, error, projection, interpolant: whatever fails refuses the step.
-    fn attempt<L, F, const N: usize, const M: usize>(
+    fn attempt<L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize>(
         &self,
         system: &L,
         memory: &mut Memory<L::Scalar, N, M>,
         h: L::Scalar,
         time: L::Scalar,
         statistics: &mut Statistics,
-    ) -> Result<Accepted<L::Scalar, N, M>, Refusal<L::Scalar>>
-    where
-        L: Lagrangian<N, M, Scalar: Real>,
-        F: Flow<L, N, M>,
-    {
+    ) -> Result<Accepted<L::Scalar, N, M>, Refusal<L::Scalar>> {
         let start = memory.y;
         stages::<P, L, F, N, M>(system, memory, h, (1, P::STAGES), statistics)?;
         let mut next = memory.point(time, advance(&start, h, &memory.slopes, P::WEIGHTS));
@@ -221,18 +217,14 @@ impl<P: Pair> Adaptive<P> {
         Ok(error)
     }
 
-    fn estimate_step<L, F, const N: usize, const M: usize>(
+    fn estimate_step<L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize>(
         &self,
         system: &L,
         start: &PhasePoint<L::Scalar, N>,
         span: L::Scalar,
         (first, active): (&Phase<L::Scalar, N>, &[bool; M]),
         statistics: &mut Statistics,
-    ) -> L::Scalar
-    where
-        L: Lagrangian<N, M, Scalar: Real>,
-        F: Flow<L, N, M>,
-    {
+    ) -> L::Scalar {
         let y = &start.y;
         let guess = self.guess_step(y, first, span);
         let euler = from_fn(|half| from_fn(|i| y[half][i] + guess * first[half][i]));
@@ -289,29 +281,22 @@ where
 
 /// The rates of the phase, counted.
 #[inline]
-fn slope<L, F, const N: usize, const M: usize>(
+fn slope<L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize>(
     system: &L,
     point: &PhasePoint<L::Scalar, N>,
     active: Option<&[bool; M]>,
     statistics: &mut Statistics,
-) -> Result<Slope<L::Scalar, N, M>, Error>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
-{
+) -> Result<Slope<L::Scalar, N, M>, Error> {
     statistics.evaluations += 1;
     let slope = F::slope(system, point, active)?;
     statistics.multipliers_are_unique &= slope.multipliers_are_unique;
     Ok(slope)
 }
 
-fn check_finite<L, const N: usize, const M: usize>(
+fn check_finite<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     t: L::Scalar,
     [q, rest]: &Phase<L::Scalar, N>,
-) -> Result<(), Error>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
+) -> Result<(), Error> {
     let row = |i: usize| Row::Coordinate(name(&L::COORDINATES, i));
     match (0..N).find(|&i| !(q[i].is_finite() && rest[i].is_finite())) {
         None => Ok(()),
@@ -319,11 +304,9 @@ where
     }
 }
 
-fn entry<L, F, const N: usize, const M: usize>((half, index): Place) -> Entry
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
-{
+fn entry<L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize>(
+    (half, index): Place,
+) -> Entry {
     let name = name(&L::COORDINATES, index);
     if half == 0 { Entry::Coordinate(name) } else { F::entry(name) }
 }

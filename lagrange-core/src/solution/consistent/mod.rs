@@ -54,14 +54,11 @@ pub type Consistent<T, const N: usize> = (State<T, N>, Adjustment<T, N>);
 
 /// See [`Simulate::make_consistent_holding`](crate::Simulate::make_consistent_holding); `held` are coordinates and
 /// velocities.
-pub(crate) fn make_consistent<L, const N: usize, const M: usize>(
+pub(crate) fn make_consistent<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
     held: &[[bool; N]; 2],
-) -> Result<Consistent<L::Scalar, N>, Error>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
+) -> Result<Consistent<L::Scalar, N>, Error> {
     let mut consistent = *state;
     for (level, held) in BOTH.into_iter().zip(held) {
         project_holding(system, level, held, &mut consistent)?;
@@ -76,26 +73,20 @@ where
 }
 
 /// Moves the coordinates, the velocities or both, the coordinates first, to the nearest ones on their constraints.
-pub(crate) fn project<L, const N: usize, const M: usize>(
+pub(crate) fn project<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     levels: &[Level],
     state: &mut State<L::Scalar, N>,
-) -> Result<(), Error>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
+) -> Result<(), Error> {
     levels.iter().try_for_each(|level| project_holding(system, *level, &[false; N], state))
 }
 
-fn project_holding<L, const N: usize, const M: usize>(
+fn project_holding<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     level: Level,
     held: &[bool; N],
     state: &mut State<L::Scalar, N>,
-) -> Result<(), Error>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
+) -> Result<(), Error> {
     if !L::CONSTRAINT_KINDS.iter().any(|kind| level.is_active(*kind)) {
         return Ok(());
     }
@@ -111,13 +102,10 @@ where
 }
 
 /// See [`Simulate::check_consistent`](crate::Simulate::check_consistent).
-pub(crate) fn check<L, const N: usize, const M: usize>(
+pub(crate) fn check<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
-) -> Result<(), Error>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
+) -> Result<(), Error> {
     for level in BOTH {
         let mut residual = Residual::of(system, level, state);
         if level == Level::Position {
@@ -170,10 +158,7 @@ struct Residual<T, const N: usize, const M: usize> {
 }
 
 impl<T: Real, const N: usize, const M: usize> Residual<T, N, M> {
-    fn of<L>(system: &L, level: Level, state: &State<T, N>) -> Self
-    where
-        L: Lagrangian<N, M, Scalar = T>,
-    {
+    fn of<L: Lagrangian<N, M, Scalar = T>>(system: &L, level: Level, state: &State<T, N>) -> Self {
         let zero = T::constant(0.0);
         let active = L::CONSTRAINT_KINDS.map(|kind| level.is_active(kind));
         let jacobian = system.constraint_jacobian(state);
@@ -256,10 +241,7 @@ struct Projection<'a, L, const N: usize, const M: usize> {
 /// A state, and what is left at it.
 type Trial<T, const N: usize, const M: usize> = (State<T, N>, Residual<T, N, M>);
 
-impl<L, const N: usize, const M: usize> Projection<'_, L, N, M>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
+impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Projection<'_, L, N, M> {
     fn trial(&self, state: State<L::Scalar, N>) -> Trial<L::Scalar, N, M> {
         (state, Residual::of(self.system, self.level, &state))
     }
@@ -293,10 +275,7 @@ where
     }
 }
 
-impl<L, const N: usize, const M: usize> Search for Projection<'_, L, N, M>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
+impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Search for Projection<'_, L, N, M> {
     type Scalar = L::Scalar;
     type Trial = Trial<L::Scalar, N, M>;
     type Linear = ();
