@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::number::array::vector;
+use crate::number::vector;
 use crate::solution::eliminate::eliminate;
 use crate::system::{ConstraintKind, Facts, Lagrangian, Solution, State};
 

@@ -6,8 +6,7 @@ use core::str::FromStr;
 use super::outcome::{Arrival, Member, Outcome};
 use crate::error::Error;
 use crate::names::Entry;
-use crate::number::Real;
-use crate::number::array::vector;
+use crate::number::{Real, vector};
 use crate::system::State;
 use crate::trajectory::{Ending, Statistics};
 

@@ -9,9 +9,7 @@ use core::array::from_fn;
 
 use super::phase::PhaseState;
 use crate::error::Error;
-use crate::number::array::vector;
-use crate::number::numeric::{beyond_round_off, exceeds, is_within, power_of_epsilon};
-use crate::number::{Real, Scalar};
+use crate::number::{Real, Scalar, beyond_round_off, exceeds, is_within, power_of_epsilon, vector};
 use crate::solution::eliminate::eliminate_active;
 use crate::solution::kkt::{self, Fault, KktSystem, Rank, Units};
 use crate::solution::newton::{self, Left, Search, halvings};

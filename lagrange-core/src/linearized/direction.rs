@@ -2,8 +2,7 @@
 
 use nalgebra::SVector;
 
-use crate::number::Scalar;
-use crate::number::array::vector;
+use crate::number::{Scalar, vector};
 
 /// A direction in which to differentiate: how fast each argument of the equations of motion changes.
 #[derive(Clone, Copy, Debug, PartialEq)]

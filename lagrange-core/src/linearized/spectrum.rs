@@ -7,8 +7,7 @@ use nalgebra::{Complex, DMatrix, Schur};
 
 use super::Linearization;
 use crate::error::Error;
-use crate::number::numeric::{larger, norm, power_of_epsilon, power_of_two};
-use crate::number::{Real, Scalar};
+use crate::number::{Real, Scalar, larger, norm, power_of_epsilon, power_of_two};
 
 /// What the linear part says about an equilibrium (Lyapunov's indirect method).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

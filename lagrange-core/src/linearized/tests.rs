@@ -2,7 +2,7 @@ use nalgebra::{Complex, DMatrix};
 
 use super::spectrum::shifted_eigenvalues;
 use crate::linearized::Direction;
-use crate::number::array::vector;
+use crate::number::vector;
 
 /// A top that sleeps too slowly: z̈ − i b ż − k z = 0 with b² < 4 k, and its spin.
 fn slow_top(b: f64, k: f64) -> DMatrix<f64> {

@@ -1,13 +1,18 @@
 //! The numbers that everything is computed with.
 
-pub(crate) mod array;
+mod array;
 mod dual;
 #[cfg(feature = "std")]
 mod lanes;
-pub(crate) mod numeric;
-pub(crate) mod scalar;
+mod numeric;
+mod scalar;
 
+pub use array::{matrix, vector};
 pub use dual::Dual;
 #[cfg(feature = "std")]
 pub use lanes::Lanes;
+pub use numeric::only_where;
+pub(crate) use numeric::{
+    beyond_round_off, exceeds, is_within, larger, largest, norm, power_of_epsilon, power_of_two, smaller,
+};
 pub use scalar::{Real, Scalar};

@@ -1,7 +1,6 @@
 //! Elimination of the equations of motion without a branch, for any scalar.
 
-use crate::number::Scalar;
-use crate::number::array::vector;
+use crate::number::{Scalar, vector};
 use crate::system::Solution;
 
 /// Solves M q̈ − Fᵀλ = h, F q̈ = −γ by LDLᵀ of M and of the Schur complement F M⁻¹ Fᵀ, without pivoting.

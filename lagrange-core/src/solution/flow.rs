@@ -4,8 +4,7 @@ use super::consistent::{BOTH, project};
 use super::solve::solve_near;
 use crate::error::Error;
 use crate::names::Entry;
-use crate::number::Real;
-use crate::number::array::vector;
+use crate::number::{Real, vector};
 use crate::system::{Lagrangian, State};
 
 /// Coordinates and velocities, or coordinates and momenta, as arrays: what a one-step method adds up.

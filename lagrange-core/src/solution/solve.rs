@@ -5,8 +5,7 @@ use nalgebra::ComplexField;
 use crate::error::Error;
 use crate::names::Names;
 use crate::names::Row;
-use crate::number::numeric::{larger, power_of_epsilon};
-use crate::number::{Real, Scalar};
+use crate::number::{Real, Scalar, larger, power_of_epsilon};
 use crate::solution::kkt::{self, Fault, KktSystem, Rank, Solved};
 use crate::system::{Lagrangian, Solution, State};
 

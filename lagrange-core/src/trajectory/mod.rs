@@ -21,8 +21,7 @@ pub use sample::Sample;
 pub use statistics::Statistics;
 
 use crate::error::Error;
-use crate::number::Real;
-use crate::number::numeric::smaller;
+use crate::number::{Real, smaller};
 use crate::solution::Adjustment;
 use crate::solution::flow::{Flow, LagrangianFlow};
 use crate::system::{Lagrangian, State};

@@ -6,8 +6,7 @@ use super::unknown::Unknown;
 use crate::error::Error;
 use crate::linearized::{Linearized, ResidualChange};
 use crate::names::Row;
-use crate::number::array::vector;
-use crate::number::{Real, Scalar};
+use crate::number::{Real, Scalar, vector};
 use crate::system::{Lagrangian, Solution, State};
 
 /// Where the search is.

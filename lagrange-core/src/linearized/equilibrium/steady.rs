@@ -8,8 +8,7 @@ use super::point::{Point, row};
 use super::unknown::Unknown;
 use crate::error::Error;
 use crate::linearized::Linearized;
-use crate::number::numeric::{larger, power_of_epsilon};
-use crate::number::{Real, Scalar};
+use crate::number::{Real, Scalar, larger, power_of_epsilon};
 use crate::system::Lagrangian;
 
 /// How fast (M q̈ − h − Fᵀλ, F q̈ + γ) at q̈ = 0 changes with the coordinates that move, a column each. The rows of

@@ -4,8 +4,7 @@
 //! however far from zero the time is, and a state belongs to the very time that it is given with. Rounded is the step
 //! asked for, and always down.
 
-use crate::number::numeric::{larger, smaller};
-use crate::number::{Real, Scalar};
+use crate::number::{Real, Scalar, larger, smaller};
 
 /// Where a motion is on its way to the end.
 #[derive(Clone, Debug)]

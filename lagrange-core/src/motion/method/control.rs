@@ -5,8 +5,7 @@ use core::array::from_fn;
 use super::Adaptive;
 use super::clock::Clock;
 use super::pair::{Pair, Slopes, combine};
-use crate::number::numeric::{exceeds, larger, smaller};
-use crate::number::{Real, Scalar};
+use crate::number::{Real, Scalar, exceeds, larger, smaller};
 use crate::solution::flow::Phase;
 
 /// The step to try next, and what its choice remembers.

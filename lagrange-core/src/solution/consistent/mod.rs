@@ -12,9 +12,9 @@ use core::fmt::{self, Display, Formatter};
 use nalgebra::{ComplexField, SVector};
 
 use crate::error::Error;
-use crate::number::array::vector;
-use crate::number::numeric::{beyond_round_off, exceeds, is_within, largest, power_of_epsilon, smaller};
-use crate::number::{Real, Scalar};
+use crate::number::{
+    Real, Scalar, beyond_round_off, exceeds, is_within, largest, power_of_epsilon, smaller, vector,
+};
 use crate::solution::eliminate::eliminate_active;
 use crate::solution::kkt::{self, KktSystem, Rank};
 use crate::solution::newton::{self, Left, Search, halvings};

@@ -15,9 +15,7 @@ use core::array::from_fn;
 
 use nalgebra::SVector;
 
-use crate::number::array::vector;
-use crate::number::numeric::{larger, largest, norm, power_of_epsilon, smaller};
-use crate::number::{Real, Scalar};
+use crate::number::{Real, Scalar, larger, largest, norm, power_of_epsilon, smaller, vector};
 use crate::system::Solution;
 use qr::Qr;
 use symmetric::Symmetric;

@@ -2,8 +2,7 @@
 
 use core::array::from_fn;
 
-use crate::number::numeric::{norm, power_of_two};
-use crate::number::{Real, Scalar};
+use crate::number::{Real, Scalar, norm, power_of_two};
 
 /// A P = Q R of a K×C matrix A (Golub and Van Loan, *Matrix Computations*, 5.4.2).
 pub(super) struct Qr<T, const K: usize, const C: usize> {

@@ -2,8 +2,7 @@
 
 use core::array::from_fn;
 
-use crate::number::numeric::smaller;
-use crate::number::{Real, Scalar};
+use crate::number::{Real, Scalar, smaller};
 
 /// P A Pᵀ = L D Lᵀ of a symmetric matrix of order `size` ≤ N, with D of 1×1 and 2×2 blocks, by complete pivoting
 /// (Bunch and Parlett 1971; Golub and Van Loan, *Matrix Computations*, 4.4.4).

@@ -2,8 +2,7 @@
 
 use core::array::from_fn;
 
-use crate::number::numeric::{larger, largest, norm, power_of_two};
-use crate::number::{Real, Scalar};
+use crate::number::{Real, Scalar, larger, largest, norm, power_of_two};
 
 /// The natural units of a mass matrix and a constraint Jacobian.
 ///
