@@ -57,7 +57,7 @@ where
 type Columns<T, const N: usize, const M: usize, const K: usize> = (SMatrix<T, N, K>, SMatrix<T, M, K>);
 
 fn columns<L, const N: usize, const M: usize, const P: usize, const K: usize>(
-    tangent: &Tangent<'_, L, N, M>,
+    tangent: &Tangent<'_, L, N, M, P>,
     names: [&'static str; K],
     direction: fn(usize) -> Direction<L::Scalar, N, P>,
     entry: fn(&'static str) -> Entry,

@@ -67,11 +67,11 @@ where
     let parameters = lookup::indices::<L, N, M>(&L::PARAMETERS, "parameter", names)?;
     consistent::check(system, state)?;
     let tangent = Tangent::at(system, state)?;
-    let basis = if M == 0 { DMatrix::identity(2 * N, 2 * N) } else { tangent_space(&tangent)? };
+    let basis = if M == 0 { DMatrix::identity(2 * N, 2 * N) } else { tangent.space()? };
     let rate = state.v.iter().chain(&tangent.solution.accelerations).copied();
     Ok(Linearization {
-        a: basis.tr_mul(&change_along(&basis, &tangent)?),
-        b: basis.tr_mul(&change_by(&parameters, &tangent)?),
+        a: basis.tr_mul(&tangent.change_along(&basis)?),
+        b: basis.tr_mul(&tangent.change_by(&parameters)?),
         rate: DVector::from_iterator(2 * N, rate),
         states: lookup::entries::<L, N, M>(),
         inputs: parameters.iter().map(|&k| L::PARAMETERS[k].into()).collect(),
@@ -79,125 +79,111 @@ where
     })
 }
 
-/// The change of (q̇, q̈) along each column of the basis.
-fn change_along<L: Linearized<N, M, P, Scalar: Real>, const N: usize, const M: usize, const P: usize>(
-    basis: &DMatrix<L::Scalar>,
-    tangent: &Tangent<'_, L, N, M>,
-) -> Result<DMatrix<L::Scalar>, Error> {
-    let mut change = DMatrix::zeros(2 * N, basis.ncols());
-    for (j, direction) in basis.column_iter().enumerate() {
-        let (q, v) = (SVector::from_fn(|i, _| direction[i]), SVector::from_fn(|i, _| direction[N + i]));
-        let entry = entry::<L, N, M>(direction.icamax());
-        let solution = tangent.along(&Direction { q, v, ..Direction::zero() }, entry)?;
-        change.view_mut((0, j), (N, 1)).copy_from(&v);
-        change.view_mut((N, j), (N, 1)).copy_from(&solution.accelerations);
+impl<L, const N: usize, const M: usize, const P: usize> Tangent<'_, L, N, M, P>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+{
+    /// The change of (q̇, q̈) along each column of the basis.
+    fn change_along(&self, basis: &DMatrix<L::Scalar>) -> Result<DMatrix<L::Scalar>, Error> {
+        let mut change = DMatrix::zeros(2 * N, basis.ncols());
+        for (j, direction) in basis.column_iter().enumerate() {
+            let (q, v) = (SVector::from_fn(|i, _| direction[i]), SVector::from_fn(|i, _| direction[N + i]));
+            let entry = entry::<L, N, M>(direction.icamax());
+            let solution = self.along(&Direction { q, v, ..Direction::zero() }, entry)?;
+            change.view_mut((0, j), (N, 1)).copy_from(&v);
+            change.view_mut((N, j), (N, 1)).copy_from(&solution.accelerations);
+        }
+        Ok(change)
     }
-    Ok(change)
-}
 
-/// The change of (q̇, q̈) by each of these parameters.
-fn change_by<L: Linearized<N, M, P, Scalar: Real>, const N: usize, const M: usize, const P: usize>(
-    parameters: &[usize],
-    tangent: &Tangent<'_, L, N, M>,
-) -> Result<DMatrix<L::Scalar>, Error> {
-    let mut change = DMatrix::zeros(2 * N, parameters.len());
-    for (j, &k) in parameters.iter().enumerate() {
-        stays_on_constraints::<L, N, M, P>(tangent, k)?;
-        let solution = tangent.along(&Direction::of_parameter(k), Entry::Parameter(L::PARAMETERS[k]))?;
-        change.view_mut((N, j), (N, 1)).copy_from(&solution.accelerations);
+    /// The change of (q̇, q̈) by each of these parameters.
+    fn change_by(&self, parameters: &[usize]) -> Result<DMatrix<L::Scalar>, Error> {
+        let mut change = DMatrix::zeros(2 * N, parameters.len());
+        for (j, &k) in parameters.iter().enumerate() {
+            self.stays_on_constraints(k)?;
+            let solution = self.along(&Direction::of_parameter(k), Entry::Parameter(L::PARAMETERS[k]))?;
+            change.view_mut((N, j), (N, 1)).copy_from(&solution.accelerations);
+        }
+        Ok(change)
     }
-    Ok(change)
+
+    /// An orthonormal basis of the changes (δq, δv) with F δq = 0 for holonomic constraints and δ(F v + b) = 0 for all.
+    fn space(&self) -> Result<DMatrix<L::Scalar>, Error> {
+        let zero = vector([L::Scalar::constant(0.0); N]);
+        let mut changes: Vec<[SVector<L::Scalar, N>; 2]> = Vec::new();
+        for q in self.holonomic_rows().null_space() {
+            // Another place turns the constraints: the velocity must follow.
+            let entry = entry::<L, N, M>(q.icamax());
+            let turned = self.change(&Direction { q, ..Direction::zero() }, entry)?;
+            changes.push([q, self.factors.rows.least(&turned.rate.into())]);
+        }
+        changes.extend(self.factors.rows.null_space().map(|v| [zero, v]));
+        let columns: Vec<_> = changes
+            .iter()
+            .map(|[q, v]| {
+                let change = DVector::from_iterator(2 * N, q.iter().chain(v).copied());
+                let length = norm(change.as_slice());
+                change / length
+            })
+            .collect();
+        match columns.is_empty() {
+            true => Ok(DMatrix::zeros(2 * N, 0)),
+            false => Ok(DMatrix::from_columns(&columns).qr().q()),
+        }
+    }
+
+    /// The rows of the holonomic constraints alone.
+    fn holonomic_rows(&self) -> Rows<L::Scalar, N, M> {
+        let mut f = self.f;
+        for (row, kind) in f.iter_mut().zip(L::CONSTRAINT_KINDS) {
+            if kind == ConstraintKind::Velocity {
+                *row = [L::Scalar::constant(0.0); N];
+            }
+        }
+        Rows::of(&self.m, &f, Rank::off_constraints())
+    }
+
+    /// An input that shifts a constraint has no state, or no acceleration, on it beside the one given.
+    fn stays_on_constraints(&self, k: usize) -> Result<(), Error> {
+        let (input, zero) = (L::PARAMETERS[k], L::Scalar::constant(0.0));
+        let first_shifted = |solution: &Solution<L::Scalar, N, M>| {
+            let direction = Direction::of_parameter(k);
+            let change = self.change_with(solution, &direction, Entry::Parameter(input))?;
+            let levels = |a: usize| [change.position[a], change.rate[a], change.acceleration[a]];
+            Ok((0..M).find(|&a| levels(a) != [zero; 3]))
+        };
+        if first_shifted(&self.solution)?.is_none() {
+            return Ok(());
+        }
+        match first_shifted(&self.without_round_off()?)? {
+            None => Ok(()),
+            Some(a) => Err(Error::InputShiftsConstraint { input, constraint: L::CONSTRAINTS[a] }),
+        }
+    }
+
+    /// Accelerations and multipliers at the state; no accelerations where they are nothing but round-off, of forces that
+    /// balance to √ε of their terms in the units in which masses are 1.
+    fn without_round_off(&self) -> Result<Solution<L::Scalar, N, M>, Error> {
+        let Tangent { state, solution, m, f, factors, .. } = self;
+        let zero = L::Scalar::constant(0.0);
+        let strongest = |force: &dyn Fn(usize) -> L::Scalar| {
+            largest(&from_fn::<_, N, _>(|i| force(i) * factors.rows.units.coordinates[i]))
+        };
+        let mut terms =
+            (0..M).fold(zero, |most, a| larger(most, strongest(&|i| f[a][i] * solution.multipliers[a])));
+        for (j, name) in L::COORDINATES.iter().enumerate() {
+            let change = self.change(&Direction::of_coordinate(j), Entry::Coordinate(name))?;
+            terms = larger(terms, strongest(&|i| change.motion[i] * state.q[j]));
+        }
+        let left = strongest(&|i| (0..N).fold(zero, |sum, j| sum + m[i][j] * solution.accelerations[j]));
+        let rests = left <= power_of_epsilon::<L::Scalar>(0.5) * terms;
+        let accelerations = if rests { vector([zero; N]) } else { solution.accelerations };
+        Ok(Solution { accelerations, ..*solution })
+    }
 }
 
 /// What row `row` of (q, q̇) is called.
 fn entry<L: Lagrangian<N, M>, const N: usize, const M: usize>(row: usize) -> Entry {
     let name = L::COORDINATES[row % N];
     if row < N { Entry::Coordinate(name) } else { Entry::Velocity(name) }
-}
-
-/// An orthonormal basis of the changes (δq, δv) with F δq = 0 for holonomic constraints and δ(F v + b) = 0 for all.
-fn tangent_space<L: Linearized<N, M, P, Scalar: Real>, const N: usize, const M: usize, const P: usize>(
-    tangent: &Tangent<'_, L, N, M>,
-) -> Result<DMatrix<L::Scalar>, Error> {
-    let zero = vector([L::Scalar::constant(0.0); N]);
-    let mut changes: Vec<[SVector<L::Scalar, N>; 2]> = Vec::new();
-    for q in holonomic_rows(tangent).null_space() {
-        // Another place turns the constraints: the velocity must follow.
-        let entry = entry::<L, N, M>(q.icamax());
-        let turned = tangent.change(&Direction { q, ..Direction::zero() }, entry)?;
-        changes.push([q, tangent.factors.rows.least(&turned.rate.into())]);
-    }
-    changes.extend(tangent.factors.rows.null_space().map(|v| [zero, v]));
-    let columns: Vec<_> = changes
-        .iter()
-        .map(|[q, v]| {
-            let change = DVector::from_iterator(2 * N, q.iter().chain(v).copied());
-            let length = norm(change.as_slice());
-            change / length
-        })
-        .collect();
-    match columns.is_empty() {
-        true => Ok(DMatrix::zeros(2 * N, 0)),
-        false => Ok(DMatrix::from_columns(&columns).qr().q()),
-    }
-}
-
-/// The rows of the holonomic constraints alone.
-fn holonomic_rows<L, const N: usize, const M: usize>(tangent: &Tangent<'_, L, N, M>) -> Rows<L::Scalar, N, M>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
-    let mut f = tangent.f;
-    for (row, kind) in f.iter_mut().zip(L::CONSTRAINT_KINDS) {
-        if kind == ConstraintKind::Velocity {
-            *row = [L::Scalar::constant(0.0); N];
-        }
-    }
-    Rows::of(&tangent.m, &f, Rank::off_constraints())
-}
-
-/// An input that shifts a constraint has no state, or no acceleration, on it beside the one given.
-fn stays_on_constraints<L, const N: usize, const M: usize, const P: usize>(
-    tangent: &Tangent<'_, L, N, M>,
-    k: usize,
-) -> Result<(), Error>
-where
-    L: Linearized<N, M, P, Scalar: Real>,
-{
-    let (input, zero) = (L::PARAMETERS[k], L::Scalar::constant(0.0));
-    let first_shifted = |solution: &Solution<L::Scalar, N, M>| {
-        let direction = Direction::of_parameter(k);
-        let change = tangent.change_with(solution, &direction, Entry::Parameter(input))?;
-        let levels = |a: usize| [change.position[a], change.rate[a], change.acceleration[a]];
-        Ok((0..M).find(|&a| levels(a) != [zero; 3]))
-    };
-    if first_shifted(&tangent.solution)?.is_none() {
-        return Ok(());
-    }
-    match first_shifted(&without_round_off(tangent)?)? {
-        None => Ok(()),
-        Some(a) => Err(Error::InputShiftsConstraint { input, constraint: L::CONSTRAINTS[a] }),
-    }
-}
-
-/// Accelerations and multipliers at the state; no accelerations where they are nothing but round-off, of forces that
-/// balance to √ε of their terms in the units in which masses are 1.
-fn without_round_off<L: Linearized<N, M, P, Scalar: Real>, const N: usize, const M: usize, const P: usize>(
-    tangent: &Tangent<'_, L, N, M>,
-) -> Result<Solution<L::Scalar, N, M>, Error> {
-    let Tangent { state, solution, m, f, factors, .. } = tangent;
-    let zero = L::Scalar::constant(0.0);
-    let strongest = |force: &dyn Fn(usize) -> L::Scalar| {
-        largest(&from_fn::<_, N, _>(|i| force(i) * factors.rows.units.coordinates[i]))
-    };
-    let mut terms =
-        (0..M).fold(zero, |most, a| larger(most, strongest(&|i| f[a][i] * solution.multipliers[a])));
-    for (j, name) in L::COORDINATES.iter().enumerate() {
-        let change = tangent.change(&Direction::of_coordinate(j), Entry::Coordinate(name))?;
-        terms = larger(terms, strongest(&|i| change.motion[i] * state.q[j]));
-    }
-    let left = strongest(&|i| (0..N).fold(zero, |sum, j| sum + m[i][j] * solution.accelerations[j]));
-    let rests = left <= power_of_epsilon::<L::Scalar>(0.5) * terms;
-    let accelerations = if rests { vector([zero; N]) } else { solution.accelerations };
-    Ok(Solution { accelerations, ..*solution })
 }

@@ -11,7 +11,7 @@ use crate::solution::solve::{fault, first_row, solve};
 use crate::system::{Lagrangian, Solution, State};
 
 /// The equations of motion at a state, solved and factorized.
-pub(super) struct Tangent<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
+pub(super) struct Tangent<'a, L: Lagrangian<N, M>, const N: usize, const M: usize, const P: usize> {
     system: &'a L,
     pub(super) state: &'a State<L::Scalar, N>,
     pub(super) solution: Solution<L::Scalar, N, M>,
@@ -23,7 +23,10 @@ pub(super) struct Tangent<'a, L: Lagrangian<N, M>, const N: usize, const M: usiz
     pub(super) factors: Factors<L::Scalar, N, M>,
 }
 
-impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Tangent<'a, L, N, M> {
+impl<'a, L, const N: usize, const M: usize, const P: usize> Tangent<'a, L, N, M, P>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+{
     pub(super) fn at(system: &'a L, state: &'a State<L::Scalar, N>) -> Result<Self, Error> {
         let solution = solve(system, state)?;
         let m = system.mass_matrix(state).into();
@@ -43,70 +46,52 @@ impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Tang
     }
 
     /// δq̈ and δλ along a direction; `entry` is what to call it.
-    pub(super) fn along<const P: usize>(
+    pub(super) fn along(
         &self,
         direction: &Direction<L::Scalar, N, P>,
         entry: Entry,
-    ) -> Result<Solution<L::Scalar, N, M>, Error>
-    where
-        L: Linearized<N, M, P>,
-    {
+    ) -> Result<Solution<L::Scalar, N, M>, Error> {
         let change = self.change(direction, entry)?;
         let (h, gamma) = ((-change.motion).into(), change.acceleration.into());
         let time = self.state.t.to_f64();
         let solution = self.factors.solve(&h, &gamma).map_err(|found| fault::<L, N, M>(&found, time))?;
-        finite::<L, N, M>(&solution.accelerations, &[solution.multipliers], entry, self.state)?;
+        self.check_finite(&solution.accelerations, &[solution.multipliers], entry)?;
         Ok(solution)
     }
 
     /// The derivative of the residual, which must be finite.
-    pub(super) fn change<const P: usize>(
+    pub(super) fn change(
         &self,
         direction: &Direction<L::Scalar, N, P>,
         entry: Entry,
-    ) -> Result<ResidualChange<L::Scalar, N, M>, Error>
-    where
-        L: Linearized<N, M, P>,
-    {
+    ) -> Result<ResidualChange<L::Scalar, N, M>, Error> {
         self.change_with(&self.solution, direction, entry)
     }
 
     /// The same with other accelerations or multipliers than those of the state.
-    pub(super) fn change_with<const P: usize>(
+    pub(super) fn change_with(
         &self,
         solution: &Solution<L::Scalar, N, M>,
         direction: &Direction<L::Scalar, N, P>,
         entry: Entry,
-    ) -> Result<ResidualChange<L::Scalar, N, M>, Error>
-    where
-        L: Linearized<N, M, P>,
-    {
+    ) -> Result<ResidualChange<L::Scalar, N, M>, Error> {
         let change = self.system.residual_change(self.state, solution, direction);
-        finite_change::<L, N, M>(&change, entry, self.state)?;
+        let ResidualChange { motion, acceleration, rate, position } = change;
+        self.check_finite(&motion, &[acceleration, rate, position], entry)?;
         Ok(change)
     }
-}
 
-/// Names the first row that is not finite.
-pub(super) fn finite_change<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
-    change: &ResidualChange<L::Scalar, N, M>,
-    entry: Entry,
-    state: &State<L::Scalar, N>,
-) -> Result<(), Error> {
-    let ResidualChange { motion, acceleration, rate, position } = *change;
-    finite::<L, N, M>(&motion, &[acceleration, rate, position], entry, state)
-}
-
-/// Names the first entry that is not finite, of a coordinate or of a constraint.
-fn finite<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
-    motion: &SVector<L::Scalar, N>,
-    constraints: &[SVector<L::Scalar, M>],
-    entry: Entry,
-    state: &State<L::Scalar, N>,
-) -> Result<(), Error> {
-    let finite = |a: usize| constraints.iter().all(|x| x[a].is_finite());
-    match first_row::<L, N, M>(|i| !motion[i].is_finite(), |a| !finite(a)) {
-        None => Ok(()),
-        Some(row) => Err(Error::DerivativeNotFinite { row, entry, time: state.t.to_f64() }),
+    /// Names the first row that is not finite, of a coordinate or of a constraint.
+    fn check_finite(
+        &self,
+        motion: &SVector<L::Scalar, N>,
+        constraints: &[SVector<L::Scalar, M>],
+        entry: Entry,
+    ) -> Result<(), Error> {
+        let finite = |a: usize| constraints.iter().all(|x| x[a].is_finite());
+        match first_row::<L, N, M>(|i| !motion[i].is_finite(), |a| !finite(a)) {
+            None => Ok(()),
+            Some(row) => Err(Error::DerivativeNotFinite { row, entry, time: self.state.t.to_f64() }),
+        }
     }
 }

@@ -20,7 +20,6 @@ use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, State};
 use point::Point;
 use search::Balance;
-use steady::Unsteadiness;
 use unknown::Unknown;
 
 /// An equilibrium, or a steady motion.
@@ -72,10 +71,10 @@ where
     check_finite(system, guess)?;
     let unknowns = Unknown::of::<L, N, M, P>(names)?;
     let (mut balance, start) = Balance::start(system.clone(), guess, unknowns)?;
-    let at_the_guess = Unsteadiness::of(&start.point)?;
+    let at_the_guess = start.point.unsteadiness()?;
     let (found, iterations) = newton::find(&mut balance, start)?;
     balance.check_resolved(&found, iterations)?;
-    Unsteadiness::of(&found.point)?.check(&at_the_guess, &found.point)?;
+    found.point.check_steady(&at_the_guess)?;
     let undetermined = balance.undetermined(&found)?;
     let Point { system, state, multipliers } = found.point;
     // Of dependent constraints the multipliers of least norm; at a pole, where accelerations are undetermined, those found.

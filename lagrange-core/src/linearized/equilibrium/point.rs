@@ -11,13 +11,16 @@ use crate::system::{Lagrangian, Solution, State};
 
 /// Where the search is.
 #[derive(Clone)]
-pub(super) struct Point<L: Lagrangian<N, M>, const N: usize, const M: usize> {
+pub(super) struct Point<L: Lagrangian<N, M>, const N: usize, const M: usize, const P: usize> {
     pub(super) system: L,
     pub(super) state: State<L::Scalar, N>,
     pub(super) multipliers: SVector<L::Scalar, M>,
 }
 
-impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Point<L, N, M> {
+impl<L, const N: usize, const M: usize, const P: usize> Point<L, N, M, P>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+{
     /// R, the motion's rows first.
     pub(super) fn residual(&self) -> DVector<L::Scalar> {
         let Self { system, state, multipliers } = self;
@@ -31,10 +34,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Point<L,
     }
 
     /// Its derivatives by the unknowns and by the multipliers, at least as many rows as columns.
-    pub(super) fn jacobian<const P: usize>(&self, unknowns: &[Unknown]) -> DMatrix<L::Scalar>
-    where
-        L: Linearized<N, M, P>,
-    {
+    pub(super) fn jacobian(&self, unknowns: &[Unknown]) -> DMatrix<L::Scalar> {
         let columns = unknowns.len() + M;
         let mut jacobian = DMatrix::zeros((N + 3 * M).max(columns), columns);
         let multipliers = self.multipliers;
@@ -50,14 +50,11 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Point<L,
     }
 
     /// Names the first derivative by an unknown that is not finite.
-    pub(super) fn check_derivatives<const P: usize>(
+    pub(super) fn check_derivatives(
         &self,
         jacobian: &DMatrix<L::Scalar>,
         unknowns: &[Unknown],
-    ) -> Result<(), Error>
-    where
-        L: Linearized<N, M, P>,
-    {
+    ) -> Result<(), Error> {
         for (&unknown, column) in unknowns.iter().zip(jacobian.column_iter()) {
             if let Some(i) = column.iter().position(|x| !x.is_finite()) {
                 let (row, entry) = (row::<L, N, M>(i), unknown.entry::<L, N, M, P>());
@@ -68,10 +65,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Point<L,
     }
 
     /// The value of an unknown.
-    pub(super) fn value<const P: usize>(&self, unknown: Unknown) -> L::Scalar
-    where
-        L: Linearized<N, M, P>,
-    {
+    pub(super) fn value(&self, unknown: Unknown) -> L::Scalar {
         match unknown {
             Unknown::Coordinate(i) => self.state.q[i],
             Unknown::Velocity(i) => self.state.v[i],
@@ -80,10 +74,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Point<L,
     }
 
     /// Sets an unknown; false where it is a parameter that cannot be changed.
-    pub(super) fn set<const P: usize>(&mut self, unknown: Unknown, value: L::Scalar) -> bool
-    where
-        L: Linearized<N, M, P>,
-    {
+    pub(super) fn set(&mut self, unknown: Unknown, value: L::Scalar) -> bool {
         match unknown {
             Unknown::Coordinate(i) => self.state.q[i] = value,
             Unknown::Velocity(i) => self.state.v[i] = value,
@@ -102,15 +93,4 @@ fn stacked<T: Real, const N: usize, const M: usize>(residual: &ResidualChange<T,
 /// What row `i` of R belongs to.
 pub(super) fn row<L: Lagrangian<N, M>, const N: usize, const M: usize>(i: usize) -> Row {
     if i < N { Row::Coordinate(L::COORDINATES[i]) } else { Row::Constraint(L::CONSTRAINTS[(i - N) % M]) }
-}
-
-/// Names the first row that is not finite.
-pub(super) fn finite_residual<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
-    residual: &DVector<L::Scalar>,
-    state: &State<L::Scalar, N>,
-) -> Result<(), Error> {
-    match residual.iter().position(|x| !x.is_finite()) {
-        None => Ok(()),
-        Some(i) => Err(Error::EquationsNotFinite { row: row::<L, N, M>(i), time: state.t.to_f64() }),
-    }
 }

@@ -5,9 +5,9 @@
 use alloc::{format, string::String, vec::Vec};
 use core::iter::successors;
 
-use nalgebra::{DMatrix, DVector, Dyn, SVD};
+use nalgebra::{ComplexField, DMatrix, DVector, Dyn, SVD};
 
-use super::point::{Point, finite_residual, row};
+use super::point::{Point, row};
 use super::unknown::Unknown;
 use super::weights::weights;
 use crate::error::Error;
@@ -28,8 +28,8 @@ pub(super) struct Balance<L: Lagrangian<N, M>, const N: usize, const M: usize, c
 }
 
 /// Where the search is.
-pub(super) struct Trial<L: Lagrangian<N, M>, const N: usize, const M: usize> {
-    pub(super) point: Point<L, N, M>,
+pub(super) struct Trial<L: Lagrangian<N, M>, const N: usize, const M: usize, const P: usize> {
+    pub(super) point: Point<L, N, M, P>,
     residual: DVector<L::Scalar>,
     jacobian: DMatrix<L::Scalar>,
     damping: L::Scalar,
@@ -44,7 +44,7 @@ where
         system: L,
         guess: &State<L::Scalar, N>,
         unknowns: Vec<Unknown>,
-    ) -> Result<(Self, Trial<L, N, M>), Error> {
+    ) -> Result<(Self, Trial<L, N, M, P>), Error> {
         let none = vector([L::Scalar::constant(0.0); M]);
         let mut state = *guess;
         // Onto the constraints where nothing of it is held, and where that can be.
@@ -61,13 +61,15 @@ where
         }
         let mut balance = Self { unknowns, weights: DVector::zeros(0), scale: DVector::zeros(0) };
         let start = balance.trial(point, L::Scalar::constant(1e-3));
-        finite_residual::<L, N, M>(&start.residual, &start.point.state)?;
+        if let Some(i) = start.residual.iter().position(|x| !x.is_finite()) {
+            return Err(Error::EquationsNotFinite { row: row::<L, N, M>(i), time: state.t.to_f64() });
+        }
         balance.weights = weights(&start.jacobian, &start.residual, N);
         balance.scale = DVector::zeros(start.jacobian.ncols());
         Ok((balance, start))
     }
 
-    fn trial(&self, point: Point<L, N, M>, damping: L::Scalar) -> Trial<L, N, M> {
+    fn trial(&self, point: Point<L, N, M, P>, damping: L::Scalar) -> Trial<L, N, M, P> {
         Trial { residual: point.residual(), jacobian: point.jacobian(&self.unknowns), point, damping }
     }
 
@@ -99,7 +101,7 @@ where
         if self.scale[j] > L::Scalar::constant(0.0) { one / self.scale[j] } else { one }
     }
 
-    fn moved(&self, trial: &Point<L, N, M>, step: &DVector<L::Scalar>) -> Point<L, N, M> {
+    fn moved(&self, trial: &Point<L, N, M, P>, step: &DVector<L::Scalar>) -> Point<L, N, M, P> {
         let mut next = trial.clone();
         for (j, &unknown) in self.unknowns.iter().enumerate() {
             next.set(unknown, next.value(unknown) + step[j]);
@@ -113,7 +115,7 @@ where
     /// Σ_j |∂R_i/∂x_j| size(j, |x_j|) over the unknowns and multipliers, for each row i.
     fn terms(
         &self,
-        trial: &Trial<L, N, M>,
+        trial: &Trial<L, N, M, P>,
         size: impl Fn(usize, L::Scalar) -> L::Scalar,
     ) -> DVector<L::Scalar> {
         let unknowns = self.unknowns.iter().map(|&unknown| trial.point.value(unknown));
@@ -124,12 +126,12 @@ where
     }
 
     /// |R| in the units of the rows.
-    fn distance(&self, trial: &Trial<L, N, M>) -> L::Scalar {
+    fn distance(&self, trial: &Trial<L, N, M, P>) -> L::Scalar {
         trial.residual.component_mul(&self.weights).norm()
     }
 
     /// Whether every row is round-off of its terms.
-    fn is_rounded(&self, trial: &Trial<L, N, M>) -> bool {
+    fn is_rounded(&self, trial: &Trial<L, N, M, P>) -> bool {
         let part = L::Scalar::constant(4.0 * L::Scalar::EPSILON);
         let bound = self.terms(trial, |_, x| part * x);
         trial.residual.iter().zip(&bound).all(|(r, bound)| is_within(Scalar::abs(*r), *bound))
@@ -138,7 +140,7 @@ where
     /// Whether what is left may be round-off: it is small, of the terms of each row and of those where the unknowns
     /// are about 1; and what no step could take away is round-off of the terms here or at the guess. The second
     /// tells forces that cannot balance, however small their unit makes them.
-    fn is_negligible(&self, factors: &SVD<L::Scalar, Dyn, Dyn>, trial: &Trial<L, N, M>) -> bool {
+    fn is_negligible(&self, factors: &SVD<L::Scalar, Dyn, Dyn>, trial: &Trial<L, N, M, P>) -> bool {
         let part = L::Scalar::constant(16.0 * L::Scalar::EPSILON);
         let floor = power_of_epsilon(0.75);
         let small = self.terms(trial, |_, x| part * x + floor);
@@ -153,7 +155,7 @@ where
 
     /// Refuses what is round-off only by a gradient: at the angle 10¹⁶, which is known to ±1, every force is round-off of
     /// the angle times its gradient. Of each term counts what the row really changes by with the unknown.
-    pub(super) fn check_resolved(&self, found: &Trial<L, N, M>, steps: usize) -> Result<(), Error> {
+    pub(super) fn check_resolved(&self, found: &Trial<L, N, M, P>, steps: usize) -> Result<(), Error> {
         let (part, root) =
             (L::Scalar::constant(32.0 * L::Scalar::EPSILON), power_of_epsilon::<L::Scalar>(0.5));
         let unknowns = self.unknowns.len();
@@ -176,7 +178,7 @@ where
     }
 
     /// What takes part in the directions along which nothing changes.
-    pub(super) fn undetermined(&mut self, found: &Trial<L, N, M>) -> Result<Vec<String>, Error> {
+    pub(super) fn undetermined(&mut self, found: &Trial<L, N, M, P>) -> Result<Vec<String>, Error> {
         let zero = L::Scalar::constant(0.0);
         let factors = self.linearize(found)?;
         let Some(v) = &factors.v_t else { return Ok(Vec::new()) };
@@ -195,7 +197,7 @@ where
     L: Linearized<N, M, P, Scalar: Real> + Clone,
 {
     type Scalar = L::Scalar;
-    type Trial = Trial<L, N, M>;
+    type Trial = Trial<L, N, M, P>;
     type Linear = SVD<L::Scalar, Dyn, Dyn>;
 
     const STEPS: usize = 200;
@@ -247,7 +249,7 @@ impl<L, const N: usize, const M: usize, const P: usize> Balance<L, N, M, P>
 where
     L: Linearized<N, M, P, Scalar: Real> + Clone,
 {
-    fn no_equilibrium(&self, trial: &Trial<L, N, M>, steps: usize) -> Error {
+    fn no_equilibrium(&self, trial: &Trial<L, N, M, P>, steps: usize) -> Error {
         let size = |i: usize| Scalar::abs(trial.residual[i]) * self.weights[i];
         let worst =
             (1..trial.residual.len()).fold(0, |worst, i| if size(i) > size(worst) { i } else { worst });

@@ -9,7 +9,6 @@ use super::unknown::Unknown;
 use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::number::{Real, Scalar, larger, power_of_epsilon};
-use crate::system::Lagrangian;
 
 /// How fast (M q̈ − h − Fᵀλ, F q̈ + γ) at q̈ = 0 changes with the coordinates that move, a column each. The rows of
 /// F q̇ + b and Φ follow from the second.
@@ -19,43 +18,43 @@ pub(super) struct Unsteadiness<T> {
 }
 
 impl<T: Real> Unsteadiness<T> {
-    pub(super) fn of<L: Linearized<N, M, P, Scalar = T>, const N: usize, const M: usize, const P: usize>(
-        point: &Point<L, N, M>,
-    ) -> Result<Self, Error> {
-        let v = &point.state.v;
-        let moving: Vec<usize> = (0..N).filter(|&i| v[i] != T::constant(0.0)).collect();
+    fn terms(&self, row: usize) -> T {
+        self.columns.row(row).iter().fold(T::constant(0.0), |sum, x| sum + Scalar::abs(*x))
+    }
+}
+
+impl<L, const N: usize, const M: usize, const P: usize> Point<L, N, M, P>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+{
+    pub(super) fn unsteadiness(&self) -> Result<Unsteadiness<L::Scalar>, Error> {
+        let v = &self.state.v;
+        let moving: Vec<usize> = (0..N).filter(|&i| v[i] != L::Scalar::constant(0.0)).collect();
         let coordinates: Vec<_> = moving.iter().copied().map(Unknown::Coordinate).collect();
-        let jacobian = point.jacobian(&coordinates);
-        point.check_derivatives(&jacobian, &coordinates)?;
+        let jacobian = self.jacobian(&coordinates);
+        self.check_derivatives(&jacobian, &coordinates)?;
         let mut columns = jacobian.view((0, 0), (N + M, moving.len())).into_owned();
         for (mut column, &i) in columns.column_iter_mut().zip(&moving) {
             column.scale_mut(v[i]);
         }
-        Ok(Self { moving, columns })
+        Ok(Unsteadiness { moving, columns })
     }
 
     /// Each row must cancel, but for √ε of its terms here or at the guess.
-    pub(super) fn check<L: Lagrangian<N, M, Scalar = T>, const N: usize, const M: usize>(
-        &self,
-        guess: &Self,
-        point: &Point<L, N, M>,
-    ) -> Result<(), Error> {
-        let part = power_of_epsilon::<T>(0.5);
+    pub(super) fn check_steady(&self, guess: &Unsteadiness<L::Scalar>) -> Result<(), Error> {
+        let here = self.unsteadiness()?;
+        let part = power_of_epsilon::<L::Scalar>(0.5);
         let changes = |i: &usize| {
-            let terms = larger(self.terms(*i), guess.terms(*i));
-            Scalar::abs(self.columns.row(*i).sum()) > part * terms
+            let terms = larger(here.terms(*i), guess.terms(*i));
+            Scalar::abs(here.columns.row(*i).sum()) > part * terms
         };
         match (0..N + M).find(changes) {
             None => Ok(()),
             Some(i) => {
-                let most = self.moving[self.columns.row(i).transpose().icamax()];
-                let (coordinate, time) = (L::COORDINATES[most], point.state.t.to_f64());
+                let most = here.moving[here.columns.row(i).transpose().icamax()];
+                let (coordinate, time) = (L::COORDINATES[most], self.state.t.to_f64());
                 Err(Error::NotSteady { coordinate, row: row::<L, N, M>(i), time })
             }
         }
-    }
-
-    fn terms(&self, row: usize) -> T {
-        self.columns.row(row).iter().fold(T::constant(0.0), |sum, x| sum + Scalar::abs(*x))
     }
 }
