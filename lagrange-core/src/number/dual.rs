@@ -96,16 +96,6 @@ impl<S: Scalar> Scalar for Dual<S> {
     }
 
     #[inline(always)]
-    fn sin(self) -> Self {
-        self.sin_cos().0
-    }
-
-    #[inline(always)]
-    fn cos(self) -> Self {
-        self.sin_cos().1
-    }
-
-    #[inline(always)]
     fn tan(self) -> Self {
         let tangent = self.value.tan();
         self.chain(tangent, S::constant(1.0) + tangent * tangent)

@@ -2,7 +2,7 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use simba::simd::{SimdComplexField, SimdPartialOrd, SimdRealField, SimdValue, WideF64x4};
+use simba::simd::{SimdComplexField, SimdPartialOrd, SimdValue, WideF64x4};
 
 use super::scalar::Scalar;
 
@@ -68,11 +68,11 @@ impl Neg for Lanes {
     }
 }
 
-macro_rules! through_simba {
-    ($($name:ident => $simd:ident($($argument:ident),*)),* $(,)?) => {
+macro_rules! lane_by_lane {
+    ($($name:ident($($argument:ident),*)),* $(,)?) => {
         $(#[inline(always)]
         fn $name(self $(, $argument: Self)*) -> Self {
-            Self(self.0.$simd($($argument.0),*))
+            Self(Scalar::$name(self.0 $(, $argument.0)*))
         })*
     };
 }
@@ -91,41 +91,10 @@ impl Scalar for Lanes {
         (Self(sin.select(is_accurate, nan)), Self(cos.select(is_accurate, nan)))
     }
 
-    #[inline(always)]
-    fn sin(self) -> Self {
-        self.sin_cos().0
-    }
-
-    #[inline(always)]
-    fn cos(self) -> Self {
-        self.sin_cos().1
-    }
-
-    #[inline(always)]
-    fn by_order(self, other: Self, less: Self, equal: Self, greater: Self) -> Self {
-        Self(self.0.by_order(other.0, less.0, equal.0, greater.0))
-    }
-
-    #[inline(always)]
-    fn multiply_add(self, y: Self, z: Self) -> Self {
-        Self(self.0.multiply_add(y.0, z.0))
-    }
-
-    #[inline(always)]
-    fn subtract_product(self, y: Self, z: Self) -> Self {
-        Self(self.0.subtract_product(y.0, z.0))
-    }
-
-    through_simba! {
-        tan => simd_tan(), asin => simd_asin(), acos => simd_acos(), atan => simd_atan(), atan2 => simd_atan2(x),
-        sinh => simd_sinh(), cosh => simd_cosh(), tanh => simd_tanh(),
-        exp => simd_exp(), ln => simd_ln(), sqrt => simd_sqrt(),
-        powf => simd_powf(exponent), min => simd_min(other), max => simd_max(other),
-    }
-
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Self(SimdComplexField::simd_abs(self.0))
+    lane_by_lane! {
+        tan(), asin(), acos(), atan(), atan2(x), sinh(), cosh(), tanh(), exp(), ln(), sqrt(), abs(),
+        powf(exponent), min(other), max(other), by_order(other, less, equal, greater),
+        multiply_add(y, z), subtract_product(y, z),
     }
 }
 

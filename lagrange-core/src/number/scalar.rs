@@ -26,9 +26,15 @@ pub trait Scalar:
     /// Sine and cosine at once.
     fn sin_cos(self) -> (Self, Self);
     /// Sine.
-    fn sin(self) -> Self;
+    #[inline(always)]
+    fn sin(self) -> Self {
+        self.sin_cos().0
+    }
     /// Cosine.
-    fn cos(self) -> Self;
+    #[inline(always)]
+    fn cos(self) -> Self {
+        self.sin_cos().1
+    }
     /// Tangent.
     fn tan(self) -> Self;
     /// Arcsine.
