@@ -1,8 +1,7 @@
 //! Hamilton's equations as a flow: the methods for Lagrange's equations integrate them as well.
 
-use super::equations::equations;
 use super::legendre;
-use super::phase::PhaseState;
+use super::phase::{PhaseState, equations};
 use crate::error::Error;
 use crate::names::Entry;
 use crate::number::{Real, vector};

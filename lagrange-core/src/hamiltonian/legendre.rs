@@ -11,9 +11,9 @@ use super::phase::PhaseState;
 use crate::error::Error;
 use crate::number::{Real, Scalar, beyond_round_off, exceeds, is_within, power_of_epsilon, vector};
 use crate::solution::eliminate::eliminate_active;
-use crate::solution::kkt::{self, Fault, KktSystem, Rank, Units};
+use crate::solution::kkt::{self, KktSystem, Rank, Units};
 use crate::solution::newton::{self, Left, Search, halvings};
-use crate::solution::solve::{is_trustworthy, most_involved, name, not_finite};
+use crate::solution::solve::{fault, is_trustworthy, name, not_finite};
 use crate::system::{Lagrangian, Solution, State};
 
 /// The state with these momenta, its velocity sought from `guess` on, on the constraints `active` or on as many as
@@ -106,14 +106,10 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Inversio
         }
         let known = self.active.contains(&false);
         let rank = if known { Rank::off_constraints() } else { Rank::on_constraints() };
-        let time = self.phase.t.to_f64();
-        kkt::solve(equations, rank).map(|(solution, _)| solution).map_err(|fault| match fault {
-            Fault::Singular(share) => {
-                Error::VelocityUndetermined { coordinates: most_involved::<L, N, M>(&share), time }
-            }
-            Fault::Contradictory(row) => {
-                Error::Contradictory { constraint: name(&L::CONSTRAINTS, row), time }
-            }
+        let solved = kkt::solve(equations, rank).map(|(solution, _)| solution);
+        solved.map_err(|found| match fault::<L, N, M>(&found, self.phase.t.to_f64()) {
+            Error::Singular { coordinates, time } => Error::VelocityUndetermined { coordinates, time },
+            other => other,
         })
     }
 }

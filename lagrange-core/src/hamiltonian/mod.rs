@@ -1,6 +1,5 @@
 //! The Hamiltonian side of a system: momenta instead of velocities.
 
-mod equations;
 #[cfg(feature = "alloc")]
 mod flow;
 mod legendre;
@@ -19,14 +18,14 @@ pub use phase::{PhaseRate, PhaseState};
 
 use crate::error::Error;
 #[cfg(feature = "alloc")]
-use crate::motion::run;
-#[cfg(feature = "alloc")]
-use crate::motion::{Method, Progress};
+use crate::motion::{Method, Progress, run};
+use crate::names::Entry;
 use crate::number::{Real, Scalar};
+use crate::system::finite::check_entries;
 use crate::system::{Lagrangian, State};
 #[cfg(feature = "alloc")]
 use crate::trajectory::Trajectory;
-use equations::equations;
+use phase::equations;
 
 /// The Legendre transform, the Hamiltonian and Hamilton's equations with constraints: every [`Lagrangian`] over
 /// `f64` or `f32` has them.
@@ -87,7 +86,7 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
         phase: &PhaseState<Self::Scalar, N>,
         velocity: &SVector<Self::Scalar, N>,
     ) -> Result<State<Self::Scalar, N>, Error> {
-        phase::check_finite(self, phase)?;
+        check_entries(self, phase.t, [&phase.q, &phase.p], Entry::Momentum)?;
         legendre::invert(self, phase, &(*velocity).into(), None)
     }
 

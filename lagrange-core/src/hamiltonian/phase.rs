@@ -1,12 +1,11 @@
-//! A point of the phase space of coordinates and momenta, and its rate.
+//! A point of the phase space of coordinates and momenta, and its rate: Hamilton's equations.
 
 use nalgebra::SVector;
 
 use crate::error::Error;
-use crate::names::Entry;
 use crate::number::{Real, Scalar};
-use crate::system::Lagrangian;
-use crate::system::finite::all_finite;
+use crate::solution::solve::solve_near;
+use crate::system::{Lagrangian, State};
 
 /// The time `t`, the generalized coordinates `q` and the generalized momenta `p` = ∂L/∂q̇.
 ///
@@ -49,12 +48,17 @@ pub struct PhaseRate<T, const N: usize, const M: usize> {
     pub multipliers: SVector<T, M>,
 }
 
-/// Every entry must be a number.
-pub(super) fn check_finite<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
-    _: &L,
-    phase: &PhaseState<L::Scalar, N>,
-) -> Result<(), Error> {
-    let q = L::COORDINATES.iter().zip(&phase.q).map(|(name, x)| (Entry::Coordinate(name), *x));
-    let p = L::COORDINATES.iter().zip(&phase.p).map(|(name, x)| (Entry::Momentum(name), *x));
-    all_finite(core::iter::once((Entry::Time, phase.t)).chain(q).chain(p))
+/// Rates, how many constraints are independent, and which ones the rates rest on.
+pub(super) type Rates<T, const N: usize, const M: usize> = (PhaseRate<T, N, M>, usize, [bool; M]);
+
+/// Hamilton's equations at a state whose velocity belongs to its momenta.
+pub(super) fn equations<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+    active: Option<&[bool; M]>,
+) -> Result<Rates<L::Scalar, N, M>, Error> {
+    let (solution, active) = solve_near(system, state, active)?;
+    let multipliers = solution.multipliers;
+    let p = system.momentum_rate(state) + system.constraint_force(state, &multipliers);
+    Ok((PhaseRate { q: state.v, p, multipliers }, solution.rank, active))
 }

@@ -3,8 +3,7 @@
 use nalgebra::ComplexField;
 
 use crate::error::Error;
-use crate::names::Names;
-use crate::names::Row;
+use crate::names::{Names, Row};
 use crate::number::{Real, Scalar, larger, power_of_epsilon};
 use crate::solution::kkt::{self, Fault, KktSystem, Rank, Solved};
 use crate::system::{Lagrangian, Solution, State};
@@ -108,7 +107,7 @@ pub(crate) fn first_row<L: Lagrangian<N, M>, const N: usize, const M: usize>(
 }
 
 /// The coordinates that take part with at least a tenth of the largest share.
-pub(crate) fn most_involved<L, const N: usize, const M: usize>(share: &[L::Scalar; N]) -> Names
+fn most_involved<L, const N: usize, const M: usize>(share: &[L::Scalar; N]) -> Names
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {

@@ -1,5 +1,7 @@
 //! Whether the entries of a state are numbers.
 
+use nalgebra::{ComplexField, SVector};
+
 use super::lagrangian::Lagrangian;
 use super::state::State;
 use crate::error::Error;
@@ -8,16 +10,22 @@ use crate::number::Real;
 
 /// Every entry of a state must be a number.
 pub(crate) fn check_finite<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
-    _: &L,
+    system: &L,
     state: &State<L::Scalar, N>,
 ) -> Result<(), Error> {
-    let q = L::COORDINATES.iter().zip(&state.q).map(|(name, x)| (Entry::Coordinate(name), *x));
-    let v = L::COORDINATES.iter().zip(&state.v).map(|(name, x)| (Entry::Velocity(name), *x));
-    all_finite(core::iter::once((Entry::Time, state.t)).chain(q).chain(v))
+    check_entries(system, state.t, [&state.q, &state.v], Entry::Velocity)
 }
 
-/// Every one of these entries must be a number.
-pub(crate) fn all_finite<T: Real>(mut entries: impl Iterator<Item = (Entry, T)>) -> Result<(), Error> {
+/// Time, coordinates and what belongs to them, velocities or momenta, must be numbers; `other` names the latter.
+pub(crate) fn check_entries<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+    _: &L,
+    t: L::Scalar,
+    [q, others]: [&SVector<L::Scalar, N>; 2],
+    other: fn(&'static str) -> Entry,
+) -> Result<(), Error> {
+    let named = |entry: fn(&'static str) -> Entry| L::COORDINATES.into_iter().map(entry);
+    let vectors = named(Entry::Coordinate).zip(q).chain(named(other).zip(others));
+    let mut entries = [(Entry::Time, &t)].into_iter().chain(vectors);
     match entries.find(|(_, x)| !x.is_finite()) {
         None => Ok(()),
         Some((entry, x)) => Err(Error::StateNotFinite { entry, value: x.to_f64() }),

@@ -17,7 +17,7 @@ use nalgebra::SVector;
 
 use crate::number::{Real, Scalar, larger, largest, norm, power_of_epsilon, smaller, vector};
 use crate::system::Solution;
-use qr::Qr;
+use qr::{Qr, dot};
 use symmetric::Symmetric;
 pub(crate) use units::Units;
 
@@ -281,8 +281,4 @@ fn least_norm<T: Real, const N: usize, const M: usize>(rows: &Rows<T, N, M>) -> 
 
 fn smallest_diagonal<T: Real, const N: usize, const M: usize>(split: &Qr<T, N, M>) -> T {
     (0..split.rank).fold(T::constant(1.0), |least, i| smaller(least, Scalar::abs(split.entry(i, i))))
-}
-
-fn dot<T: Real, const N: usize>(a: &[T; N], b: &[T; N]) -> T {
-    a.iter().zip(b).fold(T::constant(0.0), |sum, (a, b)| sum + *a * *b)
 }

@@ -114,6 +114,6 @@ fn reflect<T: Real>(v: &[T], x: &mut [T], k: usize) {
     }
 }
 
-fn dot<T: Real>(a: &[T], b: &[T]) -> T {
+pub(super) fn dot<T: Real>(a: &[T], b: &[T]) -> T {
     a.iter().zip(b).fold(T::constant(0.0), |sum, (a, b)| sum + *a * *b)
 }
