@@ -61,7 +61,7 @@ fn line<L, const N: usize, const M: usize>(f: &mut Formatter<'_>, sample: &Sampl
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {
-    let (system, state) = (sample.system(), sample.state());
+    let Sample { system, state } = sample;
     let solution = sample.solution().ok();
     let multipliers = solution.map(|s| s.multipliers);
     let force = multipliers.map(|lambda| system.constraint_force(state, &lambda));

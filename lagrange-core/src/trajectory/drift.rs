@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 use core::fmt::{self, Display, Formatter};
 
 use super::Trajectory;
-use crate::number::{Real, Scalar};
+use crate::number::{Real, Scalar, exceeds};
 use crate::solution::flow::Flow;
 use crate::system::Lagrangian;
 
@@ -88,14 +88,8 @@ impl<T: Real> Drift<T> {
 
 /// The greater distance, and not a number once one of them is none.
 fn farther<T: Real>(largest: T, difference: T) -> T {
-    let distance = if difference < T::constant(0.0) { -difference } else { difference };
-    if distance <= largest {
-        largest
-    } else if largest.is_finite() {
-        distance
-    } else {
-        largest
-    }
+    let distance = Scalar::abs(difference);
+    if largest.is_finite() && exceeds(distance, largest) { distance } else { largest }
 }
 
 impl<'d, T> IntoIterator for &'d Drift<T> {

@@ -64,32 +64,32 @@ impl<'a, L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, co
             Some(state) => Ok(self.sample(state)),
             None => Err(Error::OutsideTrajectory {
                 time: t.to_f64(),
-                start: self.path.first().t.to_f64(),
-                end: self.path.last().t.to_f64(),
+                start: self.path.start.t.to_f64(),
+                end: self.path.last.t.to_f64(),
             }),
         }
     }
 
     /// The first state, made consistent.
     pub fn start(&self) -> Sample<'a, L, N, M> {
-        self.sample(self.path.first())
+        self.sample(self.path.start)
     }
 
     /// The last state.
     pub fn end(&self) -> Sample<'a, L, N, M> {
-        self.sample(self.path.last())
+        self.sample(self.path.last)
     }
 
     /// The states that the method computed, first and last included.
     pub fn steps(&self) -> impl Iterator<Item = Sample<'a, L, N, M>> + '_ {
         let starts = (0..self.statistics.accepted).filter_map(|i| self.path.start_of(i));
-        let states = starts.map(|point| F::state(self.system, &point)).chain(once(self.path.last()));
+        let states = starts.map(|point| F::state(self.system, &point)).chain(once(self.path.last));
         states.map(|state| self.sample(state))
     }
 
     /// `count` states at evenly spaced times, first and last included.
     pub fn samples(&self, count: usize) -> impl Iterator<Item = Sample<'a, L, N, M>> + '_ {
-        let (first, last) = (self.path.first().t, self.path.last().t);
+        let (first, last) = (self.path.start.t, self.path.last.t);
         let intervals = count.saturating_sub(1).max(1);
         (0..count).filter_map(move |i| {
             self.state_at(between(first, last, i as f64 / intervals as f64)).map(|state| self.sample(state))
@@ -119,15 +119,15 @@ impl<'a, L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, co
 
     /// An interpolated state is off the constraints by about the tolerance, and where no projection leads back it stays so.
     fn state_at(&self, t: L::Scalar) -> Option<State<L::Scalar, N>> {
-        if t == self.path.last().t {
-            return Some(self.path.last());
+        if t == self.path.last.t {
+            return Some(self.path.last);
         }
         let point = self.path.at(t)?;
         Some(F::project(self.system, &point).unwrap_or_else(|_| F::state(self.system, &point)))
     }
 
     fn sample(&self, state: State<L::Scalar, N>) -> Sample<'a, L, N, M> {
-        Sample::new(self.system, state)
+        Sample { system: self.system, state }
     }
 }
 
@@ -138,8 +138,8 @@ where
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_struct("Trajectory")
             .field("system", &L::NAME)
-            .field("start", &self.path.first())
-            .field("end", &self.path.last())
+            .field("start", &self.path.start)
+            .field("end", &self.path.last)
             .field("ending", &self.ending)
             .field("statistics", &self.statistics)
             .finish()

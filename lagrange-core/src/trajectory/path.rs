@@ -9,8 +9,8 @@ use crate::system::State;
 
 /// The states at the ends of the steps, and the interpolants between them.
 pub(crate) struct Path<T, const N: usize> {
-    start: State<T, N>,
-    last: State<T, N>,
+    pub(super) start: State<T, N>,
+    pub(super) last: State<T, N>,
     /// The times at the starts of the steps.
     times: Vec<T>,
     coefficients: Vec<Phase<T, N>>,
@@ -28,14 +28,6 @@ impl<T: Real, const N: usize> Path<T, N> {
         self.coefficients.extend_from_slice(interpolant);
         self.stride = interpolant.len();
         self.last = state;
-    }
-
-    pub(super) fn first(&self) -> State<T, N> {
-        self.start
-    }
-
-    pub(super) fn last(&self) -> State<T, N> {
-        self.last
     }
 
     /// Where step `step` starts.

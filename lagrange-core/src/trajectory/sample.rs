@@ -14,15 +14,11 @@ use crate::system::{Lagrangian, Solution, State};
 /// Quantities are looked up by name; [`state`](Self::state) and [`solution`](Self::solution) hold them by index, in
 /// the order of the attributes. Accelerations and multipliers are solved for when asked for.
 pub struct Sample<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
-    system: &'a L,
-    state: State<L::Scalar, N>,
+    pub(super) system: &'a L,
+    pub(super) state: State<L::Scalar, N>,
 }
 
 impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<'a, L, N, M> {
-    pub(crate) fn new(system: &'a L, state: State<L::Scalar, N>) -> Self {
-        Self { system, state }
-    }
-
     /// Time, coordinates and velocities.
     pub fn state(&self) -> &State<L::Scalar, N> {
         &self.state
@@ -117,12 +113,8 @@ impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Samp
         self.conserved_by_index(index).ok_or_else(|| unknown::<L, N, M>(&names, "conserved quantity", name))
     }
 
-    pub(crate) fn conserved_by_index(&self, index: usize) -> Option<L::Scalar> {
+    pub(super) fn conserved_by_index(&self, index: usize) -> Option<L::Scalar> {
         self.system.conserved(index, &self.state)
-    }
-
-    pub(crate) fn system(&self) -> &'a L {
-        self.system
     }
 }
 
