@@ -13,7 +13,7 @@ use crate::number::{Real, Scalar, larger, largest, norm, power_of_epsilon, vecto
 use crate::solution::consistent;
 use crate::solution::kkt::{Rank, Rows};
 use crate::system::lookup;
-use crate::system::{ConstraintKind, Lagrangian, Solution, State};
+use crate::system::{ConstraintKind, Solution, State};
 
 /// The linear system ż = A z + B u near a state, u the change of the inputs.
 ///
@@ -88,7 +88,7 @@ where
         let mut change = DMatrix::zeros(2 * N, basis.ncols());
         for (j, direction) in basis.column_iter().enumerate() {
             let (q, v) = (SVector::from_fn(|i, _| direction[i]), SVector::from_fn(|i, _| direction[N + i]));
-            let entry = entry::<L, N, M>(direction.icamax());
+            let entry = lookup::entry::<L, N, M>(direction.icamax());
             let solution = self.along(&Direction { q, v, ..Direction::zero() }, entry)?;
             change.view_mut((0, j), (N, 1)).copy_from(&v);
             change.view_mut((N, j), (N, 1)).copy_from(&solution.accelerations);
@@ -113,7 +113,7 @@ where
         let mut changes: Vec<[SVector<L::Scalar, N>; 2]> = Vec::new();
         for q in self.holonomic_rows().null_space() {
             // Another place turns the constraints: the velocity must follow.
-            let entry = entry::<L, N, M>(q.icamax());
+            let entry = lookup::entry::<L, N, M>(q.icamax());
             let turned = self.change(&Direction { q, ..Direction::zero() }, entry)?;
             changes.push([q, self.factors.rows.least(&turned.rate.into())]);
         }
@@ -180,10 +180,4 @@ where
         let accelerations = if rests { vector([zero; N]) } else { solution.accelerations };
         Ok(Solution { accelerations, ..*solution })
     }
-}
-
-/// What row `row` of (q, q̇) is called.
-fn entry<L: Lagrangian<N, M>, const N: usize, const M: usize>(row: usize) -> Entry {
-    let name = L::COORDINATES[row % N];
-    if row < N { Entry::Coordinate(name) } else { Entry::Velocity(name) }
 }

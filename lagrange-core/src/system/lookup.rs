@@ -11,11 +11,13 @@ use crate::names::Entry;
 
 /// The names of the coordinates, then of the velocities.
 pub(crate) fn entries<L: Lagrangian<N, M>, const N: usize, const M: usize>() -> Vec<String> {
-    let coordinates = L::COORDINATES.into_iter().map(Entry::Coordinate);
-    coordinates
-        .chain(L::COORDINATES.into_iter().map(Entry::Velocity))
-        .map(|entry| format!("{entry}"))
-        .collect()
+    (0..2 * N).map(|index| format!("{}", entry::<L, N, M>(index))).collect()
+}
+
+/// What is at this index of (q, q̇).
+pub(crate) fn entry<L: Lagrangian<N, M>, const N: usize, const M: usize>(index: usize) -> Entry {
+    let name = L::COORDINATES[index % N];
+    if index < N { Entry::Coordinate(name) } else { Entry::Velocity(name) }
 }
 
 /// The index of `name` among `known`.
