@@ -3,13 +3,12 @@
 use core::ops::ControlFlow;
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
 use super::outcome::{Arrival, Member, Outcome};
 use crate::error::Error;
-use crate::motion::Method;
 use crate::motion::run::{begin, run};
-use crate::motion::{Adaptive, Batch, LagrangianFlow, Pair, Seat};
+use crate::motion::{Adaptive, Batch, LagrangianFlow, Method, Pair, Seat};
 use crate::number::{Lanes, Real};
 use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, Pack, State};
@@ -106,14 +105,10 @@ impl<'a, L, T: Real, const N: usize> Job<'a, L, T, N> {
         self.stopped.load(Ordering::Relaxed)
     }
 
-    fn ledger(&self) -> MutexGuard<'_, Ledger<'a, T, N>> {
-        self.ledger.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
     /// Writes down what has become of a member, and stops everything where the caller says so. Once it is stopped
     /// nothing is written down: members that were on their way were cut short.
     fn report(&self, index: usize, result: Result<Arrival<T, N>, Error>) {
-        let mut ledger = self.ledger();
+        let mut ledger = self.ledger.lock().unwrap_or_else(PoisonError::into_inner);
         if self.is_stopped() {
             return;
         }

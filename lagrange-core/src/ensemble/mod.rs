@@ -17,9 +17,8 @@ use core::fmt::{self, Debug, Formatter};
 use core::ops::ControlFlow;
 
 use crate::error::Error;
-use crate::motion::Method;
 use crate::motion::run::check_end;
-use crate::motion::{Adaptive, Pair};
+use crate::motion::{Adaptive, Method, Pair};
 use crate::number::{Lanes, Real};
 use crate::system::{Lagrangian, Pack, State};
 pub use job::EnsembleProgress;

@@ -23,20 +23,17 @@ impl<T: Real, const N: usize> Outcome<T, N> {
     ///
     /// The ending is `complete`, `cancelled` or what went wrong. Numbers are the shortest that read back the same.
     pub fn csv(&self) -> impl Display + '_ {
-        Lines { members: &self.members, names: &self.names }
+        Lines(self)
     }
 }
 
 /// The whole table.
-struct Lines<'o, T, const N: usize> {
-    members: &'o [Member<T, N>],
-    names: &'o [&'static str; N],
-}
+struct Lines<'o, T, const N: usize>(&'o Outcome<T, N>);
 
 impl<T: Real, const N: usize> Display for Lines<'_, T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        writeln!(f, "{}", header(self.names))?;
-        self.members.iter().try_for_each(|member| write!(f, "{}", Line(member)))
+        writeln!(f, "{}", header(&self.0.names))?;
+        self.0.members.iter().try_for_each(|member| write!(f, "{}", Line(member)))
     }
 }
 
