@@ -4,17 +4,12 @@
 use core::{array::from_fn, ops::ControlFlow};
 
 #[cfg(feature = "alloc")]
-use super::method::Method;
-#[cfg(feature = "alloc")]
-use super::run;
-#[cfg(feature = "alloc")]
-use super::run::Progress;
+use super::{Method, Progress, run};
 use crate::error::Error;
 use crate::number::Real;
 #[cfg(feature = "alloc")]
 use crate::number::Scalar;
-use crate::solution::Consistent;
-use crate::solution::consistent;
+use crate::solution::consistent::{self, Consistent};
 use crate::solution::solve::solve;
 use crate::system::finite::check_finite;
 #[cfg(feature = "alloc")]
