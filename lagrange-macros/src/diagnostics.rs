@@ -1,6 +1,9 @@
 //! Errors are gathered, each at its token, and shown together.
 
+use std::fmt::Display;
+
 use proc_macro2::{Span, TokenStream, TokenTree};
+use quote::ToTokens;
 use syn::Error;
 
 use crate::symbolic::{Fault, Graph};
@@ -17,6 +20,13 @@ impl Place {
         Self { start: span, end: span }
     }
 
+    /// Of all the tokens.
+    pub(crate) fn of(tokens: impl ToTokens) -> Self {
+        let mut places = tokens.into_token_stream().into_iter().map(|token| Self::at(token.span()));
+        let first = places.next().unwrap_or(Self::at(Span::call_site()));
+        first.to(places.last().unwrap_or(first))
+    }
+
     pub(crate) fn to(self, last: Self) -> Self {
         Self { start: self.start, end: last.end }
     }
@@ -26,13 +36,20 @@ impl Place {
     }
 
     /// An error that underlines the whole place.
-    pub(crate) fn error(self, message: impl std::fmt::Display) -> Error {
+    pub(crate) fn error(self, message: impl Display) -> Error {
         let [first, last] = [self.start, self.end].map(|span| {
             let mut token = TokenTree::from(proc_macro2::Punct::new('.', proc_macro2::Spacing::Alone));
             token.set_span(span);
             token
         });
         Error::new_spanned([first, last].into_iter().collect::<TokenStream>(), message)
+    }
+
+    /// An error with a note at the place that it has to do with.
+    pub(crate) fn error_beside(self, message: impl Display, other: Self, note: impl Display) -> Error {
+        let mut error = self.error(message);
+        error.combine(other.error(note));
+        error
     }
 }
 
@@ -47,7 +64,7 @@ impl Diagnostics {
         self.errors.push(error);
     }
 
-    pub(crate) fn error(&mut self, place: Place, message: impl std::fmt::Display) {
+    pub(crate) fn error(&mut self, place: Place, message: impl Display) {
         self.push(place.error(message));
     }
 

@@ -107,8 +107,7 @@ impl Lowering<'_> {
     }
 
     pub(super) fn vector(&mut self, items: &[Expression], place: Place) -> Option<Value> {
-        let values: Vec<_> = items.iter().map(|item| self.lower(item)).collect();
-        let values: Vec<Value> = values.into_iter().collect::<Option<_>>()?;
+        let values = self.lower_all(items)?;
         let Some(first) = values.first() else { return self.report(place, "an empty vector has no meaning") };
         let shape = first.shape();
         if let Some(odd) = values.iter().position(|value| value.shape() != shape) {

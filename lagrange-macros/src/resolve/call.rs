@@ -49,8 +49,9 @@ impl Lowering<'_> {
                 let is_of_time =
                     matches!(arguments, [Expression { kind: Kind::Name(t), .. }] if t.text == "t");
                 let advice = match entity {
-                    Entity::Field(_) | Entity::Definition(_) => "a product needs its sign `*`".to_owned(),
-                    _ if is_of_time => format!("it depends on time as it is, write `{text}`"),
+                    Entity::Coordinate(_) | Entity::Velocity(_) | Entity::Acceleration(_) if is_of_time => {
+                        format!("it depends on time as it is, write `{text}`")
+                    }
                     _ => "a product needs its sign `*`".to_owned(),
                 };
                 self.report(name.place, format!("`{text}` is {kind}, not a function: {advice}"))
@@ -70,10 +71,7 @@ impl Lowering<'_> {
         place: Place,
     ) -> Option<&'e [Expression; K]> {
         let exact = arguments.try_into().ok();
-        if exact.is_none() {
-            self.diagnostics.error(place, wrong_number(name, K, arguments.len()));
-        }
-        exact
+        exact.or_else(|| self.report(place, wrong_number(name, K, arguments.len())))
     }
 
     /// A scalar at which the function has a real value, as far as it is a number.
@@ -149,8 +147,7 @@ impl Lowering<'_> {
         if formals.len() != arguments.len() {
             return self.report(place, wrong_number(name, formals.len(), arguments.len()));
         }
-        let values: Vec<_> = arguments.iter().map(|argument| self.lower(argument)).collect();
-        let values: Vec<Value> = values.into_iter().collect::<Option<_>>()?;
+        let values = self.lower_all(arguments)?;
         let bound = formals.iter().map(|formal| formal.text.clone()).zip(values).collect();
         // The body sees its own formals and nothing that is local where it is called.
         let outer = std::mem::replace(&mut self.locals, bound);
@@ -171,14 +168,14 @@ impl Lowering<'_> {
             );
         }
         let [constraint] = self.arguments(name, arguments, place)?;
-        let (constraint, index) = match &constraint.kind {
-            Kind::Name(name) => (name, None),
-            Kind::Index(base, index) => match &base.kind {
-                Kind::Name(name) => (name, Some(self.integer(index)?)),
-                _ => return self.report(place, "`lambda` takes the name of a constraint"),
-            },
-            _ => return self.report(place, "`lambda` takes the name of a constraint"),
+        let (base, index) = match &constraint.kind {
+            Kind::Index(base, index) => (&**base, Some(index)),
+            _ => (constraint, None),
         };
+        let Kind::Name(constraint) = &base.kind else {
+            return self.report(place, "`lambda` takes the name of a constraint");
+        };
+        let index = index.map(|index| self.integer(index).ok_or(())).transpose().ok()?;
         self.multiplier(constraint, index)
     }
 
@@ -204,11 +201,8 @@ impl Lowering<'_> {
                 .find(|(i, _)| i.is_some_and(|i| i as i128 == index))
                 .map(|(_, value)| value.clone()),
         };
-        match found {
-            Some(value) => Some(value),
-            None => self
-                .report(constraint.place, format!("there is no constraint `{}[{index}]`", constraint.text)),
-        }
+        let missing = || format!("there is no constraint `{}[{index}]`", constraint.text);
+        found.or_else(|| self.report(constraint.place, missing()))
     }
 }
 

@@ -97,10 +97,10 @@ impl Lowering<'_> {
                 *slot = Definition::Family(BTreeMap::from([(element, value)]));
             }
             (Some(element), Definition::Family(elements)) => {
-                let is_new = elements.insert(element, value).is_none();
-                if !is_new {
-                    self.diagnostics
-                        .error(name.place, format!("`{}[{element}]` is defined twice", name.text));
+                let earlier = elements.insert(element, value);
+                if earlier.is_some() {
+                    let message = format!("`{}[{element}]` is defined twice", name.text);
+                    self.diagnostics.error(name.place, message);
                 }
             }
             _ => {}
@@ -183,12 +183,9 @@ impl Lowering<'_> {
     /// `i` where it is one of the indices 0 to `length` − 1.
     fn checked(&mut self, i: i128, length: usize, place: Place) -> Option<usize> {
         let found = usize::try_from(i).ok().filter(|&i| i < length);
-        if found.is_none() {
-            let last = length.saturating_sub(1);
-            self.diagnostics
-                .error(place, format!("the index {i} is out of range: the elements are 0 to {last}"));
-        }
-        found
+        let last = length.saturating_sub(1);
+        let wrong = || format!("the index {i} is out of range: the elements are 0 to {last}");
+        found.or_else(|| self.report(place, wrong()))
     }
 
     /// The field, and its indices, where `base[index]` is an element of one.
@@ -233,20 +230,15 @@ impl Lowering<'_> {
     fn family_element(&mut self, first: usize, name: &Name, index: &Expression) -> Option<Value> {
         let i = self.integer(index)?;
         let text = &name.text;
-        match &self.definitions[first] {
-            Definition::Wrong => None,
+        let missing = match &self.definitions[first] {
+            Definition::Wrong => return None,
             Definition::Family(elements) => match usize::try_from(i).ok().and_then(|i| elements.get(&i)) {
-                Some(value) => Some(value.clone()),
-                None => self.report(
-                    index.place,
-                    format!("`{text}[{i}]` has no value here: no definition above gives it one"),
-                ),
+                Some(value) => return Some(value.clone()),
+                None => "no definition above gives it one".to_owned(),
             },
-            _ => self.report(
-                index.place,
-                format!("`{text}[{i}]` has no value here: begin with `#[define({text}[0] = …)]`"),
-            ),
-        }
+            _ => format!("begin with `#[define({text}[0] = …)]`"),
+        };
+        self.report(index.place, format!("`{text}[{i}]` has no value here: {missing}"))
     }
 
     /// The value of a definition that is used as a whole.
@@ -259,28 +251,23 @@ impl Lowering<'_> {
             Definition::Function => {
                 self.report(name.place, format!("`{text}` is a function: write `{text}(…)`"))
             }
-            Definition::Family(elements) => {
-                if let Some(missing) = (0..elements.len()).find(|i| !elements.contains_key(i)) {
-                    return self.report(
-                        name.place,
-                        format!("`{text}` is no vector: `{text}[{missing}]` is missing"),
-                    );
+            Definition::Family(elements) => match (0..elements.len()).find(|i| !elements.contains_key(i)) {
+                Some(i) => {
+                    self.report(name.place, format!("`{text}` is no vector: `{text}[{i}]` is missing"))
                 }
-                Some(Value::Vector(elements.values().cloned().collect()))
-            }
+                None => Some(Value::Vector(elements.values().cloned().collect())),
+            },
         }
     }
 
     /// A definition used before its turn: in a circle, or merely out of order.
     pub(super) fn too_early<T>(&mut self, index: usize, name: &Name) -> Option<T> {
         let text = &name.text;
-        if let Some(circle) = self.circle(index) {
-            return self.report(name.place, format!("`{text}` is defined by itself: {circle}"));
-        }
-        self.report(
-            name.place,
-            format!("`{text}` is defined further down: definitions come before what uses them"),
-        )
+        let message = match self.circle(index) {
+            Some(circle) => format!("`{text}` is defined by itself: {circle}"),
+            None => format!("`{text}` is defined further down: definitions come before what uses them"),
+        };
+        self.report(name.place, message)
     }
 
     /// A chain of definitions from `start` back to itself, by name.

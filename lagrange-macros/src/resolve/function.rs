@@ -94,8 +94,7 @@ impl Lowering<'_> {
         if wanted != given {
             return self.report(place, wrong_number(&function.name, wanted, given));
         }
-        let values: Vec<_> = arguments.iter().map(|argument| self.lower(argument)).collect();
-        let values: Vec<Value> = values.into_iter().collect::<Option<_>>()?;
+        let values = self.lower_all(arguments)?;
         let mut flat = Vec::new();
         for ((value, argument), formal) in values.iter().zip(arguments).zip(&function.formals) {
             let length = formal.1.or_else(|| self.coordinate_length(&formal.0.text));

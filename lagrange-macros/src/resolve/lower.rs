@@ -158,35 +158,34 @@ impl<'a> Lowering<'a> {
 
     /// A value that must be a scalar.
     pub(super) fn scalar(&mut self, expression: &Expression) -> Option<Id> {
-        let value = self.lower(expression)?;
-        let scalar = value.as_scalar();
-        if scalar.is_none() {
-            let shape = value.shape();
-            self.diagnostics.error(expression.place, format!("a scalar belongs here, but this is {shape}"));
-        }
-        scalar
+        self.of_kind(expression, "scalar", Value::as_scalar)
     }
 
     /// A value that must be a vector of numbers.
     pub(super) fn vector_of(&mut self, expression: &Expression) -> Option<Vec<Id>> {
-        let value = self.lower(expression)?;
-        let entries = value.as_vector();
-        if entries.is_none() {
-            let shape = value.shape();
-            self.diagnostics.error(expression.place, format!("a vector belongs here, but this is {shape}"));
-        }
-        entries
+        self.of_kind(expression, "vector", Value::as_vector)
+    }
+
+    fn of_kind<T>(&mut self, at: &Expression, kind: &str, part: fn(&Value) -> Option<T>) -> Option<T> {
+        let value = self.lower(at)?;
+        let wrong = |shape| format!("a {kind} belongs here, but this is {shape}");
+        part(&value).or_else(|| self.report(at.place, wrong(value.shape())))
+    }
+
+    /// The values of several expressions, if all have one.
+    pub(super) fn lower_all(&mut self, expressions: &[Expression]) -> Option<Vec<Value>> {
+        // Every one is read, so that all errors are found.
+        let values: Vec<_> = expressions.iter().map(|expression| self.lower(expression)).collect();
+        values.into_iter().collect()
     }
 
     /// A value that must be a whole number.
     pub(super) fn integer(&mut self, expression: &Expression) -> Option<i128> {
         let id = self.scalar(expression)?;
         let value = self.graph.as_number(id).filter(Rational::is_integer).map(|value| value.to_integer());
-        if value.is_none() {
-            self.diagnostics
-                .error(expression.place, "an index or a bound is a whole number known while compiling");
-        }
-        value
+        value.or_else(|| {
+            self.report(expression.place, "an index or a bound is a whole number known while compiling")
+        })
     }
 
     pub(super) fn report<T>(&mut self, place: Place, message: impl std::fmt::Display) -> Option<T> {
@@ -215,11 +214,9 @@ impl<'a> Lowering<'a> {
         }
         if let Some(field) = self.scope.shadowing(&name.text) {
             let text = &name.text;
-            let mut error = name
-                .place
-                .error(format!("`{text}` is built in, and a field of this struct bears that name too"));
-            error.combine(field.error(format!("rename this field, or do not use `{text}` in expressions")));
-            self.diagnostics.push(error);
+            let message = format!("`{text}` is built in, and a field of this struct bears that name too");
+            let note = format!("rename this field, or do not use `{text}` in expressions");
+            self.diagnostics.push(name.place.error_beside(message, field, note));
             return None;
         }
         match name.text.as_str() {

@@ -54,10 +54,8 @@ impl Parameters {
             let name = &parameter.name;
             let Some(index) = parameters.fields.iter().position(|field| field.name.text == name.text) else {
                 let fields = parameters.fields.iter().map(|field| field.name.text.as_str());
-                let advice = match nearest(&name.text, fields) {
-                    Some(near) => format!(": did you mean `{near}`?"),
-                    None => String::new(),
-                };
+                let near = nearest(&name.text, fields);
+                let advice = near.map(|near| format!(": did you mean `{near}`?")).unwrap_or_default();
                 diagnostics.error(name.place, format!("there is no field `{}`{advice}", name.text));
                 continue;
             };
@@ -136,9 +134,9 @@ impl Parameters {
             Ok(shape) => Some(shape.layout),
             Err(reason) => {
                 if !self.reported.contains(&index) {
-                    let mut error = self.fields[index].place.error(reason);
-                    error.combine(place.error(format!("`{}` is used here", self.fields[index].name.text)));
-                    diagnostics.push(error);
+                    let Field { name, place: field, .. } = &self.fields[index];
+                    let note = format!("`{}` is used here", name.text);
+                    diagnostics.push(field.error_beside(reason, place, note));
                     self.reported.push(index);
                 }
                 None
@@ -165,7 +163,7 @@ impl Parameters {
             && is_no_number(&text(scalar))
         {
             let message = format!("`{}` is no number type: write `f64` or `f32`", text(scalar));
-            diagnostics.error(place_of(scalar), message);
+            diagnostics.error(Place::of(scalar), message);
             return scalar.clone();
         }
         let mut used: Vec<usize> = self.entries.iter().map(|entry| entry.field).collect();
@@ -232,12 +230,6 @@ pub(crate) fn is_no_number(name: &str) -> bool {
     types.contains(&name) || integers.contains(&name)
 }
 
-fn place_of(ty: &syn::Type) -> Place {
-    let mut spans = ty.to_token_stream().into_iter().map(|token| Place::at(token.span()));
-    let first = spans.next().unwrap_or(Place::at(proc_macro2::Span::call_site()));
-    first.to(spans.last().unwrap_or(first))
-}
-
 /// Two ranges, or two shapes, of one field.
 fn reject_repeated(parameter: &Parameter, earlier: &[Parameter], diagnostics: &mut Diagnostics) {
     let name = &parameter.name;
@@ -246,9 +238,8 @@ fn reject_repeated(parameter: &Parameter, earlier: &[Parameter], diagnostics: &m
     };
     if let Some(known) = earlier.iter().find(same) {
         let what = if parameter.length.is_some() { "shape" } else { "range" };
-        let mut error = name.place.error(format!("the {what} of `{}` is given twice", name.text));
-        error.combine(known.name.place.error("the first one is here"));
-        diagnostics.push(error);
+        let message = format!("the {what} of `{}` is given twice", name.text);
+        diagnostics.push(name.place.error_beside(message, known.name.place, "the first one is here"));
     }
 }
 

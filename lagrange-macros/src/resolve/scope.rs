@@ -3,6 +3,7 @@
 use indexmap::IndexMap;
 
 use crate::diagnostics::{Diagnostics, Place};
+use crate::symbolic;
 use crate::syntax::{Declaration, Function, Name, normal_form};
 
 /// What a name in an expression may refer to.
@@ -19,33 +20,13 @@ pub(super) enum Entity {
     Function(usize),
 }
 
+/// What expressions may call beside the functions of one argument that the graph knows.
+const CALLS: &str = "atan2 sqrt quat_rotate quat_rate quat_rate_body dot cross norm sum der lambda in";
+
 /// Functions that expressions may call.
-pub(super) const FUNCTIONS: [&str; 24] = [
-    "sin",
-    "cos",
-    "tan",
-    "asin",
-    "acos",
-    "atan",
-    "atan2",
-    "sinh",
-    "cosh",
-    "tanh",
-    "exp",
-    "ln",
-    "sqrt",
-    "abs",
-    "quat_rotate",
-    "quat_rate",
-    "quat_rate_body",
-    "dot",
-    "cross",
-    "norm",
-    "sum",
-    "der",
-    "lambda",
-    "in",
-];
+pub(super) fn functions() -> impl Iterator<Item = &'static str> {
+    symbolic::Function::NAMES.into_iter().map(|(name, _)| name).chain(CALLS.split(' '))
+}
 
 /// Names with a fixed meaning that are not functions.
 pub(super) const CONSTANTS: [&str; 2] = ["t", "pi"];
@@ -100,14 +81,13 @@ impl Scope {
             diagnostics.error(name.place, message);
         } else if let Some((earlier, place)) = self.entities.get(&name.text) {
             let message = format!("the name `{}` is already taken by {}", name.text, earlier.describe());
-            let mut error = name.place.error(message);
-            error.combine(place.error(match earlier {
+            let note = match earlier {
                 Entity::Velocity(_) | Entity::Acceleration(_) => {
                     format!("`{}` belongs to this coordinate", name.text)
                 }
                 _ => format!("the other `{}` is here", name.text),
-            }));
-            diagnostics.push(error);
+            };
+            diagnostics.push(name.place.error_beside(message, *place, note));
         } else {
             self.entities.insert(name.text.clone(), (entity, name.place));
         }
@@ -125,13 +105,11 @@ impl Scope {
         for (rate, entity) in rates {
             match self.entities.get(&rate) {
                 Some((Entity::Coordinate(_), place)) => {
-                    let message = format!(
-                        "the name `{rate}` is already taken by {}: choose another name",
-                        entity.describe()
-                    );
-                    let mut error = place.error(message);
-                    error.combine(name.place.error(format!("`{rate}` belongs to this coordinate")));
-                    diagnostics.push(error);
+                    let kind = entity.describe();
+                    let message =
+                        format!("the name `{rate}` is already taken by {kind}: choose another name");
+                    let note = format!("`{rate}` belongs to this coordinate");
+                    diagnostics.push(place.error_beside(message, name.place, note));
                 }
                 _ => {
                     self.entities.insert(rate, (entity, name.place));
@@ -191,5 +169,5 @@ impl Entity {
 }
 
 pub(crate) fn is_built_in(name: &str) -> bool {
-    FUNCTIONS.contains(&name) || CONSTANTS.contains(&name)
+    functions().any(|function| function == name) || CONSTANTS.contains(&name)
 }

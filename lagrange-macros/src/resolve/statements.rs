@@ -11,7 +11,7 @@ use super::{Label, element_name, entry_names};
 use crate::contract::is_reserved;
 use crate::diagnostics::Place;
 use crate::symbolic::{Id, Rational};
-use crate::syntax::{Constraint, Declaration, Expression, Sign, Target, TargetIndex};
+use crate::syntax::{Constraint, Declaration, Expression, Force, Name, Sign, TargetIndex};
 use crate::variables::Variable;
 
 /// As many as coordinates, beyond which some would have to be dependent.
@@ -69,7 +69,7 @@ impl Lowering<'_> {
             for element in self.elements(&force.target) {
                 let value = self.with_index(&force.target, element, |lowering| lowering.lower(&force.value));
                 if let Some(value) = value {
-                    self.add_force(&mut forces, index, element, &force.target, &force.value, &value);
+                    self.add_force(&mut forces, index, element, force, &value);
                 }
             }
         }
@@ -81,8 +81,7 @@ impl Lowering<'_> {
         forces: &mut [Id],
         coordinate: usize,
         element: Option<usize>,
-        target: &Target,
-        expression: &Expression,
+        Force { target, value: expression }: &Force,
         value: &Value,
     ) {
         let length = self.coordinates[coordinate].length;
@@ -119,9 +118,7 @@ impl Lowering<'_> {
             let is_family = !matches!(constraint.target.index, TargetIndex::None);
             match seen.get(&name.text) {
                 Some((place, family)) if !(is_family && *family) => {
-                    let mut error = name.place.error(format!("two constraints are called `{}`", name.text));
-                    error.combine(place.error("the other one is here"));
-                    self.diagnostics.push(error);
+                    self.twice(name, *place, "constraints");
                     continue;
                 }
                 _ => seen.insert(name.text.clone(), (name.place, is_family)),
@@ -136,6 +133,11 @@ impl Lowering<'_> {
             }
         }
         rows
+    }
+
+    fn twice(&mut self, name: &Name, other: Place, what: &str) {
+        let message = format!("two {what} are called `{}`", name.text);
+        self.diagnostics.push(name.place.error_beside(message, other, "the other one is here"));
     }
 
     fn constraint(&mut self, constraint: &Constraint, element: Option<usize>, rows: &mut Vec<(Label, Id)>) {
@@ -194,9 +196,7 @@ impl Lowering<'_> {
             let earlier =
                 declaration.observables[..position].iter().find(|known| known.name.text == name.text);
             if let Some(earlier) = earlier {
-                let mut error = name.place.error(format!("two observables are called `{}`", name.text));
-                error.combine(earlier.name.place.error("the other one is here"));
-                self.diagnostics.push(error);
+                self.twice(name, earlier.name.place, "observables");
                 continue;
             }
             let Some(value) = self.lower(&observable.value) else { continue };

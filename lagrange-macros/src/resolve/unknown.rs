@@ -1,102 +1,74 @@
 //! Names that mean nothing here: what was probably meant.
 
-use super::scope::{CONSTANTS, Entity, FUNCTIONS, Scope};
+use super::scope::{CONSTANTS, Entity, Scope, functions};
 use crate::syntax::{GREEK, Name};
 
-/// Names of fixed quantities elsewhere, and what to write here.
-const NAMES: [(&[&str], &str); 5] = [
-    (&["time", "Time"], "the time is `t`"),
-    (&["e", "E", "exp1"], "the exponential function is `exp(x)`"),
-    (&["deg", "degree", "degrees", "rad", "radians"], "angles are in radians, and a degree is `pi/180`"),
-    (&["inf", "Inf", "infinity", "oo", "nan", "NaN"], "the expression must have a value everywhere"),
-    (&["TAU"], "a full turn is `2*pi`"),
+/// Names of fixed quantities elsewhere, one beside the other, and what to write here.
+const NAMES: [(&str, &str); 5] = [
+    ("time Time", "the time is `t`"),
+    ("e E exp1", "the exponential function is `exp(x)`"),
+    ("deg degree degrees rad radians", "angles are in radians, and a degree is `pi/180`"),
+    ("inf Inf infinity oo nan NaN", "the expression must have a value everywhere"),
+    ("TAU", "a full turn is `2*pi`"),
 ];
 
 /// What is called by a letter here and by a word there.
-const SYNONYMS: [&[&str]; 8] = [
-    &["m", "mass"],
-    &["g", "gravity", "gravitation"],
-    &["l", "L", "len", "length"],
-    &["k", "stiffness", "spring", "spring_constant"],
-    &["c", "b", "damping", "friction"],
-    &["r", "R", "radius"],
-    &["q", "charge"],
-    &["omega", "w", "frequency", "angular_velocity"],
+const SYNONYMS: [&str; 8] = [
+    "m mass",
+    "g gravity gravitation",
+    "l L len length",
+    "k stiffness spring spring_constant",
+    "c b damping friction",
+    "r R radius",
+    "q charge",
+    "omega w frequency angular_velocity",
 ];
 
 /// Functions of other tools, and what to write here.
-const CALLS: [(&[&str], &str); 20] = [
-    (&["log", "Log", "log2", "log10"], "the natural logarithm is `ln`"),
-    (&["pow", "Pow", "powi", "powf", "Power"], "a power is written `x^2`"),
-    (&["sqr", "square", "sq", "squared"], "a square is written `x^2`"),
-    (&["fabs", "magnitude"], "the absolute value is `abs(x)`, the length of a vector `norm(v)`"),
+const CALLS: [(&str, &str); 20] = [
+    ("log Log log2 log10", "the natural logarithm is `ln`"),
+    ("pow Pow powi powf Power", "a power is written `x^2`"),
+    ("sqr square sq squared", "a square is written `x^2`"),
+    ("fabs magnitude", "the absolute value is `abs(x)`, the length of a vector `norm(v)`"),
+    ("arcsin arccos arctan ArcSin ArcCos ArcTan", "inverse functions are `asin`, `acos`, `atan`"),
     (
-        &["arcsin", "arccos", "arctan", "ArcSin", "ArcCos", "ArcTan"],
-        "inverse functions are `asin`, `acos`, `atan`",
-    ),
-    (
-        &[
-            "min",
-            "max",
-            "Min",
-            "Max",
-            "floor",
-            "ceil",
-            "round",
-            "mod",
-            "sign",
-            "sgn",
-            "signum",
-            "heaviside",
-            "Heaviside",
-            "step",
-            "Piecewise",
-        ],
+        "min max Min Max floor ceil round mod sign sgn signum heaviside Heaviside step Piecewise",
         "the expression must be smooth (`abs`, `sqrt` and `tanh` may serve)",
     ),
-    (&["cot"], "write `1/tan(x)`"),
-    (&["sec"], "write `1/cos(x)`"),
-    (&["csc"], "write `1/sin(x)`"),
+    ("cot", "write `1/tan(x)`"),
+    ("sec", "write `1/cos(x)`"),
+    ("csc", "write `1/sin(x)`"),
+    ("asinh acosh atanh arcsinh arccosh arctanh", "write it with `ln`, as in `ln(x + sqrt(x^2 + 1))`"),
+    ("cbrt", "write `x^(1/3)`"),
+    ("hypot", "write `sqrt(x^2 + y^2)`, or `norm(v)` of a vector"),
+    ("arctan2 ArcTan2 Atan2", "the angle of a point is `atan2(y, x)`"),
     (
-        &["asinh", "acosh", "atanh", "arcsinh", "arccosh", "arctanh"],
-        "write it with `ln`, as in `ln(x + sqrt(x^2 + 1))`",
-    ),
-    (&["cbrt"], "write `x^(1/3)`"),
-    (&["hypot"], "write `sqrt(x^2 + y^2)`, or `norm(v)` of a vector"),
-    (&["arctan2", "ArcTan2", "Atan2"], "the angle of a point is `atan2(y, x)`"),
-    (
-        &["diff", "Diff", "d", "D", "Dt", "Derivative", "derivative", "ddt"],
+        "diff Diff d D Dt Derivative derivative ddt",
         "the total time derivative is `der(x)`, a velocity `x_dot`",
     ),
-    (&["Rational", "Fraction", "frac"], "fractions are exact as they are: write `1/2`"),
-    (&["Vector", "Matrix", "vec"], "a vector is written `[a, b, c]`"),
-    (&["integrate", "Integral"], "there are no integrals"),
-    (&["deg", "rad", "radians", "degrees", "deg2rad"], "angles are in radians: write `x*pi/180`"),
-    (&["sind", "cosd", "tand"], "angles are in radians: write `sin(x*pi/180)`"),
+    ("Rational Fraction frac", "fractions are exact as they are: write `1/2`"),
+    ("Vector Matrix vec", "a vector is written `[a, b, c]`"),
+    ("integrate Integral", "there are no integrals"),
+    ("deg rad radians degrees deg2rad", "angles are in radians: write `x*pi/180`"),
+    ("sind cosd tand", "angles are in radians: write `sin(x*pi/180)`"),
     (
-        &["prod", "product", "Product"],
+        "prod product Product",
         "products of many are defined one by one: `#[define(p[i in 1..3] = p[i-1]*a[i])]`",
     ),
 ];
 
 /// How the rates of a coordinate are written elsewhere, the longer ones first.
-const RATE_SUFFIXES: [(&str, &str); 10] = [
-    ("_dot_dot", "_ddot"),
-    ("_dotdot", "_ddot"),
-    ("dotdot", "_ddot"),
-    ("_ddot", "_ddot"),
-    ("ddot", "_ddot"),
-    ("_dot", "_dot"),
-    ("dot", "_dot"),
-    ("_prime", "_dot"),
-    ("_d", "_dot"),
-    ("_t", "_dot"),
-];
-const RATE_PREFIXES: [(&str, &str); 6] =
-    [("dd", "_ddot"), ("d2", "_ddot"), ("dot_", "_dot"), ("d", "_dot"), ("v_", "_dot"), ("v", "_dot")];
+const RATE_SUFFIXES: [(&str, &str); 2] =
+    [("_dot_dot _dotdot dotdot _ddot ddot", "_ddot"), ("_dot dot _prime _d _t", "_dot")];
+const RATE_PREFIXES: [(&str, &str); 2] = [("dd d2", "_ddot"), ("dot_ d v_ v", "_dot")];
 
-fn listed(table: &[(&[&str], &'static str)], name: &str) -> Option<&'static str> {
-    table.iter().find(|(names, _)| names.contains(&name)).map(|(_, advice)| *advice)
+/// Every word of a table, and what stands beside it.
+fn words<'t>(table: &[(&'t str, &'t str)]) -> impl Iterator<Item = (&'t str, &'t str)> {
+    table.iter().flat_map(|&(words, beside)| words.split(' ').map(move |word| (word, beside)))
+}
+
+fn listed(table: &[(&'static str, &'static str)], name: &str) -> Option<&'static str> {
+    words(table).find(|(known, _)| *known == name).map(|(_, advice)| advice)
 }
 
 impl Scope {
@@ -123,7 +95,7 @@ impl Scope {
         if let Some(error) = self.is_field_of_function(name) {
             return error;
         }
-        let callable = FUNCTIONS.into_iter().filter(|&function| function != "in");
+        let callable: Vec<&str> = functions().filter(|&function| function != "in").collect();
         let advice = listed(&CALLS, text).map(String::from);
         let advice = advice.or_else(|| nearest(text, self.known().chain(callable)).map(did_you_mean));
         let advice = advice.unwrap_or_else(|| {
@@ -177,8 +149,8 @@ impl Scope {
 
     /// What a coordinate, or an element of one, is called in `text`, and which of its rates that is.
     fn rate<'t>(&self, text: &'t str) -> Option<(&'t str, &'static str)> {
-        let suffixed = RATE_SUFFIXES.iter().map(|(suffix, rate)| (text.strip_suffix(suffix), *rate));
-        let prefixed = RATE_PREFIXES.iter().map(|(prefix, rate)| (text.strip_prefix(prefix), *rate));
+        let suffixed = words(&RATE_SUFFIXES).map(|(suffix, rate)| (text.strip_suffix(suffix), rate));
+        let prefixed = words(&RATE_PREFIXES).map(|(prefix, rate)| (text.strip_prefix(prefix), rate));
         let mut split = suffixed.chain(prefixed).filter_map(|(base, rate)| Some((base?, rate)));
         split.find(|(base, _)| self.is_coordinate(without_number(base)) || self.is_coordinate(base))
     }
@@ -193,8 +165,8 @@ impl Scope {
         if let Some(same) = self.known().find(|known| latin(known) == plain) {
             return Some(same);
         }
-        let group = SYNONYMS.iter().find(|group| group.contains(&text))?;
-        self.known().find(|known| group.contains(known))
+        let group = SYNONYMS.iter().find(|group| group.split(' ').any(|name| name == text))?;
+        self.known().find(|known| group.split(' ').any(|name| name == *known))
     }
 
     fn known(&self) -> impl Iterator<Item = &str> {
@@ -208,7 +180,7 @@ fn did_you_mean(name: &str) -> String {
 
 /// `Sin` where a value belongs.
 fn is_function(text: &str) -> Option<String> {
-    let function = FUNCTIONS.into_iter().find(|function| function.eq_ignore_ascii_case(text))?;
+    let function = functions().find(|function| function.eq_ignore_ascii_case(text))?;
     Some(format!("functions are written `{function}(x)`"))
 }
 

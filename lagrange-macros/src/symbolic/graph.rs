@@ -48,7 +48,7 @@ pub(crate) enum Function {
 
 impl Function {
     /// Every function with the name it has in expressions, in formulas and in emitted code.
-    const NAMES: [(&'static str, Self); 12] = [
+    pub(crate) const NAMES: [(&'static str, Self); 12] = [
         ("sin", Self::Sin),
         ("cos", Self::Cos),
         ("tan", Self::Tan),

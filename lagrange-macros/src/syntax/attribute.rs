@@ -1,30 +1,14 @@
 //! From a struct and its attributes to a [`Declaration`]: which attribute is whose, and how often.
 
-use proc_macro2::TokenTree;
-use quote::ToTokens;
 use syn::{Attribute, Data, DeriveInput, Fields, MacroDelimiter, Meta, Result};
 
 use super::cursor::Cursor;
 use super::declaration::{Declaration, Options};
 use super::field::Field;
 use super::forms::{
-    constraint, coordinates, define, force, form, function, observable, only, options, parameter,
+    FORMS, constraint, coordinates, define, force, form, function, observable, only, options, parameter,
 };
 use crate::diagnostics::{Diagnostics, Place};
-
-const ATTRIBUTES: [&str; 11] = [
-    "coordinates",
-    "define",
-    "function",
-    "lagrangian",
-    "constraint",
-    "force",
-    "dissipation",
-    "observable",
-    "conserved",
-    "parameter",
-    "lagrange",
-];
 
 /// Reads the struct. What could be read is returned even where something was wrong.
 pub(crate) fn declaration(input: DeriveInput, diagnostics: &mut Diagnostics) -> Declaration {
@@ -77,8 +61,10 @@ fn fields(input: &DeriveInput, diagnostics: &mut Diagnostics) -> Vec<Field> {
     };
     for attribute in data.fields.iter().flat_map(|field| &field.attrs) {
         if let Some(word) = own(attribute) {
-            diagnostics
-                .error(whole(attribute), format!("`#[{word}(…)]` belongs on the struct, not on a field"));
+            diagnostics.error(
+                Place::of(&attribute.meta),
+                format!("`#[{word}(…)]` belongs on the struct, not on a field"),
+            );
         }
     }
     data.fields
@@ -89,22 +75,12 @@ fn fields(input: &DeriveInput, diagnostics: &mut Diagnostics) -> Vec<Field> {
 
 /// The word of an attribute that is ours.
 fn own(attribute: &Attribute) -> Option<&'static str> {
-    ATTRIBUTES.into_iter().find(|word| attribute.path().is_ident(word))
-}
-
-fn whole(attribute: &Attribute) -> Place {
-    let span = |token: Option<TokenTree>| token.map_or(attribute.pound_token.span, |token| token.span());
-    let mut tokens = attribute.meta.to_token_stream().into_iter();
-    let first = Place::at(span(tokens.next()));
-    match tokens.last() {
-        Some(last) => first.to(Place::at(last.span())),
-        None => first,
-    }
+    FORMS.into_iter().map(|(word, _)| word).find(|word| attribute.path().is_ident(word))
 }
 
 /// Attributes that say one thing are given once.
 fn once(word: &'static str, attribute: &Attribute, seen: &mut Vec<(&'static str, Place)>) -> Result<()> {
-    let place = whole(attribute);
+    let place = Place::of(&attribute.meta);
     let earlier = seen.iter().find(|(found, _)| *found == word).map(|(_, place)| *place);
     seen.push((word, place));
     let advice = match word {
@@ -115,9 +91,8 @@ fn once(word: &'static str, attribute: &Attribute, seen: &mut Vec<(&'static str,
         _ => return Ok(()),
     };
     let Some(earlier) = earlier else { return Ok(()) };
-    let mut error = place.error(format!("`#[{word}(…)]` is given twice: {advice}"));
-    error.combine(earlier.error("the first one is here"));
-    Err(error)
+    let message = format!("`#[{word}(…)]` is given twice: {advice}");
+    Err(place.error_beside(message, earlier, "the first one is here"))
 }
 
 fn read(declaration: &mut Declaration, word: &str, attribute: &Attribute) -> Result<()> {
@@ -147,6 +122,6 @@ fn content(word: &str, attribute: &Attribute) -> Result<Cursor> {
         Meta::List(list) if matches!(list.delimiter, MacroDelimiter::Paren(_)) && !list.tokens.is_empty() => {
             Ok(Cursor::new(list.tokens.clone(), list.delimiter.span().close()))
         }
-        _ => Err(whole(attribute).error(format!("this attribute is written `{}`", form(word)))),
+        _ => Err(Place::of(&attribute.meta).error(format!("this attribute is written `{}`", form(word)))),
     }
 }

@@ -63,13 +63,9 @@ impl Cursor {
         self.tokens.get(self.position)
     }
 
-    fn peek_at(&self, offset: usize) -> Option<&TokenTree> {
-        self.tokens.get(self.position + offset)
-    }
-
     /// The token after the next one.
     pub(super) fn follower(&self) -> Option<&TokenTree> {
-        self.peek_at(1)
+        self.tokens.get(self.position + 1)
     }
 
     pub(super) fn next(&mut self) -> Option<TokenTree> {
@@ -95,7 +91,7 @@ impl Cursor {
 
     /// Where an operator of two characters is.
     pub(super) fn pair_place(&self) -> Place {
-        let second = self.peek_at(1).map_or(self.end, TokenTree::span);
+        let second = self.follower().map_or(self.end, TokenTree::span);
         self.place().to(Place::at(second))
     }
 
@@ -111,7 +107,7 @@ impl Cursor {
     pub(super) fn is_pair(&self, first: char, second: char) -> bool {
         let joint = |token: Option<&TokenTree>| matches!(token, Some(TokenTree::Punct(punct)) if punct.as_char() == first && punct.spacing() == Spacing::Joint);
         let then = |token: Option<&TokenTree>| matches!(token, Some(TokenTree::Punct(punct)) if punct.as_char() == second);
-        joint(self.peek()) && then(self.peek_at(1))
+        joint(self.peek()) && then(self.follower())
     }
 
     pub(super) fn take_punct(&mut self, symbol: char) -> bool {
@@ -120,12 +116,8 @@ impl Cursor {
         found
     }
 
-    pub(super) fn is_word(&self, word: &str) -> bool {
-        matches!(self.peek(), Some(TokenTree::Ident(ident)) if ident == word)
-    }
-
     pub(super) fn take_word(&mut self, word: &str) -> bool {
-        let found = self.is_word(word);
+        let found = matches!(self.peek(), Some(TokenTree::Ident(ident)) if ident == word);
         self.position += usize::from(found);
         found
     }

@@ -60,9 +60,7 @@ pub(crate) const LENGTH_LIMIT: usize = 100_000;
 
 impl Field {
     pub(super) fn new(field: &syn::Field, ident: &syn::Ident) -> Self {
-        let mut ends = field.ty.to_token_stream().into_iter().map(|token| Place::at(token.span()));
-        let start = ends.next().unwrap_or(Place::at(ident.span()));
-        let place = start.to(ends.last().unwrap_or(start));
+        let place = Place::of(&field.ty);
         let shape = shape(&field.ty).and_then(short_enough);
         Self { name: Name::new(ident), ident: ident.clone(), ty: field.ty.clone(), place, shape }
     }

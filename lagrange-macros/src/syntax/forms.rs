@@ -1,6 +1,6 @@
 //! The forms of the attributes, one function each.
 
-use proc_macro2::{Delimiter, TokenTree};
+use proc_macro2::{Delimiter, Group, TokenTree};
 use quote::ToTokens;
 use syn::Result;
 
@@ -16,20 +16,23 @@ use crate::diagnostics::Place;
 /// Beyond, rustc takes minutes, and the matrices exceed the stack.
 const COORDINATE_LIMIT: usize = 1000;
 
+/// The attributes, and how each is written.
+pub(super) const FORMS: [(&str, &str); 11] = [
+    ("coordinates", "#[coordinates(x, y)]"),
+    ("define", "#[define(name = expression)]"),
+    ("function", "#[function(U(r))]` or `#[function(Omega(t): [3] = field)]"),
+    ("lagrangian", "#[lagrangian(expression)]"),
+    ("constraint", "#[constraint(name: expression = expression)]"),
+    ("force", "#[force(coordinate: expression)]"),
+    ("dissipation", "#[dissipation(expression)]"),
+    ("observable", "#[observable(name = expression)]"),
+    ("conserved", "#[conserved(name = expression)]"),
+    ("parameter", "#[parameter(name: [3])]` or `#[parameter(name: 0..1)]"),
+    ("lagrange", "#[lagrange(crate = path, scalar = T)]"),
+];
+
 pub(super) fn form(word: &str) -> &'static str {
-    match word {
-        "coordinates" => "#[coordinates(x, y)]",
-        "define" => "#[define(name = expression)]",
-        "function" => "#[function(U(r))]` or `#[function(Omega(t): [3] = field)]",
-        "lagrangian" => "#[lagrangian(expression)]",
-        "constraint" => "#[constraint(name: expression = expression)]",
-        "force" => "#[force(coordinate: expression)]",
-        "dissipation" => "#[dissipation(expression)]",
-        "observable" => "#[observable(name = expression)]",
-        "conserved" => "#[conserved(name = expression)]",
-        "parameter" => "#[parameter(name: [3])]` or `#[parameter(name: 0..1)]",
-        _ => "#[lagrange(crate = path, scalar = T)]",
-    }
+    FORMS.iter().find(|(known, _)| *known == word).map_or("", |(_, form)| form)
 }
 
 /// A trailing comma, and then nothing.
@@ -85,7 +88,7 @@ pub(super) fn coordinates(cursor: &mut Cursor, coordinates: &mut Vec<Coordinate>
     let mut count = 0;
     while !cursor.is_empty() {
         let name = cursor.name("the name of a coordinate")?;
-        let length = if cursor.take_punct(':') { Some(brackets(cursor)?) } else { None };
+        let length = length(cursor)?;
         count += length.unwrap_or(1);
         reject_too_many(count, &name)?;
         coordinates.push(Coordinate { name, length });
@@ -109,6 +112,11 @@ fn reject_too_many(count: usize, last: &Name) -> Result<()> {
     )))
 }
 
+/// `: [3]`, if there is a length.
+fn length(cursor: &mut Cursor) -> Result<Option<usize>> {
+    if cursor.take_punct(':') { brackets(cursor).map(Some) } else { Ok(None) }
+}
+
 /// `[3]`
 fn brackets(cursor: &mut Cursor) -> Result<usize> {
     let wanted = "expected a length such as `[3]`, an integer literal";
@@ -123,9 +131,8 @@ fn brackets(cursor: &mut Cursor) -> Result<usize> {
     value.filter(|length| (1..=LENGTH_LIMIT).contains(length)).ok_or_else(|| place.error(wanted))
 }
 
-/// `= expression`
-fn value(cursor: &mut Cursor, word: &str) -> Result<Expression> {
-    equals(cursor, word)?;
+/// The expression that the attribute ends with, after its `=` or `:`.
+fn last(cursor: &mut Cursor, word: &str) -> Result<Expression> {
     let value = expression::whole(&mut cursor.until_comma())?;
     finish(cursor, word)?;
     Ok(value)
@@ -134,10 +141,14 @@ fn value(cursor: &mut Cursor, word: &str) -> Result<Expression> {
 pub(super) fn define(cursor: &mut Cursor, defines: &mut Vec<Define>) -> Result<()> {
     let target = target(cursor, "the name of the definition")?;
     let formals = match cursor.take_group(Delimiter::Parenthesis) {
-        Some(group) => Some(formals(&mut Cursor::inside(&group))?),
+        Some(group) => {
+            let advice = "a value is written `#[define(name = expression)]`";
+            Some(formals(&group, advice, |_, name, _| Ok(name))?)
+        }
         None => None,
     };
-    let (body, result) = read_or_guess(cursor, |cursor| value(cursor, "define"));
+    let (body, result) =
+        read_or_guess(cursor, |cursor| equals(cursor, "define").and_then(|()| last(cursor, "define")));
     defines.push(Define { target, formals, body });
     result
 }
@@ -147,47 +158,45 @@ pub(super) fn function(cursor: &mut Cursor) -> Result<Function> {
     let Some(group) = cursor.take_group(Delimiter::Parenthesis) else {
         return Err(cursor.error(format!("expected its arguments: write `{}`", form("function"))));
     };
-    let formals = shaped_formals(&mut Cursor::inside(&group))?;
-    let length = if cursor.take_punct(':') { Some(brackets(cursor)?) } else { None };
+    let formals = formals(&group, "a constant is a field", shaped)?;
+    let length = length(cursor)?;
     let field = if cursor.take_punct('=') { cursor.name("the name of a field")? } else { name.clone() };
     finish(cursor, "function")?;
     Ok(Function { name, formals, length, field })
 }
 
-/// `r`, `s: [3]`
-fn shaped_formals(cursor: &mut Cursor) -> Result<Vec<(Name, Option<usize>)>> {
-    let mut formals: Vec<(Name, Option<usize>)> = Vec::new();
+/// Reads the names of a function's arguments, and what `read` finds behind each.
+fn formals<T>(
+    group: &Group,
+    advice: &str,
+    read: impl Fn(&mut Cursor, Name, &[T]) -> Result<T>,
+) -> Result<Vec<T>> {
+    let (mut cursor, mut formals) = (Cursor::inside(group), Vec::new());
     while !cursor.is_empty() {
-        let formal = cursor.name("the name of an argument")?;
-        let length = if cursor.take_punct(':') { Some(brackets(cursor)?) } else { None };
-        if formals.iter().any(|(earlier, _)| earlier.text == formal.text) {
-            return Err(formal.place.error(format!("the argument `{}` is given twice", formal.text)));
-        }
-        formals.push((formal, length));
+        let name = cursor.name("the name of an argument")?;
+        formals.push(read(&mut cursor, name, &formals)?);
         if !cursor.is_empty() {
             cursor.expect_punct(',', "expected `,` between arguments")?;
         }
     }
     if formals.is_empty() {
-        return Err(cursor.error("a function has arguments; a constant is a field"));
+        Err(cursor.error(format!("a function has arguments; {advice}")))
+    } else {
+        Ok(formals)
     }
-    Ok(formals)
 }
 
-fn formals(cursor: &mut Cursor) -> Result<Vec<Name>> {
-    let mut formals = Vec::new();
-    while !cursor.is_empty() {
-        formals.push(cursor.name("the name of an argument")?);
-        if !cursor.is_empty() {
-            cursor.expect_punct(',', "expected `,` between arguments")?;
-        }
+/// `s: [3]`
+fn shaped(
+    cursor: &mut Cursor,
+    name: Name,
+    earlier: &[(Name, Option<usize>)],
+) -> Result<(Name, Option<usize>)> {
+    let length = length(cursor)?;
+    if earlier.iter().any(|(earlier, _)| earlier.text == name.text) {
+        return Err(name.place.error(format!("the argument `{}` is given twice", name.text)));
     }
-    if formals.is_empty() {
-        return Err(
-            cursor.error("a function has arguments; a value is written `#[define(name = expression)]`")
-        );
-    }
-    Ok(formals)
+    Ok((name, length))
 }
 
 fn equals(cursor: &mut Cursor, word: &str) -> Result<()> {
@@ -253,12 +262,8 @@ fn sides(equation: &mut Cursor) -> Result<(Expression, Expression)> {
 pub(super) fn force(cursor: &mut Cursor, forces: &mut Vec<Force>) -> Result<()> {
     let wanted = format!("the coordinate that the force acts on: write `{}`", form("force"));
     let target = target(cursor, &wanted)?;
-    let (value, result) = read_or_guess(cursor, |cursor| {
-        colon(cursor, "force")?;
-        let value = expression::whole(&mut cursor.until_comma())?;
-        finish(cursor, "force")?;
-        Ok(value)
-    });
+    let (value, result) =
+        read_or_guess(cursor, |cursor| colon(cursor, "force").and_then(|()| last(cursor, "force")));
     forces.push(Force { target, value });
     result
 }
@@ -269,7 +274,8 @@ pub(super) fn observable(word: &str, cursor: &mut Cursor, observables: &mut Vec<
     if !matches!(target.index, TargetIndex::None) {
         return Err(target.name.place.error("an observable is not a family: write a vector `[a, b]`"));
     }
-    let (value, result) = read_or_guess(cursor, |cursor| value(cursor, word));
+    let (value, result) =
+        read_or_guess(cursor, |cursor| equals(cursor, word).and_then(|()| last(cursor, word)));
     observables.push(Named { name: target.name, is_conserved: word == "conserved", value });
     result
 }

@@ -15,7 +15,7 @@ mod unread;
 
 pub(crate) use attribute::declaration;
 pub(crate) use cursor::{NESTING_LIMIT, shallow, too_deep};
-pub(crate) use declaration::{Constraint, Coordinate, Declaration, Define, Function, Parameter};
+pub(crate) use declaration::{Constraint, Coordinate, Declaration, Define, Force, Function, Parameter};
 pub(crate) use expression::{Expression, Kind, Operator, Sign, SumOver};
 pub(crate) use field::{Field, FieldShape, LENGTH_LIMIT, Layout};
 pub(crate) use greek::GREEK;
