@@ -49,6 +49,11 @@ impl Variable {
     }
 }
 
+/// Whether a velocity occurs in an expression.
+pub(crate) fn has_velocity(graph: &Graph, root: Id) -> bool {
+    graph.symbols(&[root]).any(|symbol| matches!(Variable::of(symbol), Variable::Velocity(_)))
+}
+
 /// The symbols of one variable of every coordinate.
 pub(crate) fn symbols(count: usize, variable: fn(usize) -> Variable) -> Vec<Symbol> {
     (0..count).map(|i| variable(i).symbol()).collect()

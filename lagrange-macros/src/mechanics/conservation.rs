@@ -46,35 +46,22 @@ enum Trial {
 }
 
 /// Whether random motions conserve `quantity`, for systems that are not too large to try.
-pub(super) fn found(
-    graph: &mut Graph,
-    problem: &Problem,
-    equations: &Equations,
-    moments: &mut Moments,
-    quantity: Id,
-) -> Option<Evidence> {
-    if problem.coordinates.len() + problem.constraints.len() > LARGE {
+pub(super) fn found(graph: &mut Graph, moments: &mut Moments, quantity: Id) -> Option<Evidence> {
+    if moments.problem.coordinates.len() + moments.problem.constraints.len() > LARGE {
         return None;
     }
-    match trial(graph, problem, equations, moments, quantity) {
+    match trial(graph, moments, quantity) {
         Trial::Held(states) => Some(Evidence::Held(states)),
         Trial::Broken(..) | Trial::Undecided => None,
     }
 }
 
 /// dE/dt = −∂L/∂t + Q·q̇ − Σ_α λ_α b_α
-pub(super) fn of_energy(
-    graph: &mut Graph,
-    problem: &Problem,
-    equations: &Equations,
-    moments: &mut Moments,
-) -> Option<Conserved> {
+pub(super) fn of_energy(graph: &mut Graph, moments: &mut Moments) -> Option<Conserved> {
+    let &mut Moments { problem, equations, .. } = moments;
     let rate = energy_rate(graph, problem, equations);
-    let symbolic = vanishes(graph, problem, rate);
-    let evidence = match symbolic {
-        None if !problem.constraints.is_empty() => {
-            found(graph, problem, equations, moments, equations.energy)
-        }
+    let evidence = match vanishes(graph, problem, rate) {
+        None if !problem.constraints.is_empty() => found(graph, moments, equations.energy),
         symbolic => symbolic,
     };
     evidence.map(|evidence| Conserved { name: "energy".to_owned(), quantity: Quantity::Energy, evidence })
@@ -113,25 +100,24 @@ fn inhomogeneous_part(graph: &mut Graph, equations: &Equations, constraint: usiz
 /// Those that the user says are conserved; where one is not, or cannot be tried, that is reported.
 pub(super) fn of_observables(
     graph: &mut Graph,
-    problem: &Problem,
-    equations: &Equations,
     moments: &mut Moments,
     diagnostics: &mut Diagnostics,
 ) -> Vec<Conserved> {
+    let problem = moments.problem;
     let mut conserved = Vec::new();
     for &(observable, place) in &problem.conserved {
         let (label, values) = &problem.observables[observable];
         for (entry, &value) in values.iter().enumerate() {
             let name =
                 if values.len() == 1 { label.text.clone() } else { format!("{}[{entry}]", label.text) };
-            match trial(graph, problem, equations, moments, value) {
+            match trial(graph, moments, value) {
                 Trial::Held(states) => conserved.push(Conserved {
                     name,
                     quantity: Quantity::Observable(observable, entry),
                     evidence: Evidence::Held(states),
                 }),
                 Trial::Broken(index, value, rate) => {
-                    let moment = moments.get(index, graph, problem, equations);
+                    let moment = moments.get(index, graph);
                     let moment = moment.map(|moment| written(moment, problem)).unwrap_or_default();
                     let (value, rate, suspects) = (short(value), short(rate), suspects(graph, problem));
                     diagnostics.error(place, format!(
@@ -148,21 +134,15 @@ pub(super) fn of_observables(
 }
 
 /// dX/dt = ∂X/∂t + ∂X/∂q·q̇ + ∂X/∂q̇·q̈ on states that satisfy the constraints.
-fn trial(
-    graph: &mut Graph,
-    problem: &Problem,
-    equations: &Equations,
-    moments: &mut Moments,
-    quantity: Id,
-) -> Trial {
-    let n = problem.coordinates.len();
+fn trial(graph: &mut Graph, moments: &mut Moments, quantity: Id) -> Trial {
+    let n = moments.problem.coordinates.len();
     let state = (0..n).map(Variable::Coordinate).chain((0..n).map(Variable::Velocity));
     let state: Vec<_> = state.chain([Variable::Time]).map(Variable::symbol).collect();
     let mut roots = graph.gradient(quantity, &state);
     roots.push(quantity);
     let mut held = 0;
     for index in 0.. {
-        let Some(moment) = moments.get(index, graph, problem, equations) else { break };
+        let Some(moment) = moments.get(index, graph) else { break };
         let mut slopes = moment.values(graph, &roots);
         let value = slopes.pop().unwrap_or(Approximate::exact(f64::NAN));
         let rates = (0..n).map(Variable::Velocity).chain((0..n).map(Variable::Acceleration));

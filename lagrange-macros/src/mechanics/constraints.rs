@@ -1,10 +1,12 @@
 //! The constraints and their derivatives: F, γ and the kind of each.
 
+use ConstraintKind::{Holonomic, Velocity};
+
 use super::evidence::vanishes;
 use crate::diagnostics::Diagnostics;
-use crate::resolve::Problem;
+use crate::resolve::{Label, Problem};
 use crate::symbolic::{Graph, Id, Rational};
-use crate::variables::{Variable, drift, symbols};
+use crate::variables::{Variable, drift, has_velocity, symbols};
 
 /// How a constraint acts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -15,6 +17,7 @@ pub(crate) enum ConstraintKind {
     Velocity,
 }
 
+#[derive(Default)]
 pub(super) struct Constraints {
     pub(super) kinds: Vec<ConstraintKind>,
     pub(super) residual: Vec<Id>,
@@ -49,89 +52,59 @@ pub(super) fn derive(
     problem: &Problem,
     diagnostics: &mut Diagnostics,
 ) -> Option<Constraints> {
-    let mut constraints = Constraints {
-        kinds: Vec::new(),
-        residual: Vec::new(),
-        rate: Vec::new(),
-        jacobian: Vec::new(),
-        bias: Vec::new(),
-    };
-    for index in 0..problem.constraints.len() {
-        push_row(graph, problem, index, &mut constraints, diagnostics);
-        diagnostics.stop_at_fault(problem.constraints[index].0.place, graph);
+    let mut constraints = Constraints::default();
+    for &(Label { place, .. }, expression) in &problem.constraints {
+        if let Some(message) = constraints.push(graph, problem, expression) {
+            diagnostics.error(place, message);
+        }
+        diagnostics.stop_at_fault(place, graph);
     }
     diagnostics.is_empty().then_some(constraints)
 }
 
-fn push_row(
-    graph: &mut Graph,
-    problem: &Problem,
-    index: usize,
-    constraints: &mut Constraints,
-    diagnostics: &mut Diagnostics,
-) {
-    let n = problem.coordinates.len();
-    let expression = problem.constraints[index].1;
-    let kind = kind(graph, expression);
-    let mut drift = drift(graph, n);
-    let (residual, rate, variable): (_, _, fn(usize) -> Variable) = match kind {
-        ConstraintKind::Holonomic => (expression, drift.of(graph, expression), Variable::Coordinate),
-        ConstraintKind::Velocity => (Id::ZERO, expression, Variable::Velocity),
-    };
-    let jacobian = graph.gradient(expression, &symbols(n, variable));
-    reject_malformed(graph, problem, index, kind, &jacobian, diagnostics);
-    constraints.kinds.push(kind);
-    constraints.residual.push(residual);
-    constraints.rate.push(rate);
-    constraints.bias.push(drift.of(graph, rate));
-    constraints.jacobian.push(jacobian);
+impl Constraints {
+    /// Adds a constraint with its derivatives, and says what is wrong with it.
+    fn push(&mut self, graph: &mut Graph, problem: &Problem, expression: Id) -> Option<String> {
+        let n = problem.coordinates.len();
+        let mut drift = drift(graph, n);
+        let (kind, residual, rate, variable): (_, _, _, fn(usize) -> Variable) =
+            match has_velocity(graph, expression) {
+                false => (Holonomic, expression, drift.of(graph, expression), Variable::Coordinate),
+                true => (Velocity, Id::ZERO, expression, Variable::Velocity),
+            };
+        let jacobian = graph.gradient(expression, &symbols(n, variable));
+        let wrong = malformed(graph, problem, expression, kind, &jacobian);
+        self.kinds.push(kind);
+        self.residual.push(residual);
+        self.rate.push(rate);
+        self.bias.push(drift.of(graph, rate));
+        self.jacobian.push(jacobian);
+        wrong
+    }
 }
 
-fn kind(graph: &Graph, expression: Id) -> ConstraintKind {
-    let has_velocity =
-        graph.symbols(&[expression]).any(|symbol| matches!(Variable::of(symbol), Variable::Velocity(_)));
-    if has_velocity { ConstraintKind::Velocity } else { ConstraintKind::Holonomic }
-}
-
-fn reject_malformed(
+fn malformed(
     graph: &mut Graph,
     problem: &Problem,
-    index: usize,
+    expression: Id,
     kind: ConstraintKind,
     jacobian: &[Id],
-    diagnostics: &mut Diagnostics,
-) {
-    let place = problem.constraints[index].0.place;
+) -> Option<String> {
     if jacobian.iter().all(|&entry| vanishes(graph, problem, entry).is_some()) {
-        let message = match problem.constraints[index].1 {
+        let message = match expression {
             Id::ZERO => "both sides of this constraint are the same",
             _ => "this constraint depends on no coordinate and no velocity: nothing can be done to meet it",
         };
-        return diagnostics.error(place, message);
+        return Some(message.to_owned());
     }
-    if kind == ConstraintKind::Velocity {
-        reject_nonlinear(graph, problem, index, jacobian, diagnostics);
-    }
-}
-
-/// A velocity constraint is F q̇ + b: its Jacobian holds no velocity.
-fn reject_nonlinear(
-    graph: &mut Graph,
-    problem: &Problem,
-    index: usize,
-    jacobian: &[Id],
-    diagnostics: &mut Diagnostics,
-) {
-    let n = problem.coordinates.len();
-    for &entry in jacobian {
-        let slopes = graph.gradient(entry, &symbols(n, Variable::Velocity));
-        let nonlinear = slopes.into_iter().position(|slope| vanishes(graph, problem, slope).is_none());
-        if let Some(velocity) = nonlinear {
-            let name = &problem.coordinates[velocity].text;
-            let message = format!(
-                "this constraint is not linear in the velocity of `{name}`: d'Alembert's principle covers F(q,t) q̇ + b(q,t) = 0 only"
-            );
-            return diagnostics.error(problem.constraints[index].0.place, message);
-        }
-    }
+    // A velocity constraint is F q̇ + b: its Jacobian holds no velocity.
+    let entries = if kind == Velocity { jacobian } else { &[] };
+    let velocity = entries.iter().find_map(|&entry| {
+        let slopes = graph.gradient(entry, &symbols(problem.coordinates.len(), Variable::Velocity));
+        slopes.into_iter().position(|slope| vanishes(graph, problem, slope).is_none())
+    })?;
+    Some(format!(
+        "this constraint is not linear in the velocity of `{}`: d'Alembert's principle covers F(q,t) q̇ + b(q,t) = 0 only",
+        problem.coordinates[velocity].text
+    ))
 }

@@ -31,15 +31,13 @@ pub(super) fn check(
 }
 
 fn undetermined(name: &str, column: usize, rows: &[&Vec<Id>]) -> String {
-    if rows.iter().all(|row| row[column] == Id::ZERO) {
-        format!(
-            "nothing determines the acceleration of `{name}`: the Lagrangian is not quadratic in its velocity, and no constraint involves it"
-        )
-    } else {
-        format!(
-            "nothing determines the acceleration of `{name}`: the equations that involve it are needed for other coordinates (the Lagrangian lacks a kinetic energy for some of them)"
-        )
-    }
+    let why = match rows.iter().all(|row| row[column] == Id::ZERO) {
+        true => "the Lagrangian is not quadratic in its velocity, and no constraint involves it",
+        false => {
+            "the equations that involve it are needed for other coordinates (the Lagrangian lacks a kinetic energy for some of them)"
+        }
+    };
+    format!("nothing determines the acceleration of `{name}`: {why}")
 }
 
 /// Finds a row for `column`, moving other columns to other rows where needed (Kuhn's augmenting paths, by a

@@ -7,7 +7,7 @@ use super::{consistency, constraints, determinacy, euler_lagrange, integrability
 use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};
-use crate::variables::Variable;
+use crate::variables::has_velocity;
 
 /// M q̈ − Fᵀλ = h and F q̈ + γ = 0, every entry a node of the problem's graph.
 #[derive(Debug)]
@@ -86,9 +86,8 @@ impl Equations {
 
 /// −∂D/∂q̇ is nothing where D has no velocity in it.
 fn reject_idle_dissipation(graph: &Graph, problem: &Problem, diagnostics: &mut Diagnostics) {
-    let is_velocity = |symbol| matches!(Variable::of(symbol), Variable::Velocity(_));
     if let Some((function, place)) = problem.dissipation
-        && !graph.symbols(&[function]).any(is_velocity)
+        && !has_velocity(graph, function)
     {
         diagnostics.error(place, "no velocity occurs in this dissipation function, so it does nothing");
     }

@@ -32,10 +32,10 @@ impl Facts {
         equations: &Equations,
         diagnostics: &mut Diagnostics,
     ) -> Self {
-        let mut moments = Moments::default();
-        let (cyclic, mut conserved) = momenta(graph, problem, equations, &mut moments);
-        conserved.extend(conservation::of_energy(graph, problem, equations, &mut moments));
-        let said = conservation::of_observables(graph, problem, equations, &mut moments, diagnostics);
+        let mut moments = Moments::new(problem, equations);
+        let (cyclic, mut conserved) = momenta(graph, &mut moments);
+        conserved.extend(conservation::of_energy(graph, &mut moments));
+        let said = conservation::of_observables(graph, &mut moments, diagnostics);
         conserved.retain(|found| said.iter().all(|said| said.name != found.name));
         conserved.extend(said);
         let energy_is_t_plus_u = energy_is_t_plus_u(graph, problem, equations);
@@ -50,12 +50,8 @@ impl Facts {
 
 /// The cyclic coordinates, and the momenta that are conserved because L and the forces do not depend on their
 /// coordinates and no constraint acts along them.
-fn momenta(
-    graph: &mut Graph,
-    problem: &Problem,
-    equations: &Equations,
-    moments: &mut Moments,
-) -> (Vec<usize>, Vec<Conserved>) {
+fn momenta(graph: &mut Graph, moments: &mut Moments) -> (Vec<usize>, Vec<Conserved>) {
+    let &mut Moments { problem, equations, .. } = moments;
     let (mut cyclic, mut conserved) = (Vec::new(), Vec::new());
     for a in 0..problem.coordinates.len() {
         let Some(free) = vanishes(graph, problem, equations.momentum_rate[a]) else { continue };
@@ -66,14 +62,10 @@ fn momenta(
                 Some(free.and(constrained))
             }
             // A constraint that could act along the coordinate may do so in no motion.
-            None => found(graph, problem, equations, moments, equations.momentum[a]),
+            None => found(graph, moments, equations.momentum[a]),
         };
-        let name = format!("p_{}", problem.coordinates[a].text);
-        conserved.extend(evidence.map(|evidence| Conserved {
-            name,
-            quantity: Quantity::Momentum(a),
-            evidence,
-        }));
+        let (name, quantity) = (format!("p_{}", problem.coordinates[a].text), Quantity::Momentum(a));
+        conserved.extend(evidence.map(|evidence| Conserved { name, quantity, evidence }));
     }
     (cyclic, conserved)
 }

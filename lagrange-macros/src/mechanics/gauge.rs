@@ -7,7 +7,7 @@ use super::equations::Equations;
 use super::evidence::{Evidence, vanishes};
 use crate::resolve::Problem;
 use crate::symbolic::{Forward, Graph, Id, Rational};
-use crate::variables::{Variable, directions, symbols, total_time_derivative};
+use crate::variables::{Variable, directions, has_velocity, symbols, total_time_derivative};
 
 /// A total time derivative: one term of the Lagrangian as written, or several that are one together.
 #[derive(Debug)]
@@ -71,16 +71,11 @@ fn pair(
     linear: &[usize],
     potentials: &[usize],
 ) -> Option<TotalDerivative> {
-    for (i, &first) in linear.iter().enumerate() {
-        for &second in linear[i + 1..].iter().chain(potentials) {
-            let pair = [first.min(second), first.max(second)];
-            let total = cancelled(graph, problem, variations, &pair);
-            if total.is_some() {
-                return total;
-            }
-        }
-    }
-    None
+    let mut pairs = linear.iter().enumerate().flat_map(|(i, &first)| {
+        let others = linear[i + 1..].iter().chain(potentials);
+        others.map(move |&second| [first.min(second), first.max(second)])
+    });
+    pairs.find_map(|pair| cancelled(graph, problem, variations, &pair))
 }
 
 /// The terms as a total derivative, if their Euler–Lagrange expressions sum to zero.
@@ -110,12 +105,11 @@ fn variation_along(graph: &mut Graph, problem: &Problem, term: Id, mut rate: For
     let state = [symbols(n, Variable::Coordinate), symbols(n, Variable::Velocity)].concat();
     let gradient = graph.gradient(term, &state);
     let (force, momentum) = gradient.split_at(n);
-    let rows = momentum.iter().zip(force);
-    rows.map(|(&p, &force)| {
+    let row = |(&p, &force): (&Id, &Id)| {
         let rate = rate.of(graph, p);
         graph.sub(rate, force)
-    })
-    .collect()
+    };
+    momentum.iter().zip(force).map(row).collect()
 }
 
 /// Whether a term has no parts but those of degree 0 and 1 in the velocities: D(D − 1) makes them zero.
@@ -124,11 +118,6 @@ fn is_linear(graph: &mut Graph, problem: &Problem, term: Id) -> bool {
     let second = by_degree(graph, problem, first);
     let difference = graph.sub(second, first);
     vanishes(graph, problem, difference).is_some()
-}
-
-fn has_velocity(graph: &Graph, term: Id) -> bool {
-    let is_velocity = |symbol| matches!(Variable::of(symbol), Variable::Velocity(_));
-    graph.symbols(&[term]).any(is_velocity)
 }
 
 /// With D L = L₁ + 2 L₂ the linear part is L₁ = 2 D L − D² L, if there are no parts of other degrees. Its own

@@ -19,7 +19,7 @@ use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id, Rational};
 use crate::variables::Variable;
-pub(crate) use conservation::Quantity;
+pub(crate) use conservation::{Conserved, Quantity};
 pub(crate) use constraints::ConstraintKind;
 pub(crate) use equations::Equations;
 pub(crate) use evidence::Evidence;

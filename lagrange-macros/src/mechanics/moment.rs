@@ -10,24 +10,23 @@ use crate::variables::{Variable, symbols};
 const DRAWS: u64 = 48;
 
 /// Moments of random motions, drawn when first asked for.
-#[derive(Default)]
-pub(super) struct Moments {
+pub(super) struct Moments<'a> {
+    pub(super) problem: &'a Problem,
+    pub(super) equations: &'a Equations,
     found: Vec<Moment>,
     draws: u64,
 }
 
-impl Moments {
+impl<'a> Moments<'a> {
+    pub(super) fn new(problem: &'a Problem, equations: &'a Equations) -> Self {
+        Self { problem, equations, found: Vec::new(), draws: 0 }
+    }
+
     /// The moment of this index, unless states become too hard to find before.
-    pub(super) fn get(
-        &mut self,
-        index: usize,
-        graph: &Graph,
-        problem: &Problem,
-        equations: &Equations,
-    ) -> Option<&mut Moment> {
+    pub(super) fn get(&mut self, index: usize, graph: &Graph) -> Option<&mut Moment> {
         while self.found.len() <= index && self.draws < DRAWS {
             self.draws += 1;
-            self.found.extend(Moment::drawn(graph, problem, equations, self.draws - 1));
+            self.found.extend(Moment::drawn(graph, self.problem, self.equations, self.draws - 1));
         }
         self.found.get_mut(index)
     }

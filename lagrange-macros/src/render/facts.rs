@@ -5,7 +5,7 @@ use super::formula::Formula;
 use super::lines::{Equation, Line, READABLE, symbols_to_read};
 use super::symbols::Notation;
 use super::written::written;
-use crate::mechanics::{Equations, Evidence, Facts, Quantity};
+use crate::mechanics::{Conserved, Derived, Evidence, Facts, Quantity};
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};
 use crate::syntax::{Declaration, Expression, Sign};
@@ -15,40 +15,26 @@ pub(super) fn conserved(
     declaration: &Declaration,
     graph: &Graph,
     problem: &Problem,
-    equations: &Equations,
-    facts: &Facts,
+    Derived { equations, facts, .. }: &Derived,
 ) -> Vec<Line> {
     let said = |name: &str| {
         declaration.observables.iter().find(|known| known.is_conserved && known.name.text == name)
     };
-    let mut lines: Vec<Line> = Vec::new();
-    for conserved in &facts.conserved {
-        let line = |left: &str, equation: Result<Formula, Id>, remark| Line {
-            label: None,
-            equation: either(Formula::labelled(left, 0), equation, graph, problem),
-            remark,
-        };
-        match conserved.quantity {
-            Quantity::Momentum(a) => {
-                lines.push(line(
-                    &conserved.name,
-                    Err(equations.momentum[a]),
-                    held(conserved.evidence).to_owned(),
-                ));
-            }
-            Quantity::Energy => {
-                lines.push(line("E", Err(equations.energy), energy(conserved.evidence, facts).to_owned()));
-            }
+    let line = |Conserved { name, quantity, evidence }: &Conserved| {
+        let (left, right, remark) = match *quantity {
+            Quantity::Momentum(a) => (&**name, Err(equations.momentum[a]), held(*evidence)),
+            Quantity::Energy => ("E", Err(equations.energy), energy(*evidence, facts)),
             // A vector is written as such, once.
             Quantity::Observable(observable, 0) => {
-                let name = &problem.observables[observable].0.text;
-                let value = said(name).map(|said| written(&said.value, problem));
-                lines.extend(value.map(|value| line(name, Ok(value), held(conserved.evidence).to_owned())));
+                let name = &*problem.observables[observable].0.text;
+                (name, Ok(written(&said(name)?.value, problem)), held(*evidence))
             }
-            Quantity::Observable(..) => {}
-        }
-    }
-    lines
+            Quantity::Observable(..) => return None,
+        };
+        let equation = either(Formula::labelled(left, 0), right, graph, problem);
+        Some(Line { remark: remark.to_owned(), ..Line::of(equation) })
+    };
+    facts.conserved.iter().filter_map(line).collect()
 }
 
 /// An equation with a formula, or with what is derived if that can be read.

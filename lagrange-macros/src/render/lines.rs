@@ -23,6 +23,12 @@ pub(super) struct Line {
     pub(super) remark: String,
 }
 
+impl Line {
+    pub(super) fn of(equation: Equation) -> Self {
+        Self { label: None, equation, remark: String::new() }
+    }
+}
+
 pub(super) enum Equation {
     Known(Formula, Formula),
     /// No equation but a single expression.

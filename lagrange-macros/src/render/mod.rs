@@ -16,7 +16,7 @@ mod written;
 use crate::mechanics::{Derived, Equations};
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};
-use crate::syntax::{Declaration, Define, Name, TargetIndex};
+use crate::syntax::{Constraint, Declaration, Define, Expression, Target, TargetIndex};
 use derived::derived;
 use formula::Formula;
 use lines::{Equation, Line, READABLE, Section, symbols_to_read};
@@ -41,43 +41,34 @@ pub(crate) fn render(
     let Derived { equations, facts, .. } = derived;
     let total_derivatives = facts::total_derivatives(declaration, problem, facts);
     let texts = facts::texts(&total_derivatives);
-    let term = |formula| Line { label: None, equation: Equation::Term(formula), remark: String::new() };
+    let term = |formula| Line::of(Equation::Term(formula));
+    let section = |heading, lines| Section { heading, lines, note: None };
     let sections = [
-        Section { heading: "Lagrangian", lines: lagrangian(declaration, problem), note: None },
+        section("Lagrangian", lagrangian(declaration, problem)),
         Section {
-            heading: "Constraints",
-            lines: constraints(declaration, graph, problem, equations),
             note: equations.integrability.integrals.and_then(kinds::note),
+            ..section("Constraints", constraints(declaration, graph, problem, equations))
         },
-        Section { heading: "Equations of motion", lines: motion(graph, problem, derived), note: None },
-        Section {
-            heading: "Conserved",
-            lines: facts::conserved(declaration, graph, problem, equations, facts),
-            note: None,
-        },
-        Section {
-            heading: "Total time derivatives in the Lagrangian",
-            lines: total_derivatives.into_iter().map(term).collect(),
-            note: None,
-        },
+        section("Equations of motion", motion(graph, problem, derived)),
+        section("Conserved", facts::conserved(declaration, graph, problem, derived)),
+        section(
+            "Total time derivatives in the Lagrangian",
+            total_derivatives.into_iter().map(term).collect(),
+        ),
     ];
     let name = declaration.ident.to_string();
     Rendered { text: lines::text(&name, &sections), latex: lines::latex(&sections), total_derivatives: texts }
 }
 
 fn lagrangian(declaration: &Declaration, problem: &Problem) -> Vec<Line> {
-    let line = |left: Formula, right: &crate::syntax::Expression| Line {
-        label: None,
-        equation: Equation::Known(left, written(right, problem)),
-        remark: String::new(),
-    };
+    let line = |left, right: &Expression| Line::of(Equation::Known(left, written(right, problem)));
     let name = |text: &str| Formula::labelled(text, 0);
     let mut lines: Vec<Line> = Vec::new();
     lines.extend(declaration.lagrangian.as_ref().map(|lagrangian| line(name("L"), lagrangian)));
     lines.extend(declaration.defines.iter().map(|define| line(defined(define, problem), &define.body)));
     lines.extend(declaration.dissipation.as_ref().map(|function| line(name("D"), function)));
     lines.extend(declaration.forces.iter().map(|force| {
-        let coordinate = Notation::Unicode.write(&target(&force.target.name, &force.target.index, problem));
+        let coordinate = Notation::Unicode.write(&target(&force.target, problem));
         line(name(&format!("Q_{coordinate}")), &force.value)
     }));
     lines
@@ -90,11 +81,11 @@ fn defined(define: &Define, problem: &Problem) -> Formula {
             let formals = formals.iter().map(|formal| Formula::labelled(&formal.text, 0));
             Formula::Call(define.target.name.text.clone(), formals.collect())
         }
-        None => target(&define.target.name, &define.target.index, problem),
+        None => target(&define.target, problem),
     }
 }
 
-fn target(name: &Name, index: &TargetIndex, problem: &Problem) -> Formula {
+fn target(Target { name, index }: &Target, problem: &Problem) -> Formula {
     let index = match index {
         TargetIndex::None => None,
         TargetIndex::Element(element) => Some(written(element, problem)),
@@ -112,20 +103,13 @@ fn constraints(
     problem: &Problem,
     equations: &Equations,
 ) -> Vec<Line> {
-    let line = |constraint: &crate::syntax::Constraint| {
-        let name = &constraint.target.name.text;
+    let line = |Constraint { target, left, right }: &Constraint| {
+        let name = &target.name.text;
         let is_it = |text: &str| text == name || text.starts_with(&format!("{name}["));
         let rows = (0..problem.constraints.len()).filter(|&row| is_it(&problem.constraints[row].0.text));
         Line {
-            label: Some(Notation::Unicode.write(&target(
-                &constraint.target.name,
-                &constraint.target.index,
-                problem,
-            ))),
-            equation: Equation::Known(
-                written(&constraint.left, problem),
-                written(&constraint.right, problem),
-            ),
+            label: Some(Notation::Unicode.write(&self::target(target, problem))),
+            equation: Equation::Known(written(left, problem), written(right, problem)),
             remark: kinds::remark(rows, graph, problem, &equations.integrability),
         }
     };
@@ -153,7 +137,7 @@ fn motion(graph: &Graph, problem: &Problem, Derived { equations, inertia, .. }: 
             false => Equation::TooLong(size),
         };
         let label = Notation::Unicode.write(&Formula::labelled(&problem.coordinates[i].text, 0));
-        Line { label: Some(label), equation, remark: String::new() }
+        Line { label: Some(label), ..Line::of(equation) }
     };
     sides.into_iter().enumerate().map(equation).collect()
 }
