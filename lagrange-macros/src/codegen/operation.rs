@@ -57,16 +57,9 @@ pub(super) struct Call<X = Register> {
 impl Operation {
     /// Of x + y and y + x, and of the like, the one form that stands for both.
     pub(super) fn canonical(self) -> Self {
-        let sorted = |x: Register, y: Register| (x.min(y), x.max(y));
         match self {
-            Self::Add(x, y) => {
-                let (x, y) = sorted(x, y);
-                Self::Add(x, y)
-            }
-            Self::Multiply(x, y) => {
-                let (x, y) = sorted(x, y);
-                Self::Multiply(x, y)
-            }
+            Self::Add(x, y) => Self::Add(x.min(y), x.max(y)),
+            Self::Multiply(x, y) => Self::Multiply(x.min(y), x.max(y)),
             _ => self,
         }
     }
@@ -98,20 +91,11 @@ impl<X> Operation<X> {
 
     /// All but those of a call.
     pub(super) fn operands(self) -> impl Iterator<Item = X> {
-        let [first, second, third] = match self {
-            Self::Constant(_) | Self::Input(_) | Self::Result { .. } => [None, None, None],
-            Self::Negate(x) | Self::SquareRoot(x) | Self::Function(_, x) => [Some(x), None, None],
-            Self::Add(x, y)
-            | Self::Subtract(x, y)
-            | Self::Multiply(x, y)
-            | Self::Divide(x, y)
-            | Self::Minimum(x, y)
-            | Self::Maximum(x, y)
-            | Self::Where(x, y)
-            | Self::Atan2(x, y)
-            | Self::Power(x, y) => [Some(x), Some(y), None],
-            Self::MultiplyAdd(x, y, z) | Self::SubtractProduct(x, y, z) => [Some(x), Some(y), Some(z)],
-        };
-        first.into_iter().chain(second).chain(third)
+        let (mut operands, mut count) = ([None, None, None], 0);
+        self.with_operands(|operand| {
+            operands[count] = Some(operand);
+            count += 1;
+        });
+        operands.into_iter().flatten()
     }
 }

@@ -4,7 +4,7 @@ use num_traits::{One, Signed};
 
 use super::formula::Formula;
 use super::supplied;
-use crate::resolve::{Element, Problem};
+use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id, Node, Rational, Scaled};
 use crate::variables::Variable;
 
@@ -95,16 +95,6 @@ fn variable(variable: Variable, problem: &Problem) -> Formula {
         Variable::Acceleration(i) => Formula::labelled(&problem.coordinates[i].text, 2),
         Variable::Multiplier(a) => Formula::Multiplier(problem.constraints[a].0.text.clone()),
         Variable::Change(i) => Formula::labelled(&format!("delta[{i}]"), 0),
-        Variable::Parameter(k) => {
-            let entry = problem.parameters.entries[k];
-            let base = problem.parameters.fields[entry.field].name.text.clone();
-            let indices = match entry.element {
-                Element::All => Vec::new(),
-                Element::Item(i) => vec![i],
-                Element::RowItem(i, j) | Element::Cell(i, j) => vec![i, j],
-            };
-            let number = |i: usize| Formula::Number(Rational::from_integer(i as i128));
-            Formula::Name { base, dots: 0, indices: indices.into_iter().map(number).collect() }
-        }
+        Variable::Parameter(k) => Formula::labelled(&problem.parameters.name(k), 0),
     }
 }

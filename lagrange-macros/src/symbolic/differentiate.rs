@@ -224,23 +224,15 @@ impl Graph {
                 let sine = self.function(Function::Sin, x);
                 self.neg(sine)
             }
-            Function::Tan => {
-                let square = self.square(id);
-                self.add(Id::ONE, square)
-            }
-            Function::Tanh => {
-                let square = self.square(id);
-                self.sub(Id::ONE, square)
-            }
+            Function::Tan => self.one_and_square(one, id),
+            Function::Tanh => self.one_and_square(-one, id),
             Function::Asin | Function::Acos => {
-                let square = self.square(x);
-                let rest = self.sub(Id::ONE, square);
+                let rest = self.one_and_square(-one, x);
                 let slope = self.pow(rest, -half);
                 if function == Function::Acos { self.neg(slope) } else { slope }
             }
             Function::Atan => {
-                let square = self.square(x);
-                let rest = self.add(Id::ONE, square);
+                let rest = self.one_and_square(one, x);
                 self.pow(rest, -one)
             }
             Function::Sinh => self.function(Function::Cosh, x),
@@ -249,5 +241,11 @@ impl Graph {
             Function::Ln => self.pow(x, -one),
             Function::Abs => self.div(x, id),
         }
+    }
+
+    /// 1 + coefficient · x²
+    fn one_and_square(&mut self, coefficient: Rational, x: Id) -> Id {
+        let square = self.square(x);
+        self.sum([(Id::ONE, Rational::one()), (square, coefficient)])
     }
 }

@@ -9,17 +9,12 @@ impl Graph {
     /// fault: what is hidden by a boundary may be zero, and divided by.
     pub(crate) fn looked_through(&mut self, root: Id) -> Id {
         let fault_before = self.take_fault();
-        let mut new: FxHashMap<Id, Id> = FxHashMap::default();
-        for id in self.reachable(&[root]) {
-            let node = self.node(id).clone();
-            let rebuilt = self.rebuilt(&node, |operand| new[&operand]);
-            new.insert(id, rebuilt);
-        }
+        let rebuilt = self.substituted(root, |_| None);
         let faulty = self.take_fault().is_some();
         if let Some(fault) = fault_before {
             self.fail(fault);
         }
-        if faulty { root } else { new[&root] }
+        if faulty { root } else { rebuilt }
     }
 
     /// The expressions `roots` of `source` in this graph, without the boundaries of definitions.
