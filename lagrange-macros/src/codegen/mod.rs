@@ -7,8 +7,6 @@ mod count;
 mod eliminate;
 mod facts;
 mod integrability;
-#[cfg(test)]
-mod interpret;
 mod kernel;
 mod lagrangian;
 mod linearized;
@@ -21,6 +19,8 @@ mod shape;
 mod signature;
 mod stub;
 mod style;
+#[cfg(test)]
+mod tests;
 mod time;
 mod writer;
 
@@ -29,13 +29,9 @@ use quote::quote;
 
 use crate::diagnostics::Diagnostics;
 use crate::mechanics::Derived;
-#[cfg(test)]
-use crate::mechanics::Equations;
 use crate::render::Rendered;
 use crate::resolve::{Problem, Supplied};
 use crate::symbolic::Graph;
-#[cfg(test)]
-use crate::symbolic::Id;
 use crate::syntax::Declaration;
 use bounds::FUNCTION_ORDER;
 #[cfg(test)]
@@ -43,6 +39,8 @@ pub(crate) use count::Count;
 use kernel::{Kernel, OPERATION_LIMIT};
 pub(crate) use stub::stub;
 use style::Style;
+#[cfg(test)]
+pub(crate) use tests::{operations, solutions, solving, value};
 
 /// The implementation of the traits, and a method for each observable; `None` where a function would be too long,
 /// which is then reported.
@@ -109,42 +107,4 @@ fn too_long(what: &str) -> String {
 /// The path of the runtime crate.
 fn runtime(declaration: &Declaration) -> TokenStream {
     declaration.options.runtime.clone().unwrap_or_else(|| quote!(::lagrange_core))
-}
-
-/// What computing `roots` together takes.
-#[cfg(test)]
-pub(crate) fn operations(graph: &Graph, roots: &[Id]) -> Count {
-    passes::Program::of(graph, roots).count()
-}
-
-/// The value of a constant as it is emitted.
-#[cfg(test)]
-pub(crate) fn value(graph: &Graph, root: Id) -> f64 {
-    let program = passes::Program::of(graph, &[root]);
-    program.schedule.values(&program.results, |_| f64::NAN)[0]
-}
-
-/// What the accelerations take, before the passes and after each, solved by each form of the equations; `None` where
-/// that is left to loops.
-#[cfg(test)]
-pub(crate) fn solving(graph: &Graph, equations: &Equations) -> Vec<Option<Vec<(&'static str, Count)>>> {
-    let counts = |form| Some(accelerations::solve(graph, form, equations)?.counts);
-    equations.forms.iter().map(counts).collect()
-}
-
-/// Accelerations, multipliers and pivot by each form of the equations.
-#[cfg(test)]
-pub(crate) fn solutions(
-    graph: &Graph,
-    equations: &Equations,
-    input: impl Fn(crate::symbolic::Symbol) -> f64,
-) -> Vec<Option<Vec<f64>>> {
-    let values = |form| {
-        let program = accelerations::solve(graph, form, equations)?.fused();
-        Some(
-            body::Body::new(&program, &Default::default())
-                .values(program.results.len(), &input, |_, _| f64::NAN),
-        )
-    };
-    equations.forms.iter().map(values).collect()
 }

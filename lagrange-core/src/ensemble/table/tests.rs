@@ -23,8 +23,8 @@ fn table() -> String {
     let failed =
         Member { index: 12, result: Err(Error::Setting { name: "a \"setting\", 12", value: f64::NAN }) };
     let complete = arrived(3, 1.0, Ending::Complete { time: 1.0 });
-    let members = [complete, failed, arrived(21, 0.25, Ending::Cancelled { time: 0.25 })];
-    Lines { members: &members, names: &NAMES }.to_string()
+    let members = vec![complete, failed, arrived(21, 0.25, Ending::Cancelled { time: 0.25 })];
+    Outcome::new(members, NAMES, 1.0).csv().to_string()
 }
 
 fn resume(table: &str) -> Result<Vec<Member<f64, 1>>, Error> {

@@ -2,9 +2,9 @@
 
 use rustc_hash::FxHashMap;
 
-use super::body::{Body, Expression, Local, Part, Place, Statement};
-use super::operation::{Call, Operation, Register};
-use super::schedule::Schedule;
+use crate::codegen::body::{Body, Expression, Local, Part, Place, Statement};
+use crate::codegen::operation::{Call, Operation, Register};
+use crate::codegen::schedule::Schedule;
 use crate::symbolic::{Symbol, apply};
 
 impl Operation<f64> {
@@ -40,7 +40,7 @@ impl Operation<f64> {
 
 impl Schedule {
     /// The results, of these inputs.
-    pub(super) fn values(&self, results: &[Register], input: impl Fn(Symbol) -> f64) -> Vec<f64> {
+    pub(crate) fn values(&self, results: &[Register], input: impl Fn(Symbol) -> f64) -> Vec<f64> {
         let mut values: Vec<f64> = Vec::new();
         for &operation in &self.operations {
             values.push(operation.with_operands(|register| values[register.index()]).value(&input));
@@ -51,7 +51,7 @@ impl Schedule {
 
 impl Body {
     /// The results, of which there are so many; functions that the user supplies are given a call and the place of a result.
-    pub(super) fn values(
+    pub(crate) fn values(
         &self,
         count: usize,
         input: impl Fn(Symbol) -> f64,

@@ -1,0 +1,41 @@
+//! What tests of the pipeline ask of the code that would be emitted, without a compiler.
+
+mod interpret;
+
+use super::accelerations::solve;
+use super::body::Body;
+use super::count::Count;
+use super::passes::Program;
+use crate::mechanics::Equations;
+use crate::symbolic::{Graph, Id, Symbol};
+
+/// What computing `roots` together takes.
+pub(crate) fn operations(graph: &Graph, roots: &[Id]) -> Count {
+    Program::of(graph, roots).count()
+}
+
+/// The value of a constant as it is emitted.
+pub(crate) fn value(graph: &Graph, root: Id) -> f64 {
+    let program = Program::of(graph, &[root]);
+    program.schedule.values(&program.results, |_| f64::NAN)[0]
+}
+
+/// What the accelerations take, before the passes and after each, solved by each form of the equations; `None` where
+/// that is left to loops.
+pub(crate) fn solving(graph: &Graph, equations: &Equations) -> Vec<Option<Vec<(&'static str, Count)>>> {
+    let counts = |form| Some(solve(graph, form, equations)?.counts);
+    equations.forms.iter().map(counts).collect()
+}
+
+/// Accelerations, multipliers and pivot by each form of the equations.
+pub(crate) fn solutions(
+    graph: &Graph,
+    equations: &Equations,
+    input: impl Fn(Symbol) -> f64,
+) -> Vec<Option<Vec<f64>>> {
+    let values = |form| {
+        let program = solve(graph, form, equations)?.fused();
+        Some(Body::new(&program, &Default::default()).values(program.results.len(), &input, |_, _| f64::NAN))
+    };
+    equations.forms.iter().map(values).collect()
+}
