@@ -1,5 +1,5 @@
-//! A formula as it is to be read: names, fractions, powers. It comes from what the user [wrote](super::written) or
-//! from the [graph](super::derived), and goes to a [`Notation`](super::notation::Notation).
+//! A formula as it is to be read: names, fractions, powers. It comes from what the user [wrote](mod@super::written) or
+//! from the [graph](mod@super::derived), and goes to a [`notation`](super::notation).
 
 use num_traits::{One, Signed, Zero};
 
