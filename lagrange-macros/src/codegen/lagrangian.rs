@@ -50,7 +50,7 @@ impl Emitter<'_> {
                 use #runtime as __lagrange;
 
                 #[automatically_derived]
-                #[allow(clippy::all, unused_parens)]
+                #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
                 impl #impl_generics __lagrange::Lagrangian<#n, #m> for #ident #type_generics #where_clause {
                     type Scalar = #scalar;
                     const NAME: &'static str = #name;
@@ -65,7 +65,7 @@ impl Emitter<'_> {
 
                 #[doc = #doc]
                 #[automatically_derived]
-                #[allow(clippy::all, unused_parens, dead_code)]
+                #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens, dead_code, non_snake_case)]
                 impl #impl_generics #ident #type_generics #where_clause {
                     #equations
                     #inherent

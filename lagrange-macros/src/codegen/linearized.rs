@@ -33,7 +33,7 @@ impl Emitter<'_> {
         let parts = (!parts.is_empty()).then(|| {
             quote! {
                 #[automatically_derived]
-                #[allow(clippy::all, unused_parens)]
+                #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
                 impl #impl_generics #ident #type_generics #where_clause {
                     #(#parts)*
                 }
@@ -46,7 +46,7 @@ impl Emitter<'_> {
                 use #runtime as __lagrange;
 
                 #[automatically_derived]
-                #[allow(clippy::all, unused_parens)]
+                #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
                 impl #impl_generics __lagrange::Linearized<#n, #m, #p> for #ident #type_generics #where_clause {
                     const PARAMETERS: [&'static str; #p] = [#(#names),*];
                     #methods

@@ -26,7 +26,7 @@ pub(super) fn pack(declaration: &Declaration, scalar: &syn::Type) -> Option<Toke
     let places = fields().filter(|field| exchange.concerns(field)).map(|field| exchange.place(field));
     Some(quote! {
         #[automatically_derived]
-        #[allow(clippy::all, unused_variables)]
+        #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_variables, unused_lifetimes)]
         impl #impl_generics __lagrange::Pack<#lanes> for #ident #type_generics #where_clause {
             type Packed = #ident #packed;
 

@@ -61,7 +61,7 @@ pub(crate) fn stub(declaration: &Declaration, outline: &Outline) -> TokenStream 
             }
 
             #[automatically_derived]
-            #[allow(unused_variables, dead_code, clippy::all)]
+            #[allow(unused_variables, dead_code, non_snake_case, clippy::all)]
             impl #own_generics #ident #type_generics #where_clause {
                 #visibility const fn equations() -> __lagrange::Equations {
                     __lagrange::generated::equations("", "")

@@ -1,7 +1,7 @@
 const _: () = {
     use ::lagrange_core as __lagrange;
     #[automatically_derived]
-    #[allow(clippy::all, unused_parens)]
+    #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
     impl __lagrange::Lagrangian<1usize, 0usize> for Pendulum {
         type Scalar = f64;
         const NAME: &'static str = "Pendulum";
@@ -220,7 +220,14 @@ Conserved
   E = ½ m l² θ̇² − m l g cos θ   (T + U)
 ```*/
     #[automatically_derived]
-    #[allow(clippy::all, unused_parens, dead_code)]
+    #[allow(
+        clippy::all,
+        clippy::pedantic,
+        clippy::nursery,
+        unused_parens,
+        dead_code,
+        non_snake_case
+    )]
     impl Pendulum {
         /// The system and its equations of motion, to be read.
         const fn equations() -> __lagrange::Equations {
@@ -234,7 +241,7 @@ Conserved
 const _: () = {
     use ::lagrange_core as __lagrange;
     #[automatically_derived]
-    #[allow(clippy::all, unused_parens)]
+    #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
     impl __lagrange::Linearized<1usize, 0usize, 3usize> for Pendulum {
         const PARAMETERS: [&'static str; 3usize] = ["m", "l", "g"];
         fn parameters(&self) -> __lagrange::nalgebra::SVector<f64, 3usize> {
