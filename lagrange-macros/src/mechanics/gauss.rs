@@ -25,6 +25,10 @@ pub(crate) struct Form {
     pub(crate) definitions: Vec<Vec<(usize, Id)>>,
     /// b_i/H_ii of an acceleration that is tied to nothing else.
     pub(crate) alone: Vec<Option<Id>>,
+    /// The constraints a with σ_a F_aᵀF_a in H and −σ_a γ_a F_a in b, each with its σ: a solve for other h and γ takes
+    /// the same from its h.
+    #[allow(dead_code, reason = "solves for other right-hand sides read it")]
+    pub(crate) completing: Vec<(usize, Id)>,
 }
 
 impl Form {
@@ -42,7 +46,7 @@ impl Form {
 
     fn new(matrix: Vec<Vec<Id>>, linear: Vec<Id>, definitions: Vec<Vec<(usize, Id)>>) -> Self {
         let alone = vec![None; matrix.len()];
-        Self { matrix, linear, definitions, alone }
+        Self { matrix, linear, definitions, alone, completing: Vec::new() }
     }
 
     fn divide_what_is_alone(&mut self, graph: &mut Graph) {
