@@ -19,7 +19,8 @@ pub enum ConstraintKind {
 /// A mechanical system with `N` generalized coordinates and `M` scalar constraints.
 ///
 /// `#[derive(Lagrangian)]` implements it; the formulas are those of d/dt(∂L/∂q̇) = ∂L/∂q + Q + Fᵀλ
-/// (Milton (8.7), (8.13)) with the constraints Φ = lhs − rhs as written.
+/// (Milton (8.7), (8.13)) with the constraints Φ = lhs − rhs as written. A system behind a reference, or in a `Box`, an
+/// `Rc` or an `Arc`, is that system.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no equations of motion",
     label = "not a Lagrangian system",

@@ -9,6 +9,7 @@ mod lagrangian;
 #[cfg(feature = "alloc")]
 pub(crate) mod lookup;
 mod pack;
+mod pointers;
 mod state;
 
 pub use equations::Equations;

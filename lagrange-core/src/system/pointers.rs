@@ -1,0 +1,74 @@
+//! A system behind a reference or a smart pointer is that system.
+
+use nalgebra::{SMatrix, SVector};
+
+use super::facts::Facts;
+use super::integrability::{Classification, Integrals};
+use super::lagrangian::{ConstraintKind, Lagrangian};
+use super::pack::Pack;
+use super::state::{Solution, State};
+
+/// Forwards every method and constant, those that have a default too: it would hide what the system has.
+macro_rules! forward {
+    ($($pointer:ty),*) => {$(
+        #[diagnostic::do_not_recommend]
+        impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Lagrangian<N, M> for $pointer {
+            type Scalar = L::Scalar;
+            const NAME: &'static str = L::NAME;
+            const COORDINATES: [&'static str; N] = L::COORDINATES;
+            const CONSTRAINTS: [&'static str; M] = L::CONSTRAINTS;
+            const CONSTRAINT_KINDS: [ConstraintKind; M] = L::CONSTRAINT_KINDS;
+            const CONSTRAINT_CLASSES: [Classification; M] = L::CONSTRAINT_CLASSES;
+            const INTEGRALS: Option<Integrals> = L::INTEGRALS;
+            const OBSERVABLES: &'static [&'static str] = L::OBSERVABLES;
+            const FACTS: Facts = L::FACTS;
+
+            forward! { @methods
+                fn lagrangian(state: &State<Self::Scalar, N>) -> Self::Scalar;
+                fn energy(state: &State<Self::Scalar, N>) -> Self::Scalar;
+                fn momentum(state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, N>;
+                fn momentum_rate(state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, N>;
+                fn mass_matrix(state: &State<Self::Scalar, N>) -> SMatrix<Self::Scalar, N, N>;
+                fn forcing(state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, N>;
+                fn constraint_residual(state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, M>;
+                fn constraint_integral(index: usize, state: &State<Self::Scalar, N>) -> Option<Self::Scalar>;
+                fn constraint_rate(state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, M>;
+                fn constraint_jacobian(state: &State<Self::Scalar, N>) -> SMatrix<Self::Scalar, M, N>;
+                fn constraint_bias(state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, M>;
+                fn constraint_force(
+                    state: &State<Self::Scalar, N>,
+                    multipliers: &SVector<Self::Scalar, M>
+                ) -> SVector<Self::Scalar, N>;
+                fn accelerations(state: &State<Self::Scalar, N>) -> Solution<Self::Scalar, N, M>;
+                fn observable(
+                    index: usize,
+                    state: &State<Self::Scalar, N>,
+                    solution: &Solution<Self::Scalar, N, M>
+                ) -> Option<Self::Scalar>;
+                fn conserved(index: usize, state: &State<Self::Scalar, N>) -> Option<Self::Scalar>;
+            }
+        }
+
+        #[diagnostic::do_not_recommend]
+        impl<V, L: Pack<V>> Pack<V> for $pointer {
+            type Packed = L::Packed;
+
+            forward! { @methods
+                fn pack() -> Self::Packed;
+                fn place(packed: &mut Self::Packed, lane: usize) -> bool;
+            }
+        }
+    )*};
+    (@methods $(fn $method:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {$(
+        #[inline]
+        fn $method(&self, $($argument: $type),*) -> $result {
+            L::$method(self, $($argument),*)
+        }
+    )*};
+}
+
+forward!(&L);
+#[cfg(feature = "alloc")]
+forward!(alloc::boxed::Box<L>, alloc::rc::Rc<L>);
+#[cfg(all(feature = "alloc", target_has_atomic = "ptr"))]
+forward!(alloc::sync::Arc<L>);
