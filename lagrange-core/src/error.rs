@@ -49,13 +49,6 @@ pub enum Error {
         /// The end asked for.
         end: f64,
     },
-    /// The end time lies before the start.
-    EndTime {
-        /// The time of the state given.
-        start: f64,
-        /// The end asked for.
-        end: f64,
-    },
     /// Neither mass matrix nor constraints determine some accelerations.
     Singular {
         /// The coordinates that can accelerate freely.
@@ -242,10 +235,6 @@ impl Display for Error {
                 write!(f, "the {name} is {value}: it must be positive and finite")
             }
             Self::EndNotFinite { end } => write!(f, "cannot integrate to t = {end}: the end must be finite"),
-            Self::EndTime { start, end } => write!(
-                f,
-                "cannot integrate from t = {start} to t = {end}: the end must not be before the start"
-            ),
             Self::Singular { coordinates, time } => write!(
                 f,
                 "the equations do not determine the acceleration of {coordinates} at t = {time}: give it a mass or constrain it"

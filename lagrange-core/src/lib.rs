@@ -46,6 +46,7 @@ assert!((friction + 2.0 / 7.0 * 9.81 * 0.3_f64.sin()).abs() < 1e-12);
 extern crate alloc;
 extern crate self as lagrange_core;
 
+mod ending;
 #[cfg(feature = "std")]
 pub mod ensemble;
 mod error;
@@ -62,25 +63,24 @@ mod names;
 mod number;
 pub mod prelude;
 mod solution;
+mod statistics;
 mod system;
 #[cfg(feature = "alloc")]
 mod trajectory;
 
+pub use ending::Ending;
 #[cfg(feature = "std")]
 pub use ensemble::{Arrival, Ensemble, EnsembleProgress, Member, Outcome};
 pub use error::Error;
 #[cfg(feature = "alloc")]
 pub use function::Table;
 pub use function::{ByHand, Function, HandWritten};
-#[cfg(feature = "alloc")]
-pub use hamiltonian::HamiltonianFlow;
-pub use hamiltonian::{Hamiltonian, PhaseRate, PhaseState};
+pub use hamiltonian::{Hamiltonian, HamiltonianFlow, PhaseRate, PhaseState};
 pub use lagrange_macros::Lagrangian;
 pub use linearized::{Direction, Jacobian, Linearized, Partials, ResidualChange};
 #[cfg(feature = "alloc")]
 pub use linearized::{Equilibrium, Linearization, Stability};
 pub use motion::Simulate;
-#[cfg(feature = "alloc")]
 pub use motion::{Dop853, Dopri5, Method, Progress};
 pub use nalgebra;
 pub use names::{Entry, Names, Row};
@@ -88,12 +88,13 @@ pub use names::{Entry, Names, Row};
 pub use number::Lanes;
 pub use number::{Dual, Real, Scalar};
 pub use solution::{Adjustment, Consistent};
+pub use statistics::Statistics;
 pub use system::{
     Classification, Conserved, ConstraintKind, Equations, Evidence, Extent, Facts, Integrability, Integrals,
     Lagrangian, LinearPart, Pack, Packed, Shared, Solution, State, TotalDerivative,
 };
 #[cfg(feature = "alloc")]
-pub use trajectory::{Csv, Deviation, Drift, Ending, Sample, Statistics, Trajectory};
+pub use trajectory::{Csv, Deviation, Drift, Sample, Trajectory};
 
 /// The README's program is compiled and run with the documentation's examples.
 #[cfg(doctest)]

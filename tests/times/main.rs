@@ -1,5 +1,6 @@
 //! Times: counted from far away, near the round-off, very short and very long, and steps of the length asked for.
 
+mod backwards;
 mod extremes;
 mod far;
 mod steps;

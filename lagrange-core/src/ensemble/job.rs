@@ -6,13 +6,13 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use super::outcome::{Arrival, Member, Outcome};
+use crate::ending::Ending;
 use crate::error::Error;
-use crate::motion::run::{begin, run};
+use crate::motion::run::{Run, Watchdog};
 use crate::motion::{Adaptive, Batch, LagrangianFlow, Method, Pair, Seat};
 use crate::number::{Lanes, Real};
 use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, Pack, State};
-use crate::trajectory::Statistics;
 
 /// What an ensemble is to do.
 pub(super) struct Plan<'a, L, T, const N: usize> {
@@ -157,24 +157,20 @@ impl<'a, L, T: Real, const N: usize> Job<'a, L, T, N> {
         P: Method<L, N, M>,
     {
         check_finite(system, start)?;
-        let mut statistics = Statistics::default();
-        let ((start, _), mut memory) =
-            begin::<L, LagrangianFlow, _, N, M>(system, start, self.end, method, &mut statistics)?;
-        let mut state = start;
-        let accept = |next: State<T, N>, _: &[_], _| {
-            state = next;
-            self.observe(index, &state)
+        let (mut run, _) = Run::begin::<L, LagrangianFlow, _, M>(system, start, method)?;
+        let limits = Watchdog::new(method.limits(), &run.statistics);
+        let ending = loop {
+            if run.state.t == self.end {
+                break Ending::Complete { time: run.state.t.to_f64() };
+            }
+            if let Err(ending) = run.step(system, method, self.end, &limits) {
+                break ending;
+            }
+            if self.observe(index, &run.state).is_break() {
+                break Ending::Cancelled { time: run.state.t.to_f64() };
+            }
         };
-        let ending = run::<L, LagrangianFlow, _, N, M>(
-            system,
-            start,
-            self.end,
-            method,
-            &mut memory,
-            &mut statistics,
-            accept,
-        );
-        Ok(Arrival { state, ending, statistics })
+        Ok(Arrival { state: run.state, ending, statistics: run.statistics })
     }
 }
 

@@ -113,7 +113,6 @@ impl<'a, L, T: Real, const N: usize> Ensemble<'a, L, T, N> {
         P: Method<L, N, M> + Sync,
     {
         method.check()?;
-        let method = method.sparse();
         self.run(end, |job| job.one_by_one(&method))
     }
 
@@ -189,7 +188,6 @@ impl<L, const N: usize> Ensemble<'_, L, f64, N> {
         Adaptive<P>: Copy + Sync,
     {
         Method::<L, N, M>::check(&method)?;
-        let method = Method::<L, N, M>::sparse(method);
         self.run(end, |job| job.on_lanes(method))
     }
 }

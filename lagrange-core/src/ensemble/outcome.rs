@@ -2,10 +2,11 @@
 
 use core::fmt::{self, Display, Formatter};
 
+use crate::ending::Ending;
 use crate::error::Error;
 use crate::number::Real;
+use crate::statistics::Statistics;
 use crate::system::State;
-use crate::trajectory::{Ending, Statistics};
 
 /// What has become of one member.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,11 +4,12 @@ use core::fmt::{self, Display, Formatter};
 use core::str::FromStr;
 
 use super::outcome::{Arrival, Member, Outcome};
+use crate::ending::Ending;
 use crate::error::Error;
 use crate::names::Entry;
 use crate::number::{Real, vector};
+use crate::statistics::Statistics;
 use crate::system::State;
-use crate::trajectory::{Ending, Statistics};
 
 impl<T: Real, const N: usize> Member<T, N> {
     /// Its row of the table [`Outcome::csv`], to be written as soon as the member is done.

@@ -1,6 +1,5 @@
 //! The Hamiltonian side of a system: momenta instead of velocities.
 
-#[cfg(feature = "alloc")]
 mod flow;
 mod legendre;
 mod phase;
@@ -12,7 +11,6 @@ use core::ops::ControlFlow;
 
 use nalgebra::SVector;
 
-#[cfg(feature = "alloc")]
 pub use flow::HamiltonianFlow;
 pub use phase::{PhaseRate, PhaseState};
 

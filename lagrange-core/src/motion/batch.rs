@@ -9,12 +9,12 @@ use core::array::from_fn;
 use core::ops::ControlFlow;
 
 use super::Adaptive;
-use super::method::pair::{Pair, SLOPES, Slopes, advance};
+use super::method::pair::{Pair, SLOPES, Slopes, advance, check, error_needs_last, last};
 use super::seat::{Fate, Seat};
+use crate::ending::Ending;
 use crate::number::{Lanes, Scalar, power_of_epsilon, vector};
 use crate::solution::flow::{Flow, LagrangianFlow, Phase, PhasePoint};
 use crate::system::{Lagrangian, Pack, Packed, State};
-use crate::trajectory::Ending;
 
 /// Motions in lock-step.
 pub(crate) struct Batch<L: Pack<Lanes>, P, const N: usize, const M: usize> {
@@ -78,9 +78,9 @@ where
         // Free lanes compute what the first does, to no purpose and no harm.
         let splat = |y: &Phase<f64, N>| y.map(|half| half.map(Lanes::constant));
         let mut slopes = [zero; SLOPES];
-        slopes[0] = splat(&seat.memory.slopes[0]);
+        slopes[0] = splat(&seat.memory.slope);
         let y = splat(&seat.memory.y);
-        let seats = [Some(seat.begin()), None, None, None];
+        let seats = [Some(seat.begin(&method)), None, None, None];
         Self { method, system, y, slopes, seats }
     }
 
@@ -98,7 +98,7 @@ where
         match lane.filter(|&lane| seat.system.place(&mut self.system, lane)) {
             None => Some(seat),
             Some(lane) => {
-                self.seats[lane] = Some(seat.begin());
+                self.seats[lane] = Some(seat.begin(&self.method));
                 self.load(lane);
                 None
             }
@@ -133,20 +133,21 @@ where
 
     /// Stages, error and projection in all lanes, and the slopes at the end of the step.
     fn attempt(&mut self, plan: &[(f64, f64); Lanes::COUNT]) -> Attempt<N> {
+        const { check::<P>() };
         let h = Lanes::from(plan.map(|(h, _)| h));
         let end = Lanes::from(plan.map(|(_, time)| time));
         let mut trust = Trust::new();
         self.stages(h, &mut trust);
         let mut next = advance(&self.y, h, &self.slopes, P::WEIGHTS);
         trust.numbers(next.iter().flatten());
-        if P::error_needs_last() {
-            self.slope(P::LAST, end, &next, &mut trust);
+        if error_needs_last::<P>() {
+            self.slope(last::<P>(), end, &next, &mut trust);
         }
         let tolerance = self.method.tolerance::<f64>();
         let error = tolerance.error::<P, _, N>(&self.slopes, h, &self.y, &next).to_array();
         let projected = if M > 0 { self.project(&mut next, plan, &error) } else { [true; Lanes::COUNT] };
-        if M > 0 || !P::error_needs_last() {
-            self.slope(P::LAST, end, &next, &mut trust);
+        if M > 0 || !error_needs_last::<P>() {
+            self.slope(last::<P>(), end, &next, &mut trust);
         }
         let trusted = trust.lanes();
         Attempt { next, error, sound: from_fn(|lane| trusted[lane] && projected[lane]) }
@@ -204,7 +205,7 @@ where
         let accepted = Lanes::from(fates.map(|fate| if fate == Fate::Accepted { 1.0 } else { 0.0 }));
         for half in 0..2 {
             for i in 0..N {
-                let (y, slope) = (&mut self.y[half][i], self.slopes[P::LAST][half][i]);
+                let (y, slope) = (&mut self.y[half][i], self.slopes[last::<P>()][half][i]);
                 *y = next[half][i].select(accepted, *y);
                 self.slopes[0][half][i] = slope.select(accepted, self.slopes[0][half][i]);
             }
@@ -218,7 +219,7 @@ where
     fn load(&mut self, lane: usize) {
         if let Some(Seat { memory, .. }) = &self.seats[lane] {
             self.y.place(lane, &memory.y);
-            self.slopes[0].place(lane, &memory.slopes[0]);
+            self.slopes[0].place(lane, &memory.slope);
         }
     }
 

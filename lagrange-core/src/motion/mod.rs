@@ -2,9 +2,7 @@
 
 #[cfg(feature = "std")]
 mod batch;
-#[cfg(feature = "alloc")]
 pub(crate) mod method;
-#[cfg(feature = "alloc")]
 pub(crate) mod run;
 #[cfg(feature = "std")]
 mod seat;
@@ -14,15 +12,13 @@ mod tests;
 
 #[cfg(feature = "std")]
 pub(crate) use batch::Batch;
-#[cfg(feature = "alloc")]
 pub use method::{
-    Adaptive, Combination, Dop853, Dopri5, DormandPrince54, DormandPrince853, Limits, Method, Pair, Step,
+    Adaptive, Combination, Dop853, Dopri5, DormandPrince54, DormandPrince853, Interpolant, Limits, Method,
+    Node, Pair, Polynomial, Step,
 };
-#[cfg(feature = "alloc")]
 pub use run::Progress;
 #[cfg(feature = "std")]
 pub(crate) use seat::Seat;
 pub use simulate::Simulate;
 
-#[cfg(feature = "alloc")]
 pub use crate::solution::flow::{Flow, LagrangianFlow, Phase, PhasePoint, Slope};

@@ -1,15 +1,20 @@
 //! The loop from the first step to the ending, the same for every method.
 
+#[cfg(feature = "alloc")]
 use core::ops::ControlFlow;
 
 use super::method::{Limits, Method, Step};
+use crate::ending::Ending;
 use crate::error::Error;
 use crate::number::Real;
+use crate::solution::Adjustment;
 use crate::solution::consistent::{self, Consistent};
-use crate::solution::flow::{Flow, Phase};
+use crate::solution::flow::Flow;
 use crate::solution::solve::solve;
+use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State};
-use crate::trajectory::{Ending, Path, Statistics, Trajectory};
+#[cfg(feature = "alloc")]
+use crate::trajectory::{Path, Trajectory};
 
 /// How far an integration has come.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +29,100 @@ pub struct Progress {
     pub steps: usize,
 }
 
+/// A motion on its way: where it is, what its method carries and what it took so far.
+#[derive(Debug)]
+pub(crate) struct Run<X, T, const N: usize> {
+    pub(crate) memory: X,
+    pub(crate) state: State<T, N>,
+    /// Where the last step started.
+    pub(crate) before: State<T, N>,
+    pub(crate) statistics: Statistics,
+}
+
+impl<X, T: Real, const N: usize> Run<X, T, N> {
+    /// Before the first step: settings and start checked, the start made consistent, which moves it by the adjustment.
+    pub(crate) fn begin<L, F, P, const M: usize>(
+        system: &L,
+        state: &State<T, N>,
+        method: &P,
+    ) -> Result<(Self, Adjustment<T, N>), Error>
+    where
+        L: Lagrangian<N, M, Scalar = T>,
+        F: Flow<L, N, M>,
+        P: Method<L, N, M, F, Memory = X>,
+    {
+        method.check()?;
+        let (state, adjustment) = check_start(system, state)?;
+        let mut statistics = Statistics::default();
+        let memory = method.begin(system, &state, &mut statistics)?;
+        Ok((Self { memory, state, before: state, statistics }, adjustment))
+    }
+
+    /// One accepted step towards the end.
+    pub(crate) fn step<L, F, P, const M: usize>(
+        &mut self,
+        system: &L,
+        method: &P,
+        end: T,
+        limits: &Watchdog,
+    ) -> Result<(), Ending>
+    where
+        L: Lagrangian<N, M, Scalar = T>,
+        F: Flow<L, N, M>,
+        P: Method<L, N, M, F, Memory = X>,
+    {
+        let now = self.state.t;
+        loop {
+            if let Some(ending) = limits.exceeded(&self.statistics, now.to_f64()) {
+                return Err(ending);
+            }
+            match method.step(system, &mut self.memory, end, &mut self.statistics) {
+                Step::Accepted(next) if !is_towards(now, next.t, end) => {
+                    let reason = "its step does not lead towards the end";
+                    return Err(Ending::MethodFailed { time: now.to_f64(), reason });
+                }
+                Step::Accepted(next) => {
+                    self.statistics.accepted += 1;
+                    (self.before, self.state) = (self.state, next);
+                    return Ok(());
+                }
+                Step::Rejected => self.statistics.rejected += 1,
+                Step::Failed(ending) => return Err(ending),
+            }
+        }
+    }
+
+    /// One accepted step with what lies within.
+    pub(crate) fn step_with_interpolant<L, F, P, const M: usize>(
+        &mut self,
+        system: &L,
+        method: &P,
+        end: T,
+        limits: &Watchdog,
+    ) -> Result<P::Interpolant, Ending>
+    where
+        L: Lagrangian<N, M, Scalar = T>,
+        F: Flow<L, N, M>,
+        P: Method<L, N, M, F, Memory = X>,
+    {
+        loop {
+            self.step(system, method, end, limits)?;
+            let error = match method.interpolant(system, &mut self.memory, &mut self.statistics) {
+                Ok(interpolant) => return Ok(interpolant),
+                Err(error) => error,
+            };
+            self.state = self.before;
+            self.statistics.accepted -= 1;
+            self.statistics.rejected += 1;
+            if !method.take_back(&mut self.memory) {
+                return Err(Ending::of(error, self.state.t.to_f64()));
+            }
+        }
+    }
+}
+
 /// See [`Simulate::integrate_with`](crate::Simulate::integrate_with).
+#[cfg(feature = "alloc")]
 pub(crate) fn drive<'a, L, F, P, const N: usize, const M: usize>(
     system: &'a L,
     state: State<L::Scalar, N>,
@@ -37,84 +135,38 @@ where
     F: Flow<L, N, M>,
     P: Method<L, N, M, F>,
 {
-    let mut statistics = Statistics::default();
-    let ((start, adjustment), mut memory) = begin(system, &state, end, method, &mut statistics)?;
-    let mut path = Path::from(start);
-    let ending =
-        run(system, start, end, method, &mut memory, &mut statistics, |state, interpolant, steps| {
-            path.push(state, interpolant);
-            watch(Progress { start: start.t.to_f64(), time: state.t.to_f64(), end: end.to_f64(), steps })
-        });
-    Ok(Trajectory::new(system, path, ending, statistics, adjustment))
+    check_end(end)?;
+    let (mut run, adjustment) = Run::begin(system, &state, method)?;
+    let start = run.state.t.to_f64();
+    let mut path = Path::from(run.state);
+    let limits = Watchdog::new(method.limits(), &run.statistics);
+    let ending = loop {
+        let time = run.state.t.to_f64();
+        if run.state.t == end {
+            break Ending::Complete { time };
+        }
+        match run.step_with_interpolant(system, method, end, &limits) {
+            Ok(interpolant) => path.push(run.state, interpolant),
+            Err(ending) => break ending,
+        }
+        let (time, steps) = (run.state.t.to_f64(), run.statistics.accepted);
+        if watch(Progress { start, time, end: end.to_f64(), steps }).is_break() {
+            break Ending::Cancelled { time };
+        }
+    };
+    Ok(Trajectory::new(system, path.finish(), ending, run.statistics, adjustment))
 }
 
-/// Settings and start checked, the start made consistent, and what the method prepares there.
-pub(crate) fn begin<L, F, P, const N: usize, const M: usize>(
-    system: &L,
-    state: &State<L::Scalar, N>,
-    end: L::Scalar,
-    method: &P,
-    statistics: &mut Statistics,
-) -> Result<(Consistent<L::Scalar, N>, P::Memory), Error>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
-    P: Method<L, N, M, F>,
-{
-    method.check()?;
-    let consistent = check_start(system, state, end)?;
-    let memory = method.begin(system, &consistent.0, end, statistics)?;
-    Ok((consistent, memory))
-}
-
-/// Steps from the start to the ending; `accept` is told each new state with its interpolant and how many there are.
-pub(crate) fn run<L, F, P, const N: usize, const M: usize>(
-    system: &L,
-    mut state: State<L::Scalar, N>,
-    end: L::Scalar,
-    method: &P,
-    memory: &mut P::Memory,
-    statistics: &mut Statistics,
-    mut accept: impl FnMut(State<L::Scalar, N>, &[Phase<L::Scalar, N>], usize) -> ControlFlow<()>,
-) -> Ending
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
-    P: Method<L, N, M, F>,
-{
-    let limits = Watchdog::new(method.limits());
-    loop {
-        let time = state.t.to_f64();
-        if state.t >= end {
-            return Ending::Complete { time };
-        }
-        if let Some(ending) = limits.exceeded(statistics, time) {
-            return ending;
-        }
-        match method.step(system, memory, statistics) {
-            Step::Accepted { state: next, interpolant } => {
-                statistics.accepted += 1;
-                state = next;
-                if accept(state, interpolant, statistics.accepted).is_break() {
-                    return Ending::Cancelled { time: state.t.to_f64() };
-                }
-            }
-            Step::Rejected => statistics.rejected += 1,
-            Step::Failed(ending) => return ending,
-        }
-    }
+/// Whether a step from `now` to `next` leads towards the end, and not past it.
+fn is_towards<T: Real>(now: T, next: T, end: T) -> bool {
+    next > now && next <= end || next < now && next >= end
 }
 
 /// The start made consistent to round-off, where that is all it lacks.
 fn check_start<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
-    end: L::Scalar,
 ) -> Result<Consistent<L::Scalar, N>, Error> {
-    check_end(end)?;
-    if end < state.t {
-        return Err(Error::EndTime { start: state.t.to_f64(), end: end.to_f64() });
-    }
     solve(system, state)?;
     consistent::check(system, state)?;
     consistent::make_consistent(system, state, &[[false; N]; 2])
@@ -125,33 +177,34 @@ pub(crate) fn check_end<T: Real>(end: T) -> Result<(), Error> {
     if end.is_finite() { Ok(()) } else { Err(Error::EndNotFinite { end: end.to_f64() }) }
 }
 
-pub(super) struct Watchdog {
+/// Watches over the limits, from where it is made.
+pub(crate) struct Watchdog {
     limits: Limits,
+    /// Steps tried before.
+    before: usize,
     #[cfg(feature = "std")]
-    started: std::time::Instant,
+    started: Option<std::time::Instant>,
 }
 
 impl Watchdog {
-    pub(super) fn new(limits: Limits) -> Self {
+    pub(crate) fn new(limits: Limits, statistics: &Statistics) -> Self {
         Self {
             limits,
+            before: statistics.accepted + statistics.rejected,
             #[cfg(feature = "std")]
-            started: std::time::Instant::now(),
+            started: limits.wall_time.map(|_| std::time::Instant::now()),
         }
     }
 
-    #[cfg(feature = "std")]
-    pub(super) fn restart(&mut self) {
-        self.started = std::time::Instant::now();
-    }
-
     pub(super) fn exceeded(&self, statistics: &Statistics, time: f64) -> Option<Ending> {
-        let steps = statistics.accepted + statistics.rejected;
+        let steps = statistics.accepted + statistics.rejected - self.before;
         if steps >= self.limits.max_steps {
             return Some(Ending::StepLimit { time, steps });
         }
         #[cfg(feature = "std")]
-        if self.limits.wall_time.is_some_and(|limit| self.started.elapsed() >= limit) {
+        if let Some((limit, started)) = self.limits.wall_time.zip(self.started)
+            && started.elapsed() >= limit
+        {
             return Some(Ending::WallTimeLimit { time });
         }
         None

@@ -1,12 +1,14 @@
 //! A motion that has a SIMD lane, and what becomes of its steps.
 
+use super::method::pair::error_needs_last;
 use super::method::step::Memory;
 use super::method::{Adaptive, Method, Pair, Step};
-use super::run::{Watchdog, begin};
+use super::run::{Run, Watchdog};
+use crate::ending::Ending;
 use crate::error::Error;
 use crate::solution::flow::{LagrangianFlow, Phase};
+use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State};
-use crate::trajectory::{Ending, Statistics};
 
 /// A motion that has a lane, or waits for one.
 pub(crate) struct Seat<L, const N: usize, const M: usize> {
@@ -16,6 +18,7 @@ pub(crate) struct Seat<L, const N: usize, const M: usize> {
     pub(super) system: L,
     /// Its state and slopes are in the lane, and here only while a step is taken alone.
     pub(super) memory: Memory<f64, N, M>,
+    end: f64,
     limits: Watchdog,
     /// Why no step will do.
     failure: Option<Ending>,
@@ -39,23 +42,23 @@ impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Seat<L, 
         end: f64,
         method: &Adaptive<P>,
     ) -> Result<(Self, State<f64, N>), Error> {
-        let mut statistics = Statistics::default();
-        let ((start, _), memory) =
-            begin::<L, LagrangianFlow, _, N, M>(&system, state, end, method, &mut statistics)?;
-        let limits = Watchdog::new(method.limits());
-        Ok((Self { index, system, memory, statistics, limits, failure: None }, start))
+        let (run, _) = Run::begin::<L, LagrangianFlow, _, M>(&system, state, method)?;
+        let Run { mut memory, state, mut statistics, .. } = run;
+        method.aim::<L, LagrangianFlow, N, M>(&system, &mut memory, end, &mut statistics);
+        let limits = Watchdog::new(method.limits(), &statistics);
+        Ok((Self { index, system, memory, end, statistics, limits, failure: None }, state))
     }
 
     /// The clock on the wall starts when it is given a lane.
-    pub(super) fn begin(mut self) -> Self {
-        self.limits.restart();
+    pub(super) fn begin<P>(mut self, method: &Adaptive<P>) -> Self {
+        self.limits = Watchdog::new(method.limits(), &self.statistics);
         self
     }
 
     /// Why there is no further step to take.
     pub(crate) fn ending(&self) -> Option<Ending> {
         let time = self.memory.clock.now;
-        if time >= self.memory.clock.end {
+        if self.memory.clock.is_at_end() {
             return Some(Ending::Complete { time });
         }
         self.failure.clone().or_else(|| self.limits.exceeded(&self.statistics, time))
@@ -69,7 +72,7 @@ impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Seat<L, 
         method: &Adaptive<P>,
     ) -> Option<Fate> {
         let Memory { clock, control, active, .. } = &mut self.memory;
-        if active.contains(&false) || time <= clock.now {
+        if active.contains(&false) || !clock.is_ahead(time) {
             return None;
         }
         let accepted = method.accepts(error);
@@ -90,8 +93,9 @@ impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Seat<L, 
     /// As many evaluations as the step takes alone.
     fn count<P: Pair>(&mut self, accepted: bool) {
         let statistics = &mut self.statistics;
-        statistics.evaluations += P::STAGES.len() + usize::from(P::error_needs_last());
-        statistics.evaluations += usize::from(accepted && (M > 0 || !P::error_needs_last()));
+        let before = error_needs_last::<P>();
+        statistics.evaluations += P::STAGES.len() + usize::from(before);
+        statistics.evaluations += usize::from(accepted && (M > 0 || !before));
         statistics.accepted += usize::from(accepted);
         statistics.rejected += usize::from(!accepted);
     }
@@ -104,10 +108,10 @@ impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Seat<L, 
         slope: Phase<f64, N>,
         method: &Adaptive<P>,
     ) -> Fate {
-        let Self { system, memory, statistics, failure, .. } = self;
-        (memory.y, memory.slopes[0]) = (y, slope);
-        match Method::<L, N, M>::step(method, system, memory, statistics) {
-            Step::Accepted { .. } => {
+        let Self { system, memory, end, statistics, failure, .. } = self;
+        (memory.y, memory.slope) = (y, slope);
+        match Method::<L, N, M>::step(method, system, memory, *end, statistics) {
+            Step::Accepted(_) => {
                 statistics.accepted += 1;
                 Fate::AcceptedAlone
             }

@@ -106,7 +106,7 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
         consistent::make_consistent(self, state, &[q, v])
     }
 
-    /// The motion from a state to the time `end`, by the method named.
+    /// The motion from a state to the time `end`, by the method named; backwards where that lies before the state.
     ///
     /// The state must pass [`check_consistent`](Self::check_consistent); what is left is projected away, and [`Trajectory::adjustment`] tells how far that moved it.
     ///

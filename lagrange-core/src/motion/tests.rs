@@ -1,6 +1,7 @@
 use core::ops::ControlFlow;
 use std::time::Duration;
 
+use crate::ending::Ending;
 use crate::fixtures::{
     GRAVITY, Mechanism, dependent_on_the_manifold, free, oscillator, plane_pendulum, rolling_sphere,
     spherical_pendulum,
@@ -8,7 +9,7 @@ use crate::fixtures::{
 use crate::motion::Pair;
 use crate::motion::{Method, Progress};
 use crate::prelude::*;
-use crate::trajectory::{Ending, Sample};
+use crate::trajectory::Sample;
 
 type Pendulum = Mechanism<3, 1, 1>;
 
@@ -351,8 +352,6 @@ fn wrong_settings_are_refused() {
     }
     let error = system.integrate(start, 1.0, Dopri5::with_tolerance(-1.0)).unwrap_err();
     assert_eq!(std::format!("{error}"), "the relative tolerance is -1: it must be positive and finite");
-    let error = system.integrate(start, -1.0, Dop853::default()).unwrap_err();
-    assert_eq!(error, Error::EndTime { start: 0.0, end: -1.0 });
     for end in [f64::NAN, f64::INFINITY] {
         let error = system.integrate(start, end, Dop853::default()).unwrap_err();
         assert!(matches!(error, Error::EndNotFinite { .. }), "{error}");

@@ -2,7 +2,6 @@
 
 pub(crate) mod consistent;
 pub(crate) mod eliminate;
-#[cfg(feature = "alloc")]
 pub(crate) mod flow;
 pub(crate) mod kkt;
 pub(crate) mod newton;

@@ -2,10 +2,8 @@
 
 mod csv;
 mod drift;
-mod ending;
 mod path;
 mod sample;
-mod statistics;
 #[cfg(test)]
 mod tests;
 
@@ -15,15 +13,15 @@ use core::marker::PhantomData;
 
 pub use csv::Csv;
 pub use drift::{Deviation, Drift};
-pub use ending::Ending;
 pub(crate) use path::Path;
 pub use sample::Sample;
-pub use statistics::Statistics;
 
+use crate::ending::Ending;
 use crate::error::Error;
-use crate::number::{Real, smaller};
+use crate::number::Real;
 use crate::solution::Adjustment;
 use crate::solution::flow::{Flow, LagrangianFlow};
+use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State};
 
 /// The motion of a system from the start to where the integration stopped, which [`ending`](Self::ending) explains.
@@ -152,7 +150,8 @@ fn between<T: Real>(first: T, last: T, part: f64) -> T {
     if part == 1.0 {
         last
     } else if span.is_finite() {
-        smaller(first + span * done, last)
+        let time = first + span * done;
+        if (last - time) * span > T::constant(0.0) { time } else { last }
     } else {
         first * (T::constant(1.0) - done) + last * done
     }

@@ -1,70 +1,67 @@
 //! The accepted steps, and what lies between them.
 
+use alloc::boxed::Box;
 use alloc::vec::Vec;
-use core::array::from_fn;
 
+use crate::motion::Interpolant;
 use crate::number::Real;
-use crate::solution::flow::{Phase, PhasePoint};
+use crate::solution::flow::PhasePoint;
 use crate::system::State;
 
-/// The states at the ends of the steps, and the interpolants between them.
-pub(crate) struct Path<T, const N: usize> {
+/// The states at the ends of the steps, and the interpolants between them: those of one method, whose type is
+/// forgotten when it is finished.
+pub(crate) struct Path<T, const N: usize, S = Box<dyn Interpolants<T, N> + Send + Sync>> {
     pub(super) start: State<T, N>,
     pub(super) last: State<T, N>,
     /// The times at the starts of the steps.
     times: Vec<T>,
-    coefficients: Vec<Phase<T, N>>,
-    /// Coefficients a step.
-    stride: usize,
+    interpolants: S,
 }
 
-impl<T: Real, const N: usize> Path<T, N> {
+/// The interpolants of steps 0, 1, …
+pub(crate) trait Interpolants<T, const N: usize> {
+    /// The place at a time within this step.
+    fn at(&self, step: usize, t: T) -> Option<PhasePoint<T, N>>;
+}
+
+impl<T, const N: usize, I: Interpolant<T, N>> Interpolants<T, N> for Vec<I> {
+    fn at(&self, step: usize, t: T) -> Option<PhasePoint<T, N>> {
+        self.get(step).map(|interpolant| interpolant.at(t))
+    }
+}
+
+impl<T: Real, const N: usize, I: Interpolant<T, N> + Send + Sync + 'static> Path<T, N, Vec<I>> {
     pub(crate) fn from(start: State<T, N>) -> Self {
-        Self { start, last: start, times: Vec::new(), coefficients: Vec::new(), stride: 0 }
+        Self { start, last: start, times: Vec::new(), interpolants: Vec::new() }
     }
 
-    pub(crate) fn push(&mut self, state: State<T, N>, interpolant: &[Phase<T, N>]) {
+    pub(crate) fn push(&mut self, state: State<T, N>, interpolant: I) {
         self.times.push(self.last.t);
-        self.coefficients.extend_from_slice(interpolant);
-        self.stride = interpolant.len();
+        self.interpolants.push(interpolant);
         self.last = state;
     }
 
+    pub(crate) fn finish(self) -> Path<T, N> {
+        let Self { start, last, times, interpolants } = self;
+        Path { start, last, times, interpolants: Box::new(interpolants) }
+    }
+}
+
+impl<T: Real, const N: usize> Path<T, N> {
     /// Where step `step` starts.
     pub(super) fn start_of(&self, step: usize) -> Option<PhasePoint<T, N>> {
-        Some(self.point(step, *self.times.get(step)?))
+        self.interpolants.at(step, *self.times.get(step)?)
     }
 
     /// `None` before the start and from the last state on.
     pub(super) fn at(&self, t: T) -> Option<PhasePoint<T, N>> {
-        if !(t >= self.start.t && t < self.last.t) {
+        // Backwards, times are sorted by their negatives.
+        let backwards = self.last.t < self.start.t;
+        let directed = |t: T| if backwards { -t } else { t };
+        if !(directed(t) >= directed(self.start.t) && directed(t) < directed(self.last.t)) {
             return None;
         }
-        let step = self.times.partition_point(|start| *start <= t).checked_sub(1)?;
-        Some(self.point(step, t))
+        let step = self.times.partition_point(|start| directed(*start) <= directed(t)).checked_sub(1)?;
+        self.interpolants.at(step, t)
     }
-
-    fn point(&self, step: usize, t: T) -> PhasePoint<T, N> {
-        let time = |step: usize| self.times.get(step).copied().unwrap_or(self.last.t);
-        let (begin, length) = (time(step), time(step + 1) - time(step));
-        let (y, velocity) = evaluate(self.interpolant(step), (t - begin) / length);
-        PhasePoint { t, y, velocity: velocity.map(|x| x / length) }
-    }
-
-    fn interpolant(&self, step: usize) -> &[Phase<T, N>] {
-        let from = step * self.stride;
-        self.coefficients.get(from..from + self.stride).unwrap_or(&[])
-    }
-}
-
-/// r₀ + θ(r₁ + (1−θ)(r₂ + θ(r₃ + …))), and the derivative of its first half by θ.
-fn evaluate<T: Real, const N: usize>(coefficients: &[Phase<T, N>], theta: T) -> (Phase<T, N>, [T; N]) {
-    let (zero, one) = (T::constant(0.0), T::constant(1.0));
-    let (mut sum, mut slope) = ([[zero; N]; 2], [zero; N]);
-    for (k, r) in coefficients.iter().enumerate().rev() {
-        let (factor, sign) = if k % 2 == 0 { (theta, one) } else { (one - theta, -one) };
-        slope = from_fn(|i| sign * sum[0][i] + factor * slope[i]);
-        sum = from_fn(|half| from_fn(|i| r[half][i] + factor * sum[half][i]));
-    }
-    (sum, slope)
 }

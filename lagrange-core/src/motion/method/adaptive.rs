@@ -24,8 +24,6 @@ pub struct Adaptive<P> {
     pub(super) max_step: Option<f64>,
     pub(super) first_step: Option<f64>,
     pub(super) fixed_step: Option<f64>,
-    /// Whether steps come with their interpolants.
-    pub(super) is_dense: bool,
     limits: Limits,
     pair: PhantomData<P>,
 }
@@ -51,7 +49,6 @@ impl<P> Adaptive<P> {
             max_step: None,
             first_step: None,
             fixed_step: None,
-            is_dense: true,
             limits,
             pair: PhantomData,
         }

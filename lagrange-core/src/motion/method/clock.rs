@@ -3,6 +3,8 @@
 //! Each is a number, and a step is as long as the way from one to the next: so the lengths add up to the whole,
 //! however far from zero the time is, and a state belongs to the very time that it is given with. Rounded is the step
 //! asked for, and always down.
+//!
+//! Backwards everything is as forwards with the negatives of the times, which are numbers as well.
 
 use crate::number::{Real, Scalar, larger, smaller};
 
@@ -11,33 +13,70 @@ use crate::number::{Real, Scalar, larger, smaller};
 pub(crate) struct Clock<T> {
     pub(crate) now: T,
     pub(crate) end: T,
-    /// Where all steps are of one size: by how much the last may be longer, for the round-off of start, end and size.
-    slack: Option<T>,
+    /// 1 where the end is later, −1 where it is earlier.
+    direction: T,
+    /// The largest time so far, in magnitude, that of the end included.
+    farthest: T,
+    /// Where all steps are of one size, that.
+    fixed_step: Option<T>,
+    /// By how much the last of these may be longer, for the round-off of start, end and size.
+    slack: T,
 }
 
 impl<T: Real> Clock<T> {
-    pub(crate) fn new(start: T, end: T, fixed_step: Option<T>) -> Self {
-        let farthest = larger(Scalar::abs(start), Scalar::abs(end));
-        let round_off = T::constant(16.0 * T::EPSILON) * farthest;
-        Self { now: start, end, slack: fixed_step.map(|step| smaller(round_off, step * T::constant(0.5))) }
+    pub(crate) fn new(start: T, fixed_step: Option<T>) -> Self {
+        let (zero, one) = (T::constant(0.0), T::constant(1.0));
+        Self { now: start, end: start, direction: one, farthest: Scalar::abs(start), fixed_step, slack: zero }
     }
 
-    /// The length of the next step and the time after it. It is not longer than `step`, and has no length where no
+    /// Sets the end.
+    pub(crate) fn aim(&mut self, end: T) {
+        if end == self.end {
+            return;
+        }
+        self.end = end;
+        self.direction = T::constant(if end < self.now { -1.0 } else { 1.0 });
+        self.farthest = larger(larger(self.farthest, Scalar::abs(self.now)), Scalar::abs(end));
+        let round_off = T::constant(16.0 * T::EPSILON) * self.farthest;
+        self.slack = self.fixed_step.map_or(round_off, |step| smaller(round_off, step * T::constant(0.5)));
+    }
+
+    /// Goes on from this time, with no way to go yet.
+    pub(crate) fn set(&mut self, now: T) {
+        (self.now, self.end) = (now, now);
+    }
+
+    /// A length in the direction of time.
+    pub(crate) fn directed(&self, length: T) -> T {
+        self.direction * length
+    }
+
+    /// Whether there is no way left.
+    pub(crate) fn is_at_end(&self) -> bool {
+        self.directed(self.now) >= self.directed(self.end)
+    }
+
+    /// Whether this time lies ahead.
+    pub(crate) fn is_ahead(&self, time: T) -> bool {
+        self.directed(time) > self.directed(self.now)
+    }
+
+    /// The next step, signed, and the time after it. It is not longer than `step`, and has no length where no
     /// time is that near. What is left for less than two steps is halved, so that no tiny one remains.
     pub(crate) fn next(&self, step: T) -> (T, T) {
         let (left, half) = (self.left(), T::constant(0.5));
-        let time = match self.slack {
-            _ if left <= step => self.goal(),
-            Some(slack) if left - step <= slack => self.goal(),
-            None if left * half < step => self.after(left * half),
-            _ => self.after(step),
+        let is_fixed = self.fixed_step.is_some();
+        let time = match left <= step || is_fixed && left - step <= self.slack {
+            true => self.goal(),
+            false if !is_fixed && left * half < step => self.after(left * half),
+            false => self.after(step),
         };
         (time - self.now, time)
     }
 
-    /// The way to the end, or as much of it as a number can hold.
+    /// The length of the way to the end, or as much of it as a number can hold.
     pub(crate) fn left(&self) -> T {
-        self.goal() - self.now
+        self.directed(self.goal() - self.now)
     }
 
     /// The step, or the shortest that advances the time for sure where it is shorter than that.
@@ -45,9 +84,9 @@ impl<T: Real> Clock<T> {
         larger(step, T::constant(T::EPSILON) * Scalar::abs(self.now))
     }
 
-    /// Whether a step of this length leads to a later time.
+    /// Whether a step of this length leads to another time.
     pub(crate) fn advances_by(&self, step: T) -> bool {
-        self.next(step).1 > self.now
+        self.is_ahead(self.next(step).1)
     }
 
     /// The end; or zero on the way, where the end is farther off than any number.
@@ -57,11 +96,12 @@ impl<T: Real> Clock<T> {
 
     /// The last time that is not farther off than `step`.
     fn after(&self, step: T) -> T {
-        let time = self.now + step;
-        if time - self.now <= step {
-            return time;
+        let now = self.directed(self.now);
+        let time = now + step;
+        if time - now <= step {
+            return self.directed(time);
         }
         // From 0.6 to 1.2 of the way to the number before, and so that one.
-        time - T::constant(0.6 * T::EPSILON) * Scalar::abs(time)
+        self.directed(time - T::constant(0.6 * T::EPSILON) * Scalar::abs(time))
     }
 }

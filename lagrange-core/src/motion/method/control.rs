@@ -21,12 +21,13 @@ impl<T: Real> Control<T> {
         Self { step, previous_error: T::constant(1e-4), was_refused: false }
     }
 
-    /// After a step h with an error of this part of the tolerance: the PI controller, and no growth after a refusal.
+    /// After a step h, signed, with an error of this part of the tolerance: the PI controller, and no growth after a
+    /// refusal.
     pub(crate) fn accept<P: Pair>(&mut self, h: T, error: T) {
         let growth = T::constant(if self.was_refused { 1.0 } else { P::GROWTH });
         let damping = Scalar::powf(self.previous_error, T::constant(P::DAMPING));
         let factor = T::constant(SAFETY) * damping / larger(reduction::<P, T>(error), T::constant(1e-30));
-        self.step = h * larger(T::constant(P::SHRINK), smaller(factor, growth));
+        self.step = Scalar::abs(h) * larger(T::constant(P::SHRINK), smaller(factor, growth));
         self.previous_error = larger(error, T::constant(1e-4));
         self.was_refused = false;
     }
@@ -34,13 +35,13 @@ impl<T: Real> Control<T> {
     /// After a step h with too large an error.
     pub(crate) fn refuse<P: Pair>(&mut self, h: T, error: T) {
         let factor = T::constant(SAFETY) / reduction::<P, T>(error);
-        self.step = h * larger(T::constant(P::SHRINK), factor);
+        self.step = Scalar::abs(h) * larger(T::constant(P::SHRINK), factor);
         self.was_refused = true;
     }
 
     /// After a step h into a region where the equations have no solution.
     pub(crate) fn halve(&mut self, h: T) {
-        self.step = h * T::constant(0.5);
+        self.step = Scalar::abs(h) * T::constant(0.5);
         self.was_refused = true;
     }
 }
@@ -132,17 +133,21 @@ impl<P: Pair> Adaptive<P> {
         error: T,
     ) {
         clock.now = time;
+        // A step that the end has cut says nothing against the one planned, should the motion go on.
+        let (planned, is_at_end) = (control.step, clock.is_at_end());
         if let Some(step) = self.fixed_step {
             // What the rounding of the time has taken is given back.
-            control.step = T::constant(step) + (control.step - h);
+            let owed = if is_at_end { T::constant(0.0) } else { planned - Scalar::abs(h) };
+            control.step = T::constant(step) + owed;
         } else {
             control.accept::<P>(h, error);
-            control.step = self.fit(control.step, clock);
+            let step = if is_at_end { larger(control.step, planned) } else { control.step };
+            control.step = self.fit(step, clock);
         }
     }
 
     /// The step made long enough to advance the time, and cut to the longest allowed.
-    pub(crate) fn fit<T: Real>(&self, step: T, clock: &Clock<T>) -> T {
+    pub(super) fn fit<T: Real>(&self, step: T, clock: &Clock<T>) -> T {
         if self.fixed_step.is_some() {
             return step;
         }

@@ -206,4 +206,10 @@ impl Pair for DormandPrince853 {
     const DAMPING: f64 = 0.0;
     const SHRINK: f64 = 0.333;
     const GROWTH: f64 = 6.0;
+
+    type Coefficients<X: Copy + Send + Sync + 'static> = [X; 8];
+
+    fn coefficients<X: Copy + Send + Sync + 'static>(of: impl FnMut(usize) -> X) -> [X; 8] {
+        core::array::from_fn(of)
+    }
 }

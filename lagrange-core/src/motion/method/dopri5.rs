@@ -54,4 +54,10 @@ impl Pair for DormandPrince54 {
     const DAMPING: f64 = 0.04;
     const SHRINK: f64 = 0.2;
     const GROWTH: f64 = 10.0;
+
+    type Coefficients<X: Copy + Send + Sync + 'static> = [X; 5];
+
+    fn coefficients<X: Copy + Send + Sync + 'static>(of: impl FnMut(usize) -> X) -> [X; 5] {
+        core::array::from_fn(of)
+    }
 }

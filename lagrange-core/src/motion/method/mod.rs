@@ -5,24 +5,28 @@ pub(super) mod clock;
 pub(super) mod control;
 mod dop853;
 mod dopri5;
+mod interpolant;
 pub(super) mod pair;
 pub(super) mod step;
 
 pub use adaptive::Adaptive;
 pub use dop853::{Dop853, DormandPrince853};
 pub use dopri5::{Dopri5, DormandPrince54};
+pub use interpolant::{Interpolant, Node, Polynomial};
 pub use pair::{Combination, Pair};
 
+use crate::ending::Ending;
 use crate::error::Error;
 use crate::number::Real;
-use crate::solution::flow::{Flow, LagrangianFlow, Phase};
+use crate::solution::flow::{Flow, LagrangianFlow};
+use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State};
-use crate::trajectory::{Ending, Statistics};
 
 /// A way to step from one state to the next; a value, whose type says by its bounds where it applies, and
 /// whether it integrates Lagrange's equations or Hamilton's, the flow `F`.
 ///
-/// [`drive`](crate::Simulate::integrate) checks the start, loops, stores and ends; a method proposes steps.
+/// [`integrate`](crate::Simulate::integrate) and [`Motion`](crate::Motion) check the start, loop, store and end; a method
+/// proposes steps. It works without an allocator where its memory does.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a method that integrates `{L}`",
     note = "use `Dop853::default()` or `Dopri5::default()`; the system must be over `f64` or `f32`"
@@ -34,6 +38,8 @@ where
 {
     /// What is carried from step to step, working arrays included.
     type Memory;
+    /// What lies within a step.
+    type Interpolant: Interpolant<L::Scalar, N> + Send + Sync + 'static;
 
     /// When to give up.
     fn limits(&self) -> Limits;
@@ -44,15 +50,6 @@ where
     /// [`Error::Setting`] for one that cannot work.
     fn check(&self) -> Result<(), Error>;
 
-    /// The same method where only the states after the steps are of interest: it need not compute interpolants.
-    #[must_use]
-    fn sparse(self) -> Self
-    where
-        Self: Sized,
-    {
-        self
-    }
-
     /// Prepares the first step from a consistent state, with settings that have been checked.
     ///
     /// # Errors
@@ -61,34 +58,63 @@ where
         &self,
         system: &L,
         start: &State<L::Scalar, N>,
-        end: L::Scalar,
         statistics: &mut Statistics,
     ) -> Result<Self::Memory, Error>;
 
-    /// Tries one step. It never passes the end, and reaches it exactly.
-    fn step<'m>(
+    /// Goes on from another consistent state, or after the system has changed. What has been learnt about the length
+    /// of steps can be kept.
+    ///
+    /// # Errors
+    /// What evaluating the equations gives.
+    fn resume(
         &self,
         system: &L,
-        memory: &'m mut Self::Memory,
+        memory: &mut Self::Memory,
+        state: &State<L::Scalar, N>,
         statistics: &mut Statistics,
-    ) -> Step<'m, L::Scalar, N>;
+    ) -> Result<(), Error> {
+        *memory = self.begin(system, state, statistics)?;
+        Ok(())
+    }
+
+    /// Tries one step towards the time `end`, which may lie before the state. It never passes the end, and reaches it
+    /// exactly: a step that does not lead to a time between is [`Ending::MethodFailed`]. Evaluations are to be counted.
+    fn step(
+        &self,
+        system: &L,
+        memory: &mut Self::Memory,
+        end: L::Scalar,
+        statistics: &mut Statistics,
+    ) -> Step<L::Scalar, N>;
+
+    /// What lies within the step accepted last; asked for where it is of interest, before the next step and before the
+    /// system changes.
+    ///
+    /// # Errors
+    /// What evaluating the equations within the step gives.
+    fn interpolant(
+        &self,
+        system: &L,
+        memory: &mut Self::Memory,
+        statistics: &mut Statistics,
+    ) -> Result<Self::Interpolant, Error>;
+
+    /// Takes the last step back, because its interpolant is wanted and there is none; the next attempt is shorter. False
+    /// where that cannot be: the motion then ends before the step.
+    #[allow(unused_variables)]
+    fn take_back(&self, memory: &mut Self::Memory) -> bool {
+        false
+    }
 }
 
 /// What became of a step.
-#[derive(Debug)]
-pub enum Step<'m, T, const N: usize> {
+#[derive(Clone, Debug, PartialEq)]
+pub enum Step<T, const N: usize> {
     /// A new state on the constraints.
-    Accepted {
-        /// The state.
-        state: State<T, N>,
-        /// Coefficients r₀, r₁, … (as many in every step, none from a [`sparse`](Method::sparse) method) of the interpolant
-        /// r₀ + θ(r₁ + (1−θ)(r₂ + θ(r₃ + (1−θ)(…)))), θ from 0 to 1 over the step
-        /// (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.6).
-        interpolant: &'m [Phase<T, N>],
-    },
+    Accepted(State<T, N>),
     /// Too long; the next attempt is shorter.
     Rejected,
-    /// No step is short enough, or none will do.
+    /// No step is short enough, or none will do. What only the method knows is [`Ending::MethodFailed`].
     Failed(Ending),
 }
 

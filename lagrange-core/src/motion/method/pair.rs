@@ -10,8 +10,44 @@ pub type Combination = &'static [(usize, f64)];
 
 /// The coefficients of an explicit embedded pair with a continuous extension.
 ///
-/// Slopes are numbered 0 at the start, then the stages, then [`LAST`](Self::LAST) at the end of the step, then the
-/// stages of the interpolant.
+/// Slopes are numbered 0 at the start, then the stages, then one at the end of the step, then the stages of the
+/// interpolant; there is room for 16. Each row of coefficients names slopes before its own only; those of a stage add
+/// up to its node, the weights to 1, and those of errors and of the interpolant to 0. Where that is not so, a program
+/// that integrates with the pair does not compile:
+///
+/// ```compile_fail,E0080
+/// use lagrange_core::motion::{Adaptive, Combination, Pair};
+/// use lagrange_core::prelude::*;
+///
+/// #[derive(Clone, Copy)]
+/// struct Heun;
+///
+/// impl Pair for Heun {
+///     const NODES: &'static [f64] = &[0.0, 1.0, 1.0];
+///     const STAGES: &'static [Combination] = &[&[(0, 0.5)]]; // which is not its node
+///     const WEIGHTS: Combination = &[(0, 0.5), (1, 0.5)];
+///     const ERROR: Combination = &[(0, 0.5), (1, -0.5)];
+///     const LOWER_ERROR: Combination = &[];
+///     const INTERPOLATION_STAGES: &'static [Combination] = &[];
+///     const INTERPOLATION: &'static [Combination] = &[];
+///     const ORDER: f64 = 2.0;
+///     const DAMPING: f64 = 0.0;
+///     const SHRINK: f64 = 0.2;
+///     const GROWTH: f64 = 5.0;
+///     type Coefficients<X: Copy + Send + Sync + 'static> = [X; 4];
+///     fn coefficients<X: Copy + Send + Sync + 'static>(of: impl FnMut(usize) -> X) -> [X; 4] {
+///         core::array::from_fn(of)
+///     }
+/// }
+///
+/// #[derive(Lagrangian)]
+/// #[coordinates(x)]
+/// #[lagrangian(x_dot^2/2)]
+/// struct Free;
+///
+/// Free.integrate(State::at_rest([0.0]), 1.0, Adaptive::<Heun>::default())?;
+/// # Ok::<(), Error>(())
+/// ```
 pub trait Pair {
     /// The time of each slope as a fraction of the step.
     const NODES: &'static [f64];
@@ -31,22 +67,75 @@ pub trait Pair {
     const ORDER: f64;
     /// Weight of the previous error in the choice of the step (β of the PI controller).
     const DAMPING: f64;
-    /// The slope at the end of the step.
-    const LAST: usize = Self::STAGES.len() + 1;
     /// The new step is at least this times the old one …
     const SHRINK: f64;
     /// … and at most this times.
     const GROWTH: f64;
 
-    /// Whether the error can be had only with the slope at the end of the step.
-    #[inline]
-    fn error_needs_last() -> bool {
-        Self::ERROR.iter().any(|(slope, _)| *slope == Self::LAST)
+    /// All coefficients of the interpolant: an array of 4 and as many as [`INTERPOLATION`](Self::INTERPOLATION) has.
+    type Coefficients<X: Copy + Send + Sync + 'static>: AsRef<[X]> + Copy + Send + Sync + 'static;
+
+    /// The array of what belongs to 0, 1, …: [`from_fn`](core::array::from_fn).
+    fn coefficients<X: Copy + Send + Sync + 'static>(of: impl FnMut(usize) -> X) -> Self::Coefficients<X>;
+}
+
+/// The slope at the end of the step.
+pub(crate) const fn last<P: Pair>() -> usize {
+    P::STAGES.len() + 1
+}
+
+/// Whether the error can be had only with the slope at the end of the step.
+#[inline]
+pub(crate) fn error_needs_last<P: Pair>() -> bool {
+    P::ERROR.iter().any(|(slope, _)| *slope == last::<P>())
+}
+
+/// Room for the slopes of a step.
+pub(crate) const SLOPES: usize = 16;
+
+/// Fails to compile where the tables of a pair do not belong together.
+pub(crate) const fn check<P: Pair>() {
+    let slopes = last::<P>() + 1 + P::INTERPOLATION_STAGES.len();
+    assert!(slopes <= SLOPES, "a pair has at most 16 slopes");
+    assert!(P::NODES.len() == slopes, "a pair has one node for each slope");
+    assert!(
+        size_of::<P::Coefficients<u8>>() == 4 + P::INTERPOLATION.len(),
+        "room for the interpolant's coefficients"
+    );
+    assert!(
+        P::ORDER > 0.0 && P::SHRINK > 0.0 && P::SHRINK < 1.0 && P::GROWTH > 1.0,
+        "a step changes by these"
+    );
+    check_stages(P::STAGES, P::NODES, 1);
+    check_stages(P::INTERPOLATION_STAGES, P::NODES, last::<P>() + 1);
+    check_row(P::WEIGHTS, last::<P>(), 1.0);
+    check_row(P::ERROR, last::<P>() + 1, 0.0);
+    check_row(P::LOWER_ERROR, last::<P>() + 1, 0.0);
+    let mut row = 0;
+    while row < P::INTERPOLATION.len() {
+        check_row(P::INTERPOLATION[row], slopes, 0.0);
+        row += 1;
     }
 }
 
-/// Room for the slopes of the longest method here.
-pub(crate) const SLOPES: usize = 16;
+const fn check_stages(rows: &[Combination], nodes: &[f64], first: usize) {
+    let mut row = 0;
+    while row < rows.len() {
+        check_row(rows[row], first + row, nodes[first + row]);
+        row += 1;
+    }
+}
+
+const fn check_row(row: Combination, slopes: usize, expected: f64) {
+    let (mut sum, mut size, mut k) = (0.0, 1.0, 0);
+    while k < row.len() {
+        assert!(row[k].0 < slopes, "a row of coefficients names a slope that is not there yet");
+        sum += row[k].1;
+        size += row[k].1.abs();
+        k += 1;
+    }
+    assert!((sum - expected).abs() <= 1e-12 * size, "the coefficients of a row do not add up");
+}
 
 /// The slopes (q̇, q̈) of a step.
 pub(crate) type Slopes<T, const N: usize> = [Phase<T, N>; SLOPES];

@@ -6,60 +6,61 @@ use nalgebra::ComplexField;
 
 use super::clock::Clock;
 use super::control::{Control, Place};
-use super::pair::{Combination, Pair, SLOPES, Slopes, advance};
+use super::interpolant::{Polynomial, hermite};
+use super::pair::{Combination, Pair, SLOPES, Slopes, advance, check, error_needs_last, last};
 use super::{Adaptive, Limits, Method, Step};
+use crate::ending::Ending;
 use crate::error::Error;
 use crate::names::{Entry, Row};
 use crate::number::{Real, Scalar, vector};
 use crate::solution::flow::{Flow, Phase, PhasePoint, Slope};
 use crate::solution::solve::name;
+use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State};
-use crate::trajectory::{Ending, Statistics};
-
-/// Room for the longest interpolant here.
-const COEFFICIENTS: usize = 8;
 
 /// What a pair carries from step to step.
 #[derive(Clone, Debug)]
 pub struct Memory<T, const N: usize, const M: usize> {
     pub(crate) clock: Clock<T>,
-    pub(crate) y: Phase<T, N>,
     pub(crate) control: Control<T>,
-    /// The first is that of `y`.
-    pub(crate) slopes: Slopes<T, N>,
-    /// Which constraints the first slope rests on: as many as are independent at `y`.
+    /// Whether the length of a step has been chosen, which takes an end.
+    is_planned: bool,
+    /// Where the motion is.
+    pub(crate) y: Phase<T, N>,
+    /// The rates there.
+    pub(crate) slope: Phase<T, N>,
+    /// Which constraints they rest on: as many as are independent at `y`.
     pub(crate) active: [bool; M],
-    interpolant: [Phase<T, N>; COEFFICIENTS],
+    /// Of the step tried last, the first that of its start.
+    slopes: Slopes<T, N>,
+    /// The step that led here.
+    taken: Option<Taken<T, N, M>>,
+}
+
+/// A step taken: what its interpolant needs, and to take it back.
+#[derive(Clone, Debug)]
+struct Taken<T, const N: usize, const M: usize> {
+    from: Origin<T, N, M>,
+    h: T,
+    control: Control<T>,
+}
+
+/// Where a step starts.
+#[derive(Clone, Copy, Debug)]
+struct Origin<T, const N: usize, const M: usize> {
+    t: T,
+    y: Phase<T, N>,
+    active: [bool; M],
 }
 
 impl<T: Real, const N: usize, const M: usize> Memory<T, N, M> {
-    /// The length of the next step and the time after it.
+    /// The next step, signed, and the time after it.
     pub(crate) fn next(&self) -> (T, T) {
         self.clock.next(self.control.step)
     }
 
-    /// A place in the step that starts here.
-    fn point(&self, t: T, y: Phase<T, N>) -> PhasePoint<T, N> {
-        PhasePoint { t, y, velocity: self.slopes[0][0] }
-    }
-
-    /// The interpolant from `start` to `next`, with the slopes at both (II.6 and the code DOP853).
-    fn interpolate<P: Pair>(&mut self, h: T, start: &Phase<T, N>, next: &Phase<T, N>) {
-        let (first, last) = (&self.slopes[0], &self.slopes[P::LAST]);
-        for half in 0..2 {
-            for i in 0..N {
-                let rise = next[half][i] - start[half][i];
-                let bend = h * first[half][i] - rise;
-                self.interpolant[0][half][i] = start[half][i];
-                self.interpolant[1][half][i] = rise;
-                self.interpolant[2][half][i] = bend;
-                self.interpolant[3][half][i] = rise - h * last[half][i] - bend;
-            }
-        }
-        let zero = [[T::constant(0.0); N]; 2];
-        for (coefficient, row) in self.interpolant.iter_mut().skip(4).zip(P::INTERPOLATION) {
-            *coefficient = advance(&zero, h, &self.slopes, row);
-        }
+    fn origin(&self) -> Origin<T, N, M> {
+        Origin { t: self.clock.now, y: self.y, active: self.active }
     }
 }
 
@@ -78,7 +79,7 @@ impl<T> From<Error> for Refusal<T> {
 }
 
 /// Where a step ends, its error as a part of the tolerance, and which constraints its slope rests on.
-struct Accepted<T, const N: usize, const M: usize> {
+struct Reached<T, const N: usize, const M: usize> {
     y: Phase<T, N>,
     error: T,
     active: [bool; M],
@@ -91,6 +92,7 @@ where
     F: Flow<L, N, M>,
 {
     type Memory = Memory<L::Scalar, N, M>;
+    type Interpolant = Polynomial<L::Scalar, P::Coefficients<Phase<L::Scalar, N>>>;
 
     fn limits(&self) -> Limits {
         self.limits()
@@ -100,58 +102,56 @@ where
         self.check()
     }
 
-    fn sparse(mut self) -> Self {
-        self.is_dense = false;
-        self
-    }
-
     fn begin(
         &self,
         system: &L,
         start: &State<L::Scalar, N>,
-        end: L::Scalar,
         statistics: &mut Statistics,
     ) -> Result<Self::Memory, Error> {
         let zero = [[L::Scalar::constant(0.0); N]; 2];
-        let mut slopes = [zero; SLOPES];
-        let point = PhasePoint { t: start.t, y: F::phase(system, start), velocity: start.v.into() };
-        let Slope { rates, active, .. } = slope::<L, F, N, M>(system, &point, None, statistics)?;
-        slopes[0] = rates;
-        let clock = Clock::new(start.t, end, self.fixed_step.map(L::Scalar::constant));
-        let step = match self.fixed_step.or(self.first_step) {
-            Some(step) => L::Scalar::constant(step),
-            None => {
-                let first = (&slopes[0], &active);
-                self.estimate_step::<L, F, N, M>(system, &point, clock.left(), first, statistics)
-            }
+        let mut memory = Memory {
+            clock: Clock::new(start.t, self.fixed_step.map(L::Scalar::constant)),
+            control: Control::new(L::Scalar::constant(0.0)),
+            is_planned: false,
+            y: zero,
+            slope: zero,
+            active: [true; M],
+            slopes: [zero; SLOPES],
+            taken: None,
         };
-        let control = Control::new(self.fit(step, &clock));
-        let interpolant = [zero; COEFFICIENTS];
-        Ok(Memory { clock, y: point.y, control, slopes, active, interpolant })
+        Method::<L, N, M, F>::resume(self, system, &mut memory, start, statistics)?;
+        Ok(memory)
     }
 
-    fn step<'m>(
+    fn resume(
         &self,
         system: &L,
-        memory: &'m mut Self::Memory,
+        memory: &mut Self::Memory,
+        state: &State<L::Scalar, N>,
         statistics: &mut Statistics,
-    ) -> Step<'m, L::Scalar, N> {
+    ) -> Result<(), Error> {
+        let point = PhasePoint { t: state.t, y: F::phase(system, state), velocity: state.v.into() };
+        let Slope { rates, active, .. } = slope::<L, F, N, M>(system, &point, None, statistics)?;
+        (memory.y, memory.slope, memory.active, memory.taken) = (point.y, rates, active, None);
+        memory.clock.set(state.t);
+        Ok(())
+    }
+
+    fn step(
+        &self,
+        system: &L,
+        memory: &mut Self::Memory,
+        end: L::Scalar,
+        statistics: &mut Statistics,
+    ) -> Step<L::Scalar, N> {
+        self.aim::<L, F, N, M>(system, memory, end, statistics);
         let (h, time) = memory.next();
         let now = memory.clock.now.to_f64();
-        if time <= memory.clock.now {
+        if !memory.clock.is_ahead(time) {
             return Step::Failed(Ending::TimeTooCoarse { time: now, step: memory.control.step.to_f64() });
         }
         let ending = match self.attempt::<L, F, N, M>(system, memory, h, time, statistics) {
-            Ok(Accepted { y, error, active }) => {
-                (memory.y, memory.active) = (y, active);
-                memory.slopes[0] = memory.slopes[P::LAST];
-                self.after_acceptance(&mut memory.control, &mut memory.clock, (h, time), error);
-                let coefficients = if self.is_dense { 4 + P::INTERPOLATION.len() } else { 0 };
-                return Step::Accepted {
-                    state: State { t: time, q: vector(y[0]), v: vector(memory.slopes[0][0]) },
-                    interpolant: &memory.interpolant[..coefficients],
-                };
-            }
+            Ok(reached) => return Step::Accepted(self.take::<_, N, M>(memory, (h, time), &reached)),
             Err(Refusal::Inaccurate(error, place)) => {
                 memory.control.refuse::<P>(h, error);
                 Ending::StepTooSmall { time: now, entry: entry::<L, F, N, M>(place) }
@@ -161,15 +161,78 @@ where
                 Ending::of(error, now)
             }
         };
-        if self.fixed_step.is_some() || !memory.clock.advances_by(memory.control.step) {
-            return Step::Failed(ending);
-        }
-        Step::Rejected
+        if self.can_try_again(memory) { Step::Rejected } else { Step::Failed(ending) }
+    }
+
+    fn interpolant(
+        &self,
+        system: &L,
+        memory: &mut Self::Memory,
+        statistics: &mut Statistics,
+    ) -> Result<Self::Interpolant, Error> {
+        let now = memory.clock.now.to_f64();
+        let no_step = Error::OutsideTrajectory { time: now, start: now, end: now };
+        let Taken { from, h, .. } = memory.taken.as_ref().ok_or(no_step)?;
+        let more = (last::<P>() + 1, P::INTERPOLATION_STAGES);
+        stages::<P, L, F, N, M>(system, from, *h, &mut memory.slopes, more, statistics)?;
+        let slopes = &memory.slopes;
+        let (start, end) = ((&from.y, &slopes[0]), (&memory.y, &slopes[last::<P>()]));
+        let zero = [[L::Scalar::constant(0.0); N]; 2];
+        let coefficient = |k: usize| match k.checked_sub(4).and_then(|beyond| P::INTERPOLATION.get(beyond)) {
+            Some(row) => advance(&zero, *h, slopes, row),
+            None => hermite(k, *h, start, end),
+        };
+        Ok(Polynomial::new(from.t, *h, P::coefficients(coefficient)))
+    }
+
+    fn take_back(&self, memory: &mut Self::Memory) -> bool {
+        let Some(Taken { from, h, control }) = memory.taken.take() else { return false };
+        (memory.clock.now, memory.y, memory.active) = (from.t, from.y, from.active);
+        (memory.slope, memory.control) = (memory.slopes[0], control);
+        memory.control.halve(h);
+        self.can_try_again(memory)
     }
 }
 
 impl<P: Pair> Adaptive<P> {
-    /// Stages, error, projection, interpolant: whatever fails refuses the step.
+    /// Sets the end, and chooses the length of the first step.
+    pub(crate) fn aim<L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize>(
+        &self,
+        system: &L,
+        memory: &mut Memory<L::Scalar, N, M>,
+        end: L::Scalar,
+        statistics: &mut Statistics,
+    ) {
+        memory.clock.aim(end);
+        if !memory.is_planned {
+            let step = match self.fixed_step.or(self.first_step) {
+                Some(step) => L::Scalar::constant(step),
+                None => self.estimate_step::<L, F, N, M>(system, memory, statistics),
+            };
+            memory.control.step = self.fit(step, &memory.clock);
+            memory.is_planned = true;
+        }
+    }
+
+    /// Whether there is a shorter step to try; none is where all are of one size.
+    fn can_try_again<T: Real, const N: usize, const M: usize>(&self, memory: &Memory<T, N, M>) -> bool {
+        self.fixed_step.is_none() && memory.clock.advances_by(memory.control.step)
+    }
+
+    /// Moves to where the step has led.
+    fn take<T: Real, const N: usize, const M: usize>(
+        &self,
+        memory: &mut Memory<T, N, M>,
+        (h, time): (T, T),
+        reached: &Reached<T, N, M>,
+    ) -> State<T, N> {
+        memory.taken = Some(Taken { from: memory.origin(), h, control: memory.control.clone() });
+        (memory.y, memory.active, memory.slope) = (reached.y, reached.active, memory.slopes[last::<P>()]);
+        self.after_acceptance(&mut memory.control, &mut memory.clock, (h, time), reached.error);
+        State { t: time, q: vector(memory.y[0]), v: vector(memory.slope[0]) }
+    }
+
+    /// Stages, error, projection: whatever fails refuses the step.
     fn attempt<L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize>(
         &self,
         system: &L,
@@ -177,29 +240,29 @@ impl<P: Pair> Adaptive<P> {
         h: L::Scalar,
         time: L::Scalar,
         statistics: &mut Statistics,
-    ) -> Result<Accepted<L::Scalar, N, M>, Refusal<L::Scalar>> {
-        let start = memory.y;
-        stages::<P, L, F, N, M>(system, memory, h, (1, P::STAGES), statistics)?;
-        let mut next = memory.point(time, advance(&start, h, &memory.slopes, P::WEIGHTS));
-        check_finite::<L, N, M>(time, &next.y)?;
-        let mut active = memory.active;
-        if P::error_needs_last() {
-            active = last::<P, L, F, N, M>(system, memory, &next, Some(&active), statistics)?;
+    ) -> Result<Reached<L::Scalar, N, M>, Refusal<L::Scalar>> {
+        const { check::<P>() };
+        let (from, slopes) = (memory.origin(), &mut memory.slopes);
+        slopes[0] = memory.slope;
+        stages::<P, L, F, N, M>(system, &from, h, slopes, (1, P::STAGES), statistics)?;
+        let y = advance(&from.y, h, slopes, P::WEIGHTS);
+        check_finite::<L, N, M>(time, &y)?;
+        let mut next = PhasePoint { t: time, y, velocity: slopes[0][0] };
+        let mut active = from.active;
+        if error_needs_last::<P>() {
+            Slope { rates: slopes[last::<P>()], active, .. } =
+                slope::<L, F, N, M>(system, &next, Some(&active), statistics)?;
         }
-        let error = self.check_error(&memory.slopes, h, &start, &next.y)?;
+        let error = self.check_error(slopes, h, &from.y, &next.y)?;
         if M > 0 {
             next.y = F::phase(system, &F::project(system, &next)?);
         }
-        if M > 0 || !P::error_needs_last() {
-            active = last::<P, L, F, N, M>(system, memory, &next, None, statistics)?;
+        if M > 0 || !error_needs_last::<P>() {
+            Slope { rates: slopes[last::<P>()], active, .. } =
+                slope::<L, F, N, M>(system, &next, None, statistics)?;
         }
-        if self.is_dense {
-            stages::<P, L, F, N, M>(system, memory, h, (P::LAST + 1, P::INTERPOLATION_STAGES), statistics)?;
-            memory.interpolate::<P>(h, &start, &next.y);
-        }
-        Ok(Accepted { y: next.y, error, active })
+        Ok(Reached { y: next.y, error, active })
     }
-
     /// The error as a part of the tolerance, at most 1; nothing refuses a fixed step.
     fn check_error<T: Real, const N: usize>(
         &self,
@@ -208,6 +271,9 @@ impl<P: Pair> Adaptive<P> {
         before: &Phase<T, N>,
         after: &Phase<T, N>,
     ) -> Result<T, Refusal<T>> {
+        if self.fixed_step.is_some() {
+            return Ok(T::constant(0.0));
+        }
         let tolerance = self.tolerance::<T>();
         let error = tolerance.error::<P, T, N>(slopes, h, before, after);
         if !self.accepts(error) {
@@ -219,15 +285,14 @@ impl<P: Pair> Adaptive<P> {
     fn estimate_step<L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize>(
         &self,
         system: &L,
-        start: &PhasePoint<L::Scalar, N>,
-        span: L::Scalar,
-        (first, active): (&Phase<L::Scalar, N>, &[bool; M]),
+        memory: &Memory<L::Scalar, N, M>,
         statistics: &mut Statistics,
     ) -> L::Scalar {
-        let y = &start.y;
-        let guess = self.guess_step(y, first, span);
-        let euler = from_fn(|half| from_fn(|i| y[half][i] + guess * first[half][i]));
-        let point = PhasePoint { t: start.t + guess, y: euler, ..*start };
+        let Memory { clock, y, slope: first, active, .. } = memory;
+        let guess = self.guess_step(y, first, clock.left());
+        let h = clock.directed(guess);
+        let euler = from_fn(|half| from_fn(|i| y[half][i] + h * first[half][i]));
+        let point = PhasePoint { t: clock.now + h, y: euler, velocity: first[0] };
         match slope::<L, F, N, M>(system, &point, Some(active), statistics) {
             Ok(second) => self.first_step_from(guess, y, first, &second.rates),
             Err(_) => guess,
@@ -238,8 +303,9 @@ impl<P: Pair> Adaptive<P> {
 /// Evaluates the slopes of these stages, the first of which has the number given.
 fn stages<P, L, F, const N: usize, const M: usize>(
     system: &L,
-    memory: &mut Memory<L::Scalar, N, M>,
+    from: &Origin<L::Scalar, N, M>,
     h: L::Scalar,
+    slopes: &mut Slopes<L::Scalar, N>,
     (first, rows): (usize, &[Combination]),
     statistics: &mut Statistics,
 ) -> Result<(), Error>
@@ -248,34 +314,13 @@ where
     L: Lagrangian<N, M, Scalar: Real>,
     F: Flow<L, N, M>,
 {
-    let (t, start) = (memory.clock.now, memory.y);
-    let mut point = memory.point(t, start);
+    let mut point = PhasePoint { t: from.t, y: from.y, velocity: slopes[0][0] };
     for (number, row) in rows.iter().enumerate().map(|(i, row)| (first + i, row)) {
-        point.y = advance(&start, h, &memory.slopes, row);
-        point.t = t + h * L::Scalar::constant(P::NODES[number]);
-        let active = Some(&memory.active);
-        memory.slopes[number] = slope::<L, F, N, M>(system, &point, active, statistics)?.rates;
+        point.y = advance(&from.y, h, slopes, row);
+        point.t = from.t + h * L::Scalar::constant(P::NODES[number]);
+        slopes[number] = slope::<L, F, N, M>(system, &point, Some(&from.active), statistics)?.rates;
     }
     Ok(())
-}
-
-/// Evaluates the slope at the end of the step; which constraints it rests on.
-#[inline]
-fn last<P, L, F, const N: usize, const M: usize>(
-    system: &L,
-    memory: &mut Memory<L::Scalar, N, M>,
-    end: &PhasePoint<L::Scalar, N>,
-    active: Option<&[bool; M]>,
-    statistics: &mut Statistics,
-) -> Result<[bool; M], Error>
-where
-    P: Pair,
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
-{
-    let slope = slope::<L, F, N, M>(system, end, active, statistics)?;
-    memory.slopes[P::LAST] = slope.rates;
-    Ok(slope.active)
 }
 
 /// The rates of the phase, counted.

@@ -65,6 +65,13 @@ pub enum Ending {
         /// The constraint at fault: [`Error::NotProjected`].
         error: Error,
     },
+    /// The method has a reason of its own.
+    MethodFailed {
+        /// The last time reached.
+        time: f64,
+        /// What it says.
+        reason: &'static str,
+    },
     /// The limit on steps.
     StepLimit {
         /// The last time reached.
@@ -96,6 +103,7 @@ impl Ending {
             | Self::Unsolved { time, .. }
             | Self::NotFinite { time, .. }
             | Self::OffConstraints { time, .. }
+            | Self::MethodFailed { time, .. }
             | Self::StepLimit { time, .. }
             | Self::WallTimeLimit { time }
             | Self::Cancelled { time } => time,
@@ -137,6 +145,9 @@ impl Display for Ending {
             | Self::OffConstraints { time, error } => write!(f, "stopped at t = {time}: {error}"),
             Self::NotFinite { time, row } => {
                 write!(f, "stopped at t = {time}: the equations are not finite in the row of {row}")
+            }
+            Self::MethodFailed { time, reason } => {
+                write!(f, "stopped at t = {time} by the method: {reason}")
             }
             Self::StepLimit { time, steps } => {
                 write!(f, "stopped at t = {time} after {steps} steps, the limit; raise it with `max_steps`")

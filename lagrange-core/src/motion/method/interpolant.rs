@@ -1,0 +1,81 @@
+//! What lies between the two ends of a step.
+
+use core::array::from_fn;
+
+use crate::number::Real;
+use crate::solution::flow::{Phase, PhasePoint};
+
+/// The motion within one step, as a method knows it: continuous, and equal to the states at both ends.
+///
+/// It knows where its step starts and how long it is.
+pub trait Interpolant<T, const N: usize> {
+    /// The place at a time within the step, and a velocity there or nearby.
+    fn at(&self, t: T) -> PhasePoint<T, N>;
+}
+
+/// A polynomial r₀ + θ(r₁ + (1−θ)(r₂ + θ(r₃ + (1−θ)(…)))), θ from 0 to 1 over the step (Hairer, Nørsett and Wanner,
+/// *Solving Ordinary Differential Equations I*, II.6). `C` are the coefficients r₀, r₁, …, an array of [`Phase`]s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Polynomial<T, C> {
+    start: T,
+    length: T,
+    coefficients: C,
+}
+
+impl<T: Real, C> Polynomial<T, C> {
+    /// Of a step from the time `start`, of this length, negative where it leads back.
+    pub fn new(start: T, length: T, coefficients: C) -> Self {
+        Self { start, length, coefficients }
+    }
+}
+
+/// The place and its rates at one end of a step.
+pub type Node<T, const N: usize> = (Phase<T, N>, Phase<T, N>);
+
+/// Coefficient `k` of the cubic polynomial between two places with these rates, a step of `length` apart.
+#[inline]
+pub(super) fn hermite<T: Real, const N: usize>(
+    k: usize,
+    length: T,
+    (start, first): (&Phase<T, N>, &Phase<T, N>),
+    (end, last): (&Phase<T, N>, &Phase<T, N>),
+) -> Phase<T, N> {
+    let entry = |half: usize, i: usize| {
+        let rise = end[half][i] - start[half][i];
+        let bend = length * first[half][i] - rise;
+        match k {
+            0 => start[half][i],
+            1 => rise,
+            2 => bend,
+            _ => rise - length * last[half][i] - bend,
+        }
+    };
+    from_fn(|half| from_fn(|i| entry(half, i)))
+}
+
+impl<T: Real, const N: usize> Polynomial<T, [Phase<T, N>; 4]> {
+    /// The cubic polynomial with the places and rates at both ends of a step: its error is of the fourth order.
+    pub fn hermite(start: T, length: T, first: &Node<T, N>, last: &Node<T, N>) -> Self {
+        let coefficient = |k| hermite(k, length, (&first.0, &first.1), (&last.0, &last.1));
+        Self::new(start, length, from_fn(coefficient))
+    }
+}
+
+impl<T: Real, const N: usize, C: AsRef<[Phase<T, N>]>> Interpolant<T, N> for Polynomial<T, C> {
+    fn at(&self, t: T) -> PhasePoint<T, N> {
+        let (y, velocity) = evaluate(self.coefficients.as_ref(), (t - self.start) / self.length);
+        PhasePoint { t, y, velocity: velocity.map(|x| x / self.length) }
+    }
+}
+
+/// The polynomial, and the derivative of its first half by θ.
+fn evaluate<T: Real, const N: usize>(coefficients: &[Phase<T, N>], theta: T) -> (Phase<T, N>, [T; N]) {
+    let (zero, one) = (T::constant(0.0), T::constant(1.0));
+    let (mut sum, mut slope) = ([[zero; N]; 2], [zero; N]);
+    for (k, r) in coefficients.iter().enumerate().rev() {
+        let (factor, sign) = if k % 2 == 0 { (theta, one) } else { (one - theta, -one) };
+        slope = from_fn(|i| sign * sum[0][i] + factor * slope[i]);
+        sum = from_fn(|half| from_fn(|i| r[half][i] + factor * sum[half][i]));
+    }
+    (sum, slope)
+}
