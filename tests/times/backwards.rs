@@ -27,7 +27,7 @@ struct Winch<T> {
 const WINCH: Winch<f64> = Winch { g: 9.81, l: 1.0, rate: 0.05, c: 0.1 };
 
 fn hanging() -> State<f64, 2> {
-    WINCH.make_consistent(&State::new([0.6, -0.8], [1.0, 0.5])).unwrap().0
+    WINCH.make_consistent(&State::new([0.6, -0.8], [1.0, 0.5])).expect("a state nearby").0
 }
 
 fn checked_backwards(method: impl Method<Spring<f64>, 1, 0> + Copy, bound: impl Fn(usize) -> f64) {
@@ -35,7 +35,7 @@ fn checked_backwards(method: impl Method<Spring<f64>, 1, 0> + Copy, bound: impl 
         [(0.0, 1.0, -20.0), (1.7e9, 1e3, 1.7e9 - 0.125), (-3.0, 1e3, -3.5), (2.0, 1e-12, -2e13)]
     {
         let spring = Spring { omega };
-        let path = spring.integrate(State::at_rest([1.0]).at_time(start), end, method).unwrap();
+        let path = spring.integrate(State::at_rest([1.0]).at_time(start), end, method).expect("a start");
         assert_eq!(*path.ending(), Ending::Complete { time: end });
         assert!(path.steps().map(|step| step.time()).is_sorted_by(|a, b| a > b));
         let bound = bound(path.statistics().accepted);
@@ -136,7 +136,7 @@ fn single_precision_goes_back() {
 fn lanes_go_both_ways() {
     let member = |k: usize| {
         let start = State::new([0.1 * k as f64, 1.0], [0.0, 0.3]);
-        (DoublePendulum { g: 9.81 }, start.at_time(if k % 3 == 0 { 0.0 } else { 4.0 }))
+        (DoublePendulum { g: 9.81 }, start.at_time(if k.is_multiple_of(3) { 0.0 } else { 4.0 }))
     };
     let ensemble = || Ensemble::from_fn(23, member);
     let lanes = ensemble().integrate_on_lanes(2.0, Dop853::with_tolerance(1e-11)).unwrap();
