@@ -157,3 +157,5 @@ impl Display for Ending {
         }
     }
 }
+
+impl core::error::Error for Ending {}

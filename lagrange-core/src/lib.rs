@@ -81,7 +81,7 @@ pub use linearized::{Direction, Jacobian, Linearized, Partials, ResidualChange};
 #[cfg(feature = "alloc")]
 pub use linearized::{Equilibrium, Linearization, Stability};
 pub use motion::Simulate;
-pub use motion::{Dop853, Dopri5, Method, Progress};
+pub use motion::{Dop853, Dopri5, Method, Motion, Progress, RungeKutta4, runge_kutta_step};
 pub use nalgebra;
 pub use names::{Entry, Names, Row};
 #[cfg(feature = "std")]

@@ -7,7 +7,7 @@ pub use crate::function::Function;
 pub use crate::hamiltonian::{Hamiltonian, PhaseState};
 pub use crate::linearized::Linearized;
 pub use crate::motion::Simulate;
-pub use crate::motion::{Dop853, Dopri5};
+pub use crate::motion::{Dop853, Dopri5, Motion};
 pub use crate::number::Scalar;
 pub use crate::system::State;
 #[cfg(feature = "alloc")]

@@ -7,6 +7,7 @@ pub(crate) mod run;
 #[cfg(feature = "std")]
 mod seat;
 pub(crate) mod simulate;
+mod steered;
 #[cfg(test)]
 mod tests;
 
@@ -14,11 +15,12 @@ mod tests;
 pub(crate) use batch::Batch;
 pub use method::{
     Adaptive, Combination, Dop853, Dopri5, DormandPrince54, DormandPrince853, Interpolant, Limits, Method,
-    Node, Pair, Polynomial, Step,
+    Node, Pair, Polynomial, RungeKutta4, Step, runge_kutta_step,
 };
 pub use run::Progress;
 #[cfg(feature = "std")]
 pub(crate) use seat::Seat;
 pub use simulate::Simulate;
+pub use steered::Motion;
 
 pub use crate::solution::flow::{Flow, LagrangianFlow, Phase, PhasePoint, Slope};

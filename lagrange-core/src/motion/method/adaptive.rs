@@ -38,18 +38,13 @@ impl<P> Default for Adaptive<P> {
 impl<P> Adaptive<P> {
     /// This relative and absolute tolerance.
     pub fn with_tolerance(tolerance: f64) -> Self {
-        let limits = Limits {
-            max_steps: 100_000,
-            #[cfg(feature = "std")]
-            wall_time: None,
-        };
         Self {
             relative: tolerance,
             absolute: tolerance,
             max_step: None,
             first_step: None,
             fixed_step: None,
-            limits,
+            limits: Limits::default(),
             pair: PhantomData,
         }
     }

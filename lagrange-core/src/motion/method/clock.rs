@@ -74,6 +74,13 @@ impl<T: Real> Clock<T> {
         (time - self.now, time)
     }
 
+    /// After a step to this time where all are of one size, and this one was planned so long: the length to plan for the
+    /// next, with what the rounding of the time has taken given back.
+    pub(crate) fn tick(&mut self, (h, time): (T, T), planned: T, size: T) -> T {
+        self.now = time;
+        if self.is_at_end() { size } else { size + (planned - Scalar::abs(h)) }
+    }
+
     /// The length of the way to the end, or as much of it as a number can hold.
     pub(crate) fn left(&self) -> T {
         self.directed(self.goal() - self.now)

@@ -132,18 +132,16 @@ impl<P: Pair> Adaptive<P> {
         (h, time): (T, T),
         error: T,
     ) {
-        clock.now = time;
-        // A step that the end has cut says nothing against the one planned, should the motion go on.
-        let (planned, is_at_end) = (control.step, clock.is_at_end());
-        if let Some(step) = self.fixed_step {
-            // What the rounding of the time has taken is given back.
-            let owed = if is_at_end { T::constant(0.0) } else { planned - Scalar::abs(h) };
-            control.step = T::constant(step) + owed;
-        } else {
-            control.accept::<P>(h, error);
-            let step = if is_at_end { larger(control.step, planned) } else { control.step };
-            control.step = self.fit(step, clock);
+        if let Some(size) = self.fixed_step {
+            control.step = clock.tick((h, time), control.step, T::constant(size));
+            return;
         }
+        clock.now = time;
+        let planned = control.step;
+        control.accept::<P>(h, error);
+        // A step that the end has cut says nothing against the one planned, should the motion go on.
+        let step = if clock.is_at_end() { larger(control.step, planned) } else { control.step };
+        control.step = self.fit(step, clock);
     }
 
     /// The step made long enough to advance the time, and cut to the longest allowed.

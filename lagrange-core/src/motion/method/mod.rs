@@ -7,6 +7,7 @@ mod dop853;
 mod dopri5;
 mod interpolant;
 pub(super) mod pair;
+mod runge_kutta;
 pub(super) mod step;
 
 pub use adaptive::Adaptive;
@@ -14,6 +15,7 @@ pub use dop853::{Dop853, DormandPrince853};
 pub use dopri5::{Dopri5, DormandPrince54};
 pub use interpolant::{Interpolant, Node, Polynomial};
 pub use pair::{Combination, Pair};
+pub use runge_kutta::{RungeKutta4, runge_kutta_step};
 
 use crate::ending::Ending;
 use crate::error::Error;
@@ -126,4 +128,15 @@ pub struct Limits {
     /// Time by the clock on the wall.
     #[cfg(feature = "std")]
     pub wall_time: Option<std::time::Duration>,
+}
+
+/// At most 100 000 steps, no limit on wall time.
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            max_steps: 100_000,
+            #[cfg(feature = "std")]
+            wall_time: None,
+        }
+    }
 }

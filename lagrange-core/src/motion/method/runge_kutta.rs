@@ -1,0 +1,206 @@
+//! The classical method of Runge and Kutta, on any scalar.
+
+use core::array::from_fn;
+
+use nalgebra::ComplexField;
+
+use super::clock::Clock;
+use super::interpolant::Polynomial;
+use super::{Limits, Method, Step};
+use crate::ending::Ending;
+use crate::error::Error;
+use crate::names::Row;
+use crate::number::{Real, Scalar, vector};
+use crate::solution::consistent::{BOTH, project};
+use crate::solution::flow::Phase;
+use crate::solution::solve::{first_row, solve};
+use crate::statistics::Statistics;
+use crate::system::{Lagrangian, State};
+
+/// The state a time `h` later (earlier where it is negative), by one step of the classical method of Runge and Kutta of
+/// order 4 (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, table II.1.2).
+///
+/// A plain function of the emitted accelerations, for every scalar: `f64` and `f32` in real time, SIMD
+/// [lanes](crate::Lanes), each with a step of its own, and dual numbers, which carry derivatives by the start or by
+/// parameters through a motion. It takes four evaluations whatever happens, decides nothing and checks no error: the
+/// step has to be short enough, and half of it tells whether it is. The state is NaN, lane by lane, where the
+/// elimination of the accelerations cannot vouch for them.
+///
+/// Constraints hold in the accelerations only: coordinates and velocities leave them as the errors of the steps add
+/// up. [`RungeKutta4`] projects every step; so can [`make_consistent`](crate::Simulate::make_consistent), from time to time.
+///
+/// ```
+/// use lagrange_core::{prelude::*, runge_kutta_step};
+///
+/// /// A cart with a motor.
+/// #[derive(Lagrangian)]
+/// #[coordinates(x)]
+/// #[lagrangian(m/2 * x_dot^2)]
+/// #[force(x: u)]
+/// struct Cart<T> { m: T, u: T }
+///
+/// let (mut cart, mut state) = (Cart { m: 2.0_f32, u: 0.0 }, State::at_rest([1.0]));
+/// for _ in 0..1000 {
+///     cart.u = -3.0 * state.q[0] - 4.0 * state.v[0];
+///     state = runge_kutta_step(&cart, &state, 0.01);
+/// }
+/// assert!(state.q[0].abs() < 1e-4);
+/// ```
+#[inline]
+#[must_use]
+pub fn runge_kutta_step<L: Lagrangian<N, M>, const N: usize, const M: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+    h: L::Scalar,
+) -> State<L::Scalar, N> {
+    let number = L::Scalar::constant;
+    let (start, half): (Phase<_, N>, _) = ([state.q.into(), state.v.into()], h * number(0.5));
+    let mut doubt = number(0.0);
+    let mut slope = |after: L::Scalar, y: &Phase<L::Scalar, N>| -> Phase<L::Scalar, N> {
+        let at = State { t: state.t + after, q: vector(y[0]), v: vector(y[1]) };
+        let solution = system.accelerations(&at);
+        doubt = doubt + doubt_of(solution.pivot);
+        [y[1], solution.accelerations.into()]
+    };
+    let moved = |by: L::Scalar, slope: &Phase<L::Scalar, N>| -> Phase<L::Scalar, N> {
+        from_fn(|half| from_fn(|i| start[half][i] + by * slope[half][i]))
+    };
+    let a = slope(number(0.0), &start);
+    let b = slope(half, &moved(half, &a));
+    let c = slope(half, &moved(half, &b));
+    let d = slope(h, &moved(h, &c));
+    let mean = from_fn(|half| from_fn(|i| a[half][i] + number(2.0) * (b[half][i] + c[half][i]) + d[half][i]));
+    let [q, v] = moved(h / number(6.0), &mean).map(|half| half.map(|x| x + doubt));
+    State { t: state.t + h, q: vector(q), v: vector(v) }
+}
+
+/// Nothing, or NaN where the elimination has lost more than a third of the digits.
+#[inline]
+fn doubt_of<T: Scalar>(pivot: T) -> T {
+    let (nothing, nan) = (T::constant(0.0), T::constant(f64::NAN));
+    pivot.by_order(T::constant(6e-6), nan, nan, nothing)
+}
+
+/// The classical method of Runge and Kutta of order 4, with steps of one size: [`runge_kutta_step`], and each step
+/// projected onto the constraints.
+///
+/// For loops that have to take the same time whatever happens; nothing checks the error. Between the steps lies the cubic
+/// polynomial with the states and rates at both ends. The last step before an end may be shorter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[must_use]
+pub struct RungeKutta4 {
+    step: f64,
+    limits: Limits,
+}
+
+impl RungeKutta4 {
+    /// Steps of this size, at most 100 000 of them.
+    pub fn with_step(step: f64) -> Self {
+        Self { step, limits: Limits::default() }
+    }
+
+    /// How many steps may be taken.
+    pub fn max_steps(mut self, steps: usize) -> Self {
+        self.limits.max_steps = steps;
+        self
+    }
+}
+
+/// What the method carries from step to step.
+#[derive(Clone, Debug)]
+pub struct Walk<T, const N: usize> {
+    clock: Clock<T>,
+    /// The length of the next step.
+    planned: T,
+    before: State<T, N>,
+    state: State<T, N>,
+}
+
+impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Method<L, N, M> for RungeKutta4 {
+    type Memory = Walk<L::Scalar, N>;
+    type Interpolant = Polynomial<L::Scalar, [Phase<L::Scalar, N>; 4]>;
+
+    fn limits(&self) -> Limits {
+        self.limits
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        match self.step > 0.0 && self.step.is_finite() {
+            true => Ok(()),
+            false => Err(Error::Setting { name: "fixed step", value: self.step }),
+        }
+    }
+
+    fn begin(&self, _: &L, start: &State<L::Scalar, N>, _: &mut Statistics) -> Result<Self::Memory, Error> {
+        let planned = L::Scalar::constant(self.step);
+        Ok(Walk { clock: Clock::new(start.t, Some(planned)), planned, before: *start, state: *start })
+    }
+
+    #[inline]
+    fn step(
+        &self,
+        system: &L,
+        memory: &mut Self::Memory,
+        end: L::Scalar,
+        statistics: &mut Statistics,
+    ) -> Step<L::Scalar, N> {
+        let Walk { clock, planned, before, state } = memory;
+        clock.aim(end);
+        let (h, time) = clock.next(*planned);
+        if !clock.is_ahead(time) {
+            return Step::Failed(Ending::TimeTooCoarse { time: time.to_f64(), step: self.step });
+        }
+        statistics.evaluations += 4;
+        let next = State { t: time, ..runge_kutta_step(system, state, h) };
+        match settled(system, state, next) {
+            Ok(next) => {
+                *planned = clock.tick((h, time), *planned, L::Scalar::constant(self.step));
+                (*before, *state) = (*state, next);
+                Step::Accepted(next)
+            }
+            Err(error) => Step::Failed(Ending::of(error, state.t.to_f64())),
+        }
+    }
+
+    fn interpolant(
+        &self,
+        system: &L,
+        memory: &mut Self::Memory,
+        statistics: &mut Statistics,
+    ) -> Result<Self::Interpolant, Error> {
+        let Walk { before, state, .. } = memory;
+        let mut node = |state: &State<L::Scalar, N>| {
+            statistics.evaluations += 1;
+            let (q, v) = (state.q.into(), state.v.into());
+            Ok(([q, v], [v, solve(system, state)?.accelerations.into()]))
+        };
+        let (first, last) = (node(before)?, node(state)?);
+        Ok(Polynomial::hermite(before.t, state.t - before.t, &first, &last))
+    }
+}
+
+/// The end of a step from `start`, on the constraints; the error is what makes it none.
+#[inline]
+fn settled<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+    system: &L,
+    start: &State<L::Scalar, N>,
+    mut end: State<L::Scalar, N>,
+) -> Result<State<L::Scalar, N>, Error> {
+    if let Some(row) = first_row::<L, N, M>(|i| !(end.q[i].is_finite() && end.v[i].is_finite()), |_| false) {
+        return Err(cause(system, start, row));
+    }
+    if M > 0 {
+        project(system, &BOTH, &mut end)?;
+    }
+    Ok(end)
+}
+
+/// Why a step from `start` gives no number in this row.
+#[cold]
+fn cause<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+    system: &L,
+    start: &State<L::Scalar, N>,
+    row: Row,
+) -> Error {
+    solve(system, start).err().unwrap_or(Error::EquationsNotFinite { row, time: start.t.to_f64() })
+}

@@ -1,0 +1,305 @@
+//! A motion that goes on when it is told to.
+
+use core::fmt::{self, Debug, Formatter};
+
+use super::Method;
+use super::run::{Run, Watchdog};
+use crate::ending::Ending;
+use crate::error::Error;
+use crate::hamiltonian::{Hamiltonian, HamiltonianFlow, PhaseState};
+use crate::motion::Interpolant;
+use crate::number::Real;
+use crate::solution::consistent;
+use crate::solution::flow::{Flow, LagrangianFlow};
+use crate::statistics::Statistics;
+use crate::system::finite::check_finite;
+use crate::system::{Lagrangian, State};
+
+/// A motion that goes on when it is told to, by so much or to a time, and may be steered in between.
+///
+/// Between two advances its state and the parameters of its system can be read and set. What is set holds until it is set
+/// again (zero-order hold); that costs one evaluation of the equations, and the length of the steps is kept. Every time
+/// asked for is reached exactly, so that inputs change there and nowhere else; it may lie in the past.
+///
+/// Nothing is stored and nothing allocated: a motion takes as much memory after 10⁹ steps as after one, and works without
+/// the feature `alloc`. It owns its system, which may be a reference.
+///
+/// ```
+/// use lagrange_core::prelude::*;
+///
+/// /// A pendulum with a motor at the pivot.
+/// #[derive(Lagrangian)]
+/// #[coordinates(theta)]
+/// #[lagrangian(m*l^2/2 * theta_dot^2 + m*g*l*cos(theta))]
+/// #[force(theta: torque)]
+/// struct Pendulum { m: f64, l: f64, g: f64, torque: f64 }
+///
+/// let pendulum = Pendulum { m: 1.0, l: 1.0, g: 9.81, torque: 0.0 };
+/// let mut motion = Motion::new(pendulum, State::at_rest([3.0]), Dopri5::with_tolerance(1e-6))?;
+/// for tick in 1..=1000 {
+///     // Held upright by a controller that looks every 10 ms.
+///     let state = *motion.state();
+///     motion.system_mut().torque = 30.0 * (core::f64::consts::PI - state.q[0]) - 8.0 * state.v[0];
+///     motion.advance_to(0.01 * f64::from(tick))?;
+/// }
+/// assert!((motion.state().q[0] - core::f64::consts::PI).abs() < 1e-6);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+///
+/// Limits on steps and on wall time are those of one advance.
+pub struct Motion<L, P, const N: usize, const M: usize, F = LagrangianFlow>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: Flow<L, N, M>,
+    P: Method<L, N, M, F>,
+{
+    system: L,
+    method: P,
+    run: Run<P::Memory, L::Scalar, N>,
+    /// What lies within the last step, once it has been asked for.
+    interpolant: Option<P::Interpolant>,
+    /// Whether there is a last step, by the system and to the state as they are.
+    has_step: bool,
+    /// Whether the method knows of the system and of the state as they are.
+    is_current: bool,
+}
+
+impl<L, P, const N: usize, const M: usize> Motion<L, P, N, M>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    P: Method<L, N, M>,
+{
+    /// A motion of this system from a state on, by the method named.
+    ///
+    /// # Errors
+    /// As [`Simulate::integrate`](crate::Simulate::integrate) where it does not start.
+    pub fn new(system: L, state: State<L::Scalar, N>, method: P) -> Result<Self, Error> {
+        check_finite(&system, &state)?;
+        Self::begin(system, &state, method)
+    }
+}
+
+impl<L, P, const N: usize, const M: usize> Motion<L, P, N, M, HamiltonianFlow>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    P: Method<L, N, M, HamiltonianFlow>,
+{
+    /// A motion by Hamilton's equations from this phase state on: the method adds up and controls coordinates and momenta.
+    ///
+    /// # Errors
+    /// As [`Hamiltonian::integrate_hamiltonian`] where it does not start.
+    pub fn in_momenta(system: L, phase: PhaseState<L::Scalar, N>, method: P) -> Result<Self, Error> {
+        let state = system.legendre(&phase)?;
+        Self::begin(system, &state, method)
+    }
+}
+
+impl<L, P, F, const N: usize, const M: usize> Motion<L, P, N, M, F>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: Flow<L, N, M>,
+    P: Method<L, N, M, F>,
+{
+    fn begin(system: L, state: &State<L::Scalar, N>, method: P) -> Result<Self, Error> {
+        let (run, _) = Run::begin(&system, state, &method)?;
+        Ok(Self { system, method, run, interpolant: None, has_step: false, is_current: true })
+    }
+
+    /// Where the motion is.
+    pub fn state(&self) -> &State<L::Scalar, N> {
+        &self.run.state
+    }
+
+    /// The system as it is.
+    pub fn system(&self) -> &L {
+        &self.system
+    }
+
+    /// The system, to change its parameters from here on; coordinates and velocities stay as they are. The
+    /// last step is then none that [`at`](Self::at) could look into.
+    pub fn system_mut(&mut self) -> &mut L {
+        (self.has_step, self.is_current) = (false, false);
+        &mut self.system
+    }
+
+    /// Goes on from this state, to which no step leads; what a violation of the constraints by round-off is, is projected
+    /// away.
+    ///
+    /// # Errors
+    /// [`Error::StateNotFinite`]; [`Error::Inconsistent`], and [`Error::NotProjected`]. The motion is then where it was.
+    pub fn set_state(&mut self, state: State<L::Scalar, N>) -> Result<(), Error> {
+        check_finite(&self.system, &state)?;
+        consistent::check(&self.system, &state)?;
+        (self.run.state, _) = consistent::make_consistent(&self.system, &state, &[[false; N]; 2])?;
+        (self.has_step, self.is_current) = (false, false);
+        Ok(())
+    }
+
+    /// Steps and evaluations so far.
+    pub fn statistics(&self) -> &Statistics {
+        &self.run.statistics
+    }
+
+    /// The system as it is, without the motion.
+    pub fn into_system(self) -> L {
+        self.system
+    }
+
+    /// Goes on to the time `end`, which is reached exactly; back where it lies in the past.
+    ///
+    /// # Errors
+    /// Why the motion stops before; it is then at the last state reached, and can go on from there. A system that has been
+    /// changed so that the state violates a constraint is [`Ending::Unsolved`].
+    pub fn advance_to(&mut self, end: L::Scalar) -> Result<(), Ending> {
+        self.refresh(end)?;
+        let limits = Watchdog::new(self.method.limits(), &self.run.statistics);
+        while self.run.state.t != end {
+            self.step(end, &limits)?;
+        }
+        Ok(())
+    }
+
+    /// Goes on for this long; back where it is negative. Many equal lengths add up with the rounding of each sum:
+    /// where that matters, say the times, [`advance_to`](Self::advance_to)`(0.01 * f64::from(k))`.
+    ///
+    /// # Errors
+    /// As [`advance_to`](Self::advance_to).
+    pub fn advance_by(&mut self, length: L::Scalar) -> Result<(), Ending> {
+        self.advance_to(self.run.state.t + length)
+    }
+
+    /// The state at a time within the last step, by the continuous extension of the method, projected onto the constraints.
+    /// Where nobody asks, no extension is computed.
+    ///
+    /// # Errors
+    /// [`Error::OutsideTrajectory`] for a time that lies elsewhere; after the state or the system was changed there is
+    /// none but the present. What evaluating the equations gives.
+    pub fn at(&mut self, t: L::Scalar) -> Result<State<L::Scalar, N>, Error> {
+        let (state, before) = (self.run.state, self.run.before);
+        if t == state.t {
+            return Ok(state);
+        }
+        let start = if self.has_step { before.t } else { state.t };
+        if !is_between(start, t, state.t) {
+            let [time, start, end] = [t, start, state.t].map(Real::to_f64);
+            return Err(Error::OutsideTrajectory { time, start, end });
+        }
+        if t == before.t {
+            return Ok(before);
+        }
+        let Run { memory, statistics, .. } = &mut self.run;
+        let interpolant = match self.interpolant.take() {
+            Some(interpolant) => interpolant,
+            None => self.method.interpolant(&self.system, memory, statistics)?,
+        };
+        let point = self.interpolant.insert(interpolant).at(t);
+        Ok(F::project(&self.system, &point).unwrap_or_else(|_| F::state(&self.system, &point)))
+    }
+
+    /// The states at these times, each computed when the iterator is asked for it; the motion is then at the last of them.
+    /// Steps are as long as if there were no times in between, and nothing is stored. The first that cannot be had is the
+    /// last item.
+    ///
+    /// ```
+    /// # use lagrange_core::prelude::*;
+    /// #[derive(Lagrangian)]
+    /// #[coordinates(x)]
+    /// #[lagrangian(x_dot^2/2 - x^2/2)]
+    /// struct Spring;
+    ///
+    /// let mut motion = Motion::new(Spring, State::at_rest([1.0]), Dop853::default())?;
+    /// for state in motion.states_at((0..=100).map(|k| 0.1 * f64::from(k))) {
+    ///     let state = state?;
+    ///     assert!((state.q[0] - state.t.cos()).abs() < 1e-8);
+    /// }
+    /// assert_eq!(motion.state().t, 10.0);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// The times must be in the order of the motion, later or earlier from one to the next.
+    ///
+    /// # Errors
+    /// Items are errors as of [`advance_to`](Self::advance_to), and [`Ending::Unsolved`] with an
+    /// [`Error::OutsideTrajectory`] for a time out of order.
+    pub fn states_at<I>(
+        &mut self,
+        times: I,
+    ) -> impl Iterator<Item = Result<State<L::Scalar, N>, Ending>> + use<'_, I, L, P, F, N, M>
+    where
+        I: IntoIterator<Item = L::Scalar, IntoIter: DoubleEndedIterator>,
+    {
+        let mut times = times.into_iter();
+        let last = times.next_back();
+        let end = last.unwrap_or(self.run.state.t);
+        let limits = Watchdog::new(self.method.limits(), &self.run.statistics);
+        let mut has_failed = false;
+        times.chain(last).map_while(move |t| {
+            if has_failed {
+                return None;
+            }
+            let state = self.state_on_the_way(t, end, &limits);
+            has_failed = state.is_err();
+            Some(state)
+        })
+    }
+
+    /// The state at `t`, on the way to `end`.
+    fn state_on_the_way(
+        &mut self,
+        t: L::Scalar,
+        end: L::Scalar,
+        limits: &Watchdog,
+    ) -> Result<State<L::Scalar, N>, Ending> {
+        self.refresh(end)?;
+        let now = self.run.state.t.to_f64();
+        while self.run.state.t != t && is_between(self.run.state.t, t, end) {
+            self.step(end, limits)?;
+        }
+        self.at(t).map_err(|error| Ending::of(error, now))
+    }
+
+    fn step(&mut self, end: L::Scalar, limits: &Watchdog) -> Result<(), Ending> {
+        self.interpolant = None;
+        let stepped = self.run.step(&self.system, &self.method, end, limits);
+        // What the method has of a step that is none is forgotten.
+        (self.has_step, self.is_current) = (stepped.is_ok(), stepped.is_ok());
+        stepped
+    }
+
+    /// Tells the method what has been changed, and checks where to go.
+    fn refresh(&mut self, end: L::Scalar) -> Result<(), Ending> {
+        let time = self.run.state.t.to_f64();
+        super::run::check_end(end).map_err(|error| Ending::of(error, time))?;
+        if !self.is_current {
+            self.resume().map_err(|error| Ending::of(error, time))?;
+            self.is_current = true;
+        }
+        Ok(())
+    }
+
+    fn resume(&mut self) -> Result<(), Error> {
+        let Run { memory, state, statistics, .. } = &mut self.run;
+        if M > 0 {
+            consistent::check(&self.system, state)?;
+        }
+        self.method.resume(&self.system, memory, state, statistics)
+    }
+}
+
+/// Whether `t` lies between the other two, which may be in any order.
+fn is_between<T: Real>(a: T, t: T, b: T) -> bool {
+    a <= t && t <= b || b <= t && t <= a
+}
+
+impl<L, P, F, const N: usize, const M: usize> Debug for Motion<L, P, N, M, F>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: Flow<L, N, M>,
+    P: Method<L, N, M, F>,
+{
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Run { state, statistics, .. } = &self.run;
+        let mut fields = f.debug_struct("Motion");
+        fields.field("system", &L::NAME).field("state", state).field("statistics", statistics).finish()
+    }
+}

@@ -1,0 +1,99 @@
+//! What a motion that stores nothing allocates: nothing, however many steps it takes.
+
+use allocation_counter::measure;
+use lagrange_core::{Method, RungeKutta4, prelude::*, runge_kutta_step};
+
+/// Two links, the second driven at the elbow.
+#[derive(Lagrangian, Clone, Copy)]
+#[coordinates(a, b)]
+#[lagrangian(a_dot^2 + b_dot^2/2 + a_dot*b_dot*cos(a - b) + 2*g*cos(a) + g*cos(b))]
+#[force(a: -u)]
+#[force(b: u)]
+struct Acrobot {
+    g: f64,
+    u: f64,
+}
+
+#[derive(Lagrangian, Clone, Copy)]
+#[coordinates(x, y)]
+#[lagrangian(1/2 * (x_dot^2 + y_dot^2) - g*y)]
+#[constraint(rod: 1/2 * (x^2 + y^2 - l^2) = 0)]
+#[force(x: u)]
+struct Pendulum {
+    g: f64,
+    l: f64,
+    u: f64,
+}
+
+/// Checks that this allocates nothing.
+#[track_caller]
+fn free<R>(mut work: impl FnMut() -> R) {
+    let allocated = measure(|| {
+        std::hint::black_box(work());
+    });
+    assert_eq!((allocated.count_total, allocated.bytes_total), (0, 0), "{allocated:?}");
+}
+
+#[test]
+fn the_counter_counts() {
+    assert!(measure(|| drop(std::hint::black_box(vec![0_u8; 1000]))).bytes_total >= 1000);
+}
+
+/// From the start on, with inputs, looks into steps, states set, samples, and the way back.
+fn steer(method: impl Method<Acrobot, 2, 0> + Method<Pendulum, 2, 1> + Copy) {
+    free(|| {
+        let start = State::new([0.1, 0.2], [0.0, 0.0]);
+        let mut motion = Motion::new(Acrobot { g: 9.81, u: 0.0 }, start, method).expect("a start");
+        for k in 1..=1000 {
+            motion.system_mut().u = motion.state().q[1];
+            motion.advance_to(0.01 * f64::from(k)).expect("no end before");
+            motion.at(0.01 * f64::from(k) - 1e-9).expect("within the last step");
+        }
+        let sum: f64 = motion.states_at([9.5, 8.0, 7.0]).map(|state| state.expect("a state").q[0]).sum();
+        motion.set_state(start).expect("a state");
+        sum
+    });
+    free(|| {
+        let start = State::new([0.6, -0.8], [0.8, 0.6]);
+        let mut motion = Motion::new(Pendulum { g: 9.81, l: 1.0, u: 0.0 }, start, method).expect("a start");
+        for k in 1..=100 {
+            motion.system_mut().u = -motion.state().v[0];
+            motion.advance_to(0.01 * f64::from(k)).expect("no end before");
+        }
+    });
+}
+
+#[test]
+fn a_steered_motion_allocates_nothing() {
+    steer(Dop853::default());
+    steer(Dopri5::with_tolerance(1e-6));
+    steer(Dopri5::default().fixed_step(0.01));
+    steer(RungeKutta4::with_step(0.01));
+    let (mut acrobot, mut state) = (Acrobot { g: 9.81, u: 0.0 }, State::at_rest([0.1, 0.2]));
+    free(|| {
+        for _ in 0..1000 {
+            acrobot.u = state.q[1];
+            state = runge_kutta_step(&acrobot, &state, 0.01);
+        }
+    });
+}
+
+/// 200 000 steps, and states at some times: no more memory than before the first.
+#[test]
+fn memory_does_not_grow_with_the_steps() {
+    let pendulum = Pendulum { g: 9.81, l: 1.0, u: 0.0 };
+    free(|| {
+        let method = Dopri5::default().max_step(1e-3).max_steps(usize::MAX);
+        let mut motion =
+            Motion::new(&pendulum, State::new([0.6, -0.8], [0.8, 0.6]), method).expect("a start");
+        motion.advance_to(100.0).expect("no end before");
+        let states = motion.states_at((0..=1000).map(|k| 100.0 + 0.1 * f64::from(k)));
+        assert_eq!(states.filter(Result::is_ok).count(), 1001);
+        assert!(motion.statistics().accepted >= 200_000);
+    });
+    let phase = pendulum.phase_state(&State::new([0.6, -0.8], [0.8, 0.6]));
+    free(|| {
+        let mut motion = Motion::in_momenta(&pendulum, phase, Dop853::default()).expect("a start");
+        motion.advance_to(20.0).expect("no end before");
+    });
+}

@@ -1,0 +1,331 @@
+//! Motions that go on when they are told to: inputs that change, times that are reached, states in between.
+
+use lagrange_core::motion::Limits;
+use lagrange_core::{Dual, Ending, Lanes, Method, Pack, RungeKutta4, prelude::*, runge_kutta_step};
+
+/// A cart with a motor and a brake.
+#[derive(Lagrangian, Clone, Copy)]
+#[coordinates(x)]
+#[lagrangian(m/2 * x_dot^2)]
+#[force(x: u)]
+#[dissipation(c/2 * x_dot^2)]
+struct Cart<T> {
+    m: T,
+    u: T,
+    c: T,
+}
+
+#[derive(Lagrangian, Clone, Copy)]
+#[coordinates(x)]
+#[lagrangian(x_dot^2/2 - omega^2/2 * x^2)]
+struct Spring<T> {
+    omega: T,
+}
+
+/// Of a length that may change: too much for a state that is to stay.
+#[derive(Lagrangian, Clone, Copy)]
+#[coordinates(x, y)]
+#[lagrangian(1/2 * (x_dot^2 + y_dot^2) - g*y)]
+#[constraint(rod: 1/2 * (x^2 + y^2 - l^2) = 0)]
+#[observable(height = y)]
+struct Pendulum<T> {
+    g: T,
+    l: T,
+}
+
+const PENDULUM: Pendulum<f64> = Pendulum { g: 9.81, l: 1.0 };
+
+fn swinging() -> State<f64, 2> {
+    State::new([0.6, -0.8], [0.8, 0.6])
+}
+
+/// The input of tick `k`.
+fn input(k: u32) -> f64 {
+    f64::from((k * 7 + 3) % 11) - 5.0
+}
+
+/// With m = 1 and this brake, held inputs give x̂ = x + (v − u/c)(1 − e^(−ct))/c + u t/c.
+fn held(state: (f64, f64), u: f64, c: f64, t: f64) -> (f64, f64) {
+    let ((x, v), decay) = (state, (-c * t).exp());
+    (x + (v - u / c) * (1.0 - decay) / c + u / c * t, u / c + (v - u / c) * decay)
+}
+
+/// Two seconds at 100 inputs a second; how far from the solution, and the evaluations.
+fn driven<P: Method<Cart<f64>, 1, 0>>(method: P) -> (f64, usize) {
+    let cart = Cart { m: 1.0, u: 0.0, c: 0.7 };
+    let mut motion = Motion::new(cart, State::new([0.3], [1.0]), method).expect("a start");
+    let (mut expected, mut off) = ((0.3, 1.0), 0.0_f64);
+    for k in 0..200 {
+        motion.system_mut().u = input(k);
+        motion.advance_to(0.01 * f64::from(k + 1)).expect("no end before");
+        assert_eq!(motion.state().t, 0.01 * f64::from(k + 1));
+        expected = held(expected, input(k), 0.7, 0.01);
+        let State { q, v, .. } = motion.state();
+        off = off.max((q[0] - expected.0).abs()).max((v[0] - expected.1).abs());
+    }
+    (off, motion.statistics().evaluations)
+}
+
+#[test]
+fn inputs_are_held_from_tick_to_tick() {
+    // One evaluation at the start and one where a first step is sought; then a change and a step each tick.
+    let (off, evaluations) = driven(Dop853::default());
+    assert!(off < 1e-12 && evaluations == 2 + 200 * (1 + 12), "{off:e}, {evaluations} evaluations");
+    let (off, evaluations) = driven(Dopri5::with_tolerance(1e-6).fixed_step(0.01));
+    assert!(off < 1e-12 && evaluations == 1 + 200 * (1 + 6), "{off:e}, {evaluations} evaluations");
+    let (off, evaluations) = driven(RungeKutta4::with_step(0.01));
+    assert!(off < 1e-9 && evaluations == 200 * 4, "{off:e}, {evaluations} evaluations");
+}
+
+#[test]
+fn several_changes_cost_one_evaluation_and_none_cost_none() {
+    let mut motion =
+        Motion::new(Cart { m: 1.0, u: 0.0, c: 0.0 }, State::at_rest([0.0]), Dopri5::default()).unwrap();
+    motion.advance_to(1.0).unwrap();
+    let evaluations = |motion: &Motion<_, Dopri5, 1, 0>| motion.statistics().evaluations;
+    let (before, accepted) = (evaluations(&motion), motion.statistics().accepted);
+    motion.advance_to(1.0).unwrap();
+    assert_eq!(evaluations(&motion), before);
+    motion.system_mut().u = 1.0;
+    motion.system_mut().m = 2.0;
+    motion.advance_to(1.0).unwrap();
+    assert_eq!(evaluations(&motion), before + 1);
+    motion.advance_by(2.0).unwrap();
+    // The step is as long as it has grown to be, not sought again.
+    assert_eq!((evaluations(&motion), motion.statistics().accepted), (before + 7, accepted + 1));
+    assert!((motion.state().q[0] - 0.25 * 4.0).abs() < 1e-14 && motion.system().u == 1.0);
+    assert_eq!(motion.into_system().m, 2.0);
+}
+
+/// The step to a time of the caller's choice says nothing about the steps after it.
+#[test]
+fn a_short_advance_does_not_make_the_next_steps_short() {
+    let mut motion = Motion::new(Spring { omega: 1.0 }, State::at_rest([1.0]), Dop853::default()).unwrap();
+    motion.advance_to(10.0).unwrap();
+    let steps =
+        |motion: &Motion<_, Dop853, 1, 0>| motion.statistics().accepted + motion.statistics().rejected;
+    let before = steps(&motion);
+    motion.advance_to(20.0).unwrap();
+    let usual = steps(&motion) - before;
+    motion.advance_by(1e-9).unwrap();
+    let before = steps(&motion);
+    motion.advance_by(10.0).unwrap();
+    assert!(steps(&motion) - before <= usual + 1, "{} steps instead of {usual}", steps(&motion) - before);
+}
+
+#[test]
+fn a_motion_left_alone_is_the_trajectory() {
+    let path = PENDULUM.integrate(swinging(), 5.0, Dop853::default()).unwrap();
+    let mut motion = Motion::new(PENDULUM, swinging(), Dop853::default()).unwrap();
+    motion.advance_to(5.0).unwrap();
+    assert_eq!(motion.state(), path.end().state());
+    assert_eq!(motion.statistics().accepted, path.statistics().accepted);
+    // Nobody asked for what lies between: three evaluations fewer a step.
+    assert_eq!(
+        motion.statistics().evaluations + 3 * path.statistics().accepted,
+        path.statistics().evaluations
+    );
+    let mut motion = Motion::new(&PENDULUM, swinging(), Dop853::default()).unwrap();
+    let times = |k: u32| 0.05 * f64::from(k);
+    let states = motion.states_at((0..=100).map(times));
+    for (k, state) in (0..=100).zip(states) {
+        assert_eq!(state.unwrap(), *path.at(times(k)).unwrap().state());
+    }
+    assert_eq!(motion.state(), path.end().state());
+}
+
+#[test]
+fn momenta_are_steered_too() {
+    let start = PENDULUM.phase_state(&swinging());
+    let path = PENDULUM.integrate_hamiltonian(start, 2.0, Dop853::default()).unwrap();
+    let mut motion = Motion::in_momenta(&PENDULUM, start, Dop853::default()).unwrap();
+    motion.advance_to(2.0).unwrap();
+    assert_eq!(motion.state(), path.end().state());
+}
+
+#[test]
+fn states_are_given_at_times_in_both_directions() {
+    let mut motion = Motion::new(Spring { omega: 1.0 }, State::at_rest([1.0]), Dopri5::default()).unwrap();
+    for times in [[0.0, 0.5, 0.5, 3.0, 7.0], [7.0, 6.9, 0.0, -2.0, -9.0], [-9.0, -8.0, -8.0, 1.0, 2.0]] {
+        let states: Result<Vec<_>, _> = motion.states_at(times).collect();
+        for (state, t) in states.unwrap().into_iter().zip(times) {
+            assert_eq!(state.t, t);
+            assert!((state.q[0] - t.cos()).abs() < 1e-7 && (state.v[0] + t.sin()).abs() < 1e-7);
+        }
+        assert_eq!(motion.state().t, times[4]);
+    }
+    assert_eq!(motion.states_at([]).count(), 0);
+    // Out of order, and what comes after it.
+    let items: Vec<_> = motion.states_at([3.0, 1.0, 4.0]).collect();
+    assert_eq!(items.len(), 2);
+    let Err(Ending::Unsolved { error, .. }) = &items[1] else { panic!("{items:?}") };
+    assert!(matches!(error, Error::OutsideTrajectory { time: 1.0, .. }), "{error}");
+}
+
+#[test]
+fn the_last_step_can_be_looked_into() {
+    let mut motion = Motion::new(PENDULUM, swinging(), Dop853::with_tolerance(1e-6)).unwrap();
+    assert_eq!(motion.at(0.0).unwrap(), swinging());
+    assert!(matches!(motion.at(0.1), Err(Error::OutsideTrajectory { start: 0.0, end: 0.0, .. })));
+    motion.advance_to(0.1).unwrap();
+    let path = PENDULUM.integrate(swinging(), 0.1, Dop853::with_tolerance(1e-6)).unwrap();
+    let last = path.steps().map(|step| step.time()).nth(path.statistics().accepted - 1).unwrap();
+    let evaluations = motion.statistics().evaluations;
+    for k in 0..=10 {
+        let t = last + (0.1 - last) * f64::from(k) / 10.0;
+        assert_eq!(motion.at(t).unwrap(), *path.at(t).unwrap().state());
+    }
+    assert_eq!(motion.statistics().evaluations, evaluations + 3, "the extension is computed once");
+    assert!(matches!(motion.at(last - 1e-3), Err(Error::OutsideTrajectory { .. })));
+    // With another system the step would have been another one.
+    motion.system_mut().g = 1.6;
+    assert!(motion.at(0.5 * (last + 0.1)).is_err() && motion.at(0.1).is_ok());
+}
+
+#[test]
+fn a_state_is_set_and_gone_on_from() {
+    let mut motion = Motion::new(PENDULUM, swinging(), Dop853::default()).unwrap();
+    motion.advance_to(1.0).unwrap();
+    motion.set_state(swinging().at_time(-3.0)).unwrap();
+    assert_eq!(*motion.state(), swinging().at_time(-3.0));
+    motion.advance_to(2.0).unwrap();
+    let path = PENDULUM.integrate(swinging().at_time(-3.0), 2.0, Dop853::default()).unwrap();
+    assert!((motion.state().q - path.end().state().q).norm() < 1e-7);
+    let here = *motion.state();
+    for wrong in [State::new([0.6, -0.9], [0.0, 0.0]), State::new([f64::NAN, 0.0], [0.0; 2])] {
+        assert!(motion.set_state(wrong).is_err());
+        assert_eq!(*motion.state(), here);
+    }
+}
+
+#[test]
+fn what_cannot_be_is_an_error_and_leaves_the_motion_where_it_was() {
+    let mut motion = Motion::new(PENDULUM, swinging(), Dop853::default()).unwrap();
+    motion.advance_to(0.5).unwrap();
+    let here = *motion.state();
+    // A rod of another length is not at this place.
+    motion.system_mut().l = 2.0;
+    let ending = motion.advance_by(0.1).unwrap_err();
+    assert!(ending.to_string().contains("`rod`"), "{ending}");
+    assert_eq!(*motion.state(), here);
+    motion.system_mut().l = 1.0;
+    motion.advance_by(0.1).unwrap();
+    let here = *motion.state();
+    for nowhere in [f64::NAN, f64::INFINITY] {
+        assert!(matches!(motion.advance_to(nowhere), Err(Ending::Unsolved { .. })));
+        assert_eq!(*motion.state(), here);
+    }
+    motion.system_mut().g = f64::NAN;
+    let ending = motion.advance_by(0.1).unwrap_err();
+    assert!(matches!(ending, Ending::NotFinite { .. }), "{ending}");
+    assert_eq!(*motion.state(), here);
+}
+
+#[test]
+fn limits_are_those_of_one_advance() {
+    let mut motion =
+        Motion::new(Spring { omega: 1.0 }, State::at_rest([1.0]), Dopri5::default().max_steps(100)).unwrap();
+    for k in 1..=50 {
+        motion.advance_to(f64::from(k)).unwrap();
+    }
+    assert!(motion.statistics().accepted > 200);
+    let ending = motion.advance_by(1e6).unwrap_err();
+    assert!(matches!(ending, Ending::StepLimit { steps: 100, .. }), "{ending}");
+    let t = motion.state().t;
+    assert!(t > 50.0 && (motion.state().q[0] - t.cos()).abs() < 1e-6);
+    motion.advance_to(0.0).unwrap_err();
+    assert!(motion.state().t < t);
+}
+
+/// The mean slope of log error over log step in four halvings, at the end and in between.
+fn order(at: impl Fn(f64) -> (f64, f64)) -> (f64, f64) {
+    let (coarse, fine) = (at(0.1), at(0.1 / 16.0));
+    ((coarse.0 / fine.0).log2() / 4.0, (coarse.1 / fine.1).log2() / 4.0)
+}
+
+#[test]
+fn the_classical_method_is_of_order_four() {
+    let spring = Spring { omega: 1.3 };
+    let (end, between) = order(|h| {
+        let path = spring.integrate(State::at_rest([1.0]), -6.0, RungeKutta4::with_step(h)).unwrap();
+        assert_eq!(path.statistics().accepted, (6.0 / h).round() as usize);
+        let off = |s: &State<f64, 1>| (s.q[0] - (1.3 * s.t).cos()).abs();
+        (off(path.end().state()), path.samples(1000).map(|s| off(s.state())).fold(0.0, f64::max))
+    });
+    assert!((end - 4.0).abs() < 0.1 && (between - 4.0).abs() < 0.2, "{end}, {between}");
+}
+
+#[test]
+fn the_classical_method_keeps_to_constraints_and_drifts_without_projection() {
+    let mut motion = Motion::new(PENDULUM, swinging(), RungeKutta4::with_step(0.01)).unwrap();
+    motion.advance_to(20.0).unwrap();
+    assert!((motion.state().q.norm() - 1.0).abs() < 1e-12);
+    let exact = PENDULUM.integrate(swinging(), 20.0, Dop853::with_tolerance(1e-12)).unwrap();
+    assert!((motion.state().q - exact.end().state().q).norm() < 1e-3);
+    let mut state = swinging();
+    for _ in 0..2000 {
+        state = runge_kutta_step(&PENDULUM, &state, 0.01);
+    }
+    let drift = (state.q.norm() - 1.0).abs();
+    assert!((1e-10..1e-3).contains(&drift), "{drift:e}");
+}
+
+#[test]
+fn the_classical_method_runs_on_lanes_and_carries_derivatives() {
+    let omegas = [0.5, 1.0, 1.5, 2.0];
+    let mut lanes = Spring { omega: omegas[0] }.pack();
+    for (lane, omega) in omegas.into_iter().enumerate() {
+        assert!(Spring { omega }.place(&mut lanes, lane));
+    }
+    let one = |x: f64| Lanes::from([x; 4]);
+    let mut state = State { t: one(0.0), q: [one(1.0)].into(), v: [one(0.0)].into() };
+    let mut alone = omegas.map(|_| State::at_rest([1.0]));
+    // Each lane has a step of its own.
+    let steps = [0.01, 0.02, 0.03, 0.04];
+    // ∂x/∂ω at ω = 1, through the steps.
+    let spring = Spring { omega: Dual { value: 1.0_f64, slope: 1.0 } };
+    let mut dual = State::at_rest([Dual::constant(1.0)]);
+    for _ in 0..200 {
+        state = runge_kutta_step(&lanes, &state, Lanes::from(steps));
+        dual = runge_kutta_step(&spring, &dual, Scalar::constant(0.02));
+        for (lane, alone) in alone.iter_mut().enumerate() {
+            *alone = runge_kutta_step(&Spring { omega: omegas[lane] }, alone, steps[lane]);
+        }
+    }
+    for (lane, alone) in alone.iter().enumerate() {
+        assert!((state.q[0].to_array()[lane] - alone.q[0]).abs() < 1e-13);
+        assert_eq!(state.t.to_array()[lane], alone.t);
+    }
+    assert!((dual.q[0].value - 4_f64.cos()).abs() < 1e-7);
+    assert!((dual.q[0].slope + 4.0 * 4_f64.sin()).abs() < 1e-6);
+}
+
+/// Its mass matrix is singular where the mass is nothing: in that lane, and in no other.
+#[test]
+fn the_classical_method_is_not_a_number_where_nobody_can_vouch() {
+    let mut lanes = Cart { m: 1.0, u: 0.0, c: 0.0 }.pack();
+    assert!(Cart { m: 0.0, u: 0.0, c: 0.0 }.place(&mut lanes, 2));
+    let one = |x: f64| Lanes::from([x; 4]);
+    let state = State { t: one(0.0), q: [one(1.0)].into(), v: [one(1.0)].into() };
+    let next = runge_kutta_step(&lanes, &state, one(0.1));
+    let (q, v) = (next.q[0].to_array(), next.v[0].to_array());
+    for lane in 0..4 {
+        assert_eq!((q[lane].is_nan(), v[lane].is_nan()), (lane == 2, lane == 2));
+    }
+    let massless = Cart { m: 0.0_f64, u: 1.0, c: 0.0 };
+    assert!(runge_kutta_step(&massless, &State::at_rest([0.0]), 0.1).q[0].is_nan());
+    let mut motion =
+        Motion::new(Cart { m: 1.0, ..massless }, State::at_rest([0.0]), RungeKutta4::with_step(0.1)).unwrap();
+    motion.system_mut().m = 0.0;
+    let ending = motion.advance_by(1.0).unwrap_err();
+    assert!(matches!(ending, Ending::Singular { time: 0.0, .. }), "{ending}");
+}
+
+#[test]
+fn wrong_steps_are_refused() {
+    for step in [0.0, -0.1, f64::NAN, f64::INFINITY] {
+        let error = Motion::new(PENDULUM, swinging(), RungeKutta4::with_step(step)).unwrap_err();
+        assert!(matches!(error, Error::Setting { .. }), "{error}");
+    }
+    assert_eq!(Limits::default().max_steps, 100_000);
+}
