@@ -11,7 +11,7 @@ use super::phase::PhaseState;
 use crate::error::Error;
 use crate::number::{Real, Scalar, beyond_round_off, exceeds, is_within, power_of_epsilon, vector};
 use crate::solution::eliminate::eliminate_active;
-use crate::solution::kkt::{self, KktSystem, Rank, Units};
+use crate::solution::kkt::{self, Fault, KktSystem, Rank, Units};
 use crate::solution::newton::{self, Left, Search, halvings};
 use crate::solution::solve::{fault, is_trustworthy, name, not_finite};
 use crate::system::{Lagrangian, Solution, State};
@@ -104,13 +104,16 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Inversio
         if is_trustworthy(&fast) {
             return Ok(fast);
         }
-        let known = self.active.contains(&false);
-        let rank = if known { Rank::off_constraints() } else { Rank::on_constraints() };
-        let solved = kkt::solve(equations, rank).map(|(solution, _)| solution);
-        solved.map_err(|found| match fault::<L, N, M>(&found, self.phase.t.to_f64()) {
+        // Near the velocity sought, dependent constraints differ by round-off, of which no contradiction is made.
+        let solved = kkt::solve(equations, Rank::off_constraints()).map(|(solution, _)| solution);
+        solved.map_err(|found| self.fault(&found))
+    }
+
+    fn fault(&self, found: &Fault<L::Scalar, N>) -> Error {
+        match fault::<L, N, M>(found, self.phase.t.to_f64()) {
             Error::Singular { coordinates, time } => Error::VelocityUndetermined { coordinates, time },
             other => other,
-        })
+        }
     }
 }
 
@@ -163,6 +166,10 @@ where
 
     #[cold]
     fn not_found(&self, linear: &Self::Linear, trial: &Self::Trial, steps: usize) -> Error {
+        // What is left out of a step for depending on the others may demand another velocity.
+        if let Err(found @ Fault::Contradictory(_)) = kkt::solve(&linear.equations, Rank::on_constraints()) {
+            return self.fault(&found);
+        }
         let residual = |i: usize| linear.momentum_residual(trial, i).0;
         let size = |i: usize| Scalar::abs(residual(i)) * linear.units.coordinates[i];
         let farthest = (1..N).fold(0, |worst, i| if exceeds(size(i), size(worst)) { i } else { worst });
