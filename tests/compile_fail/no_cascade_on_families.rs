@@ -41,7 +41,7 @@ fn rows<L: Lagrangian<N, M>, const N: usize, const M: usize>(_: &L) -> usize {
 
 fn main() {
     let chain = Chain { m: 1.0 };
-    let path: Result<Trajectory<Chain, 5, 5>, Error> =
+    let path: Result<Trajectory<&Chain, 5, 5>, Error> =
         chain.integrate(State::at_rest([0.0; 5]), 1.0, Dop853::default());
     println!("{path:?} {:?}", <Chain as Lagrangian<5, 5>>::CONSTRAINTS);
     println!("{}", rows::<_, 2, 1>(&OneRow { m: 1.0 }) + rows::<_, 2, 2>(&TwoRows { m: 1.0 }));

@@ -14,10 +14,10 @@ fn method() -> Dop853 {
 
 /// The motion by Hamilton's equations, equal to that by Lagrange's to 1e-8 in coordinates, velocities and multipliers
 /// at and between the steps; and the momenta are those of the velocities.
-fn check<'a, L: Simulate<N, M, Scalar = f64>, const N: usize, const M: usize>(
-    system: &'a L,
+fn check<L: Simulate<N, M, Scalar = f64>, const N: usize, const M: usize>(
+    system: &L,
     start: State<f64, N>,
-) -> Trajectory<'a, L, N, M, HamiltonianFlow> {
+) -> Trajectory<&L, N, M, HamiltonianFlow> {
     let lagrange = system.integrate(start, END, method()).unwrap();
     let hamilton = system.integrate_hamiltonian(system.phase_state(&start), END, method()).unwrap();
     assert!(hamilton.ending().is_complete(), "{}", hamilton.ending());
@@ -40,7 +40,7 @@ fn check<'a, L: Simulate<N, M, Scalar = f64>, const N: usize, const M: usize>(
 
 /// The largest change of H along a trajectory.
 fn drift<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize>(
-    path: &Trajectory<'_, L, N, M, HamiltonianFlow>,
+    path: &Trajectory<&L, N, M, HamiltonianFlow>,
 ) -> f64 {
     path.steps().fold(0.0, |most, sample| most.max((sample.energy() - path.start().energy()).abs()))
 }

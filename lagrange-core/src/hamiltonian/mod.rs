@@ -121,7 +121,7 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
         phase: PhaseState<Self::Scalar, N>,
         end: Self::Scalar,
         method: P,
-    ) -> Result<Trajectory<'_, Self, N, M, HamiltonianFlow>, Error> {
+    ) -> Result<Trajectory<&Self, N, M, HamiltonianFlow>, Error> {
         self.integrate_hamiltonian_with(phase, end, method, |_| ControlFlow::Continue(()))
     }
 
@@ -136,7 +136,7 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
         end: Self::Scalar,
         method: P,
         watch: impl FnMut(Progress) -> ControlFlow<()>,
-    ) -> Result<Trajectory<'_, Self, N, M, HamiltonianFlow>, Error> {
+    ) -> Result<Trajectory<&Self, N, M, HamiltonianFlow>, Error> {
         run::drive(self, self.legendre(&phase)?, end, &method, watch)
     }
 }

@@ -130,7 +130,7 @@ pub(crate) fn drive<'a, L, F, P, const N: usize, const M: usize>(
     end: L::Scalar,
     method: &P,
     mut watch: impl FnMut(Progress) -> ControlFlow<()>,
-) -> Result<Trajectory<'a, L, N, M, F>, Error>
+) -> Result<Trajectory<&'a L, N, M, F>, Error>
 where
     L: Lagrangian<N, M, Scalar: Real>,
     F: Flow<L, N, M>,

@@ -123,7 +123,7 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
         state: State<Self::Scalar, N>,
         end: Self::Scalar,
         method: P,
-    ) -> Result<Trajectory<'_, Self, N, M>, Error> {
+    ) -> Result<Trajectory<&Self, N, M>, Error> {
         self.integrate_with(state, end, method, |_| ControlFlow::Continue(()))
     }
 
@@ -139,7 +139,7 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
         end: Self::Scalar,
         method: P,
         watch: impl FnMut(Progress) -> ControlFlow<()>,
-    ) -> Result<Trajectory<'_, Self, N, M>, Error> {
+    ) -> Result<Trajectory<&Self, N, M>, Error> {
         check_finite(self, &state)?;
         run::drive(self, state, end, &method, watch)
     }

@@ -44,7 +44,7 @@ fn starts() -> [State<f64, 3>; 4] {
 /// The largest |Φ| and |Φ̇|, as fractions of the squared length and of length times speed.
 fn off_constraints<'a>(
     pendulum: &Pendulum,
-    samples: impl Iterator<Item = Sample<'a, Pendulum, 3, 1>>,
+    samples: impl Iterator<Item = Sample<&'a Pendulum, 3, 1>>,
 ) -> f64 {
     samples.fold(0.0, |most, sample| {
         let s = sample.state();
@@ -54,7 +54,7 @@ fn off_constraints<'a>(
     })
 }
 
-fn drift(path: &Trajectory<'_, Pendulum, 3, 1>) -> (f64, f64) {
+fn drift(path: &Trajectory<&Pendulum, 3, 1>) -> (f64, f64) {
     let energy = |s: &State<f64, 3>| 0.5 * s.v.norm_squared() + GRAVITY * s.q[2];
     let moment = |s: &State<f64, 3>| s.q[0] * s.v[1] - s.q[1] * s.v[0];
     let start = path.start();
@@ -111,7 +111,7 @@ where
     let errors = |h: f64| {
         let (q, v) = exact(0.0);
         let path = system.integrate(State::new([q], [v]), 8.0, method(h)).unwrap();
-        let error = |s: &Sample<'_, Mechanism<1, 0, 0>, 1, 0>| {
+        let error = |s: &Sample<&Mechanism<1, 0, 0>, 1, 0>| {
             let (q, v) = exact(s.time());
             (s.state().q[0] - q).hypot(s.state().v[0] - v)
         };

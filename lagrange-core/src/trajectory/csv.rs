@@ -3,43 +3,42 @@
 use core::fmt::{self, Debug, Display, Formatter};
 
 use super::Trajectory;
-use super::sample::Sample;
 use crate::names::Entry;
 use crate::number::{Real, Scalar};
 use crate::solution::flow::{Flow, LagrangianFlow};
-use crate::system::Lagrangian;
+use crate::solution::solve::solve;
+use crate::system::{Lagrangian, State};
 
 /// A table of a trajectory, one line a sample: `t`, coordinates `x`, velocities `x_dot`, multipliers
 /// `lambda(no_slip)`, constraint forces `force(x)` and observables.
 ///
 /// Numbers are the shortest that read back the same. Where the equations have no solution, what depends on it
 /// is `NaN`.
-pub struct Csv<'t, 'a, L: Lagrangian<N, M>, const N: usize, const M: usize, F = LagrangianFlow> {
-    trajectory: &'t Trajectory<'a, L, N, M, F>,
+pub struct Csv<'t, S: Lagrangian<N, M>, const N: usize, const M: usize, F = LagrangianFlow> {
+    trajectory: &'t Trajectory<S, N, M, F>,
     count: usize,
 }
 
-impl<'a, L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize>
-    Trajectory<'a, L, N, M, F>
-{
+impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Trajectory<S, N, M, F> {
     /// A table of `count` states at evenly spaced times, as comma-separated values.
     ///
     /// Print it, or write `path.csv(200).to_string()` to a file.
-    pub fn csv(&self, count: usize) -> Csv<'_, 'a, L, N, M, F> {
+    pub fn csv(&self, count: usize) -> Csv<'_, S, N, M, F> {
         Csv { trajectory: self, count }
     }
 }
 
-impl<L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize> Display
-    for Csv<'_, '_, L, N, M, F>
+impl<S: Lagrangian<N, M, Scalar: Real>, F: Flow<S, N, M>, const N: usize, const M: usize> Display
+    for Csv<'_, S, N, M, F>
 {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        header::<L, N, M>(f)?;
-        self.trajectory.samples(self.count).try_for_each(|sample| line(f, &sample))
+        header::<S, N, M>(f)?;
+        let Trajectory { system, .. } = self.trajectory;
+        self.trajectory.states(self.count).try_for_each(|state| line(f, system, &state))
     }
 }
 
-impl<L: Lagrangian<N, M, Scalar: Real>, F, const N: usize, const M: usize> Debug for Csv<'_, '_, L, N, M, F> {
+impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Debug for Csv<'_, S, N, M, F> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_struct("Csv").field("trajectory", self.trajectory).field("count", &self.count).finish()
     }
@@ -57,12 +56,12 @@ fn header<L: Lagrangian<N, M>, const N: usize, const M: usize>(f: &mut Formatter
     writeln!(f)
 }
 
-fn line<L, const N: usize, const M: usize>(f: &mut Formatter<'_>, sample: &Sample<'_, L, N, M>) -> fmt::Result
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
-    let Sample { system, state } = sample;
-    let solution = sample.solution().ok();
+fn line<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+    f: &mut Formatter<'_>,
+    system: &L,
+    state: &State<L::Scalar, N>,
+) -> fmt::Result {
+    let solution = solve(system, state).ok();
     let multipliers = solution.map(|s| s.multipliers);
     let force = multipliers.map(|lambda| system.constraint_force(state, &lambda));
     // `Debug` of a number is its shortest form that reads back the same, with an exponent where that is shorter.

@@ -48,24 +48,24 @@ pub struct Drift<T> {
     quantities: Vec<Deviation<T>>,
 }
 
-impl<L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize>
-    Trajectory<'_, L, N, M, F>
+impl<S: Lagrangian<N, M, Scalar: Real>, F: Flow<S, N, M>, const N: usize, const M: usize>
+    Trajectory<S, N, M, F>
 {
     /// How far each conserved quantity strays from its value at the start.
-    pub fn drift(&self) -> Drift<L::Scalar> {
+    pub fn drift(&self) -> Drift<S::Scalar> {
         // One walk for all: the steps of a motion in (q, p) take a search for the velocity each.
-        let mut steps = self.steps();
+        let mut steps = self.states_of_steps();
         let start = steps.next().into_iter().flat_map(|start| {
-            let conserved = L::FACTS.conserved.iter().enumerate();
+            let conserved = S::FACTS.conserved.iter().enumerate();
             conserved.filter_map(move |(index, conserved)| {
-                let (name, start) = (conserved.name, start.conserved_by_index(index)?);
-                Some((index, Deviation { name, start, largest: L::Scalar::constant(0.0) }))
+                let (name, start) = (conserved.name, self.system.conserved(index, &start)?);
+                Some((index, Deviation { name, start, largest: S::Scalar::constant(0.0) }))
             })
         });
         let mut quantities: Vec<_> = start.collect();
         for step in steps {
             for (index, Deviation { start, largest, .. }) in &mut quantities {
-                if let Some(value) = step.conserved_by_index(*index) {
+                if let Some(value) = self.system.conserved(*index, &step) {
                     *largest = farther(*largest, value - *start);
                 }
             }

@@ -18,7 +18,7 @@ pub use sample::Sample;
 
 use crate::ending::Ending;
 use crate::error::Error;
-use crate::number::Real;
+use crate::number::{Real, Scalar, vector};
 use crate::solution::Adjustment;
 use crate::solution::flow::{Flow, LagrangianFlow};
 use crate::statistics::Statistics;
@@ -29,69 +29,63 @@ use crate::system::{Lagrangian, State};
 /// Between the steps it is the continuous extension of the method, projected onto the constraints like the steps
 /// themselves: continuous, and equal to the states computed at their times.
 ///
-/// The flow `F` says which equations were integrated, Lagrange's or Hamilton's; a sample has both velocities and
-/// momenta.
-pub struct Trajectory<'a, L: Lagrangian<N, M>, const N: usize, const M: usize, F = LagrangianFlow> {
-    system: &'a L,
-    path: Path<L::Scalar, N>,
+/// The system `S` is borrowed by the call that integrates, `Trajectory<&Pendulum, 3, 1>`;
+/// [`into_owned`](Self::into_owned) makes it one that borrows nothing, `Trajectory<Pendulum, 3, 1>`. The flow `F` says
+/// which equations were integrated, Lagrange's or Hamilton's; a sample has both velocities and momenta.
+pub struct Trajectory<S: Lagrangian<N, M>, const N: usize, const M: usize, F = LagrangianFlow> {
+    system: S,
+    path: Path<S::Scalar, N>,
     ending: Ending,
     statistics: Statistics,
-    adjustment: Adjustment<L::Scalar, N>,
+    adjustment: Adjustment<S::Scalar, N>,
     flow: PhantomData<F>,
 }
 
-impl<'a, L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize>
-    Trajectory<'a, L, N, M, F>
-{
+impl<L: Lagrangian<N, M> + Clone, F, const N: usize, const M: usize> Trajectory<&L, N, M, F> {
+    /// The trajectory with a copy of the system, which may then change or go away.
+    ///
+    #[cfg_attr(
+        feature = "std",
+        doc = r#"
+```
+use lagrange_core::prelude::*;
+
+#[derive(Clone, Lagrangian)]
+#[coordinates(theta)]
+#[lagrangian(l^2/2 * theta_dot^2 + g*l*cos(theta))]
+struct Pendulum { g: f64, l: f64 }
+
+fn swing(l: f64) -> Result<Trajectory<Pendulum, 1, 0>, Error> {
+    let pendulum = Pendulum { g: 9.81, l };
+    Ok(pendulum.integrate(State::at_rest([0.1]), 2.0, Dop853::default())?.into_owned())
+}
+
+assert!(swing(2.0)?.end().coordinate("theta")? < 0.1);
+# Ok::<(), Error>(())
+```
+"#
+    )]
+    /// Of a system in an `Arc` or an `Rc` only the pointer is copied.
+    pub fn into_owned(self) -> Trajectory<L, N, M, F> {
+        let Self { system, path, ending, statistics, adjustment, flow } = self;
+        Trajectory { system: system.clone(), path, ending, statistics, adjustment, flow }
+    }
+}
+
+impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Trajectory<S, N, M, F> {
     pub(crate) fn new(
-        system: &'a L,
-        path: Path<L::Scalar, N>,
+        system: S,
+        path: Path<S::Scalar, N>,
         ending: Ending,
         statistics: Statistics,
-        adjustment: Adjustment<L::Scalar, N>,
+        adjustment: Adjustment<S::Scalar, N>,
     ) -> Self {
         Self { system, path, ending, statistics, adjustment, flow: PhantomData }
     }
 
-    /// The state at this time.
-    ///
-    /// # Errors
-    /// [`Error::OutsideTrajectory`].
-    pub fn at(&self, t: L::Scalar) -> Result<Sample<'a, L, N, M>, Error> {
-        match self.state_at(t) {
-            Some(state) => Ok(self.sample(state)),
-            None => Err(Error::OutsideTrajectory {
-                time: t.to_f64(),
-                start: self.path.start.t.to_f64(),
-                end: self.path.last.t.to_f64(),
-            }),
-        }
-    }
-
-    /// The first state, made consistent.
-    pub fn start(&self) -> Sample<'a, L, N, M> {
-        self.sample(self.path.start)
-    }
-
-    /// The last state.
-    pub fn end(&self) -> Sample<'a, L, N, M> {
-        self.sample(self.path.last)
-    }
-
-    /// The states that the method computed, first and last included.
-    pub fn steps(&self) -> impl Iterator<Item = Sample<'a, L, N, M>> + '_ {
-        let starts = (0..self.statistics.accepted).filter_map(|i| self.path.start_of(i));
-        let states = starts.map(|point| F::state(self.system, &point)).chain(once(self.path.last));
-        states.map(|state| self.sample(state))
-    }
-
-    /// `count` states at evenly spaced times, first and last included.
-    pub fn samples(&self, count: usize) -> impl Iterator<Item = Sample<'a, L, N, M>> + '_ {
-        let (first, last) = (self.path.start.t, self.path.last.t);
-        let intervals = count.saturating_sub(1).max(1);
-        (0..count).filter_map(move |i| {
-            self.state_at(between(first, last, i as f64 / intervals as f64)).map(|state| self.sample(state))
-        })
+    /// The system that moves.
+    pub fn system(&self) -> &S {
+        &self.system
     }
 
     /// Why the trajectory ends where it does.
@@ -105,7 +99,7 @@ impl<'a, L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, co
     }
 
     /// How far the start was moved onto the constraints.
-    pub fn adjustment(&self) -> &Adjustment<L::Scalar, N> {
+    pub fn adjustment(&self) -> &Adjustment<S::Scalar, N> {
         &self.adjustment
     }
 
@@ -114,28 +108,86 @@ impl<'a, L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, co
     pub fn multipliers_are_unique(&self) -> bool {
         self.statistics.multipliers_are_unique
     }
+}
 
-    /// An interpolated state is off the constraints by about the tolerance, and where no projection leads back it stays so.
-    fn state_at(&self, t: L::Scalar) -> Option<State<L::Scalar, N>> {
-        if t == self.path.last.t {
-            return Some(self.path.last);
-        }
-        let point = self.path.at(t)?;
-        Some(F::project(self.system, &point).unwrap_or_else(|_| F::state(self.system, &point)))
+impl<S, F, const N: usize, const M: usize> Trajectory<S, N, M, F>
+where
+    S: Lagrangian<N, M, Scalar: Real> + Clone,
+    F: Flow<S, N, M>,
+{
+    /// The state at this time.
+    ///
+    /// # Errors
+    /// [`Error::OutsideTrajectory`]; [`Error::NotProjected`], or in (q, p) what finding the velocity gives, where no way
+    /// leads from between the steps onto the constraints.
+    pub fn at(&self, t: S::Scalar) -> Result<Sample<S, N, M>, Error> {
+        self.state_at(t).map(|state| self.sample(state))
     }
 
-    fn sample(&self, state: State<L::Scalar, N>) -> Sample<'a, L, N, M> {
-        Sample { system: self.system, state }
+    /// The first state, made consistent.
+    pub fn start(&self) -> Sample<S, N, M> {
+        self.sample(self.path.start)
+    }
+
+    /// The last state.
+    pub fn end(&self) -> Sample<S, N, M> {
+        self.sample(self.path.last)
+    }
+
+    /// The states that the method computed, first and last included.
+    pub fn steps(&self) -> impl Iterator<Item = Sample<S, N, M>> + '_ {
+        self.states_of_steps().map(|state| self.sample(state))
+    }
+
+    /// `count` states at evenly spaced times, first and last included. Where [`at`](Self::at) gives an error, all but the
+    /// time is NaN.
+    pub fn samples(&self, count: usize) -> impl Iterator<Item = Sample<S, N, M>> + '_ {
+        self.states(count).map(|state| self.sample(state))
+    }
+
+    fn sample(&self, state: State<S::Scalar, N>) -> Sample<S, N, M> {
+        Sample { system: self.system.clone(), state }
     }
 }
 
-impl<L, F, const N: usize, const M: usize> Debug for Trajectory<'_, L, N, M, F>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
+impl<S: Lagrangian<N, M, Scalar: Real>, F: Flow<S, N, M>, const N: usize, const M: usize>
+    Trajectory<S, N, M, F>
 {
+    fn states_of_steps(&self) -> impl Iterator<Item = State<S::Scalar, N>> + '_ {
+        let starts = (0..self.statistics.accepted).filter_map(|i| self.path.start_of(i));
+        starts.map(|point| F::state(&self.system, &point)).chain(once(self.path.last))
+    }
+
+    fn states(&self, count: usize) -> impl Iterator<Item = State<S::Scalar, N>> + '_ {
+        let (first, last) = (self.path.start.t, self.path.last.t);
+        let intervals = count.saturating_sub(1).max(1);
+        let nowhere = vector([S::Scalar::constant(f64::NAN); N]);
+        (0..count).map(move |i| {
+            let t = between(first, last, i as f64 / intervals as f64);
+            self.state_at(t).unwrap_or(State { t, q: nowhere, v: nowhere })
+        })
+    }
+
+    /// An interpolated state is off the constraints by about the tolerance: it is projected.
+    fn state_at(&self, t: S::Scalar) -> Result<State<S::Scalar, N>, Error> {
+        if t == self.path.last.t {
+            return Ok(self.path.last);
+        }
+        match self.path.at(t) {
+            Some(point) => F::project(&self.system, &point),
+            None => Err(Error::OutsideTrajectory {
+                time: t.to_f64(),
+                start: self.path.start.t.to_f64(),
+                end: self.path.last.t.to_f64(),
+            }),
+        }
+    }
+}
+
+impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Debug for Trajectory<S, N, M, F> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_struct("Trajectory")
-            .field("system", &L::NAME)
+            .field("system", &S::NAME)
             .field("start", &self.path.start)
             .field("end", &self.path.last)
             .field("ending", &self.ending)

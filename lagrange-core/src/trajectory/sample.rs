@@ -13,19 +13,35 @@ use crate::system::{Lagrangian, Solution, State};
 ///
 /// Quantities are looked up by name; [`state`](Self::state) and [`solution`](Self::solution) hold them by index, in
 /// the order of the attributes. Accelerations and multipliers are solved for when asked for.
-pub struct Sample<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
-    pub(super) system: &'a L,
-    pub(super) state: State<L::Scalar, N>,
+///
+/// It has the system `S` as its trajectory has it: borrowed, or a copy, which of a system in an `Arc` or an `Rc` is one
+/// of the pointer.
+#[derive(Clone, Copy)]
+pub struct Sample<S: Lagrangian<N, M>, const N: usize, const M: usize> {
+    pub(super) system: S,
+    pub(super) state: State<S::Scalar, N>,
 }
 
-impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<'a, L, N, M> {
+impl<L: Lagrangian<N, M> + Clone, const N: usize, const M: usize> Sample<&L, N, M> {
+    /// The state with a copy of the system, which may then change or go away.
+    pub fn into_owned(self) -> Sample<L, N, M> {
+        Sample { system: self.system.clone(), state: self.state }
+    }
+}
+
+impl<S: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<S, N, M> {
+    /// The system.
+    pub fn system(&self) -> &S {
+        &self.system
+    }
+
     /// Time, coordinates and velocities.
-    pub fn state(&self) -> &State<L::Scalar, N> {
+    pub fn state(&self) -> &State<S::Scalar, N> {
         &self.state
     }
 
     /// The time.
-    pub fn time(&self) -> L::Scalar {
+    pub fn time(&self) -> S::Scalar {
         self.state.t
     }
 
@@ -33,36 +49,36 @@ impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Samp
     ///
     /// # Errors
     /// As [`Simulate::solve`](crate::Simulate::solve).
-    pub fn solution(&self) -> Result<Solution<L::Scalar, N, M>, Error> {
-        solve(self.system, &self.state)
+    pub fn solution(&self) -> Result<Solution<S::Scalar, N, M>, Error> {
+        solve(&self.system, &self.state)
     }
 
     /// The generalized coordinate of this name.
     ///
     /// # Errors
     /// [`Error::UnknownName`].
-    pub fn coordinate(&self, name: &str) -> Result<L::Scalar, Error> {
-        Ok(self.state.q[coordinate::<L, N, M>(name)?])
+    pub fn coordinate(&self, name: &str) -> Result<S::Scalar, Error> {
+        Ok(self.state.q[coordinate::<S, N, M>(name)?])
     }
 
     /// The generalized velocity of the coordinate of this name.
     ///
     /// # Errors
     /// [`Error::UnknownName`].
-    pub fn velocity(&self, name: &str) -> Result<L::Scalar, Error> {
-        Ok(self.state.v[coordinate::<L, N, M>(name)?])
+    pub fn velocity(&self, name: &str) -> Result<S::Scalar, Error> {
+        Ok(self.state.v[coordinate::<S, N, M>(name)?])
     }
 
     /// The generalized momentum ∂L/∂q̇ of the coordinate of this name.
     ///
     /// # Errors
     /// [`Error::UnknownName`].
-    pub fn momentum(&self, name: &str) -> Result<L::Scalar, Error> {
-        Ok(self.system.momentum(&self.state)[coordinate::<L, N, M>(name)?])
+    pub fn momentum(&self, name: &str) -> Result<S::Scalar, Error> {
+        Ok(self.system.momentum(&self.state)[coordinate::<S, N, M>(name)?])
     }
 
     /// The energy E = p·q̇ − L, which is the value of the Hamiltonian H(t, q, p).
-    pub fn energy(&self) -> L::Scalar {
+    pub fn energy(&self) -> S::Scalar {
         self.system.energy(&self.state)
     }
 
@@ -70,8 +86,8 @@ impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Samp
     ///
     /// # Errors
     /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
-    pub fn acceleration(&self, name: &str) -> Result<L::Scalar, Error> {
-        let index = coordinate::<L, N, M>(name)?;
+    pub fn acceleration(&self, name: &str) -> Result<S::Scalar, Error> {
+        let index = coordinate::<S, N, M>(name)?;
         Ok(self.solution()?.accelerations[index])
     }
 
@@ -79,8 +95,8 @@ impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Samp
     ///
     /// # Errors
     /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
-    pub fn multiplier(&self, name: &str) -> Result<L::Scalar, Error> {
-        let index = index::<L, N, M>(&L::CONSTRAINTS, "constraint", name)?;
+    pub fn multiplier(&self, name: &str) -> Result<S::Scalar, Error> {
+        let index = index::<S, N, M>(&S::CONSTRAINTS, "constraint", name)?;
         Ok(self.solution()?.multipliers[index])
     }
 
@@ -88,8 +104,8 @@ impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Samp
     ///
     /// # Errors
     /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
-    pub fn constraint_force(&self, name: &str) -> Result<L::Scalar, Error> {
-        let index = coordinate::<L, N, M>(name)?;
+    pub fn constraint_force(&self, name: &str) -> Result<S::Scalar, Error> {
+        let index = coordinate::<S, N, M>(name)?;
         Ok(self.system.constraint_force(&self.state, &self.solution()?.multipliers)[index])
     }
 
@@ -97,24 +113,22 @@ impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Samp
     ///
     /// # Errors
     /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
-    pub fn observable(&self, name: &str) -> Result<L::Scalar, Error> {
-        let index = index::<L, N, M>(L::OBSERVABLES, "observable", name)?;
+    pub fn observable(&self, name: &str) -> Result<S::Scalar, Error> {
+        let index = index::<S, N, M>(S::OBSERVABLES, "observable", name)?;
         let value = self.system.observable(index, &self.state, &self.solution()?);
-        value.ok_or_else(|| unknown::<L, N, M>(L::OBSERVABLES, "observable", name))
+        value.ok_or_else(|| unknown::<S, N, M>(S::OBSERVABLES, "observable", name))
     }
 
     /// The conserved quantity of this name: `p_phi`, `energy`, or one given in `#[conserved(…)]`.
     ///
     /// # Errors
     /// [`Error::UnknownName`].
-    pub fn conserved(&self, name: &str) -> Result<L::Scalar, Error> {
-        let names: Vec<&'static str> = L::FACTS.conserved.iter().map(|conserved| conserved.name).collect();
-        let index = index::<L, N, M>(&names, "conserved quantity", name)?;
-        self.conserved_by_index(index).ok_or_else(|| unknown::<L, N, M>(&names, "conserved quantity", name))
-    }
-
-    pub(super) fn conserved_by_index(&self, index: usize) -> Option<L::Scalar> {
-        self.system.conserved(index, &self.state)
+    pub fn conserved(&self, name: &str) -> Result<S::Scalar, Error> {
+        let names: Vec<&'static str> = S::FACTS.conserved.iter().map(|conserved| conserved.name).collect();
+        let index = index::<S, N, M>(&names, "conserved quantity", name)?;
+        self.system
+            .conserved(index, &self.state)
+            .ok_or_else(|| unknown::<S, N, M>(&names, "conserved quantity", name))
     }
 }
 
@@ -122,8 +136,8 @@ fn coordinate<L: Lagrangian<N, M>, const N: usize, const M: usize>(name: &str) -
     index::<L, N, M>(&L::COORDINATES, "coordinate", name)
 }
 
-impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Debug for Sample<'_, L, N, M> {
+impl<S: Lagrangian<N, M>, const N: usize, const M: usize> Debug for Sample<S, N, M> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Sample").field("system", &L::NAME).field("state", &self.state).finish()
+        f.debug_struct("Sample").field("system", &S::NAME).field("state", &self.state).finish()
     }
 }

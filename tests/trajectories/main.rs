@@ -1,0 +1,3 @@
+//! What a motion leaves behind.
+
+mod owned;

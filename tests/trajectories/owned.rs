@@ -1,0 +1,94 @@
+//! Trajectories that own their system.
+
+use std::rc::Rc;
+use std::sync::Arc;
+use std::thread;
+
+use lagrange_core::prelude::*;
+use lagrange_core::{HamiltonianFlow, Sample};
+
+/// A weight on a spring, pulled by a force `u`: with ω² = 1 it swings about x = u.
+#[derive(Clone, Debug, Lagrangian)]
+#[coordinates(x)]
+#[lagrangian(x_dot^2/2 - x^2/2)]
+#[force(x: u)]
+struct Plant {
+    u: f64,
+}
+
+fn build(u: f64) -> Result<Trajectory<Plant, 1, 0>, Error> {
+    let plant = Plant { u };
+    Ok(plant.integrate(State::at_rest([0.0]), 3.0, Dop853::with_tolerance(1e-12))?.into_owned())
+}
+
+fn exact(u: f64, t: f64) -> f64 {
+    u * (1.0 - t.cos())
+}
+
+#[test]
+fn a_function_builds_a_system_and_returns_its_path() -> Result<(), Box<dyn std::error::Error>> {
+    let path = build(0.5)?;
+    assert_eq!(path.system().u, 0.5);
+    for sample in path.samples(10) {
+        assert!((sample.coordinate("x")? - exact(0.5, sample.time())).abs() < 1e-10);
+        assert!((sample.acceleration("x")? - 0.5 * sample.time().cos()).abs() < 1e-10);
+    }
+    assert_eq!(path.csv(3).to_string().lines().count(), 4);
+    Ok(())
+}
+
+#[test]
+fn a_path_is_kept_while_the_system_changes() -> Result<(), Error> {
+    let mut plant = Plant { u: 0.0 };
+    let (mut state, mut paths) = (State::at_rest([0.0]), Vec::new());
+    for k in 1..=5 {
+        plant.u = f64::from(k);
+        let path = plant.integrate(state, f64::from(k), Dop853::with_tolerance(1e-12))?.into_owned();
+        state = *path.end().state();
+        paths.push(path);
+    }
+    for (k, path) in (1..).map(f64::from).zip(&paths) {
+        // ẍ + x = k, by the path's own system.
+        let middle = path.at(k - 0.5)?;
+        assert!((middle.acceleration("x")? + middle.coordinate("x")? - k).abs() < 1e-12);
+    }
+    Ok(())
+}
+
+/// Of a system in an `Arc` or `Rc` there is one, however many paths and samples have it.
+#[test]
+fn a_shared_system_is_not_copied() -> Result<(), Error> {
+    let plant = Arc::new(Plant { u: 0.5 });
+    let path = plant.integrate(State::at_rest([0.0]), 3.0, Dop853::default())?.into_owned();
+    assert!(Arc::ptr_eq(path.system(), &plant) && Arc::ptr_eq(path.end().system(), &plant));
+    let end = thread::spawn(move || path.end().coordinate("x")).join().expect("no panic")?;
+    assert!((end - exact(0.5, 3.0)).abs() < 1e-8 && Arc::strong_count(&plant) == 1);
+
+    let plant = Rc::new(Plant { u: 0.5 });
+    let sample = plant.integrate(State::at_rest([0.0]), 3.0, Dop853::default())?.into_owned().end();
+    assert!(Rc::ptr_eq(sample.system(), &plant));
+    Ok(())
+}
+
+#[test]
+fn a_sample_outlives_its_path_and_its_system() -> Result<(), Error> {
+    let sample: Sample<Plant, 1, 0> = {
+        let plant = Plant { u: 0.5 };
+        let borrowed: Sample<&Plant, 1, 0> =
+            plant.integrate(State::at_rest([0.0]), 3.0, Dop853::default())?.end();
+        borrowed.into_owned()
+    };
+    assert!((sample.coordinate("x")? - exact(0.5, 3.0)).abs() < 1e-8);
+    Ok(())
+}
+
+#[test]
+fn motions_in_momenta_are_owned_too() -> Result<(), Error> {
+    let build = || -> Result<Trajectory<Plant, 1, 0, HamiltonianFlow>, Error> {
+        let plant = Plant { u: 0.5 };
+        let path = plant.integrate_hamiltonian(PhaseState::new([0.0], [0.0]), 3.0, Dop853::default())?;
+        Ok(path.into_owned())
+    };
+    assert!((build()?.at(2.0)?.momentum("x")? - 0.5 * 2.0_f64.sin()).abs() < 1e-8);
+    Ok(())
+}
