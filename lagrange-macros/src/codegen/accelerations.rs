@@ -13,14 +13,14 @@ use crate::contract::Method;
 use crate::mechanics::{Equations, Form};
 use crate::symbolic::{Graph, Id};
 
-/// M, h, F and γ, matrices row by row. Of M the lower triangle is read.
+/// M, h, F and γ, completed as the form over the accelerations is, matrices row by row. Of M the lower triangle is read.
 fn loop_entries(equations: &Equations) -> Vec<Id> {
+    let Form { matrix, linear, .. } = &equations.forms[0];
     let row = |(i, row): (usize, &Vec<Id>)| {
         row.iter().enumerate().map(|(j, &entry)| if j <= i { entry } else { Id::ZERO }).collect::<Vec<_>>()
     };
-    let mass = equations.mass.iter().enumerate().flat_map(row);
-    let others =
-        [&equations.forcing, &equations.jacobian.concat(), &equations.bias].map(|entries| entries.clone());
+    let mass = matrix.iter().enumerate().flat_map(row);
+    let others = [linear, &equations.jacobian.concat(), &equations.bias].map(|entries| entries.clone());
     mass.chain(others.concat()).collect()
 }
 

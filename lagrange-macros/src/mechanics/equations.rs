@@ -35,7 +35,7 @@ pub(crate) struct Equations {
     pub(crate) bias: Vec<Id>,
     /// Fᵀλ, in the multipliers' symbols
     pub(crate) constraint_force: Vec<Id>,
-    /// M and h as quadratic forms: the first over the accelerations alone
+    /// M and h as quadratic forms, completed where M is singular: the first over the accelerations alone
     pub(crate) forms: Vec<Form>,
 }
 
@@ -54,7 +54,7 @@ impl Equations {
         determinacy::check(problem, &motion, &constraints, diagnostics)?;
         let integrability = integrability::classify(graph, problem, &constraints);
         Some(Self {
-            forms: Form::all(graph, problem, &motion),
+            forms: Form::all(graph, problem, &motion, &constraints),
             integrability,
             momentum: motion.momentum,
             mass: motion.mass,

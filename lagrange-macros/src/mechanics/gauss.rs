@@ -5,6 +5,8 @@
 //! velocities. Eliminating an acceleration as soon as it occurs in no definition that is left is then the
 //! articulated-body algorithm (Featherstone, *Rigid Body Dynamics Algorithms*, chapter 7), found from the definitions.
 
+use super::completion;
+use super::constraints::Constraints;
 use super::euler_lagrange::{Motion, generalized_forces};
 use crate::resolve::Problem;
 use crate::symbolic::{Forward, Graph, Id, Node, Rational};
@@ -34,19 +36,49 @@ pub(crate) struct Form {
 impl Form {
     /// Over the accelerations alone, and over the velocities that definitions name as well where there are any and
     /// exact arithmetic can write it.
-    pub(super) fn all(graph: &mut Graph, problem: &Problem, motion: &Motion) -> Vec<Self> {
+    pub(super) fn all(
+        graph: &mut Graph,
+        problem: &Problem,
+        motion: &Motion,
+        constraints: &Constraints,
+    ) -> Vec<Self> {
         let plain = Self::new(motion.mass.clone(), motion.forcing.clone(), Vec::new());
         let velocities = Velocities::named(graph, problem);
         let named = (!velocities.rows.is_empty()).then(|| velocities.form(graph, problem));
         let named = named.filter(|_| graph.take_fault().is_none());
         let mut forms: Vec<Self> = [plain].into_iter().chain(named).collect();
-        forms.iter_mut().for_each(|form| form.divide_what_is_alone(graph));
+        let completing = completion::completing(graph, problem, &motion.mass, constraints);
+        for form in &mut forms {
+            form.complete(graph, constraints, &completing);
+            form.divide_what_is_alone(graph);
+        }
         forms
     }
 
     fn new(matrix: Vec<Vec<Id>>, linear: Vec<Id>, definitions: Vec<Vec<(usize, Id)>>) -> Self {
         let alone = vec![None; matrix.len()];
         Self { matrix, linear, definitions, alone, completing: Vec::new() }
+    }
+
+    /// H + FᵀσF and b − Fᵀσγ, of the constraints given with their σ; as it is where exact arithmetic cannot write that.
+    fn complete(&mut self, graph: &mut Graph, constraints: &Constraints, completing: &[(usize, Id)]) {
+        let (mut matrix, mut linear) = (self.matrix.clone(), self.linear.clone());
+        for &(a, weight) in completing {
+            let row = constraints.jacobian[a].iter().enumerate().filter(|&(_, &entry)| entry != Id::ZERO);
+            let row: Vec<(usize, Id)> = row.map(|(i, &entry)| (i, entry)).collect();
+            for &(i, entry) in &row {
+                let weighted = graph.mul(weight, entry);
+                for &(j, other) in &row {
+                    let part = graph.mul(weighted, other);
+                    matrix[i][j] = graph.add(matrix[i][j], part);
+                }
+                let part = graph.mul(weighted, constraints.bias[a]);
+                linear[i] = graph.sub(linear[i], part);
+            }
+        }
+        if graph.take_fault().is_none() {
+            (self.matrix, self.linear, self.completing) = (matrix, linear, completing.to_vec());
+        }
     }
 
     fn divide_what_is_alone(&mut self, graph: &mut Graph) {

@@ -1,5 +1,6 @@
 //! From a [`Problem`] to its equations of motion and what they tell, as the textbook does it.
 
+mod completion;
 mod conservation;
 mod consistency;
 mod constraints;

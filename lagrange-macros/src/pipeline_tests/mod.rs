@@ -1,5 +1,6 @@
 //! The pipeline as a whole, outside of a compiler.
 
+mod completion;
 mod consistency;
 mod counts;
 mod determinism;

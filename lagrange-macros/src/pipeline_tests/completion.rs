@@ -1,0 +1,279 @@
+//! Where M is singular, the constraints that complete it: which, with what σ, at what cost, and the same solution.
+
+use super::equations;
+use crate::codegen::{operations, solutions, solving};
+use crate::mechanics::Equations;
+use crate::resolve::Problem;
+use crate::symbolic::{Approximate, Graph, Id, Sample, Symbol, solve};
+use crate::variables::{Variable, symbols};
+
+/// A rigid body that hangs by its pole; `HAND` is where a term that vanishes may be added to L.
+const TOP: &str = "#[coordinates(q: [4])] #[define(w = quat_rate_body(q, q_dot))]
+    #[lagrangian((J[0]*w[0]^2 + J[1]*w[1]^2 + J[2]*w[2]^2)/2 - m*g*l*quat_rotate(q, [0, 0, 1])[2] HAND)]
+    #[constraint(unit: (dot(q, q) - 1)/2 = 0)] struct Top { J: [f64; 3], m: f64, g: f64, l: f64 }";
+
+/// The same about its centre of mass, of any inertia.
+const FREE: &str = "#[coordinates(q: [4])] #[define(w = quat_rate_body(q, q_dot))]
+    #[lagrangian(dot(w, J*w)/2 HAND)] #[constraint(unit: (dot(q, q) - 1)/2 = 0)] struct Free { J: [[f64; 3]; 3] }";
+
+const BALL: &str = "#[coordinates(r: [3], q: [4])] #[define(J = 2/5*m*a^2)] #[define(Omega = quat_rate(q, q_dot))]
+    #[lagrangian(m/2*dot(r_dot, r_dot) + J/2*dot(Omega, Omega) + m*dot(g, r) HAND)]
+    #[constraint(rolling: r_dot - a*cross(Omega, n) = w*cross(n, r))]
+    #[constraint(unit: (dot(q, q) - 1)/2 = 0)] struct Ball { m: f64, a: f64, g: [f64; 3], n: [f64; 3], w: f64 }";
+
+/// `count` bodies in a row, each hung to the one before by a spherical joint, the last to a wall as well if `closed`.
+fn joints(count: usize, closed: bool) -> String {
+    let last = count - 1;
+    let mut bodies = String::new();
+    for i in 0..count {
+        bodies += &format!(
+            "#[define(w{i} = quat_rate_body(q{i}, q{i}_dot))]
+             #[define(T{i} = m/2*dot(r{i}_dot, r{i}_dot) + (J[0]*w{i}[0]^2 + J[1]*w{i}[1]^2 + J[2]*w{i}[2]^2)/2 - m*g*r{i}[2])]
+             #[define(s{i} = 2*(J[0] + J[1] + J[2])*dot(q{i}, q{i}_dot)^2)]
+             #[constraint(unit{i}: (dot(q{i}, q{i}) - 1)/2 = 0)]
+             #[define(top{i} = r{i} + quat_rotate(q{i}, arm))] #[define(end{i} = r{i} - quat_rotate(q{i}, arm))]"
+        );
+        bodies += &match i {
+            0 => "#[constraint(joint0: top0 = 0)]".to_owned(),
+            _ => format!("#[constraint(joint{i}: top{i} = end{})]", i - 1),
+        };
+    }
+    if closed {
+        bodies += &format!("#[constraint(wall: end{last} = hook)]");
+    }
+    let names = |name: &str| (0..count).map(|i| format!("{name}{i}")).collect::<Vec<_>>();
+    let coordinates: Vec<String> = (0..count).map(|i| format!("r{i}: [3], q{i}: [4]")).collect();
+    let (energies, squares) = (names("T").join(" + "), names("s").join(" + "));
+    format!(
+        "#[coordinates({})] {bodies} #[define(S = {squares})] #[lagrangian({energies} HAND)]
+         struct Bodies {{ m: f64, J: [f64; 3], g: f64, arm: [f64; 3], hook: [f64; 3] }}",
+        coordinates.join(", ")
+    )
+}
+
+/// A body with four legs of three hinges each, their feet free; velocities in the body's frame.
+fn quadruped() -> String {
+    let mut legs = String::new();
+    for k in 0..4 {
+        legs += &format!(
+            "#[define(hip{k} = place[{k}] + l*[sin(a{k}[0]), cos(a{k}[0])*sin(a{k}[1]), -cos(a{k}[0])*cos(a{k}[1])])]
+             #[define(leg{k} = hip{k} + l*[sin(a{k}[0]), cos(a{k}[0])*sin(a{k}[1] + a{k}[2]), -cos(a{k}[0])*cos(a{k}[1] + a{k}[2])])]
+             #[define(knee{k} = v + cross(w, hip{k}) + der(hip{k}))] #[define(foot{k} = v + cross(w, leg{k}) + der(leg{k}))]
+             #[define(T{k} = m/2*(dot(knee{k}, knee{k}) + dot(foot{k}, foot{k})) - m*g*dot(up, hip{k} + leg{k}))]"
+        );
+    }
+    format!(
+        "#[coordinates(r: [3], q: [4], a0: [3], a1: [3], a2: [3], a3: [3])]
+         #[define(w = quat_rate_body(q, q_dot))] #[define(back = [q[0], -q[1], -q[2], -q[3]])]
+         #[define(v = quat_rotate(back, r_dot))] #[define(up = quat_rotate(back, [0, 0, 1]))] {legs}
+         #[lagrangian(M/2*dot(v, v) + (J[0]*w[0]^2 + J[1]*w[1]^2 + J[2]*w[2]^2)/2 - (M + 8*m)*g*r[2] + T0 + T1 + T2 + T3 HAND)]
+         #[constraint(unit: (dot(q, q) - 1)/2 = 0)]
+         struct Quadruped {{ M: f64, J: [f64; 3], m: f64, g: f64, l: f64, place: [[f64; 3]; 4] }}"
+    )
+}
+
+fn without(source: &str) -> String {
+    source.replace("HAND", "")
+}
+
+/// Operations of the cheapest form.
+fn least(source: &str) -> usize {
+    let (graph, _, equations) = equations(source);
+    let counts = solving(&graph, &equations).into_iter().flatten();
+    counts.map(|counts| counts[counts.len() - 1].1.arithmetic).min().expect("short enough")
+}
+
+#[test]
+fn a_quaternion_costs_what_it_does_with_a_term_that_vanishes_added_by_hand() {
+    let term = |inertia: &str| format!("+ 2*{inertia}*dot(q, q_dot)^2");
+    let systems = [
+        ("top", TOP.to_owned(), term("J[0]")),
+        ("free", FREE.to_owned(), term("J[0][0]")),
+        ("ball", BALL.to_owned(), term("J")),
+        ("joints", joints(3, false), "+ S".to_owned()),
+        ("quadruped", quadruped(), term("J[0]")),
+    ];
+    for (name, source, hand) in systems {
+        let [completed, by_hand] =
+            [without(&source), source.replace("HAND", &hand)].map(|source| least(&source));
+        println!("{name}: {completed}, {by_hand} by hand");
+        assert!(completed as f64 <= 1.05 * by_hand as f64, "{name}: {completed}, {by_hand} by hand");
+    }
+}
+
+/// The names of the constraints that complete M.
+fn completing(source: &str) -> Vec<String> {
+    let (_, problem, equations) = equations(&without(source));
+    let [first, rest @ ..] = &equations.forms[..] else { panic!("a form") };
+    assert!(rest.iter().all(|form| form.completing == first.completing), "every form or none");
+    first.completing.iter().map(|&(a, _)| problem.constraints[a].0.text.clone()).collect()
+}
+
+#[test]
+fn only_the_rows_that_m_needs_complete_it() {
+    assert_eq!(completing(TOP), ["unit"]);
+    assert_eq!(completing(FREE), ["unit"]);
+    assert_eq!(completing(BALL), ["unit"]);
+    assert_eq!(completing(&quadruped()), ["unit"]);
+    let mut units = completing(&joints(3, true));
+    units.sort();
+    assert_eq!(units, ["unit0", "unit1", "unit2"]);
+}
+
+#[test]
+fn where_m_needs_no_constraint_it_is_left_alone() {
+    let sources = [
+        super::systems::rods(4),
+        super::systems::SPHERE.to_owned(),
+        // An inertia of any shape, which no random numbers make definite, in angles.
+        "#[coordinates(phi, theta, psi)]
+         #[define(w = [phi_dot*sin(theta)*sin(psi) + theta_dot*cos(psi), phi_dot*sin(theta)*cos(psi) - theta_dot*sin(psi),
+                       phi_dot*cos(theta) + psi_dot])]
+         #[lagrangian(dot(w, J*w)/2)] #[constraint(level: phi_dot*cos(theta) + psi_dot = 0)]
+         struct Euler { J: [[f64; 3]; 3] }"
+            .to_owned(),
+        // Singular, and no constraint helps.
+        "#[coordinates(x, y, z)] #[lagrangian((x_dot + y_dot)^2/2 + z_dot^2/2)] #[constraint(c: x + y + z = 1)]
+         struct Hopeless {}"
+            .to_owned(),
+    ];
+    for source in sources {
+        assert_eq!(completing(&source), [""; 0], "{source}");
+    }
+}
+
+/// Systems with an M that is singular or indefinite, and which constraints complete it.
+const SINGULAR: [(&str, &[&str]); 8] = [
+    // A coordinate without a mass, tied to one that has one, and one tied to nothing.
+    (
+        "#[coordinates(x, y, z)] #[lagrangian(m*x_dot^2/2 - k*(x^2 + y^2) - z)] #[constraint(curve: y = x^2)]
+         #[constraint(held: z^3 = t)] struct Massless { m: f64, k: f64 }",
+        &["curve", "held"],
+    ),
+    // Two without, the one tied to the other.
+    (
+        "#[coordinates(x, y, z)] #[lagrangian(m*x_dot^2/2 - k*z)] #[constraint(first: 1000*(y - z) = 0)]
+         #[constraint(second: y = sin(x)*l)] struct Chained { m: f64, k: f64, l: f64 }",
+        &["first", "second"],
+    ),
+    // Indefinite, whatever the parameters, but not along the constraint.
+    (
+        "#[coordinates(x, y)] #[lagrangian(m*(x_dot^2/2 + 2*x_dot*y_dot + y_dot^2/2) - k*x*y)]
+         #[constraint(c: x = l)] struct Indefinite { m: f64, k: f64, l: f64 }",
+        &["c"],
+    ),
+    // The same with a diagonal of zeros.
+    (
+        "#[coordinates(x, y)] #[lagrangian(m*x_dot*y_dot - k*x^2)] #[constraint(c: x = y + l*y^3)]
+         struct Light { m: f64, k: f64, l: f64 }",
+        &["c"],
+    ),
+    // A velocity constraint, in a mass that depends on the velocity.
+    (
+        "#[coordinates(x, y)] #[lagrangian(m*x_dot^4/12 - k*x*y)] #[constraint(c: y_dot = x_dot*cos(y) + t)]
+         struct Quartic { m: f64, k: f64 }",
+        &["c"],
+    ),
+    // The length of the quaternion in other units, and given as a rate.
+    (
+        "#[coordinates(q: [4])] #[define(w = quat_rate(q, q_dot))] #[lagrangian(J*dot(w, w)/2 - k*q[1])]
+         #[constraint(unit: s*(dot(q, q) - 1) = 0)] struct Scaled { J: f64, k: f64, s: f64 }",
+        &["unit"],
+    ),
+    (
+        "#[coordinates(q: [4])] #[define(w = quat_rate(q, q_dot))] #[lagrangian(J*dot(w, w)/2 - k*q[1])]
+         #[constraint(unit: 10^6*dot(q, q_dot) = 0)] struct Rate { J: f64, k: f64 }",
+        &["unit"],
+    ),
+    // A quaternion of any length, in a coordinate that grows.
+    (
+        "#[coordinates(q: [4], s)] #[define(w = quat_rate_body(q, q_dot))]
+         #[lagrangian((A*w[0]^2 + B*w[1]^2 + C*w[2]^2)/2 + m*s_dot^2/2 - k*q[1])]
+         #[constraint(length: dot(q, q) = s^2)] struct Growing { A: f64, B: f64, C: f64, m: f64, k: f64 }",
+        &["length"],
+    ),
+];
+
+#[test]
+fn massless_coordinates_and_indefinite_masses_are_completed() {
+    for (source, rows) in SINGULAR {
+        let mut found = completing(source);
+        found.sort();
+        assert_eq!(found, rows, "{source}");
+    }
+}
+
+/// A random state on the constraints.
+fn state(graph: &Graph, problem: &Problem, equations: &Equations, draw: u64) -> Sample {
+    let n = problem.coordinates.len();
+    let roots = [&equations.roots()[..], &equations.forms[0].linear].concat();
+    let all = [symbols(n, Variable::Coordinate), symbols(n, Variable::Velocity)];
+    let known = graph.symbols(&roots).chain(all.iter().flatten().copied());
+    let mut sample = Sample::new(known, draw, |symbol| problem.range(symbol));
+    let is_holonomic = |a: &usize| equations.residual[*a] != Id::ZERO;
+    let (residual, slopes): (Vec<Id>, Vec<&[Id]>) = (0..equations.residual.len())
+        .filter(is_holonomic)
+        .map(|a| (equations.residual[a], &equations.jacobian[a][..]))
+        .unzip();
+    sample.project(graph, &residual, &slopes, &all[0]).expect("a place");
+    let rows: Vec<&[Id]> = equations.jacobian.iter().map(Vec::as_slice).collect();
+    sample.project(graph, &equations.rate, &rows, &all[1]).expect("a velocity");
+    sample
+}
+
+/// Accelerations and multipliers by Gauss's elimination of M q̈ − Fᵀλ = h, F q̈ = −γ with complete pivoting.
+fn pivoted(graph: &Graph, equations: &Equations, state: &mut Sample) -> Vec<f64> {
+    let (n, m) = (equations.mass.len(), equations.bias.len());
+    let mut values = |roots: &[Id]| state.values(graph, roots);
+    let jacobian: Vec<Vec<Approximate>> = equations.jacobian.iter().map(|row| values(row)).collect();
+    let mut rows: Vec<Vec<Approximate>> = equations.mass.iter().map(|row| values(row)).collect();
+    for (i, row) in rows.iter_mut().enumerate() {
+        row.extend(jacobian.iter().map(|constraint| constraint[i].negated()));
+        row.push(values(&equations.forcing)[i]);
+    }
+    for (a, mut row) in jacobian.into_iter().enumerate() {
+        row.resize(n + m, Approximate::exact(0.0));
+        row.push(values(&equations.bias)[a].negated());
+        rows.push(row);
+    }
+    let solution = solve(rows, n + m).expect("a solution");
+    assert!(solution.free.iter().all(|free| !free));
+    solution.values.iter().map(|x| x.value).collect()
+}
+
+/// Accelerations, multipliers and so the forces of constraints are those of the equations as they were, and the pivot
+/// says that they can be trusted.
+#[test]
+fn what_is_completed_has_the_same_solution() {
+    let systems = [TOP, BALL].map(str::to_owned).into_iter().chain([joints(2, true)]);
+    for source in systems.chain(SINGULAR.map(|(source, _)| source.to_owned())) {
+        let (graph, problem, equations) = equations(&without(&source));
+        for draw in 100..110 {
+            let mut state = state(&graph, &problem, &equations, draw);
+            let expected = pivoted(&graph, &equations, &mut state);
+            let scale = expected.iter().fold(0.0_f64, |scale, x| scale.max(x.abs()));
+            let input = |symbol: Symbol| state.get(symbol).value;
+            for solution in solutions(&graph, &equations, input).into_iter().flatten() {
+                let (pivot, solution) = solution.split_last().expect("a pivot");
+                assert!(*pivot > 1e-4, "{source}: {pivot}");
+                for (x, y) in solution.iter().zip(&expected) {
+                    assert!((x - y).abs() < 1e-10 * (scale + 1.0), "{source}: {solution:?} {expected:?}");
+                }
+            }
+        }
+    }
+}
+
+/// Whatever the orientation, the inertia of a body is what its parameters make it.
+#[test]
+fn the_weight_of_a_unit_quaternion_is_an_expression_of_the_parameters() {
+    let scaled = SINGULAR[5].0;
+    for (source, cost) in [(TOP, 3), (FREE, 3), (BALL, 3), (scaled, 3), (SINGULAR[6].0, 1)] {
+        let (graph, _, equations) = equations(&without(source));
+        let (_, weight) = equations.forms[0].completing[0];
+        let is_fixed = |symbol: Symbol| matches!(Variable::of(symbol), Variable::Parameter(_));
+        assert!(graph.symbols(&[weight]).all(is_fixed), "{source}");
+        println!("{:?}", operations(&graph, &[weight]));
+        assert!(operations(&graph, &[weight]).arithmetic <= cost, "{source}");
+    }
+}
