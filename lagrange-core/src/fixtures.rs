@@ -1,9 +1,11 @@
 //! Systems for tests, written down by hand.
 
+use core::array::from_fn;
+
 use nalgebra::{SMatrix, SVector};
 
 use crate::number::vector;
-use crate::solution::eliminate::eliminate;
+use crate::solution::eliminate::{LoopFactor, eliminate};
 use crate::system::{ConstraintKind, Facts, Lagrangian, Solution, State};
 
 pub(crate) type At<const N: usize> = State<f64, N>;
@@ -41,6 +43,7 @@ const fn kinds<const M: usize>(holonomic: usize) -> [ConstraintKind; M] {
 
 impl<const N: usize, const M: usize, const H: usize> Lagrangian<N, M> for Mechanism<N, M, H> {
     type Scalar = f64;
+    type Factor = LoopFactor<f64, N, M>;
     const NAME: &'static str = "Mechanism";
     const COORDINATES: [&'static str; N] = first(["x", "y", "z", "w[0]", "w[1]"]);
     const CONSTRAINTS: [&'static str; M] = first(["c0", "c1", "c2", "c3", "c4"]);
@@ -84,6 +87,15 @@ impl<const N: usize, const M: usize, const H: usize> Lagrangian<N, M> for Mechan
         SMatrix::<f64, N, M>::from((self.jacobian)(state)).transpose()
     }
 
+    fn residual_magnitude(&self, state: &At<N>) -> SVector<f64, M> {
+        let size = self.constraint_jacobian(state).abs() * state.q.abs();
+        vector(from_fn(|a| if a < H { size[a] } else { 0.0 }))
+    }
+
+    fn rate_magnitude(&self, state: &At<N>) -> SVector<f64, M> {
+        self.constraint_jacobian(state).abs() * state.v.abs()
+    }
+
     fn constraint_bias(&self, state: &At<N>) -> SVector<f64, M> {
         vector((self.bias)(state))
     }
@@ -94,6 +106,19 @@ impl<const N: usize, const M: usize, const H: usize> Lagrangian<N, M> for Mechan
 
     fn accelerations(&self, state: &At<N>) -> Solution<f64, N, M> {
         eliminate((self.mass)(state), (self.forcing)(state), (self.jacobian)(state), (self.bias)(state))
+    }
+
+    fn factor(&self, state: &At<N>) -> LoopFactor<f64, N, M> {
+        LoopFactor::of((self.mass)(state), (self.jacobian)(state), [0.0; M])
+    }
+
+    fn solve_with(
+        &self,
+        factor: &LoopFactor<f64, N, M>,
+        forcing: &SVector<f64, N>,
+        bias: &SVector<f64, M>,
+    ) -> Solution<f64, N, M> {
+        factor.solve(forcing, bias)
     }
 
     fn observable(&self, index: usize, state: &At<N>, _: &Solution<f64, N, M>) -> Option<f64> {

@@ -26,6 +26,10 @@ pub(crate) enum Quantity {
     Integral,
     ConstraintForce,
     Accelerations,
+    Factor,
+    Solve,
+    ResidualMagnitude,
+    RateMagnitude,
     Observable,
     Conserved,
     Parameters,
@@ -41,6 +45,9 @@ pub(crate) enum Argument {
     Solution,
     Multipliers,
     Direction,
+    Factor,
+    Forcing,
+    Bias,
     Index,
     Value,
 }
@@ -54,6 +61,9 @@ impl Argument {
             Solution => "solution",
             Multipliers => "multipliers",
             Direction => "direction",
+            Self::Factor => "factor",
+            Forcing => "forcing",
+            Bias => "bias",
             Index => "index",
             Value => "value",
         }
@@ -67,6 +77,7 @@ pub(crate) enum Gives {
     /// Rows and columns.
     Matrix(Dimension, Dimension),
     Solution,
+    Factor,
     ResidualChange,
     /// A number, if there is one of that index.
     Optional,
@@ -81,7 +92,7 @@ pub(crate) enum Dimension {
     Parameters,
 }
 
-use Argument::{Direction, Index, Multipliers, MutableSystem, Solution, State, System, Value};
+use Argument::{Bias, Direction, Forcing, Index, Multipliers, MutableSystem, Solution, State, System, Value};
 use Dimension::{Constraints, Coordinates, Parameters};
 use Gives::{Matrix, Number, Optional, Vector};
 
@@ -95,7 +106,7 @@ const fn of_state(quantity: Quantity, name: &'static str, gives: Gives) -> Metho
 }
 
 /// The methods of `Lagrangian`, as they are emitted.
-pub(crate) const LAGRANGIAN: [Method; 15] = [
+pub(crate) const LAGRANGIAN: [Method; 19] = [
     of_state(Quantity::Lagrangian, "lagrangian", Number),
     of_state(Quantity::Energy, "energy", Number),
     of_state(Quantity::Momentum, "momentum", Vector(Coordinates)),
@@ -104,11 +115,15 @@ pub(crate) const LAGRANGIAN: [Method; 15] = [
     of_state(Quantity::Forcing, "forcing", Vector(Coordinates)),
     of_state(Quantity::Residual, "constraint_residual", Vector(Constraints)),
     of_state(Quantity::Rate, "constraint_rate", Vector(Constraints)),
+    of_state(Quantity::ResidualMagnitude, "residual_magnitude", Vector(Constraints)),
+    of_state(Quantity::RateMagnitude, "rate_magnitude", Vector(Constraints)),
     of_state(Quantity::Jacobian, "constraint_jacobian", Matrix(Constraints, Coordinates)),
     of_state(Quantity::Bias, "constraint_bias", Vector(Constraints)),
     method(Quantity::Integral, "constraint_integral", &[System, Index, State], Optional),
     method(Quantity::ConstraintForce, "constraint_force", &[System, State, Multipliers], Vector(Coordinates)),
     of_state(Quantity::Accelerations, "accelerations", Gives::Solution),
+    of_state(Quantity::Factor, "factor", Gives::Factor),
+    method(Quantity::Solve, "solve_with", &[System, Argument::Factor, Forcing, Bias], Gives::Solution),
     method(Quantity::Observable, "observable", &[System, Index, State, Solution], Optional),
     method(Quantity::Conserved, "conserved", &[System, Index, State], Optional),
 ];
@@ -126,13 +141,14 @@ pub(crate) const LINEARIZED: [Method; 3] = [
 ];
 
 /// The constants of both.
-const CONSTANTS: [&str; 9] = [
+const CONSTANTS: [&str; 10] = [
     "NAME",
     "COORDINATES",
     "CONSTRAINTS",
     "CONSTRAINT_KINDS",
     "CONSTRAINT_CLASSES",
     "INTEGRALS",
+    "MOMENTA_ARE_LINEAR",
     "OBSERVABLES",
     "FACTS",
     "PARAMETERS",

@@ -14,6 +14,12 @@ pub(crate) enum Variable {
     Parameter(usize),
     /// How fast one of the arguments of the equations changes along a direction.
     Change(usize),
+    /// A number of the factor of the equations' matrix.
+    Factor(usize),
+    /// What stands in the place of h, for each coordinate.
+    Forcing(usize),
+    /// What stands in the place of γ, for each constraint.
+    Bias(usize),
 }
 
 impl Variable {
@@ -26,6 +32,9 @@ impl Variable {
             Self::Multiplier(a) => (4, a),
             Self::Parameter(k) => (5, k),
             Self::Change(i) => (6, i),
+            Self::Factor(k) => (7, k),
+            Self::Forcing(i) => (8, i),
+            Self::Bias(a) => (9, a),
         };
         Symbol { family, index: index as u32 }
     }
@@ -44,14 +53,17 @@ impl Variable {
             3 => Self::Acceleration(index),
             4 => Self::Multiplier(index),
             5 => Self::Parameter(index),
-            _ => Self::Change(index),
+            6 => Self::Change(index),
+            7 => Self::Factor(index),
+            8 => Self::Forcing(index),
+            _ => Self::Bias(index),
         }
     }
 }
 
-/// Whether a velocity occurs in an expression.
-pub(crate) fn has_velocity(graph: &Graph, root: Id) -> bool {
-    graph.symbols(&[root]).any(|symbol| matches!(Variable::of(symbol), Variable::Velocity(_)))
+/// Whether a velocity occurs in one of these expressions.
+pub(crate) fn has_velocity(graph: &Graph, roots: &[Id]) -> bool {
+    graph.symbols(roots).any(|symbol| matches!(Variable::of(symbol), Variable::Velocity(_)))
 }
 
 /// The symbols of one variable of every coordinate.

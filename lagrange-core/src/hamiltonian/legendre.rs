@@ -26,6 +26,9 @@ pub(crate) fn invert<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M:
 ) -> Result<State<L::Scalar, N>, Error> {
     let mut inversion = Inversion { system, phase, active: active.copied().unwrap_or([true; M]) };
     let state = State { t: phase.t, q: phase.q, v: vector(*guess) };
+    if let Some(state) = inversion.at_once(state) {
+        return Ok(state);
+    }
     let start = inversion.trial(state, [L::Scalar::constant(0.0); M]);
     newton::find(&mut inversion, start).map(|(found, _)| found.state)
 }
@@ -87,6 +90,28 @@ impl<T: Real, const N: usize, const M: usize> Linear<'_, T, N, M> {
 }
 
 impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Inversion<'_, L, N, M> {
+    /// Where momenta are linear in the velocities: by one solve, and by another where the first lost a digit.
+    #[inline]
+    fn at_once(&self, mut state: State<L::Scalar, N>) -> Option<State<L::Scalar, N>> {
+        if !L::MOMENTA_ARE_LINEAR || self.active.contains(&false) {
+            return None;
+        }
+        let factor = self.system.factor(&state);
+        for _ in 0..2 {
+            let missing = self.phase.p - self.system.momentum(&state);
+            let rate = self.system.constraint_rate(&state);
+            let correction = self.system.solve_with(&factor, &missing, &rate);
+            if !is_trustworthy(&correction) {
+                return None;
+            }
+            state.v += correction.accelerations;
+            if correction.pivot > L::Scalar::constant(0.1) {
+                break;
+            }
+        }
+        Some(state)
+    }
+
     fn trial(&self, state: State<L::Scalar, N>, multipliers: [L::Scalar; M]) -> Trial<L::Scalar, N, M> {
         let rate = self.system.constraint_rate(&state);
         Trial {

@@ -12,8 +12,11 @@ use super::Adaptive;
 use super::method::pair::{Pair, SLOPES, Slopes, advance, check, error_needs_last, last};
 use super::seat::{Fate, Seat};
 use crate::ending::Ending;
-use crate::number::{Lanes, Scalar, power_of_epsilon, vector};
+use crate::number::{Lanes, Scalar, vector};
+use crate::solution::consistent::BOTH;
 use crate::solution::flow::{Flow, LagrangianFlow, Phase, PhasePoint};
+use crate::solution::near;
+use crate::solution::solve::least_pivot;
 use crate::system::{Lagrangian, Pack, Packed, State};
 
 /// Motions in lock-step.
@@ -62,7 +65,7 @@ impl Trust {
     /// As [`is_trustworthy`](crate::solution::solve::is_trustworthy) of a solution alone.
     fn lanes(&self) -> [bool; Lanes::COUNT] {
         let (pivot, size) = (self.pivot.to_array(), self.size.to_array());
-        from_fn(|lane| pivot[lane] > power_of_epsilon(1.0 / 3.0) && size[lane] < f64::INFINITY)
+        from_fn(|lane| pivot[lane] > least_pivot::<f64>() && size[lane] < f64::INFINITY)
     }
 }
 
@@ -173,15 +176,26 @@ where
         self.slopes[number] = [y[1], solution.accelerations.into()];
     }
 
-    /// Projects the lanes that are accurate onto the constraints; whether each is where it is to be.
+    /// Projects the lanes onto the constraints, all at once; one where that does not lead there alone, if its step is
+    /// accurate. Whether each is where it is to be.
     fn project(
         &self,
         next: &mut Phase<Lanes, N>,
         plan: &[(f64, f64); Lanes::COUNT],
         error: &[f64; Lanes::COUNT],
     ) -> [bool; Lanes::COUNT] {
+        let end = Lanes::from(plan.map(|(_, time)| time));
+        let state = State { t: end, q: vector(next[0]), v: vector(next[1]) };
+        let (near, doubt) = near::project::<_, f64, N, M>(&self.system, &BOTH, state);
+        let is_there = doubt.to_array().map(|doubt| doubt == 0.0);
+        let chosen = Lanes::from(is_there.map(|is_there| if is_there { 1.0 } else { 0.0 }));
+        let before = *next;
+        *next = [near.q.into(), near.v.into()];
+        for (x, before) in next.iter_mut().flatten().zip(before.iter().flatten()) {
+            *x = x.select(chosen, *before);
+        }
         from_fn(|lane| match &self.seats[lane] {
-            Some(seat) if self.method.accepts(error[lane]) => {
+            Some(seat) if !is_there[lane] && self.method.accepts(error[lane]) => {
                 let y = unpacked(next, lane);
                 let point = PhasePoint { t: plan[lane].1, y, velocity: y[1] };
                 let projected = <LagrangianFlow as Flow<L, N, M>>::project(&seat.system, &point);

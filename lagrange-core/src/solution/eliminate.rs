@@ -1,5 +1,7 @@
 //! Elimination of the equations of motion without a branch, for any scalar.
 
+use nalgebra::SVector;
+
 use crate::number::{Scalar, vector};
 use crate::system::Solution;
 
@@ -16,7 +18,7 @@ pub fn eliminate<T: Scalar, const N: usize, const M: usize>(
     f: [[T; N]; M],
     gamma: [T; M],
 ) -> Solution<T, N, M> {
-    eliminate_active(m, h, f, gamma, [true; M])
+    LoopFactor::of_active(m, f, [true; M]).solve_arrays(h, gamma)
 }
 
 /// The same with only the `active` constraints; the rows of `f` and `gamma` of the others must be zero.
@@ -28,40 +30,86 @@ pub(crate) fn eliminate_active<T: Scalar, const N: usize, const M: usize>(
     gamma: [T; M],
     active: [bool; M],
 ) -> Solution<T, N, M> {
-    let mass = Ldl::of(m);
-    let mut q = h;
-    mass.solve(&mut q);
-    let mut w = f;
-    for row in &mut w {
-        mass.solve(row);
+    LoopFactor::of_active(m, f, active).solve_arrays(h, gamma)
+}
+
+/// M and F M⁻¹ Fᵀ, factored in loops.
+#[derive(Clone, Copy, Debug)]
+pub struct LoopFactor<T, const N: usize, const M: usize> {
+    mass: Ldl<T, N>,
+    f: [[T; N]; M],
+    /// M⁻¹Fᵀ, a row a constraint
+    w: [[T; N]; M],
+    schur: Ldl<T, M>,
+    /// σ, zero of the rows that do not complete M
+    weights: [T; M],
+}
+
+impl<T: Scalar, const N: usize, const M: usize> LoopFactor<T, N, M> {
+    /// Of M + FᵀσF row by row, of which the lower triangle is read, F, one row a constraint, and the `weights` σ.
+    #[inline]
+    pub fn of(m: [[T; N]; N], f: [[T; N]; M], weights: [T; M]) -> Self {
+        Self { weights, ..Self::of_active(m, f, [true; M]) }
     }
-    let mut schur = [[T::constant(0.0); M]; M];
-    let mut lambda = gamma;
-    for a in 0..M {
-        lambda[a] = -(lambda[a] + dot(&f[a], &q));
-        for b in 0..=a {
-            schur[a][b] = dot(&f[a], &w[b]);
+
+    #[inline]
+    fn of_active(m: [[T; N]; N], f: [[T; N]; M], active: [bool; M]) -> Self {
+        let mass = Ldl::of(m);
+        let mut w = f;
+        for row in &mut w {
+            mass.solve(row);
         }
-        if !active[a] {
-            schur[a][a] = T::constant(1.0);
+        let mut schur = [[T::constant(0.0); M]; M];
+        for a in 0..M {
+            for b in 0..=a {
+                schur[a][b] = dot(&f[a], &w[b]);
+            }
+            if !active[a] {
+                schur[a][a] = T::constant(1.0);
+            }
         }
+        Self { mass, f, w, schur: Ldl::of(schur), weights: [T::constant(0.0); M] }
     }
-    let schur = Ldl::of(schur);
-    schur.solve(&mut lambda);
-    for a in 0..M {
-        for i in 0..N {
-            q[i] = q[i] + w[a][i] * lambda[a];
+
+    /// M x − Fᵀλ = `forcing`, F x = −`bias`.
+    #[inline]
+    pub fn solve(&self, forcing: &SVector<T, N>, bias: &SVector<T, M>) -> Solution<T, N, M> {
+        let (mut h, gamma) = (forcing.data.0[0], bias.data.0[0]);
+        for a in (0..M).filter(|&a| self.weights[a] != T::constant(0.0)) {
+            let part = self.weights[a] * gamma[a];
+            for i in 0..N {
+                h[i] = h[i] - self.f[a][i] * part;
+            }
         }
+        self.solve_arrays(h, gamma)
     }
-    Solution {
-        accelerations: vector(q),
-        multipliers: vector(lambda),
-        pivot: poison(mass.pivot.min(schur.pivot), mass.pivot * schur.pivot),
-        rank: M,
+
+    #[inline]
+    fn solve_arrays(&self, h: [T; N], gamma: [T; M]) -> Solution<T, N, M> {
+        let mut q = h;
+        self.mass.solve(&mut q);
+        let mut lambda = gamma;
+        for a in 0..M {
+            lambda[a] = -(lambda[a] + dot(&self.f[a], &q));
+        }
+        self.schur.solve(&mut lambda);
+        for a in 0..M {
+            for i in 0..N {
+                q[i] = q[i] + self.w[a][i] * lambda[a];
+            }
+        }
+        let pivots = [self.mass.pivot, self.schur.pivot];
+        Solution {
+            accelerations: vector(q),
+            multipliers: vector(lambda),
+            pivot: poison(pivots[0].min(pivots[1]), pivots[0] * pivots[1]),
+            rank: M,
+        }
     }
 }
 
 /// L below the diagonal, 1/D on it.
+#[derive(Clone, Copy, Debug)]
 struct Ldl<T, const K: usize> {
     l: [[T; K]; K],
     pivot: T,

@@ -4,6 +4,7 @@ pub(crate) mod consistent;
 pub(crate) mod eliminate;
 pub(crate) mod flow;
 pub(crate) mod kkt;
+pub(crate) mod near;
 pub(crate) mod newton;
 pub(crate) mod solve;
 

@@ -41,9 +41,14 @@ pub(crate) fn solve_near<L: Lagrangian<N, M, Scalar: Real>, const N: usize, cons
     }
 }
 
+/// Where the smallest pivot exceeds it, at most a third of the digits are lost.
+pub(crate) fn least_pivot<T: Real>() -> T {
+    power_of_epsilon(1.0 / 3.0)
+}
+
 /// Whether the elimination lost at most a third of the digits, by its smallest pivot, and all is finite.
 pub(crate) fn is_trustworthy<T: Real, const N: usize, const M: usize>(s: &Solution<T, N, M>) -> bool {
-    s.pivot > power_of_epsilon(1.0 / 3.0)
+    s.pivot > least_pivot()
         && s.accelerations.iter().all(|x| x.is_finite())
         && s.multipliers.iter().all(|x| x.is_finite())
 }

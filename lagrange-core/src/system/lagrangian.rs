@@ -1,5 +1,7 @@
 //! The contract between generated code and everything that uses it.
 
+use core::fmt::Debug;
+
 use nalgebra::{SMatrix, SVector};
 
 use super::facts::Facts;
@@ -30,6 +32,9 @@ pub trait Lagrangian<const N: usize, const M: usize> {
     /// The number type of the parameters and the state.
     type Scalar: Scalar;
 
+    /// The matrix of the equations of motion at a state, factored: plain numbers.
+    type Factor: Copy + Debug;
+
     /// The name of the struct.
     const NAME: &'static str;
     /// Names of the generalized coordinates.
@@ -42,6 +47,8 @@ pub trait Lagrangian<const N: usize, const M: usize> {
     const CONSTRAINT_CLASSES: [Classification; M] = [Classification::UNDECIDED; M];
     /// How many of the velocity constraints can be integrated together; `None` where it could not be decided.
     const INTEGRALS: Option<Integrals> = None;
+    /// Whether the momenta are linear in the velocities, p = M(q, t) q̇ + a(q, t), so that one solve inverts them.
+    const MOMENTA_ARE_LINEAR: bool = false;
     /// Names of the observables.
     const OBSERVABLES: &'static [&'static str];
 
@@ -79,6 +86,13 @@ pub trait Lagrangian<const N: usize, const M: usize> {
     /// F q̇ + b: the rate of change of a holonomic constraint, the residual of a velocity constraint.
     fn constraint_rate(&self, state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, M>;
 
+    /// Σ_i |F_αi q_i| of the holonomic constraints, zero for those written with velocities: about the size of the terms
+    /// that Φ is the difference of, a part ε of which is round-off.
+    fn residual_magnitude(&self, state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, M>;
+
+    /// Σ_i |F_αi q̇_i| of all constraints: the size of the terms of F q̇ + b.
+    fn rate_magnitude(&self, state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, M>;
+
     /// Constraint Jacobian F: ∂Φ/∂q of a holonomic constraint, the coefficients of q̇ of a velocity constraint.
     fn constraint_jacobian(&self, state: &State<Self::Scalar, N>) -> SMatrix<Self::Scalar, M, N>;
 
@@ -96,6 +110,36 @@ pub trait Lagrangian<const N: usize, const M: usize> {
     /// that the elimination cannot solve shows in [`Solution::pivot`]. [`solve`](crate::Simulate::solve) checks it
     /// and falls back to the general solve.
     fn accelerations(&self, state: &State<Self::Scalar, N>) -> Solution<Self::Scalar, N, M>;
+
+    /// The matrix of the equations of motion at a state, −Fᵀ beside M and F below, factored once for any right-hand sides:
+    /// [`solve_with`](Self::solve_with).
+    fn factor(&self, state: &State<Self::Scalar, N>) -> Self::Factor;
+
+    /// x and λ of M x − Fᵀλ = `forcing`, F x = −`bias`, by the factor of a state: accelerations and multipliers where these
+    /// are h and γ of that state, corrections or impacts where they are something else. Like
+    /// [`accelerations`](Self::accelerations) it decides nothing: [`Solution::pivot`] tells.
+    ///
+    /// ```
+    /// # use lagrange_core::prelude::*;
+    /// # #[derive(Lagrangian)]
+    /// # #[coordinates(x, y)]
+    /// # #[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
+    /// # #[constraint(rod: 1/2 * (x^2 + y^2 - l^2) = 0)]
+    /// # struct Pendulum { m: f64, g: f64, l: f64 }
+    /// let pendulum = Pendulum { m: 2.0, g: 9.81, l: 1.0 };
+    /// let state = State::at_rest([0.6, -0.8]);
+    /// let factor = pendulum.factor(&state);
+    /// // A blow of 1 N s along x: M(v⁺ − v⁻) = (1, 0) + FᵀΛ, F v⁺ = 0.
+    /// let after = pendulum.solve_with(&factor, &[1.0, 0.0].into(), &[0.0].into());
+    /// assert!((after.accelerations[0] - 0.32).abs() < 1e-15 && (after.accelerations[1] - 0.24).abs() < 1e-15);
+    /// assert!((after.multipliers[0] + 0.6).abs() < 1e-15);
+    /// ```
+    fn solve_with(
+        &self,
+        factor: &Self::Factor,
+        forcing: &SVector<Self::Scalar, N>,
+        bias: &SVector<Self::Scalar, M>,
+    ) -> Solution<Self::Scalar, N, M>;
 
     /// The observable [`OBSERVABLES`](Self::OBSERVABLES)`[index]`; `None` beyond the last.
     fn observable(

@@ -14,12 +14,14 @@ macro_rules! forward {
         #[diagnostic::do_not_recommend]
         impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Lagrangian<N, M> for $pointer {
             type Scalar = L::Scalar;
+            type Factor = L::Factor;
             const NAME: &'static str = L::NAME;
             const COORDINATES: [&'static str; N] = L::COORDINATES;
             const CONSTRAINTS: [&'static str; M] = L::CONSTRAINTS;
             const CONSTRAINT_KINDS: [ConstraintKind; M] = L::CONSTRAINT_KINDS;
             const CONSTRAINT_CLASSES: [Classification; M] = L::CONSTRAINT_CLASSES;
             const INTEGRALS: Option<Integrals> = L::INTEGRALS;
+            const MOMENTA_ARE_LINEAR: bool = L::MOMENTA_ARE_LINEAR;
             const OBSERVABLES: &'static [&'static str] = L::OBSERVABLES;
             const FACTS: Facts = L::FACTS;
 
@@ -33,6 +35,8 @@ macro_rules! forward {
                 fn constraint_residual(state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, M>;
                 fn constraint_integral(index: usize, state: &State<Self::Scalar, N>) -> Option<Self::Scalar>;
                 fn constraint_rate(state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, M>;
+                fn residual_magnitude(state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, M>;
+                fn rate_magnitude(state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, M>;
                 fn constraint_jacobian(state: &State<Self::Scalar, N>) -> SMatrix<Self::Scalar, M, N>;
                 fn constraint_bias(state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, M>;
                 fn constraint_force(
@@ -40,6 +44,12 @@ macro_rules! forward {
                     multipliers: &SVector<Self::Scalar, M>
                 ) -> SVector<Self::Scalar, N>;
                 fn accelerations(state: &State<Self::Scalar, N>) -> Solution<Self::Scalar, N, M>;
+                fn factor(state: &State<Self::Scalar, N>) -> Self::Factor;
+                fn solve_with(
+                    factor: &Self::Factor,
+                    forcing: &SVector<Self::Scalar, N>,
+                    bias: &SVector<Self::Scalar, M>
+                ) -> Solution<Self::Scalar, N, M>;
                 fn observable(
                     index: usize,
                     state: &State<Self::Scalar, N>,

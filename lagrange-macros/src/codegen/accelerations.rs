@@ -1,68 +1,52 @@
-//! The one function that integrators call: accelerations and multipliers.
+//! The equations of motion solved, as methods: accelerations and multipliers at once, and in two parts, a factor and the
+//! solves by it.
 
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::eliminate::{Solved, eliminate};
-use super::kernel::OPERATION_LIMIT;
+use super::kernel::Kernel;
 use super::passes::Program;
-use super::schedule::Schedule;
 use super::shape::Shape;
+use super::solving::Solving;
 use super::{Emitter, Written};
 use crate::contract::Method;
 use crate::mechanics::{Equations, Form};
-use crate::symbolic::{Graph, Id};
-
-/// M, h, F and γ, completed as the form over the accelerations is, matrices row by row. Of M the lower triangle is read.
-fn loop_entries(equations: &Equations) -> Vec<Id> {
-    let Form { matrix, linear, .. } = &equations.forms[0];
-    let row = |(i, row): (usize, &Vec<Id>)| {
-        row.iter().enumerate().map(|(j, &entry)| if j <= i { entry } else { Id::ZERO }).collect::<Vec<_>>()
-    };
-    let mass = matrix.iter().enumerate().flat_map(row);
-    let others = [linear, &equations.jacobian.concat(), &equations.bias].map(|entries| entries.clone());
-    mass.chain(others.concat()).collect()
-}
-
-/// The entries of the form, F and γ.
-fn entries(form: &Form, equations: &Equations) -> Vec<Id> {
-    let definitions = form.definitions.iter().flatten().map(|(_, entry)| entry);
-    let of_form = form.matrix.iter().flatten().chain(&form.linear).chain(definitions);
-    let of_form = of_form.chain(form.alone.iter().flatten());
-    of_form.chain(equations.jacobian.iter().flatten()).chain(&equations.bias).copied().collect()
-}
-
-/// The equations of motion solved, by the form that takes the least time; `None` where every one is long.
-fn cheapest(graph: &Graph, equations: &Equations) -> Option<Program> {
-    let forms = equations.forms.iter();
-    let programs = forms.filter_map(|form| solve(graph, form, equations));
-    let programs = programs.filter(|program| program.count().total() <= OPERATION_LIMIT);
-    programs.min_by_key(|program| program.time().total()).map(Program::fused)
-}
-
-/// The equations of motion solved by one form: accelerations, multipliers and the pivot.
-pub(super) fn solve(graph: &Graph, form: &Form, equations: &Equations) -> Option<Program> {
-    let mut schedule = Schedule::new(graph, &entries(form, equations));
-    let Solved { accelerations, multipliers, pivot } = eliminate(&mut schedule, form, equations)?;
-    Some(Program::new(schedule, [accelerations, multipliers, vec![pivot]].concat()))
-}
+use crate::symbolic::Id;
 
 impl Emitter<'_> {
-    /// M, h, F and γ in one schedule, so that they share what they have in common, and solved where that is short.
+    /// The fused function that integrators call all the time.
     pub(super) fn accelerations(&self, method: &Method) -> Written {
-        let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
-        let equations = &self.derived.equations;
-        let Some(program) = cheapest(self.style.graph, equations) else {
-            let shapes = [Shape::Matrix(n, n), Shape::Vector(n), Shape::Matrix(m, n), Shape::Vector(m)];
-            let kernel = self.style.kernel(method.name, &loop_entries(equations), &shapes);
-            return self.function(
-                method,
-                kernel,
-                |results| quote!(__lagrange::generated::eliminate(#(#results),*)),
-            );
+        match &self.solving {
+            Some(solving) => self.solution(method, &solving.accelerations),
+            None => {
+                let [mass, forcing, jacobian, bias] = self.equations_by_rows();
+                self.in_loops(method, [mass, forcing, jacobian, bias], &quote!(eliminate))
+            }
+        }
+    }
+
+    /// The first of the two parts.
+    pub(super) fn factor(&self, method: &Method) -> Written {
+        let Some(Solving { factor, .. }) = &self.solving else {
+            let [mass, _, jacobian, _] = self.equations_by_rows();
+            return self.in_loops(method, [mass, jacobian, self.weights()], &quote!(LoopFactor::of));
         };
-        let kernel =
-            self.style.write(method.name, &program, &[Shape::Vector(n), Shape::Vector(m), Shape::Number]);
+        let kernel = self.style.write(method.name, factor, &[Shape::Vector(factor.results.len())]);
+        self.function(method, kernel, |results| quote!(#(#results)*))
+    }
+
+    /// The second.
+    pub(super) fn solve_with(&self, method: &Method) -> Written {
+        match &self.solving {
+            Some(solving) => self.solution(method, &solving.solve),
+            None => self.function(method, Kernel::default(), |_| quote!(factor.solve(forcing, bias))),
+        }
+    }
+
+    fn solution(&self, method: &Method, program: &Program) -> Written {
+        let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
+        let shapes = [Shape::Vector(n), Shape::Vector(m), Shape::Number];
+        let kernel = self.style.write(method.name, program, &shapes);
         self.function(method, kernel, |results| {
             let [accelerations, multipliers, pivot] = results else { return TokenStream::new() };
             quote! {
@@ -74,5 +58,46 @@ impl Emitter<'_> {
                 }
             }
         })
+    }
+
+    /// M, h, F and γ, completed as the form over the accelerations is, matrices row by row. Of M the lower triangle is read.
+    fn equations_by_rows(&self) -> [(Vec<Id>, Shape); 4] {
+        let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
+        let Equations { forms, jacobian, bias, .. } = &self.derived.equations;
+        let Form { matrix, linear, .. } = &forms[0];
+        let row = |(i, row): (usize, &Vec<Id>)| {
+            row.iter()
+                .enumerate()
+                .map(|(j, &entry)| if j <= i { entry } else { Id::ZERO })
+                .collect::<Vec<_>>()
+        };
+        let mass = matrix.iter().enumerate().flat_map(row).collect();
+        [
+            (mass, Shape::Matrix(n, n)),
+            (linear.clone(), Shape::Vector(n)),
+            (jacobian.concat(), Shape::Matrix(m, n)),
+            (bias.clone(), Shape::Vector(m)),
+        ]
+    }
+
+    /// σ of each constraint, zero of those that complete nothing.
+    fn weights(&self) -> (Vec<Id>, Shape) {
+        let Equations { forms, bias, .. } = &self.derived.equations;
+        let mut weights = vec![Id::ZERO; bias.len()];
+        forms[0].completing.iter().for_each(|&(a, weight)| weights[a] = weight);
+        (weights, Shape::Vector(bias.len()))
+    }
+
+    /// What a function of the runtime makes of these, which are computed together to share what they have in common.
+    fn in_loops<const K: usize>(
+        &self,
+        method: &Method,
+        arguments: [(Vec<Id>, Shape); K],
+        function: &TokenStream,
+    ) -> Written {
+        let shapes = arguments.each_ref().map(|(_, shape)| *shape);
+        let entries: Vec<Id> = arguments.into_iter().flat_map(|(entries, _)| entries).collect();
+        let kernel = self.style.kernel(method.name, &entries, &shapes);
+        self.function(method, kernel, |results| quote!(__lagrange::generated::#function(#(#results),*)))
     }
 }

@@ -12,11 +12,15 @@ mod pivot;
 mod reduce;
 mod schur;
 
+use indexmap::IndexSet;
+use rustc_hash::FxHashMap;
+
 use super::kernel::OPERATION_LIMIT;
-use super::operation::Register;
+use super::operation::{Operation, Register};
 use super::schedule::Schedule;
 use crate::mechanics::{Equations, Form};
 use crate::symbolic::Id;
+use crate::variables::Variable;
 use arithmetic::{Entry, Solver, Sparse};
 use order::{Pattern, reduction_order};
 use reduce::Factors;
@@ -35,21 +39,88 @@ pub(super) struct Solved {
     pub(super) pivot: Register,
 }
 
+/// The matrix of the equations of motion, M and −Fᵀ above F and 0, factored.
+pub(super) struct Factorization {
+    form: Factors,
+    /// Z = F L⁻ᵀ
+    rows: Vec<Sparse>,
+    schur: Factors,
+    /// σ_a F_a of the constraints a that complete M: a solve takes γ_a times as much from its h.
+    completing: Vec<(usize, Sparse)>,
+}
+
 /// Appends the elimination to a schedule that computes the entries of the form, F and γ; `None` where it would be
 /// too long.
 pub(super) fn eliminate(schedule: &mut Schedule, form: &Form, equations: &Equations) -> Option<Solved> {
-    let order = order(form)?;
-    let mut solver = Solver { schedule, growth: Vec::new(), plain: Vec::new(), reciprocals: Vec::new() };
-    let matrix = form.matrix.iter().map(|row| solver.entries(row)).collect();
-    let definitions = form.definitions.iter().map(|row| solver.sparse_entries(row)).collect();
-    let factors = solver.factor(matrix, definitions, &order);
-    let starts = solver.starts(form, &factors);
-    let rows = solver.rows(equations, &factors, starts.len());
-    let multipliers = solver.multipliers(&factors, &starts, &rows, equations)?;
-    let pushes = solver.pushes(&multipliers, &rows, starts.len());
-    let mut accelerations = solver.backward(&factors, starts, &pushes);
-    accelerations.truncate(equations.forcing.len());
-    Some(solver.finish(accelerations, multipliers, &pushes))
+    let mut solver = Solver::new(schedule);
+    let factorization = solver.factorize(form, equations)?;
+    let starts = solver.starts(form, &factorization.form);
+    let bias = solver.entries(&equations.bias);
+    let found = solver.solve(&factorization, starts, bias);
+    let (pivot, doubts) = (solver.smallest_pivot(), solver.doubts(!equations.bias.is_empty()));
+    Some(solver.finish(found, equations.forcing.len(), pivot, doubts))
+}
+
+/// Appends the factorization alone to a schedule that computes the entries of the form and F: the numbers that a solve
+/// needs, the pivot before them.
+pub(super) fn factor(
+    schedule: &mut Schedule,
+    form: &Form,
+    equations: &Equations,
+) -> Option<(Factorization, Vec<Register>)> {
+    let mut solver = Solver::new(schedule);
+    let mut factorization = solver.factorize(form, equations)?;
+    let (pivot, doubts) = (solver.smallest_pivot(), solver.doubts(!equations.bias.is_empty()));
+    let pivot = solver.poisoned(pivot, doubts);
+    factorization.completing = solver.completing(form, equations);
+    let mut numbers: IndexSet<Register> = factorization.registers().collect();
+    numbers.retain(|&number| !schedule.is_constant(number));
+    Some((factorization, [pivot].into_iter().chain(numbers).collect()))
+}
+
+/// Appends to an empty schedule the solve by a factor, of which these are the numbers: h and γ are inputs.
+pub(super) fn solve_with(
+    schedule: &mut Schedule,
+    source: &Schedule,
+    (factorization, numbers): &(Factorization, Vec<Register>),
+    equations: &Equations,
+) -> Solved {
+    let place: FxHashMap<Register, usize> =
+        numbers.iter().enumerate().skip(1).map(|(k, &number)| (number, k)).collect();
+    let mut input = |variable: Variable| schedule.push(Operation::Input(variable.symbol()));
+    let pivot = input(Variable::Factor(0));
+    let (n, m) = (equations.forcing.len(), equations.bias.len());
+    let forcing: Vec<Entry> = (0..n).map(|i| Some(input(Variable::Forcing(i)))).collect();
+    let bias: Vec<Entry> = (0..m).map(|a| Some(input(Variable::Bias(a)))).collect();
+    let factorization = factorization.with_registers(|register| match place.get(&register) {
+        Some(&k) => schedule.push(Operation::Input(Variable::Factor(k).symbol())),
+        None => schedule.push(source.operations[register.index()]),
+    });
+    let mut solver = Solver::new(schedule);
+    let mut forcing = solver.completed(&factorization, forcing, &bias);
+    forcing.resize(factorization.form.reciprocals.len(), None);
+    let forward = solver.forward(&factorization.form, forcing);
+    let starts = solver.scaled(&factorization.form, forward);
+    let found = solver.solve(&factorization, starts, bias);
+    solver.finish(found, n, pivot, Vec::new())
+}
+
+impl Factorization {
+    /// Every register in it.
+    fn registers(&self) -> impl Iterator<Item = Register> {
+        let completing = self.completing.iter().map(|(_, row)| row);
+        let rows = self.rows.iter().chain(completing).flatten().map(|&(_, entry)| entry);
+        self.form.registers().chain(rows).chain(self.schur.registers())
+    }
+
+    fn with_registers(&self, mut new: impl FnMut(Register) -> Register) -> Self {
+        let form = self.form.with_registers(&mut new);
+        let schur = self.schur.with_registers(&mut new);
+        let mut row = |row: &Sparse| row.iter().map(|&(i, entry)| (i, new(entry))).collect();
+        let rows = self.rows.iter().map(&mut row).collect();
+        let completing = self.completing.iter().map(|(a, weighted)| (*a, row(weighted))).collect();
+        Self { form, rows, schur, completing }
+    }
 }
 
 fn order(form: &Form) -> Option<Vec<usize>> {
@@ -67,28 +138,76 @@ fn short(pattern: &Pattern) -> Option<Vec<usize>> {
     (is_worth_it && cost <= OPERATION_LIMIT).then_some(order)
 }
 
+/// What a solve gives, and what constraints do to each variable of the form.
+struct Found {
+    accelerations: Vec<Entry>,
+    multipliers: Vec<Entry>,
+    pushes: Vec<Entry>,
+}
+
 impl Solver<'_> {
+    fn factorize(&mut self, form: &Form, equations: &Equations) -> Option<Factorization> {
+        let order = order(form)?;
+        let matrix = form.matrix.iter().map(|row| self.entries(row)).collect();
+        let definitions = form.definitions.iter().map(|row| self.sparse_entries(row)).collect();
+        let reduced = self.factor(matrix, definitions, &order);
+        let rows = self.rows(equations, &reduced);
+        let schur = self.schur_factors(&reduced, &rows)?;
+        Some(Factorization { form: reduced, rows, schur, completing: Vec::new() })
+    }
+
+    /// σ_a F_a of the constraints that complete M.
+    fn completing(&mut self, form: &Form, equations: &Equations) -> Vec<(usize, Sparse)> {
+        let weighted = form.completing.iter().map(|&(a, weight)| {
+            let (weight, row) = (self.entry(weight), self.entries(&equations.jacobian[a]));
+            let row: Vec<Entry> = row.into_iter().map(|entry| self.multiply(weight, entry)).collect();
+            (a, arithmetic::sparse(&row))
+        });
+        weighted.collect()
+    }
+
+    /// h − Fᵀσγ
+    fn completed(&mut self, factorization: &Factorization, mut h: Vec<Entry>, bias: &[Entry]) -> Vec<Entry> {
+        for (a, row) in &factorization.completing {
+            for &(i, entry) in row {
+                let part = self.multiply(Some(entry), bias[*a]);
+                h[i] = self.subtract(h[i], part);
+            }
+        }
+        h
+    }
+
     /// D⁻¹L⁻¹b. What is tied to nothing is divided in the graph, where it may cancel.
     fn starts(&mut self, form: &Form, factors: &Factors) -> Vec<Entry> {
         let linear = self.entries(&form.linear);
         let linear = self.forward(factors, linear);
-        let starts = linear.into_iter().zip(&factors.reciprocals).zip(&form.alone);
-        starts
-            .map(|((entry, &reciprocal), alone)| match alone {
-                Some(quotient) => self.entry(*quotient),
-                None => self.multiply(entry, reciprocal),
-            })
-            .collect()
+        let starts = self.scaled(factors, linear);
+        let divided = starts.into_iter().zip(&form.alone);
+        divided.map(|(start, alone)| alone.map_or(start, |quotient| self.entry(quotient))).collect()
+    }
+
+    /// D⁻¹x
+    fn scaled(&mut self, factors: &Factors, x: Vec<Entry>) -> Vec<Entry> {
+        x.into_iter().zip(&factors.reciprocals).map(|(x, &reciprocal)| self.multiply(x, reciprocal)).collect()
     }
 
     /// Z = F L⁻ᵀ
-    fn rows(&mut self, equations: &Equations, factors: &Factors, size: usize) -> Vec<Sparse> {
+    fn rows(&mut self, equations: &Equations, factors: &Factors) -> Vec<Sparse> {
         let row = |row: &Vec<Id>| {
             let mut row = self.entries(row);
-            row.resize(size, None);
+            row.resize(factors.reciprocals.len(), None);
             arithmetic::sparse(&self.forward(factors, row))
         };
         equations.jacobian.iter().map(row).collect()
+    }
+
+    /// The variables from D⁻¹L⁻¹b and γ.
+    fn solve(&mut self, factorization: &Factorization, starts: Vec<Entry>, bias: Vec<Entry>) -> Found {
+        let Factorization { form, rows, schur, .. } = factorization;
+        let multipliers = self.multipliers(schur, &starts, rows, bias);
+        let pushes = self.pushes(&multipliers, rows, starts.len());
+        let accelerations = self.backward(form, starts, &pushes);
+        Found { accelerations, multipliers, pushes }
     }
 
     /// Zᵀλ

@@ -88,24 +88,44 @@ impl Style<'_> {
         arrays: &Arrays,
     ) -> (TokenStream, TokenStream) {
         let is_read = |argument: &Argument| part.inputs.iter().any(|&symbol| source(symbol) == *argument);
-        let read =
-            [Argument::Solution, Argument::Multipliers, Argument::Direction].into_iter().filter(is_read);
+        let read = [
+            Argument::State,
+            Argument::Solution,
+            Argument::Multipliers,
+            Argument::Direction,
+            Argument::Factor,
+            Argument::Forcing,
+            Argument::Bias,
+        ];
         let (arguments, types): (Vec<_>, Vec<_>) = read
-            .map(|argument| (format_ident!("{}", argument.name()), self.types.argument(argument)))
+            .into_iter()
+            .filter(is_read)
+            .map(|argument| (format_ident!("{}", argument.name()), self.argument(argument)))
             .unzip();
-        let (state, scalar) = (self.types.argument(Argument::State), self.types.scalar);
+        let scalar = self.types.scalar;
         let (names, array_types) = (&arrays.names, arrays.types(scalar));
         let body = self.statements(part, arrays);
-        let call = quote! { self.#method(state, #(#arguments,)* &mut waiting, #(&mut #names),*); };
+        let call = quote! { self.#method(#(#arguments,)* &mut waiting, #(&mut #names),*); };
         let method = quote! {
             #[doc = #doc]
             #[inline(never)]
             #[allow(unused_variables)]
-            fn #method(&self, #state, #(#types,)* waiting: &mut [#scalar; #waiting], #(#names: &mut #array_types),*) {
+            fn #method(&self, #(#types,)* waiting: &mut [#scalar; #waiting], #(#names: &mut #array_types),*) {
                 #body
             }
         };
         (call, method)
+    }
+}
+
+impl Style<'_> {
+    /// Of a part, which is no method of a trait.
+    fn argument(&self, argument: Argument) -> TokenStream {
+        let factor = &self.factor;
+        match argument {
+            Argument::Factor => quote!(factor: &#factor),
+            _ => self.types.argument(argument),
+        }
     }
 }
 
@@ -117,6 +137,9 @@ fn source(symbol: Symbol) -> Argument {
         Variable::Multiplier(_) => Argument::Multipliers,
         Variable::Parameter(_) => Argument::System,
         Variable::Change(_) => Argument::Direction,
+        Variable::Factor(_) => Argument::Factor,
+        Variable::Forcing(_) => Argument::Forcing,
+        Variable::Bias(_) => Argument::Bias,
     }
 }
 

@@ -20,6 +20,7 @@ impl Emitter<'_> {
         let runtime = runtime(self.declaration);
         let (ident, scalar, [n, m, _]) =
             (&self.declaration.ident, self.style.types.scalar, self.style.types.dimensions());
+        let factor = &self.style.factor;
         let (_, type_generics, _) = self.declaration.generics.split_for_impl();
         let generics = self.generics(&self.orders(&[]), true);
         let (impl_generics, _, where_clause) = generics.split_for_impl();
@@ -31,6 +32,7 @@ impl Emitter<'_> {
             ConstraintKind::Holonomic => quote!(__lagrange::ConstraintKind::Holonomic),
             ConstraintKind::Velocity => quote!(__lagrange::ConstraintKind::Velocity),
         });
+        let are_linear = self.derived.equations.momenta_are_linear;
         let (integrability, facts) = (self.integrability(), self.facts());
         let observables = self.observable_names();
         let methods: Written = LAGRANGIAN.iter().map(|method| self.method(method)).collect();
@@ -53,11 +55,13 @@ impl Emitter<'_> {
                 #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
                 impl #impl_generics __lagrange::Lagrangian<#n, #m> for #ident #type_generics #where_clause {
                     type Scalar = #scalar;
+                    type Factor = #factor;
                     const NAME: &'static str = #name;
                     const COORDINATES: [&'static str; #n] = [#(#coordinates),*];
                     const CONSTRAINTS: [&'static str; #m] = [#(#constraints),*];
                     const CONSTRAINT_KINDS: [__lagrange::ConstraintKind; #m] = [#(#kinds),*];
                     #integrability
+                    const MOMENTA_ARE_LINEAR: bool = #are_linear;
                     const OBSERVABLES: &'static [&'static str] = &[#(#observables),*];
                     #facts
                     #methods
@@ -91,6 +95,8 @@ impl Emitter<'_> {
             Quantity::Forcing => equations.forcing.clone(),
             Quantity::Residual => equations.residual.clone(),
             Quantity::Rate => equations.rate.clone(),
+            Quantity::ResidualMagnitude => equations.magnitudes[0].clone(),
+            Quantity::RateMagnitude => equations.magnitudes[1].clone(),
             Quantity::Jacobian => columns(&equations.jacobian),
             Quantity::Bias => equations.bias.clone(),
             Quantity::ConstraintForce => {
@@ -99,6 +105,8 @@ impl Emitter<'_> {
             }
             Quantity::Integral => return self.constraint_integral(method),
             Quantity::Accelerations => return self.accelerations(method),
+            Quantity::Factor => return self.factor(method),
+            Quantity::Solve => return self.solve_with(method),
             Quantity::Observable => return self.observable_by_index(method),
             Quantity::Conserved => return self.conserved_by_index(method),
             Quantity::Parameters | Quantity::SetParameter | Quantity::ResidualChange => Vec::new(),

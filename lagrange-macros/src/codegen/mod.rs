@@ -17,6 +17,7 @@ mod passes;
 mod schedule;
 mod shape;
 mod signature;
+mod solving;
 mod stub;
 mod style;
 #[cfg(test)]
@@ -37,6 +38,7 @@ use bounds::FUNCTION_ORDER;
 #[cfg(test)]
 pub(crate) use count::Count;
 use kernel::{Kernel, OPERATION_LIMIT};
+use solving::Solving;
 pub(crate) use stub::stub;
 use style::Style;
 #[cfg(test)]
@@ -52,7 +54,9 @@ pub(crate) fn implementation(
     rendered: &Rendered,
     diagnostics: &mut Diagnostics,
 ) -> Option<TokenStream> {
-    let emitter = Emitter { declaration, problem, derived, rendered, style: Style::new(graph, problem) };
+    let solving = Solving::cheapest(graph, &derived.equations);
+    let style = Style::new(graph, problem, solving.as_ref().map(|solving| solving.factor.results.len()));
+    let emitter = Emitter { declaration, problem, derived, rendered, solving, style };
     for (function, order) in emitter.orders(&[]).into_iter().filter(|(_, order)| *order > FUNCTION_ORDER) {
         let Supplied { name, place, .. } = &problem.functions[function as usize];
         diagnostics.error(*place, format!(
@@ -78,6 +82,8 @@ struct Emitter<'a> {
     problem: &'a Problem,
     derived: &'a Derived,
     rendered: &'a Rendered,
+    /// `None` where the equations are better solved in loops.
+    solving: Option<Solving>,
     style: Style<'a>,
 }
 

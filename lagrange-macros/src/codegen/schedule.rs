@@ -129,6 +129,10 @@ impl Schedule {
         }
     }
 
+    pub(super) fn is_constant(&self, register: Register) -> bool {
+        matches!(self.operations[register.index()], Operation::Constant(_))
+    }
+
     pub(super) fn constant(&mut self, value: f64) -> Register {
         self.push(Operation::Constant(value.to_bits()))
     }

@@ -61,6 +61,9 @@ impl Types<'_> {
             Argument::Solution => quote!(&__lagrange::Solution<#scalar, #n, #m>),
             Argument::Multipliers => quote!(&__lagrange::nalgebra::SVector<#scalar, #m>),
             Argument::Direction => quote!(&__lagrange::Direction<#scalar, #n, #p>),
+            Argument::Factor => quote!(&Self::Factor),
+            Argument::Forcing => quote!(&__lagrange::nalgebra::SVector<#scalar, #n>),
+            Argument::Bias => quote!(&__lagrange::nalgebra::SVector<#scalar, #m>),
             Argument::Index => quote!(usize),
             Argument::Value => quote!(#scalar),
         };
@@ -78,6 +81,7 @@ impl Types<'_> {
                 quote!(__lagrange::nalgebra::SMatrix<#scalar, #rows, #columns>)
             }
             Gives::Solution => quote!(__lagrange::Solution<#scalar, #n, #m>),
+            Gives::Factor => quote!(Self::Factor),
             Gives::ResidualChange => quote!(__lagrange::ResidualChange<#scalar, #n, #m>),
             Gives::Optional => quote!(::core::option::Option<#scalar>),
             Gives::Success => quote!(bool),

@@ -44,6 +44,7 @@ pub(crate) fn stub(declaration: &Declaration, outline: &Outline) -> TokenStream 
             #[allow(unused_variables, clippy::all)]
             impl #impl_generics __lagrange::Lagrangian<#n, #m> for #ident #type_generics #where_clause {
                 type Scalar = #scalar;
+                type Factor = ();
                 const NAME: &'static str = "";
                 const COORDINATES: [&'static str; #n] = [""; #n];
                 const CONSTRAINTS: [&'static str; #m] = [""; #m];

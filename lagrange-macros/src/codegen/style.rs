@@ -17,6 +17,8 @@ pub(super) struct Style<'a> {
     pub(super) graph: &'a Graph,
     pub(super) problem: &'a Problem,
     pub(super) types: Types<'a>,
+    /// The type of what holds the factor of the equations' matrix.
+    pub(super) factor: TokenStream,
     /// Whether the scalar is `f64`, so that constants are plain literals.
     is_f64: bool,
     /// Names of the inputs and definitions, valid as identifiers and all different.
@@ -25,11 +27,24 @@ pub(super) struct Style<'a> {
 }
 
 impl<'a> Style<'a> {
-    pub(super) fn new(graph: &'a Graph, problem: &'a Problem) -> Self {
+    /// `numbers` are those of the factor; where there are none the runtime has its own.
+    pub(super) fn new(graph: &'a Graph, problem: &'a Problem, numbers: Option<usize>) -> Self {
         let scalar = &problem.scalar;
         let is_f64 = quote!(#scalar).to_string() == "f64";
         let mut taken = HashSet::from(
-            ["state", "solution", "multipliers", "direction", "index", "self", "waiting"].map(String::from),
+            [
+                "state",
+                "solution",
+                "multipliers",
+                "direction",
+                "factor",
+                "forcing",
+                "bias",
+                "index",
+                "self",
+                "waiting",
+            ]
+            .map(String::from),
         );
         taken.extend((0..4).map(|k| format!("entries{k}")));
         let mut unique = |text: String| identifier(&text, &mut taken);
@@ -40,9 +55,11 @@ impl<'a> Style<'a> {
             names.insert(Variable::Coordinate(i).symbol(), unique(format!("{base}{index}")));
             names.insert(Variable::Velocity(i).symbol(), unique(format!("{base}_dot{index}")));
             names.insert(Variable::Acceleration(i).symbol(), unique(format!("{base}_ddot{index}")));
+            names.insert(Variable::Forcing(i).symbol(), unique(format!("forcing_{base}{index}")));
         }
         for (a, (label, _)) in problem.constraints.iter().enumerate() {
             names.insert(Variable::Multiplier(a).symbol(), unique(format!("lambda_{}", label.text)));
+            names.insert(Variable::Bias(a).symbol(), unique(format!("bias_{}", label.text)));
         }
         for (k, entry) in problem.parameters.entries.iter().enumerate() {
             let field = &problem.parameters.fields[entry.field].name.text;
@@ -61,13 +78,21 @@ impl<'a> Style<'a> {
             let name = unique(format!("d_{}", names[&argument]));
             names.insert(Variable::Change(i).symbol(), name);
         }
+        for k in 0..numbers.unwrap_or(0) {
+            names.insert(Variable::Factor(k).symbol(), unique(format!("factor_{k}")));
+        }
+        let (n, m) = (problem.coordinates.len(), problem.constraints.len());
         let types = Types {
             scalar,
-            coordinates: Some(problem.coordinates.len()),
-            constraints: problem.constraints.len(),
+            coordinates: Some(n),
+            constraints: m,
             parameters: problem.parameters.entries.len(),
         };
-        Self { graph, problem, types, is_f64, names, definition_names }
+        let factor = match numbers {
+            Some(numbers) => quote!([#scalar; #numbers]),
+            None => quote!(__lagrange::generated::LoopFactor<#scalar, #n, #m>),
+        };
+        Self { graph, problem, types, factor, is_f64, names, definition_names }
     }
 
     /// The value of a parameter, read from its field.
@@ -99,7 +124,7 @@ impl<'a> Style<'a> {
     /// Statements that bring the inputs in use into scope.
     pub(super) fn inputs(&self, used: &BTreeSet<Symbol>) -> TokenStream {
         let problem = self.problem;
-        let pattern = |count: usize, variable: fn(usize) -> Variable, source: TokenStream| {
+        let pattern = |count: usize, variable: fn(usize) -> Variable, array: TokenStream| {
             let names: Vec<_> = (0..count)
                 .map(|i| match used.contains(&variable(i).symbol()) {
                     true => {
@@ -110,27 +135,33 @@ impl<'a> Style<'a> {
                 })
                 .collect();
             let any = (0..count).any(|i| used.contains(&variable(i).symbol()));
-            any.then(|| quote! { let [#(#names),*] = #source.data.0[0]; })
+            any.then(|| quote! { let [#(#names),*] = #array; })
         };
         let (n, m) = (problem.coordinates.len(), problem.constraints.len());
         let time = used.contains(&Variable::Time.symbol()).then(|| {
             let name = &self.names[&Variable::Time.symbol()];
             quote! { let #name = state.t; }
         });
-        let coordinates = pattern(n, Variable::Coordinate, quote!(state.q));
-        let velocities = pattern(n, Variable::Velocity, quote!(state.v));
-        let accelerations = pattern(n, Variable::Acceleration, quote!(solution.accelerations));
-        let multipliers = pattern(m, Variable::Multiplier, quote!(multipliers));
+        let coordinates = pattern(n, Variable::Coordinate, quote!(state.q.data.0[0]));
+        let velocities = pattern(n, Variable::Velocity, quote!(state.v.data.0[0]));
+        let accelerations = pattern(n, Variable::Acceleration, quote!(solution.accelerations.data.0[0]));
+        let multipliers = pattern(m, Variable::Multiplier, quote!(multipliers.data.0[0]));
+        let forcing = pattern(n, Variable::Forcing, quote!(forcing.data.0[0]));
+        let bias = pattern(m, Variable::Bias, quote!(bias.data.0[0]));
         let others = used.iter().filter_map(|symbol| {
             let value = match Variable::of(*symbol) {
                 Variable::Parameter(k) => self.parameter(k),
                 Variable::Change(i) => self.change(i),
+                Variable::Factor(k) => {
+                    let k = Literal::usize_unsuffixed(k);
+                    quote!(factor[#k])
+                }
                 _ => return None,
             };
             let name = &self.names[symbol];
             Some(quote! { let #name = #value; })
         });
-        quote! { #time #coordinates #velocities #accelerations #multipliers #(#others)* }
+        quote! { #time #coordinates #velocities #accelerations #multipliers #forcing #bias #(#others)* }
     }
 
     /// How fast an argument of the equations changes along `direction`.

@@ -5,7 +5,7 @@ use ConstraintKind::{Holonomic, Velocity};
 use super::evidence::vanishes;
 use crate::diagnostics::Diagnostics;
 use crate::resolve::{Label, Problem};
-use crate::symbolic::{Graph, Id, Rational};
+use crate::symbolic::{Function, Graph, Id, Rational};
 use crate::variables::{Variable, drift, has_velocity, symbols};
 
 /// How a constraint acts.
@@ -44,6 +44,29 @@ impl Constraints {
         };
         (0..coordinates).map(force).collect()
     }
+
+    /// Σ_i |F_αi x_i| for each constraint α of these kinds, x the coordinates or their velocities: the size of the terms of
+    /// which Φ or F q̇ + b is the difference. Zero for the others.
+    pub(super) fn magnitude(
+        &self,
+        graph: &mut Graph,
+        x: fn(usize) -> Variable,
+        counts: impl Fn(ConstraintKind) -> bool,
+    ) -> Vec<Id> {
+        let one = Rational::from_integer(1);
+        let rows = self.jacobian.iter().zip(&self.kinds);
+        let size = rows.map(|(row, &kind)| {
+            let entries = row.iter().enumerate().filter(|&(_, &entry)| counts(kind) && entry != Id::ZERO);
+            let terms = entries.map(|(i, &entry)| {
+                let x = graph.symbol(x(i).symbol());
+                let term = graph.mul(entry, x);
+                (graph.function(Function::Abs, term), one)
+            });
+            let terms: Vec<_> = terms.collect();
+            graph.sum(terms)
+        });
+        size.collect()
+    }
 }
 
 /// Differentiates the constraints; `None` where one of them is none, which is then reported.
@@ -68,7 +91,7 @@ impl Constraints {
         let n = problem.coordinates.len();
         let mut drift = drift(graph, n);
         let (kind, residual, rate, variable): (_, _, _, fn(usize) -> Variable) =
-            match has_velocity(graph, expression) {
+            match has_velocity(graph, &[expression]) {
                 false => (Holonomic, expression, drift.of(graph, expression), Variable::Coordinate),
                 true => (Velocity, Id::ZERO, expression, Variable::Velocity),
             };

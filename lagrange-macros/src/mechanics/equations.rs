@@ -7,13 +7,15 @@ use super::{consistency, constraints, determinacy, euler_lagrange, integrability
 use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};
-use crate::variables::has_velocity;
+use crate::variables::{Variable, has_velocity};
 
 /// M q̈ − Fᵀλ = h and F q̈ + γ = 0, every entry a node of the problem's graph.
 #[derive(Debug)]
 pub(crate) struct Equations {
     /// p = ∂L/∂q̇
     pub(crate) momentum: Vec<Id>,
+    /// Whether M is free of velocities
+    pub(crate) momenta_are_linear: bool,
     /// M = ∂p/∂q̇, row by row
     pub(crate) mass: Vec<Vec<Id>>,
     /// ∂L/∂q + Q: dp/dt without constraints
@@ -29,6 +31,8 @@ pub(crate) struct Equations {
     pub(crate) residual: Vec<Id>,
     /// F q̇ + b
     pub(crate) rate: Vec<Id>,
+    /// Σ |F_αi q_i| of holonomic constraints, and Σ |F_αi q̇_i| of all
+    pub(crate) magnitudes: [Vec<Id>; 2],
     /// F, row by row
     pub(crate) jacobian: Vec<Vec<Id>>,
     /// γ
@@ -56,12 +60,17 @@ impl Equations {
         Some(Self {
             forms: Form::all(graph, problem, &motion, &constraints),
             integrability,
+            momenta_are_linear: !has_velocity(graph, &motion.mass.concat()),
             momentum: motion.momentum,
             mass: motion.mass,
             momentum_rate: motion.momentum_rate,
             forcing: motion.forcing,
             energy: motion.energy,
             constraint_force: constraints.force(graph),
+            magnitudes: [
+                constraints.magnitude(graph, Variable::Coordinate, |kind| kind == ConstraintKind::Holonomic),
+                constraints.magnitude(graph, Variable::Velocity, |_| true),
+            ],
             kinds: constraints.kinds,
             residual: constraints.residual,
             rate: constraints.rate,
@@ -87,7 +96,7 @@ impl Equations {
 /// −∂D/∂q̇ is nothing where D has no velocity in it.
 fn reject_idle_dissipation(graph: &Graph, problem: &Problem, diagnostics: &mut Diagnostics) {
     if let Some((function, place)) = problem.dissipation
-        && !has_velocity(graph, function)
+        && !has_velocity(graph, &[function])
     {
         diagnostics.error(place, "no velocity occurs in this dissipation function, so it does nothing");
     }

@@ -50,7 +50,7 @@ pub(super) fn total_derivatives(graph: &mut Graph, problem: &Problem) -> Vec<Tot
     }
     rest.retain(|&term| is_linear(graph, problem, terms[term]));
     let (mut rest, mut potentials): (Vec<_>, Vec<_>) =
-        rest.into_iter().partition(|&term| has_velocity(graph, terms[term]));
+        rest.into_iter().partition(|&term| has_velocity(graph, &[terms[term]]));
     while let Some(pair) = pair(graph, problem, &variations, &rest, &potentials) {
         rest.retain(|term| !pair.terms.contains(term));
         potentials.retain(|term| !pair.terms.contains(term));

@@ -29,7 +29,6 @@ pub(crate) struct Form {
     pub(crate) alone: Vec<Option<Id>>,
     /// The constraints a with σ_a F_aᵀF_a in H and −σ_a γ_a F_a in b, each with its σ: a solve for other h and γ takes
     /// the same from its h.
-    #[allow(dead_code, reason = "solves for other right-hand sides read it")]
     pub(crate) completing: Vec<(usize, Id)>,
 }
 

@@ -78,7 +78,7 @@ fn reading_order(factor: Id, graph: &Graph) -> (u8, u32) {
             Variable::Time => (3, 0),
             Variable::Coordinate(_) => (4, symbol.index),
             Variable::Velocity(_) => (7, symbol.index),
-            Variable::Acceleration(_) | Variable::Change(_) => (8, symbol.index),
+            _ => (8, symbol.index),
         },
         Node::Pi => (0, 0),
         Node::Defined(_) => (2, factor.index() as u32),
@@ -94,7 +94,8 @@ fn variable(variable: Variable, problem: &Problem) -> Formula {
         Variable::Velocity(i) => Formula::labelled(&problem.coordinates[i].text, 1),
         Variable::Acceleration(i) => Formula::labelled(&problem.coordinates[i].text, 2),
         Variable::Multiplier(a) => Formula::Multiplier(problem.constraints[a].0.text.clone()),
-        Variable::Change(i) => Formula::labelled(&format!("delta[{i}]"), 0),
         Variable::Parameter(k) => Formula::labelled(&problem.parameters.name(k), 0),
+        // Emitted functions take it, and no equation has it.
+        only_emitted => Formula::labelled(&format!("{only_emitted:?}"), 0),
     }
 }

@@ -17,6 +17,7 @@ use crate::number::{
 };
 use crate::solution::eliminate::eliminate_active;
 use crate::solution::kkt::{self, KktSystem, Rank};
+use crate::solution::near;
 use crate::solution::newton::{self, Left, Search, halvings};
 use crate::solution::solve::{is_trustworthy, name};
 use crate::system::{ConstraintKind, Lagrangian, State};
@@ -78,6 +79,23 @@ pub(crate) fn project<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M
     levels: &[Level],
     state: &mut State<L::Scalar, N>,
 ) -> Result<(), Error> {
+    if !levels.iter().any(|level| level.concerns::<L, N, M>()) {
+        return Ok(());
+    }
+    let (near, doubt) = near::project::<L, L::Scalar, N, M>(system, levels, *state);
+    if doubt == L::Scalar::constant(0.0) {
+        *state = near;
+        return Ok(());
+    }
+    project_in_general(system, levels, state)
+}
+
+#[cold]
+fn project_in_general<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+    system: &L,
+    levels: &[Level],
+    state: &mut State<L::Scalar, N>,
+) -> Result<(), Error> {
     levels.iter().try_for_each(|level| project_holding(system, *level, &[false; N], state))
 }
 
@@ -87,7 +105,7 @@ fn project_holding<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: u
     held: &[bool; N],
     state: &mut State<L::Scalar, N>,
 ) -> Result<(), Error> {
-    if !L::CONSTRAINT_KINDS.iter().any(|kind| level.is_active(*kind)) {
+    if !level.concerns::<L, N, M>() {
         return Ok(());
     }
     let mut projection = Projection { system, level, held };
@@ -95,7 +113,7 @@ fn project_holding<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: u
     let found = newton::find(&mut projection, start);
     if found.is_err() && held.contains(&true) {
         // What cannot hold at all is not the fault of what is held.
-        project(system, &[level], &mut { *state })?;
+        project_in_general(system, &[level], &mut { *state })?;
     }
     *state = found?.0.0;
     Ok(())
@@ -133,8 +151,37 @@ pub(crate) enum Level {
 pub(crate) const BOTH: [Level; 2] = [Level::Position, Level::Velocity];
 
 impl Level {
+    /// Whether a constraint acts on it.
+    pub(super) fn concerns<L: Lagrangian<N, M>, const N: usize, const M: usize>(self) -> bool {
+        L::CONSTRAINT_KINDS.iter().any(|kind| self.is_active(*kind))
+    }
+
+    /// What should be zero.
+    pub(super) fn residual<L: Lagrangian<N, M>, const N: usize, const M: usize>(
+        self,
+        system: &L,
+        state: &State<L::Scalar, N>,
+    ) -> SVector<L::Scalar, M> {
+        match self {
+            Self::Position => system.constraint_residual(state),
+            Self::Velocity => system.constraint_rate(state),
+        }
+    }
+
+    /// The size of the terms that it is the sum of.
+    pub(super) fn magnitude<L: Lagrangian<N, M>, const N: usize, const M: usize>(
+        self,
+        system: &L,
+        state: &State<L::Scalar, N>,
+    ) -> SVector<L::Scalar, M> {
+        match self {
+            Self::Position => system.residual_magnitude(state),
+            Self::Velocity => system.rate_magnitude(state),
+        }
+    }
+
     /// The entries that move.
-    fn unknowns<T, const N: usize>(self, state: &mut State<T, N>) -> &mut SVector<T, N> {
+    pub(super) fn unknowns<T, const N: usize>(self, state: &mut State<T, N>) -> &mut SVector<T, N> {
         match self {
             Self::Position => &mut state.q,
             Self::Velocity => &mut state.v,
@@ -163,10 +210,7 @@ impl<T: Real, const N: usize, const M: usize> Residual<T, N, M> {
         let active = L::CONSTRAINT_KINDS.map(|kind| level.is_active(kind));
         let jacobian = system.constraint_jacobian(state);
         let jacobian = from_fn(|a| from_fn(|i| if active[a] { jacobian[(a, i)] } else { zero }));
-        let value = match level {
-            Level::Position => system.constraint_residual(state),
-            Level::Velocity => system.constraint_rate(state),
-        };
+        let value = level.residual(system, state);
         let x = *level.unknowns(&mut { *state });
         Self {
             value: from_fn(|a| if active[a] { value[a] } else { zero }),

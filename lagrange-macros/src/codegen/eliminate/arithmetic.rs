@@ -24,7 +24,11 @@ pub(super) struct Solver<'s> {
     pub(super) reciprocals: Vec<Register>,
 }
 
-impl Solver<'_> {
+impl<'s> Solver<'s> {
+    pub(super) fn new(schedule: &'s mut Schedule) -> Self {
+        Self { schedule, growth: Vec::new(), plain: Vec::new(), reciprocals: Vec::new() }
+    }
+
     pub(super) fn entry(&self, id: Id) -> Entry {
         (id != Id::ZERO).then(|| self.schedule.register(id))
     }

@@ -1,7 +1,7 @@
 //! What tells at run time whether the elimination can be trusted.
 
-use super::Solved;
 use super::arithmetic::{Entry, Solver};
+use super::{Found, Solved};
 use crate::codegen::operation::{Operation, Register};
 use crate::codegen::schedule::Schedule;
 
@@ -15,42 +15,49 @@ impl Solver<'_> {
         }
     }
 
-    /// The results; `pushes` are what constraints do to the accelerations.
+    /// The results. The pivot is none where a result is not a number, or infinite, or where one of the `doubts` is.
+    ///
+    /// What a constraint pushes has a part in its multiplier, so results to look at are the multipliers and what no
+    /// constraint pushes, and of these those that are not seen in another one.
     pub(super) fn finish(
         mut self,
-        accelerations: Vec<Entry>,
-        multipliers: Vec<Entry>,
-        pushes: &[Entry],
+        found: Found,
+        count: usize,
+        pivot: Register,
+        doubts: Vec<Register>,
     ) -> Solved {
+        let Found { mut accelerations, multipliers, pushes } = found;
+        accelerations.truncate(count);
         let mut registers =
             |entries: Vec<Entry>| entries.into_iter().map(|entry| self.known(entry)).collect();
         let accelerations: Vec<Register> = registers(accelerations);
         let multipliers: Vec<Register> = registers(multipliers);
-        let pivot = self.smallest_pivot();
-        let free = accelerations.iter().zip(pushes).filter(|(_, push)| push.is_none());
+        let free = accelerations.iter().zip(&pushes).filter(|(_, push)| push.is_none());
         let results: Vec<Register> = free.map(|(&free, _)| free).chain(multipliers.iter().copied()).collect();
-        let poison = self.poison(&results, !multipliers.is_empty());
-        let pivot = self.schedule.push(Operation::Add(pivot, poison));
+        let seen = ends(self.schedule, &results).into_iter().chain(doubts).collect();
+        let pivot = self.poisoned(pivot, seen);
         Solved { accelerations, multipliers, pivot }
     }
 
-    /// Zero, but not a number where a result is none, or infinite, or rests on a pivot that is.
-    ///
-    /// What a constraint pushes has a part in its multiplier, so these results are the multipliers and what no
-    /// constraint pushes, and of these those that are not seen in another one.
-    fn poison(&mut self, results: &[Register], is_constrained: bool) -> Register {
-        let mut seen = ends(self.schedule, results);
-        seen.extend(&self.growth);
+    /// Infinite or no number where the factorization rests on a pivot that is, or one that is zero.
+    pub(super) fn doubts(&mut self, is_constrained: bool) -> Vec<Register> {
+        let mut doubts = self.growth.clone();
         // One that is infinite leaves finite results, and one that is zero may cancel out of them.
         for [pivot, reciprocal] in self.plain.clone() {
-            seen.extend((!self.is_input(pivot)).then_some(pivot));
-            seen.extend((!is_constrained).then_some(reciprocal));
+            doubts.extend((!self.is_input(pivot)).then_some(pivot));
+            doubts.extend((!is_constrained).then_some(reciprocal));
         }
         if is_constrained {
-            seen.extend(self.square_of_reciprocals());
+            doubts.extend(self.square_of_reciprocals());
         }
+        doubts
+    }
+
+    /// The pivot, but not a number where one of these is none or infinite.
+    pub(super) fn poisoned(&mut self, pivot: Register, doubts: Vec<Register>) -> Register {
         let zero = self.schedule.constant(0.0);
-        self.sum(seen).map_or(zero, |sum| self.schedule.push(Operation::Multiply(zero, sum)))
+        let poison = self.sum(doubts).map(|sum| self.schedule.push(Operation::Multiply(zero, sum)));
+        self.schedule.push(Operation::Add(pivot, poison.unwrap_or(zero)))
     }
 
     /// Infinite where a reciprocal is beyond the root of the largest number. So it is where entries of F are so small that
@@ -73,7 +80,7 @@ impl Solver<'_> {
     }
 
     /// The least of pivot/diagonal and diagonal/pivot.
-    fn smallest_pivot(&mut self) -> Register {
+    pub(super) fn smallest_pivot(&mut self) -> Register {
         let one = self.schedule.constant(1.0);
         let Some((&first, rest)) = self.growth.split_first() else { return one };
         let (mut least, mut most) = (first, first);

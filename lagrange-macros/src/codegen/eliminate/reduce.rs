@@ -22,6 +22,35 @@ enum StepKind {
     PutIn(Sparse),
 }
 
+impl Factors {
+    /// Every register in it.
+    pub(super) fn registers(&self) -> impl Iterator<Item = Register> {
+        let columns = self.steps.iter().flat_map(|step| step.kind.entries()).map(|&(_, entry)| entry);
+        self.reciprocals.iter().flatten().copied().chain(columns)
+    }
+
+    pub(super) fn with_registers(&self, mut new: impl FnMut(Register) -> Register) -> Self {
+        let reciprocals = self.reciprocals.iter().map(|entry| entry.map(&mut new)).collect();
+        let steps = self.steps.iter().map(|&Step { variable, ref kind }| {
+            let entries = kind.entries().iter().map(|&(i, entry)| (i, new(entry))).collect();
+            let kind = match kind {
+                StepKind::Eliminated(_) => StepKind::Eliminated(entries),
+                StepKind::PutIn(_) => StepKind::PutIn(entries),
+            };
+            Step { variable, kind }
+        });
+        Self { steps: steps.collect(), reciprocals }
+    }
+}
+
+impl StepKind {
+    fn entries(&self) -> &Sparse {
+        match self {
+            Self::Eliminated(entries) | Self::PutIn(entries) => entries,
+        }
+    }
+}
+
 /// How many of the first variables are defined by none of one another.
 fn independent(order: &[usize], free: usize, definitions: &[Sparse]) -> usize {
     let contains = |k: usize, variable: usize| definitions[k - free].iter().any(|&(i, _)| i == variable);

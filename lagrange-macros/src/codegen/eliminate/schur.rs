@@ -4,35 +4,37 @@ use super::arithmetic::{Entry, Solver, Sparse};
 use super::order::Pattern;
 use super::reduce::Factors;
 use super::short;
-use crate::mechanics::Equations;
 
 /// A coordinate that at most as many constraints share has its products left apart, for what they have in common to be
 /// taken out; where more share it, every row is scaled once.
 const FEW: usize = 2;
 
 impl Solver<'_> {
-    /// S λ = −γ − Z D⁻¹L⁻¹b, where the last is given but for Z; `None` where it would be too long.
-    pub(super) fn multipliers(
-        &mut self,
-        factors: &Factors,
-        starts: &[Entry],
-        rows: &[Sparse],
-        equations: &Equations,
-    ) -> Option<Vec<Entry>> {
-        let bias = self.entries(&equations.bias);
+    /// S = Z D⁻¹ Zᵀ factored; `None` where that would be too long.
+    pub(super) fn schur_factors(&mut self, factors: &Factors, rows: &[Sparse]) -> Option<Factors> {
         let schur = self.complement(factors, rows);
         let matrix = schur.iter().map(|row| row.iter().map(Option::is_some).collect()).collect();
         let order = short(&Pattern { matrix, definitions: Vec::new() })?;
+        Some(self.factor(schur, Vec::new(), &order))
+    }
+
+    /// S λ = −γ − Z D⁻¹L⁻¹b, where the last is given but for Z.
+    pub(super) fn multipliers(
+        &mut self,
+        schur: &Factors,
+        starts: &[Entry],
+        rows: &[Sparse],
+        bias: Vec<Entry>,
+    ) -> Vec<Entry> {
         let target = rows.iter().zip(bias).map(|(row, bias)| {
             let reached = self.dot(row, starts);
             let sum = self.add(bias, reached);
             self.negate(sum)
         });
         let target = target.collect();
-        let factors = self.factor(schur, Vec::new(), &order);
-        let half = self.forward(&factors, target);
-        let starts = half.into_iter().zip(&factors.reciprocals).map(|(x, &r)| self.multiply(x, r)).collect();
-        Some(self.backward(&factors, starts, &vec![None; rows.len()]))
+        let half = self.forward(schur, target);
+        let starts = self.scaled(schur, half);
+        self.backward(schur, starts, &vec![None; rows.len()])
     }
 
     /// S = Z D⁻¹ Zᵀ

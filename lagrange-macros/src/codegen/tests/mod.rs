@@ -2,10 +2,10 @@
 
 mod interpret;
 
-use super::accelerations::solve;
 use super::body::Body;
 use super::count::Count;
 use super::passes::Program;
+use super::solving::solve;
 use crate::mechanics::Equations;
 use crate::symbolic::{Graph, Id, Symbol};
 

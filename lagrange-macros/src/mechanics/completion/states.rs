@@ -40,7 +40,7 @@ impl Space<'_> {
         let residual: Vec<Id> = holonomic.iter().map(|&a| residual[a]).collect();
         let slopes: Vec<&[Id]> = holonomic.iter().map(|&a| &jacobian[a][..]).collect();
         let rows: Vec<&[Id]> = jacobian.iter().map(Vec::as_slice).collect();
-        let is_moving = self.mass.iter().flatten().any(|&entry| has_velocity(self.graph, entry));
+        let is_moving = has_velocity(self.graph, &self.mass.concat());
         self.drawn(|sample| {
             sample.project(self.graph, &residual, &slopes, &self.symbols(Variable::Coordinate))?;
             if is_moving {

@@ -4,6 +4,7 @@ const _: () = {
     #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
     impl __lagrange::Lagrangian<1usize, 0usize> for Pendulum {
         type Scalar = f64;
+        type Factor = [f64; 2usize];
         const NAME: &'static str = "Pendulum";
         const COORDINATES: [&'static str; 1usize] = ["theta"];
         const CONSTRAINTS: [&'static str; 0usize] = [];
@@ -130,6 +131,24 @@ const _: () = {
         ///0 operations (+ − × ÷ √), 0 elementary functions.
         #[inline]
         #[allow(unused_variables)]
+        fn residual_magnitude(
+            &self,
+            state: &__lagrange::State<f64, 1usize>,
+        ) -> __lagrange::nalgebra::SVector<f64, 0usize> {
+            __lagrange::generated::vector([])
+        }
+        ///0 operations (+ − × ÷ √), 0 elementary functions.
+        #[inline]
+        #[allow(unused_variables)]
+        fn rate_magnitude(
+            &self,
+            state: &__lagrange::State<f64, 1usize>,
+        ) -> __lagrange::nalgebra::SVector<f64, 0usize> {
+            __lagrange::generated::vector([])
+        }
+        ///0 operations (+ − × ÷ √), 0 elementary functions.
+        #[inline]
+        #[allow(unused_variables)]
         fn constraint_jacobian(
             &self,
             state: &__lagrange::State<f64, 1usize>,
@@ -177,6 +196,36 @@ const _: () = {
                     ((1.0 / r6) + (r6 - r8)),
                     1.0,
                 )),
+                rank: 0usize,
+            }
+        }
+        ///6 operations (+ − × ÷ √), 0 elementary functions. One product fused with a sum.
+        #[inline]
+        #[allow(unused_variables)]
+        fn factor(&self, state: &__lagrange::State<f64, 1usize>) -> Self::Factor {
+            let m = self.m;
+            let l = self.l;
+            let r3 = m * (l * l);
+            let r5 = 1.0 / r3;
+            [(__lagrange::Scalar::multiply_add(0.0, (r3 + r5), 1.0)), r5]
+        }
+        ///3 operations (+ − × ÷ √), 0 elementary functions. One product fused with a sum.
+        #[inline]
+        #[allow(unused_variables)]
+        fn solve_with(
+            &self,
+            factor: &Self::Factor,
+            forcing: &__lagrange::nalgebra::SVector<f64, 1usize>,
+            bias: &__lagrange::nalgebra::SVector<f64, 0usize>,
+        ) -> __lagrange::Solution<f64, 1usize, 0usize> {
+            let [forcing_theta] = forcing.data.0[0];
+            let factor_0 = factor[0];
+            let factor_1 = factor[1];
+            let r3 = forcing_theta * factor_1;
+            __lagrange::Solution {
+                accelerations: __lagrange::generated::vector([r3]),
+                multipliers: __lagrange::generated::vector([]),
+                pivot: (__lagrange::Scalar::multiply_add(r3, 0.0, factor_0)),
                 rank: 0usize,
             }
         }

@@ -1,0 +1,61 @@
+//! A state next to the constraints, moved onto them by one factor: what a step does at its end.
+//!
+//! The corrections are those of the [general projection](super::consistent), least in the metric of the mass matrix, but
+//! all solve with the matrix of the state as it is given (simplified Newton iteration: Hairer, Lubich and Wanner,
+//! *Geometric Numerical Integration*, IV.4), and those of the coordinates follow the constraints on velocities too.
+//! Lanes go together, and what becomes of one depends on no other.
+
+use nalgebra::SVector;
+
+use super::consistent::Level;
+use super::solve::least_pivot;
+use crate::number::{Real, Scalar};
+use crate::system::{Lagrangian, State};
+
+/// From as far off as the error of a step one correction leads to round-off, as a rule.
+const CORRECTIONS: usize = 3;
+
+/// The state on the constraints of these levels, and a doubt: zero where it is there to round-off, lane by lane, in the
+/// precision of `R`.
+#[inline]
+pub(crate) fn project<L, R, const N: usize, const M: usize>(
+    system: &L,
+    levels: &[Level],
+    mut state: State<L::Scalar, N>,
+) -> (State<L::Scalar, N>, L::Scalar)
+where
+    L: Lagrangian<N, M>,
+    R: Real,
+{
+    let [zero, one] = [0.0, 1.0].map(L::Scalar::constant);
+    let least = L::Scalar::constant(least_pivot::<R>().to_f64());
+    let (factor, mut doubt) = (system.factor(&state), zero);
+    for &level in levels.iter().filter(|level| level.concerns::<L, N, M>()) {
+        let size = level.magnitude(system, &state);
+        let mut residual = level.residual(system, &state);
+        for _ in 0..CORRECTIONS {
+            let left = excess(&residual, &size, 4.0 * R::EPSILON);
+            if left == zero {
+                break;
+            }
+            let correction = system.solve_with(&factor, &SVector::from_element(zero), &residual);
+            // A lane that is there stays as it is, be the others where they are.
+            let unknowns = level.unknowns(&mut state);
+            let moved = |x: L::Scalar, change| left.by_order(zero, x, x, x + change);
+            *unknowns = unknowns.zip_map(&correction.accelerations, moved);
+            let is_small = correction.pivot.by_order(least, one, one, zero);
+            doubt = doubt + left.by_order(zero, zero, zero, is_small);
+            residual = level.residual(system, &state);
+        }
+        doubt = doubt + excess(&residual, &size, 16.0 * R::EPSILON);
+    }
+    (state, doubt)
+}
+
+/// How many of these are more than this part of their size; no number where one is none.
+#[inline]
+fn excess<T: Scalar, const M: usize>(x: &SVector<T, M>, size: &SVector<T, M>, part: f64) -> T {
+    let (zero, one) = (T::constant(0.0), T::constant(1.0));
+    let excess = |x: T, size: T| x.abs().by_order(size * T::constant(part), zero, zero, one);
+    x.iter().zip(size).fold(zero, |sum, (&x, &size)| sum + excess(x, size))
+}
