@@ -5,7 +5,7 @@ use core::fmt::{self, Display, Formatter};
 use crate::error::Error;
 use crate::names::{Entry, Row};
 
-/// Why a trajectory ends where it does. Everything up to `time` has been computed and kept.
+/// Why a motion ends where it does.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub enum Ending {
@@ -78,6 +78,9 @@ pub enum Ending {
         time: f64,
         /// Steps tried.
         steps: usize,
+        /// Where the problem looks stiff, the rate at which its fastest motion grows or dies: steps are short because the
+        /// method would not be stable with longer ones, not because the accuracy asks for it.
+        stiffness: Option<f64>,
     },
     /// The limit on time by the clock on the wall.
     WallTimeLimit {
@@ -115,6 +118,11 @@ impl Ending {
         matches!(self, Self::Complete { .. })
     }
 
+    /// Whether something other than the caller kept the motion from the end.
+    pub fn is_failure(&self) -> bool {
+        !matches!(self, Self::Complete { .. } | Self::Cancelled { .. })
+    }
+
     /// The ending of an integration that an error stopped after `time`.
     pub(crate) fn of(error: Error, time: f64) -> Self {
         match error {
@@ -133,7 +141,7 @@ impl Display for Ending {
             Self::Complete { time } => write!(f, "reached the end at t = {time}"),
             Self::StepTooSmall { time, entry } => write!(
                 f,
-                "stopped at t = {time}: the error of `{entry}` demands a step too small to advance the time"
+                "stopped at t = {time}: the error of `{entry}` demands a step too small to advance the time; the motion is singular nearby, or the tolerance is below the round-off"
             ),
             Self::TimeTooCoarse { time, step } => write!(
                 f,
@@ -143,16 +151,23 @@ impl Display for Ending {
             | Self::Contradictory { time, error }
             | Self::Unsolved { time, error }
             | Self::OffConstraints { time, error } => write!(f, "stopped at t = {time}: {error}"),
-            Self::NotFinite { time, row } => {
-                write!(f, "stopped at t = {time}: the equations are not finite in the row of {row}")
-            }
+            Self::NotFinite { time, row } => write!(
+                f,
+                "stopped at t = {time}: the equations are not finite in the row of {row}; check the parameters, and whether the motion runs into a pole"
+            ),
             Self::MethodFailed { time, reason } => {
                 write!(f, "stopped at t = {time} by the method: {reason}")
             }
-            Self::StepLimit { time, steps } => {
+            Self::StepLimit { time, steps, stiffness: None } => {
                 write!(f, "stopped at t = {time} after {steps} steps, the limit; raise it with `max_steps`")
             }
-            Self::WallTimeLimit { time } => write!(f, "stopped at t = {time} by the limit on wall time"),
+            Self::StepLimit { time, steps, stiffness: Some(rate) } => write!(
+                f,
+                "stopped at t = {time} after {steps} steps, the limit: the problem looks stiff, something in it grows or dies at a rate of {rate:.1e}, which keeps steps short whatever the tolerance; put a constraint in the place of a stiff spring, leave out a mass that friction governs, or raise the limit with `max_steps`"
+            ),
+            Self::WallTimeLimit { time } => {
+                write!(f, "stopped at t = {time} by the limit on wall time; raise it with `wall_time`")
+            }
             Self::Cancelled { time } => write!(f, "cancelled at t = {time}"),
         }
     }

@@ -3,13 +3,14 @@
 use core::fmt::{self, Display, Formatter};
 
 #[cfg(feature = "alloc")]
-use alloc::{string::String, vec::Vec};
+use alloc::{boxed::Box, string::String, vec::Vec};
 
+#[cfg(feature = "alloc")]
+use crate::ending::Ending;
 use crate::names::{Entry, Names, Row};
 
-/// Why a computation did not start, or what a query asked in vain.
+/// Why a computation did not start or did not reach its end, or what a query asked in vain.
 ///
-/// What happens during an integration is an [`Ending`](crate::Ending) of its trajectory instead.
 /// Times and residuals are given as `f64` whatever the scalar of the system is.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
@@ -49,6 +50,14 @@ pub enum Error {
         /// The end asked for.
         end: f64,
     },
+    /// The motion stopped before its end.
+    ///
+    /// [`Simulate::integrate_towards`](crate::Simulate::integrate_towards) gives what was computed until then.
+    #[cfg(feature = "alloc")]
+    Unfinished(
+        /// When, where and why.
+        Box<Ending>,
+    ),
     /// Neither mass matrix nor constraints determine some accelerations.
     Singular {
         /// The coordinates that can accelerate freely.
@@ -235,6 +244,8 @@ impl Display for Error {
                 write!(f, "the {name} is {value}: it must be positive and finite")
             }
             Self::EndNotFinite { end } => write!(f, "cannot integrate to t = {end}: the end must be finite"),
+            #[cfg(feature = "alloc")]
+            Self::Unfinished(ending) => write!(f, "{ending}"),
             Self::Singular { coordinates, time } => write!(
                 f,
                 "the equations do not determine the acceleration of {coordinates} at t = {time}: give it a mass or constrain it"

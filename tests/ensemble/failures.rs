@@ -148,7 +148,7 @@ fn a_limit_on_steps_ends_the_member_that_meets_it() {
     for (member, free) in outcome.members().iter().zip(free.members()) {
         let arrival = member.arrival().unwrap();
         match &arrival.ending {
-            Ending::StepLimit { steps, time } => {
+            Ending::StepLimit { steps, time, .. } => {
                 assert_eq!((*steps, *time), (limit, arrival.state.t));
                 assert!(arrival.state.t < END && arrival.state.t > 0.0);
             }

@@ -138,7 +138,7 @@ fn a_momentum_that_no_velocity_has_ends_the_motion() {
     #[lagrangian(x_dot^4/4 - x_dot^2/2 - x)]
     struct Fold;
     let phase = Fold.phase_state(&State::new([0.0], [1.1]));
-    let path = Fold.integrate_hamiltonian(phase, 2.0, Dop853::default()).unwrap();
+    let path = Fold.integrate_hamiltonian_towards(phase, 2.0, Dop853::default()).unwrap();
     let Ending::Unsolved { time, error: Error::MomentumNotReached { coordinate: "x", .. } } = path.ending()
     else {
         panic!("{}", path.ending());

@@ -151,9 +151,10 @@ fn lanes_go_both_ways() {
 #[test]
 fn what_stops_a_motion_stops_it_backwards() {
     let spring = Spring { omega: 1.0 };
-    let path = spring.integrate(State::at_rest([1.0]), -1e9, Dopri5::default().max_steps(50)).unwrap();
+    let path =
+        spring.integrate_towards(State::at_rest([1.0]), -1e9, Dopri5::default().max_steps(50)).unwrap();
     assert!(
-        matches!(path.ending(), Ending::StepLimit { time, steps: 50 } if *time < -1.0),
+        matches!(path.ending(), Ending::StepLimit { time, steps: 50, .. } if *time < -1.0),
         "{}",
         path.ending()
     );
@@ -165,7 +166,8 @@ fn what_stops_a_motion_stops_it_backwards() {
     assert!(matches!(path.ending(), Ending::Cancelled { .. }), "{}", path.ending());
     let off = path.end().state().q[0] - path.end().time().cos();
     assert!(off.abs() <= allowed(path.statistics().accepted, 1e-9), "{off:e}");
-    let path = spring.integrate(State::at_rest([1.0]).at_time(1e17), 1e17 - 1e3, Dop853::default()).unwrap();
+    let path =
+        spring.integrate_towards(State::at_rest([1.0]).at_time(1e17), 1e17 - 1e3, Dop853::default()).unwrap();
     assert!(
         matches!(path.ending(), Ending::TimeTooCoarse { .. } | Ending::StepTooSmall { .. }),
         "{}",

@@ -63,10 +63,12 @@ fn a_free_body_goes_anywhere_in_time() {
     ] {
         for v in [0.0, 1e-10, 1.0] {
             let start_state = State::new([1.0], [v]).at_time(start);
-            let path = Free { m: 1.0 }.integrate(start_state, end, Dop853::default()).unwrap();
-            if v == 1.0 && end - start > 1e307 {
-                continue; // x overflows on the way
-            }
+            let free = Free { m: 1.0 };
+            let path = match free.integrate(start_state, end, Dop853::default()) {
+                // x overflows on the way
+                Err(Error::Unfinished(_)) if v == 1.0 && end - start > 1e307 => continue,
+                path => path.unwrap(),
+            };
             assert_eq!(*path.ending(), Ending::Complete { time: end }, "from {start:e}, v = {v}");
             let expected = 1.0 + (v * (end / 2.0 - start / 2.0)) * 2.0;
             let off = (path.end().coordinate("x").unwrap() / expected - 1.0).abs();
@@ -125,7 +127,7 @@ fn settings_too_small_for_single_precision_are_no_steps_of_no_length() {
     let spring = Spring { omega: 1.0_f32 };
     let start = State::at_rest([1.0]);
     for method in [Dop853::default().max_step(1e-50), Dop853::default().fixed_step(1e-50)] {
-        let path = spring.integrate(start, 1.0, method).unwrap();
+        let path = spring.integrate_towards(start, 1.0, method).unwrap();
         assert!(matches!(path.ending(), Ending::TimeTooCoarse { time: 0.0, .. }), "{}", path.ending());
         assert!(path.drift().iter().all(|quantity| quantity.largest == 0.0));
     }

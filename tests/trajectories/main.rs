@@ -1,3 +1,4 @@
 //! What a motion leaves behind.
 
+mod endings;
 mod owned;

@@ -242,7 +242,7 @@ impl<L, const N: usize> Job<'_, L, f64, N> {
                 .and_then(|()| Seat::new(index, system, &start, self.end, method));
             match seat {
                 Err(error) => self.report(index, Err(error)),
-                Ok((seat, state)) => match seat.ending() {
+                Ok((mut seat, state)) => match seat.ending_at_start(method) {
                     None => return Some(seat),
                     Some(ending) => {
                         let statistics = seat.statistics;

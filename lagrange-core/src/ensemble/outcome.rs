@@ -41,8 +41,7 @@ impl<T: Real, const N: usize> Member<T, N> {
 
     /// Whether something other than the observer kept it from the end.
     pub fn has_failed(&self) -> bool {
-        let cancelled = |a: &Arrival<T, N>| matches!(a.ending, Ending::Cancelled { .. });
-        !self.is_complete() && !self.arrival().is_some_and(cancelled)
+        self.arrival().is_none_or(|arrival| arrival.ending.is_failure())
     }
 }
 

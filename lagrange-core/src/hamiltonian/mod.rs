@@ -125,7 +125,8 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
         self.integrate_hamiltonian_with(phase, end, method, |_| ControlFlow::Continue(()))
     }
 
-    /// The same, with a look at the progress after every step; `ControlFlow::Break` cancels.
+    /// The motion by Hamilton's equations with a look at the progress after every step; `ControlFlow::Break` cancels, which
+    /// is no error.
     ///
     /// # Errors
     /// As [`integrate_hamiltonian`](Self::integrate_hamiltonian).
@@ -137,7 +138,22 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
         method: P,
         watch: impl FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<Trajectory<&Self, N, M, HamiltonianFlow>, Error> {
-        run::drive(self, self.legendre(&phase)?, end, &method, watch)
+        run::drive(self, self.legendre(&phase)?, end, &method, watch)?.finished()
+    }
+
+    /// The motion by Hamilton's equations as far as it gets on the way to `end`; [`Trajectory::ending`] tells why it gets no
+    /// farther.
+    ///
+    /// # Errors
+    /// As [`integrate_hamiltonian`](Self::integrate_hamiltonian), of what is wrong before the first step.
+    #[cfg(feature = "alloc")]
+    fn integrate_hamiltonian_towards<P: Method<Self, N, M, HamiltonianFlow>>(
+        &self,
+        phase: PhaseState<Self::Scalar, N>,
+        end: Self::Scalar,
+        method: P,
+    ) -> Result<Trajectory<&Self, N, M, HamiltonianFlow>, Error> {
+        run::drive(self, self.legendre(&phase)?, end, &method, |_| ControlFlow::Continue(()))
     }
 }
 

@@ -37,7 +37,7 @@ fn dependent_constraints_give_the_same_motion() {
 fn an_ending_names_a_momentum() {
     let falling = free::<1>(|s| [1.0 / (1.0 - s.t)]);
     let phase = PhaseState::new([0.0], [0.0]);
-    let path = falling.integrate_hamiltonian(phase, 2.0, Dop853::default()).unwrap();
+    let path = falling.integrate_hamiltonian_towards(phase, 2.0, Dop853::default()).unwrap();
     let text = std::format!("{}", path.ending());
     assert!(text.contains("the error of `p(x)` demands a step too small"), "{text}");
 }

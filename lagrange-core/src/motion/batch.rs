@@ -120,11 +120,13 @@ where
         let fates = from_fn(|lane| self.decide(lane, plan[lane], &attempt));
         self.settle(&fates, &attempt.next);
         for (lane, fate) in fates.into_iter().enumerate() {
-            let Some(seat) = &self.seats[lane] else { continue };
-            let state = self.state(lane, seat.memory.clock.now);
+            let Some(now) = self.seats[lane].as_ref().map(|seat| seat.memory.clock.now) else { continue };
+            let state = self.state(lane, now);
+            let Some(seat) = &mut self.seats[lane] else { continue };
+            let here = || [&self.y, &self.slopes[0]].map(|packed| unpacked(packed, lane));
             let ending = match fate != Fate::Rejected && accept(seat.index, &state).is_break() {
                 true => Some(Ending::Cancelled { time: state.t }),
-                false => seat.ending(),
+                false => seat.ending(&self.method, here),
             };
             if let Some(ending) = ending
                 && let Some(seat) = self.seats[lane].take()

@@ -73,7 +73,8 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
     {
         let now = self.state.t;
         loop {
-            if let Some(ending) = limits.exceeded(&self.statistics, now.to_f64()) {
+            let stiffness = || method.stiffness(system, &self.memory, end);
+            if let Some(ending) = limits.exceeded(&self.statistics, now.to_f64(), stiffness) {
                 return Err(ending);
             }
             match method.step(system, &mut self.memory, end, &mut self.statistics) {
@@ -197,10 +198,15 @@ impl Watchdog {
         }
     }
 
-    pub(super) fn exceeded(&self, statistics: &Statistics, time: f64) -> Option<Ending> {
+    pub(super) fn exceeded(
+        &self,
+        statistics: &Statistics,
+        time: f64,
+        stiffness: impl FnOnce() -> Option<f64>,
+    ) -> Option<Ending> {
         let steps = statistics.accepted + statistics.rejected - self.before;
         if steps >= self.limits.max_steps {
-            return Some(Ending::StepLimit { time, steps });
+            return Some(Ending::StepLimit { time, steps, stiffness: stiffness() });
         }
         #[cfg(feature = "std")]
         if let Some((limit, started)) = self.limits.wall_time.zip(self.started)

@@ -55,13 +55,28 @@ impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Seat<L, 
         self
     }
 
-    /// Why there is no further step to take.
-    pub(crate) fn ending(&self) -> Option<Ending> {
-        let time = self.memory.clock.now;
-        if self.memory.clock.is_at_end() {
+    /// Why there is no step to take.
+    pub(crate) fn ending_at_start<P: Pair>(&mut self, method: &Adaptive<P>) -> Option<Ending> {
+        let here = [self.memory.y, self.memory.slope];
+        self.ending(method, || here)
+    }
+
+    /// Why there is no further step to take; `here` gives the state and its rates.
+    pub(super) fn ending<P: Pair>(
+        &mut self,
+        method: &Adaptive<P>,
+        here: impl FnOnce() -> [Phase<f64, N>; 2],
+    ) -> Option<Ending> {
+        let Self { system, memory, end, statistics, limits, failure, .. } = self;
+        let time = memory.clock.now;
+        if memory.clock.is_at_end() {
             return Some(Ending::Complete { time });
         }
-        self.failure.clone().or_else(|| self.limits.exceeded(&self.statistics, time))
+        let stiffness = || {
+            [memory.y, memory.slope] = here();
+            Method::<L, N, M>::stiffness(method, system, memory, *end)
+        };
+        failure.clone().or_else(|| limits.exceeded(statistics, time, stiffness))
     }
 
     /// Accepts or rejects a step computed on lanes; `None` where it is to be taken alone.

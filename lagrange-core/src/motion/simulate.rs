@@ -116,7 +116,9 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     /// # Errors
     /// What is wrong before the first step: entries, equations, settings or times that are not finite or not
     /// positive, a state off the constraints ([`make_consistent`](Self::make_consistent) helps), singular or
-    /// contradictory equations. What stops the motion later is the [`ending`](Trajectory::ending) of the trajectory.
+    /// contradictory equations. [`Error::Unfinished`] where the motion stops before its end: it says when, by which
+    /// coordinate or constraint, why and what helps. [`integrate_towards`](Self::integrate_towards) keeps what was
+    /// computed until then.
     #[cfg(feature = "alloc")]
     fn integrate<P: Method<Self, N, M>>(
         &self,
@@ -127,8 +129,8 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
         self.integrate_with(state, end, method, |_| ControlFlow::Continue(()))
     }
 
-    /// The same, with a look at the progress after every step; `ControlFlow::Break` cancels, and what has been
-    /// computed so far is kept.
+    /// The motion with a look at the progress after every step. `ControlFlow::Break` cancels, which is no error: the
+    /// trajectory has what was computed so far.
     ///
     /// # Errors
     /// As [`integrate`](Self::integrate).
@@ -141,7 +143,48 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
         watch: impl FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<Trajectory<&Self, N, M>, Error> {
         check_finite(self, &state)?;
-        run::drive(self, state, end, &method, watch)
+        run::drive(self, state, end, &method, watch)?.finished()
+    }
+
+    /// The motion as far as it gets on the way to `end`; [`Trajectory::ending`] tells why it gets no farther.
+    ///
+    #[cfg_attr(
+        feature = "std",
+        doc = r#"
+```
+use lagrange_core::{Ending, prelude::*};
+
+/// A stone that falls into a star.
+#[derive(Lagrangian)]
+#[coordinates(r)]
+#[lagrangian(r_dot^2/2 + 1/r)]
+struct Stone;
+
+let start = State::at_rest([1.0]);
+let collision = std::f64::consts::PI / 8.0_f64.sqrt();
+
+let error = Stone.integrate(start, 2.0, Dop853::default()).unwrap_err();
+assert!(error.to_string().starts_with("stopped at t = 1.11"));
+
+let path = Stone.integrate_towards(start, 2.0, Dop853::default())?;
+assert!((path.end().time() - collision).abs() < 1e-6);
+assert!(path.ending().is_failure() && path.at(1.0)?.velocity("r")? < -1.0);
+# Ok::<(), Error>(())
+```
+"#
+    )]
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate), of what is wrong before the first step.
+    #[cfg(feature = "alloc")]
+    fn integrate_towards<P: Method<Self, N, M>>(
+        &self,
+        state: State<Self::Scalar, N>,
+        end: Self::Scalar,
+        method: P,
+    ) -> Result<Trajectory<&Self, N, M>, Error> {
+        check_finite(self, &state)?;
+        run::drive(self, state, end, &method, |_| ControlFlow::Continue(()))
     }
 
     /// A state at t = 0 from names: `x` a coordinate, `x_dot` its velocity, `r[0]` and `r_dot[0]` those of a vector;

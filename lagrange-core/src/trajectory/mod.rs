@@ -7,6 +7,7 @@ mod sample;
 #[cfg(test)]
 mod tests;
 
+use alloc::boxed::Box;
 use core::fmt::{self, Debug, Formatter};
 use core::iter::once;
 use core::marker::PhantomData;
@@ -24,7 +25,7 @@ use crate::solution::flow::{Flow, LagrangianFlow};
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State};
 
-/// The motion of a system from the start to where the integration stopped, which [`ending`](Self::ending) explains.
+/// The motion of a system from the start to where the integration stopped.
 ///
 /// Between the steps it is the continuous extension of the method, projected onto the constraints like the steps
 /// themselves: continuous, and equal to the states computed at their times.
@@ -83,12 +84,19 @@ impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Trajectory<S, N, M,
         Self { system, path, ending, statistics, adjustment, flow: PhantomData }
     }
 
+    /// This trajectory, if nothing but the caller kept it from its end.
+    pub(crate) fn finished(self) -> Result<Self, Error> {
+        // There is no `From<Ending>`: of two ways into an `Error`, `?` in a closure would not know which is meant.
+        if self.ending.is_failure() { Err(Error::Unfinished(Box::new(self.ending))) } else { Ok(self) }
+    }
+
     /// The system that moves.
     pub fn system(&self) -> &S {
         &self.system
     }
 
-    /// Why the trajectory ends where it does.
+    /// Why the trajectory ends where it does: the end was reached, or the caller said so; and whatever else it may be after
+    /// [`integrate_towards`](crate::Simulate::integrate_towards).
     pub fn ending(&self) -> &Ending {
         &self.ending
     }

@@ -9,6 +9,7 @@ mod interpolant;
 pub(super) mod pair;
 mod runge_kutta;
 pub(super) mod step;
+mod stiff;
 
 pub use adaptive::Adaptive;
 pub use dop853::{Dop853, DormandPrince853};
@@ -106,6 +107,13 @@ where
     #[allow(unused_variables)]
     fn take_back(&self, memory: &mut Self::Memory) -> bool {
         false
+    }
+
+    /// The rate at which the fastest motion near the state grows or dies, where the stability of the method rather than the
+    /// accuracy asked for keeps the steps short by it: a sign of a stiff problem. Asked when the limit on steps is reached.
+    #[allow(unused_variables)]
+    fn stiffness(&self, system: &L, memory: &Self::Memory, end: L::Scalar) -> Option<f64> {
+        None
     }
 }
 

@@ -32,16 +32,16 @@ pub struct Memory<T, const N: usize, const M: usize> {
     /// Which constraints they rest on: as many as are independent at `y`.
     pub(crate) active: [bool; M],
     /// Of the step tried last, the first that of its start.
-    slopes: Slopes<T, N>,
+    pub(super) slopes: Slopes<T, N>,
     /// The step that led here.
-    taken: Option<Taken<T, N, M>>,
+    pub(super) taken: Option<Taken<T, N, M>>,
 }
 
 /// A step taken: what its interpolant needs, and to take it back.
 #[derive(Clone, Debug)]
-struct Taken<T, const N: usize, const M: usize> {
+pub(super) struct Taken<T, const N: usize, const M: usize> {
     from: Origin<T, N, M>,
-    h: T,
+    pub(super) h: T,
     control: Control<T>,
 }
 
@@ -191,6 +191,11 @@ where
         (memory.slope, memory.control) = (memory.slopes[0], control);
         memory.control.halve(h);
         self.can_try_again(memory)
+    }
+
+    fn stiffness(&self, system: &L, memory: &Self::Memory, end: L::Scalar) -> Option<f64> {
+        // No step is chosen by its error where all are of one size.
+        self.fixed_step.is_none().then(|| self.find_stiffness::<L, F, N, M>(system, memory, end)).flatten()
     }
 }
 
