@@ -1,6 +1,7 @@
 //! The elimination that is emitted: its residuals, its signs and its limits.
 
 use lagrange_core::prelude::*;
+use lagrange_core::{Lanes, Scalar};
 
 /// Twenty rods in a row, in Cartesian coordinates.
 #[derive(Lagrangian)]
@@ -188,6 +189,46 @@ fn nearly_dependent_constraints_show_in_the_pivot() {
         let pivot = crank.accelerations(&State::new([x, y, 2.0 * x], [y, -x, 2.0 * y])).pivot;
         let square = distance * distance;
         assert!(pivot > square && pivot < 10.0 * square, "{distance:e}: {pivot:e}");
+    }
+}
+
+/// Where the pivot is too small no number passes for a result; the lanes beside it are none the worse.
+#[test]
+fn what_the_elimination_cannot_vouch_for_is_no_number() {
+    let crank = SliderCrank { m: 1.0, g: 9.81, l: 1.0 };
+    let folded = crank.accelerations(&State::new([0.0, 1.0, 0.0], [1.0, 0.0, 2.0]));
+    assert!(folded.accelerations.iter().chain(&folded.multipliers).all(|x| x.is_nan()), "{folded:?}");
+
+    #[derive(Lagrangian)]
+    #[coordinates(x, y)]
+    #[lagrangian(a/2*x_dot^2 + b/2*y_dot^2 + c*x_dot*y_dot - x - y)]
+    struct Coupled<T> {
+        a: T,
+        b: T,
+        c: T,
+    }
+    let numbers = |c: f64| {
+        let system = Coupled { a: 1.0, b: 1.0, c };
+        system.accelerations(&State::at_rest([0.0; 2])).accelerations.map(f64::is_finite)
+    };
+    let single = |c: f32| {
+        let system = Coupled { a: 1.0, b: 1.0, c };
+        system.accelerations(&State::at_rest([0.0; 2])).accelerations.map(f32::is_finite)
+    };
+    assert!(numbers(0.9999).iter().chain(&single(0.99)).all(|is_number| *is_number));
+    for c in [1.0, 0.99999999, -1.0, 2.0, f64::NAN] {
+        assert!(!numbers(c).iter().chain(&single(c as f32)).any(|is_number| *is_number), "{c}");
+    }
+    assert!(!single(0.9999).iter().any(|is_number| *is_number), "too little for single precision");
+
+    let lanes = Coupled {
+        a: Lanes::constant(1.0),
+        b: Lanes::constant(1.0),
+        c: Lanes::from([0.5, 1.0, f64::NAN, -0.9]),
+    };
+    let state = State::at_rest([Lanes::constant(0.0); 2]);
+    for x in &lanes.accelerations(&state).accelerations {
+        assert_eq!(x.to_array().map(f64::is_finite), [true, false, false, true]);
     }
 }
 

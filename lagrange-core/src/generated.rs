@@ -1,5 +1,5 @@
 //! What only generated code calls. It changes as the derive does, without notice.
 
 pub use crate::number::{matrix, only_where, vector};
-pub use crate::solution::eliminate::{LoopFactor, eliminate};
+pub use crate::solution::eliminate::{LoopFactor, doubt, eliminate};
 pub use crate::system::equations::equations;

@@ -99,10 +99,12 @@ impl<T: Scalar, const N: usize, const M: usize> LoopFactor<T, N, M> {
             }
         }
         let pivots = [self.mass.pivot, self.schur.pivot];
+        let pivot = poison(pivots[0].min(pivots[1]), pivots[0] * pivots[1]);
+        let doubt = doubt(pivot, T::constant(1.0));
         Solution {
-            accelerations: vector(q),
-            multipliers: vector(lambda),
-            pivot: poison(pivots[0].min(pivots[1]), pivots[0] * pivots[1]),
+            accelerations: vector(q.map(|x| x + doubt)),
+            multipliers: vector(lambda.map(|x| x + doubt)),
+            pivot,
             rank: M,
         }
     }
@@ -159,6 +161,17 @@ impl<T: Scalar, const K: usize> Ldl<T, K> {
             }
         }
     }
+}
+
+/// Zero where the least and the greatest of what pivots were over what they are leave two thirds of the digits of the
+/// scalar, which is [`least_pivot`](super::solve::least_pivot); else NaN, lane by lane.
+#[inline]
+pub fn doubt<T: Scalar>(least: T, most: T) -> T {
+    let [zero, one, nan] = [0.0, 1.0, f64::NAN].map(T::constant);
+    let is_single = T::constant(1.0 + f64::EPSILON) == one;
+    let bound = if is_single { 4.921_566_601_151_855e-3 } else { 6.055_454_452_393_343e-6 };
+    let bound = T::constant(bound);
+    least.by_order(bound, nan, nan, zero) + (most * bound).by_order(one, zero, nan, nan)
 }
 
 /// `x`, or NaN where `y` is not finite: a minimum drops NaN, and 0/0 must not pass for a good pivot.

@@ -13,7 +13,6 @@ mod reduce;
 mod schur;
 
 use indexmap::IndexSet;
-use rustc_hash::FxHashMap;
 
 use super::kernel::OPERATION_LIMIT;
 use super::operation::{Operation, Register};
@@ -47,6 +46,15 @@ pub(super) struct Factorization {
     schur: Factors,
     /// σ_a F_a of the constraints a that complete M: a solve takes γ_a times as much from its h.
     completing: Vec<(usize, Sparse)>,
+    trust: Trust,
+}
+
+/// How far a factorization can be trusted.
+#[derive(Clone, Copy)]
+struct Trust {
+    pivot: Register,
+    /// Zero, or no number where nothing can be vouched for; `None` where it always can.
+    doubt: Option<Register>,
 }
 
 /// Appends the elimination to a schedule that computes the entries of the form, F and γ; `None` where it would be
@@ -57,52 +65,45 @@ pub(super) fn eliminate(schedule: &mut Schedule, form: &Form, equations: &Equati
     let starts = solver.starts(form, &factorization.form);
     let bias = solver.entries(&equations.bias);
     let found = solver.solve(&factorization, starts, bias);
-    let (pivot, doubts) = (solver.smallest_pivot(), solver.doubts(!equations.bias.is_empty()));
-    Some(solver.finish(found, equations.forcing.len(), pivot, doubts))
+    Some(solver.finish(found, equations.forcing.len(), factorization.trust))
 }
 
-/// Appends the factorization alone to a schedule that computes the entries of the form and F: the numbers that a solve
-/// needs, the pivot before them.
+/// Appends the factorization alone to a schedule that computes the entries of the form, F and σ, and gives the numbers
+/// in it that a solve needs.
 pub(super) fn factor(
     schedule: &mut Schedule,
     form: &Form,
     equations: &Equations,
-) -> Option<(Factorization, Vec<Register>)> {
+) -> Option<(Factorization, IndexSet<Register>)> {
     let mut solver = Solver::new(schedule);
-    let mut factorization = solver.factorize(form, equations)?;
-    let (pivot, doubts) = (solver.smallest_pivot(), solver.doubts(!equations.bias.is_empty()));
-    let pivot = solver.poisoned(pivot, doubts);
-    factorization.completing = solver.completing(form, equations);
+    let factorization = solver.factorize(form, equations)?;
     let mut numbers: IndexSet<Register> = factorization.registers().collect();
     numbers.retain(|&number| !schedule.is_constant(number));
-    Some((factorization, [pivot].into_iter().chain(numbers).collect()))
+    Some((factorization, numbers))
 }
 
 /// Appends to an empty schedule the solve by a factor, of which these are the numbers: h and γ are inputs.
 pub(super) fn solve_with(
     schedule: &mut Schedule,
     source: &Schedule,
-    (factorization, numbers): &(Factorization, Vec<Register>),
+    (factorization, numbers): &(Factorization, IndexSet<Register>),
     equations: &Equations,
 ) -> Solved {
-    let place: FxHashMap<Register, usize> =
-        numbers.iter().enumerate().skip(1).map(|(k, &number)| (number, k)).collect();
-    let mut input = |variable: Variable| schedule.push(Operation::Input(variable.symbol()));
-    let pivot = input(Variable::Factor(0));
-    let (n, m) = (equations.forcing.len(), equations.bias.len());
-    let forcing: Vec<Entry> = (0..n).map(|i| Some(input(Variable::Forcing(i)))).collect();
-    let bias: Vec<Entry> = (0..m).map(|a| Some(input(Variable::Bias(a)))).collect();
-    let factorization = factorization.with_registers(|register| match place.get(&register) {
-        Some(&k) => schedule.push(Operation::Input(Variable::Factor(k).symbol())),
-        None => schedule.push(source.operations[register.index()]),
+    let factorization = factorization.with_registers(|register| {
+        let number = numbers.get_index_of(&register).map(|k| Operation::Input(Variable::Factor(k).symbol()));
+        schedule.push(number.unwrap_or(source.operations[register.index()]))
     });
+    let mut input = |variable: Variable| Some(schedule.push(Operation::Input(variable.symbol())));
+    let (n, m) = (equations.forcing.len(), equations.bias.len());
+    let forcing: Vec<Entry> = (0..n).map(|i| input(Variable::Forcing(i))).collect();
+    let bias: Vec<Entry> = (0..m).map(|a| input(Variable::Bias(a))).collect();
     let mut solver = Solver::new(schedule);
     let mut forcing = solver.completed(&factorization, forcing, &bias);
     forcing.resize(factorization.form.reciprocals.len(), None);
     let forward = solver.forward(&factorization.form, forcing);
     let starts = solver.scaled(&factorization.form, forward);
     let found = solver.solve(&factorization, starts, bias);
-    solver.finish(found, n, pivot, Vec::new())
+    solver.finish(found, n, factorization.trust)
 }
 
 impl Factorization {
@@ -110,7 +111,8 @@ impl Factorization {
     fn registers(&self) -> impl Iterator<Item = Register> {
         let completing = self.completing.iter().map(|(_, row)| row);
         let rows = self.rows.iter().chain(completing).flatten().map(|&(_, entry)| entry);
-        self.form.registers().chain(rows).chain(self.schur.registers())
+        let trust = [Some(self.trust.pivot), self.trust.doubt].into_iter().flatten();
+        trust.chain(self.form.registers()).chain(rows).chain(self.schur.registers())
     }
 
     fn with_registers(&self, mut new: impl FnMut(Register) -> Register) -> Self {
@@ -119,7 +121,9 @@ impl Factorization {
         let mut row = |row: &Sparse| row.iter().map(|&(i, entry)| (i, new(entry))).collect();
         let rows = self.rows.iter().map(&mut row).collect();
         let completing = self.completing.iter().map(|(a, weighted)| (*a, row(weighted))).collect();
-        Self { form, rows, schur, completing }
+        let Trust { pivot, doubt } = self.trust;
+        let trust = Trust { pivot: new(pivot), doubt: doubt.map(new) };
+        Self { form, rows, schur, completing, trust }
     }
 }
 
@@ -153,7 +157,9 @@ impl Solver<'_> {
         let reduced = self.factor(matrix, definitions, &order);
         let rows = self.rows(equations, &reduced);
         let schur = self.schur_factors(&reduced, &rows)?;
-        Some(Factorization { form: reduced, rows, schur, completing: Vec::new() })
+        let completing = self.completing(form, equations);
+        let trust = self.trust(!rows.is_empty());
+        Some(Factorization { form: reduced, rows, schur, completing, trust })
     }
 
     /// σ_a F_a of the constraints that complete M.

@@ -38,20 +38,20 @@ pub(super) fn solve(graph: &Graph, form: &Form, equations: &Equations) -> Option
 }
 
 fn factor_and_solve(graph: &Graph, form: &Form, equations: &Equations) -> Option<(Program, Program)> {
-    let weights = form.completing.iter().map(|(_, weight)| weight);
-    let mut factoring = Schedule::new(graph, &entries(form, equations, weights));
+    let mut factoring = Schedule::new(graph, &entries(form, equations, [].iter()));
     let factor = eliminate::factor(&mut factoring, form, equations)?;
     let mut solving = Schedule::default();
     let solved = eliminate::solve_with(&mut solving, &factoring, &factor, equations);
-    let (_, numbers) = factor;
+    let numbers = factor.1.into_iter().collect();
     Some((Program::new(factoring, numbers), Program::new(solving, results(solved))))
 }
 
-/// The entries of the form and of F, and others.
+/// The entries of the form and of F, the weights of constraints, and others.
 fn entries<'a>(form: &'a Form, equations: &'a Equations, others: impl Iterator<Item = &'a Id>) -> Vec<Id> {
     let definitions = form.definitions.iter().flatten().map(|(_, entry)| entry);
     let matrices = form.matrix.iter().chain(&equations.jacobian).flatten();
-    matrices.chain(definitions).chain(others).copied().collect()
+    let weights = form.completing.iter().map(|(_, weight)| weight);
+    matrices.chain(definitions).chain(weights).chain(others).copied().collect()
 }
 
 fn results(Solved { accelerations, multipliers, pivot }: Solved) -> Vec<Register> {

@@ -85,6 +85,7 @@ impl Style<'_> {
             Operation::Minimum(x, y) => scalar("min", &[x, y]),
             Operation::Maximum(x, y) => scalar("max", &[x, y]),
             Operation::Where(x, y) => quote!(__lagrange::generated::only_where(#x, #y)),
+            Operation::Doubt(x, y) => quote!(__lagrange::generated::doubt(#x, #y)),
             Operation::SquareRoot(x) => scalar("sqrt", &[x]),
             Operation::Function(function, x) => scalar(function.name(), &[x]),
             Operation::Atan2(y, x) => scalar("atan2", &[y, x]),

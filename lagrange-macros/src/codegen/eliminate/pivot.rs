@@ -1,7 +1,7 @@
 //! What tells at run time whether the elimination can be trusted.
 
 use super::arithmetic::{Entry, Solver};
-use super::{Found, Solved};
+use super::{Found, Solved, Trust};
 use crate::codegen::operation::{Operation, Register};
 use crate::codegen::schedule::Schedule;
 
@@ -15,17 +15,11 @@ impl Solver<'_> {
         }
     }
 
-    /// The results. The pivot is none where a result is not a number, or infinite, or where one of the `doubts` is.
+    /// The results, and the pivot, which is no number where a result is none, or infinite.
     ///
     /// What a constraint pushes has a part in its multiplier, so results to look at are the multipliers and what no
     /// constraint pushes, and of these those that are not seen in another one.
-    pub(super) fn finish(
-        mut self,
-        found: Found,
-        count: usize,
-        pivot: Register,
-        doubts: Vec<Register>,
-    ) -> Solved {
+    pub(super) fn finish(mut self, found: Found, count: usize, Trust { pivot, doubt }: Trust) -> Solved {
         let Found { mut accelerations, multipliers, pushes } = found;
         accelerations.truncate(count);
         let mut registers =
@@ -34,13 +28,19 @@ impl Solver<'_> {
         let multipliers: Vec<Register> = registers(multipliers);
         let free = accelerations.iter().zip(&pushes).filter(|(_, push)| push.is_none());
         let results: Vec<Register> = free.map(|(&free, _)| free).chain(multipliers.iter().copied()).collect();
-        let seen = ends(self.schedule, &results).into_iter().chain(doubts).collect();
+        let seen = ends(self.schedule, &results);
         let pivot = self.poisoned(pivot, seen);
-        Solved { accelerations, multipliers, pivot }
+        let mut doubted = |results: Vec<Register>| match doubt {
+            Some(doubt) => {
+                results.into_iter().map(|x| self.schedule.push(Operation::Add(x, doubt))).collect()
+            }
+            None => results,
+        };
+        Solved { accelerations: doubted(accelerations), multipliers: doubted(multipliers), pivot }
     }
 
-    /// Infinite or no number where the factorization rests on a pivot that is, or one that is zero.
-    pub(super) fn doubts(&mut self, is_constrained: bool) -> Vec<Register> {
+    /// How far the factorization can be trusted.
+    pub(super) fn trust(&mut self, is_constrained: bool) -> Trust {
         let mut doubts = self.growth.clone();
         // One that is infinite leaves finite results, and one that is zero may cancel out of them.
         for [pivot, reciprocal] in self.plain.clone() {
@@ -50,13 +50,21 @@ impl Solver<'_> {
         if is_constrained {
             doubts.extend(self.square_of_reciprocals());
         }
-        doubts
+        let zero = self.schedule.constant(0.0);
+        let poison = self.sum(doubts).map(|sum| self.schedule.push(Operation::Multiply(zero, sum)));
+        let range = self.range();
+        let doubt = range.map(|[least, most]| self.schedule.push(Operation::Doubt(least, most)));
+        let pivot = self.smallest_pivot(range);
+        Trust {
+            pivot: self.schedule.push(Operation::Add(pivot, poison.unwrap_or(zero))),
+            doubt: if is_constrained { self.add(doubt, poison) } else { doubt },
+        }
     }
 
     /// The pivot, but not a number where one of these is none or infinite.
-    pub(super) fn poisoned(&mut self, pivot: Register, doubts: Vec<Register>) -> Register {
+    fn poisoned(&mut self, pivot: Register, seen: Vec<Register>) -> Register {
         let zero = self.schedule.constant(0.0);
-        let poison = self.sum(doubts).map(|sum| self.schedule.push(Operation::Multiply(zero, sum)));
+        let poison = self.sum(seen).map(|sum| self.schedule.push(Operation::Multiply(zero, sum)));
         self.schedule.push(Operation::Add(pivot, poison.unwrap_or(zero)))
     }
 
@@ -79,15 +87,21 @@ impl Solver<'_> {
         terms.into_iter().reduce(|sum, x| self.schedule.push(Operation::Add(sum, x)))
     }
 
-    /// The least of pivot/diagonal and diagonal/pivot.
-    pub(super) fn smallest_pivot(&mut self) -> Register {
-        let one = self.schedule.constant(1.0);
-        let Some((&first, rest)) = self.growth.split_first() else { return one };
+    /// The least and the greatest of what the pivots were over what they are.
+    fn range(&mut self) -> Option<[Register; 2]> {
+        let (&first, rest) = self.growth.split_first()?;
         let (mut least, mut most) = (first, first);
         for &growth in rest {
             least = self.schedule.push(Operation::Minimum(least, growth));
             most = self.schedule.push(Operation::Maximum(most, growth));
         }
+        Some([least, most])
+    }
+
+    /// The least of pivot/diagonal and diagonal/pivot.
+    fn smallest_pivot(&mut self, range: Option<[Register; 2]>) -> Register {
+        let one = self.schedule.constant(1.0);
+        let Some([least, most]) = range else { return one };
         let inverse = self.schedule.push(Operation::Divide(one, most));
         self.schedule.push(Operation::Minimum(least, inverse))
     }
