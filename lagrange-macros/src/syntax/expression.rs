@@ -188,7 +188,7 @@ fn atom(cursor: &mut Cursor, depth: usize) -> Result<Expression> {
     let place = cursor.place();
     match cursor.peek() {
         Some(TokenTree::Literal(literal)) => {
-            let kind = number(literal, place)?;
+            let kind = Kind::Number(number(literal, place)?);
             cursor.next();
             reject_adjacent(cursor)?;
             Ok(Expression { kind, place })

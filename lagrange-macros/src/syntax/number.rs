@@ -3,11 +3,10 @@
 use proc_macro2::Literal;
 use syn::Result;
 
-use super::expression::Kind;
 use crate::diagnostics::Place;
-use crate::symbolic::parse_decimal;
+use crate::symbolic::{Scaled, parse_decimal};
 
-pub(super) fn number(literal: &Literal, place: Place) -> Result<Kind> {
+pub(super) fn number(literal: &Literal, place: Place) -> Result<Scaled> {
     let text = literal.to_string();
     let unsigned = text.strip_prefix('-').unwrap_or(&text);
     if !unsigned.starts_with(|c: char| c.is_ascii_digit()) {
@@ -21,8 +20,7 @@ pub(super) fn number(literal: &Literal, place: Place) -> Result<Kind> {
     if !suffix.is_empty() {
         return Err(place.error(suffix_message(digits, suffix)));
     }
-    let value = parse_decimal(&text).ok_or_else(|| place.error(refusal(digits)))?;
-    Ok(Kind::Number(value))
+    parse_decimal(&text).ok_or_else(|| place.error(refusal(digits)))
 }
 
 /// The name in a product without its sign, such as `2x`.

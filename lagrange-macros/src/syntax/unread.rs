@@ -32,7 +32,7 @@ fn factor(cursor: &mut Cursor, place: Place) -> Option<Kind> {
             }
             TokenTree::Group(group) => return Some(unread(Cursor::inside(&group)).kind),
             TokenTree::Literal(literal) => match number(&literal, place) {
-                Ok(kind) => return Some(kind),
+                Ok(value) => return Some(Kind::Number(value)),
                 // `2x`
                 Err(_) => identifier(suffix(&literal.to_string()), literal.span())?,
             },
