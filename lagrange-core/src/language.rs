@@ -39,6 +39,10 @@
 //! each. A field may be a number, a reference, an array or a nalgebra vector or matrix of numbers; a field that no
 //! expression uses may have any type.
 //!
+//! Everything is written out when it is compiled. So ranges end at 10,000 at most, the expressions of a system use at most
+//! 10,000 numbers of its fields, and there are at most 1,000 coordinates and 1,000 constraints. What has more parts belongs
+//! into a function of its own, with a loop in it (below).
+//!
 //! # Definitions
 //!
 //! Values, functions and families. A family over 0..n is a vector. Definitions are kept as they are written: what

@@ -2,10 +2,9 @@ use lagrange_core::prelude::*;
 
 #[derive(Lagrangian)]
 #[coordinates(x)]
-#[lagrangian(x_dot^2/2 - x*dot(v, a * v))]
+#[lagrangian(x_dot^2/2 - sum(i in 0..200, sum(j in 0..200, sqrt((x - p[i])^2 + p[j]^2))))]
 struct System {
-    a: SMatrix<f64, 300, 300>,
-    v: SVector<f64, 300>,
+    p: [f64; 200],
 }
 
 fn main() {}

@@ -23,14 +23,72 @@ fn of_a_long_field_only_what_is_used_is_emitted() {
     }
 }
 
-/// The first error says how large it is; there are no functions, and so no errors of theirs.
+/// The first error says how large it is; there are no functions, and so no errors of theirs. It has as many numbers as
+/// there may be.
 #[test]
 fn a_lagrangian_that_no_function_holds_is_refused_as_a_whole() {
     let source = "#[coordinates(x)]
-        #[lagrangian(x_dot^2/2 - dot(eps, eps)*x)]
-        struct Large { eps: [f64; 60_000] }";
+        #[lagrangian(x_dot^2/2 - sum(k in 0..7, sum(i in 0..9_990, eps[i]*eps[i + k]))*x + eps[9_999])]
+        struct Large { eps: [f64; 10_000] }";
+    let [error] = &said(source)[..] else { panic!("one error") };
+    // x_dot^2/2, a minus and a plus, 69,930 products, one sum less, and one product.
+    assert!(error.contains("the Lagrangian takes 139864 operations"), "{error}");
+}
+
+/// The errors for a system.
+fn said(source: &str) -> Vec<String> {
     let emitted = expand(tokens(source)).to_string();
-    assert_eq!(emitted.matches("compile_error").count(), 1, "{emitted}");
-    // x_dot^2/2 and a minus, 60,000 squares, 59,999 sums and one product.
-    assert!(emitted.contains("the Lagrangian takes 120003 operations"), "{emitted}");
+    let errors = emitted.split("compile_error ! {").skip(1);
+    errors.filter_map(|rest| rest.split('"').nth(1)).map(String::from).collect()
+}
+
+#[test]
+fn more_numbers_than_parameters_can_be_are_refused_where_they_are_used() {
+    let wanted = "the expressions use more than 10000 numbers of fields: leave them to a function";
+    for (term, field) in [
+        ("dot(eps, eps)", "eps"),
+        ("norm(table*table[0])", "table"),
+        ("norm(table*table[0]) + dot(eps, eps)", "table"),
+        ("sum(i in 0..9_999, eps[i]*x^i) + few[0]*few[1]*few[2]", "few"),
+        ("sum(i in 0..9_999, eps[i]*x^i) + dot(few, few)", "few"),
+        ("norm(rows[0]) + dot(eps, eps)", "eps"),
+    ] {
+        let source = format!(
+            "#[coordinates(x)]
+             #[lagrangian(x_dot^2/2 - {term})]
+             #[observable(first = eps[0])]
+             struct Large {{
+                 eps: [f64; 99_999], few: [f64; 3], table: SMatrix<f64, 300, 300>, rows: [[f64; 100]; 101]
+             }}"
+        );
+        let found = said(&source);
+        assert!(found[0].starts_with(&format!("with `{field}` {wanted}")), "{term}: {found:?}");
+    }
+}
+
+#[test]
+fn ranges_too_long_to_be_written_out_are_refused() {
+    for attributes in [
+        "#[define(w[i in 0..10_001] = i*x)] #[lagrangian(x_dot^2 - w[3])]",
+        "#[define(w[0] = x)] #[define(w[i in 1..100_000] = w[i-1] + x)] #[lagrangian(x_dot^2 - w[99_999])]",
+        "#[lagrangian(x_dot^2 - sum(i in 0..100_000, x^i))]",
+        "#[lagrangian(x_dot^2)] #[constraint(c[i in 0..100_000]: x = i)]",
+    ] {
+        let found = said(&format!("#[coordinates(x)] {attributes} struct Long;"));
+        let wanted = "the range ends beyond 10000: leave so many parts to a function, `#[function(U(x))]`";
+        assert!(found[0].starts_with(wanted), "{attributes}: {found:?}");
+    }
+    let longest = "#[coordinates(x)] #[lagrangian(x_dot^2 - sum(i in 0..10_000, x))] struct Long;";
+    assert_eq!(said(longest), [""; 0]);
+}
+
+#[test]
+fn functions_have_no_more_results_than_can_be_called_for() {
+    let system = |length| {
+        format!(
+            "#[coordinates(x)] #[function(f(t): [{length}])] #[lagrangian(x_dot^2 - f(t)[1]*x)] struct S<F> {{ f: F }}"
+        )
+    };
+    assert_eq!(said(&system(1000)), [""; 0]);
+    assert_eq!(said(&system(1001)), ["a function has at most 1000 results"]);
 }

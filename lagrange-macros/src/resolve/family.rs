@@ -8,8 +8,8 @@ use super::value::Value;
 use crate::diagnostics::Place;
 use crate::syntax::{Expression, Kind, Name, Target, TargetIndex};
 
-/// The longest range: a system of more parts belongs into a loop at run time.
-const RANGE_LIMIT: i128 = 100_000;
+/// The longest range: each of its indices is written out.
+const RANGE_LIMIT: i128 = 10_000;
 const NO_ELEMENTS: &str = "this is a scalar: it has no elements";
 
 /// A field, and where an expression names it.
@@ -157,7 +157,9 @@ impl Lowering<'_> {
             return self.report(place, format!("the range {low}..{high} is empty"));
         }
         if high > RANGE_LIMIT {
-            return self.report(place, format!("the range ends beyond {RANGE_LIMIT}"));
+            return self.report(place, format!(
+                "the range ends beyond {RANGE_LIMIT}: leave so many parts to a function, `#[function(U(x))]`, that loops over them"
+            ));
         }
         Some(low as usize..high as usize)
     }

@@ -10,6 +10,9 @@ use crate::symbolic::Graph;
 use crate::syntax::{Declaration, Expression, Field, FieldShape, Kind, Layout, Operator, Parameter};
 use crate::variables::Variable;
 
+/// Each number in use is a parameter with a name and a place of its own in what is emitted.
+const NUMBER_LIMIT: usize = 10_000;
+
 /// A number in a field: the field's index and the path to the number inside of it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub(crate) struct Entry {
@@ -34,7 +37,7 @@ pub(crate) struct Parameters {
     pub(crate) entries: IndexSet<Entry>,
     /// For each field, where random values for tests are drawn from.
     pub(crate) ranges: Vec<(f64, f64)>,
-    /// The fields already reported as unusable, each once.
+    /// The fields of which something wrong is reported.
     reported: Vec<usize>,
 }
 
@@ -100,6 +103,9 @@ impl Parameters {
         diagnostics: &mut Diagnostics,
     ) -> Option<Value> {
         let layout = self.layout(index, place, diagnostics)?;
+        if layout.lengths().iter().skip(path.len()).product::<usize>() > NUMBER_LIMIT {
+            return self.too_many(index, place, diagnostics);
+        }
         let mut entry = |element| {
             let (k, _) = self.entries.insert_full(Entry { field: index, element });
             Value::Scalar(graph.symbol(Variable::Parameter(k).symbol()))
@@ -112,7 +118,7 @@ impl Parameters {
             Some(&i) => row(i, columns, element),
             None => Value::Vector((0..rows).map(|i| row(i, columns, element)).collect()),
         };
-        Some(match layout {
+        let value = match layout {
             Layout::Rows(rows, columns) => table(rows, columns, Element::RowItem),
             Layout::Matrix(rows, columns) => table(rows, columns, Element::Cell),
             Layout::Vector(length) => match path.first() {
@@ -120,7 +126,33 @@ impl Parameters {
                 None => Value::Vector((0..length).map(|i| entry(Element::Item(i))).collect()),
             },
             Layout::Scalar => entry(Element::All),
-        })
+        };
+        if self.entries.len() > NUMBER_LIMIT {
+            return self.too_many(index, place, diagnostics);
+        }
+        Some(value)
+    }
+
+    fn too_many<T>(&mut self, index: usize, place: Place, diagnostics: &mut Diagnostics) -> Option<T> {
+        let name = &self.fields[index].name.text;
+        let error = place.error(format!(
+            "with `{name}` the expressions use more than {NUMBER_LIMIT} numbers of fields: leave them to a function, `#[function(U(x))]`, in whose field they are"
+        ));
+        self.report_once(index, error, diagnostics)
+    }
+
+    /// Of everything that is wrong with a field, the first.
+    fn report_once<T>(
+        &mut self,
+        index: usize,
+        error: syn::Error,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<T> {
+        if !self.reported.contains(&index) {
+            self.reported.push(index);
+            diagnostics.push(error);
+        }
+        None
     }
 
     /// How the numbers of a field in use are laid out; that it has none is reported once.
@@ -130,16 +162,12 @@ impl Parameters {
         place: Place,
         diagnostics: &mut Diagnostics,
     ) -> Option<Layout> {
-        match &self.fields[index].shape {
+        let Field { name, place: field, shape, .. } = &self.fields[index];
+        match shape {
             Ok(shape) => Some(shape.layout),
             Err(reason) => {
-                if !self.reported.contains(&index) {
-                    let Field { name, place: field, .. } = &self.fields[index];
-                    let note = format!("`{}` is used here", name.text);
-                    diagnostics.push(field.error_beside(reason, place, note));
-                    self.reported.push(index);
-                }
-                None
+                let note = format!("`{}` is used here", name.text);
+                self.report_once(index, field.error_beside(reason, place, note), diagnostics)
             }
         }
     }
@@ -174,8 +202,9 @@ impl Parameters {
             let Ok(FieldShape { scalar: Some(scalar), .. }) = &field.shape else { continue };
             match &found {
                 None => {
-                    if let Err(message) = is_scalar(scalar, declaration) {
-                        diagnostics.error(field.place, message);
+                    let name = text(scalar);
+                    if !is_scalar_name(&name, declaration) {
+                        diagnostics.error(field.place, not_a_scalar(&name));
                     }
                     found = Some((scalar.clone(), index));
                 }
@@ -214,17 +243,12 @@ fn text(ty: &syn::Type) -> String {
     ty.to_token_stream().to_string().replace(' ', "")
 }
 
-fn is_scalar(ty: &syn::Type, declaration: &Declaration) -> Result<(), String> {
-    let name = text(ty);
-    if is_scalar_name(&name, declaration) { Ok(()) } else { Err(not_a_scalar(&name)) }
-}
-
 fn is_float(name: &str) -> bool {
     ["f64", "f32"].contains(&name.rsplit("::").next().unwrap_or(name))
 }
 
 /// What is surely not a scalar, and well known.
-pub(crate) fn is_no_number(name: &str) -> bool {
+fn is_no_number(name: &str) -> bool {
     let types = ["String", "str", "bool", "char"];
     let integers = ["i8", "i16", "i32", "i64", "i128", "isize", "u8", "u16", "u32", "u64", "u128", "usize"];
     types.contains(&name) || integers.contains(&name)

@@ -16,6 +16,9 @@ use crate::diagnostics::Place;
 /// Beyond, rustc takes minutes, and the matrices exceed the stack.
 const COORDINATE_LIMIT: usize = 1000;
 
+/// Each result is called for by itself, with all arguments.
+const RESULT_LIMIT: usize = 1000;
+
 /// The attributes, and how each is written.
 pub(super) const FORMS: [(&str, &str); 11] = [
     ("coordinates", "#[coordinates(x, y)]"),
@@ -160,6 +163,10 @@ pub(super) fn function(cursor: &mut Cursor) -> Result<Function> {
     };
     let formals = formals(&group, "a constant is a field", shaped)?;
     let length = length(cursor)?;
+    if length > Some(RESULT_LIMIT) {
+        let message = format!("a function has at most {RESULT_LIMIT} results");
+        return Err(cursor.last_place().error(message));
+    }
     let field = if cursor.take_punct('=') { cursor.name("the name of a field")? } else { name.clone() };
     finish(cursor, "function")?;
     Ok(Function { name, formals, length, field })
