@@ -61,6 +61,8 @@ fn they_are_read_with_their_power_of_ten() {
     let text = Particle::<f64>::equations().text();
     assert!(text.contains("h = 6.62607015×10⁻³⁴"), "{text}");
     assert!(text.contains("6.02214076×10²³"), "{text}");
+    let (_, equations) = text.split_once("Equations of motion").unwrap();
+    assert!(equations.contains("10⁻⁵⁰"), "{text}");
     let latex = Particle::<f64>::equations().latex();
     assert!(latex.contains(r"h &= 6.62607015 \times 10^{-34}"), "{latex}");
 }

@@ -8,7 +8,7 @@ fn said(term: &str) -> String {
     let source = format!(
         "#[coordinates(theta, phi, stiffening, r: [3])]
          #[lagrangian(theta_dot^2/2 + phi_dot^2 + stiffening_dot^2 + dot(r_dot, r_dot) + {term})]
-         struct System {{ g: f64, mass: f64, k2: f64, l: [f64; 4] }}"
+         struct System {{ g: f64, mass: f64, k2: f64, load1: f64, l: [f64; 4] }}"
     );
     expand(tokens(&source)).to_string()
 }
@@ -64,6 +64,7 @@ fn other_names_for_the_same() {
         ("cos(time)", "the time is `t`"),
         ("exp1", "the exponential function is `exp(x)`"),
         ("30*deg", "a degree is `pi/180`"),
+        ("Sin*theta", "functions are written `sin(x)`"),
         ("vel^2", "the velocity of `theta` is `theta_dot`"),
         ("l1", "the elements of `l` are `l[0]` to `l[3]`"),
         ("r_2", "the elements of `r` are `r[0]` to `r[2]`"),
@@ -98,7 +99,9 @@ fn functions_of_other_tools() {
 /// A wrong guess is worse than none.
 #[test]
 fn no_guesses() {
-    for term in ["m2", "k3", "omega", "U(theta)", "alpha", "psi", "W", "x", "tau", "delta", "v1", "energy"] {
+    for term in
+        ["m2", "k3", "load2", "omega", "U(theta)", "alpha", "psi", "W", "x", "tau", "delta", "v1", "energy"]
+    {
         let found = said(term);
         assert!(!found.contains("did you mean") && !found.contains("elements of"), "{term}: {found:.300}");
     }

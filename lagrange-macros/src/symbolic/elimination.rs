@@ -128,12 +128,15 @@ mod tests {
         assert_eq!(rank(vec![vec![one, one], vec![one, entry(1.1, 0.05)]]), 2);
     }
 
-    /// Of an unknown that is 0 ± 0.1 times another, whose value is 1, nothing closer is known.
+    /// Of an unknown that is 0 ± 0.1 times another, whose value is 1, nothing closer is known: be it in the row that is
+    /// subtracted or in the one that it is subtracted from.
     #[test]
     fn what_may_be_zero_is_not_taken_for_zero() {
         let blurred = Approximate { value: 0.0, error: 0.1 };
         let [one, two] = [1.0, 2.0].map(Approximate::exact);
-        let solution = solve(vec![vec![one, blurred, two], vec![blurred, two, two]], 2).expect("a solution");
-        assert!(solution.values.iter().all(|x| x.error > 0.05), "{:?}", solution.values);
+        for rows in [[[one, blurred, two], [blurred, two, two]], [[two, blurred, two], [one, one, two]]] {
+            let solution = solve(rows.map(Vec::from).into(), 2).expect("a solution");
+            assert!(solution.values.iter().all(|x| x.error > 0.04), "{:?}", solution.values);
+        }
     }
 }
