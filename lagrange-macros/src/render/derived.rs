@@ -2,61 +2,70 @@
 
 use num_traits::{One, Signed};
 
+use super::Page;
 use super::formula::Formula;
-use super::supplied;
-use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id, Node, Rational, Scaled};
 use crate::variables::Variable;
 
-pub(super) fn derived(id: Id, graph: &Graph, problem: &Problem) -> Formula {
-    match graph.node(id) {
-        Node::Number(value) => Formula::number((*value).into()),
-        Node::Pi => Formula::Pi,
-        Node::Symbol(symbol) => variable(Variable::of(*symbol), problem),
-        Node::Sum(terms) => {
-            let mut terms: Vec<_> =
-                terms.iter().map(|&(term, c)| derived_term(term, c, graph, problem)).collect();
-            terms.sort_by_key(Formula::is_negative);
-            if terms.len() == 1 { terms.remove(0) } else { Formula::Sum(terms) }
+impl Page<'_> {
+    pub(super) fn derived(&self, id: Id) -> Formula {
+        let all = |ids: &[Id]| ids.iter().map(|&id| self.derived(id)).collect();
+        match self.graph.node(id) {
+            Node::Number(value) => Formula::number((*value).into()),
+            Node::Pi => Formula::Pi,
+            Node::Symbol(symbol) => self.variable(Variable::of(*symbol)),
+            Node::Sum(terms) => {
+                let mut terms: Vec<_> = terms.iter().map(|&(term, c)| self.derived_term(term, c)).collect();
+                terms.sort_by_key(Formula::is_negative);
+                // Not as one list with sums in it: parentheses show what definitions keep together.
+                if terms.len() == 1 { terms.remove(0) } else { Formula::Sum(terms) }
+            }
+            Node::Product(_) => self.derived_term(id, Rational::one()),
+            Node::Function(function, x) => Formula::Call(function.name().to_owned(), all(&[*x])),
+            Node::External(external) => self.supplied(external, all(&external.arguments)),
+            Node::Atan2(y, x) => Formula::Call("atan2".to_owned(), all(&[*y, *x])),
+            Node::Power(base, exponent) => {
+                Formula::Power(Box::new(self.derived(*base)), Box::new(self.derived(*exponent)))
+            }
+            Node::Defined(inner) => match self.problem.names.get(&id) {
+                Some(name) => Formula::labelled(name, 0),
+                None => self.derived(*inner),
+            },
         }
-        Node::Product(_) => derived_term(id, Rational::one(), graph, problem),
-        Node::Function(function, x) => {
-            Formula::Call(function.name().to_owned(), vec![derived(*x, graph, problem)])
-        }
-        Node::External(external) => {
-            let arguments = external.arguments.iter().map(|&x| derived(x, graph, problem)).collect();
-            supplied::call(external, arguments, problem)
-        }
-        Node::Atan2(y, x) => {
-            Formula::Call("atan2".to_owned(), vec![derived(*y, graph, problem), derived(*x, graph, problem)])
-        }
-        Node::Power(base, exponent) => Formula::Power(
-            Box::new(derived(*base, graph, problem)),
-            Box::new(derived(*exponent, graph, problem)),
-        ),
-        Node::Defined(inner) => match problem.names.get(&id) {
-            Some(name) => Formula::labelled(name, 0),
-            None => derived(*inner, graph, problem),
-        },
     }
-}
 
-/// coefficient · term
-fn derived_term(term: Id, coefficient: Rational, graph: &Graph, problem: &Problem) -> Formula {
-    let Node::Product(factors) = graph.node(term) else {
-        let above = if term == Id::ONE { Vec::new() } else { vec![derived(term, graph, problem)] };
-        return Formula::product(coefficient.into(), above, Vec::new());
-    };
-    let coefficient = Scaled { fraction: coefficient, exponent: graph.power_of_ten(factors) };
-    let mut factors: Vec<_> = factors.to_vec();
-    factors.retain(|&factor| !graph.is_power_of_ten(factor));
-    factors.sort_by_key(|&(factor, _)| reading_order(factor, graph));
-    let (mut above, mut below) = (Vec::new(), Vec::new());
-    for (factor, exponent) in factors {
-        let power = power(derived(factor, graph, problem), exponent.abs());
-        if exponent.is_negative() { below.push(power) } else { above.push(power) }
+    /// coefficient · term
+    fn derived_term(&self, term: Id, coefficient: Rational) -> Formula {
+        let graph = self.graph;
+        let Node::Product(factors) = graph.node(term) else {
+            let above = if term == Id::ONE { Vec::new() } else { vec![self.derived(term)] };
+            return Formula::product(coefficient.into(), above, Vec::new());
+        };
+        let coefficient = Scaled { fraction: coefficient, exponent: graph.power_of_ten(factors) };
+        let mut factors: Vec<_> = factors.to_vec();
+        factors.retain(|&factor| !graph.is_power_of_ten(factor));
+        factors.sort_by_key(|&(factor, _)| reading_order(factor, graph));
+        let (mut above, mut below) = (Vec::new(), Vec::new());
+        for (factor, exponent) in factors {
+            let power = power(self.derived(factor), exponent.abs());
+            if exponent.is_negative() { below.push(power) } else { above.push(power) }
+        }
+        Formula::product(coefficient, above, below)
     }
-    Formula::product(coefficient, above, below)
+
+    fn variable(&self, variable: Variable) -> Formula {
+        let coordinate = |i: usize, dots| Formula::labelled(&self.problem.coordinates[i].text, dots);
+        match variable {
+            Variable::Time => Formula::labelled("t", 0),
+            Variable::Coordinate(i) => coordinate(i, 0),
+            Variable::Velocity(i) => coordinate(i, 1),
+            Variable::Acceleration(i) => coordinate(i, 2),
+            Variable::Multiplier(a) => Formula::Multiplier(self.problem.constraints[a].0.text.clone()),
+            Variable::Parameter(k) => Formula::labelled(&self.problem.parameters.name(k), 0),
+            // Emitted functions take it, and no equation has it.
+            only_emitted => Formula::labelled(&format!("{only_emitted:?}"), 0),
+        }
+    }
 }
 
 fn power(base: Formula, exponent: Rational) -> Formula {
@@ -84,18 +93,5 @@ fn reading_order(factor: Id, graph: &Graph) -> (u8, u32) {
         Node::Defined(_) => (2, factor.index() as u32),
         Node::Function(..) => (5, factor.index() as u32),
         _ => (6, factor.index() as u32),
-    }
-}
-
-fn variable(variable: Variable, problem: &Problem) -> Formula {
-    match variable {
-        Variable::Time => Formula::labelled("t", 0),
-        Variable::Coordinate(i) => Formula::labelled(&problem.coordinates[i].text, 0),
-        Variable::Velocity(i) => Formula::labelled(&problem.coordinates[i].text, 1),
-        Variable::Acceleration(i) => Formula::labelled(&problem.coordinates[i].text, 2),
-        Variable::Multiplier(a) => Formula::Multiplier(problem.constraints[a].0.text.clone()),
-        Variable::Parameter(k) => Formula::labelled(&problem.parameters.name(k), 0),
-        // Emitted functions take it, and no equation has it.
-        only_emitted => Formula::labelled(&format!("{only_emitted:?}"), 0),
     }
 }

@@ -1,14 +1,13 @@
 //! Headings and lines, and how both texts are put together from them.
 
-use rustc_hash::FxHashMap;
-
+use super::Page;
 use super::formula::Formula;
 use super::symbols::Notation;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};
 
 /// A row of more symbols than this is not for reading.
-pub(super) const READABLE: u64 = 250;
+const READABLE: u64 = 250;
 
 /// A heading and the lines below it: a label, an equation and a remark. The note says what concerns all lines.
 pub(super) struct Section {
@@ -37,17 +36,36 @@ pub(super) enum Equation {
     TooLong(u64),
 }
 
-/// How many symbols each node would take written out, where what is shared is written again.
-pub(super) fn symbols_to_read(graph: &Graph, problem: &Problem, roots: &[Id]) -> FxHashMap<Id, u64> {
-    let mut sizes = FxHashMap::default();
-    for id in graph.reachable(roots) {
+impl From<Result<[Formula; 2], u64>> for Equation {
+    fn from(sides: Result<[Formula; 2], u64>) -> Self {
+        match sides {
+            Ok([left, right]) => Self::Known(left, right),
+            Err(size) => Self::TooLong(size),
+        }
+    }
+}
+
+impl Page<'_> {
+    /// Sums of nodes as formulas, or how many symbols these would take together where that is too many.
+    pub(super) fn readable<const K: usize>(&self, sums: [&[Id]; K]) -> Result<[Formula; K], u64> {
+        let symbols =
+            sums.concat().iter().fold(0, |sum: u64, id| sum.saturating_add(self.symbols[id.index()]));
+        let sum = |parts: &[Id]| Formula::sum(parts.iter().map(|&part| self.derived(part)).collect());
+        if symbols > READABLE { Err(symbols) } else { Ok(sums.map(sum)) }
+    }
+}
+
+/// How many symbols each node takes written out, where what is shared is written again.
+pub(super) fn symbols(graph: &Graph, problem: &Problem) -> Vec<u64> {
+    let mut symbols = Vec::with_capacity(graph.len());
+    for id in graph.ids() {
         let mut size = 1_u64;
         if !problem.names.contains_key(&id) {
-            graph.operands(id, |operand| size = size.saturating_add(sizes[&operand]));
+            graph.operands(id, |operand| size = size.saturating_add(symbols[operand.index()]));
         }
-        sizes.insert(id, size);
+        symbols.push(size);
     }
-    sizes
+    symbols
 }
 
 pub(super) fn text(name: &str, sections: &[Section]) -> String {

@@ -13,15 +13,13 @@ mod symbols;
 mod tests;
 mod written;
 
-use crate::mechanics::{Derived, Equations};
+use crate::mechanics::Derived;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};
 use crate::syntax::{Constraint, Declaration, Define, Expression, Target, TargetIndex};
-use derived::derived;
 use formula::Formula;
-use lines::{Equation, Line, READABLE, Section, symbols_to_read};
+use lines::{Equation, Line, Section};
 use symbols::Notation;
-use written::written;
 
 /// The same system, written twice.
 pub(crate) struct Rendered {
@@ -31,6 +29,16 @@ pub(crate) struct Rendered {
     pub(crate) total_derivatives: Vec<String>,
 }
 
+/// A system that is being written down.
+struct Page<'a> {
+    declaration: &'a Declaration,
+    graph: &'a Graph,
+    problem: &'a Problem,
+    derived: &'a Derived,
+    /// How many each node takes.
+    symbols: Vec<u64>,
+}
+
 /// Writes the system down.
 pub(crate) fn render(
     declaration: &Declaration,
@@ -38,19 +46,19 @@ pub(crate) fn render(
     problem: &Problem,
     derived: &Derived,
 ) -> Rendered {
-    let Derived { equations, facts, .. } = derived;
-    let total_derivatives = facts::total_derivatives(declaration, problem, facts);
-    let texts = facts::texts(&total_derivatives);
+    let page = Page { declaration, graph, problem, derived, symbols: lines::symbols(graph, problem) };
+    let total_derivatives = page.total_derivatives();
+    let texts = total_derivatives.iter().map(|formula| Notation::Unicode.write(formula)).collect();
     let term = |formula| Line::of(Equation::Term(formula));
     let section = |heading, lines| Section { heading, lines, note: None };
     let sections = [
-        section("Lagrangian", lagrangian(declaration, problem)),
+        section("Lagrangian", page.lagrangian()),
         Section {
-            note: equations.integrability.integrals.and_then(kinds::note),
-            ..section("Constraints", constraints(declaration, graph, problem, equations))
+            note: derived.equations.integrability.integrals.and_then(kinds::note),
+            ..section("Constraints", page.constraints())
         },
-        section("Equations of motion", motion(graph, problem, derived)),
-        section("Conserved", facts::conserved(declaration, graph, problem, derived)),
+        section("Equations of motion", page.motion()),
+        section("Conserved", page.conserved()),
         section(
             "Total time derivatives in the Lagrangian",
             total_derivatives.into_iter().map(term).collect(),
@@ -60,84 +68,70 @@ pub(crate) fn render(
     Rendered { text: lines::text(&name, &sections), latex: lines::latex(&sections), total_derivatives: texts }
 }
 
-fn lagrangian(declaration: &Declaration, problem: &Problem) -> Vec<Line> {
-    let line = |left, right: &Expression| Line::of(Equation::Known(left, written(right, problem)));
-    let name = |text: &str| Formula::labelled(text, 0);
-    let mut lines: Vec<Line> = Vec::new();
-    lines.extend(declaration.lagrangian.as_ref().map(|lagrangian| line(name("L"), lagrangian)));
-    lines.extend(declaration.defines.iter().map(|define| line(defined(define, problem), &define.body)));
-    lines.extend(declaration.dissipation.as_ref().map(|function| line(name("D"), function)));
-    lines.extend(declaration.forces.iter().map(|force| {
-        let coordinate = Notation::Unicode.write(&target(&force.target, problem));
-        line(name(&format!("Q_{coordinate}")), &force.value)
-    }));
-    lines
-}
-
-/// The left side of a definition.
-fn defined(define: &Define, problem: &Problem) -> Formula {
-    match &define.formals {
-        Some(formals) => {
-            let formals = formals.iter().map(|formal| Formula::labelled(&formal.text, 0));
-            Formula::Call(define.target.name.text.clone(), formals.collect())
-        }
-        None => target(&define.target, problem),
+impl Page<'_> {
+    fn lagrangian(&self) -> Vec<Line> {
+        let Declaration { lagrangian, defines, dissipation, forces, .. } = self.declaration;
+        let line = |left, right: &Expression| Line::of(Equation::Known(left, self.written(right)));
+        let name = |text: &str| Formula::labelled(text, 0);
+        let mut lines: Vec<Line> = Vec::new();
+        lines.extend(lagrangian.as_ref().map(|lagrangian| line(name("L"), lagrangian)));
+        lines.extend(defines.iter().map(|define| line(self.defined(define), &define.body)));
+        lines.extend(dissipation.as_ref().map(|function| line(name("D"), function)));
+        lines.extend(forces.iter().map(|force| {
+            let coordinate = Notation::Unicode.write(&self.target(&force.target));
+            line(name(&format!("Q_{coordinate}")), &force.value)
+        }));
+        lines
     }
-}
 
-fn target(Target { name, index }: &Target, problem: &Problem) -> Formula {
-    let index = match index {
-        TargetIndex::None => None,
-        TargetIndex::Element(element) => Some(written(element, problem)),
-        TargetIndex::Family { index, from, to } => {
-            let [from, to] = [from, to].map(|end| Box::new(written(end, problem)));
-            Some(Formula::Running { index: index.text.clone(), from, to })
-        }
-    };
-    Formula::Name { base: name.text.clone(), dots: 0, indices: index.into_iter().collect() }
-}
-
-fn constraints(
-    declaration: &Declaration,
-    graph: &Graph,
-    problem: &Problem,
-    equations: &Equations,
-) -> Vec<Line> {
-    let line = |Constraint { target, left, right }: &Constraint| {
-        let name = &target.name.text;
-        let is_it = |text: &str| text == name || text.starts_with(&format!("{name}["));
-        let rows = (0..problem.constraints.len()).filter(|&row| is_it(&problem.constraints[row].0.text));
-        Line {
-            label: Some(Notation::Unicode.write(&self::target(target, problem))),
-            equation: Equation::Known(written(left, problem), written(right, problem)),
-            remark: kinds::remark(rows, graph, problem, &equations.integrability),
-        }
-    };
-    declaration.constraints.iter().map(line).collect()
-}
-
-/// Σ_j M_ij q̈_j = h_i + Σ_α λ_α F_αi, a row for each coordinate.
-fn motion(graph: &Graph, problem: &Problem, Derived { equations, inertia, .. }: &Derived) -> Vec<Line> {
-    let sides: Vec<(Id, Vec<Id>)> = (0..problem.coordinates.len())
-        .map(|i| {
-            let right = [Some(&equations.forcing[i]), equations.constraint_force.get(i)];
-            let right = right.into_iter().flatten().copied().filter(|&part| part != Id::ZERO).collect();
-            (inertia[i], right)
-        })
-        .collect();
-    let parts: Vec<Id> = sides.iter().flat_map(|(left, right)| right.iter().chain([left])).copied().collect();
-    let sizes = symbols_to_read(graph, problem, &parts);
-    let equation = |(i, (left, right)): (usize, (Id, Vec<Id>))| {
-        let size = right.iter().chain([&left]).fold(0, |size: u64, part| size.saturating_add(sizes[part]));
-        let equation = match size <= READABLE {
-            true => {
-                let right = right.iter().map(|&part| derived(part, graph, problem)).collect();
-                Equation::Known(derived(left, graph, problem), Formula::sum(right))
+    /// The left side of a definition.
+    fn defined(&self, define: &Define) -> Formula {
+        match &define.formals {
+            Some(formals) => {
+                let formals = formals.iter().map(|formal| Formula::labelled(&formal.text, 0));
+                Formula::Call(define.target.name.text.clone(), formals.collect())
             }
-            false => Equation::TooLong(size),
+            None => self.target(&define.target),
+        }
+    }
+
+    fn target(&self, Target { name, index }: &Target) -> Formula {
+        let index = match index {
+            TargetIndex::None => None,
+            TargetIndex::Element(element) => Some(self.written(element)),
+            TargetIndex::Family { index, from, to } => {
+                let [from, to] = [from, to].map(|end| Box::new(self.written(end)));
+                Some(Formula::Running { index: index.text.clone(), from, to })
+            }
         };
-        let label = Notation::Unicode.write(&Formula::labelled(&problem.coordinates[i].text, 0));
-        Line { label: Some(label), ..Line::of(equation) }
-    };
-    sides.into_iter().enumerate().map(equation).collect()
+        Formula::Name { base: name.text.clone(), dots: 0, indices: index.into_iter().collect() }
+    }
+
+    fn constraints(&self) -> Vec<Line> {
+        let line = |Constraint { target, left, right }: &Constraint| {
+            let name = &target.name.text;
+            let is_it = |text: &str| text == name || text.starts_with(&format!("{name}["));
+            let rows = self.problem.constraints.iter().enumerate();
+            let rows = rows.filter(|(_, (label, _))| is_it(&label.text)).map(|(row, _)| row);
+            Line {
+                label: Some(Notation::Unicode.write(&self.target(target))),
+                equation: Equation::Known(self.written(left), self.written(right)),
+                remark: self.kinds(rows),
+            }
+        };
+        self.declaration.constraints.iter().map(line).collect()
+    }
+
+    /// Σ_j M_ij q̈_j = h_i + Σ_α λ_α F_αi, a row for each coordinate.
+    fn motion(&self) -> Vec<Line> {
+        let Derived { equations, inertia, .. } = self.derived;
+        let row = |(i, &inertia): (usize, &Id)| {
+            let right = [Some(&equations.forcing[i]), equations.constraint_force.get(i)];
+            let right =
+                right.into_iter().flatten().copied().filter(|&part| part != Id::ZERO).collect::<Vec<_>>();
+            let label = Notation::Unicode.write(&Formula::labelled(&self.problem.coordinates[i].text, 0));
+            Line { label: Some(label), ..Line::of(self.readable([&[inertia], &right]).into()) }
+        };
+        inertia.iter().enumerate().map(row).collect()
+    }
 }

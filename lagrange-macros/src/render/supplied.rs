@@ -1,29 +1,32 @@
 //! Functions that the user supplies, as formulas.
 
+use super::Page;
 use super::formula::Formula;
-use crate::resolve::{Problem, Supplied};
+use crate::resolve::Supplied;
 use crate::symbolic::External;
 
-/// `A[0](r)`, `U′(s)`, `∂U/∂r[0]`
-pub(super) fn call(external: &External, flat: Vec<Formula>, problem: &Problem) -> Formula {
-    let function = &problem.functions[external.function as usize];
-    let name = match function.outputs {
-        1 => function.name.clone(),
-        _ => format!("{}[{}]", function.name, external.output),
-    };
-    let order = external.derivatives.len();
-    if order == 0 {
-        return Formula::Call(name, grouped(&flat, function));
+impl Page<'_> {
+    /// `A[0](r)`, `U′(s)`, `∂U/∂r[0]`
+    pub(super) fn supplied(&self, external: &External, flat: Vec<Formula>) -> Formula {
+        let function = &self.problem.functions[external.function as usize];
+        let name = match function.outputs {
+            1 => function.name.clone(),
+            _ => format!("{}[{}]", function.name, external.output),
+        };
+        let order = external.derivatives.len();
+        if order == 0 {
+            return Formula::Call(name, grouped(&flat, function));
+        }
+        let name = Box::new(Formula::labelled(&name, 0));
+        if let [argument] = &flat[..] {
+            return Formula::Derivative { function: name, order, argument: Box::new(argument.clone()) };
+        }
+        let formals = formal_entries(function);
+        let by = external.derivatives.iter().map(|&i| formals[i as usize].clone()).collect();
+        let is_clear = flat == formals;
+        let arguments = if is_clear { Vec::new() } else { grouped(&flat, function) };
+        Formula::Partial { function: name, by, arguments }
     }
-    let name = Box::new(Formula::labelled(&name, 0));
-    if let [argument] = &flat[..] {
-        return Formula::Derivative { function: name, order, argument: Box::new(argument.clone()) };
-    }
-    let formals = formal_entries(function);
-    let by = external.derivatives.iter().map(|&i| formals[i as usize].clone()).collect();
-    let is_clear = flat == formals;
-    let arguments = if is_clear { Vec::new() } else { grouped(&flat, function) };
-    Formula::Partial { function: name, by, arguments }
 }
 
 /// Every number that a function takes, by the names in its declaration.
