@@ -71,6 +71,11 @@ pub(crate) fn symbols(count: usize, variable: fn(usize) -> Variable) -> Vec<Symb
     (0..count).map(|i| variable(i).symbol()).collect()
 }
 
+/// One variable of every coordinate.
+pub(crate) fn nodes(graph: &mut Graph, count: usize, variable: fn(usize) -> Variable) -> Vec<Id> {
+    (0..count).map(|i| graph.symbol(variable(i).symbol())).collect()
+}
+
 /// Of a variable of every coordinate, the variable that is its rate of change.
 type Rate = (fn(usize) -> Variable, fn(usize) -> Variable);
 

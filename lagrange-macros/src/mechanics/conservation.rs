@@ -10,8 +10,8 @@ use super::evidence::{Evidence, vanishes};
 use super::moment::{Moment, Moments};
 use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
-use crate::symbolic::{Approximate, Forward, Graph, Id, Rational};
-use crate::variables::Variable;
+use crate::symbolic::{Approximate, Forward, Graph, Id};
+use crate::variables::{Variable, nodes};
 
 /// States at which a quantity must be seen to be conserved.
 const STATES: u32 = 8;
@@ -68,33 +68,24 @@ pub(super) fn of_energy(graph: &mut Graph, moments: &mut Moments) -> Option<Cons
 }
 
 fn energy_rate(graph: &mut Graph, problem: &Problem, equations: &Equations) -> Id {
-    let one = Rational::from_integer(1);
     let mut along_time = Forward::along([(Variable::Time.symbol(), Id::ONE)]);
-    let mut terms = vec![(along_time.of(graph, problem.lagrangian), -one)];
-    for (i, force) in euler_lagrange::generalized_forces(graph, problem).into_iter().enumerate() {
-        let velocity = graph.symbol(Variable::Velocity(i).symbol());
-        terms.push((graph.mul(force, velocity), one));
-    }
-    for a in 0..problem.constraints.len() {
-        let inhomogeneous = match equations.kinds[a] {
-            ConstraintKind::Holonomic => along_time.of(graph, equations.residual[a]),
-            ConstraintKind::Velocity => inhomogeneous_part(graph, equations, a),
-        };
-        let multiplier = graph.symbol(Variable::Multiplier(a).symbol());
-        terms.push((graph.mul(multiplier, inhomogeneous), -one));
-    }
-    graph.sum(terms)
-}
-
-/// b of F q̇ + b
-fn inhomogeneous_part(graph: &mut Graph, equations: &Equations, constraint: usize) -> Id {
-    let one = Rational::from_integer(1);
-    let mut terms = vec![(equations.rate[constraint], one)];
-    for (i, &coefficient) in equations.jacobian[constraint].iter().enumerate() {
-        let velocity = graph.symbol(Variable::Velocity(i).symbol());
-        terms.push((graph.mul(coefficient, velocity), -one));
-    }
-    graph.sum(terms)
+    let explicit = along_time.of(graph, problem.lagrangian);
+    let velocities = nodes(graph, problem.coordinates.len(), Variable::Velocity);
+    let forces = euler_lagrange::generalized_forces(graph, problem);
+    let power = graph.dot(&forces, &velocities);
+    // b of F q̇ + b
+    let inhomogeneous = (0..problem.constraints.len()).map(|a| match equations.kinds[a] {
+        ConstraintKind::Holonomic => along_time.of(graph, equations.residual[a]),
+        ConstraintKind::Velocity => {
+            let homogeneous = graph.dot(&equations.jacobian[a], &velocities);
+            graph.sub(equations.rate[a], homogeneous)
+        }
+    });
+    let inhomogeneous: Vec<Id> = inhomogeneous.collect();
+    let multipliers = nodes(graph, inhomogeneous.len(), Variable::Multiplier);
+    let work = graph.dot(&multipliers, &inhomogeneous);
+    let gain = graph.sub(power, explicit);
+    graph.sub(gain, work)
 }
 
 /// Those that the user says are conserved; where one is not, or cannot be tried, that is reported.

@@ -5,8 +5,8 @@ use ConstraintKind::{Holonomic, Velocity};
 use super::evidence::vanishes;
 use crate::diagnostics::Diagnostics;
 use crate::resolve::{Label, Problem};
-use crate::symbolic::{Function, Graph, Id, Rational};
-use crate::variables::{Variable, drift, has_velocity, symbols};
+use crate::symbolic::{Function, Graph, Id};
+use crate::variables::{Variable, drift, has_velocity, nodes, symbols};
 
 /// How a constraint acts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -29,20 +29,10 @@ pub(super) struct Constraints {
 impl Constraints {
     /// Σ_α λ_α F_αa for each coordinate a.
     pub(super) fn force(&self, graph: &mut Graph) -> Vec<Id> {
-        let lambda: Vec<Id> =
-            (0..self.kinds.len()).map(|a| graph.symbol(Variable::Multiplier(a).symbol())).collect();
+        let multipliers = nodes(graph, self.kinds.len(), Variable::Multiplier);
         let coordinates = self.jacobian.first().map_or(0, Vec::len);
-        let one = Rational::from_integer(1);
-        let force = |i: usize| {
-            let terms: Vec<_> = self
-                .jacobian
-                .iter()
-                .zip(&lambda)
-                .map(|(row, &lambda)| (graph.mul(lambda, row[i]), one))
-                .collect();
-            graph.sum(terms)
-        };
-        (0..coordinates).map(force).collect()
+        let column = |i: usize| self.jacobian.iter().map(|row| row[i]).collect::<Vec<Id>>();
+        (0..coordinates).map(|i| graph.dot(&multipliers, &column(i))).collect()
     }
 
     /// Σ_i |F_αi x_i| for each constraint α of these kinds, x the coordinates or their velocities: the size of the terms of
@@ -53,17 +43,16 @@ impl Constraints {
         x: fn(usize) -> Variable,
         counts: impl Fn(ConstraintKind) -> bool,
     ) -> Vec<Id> {
-        let one = Rational::from_integer(1);
         let rows = self.jacobian.iter().zip(&self.kinds);
         let size = rows.map(|(row, &kind)| {
             let entries = row.iter().enumerate().filter(|&(_, &entry)| counts(kind) && entry != Id::ZERO);
             let terms = entries.map(|(i, &entry)| {
                 let x = graph.symbol(x(i).symbol());
                 let term = graph.mul(entry, x);
-                (graph.function(Function::Abs, term), one)
+                graph.function(Function::Abs, term)
             });
-            let terms: Vec<_> = terms.collect();
-            graph.sum(terms)
+            let terms: Vec<Id> = terms.collect();
+            graph.total(terms)
         });
         size.collect()
     }

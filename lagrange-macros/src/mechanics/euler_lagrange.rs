@@ -2,8 +2,8 @@
 
 use super::degree;
 use crate::resolve::Problem;
-use crate::symbolic::{Forward, Graph, Id, Rational};
-use crate::variables::{Variable, drift, symbols};
+use crate::symbolic::{Forward, Graph, Id};
+use crate::variables::{Variable, drift, nodes, symbols};
 
 /// M q̈ = h without constraints.
 pub(super) struct Motion {
@@ -35,18 +35,14 @@ pub(super) fn derive(graph: &mut Graph, problem: &Problem) -> Motion {
 /// E = p·q̇ − L, Milton (8.17). A part of L of degree d in the velocities adds (d − 1) times itself (Euler's
 /// theorem): so the energy reads as T + U where it is that.
 fn energy(graph: &mut Graph, problem: &Problem, momentum: &[Id]) -> Id {
-    let one = Rational::from_integer(1);
     let parts = degree::parts(graph, problem.lagrangian).unwrap_or_default();
     let terms = parts.iter().map(|part| Some((part.term, part.energy()?))).collect::<Option<Vec<_>>>();
     if let Some(terms) = terms.filter(|terms| !terms.is_empty()) {
         return graph.sum(terms);
     }
-    let mut terms = vec![(problem.lagrangian, -one)];
-    for (i, &p) in momentum.iter().enumerate() {
-        let velocity = graph.symbol(Variable::Velocity(i).symbol());
-        terms.push((graph.mul(p, velocity), one));
-    }
-    graph.sum(terms)
+    let velocities = nodes(graph, momentum.len(), Variable::Velocity);
+    let vis_viva = graph.dot(momentum, &velocities);
+    graph.sub(vis_viva, problem.lagrangian)
 }
 
 /// Q: the forces given, and −∂D/∂q̇ of Rayleigh's dissipation function.

@@ -1,7 +1,7 @@
 //! How sure a statement about a system is.
 
 use crate::resolve::Problem;
-use crate::symbolic::{Graph, Id, Sample, Verdict};
+use crate::symbolic::{Graph, Id, Verdict};
 
 /// Proved, or only tried.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -24,14 +24,6 @@ impl Evidence {
 
 /// Whether an expression is zero everywhere, and why one may think so.
 pub(super) fn vanishes(graph: &mut Graph, problem: &Problem, root: Id) -> Option<Evidence> {
-    if root == Id::ZERO {
-        return Some(Evidence::Proved);
-    }
-    // Most of what is not zero shows it at the first point, and need not be looked through.
-    let mut first = Sample::new(graph.symbols(&[root]), 0, |symbol| problem.range(symbol));
-    if first.values(graph, &[root])[0].excludes_zero() {
-        return None;
-    }
     match graph.is_zero(root, |symbol| problem.range(symbol)) {
         Verdict::Zero => Some(Evidence::Proved),
         Verdict::Held(points) => Some(Evidence::Held(points)),

@@ -35,62 +35,69 @@ const TERMS: usize = 100;
 /// The terms that are total derivatives by themselves; of the others, those two that are one together, or all
 /// that are linear in the velocities.
 pub(super) fn total_derivatives(graph: &mut Graph, problem: &Problem) -> Vec<TotalDerivative> {
-    if problem.terms.len() > TERMS {
+    let terms = &problem.terms;
+    if terms.len() > TERMS {
         return Vec::new();
     }
-    let terms = &problem.terms;
-    let variations: Vec<_> = terms.iter().map(|&term| variation(graph, problem, term)).collect();
+    let variations = terms.iter().map(|&term| variation(graph, problem, term)).collect();
+    let mut search = Search { graph, problem, variations };
     let mut found = Vec::new();
     let mut rest = Vec::new();
     for term in 0..terms.len() {
-        match cancelled(graph, problem, &variations, &[term]) {
+        match search.cancelled(&[term]) {
             Some(total) => found.push(total),
             None => rest.push(term),
         }
     }
-    rest.retain(|&term| is_linear(graph, problem, terms[term]));
+    rest.retain(|&term| search.is_linear(terms[term]));
     let (mut rest, mut potentials): (Vec<_>, Vec<_>) =
-        rest.into_iter().partition(|&term| has_velocity(graph, &[terms[term]]));
-    while let Some(pair) = pair(graph, problem, &variations, &rest, &potentials) {
+        rest.into_iter().partition(|&term| has_velocity(search.graph, &[terms[term]]));
+    while let Some(pair) = search.pair(&rest, &potentials) {
         rest.retain(|term| !pair.terms.contains(term));
         potentials.retain(|term| !pair.terms.contains(term));
         found.push(pair);
     }
     if rest.len() > 2 {
-        found.extend(cancelled(graph, problem, &variations, &rest));
+        found.extend(search.cancelled(&rest));
     }
     found.sort_by_key(|total| total.terms[0]);
     found
 }
 
-/// A term with a velocity, and another one that makes it a total derivative.
-fn pair(
-    graph: &mut Graph,
-    problem: &Problem,
-    variations: &[Vec<Id>],
-    linear: &[usize],
-    potentials: &[usize],
-) -> Option<TotalDerivative> {
-    let mut pairs = linear.iter().enumerate().flat_map(|(i, &first)| {
-        let others = linear[i + 1..].iter().chain(potentials);
-        others.map(move |&second| [first.min(second), first.max(second)])
-    });
-    pairs.find_map(|pair| cancelled(graph, problem, variations, &pair))
+struct Search<'a> {
+    graph: &'a mut Graph,
+    problem: &'a Problem,
+    /// The Euler–Lagrange expressions of each term.
+    variations: Vec<Vec<Id>>,
 }
 
-/// The terms as a total derivative, if their Euler–Lagrange expressions sum to zero.
-fn cancelled(
-    graph: &mut Graph,
-    problem: &Problem,
-    variations: &[Vec<Id>],
-    terms: &[usize],
-) -> Option<TotalDerivative> {
-    let one = Rational::from_integer(1);
-    let evidence = (0..problem.coordinates.len()).try_fold(Evidence::Proved, |evidence, i| {
-        let sum = graph.sum(terms.iter().map(|&term| (variations[term][i], one)));
-        Some(evidence.and(vanishes(graph, problem, sum)?))
-    })?;
-    Some(TotalDerivative { terms: terms.to_vec(), evidence })
+impl Search<'_> {
+    /// A term with a velocity, and another one that makes it a total derivative.
+    fn pair(&mut self, linear: &[usize], potentials: &[usize]) -> Option<TotalDerivative> {
+        let mut pairs = linear.iter().enumerate().flat_map(|(i, &first)| {
+            let others = linear[i + 1..].iter().chain(potentials);
+            others.map(move |&second| [first.min(second), first.max(second)])
+        });
+        pairs.find_map(|pair| self.cancelled(&pair))
+    }
+
+    /// The terms as a total derivative, if their Euler–Lagrange expressions sum to zero.
+    fn cancelled(&mut self, terms: &[usize]) -> Option<TotalDerivative> {
+        let mut coordinates = 0..self.problem.coordinates.len();
+        let evidence = coordinates.try_fold(Evidence::Proved, |evidence, i| {
+            let sum = self.graph.total(terms.iter().map(|&term| self.variations[term][i]));
+            Some(evidence.and(vanishes(self.graph, self.problem, sum)?))
+        })?;
+        Some(TotalDerivative { terms: terms.to_vec(), evidence })
+    }
+
+    /// Whether a term has no parts but those of degree 0 and 1 in the velocities: D(D − 1) makes them zero.
+    fn is_linear(&mut self, term: Id) -> bool {
+        let first = by_degree(self.graph, self.problem, term);
+        let second = by_degree(self.graph, self.problem, first);
+        let difference = self.graph.sub(second, first);
+        vanishes(self.graph, self.problem, difference).is_some()
+    }
 }
 
 /// d/dt ∂T/∂q̇ − ∂T/∂q of a term T, for each coordinate.
@@ -110,14 +117,6 @@ fn variation_along(graph: &mut Graph, problem: &Problem, term: Id, mut rate: For
         graph.sub(rate, force)
     };
     momentum.iter().zip(force).map(row).collect()
-}
-
-/// Whether a term has no parts but those of degree 0 and 1 in the velocities: D(D − 1) makes them zero.
-fn is_linear(graph: &mut Graph, problem: &Problem, term: Id) -> bool {
-    let first = by_degree(graph, problem, term);
-    let second = by_degree(graph, problem, first);
-    let difference = graph.sub(second, first);
-    vanishes(graph, problem, difference).is_some()
 }
 
 /// With D L = L₁ + 2 L₂ the linear part is L₁ = 2 D L − D² L, if there are no parts of other degrees. Its own

@@ -18,8 +18,8 @@ mod moment;
 
 use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
-use crate::symbolic::{Graph, Id, Rational};
-use crate::variables::Variable;
+use crate::symbolic::{Graph, Id};
+use crate::variables::{Variable, nodes};
 pub(crate) use conservation::{Conserved, Quantity};
 pub(crate) use constraints::ConstraintKind;
 pub(crate) use equations::Equations;
@@ -27,7 +27,9 @@ pub(crate) use evidence::Evidence;
 pub(crate) use facts::Facts;
 pub(crate) use gauge::LinearPart;
 pub(crate) use gauss::Form;
-pub(crate) use integrability::{Classification, Integrability, Integrals, Kinds};
+#[cfg(test)]
+pub(crate) use integrability::Kinds;
+pub(crate) use integrability::{Classification, Integrability, Integrals};
 use linearization::linearize;
 pub(crate) use linearization::{Linearization, arguments};
 
@@ -46,19 +48,10 @@ pub(crate) struct Derived {
 pub(crate) fn derive(graph: &mut Graph, problem: &Problem, diagnostics: &mut Diagnostics) -> Option<Derived> {
     let equations = Equations::derive(graph, problem, diagnostics)?;
     let facts = Facts::find(graph, problem, &equations, diagnostics);
-    let inertia = equations.mass.iter().map(|row| inertia(graph, row)).collect();
+    let accelerations = nodes(graph, equations.mass.len(), Variable::Acceleration);
+    let inertia = equations.mass.iter().map(|row| graph.dot(row, &accelerations)).collect();
     diagnostics.stop_at_fault(problem.place, graph)?;
     diagnostics.is_empty().then_some(())?;
     let linearization = linearize(graph, problem, &equations);
     Some(Derived { equations, facts, inertia, linearization })
-}
-
-/// Σ_j M_ij q̈_j of a row of M.
-fn inertia(graph: &mut Graph, row: &[Id]) -> Id {
-    let mut term = |(j, &mass)| {
-        let acceleration = graph.symbol(Variable::Acceleration(j).symbol());
-        (graph.mul(mass, acceleration), Rational::from_integer(1))
-    };
-    let terms: Vec<_> = row.iter().enumerate().map(&mut term).collect();
-    graph.sum(terms)
 }

@@ -3,7 +3,7 @@
 use num_traits::Signed;
 
 use super::lower::{Lowering, is_literal_zero};
-use super::value::{Value, dot};
+use super::value::Value;
 use crate::diagnostics::Place;
 use crate::symbolic::{Fault, Id, Rational};
 use crate::syntax::{Expression, LENGTH_LIMIT, Operator, Sign, SumOver};
@@ -78,7 +78,7 @@ impl Lowering<'_> {
         };
         match (rows, y.as_vector()) {
             (Some(rows), Some(y)) if rows.iter().all(|row| row.len() == y.len()) => {
-                Some(Value::vector(rows.iter().map(|row| dot(row, &y, &mut self.graph))))
+                Some(Value::vector(rows.iter().map(|row| self.graph.dot(row, &y))))
             }
             (None, Some(_)) => {
                 self.report(place, "two vectors are multiplied with `dot(a, b)` or `cross(a, b)`")

@@ -5,7 +5,7 @@ use num_traits::Signed;
 use super::lower::{Definition, Lowering, Setting};
 use super::quaternion;
 use super::scope::Entity;
-use super::value::{Value, cross, dot};
+use super::value::{Value, cross};
 use crate::diagnostics::Place;
 use crate::symbolic::{Function, Id, Rational, Scaled};
 use crate::syntax::{Expression, Kind, Name};
@@ -32,7 +32,7 @@ impl Lowering<'_> {
             "norm" => {
                 let [v] = self.arguments(name, arguments, place)?;
                 let v = self.vector_of(v)?;
-                let square = dot(&v, &v, &mut self.graph);
+                let square = self.graph.dot(&v, &v);
                 return Some(Value::Scalar(self.graph.sqrt(square)));
             }
             "atan2" | "dot" | "cross" => return self.binary(name, arguments, place),
@@ -102,7 +102,7 @@ impl Lowering<'_> {
                 .report(place, format!("these vectors differ in length: {} and {}", v.len(), w.len()));
         }
         if name.text == "dot" {
-            return Some(Value::Scalar(dot(&v, &w, &mut self.graph)));
+            return Some(Value::Scalar(self.graph.dot(&v, &w)));
         }
         match (<[_; 3]>::try_from(v), <[_; 3]>::try_from(w)) {
             (Ok(v), Ok(w)) => Some(Value::vector(cross(v, w, &mut self.graph))),

@@ -7,7 +7,7 @@ use super::unknown::nearest;
 use super::value::Value;
 use crate::diagnostics::{Diagnostics, Place};
 use crate::symbolic::External;
-use crate::syntax::{Declaration, Expression, Function};
+use crate::syntax::{Coordinate, Declaration, Expression, Function, Name};
 
 /// A function as generated code calls it.
 pub(crate) struct Supplied {
@@ -39,10 +39,10 @@ pub(super) fn supplied(
             diagnostics.push(no_such_field(function, declaration));
             return None;
         };
-        let formal = |formal: &(crate::syntax::Name, Option<usize>)| {
-            (formal.0.text.clone(), formal_length(formal, declaration, scope))
-        };
-        let formals: Vec<_> = function.formals.iter().map(formal).collect();
+        let formals = function.formals.iter();
+        let formals: Vec<_> = formals
+            .map(|formal| (formal.0.text.clone(), formal_length(formal, &declaration.coordinates, scope)))
+            .collect();
         let (ty, is_reference) = match &field.ty {
             syn::Type::Reference(reference) => (&*reference.elem, true),
             ty => (ty, false),
@@ -72,12 +72,12 @@ fn no_such_field(Function { name, field, .. }: &Function, declaration: &Declarat
 
 /// A formal takes the shape it says, else that of the coordinate of its name, else it is a scalar.
 fn formal_length(
-    (name, length): &(crate::syntax::Name, Option<usize>),
-    declaration: &Declaration,
+    (name, length): &(Name, Option<usize>),
+    coordinates: &[Coordinate],
     scope: &Scope,
 ) -> Option<usize> {
     length.or_else(|| match scope.get(&name.text) {
-        Some(Entity::Coordinate(index) | Entity::Velocity(index)) => declaration.coordinates[index].length,
+        Some(Entity::Coordinate(index) | Entity::Velocity(index)) => coordinates[index].length,
         _ => None,
     })
 }
@@ -97,7 +97,7 @@ impl Lowering<'_> {
         let values = self.lower_all(arguments)?;
         let mut flat = Vec::new();
         for ((value, argument), formal) in values.iter().zip(arguments).zip(&function.formals) {
-            let length = formal.1.or_else(|| self.coordinate_length(&formal.0.text));
+            let length = formal_length(formal, self.coordinates, &self.scope);
             let fits = match (length, value) {
                 (None, Value::Scalar(_)) => true,
                 (Some(length), Value::Vector(_)) => {
@@ -124,12 +124,5 @@ impl Lowering<'_> {
             None => Value::Scalar(output(self, 0)),
             Some(length) => Value::vector((0..length).map(|i| output(self, i as u32)).collect::<Vec<_>>()),
         })
-    }
-
-    fn coordinate_length(&self, name: &str) -> Option<usize> {
-        match self.scope.get(name) {
-            Some(Entity::Coordinate(index) | Entity::Velocity(index)) => self.coordinates[index].length,
-            _ => None,
-        }
     }
 }

@@ -7,7 +7,6 @@ use super::scope::{Entity, Scope};
 use super::value::Value;
 use crate::contract::is_reserved;
 use crate::diagnostics::Diagnostics;
-use crate::symbolic::Rational;
 use crate::syntax::{Constraint, Declaration, Expression, Kind, Name};
 use crate::variables::Variable;
 
@@ -124,7 +123,7 @@ impl Lowering<'_> {
             },
             Kind::Number(_) | Kind::Name(_) | Kind::Index(..) | Kind::Power(..) => None,
         };
-        let sum = self.graph.sum(contents.into_iter().map(|id| (id, Rational::from_integer(1))));
+        let sum = self.graph.total(contents);
         length.map_or(Value::Scalar(sum), |length| Value::vector(vec![sum; length]))
     }
 }

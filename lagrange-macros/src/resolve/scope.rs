@@ -4,7 +4,7 @@ use indexmap::IndexMap;
 
 use crate::diagnostics::{Diagnostics, Place};
 use crate::symbolic;
-use crate::syntax::{Declaration, Function, Name, normal_form};
+use crate::syntax::{Declaration, Function, Name, TargetIndex, normal_form};
 
 /// What a name in an expression may refer to.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -126,9 +126,7 @@ impl Scope {
         name: &Name,
         diagnostics: &mut Diagnostics,
     ) {
-        let is_element = |index: usize| {
-            !matches!(declaration.defines[index].target.index, crate::syntax::TargetIndex::None)
-        };
+        let is_element = |index: usize| !matches!(declaration.defines[index].target.index, TargetIndex::None);
         match self.entities.get(&name.text) {
             Some((Entity::Definition(first), _)) if is_element(*first) && is_element(index) => {}
             _ => self.declare(name, Entity::Definition(index), diagnostics),

@@ -16,6 +16,7 @@ use crate::variables::Variable;
 
 /// As many as coordinates, beyond which some would have to be dependent.
 const CONSTRAINT_LIMIT: usize = 1000;
+
 impl Lowering<'_> {
     /// The Lagrangian term by term, once it is known to be right.
     pub(super) fn terms(&mut self, declaration: &Declaration) -> Vec<Id> {

@@ -102,13 +102,6 @@ impl Value {
     }
 }
 
-/// Σ x_i y_i
-pub(super) fn dot(x: &[Id], y: &[Id], graph: &mut Graph) -> Id {
-    let products: Vec<_> =
-        x.iter().zip(y).map(|(&x, &y)| (graph.mul(x, y), Rational::from_integer(1))).collect();
-    graph.sum(products)
-}
-
 /// x × y
 pub(super) fn cross(x: [Id; 3], y: [Id; 3], graph: &mut Graph) -> [Id; 3] {
     [(1, 2), (2, 0), (0, 1)].map(|(i, j)| {

@@ -75,11 +75,9 @@ impl Forward {
     fn chain_rule(&self, graph: &mut Graph, id: Id) -> Id {
         let mut operands = graph.distinct_operands(id);
         operands.retain(|&operand| self.rate(operand) != Id::ZERO);
-        let terms: Vec<_> = operands
-            .into_iter()
-            .map(|operand| (graph.partial(id, operand, self.rate(operand)), Rational::one()))
-            .collect();
-        graph.sum(terms)
+        let terms: Vec<Id> =
+            operands.into_iter().map(|operand| graph.partial(id, operand, self.rate(operand))).collect();
+        graph.total(terms)
     }
 }
 

@@ -93,12 +93,9 @@ impl Graph {
             Node::Number(value) => (*value).into(),
             Node::Pi => Approximate::rounded(std::f64::consts::PI, 0.0),
             Node::Symbol(name) => symbol(*name),
-            Node::Sum(terms) => {
-                let zero = Approximate { value: 0.0, error: 0.0 };
-                terms.iter().fold(zero, |sum, &(term, c)| sum.plus(at(term).times(c.into())))
-            }
+            Node::Sum(terms) => Approximate::dot(terms.iter().map(|&(term, c)| (at(term), c.into()))),
             Node::Product(factors) => {
-                let one = Approximate { value: 1.0, error: 0.0 };
+                let one = Approximate::exact(1.0);
                 factors.iter().fold(one, |product, &(factor, e)| product.times(power(at(factor), e)))
             }
             Node::Function(function, x) => apply(*function, at(*x)),

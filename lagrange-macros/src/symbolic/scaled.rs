@@ -45,13 +45,20 @@ impl Scaled {
         Some(Self { fraction, exponent: self.exponent.checked_add(shift)? })
     }
 
+    /// What `operation` makes of two numbers without a power of ten, where that fits.
+    fn of_fractions(
+        self,
+        other: Self,
+        operation: fn(Rational, Rational) -> Option<Rational>,
+    ) -> Option<Self> {
+        (self.exponent == 0 && other.exponent == 0).then_some(())?;
+        operation(self.fraction, other.fraction).map(Self::from)
+    }
+
     /// The product; `None` where its digits do not fit.
     pub(crate) fn times(self, other: Self) -> Option<Self> {
-        if self.exponent == 0
-            && other.exponent == 0
-            && let Some(fraction) = times(self.fraction, other.fraction)
-        {
-            return Some(fraction.into());
+        if let Some(product) = self.of_fractions(other, times) {
+            return Some(product);
         }
         if self.fraction.is_zero() || other.fraction.is_zero() {
             return Some(Rational::zero().into());
@@ -62,11 +69,8 @@ impl Scaled {
 
     /// The sum; `None` where its digits do not fit: 1 + 10⁻⁵⁰ has too many.
     pub(super) fn plus(self, other: Self) -> Option<Self> {
-        if self.exponent == 0
-            && other.exponent == 0
-            && let Some(fraction) = plus(self.fraction, other.fraction)
-        {
-            return Some(fraction.into());
+        if let Some(sum) = self.of_fractions(other, plus) {
+            return Some(sum);
         }
         let (x, y) = (self.apart()?, other.apart()?);
         let (low, high) = if x.exponent < y.exponent { (x, y) } else { (y, x) };

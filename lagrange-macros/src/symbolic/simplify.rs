@@ -9,7 +9,7 @@ use super::scaled::Scaled;
 
 impl Graph {
     pub(crate) fn add(&mut self, x: Id, y: Id) -> Id {
-        self.sum([(x, Rational::one()), (y, Rational::one())])
+        self.total([x, y])
     }
 
     pub(crate) fn sub(&mut self, x: Id, y: Id) -> Id {
@@ -64,7 +64,18 @@ impl Graph {
         self.sum_of([(Id::ONE, value)])
     }
 
-    /// Σ coefficient · term.
+    /// Σ term
+    pub(crate) fn total(&mut self, terms: impl IntoIterator<Item = Id>) -> Id {
+        self.sum(terms.into_iter().map(|term| (term, Rational::one())))
+    }
+
+    /// Σ x_i y_i
+    pub(crate) fn dot(&mut self, x: &[Id], y: &[Id]) -> Id {
+        let products: Vec<Id> = x.iter().zip(y).map(|(&x, &y)| self.mul(x, y)).collect();
+        self.total(products)
+    }
+
+    /// Σ coefficient · term
     pub(crate) fn sum(&mut self, terms: impl IntoIterator<Item = (Id, Rational)>) -> Id {
         self.sum_of(terms.into_iter().map(|(term, coefficient)| (term, coefficient.into())))
     }

@@ -1,5 +1,6 @@
 //! Is an expression zero everywhere?
 
+use super::evaluate::Approximate;
 use super::graph::{Graph, Id, Symbol};
 use super::sample::Sample;
 
@@ -16,32 +17,36 @@ pub(crate) enum Verdict {
     Undecided,
 }
 
-const POINTS: u32 = 8;
+const POINTS: usize = 8;
 const DRAWS: u64 = 64;
 
 impl Graph {
     /// Whether `root` vanishes identically. Each symbol is drawn from the range that `range` gives it.
     pub(crate) fn is_zero(&mut self, root: Id, range: impl Fn(Symbol) -> (f64, f64)) -> Verdict {
+        // Most of what is not zero shows it at the first point, and need not be looked through.
+        if root != Id::ZERO && self.samples(root, &range).take(1).any(Approximate::excludes_zero) {
+            return Verdict::NonZero;
+        }
         let root = self.looked_through(root);
         if root == Id::ZERO {
             return Verdict::Zero;
         }
-        let symbols: Vec<Symbol> = self.symbols(&[root]).collect();
+        // Outside its domain an expression has no value: draw again.
+        let is_known = |value: &Approximate| value.value.is_finite() && value.error.is_finite();
         let mut held = 0;
-        for draw in 0..DRAWS {
-            let sample = Sample::new(symbols.iter().copied(), draw, &range).values(self, &[root])[0];
-            // Outside its domain an expression has no value: draw again.
-            if !sample.value.is_finite() || !sample.error.is_finite() {
-                continue;
-            }
-            if sample.value.abs() > sample.error {
+        for value in self.samples(root, range).filter(is_known).take(POINTS) {
+            if value.excludes_zero() {
                 return Verdict::NonZero;
             }
             held += 1;
-            if held == POINTS {
-                return Verdict::Held(held);
-            }
         }
         if held > 0 { Verdict::Held(held) } else { Verdict::Undecided }
+    }
+
+    /// Its values at random points.
+    fn samples(&self, root: Id, range: impl Fn(Symbol) -> (f64, f64)) -> impl Iterator<Item = Approximate> {
+        let symbols: Vec<Symbol> = self.symbols(&[root]).collect();
+        (0..DRAWS)
+            .map(move |draw| Sample::new(symbols.iter().copied(), draw, &range).values(self, &[root])[0])
     }
 }

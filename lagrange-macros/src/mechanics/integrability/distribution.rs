@@ -66,9 +66,8 @@ impl Distribution {
 
     /// ω of a direction along the pivots.
     pub(super) fn along_pivots(&self, space: &mut Space, form: &Form, parts: &[Id]) -> Id {
-        let terms = self.pivots.iter().zip(parts).map(|(&pivot, &part)| space.graph.mul(form[pivot], part));
-        let terms: Vec<_> = terms.map(|term| (term, num_traits::One::one())).collect();
-        space.graph.sum(terms)
+        let along: Vec<Id> = self.pivots.iter().map(|&pivot| form[pivot]).collect();
+        space.graph.dot(&along, parts)
     }
 
     /// dω(X, Y) = X(ω(Y)) − Y(ω(X)) for every two fields: these are coordinate fields on each Φ = constant, so
