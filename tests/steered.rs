@@ -300,6 +300,24 @@ fn the_classical_method_runs_on_lanes_and_carries_derivatives() {
     assert!((dual.q[0].slope + 4.0 * 4_f64.sin()).abs() < 1e-6);
 }
 
+/// Of −L the motion is that of L, but its mass matrix is none that the elimination vouches for, nor one with a coupling
+/// larger than the masses: the method solves in general, the plain step says that it is not a number.
+#[test]
+fn the_classical_method_solves_in_general_where_it_can() {
+    #[derive(Lagrangian, Clone, Copy)]
+    #[coordinates(x, y)]
+    #[lagrangian(1/2*(m*x_dot^2 + y_dot^2) + 2*x_dot*y_dot - x^2/2 - y^2/2)]
+    struct Indefinite {
+        m: f64,
+    }
+    let system = Indefinite { m: 1e-9 };
+    let start = State::new([0.3, 0.1], [0.0, 0.2]);
+    assert!(runge_kutta_step(&system, &start, 0.01).q[0].is_nan());
+    let path = system.integrate(start, 1.0, RungeKutta4::with_step(0.01)).unwrap();
+    let exact = system.integrate(start, 1.0, Dop853::default()).unwrap();
+    assert!((path.end().state().q - exact.end().state().q).norm() < 1e-8);
+}
+
 /// Its mass matrix is singular where the mass is nothing: in that lane, and in no other.
 #[test]
 fn the_classical_method_is_not_a_number_where_nobody_can_vouch() {

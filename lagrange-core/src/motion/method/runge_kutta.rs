@@ -1,15 +1,15 @@
 //! The classical method of Runge and Kutta, on any scalar.
 
 use core::array::from_fn;
+use core::convert::Infallible;
 
-use nalgebra::ComplexField;
+use nalgebra::{ComplexField, SVector};
 
 use super::clock::Clock;
 use super::interpolant::Polynomial;
 use super::{Limits, Method, Step};
 use crate::ending::Ending;
 use crate::error::Error;
-use crate::names::Row;
 use crate::number::{Real, Scalar, vector};
 use crate::solution::consistent::{BOTH, project};
 use crate::solution::flow::Phase;
@@ -53,25 +53,43 @@ pub fn runge_kutta_step<L: Lagrangian<N, M>, const N: usize, const M: usize>(
     state: &State<L::Scalar, N>,
     h: L::Scalar,
 ) -> State<L::Scalar, N> {
-    let number = L::Scalar::constant;
-    let (start, half): (Phase<_, N>, _) = ([state.q.into(), state.v.into()], h * number(0.5));
-    let mut doubt = number(0.0);
-    let mut slope = |after: L::Scalar, y: &Phase<L::Scalar, N>| -> Phase<L::Scalar, N> {
-        let at = State { t: state.t + after, q: vector(y[0]), v: vector(y[1]) };
-        let solution = system.accelerations(&at);
+    // Gathered beside the motion, which does not wait for it.
+    let mut doubt = L::Scalar::constant(0.0);
+    let stepped = step(state, h, |at| {
+        let solution = system.accelerations(at);
         doubt = doubt + doubt_of(solution.pivot);
-        [y[1], solution.accelerations.into()]
+        Ok::<_, Infallible>(solution.accelerations.into())
+    });
+    let State { t, q, v } = match stepped {
+        Ok(next) => next,
+        Err(never) => match never {},
     };
-    let moved = |by: L::Scalar, slope: &Phase<L::Scalar, N>| -> Phase<L::Scalar, N> {
+    let marked = |x: SVector<L::Scalar, N>| vector(<[_; N]>::from(x).map(|x| x + doubt));
+    State { t, q: marked(q), v: marked(v) }
+}
+
+/// The step with accelerations from anywhere.
+#[inline(always)]
+fn step<T: Scalar, E, const N: usize>(
+    state: &State<T, N>,
+    h: T,
+    mut accelerations: impl FnMut(&State<T, N>) -> Result<[T; N], E>,
+) -> Result<State<T, N>, E> {
+    let (half, start): (_, Phase<_, N>) = (h * T::constant(0.5), [state.q.into(), state.v.into()]);
+    let moved = |by: T, slope: &Phase<T, N>| -> Phase<T, N> {
         from_fn(|half| from_fn(|i| start[half][i] + by * slope[half][i]))
     };
-    let a = slope(number(0.0), &start);
-    let b = slope(half, &moved(half, &a));
-    let c = slope(half, &moved(half, &b));
-    let d = slope(h, &moved(h, &c));
-    let mean = from_fn(|half| from_fn(|i| a[half][i] + number(2.0) * (b[half][i] + c[half][i]) + d[half][i]));
-    let [q, v] = moved(h / number(6.0), &mean).map(|half| half.map(|x| x + doubt));
-    State { t: state.t + h, q: vector(q), v: vector(v) }
+    let mut slope = |after: T, [q, v]: Phase<T, N>| -> Result<Phase<T, N>, E> {
+        Ok([v, accelerations(&State { t: state.t + after, q: vector(q), v: vector(v) })?])
+    };
+    let a = slope(T::constant(0.0), start)?;
+    let b = slope(half, moved(half, &a))?;
+    let c = slope(half, moved(half, &b))?;
+    let d = slope(h, moved(h, &c))?;
+    let two = T::constant(2.0);
+    let sum = from_fn(|half| from_fn(|i| a[half][i] + two * (b[half][i] + c[half][i]) + d[half][i]));
+    let [q, v] = moved(h / T::constant(6.0), &sum);
+    Ok(State { t: state.t + h, q: vector(q), v: vector(v) })
 }
 
 /// Nothing, or NaN where the elimination has lost more than a third of the digits.
@@ -151,15 +169,27 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Method<L
             return Step::Failed(Ending::TimeTooCoarse { time: time.to_f64(), step: self.step });
         }
         statistics.evaluations += 4;
-        let next = State { t: time, ..runge_kutta_step(system, state, h) };
-        match settled(system, state, next) {
-            Ok(next) => {
-                *planned = clock.tick((h, time), *planned, L::Scalar::constant(self.step));
-                (*before, *state) = (*state, next);
-                Step::Accepted(next)
-            }
-            Err(error) => Step::Failed(Ending::of(error, state.t.to_f64())),
+        let mut next = State { t: time, ..runge_kutta_step(system, state, h) };
+        if (M > 0 || !is_finite(&next))
+            && let Err(error) = mend(system, state, h, &mut next)
+        {
+            return Step::Failed(Ending::of(error, state.t.to_f64()));
         }
+        *planned = clock.tick((h, time), *planned, L::Scalar::constant(self.step));
+        (*before, *state) = (*state, next);
+        Step::Accepted(next)
+    }
+
+    fn resume(
+        &self,
+        _: &L,
+        memory: &mut Self::Memory,
+        state: &State<L::Scalar, N>,
+        _: &mut Statistics,
+    ) -> Result<(), Error> {
+        memory.clock.set(state.t);
+        (memory.before, memory.state) = (*state, *state);
+        Ok(())
     }
 
     fn interpolant(
@@ -179,28 +209,24 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Method<L
     }
 }
 
-/// The end of a step from `start`, on the constraints; the error is what makes it none.
-#[inline]
-fn settled<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
-    system: &L,
-    start: &State<L::Scalar, N>,
-    mut end: State<L::Scalar, N>,
-) -> Result<State<L::Scalar, N>, Error> {
-    if let Some(row) = first_row::<L, N, M>(|i| !(end.q[i].is_finite() && end.v[i].is_finite()), |_| false) {
-        return Err(cause(system, start, row));
-    }
-    if M > 0 {
-        project(system, &BOTH, &mut end)?;
-    }
-    Ok(end)
+fn is_finite<T: Real, const N: usize>(state: &State<T, N>) -> bool {
+    state.q.iter().chain(&state.v).all(|x| x.is_finite())
 }
 
-/// Why a step from `start` gives no number in this row.
-#[cold]
-fn cause<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+/// The end of a step of `h` from `start`, by the general solve where the elimination cannot vouch for it, and on the
+/// constraints; the error is what makes it none.
+fn mend<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     start: &State<L::Scalar, N>,
-    row: Row,
-) -> Error {
-    solve(system, start).err().unwrap_or(Error::EquationsNotFinite { row, time: start.t.to_f64() })
+    h: L::Scalar,
+    end: &mut State<L::Scalar, N>,
+) -> Result<(), Error> {
+    if !is_finite(end) {
+        let solved = step(start, h, |at| solve(system, at).map(|solution| solution.accelerations.into()))?;
+        *end = State { t: end.t, ..solved };
+    }
+    match first_row::<L, N, M>(|i| !(end.q[i].is_finite() && end.v[i].is_finite()), |_| false) {
+        Some(row) => Err(Error::EquationsNotFinite { row, time: start.t.to_f64() }),
+        None => project(system, &BOTH, end),
+    }
 }
