@@ -77,7 +77,7 @@ pub use function::Table;
 pub use function::{ByHand, Function, HandWritten};
 pub use hamiltonian::{Hamiltonian, HamiltonianFlow, PhaseRate, PhaseState};
 pub use lagrange_macros::Lagrangian;
-pub use linearized::{Direction, Jacobian, Linearized, Partials, ResidualChange};
+pub use linearized::{Direction, Jacobian, Linearized, Partials, ResidualChange, StateDerivatives};
 #[cfg(feature = "alloc")]
 pub use linearized::{Equilibrium, Linearization, Stability};
 pub use motion::Simulate;

@@ -35,6 +35,7 @@ pub(crate) enum Quantity {
     Parameters,
     SetParameter,
     ResidualChange,
+    ResidualChangeByParameters,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -48,6 +49,7 @@ pub(crate) enum Argument {
     Factor,
     Forcing,
     Bias,
+    Rates,
     Index,
     Value,
 }
@@ -64,6 +66,7 @@ impl Argument {
             Self::Factor => "factor",
             Forcing => "forcing",
             Bias => "bias",
+            Rates => "rates",
             Index => "index",
             Value => "value",
         }
@@ -92,7 +95,9 @@ pub(crate) enum Dimension {
     Parameters,
 }
 
-use Argument::{Bias, Direction, Forcing, Index, Multipliers, MutableSystem, Solution, State, System, Value};
+use Argument::{
+    Bias, Direction, Forcing, Index, Multipliers, MutableSystem, Rates, Solution, State, System, Value,
+};
 use Dimension::{Constraints, Coordinates, Parameters};
 use Gives::{Matrix, Number, Optional, Vector};
 
@@ -128,19 +133,27 @@ pub(crate) const LAGRANGIAN: [Method; 19] = [
     method(Quantity::Conserved, "conserved", &[System, Index, State], Optional),
 ];
 
+/// The methods of `StateDerivatives` that are not provided.
+pub(crate) const STATE_DERIVATIVES: [Method; 1] = [method(
+    Quantity::ResidualChange,
+    "residual_change",
+    &[System, State, Solution, Direction],
+    Gives::ResidualChange,
+)];
+
 /// The methods of `Linearized` that are not provided.
 pub(crate) const LINEARIZED: [Method; 3] = [
     method(Quantity::Parameters, "parameters", &[System], Vector(Parameters)),
     method(Quantity::SetParameter, "set_parameter", &[MutableSystem, Index, Value], Gives::Success),
     method(
-        Quantity::ResidualChange,
-        "residual_change",
-        &[System, State, Solution, Direction],
+        Quantity::ResidualChangeByParameters,
+        "residual_change_by_parameters",
+        &[System, State, Solution, Rates],
         Gives::ResidualChange,
     ),
 ];
 
-/// The constants of both.
+/// The constants of these traits.
 const CONSTANTS: [&str; 10] = [
     "NAME",
     "COORDINATES",
@@ -154,8 +167,8 @@ const CONSTANTS: [&str; 10] = [
     "PARAMETERS",
 ];
 
-/// What every system has beside: methods of `Simulate`, `Hamiltonian` and `Linearized`.
-const PROVIDED: [&str; 17] = [
+/// What every system has beside: methods of `Simulate`, `Hamiltonian`, `StateDerivatives` and `Linearized`.
+const PROVIDED: [&str; 18] = [
     "solve",
     "check_consistent",
     "make_consistent",
@@ -170,6 +183,7 @@ const PROVIDED: [&str; 17] = [
     "legendre",
     "legendre_near",
     "phase_state",
+    "state_jacobian",
     "jacobian",
     "linearize",
     "equilibrium",
@@ -181,7 +195,8 @@ const OTHERS: [&str; 10] =
 
 /// Whether no observable can bear the name, because every system has something so called.
 pub(crate) fn is_reserved(name: &str) -> bool {
-    let is_method = LAGRANGIAN.iter().chain(&LINEARIZED).any(|method| method.name == name);
+    let emitted = LAGRANGIAN.iter().chain(&STATE_DERIVATIVES).chain(&LINEARIZED);
+    let is_method = emitted.into_iter().any(|method| method.name == name);
     is_method || CONSTANTS.contains(&name) || PROVIDED.contains(&name) || OTHERS.contains(&name)
 }
 
@@ -238,7 +253,11 @@ mod tests {
         let traits = traits();
         let mut provided = Vec::new();
         let mut constants = Vec::new();
-        for (name, emitted) in [("Lagrangian", &LAGRANGIAN[..]), ("Linearized", &LINEARIZED[..])] {
+        for (name, emitted) in [
+            ("Lagrangian", &LAGRANGIAN[..]),
+            ("StateDerivatives", &STATE_DERIVATIVES[..]),
+            ("Linearized", &LINEARIZED[..]),
+        ] {
             let methods = methods(&traits[name]);
             for method in emitted {
                 let arguments: Vec<String> =

@@ -12,7 +12,7 @@ pub(crate) enum Variable {
     Multiplier(usize),
     /// An entry of the list of parameters that the expressions use.
     Parameter(usize),
-    /// How fast one of the arguments of the equations changes along a direction.
+    /// How fast the time, a coordinate or a velocity changes along a direction.
     Change(usize),
     /// A number of the factor of the equations' matrix.
     Factor(usize),
@@ -20,6 +20,8 @@ pub(crate) enum Variable {
     Forcing(usize),
     /// What stands in the place of γ, for each constraint.
     Bias(usize),
+    /// How fast a parameter changes; by its place in the order of the fields.
+    ParameterChange(usize),
 }
 
 impl Variable {
@@ -35,6 +37,7 @@ impl Variable {
             Self::Factor(k) => (7, k),
             Self::Forcing(i) => (8, i),
             Self::Bias(a) => (9, a),
+            Self::ParameterChange(k) => (10, k),
         };
         Symbol { family, index: index as u32 }
     }
@@ -56,7 +59,8 @@ impl Variable {
             6 => Self::Change(index),
             7 => Self::Factor(index),
             8 => Self::Forcing(index),
-            _ => Self::Bias(index),
+            9 => Self::Bias(index),
+            _ => Self::ParameterChange(index),
         }
     }
 }

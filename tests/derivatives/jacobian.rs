@@ -94,16 +94,22 @@ where
     S: Linearized<N, M, P, Scalar = f64>,
 {
     let Jacobian { solution, accelerations: a, multipliers: l } = jacobian;
-    let (direction, a, l) = match argument {
-        Argument::Time => (Direction::of_time(), a.t, l.t),
-        Argument::Coordinate(i) => (Direction::of_coordinate(i), a.q.column(i).into(), l.q.column(i).into()),
-        Argument::Velocity(i) => (Direction::of_velocity(i), a.v.column(i).into(), l.v.column(i).into()),
+    let along = |direction: Direction<f64, N>| system.residual_change(state, solution, &direction);
+    let (change, a, l) = match argument {
+        Argument::Time => (along(Direction::of_time()), a.t, l.t),
+        Argument::Coordinate(i) => {
+            (along(Direction::of_coordinate(i)), a.q.column(i).into(), l.q.column(i).into())
+        }
+        Argument::Velocity(i) => {
+            (along(Direction::of_velocity(i)), a.v.column(i).into(), l.v.column(i).into())
+        }
         Argument::Parameter(k) => {
             let (a, l) = (a.parameters.column(k).into(), l.parameters.column(k).into());
-            (Direction::of_parameter(k), a, l)
+            let mut rates = SVector::from([0.0; P]);
+            rates[k] = 1.0;
+            (system.residual_change_by_parameters(state, solution, &rates), a, l)
         }
     };
-    let change = system.residual_change(state, solution, &direction);
     [dynamic(&a), dynamic(&l), dynamic(&change.rate), dynamic(&change.position)]
 }
 

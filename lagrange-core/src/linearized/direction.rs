@@ -1,27 +1,25 @@
-//! Directions in time, state and parameters, and how the equations change along one.
+//! Directions in time and state, and how the equations change along one.
 
 use nalgebra::SVector;
 
 use crate::number::{Scalar, vector};
 
-/// A direction in which to differentiate: how fast each argument of the equations of motion changes.
+/// A direction in which to differentiate: how fast the time and each entry of the state change.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Direction<T, const N: usize, const P: usize> {
+pub struct Direction<T, const N: usize> {
     /// Of the time.
     pub t: T,
     /// Of the coordinates.
     pub q: SVector<T, N>,
     /// Of the velocities.
     pub v: SVector<T, N>,
-    /// Of the parameters, in the order of [`Linearized::PARAMETERS`](crate::Linearized::PARAMETERS).
-    pub parameters: SVector<T, P>,
 }
 
-impl<T: Scalar, const N: usize, const P: usize> Direction<T, N, P> {
+impl<T: Scalar, const N: usize> Direction<T, N> {
     /// Nothing changes.
     pub fn zero() -> Self {
         let zero = T::constant(0.0);
-        Self { t: zero, q: vector([zero; N]), v: vector([zero; N]), parameters: vector([zero; P]) }
+        Self { t: zero, q: vector([zero; N]), v: vector([zero; N]) }
     }
 
     /// The time alone changes, at the rate 1.
@@ -38,15 +36,10 @@ impl<T: Scalar, const N: usize, const P: usize> Direction<T, N, P> {
     pub fn of_velocity(i: usize) -> Self {
         Self { v: unit(i), ..Self::zero() }
     }
-
-    /// Parameter `k` alone changes, at the rate 1.
-    pub fn of_parameter(k: usize) -> Self {
-        Self { parameters: unit(k), ..Self::zero() }
-    }
 }
 
 /// The unit vector `i`; zero beyond the last.
-fn unit<T: Scalar, const K: usize>(i: usize) -> SVector<T, K> {
+pub(super) fn unit<T: Scalar, const K: usize>(i: usize) -> SVector<T, K> {
     vector(core::array::from_fn(|j| T::constant(if i == j { 1.0 } else { 0.0 })))
 }
 

@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::tangent::Tangent;
-use super::{Direction, Linearized};
+use super::{Direction, Linearized, StateDerivatives};
 use crate::error::Error;
 use crate::names::Entry;
 use crate::number::Real;
@@ -33,6 +33,17 @@ pub struct Jacobian<T, const N: usize, const M: usize, const P: usize> {
     pub multipliers: Partials<T, M, N, P>,
 }
 
+/// See [`StateDerivatives::state_jacobian`].
+pub(super) fn state_jacobian<L, const N: usize, const M: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+) -> Result<Jacobian<L::Scalar, N, M, 0>, Error>
+where
+    L: StateDerivatives<N, M, Scalar: Real>,
+{
+    with_parameters(&Tangent::at(system, state)?, |_| Ok((SMatrix::zeros(), SMatrix::zeros())))
+}
+
 /// See [`Linearized::jacobian`].
 pub(super) fn jacobian<L, const N: usize, const M: usize, const P: usize>(
     system: &L,
@@ -41,11 +52,24 @@ pub(super) fn jacobian<L, const N: usize, const M: usize, const P: usize>(
 where
     L: Linearized<N, M, P, Scalar: Real>,
 {
-    let tangent = Tangent::at(system, state)?;
+    with_parameters(&Tangent::at(system, state)?, |tangent| columns(|k| tangent.by_parameter(k)))
+}
+
+fn with_parameters<'a, L, const N: usize, const M: usize, const P: usize>(
+    tangent: &Tangent<'a, L, N, M>,
+    by_parameters: impl FnOnce(&Tangent<'a, L, N, M>) -> Result<Columns<L::Scalar, N, M, P>, Error>,
+) -> Result<Jacobian<L::Scalar, N, M, P>, Error>
+where
+    L: StateDerivatives<N, M, Scalar: Real>,
+{
     let by_time = tangent.along(&Direction::of_time(), Entry::Time)?;
-    let (q2_q, lambda_q) = columns(&tangent, L::COORDINATES, Direction::of_coordinate, Entry::Coordinate)?;
-    let (q2_v, lambda_v) = columns(&tangent, L::COORDINATES, Direction::of_velocity, Entry::Velocity)?;
-    let (q2_p, lambda_p) = columns(&tangent, L::PARAMETERS, Direction::of_parameter, Entry::Parameter)?;
+    let by_coordinate =
+        |i: usize| tangent.along(&Direction::of_coordinate(i), Entry::Coordinate(L::COORDINATES[i]));
+    let by_velocity =
+        |i: usize| tangent.along(&Direction::of_velocity(i), Entry::Velocity(L::COORDINATES[i]));
+    let (q2_q, lambda_q) = columns(by_coordinate)?;
+    let (q2_v, lambda_v) = columns(by_velocity)?;
+    let (q2_p, lambda_p) = by_parameters(tangent)?;
     Ok(Jacobian {
         solution: tangent.solution,
         accelerations: Partials { t: by_time.accelerations, q: q2_q, v: q2_v, parameters: q2_p },
@@ -53,22 +77,16 @@ where
     })
 }
 
-/// Derivatives of the accelerations and of the multipliers by the `K` entries of these names, a column each.
+/// Derivatives of the accelerations and of the multipliers by `K` entries, a column each.
 type Columns<T, const N: usize, const M: usize, const K: usize> = (SMatrix<T, N, K>, SMatrix<T, M, K>);
 
-fn columns<L, const N: usize, const M: usize, const P: usize, const K: usize>(
-    tangent: &Tangent<'_, L, N, M, P>,
-    names: [&'static str; K],
-    direction: fn(usize) -> Direction<L::Scalar, N, P>,
-    entry: fn(&'static str) -> Entry,
-) -> Result<Columns<L::Scalar, N, M, K>, Error>
-where
-    L: Linearized<N, M, P, Scalar: Real>,
-{
+fn columns<T: Real, const N: usize, const M: usize, const K: usize>(
+    by: impl Fn(usize) -> Result<Solution<T, N, M>, Error>,
+) -> Result<Columns<T, N, M, K>, Error> {
     let mut accelerations = SMatrix::<_, N, K>::zeros();
     let mut multipliers = SMatrix::<_, M, K>::zeros();
-    for (k, name) in names.into_iter().enumerate() {
-        let change = tangent.along(&direction(k), entry(name))?;
+    for k in 0..K {
+        let change = by(k)?;
         accelerations.set_column(k, &change.accelerations);
         multipliers.set_column(k, &change.multipliers);
     }

@@ -6,7 +6,7 @@ use core::array::from_fn;
 use nalgebra::{DMatrix, DVector, SVector};
 
 use super::tangent::Tangent;
-use super::{Direction, Linearized};
+use super::{Direction, Linearized, StateDerivatives};
 use crate::error::Error;
 use crate::names::Entry;
 use crate::number::{Real, Scalar, larger, largest, norm, power_of_epsilon, vector};
@@ -79,9 +79,9 @@ where
     })
 }
 
-impl<L, const N: usize, const M: usize, const P: usize> Tangent<'_, L, N, M, P>
+impl<L, const N: usize, const M: usize> Tangent<'_, L, N, M>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
+    L: StateDerivatives<N, M, Scalar: Real>,
 {
     /// The change of (q̇, q̈) along each column of the basis.
     fn change_along(&self, basis: &DMatrix<L::Scalar>) -> Result<DMatrix<L::Scalar>, Error> {
@@ -97,11 +97,14 @@ where
     }
 
     /// The change of (q̇, q̈) by each of these parameters.
-    fn change_by(&self, parameters: &[usize]) -> Result<DMatrix<L::Scalar>, Error> {
+    fn change_by<const P: usize>(&self, parameters: &[usize]) -> Result<DMatrix<L::Scalar>, Error>
+    where
+        L: Linearized<N, M, P>,
+    {
         let mut change = DMatrix::zeros(2 * N, parameters.len());
         for (j, &k) in parameters.iter().enumerate() {
             self.stays_on_constraints(k)?;
-            let solution = self.along(&Direction::of_parameter(k), Entry::Parameter(L::PARAMETERS[k]))?;
+            let solution = self.by_parameter(k)?;
             change.view_mut((N, j), (N, 1)).copy_from(&solution.accelerations);
         }
         Ok(change)
@@ -144,11 +147,13 @@ where
     }
 
     /// An input that shifts a constraint has no state, or no acceleration, on it beside the one given.
-    fn stays_on_constraints(&self, k: usize) -> Result<(), Error> {
+    fn stays_on_constraints<const P: usize>(&self, k: usize) -> Result<(), Error>
+    where
+        L: Linearized<N, M, P>,
+    {
         let (input, zero) = (L::PARAMETERS[k], L::Scalar::constant(0.0));
         let first_shifted = |solution: &Solution<L::Scalar, N, M>| {
-            let direction = Direction::of_parameter(k);
-            let change = self.change_with(solution, &direction, Entry::Parameter(input))?;
+            let change = self.change_by_parameter(solution, k)?;
             let levels = |a: usize| [change.position[a], change.rate[a], change.acceleration[a]];
             Ok((0..M).find(|&a| levels(a) != [zero; 3]))
         };

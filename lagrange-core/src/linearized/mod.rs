@@ -27,7 +27,53 @@ use crate::error::Error;
 use crate::number::Real;
 use crate::system::{Lagrangian, Solution, State};
 
-/// A system whose equations of motion can be differentiated: Jacobians, equilibria, linearization.
+/// A system whose equations of motion can be differentiated by the time and the state: what implicit methods and
+/// sensitivities need.
+///
+/// `#[derive(Lagrangian)]` implements it together with [`Linearized`], which adds the parameters and knows how many there
+/// are. A method for stiff systems asks for this trait, `impl<L: StateDerivatives<N, M>> Method<L, N, M> for …`.
+#[diagnostic::on_unimplemented(
+    message = "the derivatives of the equations of motion of `{Self}` are not known",
+    label = "no `StateDerivatives`",
+    note = "`#[derive(Lagrangian)]` gives it to every system whose functions (`#[function(…)]`) have one derivative more than the equations of motion need"
+)]
+pub trait StateDerivatives<const N: usize, const M: usize>: Lagrangian<N, M> {
+    /// The derivative of the residual along a direction in time and state, accelerations and multipliers held at those of
+    /// `solution`.
+    fn residual_change(
+        &self,
+        state: &State<Self::Scalar, N>,
+        solution: &Solution<Self::Scalar, N, M>,
+        direction: &Direction<Self::Scalar, N>,
+    ) -> ResidualChange<Self::Scalar, N, M>;
+
+    /// Accelerations and multipliers at a state, and their derivatives by the time, coordinates and velocities; by no
+    /// parameters.
+    ///
+    /// ```
+    /// use lagrange_core::{StateDerivatives, prelude::*};
+    ///
+    /// #[derive(Lagrangian)]
+    /// #[coordinates(x)]
+    /// #[lagrangian(x_dot^2/2 - k/2 * x^2)]
+    /// struct Spring { k: f64 }
+    ///
+    /// let jacobian = Spring { k: 4.0 }.state_jacobian(&State::at_rest([0.3]))?;
+    /// assert_eq!(jacobian.accelerations.q[(0, 0)], -4.0);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`solve`](crate::Simulate::solve); [`Error::DerivativeNotFinite`].
+    fn state_jacobian(&self, state: &State<Self::Scalar, N>) -> Result<Jacobian<Self::Scalar, N, M, 0>, Error>
+    where
+        Self: Lagrangian<N, M, Scalar: Real> + Sized,
+    {
+        jacobian::state_jacobian(self, state)
+    }
+}
+
+/// A system whose equations of motion can be differentiated by parameters too: Jacobians, equilibria, linearization.
 ///
 /// `#[derive(Lagrangian)]` implements it too, for `N` coordinates, `M` constraints and `P` parameters: the numbers in
 /// the fields that an expression uses. An input of control is a parameter that stands in a
@@ -73,7 +119,7 @@ use crate::system::{Lagrangian, Solution, State};
     label = "no `Linearized`",
     note = "`#[derive(Lagrangian)]` gives it to every system whose functions (`#[function(…)]`) have one derivative more than the equations of motion need"
 )]
-pub trait Linearized<const N: usize, const M: usize, const P: usize>: Lagrangian<N, M> {
+pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDerivatives<N, M> {
     /// Names of the parameters, `m` or `m[0]` or `a[0][1]`, in the order of the fields: all numbers that the expressions
     /// name, and no others. Of an array of which they name `a[0]` alone, the rest are none.
     const PARAMETERS: [&'static str; P];
@@ -85,12 +131,13 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: Lagrangian
     /// reference or in a type that only `#[parameter(…)]` gives a shape.
     fn set_parameter(&mut self, index: usize, value: Self::Scalar) -> bool;
 
-    /// The derivative of the residual along a direction, accelerations and multipliers held at those of `solution`.
-    fn residual_change(
+    /// The derivative of the residual where the parameters change at these rates, in the order of
+    /// [`PARAMETERS`](Self::PARAMETERS); accelerations and multipliers held at those of `solution`.
+    fn residual_change_by_parameters(
         &self,
         state: &State<Self::Scalar, N>,
         solution: &Solution<Self::Scalar, N, M>,
-        direction: &Direction<Self::Scalar, N, P>,
+        rates: &SVector<Self::Scalar, P>,
     ) -> ResidualChange<Self::Scalar, N, M>;
 
     /// Accelerations and multipliers at a state, and their derivatives by the time, coordinates, velocities and

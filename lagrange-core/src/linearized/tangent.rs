@@ -2,7 +2,8 @@
 
 use nalgebra::{ComplexField, SVector};
 
-use super::{Direction, Linearized, ResidualChange};
+use super::direction::unit;
+use super::{Direction, Linearized, ResidualChange, StateDerivatives};
 use crate::error::Error;
 use crate::names::Entry;
 use crate::number::Real;
@@ -11,7 +12,7 @@ use crate::solution::solve::{fault, first_row, solve};
 use crate::system::{Lagrangian, Solution, State};
 
 /// The equations of motion at a state, solved and factorized.
-pub(super) struct Tangent<'a, L: Lagrangian<N, M>, const N: usize, const M: usize, const P: usize> {
+pub(super) struct Tangent<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
     system: &'a L,
     pub(super) state: &'a State<L::Scalar, N>,
     pub(super) solution: Solution<L::Scalar, N, M>,
@@ -23,9 +24,9 @@ pub(super) struct Tangent<'a, L: Lagrangian<N, M>, const N: usize, const M: usiz
     pub(super) factors: Factors<L::Scalar, N, M>,
 }
 
-impl<'a, L, const N: usize, const M: usize, const P: usize> Tangent<'a, L, N, M, P>
+impl<'a, L, const N: usize, const M: usize> Tangent<'a, L, N, M>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
+    L: StateDerivatives<N, M, Scalar: Real>,
 {
     pub(super) fn at(system: &'a L, state: &'a State<L::Scalar, N>) -> Result<Self, Error> {
         let solution = solve(system, state)?;
@@ -48,10 +49,27 @@ where
     /// δq̈ and δλ along a direction; `entry` is what to call it.
     pub(super) fn along(
         &self,
-        direction: &Direction<L::Scalar, N, P>,
+        direction: &Direction<L::Scalar, N>,
         entry: Entry,
     ) -> Result<Solution<L::Scalar, N, M>, Error> {
-        let change = self.change(direction, entry)?;
+        self.response(&self.change(direction, entry)?, entry)
+    }
+
+    /// δq̈ and δλ by parameter `k` alone.
+    pub(super) fn by_parameter<const P: usize>(&self, k: usize) -> Result<Solution<L::Scalar, N, M>, Error>
+    where
+        L: Linearized<N, M, P>,
+    {
+        let change = self.change_by_parameter(&self.solution, k)?;
+        self.response(&change, Entry::Parameter(L::PARAMETERS[k]))
+    }
+
+    /// What makes up for a change of the residual.
+    fn response(
+        &self,
+        change: &ResidualChange<L::Scalar, N, M>,
+        entry: Entry,
+    ) -> Result<Solution<L::Scalar, N, M>, Error> {
         let (h, gamma) = ((-change.motion).into(), change.acceleration.into());
         let time = self.state.t.to_f64();
         let solution = self.factors.solve(&h, &gamma).map_err(|found| fault::<L, N, M>(&found, time))?;
@@ -62,20 +80,30 @@ where
     /// The derivative of the residual, which must be finite.
     pub(super) fn change(
         &self,
-        direction: &Direction<L::Scalar, N, P>,
+        direction: &Direction<L::Scalar, N>,
         entry: Entry,
     ) -> Result<ResidualChange<L::Scalar, N, M>, Error> {
-        self.change_with(&self.solution, direction, entry)
+        self.checked(self.system.residual_change(self.state, &self.solution, direction), entry)
     }
 
-    /// The same with other accelerations or multipliers than those of the state.
-    pub(super) fn change_with(
+    /// The derivative of the residual by parameter `k`, with these accelerations and multipliers; it must be finite.
+    pub(super) fn change_by_parameter<const P: usize>(
         &self,
         solution: &Solution<L::Scalar, N, M>,
-        direction: &Direction<L::Scalar, N, P>,
+        k: usize,
+    ) -> Result<ResidualChange<L::Scalar, N, M>, Error>
+    where
+        L: Linearized<N, M, P>,
+    {
+        let change = self.system.residual_change_by_parameters(self.state, solution, &unit(k));
+        self.checked(change, Entry::Parameter(L::PARAMETERS[k]))
+    }
+
+    fn checked(
+        &self,
+        change: ResidualChange<L::Scalar, N, M>,
         entry: Entry,
     ) -> Result<ResidualChange<L::Scalar, N, M>, Error> {
-        let change = self.system.residual_change(self.state, solution, direction);
         let ResidualChange { motion, acceleration, rate, position } = change;
         self.check_finite(&motion, &[acceleration, rate, position], entry)?;
         Ok(change)

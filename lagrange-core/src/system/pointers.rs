@@ -7,6 +7,7 @@ use super::integrability::{Classification, Integrals};
 use super::lagrangian::{ConstraintKind, Lagrangian};
 use super::pack::Pack;
 use super::state::{Solution, State};
+use crate::linearized::{Direction, ResidualChange, StateDerivatives};
 
 /// Forwards every method and constant, those that have a default too: it would hide what the system has.
 macro_rules! forward {
@@ -56,6 +57,17 @@ macro_rules! forward {
                     solution: &Solution<Self::Scalar, N, M>
                 ) -> Option<Self::Scalar>;
                 fn conserved(index: usize, state: &State<Self::Scalar, N>) -> Option<Self::Scalar>;
+            }
+        }
+
+        #[diagnostic::do_not_recommend]
+        impl<L: StateDerivatives<N, M>, const N: usize, const M: usize> StateDerivatives<N, M> for $pointer {
+            forward! { @methods
+                fn residual_change(
+                    state: &State<Self::Scalar, N>,
+                    solution: &Solution<Self::Scalar, N, M>,
+                    direction: &Direction<Self::Scalar, N>
+                ) -> ResidualChange<Self::Scalar, N, M>;
             }
         }
 

@@ -93,6 +93,7 @@ impl Style<'_> {
             Argument::Solution,
             Argument::Multipliers,
             Argument::Direction,
+            Argument::Rates,
             Argument::Factor,
             Argument::Forcing,
             Argument::Bias,
@@ -140,6 +141,7 @@ fn source(symbol: Symbol) -> Argument {
         Variable::Factor(_) => Argument::Factor,
         Variable::Forcing(_) => Argument::Forcing,
         Variable::Bias(_) => Argument::Bias,
+        Variable::ParameterChange(_) => Argument::Rates,
     }
 }
 

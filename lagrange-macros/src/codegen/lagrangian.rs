@@ -109,7 +109,10 @@ impl Emitter<'_> {
             Quantity::Solve => return self.solve_with(method),
             Quantity::Observable => return self.observable_by_index(method),
             Quantity::Conserved => return self.conserved_by_index(method),
-            Quantity::Parameters | Quantity::SetParameter | Quantity::ResidualChange => Vec::new(),
+            Quantity::Parameters
+            | Quantity::SetParameter
+            | Quantity::ResidualChange
+            | Quantity::ResidualChangeByParameters => Vec::new(),
         };
         // nalgebra's matrices are stored by columns, of which there is one a coordinate.
         let (shape, wrapped) = match method.gives {

@@ -1,4 +1,4 @@
-//! The capability of Jacobians: the residual's derivative along a direction, and the parameters by index.
+//! The capability of Jacobians: the residual's derivatives by the state and by the parameters, and these by index.
 
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
@@ -7,21 +7,24 @@ use super::bounds::FUNCTION_ORDER;
 use super::passes::Program;
 use super::shape::Shape;
 use super::{Emitter, Written, runtime};
-use crate::contract::{LINEARIZED, Method, Quantity};
-use crate::mechanics::Linearization;
+use crate::contract::{LINEARIZED, Method, Quantity, STATE_DERIVATIVES};
+use crate::mechanics::{Changes, Linearization};
 
 impl Emitter<'_> {
-    /// The implementation of `Linearized`; nothing where it would be too long, or take derivatives of a higher order
-    /// than functions have.
+    /// The implementations of `StateDerivatives` and `Linearized`; nothing where they would be too long, or take derivatives
+    /// of a higher order than functions have.
     pub(super) fn linearized(&self, linearization: &Linearization) -> Option<TokenStream> {
         let orders = self.orders(&linearization.roots());
         orders.values().all(|&order| order <= FUNCTION_ORDER).then_some(())?;
-        let methods = LINEARIZED.iter().map(|method| match method.quantity {
+        let write = |method: &Method| match method.quantity {
             Quantity::Parameters => self.parameters(method),
             Quantity::SetParameter => self.set_parameter(method),
-            _ => self.residual_change(method, linearization),
-        });
-        let Written { tokens: methods, kernels } = methods.collect();
+            Quantity::ResidualChange => self.residual_change(method, &linearization.by_state),
+            _ => self.residual_change(method, &linearization.by_parameters),
+        };
+        let Written { tokens: of_state, mut kernels } = STATE_DERIVATIVES.iter().map(write).collect();
+        let Written { tokens: methods, kernels: of_parameters } = LINEARIZED.iter().map(write).collect();
+        kernels.extend(of_parameters);
         kernels.iter().all(|kernel| kernel.refused.is_none()).then_some(())?;
         // A function without these derivatives is an error only where a Jacobian is asked for.
         let generics = self.generics(&orders, false);
@@ -44,6 +47,12 @@ impl Emitter<'_> {
         Some(quote! {
             const _: () = {
                 use #runtime as __lagrange;
+
+                #[automatically_derived]
+                #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
+                impl #impl_generics __lagrange::StateDerivatives<#n, #m> for #ident #type_generics #where_clause {
+                    #of_state
+                }
 
                 #[automatically_derived]
                 #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
@@ -91,9 +100,9 @@ impl Emitter<'_> {
         Written { tokens, kernels: Vec::new() }
     }
 
-    fn residual_change(&self, method: &Method, linearization: &Linearization) -> Written {
+    fn residual_change(&self, method: &Method, changes: &Changes) -> Written {
         let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
-        let program = Program::of_changes(self.style.graph, &linearization.roots());
+        let program = Program::of_changes(self.style.graph, &changes.roots());
         let kernel = self.style.write(method.name, &program, &[n, m, m, m].map(Shape::Vector));
         let names = ["motion", "acceleration", "rate", "position"].map(|name| format_ident!("{name}"));
         let (statements, results, doc) = (&kernel.statements, &kernel.results, &kernel.doc);

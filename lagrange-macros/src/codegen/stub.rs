@@ -9,7 +9,7 @@ use super::observables::method_name;
 use super::pack::pack;
 use super::runtime;
 use super::signature::Types;
-use crate::contract::{LAGRANGIAN, LINEARIZED, Method};
+use crate::contract::{LAGRANGIAN, LINEARIZED, Method, STATE_DERIVATIVES};
 use crate::resolve::{Observable, Outline};
 use crate::syntax::Declaration;
 
@@ -29,6 +29,7 @@ pub(crate) fn stub(declaration: &Declaration, outline: &Outline) -> TokenStream 
         quote! { #signature { loop {} } }
     };
     let (of_lagrangian, of_linearized) = (LAGRANGIAN.iter().map(never), LINEARIZED.iter().map(never));
+    let of_state_derivatives = STATE_DERIVATIVES.iter().map(never);
     let visibility = &declaration.visibility;
     let observables = observables.iter().map(|Observable { name, length, needs_solution }| {
         let method = method_name(&name.text, name.place.start());
@@ -52,6 +53,12 @@ pub(crate) fn stub(declaration: &Declaration, outline: &Outline) -> TokenStream 
                 const OBSERVABLES: &'static [&'static str] = &[];
                 const FACTS: __lagrange::Facts = __lagrange::Facts::NONE;
                 #(#of_lagrangian)*
+            }
+
+            #[automatically_derived]
+            #[allow(unused_variables, clippy::all)]
+            impl #impl_generics __lagrange::StateDerivatives<#n, #m> for #ident #type_generics #where_clause {
+                #(#of_state_derivatives)*
             }
 
             #[automatically_derived]

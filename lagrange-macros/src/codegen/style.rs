@@ -7,7 +7,7 @@ use quote::quote;
 use rustc_hash::FxHashMap;
 
 use super::signature::Types;
-use crate::mechanics::arguments;
+use crate::mechanics::changes;
 use crate::resolve::{Element, Problem};
 use crate::symbolic::{Graph, Id, Symbol};
 use crate::variables::Variable;
@@ -37,6 +37,7 @@ impl<'a> Style<'a> {
                 "solution",
                 "multipliers",
                 "direction",
+                "rates",
                 "factor",
                 "forcing",
                 "bias",
@@ -74,9 +75,9 @@ impl<'a> Style<'a> {
         definitions.sort_unstable();
         let definition_names =
             definitions.into_iter().map(|(id, text)| (*id, unique(text.clone()))).collect();
-        for (i, argument) in arguments(problem).into_iter().enumerate() {
+        for (argument, change) in changes(problem) {
             let name = unique(format!("d_{}", names[&argument]));
-            names.insert(Variable::Change(i).symbol(), name);
+            names.insert(change, name);
         }
         for k in 0..numbers.unwrap_or(0) {
             names.insert(Variable::Factor(k).symbol(), unique(format!("factor_{k}")));
@@ -156,6 +157,10 @@ impl<'a> Style<'a> {
                     let k = Literal::usize_unsuffixed(k);
                     quote!(factor[#k])
                 }
+                Variable::ParameterChange(k) => {
+                    let place = Literal::usize_unsuffixed(k);
+                    quote!(rates.data.0[0][#place])
+                }
                 _ => return None,
             };
             let name = &self.names[symbol];
@@ -164,17 +169,13 @@ impl<'a> Style<'a> {
         quote! { #time #coordinates #velocities #accelerations #multipliers #forcing #bias #(#others)* }
     }
 
-    /// How fast an argument of the equations changes along `direction`.
+    /// How fast the time, a coordinate or a velocity changes along `direction`.
     fn change(&self, i: usize) -> TokenStream {
         let n = self.problem.coordinates.len();
         let index = Literal::usize_unsuffixed;
         let Some(i) = i.checked_sub(1) else { return quote!(direction.t) };
-        if i < 2 * n {
-            let (part, i) = if i < n { (quote!(q), index(i)) } else { (quote!(v), index(i - n)) };
-            return quote!(direction.#part.data.0[0][#i]);
-        }
-        let place = index(i - 2 * n);
-        quote!(direction.parameters.data.0[0][#place])
+        let (part, i) = if i < n { (quote!(q), index(i)) } else { (quote!(v), index(i - n)) };
+        quote!(direction.#part.data.0[0][#i])
     }
 
     pub(super) fn constant(&self, value: f64) -> TokenStream {

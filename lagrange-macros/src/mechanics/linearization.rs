@@ -10,8 +10,16 @@ use crate::resolve::Problem;
 use crate::symbolic::{Forward, Graph, Id, Symbol};
 use crate::variables::{Variable, symbols, total_time_derivative};
 
-/// Derivatives along a direction, at given accelerations and multipliers, of …
+/// How the residual changes, at given accelerations and multipliers.
 pub(crate) struct Linearization {
+    /// Along a direction in time and state.
+    pub(crate) by_state: Changes,
+    /// With the parameters.
+    pub(crate) by_parameters: Changes,
+}
+
+/// Derivatives of …
+pub(crate) struct Changes {
     /// … M q̈ − h − Fᵀλ,
     pub(crate) motion: Vec<Id>,
     /// F q̈ + γ,
@@ -25,21 +33,32 @@ pub(crate) struct Linearization {
 impl Linearization {
     /// Every entry.
     pub(crate) fn roots(&self) -> Vec<Id> {
-        [&self.motion, &self.acceleration, &self.rate, &self.position]
-            .into_iter()
-            .flatten()
-            .copied()
-            .collect()
+        [self.by_state.roots(), self.by_parameters.roots()].concat()
     }
 }
 
-/// What the equations depend on, in the order of [`Variable::Change`]: the time, coordinates, velocities, parameters.
-pub(crate) fn arguments(problem: &Problem) -> Vec<Symbol> {
+impl Changes {
+    /// Every entry.
+    pub(crate) fn roots(&self) -> Vec<Id> {
+        [&self.motion, &self.acceleration, &self.rate, &self.position].map(Vec::as_slice).concat()
+    }
+}
+
+/// What the equations depend on, each with the symbol of its change: the time, coordinates, velocities, parameters.
+pub(crate) fn changes(problem: &Problem) -> Vec<(Symbol, Symbol)> {
+    let state = state_arguments(problem).into_iter().enumerate();
+    let parameters = problem.parameters.by_field().into_iter().enumerate();
+    let of_state = state.map(|(i, argument)| (argument, Variable::Change(i).symbol()));
+    let of_parameters =
+        parameters.map(|(i, k)| (Variable::Parameter(k).symbol(), Variable::ParameterChange(i).symbol()));
+    of_state.chain(of_parameters).collect()
+}
+
+fn state_arguments(problem: &Problem) -> Vec<Symbol> {
     let n = problem.coordinates.len();
     let mut arguments = vec![Variable::Time.symbol()];
     arguments.extend(symbols(n, Variable::Coordinate));
     arguments.extend(symbols(n, Variable::Velocity));
-    arguments.extend(problem.parameters.by_field().into_iter().map(|k| Variable::Parameter(k).symbol()));
     arguments
 }
 
@@ -53,20 +72,21 @@ pub(super) fn linearize(
     let motion = motion(graph, problem, equations, &mut along_motion);
     let acceleration: Vec<Id> =
         equations.rate.iter().map(|&velocity| along_motion.of(graph, velocity)).collect();
-    let arguments = arguments(problem);
-    let seeds: Vec<_> = arguments
-        .into_iter()
-        .enumerate()
-        .map(|(i, argument)| (argument, graph.symbol(Variable::Change(i).symbol())))
-        .collect();
-    let mut along = Forward::along(seeds);
-    let mut changes = |roots: &[Id]| roots.iter().map(|&root| along.of(graph, root)).collect::<Vec<Id>>();
-    let linearization = Linearization {
-        motion: changes(&motion),
-        acceleration: changes(&acceleration),
-        rate: changes(&equations.rate),
-        position: changes(&equations.residual),
+    let mut along = |pairs: &[(Symbol, Symbol)]| {
+        let seeds: Vec<_> =
+            pairs.iter().map(|&(argument, change)| (argument, graph.symbol(change))).collect();
+        let mut along = Forward::along(seeds);
+        let mut of = |roots: &[Id]| roots.iter().map(|&root| along.of(graph, root)).collect::<Vec<Id>>();
+        Changes {
+            motion: of(&motion),
+            acceleration: of(&acceleration),
+            rate: of(&equations.rate),
+            position: of(&equations.residual),
+        }
     };
+    let all = changes(problem);
+    let (state, parameters) = all.split_at(1 + 2 * problem.coordinates.len());
+    let linearization = Linearization { by_state: along(state), by_parameters: along(parameters) };
     graph.take_fault().is_none().then_some(linearization)
 }
 

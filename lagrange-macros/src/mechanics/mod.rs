@@ -31,7 +31,7 @@ pub(crate) use gauss::Form;
 pub(crate) use integrability::Kinds;
 pub(crate) use integrability::{Classification, Integrability, Integrals};
 use linearization::linearize;
-pub(crate) use linearization::{Linearization, arguments};
+pub(crate) use linearization::{Changes, Linearization, changes};
 
 /// What follows from a problem. Its expressions are nodes of the problem's graph.
 pub(crate) struct Derived {

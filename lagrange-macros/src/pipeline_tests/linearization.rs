@@ -28,7 +28,7 @@ fn columns(graph: &mut Graph, problem: &Problem, linearization: &Linearization) 
             Variable::Change(i) => Some(if i == column { Id::ONE } else { Id::ZERO }),
             _ => None,
         };
-        for root in linearization.roots() {
+        for root in linearization.by_state.roots() {
             all.push(graph.substituted(root, seed));
         }
     }

@@ -41,7 +41,7 @@ where
         let zero = vector([L::Scalar::constant(0.0); N]);
         let still = Solution { accelerations: zero, multipliers, pivot: L::Scalar::constant(1.0), rank: M };
         for (j, &unknown) in unknowns.iter().enumerate() {
-            let change = self.system.residual_change(&self.state, &still, &unknown.direction());
+            let change = unknown.residual_change(&self.system, &self.state, &still);
             jacobian.view_mut((0, j), (N + 3 * M, 1)).copy_from(&stacked(&change));
         }
         let f = self.system.constraint_jacobian(&self.state);

@@ -3,10 +3,10 @@
 use alloc::vec::Vec;
 
 use crate::error::Error;
-use crate::linearized::{Direction, Linearized};
+use crate::linearized::direction::unit;
+use crate::linearized::{Direction, Linearized, ResidualChange};
 use crate::names::Entry;
-use crate::number::Real;
-use crate::system::lookup;
+use crate::system::{Solution, State, lookup};
 
 /// A coordinate, a velocity or a parameter, by its index.
 #[derive(Clone, Copy, PartialEq)]
@@ -47,12 +47,20 @@ impl Unknown {
         }
     }
 
-    /// The direction in which it alone changes.
-    pub(super) fn direction<T: Real, const N: usize, const P: usize>(self) -> Direction<T, N, P> {
+    /// How the residual changes with it alone.
+    pub(super) fn residual_change<L, const N: usize, const M: usize, const P: usize>(
+        self,
+        system: &L,
+        state: &State<L::Scalar, N>,
+        solution: &Solution<L::Scalar, N, M>,
+    ) -> ResidualChange<L::Scalar, N, M>
+    where
+        L: Linearized<N, M, P>,
+    {
         match self {
-            Self::Coordinate(i) => Direction::of_coordinate(i),
-            Self::Velocity(i) => Direction::of_velocity(i),
-            Self::Parameter(k) => Direction::of_parameter(k),
+            Self::Coordinate(i) => system.residual_change(state, solution, &Direction::of_coordinate(i)),
+            Self::Velocity(i) => system.residual_change(state, solution, &Direction::of_velocity(i)),
+            Self::Parameter(k) => system.residual_change_by_parameters(state, solution, &unit(k)),
         }
     }
 }

@@ -69,7 +69,7 @@ impl Guard {
             _ => None,
         });
         if let Operation::Input(symbol) = operation
-            && matches!(Variable::of(symbol), Variable::Change(_))
+            && matches!(Variable::of(symbol), Variable::Change(_) | Variable::ParameterChange(_))
         {
             return Kind::Rate { activity: self.schedule.push(Operation::Function(Function::Abs, register)) };
         }
