@@ -335,6 +335,25 @@ fn limits_end_the_motion_and_keep_it() {
     assert!(times.windows(2).all(|t| t[1] - t[0] <= longest) && times[1] == 1e-3);
 }
 
+/// Where the equations are not defined at one of the times that only the interpolant needs, 7/9 of the step, a shorter step
+/// is taken instead; nobody minds who does not ask for interpolants.
+#[test]
+fn a_step_whose_interpolant_fails_is_taken_back() {
+    let system = free::<1>(|s| [if (s.t - 7.0 / 9.0).abs() < 1e-3 { f64::NAN } else { -s.q[0] }]);
+    let (start, method) = (State::new([1.0], [0.0]), Dop853::with_tolerance(1e-6).first_step(1.0));
+    let path = system.integrate(start, 3.0, method).unwrap();
+    assert!(path.ending().is_complete() && path.statistics().rejected > 0, "{:?}", path.statistics());
+    assert_ne!(path.steps().nth(1).unwrap().time(), 1.0);
+    assert!(path.samples(100).all(|sample| (sample.state().q[0] - sample.time().cos()).abs() < 1e-5));
+    let mut motion = Motion::new(system, start, method).unwrap();
+    motion.advance_to(1.0).unwrap();
+    assert_eq!((motion.statistics().accepted, motion.statistics().rejected), (1, 0));
+    let error = motion.at(0.5).unwrap_err();
+    assert!(matches!(error, Error::EquationsNotFinite { .. }), "{error}");
+    motion.advance_to(3.0).unwrap();
+    assert!((motion.state().q[0] - 3_f64.cos()).abs() < 1e-5);
+}
+
 #[test]
 fn wrong_settings_are_refused() {
     let system = oscillator();

@@ -1,0 +1,175 @@
+//! Methods that do what no method may: each is found out, and says so.
+
+use core::cell::Cell;
+use core::ops::ControlFlow;
+
+use lagrange_core::motion::{Limits, Phase, Polynomial, Step};
+use lagrange_core::{Ending, Method, Statistics, prelude::*};
+
+#[derive(Lagrangian, Clone, Copy)]
+#[coordinates(x)]
+#[lagrangian(x_dot^2/2 - x^2/2)]
+struct Spring;
+
+/// What a wrong method makes of the time.
+#[derive(Clone, Copy, Debug)]
+enum Fault {
+    Beyond,
+    Nowhere,
+    Back,
+    NoNumber,
+}
+
+/// Takes three right steps before the wrong one.
+struct Wrong(Fault);
+
+impl Method<Spring, 1, 0> for Wrong {
+    type Memory = (State<f64, 1>, usize);
+    type Interpolant = Polynomial<f64, [Phase<f64, 1>; 4]>;
+
+    fn limits(&self) -> Limits {
+        Limits::default()
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        Ok(())
+    }
+
+    fn begin(&self, _: &Spring, start: &State<f64, 1>, _: &mut Statistics) -> Result<Self::Memory, Error> {
+        Ok((*start, 0))
+    }
+
+    fn step(
+        &self,
+        _: &Spring,
+        (state, steps): &mut Self::Memory,
+        end: f64,
+        _: &mut Statistics,
+    ) -> Step<f64, 1> {
+        *steps += 1;
+        state.t = match self.0 {
+            _ if *steps <= 3 => state.t + 0.1 * (end - state.t).signum(),
+            Fault::Beyond => end + (end - state.t),
+            Fault::Nowhere => state.t,
+            Fault::Back => state.t - 0.1 * (end - state.t).signum(),
+            Fault::NoNumber => f64::NAN,
+        };
+        Step::Accepted(*state)
+    }
+
+    fn interpolant(
+        &self,
+        _: &Spring,
+        (state, _): &mut Self::Memory,
+        _: &mut Statistics,
+    ) -> Result<Self::Interpolant, Error> {
+        let node = ([[state.q[0]], [state.v[0]]], [[0.0]; 2]);
+        Ok(Polynomial::hermite(state.t - 0.1, 0.1, &node, &node))
+    }
+}
+
+#[test]
+fn a_step_that_leads_elsewhere_is_found_out() {
+    for fault in [Fault::Beyond, Fault::Nowhere, Fault::Back, Fault::NoNumber] {
+        for end in [1.0, -1.0] {
+            let is_found = |ending: &Ending| {
+                assert!(matches!(ending, Ending::MethodFailed { .. }), "{fault:?}: {ending}");
+                assert!((ending.time() - 0.3 * end).abs() < 1e-15, "{fault:?}: {ending}");
+                assert!(ending.to_string().contains("by the method"), "{ending}");
+            };
+            let mut motion = Motion::new(Spring, State::at_rest([1.0]), Wrong(fault)).unwrap();
+            is_found(&motion.advance_to(end).unwrap_err());
+            assert!((motion.state().t - 0.3 * end).abs() < 1e-15);
+            let mut steps = 0;
+            let ending = ending_of(end, Wrong(fault), || steps += 1);
+            is_found(&ending);
+            assert_eq!(steps, 3);
+        }
+    }
+}
+
+fn ending_of(end: f64, method: impl Method<Spring, 1, 0>, mut step: impl FnMut()) -> Ending {
+    let watch = |_| {
+        step();
+        ControlFlow::Continue(())
+    };
+    let path = Spring.integrate_with(State::at_rest([1.0]), end, method, watch).expect("a start");
+    path.ending().clone()
+}
+
+/// Dormand and Prince's, but for so many interpolants that it cannot give; and may not take a step back.
+struct Grudging {
+    failures: Cell<usize>,
+    takes_back: bool,
+}
+
+impl Method<Spring, 1, 0> for Grudging {
+    type Memory = <Dopri5 as Method<Spring, 1, 0>>::Memory;
+    type Interpolant = <Dopri5 as Method<Spring, 1, 0>>::Interpolant;
+
+    fn limits(&self) -> Limits {
+        Limits::default()
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        Ok(())
+    }
+
+    fn begin(
+        &self,
+        system: &Spring,
+        start: &State<f64, 1>,
+        statistics: &mut Statistics,
+    ) -> Result<Self::Memory, Error> {
+        Method::<Spring, 1, 0>::begin(&Dopri5::default(), system, start, statistics)
+    }
+
+    fn step(
+        &self,
+        system: &Spring,
+        memory: &mut Self::Memory,
+        end: f64,
+        statistics: &mut Statistics,
+    ) -> Step<f64, 1> {
+        Method::<Spring, 1, 0>::step(&Dopri5::default(), system, memory, end, statistics)
+    }
+
+    fn interpolant(
+        &self,
+        system: &Spring,
+        memory: &mut Self::Memory,
+        statistics: &mut Statistics,
+    ) -> Result<Self::Interpolant, Error> {
+        if self.failures.get() > 0 {
+            self.failures.set(self.failures.get() - 1);
+            return Err(Error::EndNotFinite { end: f64::NAN });
+        }
+        Method::<Spring, 1, 0>::interpolant(&Dopri5::default(), system, memory, statistics)
+    }
+
+    fn take_back(&self, memory: &mut Self::Memory) -> bool {
+        self.takes_back && Method::<Spring, 1, 0>::take_back(&Dopri5::default(), memory)
+    }
+}
+
+/// A step without an interpolant is none where interpolants are kept: a shorter one is tried.
+#[test]
+fn a_step_without_an_interpolant_is_taken_back() {
+    let grudging = |takes_back| Grudging { failures: Cell::new(5), takes_back };
+    let path = Spring.integrate(State::at_rest([1.0]), 10.0, grudging(true)).unwrap();
+    assert!(path.ending().is_complete() && path.statistics().rejected >= 5, "{}", path.ending());
+    assert_eq!(path.steps().count(), path.statistics().accepted + 1);
+    for sample in path.samples(100) {
+        assert!((sample.state().q[0] - sample.time().cos()).abs() < 1e-6);
+    }
+    // Where it cannot be taken back the motion ends before it.
+    let ending = ending_of(10.0, grudging(false), || {});
+    assert!(matches!(ending, Ending::Unsolved { time: 0.0, .. }), "{ending}");
+    // Nobody asks in a motion that keeps none.
+    let mut motion = Motion::new(Spring, State::at_rest([1.0]), grudging(true)).unwrap();
+    motion.advance_to(10.0).unwrap();
+    assert_eq!(motion.statistics().rejected, 0);
+    assert!(motion.at(motion.state().t - 1e-3).is_err());
+    let kept = motion.state().q[0];
+    assert!((kept - 10_f64.cos()).abs() < 1e-6 && motion.at(motion.state().t).is_ok());
+}
