@@ -1,7 +1,7 @@
 //! Jacobians of accelerations, multipliers and constraints against differences of them.
 
 use lagrange_core::nalgebra::{DVector, SVector};
-use lagrange_core::{Direction, Jacobian, Partials, Solution, StateDerivatives, prelude::*};
+use lagrange_core::{Direction, Jacobian, Partials, Solution, prelude::*};
 
 /// Largest deviation, as a fraction of the largest entry of the Jacobian.
 const TOLERANCE: f64 = 1e-9;
@@ -122,7 +122,7 @@ where
     S: Linearized<N, M, P, Scalar = f64>,
 {
     let jacobian = system.jacobian(state).expect("a regular state");
-    let by_state = (&*system).state_jacobian(state).expect("a regular state").accelerations;
+    let by_state = system.state_jacobian(state).expect("a regular state").accelerations;
     let Partials { t, q, v, .. } = jacobian.accelerations;
     assert_eq!((by_state.t, by_state.q, by_state.v), (t, q, v));
     let arguments: Vec<Argument> = [Argument::Time]
