@@ -52,7 +52,7 @@ struct Stages<const N: usize> {
 
 impl<const N: usize> Stages<N> {
     fn at<const M: usize>(jacobian: &Jacobian<f64, N, M, 0>, h: f64) -> Self {
-        let dense = |x: &dyn Fn(usize, usize) -> f64| DMatrix::from_fn(N, N, |i, j| x(i, j));
+        let dense = |x: &dyn Fn(usize, usize) -> f64| DMatrix::from_fn(N, N, x);
         let a = &jacobian.accelerations;
         let (by_q, by_v, gamma_h) = (dense(&|i, j| a.q[(i, j)]), dense(&|i, j| a.v[(i, j)]), GAMMA * h);
         let factors = (DMatrix::identity(N, N) / gamma_h - by_v - &by_q * gamma_h).lu();
