@@ -2,3 +2,4 @@
 
 mod endings;
 mod owned;
+mod table;

@@ -1,5 +1,7 @@
 //! Trajectories as comma-separated values.
 
+use alloc::string::{String, ToString};
+use alloc::{format, vec::Vec};
 use core::fmt::{self, Debug, Display, Formatter};
 
 use super::Trajectory;
@@ -10,13 +12,37 @@ use crate::solution::solve::solve;
 use crate::system::{Lagrangian, State};
 
 /// A table of a trajectory, one line a sample: `t`, coordinates `x`, velocities `x_dot`, multipliers
-/// `lambda(no_slip)`, constraint forces `force(x)` and observables.
+/// `lambda(no_slip)`, constraint forces `force(x)` and observables; on request the energy and the conserved quantities.
 ///
 /// Numbers are the shortest that read back the same. Where the equations have no solution, what depends on it
-/// is `NaN`.
+/// is `NaN`; they are solved once a line, and not at all where nothing depends on them.
+///
+#[cfg_attr(
+    feature = "std",
+    doc = r#"
+```
+use lagrange_core::prelude::*;
+
+#[derive(Lagrangian)]
+#[coordinates(r, phi)]
+#[lagrangian(m/2 * (r_dot^2 + r^2 * phi_dot^2) + k/r)]
+#[observable(height = r*sin(phi))]
+struct Planet { m: f64, k: f64 }
+
+let planet = Planet { m: 1.0, k: 1.0 };
+let path = planet.integrate(State::new([1.0, 0.0], [0.0, 1.2]), 10.0, Dop853::default())?;
+let table = path.csv(200).conserved().to_string();
+assert_eq!(table.lines().next(), Some("t,r,phi,r_dot,phi_dot,height,p_phi,energy"));
+# Ok::<(), Error>(())
+```
+"#
+)]
+#[must_use = "a table is to be printed, or written to a file"]
 pub struct Csv<'t, S: Lagrangian<N, M>, const N: usize, const M: usize, F = LagrangianFlow> {
     trajectory: &'t Trajectory<S, N, M, F>,
     count: usize,
+    has_energy: bool,
+    has_conserved: bool,
 }
 
 impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Trajectory<S, N, M, F> {
@@ -24,7 +50,64 @@ impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Trajectory<S, N, M,
     ///
     /// Print it, or write `path.csv(200).to_string()` to a file.
     pub fn csv(&self, count: usize) -> Csv<'_, S, N, M, F> {
-        Csv { trajectory: self, count }
+        Csv { trajectory: self, count, has_energy: false, has_conserved: false }
+    }
+}
+
+impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Csv<'_, S, N, M, F> {
+    /// With a column `energy`, E = p·q̇ − L.
+    pub fn energy(self) -> Self {
+        Self { has_energy: true, ..self }
+    }
+
+    /// With a column for each quantity that is [conserved](crate::Facts::conserved), by its name.
+    pub fn conserved(self) -> Self {
+        Self { has_conserved: true, ..self }
+    }
+
+    /// The conserved quantities that no other column has.
+    fn conserved_columns(&self) -> impl Iterator<Item = (usize, &'static str)> {
+        let (has_energy, wanted) = (self.has_energy, self.has_conserved);
+        let named = S::FACTS.conserved.iter().map(|conserved| conserved.name).enumerate();
+        named.filter(move |(_, name)| {
+            wanted && !(has_energy && *name == "energy") && !S::OBSERVABLES.contains(name)
+        })
+    }
+
+    fn names(&self) -> Vec<String> {
+        let mut names = Vec::from(["t".to_string()]);
+        names.extend(S::COORDINATES.map(String::from));
+        names.extend(S::COORDINATES.map(|name| Entry::Velocity(name).to_string()));
+        names.extend(S::CONSTRAINTS.map(|name| format!("lambda({name})")));
+        if M > 0 {
+            names.extend(S::COORDINATES.map(|name| format!("force({name})")));
+        }
+        names.extend(S::OBSERVABLES.iter().map(ToString::to_string));
+        names.extend(self.has_energy.then(|| "energy".to_string()));
+        names.extend(self.conserved_columns().map(|(_, name)| name.to_string()));
+        names
+    }
+
+    /// The cells of a line, in the order of the names.
+    fn cells(&self, state: &State<S::Scalar, N>, cells: &mut Vec<S::Scalar>)
+    where
+        S::Scalar: Real,
+    {
+        let (system, unknown) = (&self.trajectory.system, S::Scalar::constant(f64::NAN));
+        let is_solved = M > 0 || !S::OBSERVABLES.is_empty();
+        let solution = is_solved.then(|| solve(system, state).ok()).flatten();
+        cells.push(state.t);
+        cells.extend(state.q.iter().chain(&state.v));
+        if M > 0 {
+            let multipliers = solution.map(|solution| solution.multipliers);
+            let force = multipliers.map(|lambda| system.constraint_force(state, &lambda));
+            cells.extend((0..M).map(|a| multipliers.map_or(unknown, |lambda| lambda[a])));
+            cells.extend((0..N).map(|i| force.map_or(unknown, |force| force[i])));
+        }
+        let observable = |k: usize| system.observable(k, state, solution.as_ref()?);
+        cells.extend((0..S::OBSERVABLES.len()).map(|k| observable(k).unwrap_or(unknown)));
+        cells.extend(self.has_energy.then(|| system.energy(state)));
+        cells.extend(self.conserved_columns().map(|(k, _)| system.conserved(k, state).unwrap_or(unknown)));
     }
 }
 
@@ -32,53 +115,26 @@ impl<S: Lagrangian<N, M, Scalar: Real>, F: Flow<S, N, M>, const N: usize, const 
     for Csv<'_, S, N, M, F>
 {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        header::<S, N, M>(f)?;
-        let Trajectory { system, .. } = self.trajectory;
-        self.trajectory.states(self.count).try_for_each(|state| line(f, system, &state))
+        writeln!(f, "{}", self.names().join(","))?;
+        let mut cells = Vec::new();
+        for state in self.trajectory.states(self.count) {
+            cells.clear();
+            self.cells(&state, &mut cells);
+            for (k, cell) in cells.iter().enumerate() {
+                // `Debug` of a number is its shortest form that reads back the same, with an exponent where that is shorter.
+                write!(f, "{}{cell:?}", if k == 0 { "" } else { "," })?;
+            }
+            writeln!(f)?;
+        }
+        Ok(())
     }
 }
 
 impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Debug for Csv<'_, S, N, M, F> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Csv").field("trajectory", self.trajectory).field("count", &self.count).finish()
-    }
-}
-
-fn header<L: Lagrangian<N, M>, const N: usize, const M: usize>(f: &mut Formatter<'_>) -> fmt::Result {
-    f.write_str("t")?;
-    L::COORDINATES.iter().try_for_each(|name| write!(f, ",{name}"))?;
-    L::COORDINATES.iter().try_for_each(|name| write!(f, ",{}", Entry::Velocity(name)))?;
-    L::CONSTRAINTS.iter().try_for_each(|name| write!(f, ",lambda({name})"))?;
-    if M > 0 {
-        L::COORDINATES.iter().try_for_each(|name| write!(f, ",force({name})"))?;
-    }
-    L::OBSERVABLES.iter().try_for_each(|name| write!(f, ",{name}"))?;
-    writeln!(f)
-}
-
-fn line<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
-    f: &mut Formatter<'_>,
-    system: &L,
-    state: &State<L::Scalar, N>,
-) -> fmt::Result {
-    let solution = solve(system, state).ok();
-    let multipliers = solution.map(|s| s.multipliers);
-    let force = multipliers.map(|lambda| system.constraint_force(state, &lambda));
-    // `Debug` of a number is its shortest form that reads back the same, with an exponent where that is shorter.
-    write!(f, "{:?}", state.t)?;
-    state.q.iter().chain(&state.v).try_for_each(|x| write!(f, ",{x:?}"))?;
-    (0..M).try_for_each(|a| cell(f, multipliers.map(|lambda| lambda[a])))?;
-    if M > 0 {
-        (0..N).try_for_each(|i| cell(f, force.map(|force| force[i])))?;
-    }
-    let observable = |k: usize| solution.as_ref().and_then(|s| system.observable(k, state, s));
-    (0..L::OBSERVABLES.len()).try_for_each(|k| cell(f, observable(k)))?;
-    writeln!(f)
-}
-
-fn cell<T: Scalar>(f: &mut Formatter<'_>, value: Option<T>) -> fmt::Result {
-    match value {
-        Some(value) => write!(f, ",{value:?}"),
-        None => write!(f, ",NaN"),
+        let Self { trajectory, count, has_energy, has_conserved } = self;
+        let mut fields = f.debug_struct("Csv");
+        fields.field("trajectory", trajectory).field("count", count);
+        fields.field("energy", has_energy).field("conserved", has_conserved).finish()
     }
 }

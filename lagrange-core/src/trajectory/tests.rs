@@ -1,8 +1,9 @@
 use std::format;
 use std::string::ToString;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::vec::Vec;
 
-use crate::fixtures::{Mechanism, free, oscillator, rolling_sphere};
+use crate::fixtures::{GRAVITY, Mechanism, free, oscillator, rolling_sphere, spherical_pendulum};
 use crate::prelude::*;
 
 #[test]
@@ -112,4 +113,21 @@ fn between_the_steps_the_velocity_is_that_of_the_interpolant() {
         let point = path.path.at(t).unwrap();
         assert!((point.velocity[0] + t.sin()).abs() < 1e-7 && (point.y[1][0] + t.sin()).abs() < 1e-9);
     }
+}
+
+/// The forces are evaluated where the equations are solved, and nowhere else.
+#[test]
+fn a_line_of_a_table_solves_once() {
+    static SOLVED: AtomicUsize = AtomicUsize::new(0);
+    let bob = Mechanism::<3, 1, 1> {
+        forcing: |_| {
+            SOLVED.fetch_add(1, Ordering::Relaxed);
+            [0.0, 0.0, -GRAVITY]
+        },
+        ..spherical_pendulum()
+    };
+    let path = bob.integrate(State::at_rest([0.6, 0.0, -0.8]), 3.0, Dop853::default()).unwrap();
+    let before = SOLVED.load(Ordering::Relaxed);
+    let table = path.csv(20).energy().conserved().to_string();
+    assert_eq!((table.lines().count(), SOLVED.load(Ordering::Relaxed) - before), (21, 20));
 }
