@@ -6,8 +6,12 @@ use crate::error::Error;
 use crate::names::{Entry, Row};
 
 /// Why a motion ends where it does.
+///
+/// With the feature `serde` it is written, `{"ending": "StepTooSmall", "time": 1.5, "entry": "x_dot"}`, and not read:
+/// its names are those of a system that is compiled in.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(tag = "ending"))]
 pub enum Ending {
     /// The end asked for was reached.
     Complete {

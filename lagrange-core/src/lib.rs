@@ -36,7 +36,8 @@ assert!((friction + 2.0 / 7.0 * 9.81 * 0.3_f64.sin()).abs() < 1e-12);
 //! - [`Dop853`] and [`Dopri5`] are the methods, [`Trajectory`] is what they give, [`Ending`] why it stops.
 //!
 //! Features: `std` (default), without it there are no ensembles; `alloc`, without it there are no trajectories; `libm`,
-//! elementary functions where there is no `std`; `rayon`, ensembles on all threads.
+//! elementary functions where there is no `std`; `rayon`, ensembles on all threads; `serde`, states, solutions, records of
+//! trajectories and endings can be written, and those without names read.
 #![cfg_attr(not(feature = "std"), no_std)]
 // Algorithms on matrices read best with indices.
 #![allow(clippy::needless_range_loop)]
@@ -94,7 +95,7 @@ pub use system::{
     Lagrangian, LinearPart, Pack, Packed, Shared, Solution, State, TotalDerivative,
 };
 #[cfg(feature = "alloc")]
-pub use trajectory::{Csv, Deviation, Drift, Sample, Trajectory};
+pub use trajectory::{Csv, Deviation, Drift, Records, Sample, Trajectory};
 
 /// The README's program is compiled and run with the documentation's examples.
 #[cfg(doctest)]

@@ -88,3 +88,24 @@ impl Display for Names {
         }
     }
 }
+
+/// They are written as they are said.
+#[cfg(feature = "serde")]
+mod written {
+    use serde::{Serialize, Serializer};
+
+    use super::{Entry, Row};
+    use crate::error::Error;
+
+    macro_rules! as_text {
+        ($($type:ty),*) => {$(
+            impl Serialize for $type {
+                fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                    serializer.collect_str(self)
+                }
+            }
+        )*};
+    }
+
+    as_text!(Entry, Row, Error);
+}

@@ -2,6 +2,7 @@
 
 /// What an integration took.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Statistics {
     /// Steps taken.
     pub accepted: usize,

@@ -3,3 +3,4 @@
 mod endings;
 mod owned;
 mod table;
+mod written;

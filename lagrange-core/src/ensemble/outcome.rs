@@ -10,6 +10,8 @@ use crate::system::State;
 
 /// What has become of one member.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(bound(serialize = "T: nalgebra::Scalar + serde::Serialize")))]
 pub struct Member<T, const N: usize> {
     /// Its index in the ensemble.
     pub index: usize,
@@ -19,6 +21,8 @@ pub struct Member<T, const N: usize> {
 
 /// Where a motion ended.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(bound(serialize = "T: nalgebra::Scalar + serde::Serialize")))]
 pub struct Arrival<T, const N: usize> {
     /// The last state.
     pub state: State<T, N>,

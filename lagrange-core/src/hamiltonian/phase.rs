@@ -15,6 +15,14 @@ use crate::system::{Lagrangian, State};
 /// assert_eq!((state.t, state.q[0], state.p[1]), (1.0, 0.1, 2.0));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(
+        serialize = "T: nalgebra::Scalar + serde::Serialize",
+        deserialize = "T: nalgebra::Scalar + serde::Deserialize<'de>"
+    ))
+)]
 pub struct PhaseState<T, const N: usize> {
     /// Time.
     pub t: T,
@@ -39,6 +47,14 @@ impl<T: Scalar, const N: usize> PhaseState<T, N> {
 
 /// What Hamilton's equations give at a [`PhaseState`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(
+        serialize = "T: nalgebra::Scalar + serde::Serialize",
+        deserialize = "T: nalgebra::Scalar + serde::Deserialize<'de>"
+    ))
+)]
 pub struct PhaseRate<T, const N: usize, const M: usize> {
     /// q̇ = ∂H/∂p.
     pub q: SVector<T, N>,

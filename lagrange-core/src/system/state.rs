@@ -14,6 +14,14 @@ use crate::number::Scalar;
 /// assert_eq!((state.t, state.q[0], state.v[1]), (1.0, 0.1, 2.0));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(
+        serialize = "T: nalgebra::Scalar + serde::Serialize",
+        deserialize = "T: nalgebra::Scalar + serde::Deserialize<'de>"
+    ))
+)]
 pub struct State<T, const N: usize> {
     /// Time.
     pub t: T,
@@ -50,6 +58,14 @@ impl<T: Scalar, const N: usize> State<T, N> {
 ///
 /// The constraint force on coordinate a is Σ_α λ_α F_αa (Milton (8.7), (8.13)).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(
+        serialize = "T: nalgebra::Scalar + serde::Serialize",
+        deserialize = "T: nalgebra::Scalar + serde::Deserialize<'de>"
+    ))
+)]
 pub struct Solution<T, const N: usize, const M: usize> {
     /// Generalized accelerations q̈.
     pub accelerations: SVector<T, N>,

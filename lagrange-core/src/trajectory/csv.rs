@@ -5,6 +5,7 @@ use alloc::{format, vec::Vec};
 use core::fmt::{self, Debug, Display, Formatter};
 
 use super::Trajectory;
+use super::records::Records;
 use crate::names::Entry;
 use crate::number::{Real, Scalar};
 use crate::solution::flow::{Flow, LagrangianFlow};
@@ -63,6 +64,21 @@ impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Csv<'_, S, N, M, F>
     /// With a column for each quantity that is [conserved](crate::Facts::conserved), by its name.
     pub fn conserved(self) -> Self {
         Self { has_conserved: true, ..self }
+    }
+
+    /// The names and the numbers of the table, to be kept, plotted, or written in another format (feature `serde`).
+    pub fn records(&self) -> Records<S::Scalar>
+    where
+        S::Scalar: Real,
+        F: Flow<S, N, M>,
+    {
+        let states = self.trajectory.states(self.count);
+        let row = |state| {
+            let mut cells = Vec::new();
+            self.cells(&state, &mut cells);
+            cells
+        };
+        Records { names: self.names(), rows: states.map(row).collect() }
     }
 
     /// The conserved quantities that no other column has.

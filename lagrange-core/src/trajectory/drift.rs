@@ -10,6 +10,7 @@ use crate::system::Lagrangian;
 
 /// How far a conserved quantity strays from its value at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Deviation<T> {
     /// The name in [`Facts::conserved`](crate::Facts::conserved).
     pub name: &'static str,
@@ -44,6 +45,7 @@ assert!(drift.iter().all(|quantity| quantity.largest < 1e-10));
 "#
 )]
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(transparent))]
 pub struct Drift<T> {
     quantities: Vec<Deviation<T>>,
 }

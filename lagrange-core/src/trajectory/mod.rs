@@ -3,6 +3,7 @@
 mod csv;
 mod drift;
 mod path;
+mod records;
 mod sample;
 #[cfg(test)]
 mod tests;
@@ -15,6 +16,7 @@ use core::marker::PhantomData;
 pub use csv::Csv;
 pub use drift::{Deviation, Drift};
 pub(crate) use path::Path;
+pub use records::Records;
 pub use sample::Sample;
 
 use crate::ending::Ending;
