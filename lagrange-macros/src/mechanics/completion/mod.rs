@@ -14,11 +14,12 @@ use super::constraints::Constraints;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id, Rational};
 use pivots::{Wanted, add_square, pivots};
-use states::{Space, State};
+use states::State;
+use weight::Weights;
 
 /// What is looked for, in turn, and with how many times the natural σ: an indefinite M may take more. Parameters at
 /// random may be such that nothing is definite; M is then made regular.
-const ATTEMPTS: [(Wanted, i128); 3] = [(Wanted::Definite, 1), (Wanted::Definite, 16), (Wanted::Regular, 1)];
+const ATTEMPTS: [(Wanted, i32); 3] = [(Wanted::Definite, 1), (Wanted::Definite, 16), (Wanted::Regular, 1)];
 
 /// The fewest constraints that complete M, each with its σ; none where M needs none, or none help.
 pub(super) fn completing(
@@ -27,63 +28,98 @@ pub(super) fn completing(
     mass: &[Vec<Id>],
     constraints: &Constraints,
 ) -> Vec<(usize, Id)> {
-    let is_definite = |state: &State| pivots(&state.mass, Wanted::Definite) == mass.len();
-    let space = Space { graph, problem, mass, constraints };
-    if constraints.kinds.is_empty() || space.anywhere().iter().any(is_definite) {
-        return Vec::new();
-    }
-    let states = space.on_constraints();
-    if states.is_empty() || states.iter().any(is_definite) {
-        return Vec::new();
-    }
-    let mut search = Search { graph, mass, jacobian: &constraints.jacobian, states };
-    let found = ATTEMPTS.iter().find_map(|&(wanted, factor)| search.rows(wanted, factor));
-    found.filter(|_| graph.take_fault().is_none()).unwrap_or_default()
+    let system = System { problem, mass, constraints };
+    let found = system.completing(graph).unwrap_or_default();
+    if graph.take_fault().is_none() { found } else { Vec::new() }
 }
 
-struct Search<'e> {
-    graph: &'e mut Graph,
+/// So many states are looked at where M is singular at the first; …
+const FEW: usize = 3;
+/// … and where it is not, but indefinite: there it must be no whim of the parameters that constraints make it definite.
+const MANY: usize = 12;
+
+struct System<'e> {
+    problem: &'e Problem,
     mass: &'e [Vec<Id>],
-    jacobian: &'e [Vec<Id>],
-    /// States on the constraints, one at least.
-    states: Vec<State>,
+    constraints: &'e Constraints,
 }
 
-impl Search<'_> {
-    /// Row after row that takes M further at the first state, if they take it all the way at every one. Of a
-    /// semidefinite M these are the fewest, and those that fill in least (a greedy choice from a matroid).
-    fn rows(&mut self, wanted: Wanted, factor: i128) -> Option<Vec<(usize, Id)>> {
+impl System<'_> {
+    fn completing(&self, graph: &mut Graph) -> Option<Vec<(usize, Id)>> {
+        if self.constraints.kinds.is_empty() {
+            return None;
+        }
+        let (first, count) = self.first(graph)?;
+        ATTEMPTS.iter().find_map(|&(wanted, factor)| {
+            let rows = self.rows(&first, wanted, factor)?;
+            let states = self.states(graph, &rows).take(count).collect();
+            self.weighted(graph, states, &rows, wanted, factor)
+        })
+    }
+
+    /// A state at which M is not definite, and how many others are to be looked at; `None` where M needs nothing.
+    fn first(&self, graph: &Graph) -> Option<(State, usize)> {
+        let is = |state: &State, wanted| pivots(&state.mass, wanted) == self.mass.len();
+        let is_definite = |state: &State| is(state, Wanted::Definite);
+        let mut states = self.states(graph, &[]);
+        let first = states.next()?;
+        let is_singular = !is(&first, Wanted::Regular);
+        let is_left_alone =
+            is_definite(&first) || !is_singular && states.take(FEW).any(|state| is_definite(&state));
+        (!is_left_alone).then_some((first, if is_singular { FEW } else { MANY }))
+    }
+
+    /// Row after row that takes M further, if they take it all the way. Of a semidefinite M these are the fewest, and
+    /// those that fill in least (a greedy choice from a matroid).
+    fn rows(&self, state: &State, wanted: Wanted, factor: i32) -> Option<Vec<usize>> {
         let n = self.mass.len();
-        let mut matrix = self.states[0].mass.clone();
-        let (mut reached, mut rows) = (pivots(&matrix, wanted), Vec::new());
+        let (mut matrix, mut rows) = (state.mass.clone(), Vec::new());
+        let mut reached = pivots(&matrix, wanted);
         for a in self.by_fill() {
             if reached == n {
                 break;
             }
-            let natural = self.weight(a);
-            let weight = self.graph.sum([(natural, Rational::from_integer(factor))]);
             let mut more = matrix.clone();
-            add_square(&mut more, self.states[0].value(self.graph, weight), &self.states[0].jacobian[a]);
+            add_square(&mut more, f64::from(factor) * self.size(state, a), &state.jacobian[a]);
             let further = pivots(&more, wanted);
             if further > reached {
                 (matrix, reached) = (more, further);
-                rows.push((a, weight));
+                rows.push(a);
             }
         }
-        let graph = &*self.graph;
-        let complete = |state: &mut State| pivots(&state.completed(graph, &rows), wanted) == n;
-        self.states.iter_mut().all(complete).then_some(rows)
+        (reached == n).then_some(rows)
+    }
+
+    /// The rows with their σ, if they complete M at other states on these constraints.
+    fn weighted(
+        &self,
+        graph: &mut Graph,
+        mut states: Vec<State>,
+        rows: &[usize],
+        wanted: Wanted,
+        factor: i32,
+    ) -> Option<Vec<(usize, Id)>> {
+        let mut weights = Weights { graph, states: &mut states };
+        let rows = rows.iter().map(|&a| {
+            let natural = weights.of(self, a);
+            (a, weights.graph.sum([(natural, Rational::from_integer(factor.into()))]))
+        });
+        let rows: Vec<(usize, Id)> = rows.collect();
+        let is_complete =
+            |state: &mut State| pivots(&state.completed(graph, &rows), wanted) == self.mass.len();
+        (!states.is_empty() && states.iter_mut().all(is_complete)).then_some(rows)
     }
 
     /// The constraints, those first that make few entries of M that were zero, and of these those that tie few.
     fn by_fill(&self) -> Vec<usize> {
+        let jacobian = &self.constraints.jacobian;
         let fill = |row: &[Id]| {
             let tied = tied(row);
             let pairs = tied.iter().flat_map(|&i| tied.iter().map(move |&j| (i, j)));
             (pairs.filter(|&(i, j)| self.mass[i][j] == Id::ZERO).count(), tied.len())
         };
-        let mut order: Vec<usize> = (0..self.jacobian.len()).collect();
-        order.sort_by_key(|&a| fill(&self.jacobian[a]));
+        let mut order: Vec<usize> = (0..jacobian.len()).collect();
+        order.sort_by_cached_key(|&a| fill(&jacobian[a]));
         order
     }
 }

@@ -1,14 +1,12 @@
 //! Random states, and what M and F are there.
 
+use super::System;
 use super::pivots::{Matrix, add_square};
 use crate::mechanics::ConstraintKind;
-use crate::mechanics::constraints::Constraints;
-use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id, Sample, Symbol};
 use crate::variables::{Variable, has_velocity, symbols};
 
-/// So many states are looked at, and so many draws made to find them.
-const STATES: usize = 4;
+/// So many draws are made to find states.
 const DRAWS: u64 = 32;
 
 pub(super) struct State {
@@ -18,68 +16,64 @@ pub(super) struct State {
     pub(super) jacobian: Matrix,
 }
 
-/// Where M and F are looked at.
-pub(super) struct Space<'e> {
-    pub(super) graph: &'e Graph,
-    pub(super) problem: &'e Problem,
-    pub(super) mass: &'e [Vec<Id>],
-    pub(super) constraints: &'e Constraints,
-}
-
-impl Space<'_> {
-    /// States that no constraint restricts.
-    pub(super) fn anywhere(&self) -> Vec<State> {
-        self.drawn(|_| Some(()))
-    }
-
-    /// States with Φ = 0 and, where M depends on velocities, F q̇ + b = 0.
-    pub(super) fn on_constraints(&self) -> Vec<State> {
-        let Constraints { kinds, residual, rate, jacobian, .. } = self.constraints;
-        let holonomic: Vec<usize> =
-            (0..kinds.len()).filter(|&a| kinds[a] == ConstraintKind::Holonomic).collect();
-        let residual: Vec<Id> = holonomic.iter().map(|&a| residual[a]).collect();
-        let slopes: Vec<&[Id]> = holonomic.iter().map(|&a| &jacobian[a][..]).collect();
-        let rows: Vec<&[Id]> = jacobian.iter().map(Vec::as_slice).collect();
-        let is_moving = has_velocity(self.graph, &self.mass.concat());
-        self.drawn(|sample| {
-            sample.project(self.graph, &residual, &slopes, &self.symbols(Variable::Coordinate))?;
-            if is_moving {
-                sample.project(self.graph, rate, &rows, &self.symbols(Variable::Velocity))?;
-            }
-            Some(())
+impl System<'_> {
+    /// States with Φ = 0 and, where M depends on velocities, F q̇ + b = 0 for these constraints. Those that do not
+    /// matter to M are spared: a long chain of joints is hard to close.
+    pub(super) fn states<'a>(
+        &'a self,
+        graph: &'a Graph,
+        rows: &[usize],
+    ) -> impl Iterator<Item = State> + use<'a> {
+        let constraints = self.constraints;
+        let is_holonomic = |a: &usize| constraints.kinds[*a] == ConstraintKind::Holonomic;
+        let places: Vec<usize> = rows.iter().copied().filter(is_holonomic).collect();
+        let is_moving = has_velocity(graph, &self.mass.concat());
+        let rates = if is_moving { rows.to_vec() } else { Vec::new() };
+        let symbols: Vec<Symbol> = self.symbols(graph);
+        (0..DRAWS).filter_map(move |draw| {
+            let mut sample = Sample::new(symbols.iter().copied(), draw, |symbol| self.problem.range(symbol));
+            self.settle(graph, &mut sample, &constraints.residual, &places, Variable::Coordinate)?;
+            self.settle(graph, &mut sample, &constraints.rate, &rates, Variable::Velocity)?;
+            self.state(graph, sample)
         })
     }
 
-    fn drawn(&self, settle: impl Fn(&mut Sample) -> Option<()>) -> Vec<State> {
-        let Constraints { residual, rate, jacobian, .. } = self.constraints;
-        let roots = [&self.mass.concat(), &jacobian.concat(), residual, rate].map(Vec::as_slice).concat();
-        let symbols: Vec<Symbol> =
-            self.graph.symbols(&roots).chain(self.symbols(Variable::Coordinate)).collect();
-        let states = (0..DRAWS).filter_map(|draw| {
-            let mut sample = Sample::new(symbols.iter().copied(), draw, |symbol| self.problem.range(symbol));
-            settle(&mut sample)?;
-            State::new(self, sample)
-        });
-        states.take(STATES).collect()
+    /// All that M, F and the constraints depend on.
+    fn symbols(&self, graph: &Graph) -> Vec<Symbol> {
+        let (n, constraints) = (self.mass.len(), self.constraints);
+        let matrices = self.mass.iter().chain(&constraints.jacobian).flatten();
+        let roots: Vec<Id> =
+            matrices.chain(&constraints.residual).chain(&constraints.rate).copied().collect();
+        graph.symbols(&roots).chain(symbols(n, Variable::Coordinate)).collect()
     }
 
-    fn symbols(&self, variable: fn(usize) -> Variable) -> Vec<Symbol> {
-        symbols(self.mass.len(), variable)
+    /// Moves the sample to where `rows` of `equations` hold.
+    fn settle(
+        &self,
+        graph: &Graph,
+        sample: &mut Sample,
+        equations: &[Id],
+        rows: &[usize],
+        unknown: fn(usize) -> Variable,
+    ) -> Option<()> {
+        let equations: Vec<Id> = rows.iter().map(|&a| equations[a]).collect();
+        let slopes: Vec<&[Id]> = rows.iter().map(|&a| &self.constraints.jacobian[a][..]).collect();
+        sample.project(graph, &equations, &slopes, &symbols(self.mass.len(), unknown))
+    }
+
+    /// `None` where an entry is no number.
+    fn state(&self, graph: &Graph, mut sample: Sample) -> Option<State> {
+        let mut matrix = |rows: &[Vec<Id>]| {
+            let values = |row: &Vec<Id>| sample.values(graph, row).iter().map(|x| x.value).collect();
+            let matrix: Matrix = rows.iter().map(values).collect();
+            matrix.iter().flatten().all(|x| x.is_finite()).then_some(matrix)
+        };
+        let (mass, jacobian) = (matrix(self.mass)?, matrix(&self.constraints.jacobian)?);
+        Some(State { sample, mass, jacobian })
     }
 }
 
 impl State {
-    /// `None` where an entry is no number.
-    fn new(space: &Space, mut sample: Sample) -> Option<Self> {
-        let mut matrix = |rows: &[Vec<Id>]| {
-            let values = |row: &Vec<Id>| sample.values(space.graph, row).iter().map(|x| x.value).collect();
-            let matrix: Matrix = rows.iter().map(values).collect();
-            matrix.iter().flatten().all(|x| x.is_finite()).then_some(matrix)
-        };
-        let (mass, jacobian) = (matrix(space.mass)?, matrix(&space.constraints.jacobian)?);
-        Some(Self { sample, mass, jacobian })
-    }
-
     pub(super) fn value(&mut self, graph: &Graph, root: Id) -> f64 {
         self.sample.values(graph, &[root])[0].value
     }
