@@ -82,7 +82,8 @@
 //! A quaternion is a vector of 4, (w, x, y, z). `quat_rotate(q, v)` is the vector that it turns v into, from the
 //! body's frame to the fixed one; `quat_rate(q, q_dot)` is the angular velocity in the fixed frame,
 //! `quat_rate_body(q, q_dot)` in the body's, as 2 q̇ q̄ and 2 q̄ q̇. Nothing is divided by |q|²: the constraint
-//! `dot(q, q) = 1` keeps it 1, and makes up for the mass matrix, which alone is singular.
+//! `dot(q, q) = 1` keeps it 1, and makes up for the mass matrix, which alone is singular. The macro completes it by that
+//! row: no term that vanishes need be added to L.
 //!
 //! ```
 //! use lagrange_core::nalgebra::{Matrix3, Vector3};

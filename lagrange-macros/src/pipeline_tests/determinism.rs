@@ -9,13 +9,14 @@ use crate::expand;
 /// Marks the lines of the other process that count.
 const MARK: &str = "expansion: ";
 
-fn sources() -> [String; 5] {
+fn sources() -> [String; 6] {
     [
         systems::PENDULUM.to_owned(),
         systems::SPHERE.to_owned(),
         systems::chain(5),
         systems::chain(40),
         systems::rods(4),
+        systems::TOP.to_owned(),
     ]
 }
 

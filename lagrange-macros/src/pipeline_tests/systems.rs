@@ -42,3 +42,12 @@ pub(super) fn rods(n: usize) -> String {
          struct Rods {{ m: [f64; {n}], l: [f64; {n}], g: f64 }}"
     )
 }
+
+/// A heavy top, its orientation a unit quaternion: M is singular.
+pub(super) const TOP: &str = "
+    #[coordinates(q: [4])]
+    #[define(w = quat_rate_body(q, q_dot))]
+    #[lagrangian((J[0]*w[0]^2 + J[1]*w[1]^2 + J[2]*w[2]^2)/2 - m*g*l*quat_rotate(q, [0, 0, 1])[2])]
+    #[constraint(unit: (dot(q, q) - 1)/2 = 0)]
+    struct Top { J: [f64; 3], m: f64, g: f64, l: f64 }
+";

@@ -1,5 +1,5 @@
 //! The general solve of the equations of motion, for systems that the elimination cannot solve: a mass matrix that
-//! is singular (unit quaternions, massless coordinates) or indefinite, constraints that depend on one another.
+//! is singular or indefinite, constraints that depend on one another.
 //!
 //! The null-space method of Nocedal and Wright, *Numerical Optimization*, 16.2: a pivoted QR factorization of Fᵀ
 //! splits the accelerations into a part that the constraints fix and a part Z y that they leave free, and
