@@ -137,7 +137,7 @@ fn where_m_needs_no_constraint_it_is_left_alone() {
 }
 
 /// Systems with an M that is singular or indefinite, and which constraints complete it.
-const SINGULAR: [(&str, &[&str]); 8] = [
+const SINGULAR: [(&str, &[&str]); 9] = [
     // A coordinate without a mass, tied to one that has one, and one tied to nothing.
     (
         "#[coordinates(x, y, z)] #[lagrangian(m*x_dot^2/2 - k*(x^2 + y^2) - z)] #[constraint(curve: y = x^2)]
@@ -178,6 +178,15 @@ const SINGULAR: [(&str, &[&str]); 8] = [
         "#[coordinates(q: [4])] #[define(w = quat_rate(q, q_dot))] #[lagrangian(J*dot(w, w)/2 - k*q[1])]
          #[constraint(unit: 10^6*dot(q, q_dot) = 0)] struct Rate { J: f64, k: f64 }",
         &["unit"],
+    ),
+    // An orientation as a matrix, which takes six equations to be one.
+    (
+        "#[coordinates(a: [3], b: [3], c: [3])] #[define(w = [dot(c, b_dot), dot(a, c_dot), dot(b, a_dot)])]
+         #[lagrangian((A*w[0]^2 + B*w[1]^2 + C*w[2]^2)/2 - k*c[2])]
+         #[constraint(aa: dot(a, a) = 1)] #[constraint(ab: dot(a, b) = 0)] #[constraint(ac: dot(a, c) = 0)]
+         #[constraint(bb: dot(b, b) = 1)] #[constraint(bc: dot(b, c) = 0)] #[constraint(cc: dot(c, c) = 1)]
+         struct Turn { A: f64, B: f64, C: f64, k: f64 }",
+        &["aa", "ab", "ac", "bb", "bc", "cc"],
     ),
     // A quaternion of any length, in a coordinate that grows.
     (
