@@ -29,15 +29,17 @@ assert!((friction + 2.0 / 7.0 * 9.81 * 0.3_f64.sin()).abs() < 1e-12);
 //!
 //! - [`Lagrangian`] is the contract that generated code implements, [`Simulate`] what a program calls.
 //! - [`Hamiltonian`] is the other side: momenta, the Legendre transform, Hamilton's equations, motion in (q, p).
-//! - [`Linearized`] has the derivatives of the motion: Jacobians, equilibria, the linear system near a state.
+//! - [`StateDerivatives`] and [`Linearized`] have the derivatives of the motion: Jacobians, equilibria, the linear system near a state.
 //! - [`Solution`] holds accelerations and multipliers; the sign of a multiplier is that of Milton (8.7): the constraint
 //!   force on coordinate a is Σ_α λ_α F_αa.
+//! - [`Motion`] goes on when it is told to: inputs that change, states at chosen times, nothing stored; [`embedded`] is about
+//!   programs without an operating system.
 //! - [`ensemble`]: many members at once, on SIMD lanes and on all threads.
 //! - [`Dop853`] and [`Dopri5`] are the methods, [`Trajectory`] is what they give, [`Ending`] why it stops.
 //!
-//! Features: `std` (default), without it there are no ensembles; `alloc`, without it there are no trajectories; `libm`,
-//! elementary functions where there is no `std`; `rayon`, ensembles on all threads; `serde`, states, solutions, records of
-//! trajectories and endings can be written, and those without names read.
+//! Features: `std` (default), without it there are no ensembles; `alloc`, without it there are no trajectories, but motions
+//! step by step; `libm`, elementary functions where there is no `std`; `rayon`, ensembles on all threads; `serde`, states,
+//! solutions, records of trajectories and endings can be written, and those without names read.
 #![cfg_attr(not(feature = "std"), no_std)]
 // Algorithms on matrices read best with indices.
 #![allow(clippy::needless_range_loop)]
@@ -47,6 +49,7 @@ assert!((friction + 2.0 / 7.0 * 9.81 * 0.3_f64.sin()).abs() < 1e-12);
 extern crate alloc;
 extern crate self as lagrange_core;
 
+pub mod embedded;
 mod ending;
 #[cfg(feature = "std")]
 pub mod ensemble;

@@ -110,6 +110,8 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     ///
     /// The state must pass [`check_consistent`](Self::check_consistent); what is left is projected away, and [`Trajectory::adjustment`] tells how far that moved it.
     ///
+    /// Every step is kept. Where the end alone is of interest, or states at some times, a [`Motion`](crate::Motion) keeps none.
+    ///
     /// Steps lead from one time that the scalar can hold to the next, which at a Unix time in seconds are 2.4·10⁻⁷
     /// apart: where a motion is faster, count the time from nearby.
     ///

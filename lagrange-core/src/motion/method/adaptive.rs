@@ -60,7 +60,7 @@ impl<P> Adaptive<P> {
     }
 
     /// How many steps may be tried. In a trajectory each accepted one stores 5 (`Dopri5`) or 8 (`Dop853`) times 2N
-    /// numbers, so this bounds its memory; an ensemble stores no steps.
+    /// numbers, so this bounds its memory; an ensemble or a `Motion` stores none.
     pub fn max_steps(mut self, steps: usize) -> Self {
         self.limits.max_steps = steps;
         self
