@@ -69,7 +69,8 @@ impl Form {
                 let weighted = graph.mul(weight, entry);
                 for &(j, other) in &row {
                     let part = graph.mul(weighted, other);
-                    matrix[i][j] = graph.add(matrix[i][j], part);
+                    let sum = graph.add(matrix[i][j], part);
+                    matrix[i][j] = shorter(graph, sum);
                 }
                 let part = graph.mul(weighted, constraints.bias[a]);
                 linear[i] = graph.sub(linear[i], part);
@@ -93,6 +94,18 @@ impl Form {
         let mut row = self.matrix[i].iter().enumerate();
         !is_defined_by && row.all(|(j, &entry)| (j == i) == (entry != Id::ZERO))
     }
+}
+
+/// The same without the boundaries of definitions, where those hide that terms cancel.
+fn shorter(graph: &mut Graph, entry: Id) -> Id {
+    const LONG: usize = 100;
+    let length = |graph: &Graph, root| graph.reachable(&[root]).len();
+    let before = length(graph, entry);
+    if before > LONG {
+        return entry;
+    }
+    let through = graph.looked_through(entry);
+    if length(graph, through) < before { through } else { entry }
 }
 
 /// The velocities that definitions name, as variables beside the generalized ones.

@@ -279,3 +279,12 @@ fn the_weight_of_a_unit_quaternion_is_an_expression_of_the_parameters() {
         assert!(operations(&graph, &[weight]).arithmetic <= cost, "{source}");
     }
 }
+
+/// The inertia of a sphere is the same about all axes: M is diagonal with the σ that makes it so.
+#[test]
+fn a_sphere_is_completed_to_a_diagonal() {
+    let (_, _, equations) = equations(&without(BALL));
+    for (i, row) in equations.forms[0].matrix.iter().enumerate() {
+        assert!(row.iter().enumerate().all(|(j, &entry)| (i == j) == (entry != Id::ZERO)), "{row:?}");
+    }
+}

@@ -46,8 +46,34 @@ pub(super) struct Weights<'e> {
 }
 
 impl Weights<'_> {
-    /// tr M/|F|², over the coordinates that the row ties.
+    /// What makes M diagonal over the coordinates that the row ties, as for a sphere, or about as much.
     pub(super) fn of(&mut self, system: &System, a: usize) -> Id {
+        self.separating(system, a).unwrap_or_else(|| self.natural(system, a))
+    }
+
+    /// −M_ij/(F_i F_j), if that is the same expression of the parameters for all i ≠ j.
+    fn separating(&mut self, system: &System, a: usize) -> Option<Id> {
+        let row = &system.constraints.jacobian[a];
+        let tied = tied(row);
+        let pairs = || tied.iter().flat_map(|&i| tied.iter().map(move |&j| (i, j))).filter(|(i, j)| i < j);
+        let ratio = |state: &State, (i, j): (usize, usize)| {
+            -state.mass[i][j] / (state.jacobian[a][i] * state.jacobian[a][j])
+        };
+        let is_one = |state: &State| {
+            let (first, mut ratios) = (ratio(state, pairs().next()?), pairs().map(|pair| ratio(state, pair)));
+            (first > 0.0 && ratios.all(|ratio| (ratio - first).abs() <= SAME * first)).then_some(())
+        };
+        self.states.iter().try_for_each(is_one)?;
+        let (i, j) = pairs().next()?;
+        let coupling = self.graph.looked_through(system.mass[i][j]);
+        let square = self.graph.mul(row[i], row[j]);
+        let quotient = self.graph.div(coupling, square);
+        let weight = self.graph.neg(quotient);
+        self.graph.symbols(&[weight]).all(|symbol| !is_moving(&symbol)).then_some(weight)
+    }
+
+    /// tr M/|F|², over the coordinates that the row ties.
+    fn natural(&mut self, system: &System, a: usize) -> Id {
         let diagonal: Vec<Id> = system.heavy(a).iter().map(|&i| system.mass[i][i]).collect();
         let inertia = if diagonal.is_empty() { Id::ONE } else { self.trace(&diagonal) };
         let row = &system.constraints.jacobian[a];
@@ -73,7 +99,6 @@ impl Weights<'_> {
     /// The same where one coordinate is 1 and all else is 0, if that is its value at every state: then it is an
     /// expression of the parameters. The trace of a body's inertia is the same in all orientations.
     fn at_a_fixed_state(&mut self, root: Id) -> Id {
-        let is_moving = |symbol: &Symbol| !matches!(Variable::of(*symbol), Variable::Parameter(_));
         let moving: Vec<Symbol> = self.graph.symbols(&[root]).filter(is_moving).collect();
         let candidates = moving.iter().map(|&one| {
             let number = |symbol| if symbol == one { Id::ONE } else { Id::ZERO };
@@ -90,6 +115,10 @@ impl Weights<'_> {
             (x - y).abs() <= SAME * x.abs()
         })
     }
+}
+
+fn is_moving(symbol: &Symbol) -> bool {
+    !matches!(Variable::of(*symbol), Variable::Parameter(_))
 }
 
 fn sum(graph: &mut Graph, terms: &[Id]) -> Id {
