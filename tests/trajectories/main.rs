@@ -1,5 +1,6 @@
 //! What a motion leaves behind.
 
+mod audit;
 mod endings;
 mod owned;
 mod table;

@@ -173,7 +173,7 @@ where
     ///
     /// # Errors
     /// [`Error::OutsideTrajectory`] for a time that lies elsewhere; after the state or the system was changed there is
-    /// none but the present. What evaluating the equations gives.
+    /// none but the present. What evaluating the equations gives, and [`Error::NotProjected`].
     pub fn at(&mut self, t: L::Scalar) -> Result<State<L::Scalar, N>, Error> {
         let (state, before) = (self.run.state, self.run.before);
         if t == state.t {
@@ -193,7 +193,7 @@ where
             None => self.method.interpolant(&self.system, memory, statistics)?,
         };
         let point = self.interpolant.insert(interpolant).at(t);
-        Ok(F::project(&self.system, &point).unwrap_or_else(|_| F::state(&self.system, &point)))
+        F::project(&self.system, &point)
     }
 
     /// The states at these times, each computed when the iterator is asked for it; the motion is then at the last of them.

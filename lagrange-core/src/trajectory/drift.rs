@@ -91,7 +91,8 @@ impl<T: Real> Drift<T> {
 /// The greater distance, and not a number once one of them is none.
 fn farther<T: Real>(largest: T, difference: T) -> T {
     let distance = Scalar::abs(difference);
-    if largest.is_finite() && exceeds(distance, largest) { distance } else { largest }
+    let is_number = largest.partial_cmp(&largest).is_some();
+    if is_number && exceeds(distance, largest) { distance } else { largest }
 }
 
 impl<'d, T> IntoIterator for &'d Drift<T> {

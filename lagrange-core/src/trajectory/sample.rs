@@ -91,7 +91,8 @@ impl<S: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<S
         Ok(self.solution()?.accelerations[index])
     }
 
-    /// The multiplier λ of the constraint of this name.
+    /// The multiplier λ of the constraint of this name. Where constraints depend on one another, which
+    /// [`Solution::multipliers_are_unique`] tells, the multipliers are those of least Euclidean norm.
     ///
     /// # Errors
     /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
