@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::names::Entry;
 use crate::number::{Real, vector};
 use crate::solution::consistent::{Level, project};
-use crate::solution::flow::{Flow, Phase, PhasePoint, Slope};
+use crate::solution::flow::{Basis, Flow, Phase, PhasePoint};
 use crate::system::{Lagrangian, State};
 
 /// Hamilton's equations, in coordinates and momenta.
@@ -25,10 +25,12 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Flow<L, 
         system: &L,
         point: &PhasePoint<L::Scalar, N>,
         active: Option<&[bool; M]>,
-    ) -> Result<Slope<L::Scalar, N, M>, Error> {
+        rates: &mut Phase<L::Scalar, N>,
+    ) -> Result<Basis<M>, Error> {
         let state = legendre::invert(system, &phase_state(point), &point.velocity, active)?;
         let (rate, rank, active) = equations(system, &state, active)?;
-        Ok(Slope { rates: [rate.q.into(), rate.p.into()], active, multipliers_are_unique: rank == M })
+        *rates = [rate.q.into(), rate.p.into()];
+        Ok(Basis { active, multipliers_are_unique: rank == M })
     }
 
     fn state(system: &L, point: &PhasePoint<L::Scalar, N>) -> State<L::Scalar, N> {

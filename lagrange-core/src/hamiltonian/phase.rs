@@ -73,8 +73,9 @@ pub(super) fn equations<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const
     state: &State<L::Scalar, N>,
     active: Option<&[bool; M]>,
 ) -> Result<Rates<L::Scalar, N, M>, Error> {
-    let (solution, active) = solve_near(system, state, active)?;
-    let multipliers = solution.multipliers;
-    let p = system.momentum_rate(state) + system.constraint_force(state, &multipliers);
-    Ok((PhaseRate { q: state.v, p, multipliers }, solution.rank, active))
+    solve_near(system, state, active, |solution, &active| {
+        let multipliers = solution.multipliers;
+        let p = system.momentum_rate(state) + system.constraint_force(state, &multipliers);
+        (PhaseRate { q: state.v, p, multipliers }, solution.rank, active)
+    })
 }

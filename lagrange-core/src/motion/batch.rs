@@ -143,7 +143,8 @@ where
         let end = Lanes::from(plan.map(|(_, time)| time));
         let mut trust = Trust::new();
         self.stages(h, &mut trust);
-        let mut next = advance(&self.y, h, &self.slopes, P::WEIGHTS);
+        let mut next = self.y;
+        advance(&self.y, h, &self.slopes, P::WEIGHTS, &mut next);
         trust.numbers(next.iter().flatten());
         if error_needs_last::<P>() {
             self.slope(last::<P>(), end, &next, &mut trust);
@@ -163,8 +164,9 @@ where
     fn stages(&mut self, h: Lanes, trust: &mut Trust) {
         let now =
             Lanes::from(from_fn(|lane| self.seats[lane].as_ref().map_or(0.0, |seat| seat.memory.clock.now)));
+        let mut y = self.y;
         for (number, row) in (1..).zip(P::STAGES) {
-            let y = advance(&self.y, h, &self.slopes, row);
+            advance(&self.y, h, &self.slopes, row, &mut y);
             self.slope(number, now + h * Lanes::constant(P::NODES[number]), &y, trust);
         }
     }

@@ -23,4 +23,4 @@ pub(crate) use seat::Seat;
 pub use simulate::Simulate;
 pub use steered::Motion;
 
-pub use crate::solution::flow::{Flow, LagrangianFlow, Phase, PhasePoint, Slope};
+pub use crate::solution::flow::{Basis, Flow, LagrangianFlow, Phase, PhasePoint};

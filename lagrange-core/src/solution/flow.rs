@@ -15,7 +15,7 @@ pub trait Flow<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize
     /// Where a state is in the phase space.
     fn phase(system: &L, state: &State<L::Scalar, N>) -> Phase<L::Scalar, N>;
 
-    /// The rates there, resting on the constraints `active`, or on as many as are independent.
+    /// Puts the rates there into `rates`, resting on the constraints `active`, or on as many as are independent.
     ///
     /// # Errors
     /// As [`Simulate::solve`](crate::Simulate::solve), and what finding the velocity gives.
@@ -23,7 +23,8 @@ pub trait Flow<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize
         system: &L,
         point: &PhasePoint<L::Scalar, N>,
         active: Option<&[bool; M]>,
-    ) -> Result<Slope<L::Scalar, N, M>, Error>;
+        rates: &mut Phase<L::Scalar, N>,
+    ) -> Result<Basis<M>, Error>;
 
     /// The state there; where no velocity can be found it has the one nearby.
     fn state(system: &L, point: &PhasePoint<L::Scalar, N>) -> State<L::Scalar, N>;
@@ -49,11 +50,9 @@ pub struct PhasePoint<T, const N: usize> {
     pub velocity: [T; N],
 }
 
-/// The rates of a phase.
+/// What the rates of a phase rest on.
 #[derive(Clone, Copy, Debug)]
-pub struct Slope<T, const N: usize, const M: usize> {
-    /// q̇, and the rates of the second half.
-    pub rates: Phase<T, N>,
+pub struct Basis<const M: usize> {
     /// The constraints that they rest on.
     pub active: [bool; M],
     /// Whether the constraints are independent.
@@ -70,18 +69,18 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Flow<L, 
         [state.q.into(), state.v.into()]
     }
 
-    // Inlined for sure: a call would copy the rates once more in every stage.
+    // Inlined for sure: of what a call returns, and of a result moved out of another, there would be copies in every stage.
     #[inline(always)]
     fn slope(
         system: &L,
         point: &PhasePoint<L::Scalar, N>,
         active: Option<&[bool; M]>,
-    ) -> Result<Slope<L::Scalar, N, M>, Error> {
-        let (solution, active) = solve_near(system, &Self::state(system, point), active)?;
-        Ok(Slope {
-            rates: [point.y[1], solution.accelerations.into()],
-            active,
-            multipliers_are_unique: solution.multipliers_are_unique(),
+        rates: &mut Phase<L::Scalar, N>,
+    ) -> Result<Basis<M>, Error> {
+        rates[0] = point.y[1];
+        solve_near(system, &Self::state(system, point), active, |solution, &active| {
+            rates[1] = solution.accelerations.data.0[0];
+            Basis { active, multipliers_are_unique: solution.multipliers_are_unique() }
         })
     }
 

@@ -14,31 +14,32 @@ pub(crate) fn solve<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: 
     system: &L,
     state: &State<L::Scalar, N>,
 ) -> Result<Solution<L::Scalar, N, M>, Error> {
-    solve_near(system, state, None).map(|(solution, _)| solution)
+    solve_near(system, state, None, |solution, _| *solution)
 }
 
-/// The same, and which constraints it rests on.
+/// What `read` makes of the solution, which is not moved, and of the constraints that it rests on.
 ///
 /// Near a state where only those `active` are independent, it rests on them. Off the constraints, by the error of a
 /// stage, the others may look independent too, but what they demand is nothing but that error.
-#[inline]
-pub(crate) fn solve_near<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+#[inline(always)]
+pub(crate) fn solve_near<L: Lagrangian<N, M, Scalar: Real>, R, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
     active: Option<&[bool; M]>,
-) -> Result<Solved<L::Scalar, N, M>, Error> {
-    match active {
-        Some(active) if active.contains(&false) => {
-            solve_in_general(system, state, active, Rank::off_constraints())
-        }
+    read: impl FnOnce(&Solution<L::Scalar, N, M>, &[bool; M]) -> R,
+) -> Result<R, Error> {
+    let (active, rank) = match active {
+        Some(active) if active.contains(&false) => (active, Rank::off_constraints()),
         _ => {
             let solution = system.accelerations(state);
             if is_trustworthy(&solution) {
-                return Ok((solution, [true; M]));
+                return Ok(read(&solution, &[true; M]));
             }
-            solve_in_general(system, state, &[true; M], Rank::on_constraints())
+            (&[true; M], Rank::on_constraints())
         }
-    }
+    };
+    let (solution, active) = solve_in_general(system, state, active, rank)?;
+    Ok(read(&solution, &active))
 }
 
 /// Where the smallest pivot exceeds it, at most a third of the digits are lost.
@@ -48,9 +49,9 @@ pub(crate) fn least_pivot<T: Real>() -> T {
 
 /// Whether the elimination lost at most a third of the digits, by its smallest pivot, and all is finite.
 pub(crate) fn is_trustworthy<T: Real, const N: usize, const M: usize>(s: &Solution<T, N, M>) -> bool {
-    s.pivot > least_pivot()
-        && s.accelerations.iter().all(|x| x.is_finite())
-        && s.multipliers.iter().all(|x| x.is_finite())
+    // Without a branch for each, so that several are looked at at once.
+    let all_finite = |x: &[T]| x.iter().fold(true, |all, x| all & x.is_finite());
+    s.pivot > least_pivot() && all_finite(s.accelerations.as_slice()) && all_finite(s.multipliers.as_slice())
 }
 
 #[cold]

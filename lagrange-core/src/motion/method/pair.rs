@@ -1,7 +1,5 @@
 //! What distinguishes one embedded Runge–Kutta pair from another: coefficients.
 
-use core::array::from_fn;
-
 use crate::number::Scalar;
 use crate::solution::flow::Phase;
 
@@ -140,28 +138,48 @@ const fn check_row(row: Combination, slopes: usize, expected: f64) {
 /// The slopes (q̇, q̈) of a step.
 pub(crate) type Slopes<T, const N: usize> = [Phase<T, N>; SLOPES];
 
-/// start + h Σ cᵢ slopeᵢ.
+/// Puts start + h Σ cᵢ slopeᵢ into `end`.
 #[inline]
 pub(crate) fn advance<T: Scalar, const N: usize>(
     start: &Phase<T, N>,
     h: T,
     slopes: &Slopes<T, N>,
     row: &[(usize, f64)],
-) -> Phase<T, N> {
-    let sum = combine(slopes, row);
-    from_fn(|half| from_fn(|i| start[half][i] + h * sum[half][i]))
+    end: &mut Phase<T, N>,
+) {
+    let start = start.as_flattened();
+    sums(slopes, row, |i, sum| start[i] + h * sum, end);
 }
 
 #[inline]
 pub(crate) fn combine<T: Scalar, const N: usize>(slopes: &Slopes<T, N>, row: &[(usize, f64)]) -> Phase<T, N> {
-    let mut sum = [[T::constant(0.0); N]; 2];
-    for (index, coefficient) in row {
-        let coefficient = T::constant(*coefficient);
-        for half in 0..2 {
-            for i in 0..N {
-                sum[half][i] = sum[half][i] + coefficient * slopes[*index][half][i];
+    let mut combined = [[T::constant(0.0); N]; 2];
+    sums(slopes, row, |_, sum| sum, &mut combined);
+    combined
+}
+
+/// So many sums at a time wait in registers.
+const BLOCK: usize = 8;
+
+/// Puts what becomes of each Σ cᵢ slopeᵢ, given its place and its value, into `results`.
+#[inline(always)]
+fn sums<T: Scalar, const N: usize>(
+    slopes: &Slopes<T, N>,
+    row: &[(usize, f64)],
+    what_becomes: impl Fn(usize, T) -> T,
+    results: &mut Phase<T, N>,
+) {
+    for (block, results) in results.as_flattened_mut().chunks_mut(BLOCK).enumerate() {
+        let first = BLOCK * block;
+        let mut sums = [T::constant(0.0); BLOCK];
+        for (slope, coefficient) in row {
+            let (coefficient, slope) = (T::constant(*coefficient), &slopes[*slope].as_flattened()[first..]);
+            for (sum, x) in sums.iter_mut().zip(slope) {
+                *sum = *sum + coefficient * *x;
             }
         }
+        for (k, result) in results.iter_mut().enumerate() {
+            *result = what_becomes(first + k, sums[k]);
+        }
     }
-    sum
 }

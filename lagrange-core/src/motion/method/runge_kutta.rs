@@ -3,7 +3,7 @@
 use core::array::from_fn;
 use core::convert::Infallible;
 
-use nalgebra::{ComplexField, SVector};
+use nalgebra::ComplexField;
 
 use super::clock::Clock;
 use super::interpolant::Polynomial;
@@ -53,19 +53,11 @@ pub fn runge_kutta_step<L: Lagrangian<N, M>, const N: usize, const M: usize>(
     state: &State<L::Scalar, N>,
     h: L::Scalar,
 ) -> State<L::Scalar, N> {
-    // Gathered beside the motion, which does not wait for it.
-    let mut doubt = L::Scalar::constant(0.0);
-    let stepped = step(state, h, |at| {
-        let solution = system.accelerations(at);
-        doubt = doubt + doubt_of(solution.pivot);
-        Ok::<_, Infallible>(solution.accelerations.into())
-    });
-    let State { t, q, v } = match stepped {
+    let stepped = step(state, h, |at| Ok::<_, Infallible>(system.accelerations(at).accelerations.into()));
+    match stepped {
         Ok(next) => next,
         Err(never) => match never {},
-    };
-    let marked = |x: SVector<L::Scalar, N>| vector(<[_; N]>::from(x).map(|x| x + doubt));
-    State { t, q: marked(q), v: marked(v) }
+    }
 }
 
 /// The step with accelerations from anywhere.
@@ -90,13 +82,6 @@ fn step<T: Scalar, E, const N: usize>(
     let sum = from_fn(|half| from_fn(|i| a[half][i] + two * (b[half][i] + c[half][i]) + d[half][i]));
     let [q, v] = moved(h / T::constant(6.0), &sum);
     Ok(State { t: state.t + h, q: vector(q), v: vector(v) })
-}
-
-/// Nothing, or NaN where the elimination has lost more than a third of the digits.
-#[inline]
-fn doubt_of<T: Scalar>(pivot: T) -> T {
-    let (nothing, nan) = (T::constant(0.0), T::constant(f64::NAN));
-    pivot.by_order(T::constant(6e-6), nan, nan, nothing)
 }
 
 /// The classical method of Runge and Kutta of order 4, with steps of one size: [`runge_kutta_step`], and each step

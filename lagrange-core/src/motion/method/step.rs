@@ -13,7 +13,7 @@ use crate::ending::Ending;
 use crate::error::Error;
 use crate::names::{Entry, Row};
 use crate::number::{Real, Scalar, vector};
-use crate::solution::flow::{Flow, Phase, PhasePoint, Slope};
+use crate::solution::flow::{Basis, Flow, Phase, PhasePoint};
 use crate::solution::solve::name;
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State};
@@ -131,8 +131,8 @@ where
         statistics: &mut Statistics,
     ) -> Result<(), Error> {
         let point = PhasePoint { t: state.t, y: F::phase(system, state), velocity: state.v.into() };
-        let Slope { rates, active, .. } = slope::<L, F, N, M>(system, &point, None, statistics)?;
-        (memory.y, memory.slope, memory.active, memory.taken) = (point.y, rates, active, None);
+        memory.active = slope::<L, F, N, M>(system, &point, None, &mut memory.slope, statistics)?;
+        (memory.y, memory.taken) = (point.y, None);
         memory.clock.set(state.t);
         Ok(())
     }
@@ -179,7 +179,11 @@ where
         let (start, end) = ((&from.y, &slopes[0]), (&memory.y, &slopes[last::<P>()]));
         let zero = [[L::Scalar::constant(0.0); N]; 2];
         let coefficient = |k: usize| match k.checked_sub(4).and_then(|beyond| P::INTERPOLATION.get(beyond)) {
-            Some(row) => advance(&zero, *h, slopes, row),
+            Some(row) => {
+                let mut coefficient = zero;
+                advance(&zero, *h, slopes, row, &mut coefficient);
+                coefficient
+            }
             None => hermite(k, *h, start, end),
         };
         Ok(Polynomial::new(from.t, *h, P::coefficients(coefficient)))
@@ -250,21 +254,19 @@ impl<P: Pair> Adaptive<P> {
         let (from, slopes) = (memory.origin(), &mut memory.slopes);
         slopes[0] = memory.slope;
         stages::<P, L, F, N, M>(system, &from, h, slopes, (1, P::STAGES), statistics)?;
-        let y = advance(&from.y, h, slopes, P::WEIGHTS);
-        check_finite::<L, N, M>(time, &y)?;
-        let mut next = PhasePoint { t: time, y, velocity: slopes[0][0] };
+        let mut next = PhasePoint { t: time, y: from.y, velocity: slopes[0][0] };
+        advance(&from.y, h, slopes, P::WEIGHTS, &mut next.y);
+        check_finite::<L, N, M>(time, &next.y)?;
         let mut active = from.active;
         if error_needs_last::<P>() {
-            Slope { rates: slopes[last::<P>()], active, .. } =
-                slope::<L, F, N, M>(system, &next, Some(&active), statistics)?;
+            active = slope::<L, F, N, M>(system, &next, Some(&active), &mut slopes[last::<P>()], statistics)?;
         }
         let error = self.check_error(slopes, h, &from.y, &next.y)?;
         if M > 0 {
             next.y = F::phase(system, &F::project(system, &next)?);
         }
         if M > 0 || !error_needs_last::<P>() {
-            Slope { rates: slopes[last::<P>()], active, .. } =
-                slope::<L, F, N, M>(system, &next, None, statistics)?;
+            active = slope::<L, F, N, M>(system, &next, None, &mut slopes[last::<P>()], statistics)?;
         }
         Ok(Reached { y: next.y, error, active })
     }
@@ -298,8 +300,9 @@ impl<P: Pair> Adaptive<P> {
         let h = clock.directed(guess);
         let euler = from_fn(|half| from_fn(|i| y[half][i] + h * first[half][i]));
         let point = PhasePoint { t: clock.now + h, y: euler, velocity: first[0] };
-        match slope::<L, F, N, M>(system, &point, Some(active), statistics) {
-            Ok(second) => self.first_step_from(guess, y, first, &second.rates),
+        let mut second = *first;
+        match slope::<L, F, N, M>(system, &point, Some(active), &mut second, statistics) {
+            Ok(_) => self.first_step_from(guess, y, first, &second),
             Err(_) => guess,
         }
     }
@@ -321,25 +324,26 @@ where
 {
     let mut point = PhasePoint { t: from.t, y: from.y, velocity: slopes[0][0] };
     for (number, row) in rows.iter().enumerate().map(|(i, row)| (first + i, row)) {
-        point.y = advance(&from.y, h, slopes, row);
+        advance(&from.y, h, slopes, row, &mut point.y);
         point.t = from.t + h * L::Scalar::constant(P::NODES[number]);
-        slopes[number] = slope::<L, F, N, M>(system, &point, Some(&from.active), statistics)?.rates;
+        slope::<L, F, N, M>(system, &point, Some(&from.active), &mut slopes[number], statistics)?;
     }
     Ok(())
 }
 
-/// The rates of the phase, counted.
+/// Puts the rates of the phase into `rates`, counted, and gives the constraints that they rest on.
 #[inline]
 fn slope<L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize>(
     system: &L,
     point: &PhasePoint<L::Scalar, N>,
     active: Option<&[bool; M]>,
+    rates: &mut Phase<L::Scalar, N>,
     statistics: &mut Statistics,
-) -> Result<Slope<L::Scalar, N, M>, Error> {
+) -> Result<[bool; M], Error> {
     statistics.evaluations += 1;
-    let slope = F::slope(system, point, active)?;
-    statistics.multipliers_are_unique &= slope.multipliers_are_unique;
-    Ok(slope)
+    let Basis { active, multipliers_are_unique } = F::slope(system, point, active, rates)?;
+    statistics.multipliers_are_unique &= multipliers_are_unique;
+    Ok(active)
 }
 
 fn check_finite<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
