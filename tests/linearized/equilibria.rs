@@ -3,6 +3,8 @@
 use lagrange_core::nalgebra::Vector2;
 use lagrange_core::{Stability, prelude::*};
 
+use crate::TOP;
+
 /// Two bobs between two hinges on three equal rods: the arch of a hanging bridge.
 #[derive(Clone, Lagrangian)]
 #[coordinates(r: [2], s: [2])]
@@ -82,23 +84,10 @@ fn a_rotorcraft_leans_into_the_wind() {
     assert_eq!(anywhere.undetermined(), ["x", "z"]);
 }
 
-/// A heavy symmetric top in Euler angles.
-#[derive(Clone, Lagrangian)]
-#[coordinates(phi, theta, psi)]
-#[lagrangian(i1/2*(theta_dot^2 + phi_dot^2*sin(theta)^2) + i3/2*(psi_dot + phi_dot*cos(theta))^2
-    - m*g*l*cos(theta))]
-struct Top {
-    i1: f64,
-    i3: f64,
-    m: f64,
-    g: f64,
-    l: f64,
-}
-
 /// m g l = φ̇ (I₃ (ψ̇ + φ̇ cos θ) − I₁ φ̇ cos θ) (Goldstein, *Classical Mechanics*, 5.7).
 #[test]
 fn a_top_precesses_steadily_at_an_angle() {
-    let top = Top { i1: 0.3, i3: 0.1, m: 1.2, g: 9.81, l: 0.25 };
+    let top = &TOP;
     let (precession, spin) = (2.0, 15.0);
     let guess = State::new([0.3, 1.0, 0.2], [precession, 0.0, spin]);
     let found = top.equilibrium(&guess, &[]).unwrap();

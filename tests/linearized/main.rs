@@ -12,6 +12,7 @@ mod numbers;
 mod steady;
 
 use lagrange_core::nalgebra::{Complex, DMatrix};
+use lagrange_core::prelude::*;
 
 /// Largest deviation of eigenvalues that are known exactly, in units of the largest.
 const TOLERANCE: f64 = 1e-13;
@@ -38,3 +39,18 @@ fn assert_spectrum(found: &[Complex<f64>], expected: &[Complex<f64>], tolerance:
 fn oscillations(frequencies: &[f64]) -> Vec<Complex<f64>> {
     frequencies.iter().flat_map(|&w| [Complex::new(0.0, w), Complex::new(0.0, -w)]).collect()
 }
+
+/// A heavy symmetric top in Euler angles.
+#[derive(Clone, Lagrangian)]
+#[coordinates(phi, theta, psi)]
+#[lagrangian(i1/2*(theta_dot^2 + phi_dot^2*sin(theta)^2) + i3/2*(psi_dot + phi_dot*cos(theta))^2
+    - m*g*l*cos(theta))]
+struct Top {
+    i1: f64,
+    i3: f64,
+    m: f64,
+    g: f64,
+    l: f64,
+}
+
+const TOP: Top = Top { i1: 0.3, i3: 0.1, m: 1.2, g: 9.81, l: 0.25 };

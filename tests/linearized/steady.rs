@@ -3,6 +3,8 @@
 use lagrange_core::Row;
 use lagrange_core::prelude::*;
 
+use crate::TOP;
+
 /// A pendulum in polar angles.
 #[derive(Clone, Lagrangian)]
 #[coordinates(theta, phi)]
@@ -70,23 +72,10 @@ fn names_of_velocities_are_checked() {
     assert!((rate.powi(2) * 0.5 * theta.cos() / 9.81 - 1.0).abs() < 1e-14, "{found:?}");
 }
 
-/// A heavy symmetric top in Euler angles.
-#[derive(Clone, Lagrangian)]
-#[coordinates(phi, theta, psi)]
-#[lagrangian(i1/2*(theta_dot^2 + phi_dot^2*sin(theta)^2) + i3/2*(psi_dot + phi_dot*cos(theta))^2
-    - m*g*l*cos(theta))]
-struct Top {
-    i1: f64,
-    i3: f64,
-    m: f64,
-    g: f64,
-    l: f64,
-}
-
 /// (I₃ − I₁) cos θ φ̇² + I₃ ψ̇ φ̇ = m g l has a slow and a fast root (Goldstein, *Classical Mechanics*, 5.7).
 #[test]
 fn a_top_precesses_slowly_or_fast() {
-    let top = Top { i1: 0.3, i3: 0.1, m: 1.2, g: 9.81, l: 0.25 };
+    let top = &TOP;
     let (theta, spin) = (1.0_f64, 60.0);
     let (a, b, c) = ((0.1 - 0.3) * theta.cos(), 0.1 * spin, -1.2 * 9.81 * 0.25);
     let root = (b * b - 4.0 * a * c).sqrt();
