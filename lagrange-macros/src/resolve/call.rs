@@ -5,6 +5,7 @@ use num_traits::Signed;
 use super::lower::{Definition, Lowering, Setting};
 use super::quaternion;
 use super::scope::Entity;
+use super::unknown::{nearest, or_meant};
 use super::value::{Value, cross};
 use crate::diagnostics::Place;
 use crate::symbolic::{Function, Id, Rational, Scaled};
@@ -182,8 +183,7 @@ impl Lowering<'_> {
     fn multiplier(&mut self, constraint: &Name, index: Option<i128>) -> Option<Value> {
         let Some(group) = self.multipliers.iter().find(|group| group.name == constraint.text) else {
             let names = self.multipliers.iter().map(|group| group.name.as_str());
-            let near = super::unknown::nearest(&constraint.text, names);
-            let advice = near.map(|near| format!(": did you mean `{near}`?")).unwrap_or_default();
+            let advice = or_meant(nearest(&constraint.text, names));
             return self
                 .report(constraint.place, format!("no constraint is called `{}`{advice}", constraint.text));
         };

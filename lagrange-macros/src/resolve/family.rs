@@ -250,9 +250,7 @@ impl Lowering<'_> {
             Definition::Value(value) => Some(value.clone()),
             Definition::Wrong => None,
             Definition::Pending => self.too_early(first, name),
-            Definition::Function => {
-                self.report(name.place, format!("`{text}` is a function: write `{text}(…)`"))
-            }
+            Definition::Function => self.without_parentheses(name),
             Definition::Family(elements) => match (0..elements.len()).find(|i| !elements.contains_key(i)) {
                 Some(i) => {
                     self.report(name.place, format!("`{text}` is no vector: `{text}[{i}]` is missing"))

@@ -3,7 +3,7 @@
 use num_traits::Zero;
 
 use super::parameters::Parameters;
-use super::scope::{Entity, Scope};
+use super::scope::{Entity, Scope, is_built_in};
 use super::value::Value;
 use crate::diagnostics::{Diagnostics, Place, fault_message};
 use crate::symbolic::{Fault, Forward, Graph, Id, Rational};
@@ -222,9 +222,7 @@ impl<'a> Lowering<'a> {
         match name.text.as_str() {
             "t" => return Some(Value::Scalar(self.graph.symbol(Variable::Time.symbol()))),
             "pi" => return Some(Value::Scalar(self.graph.pi())),
-            text if super::scope::is_built_in(text) => {
-                return self.report(name.place, format!("`{text}` is a function: write `{text}(…)`"));
-            }
+            text if is_built_in(text) => return self.without_parentheses(name),
             _ => {}
         }
         match self.scope.get(&name.text) {
@@ -235,12 +233,14 @@ impl<'a> Lowering<'a> {
             Some(Entity::Velocity(index)) => Some(self.variable(index, Variable::Velocity)),
             Some(Entity::Acceleration(index)) => self.acceleration(index, name.place),
             Some(Entity::Definition(index)) => self.definition(index, name),
-            Some(Entity::Function(_)) => {
-                let text = &name.text;
-                self.report(name.place, format!("`{text}` is a function: write `{text}(…)`"))
-            }
+            Some(Entity::Function(_)) => self.without_parentheses(name),
             None => self.observable(name),
         }
+    }
+
+    pub(super) fn without_parentheses<T>(&mut self, name: &Name) -> Option<T> {
+        let text = &name.text;
+        self.report(name.place, format!("`{text}` is a function: write `{text}(…)`"))
     }
 
     fn variable(&mut self, index: usize, variable: fn(usize) -> Variable) -> Value {

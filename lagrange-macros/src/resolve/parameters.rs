@@ -3,7 +3,7 @@
 use indexmap::IndexSet;
 use quote::ToTokens;
 
-use super::unknown::nearest;
+use super::unknown::{nearest, or_meant};
 use super::value::Value;
 use crate::diagnostics::{Diagnostics, Place};
 use crate::symbolic::Graph;
@@ -57,8 +57,7 @@ impl Parameters {
             let name = &parameter.name;
             let Some(index) = parameters.fields.iter().position(|field| field.name.text == name.text) else {
                 let fields = parameters.fields.iter().map(|field| field.name.text.as_str());
-                let near = nearest(&name.text, fields);
-                let advice = near.map(|near| format!(": did you mean `{near}`?")).unwrap_or_default();
+                let advice = or_meant(nearest(&name.text, fields));
                 diagnostics.error(name.place, format!("there is no field `{}`{advice}", name.text));
                 continue;
             };

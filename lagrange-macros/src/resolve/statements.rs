@@ -5,7 +5,7 @@ use rustc_hash::FxHashMap;
 
 use super::lower::{Definition, Lowering, MultiplierGroup, Setting, is_literal_zero};
 use super::scope::Entity;
-use super::unknown::nearest;
+use super::unknown::{nearest, or_meant};
 use super::value::Value;
 use super::{Label, element_name, entry_names};
 use crate::contract::is_reserved;
@@ -62,7 +62,7 @@ impl Lowering<'_> {
                     Some(Entity::Velocity(index)) => Some(self.coordinates[index].name.text.as_str()),
                     _ => nearest(&name.text, coordinates),
                 };
-                let advice = near.map(|near| format!(": did you mean `{near}`?")).unwrap_or_default();
+                let advice = or_meant(near);
                 let message = format!("a force acts on a coordinate, and `{}` is none{advice}", name.text);
                 self.diagnostics.error(name.place, message);
                 continue;

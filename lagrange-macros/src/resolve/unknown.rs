@@ -178,6 +178,11 @@ fn did_you_mean(name: &str) -> String {
     format!("did you mean `{name}`?")
 }
 
+/// The end of a message, if something is near.
+pub(super) fn or_meant(near: Option<&str>) -> String {
+    near.map(|near| format!(": {}", did_you_mean(near))).unwrap_or_default()
+}
+
 /// `Sin` where a value belongs.
 fn is_function(text: &str) -> Option<String> {
     let function = functions().find(|function| function.eq_ignore_ascii_case(text))?;

@@ -28,17 +28,15 @@ pub(super) struct Closure {
 impl Distribution {
     /// `None` where the constraints contradict each other or have no values.
     pub(super) fn new(space: &mut Space, velocity: &[Form]) -> Option<Self> {
-        let mut rows = [&space.holonomic, velocity].concat();
-        let mut pivots = Vec::new();
-        pivot_all(space, &mut rows, 0..space.holonomic.len(), &mut pivots);
-        let holonomic = pivots.len();
-        let all = 0..rows.len();
-        pivot_all(space, &mut rows, all, &mut pivots);
+        let (holonomic, rows) = (space.holonomic.len(), [&space.holonomic, velocity].concat());
+        let mut elimination = Elimination { space, rows, pivots: Vec::new() };
+        elimination.pivot_all(holonomic);
+        let holonomic = elimination.pivots.len();
+        elimination.pivot_all(elimination.rows.len());
+        let rest = (0..elimination.rows.len()).filter(|&row| !elimination.is_pivot(row));
+        let left: Vec<Id> = rest.flat_map(|row| elimination.rows[row].clone()).collect();
+        let Elimination { space, rows, pivots } = elimination;
         space.settled()?;
-        let left: Vec<Id> = (0..rows.len())
-            .filter(|row| pivots.iter().all(|(used, _)| used != row))
-            .flat_map(|row| rows[row].clone())
-            .collect();
         let (dependent, evidence) = space.vanish(&left)?;
         let columns: Vec<usize> = pivots.iter().map(|&(_, column)| column).collect();
         let free = (0..space.symbols.len()).filter(|column| !columns.contains(column));
@@ -75,7 +73,8 @@ impl Distribution {
     pub(super) fn curl(&self, space: &mut Space, form: &Form) -> Vec<Id> {
         let applied = self.applied(space, form);
         let active = self.active(space, &applied);
-        let mut along: Vec<Forward> = self.fields.iter().map(|field| self.direction(space, field)).collect();
+        let directions = self.fields.iter().map(|(free, parts)| self.direction(space, Some(*free), parts));
+        let mut along: Vec<Forward> = directions.collect();
         let mut curl = Vec::new();
         for (position, &i) in active.iter().enumerate() {
             for &j in &active[..position] {
@@ -91,9 +90,11 @@ impl Distribution {
     /// everything that the holonomic constraints leave is reached.
     pub(super) fn closure(&self, space: &mut Space) -> Option<Closure> {
         let active = self.active(space, &[]);
-        let mut parts: Vec<Vec<Id>> = active.iter().map(|&i| self.fields[i].1.clone()).collect();
+        let (free, mut parts): (Vec<usize>, Vec<Vec<Id>>) =
+            active.iter().map(|&i| self.fields[i].clone()).unzip();
+        let directions = free.into_iter().zip(&parts);
         let mut along: Vec<Forward> =
-            active.iter().map(|&i| self.direction(space, &self.fields[i])).collect();
+            directions.map(|(free, parts)| self.direction(space, Some(free), parts)).collect();
         let generators = along.len();
         let mut pending: VecDeque<(usize, usize)> =
             (0..generators).flat_map(|j| (0..j).map(move |i| (i, j))).collect();
@@ -117,7 +118,7 @@ impl Distribution {
                 evidence = evidence.and(Evidence::Held(points));
                 continue;
             }
-            along.push(self.direction_along_pivots(space, &bracket));
+            along.push(self.direction(space, None, &bracket));
             pending.extend((0..generators).map(|i| (i, parts.len())));
             parts.push(bracket);
         }
@@ -145,13 +146,10 @@ impl Distribution {
         (0..self.fields.len()).filter(is_active).collect()
     }
 
-    fn direction(&self, space: &Space, (free, parts): &(usize, Vec<Id>)) -> Forward {
+    /// Along a free variable, if any, and the pivots.
+    fn direction(&self, space: &Space, free: Option<usize>, parts: &[Id]) -> Forward {
         let along = self.pivots.iter().map(|&pivot| space.symbols[pivot]).zip(parts.iter().copied());
-        Forward::along(along.chain([(space.symbols[*free], Id::ONE)]))
-    }
-
-    fn direction_along_pivots(&self, space: &Space, parts: &[Id]) -> Forward {
-        Forward::along(self.pivots.iter().map(|&pivot| space.symbols[pivot]).zip(parts.iter().copied()))
+        Forward::along(along.chain(free.map(|free| (space.symbols[free], Id::ONE))))
     }
 }
 
@@ -160,46 +158,52 @@ fn rates(space: &mut Space, along: &mut Forward, parts: &[Id]) -> Vec<Id> {
     parts.iter().map(|&part| along.of(&mut space.graph, part)).collect()
 }
 
-/// Gauss–Jordan elimination with pivots in `among`, none in time's column, as far as there are pivots.
-fn pivot_all(
-    space: &mut Space,
-    rows: &mut [Form],
-    among: std::ops::Range<usize>,
-    pivots: &mut Vec<(usize, usize)>,
-) {
-    while let Some((row, column)) = best_pivot(space, rows, among.clone(), pivots) {
-        let pivot = rows[row][column];
-        let unit: Form = rows[row].iter().map(|&entry| space.graph.div(entry, pivot)).collect();
-        rows[row] = unit.clone();
-        for (_, entries) in rows.iter_mut().enumerate().filter(|&(other, _)| other != row) {
-            let factor = entries[column];
-            for (entry, &above) in entries.iter_mut().zip(&unit) {
-                let product = space.graph.mul(factor, above);
-                *entry = space.graph.sub(*entry, product);
-            }
-            entries[column] = Id::ZERO;
-        }
-        pivots.push((row, column));
-    }
+/// Forms that are being solved for the directions that they allow, each for a variable.
+struct Elimination<'a> {
+    space: &'a mut Space,
+    rows: Vec<Form>,
+    /// Row and column of each.
+    pivots: Vec<(usize, usize)>,
 }
 
-/// A number where there is one, else what is not zero at the most points.
-fn best_pivot(
-    space: &mut Space,
-    rows: &[Form],
-    among: std::ops::Range<usize>,
-    pivots: &[(usize, usize)],
-) -> Option<(usize, usize)> {
-    let mut best = None;
-    for row in among.filter(|row| pivots.iter().all(|(used, _)| used != row)) {
-        let entries = rows[row].iter().enumerate().take(space.symbols.len() - 1);
-        for (column, &entry) in entries.filter(|&(_, &entry)| entry != Id::ZERO) {
-            let points = space.values(&[entry]).iter().filter(|value| value[0].excludes_zero()).count();
-            let key = (space.graph.as_number(entry).is_some(), points);
-            if points > 0 && best.is_none_or(|(known, _)| key > known) {
-                best = Some((key, (row, column)));
+impl Elimination<'_> {
+    /// Gauss–Jordan elimination with pivots in the first `count` rows, none in time's column, as far as there are pivots.
+    fn pivot_all(&mut self, count: usize) {
+        while let Some((row, column)) = self.best_pivot(count) {
+            let graph = &mut self.space.graph;
+            let pivot = self.rows[row][column];
+            let unit: Form = self.rows[row].iter().map(|&entry| graph.div(entry, pivot)).collect();
+            self.rows[row] = unit.clone();
+            for (_, entries) in self.rows.iter_mut().enumerate().filter(|&(other, _)| other != row) {
+                let factor = entries[column];
+                for (entry, &above) in entries.iter_mut().zip(&unit) {
+                    let product = graph.mul(factor, above);
+                    *entry = graph.sub(*entry, product);
+                }
+                entries[column] = Id::ZERO;
             }
+            self.pivots.push((row, column));
         }
     }
-    best.map(|(_, place)| place)
+
+    fn is_pivot(&self, row: usize) -> bool {
+        self.pivots.iter().any(|&(used, _)| used == row)
+    }
+
+    /// A number where there is one, else what is not zero at the most points.
+    fn best_pivot(&mut self, count: usize) -> Option<(usize, usize)> {
+        let mut best = None;
+        for row in (0..count).filter(|&row| !self.is_pivot(row)).collect::<Vec<_>>() {
+            let entries = self.rows[row].iter().enumerate().take(self.space.symbols.len() - 1);
+            for (column, &entry) in entries.filter(|&(_, &entry)| entry != Id::ZERO) {
+                let values = self.space.values(&[entry]);
+                let points = values.iter().filter(|value| value[0].excludes_zero()).count();
+                let key = (self.space.graph.as_number(entry).is_some(), points);
+                if points > 0 && best.is_none_or(|(known, _)| key > known) {
+                    best = Some((key, (row, column)));
+                }
+            }
+        }
+        best.map(|(_, place)| place)
+    }
 }
