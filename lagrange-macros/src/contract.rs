@@ -168,7 +168,7 @@ const CONSTANTS: [&str; 10] = [
 ];
 
 /// What every system has beside: methods of `Simulate`, `Hamiltonian`, `StateDerivatives` and `Linearized`.
-const PROVIDED: [&str; 18] = [
+const PROVIDED: [&str; 20] = [
     "solve",
     "check_consistent",
     "make_consistent",
@@ -176,10 +176,12 @@ const PROVIDED: [&str; 18] = [
     "state_from",
     "integrate",
     "integrate_with",
+    "integrate_towards",
     "hamiltonian",
     "hamilton_equations",
     "integrate_hamiltonian",
     "integrate_hamiltonian_with",
+    "integrate_hamiltonian_towards",
     "legendre",
     "legendre_near",
     "phase_state",
