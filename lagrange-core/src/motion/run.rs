@@ -59,6 +59,7 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
     }
 
     /// One accepted step towards the end.
+    #[inline]
     pub(crate) fn step<L, F, P, const M: usize>(
         &mut self,
         system: &L,

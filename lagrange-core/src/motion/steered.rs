@@ -150,6 +150,7 @@ where
     /// # Errors
     /// Why the motion stops before; it is then at the last state reached, and can go on from there. A system that has been
     /// changed so that the state violates a constraint is [`Ending::Unsolved`].
+    #[inline]
     pub fn advance_to(&mut self, end: L::Scalar) -> Result<(), Ending> {
         self.refresh(end)?;
         let limits = Watchdog::new(self.method.limits(), &self.run.statistics);
@@ -258,6 +259,7 @@ where
         self.at(t).map_err(|error| Ending::of(error, now))
     }
 
+    #[inline]
     fn step(&mut self, end: L::Scalar, limits: &Watchdog) -> Result<(), Ending> {
         self.interpolant = None;
         let stepped = self.run.step(&self.system, &self.method, end, limits);
@@ -267,6 +269,7 @@ where
     }
 
     /// Tells the method what has been changed, and checks where to go.
+    #[inline]
     fn refresh(&mut self, end: L::Scalar) -> Result<(), Ending> {
         let time = self.run.state.t.to_f64();
         super::run::check_end(end).map_err(|error| Ending::of(error, time))?;
@@ -277,6 +280,7 @@ where
         Ok(())
     }
 
+    #[inline]
     fn resume(&mut self) -> Result<(), Error> {
         let Run { memory, state, statistics, .. } = &mut self.run;
         if M > 0 {
