@@ -27,12 +27,14 @@ fn all<L: Lagrangian<3, 1, Scalar = f64>>(system: &L) -> String {
     let solution = &system.accelerations(state);
     let constants = (
         (L::NAME, L::COORDINATES, L::CONSTRAINTS, L::CONSTRAINT_KINDS, L::OBSERVABLES),
-        (L::CONSTRAINT_CLASSES, L::INTEGRALS, L::FACTS),
+        (L::CONSTRAINT_CLASSES, L::INTEGRALS, L::MOMENTA_ARE_LINEAR, L::FACTS),
     );
     let numbers = (
         (system.lagrangian(state), system.energy(state), system.momentum(state), system.momentum_rate(state)),
         (system.mass_matrix(state), system.forcing(state), solution),
         (system.constraint_residual(state), system.constraint_rate(state), system.constraint_jacobian(state)),
+        (system.residual_magnitude(state), system.rate_magnitude(state)),
+        system.solve_with(&system.factor(state), &system.forcing(state), &system.constraint_bias(state)),
         (system.constraint_bias(state), system.constraint_force(state, &solution.multipliers)),
         [0, 1].map(|index| system.constraint_integral(index, state)),
         [0, 1, 2].map(|index| system.observable(index, state, solution)),
@@ -47,6 +49,7 @@ fn pointers_forward_everything() {
     assert!(Sphere::<f64>::INTEGRALS.is_some() && !Sphere::<f64>::OBSERVABLES.is_empty());
     assert_ne!(Sphere::<f64>::CONSTRAINT_CLASSES[0], Classification::UNDECIDED);
     assert!(SPHERE.constraint_integral(0, &State::at_rest([1.0; 3])).is_some());
+    const { assert!(Sphere::<f64>::MOMENTA_ARE_LINEAR) };
     let whole = all(&SPHERE);
     for behind in
         [all(&&SPHERE), all(&&&SPHERE), all(&Box::new(SPHERE)), all(&Rc::new(SPHERE)), all(&Arc::new(SPHERE))]
