@@ -26,7 +26,8 @@ fn a_chain_of_rods_is_solved_in_linearly_many_operations() {
     println!("operations of the accelerations and all multipliers, 5 to 25 rods: {counts:?}");
     // But for a sign more or less, where results are added in pairs.
     assert!(counts.windows(3).all(|c| (c[2] + c[0]).abs_diff(2 * c[1]) <= 1), "{counts:?}");
-    assert!(counts[3] <= 45 * 20, "{counts:?}");
+    // Three results a rod take one sum each more, which makes them none where the pivots are too small.
+    assert!(counts[3] <= (45 + 3) * 20, "{counts:?}");
 }
 
 /// The articulated-body algorithm, found from the definitions of the links' velocities.
@@ -41,16 +42,16 @@ fn a_chain_in_angles_is_solved_in_linearly_many_operations() {
     }
     expect![[r#"
         links: M, over definitions; before the passes and after each
-        2: Some([91, 89, 82, 82, 82]), Some([85, 78, 75, 73, 73])
-        3: Some([162, 160, 151, 151, 151]), Some([154, 145, 136, 134, 134])
-        5: Some([360, 358, 345, 345, 345]), Some([282, 269, 252, 250, 250])
-        8: Some([827, 825, 806, 806, 806]), Some([474, 455, 426, 424, 424])
-        10: Some([1275, 1273, 1250, 1250, 1250]), Some([602, 579, 542, 540, 540])
-        12: Some([1851, 1849, 1822, 1822, 1822]), Some([730, 703, 658, 656, 656])
-        14: Some([2571, 2569, 2538, 2538, 2538]), Some([858, 827, 774, 772, 772])
-        16: Some([3451, 3449, 3414, 3414, 3414]), Some([986, 951, 890, 888, 888])
-        18: Some([4507, 4505, 4466, 4466, 4466]), Some([1114, 1075, 1006, 1004, 1004])
-        20: None, Some([1242, 1199, 1122, 1120, 1120])
+        2: Some([95, 93, 85, 85, 85]), Some([89, 82, 78, 76, 76])
+        3: Some([167, 165, 155, 155, 155]), Some([159, 150, 140, 138, 138])
+        5: Some([367, 365, 351, 351, 351]), Some([289, 276, 258, 256, 256])
+        8: Some([837, 835, 815, 815, 815]), Some([484, 465, 435, 433, 433])
+        10: Some([1287, 1285, 1261, 1261, 1261]), Some([614, 591, 553, 551, 551])
+        12: Some([1865, 1863, 1835, 1835, 1835]), Some([744, 717, 671, 669, 669])
+        14: Some([2587, 2585, 2553, 2553, 2553]), Some([874, 843, 789, 787, 787])
+        16: Some([3469, 3467, 3431, 3431, 3431]), Some([1004, 969, 907, 905, 905])
+        18: Some([4527, 4525, 4485, 4485, 4485]), Some([1134, 1095, 1025, 1023, 1023])
+        20: None, Some([1264, 1221, 1143, 1141, 1141])
     "#]]
     .assert_eq(&table);
     let chains = &over_definitions[4..];
@@ -60,7 +61,7 @@ fn a_chain_in_angles_is_solved_in_linearly_many_operations() {
 #[test]
 fn a_dense_mass_matrix_is_unrolled_while_that_is_short() {
     let count = |n, form: usize| last(&counts(&systems::chain(n))[form]);
-    assert!(count(10, 0).is_some_and(|count| count <= 1250), "{:?}", count(10, 0));
+    assert!(count(10, 0).is_some_and(|count| count <= 1250 + 10 + 1), "{:?}", count(10, 0));
     // Loops over 60 × 60 entries do many times as much as the form that is sparse.
     assert_eq!(count(60, 0), None);
     assert!(count(60, 1).is_some());
