@@ -5,7 +5,7 @@ use core::array::from_fn;
 
 use nalgebra::{DMatrix, DVector, SVector};
 
-use super::tangent::Tangent;
+use super::tangent::{Matrices, Tangent};
 use super::{Direction, Linearized, StateDerivatives};
 use crate::error::Error;
 use crate::names::Entry;
@@ -118,9 +118,9 @@ where
             // Another place turns the constraints: the velocity must follow.
             let entry = lookup::entry::<L, N, M>(q.icamax());
             let turned = self.change(&Direction { q, ..Direction::zero() }, entry)?;
-            changes.push([q, self.factors.rows.least(&turned.rate.into())]);
+            changes.push([q, self.matrices().factors.rows.least(&turned.rate.into())]);
         }
-        changes.extend(self.factors.rows.null_space().map(|v| [zero, v]));
+        changes.extend(self.matrices().factors.rows.null_space().map(|v| [zero, v]));
         let columns: Vec<_> = changes
             .iter()
             .map(|[q, v]| {
@@ -137,13 +137,13 @@ where
 
     /// The rows of the holonomic constraints alone.
     fn holonomic_rows(&self) -> Rows<L::Scalar, N, M> {
-        let mut f = self.f;
+        let mut f = self.matrices().f;
         for (row, kind) in f.iter_mut().zip(L::CONSTRAINT_KINDS) {
             if kind == ConstraintKind::Velocity {
                 *row = [L::Scalar::constant(0.0); N];
             }
         }
-        Rows::of(&self.m, &f, Rank::off_constraints())
+        Rows::of(&self.matrices().m, &f, Rank::off_constraints())
     }
 
     /// An input that shifts a constraint has no state, or no acceleration, on it beside the one given.
@@ -169,7 +169,7 @@ where
     /// Accelerations and multipliers at the state; no accelerations where they are nothing but round-off, of forces that
     /// balance to √ε of their terms in the units in which masses are 1.
     fn without_round_off(&self) -> Result<Solution<L::Scalar, N, M>, Error> {
-        let Tangent { state, solution, m, f, factors, .. } = self;
+        let (Tangent { state, solution, .. }, Matrices { m, f, factors }) = (self, self.matrices());
         let zero = L::Scalar::constant(0.0);
         let strongest = |force: &dyn Fn(usize) -> L::Scalar| {
             largest(&from_fn::<_, N, _>(|i| force(i) * factors.rows.units.coordinates[i]))

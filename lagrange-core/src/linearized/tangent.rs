@@ -1,5 +1,7 @@
 //! How accelerations and multipliers change along a direction: K δ(q̈, λ) = −∂R, with one factorization for all.
 
+use core::cell::OnceCell;
+
 use nalgebra::{ComplexField, SVector};
 
 use super::direction::unit;
@@ -8,7 +10,7 @@ use crate::error::Error;
 use crate::names::Entry;
 use crate::number::Real;
 use crate::solution::kkt::{Factors, Rank};
-use crate::solution::solve::{fault, first_row, solve};
+use crate::solution::solve::{fault, first_row, is_trustworthy, solve};
 use crate::system::{Lagrangian, Solution, State};
 
 /// The equations of motion at a state, solved and factorized.
@@ -16,12 +18,19 @@ pub(super) struct Tangent<'a, L: Lagrangian<N, M>, const N: usize, const M: usiz
     system: &'a L,
     pub(super) state: &'a State<L::Scalar, N>,
     pub(super) solution: Solution<L::Scalar, N, M>,
-    /// The mass matrix and the constraint Jacobian, row by row.
+    factor: L::Factor,
+    matrices: OnceCell<Matrices<L::Scalar, N, M>>,
+}
+
+/// What the emitted factor does not tell, or cannot vouch for.
+pub(super) struct Matrices<T, const N: usize, const M: usize> {
+    /// The mass matrix, row by row.
     #[cfg(feature = "alloc")]
-    pub(super) m: [[L::Scalar; N]; N],
+    pub(super) m: [[T; N]; N],
+    /// The constraint Jacobian, row by row.
     #[cfg(feature = "alloc")]
-    pub(super) f: [[L::Scalar; N]; M],
-    pub(super) factors: Factors<L::Scalar, N, M>,
+    pub(super) f: [[T; N]; M],
+    pub(super) factors: Factors<T, N, M>,
 }
 
 impl<'a, L, const N: usize, const M: usize> Tangent<'a, L, N, M>
@@ -29,20 +38,24 @@ where
     L: StateDerivatives<N, M, Scalar: Real>,
 {
     pub(super) fn at(system: &'a L, state: &'a State<L::Scalar, N>) -> Result<Self, Error> {
-        let solution = solve(system, state)?;
-        let m = system.mass_matrix(state).into();
-        let f = system.constraint_jacobian(state).transpose().into();
-        // A change that leaves the constraints may make dependent ones disagree: those left out do not count.
-        let factors = Factors::of(&m, &f, Rank::off_constraints());
-        Ok(Self {
-            system,
-            state,
-            solution,
-            #[cfg(feature = "alloc")]
-            m,
-            #[cfg(feature = "alloc")]
-            f,
-            factors,
+        let (solution, factor) = (solve(system, state)?, system.factor(state));
+        Ok(Self { system, state, solution, factor, matrices: OnceCell::new() })
+    }
+
+    /// Made where they are asked for.
+    pub(super) fn matrices(&self) -> &Matrices<L::Scalar, N, M> {
+        self.matrices.get_or_init(|| {
+            let m = self.system.mass_matrix(self.state).into();
+            let f = self.system.constraint_jacobian(self.state).transpose().into();
+            // A change that leaves the constraints may make dependent ones disagree: those left out do not count.
+            let factors = Factors::of(&m, &f, Rank::off_constraints());
+            Matrices {
+                #[cfg(feature = "alloc")]
+                m,
+                #[cfg(feature = "alloc")]
+                f,
+                factors,
+            }
         })
     }
 
@@ -70,9 +83,14 @@ where
         change: &ResidualChange<L::Scalar, N, M>,
         entry: Entry,
     ) -> Result<Solution<L::Scalar, N, M>, Error> {
-        let (h, gamma) = ((-change.motion).into(), change.acceleration.into());
-        let time = self.state.t.to_f64();
-        let solution = self.factors.solve(&h, &gamma).map_err(|found| fault::<L, N, M>(&found, time))?;
+        let (h, gamma) = (-change.motion, change.acceleration);
+        let fast = self.system.solve_with(&self.factor, &h, &gamma);
+        if is_trustworthy(&fast) {
+            return Ok(fast);
+        }
+        let (time, factors) = (self.state.t.to_f64(), &self.matrices().factors);
+        let solution =
+            factors.solve(&h.into(), &gamma.into()).map_err(|found| fault::<L, N, M>(&found, time))?;
         self.check_finite(&solution.accelerations, &[solution.multipliers], entry)?;
         Ok(solution)
     }
