@@ -52,7 +52,7 @@ fn random(count: usize) -> Vec<f64> {
 
 fn evaluate<L: Lagrangian<2, 0>>(system: &L, states: &[State<L::Scalar, 2>]) {
     for state in states {
-        black_box(black_box(system).accelerations(black_box(state)));
+        black_box(black_box(system).accelerations_unchecked(black_box(state)));
     }
 }
 

@@ -104,7 +104,7 @@ impl<const N: usize, const M: usize, const H: usize> Lagrangian<N, M> for Mechan
         self.constraint_jacobian(state).tr_mul(multipliers)
     }
 
-    fn accelerations(&self, state: &At<N>) -> Solution<f64, N, M> {
+    fn accelerations_unchecked(&self, state: &At<N>) -> Solution<f64, N, M> {
         eliminate((self.mass)(state), (self.forcing)(state), (self.jacobian)(state), (self.bias)(state))
     }
 

@@ -331,5 +331,5 @@ assert!(path.drift().iter().all(|quantity| quantity.largest < 1e-6));
 //! struct Spring<T> { m: T, k: T }
 //!
 //! let single = Spring { m: 1.0_f32, k: 4.0 };
-//! assert_eq!(single.accelerations(&State::new([0.5], [0.0])).accelerations[0], -2.0);
+//! assert_eq!(single.accelerations_unchecked(&State::new([0.5], [0.0])).accelerations[0], -2.0);
 //! ```

@@ -126,7 +126,7 @@ pub(crate) const LAGRANGIAN: [Method; 19] = [
     of_state(Quantity::Bias, "constraint_bias", Vector(Constraints)),
     method(Quantity::Integral, "constraint_integral", &[System, Index, State], Optional),
     method(Quantity::ConstraintForce, "constraint_force", &[System, State, Multipliers], Vector(Coordinates)),
-    of_state(Quantity::Accelerations, "accelerations", Gives::Solution),
+    of_state(Quantity::Accelerations, "accelerations_unchecked", Gives::Solution),
     of_state(Quantity::Factor, "factor", Gives::Factor),
     method(Quantity::Solve, "solve_with", &[System, Argument::Factor, Forcing, Bias], Gives::Solution),
     method(Quantity::Observable, "observable", &[System, Index, State, Solution], Optional),

@@ -39,7 +39,7 @@ impl Rotating {
     }
 
     fn force(&self, state: &State<f64, 3>) -> Vector3<f64> {
-        self.m * self.accelerations(state).accelerations
+        self.m * self.accelerations_unchecked(state).accelerations
     }
 
     fn angular_velocity(&self, t: f64) -> Vector3<f64> {

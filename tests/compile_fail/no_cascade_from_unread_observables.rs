@@ -15,7 +15,7 @@ struct System {
 fn main() {
     let system = System { m: 1.0 };
     let state = State::at_rest([0.0, 0.0]);
-    let solution = system.accelerations(&state);
+    let solution = system.accelerations_unchecked(&state);
     println!("{} {}", system.pair(&state)[1], system.push(&state, &solution));
     println!("{} {}", system.thrusts(&state, &solution)[2], system.speed(&state));
 }

@@ -23,7 +23,7 @@ struct System {
 fn main() {
     let system = System { m: 1.0 };
     let state = State::at_rest([0.0, 0.0]);
-    let solution = system.accelerations(&state);
+    let solution = system.accelerations_unchecked(&state);
     println!("{}", system.push(&state, &solution)[1] + system.first(&state, &solution));
     println!("{}", system.thrust(&state, &solution) + system.change(&state, &solution));
     println!("{}", system.motion(&state) + system.fast(&state, &solution));

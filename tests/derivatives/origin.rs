@@ -39,7 +39,7 @@ fn constraints() {
 #[test]
 fn a_singular_mass_matrix_shows_in_the_pivot() {
     let pendulum = PolarPendulum { m: 1.0, g: 1.0, l: 1.0 };
-    let pivot = pendulum.accelerations(&State::at_rest([0.0, 0.0])).pivot;
+    let pivot = pendulum.accelerations_unchecked(&State::at_rest([0.0, 0.0])).pivot;
     assert!(pivot.is_nan() || pivot <= 0.0, "{pivot}");
 }
 

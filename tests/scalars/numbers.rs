@@ -37,7 +37,7 @@ const INPUTS: [Inputs; 4] = [
 fn everything<T: Scalar>([m, g, l, k, t, x, y, vx, vy]: [T; 9]) -> Vec<T> {
     let pendulum = Pendulum { m, g, l, k };
     let state = State::new([x, y], [vx, vy]).at_time(t);
-    let solution = pendulum.accelerations(&state);
+    let solution = pendulum.accelerations_unchecked(&state);
     let mut all = vec![pendulum.lagrangian(&state), solution.pivot];
     all.extend(&pendulum.momentum(&state));
     all.extend(&pendulum.mass_matrix(&state));
@@ -76,7 +76,7 @@ fn observables_are_what_they_say() {
     let [m, g, l, k, t, x, y, vx, vy] = INPUTS[0];
     let pendulum = Pendulum { m, g, l, k };
     let state = State::new([x, y], [vx, vy]).at_time(t);
-    let solution = pendulum.accelerations(&state);
+    let solution = pendulum.accelerations_unchecked(&state);
     let length = l * (1.0 + (-t).exp() / 4.0);
     assert!((pendulum.height(&state) - (y + length)).abs() < 1e-15);
     let tension = -solution.multipliers[0] * length;
@@ -153,7 +153,7 @@ fn the_derivative_of_an_acceleration_is_exact() {
     let (g, l, theta) = (9.81, 1.3, 0.8_f64);
     let at = |length: Dual64, angle: Dual64| {
         let plane = Plane { m: Dual64::from_re(2.0), g: Dual64::from_re(g), l: length };
-        plane.accelerations(&State::at_rest([angle])).accelerations[0].eps
+        plane.accelerations_unchecked(&State::at_rest([angle])).accelerations[0].eps
     };
     let by_length = at(Dual64::new(l, 1.0), Dual64::from_re(theta));
     let by_angle = at(Dual64::from_re(l), Dual64::new(theta, 1.0));

@@ -13,7 +13,7 @@ COUNT = re.compile(r'#\[doc = "(\d+) operations? \([^"]*\), (\d+) elementary fun
 
 
 def emitted():
-    """The counts that stand in the documentation of the emitted `accelerations`, by the name of the struct."""
+    """The counts that stand in the documentation of the emitted `accelerations_unchecked`, by the name of the struct."""
     # The expansion is printed when the crate is compiled, so it must be compiled anew.
     (HERE / "ours" / "src" / "lib.rs").touch()
     printed = subprocess.run(
@@ -31,10 +31,10 @@ def emitted():
 
 def counted(expansion):
     """As the documentation says it; where the solution is left to loops, that is without the solution."""
-    before, _, body = expansion.partition("fn accelerations(")
+    before, _, body = expansion.partition("fn accelerations_unchecked(")
     found = COUNT.findall(before)
     if not found:
-        raise Missing("the emitted `accelerations` do not say what they take")
+        raise Missing("the emitted `accelerations_unchecked` does not say what they take")
     count = " / ".join(found[-1])
     is_loops = "generated::eliminate(" in body.split("\n        }\n")[0]
     return count + " + loops" if is_loops else count

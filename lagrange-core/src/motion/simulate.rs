@@ -22,8 +22,8 @@ use crate::trajectory::Trajectory;
 pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Real> + Sized {
     /// Accelerations and multipliers at a state.
     ///
-    /// Those of [`accelerations`](Lagrangian::accelerations) where its smallest pivot exceeds ε^(1/3) (6·10⁻⁶ for
-    /// `f64`), which costs at most a third of the digits. Else the general solve by null space, which copes with a
+    /// Those of [`accelerations_unchecked`](Lagrangian::accelerations_unchecked) where its smallest pivot exceeds ε^(1/3)
+    /// (6·10⁻⁶ for `f64`), which costs at most a third of the digits. Else the general solve by null space, which copes with a
     /// mass matrix that is singular or indefinite and with constraints that depend on one another;
     /// [`Solution::multipliers_are_unique`] tells the latter.
     ///

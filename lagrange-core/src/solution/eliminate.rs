@@ -164,7 +164,7 @@ impl<T: Scalar, const K: usize> Ldl<T, K> {
 }
 
 /// Zero where the least and the greatest of what pivots were over what they are leave two thirds of the digits of the
-/// scalar, which is [`least_pivot`](super::solve::least_pivot); else NaN, lane by lane.
+/// scalar, which is `least_pivot`; else NaN, lane by lane.
 #[inline]
 pub fn doubt<T: Scalar>(least: T, most: T) -> T {
     let [zero, one, nan] = [0.0, 1.0, f64::NAN].map(T::constant);

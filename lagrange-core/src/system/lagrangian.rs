@@ -106,10 +106,11 @@ pub trait Lagrangian<const N: usize, const M: usize> {
         multipliers: &SVector<Self::Scalar, M>,
     ) -> SVector<Self::Scalar, N>;
 
-    /// Accelerations and multipliers at once, without a decision: on SIMD lanes nothing can branch, so a system
-    /// that the elimination cannot solve shows in [`Solution::pivot`]. [`solve`](crate::Simulate::solve) checks it
-    /// and falls back to the general solve.
-    fn accelerations(&self, state: &State<Self::Scalar, N>) -> Solution<Self::Scalar, N, M>;
+    /// Accelerations and multipliers by the emitted elimination alone, NaN where that cannot vouch for them: where its
+    /// smallest pivot, [`Solution::pivot`], leaves less than two thirds of the digits. Nothing branches, so that it runs on
+    /// SIMD lanes and dual numbers; lanes are NaN one by one. [`solve`](crate::Simulate::solve) is the checked one: it goes
+    /// on to the general solve there, or says what is wrong.
+    fn accelerations_unchecked(&self, state: &State<Self::Scalar, N>) -> Solution<Self::Scalar, N, M>;
 
     /// The matrix of the equations of motion at a state, −Fᵀ beside M and F below, factored once for any right-hand sides:
     /// [`solve_with`](Self::solve_with).
@@ -117,7 +118,7 @@ pub trait Lagrangian<const N: usize, const M: usize> {
 
     /// x and λ of M x − Fᵀλ = `forcing`, F x = −`bias`, by the factor of a state: accelerations and multipliers where these
     /// are h and γ of that state, corrections or impacts where they are something else. Like
-    /// [`accelerations`](Self::accelerations) it decides nothing: [`Solution::pivot`] tells.
+    /// [`accelerations_unchecked`](Self::accelerations_unchecked) it gives NaN where it cannot vouch for numbers.
     ///
     /// ```
     /// # use lagrange_core::prelude::*;

@@ -44,7 +44,7 @@ macro_rules! forward {
                     state: &State<Self::Scalar, N>,
                     multipliers: &SVector<Self::Scalar, M>
                 ) -> SVector<Self::Scalar, N>;
-                fn accelerations(state: &State<Self::Scalar, N>) -> Solution<Self::Scalar, N, M>;
+                fn accelerations_unchecked(state: &State<Self::Scalar, N>) -> Solution<Self::Scalar, N, M>;
                 fn factor(state: &State<Self::Scalar, N>) -> Self::Factor;
                 fn solve_with(
                     factor: &Self::Factor,

@@ -45,7 +45,7 @@ impl Circular {
 fn the_sine_and_the_cosine_of_an_angle_are_computed_once() {
     let mut circular = Circular::default();
     circular.read(expand(tokens(&systems::chain(12))));
-    let all = circular.arguments.get_mut("accelerations").expect("sines");
+    let all = circular.arguments.get_mut("accelerations_unchecked").expect("sines");
     assert_eq!(all.len(), 12, "one for each angle: {all:?}");
     for (function, mut arguments) in circular.arguments {
         let computed = arguments.len();

@@ -82,7 +82,7 @@ fn too_long_functions_are_refused_with_their_counts() {
     };
     for said in [
         "`mass_matrix` takes ",
-        "`accelerations` takes ",
+        "`accelerations_unchecked` takes ",
         " operations (+ − × ÷ √), 104 elementary functions",
     ] {
         assert!(refusal.contains(said), "{said}: {refusal}");

@@ -19,6 +19,6 @@ struct System {
 fn main() {
     let system = System { m: 1.0, l: 0.0 };
     let state = State::at_rest([0.0; 3]);
-    let solution = system.accelerations(&state);
+    let solution = system.accelerations_unchecked(&state);
     assert!(system.pull(&state, &solution).is_finite());
 }

@@ -178,7 +178,7 @@ const _: () = {
         ///10 operations (+ − × ÷ √), 1 elementary function. Of every kind: 12 as derived, then 11 factors taken out. One product fused with a sum.
         #[inline]
         #[allow(unused_variables)]
-        fn accelerations(
+        fn accelerations_unchecked(
             &self,
             state: &__lagrange::State<f64, 1usize>,
         ) -> __lagrange::Solution<f64, 1usize, 0usize> {

@@ -1,4 +1,4 @@
-//! The emitted `accelerations` behind the signature that every implementation in the comparison has:
+//! The emitted `accelerations_unchecked` behind the signature that every implementation in the comparison has:
 //!
 //! ```c
 //! void f(const double *q, const double *v, const double *p, double *accelerations, double *multipliers);
@@ -21,7 +21,7 @@ fn solution<L, const N: usize, const M: usize>(system: &L, state: &State<f64, N>
 where
     L: Lagrangian<N, M, Scalar = f64>,
 {
-    system.accelerations(state)
+    system.accelerations_unchecked(state)
 }
 
 /// Accelerations and multipliers of the system that `p` points to.
