@@ -170,8 +170,8 @@ pub fn doubt<T: Scalar>(least: T, most: T) -> T {
     let [zero, one, nan] = [0.0, 1.0, f64::NAN].map(T::constant);
     let is_single = T::constant(1.0 + f64::EPSILON) == one;
     let bound = if is_single { 4.921_566_601_151_855e-3 } else { 6.055_454_452_393_343e-6 };
-    let bound = T::constant(bound);
-    least.by_order(bound, nan, nan, zero) + (most * bound).by_order(one, zero, nan, nan)
+    let below = most.by_order(T::constant(1.0 / bound), zero, nan, nan);
+    least.by_order(T::constant(bound), nan, nan, below)
 }
 
 /// `x`, or NaN where `y` is not finite: a minimum drops NaN, and 0/0 must not pass for a good pivot.

@@ -65,7 +65,7 @@ pub(super) fn eliminate(schedule: &mut Schedule, form: &Form, equations: &Equati
     let starts = solver.starts(form, &factorization.form);
     let bias = solver.entries(&equations.bias);
     let found = solver.solve(&factorization, starts, bias);
-    Some(solver.finish(found, equations.forcing.len(), factorization.trust))
+    Some(solver.finish(found, equations.forcing.len(), factorization.trust.pivot))
 }
 
 /// Appends the factorization alone to a schedule that computes the entries of the form, F and σ, and gives the numbers
@@ -103,7 +103,7 @@ pub(super) fn solve_with(
     let forward = solver.forward(&factorization.form, forcing);
     let starts = solver.scaled(&factorization.form, forward);
     let found = solver.solve(&factorization, starts, bias);
-    solver.finish(found, n, factorization.trust)
+    solver.finish(found, n, factorization.trust.pivot)
 }
 
 impl Factorization {
@@ -142,11 +142,10 @@ fn short(pattern: &Pattern) -> Option<Vec<usize>> {
     (is_worth_it && cost <= OPERATION_LIMIT).then_some(order)
 }
 
-/// What a solve gives, and what constraints do to each variable of the form.
+/// What a solve gives.
 struct Found {
     accelerations: Vec<Entry>,
     multipliers: Vec<Entry>,
-    pushes: Vec<Entry>,
 }
 
 impl Solver<'_> {
@@ -209,11 +208,11 @@ impl Solver<'_> {
 
     /// The variables from D⁻¹L⁻¹b and γ.
     fn solve(&mut self, factorization: &Factorization, starts: Vec<Entry>, bias: Vec<Entry>) -> Found {
-        let Factorization { form, rows, schur, .. } = factorization;
-        let multipliers = self.multipliers(schur, &starts, rows, bias);
+        let Factorization { form, rows, schur, trust: Trust { doubt, .. }, .. } = factorization;
+        let multipliers = self.multipliers(schur, &starts, rows, bias, *doubt);
         let pushes = self.pushes(&multipliers, rows, starts.len());
-        let accelerations = self.backward(form, starts, &pushes);
-        Found { accelerations, multipliers, pushes }
+        let accelerations = self.backward(form, starts, &pushes, *doubt);
+        Found { accelerations, multipliers }
     }
 
     /// Zᵀλ

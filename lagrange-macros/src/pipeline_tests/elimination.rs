@@ -26,8 +26,7 @@ fn a_chain_of_rods_is_solved_in_linearly_many_operations() {
     println!("operations of the accelerations and all multipliers, 5 to 25 rods: {counts:?}");
     // But for a sign more or less, where results are added in pairs.
     assert!(counts.windows(3).all(|c| (c[2] + c[0]).abs_diff(2 * c[1]) <= 1), "{counts:?}");
-    // Three results a rod take one sum each more, which makes them none where the pivots are too small.
-    assert!(counts[3] <= (45 + 3) * 20, "{counts:?}");
+    assert!(counts[3] <= 45 * 20, "{counts:?}");
 }
 
 /// The articulated-body algorithm, found from the definitions of the links' velocities.
@@ -42,16 +41,16 @@ fn a_chain_in_angles_is_solved_in_linearly_many_operations() {
     }
     expect![[r#"
         links: M, over definitions; before the passes and after each
-        2: Some([95, 93, 85, 85, 85]), Some([89, 82, 78, 76, 76])
-        3: Some([167, 165, 155, 155, 155]), Some([159, 150, 140, 138, 138])
-        5: Some([367, 365, 351, 351, 351]), Some([289, 276, 258, 256, 256])
-        8: Some([837, 835, 815, 815, 815]), Some([484, 465, 435, 433, 433])
-        10: Some([1287, 1285, 1261, 1261, 1261]), Some([614, 591, 553, 551, 551])
-        12: Some([1865, 1863, 1835, 1835, 1835]), Some([744, 717, 671, 669, 669])
-        14: Some([2587, 2585, 2553, 2553, 2553]), Some([874, 843, 789, 787, 787])
-        16: Some([3469, 3467, 3431, 3431, 3431]), Some([1004, 969, 907, 905, 905])
-        18: Some([4527, 4525, 4485, 4485, 4485]), Some([1134, 1095, 1025, 1023, 1023])
-        20: None, Some([1264, 1221, 1143, 1141, 1141])
+        2: Some([91, 89, 82, 82, 82]), Some([85, 78, 75, 73, 73])
+        3: Some([161, 159, 150, 150, 150]), Some([153, 144, 135, 133, 133])
+        5: Some([357, 355, 342, 342, 342]), Some([279, 266, 249, 247, 247])
+        8: Some([821, 819, 800, 800, 800]), Some([468, 449, 420, 418, 418])
+        10: Some([1267, 1265, 1242, 1242, 1242]), Some([594, 571, 534, 532, 532])
+        12: Some([1841, 1839, 1812, 1812, 1812]), Some([720, 693, 648, 646, 646])
+        14: Some([2559, 2557, 2526, 2526, 2526]), Some([846, 815, 762, 760, 760])
+        16: Some([3437, 3435, 3400, 3400, 3400]), Some([972, 937, 876, 874, 874])
+        18: Some([4491, 4489, 4450, 4450, 4450]), Some([1098, 1059, 990, 988, 988])
+        20: None, Some([1224, 1181, 1104, 1102, 1102])
     "#]]
     .assert_eq(&table);
     let chains = &over_definitions[4..];
@@ -61,7 +60,7 @@ fn a_chain_in_angles_is_solved_in_linearly_many_operations() {
 #[test]
 fn a_dense_mass_matrix_is_unrolled_while_that_is_short() {
     let count = |n, form: usize| last(&counts(&systems::chain(n))[form]);
-    assert!(count(10, 0).is_some_and(|count| count <= 1250 + 10 + 1), "{:?}", count(10, 0));
+    assert!(count(10, 0).is_some_and(|count| count <= 1250), "{:?}", count(10, 0));
     // Loops over 60 × 60 entries do many times as much as the form that is sparse.
     assert_eq!(count(60, 0), None);
     assert!(count(60, 1).is_some());
@@ -152,9 +151,9 @@ fn every_form_has_the_same_solution() {
     }
 }
 
-/// What no result may rest on shows in the pivot, even where the results that it spoils are few, or hide it.
+/// What no result may rest on shows in the pivot or in a result, even where the results that it spoils are few, or hide it.
 #[test]
-fn the_pivot_is_no_number_where_a_result_is_none() {
+fn what_is_no_number_spoils_the_pivot_or_a_result() {
     let spoilt = [
         // A singular part beside a multiplier that is zero.
         "#[coordinates(x, u, w)] #[lagrangian(x_dot^2/2 + u_dot*w_dot - u*w)] #[constraint(c: x = 0)] struct A {}",
@@ -174,10 +173,8 @@ fn the_pivot_is_no_number_where_a_result_is_none() {
         let (graph, _, equations) = equations(source);
         for solution in solutions(&graph, &equations, |_| 0.0) {
             let solution = solution.expect("short");
-            assert!(
-                !solution.last().is_some_and(|pivot| pivot.is_finite() && *pivot > 0.0),
-                "{source}: {solution:?}"
-            );
+            let passes = solution.iter().all(|x| x.is_finite());
+            assert!(!(passes && solution.last().is_some_and(|pivot| *pivot > 0.0)), "{source}: {solution:?}");
         }
     }
 }

@@ -255,13 +255,21 @@ impl Solver<'_> {
         x
     }
 
-    /// L⁻ᵀ(x + D⁻¹y): the variables themselves, in the reverse order.
-    pub(super) fn backward(&mut self, factors: &Factors, mut x: Vec<Entry>, y: &[Entry]) -> Vec<Entry> {
+    /// L⁻ᵀ(x + D⁻¹y): the variables themselves, in the reverse order. Each follows from those that are found first, and
+    /// these from y, which is doubted already, or else they take the `doubt` in.
+    pub(super) fn backward(
+        &mut self,
+        factors: &Factors,
+        mut x: Vec<Entry>,
+        y: &[Entry],
+        doubt: Entry,
+    ) -> Vec<Entry> {
         for Step { variable, kind } in factors.steps.iter().rev() {
             x[*variable] = match kind {
                 StepKind::Eliminated(column) => {
                     let pushed = self.multiply(y[*variable], factors.reciprocals[*variable]);
-                    let start = self.add(x[*variable], pushed);
+                    let is_first = column.is_empty() && pushed.is_none();
+                    let start = self.add(x[*variable], if is_first { doubt } else { pushed });
                     column.iter().fold(start, |rest, &(i, l)| {
                         let part = self.multiply(Some(l), x[i]);
                         self.subtract(rest, part)

@@ -25,6 +25,7 @@ impl Solver<'_> {
         starts: &[Entry],
         rows: &[Sparse],
         bias: Vec<Entry>,
+        doubt: Entry,
     ) -> Vec<Entry> {
         let target = rows.iter().zip(bias).map(|(row, bias)| {
             let reached = self.dot(row, starts);
@@ -34,7 +35,7 @@ impl Solver<'_> {
         let target = target.collect();
         let half = self.forward(schur, target);
         let starts = self.scaled(schur, half);
-        self.backward(schur, starts, &vec![None; rows.len()])
+        self.backward(schur, starts, &vec![None; rows.len()], doubt)
     }
 
     /// S = Z D⁻¹ Zᵀ
