@@ -221,6 +221,19 @@ fn what_the_elimination_cannot_vouch_for_is_no_number() {
     }
     assert!(!single(0.9999).iter().any(|is_number| *is_number), "too little for single precision");
 
+    // A part that is tied to nothing that is singular is none either: nobody has to know which is which.
+    #[derive(Lagrangian)]
+    #[coordinates(x, y, u, z)]
+    #[lagrangian(x_dot^2/2 + y_dot^2/2 + c*x_dot*y_dot + u_dot^2/2 + u_dot*z_dot/2 + z_dot^2 - x - y - z)]
+    #[constraint(rail: z = u)]
+    struct Apart {
+        c: f64,
+    }
+    let apart = |c| Apart { c }.accelerations_unchecked(&State::at_rest([0.0; 4]));
+    assert!(apart(0.5).accelerations.iter().all(|x| x.is_finite()));
+    let spoilt = apart(1.0 - 1e-9);
+    assert!(spoilt.accelerations.iter().chain(&spoilt.multipliers).all(|x| x.is_nan()), "{spoilt:?}");
+
     let lanes = Coupled {
         a: Lanes::constant(1.0),
         b: Lanes::constant(1.0),

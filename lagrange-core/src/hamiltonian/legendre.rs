@@ -10,7 +10,6 @@ use core::array::from_fn;
 use super::phase::PhaseState;
 use crate::error::Error;
 use crate::number::{Real, Scalar, beyond_round_off, exceeds, is_within, power_of_epsilon, vector};
-use crate::solution::eliminate::eliminate_active;
 use crate::solution::kkt::{self, Fault, KktSystem, Rank, Units};
 use crate::solution::newton::{self, Left, Search, halvings};
 use crate::solution::solve::{fault, is_trustworthy, name, not_finite};
@@ -122,12 +121,18 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Inversio
         }
     }
 
-    /// Newton's step: the change of the velocity, and the new μ.
-    fn step(&self, equations: &KktSystem<L::Scalar, N, M>) -> Result<Solution<L::Scalar, N, M>, Error> {
-        let KktSystem { m, h, f, gamma } = equations;
-        let fast = eliminate_active(*m, *h, *f, *gamma, self.active);
-        if is_trustworthy(&fast) {
-            return Ok(fast);
+    /// Newton's step from a state: the change of the velocity, and the new μ.
+    fn step(
+        &self,
+        state: &State<L::Scalar, N>,
+        equations: &KktSystem<L::Scalar, N, M>,
+    ) -> Result<Solution<L::Scalar, N, M>, Error> {
+        if !self.active.contains(&false) {
+            let (h, gamma) = (vector(equations.h), vector(equations.gamma));
+            let fast = self.system.solve_with(&self.system.factor(state), &h, &gamma);
+            if is_trustworthy(&fast) {
+                return Ok(fast);
+            }
         }
         // Near the velocity sought, dependent constraints differ by round-off, of which no contradiction is made.
         let solved = kkt::solve(equations, Rank::off_constraints()).map(|(solution, _)| solution);
@@ -181,7 +186,7 @@ where
         from: &Self::Trial,
         converged: bool,
     ) -> Result<impl Iterator<Item = Self::Trial>, Error> {
-        let step = self.step(&linear.equations)?;
+        let step = self.step(&from.state, &linear.equations)?;
         Ok(halvings(if converged { 1 } else { 50 }).map(move |part| {
             let v = from.state.v + step.accelerations * part;
             let change = |a: usize| (step.multipliers[a] - from.multipliers[a]) * part;

@@ -18,19 +18,7 @@ pub fn eliminate<T: Scalar, const N: usize, const M: usize>(
     f: [[T; N]; M],
     gamma: [T; M],
 ) -> Solution<T, N, M> {
-    LoopFactor::of_active(m, f, [true; M]).solve_arrays(h, gamma)
-}
-
-/// The same with only the `active` constraints; the rows of `f` and `gamma` of the others must be zero.
-#[inline]
-pub(crate) fn eliminate_active<T: Scalar, const N: usize, const M: usize>(
-    m: [[T; N]; N],
-    h: [T; N],
-    f: [[T; N]; M],
-    gamma: [T; M],
-    active: [bool; M],
-) -> Solution<T, N, M> {
-    LoopFactor::of_active(m, f, active).solve_arrays(h, gamma)
+    LoopFactor::of(m, f, [T::constant(0.0); M]).solve_completed(h, gamma)
 }
 
 /// M and F M⁻¹ Fᵀ, factored in loops.
@@ -49,11 +37,6 @@ impl<T: Scalar, const N: usize, const M: usize> LoopFactor<T, N, M> {
     /// Of M + FᵀσF row by row, of which the lower triangle is read, F, one row a constraint, and the `weights` σ.
     #[inline]
     pub fn of(m: [[T; N]; N], f: [[T; N]; M], weights: [T; M]) -> Self {
-        Self { weights, ..Self::of_active(m, f, [true; M]) }
-    }
-
-    #[inline]
-    fn of_active(m: [[T; N]; N], f: [[T; N]; M], active: [bool; M]) -> Self {
         let mass = Ldl::of(m);
         let mut w = f;
         for row in &mut w {
@@ -64,11 +47,8 @@ impl<T: Scalar, const N: usize, const M: usize> LoopFactor<T, N, M> {
             for b in 0..=a {
                 schur[a][b] = dot(&f[a], &w[b]);
             }
-            if !active[a] {
-                schur[a][a] = T::constant(1.0);
-            }
         }
-        Self { mass, f, w, schur: Ldl::of(schur), weights: [T::constant(0.0); M] }
+        Self { mass, f, w, schur: Ldl::of(schur), weights }
     }
 
     /// M x − Fᵀλ = `forcing`, F x = −`bias`.
@@ -81,11 +61,12 @@ impl<T: Scalar, const N: usize, const M: usize> LoopFactor<T, N, M> {
                 h[i] = h[i] - self.f[a][i] * part;
             }
         }
-        self.solve_arrays(h, gamma)
+        self.solve_completed(h, gamma)
     }
 
+    /// Of h − Fᵀσγ.
     #[inline]
-    fn solve_arrays(&self, h: [T; N], gamma: [T; M]) -> Solution<T, N, M> {
+    fn solve_completed(&self, h: [T; N], gamma: [T; M]) -> Solution<T, N, M> {
         let mut q = h;
         self.mass.solve(&mut q);
         let mut lambda = gamma;

@@ -8,7 +8,6 @@
 use nalgebra::SVector;
 
 use super::consistent::Level;
-use super::solve::least_pivot;
 use crate::number::{Real, Scalar};
 use crate::system::{Lagrangian, State};
 
@@ -27,8 +26,7 @@ where
     L: Lagrangian<N, M>,
     R: Real,
 {
-    let [zero, one] = [0.0, 1.0].map(L::Scalar::constant);
-    let least = L::Scalar::constant(least_pivot::<R>().to_f64());
+    let zero = L::Scalar::constant(0.0);
     let (factor, mut doubt) = (system.factor(&state), zero);
     for &level in levels.iter().filter(|level| level.concerns::<L, N, M>()) {
         let size = level.magnitude(system, &state);
@@ -43,8 +41,7 @@ where
             let unknowns = level.unknowns(&mut state);
             let moved = |x: L::Scalar, change| left.by_order(zero, x, x, x + change);
             *unknowns = unknowns.zip_map(&correction.accelerations, moved);
-            let is_small = correction.pivot.by_order(least, one, one, zero);
-            doubt = doubt + left.by_order(zero, zero, zero, is_small);
+            // Where the factor cannot be vouched for, that is no number, nor is what is left then.
             residual = level.residual(system, &state);
         }
         doubt = doubt + excess(&residual, &size, 16.0 * R::EPSILON);

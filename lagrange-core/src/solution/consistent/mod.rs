@@ -15,7 +15,7 @@ use crate::error::Error;
 use crate::number::{
     Real, Scalar, beyond_round_off, exceeds, is_within, largest, power_of_epsilon, smaller, vector,
 };
-use crate::solution::eliminate::eliminate_active;
+use crate::solution::eliminate::eliminate;
 use crate::solution::kkt::{self, KktSystem, Rank};
 use crate::solution::near;
 use crate::solution::newton::{self, Left, Search, halvings};
@@ -201,7 +201,6 @@ struct Residual<T, const N: usize, const M: usize> {
     terms: [T; M],
     /// Σ |F_αa|: the terms where the unknowns are about 1.
     sensitivity: [T; M],
-    active: [bool; M],
 }
 
 impl<T: Real, const N: usize, const M: usize> Residual<T, N, M> {
@@ -217,7 +216,6 @@ impl<T: Real, const N: usize, const M: usize> Residual<T, N, M> {
             terms: jacobian.map(|row| magnitude(from_fn::<T, N, _>(|i| row[i] * x[i]))),
             sensitivity: jacobian.map(magnitude),
             jacobian,
-            active,
         }
     }
 
@@ -304,7 +302,8 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Projecti
             m.iter_mut().chain(&mut f).for_each(|row| row[i] = zero);
             m[i] = from_fn(|j| L::Scalar::constant(if i == j { 1.0 } else { 0.0 }));
         }
-        let fast = eliminate_active(m, h, f, residual.value, residual.active);
+        // Where it serves, it keeps more digits of small constraints beside large ones.
+        let fast = eliminate(m, h, f, residual.value);
         if is_trustworthy(&fast) {
             return Some(fast.accelerations);
         }

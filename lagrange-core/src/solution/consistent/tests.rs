@@ -1,7 +1,6 @@
 use crate::fixtures::{Mechanism, dependent_on_the_manifold, identity, rolling_sphere, spherical_pendulum};
 use crate::prelude::*;
 use crate::solution::Adjustment;
-use crate::solution::eliminate::eliminate_active;
 
 #[test]
 fn a_state_off_the_sphere_is_put_on_it() {
@@ -108,18 +107,6 @@ fn constraints_dependent_only_where_they_hold_leave_the_nearest_state_nearest() 
 }
 
 #[test]
-fn inactive_constraints_do_not_spoil_the_elimination() {
-    let s = eliminate_active(
-        [[9.0, 0.0], [0.0, 1.0]],
-        [0.0; 2],
-        [[1.0, 1.0], [0.0; 2]],
-        [-2.0, 0.0],
-        [true, false],
-    );
-    assert!(s.pivot > 0.5 && (s.accelerations - State::at_rest([0.2, 1.8]).q).norm() < 1e-15, "{s:?}");
-}
-
-#[test]
 fn an_inconsistent_start_is_refused_with_its_constraint() {
     let pendulum = spherical_pendulum();
     let off = State::at_rest([0.6, 0.0, -0.81]);
@@ -142,7 +129,6 @@ fn a_residual_that_is_no_number_is_the_farthest() {
         jacobian: [[1.0]; 3],
         terms: [1.0; 3],
         sensitivity: [1.0; 3],
-        active: [true; 3],
     };
     let (distance, row) = residual.farthest();
     assert!(distance.is_nan() && row == 1, "{distance} in row {row}");
