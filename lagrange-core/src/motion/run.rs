@@ -96,6 +96,7 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
 
     /// One accepted step with what lies within.
     #[cfg(feature = "alloc")]
+    #[inline(always)]
     pub(crate) fn step_with_interpolant<L, F, P, const M: usize>(
         &mut self,
         system: &L,

@@ -35,6 +35,7 @@ impl<T: Real, const N: usize, I: Interpolant<T, N> + Send + Sync + 'static> Path
         Self { start, last: start, times: Vec::new(), interpolants: Vec::new() }
     }
 
+    #[inline(always)]
     pub(crate) fn push(&mut self, state: State<T, N>, interpolant: I) {
         self.times.push(self.last.t);
         self.interpolants.push(interpolant);

@@ -209,7 +209,7 @@ impl Pair for DormandPrince853 {
 
     type Coefficients<X: Copy + Send + Sync + 'static> = [X; 8];
 
-    fn coefficients<X: Copy + Send + Sync + 'static>(of: impl FnMut(usize) -> X) -> [X; 8] {
-        core::array::from_fn(of)
+    fn coefficients<X: Copy + Send + Sync + 'static>(all: X) -> [X; 8] {
+        [all; 8]
     }
 }

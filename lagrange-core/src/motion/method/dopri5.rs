@@ -57,7 +57,7 @@ impl Pair for DormandPrince54 {
 
     type Coefficients<X: Copy + Send + Sync + 'static> = [X; 5];
 
-    fn coefficients<X: Copy + Send + Sync + 'static>(of: impl FnMut(usize) -> X) -> [X; 5] {
-        core::array::from_fn(of)
+    fn coefficients<X: Copy + Send + Sync + 'static>(all: X) -> [X; 5] {
+        [all; 5]
     }
 }

@@ -24,6 +24,7 @@ pub struct Polynomial<T, C> {
 
 impl<T: Real, C> Polynomial<T, C> {
     /// Of a step from the time `start`, of this length, negative where it leads back.
+    #[inline(always)]
     pub fn new(start: T, length: T, coefficients: C) -> Self {
         Self { start, length, coefficients }
     }
@@ -32,32 +33,33 @@ impl<T: Real, C> Polynomial<T, C> {
 /// The place and its rates at one end of a step.
 pub type Node<T, const N: usize> = (Phase<T, N>, Phase<T, N>);
 
-/// Coefficient `k` of the cubic polynomial between two places with these rates, a step of `length` apart.
+/// Puts the coefficients of the cubic polynomial between two places with these rates, a step of `length` apart, into four
+/// `coefficients`.
 #[inline]
 pub(super) fn hermite<T: Real, const N: usize>(
-    k: usize,
     length: T,
     (start, first): (&Phase<T, N>, &Phase<T, N>),
     (end, last): (&Phase<T, N>, &Phase<T, N>),
-) -> Phase<T, N> {
-    let entry = |half: usize, i: usize| {
-        let rise = end[half][i] - start[half][i];
-        let bend = length * first[half][i] - rise;
-        match k {
-            0 => start[half][i],
-            1 => rise,
-            2 => bend,
-            _ => rise - length * last[half][i] - bend,
+    coefficients: &mut [Phase<T, N>],
+) {
+    for half in 0..2 {
+        for i in 0..N {
+            let rise = end[half][i] - start[half][i];
+            let bend = length * first[half][i] - rise;
+            let entries = [start[half][i], rise, bend, rise - length * last[half][i] - bend];
+            for (coefficient, entry) in coefficients.iter_mut().zip(entries) {
+                coefficient[half][i] = entry;
+            }
         }
-    };
-    from_fn(|half| from_fn(|i| entry(half, i)))
+    }
 }
 
 impl<T: Real, const N: usize> Polynomial<T, [Phase<T, N>; 4]> {
     /// The cubic polynomial with the places and rates at both ends of a step: its error is of the fourth order.
     pub fn hermite(start: T, length: T, first: &Node<T, N>, last: &Node<T, N>) -> Self {
-        let coefficient = |k| hermite(k, length, (&first.0, &first.1), (&last.0, &last.1));
-        Self::new(start, length, from_fn(coefficient))
+        let mut coefficients = [[[T::constant(0.0); N]; 2]; 4];
+        hermite(length, (&first.0, &first.1), (&last.0, &last.1), &mut coefficients);
+        Self::new(start, length, coefficients)
     }
 }
 

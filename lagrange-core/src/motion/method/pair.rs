@@ -33,8 +33,8 @@ pub type Combination = &'static [(usize, f64)];
 ///     const SHRINK: f64 = 0.2;
 ///     const GROWTH: f64 = 5.0;
 ///     type Coefficients<X: Copy + Send + Sync + 'static> = [X; 4];
-///     fn coefficients<X: Copy + Send + Sync + 'static>(of: impl FnMut(usize) -> X) -> [X; 4] {
-///         core::array::from_fn(of)
+///     fn coefficients<X: Copy + Send + Sync + 'static>(all: X) -> [X; 4] {
+///         [all; 4]
 ///     }
 /// }
 ///
@@ -71,10 +71,10 @@ pub trait Pair {
     const GROWTH: f64;
 
     /// All coefficients of the interpolant: an array of 4 and as many as [`INTERPOLATION`](Self::INTERPOLATION) has.
-    type Coefficients<X: Copy + Send + Sync + 'static>: AsRef<[X]> + Copy + Send + Sync + 'static;
+    type Coefficients<X: Copy + Send + Sync + 'static>: AsRef<[X]> + AsMut<[X]> + Copy + Send + Sync + 'static;
 
-    /// The array of what belongs to 0, 1, …: [`from_fn`](core::array::from_fn).
-    fn coefficients<X: Copy + Send + Sync + 'static>(of: impl FnMut(usize) -> X) -> Self::Coefficients<X>;
+    /// That array with `all` in every place.
+    fn coefficients<X: Copy + Send + Sync + 'static>(all: X) -> Self::Coefficients<X>;
 }
 
 /// The slope at the end of the step.
@@ -169,17 +169,31 @@ fn sums<T: Scalar, const N: usize>(
     what_becomes: impl Fn(usize, T) -> T,
     results: &mut Phase<T, N>,
 ) {
-    for (block, results) in results.as_flattened_mut().chunks_mut(BLOCK).enumerate() {
-        let first = BLOCK * block;
-        let mut sums = [T::constant(0.0); BLOCK];
-        for (slope, coefficient) in row {
-            let (coefficient, slope) = (T::constant(*coefficient), &slopes[*slope].as_flattened()[first..]);
-            for (sum, x) in sums.iter_mut().zip(slope) {
-                *sum = *sum + coefficient * *x;
-            }
+    let (blocks, rest) = results.as_flattened_mut().as_chunks_mut::<BLOCK>();
+    let count = blocks.len();
+    for (k, block) in blocks.iter_mut().enumerate() {
+        sum_block(slopes, row, &what_becomes, BLOCK * k, block);
+    }
+    sum_block(slopes, row, &what_becomes, BLOCK * count, rest);
+}
+
+/// A block of the sums from this place on; its length is known at compile time, so that no loop over entries remains.
+#[inline(always)]
+fn sum_block<T: Scalar, const N: usize>(
+    slopes: &Slopes<T, N>,
+    row: &[(usize, f64)],
+    what_becomes: &impl Fn(usize, T) -> T,
+    at: usize,
+    results: &mut [T],
+) {
+    let mut sums = [T::constant(0.0); BLOCK];
+    for (slope, coefficient) in row {
+        let slope = &slopes[*slope].as_flattened()[at..at + results.len()];
+        for (sum, x) in sums.iter_mut().zip(slope) {
+            *sum = T::constant(*coefficient).multiply_add(*x, *sum);
         }
-        for (k, result) in results.iter_mut().enumerate() {
-            *result = what_becomes(first + k, sums[k]);
-        }
+    }
+    for (k, (result, sum)) in results.iter_mut().zip(sums).enumerate() {
+        *result = what_becomes(at + k, sum);
     }
 }

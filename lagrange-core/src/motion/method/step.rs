@@ -164,6 +164,7 @@ where
         if self.can_try_again(memory) { Step::Rejected } else { Step::Failed(ending) }
     }
 
+    #[inline(always)]
     fn interpolant(
         &self,
         system: &L,
@@ -178,15 +179,14 @@ where
         let slopes = &memory.slopes;
         let (start, end) = ((&from.y, &slopes[0]), (&memory.y, &slopes[last::<P>()]));
         let zero = [[L::Scalar::constant(0.0); N]; 2];
-        let coefficient = |k: usize| match k.checked_sub(4).and_then(|beyond| P::INTERPOLATION.get(beyond)) {
-            Some(row) => {
-                let mut coefficient = zero;
-                advance(&zero, *h, slopes, row, &mut coefficient);
-                coefficient
-            }
-            None => hermite(k, *h, start, end),
-        };
-        Ok(Polynomial::new(from.t, *h, P::coefficients(coefficient)))
+        // Written where they stay: the one copy is that into the trajectory.
+        let mut coefficients = P::coefficients(zero);
+        let (cubic, beyond) = coefficients.as_mut().split_at_mut(4);
+        hermite(*h, start, end, cubic);
+        for (coefficient, row) in beyond.iter_mut().zip(P::INTERPOLATION) {
+            advance(&zero, *h, slopes, row, coefficient);
+        }
+        Ok(Polynomial::new(from.t, *h, coefficients))
     }
 
     fn take_back(&self, memory: &mut Self::Memory) -> bool {
