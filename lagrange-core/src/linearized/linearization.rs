@@ -67,7 +67,7 @@ where
     let parameters = lookup::indices::<L, N, M>(&L::PARAMETERS, "parameter", names)?;
     consistent::check(system, state)?;
     let tangent = Tangent::at(system, state)?;
-    let basis = if M == 0 { DMatrix::identity(2 * N, 2 * N) } else { tangent.space()? };
+    let basis = if const { M == 0 } { DMatrix::identity(2 * N, 2 * N) } else { tangent.space()? };
     let rate = state.v.iter().chain(&tangent.solution.accelerations).copied();
     Ok(Linearization {
         a: basis.tr_mul(&tangent.change_along(&basis)?),

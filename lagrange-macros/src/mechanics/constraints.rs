@@ -48,8 +48,9 @@ impl Constraints {
             let entries = row.iter().enumerate().filter(|&(_, &entry)| counts(kind) && entry != Id::ZERO);
             let terms = entries.map(|(i, &entry)| {
                 let x = graph.symbol(x(i).symbol());
-                let term = graph.mul(entry, x);
-                graph.function(Function::Abs, term)
+                // Of what several terms share, the magnitude is taken once.
+                let [entry, x] = [entry, x].map(|factor| graph.function(Function::Abs, factor));
+                graph.mul(entry, x)
             });
             let terms: Vec<Id> = terms.collect();
             graph.total(terms)

@@ -61,6 +61,9 @@ pub(crate) fn make_consistent<L: Lagrangian<N, M, Scalar: Real>, const N: usize,
     held: &[[bool; N]; 2],
 ) -> Result<Consistent<L::Scalar, N>, Error> {
     let mut consistent = *state;
+    if const { M == 0 } {
+        return Ok((consistent, Adjustment { q: SVector::zeros(), v: SVector::zeros() }));
+    }
     for (level, held) in BOTH.into_iter().zip(held) {
         project_holding(system, level, held, &mut consistent)?;
     }
@@ -79,7 +82,8 @@ pub(crate) fn project<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M
     levels: &[Level],
     state: &mut State<L::Scalar, N>,
 ) -> Result<(), Error> {
-    if !levels.iter().any(|level| level.concerns::<L, N, M>()) {
+    // Of a constant, nothing is compiled of what can never be reached.
+    if const { M == 0 } || !levels.iter().any(|level| level.concerns::<L, N, M>()) {
         return Ok(());
     }
     let (near, doubt) = near::project::<L, L::Scalar, N, M>(system, levels, *state);
@@ -105,7 +109,7 @@ fn project_holding<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: u
     held: &[bool; N],
     state: &mut State<L::Scalar, N>,
 ) -> Result<(), Error> {
-    if !level.concerns::<L, N, M>() {
+    if const { M == 0 } || !level.concerns::<L, N, M>() {
         return Ok(());
     }
     let mut projection = Projection { system, level, held };
@@ -124,6 +128,9 @@ pub(crate) fn check<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: 
     system: &L,
     state: &State<L::Scalar, N>,
 ) -> Result<(), Error> {
+    if const { M == 0 } {
+        return Ok(());
+    }
     for level in BOTH {
         let mut residual = Residual::of(system, level, state);
         if level == Level::Position {
