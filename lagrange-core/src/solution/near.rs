@@ -30,20 +30,21 @@ where
     let (factor, mut doubt) = (system.factor(&state), zero);
     for &level in levels.iter().filter(|level| level.concerns::<L, N, M>()) {
         let size = level.magnitude(system, &state);
-        let mut residual = level.residual(system, &state);
-        for _ in 0..CORRECTIONS {
+        let mut rounds = 0..CORRECTIONS;
+        // Evaluated in one place: it is inlined.
+        let residual = loop {
+            let residual = level.residual(system, &state);
             let left = excess(&residual, &size, 4.0 * R::EPSILON);
-            if left == zero {
-                break;
+            if left == zero || rounds.next().is_none() {
+                break residual;
             }
+            // Where the factor cannot be vouched for, that is no number, nor is what is left then.
             let correction = system.solve_with(&factor, &SVector::from_element(zero), &residual);
             // A lane that is there stays as it is, be the others where they are.
             let unknowns = level.unknowns(&mut state);
             let moved = |x: L::Scalar, change| left.by_order(zero, x, x, x + change);
             *unknowns = unknowns.zip_map(&correction.accelerations, moved);
-            // Where the factor cannot be vouched for, that is no number, nor is what is left then.
-            residual = level.residual(system, &state);
-        }
+        };
         doubt = doubt + excess(&residual, &size, 16.0 * R::EPSILON);
     }
     (state, doubt)

@@ -326,14 +326,26 @@ where
     for (number, row) in rows.iter().enumerate().map(|(i, row)| (first + i, row)) {
         advance(&from.y, h, slopes, row, &mut point.y);
         point.t = from.t + h * L::Scalar::constant(P::NODES[number]);
-        slope::<L, F, N, M>(system, &point, Some(&from.active), &mut slopes[number], statistics)?;
+        inlined_slope::<L, F, N, M>(system, &point, Some(&from.active), &mut slopes[number], statistics)?;
     }
     Ok(())
 }
 
-/// Puts the rates of the phase into `rates`, counted, and gives the constraints that they rest on.
-#[inline]
+/// Puts the rates of the phase into `rates`, counted, and gives the constraints that they rest on. It is asked for in
+/// several places, each of which would have the equations compiled for itself.
+#[inline(never)]
 fn slope<L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize>(
+    system: &L,
+    point: &PhasePoint<L::Scalar, N>,
+    active: Option<&[bool; M]>,
+    rates: &mut Phase<L::Scalar, N>,
+    statistics: &mut Statistics,
+) -> Result<[bool; M], Error> {
+    inlined_slope::<L, F, N, M>(system, point, active, rates, statistics)
+}
+
+#[inline(always)]
+fn inlined_slope<L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize>(
     system: &L,
     point: &PhasePoint<L::Scalar, N>,
     active: Option<&[bool; M]>,
