@@ -3,7 +3,7 @@
 use std::cell::Cell;
 
 use lagrange_core::prelude::*;
-use lagrange_core::{ConstraintKind, Facts, Hamiltonian, Lagrangian, Lanes, Scalar, Solution};
+use lagrange_core::{ConstraintKind, Facts, Hamiltonian, Lagrangian, Lanes, Over, Scalar, Solution};
 use nalgebra::{SMatrix, SVector};
 use num_dual::Dual64;
 
@@ -158,7 +158,7 @@ fn every_scalar_is_solved() {
 
     let single = Rods { m: 1.3_f32, l: 0.7, g: 9.81 };
     let small = State { t: 0.3, q: states[0].q.cast(), v: states[0].v.cast() };
-    let of_single = single.solve_with(&single.factor(&small), &h.cast(), &gamma.cast());
+    let of_single = single.solve_with(&single.factor(&small), &h.cast::<f32>(), &gamma.cast());
     let apart = (of_single.accelerations.cast::<f64>() - solved[0].accelerations).amax();
     assert!(apart * solved[0].pivot < 1e-5 * solved[0].accelerations.amax(), "{apart:e}");
 
@@ -264,12 +264,12 @@ impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Lagrangi
     fn factor(&self, state: &State<f64, N>) -> L::Factor {
         self.system.factor(state)
     }
-    fn solve_with(
+    fn solve_with<S: Over<f64>>(
         &self,
         factor: &L::Factor,
-        forcing: &SVector<f64, N>,
-        bias: &SVector<f64, M>,
-    ) -> Solution<f64, N, M> {
+        forcing: &SVector<S, N>,
+        bias: &SVector<S, M>,
+    ) -> Solution<S, N, M> {
         self.system.solve_with(factor, forcing, bias)
     }
     fn observable(&self, _: usize, _: &State<f64, N>, _: &Solution<f64, N, M>) -> Option<f64> {

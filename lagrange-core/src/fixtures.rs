@@ -4,7 +4,7 @@ use core::array::from_fn;
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::number::vector;
+use crate::number::{Over, vector};
 use crate::solution::eliminate::{LoopFactor, eliminate};
 use crate::system::{ConstraintKind, Facts, Lagrangian, Solution, State};
 
@@ -112,12 +112,12 @@ impl<const N: usize, const M: usize, const H: usize> Lagrangian<N, M> for Mechan
         LoopFactor::of((self.mass)(state), (self.jacobian)(state), [0.0; M])
     }
 
-    fn solve_with(
+    fn solve_with<S: Over<f64>>(
         &self,
         factor: &LoopFactor<f64, N, M>,
-        forcing: &SVector<f64, N>,
-        bias: &SVector<f64, M>,
-    ) -> Solution<f64, N, M> {
+        forcing: &SVector<S, N>,
+        bias: &SVector<S, M>,
+    ) -> Solution<S, N, M> {
         factor.solve(forcing, bias)
     }
 

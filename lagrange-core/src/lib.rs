@@ -83,14 +83,14 @@ pub use hamiltonian::{Hamiltonian, HamiltonianFlow, PhaseRate, PhaseState};
 pub use lagrange_macros::Lagrangian;
 pub use linearized::{Direction, Jacobian, Linearized, Partials, ResidualChange, StateDerivatives};
 #[cfg(feature = "alloc")]
-pub use linearized::{Equilibrium, Linearization, Stability};
+pub use linearized::{Equilibrium, JacobianBy, Linearization, Stability};
 pub use motion::Simulate;
 pub use motion::{Dop853, Dopri5, Method, Motion, Progress, RungeKutta4, runge_kutta_step};
 pub use nalgebra;
 pub use names::{Entry, Names, Row};
 #[cfg(feature = "std")]
 pub use number::Lanes;
-pub use number::{Dual, Real, Scalar};
+pub use number::{Dual, Over, Real, Scalar, Wide};
 pub use solution::{Adjustment, Consistent};
 pub use statistics::Statistics;
 pub use system::{

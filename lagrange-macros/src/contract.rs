@@ -8,6 +8,8 @@ pub(crate) struct Method {
     pub(crate) name: &'static str,
     pub(crate) takes: &'static [Argument],
     pub(crate) gives: Gives,
+    /// Whether it computes with any numbers over those of the system.
+    pub(crate) is_wide: bool,
 }
 
 /// What a method computes.
@@ -34,7 +36,9 @@ pub(crate) enum Quantity {
     Conserved,
     Parameters,
     SetParameter,
+    Slopes,
     ResidualChange,
+    ParameterSlopes,
     ResidualChangeByParameters,
 }
 
@@ -47,6 +51,8 @@ pub(crate) enum Argument {
     Multipliers,
     Direction,
     Factor,
+    Slopes,
+    ParameterSlopes,
     Forcing,
     Bias,
     Rates,
@@ -64,6 +70,7 @@ impl Argument {
             Multipliers => "multipliers",
             Direction => "direction",
             Self::Factor => "factor",
+            Self::Slopes | Self::ParameterSlopes => "slopes",
             Forcing => "forcing",
             Bias => "bias",
             Rates => "rates",
@@ -81,6 +88,8 @@ pub(crate) enum Gives {
     Matrix(Dimension, Dimension),
     Solution,
     Factor,
+    Slopes,
+    ParameterSlopes,
     ResidualChange,
     /// A number, if there is one of that index.
     Optional,
@@ -102,7 +111,12 @@ use Dimension::{Constraints, Coordinates, Parameters};
 use Gives::{Matrix, Number, Optional, Vector};
 
 const fn method(quantity: Quantity, name: &'static str, takes: &'static [Argument], gives: Gives) -> Method {
-    Method { quantity, name, takes, gives }
+    Method { quantity, name, takes, gives, is_wide: false }
+}
+
+/// One that computes with any numbers over those of the system.
+const fn wide(quantity: Quantity, name: &'static str, takes: &'static [Argument], gives: Gives) -> Method {
+    Method { quantity, name, takes, gives, is_wide: true }
 }
 
 /// What a state gives.
@@ -128,27 +142,36 @@ pub(crate) const LAGRANGIAN: [Method; 19] = [
     method(Quantity::ConstraintForce, "constraint_force", &[System, State, Multipliers], Vector(Coordinates)),
     of_state(Quantity::Accelerations, "accelerations_unchecked", Gives::Solution),
     of_state(Quantity::Factor, "factor", Gives::Factor),
-    method(Quantity::Solve, "solve_with", &[System, Argument::Factor, Forcing, Bias], Gives::Solution),
+    wide(Quantity::Solve, "solve_with", &[System, Argument::Factor, Forcing, Bias], Gives::Solution),
     method(Quantity::Observable, "observable", &[System, Index, State, Solution], Optional),
     method(Quantity::Conserved, "conserved", &[System, Index, State], Optional),
 ];
 
 /// The methods of `StateDerivatives` that are not provided.
-pub(crate) const STATE_DERIVATIVES: [Method; 1] = [method(
-    Quantity::ResidualChange,
-    "residual_change",
-    &[System, State, Solution, Direction],
-    Gives::ResidualChange,
-)];
+pub(crate) const STATE_DERIVATIVES: [Method; 2] = [
+    method(Quantity::Slopes, "residual_slopes", &[System, State, Solution], Gives::Slopes),
+    wide(
+        Quantity::ResidualChange,
+        "residual_change_with",
+        &[System, Argument::Slopes, Direction],
+        Gives::ResidualChange,
+    ),
+];
 
 /// The methods of `Linearized` that are not provided.
-pub(crate) const LINEARIZED: [Method; 3] = [
+pub(crate) const LINEARIZED: [Method; 4] = [
     method(Quantity::Parameters, "parameters", &[System], Vector(Parameters)),
     method(Quantity::SetParameter, "set_parameter", &[MutableSystem, Index, Value], Gives::Success),
     method(
+        Quantity::ParameterSlopes,
+        "residual_slopes_by_parameters",
+        &[System, State, Solution],
+        Gives::ParameterSlopes,
+    ),
+    wide(
         Quantity::ResidualChangeByParameters,
-        "residual_change_by_parameters",
-        &[System, State, Solution, Rates],
+        "residual_change_by_parameters_with",
+        &[System, Argument::ParameterSlopes, Rates],
         Gives::ResidualChange,
     ),
 ];
@@ -168,7 +191,7 @@ const CONSTANTS: [&str; 10] = [
 ];
 
 /// What every system has beside: methods of `Simulate`, `Hamiltonian`, `StateDerivatives` and `Linearized`.
-const PROVIDED: [&str; 20] = [
+const PROVIDED: [&str; 23] = [
     "solve",
     "check_consistent",
     "make_consistent",
@@ -185,8 +208,11 @@ const PROVIDED: [&str; 20] = [
     "legendre",
     "legendre_near",
     "phase_state",
+    "residual_change",
     "state_jacobian",
+    "residual_change_by_parameters",
     "jacobian",
+    "jacobian_by",
     "linearize",
     "equilibrium",
 ];

@@ -22,6 +22,8 @@ pub(crate) enum Variable {
     Bias(usize),
     /// How fast a parameter changes; by its place in the order of the fields.
     ParameterChange(usize),
+    /// A number that the derivatives along any direction are made of.
+    Slope(usize),
 }
 
 impl Variable {
@@ -38,6 +40,7 @@ impl Variable {
             Self::Forcing(i) => (8, i),
             Self::Bias(a) => (9, a),
             Self::ParameterChange(k) => (10, k),
+            Self::Slope(k) => (11, k),
         };
         Symbol { family, index: index as u32 }
     }
@@ -60,7 +63,8 @@ impl Variable {
             7 => Self::Factor(index),
             8 => Self::Forcing(index),
             9 => Self::Bias(index),
-            _ => Self::ParameterChange(index),
+            10 => Self::ParameterChange(index),
+            _ => Self::Slope(index),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Jacobians of accelerations, multipliers and constraints against differences of them.
 
 use lagrange_core::nalgebra::{DVector, SVector};
-use lagrange_core::{Direction, Jacobian, Partials, Solution, prelude::*};
+use lagrange_core::{Direction, Entry, Jacobian, Lanes, Partials, Solution, prelude::*};
 
 /// Largest deviation, as a fraction of the largest entry of the Jacobian.
 const TOLERANCE: f64 = 1e-9;
@@ -113,6 +113,57 @@ where
     [dynamic(&a), dynamic(&l), dynamic(&change.rate), dynamic(&change.position)]
 }
 
+/// The columns by names, the last first so that they share lanes with others, and four directions at once: bit for bit those
+/// of the whole.
+fn check_columns<S, const N: usize, const M: usize, const P: usize>(
+    system: &S,
+    state: &State<f64, N>,
+    jacobian: &Jacobian<f64, N, M, P>,
+) where
+    S: Linearized<N, M, P, Scalar = f64>,
+{
+    let mut names: Vec<String> = S::COORDINATES.map(String::from).to_vec();
+    names.extend(S::COORDINATES.map(|name| Entry::Velocity(name).to_string()));
+    names.extend(S::PARAMETERS.map(String::from));
+    names.reverse();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let by = system.jacobian_by(state, &names).expect("a regular state");
+    assert_eq!(by.solution, jacobian.solution);
+    assert!(by.arguments().iter().eq(&names), "{:?}", by.arguments());
+    let Jacobian { accelerations: a, multipliers: l, .. } = jacobian;
+    for (column, k) in (0..names.len()).rev().enumerate() {
+        let (q2, lambda) = match k {
+            k if k < N => (a.q.column(k), l.q.column(k)),
+            k if k < 2 * N => (a.v.column(k - N), l.v.column(k - N)),
+            k => (a.parameters.column(k - 2 * N), l.parameters.column(k - 2 * N)),
+        };
+        assert_eq!(
+            (by.accelerations.column(column), by.multipliers.column(column)),
+            (q2.as_view(), lambda.as_view())
+        );
+    }
+    let directions = [Direction::of_time(), Direction::of_coordinate(0), Direction::of_velocity(N - 1)];
+    let pick = |lane: usize| directions.get(lane).copied().unwrap_or(Direction::zero());
+    let lanes =
+        |of: &dyn Fn(&Direction<f64, N>) -> f64| Lanes::from(std::array::from_fn(|lane| of(&pick(lane))));
+    let wide = Direction {
+        t: lanes(&|d| d.t),
+        q: SVector::from_fn(|i, _| lanes(&|d| d.q[i])),
+        v: SVector::from_fn(|i, _| lanes(&|d| d.v[i])),
+    };
+    let changes = system.residual_change_with(&system.residual_slopes(state, &jacobian.solution), &wide);
+    for lane in 0..Lanes::COUNT {
+        let alone = system.residual_change(state, &jacobian.solution, &pick(lane));
+        let of_lane = |x: &Lanes| x.to_array()[lane];
+        assert!(changes.motion.iter().map(of_lane).eq(alone.motion.iter().copied()), "{}", S::NAME);
+        assert!(
+            changes.acceleration.iter().map(of_lane).eq(alone.acceleration.iter().copied()),
+            "{}",
+            S::NAME
+        );
+    }
+}
+
 /// Compares all columns; the largest error of a block, relative to its largest entry in any column.
 pub(crate) fn check_jacobian<S, const N: usize, const M: usize, const P: usize>(
     system: &mut S,
@@ -125,6 +176,7 @@ where
     let by_state = system.state_jacobian(state).expect("a regular state").accelerations;
     let Partials { t, q, v, .. } = jacobian.accelerations;
     assert_eq!((by_state.t, by_state.q, by_state.v), (t, q, v));
+    check_columns(system, state, &jacobian);
     let arguments: Vec<Argument> = [Argument::Time]
         .into_iter()
         .chain((0..N).map(Argument::Coordinate))

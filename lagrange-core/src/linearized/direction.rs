@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use crate::number::{Scalar, vector};
+use crate::number::{Scalar, Wide, vector};
 
 /// A direction in which to differentiate: how fast the time and each entry of the state change.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,4 +54,20 @@ pub struct ResidualChange<T, const N: usize, const M: usize> {
     pub rate: SVector<T, M>,
     /// Of Φ; zero for velocity constraints.
     pub position: SVector<T, M>,
+}
+
+impl<T: Scalar, const N: usize, const M: usize> ResidualChange<T, N, M> {
+    /// What is in one lane.
+    pub(crate) fn lane<X: nalgebra::Scalar>(&self, lane: usize) -> ResidualChange<X, N, M>
+    where
+        T: Wide<X>,
+    {
+        let Self { motion, acceleration, rate, position } = self;
+        ResidualChange {
+            motion: motion.map(|x| x.lane(lane)),
+            acceleration: acceleration.map(|x| x.lane(lane)),
+            rate: rate.map(|x| x.lane(lane)),
+            position: position.map(|x| x.lane(lane)),
+        }
+    }
 }

@@ -6,8 +6,8 @@ use super::tangent::Tangent;
 use super::{Direction, Linearized, StateDerivatives};
 use crate::error::Error;
 use crate::names::Entry;
-use crate::number::Real;
-use crate::system::{Solution, State};
+use crate::number::{Real, Wide};
+use crate::system::{Lagrangian, Solution, State};
 
 /// Partial derivatives of `R` quantities by the time, `N` coordinates, `N` velocities and `P` parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,7 +41,7 @@ pub(super) fn state_jacobian<L, const N: usize, const M: usize>(
 where
     L: StateDerivatives<N, M, Scalar: Real>,
 {
-    with_parameters(&Tangent::at(system, state)?, |_| Ok((SMatrix::zeros(), SMatrix::zeros())))
+    by_state(&Tangent::at(system, state)?)
 }
 
 /// See [`Linearized::jacobian`].
@@ -52,43 +52,70 @@ pub(super) fn jacobian<L, const N: usize, const M: usize, const P: usize>(
 where
     L: Linearized<N, M, P, Scalar: Real>,
 {
-    with_parameters(&Tangent::at(system, state)?, |tangent| columns(|k| tangent.by_parameter(k)))
+    let tangent = Tangent::at(system, state)?;
+    let mut jacobian = by_state(&tangent)?;
+    let Jacobian { accelerations, multipliers, .. } = &mut jacobian;
+    tangent.by_parameters(
+        P,
+        |k| k,
+        |k, change| {
+            accelerations.parameters.set_column(k, &change.accelerations);
+            multipliers.parameters.set_column(k, &change.multipliers);
+        },
+    )?;
+    Ok(jacobian)
 }
 
-fn with_parameters<'a, L, const N: usize, const M: usize, const P: usize>(
-    tangent: &Tangent<'a, L, N, M>,
-    by_parameters: impl FnOnce(&Tangent<'a, L, N, M>) -> Result<Columns<L::Scalar, N, M, P>, Error>,
+/// The derivatives by the time and the state, and zero by parameters.
+fn by_state<L, const N: usize, const M: usize, const P: usize>(
+    tangent: &Tangent<'_, L, N, M>,
 ) -> Result<Jacobian<L::Scalar, N, M, P>, Error>
 where
     L: StateDerivatives<N, M, Scalar: Real>,
 {
-    let by_time = tangent.along(&Direction::of_time(), Entry::Time)?;
-    let by_coordinate =
-        |i: usize| tangent.along(&Direction::of_coordinate(i), Entry::Coordinate(L::COORDINATES[i]));
-    let by_velocity =
-        |i: usize| tangent.along(&Direction::of_velocity(i), Entry::Velocity(L::COORDINATES[i]));
-    let (q2_q, lambda_q) = columns(by_coordinate)?;
-    let (q2_v, lambda_v) = columns(by_velocity)?;
-    let (q2_p, lambda_p) = by_parameters(tangent)?;
-    Ok(Jacobian {
-        solution: tangent.solution,
-        accelerations: Partials { t: by_time.accelerations, q: q2_q, v: q2_v, parameters: q2_p },
-        multipliers: Partials { t: by_time.multipliers, q: lambda_q, v: lambda_v, parameters: lambda_p },
-    })
+    let mut accelerations = Partials::zero();
+    let mut multipliers = Partials::zero();
+    tangent.along_each(1 + 2 * N, put_argument, name_of::<L, N, M>, |k, change| {
+        accelerations.set(k, &change.accelerations);
+        multipliers.set(k, &change.multipliers);
+    })?;
+    Ok(Jacobian { solution: tangent.solution, accelerations, multipliers })
 }
 
-/// Derivatives of the accelerations and of the multipliers by `K` entries, a column each.
-type Columns<T, const N: usize, const M: usize, const K: usize> = (SMatrix<T, N, K>, SMatrix<T, M, K>);
-
-fn columns<T: Real, const N: usize, const M: usize, const K: usize>(
-    by: impl Fn(usize) -> Result<Solution<T, N, M>, Error>,
-) -> Result<Columns<T, N, M, K>, Error> {
-    let mut accelerations = SMatrix::<_, N, K>::zeros();
-    let mut multipliers = SMatrix::<_, M, K>::zeros();
-    for k in 0..K {
-        let change = by(k)?;
-        accelerations.set_column(k, &change.accelerations);
-        multipliers.set_column(k, &change.multipliers);
+/// Lets argument `k` alone, of the time, the coordinates and the velocities, change in a lane.
+pub(super) fn put_argument<T: Real, W: Wide<T>, const N: usize>(
+    k: usize,
+    directions: &mut Direction<W, N>,
+    lane: usize,
+) {
+    let one = T::constant(1.0);
+    match k.checked_sub(1) {
+        None => directions.t.put(lane, one),
+        Some(i) if i < N => directions.q[i].put(lane, one),
+        Some(i) => directions.v[i - N].put(lane, one),
     }
-    Ok((accelerations, multipliers))
+}
+
+/// What argument `k` is called.
+pub(super) fn name_of<L: Lagrangian<N, M>, const N: usize, const M: usize>(k: usize) -> Entry {
+    match k.checked_sub(1) {
+        None => Entry::Time,
+        Some(i) if i < N => Entry::Coordinate(L::COORDINATES[i]),
+        Some(i) => Entry::Velocity(L::COORDINATES[i - N]),
+    }
+}
+
+impl<T: Real, const R: usize, const N: usize, const P: usize> Partials<T, R, N, P> {
+    fn zero() -> Self {
+        Self { t: SMatrix::zeros(), q: SMatrix::zeros(), v: SMatrix::zeros(), parameters: SMatrix::zeros() }
+    }
+
+    /// Sets the derivatives by argument `k`.
+    fn set(&mut self, k: usize, change: &SVector<T, R>) {
+        match k.checked_sub(1) {
+            None => self.t = *change,
+            Some(i) if i < N => self.q.set_column(i, change),
+            Some(i) => self.v.set_column(i - N, change),
+        }
+    }
 }

@@ -5,11 +5,12 @@ use core::array::from_fn;
 
 use nalgebra::{DMatrix, DVector, SVector};
 
-use super::tangent::{Matrices, Tangent};
+use super::jacobian::{name_of, put_argument};
+use super::tangent::{Matrices, Tangent, WideOf};
 use super::{Direction, Linearized, StateDerivatives};
 use crate::error::Error;
 use crate::names::Entry;
-use crate::number::{Real, Scalar, larger, largest, norm, power_of_epsilon, vector};
+use crate::number::{Real, Scalar, Wide, larger, largest, norm, power_of_epsilon, vector};
 use crate::solution::consistent;
 use crate::solution::kkt::{Rank, Rows};
 use crate::system::lookup;
@@ -67,11 +68,17 @@ where
     let parameters = lookup::indices::<L, N, M>(&L::PARAMETERS, "parameter", names)?;
     consistent::check(system, state)?;
     let tangent = Tangent::at(system, state)?;
-    let basis = if const { M == 0 } { DMatrix::identity(2 * N, 2 * N) } else { tangent.space()? };
+    let by_inputs = tangent.change_by(&parameters)?;
+    let (basis, a, b) = if const { M == 0 } {
+        (DMatrix::identity(2 * N, 2 * N), tangent.change()?, by_inputs)
+    } else {
+        let basis = tangent.space()?;
+        (basis.clone(), basis.tr_mul(&tangent.change_along(&basis)?), basis.tr_mul(&by_inputs))
+    };
     let rate = state.v.iter().chain(&tangent.solution.accelerations).copied();
     Ok(Linearization {
-        a: basis.tr_mul(&tangent.change_along(&basis)?),
-        b: basis.tr_mul(&tangent.change_by(&parameters)?),
+        a,
+        b,
         rate: DVector::from_iterator(2 * N, rate),
         states: lookup::entries::<L, N, M>(),
         inputs: parameters.iter().map(|&k| L::PARAMETERS[k].into()).collect(),
@@ -83,16 +90,34 @@ impl<L, const N: usize, const M: usize> Tangent<'_, L, N, M>
 where
     L: StateDerivatives<N, M, Scalar: Real>,
 {
+    /// The change of (q̇, q̈) with each entry of the state.
+    fn change(&self) -> Result<DMatrix<L::Scalar>, Error> {
+        let mut change = DMatrix::zeros(2 * N, 2 * N);
+        change.view_mut((0, N), (N, N)).fill_with_identity();
+        let put = |j: usize, directions: &mut _, lane: usize| put_argument(j + 1, directions, lane);
+        self.along_each(
+            2 * N,
+            put,
+            |j| name_of::<L, N, M>(j + 1),
+            |j, solution| {
+                change.view_mut((N, j), (N, 1)).copy_from(&solution.accelerations);
+            },
+        )?;
+        Ok(change)
+    }
+
     /// The change of (q̇, q̈) along each column of the basis.
     fn change_along(&self, basis: &DMatrix<L::Scalar>) -> Result<DMatrix<L::Scalar>, Error> {
         let mut change = DMatrix::zeros(2 * N, basis.ncols());
-        for (j, direction) in basis.column_iter().enumerate() {
-            let (q, v) = (SVector::from_fn(|i, _| direction[i]), SVector::from_fn(|i, _| direction[N + i]));
-            let entry = lookup::entry::<L, N, M>(direction.icamax());
-            let solution = self.along(&Direction { q, v, ..Direction::zero() }, entry)?;
-            change.view_mut((0, j), (N, 1)).copy_from(&v);
+        let put = |j: usize, directions: &mut Direction<WideOf<L, N, M>, N>, lane: usize| {
+            let changes = directions.q.iter_mut().chain(&mut directions.v).zip(basis.column(j));
+            changes.for_each(|(wide, x)| wide.put(lane, *x));
+        };
+        let entry = |j: usize| lookup::entry::<L, N, M>(basis.column(j).icamax());
+        change.view_mut((0, 0), (N, basis.ncols())).copy_from(&basis.view((N, 0), (N, basis.ncols())));
+        self.along_each(basis.ncols(), put, entry, |j, solution| {
             change.view_mut((N, j), (N, 1)).copy_from(&solution.accelerations);
-        }
+        })?;
         Ok(change)
     }
 
@@ -102,11 +127,16 @@ where
         L: Linearized<N, M, P>,
     {
         let mut change = DMatrix::zeros(2 * N, parameters.len());
-        for (j, &k) in parameters.iter().enumerate() {
-            self.stays_on_constraints(k)?;
-            let solution = self.by_parameter(k)?;
-            change.view_mut((N, j), (N, 1)).copy_from(&solution.accelerations);
+        if const { M > 0 } {
+            parameters.iter().try_for_each(|&k| self.stays_on_constraints(k))?;
         }
+        self.by_parameters(
+            parameters.len(),
+            |j| parameters[j],
+            |j, solution| {
+                change.view_mut((N, j), (N, 1)).copy_from(&solution.accelerations);
+            },
+        )?;
         Ok(change)
     }
 
@@ -117,7 +147,7 @@ where
         for q in self.holonomic_rows().null_space() {
             // Another place turns the constraints: the velocity must follow.
             let entry = lookup::entry::<L, N, M>(q.icamax());
-            let turned = self.change(&Direction { q, ..Direction::zero() }, entry)?;
+            let turned = self.residual_change(&Direction { q, ..Direction::zero() }, entry)?;
             changes.push([q, self.matrices().factors.rows.least(&turned.rate.into())]);
         }
         changes.extend(self.matrices().factors.rows.null_space().map(|v| [zero, v]));
@@ -177,7 +207,7 @@ where
         let mut terms =
             (0..M).fold(zero, |most, a| larger(most, strongest(&|i| f[a][i] * solution.multipliers[a])));
         for (j, name) in L::COORDINATES.iter().enumerate() {
-            let change = self.change(&Direction::of_coordinate(j), Entry::Coordinate(name))?;
+            let change = self.residual_change(&Direction::of_coordinate(j), Entry::Coordinate(name))?;
             terms = larger(terms, strongest(&|i| change.motion[i] * state.q[j]));
         }
         let left = strongest(&|i| (0..N).fold(zero, |sum, j| sum + m[i][j] * solution.accelerations[j]));

@@ -1,5 +1,9 @@
 //! How the motion depends on where it starts, on the parameters and on the time: Jacobians, equilibria, linearization.
 
+#[cfg(feature = "alloc")]
+mod argument;
+#[cfg(feature = "alloc")]
+mod columns;
 mod direction;
 #[cfg(feature = "alloc")]
 mod equilibrium;
@@ -12,8 +16,12 @@ mod tangent;
 #[cfg(test)]
 mod tests;
 
+use core::fmt::Debug;
+
 use nalgebra::SVector;
 
+#[cfg(feature = "alloc")]
+pub use columns::JacobianBy;
 pub use direction::{Direction, ResidualChange};
 #[cfg(feature = "alloc")]
 pub use equilibrium::Equilibrium;
@@ -24,7 +32,7 @@ pub use linearization::Linearization;
 pub use spectrum::Stability;
 
 use crate::error::Error;
-use crate::number::Real;
+use crate::number::{Over, Real};
 use crate::system::{Lagrangian, Solution, State};
 
 /// A system whose equations of motion can be differentiated by the time and the state: what implicit methods and
@@ -38,14 +46,35 @@ use crate::system::{Lagrangian, Solution, State};
     note = "`#[derive(Lagrangian)]` gives it to every system whose functions (`#[function(…)]`) have one derivative more than the equations of motion need"
 )]
 pub trait StateDerivatives<const N: usize, const M: usize>: Lagrangian<N, M> {
-    /// The derivative of the residual along a direction in time and state, accelerations and multipliers held at those of
-    /// `solution`.
+    /// What the derivatives of the residual along all directions are made of: plain numbers.
+    type Slopes: Copy + Debug;
+
+    /// What the derivatives of the residual along all directions in time and state are made of, accelerations and
+    /// multipliers held at those of `solution`.
+    fn residual_slopes(
+        &self,
+        state: &State<Self::Scalar, N>,
+        solution: &Solution<Self::Scalar, N, M>,
+    ) -> Self::Slopes;
+
+    /// The derivative of the residual along a direction, or along several at once on [`Lanes`](crate::Lanes), by the
+    /// [`residual_slopes`](Self::residual_slopes) of a state.
+    fn residual_change_with<S: Over<Self::Scalar>>(
+        &self,
+        slopes: &Self::Slopes,
+        direction: &Direction<S, N>,
+    ) -> ResidualChange<S, N, M>;
+
+    /// The derivative of the residual along one direction in time and state, accelerations and multipliers held at those
+    /// of `solution`.
     fn residual_change(
         &self,
         state: &State<Self::Scalar, N>,
         solution: &Solution<Self::Scalar, N, M>,
         direction: &Direction<Self::Scalar, N>,
-    ) -> ResidualChange<Self::Scalar, N, M>;
+    ) -> ResidualChange<Self::Scalar, N, M> {
+        self.residual_change_with(&self.residual_slopes(state, solution), direction)
+    }
 
     /// Accelerations and multipliers at a state, and their derivatives by the time, coordinates and velocities; by no
     /// parameters.
@@ -131,6 +160,25 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     /// reference or in a type that only `#[parameter(…)]` gives a shape.
     fn set_parameter(&mut self, index: usize, value: Self::Scalar) -> bool;
 
+    /// What the derivatives of the residual by all parameters are made of: plain numbers.
+    type ParameterSlopes: Copy + Debug;
+
+    /// What the derivatives of the residual by all parameters are made of, accelerations and multipliers held at those of
+    /// `solution`.
+    fn residual_slopes_by_parameters(
+        &self,
+        state: &State<Self::Scalar, N>,
+        solution: &Solution<Self::Scalar, N, M>,
+    ) -> Self::ParameterSlopes;
+
+    /// The derivative of the residual where the parameters change at these rates, or at several at once on
+    /// [`Lanes`](crate::Lanes), by the slopes of a state; in the order of [`PARAMETERS`](Self::PARAMETERS).
+    fn residual_change_by_parameters_with<S: Over<Self::Scalar>>(
+        &self,
+        slopes: &Self::ParameterSlopes,
+        rates: &SVector<S, P>,
+    ) -> ResidualChange<S, N, M>;
+
     /// The derivative of the residual where the parameters change at these rates, in the order of
     /// [`PARAMETERS`](Self::PARAMETERS); accelerations and multipliers held at those of `solution`.
     fn residual_change_by_parameters(
@@ -138,7 +186,9 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
         state: &State<Self::Scalar, N>,
         solution: &Solution<Self::Scalar, N, M>,
         rates: &SVector<Self::Scalar, P>,
-    ) -> ResidualChange<Self::Scalar, N, M>;
+    ) -> ResidualChange<Self::Scalar, N, M> {
+        self.residual_change_by_parameters_with(&self.residual_slopes_by_parameters(state, solution), rates)
+    }
 
     /// Accelerations and multipliers at a state, and their derivatives by the time, coordinates, velocities and
     /// parameters. Nothing is allocated; the matrices of 100 coordinates and 50 constraints take 3 MB of the stack,
@@ -152,6 +202,41 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
         Self: Lagrangian<N, M, Scalar: Real> + Sized,
     {
         jacobian::jacobian(self, state)
+    }
+
+    /// Accelerations and multipliers at a state, and their derivatives by these arguments alone: coordinates `x`,
+    /// velocities `x_dot` and parameters `m`, one by one or `r` for all elements of a vector. It takes as long as there are
+    /// columns asked for.
+    ///
+    /// ```
+    /// use lagrange_core::prelude::*;
+    ///
+    /// #[derive(Lagrangian)]
+    /// #[coordinates(theta)]
+    /// #[lagrangian(m*l^2/2 * theta_dot^2 + m*g*l*cos(theta))]
+    /// struct Pendulum { m: f64, l: f64, g: f64 }
+    ///
+    /// let pendulum = Pendulum { m: 1.0, l: 2.0, g: 9.81 };
+    /// let by = pendulum.jacobian_by(&State::at_rest([0.3]), &["l", "theta"])?;
+    /// // θ̈ = −g/l sin θ
+    /// assert!((by.accelerations[(0, 0)] - 9.81 / 4.0 * 0.3_f64.sin()).abs() < 1e-15);
+    /// assert!((by.accelerations[(0, 1)] + 9.81 / 2.0 * 0.3_f64.cos()).abs() < 1e-15);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`solve`](crate::Simulate::solve); [`Error::DerivativeNotFinite`]; [`Error::UnknownName`] and
+    /// [`Error::RepeatedName`].
+    #[cfg(feature = "alloc")]
+    fn jacobian_by(
+        &self,
+        state: &State<Self::Scalar, N>,
+        arguments: &[&str],
+    ) -> Result<JacobianBy<Self::Scalar, N, M>, Error>
+    where
+        Self: Lagrangian<N, M, Scalar: Real> + Sized,
+    {
+        columns::jacobian_by(self, state, arguments)
     }
 
     /// The linear system near a state, its inputs the parameters of these names (`u` names all elements of a vector

@@ -1,6 +1,7 @@
 //! How accelerations and multipliers change along a direction: K δ(q̈, λ) = −∂R, with one factorization for all.
 
 use core::cell::OnceCell;
+use core::ops::Range;
 
 use nalgebra::{ComplexField, SVector};
 
@@ -8,19 +9,23 @@ use super::direction::unit;
 use super::{Direction, Linearized, ResidualChange, StateDerivatives};
 use crate::error::Error;
 use crate::names::Entry;
-use crate::number::Real;
+use crate::number::{Over, Real, Scalar, Wide};
 use crate::solution::kkt::{Factors, Rank};
-use crate::solution::solve::{fault, first_row, is_trustworthy, solve};
+use crate::solution::solve::{fault, first_row, is_trustworthy, least_pivot, solve};
 use crate::system::{Lagrangian, Solution, State};
 
-/// The equations of motion at a state, solved and factorized.
-pub(super) struct Tangent<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
+/// The equations of motion at a state, solved, factorized and differentiated.
+pub(super) struct Tangent<'a, L: StateDerivatives<N, M>, const N: usize, const M: usize> {
     system: &'a L,
     pub(super) state: &'a State<L::Scalar, N>,
     pub(super) solution: Solution<L::Scalar, N, M>,
     factor: L::Factor,
+    slopes: L::Slopes,
     matrices: OnceCell<Matrices<L::Scalar, N, M>>,
 }
+
+/// As many numbers as are best computed with at once.
+pub(super) type WideOf<L, const N: usize, const M: usize> = <<L as Lagrangian<N, M>>::Scalar as Real>::Wide;
 
 /// What the emitted factor does not tell, or cannot vouch for.
 pub(super) struct Matrices<T, const N: usize, const M: usize> {
@@ -38,8 +43,9 @@ where
     L: StateDerivatives<N, M, Scalar: Real>,
 {
     pub(super) fn at(system: &'a L, state: &'a State<L::Scalar, N>) -> Result<Self, Error> {
-        let (solution, factor) = (solve(system, state)?, system.factor(state));
-        Ok(Self { system, state, solution, factor, matrices: OnceCell::new() })
+        let solution = solve(system, state)?;
+        let (factor, slopes) = (system.factor(state), system.residual_slopes(state, &solution));
+        Ok(Self { system, state, solution, factor, slopes, matrices: OnceCell::new() })
     }
 
     /// Made where they are asked for.
@@ -59,52 +65,104 @@ where
         })
     }
 
-    /// δq̈ and δλ along a direction; `entry` is what to call it.
-    pub(super) fn along(
+    /// Gives δq̈ and δλ along each of these directions, as many at a time as there are lanes: `put` puts one into a lane
+    /// where all is zero, `entry` is what to call it.
+    pub(super) fn along_each(
         &self,
-        direction: &Direction<L::Scalar, N>,
-        entry: Entry,
-    ) -> Result<Solution<L::Scalar, N, M>, Error> {
-        self.response(&self.change(direction, entry)?, entry)
+        count: usize,
+        put: impl Fn(usize, &mut Direction<WideOf<L, N, M>, N>, usize),
+        entry: impl Fn(usize) -> Entry,
+        mut give: impl FnMut(usize, &Solution<L::Scalar, N, M>),
+    ) -> Result<(), Error> {
+        let lanes = <WideOf<L, N, M> as Wide<L::Scalar>>::COUNT;
+        for first in (0..count).step_by(lanes) {
+            let mut directions = Direction::<WideOf<L, N, M>, N>::zero();
+            (first..count.min(first + lanes)).for_each(|k| put(k, &mut directions, k - first));
+            let changes = self.system.residual_change_with(&self.slopes, &directions);
+            self.respond(first..count.min(first + lanes), &changes, &entry, &mut give)?;
+        }
+        Ok(())
     }
 
-    /// δq̈ and δλ by parameter `k` alone.
-    pub(super) fn by_parameter<const P: usize>(&self, k: usize) -> Result<Solution<L::Scalar, N, M>, Error>
+    /// Gives δq̈ and δλ by each of these parameters alone.
+    pub(super) fn by_parameters<const P: usize>(
+        &self,
+        count: usize,
+        parameter: impl Fn(usize) -> usize,
+        mut give: impl FnMut(usize, &Solution<L::Scalar, N, M>),
+    ) -> Result<(), Error>
     where
         L: Linearized<N, M, P>,
     {
-        let change = self.change_by_parameter(&self.solution, k)?;
-        self.response(&change, Entry::Parameter(L::PARAMETERS[k]))
+        if count == 0 {
+            return Ok(());
+        }
+        let (lanes, zero) = (<WideOf<L, N, M> as Wide<L::Scalar>>::COUNT, L::Scalar::constant(0.0));
+        let slopes = self.system.residual_slopes_by_parameters(self.state, &self.solution);
+        let entry = |k: usize| Entry::Parameter(L::PARAMETERS[parameter(k)]);
+        for first in (0..count).step_by(lanes) {
+            let mut rates = SVector::<_, P>::from_element(WideOf::<L, N, M>::of(zero));
+            let block = first..count.min(first + lanes);
+            block.clone().for_each(|k| rates[parameter(k)].put(k - first, L::Scalar::constant(1.0)));
+            let changes = self.system.residual_change_by_parameters_with(&slopes, &rates);
+            self.respond(block, &changes, &entry, &mut give)?;
+        }
+        Ok(())
     }
 
-    /// What makes up for a change of the residual.
-    fn response(
+    /// What makes up for changes of the residual, lane by lane.
+    fn respond(
+        &self,
+        block: Range<usize>,
+        changes: &ResidualChange<WideOf<L, N, M>, N, M>,
+        entry: &impl Fn(usize) -> Entry,
+        give: &mut impl FnMut(usize, &Solution<L::Scalar, N, M>),
+    ) -> Result<(), Error> {
+        let (h, gamma) = (-changes.motion, changes.acceleration);
+        let fast = self.system.solve_with(&self.factor, &h, &gamma);
+        let is_sound = are_sound::<L::Scalar, N, M>(changes, &fast);
+        for k in block.clone() {
+            let lane = k - block.start;
+            let response = lane_of(&fast, lane);
+            if is_sound {
+                give(k, &response);
+                continue;
+            }
+            let change = self.checked(changes.lane(lane), entry(k))?;
+            match is_trustworthy(&response) {
+                true => give(k, &response),
+                false => give(k, &self.response_in_general(&change, entry(k))?),
+            }
+        }
+        Ok(())
+    }
+
+    #[cold]
+    fn response_in_general(
         &self,
         change: &ResidualChange<L::Scalar, N, M>,
         entry: Entry,
     ) -> Result<Solution<L::Scalar, N, M>, Error> {
-        let (h, gamma) = (-change.motion, change.acceleration);
-        let fast = self.system.solve_with(&self.factor, &h, &gamma);
-        if is_trustworthy(&fast) {
-            return Ok(fast);
-        }
         let (time, factors) = (self.state.t.to_f64(), &self.matrices().factors);
-        let solution =
-            factors.solve(&h.into(), &gamma.into()).map_err(|found| fault::<L, N, M>(&found, time))?;
+        let solution = factors
+            .solve(&(-change.motion).into(), &change.acceleration.into())
+            .map_err(|found| fault::<L, N, M>(&found, time))?;
         self.check_finite(&solution.accelerations, &[solution.multipliers], entry)?;
         Ok(solution)
     }
 
     /// The derivative of the residual, which must be finite.
-    pub(super) fn change(
+    #[cfg(feature = "alloc")]
+    pub(super) fn residual_change(
         &self,
         direction: &Direction<L::Scalar, N>,
         entry: Entry,
     ) -> Result<ResidualChange<L::Scalar, N, M>, Error> {
-        self.checked(self.system.residual_change(self.state, &self.solution, direction), entry)
+        self.checked(self.system.residual_change_with(&self.slopes, direction), entry)
     }
 
     /// The derivative of the residual by parameter `k`, with these accelerations and multipliers; it must be finite.
+    #[cfg(feature = "alloc")]
     pub(super) fn change_by_parameter<const P: usize>(
         &self,
         solution: &Solution<L::Scalar, N, M>,
@@ -139,5 +197,32 @@ where
             None => Ok(()),
             Some(row) => Err(Error::DerivativeNotFinite { row, entry, time: self.state.t.to_f64() }),
         }
+    }
+}
+
+/// Whether all lanes can be relied on, all at once: every number is finite, and so is their sum.
+fn are_sound<T: Real, const N: usize, const M: usize>(
+    changes: &ResidualChange<T::Wide, N, M>,
+    responses: &Solution<T::Wide, N, M>,
+) -> bool {
+    let ResidualChange { motion, acceleration, rate, position } = changes;
+    let Solution { accelerations, multipliers, pivot, .. } = responses;
+    let coordinates = motion.iter().chain(accelerations);
+    let constraints = acceleration.iter().chain(rate).chain(position).chain(multipliers);
+    let zero = T::Wide::constant(0.0);
+    let size = constraints.fold(coordinates.fold(zero, |sum, x| sum + x.abs()), |sum, x| sum + x.abs());
+    (0..T::Wide::COUNT).all(|lane| pivot.lane(lane) > least_pivot() && size.lane(lane).is_finite())
+}
+
+/// The solution in one lane.
+fn lane_of<T: Real, const N: usize, const M: usize>(
+    wide: &Solution<T::Wide, N, M>,
+    lane: usize,
+) -> Solution<T, N, M> {
+    Solution {
+        accelerations: wide.accelerations.map(|x| x.lane(lane)),
+        multipliers: wide.multipliers.map(|x| x.lane(lane)),
+        pivot: wide.pivot.lane(lane),
+        rank: wide.rank,
     }
 }

@@ -5,6 +5,7 @@ mod dual;
 #[cfg(feature = "std")]
 mod lanes;
 mod numeric;
+mod over;
 mod scalar;
 
 pub use array::{matrix, vector};
@@ -15,4 +16,5 @@ pub use numeric::only_where;
 pub(crate) use numeric::{
     beyond_round_off, exceeds, is_within, larger, largest, norm, power_of_epsilon, power_of_two, smaller,
 };
+pub use over::{Over, Wide};
 pub use scalar::{Real, Scalar};

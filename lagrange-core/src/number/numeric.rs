@@ -46,10 +46,10 @@ pub(crate) fn power_of_epsilon<T: Real>(exponent: f64) -> T {
     Scalar::powf(T::constant(T::EPSILON), T::constant(exponent))
 }
 
-/// `value`, or zero where `activity` is zero.
+/// `value`, or zero where `activity` is zero, lane by lane.
 #[inline]
 pub fn only_where<T: Scalar>(activity: T, value: T) -> T {
-    if activity == T::constant(0.0) { activity } else { value }
+    activity.by_order(T::constant(0.0), value, activity, value)
 }
 
 /// A power of two not far below `x` ≥ 0, by which to divide before numbers of its size are multiplied; 1 for zero.

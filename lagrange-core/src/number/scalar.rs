@@ -5,6 +5,8 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use simba::scalar::{RealField, SupersetOf};
 use simba::simd::SimdRealField;
 
+use super::over::Wide;
+
 /// A number that equations of motion can be evaluated on: `f64`, `f32`, a SIMD lane type, a dual number.
 ///
 /// Emitted code reaches all mathematics through this trait. It is implemented for every type with
@@ -143,6 +145,9 @@ pub trait Real: Scalar + RealField + PartialOrd + Display {
     /// The distance from 1 to the next larger number.
     const EPSILON: f64;
 
+    /// As many as are best computed with at once.
+    type Wide: Wide<Self>;
+
     /// The same number as an `f64`.
     fn to_f64(self) -> f64;
 }
@@ -150,6 +155,11 @@ pub trait Real: Scalar + RealField + PartialOrd + Display {
 #[cfg(any(feature = "std", feature = "libm"))]
 impl Real for f64 {
     const EPSILON: Self = Self::EPSILON;
+
+    #[cfg(feature = "std")]
+    type Wide = super::lanes::Lanes;
+    #[cfg(not(feature = "std"))]
+    type Wide = Self;
 
     #[inline(always)]
     fn to_f64(self) -> f64 {
@@ -160,6 +170,8 @@ impl Real for f64 {
 #[cfg(any(feature = "std", feature = "libm"))]
 impl Real for f32 {
     const EPSILON: f64 = Self::EPSILON as f64;
+
+    type Wide = Self;
 
     #[inline(always)]
     fn to_f64(self) -> f64 {

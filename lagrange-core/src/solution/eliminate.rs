@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use crate::number::{Scalar, vector};
+use crate::number::{Over, Scalar, vector};
 use crate::system::Solution;
 
 /// Solves M q̈ − Fᵀλ = h, F q̈ = −γ by LDLᵀ of M and of the Schur complement F M⁻¹ Fᵀ, without pivoting.
@@ -53,12 +53,12 @@ impl<T: Scalar, const N: usize, const M: usize> LoopFactor<T, N, M> {
 
     /// M x − Fᵀλ = `forcing`, F x = −`bias`.
     #[inline]
-    pub fn solve(&self, forcing: &SVector<T, N>, bias: &SVector<T, M>) -> Solution<T, N, M> {
+    pub fn solve<S: Over<T>>(&self, forcing: &SVector<S, N>, bias: &SVector<S, M>) -> Solution<S, N, M> {
         let (mut h, gamma) = (forcing.data.0[0], bias.data.0[0]);
         for a in (0..M).filter(|&a| self.weights[a] != T::constant(0.0)) {
-            let part = self.weights[a] * gamma[a];
+            let part = S::of(self.weights[a]) * gamma[a];
             for i in 0..N {
-                h[i] = h[i] - self.f[a][i] * part;
+                h[i] = h[i] - S::of(self.f[a][i]) * part;
             }
         }
         self.solve_completed(h, gamma)
@@ -66,26 +66,26 @@ impl<T: Scalar, const N: usize, const M: usize> LoopFactor<T, N, M> {
 
     /// Of h − Fᵀσγ.
     #[inline]
-    fn solve_completed(&self, h: [T; N], gamma: [T; M]) -> Solution<T, N, M> {
+    fn solve_completed<S: Over<T>>(&self, h: [S; N], gamma: [S; M]) -> Solution<S, N, M> {
         let mut q = h;
         self.mass.solve(&mut q);
         let mut lambda = gamma;
         for a in 0..M {
-            lambda[a] = -(lambda[a] + dot(&self.f[a], &q));
+            lambda[a] = -(lambda[a] + dot(&self.f[a].map(S::of), &q));
         }
         self.schur.solve(&mut lambda);
         for a in 0..M {
             for i in 0..N {
-                q[i] = q[i] + self.w[a][i] * lambda[a];
+                q[i] = q[i] + S::of(self.w[a][i]) * lambda[a];
             }
         }
         let pivots = [self.mass.pivot, self.schur.pivot];
         let pivot = poison(pivots[0].min(pivots[1]), pivots[0] * pivots[1]);
-        let doubt = doubt(pivot, T::constant(1.0));
+        let doubt = S::of(doubt(pivot, T::constant(1.0)));
         Solution {
             accelerations: vector(q.map(|x| x + doubt)),
             multipliers: vector(lambda.map(|x| x + doubt)),
-            pivot,
+            pivot: S::of(pivot),
             rank: M,
         }
     }
@@ -127,18 +127,18 @@ impl<T: Scalar, const K: usize> Ldl<T, K> {
     }
 
     #[inline]
-    fn solve(&self, x: &mut [T; K]) {
+    fn solve<S: Over<T>>(&self, x: &mut [S; K]) {
         for i in 0..K {
             for j in 0..i {
-                x[i] = x[i] - self.l[i][j] * x[j];
+                x[i] = x[i] - S::of(self.l[i][j]) * x[j];
             }
         }
         for i in 0..K {
-            x[i] = x[i] * self.l[i][i];
+            x[i] = x[i] * S::of(self.l[i][i]);
         }
         for i in (0..K).rev() {
             for j in i + 1..K {
-                x[i] = x[i] - self.l[j][i] * x[j];
+                x[i] = x[i] - S::of(self.l[j][i]) * x[j];
             }
         }
     }

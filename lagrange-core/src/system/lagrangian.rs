@@ -7,7 +7,7 @@ use nalgebra::{SMatrix, SVector};
 use super::facts::Facts;
 use super::integrability::{Classification, Integrals};
 use super::state::{Solution, State};
-use crate::number::Scalar;
+use crate::number::{Over, Scalar};
 
 /// How a constraint was written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -135,12 +135,14 @@ pub trait Lagrangian<const N: usize, const M: usize> {
     /// assert!((after.accelerations[0] - 0.32).abs() < 1e-15 && (after.accelerations[1] - 0.24).abs() < 1e-15);
     /// assert!((after.multipliers[0] + 0.6).abs() < 1e-15);
     /// ```
-    fn solve_with(
+    ///
+    /// Right-hand sides may be several at once, on [`Lanes`](crate::Lanes) over an `f64`.
+    fn solve_with<S: Over<Self::Scalar>>(
         &self,
         factor: &Self::Factor,
-        forcing: &SVector<Self::Scalar, N>,
-        bias: &SVector<Self::Scalar, M>,
-    ) -> Solution<Self::Scalar, N, M>;
+        forcing: &SVector<S, N>,
+        bias: &SVector<S, M>,
+    ) -> Solution<S, N, M>;
 
     /// The observable [`OBSERVABLES`](Self::OBSERVABLES)`[index]`; `None` beyond the last.
     fn observable(

@@ -11,7 +11,17 @@ use crate::names::Entry;
 
 /// The names of the coordinates, then of the velocities.
 pub(crate) fn entries<L: Lagrangian<N, M>, const N: usize, const M: usize>() -> Vec<String> {
-    (0..2 * N).map(|index| format!("{}", entry::<L, N, M>(index))).collect()
+    L::COORDINATES
+        .iter()
+        .map(|&name| name.into())
+        .chain(L::COORDINATES.iter().map(|name| velocity(name)))
+        .collect()
+}
+
+/// What the velocity of this coordinate is called.
+fn velocity(coordinate: &str) -> String {
+    let (base, index) = coordinate.split_at(coordinate.find('[').unwrap_or(coordinate.len()));
+    [base, "_dot", index].concat()
 }
 
 /// What is at this index of (q, q̇).
@@ -76,7 +86,7 @@ fn meaning<L: Lagrangian<N, M>, const N: usize, const M: usize>(name: &str) -> O
         let derived = |name, method| (name, format!("the {method} of `{x}`"), method, x);
         [
             (x.into(), "a coordinate".into(), "coordinate", x),
-            derived(format!("{base}_dot{index}"), "velocity"),
+            derived(velocity(x), "velocity"),
             derived(format!("{base}_ddot{index}"), "acceleration"),
             derived(format!("p_{x}"), "momentum"),
             derived(format!("p({x})"), "momentum"),

@@ -8,6 +8,7 @@ use super::lagrangian::{ConstraintKind, Lagrangian};
 use super::pack::Pack;
 use super::state::{Solution, State};
 use crate::linearized::{Direction, ResidualChange, StateDerivatives};
+use crate::number::Over;
 
 /// Forwards every method and constant, those that have a default too: it would hide what the system has.
 macro_rules! forward {
@@ -46,11 +47,11 @@ macro_rules! forward {
                 ) -> SVector<Self::Scalar, N>;
                 fn accelerations_unchecked(state: &State<Self::Scalar, N>) -> Solution<Self::Scalar, N, M>;
                 fn factor(state: &State<Self::Scalar, N>) -> Self::Factor;
-                fn solve_with(
+                fn solve_with<S>(
                     factor: &Self::Factor,
-                    forcing: &SVector<Self::Scalar, N>,
-                    bias: &SVector<Self::Scalar, M>
-                ) -> Solution<Self::Scalar, N, M>;
+                    forcing: &SVector<S, N>,
+                    bias: &SVector<S, M>
+                ) -> Solution<S, N, M>;
                 fn observable(
                     index: usize,
                     state: &State<Self::Scalar, N>,
@@ -62,12 +63,17 @@ macro_rules! forward {
 
         #[diagnostic::do_not_recommend]
         impl<L: StateDerivatives<N, M>, const N: usize, const M: usize> StateDerivatives<N, M> for $pointer {
+            type Slopes = L::Slopes;
+
             forward! { @methods
-                fn residual_change(
+                fn residual_slopes(
                     state: &State<Self::Scalar, N>,
-                    solution: &Solution<Self::Scalar, N, M>,
-                    direction: &Direction<Self::Scalar, N>
-                ) -> ResidualChange<Self::Scalar, N, M>;
+                    solution: &Solution<Self::Scalar, N, M>
+                ) -> Self::Slopes;
+                fn residual_change_with<S>(
+                    slopes: &Self::Slopes,
+                    direction: &Direction<S, N>
+                ) -> ResidualChange<S, N, M>;
             }
         }
 
@@ -81,9 +87,9 @@ macro_rules! forward {
             }
         }
     )*};
-    (@methods $(fn $method:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {$(
+    (@methods $(fn $method:ident $(<$wide:ident>)?($($argument:ident: $type:ty),*) -> $result:ty;)*) => {$(
         #[inline]
-        fn $method(&self, $($argument: $type),*) -> $result {
+        fn $method $(<$wide: Over<Self::Scalar>>)?(&self, $($argument: $type),*) -> $result {
             L::$method(self, $($argument),*)
         }
     )*};

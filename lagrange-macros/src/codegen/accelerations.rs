@@ -7,6 +7,7 @@ use quote::quote;
 use super::kernel::Kernel;
 use super::passes::Program;
 use super::shape::Shape;
+use super::signature::wide;
 use super::solving::Solving;
 use super::{Emitter, Written};
 use crate::contract::Method;
@@ -46,7 +47,9 @@ impl Emitter<'_> {
     fn solution(&self, method: &Method, program: &Program) -> Written {
         let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
         let shapes = [Shape::Vector(n), Shape::Vector(m), Shape::Number];
-        let kernel = self.style.write(method.name, program, &shapes);
+        let wide = wide();
+        let over = method.is_wide.then(|| self.style.over(&wide, 0));
+        let kernel = over.as_ref().unwrap_or(&self.style).write(method.name, program, &shapes);
         self.function(method, kernel, |results| {
             let [accelerations, multipliers, pivot] = results else { return TokenStream::new() };
             quote! {

@@ -95,6 +95,7 @@ impl Style<'_> {
             Argument::Direction,
             Argument::Rates,
             Argument::Factor,
+            Argument::Slopes,
             Argument::Forcing,
             Argument::Bias,
         ];
@@ -104,14 +105,14 @@ impl Style<'_> {
             .map(|argument| (format_ident!("{}", argument.name()), self.argument(argument)))
             .unzip();
         let scalar = self.types.scalar;
-        let (names, array_types) = (&arrays.names, arrays.types(scalar));
+        let (names, array_types, generics) = (&arrays.names, arrays.types(scalar), self.generics());
         let body = self.statements(part, arrays);
         let call = quote! { self.#method(#(#arguments,)* &mut waiting, #(&mut #names),*); };
         let method = quote! {
             #[doc = #doc]
             #[inline(never)]
             #[allow(unused_variables)]
-            fn #method(&self, #(#types,)* waiting: &mut [#scalar; #waiting], #(#names: &mut #array_types),*) {
+            fn #method #generics(&self, #(#types,)* waiting: &mut [#scalar; #waiting], #(#names: &mut #array_types),*) {
                 #body
             }
         };
@@ -125,6 +126,10 @@ impl Style<'_> {
         let factor = &self.factor;
         match argument {
             Argument::Factor => quote!(factor: &#factor),
+            Argument::Slopes => {
+                let slopes = self.slopes_type();
+                quote!(slopes: &#slopes)
+            }
             _ => self.types.argument(argument),
         }
     }
@@ -142,6 +147,7 @@ fn source(symbol: Symbol) -> Argument {
         Variable::Forcing(_) => Argument::Forcing,
         Variable::Bias(_) => Argument::Bias,
         Variable::ParameterChange(_) => Argument::Rates,
+        Variable::Slope(_) => Argument::Slopes,
     }
 }
 

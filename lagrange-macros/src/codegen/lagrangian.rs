@@ -111,7 +111,9 @@ impl Emitter<'_> {
             Quantity::Conserved => return self.conserved_by_index(method),
             Quantity::Parameters
             | Quantity::SetParameter
+            | Quantity::Slopes
             | Quantity::ResidualChange
+            | Quantity::ParameterSlopes
             | Quantity::ResidualChangeByParameters => Vec::new(),
         };
         // nalgebra's matrices are stored by columns, of which there is one a coordinate.

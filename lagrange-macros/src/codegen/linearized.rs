@@ -6,21 +6,54 @@ use quote::{format_ident, quote};
 use super::bounds::FUNCTION_ORDER;
 use super::passes::Program;
 use super::shape::Shape;
+use super::signature::wide;
 use super::{Emitter, Written, runtime};
 use crate::contract::{LINEARIZED, Method, Quantity, STATE_DERIVATIVES};
 use crate::mechanics::{Changes, Linearization};
+use crate::symbolic::Graph;
+
+/// The programs of what changes: the slopes, and what they make of a direction.
+pub(super) struct Changing {
+    by_state: [Program; 2],
+    by_parameters: [Program; 2],
+}
+
+impl Changing {
+    pub(super) fn new(graph: &Graph, linearization: &Linearization) -> Self {
+        let programs = |changes: &Changes| Program::of_changes(graph, &changes.roots());
+        Self {
+            by_state: programs(&linearization.by_state),
+            by_parameters: programs(&linearization.by_parameters),
+        }
+    }
+
+    /// How many slopes there are at most.
+    pub(super) fn slopes(&self) -> usize {
+        [&self.by_state, &self.by_parameters]
+            .into_iter()
+            .map(|[slopes, _]| slopes.results.len())
+            .max()
+            .unwrap_or(0)
+    }
+}
 
 impl Emitter<'_> {
     /// The implementations of `StateDerivatives` and `Linearized`; nothing where they would be too long, or take derivatives
     /// of a higher order than functions have.
-    pub(super) fn linearized(&self, linearization: &Linearization) -> Option<TokenStream> {
+    pub(super) fn linearized(
+        &self,
+        linearization: &Linearization,
+        changing: &Changing,
+    ) -> Option<TokenStream> {
         let orders = self.orders(&linearization.roots());
         orders.values().all(|&order| order <= FUNCTION_ORDER).then_some(())?;
         let write = |method: &Method| match method.quantity {
             Quantity::Parameters => self.parameters(method),
             Quantity::SetParameter => self.set_parameter(method),
-            Quantity::ResidualChange => self.residual_change(method, &linearization.by_state),
-            _ => self.residual_change(method, &linearization.by_parameters),
+            Quantity::Slopes => self.slopes(method, &changing.by_state),
+            Quantity::ParameterSlopes => self.slopes(method, &changing.by_parameters),
+            Quantity::ResidualChange => self.residual_change(method, &changing.by_state),
+            _ => self.residual_change(method, &changing.by_parameters),
         };
         let Written { tokens: of_state, mut kernels } = STATE_DERIVATIVES.iter().map(write).collect();
         let Written { tokens: methods, kernels: of_parameters } = LINEARIZED.iter().map(write).collect();
@@ -32,6 +65,9 @@ impl Emitter<'_> {
         let (_, type_generics, _) = self.declaration.generics.split_for_impl();
         let (runtime, ident) = (runtime(self.declaration), &self.declaration.ident);
         let [n, m, p] = self.style.types.dimensions();
+        let scalar = self.style.types.scalar;
+        let [of_state_slopes, of_parameter_slopes] =
+            [&changing.by_state, &changing.by_parameters].map(|[slopes, _]| slopes.results.len());
         let parts: Vec<_> = kernels.iter().flat_map(|kernel| &kernel.parts).collect();
         let parts = (!parts.is_empty()).then(|| {
             quote! {
@@ -51,12 +87,14 @@ impl Emitter<'_> {
                 #[automatically_derived]
                 #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
                 impl #impl_generics __lagrange::StateDerivatives<#n, #m> for #ident #type_generics #where_clause {
+                    type Slopes = [#scalar; #of_state_slopes];
                     #of_state
                 }
 
                 #[automatically_derived]
                 #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
                 impl #impl_generics __lagrange::Linearized<#n, #m, #p> for #ident #type_generics #where_clause {
+                    type ParameterSlopes = [#scalar; #of_parameter_slopes];
                     const PARAMETERS: [&'static str; #p] = [#(#names),*];
                     #methods
                 }
@@ -100,11 +138,8 @@ impl Emitter<'_> {
         Written { tokens, kernels: Vec::new() }
     }
 
-    fn residual_change(&self, method: &Method, changes: &Changes) -> Written {
-        let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
-        let program = Program::of_changes(self.style.graph, &changes.roots());
-        let kernel = self.style.write(method.name, &program, &[n, m, m, m].map(Shape::Vector));
-        let names = ["motion", "acceleration", "rate", "position"].map(|name| format_ident!("{name}"));
+    fn slopes(&self, method: &Method, [slopes, _]: &[Program; 2]) -> Written {
+        let kernel = self.style.write(method.name, slopes, &[Shape::Vector(slopes.results.len())]);
         let (statements, results, doc) = (&kernel.statements, &kernel.results, &kernel.doc);
         let signature = self.style.types.signature(method);
         let tokens = quote! {
@@ -113,6 +148,26 @@ impl Emitter<'_> {
             #[allow(unused_variables)]
             #signature {
                 let multipliers = &solution.multipliers;
+                #statements
+                #(#results)*
+            }
+        };
+        Written { tokens, kernels: vec![kernel] }
+    }
+
+    fn residual_change(&self, method: &Method, [slopes, changes]: &[Program; 2]) -> Written {
+        let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
+        let wide = wide();
+        let style = self.style.over(&wide, slopes.results.len());
+        let kernel = style.write(method.name, changes, &[n, m, m, m].map(Shape::Vector));
+        let names = ["motion", "acceleration", "rate", "position"].map(|name| format_ident!("{name}"));
+        let (statements, results, doc) = (&kernel.statements, &kernel.results, &kernel.doc);
+        let signature = self.style.types.signature(method);
+        let tokens = quote! {
+            #[doc = #doc]
+            #[inline]
+            #[allow(unused_variables)]
+            #signature {
                 #statements
                 __lagrange::ResidualChange { #(#names: __lagrange::generated::vector(#results)),* }
             }

@@ -38,6 +38,7 @@ use bounds::FUNCTION_ORDER;
 #[cfg(test)]
 pub(crate) use count::Count;
 use kernel::{Kernel, OPERATION_LIMIT};
+use linearized::Changing;
 use solving::Solving;
 pub(crate) use stub::stub;
 use style::Style;
@@ -55,7 +56,10 @@ pub(crate) fn implementation(
     diagnostics: &mut Diagnostics,
 ) -> Option<TokenStream> {
     let solving = Solving::cheapest(graph, &derived.equations);
-    let style = Style::new(graph, problem, solving.as_ref().map(|solving| solving.factor.results.len()));
+    let changing = derived.linearization.as_ref().map(|linearization| Changing::new(graph, linearization));
+    let slopes = changing.as_ref().map_or(0, Changing::slopes);
+    let numbers = solving.as_ref().map(|solving| solving.factor.results.len());
+    let style = Style::new(graph, problem, numbers, slopes);
     let emitter = Emitter { declaration, problem, derived, rendered, solving, style };
     for (function, order) in emitter.orders(&[]).into_iter().filter(|(_, order)| *order > FUNCTION_ORDER) {
         let Supplied { name, place, .. } = &problem.functions[function as usize];
@@ -65,7 +69,10 @@ pub(crate) fn implementation(
     }
     let mut tokens = emitter.lagrangian(diagnostics);
     diagnostics.is_empty().then_some(())?;
-    tokens.extend(derived.linearization.as_ref().and_then(|linearization| emitter.linearized(linearization)));
+    let linearization = derived.linearization.as_ref().zip(changing);
+    tokens.extend(
+        linearization.and_then(|(linearization, changing)| emitter.linearized(linearization, &changing)),
+    );
     Some(tokens)
 }
 

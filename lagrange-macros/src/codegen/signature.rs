@@ -6,6 +6,7 @@ use quote::{format_ident, quote};
 use crate::contract::{Argument, Dimension, Gives, Method};
 
 /// The number type of a system and how many of what it has.
+#[derive(Clone, Copy)]
 pub(super) struct Types<'a> {
     pub(super) scalar: &'a syn::Type,
     /// How many coordinates there are; `None` where nobody knows, and methods leave it to the caller.
@@ -14,11 +15,26 @@ pub(super) struct Types<'a> {
     pub(super) parameters: usize,
 }
 
+/// Numbers over those of a system.
+pub(super) fn wide() -> syn::Type {
+    syn::parse_quote!(__S)
+}
+
 impl Types<'_> {
     pub(super) fn signature(&self, method: &Method) -> TokenStream {
-        let (name, returns) = (format_ident!("{}", method.name), self.returns(method.gives));
-        let arguments = method.takes.iter().map(|&argument| self.argument(argument));
-        quote!(fn #name(#(#arguments),*) -> #returns)
+        let name = format_ident!("{}", method.name);
+        let wide = wide();
+        let types = if method.is_wide { Types { scalar: &wide, ..*self } } else { *self };
+        let generics = method.is_wide.then(|| self.over());
+        let arguments = method.takes.iter().map(|&argument| types.argument(argument));
+        let returns = types.returns(method.gives);
+        quote!(fn #name #generics(#(#arguments),*) -> #returns)
+    }
+
+    /// The generic parameter of a method that computes with any numbers over these.
+    pub(super) fn over(&self) -> TokenStream {
+        let (wide, scalar) = (wide(), self.scalar);
+        quote!(<#wide: __lagrange::Over<#scalar>>)
     }
 
     /// Of the method of an observable of so many numbers.
@@ -63,6 +79,8 @@ impl Types<'_> {
             Argument::Direction => quote!(&__lagrange::Direction<#scalar, #n>),
             Argument::Rates => quote!(&__lagrange::nalgebra::SVector<#scalar, #p>),
             Argument::Factor => quote!(&Self::Factor),
+            Argument::Slopes => quote!(&Self::Slopes),
+            Argument::ParameterSlopes => quote!(&Self::ParameterSlopes),
             Argument::Forcing => quote!(&__lagrange::nalgebra::SVector<#scalar, #n>),
             Argument::Bias => quote!(&__lagrange::nalgebra::SVector<#scalar, #m>),
             Argument::Index => quote!(usize),
@@ -83,6 +101,8 @@ impl Types<'_> {
             }
             Gives::Solution => quote!(__lagrange::Solution<#scalar, #n, #m>),
             Gives::Factor => quote!(Self::Factor),
+            Gives::Slopes => quote!(Self::Slopes),
+            Gives::ParameterSlopes => quote!(Self::ParameterSlopes),
             Gives::ResidualChange => quote!(__lagrange::ResidualChange<#scalar, #n, #m>),
             Gives::Optional => quote!(::core::option::Option<#scalar>),
             Gives::Success => quote!(bool),

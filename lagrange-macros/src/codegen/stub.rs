@@ -58,12 +58,14 @@ pub(crate) fn stub(declaration: &Declaration, outline: &Outline) -> TokenStream 
             #[automatically_derived]
             #[allow(unused_variables, clippy::all)]
             impl #impl_generics __lagrange::StateDerivatives<#n, #m> for #ident #type_generics #where_clause {
+                type Slopes = ();
                 #(#of_state_derivatives)*
             }
 
             #[automatically_derived]
             #[allow(unused_variables, clippy::all)]
             impl #impl_generics __lagrange::Linearized<#n, #m, #p> for #ident #type_generics #where_clause {
+                type ParameterSlopes = ();
                 const PARAMETERS: [&'static str; #p] = [""; #p];
                 #(#of_linearized)*
             }

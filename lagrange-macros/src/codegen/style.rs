@@ -13,12 +13,17 @@ use crate::symbolic::{Graph, Id, Symbol};
 use crate::variables::Variable;
 
 /// What all functions of a system have in common.
+#[derive(Clone)]
 pub(super) struct Style<'a> {
     pub(super) graph: &'a Graph,
     pub(super) problem: &'a Problem,
     pub(super) types: Types<'a>,
     /// The type of what holds the factor of the equations' matrix.
     pub(super) factor: TokenStream,
+    /// The number type of the system, where functions compute with any over it.
+    narrow: Option<&'a syn::Type>,
+    /// How many slopes the functions read.
+    slopes: usize,
     /// Whether the scalar is `f64`, so that constants are plain literals.
     is_f64: bool,
     /// Names of the inputs and definitions, valid as identifiers and all different.
@@ -27,8 +32,9 @@ pub(super) struct Style<'a> {
 }
 
 impl<'a> Style<'a> {
-    /// `numbers` are those of the factor; where there are none the runtime has its own.
-    pub(super) fn new(graph: &'a Graph, problem: &'a Problem, numbers: Option<usize>) -> Self {
+    /// `numbers` are those of the factor; where there are none the runtime has its own. Of the `slopes` there are at most
+    /// so many.
+    pub(super) fn new(graph: &'a Graph, problem: &'a Problem, numbers: Option<usize>, slopes: usize) -> Self {
         let scalar = &problem.scalar;
         let is_f64 = quote!(#scalar).to_string() == "f64";
         let mut taken = HashSet::from(
@@ -39,6 +45,7 @@ impl<'a> Style<'a> {
                 "direction",
                 "rates",
                 "factor",
+                "slopes",
                 "forcing",
                 "bias",
                 "index",
@@ -82,6 +89,9 @@ impl<'a> Style<'a> {
         for k in 0..numbers.unwrap_or(0) {
             names.insert(Variable::Factor(k).symbol(), unique(format!("factor_{k}")));
         }
+        for k in 0..slopes {
+            names.insert(Variable::Slope(k).symbol(), unique(format!("s{k}")));
+        }
         let (n, m) = (problem.coordinates.len(), problem.constraints.len());
         let types = Types {
             scalar,
@@ -93,7 +103,33 @@ impl<'a> Style<'a> {
             Some(numbers) => quote!([#scalar; #numbers]),
             None => quote!(__lagrange::generated::LoopFactor<#scalar, #n, #m>),
         };
-        Self { graph, problem, types, factor, is_f64, names, definition_names }
+        Self { graph, problem, types, factor, narrow: None, slopes, is_f64, names, definition_names }
+    }
+
+    /// For functions that compute with any numbers over those of the system, called `wide`, and read so many slopes.
+    pub(super) fn over<'w>(&'w self, wide: &'w syn::Type, slopes: usize) -> Style<'w> {
+        let types = Types { scalar: wide, ..self.types };
+        Style { types, narrow: Some(self.types.scalar), slopes, is_f64: false, ..self.clone() }
+    }
+
+    /// What a method beside those of the traits is generic over.
+    pub(super) fn generics(&self) -> Option<TokenStream> {
+        self.narrow.map(|scalar| Types { scalar, ..self.types }.over())
+    }
+
+    /// The type of the slopes that functions read.
+    pub(super) fn slopes_type(&self) -> TokenStream {
+        let (number, slopes) = (self.narrow.unwrap_or(self.types.scalar), self.slopes);
+        quote!([#number; #slopes])
+    }
+
+    /// A number of the system, as functions compute with it.
+    fn widened(&self, number: &TokenStream) -> TokenStream {
+        let wide = self.types.scalar;
+        match self.narrow {
+            Some(_) => quote!(#wide::of(#number)),
+            None => number.clone(),
+        }
     }
 
     /// The value of a parameter, read from its field.
@@ -155,7 +191,11 @@ impl<'a> Style<'a> {
                 Variable::Change(i) => self.change(i),
                 Variable::Factor(k) => {
                     let k = Literal::usize_unsuffixed(k);
-                    quote!(factor[#k])
+                    self.widened(&quote!(factor[#k]))
+                }
+                Variable::Slope(k) => {
+                    let k = Literal::usize_unsuffixed(k);
+                    self.widened(&quote!(slopes[#k]))
                 }
                 Variable::ParameterChange(k) => {
                     let place = Literal::usize_unsuffixed(k);
@@ -183,7 +223,11 @@ impl<'a> Style<'a> {
         let magnitude = Literal::f64_unsuffixed(value.abs());
         let literal = if value.is_sign_negative() { quote!((-#magnitude)) } else { quote!(#magnitude) };
         let scalar = self.types.scalar;
-        if self.is_f64 { literal } else { quote!(<#scalar as __lagrange::Scalar>::constant(#literal)) }
+        match self.narrow {
+            _ if self.is_f64 => literal,
+            Some(_) => quote!(#scalar::constant(#literal)),
+            None => quote!(<#scalar as __lagrange::Scalar>::constant(#literal)),
+        }
     }
 }
 

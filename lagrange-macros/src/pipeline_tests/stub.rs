@@ -63,8 +63,9 @@ fn promises(expansion: TokenStream) -> BTreeSet<String> {
             promises.insert(format!("{of} {promise}"));
         }
     }
-    // How many numbers the factor has, a system knows that is derived.
-    promises.retain(|promise| !promise.contains(" Factor = "));
+    // How many numbers the factor has and how many slopes there are, a system knows that is derived.
+    let counted = [" Factor = ", "Slopes = "];
+    promises.retain(|promise| !counted.iter().any(|name| promise.contains(name)));
     // What the trait gives to a system that has nothing to say of it.
     let provided = ["constraint_integral", "CONSTRAINT_CLASSES", "INTEGRALS", "MOMENTA_ARE_LINEAR"];
     promises.retain(|promise| !provided.iter().any(|name| promise.contains(name)));

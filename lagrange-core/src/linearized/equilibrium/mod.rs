@@ -3,7 +3,6 @@
 mod point;
 mod search;
 mod steady;
-mod unknown;
 mod weights;
 
 use alloc::{string::String, vec::Vec};
@@ -12,6 +11,7 @@ use core::fmt::{self, Debug, Formatter};
 use nalgebra::SVector;
 
 use super::Linearized;
+use super::argument::Argument;
 use crate::error::Error;
 use crate::number::Real;
 use crate::solution::newton;
@@ -20,7 +20,6 @@ use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, State};
 use point::Point;
 use search::Balance;
-use unknown::Unknown;
 
 /// An equilibrium, or a steady motion.
 #[derive(Clone)]
@@ -69,7 +68,10 @@ where
     L: Linearized<N, M, P, Scalar: Real> + Clone,
 {
     check_finite(system, guess)?;
-    let unknowns = Unknown::of::<L, N, M, P>(names)?;
+    let unknowns = match names {
+        [] => (0..N).map(Argument::Coordinate).collect(),
+        names => Argument::named::<L, N, M, P>(names)?,
+    };
     let (mut balance, start) = Balance::start(system.clone(), guess, unknowns)?;
     let at_the_guess = start.point.unsteadiness()?;
     let (found, iterations) = newton::find(&mut balance, start)?;

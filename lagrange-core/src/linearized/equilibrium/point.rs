@@ -2,8 +2,8 @@
 
 use nalgebra::{ComplexField, DMatrix, DVector, SVector};
 
-use super::unknown::Unknown;
 use crate::error::Error;
+use crate::linearized::argument::Argument;
 use crate::linearized::{Linearized, ResidualChange};
 use crate::names::Row;
 use crate::number::{Real, Scalar, vector};
@@ -34,7 +34,7 @@ where
     }
 
     /// Its derivatives by the unknowns and by the multipliers, at least as many rows as columns.
-    pub(super) fn jacobian(&self, unknowns: &[Unknown]) -> DMatrix<L::Scalar> {
+    pub(super) fn jacobian(&self, unknowns: &[Argument]) -> DMatrix<L::Scalar> {
         let columns = unknowns.len() + M;
         let mut jacobian = DMatrix::zeros((N + 3 * M).max(columns), columns);
         let multipliers = self.multipliers;
@@ -53,7 +53,7 @@ where
     pub(super) fn check_derivatives(
         &self,
         jacobian: &DMatrix<L::Scalar>,
-        unknowns: &[Unknown],
+        unknowns: &[Argument],
     ) -> Result<(), Error> {
         for (&unknown, column) in unknowns.iter().zip(jacobian.column_iter()) {
             if let Some(i) = column.iter().position(|x| !x.is_finite()) {
@@ -65,20 +65,20 @@ where
     }
 
     /// The value of an unknown.
-    pub(super) fn value(&self, unknown: Unknown) -> L::Scalar {
+    pub(super) fn value(&self, unknown: Argument) -> L::Scalar {
         match unknown {
-            Unknown::Coordinate(i) => self.state.q[i],
-            Unknown::Velocity(i) => self.state.v[i],
-            Unknown::Parameter(k) => self.system.parameters()[k],
+            Argument::Coordinate(i) => self.state.q[i],
+            Argument::Velocity(i) => self.state.v[i],
+            Argument::Parameter(k) => self.system.parameters()[k],
         }
     }
 
     /// Sets an unknown; false where it is a parameter that cannot be changed.
-    pub(super) fn set(&mut self, unknown: Unknown, value: L::Scalar) -> bool {
+    pub(super) fn set(&mut self, unknown: Argument, value: L::Scalar) -> bool {
         match unknown {
-            Unknown::Coordinate(i) => self.state.q[i] = value,
-            Unknown::Velocity(i) => self.state.v[i] = value,
-            Unknown::Parameter(k) => return self.system.set_parameter(k, value),
+            Argument::Coordinate(i) => self.state.q[i] = value,
+            Argument::Velocity(i) => self.state.v[i] = value,
+            Argument::Parameter(k) => return self.system.set_parameter(k, value),
         }
         true
     }

@@ -8,10 +8,10 @@ use core::iter::successors;
 use nalgebra::{ComplexField, DMatrix, DVector, Dyn, SVD};
 
 use super::point::{Point, row};
-use super::unknown::Unknown;
 use super::weights::weights;
 use crate::error::Error;
 use crate::linearized::Linearized;
+use crate::linearized::argument::Argument;
 use crate::number::{Real, Scalar, is_within, larger, power_of_epsilon, smaller, vector};
 use crate::solution::consistent::{Level, project};
 use crate::solution::newton::{Left, Search};
@@ -20,7 +20,7 @@ use crate::system::{Lagrangian, State};
 
 /// What is sought, and in which units.
 pub(super) struct Balance<L: Lagrangian<N, M>, const N: usize, const M: usize, const P: usize> {
-    unknowns: Vec<Unknown>,
+    unknowns: Vec<Argument>,
     /// What each row is multiplied by, so that rows of different units compare.
     weights: DVector<L::Scalar>,
     /// The length of each column so far: the unit of a step is its inverse.
@@ -43,18 +43,18 @@ where
     pub(super) fn start(
         system: L,
         guess: &State<L::Scalar, N>,
-        unknowns: Vec<Unknown>,
+        unknowns: Vec<Argument>,
     ) -> Result<(Self, Trial<L, N, M, P>), Error> {
         let none = vector([L::Scalar::constant(0.0); M]);
         let mut state = *guess;
         // Onto the constraints where nothing of it is held, and where that can be.
-        if (0..N).all(|i| unknowns.contains(&Unknown::Coordinate(i))) {
+        if (0..N).all(|i| unknowns.contains(&Argument::Coordinate(i))) {
             project(&system, &[Level::Position], &mut state).unwrap_or_default();
         }
         let multipliers = solve(&system, &state).map_or(none, |solution| solution.multipliers);
         let mut point = Point { system, state, multipliers };
         for &unknown in &unknowns {
-            let Unknown::Parameter(k) = unknown else { continue };
+            let Argument::Parameter(k) = unknown else { continue };
             if !point.set(unknown, point.value(unknown)) {
                 return Err(Error::ParameterFixed { name: L::PARAMETERS[k] });
             }

@@ -5,9 +5,9 @@ use alloc::vec::Vec;
 use nalgebra::DMatrix;
 
 use super::point::{Point, row};
-use super::unknown::Unknown;
 use crate::error::Error;
 use crate::linearized::Linearized;
+use crate::linearized::argument::Argument;
 use crate::number::{Real, Scalar, larger, power_of_epsilon};
 
 /// How fast (M q̈ − h − Fᵀλ, F q̈ + γ) at q̈ = 0 changes with the coordinates that move, a column each. The rows of
@@ -30,7 +30,7 @@ where
     pub(super) fn unsteadiness(&self) -> Result<Unsteadiness<L::Scalar>, Error> {
         let v = &self.state.v;
         let moving: Vec<usize> = (0..N).filter(|&i| v[i] != L::Scalar::constant(0.0)).collect();
-        let coordinates: Vec<_> = moving.iter().copied().map(Unknown::Coordinate).collect();
+        let coordinates: Vec<_> = moving.iter().copied().map(Argument::Coordinate).collect();
         let jacobian = self.jacobian(&coordinates);
         self.check_derivatives(&jacobian, &coordinates)?;
         let mut columns = jacobian.view((0, 0), (N + M, moving.len())).into_owned();

@@ -6,6 +6,7 @@ mod guard;
 mod reciprocals;
 mod rewrite;
 mod signs;
+mod split;
 #[cfg(test)]
 mod tests;
 
@@ -34,18 +35,20 @@ impl Program {
         Self::new(schedule, results)
     }
 
-    /// Computes derivatives along a direction, of which none that does not exist spoils another.
-    pub(super) fn of_changes(graph: &Graph, roots: &[Id]) -> Self {
+    /// Computes derivatives along a direction, of which none that does not exist spoils another: first the numbers that
+    /// do not depend on the direction, then, by these, what it makes of them.
+    pub(super) fn of_changes(graph: &Graph, roots: &[Id]) -> [Self; 2] {
         let (schedule, results) = scheduled(graph, roots);
         let (schedule, results) = guard::guarded(&schedule, &results);
-        Self::new(schedule, results)
+        let whole = Self::new(schedule, results);
+        let split::Parts { slopes, changes } = split::split(&whole.schedule, &whole.results);
+        [slopes, changes].map(|(schedule, results)| Self::unchanged(schedule, results))
     }
 
     /// The results in as few operations as the passes find.
     pub(super) fn new(schedule: Schedule, results: Vec<Register>) -> Self {
-        let derived = schedule.count(&results);
-        let program = Self { schedule, results, counts: vec![("as derived", derived)] };
-        if derived.total() > HOPELESS {
+        let program = Self::unchanged(schedule, results);
+        if program.count().total() > HOPELESS {
             return program;
         }
         program
@@ -54,6 +57,11 @@ impl Program {
             // What the first time has put together may be a factor in its turn.
             .after("and taken out again", factors::taken_out)
             .after("reciprocals shared", reciprocals::shared)
+    }
+
+    fn unchanged(schedule: Schedule, results: Vec<Register>) -> Self {
+        let counts = vec![("as derived", schedule.count(&results))];
+        Self { schedule, results, counts }
     }
 
     /// The same with products and sums in one operation each. That is harder to read, and for what is called all the

@@ -1,5 +1,6 @@
 //! Passes keep the results: programs at random, computed before and after.
 
+use super::split::{Parts, split};
 use super::{Program, factors, fuse, guard, reciprocals, signs};
 use crate::codegen::operation::{Operation, Register};
 use crate::codegen::schedule::Schedule;
@@ -213,4 +214,38 @@ fn a_slope_that_does_not_exist_counts_only_where_something_changes() {
     assert_eq!(value(&new, &results, 0.0, [0.0, 2.0]), 2.0);
     assert_eq!(value(&new, &results, 4.0, [3.0, 2.0]), 3.5);
     assert_eq!(value(&new, &results, 0.0, [1.0, 2.0]), f64::INFINITY);
+}
+
+/// a b dx − (a b dy)/c + sin(a) (b dx): every product of numbers is one, and what depends on rates meets it once.
+#[test]
+fn what_does_not_depend_on_a_direction_is_computed_apart() {
+    let mut schedule = Schedule::default();
+    let [a, b, c] = [0, 1, 2].map(|index| input(&mut schedule, index));
+    let [dx, dy] = [0, 1].map(|i| schedule.push(Operation::Input(Variable::Change(i).symbol())));
+    let push = |schedule: &mut Schedule, operation| schedule.push(operation);
+    let in_x = push(&mut schedule, Operation::Multiply(b, dx));
+    let first = push(&mut schedule, Operation::Multiply(a, in_x));
+    let in_y = push(&mut schedule, Operation::Multiply(b, dy));
+    let second = push(&mut schedule, Operation::Multiply(in_y, a));
+    let second = push(&mut schedule, Operation::Negate(second));
+    let second = push(&mut schedule, Operation::Divide(second, c));
+    let sine = push(&mut schedule, Operation::Function(Function::Sin, a));
+    let third = push(&mut schedule, Operation::Multiply(sine, in_x));
+    let sum = push(&mut schedule, Operation::Add(first, second));
+    let sum = push(&mut schedule, Operation::Add(sum, third));
+    let Parts { slopes: (numbers, slopes), changes: (changes, results) } = split(&schedule, &[sum]);
+    let value = |symbol| match Variable::of(symbol) {
+        Variable::Change(i) => [5.0, 7.0][i],
+        _ => 0.3 + 0.1 * f64::from(symbol.index),
+    };
+    let found = numbers.values(&slopes, value);
+    assert_eq!(found.len(), 4, "a b, − a b, c and b sin a");
+    let whole = schedule.values(&[sum], value)[0];
+    let by_slopes = changes.values(&results, |symbol| match Variable::of(symbol) {
+        Variable::Slope(k) => found[k],
+        _ => value(symbol),
+    });
+    assert!((by_slopes[0] - whole).abs() < 1e-15 * whole.abs(), "{by_slopes:?} for {whole}");
+    assert_eq!(changes.count(&results).total(), 6, "three products, a quotient and two sums");
+    assert_eq!(numbers.count(&slopes).total(), 4, "a b, its negative, sin a and b sin a");
 }

@@ -208,15 +208,15 @@ const _: () = {
         ///1 operation (+ − × ÷ √), 0 elementary functions.
         #[inline]
         #[allow(unused_variables)]
-        fn solve_with(
+        fn solve_with<__S: __lagrange::Over<f64>>(
             &self,
             factor: &Self::Factor,
-            forcing: &__lagrange::nalgebra::SVector<f64, 1usize>,
-            bias: &__lagrange::nalgebra::SVector<f64, 0usize>,
-        ) -> __lagrange::Solution<f64, 1usize, 0usize> {
+            forcing: &__lagrange::nalgebra::SVector<__S, 1usize>,
+            bias: &__lagrange::nalgebra::SVector<__S, 0usize>,
+        ) -> __lagrange::Solution<__S, 1usize, 0usize> {
             let [forcing_theta] = forcing.data.0[0];
-            let factor_0 = factor[0];
-            let factor_1 = factor[1];
+            let factor_0 = __S::of(factor[0]);
+            let factor_1 = __S::of(factor[1]);
             __lagrange::Solution {
                 accelerations: __lagrange::generated::vector([
                     (factor_1 * forcing_theta),
@@ -289,26 +289,35 @@ const _: () = {
     #[automatically_derived]
     #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
     impl __lagrange::StateDerivatives<1usize, 0usize> for Pendulum {
-        ///4 operations (+ − × ÷ √), 1 elementary function.
+        type Slopes = [f64; 1usize];
+        ///3 operations (+ − × ÷ √), 1 elementary function.
         #[inline]
         #[allow(unused_variables)]
-        fn residual_change(
+        fn residual_slopes(
             &self,
             state: &__lagrange::State<f64, 1usize>,
             solution: &__lagrange::Solution<f64, 1usize, 0usize>,
-            direction: &__lagrange::Direction<f64, 1usize>,
-        ) -> __lagrange::ResidualChange<f64, 1usize, 0usize> {
+        ) -> Self::Slopes {
             let multipliers = &solution.multipliers;
             let [theta] = state.q.data.0[0];
             let m = self.m;
             let l = self.l;
             let g = self.g;
-            let d_theta = direction.q.data.0[0][0];
             let r4 = __lagrange::Scalar::cos(theta);
+            [(r4 * (g * (m * l)))]
+        }
+        ///1 operation (+ − × ÷ √), 0 elementary functions.
+        #[inline]
+        #[allow(unused_variables)]
+        fn residual_change_with<__S: __lagrange::Over<f64>>(
+            &self,
+            slopes: &Self::Slopes,
+            direction: &__lagrange::Direction<__S, 1usize>,
+        ) -> __lagrange::ResidualChange<__S, 1usize, 0usize> {
+            let d_theta = direction.q.data.0[0][0];
+            let s0 = __S::of(slopes[0]);
             __lagrange::ResidualChange {
-                motion: __lagrange::generated::vector([
-                    (d_theta * (r4 * (g * (m * l)))),
-                ]),
+                motion: __lagrange::generated::vector([(d_theta * s0)]),
                 acceleration: __lagrange::generated::vector([]),
                 rate: __lagrange::generated::vector([]),
                 position: __lagrange::generated::vector([]),
@@ -318,6 +327,7 @@ const _: () = {
     #[automatically_derived]
     #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
     impl __lagrange::Linearized<1usize, 0usize, 3usize> for Pendulum {
+        type ParameterSlopes = [f64; 7usize];
         const PARAMETERS: [&'static str; 3usize] = ["m", "l", "g"];
         fn parameters(&self) -> __lagrange::nalgebra::SVector<f64, 3usize> {
             __lagrange::generated::vector([self.m, self.l, self.g])
@@ -332,30 +342,47 @@ const _: () = {
             }
             true
         }
-        ///15 operations (+ − × ÷ √), 1 elementary function. Of every kind: 21 as derived, then 16 factors taken out. Reordered: at most 4 results wait for their last use, before 5.
+        ///3 operations (+ − × ÷ √), 1 elementary function.
         #[inline]
         #[allow(unused_variables)]
-        fn residual_change_by_parameters(
+        fn residual_slopes_by_parameters(
             &self,
             state: &__lagrange::State<f64, 1usize>,
             solution: &__lagrange::Solution<f64, 1usize, 0usize>,
-            rates: &__lagrange::nalgebra::SVector<f64, 3usize>,
-        ) -> __lagrange::ResidualChange<f64, 1usize, 0usize> {
+        ) -> Self::ParameterSlopes {
             let multipliers = &solution.multipliers;
             let [theta] = state.q.data.0[0];
             let [theta_ddot] = solution.accelerations.data.0[0];
             let m = self.m;
             let l = self.l;
             let g = self.g;
+            let r5 = __lagrange::Scalar::sin(theta);
+            [(m * 2.0), l, g, m, theta_ddot, r5, (r5 * (m * g))]
+        }
+        ///12 operations (+ − × ÷ √), 0 elementary functions.
+        #[inline]
+        #[allow(unused_variables)]
+        fn residual_change_by_parameters_with<__S: __lagrange::Over<f64>>(
+            &self,
+            slopes: &Self::ParameterSlopes,
+            rates: &__lagrange::nalgebra::SVector<__S, 3usize>,
+        ) -> __lagrange::ResidualChange<__S, 1usize, 0usize> {
             let d_m = rates.data.0[0][0];
             let d_l = rates.data.0[0][1];
             let d_g = rates.data.0[0][2];
-            let r5 = __lagrange::Scalar::sin(theta);
-            let r23 = l
-                * ((theta_ddot * ((2.0 * (m * d_l)) + (l * d_m)))
-                    + (r5 * ((g * d_m) + (m * d_g))));
+            let s0 = __S::of(slopes[0]);
+            let s1 = __S::of(slopes[1]);
+            let s2 = __S::of(slopes[2]);
+            let s3 = __S::of(slopes[3]);
+            let s4 = __S::of(slopes[4]);
+            let s5 = __S::of(slopes[5]);
+            let s6 = __S::of(slopes[6]);
+            let r21 = (d_l * s6)
+                + (s1
+                    * ((((d_l * s0) + (d_m * s1)) * s4)
+                        + (((d_m * s2) + (d_g * s3)) * s5)));
             __lagrange::ResidualChange {
-                motion: __lagrange::generated::vector([((d_l * (r5 * (m * g))) + r23)]),
+                motion: __lagrange::generated::vector([r21]),
                 acceleration: __lagrange::generated::vector([]),
                 rate: __lagrange::generated::vector([]),
                 position: __lagrange::generated::vector([]),

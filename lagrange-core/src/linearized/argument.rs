@@ -1,42 +1,39 @@
-//! What can be sought.
+//! What the equations of motion depend on, by names.
 
 use alloc::vec::Vec;
 
+use super::direction::unit;
+use super::{Direction, Linearized, ResidualChange};
 use crate::error::Error;
-use crate::linearized::direction::unit;
-use crate::linearized::{Direction, Linearized, ResidualChange};
 use crate::names::Entry;
 use crate::system::{Solution, State, lookup};
 
 /// A coordinate, a velocity or a parameter, by its index.
 #[derive(Clone, Copy, PartialEq)]
-pub(super) enum Unknown {
+pub(crate) enum Argument {
     Coordinate(usize),
     Velocity(usize),
     Parameter(usize),
 }
 
-impl Unknown {
-    /// Those of these names; all coordinates where there are none.
-    pub(super) fn of<L: Linearized<N, M, P>, const N: usize, const M: usize, const P: usize>(
+impl Argument {
+    /// Those of these names.
+    pub(crate) fn named<L: Linearized<N, M, P>, const N: usize, const M: usize, const P: usize>(
         names: &[&str],
     ) -> Result<Vec<Self>, Error> {
-        if names.is_empty() {
-            return Ok((0..N).map(Self::Coordinate).collect());
-        }
         let mut known = lookup::entries::<L, N, M>();
         known.extend(L::PARAMETERS.map(Into::into));
         let found = lookup::indices::<L, N, M>(&known, "coordinate, velocity or parameter", names)?;
-        let unknown = |i| match i {
+        let argument = |i| match i {
             i if i < N => Self::Coordinate(i),
             i if i < 2 * N => Self::Velocity(i - N),
             i => Self::Parameter(i - 2 * N),
         };
-        Ok(found.into_iter().map(unknown).collect())
+        Ok(found.into_iter().map(argument).collect())
     }
 
     /// What it is called.
-    pub(super) fn entry<L, const N: usize, const M: usize, const P: usize>(self) -> Entry
+    pub(crate) fn entry<L, const N: usize, const M: usize, const P: usize>(self) -> Entry
     where
         L: Linearized<N, M, P>,
     {
@@ -48,7 +45,7 @@ impl Unknown {
     }
 
     /// How the residual changes with it alone.
-    pub(super) fn residual_change<L, const N: usize, const M: usize, const P: usize>(
+    pub(crate) fn residual_change<L, const N: usize, const M: usize, const P: usize>(
         self,
         system: &L,
         state: &State<L::Scalar, N>,

@@ -1,0 +1,82 @@
+//! Several numbers at once, computed with by the numbers of one system.
+
+#[cfg(feature = "std")]
+use super::lanes::Lanes;
+use super::scalar::Scalar;
+
+/// Numbers that can be computed with by those of type `T`, each of which counts for all of them: [`Lanes`](crate::Lanes)
+/// over `f64`, and every scalar over itself.
+///
+/// What is linear takes them: one factor solves for right-hand sides on lanes, [`Lagrangian::solve_with`]
+/// (crate::Lagrangian::solve_with).
+pub trait Over<T>: Scalar {
+    /// The number for all of them.
+    fn of(x: T) -> Self;
+}
+
+impl<T: Scalar> Over<T> for T {
+    #[inline(always)]
+    fn of(x: T) -> Self {
+        x
+    }
+}
+
+/// Numbers over `T` that can be taken apart.
+pub trait Wide<T>: Over<T> {
+    /// How many there are.
+    const COUNT: usize;
+
+    /// Puts a number among them.
+    fn put(&mut self, lane: usize, x: T);
+
+    /// One of them.
+    fn lane(&self, lane: usize) -> T;
+}
+
+#[cfg(feature = "std")]
+impl Over<f64> for Lanes {
+    #[inline(always)]
+    fn of(x: f64) -> Self {
+        Self::constant(x)
+    }
+}
+
+#[cfg(feature = "std")]
+impl Wide<f64> for Lanes {
+    const COUNT: usize = Self::COUNT;
+
+    #[inline(always)]
+    fn put(&mut self, lane: usize, x: f64) {
+        let mut all = self.to_array();
+        all[lane] = x;
+        *self = all.into();
+    }
+
+    #[inline(always)]
+    fn lane(&self, lane: usize) -> f64 {
+        self.to_array()[lane]
+    }
+}
+
+macro_rules! alone {
+    ($($scalar:ty),*) => {$(
+        impl Wide<$scalar> for $scalar {
+            const COUNT: usize = 1;
+
+            #[inline(always)]
+            fn put(&mut self, _: usize, x: $scalar) {
+                *self = x;
+            }
+
+            #[inline(always)]
+            fn lane(&self, _: usize) -> $scalar {
+                *self
+            }
+        }
+    )*};
+}
+
+#[cfg(any(feature = "std", feature = "libm"))]
+alone!(f32);
+#[cfg(all(feature = "libm", not(feature = "std")))]
+alone!(f64);
