@@ -12,7 +12,7 @@ use super::Adaptive;
 use super::method::pair::{Pair, SLOPES, Slopes, advance, check, error_needs_last, last};
 use super::seat::{Fate, Seat};
 use crate::ending::Ending;
-use crate::number::{Lanes, Scalar, vector};
+use crate::number::{Lanes, Scalar, sum, vector};
 use crate::solution::consistent::BOTH;
 use crate::solution::flow::{Flow, LagrangianFlow, Phase, PhasePoint};
 use crate::solution::near;
@@ -51,8 +51,8 @@ impl Trust {
     }
 
     #[inline(always)]
-    fn numbers<'x>(&mut self, numbers: impl IntoIterator<Item = &'x Lanes>) {
-        self.size = numbers.into_iter().fold(self.size, |sum, x| sum + x.abs());
+    fn numbers(&mut self, numbers: &[Lanes]) {
+        self.size = self.size + sum(numbers.len(), |i| numbers[i].abs());
     }
 
     /// A minimum may pass over what is not a number; a sum does not.
@@ -145,7 +145,7 @@ where
         self.stages(h, &mut trust);
         let mut next = self.y;
         advance(&self.y, h, &self.slopes, P::WEIGHTS, &mut next);
-        trust.numbers(next.iter().flatten());
+        trust.numbers(next.as_flattened());
         if error_needs_last::<P>() {
             self.slope(last::<P>(), end, &next, &mut trust);
         }
@@ -175,7 +175,8 @@ where
     #[inline(always)]
     fn slope(&mut self, number: usize, t: Lanes, y: &Phase<Lanes, N>, trust: &mut Trust) {
         let solution = self.system.accelerations_unchecked(&State { t, q: vector(y[0]), v: vector(y[1]) });
-        trust.numbers(solution.accelerations.iter().chain(&solution.multipliers));
+        trust.numbers(solution.accelerations.as_slice());
+        trust.numbers(solution.multipliers.as_slice());
         trust.pivot(solution.pivot);
         self.slopes[number] = [y[1], solution.accelerations.into()];
     }

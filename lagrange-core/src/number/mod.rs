@@ -14,7 +14,7 @@ pub use dual::Dual;
 pub use lanes::Lanes;
 pub use numeric::only_where;
 pub(crate) use numeric::{
-    beyond_round_off, exceeds, is_within, larger, largest, norm, power_of_epsilon, power_of_two, smaller,
+    beyond_round_off, exceeds, is_within, larger, largest, norm, power_of_epsilon, power_of_two, smaller, sum,
 };
 pub use over::{Over, Wide};
 pub use scalar::{Real, Scalar};

@@ -61,6 +61,19 @@ pub(crate) fn power_of_two<T: Real>(x: T) -> T {
     T::constant(without_fraction.max(f64::MIN_POSITIVE))
 }
 
+/// The sum of so many terms, in four parts side by side: one after the other, each waits for the one before.
+#[inline(always)]
+pub(crate) fn sum<T: Scalar>(count: usize, term: impl Fn(usize) -> T) -> T {
+    let mut parts = [T::constant(0.0); 4];
+    for first in (0..count / 4).map(|block| 4 * block) {
+        for (k, part) in parts.iter_mut().enumerate() {
+            *part = *part + term(first + k);
+        }
+    }
+    let [a, b, c, d] = parts;
+    (count / 4 * 4..count).fold((a + b) + (c + d), |sum, i| sum + term(i))
+}
+
 /// √Σx², which neither overflows nor vanishes unless the numbers do.
 pub(crate) fn norm<T: Real>(x: &[T]) -> T {
     let unit = power_of_two(largest(x));

@@ -8,7 +8,7 @@
 use nalgebra::SVector;
 
 use super::consistent::Level;
-use crate::number::{Real, Scalar};
+use crate::number::{Real, Scalar, sum};
 use crate::system::{Lagrangian, State};
 
 /// From as far off as the error of a step one correction leads to round-off, as a rule.
@@ -55,5 +55,5 @@ where
 fn excess<T: Scalar, const M: usize>(x: &SVector<T, M>, size: &SVector<T, M>, part: f64) -> T {
     let (zero, one) = (T::constant(0.0), T::constant(1.0));
     let excess = |x: T, size: T| x.abs().by_order(size * T::constant(part), zero, zero, one);
-    x.iter().zip(size).fold(zero, |sum, (&x, &size)| sum + excess(x, size))
+    sum(M, |a| excess(x[a], size[a]))
 }

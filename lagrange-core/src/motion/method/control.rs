@@ -5,7 +5,7 @@ use core::array::from_fn;
 use super::Adaptive;
 use super::clock::Clock;
 use super::pair::{Pair, Slopes, combine};
-use crate::number::{Real, Scalar, exceeds, larger, smaller};
+use crate::number::{Real, Scalar, exceeds, larger, smaller, sum};
 use crate::solution::flow::Phase;
 
 /// The step to try next, and what its choice remembers.
@@ -195,7 +195,10 @@ impl<P: Pair> Adaptive<P> {
 /// √(mean (h x/scale)²).
 #[inline]
 fn norm<T: Scalar, const N: usize>(h: T, x: &Phase<T, N>, scale: &Phase<T, N>) -> T {
-    let parts = x.iter().flatten().zip(scale.iter().flatten()).map(|(x, s)| h * *x / *s);
-    let sum = parts.fold(T::constant(0.0), |sum, part| sum + part * part);
-    (sum / T::constant((2 * N) as f64)).sqrt()
+    let (x, scale) = (x.as_flattened(), scale.as_flattened());
+    let squares = sum(2 * N, |i| {
+        let part = h * x[i] / scale[i];
+        part * part
+    });
+    (squares / T::constant((2 * N) as f64)).sqrt()
 }

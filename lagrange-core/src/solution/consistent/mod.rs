@@ -13,7 +13,7 @@ use nalgebra::{ComplexField, SVector};
 
 use crate::error::Error;
 use crate::number::{
-    Real, Scalar, beyond_round_off, exceeds, is_within, largest, power_of_epsilon, smaller, vector,
+    Real, Scalar, beyond_round_off, exceeds, is_within, largest, power_of_epsilon, smaller, sum, vector,
 };
 use crate::solution::eliminate::eliminate;
 use crate::solution::kkt::{self, KktSystem, Rank};
@@ -220,8 +220,8 @@ impl<T: Real, const N: usize, const M: usize> Residual<T, N, M> {
         let x = *level.unknowns(&mut { *state });
         Self {
             value: from_fn(|a| if active[a] { value[a] } else { zero }),
-            terms: jacobian.map(|row| magnitude(from_fn::<T, N, _>(|i| row[i] * x[i]))),
-            sensitivity: jacobian.map(magnitude),
+            terms: from_fn(|a| sum(N, |i| Scalar::abs(jacobian[a][i] * x[i]))),
+            sensitivity: from_fn(|a| sum(N, |i| Scalar::abs(jacobian[a][i]))),
             jacobian,
         }
     }
@@ -272,11 +272,6 @@ impl<T: Real, const N: usize, const M: usize> Residual<T, N, M> {
 /// Whether `x` is anything but NaN.
 fn is_number<T: Real>(x: T) -> bool {
     x.partial_cmp(&x).is_some()
-}
-
-/// Σ |x_i|.
-fn magnitude<T: Real, const N: usize>(x: [T; N]) -> T {
-    x.iter().fold(T::constant(0.0), |sum, x| sum + Scalar::abs(*x))
 }
 
 /// The search for the nearest state on the constraints of a level.
