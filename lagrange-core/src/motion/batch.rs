@@ -178,7 +178,8 @@ where
         trust.numbers(solution.accelerations.as_slice());
         trust.numbers(solution.multipliers.as_slice());
         trust.pivot(solution.pivot);
-        self.slopes[number] = [y[1], solution.accelerations.into()];
+        self.slopes[number][0] = y[1];
+        self.slopes[number][1] = solution.accelerations.data.0[0];
     }
 
     /// Projects the lanes onto the constraints, all at once; one where that does not lead there alone, if its step is
