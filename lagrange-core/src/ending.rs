@@ -91,6 +91,28 @@ pub enum Ending {
         /// The last time reached.
         time: f64,
     },
+    /// An event at which the run was to end.
+    Event {
+        /// When.
+        time: f64,
+        /// The name of the event.
+        event: &'static str,
+    },
+    /// The crossings of an event follow each other ever faster, without end: a ball that comes to rest, or one thing that
+    /// undoes another.
+    EventsAccumulate {
+        /// The last of them.
+        time: f64,
+        /// The name of the event.
+        event: &'static str,
+    },
+    /// The function of an event is infinite or not a number.
+    EventNotFinite {
+        /// The last time reached.
+        time: f64,
+        /// The name of the event.
+        event: &'static str,
+    },
     /// The callback said so.
     Cancelled {
         /// The last time reached.
@@ -113,6 +135,9 @@ impl Ending {
             | Self::MethodFailed { time, .. }
             | Self::StepLimit { time, .. }
             | Self::WallTimeLimit { time }
+            | Self::Event { time, .. }
+            | Self::EventsAccumulate { time, .. }
+            | Self::EventNotFinite { time, .. }
             | Self::Cancelled { time } => time,
         }
     }
@@ -124,7 +149,7 @@ impl Ending {
 
     /// Whether something other than the caller kept the motion from the end.
     pub fn is_failure(&self) -> bool {
-        !matches!(self, Self::Complete { .. } | Self::Cancelled { .. })
+        !matches!(self, Self::Complete { .. } | Self::Event { .. } | Self::Cancelled { .. })
     }
 
     /// The ending of an integration that an error stopped after `time`.
@@ -134,6 +159,7 @@ impl Ending {
             Error::NotProjected { .. } => Self::OffConstraints { time, error },
             Error::Singular { .. } | Error::VelocityUndetermined { .. } => Self::Singular { time, error },
             Error::Contradictory { .. } => Self::Contradictory { time, error },
+            Error::EventNotFinite { event, .. } => Self::EventNotFinite { time, event },
             _ => Self::Unsolved { time, error },
         }
     }
@@ -172,6 +198,15 @@ impl Display for Ending {
             Self::WallTimeLimit { time } => {
                 write!(f, "stopped at t = {time} by the limit on wall time; raise it with `wall_time`")
             }
+            Self::Event { time, event } => write!(f, "ended by the event `{event}` at t = {time}"),
+            Self::EventsAccumulate { time, event } => write!(
+                f,
+                "stopped at t = {time}: the events `{event}` accumulate, each follows the one before sooner, without end; go on with the system in which what they lead to holds (a ball at rest), or end the run by a bound on what is left"
+            ),
+            Self::EventNotFinite { time, event } => write!(
+                f,
+                "stopped at t = {time}: the function of the event `{event}` is infinite or not a number soon after; make it finite wherever the motion may lead"
+            ),
             Self::Cancelled { time } => write!(f, "cancelled at t = {time}"),
         }
     }

@@ -212,6 +212,13 @@ pub enum Error {
         /// What is wrong there.
         reason: &'static str,
     },
+    /// The function of an event is infinite or not a number.
+    EventNotFinite {
+        /// The name of the event.
+        event: &'static str,
+        /// The time of evaluation.
+        time: f64,
+    },
     /// A time that the trajectory does not cover.
     OutsideTrajectory {
         /// The time asked for.
@@ -324,6 +331,10 @@ impl Display for Error {
             Self::Resume { line, column, reason } => write!(
                 f,
                 "line {line}, column {column} of the table to resume from is not of this ensemble: {reason}"
+            ),
+            Self::EventNotFinite { event, time } => write!(
+                f,
+                "the function of the event `{event}` is infinite or not a number at t = {time}: make it finite wherever the motion may lead"
             ),
             Self::OutsideTrajectory { time, start, end } => {
                 write!(f, "t = {time} lies outside the trajectory, which covers {start} to {end}")

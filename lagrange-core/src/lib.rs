@@ -34,6 +34,7 @@ assert!((friction + 2.0 / 7.0 * 9.81 * 0.3_f64.sin()).abs() < 1e-12);
 //!   force on coordinate a is Σ_α λ_α F_αa.
 //! - [`Motion`] goes on when it is told to: inputs that change, states at chosen times, nothing stored; [`embedded`] is about
 //!   programs without an operating system.
+//! - [`Event`]s are where functions of the motion cross zero: a [`Motion`] stops there, a run records them or ends.
 //! - [`ensemble`]: many members at once, on SIMD lanes and on all threads.
 //! - [`Dop853`] and [`Dopri5`] are the methods, [`Trajectory`] is what they give, [`Ending`] why it stops.
 //!
@@ -85,20 +86,20 @@ pub use linearized::{Direction, Jacobian, Linearized, Partials, ResidualChange, 
 #[cfg(feature = "alloc")]
 pub use linearized::{Equilibrium, JacobianBy, Linearization, Stability};
 pub use motion::Simulate;
-pub use motion::{Dop853, Dopri5, Method, Motion, Progress, RungeKutta4, runge_kutta_step};
+pub use motion::{Crossing, Dop853, Dopri5, Event, Method, Motion, Progress, RungeKutta4, runge_kutta_step};
 pub use nalgebra;
 pub use names::{Entry, Names, Row};
 #[cfg(feature = "std")]
 pub use number::Lanes;
 pub use number::{Dual, Over, Real, Scalar, Wide};
-pub use solution::{Adjustment, Consistent};
+pub use solution::{Adjustment, Consistent, Sample};
 pub use statistics::Statistics;
 pub use system::{
     Classification, Conserved, ConstraintKind, Equations, Evidence, Extent, Facts, Integrability, Integrals,
     Lagrangian, LinearPart, Pack, Packed, Shared, Solution, State, TotalDerivative,
 };
 #[cfg(feature = "alloc")]
-pub use trajectory::{Csv, Deviation, Drift, Records, Sample, Trajectory};
+pub use trajectory::{Csv, Deviation, Drift, Records, Trajectory};
 
 /// The README's program is compiled and run with the documentation's examples.
 #[cfg(doctest)]

@@ -191,7 +191,7 @@ const CONSTANTS: [&str; 10] = [
 ];
 
 /// What every system has beside: methods of `Simulate`, `Hamiltonian`, `StateDerivatives` and `Linearized`.
-const PROVIDED: [&str; 23] = [
+const PROVIDED: [&str; 27] = [
     "solve",
     "check_consistent",
     "make_consistent",
@@ -200,11 +200,15 @@ const PROVIDED: [&str; 23] = [
     "integrate",
     "integrate_with",
     "integrate_towards",
+    "integrate_until",
+    "sample",
+    "event",
     "hamiltonian",
     "hamilton_equations",
     "integrate_hamiltonian",
     "integrate_hamiltonian_with",
     "integrate_hamiltonian_towards",
+    "integrate_hamiltonian_until",
     "legendre",
     "legendre_near",
     "phase_state",

@@ -16,7 +16,7 @@ pub use phase::{PhaseRate, PhaseState};
 
 use crate::error::Error;
 #[cfg(feature = "alloc")]
-use crate::motion::{Method, Progress, run};
+use crate::motion::{Method, Progress, Watched, run};
 use crate::names::Entry;
 use crate::number::{Real, Scalar};
 use crate::system::finite::check_entries;
@@ -138,7 +138,7 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
         method: P,
         watch: impl FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<Trajectory<&Self, N, M, HamiltonianFlow>, Error> {
-        run::drive(self, self.legendre(&phase)?, end, &method, watch)?.finished()
+        run::drive(self, self.legendre(&phase)?, end, &method, &mut [], watch)?.finished()
     }
 
     /// The motion by Hamilton's equations as far as it gets on the way to `end`; [`Trajectory::ending`] tells why it gets no
@@ -153,7 +153,25 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
         end: Self::Scalar,
         method: P,
     ) -> Result<Trajectory<&Self, N, M, HamiltonianFlow>, Error> {
-        run::drive(self, self.legendre(&phase)?, end, &method, |_| ControlFlow::Continue(()))
+        run::drive(self, self.legendre(&phase)?, end, &method, &mut [], |_| ControlFlow::Continue(()))
+    }
+
+    /// The motion by Hamilton's equations as far as the first [terminal](crate::Event::terminal) event, or to the time `end`,
+    /// or as far as it gets; as [`integrate_until`](crate::Simulate::integrate_until).
+    ///
+    /// # Errors
+    /// As [`integrate_hamiltonian`](Self::integrate_hamiltonian), of what is wrong before the first step, and of the functions
+    /// of events there.
+    #[cfg(feature = "alloc")]
+    fn integrate_hamiltonian_until<P: Method<Self, N, M, HamiltonianFlow>>(
+        &self,
+        phase: PhaseState<Self::Scalar, N>,
+        end: Self::Scalar,
+        method: P,
+        events: &mut [&mut dyn Watched<Self, N, M>],
+    ) -> Result<Trajectory<&Self, N, M, HamiltonianFlow>, Error> {
+        let start = self.legendre(&phase)?;
+        run::drive(self, start, end, &method, events, |_| ControlFlow::Continue(()))
     }
 }
 

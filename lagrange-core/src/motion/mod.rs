@@ -2,6 +2,7 @@
 
 #[cfg(feature = "std")]
 mod batch;
+pub(crate) mod event;
 pub(crate) mod method;
 pub(crate) mod run;
 #[cfg(feature = "std")]
@@ -13,6 +14,7 @@ mod tests;
 
 #[cfg(feature = "std")]
 pub(crate) use batch::Batch;
+pub use event::{Crossing, Event, EventValue, Watched};
 pub use method::{
     Adaptive, Combination, Dop853, Dopri5, DormandPrince54, DormandPrince853, Interpolant, Limits, Method,
     Node, Pair, Polynomial, RungeKutta4, Step, runge_kutta_step,

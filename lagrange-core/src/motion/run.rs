@@ -1,8 +1,10 @@
 //! The loop from the first step to the ending, the same for every method.
 
 #[cfg(feature = "alloc")]
-use core::ops::ControlFlow;
+use core::{marker::PhantomData, ops::ControlFlow};
 
+#[cfg(feature = "alloc")]
+use super::event::{Search, Stride, Watched};
 use super::method::{Limits, Method, Step};
 use crate::ending::Ending;
 use crate::error::Error;
@@ -95,7 +97,6 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
     }
 
     /// One accepted step with what lies within.
-    #[cfg(feature = "alloc")]
     #[inline(always)]
     pub(crate) fn step_with_interpolant<L, F, P, const M: usize>(
         &mut self,
@@ -125,13 +126,15 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
     }
 }
 
-/// See [`Simulate::integrate_with`](crate::Simulate::integrate_with).
+/// See [`Simulate::integrate_with`](crate::Simulate::integrate_with) and
+/// [`integrate_until`](crate::Simulate::integrate_until).
 #[cfg(feature = "alloc")]
 pub(crate) fn drive<'a, L, F, P, const N: usize, const M: usize>(
     system: &'a L,
     state: State<L::Scalar, N>,
     end: L::Scalar,
     method: &P,
+    events: &mut [&mut dyn Watched<L, N, M>],
     mut watch: impl FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<Trajectory<&'a L, N, M, F>, Error>
 where
@@ -143,18 +146,31 @@ where
     let (mut run, adjustment) = Run::begin(system, &state, method)?;
     let start = run.state.t.to_f64();
     let mut path = Path::from(run.state);
+    let mut search = Search::from(events, system, &run.state, true)?;
     let limits = Watchdog::new(method.limits(), &run.statistics);
+    let mut stopped = search.record_due(&run.state, &mut path.crossings);
     let ending = loop {
         let time = run.state.t.to_f64();
+        if let Some(ending) = stopped {
+            break ending;
+        }
         if run.state.t == end {
             break Ending::Complete { time };
         }
-        match run.step_with_interpolant(system, method, end, &limits) {
-            Ok(interpolant) => path.push(run.state, interpolant),
+        let interpolant = match run.step_with_interpolant(system, method, end, &limits) {
+            Ok(interpolant) => interpolant,
             Err(ending) => break ending,
+        };
+        let (before, mut after) = (run.before, run.state);
+        if !search.is_empty() {
+            let stride = Stride { system, before, after, interpolant: &interpolant, flow: PhantomData::<F> };
+            (after, stopped) = search.record(&stride, &mut path.crossings);
         }
-        let (time, steps) = (run.state.t.to_f64(), run.statistics.accepted);
-        if watch(Progress { start, time, end: end.to_f64(), steps }).is_break() {
+        if after.t != before.t {
+            path.push(after, interpolant);
+        }
+        let (time, steps) = (after.t.to_f64(), run.statistics.accepted);
+        if stopped.is_none() && watch(Progress { start, time, end: end.to_f64(), steps }).is_break() {
             break Ending::Cancelled { time };
         }
     };

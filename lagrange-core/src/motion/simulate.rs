@@ -3,12 +3,14 @@
 #[cfg(feature = "alloc")]
 use core::{array::from_fn, ops::ControlFlow};
 
+use super::event::{Event, EventValue};
 #[cfg(feature = "alloc")]
-use super::{Method, Progress, run};
+use super::{Method, Progress, event::Watched, run};
 use crate::error::Error;
 use crate::number::Real;
 #[cfg(feature = "alloc")]
 use crate::number::Scalar;
+use crate::solution::Sample;
 use crate::solution::consistent::{self, Consistent};
 use crate::solution::solve::solve;
 use crate::system::finite::check_finite;
@@ -106,6 +108,44 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
         consistent::make_consistent(self, state, &[q, v])
     }
 
+    /// A state of this system, to be asked for what follows from it, by name.
+    fn sample(&self, state: State<Self::Scalar, N>) -> Sample<&Self, N, M> {
+        Sample { system: self, state }
+    }
+
+    /// An event of this system: where a function of its motion crosses zero. The function is given a sample, and gives a
+    /// number, or what gives one by name.
+    ///
+    /// ```
+    /// # use lagrange_core::prelude::*;
+    /// #[derive(Lagrangian)]
+    /// #[coordinates(height)]
+    /// #[lagrangian(height_dot^2/2 - g*height)]
+    /// struct Ball { g: f64 }
+    ///
+    /// let ball = Ball { g: 9.81 };
+    /// let mut lands = ball.event("lands", |sample| sample.state().q[0]).falling();
+    /// let mut motion = Motion::new(&ball, State::at_rest([1.0]), Dop853::default())?;
+    /// for bounce in 0..3 {
+    ///     let landing = motion.advance_to_event(10.0, &mut [&mut lands])?.expect("it falls");
+    ///     assert!(landing.state.q[0].abs() < 1e-15);
+    ///     let State { t, q, v } = landing.state;
+    ///     motion.set_state(State { t, q, v: -0.5 * v })?;
+    /// }
+    /// // It falls for a second of √(2/g), then for two halves and two quarters of one.
+    /// assert!((motion.state().t - (2.0 / 9.81_f64).sqrt() * 2.5).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// [`Event`] says what is found and what is not, and has the settings.
+    fn event<V, G>(&self, name: &'static str, function: G) -> Event<Self, G, N, M>
+    where
+        V: EventValue<Self::Scalar>,
+        G: Fn(&Sample<&Self, N, M>) -> V,
+    {
+        Event::new(name, function)
+    }
+
     /// The motion from a state to the time `end`, by the method named; backwards where that lies before the state.
     ///
     /// The state must pass [`check_consistent`](Self::check_consistent); what is left is projected away, and [`Trajectory::adjustment`] tells how far that moved it.
@@ -145,7 +185,7 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
         watch: impl FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<Trajectory<&Self, N, M>, Error> {
         check_finite(self, &state)?;
-        run::drive(self, state, end, &method, watch)?.finished()
+        run::drive(self, state, end, &method, &mut [], watch)?.finished()
     }
 
     /// The motion as far as it gets on the way to `end`; [`Trajectory::ending`] tells why it gets no farther.
@@ -186,7 +226,52 @@ assert!(path.ending().is_failure() && path.at(1.0)?.velocity("r")? < -1.0);
         method: P,
     ) -> Result<Trajectory<&Self, N, M>, Error> {
         check_finite(self, &state)?;
-        run::drive(self, state, end, &method, |_| ControlFlow::Continue(()))
+        run::drive(self, state, end, &method, &mut [], |_| ControlFlow::Continue(()))
+    }
+
+    /// The motion as far as the first [terminal](Event::terminal) event, or to the time `end`, or as far as it gets:
+    /// [`Trajectory::ending`] tells which, [`Trajectory::finished`] makes an error of what is a failure. The crossings of all
+    /// events are in [`Trajectory::crossings`].
+    ///
+    #[cfg_attr(
+        feature = "std",
+        doc = r#"
+```
+use lagrange_core::{Ending, prelude::*};
+
+/// A bead that slides off a sphere.
+#[derive(Lagrangian)]
+#[coordinates(r, theta)]
+#[lagrangian(m/2 * (r_dot^2 + r^2 * theta_dot^2) - m*g*r*cos(theta))]
+#[constraint(sphere: r - a = 0)]
+struct Bead { m: f64, g: f64, a: f64 }
+
+let bead = Bead { m: 1.0, g: 9.81, a: 1.0 };
+let start = State::new([1.0, 0.0], [0.0, 0.1]);
+let mut leaves = bead.event("leaves", |sample| sample.multiplier("sphere")).falling().terminal();
+let path = bead.integrate_until(start, 100.0, Dop853::default(), &mut [&mut leaves])?;
+assert!(matches!(path.ending(), Ending::Event { event: "leaves", .. }));
+// From rest it would be where cos θ = 2/3.
+let leaves = path.end().coordinate("theta")?.cos();
+assert!((leaves - (2.0 + 0.01 / 9.81) / 3.0).abs() < 1e-9);
+# Ok::<(), Error>(())
+```
+"#
+    )]
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate), of what is wrong before the first step; [`Error::EventNotFinite`] and
+    /// [`Error::UnknownName`] of the functions of events at the start.
+    #[cfg(feature = "alloc")]
+    fn integrate_until<P: Method<Self, N, M>>(
+        &self,
+        state: State<Self::Scalar, N>,
+        end: Self::Scalar,
+        method: P,
+        events: &mut [&mut dyn Watched<Self, N, M>],
+    ) -> Result<Trajectory<&Self, N, M>, Error> {
+        check_finite(self, &state)?;
+        run::drive(self, state, end, &method, events, |_| ControlFlow::Continue(()))
     }
 
     /// A state at t = 0 from names: `x` a coordinate, `x_dot` its velocity, `r[0]` and `r_dot[0]` those of a vector;

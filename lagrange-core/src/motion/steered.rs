@@ -1,8 +1,10 @@
 //! A motion that goes on when it is told to.
 
 use core::fmt::{self, Debug, Formatter};
+use core::marker::PhantomData;
 
 use super::Method;
+use super::event::{Crossing, Search, Stride, Watched};
 use super::run::{Run, Watchdog};
 use crate::ending::Ending;
 use crate::error::Error;
@@ -56,6 +58,8 @@ where
     system: L,
     method: P,
     run: Run<P::Memory, L::Scalar, N>,
+    /// Where the motion has stopped within the last step, at an event.
+    stop: Option<State<L::Scalar, N>>,
     /// What lies within the last step, once it has been asked for.
     interpolant: Option<P::Interpolant>,
     /// Whether there is a last step, by the system and to the state as they are.
@@ -102,12 +106,12 @@ where
 {
     fn begin(system: L, state: &State<L::Scalar, N>, method: P) -> Result<Self, Error> {
         let (run, _) = Run::begin(&system, state, &method)?;
-        Ok(Self { system, method, run, interpolant: None, has_step: false, is_current: true })
+        Ok(Self { system, method, run, stop: None, interpolant: None, has_step: false, is_current: true })
     }
 
     /// Where the motion is.
     pub fn state(&self) -> &State<L::Scalar, N> {
-        &self.run.state
+        self.stop.as_ref().unwrap_or(&self.run.state)
     }
 
     /// The system as it is.
@@ -118,7 +122,7 @@ where
     /// The system, to change its parameters from here on; coordinates and velocities stay as they are. The
     /// last step is then none that [`at`](Self::at) could look into.
     pub fn system_mut(&mut self) -> &mut L {
-        (self.has_step, self.is_current) = (false, false);
+        self.go_on_from(*self.state());
         &mut self.system
     }
 
@@ -130,9 +134,15 @@ where
     pub fn set_state(&mut self, state: State<L::Scalar, N>) -> Result<(), Error> {
         check_finite(&self.system, &state)?;
         consistent::check(&self.system, &state)?;
-        (self.run.state, _) = consistent::make_consistent(&self.system, &state, &[[false; N]; 2])?;
-        (self.has_step, self.is_current) = (false, false);
+        let (state, _) = consistent::make_consistent(&self.system, &state, &[[false; N]; 2])?;
+        self.go_on_from(state);
         Ok(())
+    }
+
+    /// From here on, where no step leads to.
+    fn go_on_from(&mut self, state: State<L::Scalar, N>) {
+        (self.run.state, self.stop, self.interpolant) = (state, None, None);
+        (self.has_step, self.is_current) = (false, false);
     }
 
     /// Steps and evaluations so far.
@@ -153,11 +163,61 @@ where
     #[inline]
     pub fn advance_to(&mut self, end: L::Scalar) -> Result<(), Ending> {
         self.refresh(end)?;
+        self.stop = None;
         let limits = Watchdog::new(self.method.limits(), &self.run.statistics);
         while self.run.state.t != end {
             self.step(end, &limits)?;
         }
         Ok(())
+    }
+
+    /// Goes on to the first crossing of these events, or to the time `end` where there is none on the way.
+    ///
+    /// At a crossing the state and the system may be changed, or the motion left for that of another system. Who goes on
+    /// without a change goes on within the same step: stopping costs nothing. [`Event`](crate::Event) says which crossings are
+    /// found; all of them stop the motion, whether [terminal](crate::Event::terminal) or not.
+    ///
+    /// # Errors
+    /// As [`advance_to`](Self::advance_to), and [`Ending::EventNotFinite`], after which the motion is where the events were
+    /// looked at last; [`Ending::EventsAccumulate`], after which it is at the last crossing.
+    pub fn advance_to_event(
+        &mut self,
+        end: L::Scalar,
+        events: &mut [&mut dyn Watched<L, N, M>],
+    ) -> Result<Option<Crossing<L::Scalar, N>>, Ending> {
+        self.refresh(end)?;
+        let mut at = *self.state();
+        let found = self.search(end, events, &mut at);
+        self.stop = (at != self.run.state).then_some(at);
+        found
+    }
+
+    /// The first crossing after `at`, which moves there.
+    fn search(
+        &mut self,
+        end: L::Scalar,
+        events: &mut [&mut dyn Watched<L, N, M>],
+        at: &mut State<L::Scalar, N>,
+    ) -> Result<Option<Crossing<L::Scalar, N>>, Ending> {
+        let Self { system, method, run, interpolant, has_step, is_current, .. } = self;
+        let limits = Watchdog::new(method.limits(), &run.statistics);
+        let mut search =
+            Search::from(events, system, at, !*has_step).map_err(|error| Ending::of(error, at.t.to_f64()))?;
+        let mut found = search.due(at)?;
+        loop {
+            if let (None, Some(interpolant)) = (found, &interpolant) {
+                let (before, after) = (run.before, run.state);
+                let stride = Stride { system, before, after, interpolant, flow: PhantomData::<F> };
+                found = search.next(&stride, at)?;
+            }
+            if found.is_some() || run.state.t == end {
+                return Ok(found);
+            }
+            *interpolant = None;
+            let stepped = run.step_with_interpolant(system, method, end, &limits);
+            (*has_step, *is_current) = (stepped.is_ok(), stepped.is_ok());
+            *interpolant = Some(stepped?);
+        }
     }
 
     /// Goes on for this long; back where it is negative. Many equal lengths add up with the rounding of each sum:
@@ -166,7 +226,7 @@ where
     /// # Errors
     /// As [`advance_to`](Self::advance_to).
     pub fn advance_by(&mut self, length: L::Scalar) -> Result<(), Ending> {
-        self.advance_to(self.run.state.t + length)
+        self.advance_to(self.state().t + length)
     }
 
     /// The state at a time within the last step, by the continuous extension of the method, projected onto the constraints.
@@ -176,7 +236,7 @@ where
     /// [`Error::OutsideTrajectory`] for a time that lies elsewhere; after the state or the system was changed there is
     /// none but the present. What evaluating the equations gives, and [`Error::NotProjected`].
     pub fn at(&mut self, t: L::Scalar) -> Result<State<L::Scalar, N>, Error> {
-        let (state, before) = (self.run.state, self.run.before);
+        let (state, before) = (*self.state(), self.run.before);
         if t == state.t {
             return Ok(state);
         }
@@ -231,7 +291,7 @@ where
     {
         let mut times = times.into_iter();
         let last = times.next_back();
-        let end = last.unwrap_or(self.run.state.t);
+        let end = last.unwrap_or(self.state().t);
         let limits = Watchdog::new(self.method.limits(), &self.run.statistics);
         let mut has_failed = false;
         times.chain(last).map_while(move |t| {
@@ -252,6 +312,7 @@ where
         limits: &Watchdog,
     ) -> Result<State<L::Scalar, N>, Ending> {
         self.refresh(end)?;
+        self.stop = None;
         let now = self.run.state.t.to_f64();
         while self.run.state.t != t && is_between(self.run.state.t, t, end) {
             self.step(end, limits)?;
@@ -268,11 +329,17 @@ where
         stepped
     }
 
-    /// Tells the method what has been changed, and checks where to go.
+    /// Tells the method what has been changed, and checks where to go. What is left of a step that the motion has stopped
+    /// within is forgotten where the end lies within it, or behind.
     #[inline]
     fn refresh(&mut self, end: L::Scalar) -> Result<(), Ending> {
-        let time = self.run.state.t.to_f64();
+        let time = self.state().t.to_f64();
         super::run::check_end(end).map_err(|error| Ending::of(error, time))?;
+        if let Some(stop) = self.stop
+            && !is_between(stop.t, self.run.state.t, end)
+        {
+            self.go_on_from(stop);
+        }
         if !self.is_current {
             self.resume().map_err(|error| Ending::of(error, time))?;
             self.is_current = true;
@@ -302,8 +369,10 @@ where
     P: Method<L, N, M, F>,
 {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let Run { state, statistics, .. } = &self.run;
-        let mut fields = f.debug_struct("Motion");
-        fields.field("system", &L::NAME).field("state", state).field("statistics", statistics).finish()
+        f.debug_struct("Motion")
+            .field("system", &L::NAME)
+            .field("state", self.state())
+            .field("statistics", self.statistics())
+            .finish()
     }
 }

@@ -9,7 +9,7 @@ use crate::fixtures::{
 use crate::motion::Pair;
 use crate::motion::{Method, Progress};
 use crate::prelude::*;
-use crate::trajectory::Sample;
+use crate::solution::Sample;
 
 type Pendulum = Mechanism<3, 1, 1>;
 

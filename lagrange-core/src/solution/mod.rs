@@ -6,6 +6,8 @@ pub(crate) mod flow;
 pub(crate) mod kkt;
 pub(crate) mod near;
 pub(crate) mod newton;
+mod sample;
 pub(crate) mod solve;
 
 pub use consistent::{Adjustment, Consistent};
+pub use sample::Sample;

@@ -4,7 +4,6 @@ mod csv;
 mod drift;
 mod path;
 mod records;
-mod sample;
 #[cfg(test)]
 mod tests;
 
@@ -17,13 +16,13 @@ pub use csv::Csv;
 pub use drift::{Deviation, Drift};
 pub(crate) use path::Path;
 pub use records::Records;
-pub use sample::Sample;
 
 use crate::ending::Ending;
 use crate::error::Error;
+use crate::motion::Crossing;
 use crate::number::{Real, Scalar, vector};
-use crate::solution::Adjustment;
 use crate::solution::flow::{Flow, LagrangianFlow};
+use crate::solution::{Adjustment, Sample};
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State};
 
@@ -86,8 +85,11 @@ impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Trajectory<S, N, M,
         Self { system, path, ending, statistics, adjustment, flow: PhantomData }
     }
 
-    /// This trajectory, if nothing but the caller kept it from its end.
-    pub(crate) fn finished(self) -> Result<Self, Error> {
+    /// The trajectory, if nothing but the caller or an event kept it from its end.
+    ///
+    /// # Errors
+    /// [`Error::Unfinished`] with the [`ending`](Self::ending).
+    pub fn finished(self) -> Result<Self, Error> {
         // There is no `From<Ending>`: of two ways into an `Error`, `?` in a closure would not know which is meant.
         if self.ending.is_failure() { Err(Error::Unfinished(Box::new(self.ending))) } else { Ok(self) }
     }
@@ -97,10 +99,15 @@ impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Trajectory<S, N, M,
         &self.system
     }
 
-    /// Why the trajectory ends where it does: the end was reached, or the caller said so; and whatever else it may be after
+    /// Why the trajectory ends where it does: the end was reached, or the caller or an event said so; and whatever else it may be after
     /// [`integrate_towards`](crate::Simulate::integrate_towards).
     pub fn ending(&self) -> &Ending {
         &self.ending
+    }
+
+    /// Where the events were that [`integrate_until`](crate::Simulate::integrate_until) was given, in the order of the motion.
+    pub fn crossings(&self) -> &[Crossing<S::Scalar, N>] {
+        &self.path.crossings
     }
 
     /// Steps and evaluations.

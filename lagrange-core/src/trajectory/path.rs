@@ -3,7 +3,7 @@
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
-use crate::motion::Interpolant;
+use crate::motion::{Crossing, Interpolant};
 use crate::number::Real;
 use crate::solution::flow::PhasePoint;
 use crate::system::State;
@@ -13,6 +13,8 @@ use crate::system::State;
 pub(crate) struct Path<T, const N: usize, S = Box<dyn Interpolants<T, N> + Send + Sync>> {
     pub(super) start: State<T, N>,
     pub(super) last: State<T, N>,
+    /// Where events were on the way.
+    pub(crate) crossings: Vec<Crossing<T, N>>,
     /// The times at the starts of the steps.
     times: Vec<T>,
     interpolants: S,
@@ -32,7 +34,7 @@ impl<T, const N: usize, I: Interpolant<T, N>> Interpolants<T, N> for Vec<I> {
 
 impl<T: Real, const N: usize, I: Interpolant<T, N> + Send + Sync + 'static> Path<T, N, Vec<I>> {
     pub(crate) fn from(start: State<T, N>) -> Self {
-        Self { start, last: start, times: Vec::new(), interpolants: Vec::new() }
+        Self { start, last: start, crossings: Vec::new(), times: Vec::new(), interpolants: Vec::new() }
     }
 
     #[inline(always)]
@@ -43,8 +45,8 @@ impl<T: Real, const N: usize, I: Interpolant<T, N> + Send + Sync + 'static> Path
     }
 
     pub(crate) fn finish(self) -> Path<T, N> {
-        let Self { start, last, times, interpolants } = self;
-        Path { start, last, times, interpolants: Box::new(interpolants) }
+        let Self { start, last, crossings, times, interpolants } = self;
+        Path { start, last, crossings, times, interpolants: Box::new(interpolants) }
     }
 }
 

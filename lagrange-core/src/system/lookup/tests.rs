@@ -1,7 +1,7 @@
 use std::string::{String, ToString};
 
 use crate::prelude::*;
-use crate::trajectory::Sample;
+use crate::solution::Sample;
 
 /// A particle with a bead on a wire, by names of every kind.
 #[derive(Clone, Lagrangian)]

@@ -1,11 +1,13 @@
 //! One state of a motion, by names.
 
+#[cfg(feature = "alloc")]
 use alloc::vec::Vec;
 use core::fmt::{self, Debug, Formatter};
 
 use crate::error::Error;
 use crate::number::Real;
 use crate::solution::solve::solve;
+#[cfg(feature = "alloc")]
 use crate::system::lookup::{index, unknown};
 use crate::system::{Lagrangian, Solution, State};
 
@@ -18,8 +20,8 @@ use crate::system::{Lagrangian, Solution, State};
 /// of the pointer.
 #[derive(Clone, Copy)]
 pub struct Sample<S: Lagrangian<N, M>, const N: usize, const M: usize> {
-    pub(super) system: S,
-    pub(super) state: State<S::Scalar, N>,
+    pub(crate) system: S,
+    pub(crate) state: State<S::Scalar, N>,
 }
 
 impl<L: Lagrangian<N, M> + Clone, const N: usize, const M: usize> Sample<&L, N, M> {
@@ -53,6 +55,15 @@ impl<S: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<S
         solve(&self.system, &self.state)
     }
 
+    /// The energy E = p·q̇ − L, which is the value of the Hamiltonian H(t, q, p).
+    pub fn energy(&self) -> S::Scalar {
+        self.system.energy(&self.state)
+    }
+}
+
+/// Lookup by name.
+#[cfg(feature = "alloc")]
+impl<S: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<S, N, M> {
     /// The generalized coordinate of this name.
     ///
     /// # Errors
@@ -75,11 +86,6 @@ impl<S: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<S
     /// [`Error::UnknownName`].
     pub fn momentum(&self, name: &str) -> Result<S::Scalar, Error> {
         Ok(self.system.momentum(&self.state)[coordinate::<S, N, M>(name)?])
-    }
-
-    /// The energy E = p·q̇ − L, which is the value of the Hamiltonian H(t, q, p).
-    pub fn energy(&self) -> S::Scalar {
-        self.system.energy(&self.state)
     }
 
     /// The generalized acceleration of the coordinate of this name.
@@ -133,6 +139,7 @@ impl<S: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<S
     }
 }
 
+#[cfg(feature = "alloc")]
 fn coordinate<L: Lagrangian<N, M>, const N: usize, const M: usize>(name: &str) -> Result<usize, Error> {
     index::<L, N, M>(&L::COORDINATES, "coordinate", name)
 }

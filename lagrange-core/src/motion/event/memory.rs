@@ -1,0 +1,134 @@
+//! What an event is about, and what is known of it from step to step.
+
+use super::Direction;
+use crate::ending::Ending;
+use crate::number::{Real, Scalar, larger};
+
+/// What an event is about, and what is known of it from step to step.
+#[derive(Clone, Debug)]
+pub struct Memory<T> {
+    pub(super) name: &'static str,
+    pub(super) direction: Direction,
+    /// How many pieces a step is looked at in.
+    pub(super) pieces: usize,
+    /// The crossing at which a run ends.
+    pub(super) terminal: Option<usize>,
+    /// How many there were.
+    pub(super) count: usize,
+    /// The function where the search is; zero where the motion starts at a zero, and has not left it.
+    pub(super) value: T,
+    /// The same at the next place.
+    pub(super) next: T,
+    /// The function where the motion starts at a zero, as long as it has not been looked at elsewhere.
+    start: Option<T>,
+    /// What counts as zero as long as the motion has not left it.
+    noise: T,
+    /// Crossed together with another event that was reported first: whether it rose.
+    pub(super) due: Option<bool>,
+    /// When the search began.
+    begun: Option<T>,
+    /// The time of the last crossing.
+    last: Option<T>,
+    /// What the function was there.
+    left: T,
+    /// The longest interval between two, or up to the first.
+    longest: T,
+    /// How many intervals in a row were short.
+    short: usize,
+}
+
+impl<T: Real> Memory<T> {
+    pub(super) fn new(name: &'static str) -> Self {
+        let zero = T::constant(0.0);
+        Self {
+            name,
+            direction: Direction::Both,
+            pieces: 4,
+            terminal: None,
+            count: 0,
+            value: zero,
+            next: zero,
+            start: None,
+            noise: zero,
+            due: None,
+            begun: None,
+            last: None,
+            left: zero,
+            longest: zero,
+            short: 0,
+        }
+    }
+
+    /// Takes note of the function where a search begins; whether that seems to be at a zero, where no step led there.
+    pub(super) fn begin(&mut self, value: T, t: T, is_new: bool) -> bool {
+        let zero = T::constant(0.0);
+        self.begun = self.begun.or(Some(t));
+        let is_at_zero = is_new && (value == zero || self.last == Some(t));
+        self.start = is_at_zero.then_some(value);
+        (self.value, self.noise) = (if is_at_zero { zero } else { value }, zero);
+        is_at_zero
+    }
+
+    /// Takes note of the function at the next place. From a start at a zero it is zero until it leaves the noise there:
+    /// four times what it has changed by at the first place, and twice what was left of it at the crossing.
+    pub(super) fn look(&mut self, value: T) {
+        let zero = T::constant(0.0);
+        if let Some(start) = self.start.take() {
+            self.noise =
+                Scalar::abs(value - start) * T::constant(4.0) + Scalar::abs(self.left) * T::constant(2.0);
+            self.value = if Scalar::abs(start) <= self.noise { zero } else { start };
+        }
+        let is_noise = self.value == zero && Scalar::abs(value) <= self.noise;
+        self.next = if is_noise { zero } else { value };
+    }
+
+    /// Goes on to the next place, which others that cross on the way there may have made nearer. That of the first is where
+    /// `has_crossed`, whatever the function says there when it is asked again.
+    pub(super) fn arrive(&mut self, has_crossed: bool) {
+        let zero = T::constant(0.0);
+        if has_crossed || self.crosses() {
+            (self.due, self.left) = (Some(self.value < zero), self.next);
+        }
+        self.value = self.next;
+        if self.value != zero {
+            self.noise = zero;
+        }
+    }
+
+    /// Whether the function crosses zero on the way to the next place, the way that the event is about.
+    pub(super) fn crosses(&self) -> bool {
+        let zero = T::constant(0.0);
+        let rises = self.value < zero && self.next >= zero;
+        let falls = self.value > zero && self.next <= zero;
+        match self.direction {
+            Direction::Rising => rises,
+            Direction::Falling => falls,
+            Direction::Both => rises || falls,
+        }
+    }
+
+    /// Counts a crossing.
+    pub(super) fn cross(&mut self, t: T) -> Result<(), Ending> {
+        self.count += 1;
+        if let Some(last) = self.last.or(self.begun) {
+            let interval = Scalar::abs(t - last);
+            let least = larger(
+                self.longest * T::constant(f64::EPSILON.sqrt()),
+                Scalar::abs(t) * T::constant(64.0 * T::EPSILON),
+            );
+            self.short = if interval <= least { self.short + 1 } else { 0 };
+            self.longest = larger(self.longest, interval);
+        }
+        self.last = Some(t);
+        match self.short {
+            0 | 1 => Ok(()),
+            _ => Err(Ending::EventsAccumulate { time: t.to_f64(), event: self.name }),
+        }
+    }
+
+    /// Whether a run is to end with the last crossing.
+    #[cfg(feature = "alloc")]
+    pub(super) fn is_terminal(&self) -> bool {
+        self.terminal.is_some_and(|count| self.count >= count)
+    }
+}

@@ -1,0 +1,199 @@
+//! Events: where a function of the motion crosses zero.
+
+mod memory;
+mod narrow;
+mod search;
+
+use core::borrow::Borrow;
+use core::fmt::{self, Debug, Formatter};
+use core::marker::PhantomData;
+
+use memory::Memory;
+pub(crate) use search::{Search, Stride};
+
+use crate::error::Error;
+use crate::number::Real;
+use crate::solution::Sample;
+use crate::system::{Lagrangian, State};
+
+/// Where a function g of a motion crosses zero; made by [`Simulate::event`](crate::Simulate::event).
+///
+/// A [`Motion`](crate::Motion) stops at every crossing ([`advance_to_event`](crate::Motion::advance_to_event)). A run that
+/// is given events records their crossings, and ends at those that say so ([`terminal`](Self::terminal)).
+///
+/// # What is found
+///
+/// g is evaluated at both ends of each step and at times between that divide it evenly
+/// ([`pieces`](Self::pieces), as a rule 4), on states by the continuous extension of the method, projected onto the
+/// constraints. From one of these times to the next,
+///
+/// - g crosses zero where it is not zero at the first, and zero or of the other sign at the second. So a zero belongs to
+///   the piece that it ends: none is reported twice or lost where steps meet, one at the very end of the motion is
+///   reported, and one at the start is not: the motion leaves it.
+/// - A touch that changes no sign is reported only where it is zero to the last bit at one of these times, once. Two
+///   crossings in one piece are none, so where g may wiggle within a step ask for more pieces or for shorter steps.
+/// - Where a motion starts at a zero of g, or goes on from a crossing after its state or its system has been
+///   changed, the first piece is halved towards the start, again and again: a ball may bounce and be
+///   back long before the step is over. What g is within some 16 units of round-off of the time of the start counts as zero.
+///
+/// The zero is located by the ITP method (Oliveira and Takahashi, *An enhancement of the bisection method average performance
+/// preserving minmax optimality*, 2021), which needs no more evaluations than bisection, as a rule a quarter. First the
+/// time is, to the last bit; then the state between those at two such times, so that g is zero to its round-off where the
+/// time is counted from far away, too. There g is zero or on the side that it crosses to. Where it jumps, or goes
+/// through infinity, that place is found.
+///
+/// Several events are reported in the order of their times; at one time in the order in which they are given.
+///
+/// # Where crossings accumulate
+///
+/// [`Ending::EventsAccumulate`](crate::Ending::EventsAccumulate) ends a motion where, twice in a row, a crossing follows the
+/// one before of the same event within 1.5·10⁻⁸ (2⁻²⁶) of the longest interval between two of them, or up to the first, or
+/// within 64 units of round-off of the time. So an event belongs to one motion, or to the legs of one: what it
+/// remembers is of no use to another.
+pub struct Event<L: Lagrangian<N, M>, G, const N: usize, const M: usize> {
+    function: G,
+    memory: Memory<L::Scalar>,
+    system: PhantomData<fn(&L)>,
+}
+
+impl<L: Lagrangian<N, M, Scalar: Real>, G, const N: usize, const M: usize> Event<L, G, N, M> {
+    pub(crate) fn new(name: &'static str, function: G) -> Self {
+        Self { function, memory: Memory::new(name), system: PhantomData }
+    }
+
+    /// Only where g grows through zero.
+    #[must_use]
+    pub fn rising(mut self) -> Self {
+        self.memory.direction = Direction::Rising;
+        self
+    }
+
+    /// Only where g falls through zero.
+    #[must_use]
+    pub fn falling(mut self) -> Self {
+        self.memory.direction = Direction::Falling;
+        self
+    }
+
+    /// Ends a run at the first crossing.
+    #[must_use]
+    pub fn terminal(self) -> Self {
+        self.terminal_at(1)
+    }
+
+    /// Ends a run at crossing number `count`, counted from 1 since the event was made.
+    #[must_use]
+    pub fn terminal_at(mut self, count: usize) -> Self {
+        self.memory.terminal = Some(count);
+        self
+    }
+
+    /// Looks at g so many times a step. Of several events the largest number counts.
+    #[must_use]
+    pub fn pieces(mut self, pieces: usize) -> Self {
+        self.memory.pieces = pieces.max(1);
+        self
+    }
+
+    /// How many crossings there were so far.
+    pub fn count(&self) -> usize {
+        self.memory.count
+    }
+}
+
+/// Which crossings an event is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Direction {
+    Rising,
+    Falling,
+    Both,
+}
+
+/// A crossing that was found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(bound(serialize = "T: nalgebra::Scalar + serde::Serialize")))]
+pub struct Crossing<T, const N: usize> {
+    /// The name of the event.
+    pub event: &'static str,
+    /// The place of the event among those given.
+    pub index: usize,
+    /// Which crossing of this event it is, counted from 1.
+    pub count: usize,
+    /// Whether the function grows through zero there (else it falls).
+    pub rising: bool,
+    /// The state there.
+    pub state: State<T, N>,
+}
+
+/// The value of an event's function: a number, or a number that could not be had (`|s| s.multiplier("wall")`).
+pub trait EventValue<T> {
+    /// The number.
+    ///
+    /// # Errors
+    /// Why there is none.
+    fn value(self) -> Result<T, Error>;
+}
+
+impl<T: Real> EventValue<T> for T {
+    #[inline]
+    fn value(self) -> Result<T, Error> {
+        Ok(self)
+    }
+}
+
+impl<T> EventValue<T> for Result<T, Error> {
+    #[inline]
+    fn value(self) -> Self {
+        self
+    }
+}
+
+/// An event of a system: every [`Event`] of it, also where the system is behind a reference or a pointer.
+///
+/// Functions take events as `&mut [&mut lands, &mut slips]`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not an event of `{L}`",
+    note = "make one by `system.event(\"name\", |sample| …)`, of the same system, and pass `&mut [&mut event]`"
+)]
+pub trait Watched<L: Lagrangian<N, M>, const N: usize, const M: usize>: sealed::Sealed {
+    /// What its function is at this state.
+    #[doc(hidden)]
+    fn value(&self, system: &L, state: &State<L::Scalar, N>) -> Result<L::Scalar, Error>;
+
+    /// What it is about, and what is known of it.
+    #[doc(hidden)]
+    fn memory(&mut self) -> &mut Memory<L::Scalar>;
+}
+
+mod sealed {
+    pub trait Sealed {}
+}
+
+impl<L: Lagrangian<N, M>, G, const N: usize, const M: usize> sealed::Sealed for Event<L, G, N, M> {}
+
+impl<L, K, G, V, const N: usize, const M: usize> Watched<L, N, M> for Event<K, G, N, M>
+where
+    L: Lagrangian<N, M, Scalar: Real> + Borrow<K>,
+    K: Lagrangian<N, M, Scalar = L::Scalar>,
+    G: Fn(&Sample<&K, N, M>) -> V,
+    V: EventValue<L::Scalar>,
+{
+    fn value(&self, system: &L, state: &State<L::Scalar, N>) -> Result<L::Scalar, Error> {
+        let value = (self.function)(&Sample { system: system.borrow(), state: *state }).value()?;
+        match nalgebra::ComplexField::is_finite(&value) {
+            true => Ok(value),
+            false => Err(Error::EventNotFinite { event: self.memory.name, time: state.t.to_f64() }),
+        }
+    }
+
+    fn memory(&mut self) -> &mut Memory<L::Scalar> {
+        &mut self.memory
+    }
+}
+
+impl<L: Lagrangian<N, M>, G, const N: usize, const M: usize> Debug for Event<L, G, N, M> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Event").field(&self.memory).finish()
+    }
+}

@@ -1,0 +1,269 @@
+//! Steps are searched for the crossings of events, piece by piece.
+
+#[cfg(feature = "alloc")]
+use alloc::vec::Vec;
+use core::marker::PhantomData;
+
+use nalgebra::ComplexField;
+
+use super::narrow::{Probe, narrow};
+use super::{Crossing, Watched};
+use crate::ending::Ending;
+use crate::error::Error;
+use crate::motion::Interpolant;
+use crate::number::{Real, Scalar, larger};
+use crate::solution::flow::Flow;
+use crate::system::{Lagrangian, State};
+
+/// A step that was taken, with what lies within.
+pub(crate) struct Stride<'a, L: Lagrangian<N, M>, F, I, const N: usize, const M: usize> {
+    pub(crate) system: &'a L,
+    pub(crate) before: State<L::Scalar, N>,
+    pub(crate) after: State<L::Scalar, N>,
+    pub(crate) interpolant: &'a I,
+    pub(crate) flow: PhantomData<F>,
+}
+
+impl<L, F, I, const N: usize, const M: usize> Stride<'_, L, F, I, N, M>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: Flow<L, N, M>,
+    I: Interpolant<L::Scalar, N>,
+{
+    fn at(&self, t: L::Scalar) -> Result<State<L::Scalar, N>, Error> {
+        match t == self.after.t {
+            true => Ok(self.after),
+            false => F::project(self.system, &self.interpolant.at(t)),
+        }
+    }
+
+    fn length(&self) -> L::Scalar {
+        self.after.t - self.before.t
+    }
+
+    /// The end of this piece.
+    fn mark(&self, piece: usize, of: usize) -> L::Scalar {
+        let part = L::Scalar::constant(piece as f64 / of as f64);
+        if piece == of { self.after.t } else { self.before.t + self.length() * part }
+    }
+
+    /// Whether `later` comes after `t` in the motion.
+    fn is_ahead(&self, t: L::Scalar, later: L::Scalar) -> bool {
+        let zero = L::Scalar::constant(0.0);
+        if self.length() < zero { later < t } else { later > t }
+    }
+}
+
+/// The events that a motion is searched for.
+pub(crate) struct Search<'e, 'w, L: Lagrangian<N, M>, const N: usize, const M: usize> {
+    events: &'e mut [&'w mut (dyn Watched<L, N, M> + 'w)],
+    /// Where the motion starts at a zero: pieces are short near there.
+    start: Option<L::Scalar>,
+}
+
+impl<'e, 'w, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Search<'e, 'w, L, N, M> {
+    /// From here on. `is_new` tells that no step led here.
+    pub(crate) fn from(
+        events: &'e mut [&'w mut (dyn Watched<L, N, M> + 'w)],
+        system: &L,
+        state: &State<L::Scalar, N>,
+        is_new: bool,
+    ) -> Result<Self, Error> {
+        let mut start = None;
+        for event in events.iter_mut() {
+            let value = event.value(system, state)?;
+            if event.memory().begin(value, state.t, is_new) {
+                start = Some(state.t);
+            }
+        }
+        Ok(Self { events, start })
+    }
+
+    /// The first crossing after `from`, which moves there, or to the end of the step where there is none.
+    ///
+    /// # Errors
+    /// Why the motion ends at `from`.
+    pub(crate) fn next<F, I>(
+        &mut self,
+        stride: &Stride<'_, L, F, I, N, M>,
+        from: &mut State<L::Scalar, N>,
+    ) -> Result<Option<Crossing<L::Scalar, N>>, Ending>
+    where
+        F: Flow<L, N, M>,
+        I: Interpolant<L::Scalar, N>,
+    {
+        let pieces = self.events.iter_mut().fold(1, |most, event| most.max(event.memory().pieces));
+        let mut found = None;
+        for piece in 1..=pieces {
+            let mark = stride.mark(piece, pieces);
+            while found.is_none() && stride.is_ahead(from.t, mark) {
+                let t = self.near_start(stride, from.t).filter(|t| stride.is_ahead(*t, mark)).unwrap_or(mark);
+                let time = from.t.to_f64();
+                self.look(stride, from, t).map_err(|error| Ending::of(error, time))?;
+                found = self.due(from)?;
+            }
+        }
+        Ok(found)
+    }
+
+    /// Reports a crossing at `state` that has not been reported yet.
+    pub(crate) fn due(
+        &mut self,
+        state: &State<L::Scalar, N>,
+    ) -> Result<Option<Crossing<L::Scalar, N>>, Ending> {
+        for (index, event) in self.events.iter_mut().enumerate() {
+            let memory = event.memory();
+            if let Some(rising) = memory.due.take() {
+                memory.cross(state.t)?;
+                let (event, count) = (memory.name, memory.count);
+                return Ok(Some(Crossing { event, index, count, rising, state: *state }));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Whether there is nothing to search for.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn is_empty(&self) -> bool {
+        self.events.is_empty()
+    }
+
+    /// Writes down the crossings within a step, as far as the motion goes: to there, and why not farther.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn record<F, I>(
+        &mut self,
+        stride: &Stride<'_, L, F, I, N, M>,
+        crossings: &mut Vec<Crossing<L::Scalar, N>>,
+    ) -> (State<L::Scalar, N>, Option<Ending>)
+    where
+        F: Flow<L, N, M>,
+        I: Interpolant<L::Scalar, N>,
+    {
+        let mut at = stride.before;
+        loop {
+            match self.next(stride, &mut at) {
+                Ok(None) => return (stride.after, None),
+                Ok(Some(crossing)) => crossings.push(crossing),
+                Err(ending) => return (at, Some(ending)),
+            }
+            let ending = self.ending(crossings).or_else(|| self.record_due(&at, crossings));
+            if ending.is_some() {
+                return (at, ending);
+            }
+        }
+    }
+
+    /// Writes down what has not been reported yet at this state; the ending, if one of them is that.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn record_due(
+        &mut self,
+        at: &State<L::Scalar, N>,
+        crossings: &mut Vec<Crossing<L::Scalar, N>>,
+    ) -> Option<Ending> {
+        loop {
+            match self.due(at) {
+                Ok(None) => return None,
+                Ok(Some(crossing)) => crossings.push(crossing),
+                Err(ending) => return Some(ending),
+            }
+            if let Some(ending) = self.ending(crossings) {
+                return Some(ending);
+            }
+        }
+    }
+
+    /// The ending, if the last crossing is one.
+    #[cfg(feature = "alloc")]
+    fn ending(&mut self, crossings: &[Crossing<L::Scalar, N>]) -> Option<Ending> {
+        let Crossing { event, index, state, .. } = crossings.last()?;
+        let is_terminal = self.events.get_mut(*index)?.memory().is_terminal();
+        is_terminal.then(|| Ending::Event { time: state.t.to_f64(), event })
+    }
+
+    /// Where to look next near a start at a zero: twice as far from there as the last time.
+    fn near_start<F, I>(&self, stride: &Stride<'_, L, F, I, N, M>, t: L::Scalar) -> Option<L::Scalar>
+    where
+        F: Flow<L, N, M>,
+        I: Interpolant<L::Scalar, N>,
+    {
+        let (start, length) = (self.start?, stride.length());
+        let epsilon = L::Scalar::constant(L::Scalar::EPSILON);
+        let size = larger(Scalar::abs(start), epsilon * Scalar::abs(length));
+        let least = L::Scalar::constant(16.0) * epsilon * size;
+        let distance = larger(Scalar::abs(t - start) * L::Scalar::constant(2.0), least);
+        Some(start + distance * length.signum())
+    }
+
+    /// Goes on to `t`, or to where an event crosses before.
+    fn look<F, I>(
+        &mut self,
+        stride: &Stride<'_, L, F, I, N, M>,
+        from: &mut State<L::Scalar, N>,
+        t: L::Scalar,
+    ) -> Result<(), Error>
+    where
+        F: Flow<L, N, M>,
+        I: Interpolant<L::Scalar, N>,
+    {
+        let to = stride.at(t)?;
+        let mut first = None;
+        for (index, event) in self.events.iter_mut().enumerate() {
+            let value = event.value(stride.system, &to)?;
+            let memory = event.memory();
+            memory.look(value);
+            if memory.crosses() {
+                let values = [memory.value, memory.next];
+                let place = locate(stride, &**event, [*from, to], values)?;
+                if first.is_none_or(|(_, earlier): (_, State<_, N>)| stride.is_ahead(place.t, earlier.t)) {
+                    first = Some((index, place));
+                }
+            }
+        }
+        *from = first.map_or(to, |(_, place)| place);
+        for (index, event) in self.events.iter_mut().enumerate() {
+            if first.is_some() {
+                let value = event.value(stride.system, from)?;
+                event.memory().look(value);
+            }
+            let is_first = first.is_some_and(|(first, _)| first == index);
+            event.memory().arrive(is_first);
+        }
+        Ok(())
+    }
+}
+
+/// The state where an event crosses zero between these two, at which its function is zero or of the sign at the second.
+fn locate<L, F, I, const N: usize, const M: usize>(
+    stride: &Stride<'_, L, F, I, N, M>,
+    event: &dyn Watched<L, N, M>,
+    [a, b]: [State<L::Scalar, N>; 2],
+    values: [L::Scalar; 2],
+) -> Result<State<L::Scalar, N>, Error>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: Flow<L, N, M>,
+    I: Interpolant<L::Scalar, N>,
+{
+    let constant = L::Scalar::constant;
+    let ends = |[low, high]: [State<L::Scalar, N>; 2], [at_low, at_high]: [L::Scalar; 2]| {
+        [
+            Probe { x: constant(0.0), what: low, value: at_low },
+            Probe { x: constant(1.0), what: high, value: at_high },
+        ]
+    };
+    let probe = |state: State<L::Scalar, N>| Ok((state, event.value(stride.system, &state)?));
+    let length = b.t - a.t;
+    let round_off = constant(L::Scalar::EPSILON) * larger(Scalar::abs(a.t), Scalar::abs(b.t));
+    let resolution = round_off / Scalar::abs(length);
+    let [low, high] = narrow(ends([a, b], values), resolution, |x| probe(stride.at(a.t + x * length)?))?;
+    // No time is between those two, but there are states.
+    let between = |x: L::Scalar| State {
+        t: low.what.t + (high.what.t - low.what.t) * x,
+        q: low.what.q + (high.what.q - low.what.q) * x,
+        v: low.what.v + (high.what.v - low.what.v) * x,
+    };
+    let finest = constant(L::Scalar::EPSILON);
+    let [_, high] =
+        narrow(ends([low.what, high.what], [low.value, high.value]), finest, |x| probe(between(x)))?;
+    Ok(high.what)
+}

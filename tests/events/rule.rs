@@ -1,0 +1,283 @@
+//! What is a crossing, and what is none.
+
+use std::f64::consts::PI;
+
+use lagrange_core::motion::Watched;
+use lagrange_core::{Crossing, Dop853, Ending, Event, Method, RungeKutta4, prelude::*};
+
+use crate::{Ball, Free, Spring};
+
+/// A motion along x = t in steps of 1, and so in pieces of a quarter.
+fn steady(from: f64) -> Motion<Free, Dopri5, 1, 0> {
+    let method = Dopri5::default().fixed_step(1.0);
+    Motion::new(Free, State::new([from], [1.0]).at_time(from), method).expect("a start")
+}
+
+/// All crossings until `end`.
+fn crossings<L, P, const N: usize, const M: usize>(
+    motion: &mut Motion<L, P, N, M>,
+    end: f64,
+    events: &mut [&mut dyn Watched<L, N, M>],
+) -> Vec<Crossing<f64, N>>
+where
+    L: Lagrangian<N, M, Scalar = f64>,
+    P: Method<L, N, M>,
+{
+    let mut found = Vec::new();
+    while let Some(crossing) = motion.advance_to_event(end, events).expect("a motion") {
+        assert_eq!(crossing.state.t, motion.state().t);
+        found.push(crossing);
+    }
+    assert_eq!(motion.state().t, end);
+    found
+}
+
+/// The times at which g(t) crosses zero.
+fn times(from: f64, end: f64, g: impl Fn(f64) -> f64) -> Vec<f64> {
+    let mut event = Free.event("g", |s| g(s.time()));
+    let found = crossings(&mut steady(from), end, &mut [&mut event]);
+    assert_eq!(event.count(), found.len());
+    found.iter().map(|crossing| crossing.state.t).collect()
+}
+
+fn close(found: &[f64], expected: &[f64]) {
+    assert_eq!(found.len(), expected.len(), "{found:?}, not {expected:?}");
+    for (x, y) in found.iter().zip(expected) {
+        assert!((x - y).abs() <= 4.0 * f64::EPSILON * y.abs().max(1.0), "{found:?}, not {expected:?}");
+    }
+}
+
+#[test]
+fn every_change_of_sign_on_the_grid_is_found() {
+    close(&times(0.0, 5.0, |t| t - 2.3), &[2.3]);
+    // Two and three in one step, in pieces of their own.
+    close(&times(0.0, 5.0, |t| (t - 2.3) * (t - 2.6)), &[2.3, 2.6]);
+    close(&times(0.0, 5.0, |t| (t - 2.1) * (t - 2.4) * (t - 2.9)), &[2.1, 2.4, 2.9]);
+    // Two in one piece are none, three are one of them.
+    close(&times(0.0, 5.0, |t| (t - 2.3) * (t - 2.31)), &[]);
+    assert_eq!(times(0.0, 5.0, |t| (t - 2.3) * (t - 2.31) * (t - 2.32)).len(), 1);
+    let mut wiggling = Free.event("wiggling", |s| (s.time() - 2.304) * (s.time() - 2.316)).pieces(100);
+    assert_eq!(crossings(&mut steady(0.0), 5.0, &mut [&mut wiggling]).len(), 2);
+}
+
+#[test]
+fn a_zero_belongs_to_the_piece_that_it_ends() {
+    // At the end of a step, at the end of a piece, and both.
+    close(&times(0.0, 5.0, |t| t - 2.0), &[2.0]);
+    close(&times(0.0, 5.0, |t| 2.25 - t), &[2.25]);
+    close(&times(0.0, 5.0, |t| (t - 2.0) * (t - 2.5) * (t - 3.0)), &[2.0, 2.5, 3.0]);
+    // Between two zeros that follow each other nothing tells that there is anything.
+    close(&times(0.0, 5.0, |t| (t - 2.0) * (t - 2.25)), &[2.0]);
+    // At the end of the motion, and not again where that goes on.
+    let mut event = Free.event("arrival", |s| s.time() - 3.0);
+    let mut motion = steady(0.0);
+    assert_eq!(crossings(&mut motion, 3.0, &mut [&mut event]).len(), 1);
+    assert_eq!(crossings(&mut motion, 6.0, &mut [&mut event]).len(), 0);
+    // At the start, where the motion leaves it.
+    close(&times(2.0, 5.0, |t| t - 2.0), &[]);
+    close(&times(2.0, 5.0, |t| (t - 2.0) * (t - 3.5)), &[3.5]);
+    // Also where it comes back within the first piece, and soon.
+    for back in [2.2, 2.01, 2.000_01, 2.0 + 1e-10] {
+        close(&times(2.0, 5.0, |t| (t - 2.0) * (t - back)), &[back]);
+    }
+}
+
+#[test]
+fn a_touch_counts_where_the_grid_sees_it_once() {
+    close(&times(0.0, 5.0, |t| (t - 2.5).powi(2)), &[2.5]);
+    close(&times(0.0, 5.0, |t| -(t - 3.0).powi(2)), &[3.0]);
+    close(&times(0.0, 5.0, |t| (t - 2.3).powi(2)), &[]);
+    let mut touched = Free.event("touched", |s| (s.time() - 2.5).powi(2)).rising();
+    assert_eq!(crossings(&mut steady(0.0), 5.0, &mut [&mut touched]).len(), 0);
+    // And a function that is zero for long is crossed once on the way in, and left without.
+    close(&times(0.0, 5.0, |t| (t - 1.5).min(0.0)), &[1.5]);
+    close(&times(0.0, 5.0, |t| (t - 1.5).max(0.0)), &[]);
+}
+
+#[test]
+fn directions_are_told_apart_in_both_directions_of_time() {
+    for (end, rises, falls) in [
+        (10.0, [1.5 * PI, 3.5 * PI], [0.5 * PI, 2.5 * PI]),
+        (-10.0, [-1.5 * PI, -3.5 * PI], [-0.5 * PI, -2.5 * PI]),
+    ] {
+        // Rising and falling as the motion goes, which is back in time in the second.
+        let found = |event: Event<Spring, _, 1, 0>| {
+            let mut motion =
+                Motion::new(Spring, State::at_rest([1.0]), Dop853::with_tolerance(1e-13)).unwrap();
+            let mut event = event;
+            crossings(&mut motion, end, &mut [&mut event])
+        };
+        for (event, times, rising) in [
+            (Spring.event("x", place).rising(), rises, true),
+            (Spring.event("x", place).falling(), falls, false),
+        ] {
+            let found = found(event);
+            let expected = times.into_iter().filter(|t| t.abs() < 10.0);
+            assert_eq!(found.len(), expected.clone().count());
+            for (crossing, t) in found.iter().zip(expected) {
+                assert!((crossing.state.t - t).abs() < 1e-11 && crossing.rising == rising, "{crossing:?}");
+                assert!(crossing.state.q[0].abs() <= f64::EPSILON);
+            }
+        }
+        assert_eq!(found(Spring.event("x", place)).len(), 3);
+    }
+}
+
+fn place(sample: &lagrange_core::Sample<&Spring, 1, 0>) -> f64 {
+    sample.state().q[0]
+}
+
+#[test]
+fn several_events_come_in_the_order_of_their_times() {
+    let at = |time: f64| Free.event("at", move |s| s.time() - time);
+    let mut events = [at(2.7), at(0.1), at(2.6), at(2.7), at(2.65), at(3.0)];
+    let [a, b, c, d, e, f] = &mut events;
+    let found = crossings(&mut steady(0.0), 5.0, &mut [a, b, c, d, e, f]);
+    let order: Vec<usize> = found.iter().map(|crossing| crossing.index).collect();
+    assert_eq!(order, [1, 2, 4, 0, 3, 5]);
+    assert_eq!(found[3].state, found[4].state);
+}
+
+/// Two balls that land at one time are both reported, though the first changes the state.
+#[test]
+fn events_at_one_time_are_all_reported_when_the_state_changes_in_between() {
+    #[derive(Lagrangian)]
+    #[coordinates(x, y)]
+    #[lagrangian((x_dot^2 + y_dot^2)/2 - x - y)]
+    struct Balls;
+
+    let mut lands = [0, 1].map(|k| Balls.event("lands", move |s| s.state().q[k]).falling());
+    let [x, y] = &mut lands;
+    let mut motion =
+        Motion::new(&Balls, State::at_rest([0.5, 0.5]), Dop853::default().max_step(1.0)).unwrap();
+    for bounce in 0..10 {
+        for k in 0..2 {
+            let crossing = motion.advance_to_event(100.0, &mut [x, y]).unwrap().expect("a landing");
+            assert_eq!(crossing.index, k);
+            let off = crossing.state.t - (1.0 + 2.0 * f64::from(bounce));
+            assert!(off.abs() < 1e-12, "{off:e}");
+            let mut state = *motion.state();
+            state.v[k] = -state.v[k];
+            motion.set_state(state).unwrap();
+        }
+    }
+}
+
+/// A stop costs no step: who goes on without a change sees the same motion.
+#[test]
+fn stopping_changes_nothing() {
+    let start = || Motion::new(Spring, State::at_rest([1.0]), Dop853::default()).unwrap();
+    let mut motion = start();
+    let mut event = Spring.event("x", place);
+    let found = crossings(&mut motion, 30.0, &mut [&mut event]);
+    assert_eq!(found.len(), 10);
+    let mut alone = start();
+    alone.advance_to(30.0).unwrap();
+    assert_eq!(motion.state(), alone.state());
+    assert_eq!(motion.statistics().accepted, alone.statistics().accepted);
+
+    // Whatever one does at the stop: time is then asked for from there on.
+    let mut motion = start();
+    let crossing = motion.advance_to_event(30.0, &mut [&mut event]).unwrap().unwrap();
+    assert_eq!(*motion.state(), crossing.state);
+    let t = crossing.state.t;
+    assert!(motion.at(t + 1e-3).is_err() && motion.at(t - 1e-3).is_ok());
+    motion.advance_by(1e-3).unwrap();
+    assert_eq!(motion.state().t, t + 1e-3);
+    assert!((motion.state().q[0] - (t + 1e-3).cos()).abs() < 1e-8);
+    motion.advance_to_event(30.0, &mut [&mut event]).unwrap().unwrap();
+    motion.advance_to(0.0).unwrap();
+    assert!((motion.state().q[0] - 1.0).abs() < 1e-8);
+}
+
+#[test]
+fn every_method_has_events() {
+    fn first(method: impl Method<Spring, 1, 0>) -> f64 {
+        let mut motion = Motion::new(Spring, State::at_rest([1.0]), method).unwrap();
+        let mut event = Spring.event("x", place).rising();
+        motion.advance_to_event(30.0, &mut [&mut event]).unwrap().expect("it swings").state.t
+    }
+    assert!((first(Dopri5::with_tolerance(1e-12)) - 1.5 * PI).abs() < 1e-10);
+    assert!((first(Dop853::with_tolerance(1e-12)) - 1.5 * PI).abs() < 1e-10);
+    assert!((first(RungeKutta4::with_step(0.01)) - 1.5 * PI).abs() < 1e-8);
+    let phase = Spring.phase_state(&State::at_rest([1.0]));
+    let mut motion = Motion::in_momenta(Spring, phase, Dop853::with_tolerance(1e-12)).unwrap();
+    let mut event = Spring.event("p", |s| s.momentum("x"));
+    let found = motion.advance_to_event(30.0, &mut [&mut event]).unwrap().expect("it turns");
+    assert!((found.state.t - PI).abs() < 1e-10 && found.rising);
+}
+
+/// The height above the floor after n bounces, and when: v = √(2h) at first, e times that after each.
+#[test]
+fn a_ball_bounces_along_the_geometric_series_and_comes_to_rest() {
+    let (ball, e, h) = (Ball { g: 1.0 }, 0.9_f64, 0.5_f64);
+    // Without a bound, the first step leads to the end at once, whatever the round-off of what lies between.
+    for (end, longest) in [(100.0, 1.0), (1e6, 1e6)] {
+        let mut lands = ball.event("lands", |s| s.coordinate("height")).falling();
+        let mut motion = Motion::new(
+            &ball,
+            State::at_rest([h]),
+            Dop853::with_tolerance(1e-12).max_step(longest).max_steps(1 << 22),
+        )
+        .unwrap();
+        let ending = loop {
+            match motion.advance_to_event(end, &mut [&mut lands]) {
+                Ok(Some(Crossing { count, state, .. })) => {
+                    // 1 + 2e + 2e² + … times the time of the first fall, which is 1.
+                    let expected = 1.0 + 2.0 * e * (1.0 - e.powi(count as i32 - 1)) / (1.0 - e);
+                    if count <= 20 && longest == 1.0 {
+                        assert!(
+                            (state.t - expected).abs() < 1e-12,
+                            "{count}: {} off by {:e}",
+                            state.t,
+                            state.t - expected
+                        );
+                        assert!(state.q[0].abs() < 4.0 * f64::EPSILON * h);
+                    }
+                    motion.set_state(State { v: -e * state.v, ..state }).unwrap();
+                }
+                Ok(None) => panic!("it fell through the floor at bounce {}", lands.count()),
+                Err(ending) => break ending,
+            }
+        };
+        let rest = 1.0 + 2.0 * e / (1.0 - e);
+        assert!(
+            matches!(ending, Ending::EventsAccumulate { event: "lands", time } if (time - rest).abs() < 1e-6),
+            "{ending}"
+        );
+        assert!(lands.count() > 150 && motion.state().q[0].abs() < 1e-15);
+        assert!(ending.to_string().contains("the events `lands` accumulate"), "{ending}");
+    }
+}
+
+/// After an impact the motion starts at a zero, and leaves it to where it came from: that is no crossing back.
+#[test]
+fn leaving_a_zero_after_an_impact_is_no_crossing() {
+    for square in [0.3_f64, 0.7, 1.9, 2.3, 3.1] {
+        let height = square.sqrt();
+        let ball = Ball { g: 9.81 };
+        // Mostly no number has this square: the function is not zero at its zero.
+        let mut touches = ball.event("touches", |s| s.state().q[0].powi(2) - square);
+        let mut motion = Motion::new(&ball, State::at_rest([height + 1.0]), Dop853::default()).unwrap();
+        for bounce in 0..20 {
+            let Crossing { state, rising, .. } =
+                motion.advance_to_event(100.0, &mut [&mut touches]).unwrap().expect("a bounce");
+            let expected = (2.0 / 9.81_f64).sqrt() * (3.0 - 2.0 * 0.5_f64.powi(bounce));
+            assert!(!rising && (state.t - expected).abs() < 1e-7, "{bounce}: {}", state.t - expected);
+            motion.set_state(State { v: -0.5 * state.v, ..state }).unwrap();
+        }
+    }
+}
+
+#[test]
+fn what_a_function_cannot_give_is_named_and_what_came_before_is_kept() {
+    let mut motion = Motion::new(Spring, State::at_rest([1.0]), Dop853::default()).unwrap();
+    let mut root = Spring.event("root", |s| s.state().q[0].sqrt());
+    let ending = motion.advance_to_event(10.0, &mut [&mut root]).unwrap_err();
+    assert!(matches!(ending, Ending::EventNotFinite { event: "root", .. }), "{ending}");
+    assert_eq!(ending.time(), motion.state().t);
+    assert!(motion.state().q[0] > 0.0 && motion.state().t > 0.5);
+    let mut typo = Spring.event("typo", |s| s.coordinate("y"));
+    let said = motion.advance_to_event(10.0, &mut [&mut typo]).unwrap_err().to_string();
+    assert!(said.contains("there is no coordinate `y`"), "{said}");
+}
