@@ -258,6 +258,14 @@ impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Lagrangi
     fn constraint_force(&self, state: &State<f64, N>, multipliers: &SVector<f64, M>) -> SVector<f64, N> {
         self.system.constraint_force(state, multipliers)
     }
+    fn inverse_dynamics(
+        &self,
+        state: &State<f64, N>,
+        accelerations: &SVector<f64, N>,
+        multipliers: &SVector<f64, M>,
+    ) -> SVector<f64, N> {
+        self.system.inverse_dynamics(state, accelerations, multipliers)
+    }
     fn accelerations_unchecked(&self, state: &State<f64, N>) -> Solution<f64, N, M> {
         self.system.accelerations_unchecked(state)
     }

@@ -160,6 +160,23 @@ pub enum Error {
         /// The parameter.
         name: &'static str,
     },
+    /// No values of the inputs named give the accelerations asked for.
+    NotRealizable {
+        /// A row that they leave unbalanced: a coordinate whose force no input balances, or a constraint that the
+        /// accelerations violate.
+        row: Row,
+        /// What is left of it: the generalized force that is lacking with this sign, M q̈ − h − Fᵀλ, or F q̈ + γ.
+        residual: f64,
+        /// The time of the state.
+        time: f64,
+    },
+    /// Several values of the inputs named give the accelerations asked for.
+    InputsNotUnique {
+        /// The inputs that can change, together, and leave the accelerations as they are.
+        inputs: Names,
+        /// The time of the state.
+        time: f64,
+    },
     /// The iteration for eigenvalues or singular values did not converge, or an entry of the matrix is not finite.
     EigenvaluesNotFound,
     /// A name that the system does not have.
@@ -302,6 +319,17 @@ impl Display for Error {
                 f,
                 "the parameter `{name}` cannot be changed: its field is a reference, or its type says no shape; make the field a number, an array or a vector of nalgebra"
             ),
+            Self::NotRealizable { row: row @ Row::Coordinate(_), residual, time } => write!(
+                f,
+                "the inputs named do not give these accelerations at t = {time}: the row of {row} lacks a generalized force of {residual:e}; name an input that acts on it, or ask for other accelerations"
+            ),
+            Self::NotRealizable { row, residual, time } => write!(
+                f,
+                "these accelerations violate {row} at t = {time}: F q_ddot + gamma is {residual:e}, not 0; `solve` gives some that do not"
+            ),
+            Self::InputsNotUnique { inputs, time } => {
+                write!(f, "many values of {inputs} give these accelerations at t = {time}: name fewer inputs")
+            }
             Self::EigenvaluesNotFound => write!(
                 f,
                 "the eigenvalues or singular values of a matrix were not found: check that its entries are finite, and the scales of the parameters"

@@ -104,6 +104,10 @@ impl<const N: usize, const M: usize, const H: usize> Lagrangian<N, M> for Mechan
         self.constraint_jacobian(state).tr_mul(multipliers)
     }
 
+    fn inverse_dynamics(&self, state: &At<N>, q2: &SVector<f64, N>, l: &SVector<f64, M>) -> SVector<f64, N> {
+        self.mass_matrix(state) * q2 - self.forcing(state) - self.constraint_force(state, l)
+    }
+
     fn accelerations_unchecked(&self, state: &At<N>) -> Solution<f64, N, M> {
         eliminate((self.mass)(state), (self.forcing)(state), (self.jacobian)(state), (self.bias)(state))
     }

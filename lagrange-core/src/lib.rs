@@ -82,9 +82,9 @@ pub use function::Table;
 pub use function::{ByHand, Function, HandWritten};
 pub use hamiltonian::{Hamiltonian, HamiltonianFlow, PhaseRate, PhaseState};
 pub use lagrange_macros::Lagrangian;
-pub use linearized::{Direction, Jacobian, Linearized, Partials, ResidualChange, StateDerivatives};
 #[cfg(feature = "alloc")]
-pub use linearized::{Equilibrium, JacobianBy, Linearization, Stability};
+pub use linearized::{Actuation, Equilibrium, JacobianBy, Linearization, Stability};
+pub use linearized::{Direction, Jacobian, Linearized, Partials, ResidualChange, StateDerivatives};
 pub use motion::Simulate;
 pub use motion::{Crossing, Dop853, Dopri5, Event, Method, Motion, Progress, RungeKutta4, runge_kutta_step};
 pub use nalgebra;

@@ -27,6 +27,7 @@ pub(crate) enum Quantity {
     Bias,
     Integral,
     ConstraintForce,
+    InverseDynamics,
     Accelerations,
     Factor,
     Solve,
@@ -48,6 +49,7 @@ pub(crate) enum Argument {
     MutableSystem,
     State,
     Solution,
+    Accelerations,
     Multipliers,
     Direction,
     Factor,
@@ -67,6 +69,7 @@ impl Argument {
             MutableSystem => "&mut self",
             State => "state",
             Solution => "solution",
+            Self::Accelerations => "accelerations",
             Multipliers => "multipliers",
             Direction => "direction",
             Self::Factor => "factor",
@@ -125,7 +128,7 @@ const fn of_state(quantity: Quantity, name: &'static str, gives: Gives) -> Metho
 }
 
 /// The methods of `Lagrangian`, as they are emitted.
-pub(crate) const LAGRANGIAN: [Method; 19] = [
+pub(crate) const LAGRANGIAN: [Method; 20] = [
     of_state(Quantity::Lagrangian, "lagrangian", Number),
     of_state(Quantity::Energy, "energy", Number),
     of_state(Quantity::Momentum, "momentum", Vector(Coordinates)),
@@ -140,6 +143,12 @@ pub(crate) const LAGRANGIAN: [Method; 19] = [
     of_state(Quantity::Bias, "constraint_bias", Vector(Constraints)),
     method(Quantity::Integral, "constraint_integral", &[System, Index, State], Optional),
     method(Quantity::ConstraintForce, "constraint_force", &[System, State, Multipliers], Vector(Coordinates)),
+    method(
+        Quantity::InverseDynamics,
+        "inverse_dynamics",
+        &[System, State, Argument::Accelerations, Multipliers],
+        Vector(Coordinates),
+    ),
     of_state(Quantity::Accelerations, "accelerations_unchecked", Gives::Solution),
     of_state(Quantity::Factor, "factor", Gives::Factor),
     wide(Quantity::Solve, "solve_with", &[System, Argument::Factor, Forcing, Bias], Gives::Solution),
@@ -191,7 +200,7 @@ const CONSTANTS: [&str; 10] = [
 ];
 
 /// What every system has beside: methods of `Simulate`, `Hamiltonian`, `StateDerivatives` and `Linearized`.
-const PROVIDED: [&str; 27] = [
+const PROVIDED: [&str; 28] = [
     "solve",
     "check_consistent",
     "make_consistent",
@@ -217,6 +226,7 @@ const PROVIDED: [&str; 27] = [
     "residual_change_by_parameters",
     "jacobian",
     "jacobian_by",
+    "inputs_for",
     "linearize",
     "equilibrium",
 ];

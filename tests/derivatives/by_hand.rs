@@ -269,8 +269,27 @@ fn check_derivatives<S: ByHand<N, M>, const N: usize, const M: usize>(
     compare("γ", system.constraint_bias(state).as_slice(), by_hand.bias().as_slice());
     let force = system.constraint_force(state, multipliers);
     compare("Fᵀλ", force.as_slice(), by_hand.jacobian().tr_mul(multipliers).as_slice());
+    check_inverse_dynamics(&by_hand, multipliers);
     let mass = system.mass_matrix(state);
     assert_eq!(mass, mass.transpose(), "{}: M is not symmetric", S::NAME);
+}
+
+/// Where a system is given any accelerations and multipliers, M q̈ − h − Fᵀλ is lacking, with M, h and F by hand.
+fn check_inverse_dynamics<S: ByHand<N, M>, const N: usize, const M: usize>(
+    by_hand: &Derivatives<'_, S, N, M>,
+    multipliers: &SVector<f64, M>,
+) {
+    let accelerations = SVector::from_fn(|i, _| (1.3 * i as f64 + 0.4).cos());
+    let lacking = by_hand.system.inverse_dynamics(by_hand.state, &accelerations, multipliers);
+    let (mass, jacobian, forcing) = (by_hand.mass_matrix(), by_hand.jacobian(), by_hand.forcing());
+    for i in 0..N {
+        let inertia = (0..N).map(|j| mass[(i, j)] * accelerations[j]);
+        let constraint = (0..M).map(|a| -jacobian[(a, i)] * multipliers[a]);
+        let terms: Vec<f64> = inertia.chain(constraint).chain([-forcing[i], -lacking[i]]).collect();
+        let error = ratio(terms.iter().sum(), largest(terms.iter().copied()));
+        // The forces are differences of larger terms, as M and h are.
+        assert!(error <= 1e-13, "{}, {i}: {error:e} of {terms:?}", S::NAME);
+    }
 }
 
 /// M q̈ − Fᵀλ = h and F q̈ = −γ, with M, F, h and γ by hand; false where the system is near singular.

@@ -7,6 +7,7 @@ mod closed_forms;
 mod constrained;
 mod equilibria;
 mod errors;
+mod inverse;
 mod large_fields;
 mod numbers;
 mod steady;

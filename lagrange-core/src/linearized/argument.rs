@@ -32,6 +32,16 @@ impl Argument {
         Ok(found.into_iter().map(argument).collect())
     }
 
+    /// Coordinates on which a generalized force acts, and parameters, of these names.
+    pub(crate) fn actuators<L: Linearized<N, M, P>, const N: usize, const M: usize, const P: usize>(
+        names: &[&str],
+    ) -> Result<Vec<Self>, Error> {
+        let known = [&L::COORDINATES[..], &L::PARAMETERS].concat();
+        let found = lookup::indices::<L, N, M>(&known, "coordinate or parameter", names)?;
+        let argument = |i| if i < N { Self::Coordinate(i) } else { Self::Parameter(i - N) };
+        Ok(found.into_iter().map(argument).collect())
+    }
+
     /// What it is called.
     pub(crate) fn entry<L, const N: usize, const M: usize, const P: usize>(self) -> Entry
     where

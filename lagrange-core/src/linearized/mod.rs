@@ -7,6 +7,8 @@ mod columns;
 mod direction;
 #[cfg(feature = "alloc")]
 mod equilibrium;
+#[cfg(feature = "alloc")]
+mod inverse;
 mod jacobian;
 #[cfg(feature = "alloc")]
 mod linearization;
@@ -25,6 +27,8 @@ pub use columns::JacobianBy;
 pub use direction::{Direction, ResidualChange};
 #[cfg(feature = "alloc")]
 pub use equilibrium::Equilibrium;
+#[cfg(feature = "alloc")]
+pub use inverse::Actuation;
 pub use jacobian::{Jacobian, Partials};
 #[cfg(feature = "alloc")]
 pub use linearization::Linearization;
@@ -237,6 +241,53 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
         Self: Lagrangian<N, M, Scalar: Real> + Sized,
     {
         columns::jacobian_by(self, state, arguments)
+    }
+
+    /// The inputs by which the system has these accelerations at a state, and the multipliers that belong to them: the
+    /// inverse dynamics of an actuated system. An input is a coordinate, which stands for a generalized force on it beside
+    /// those of the system, or a parameter.
+    ///
+    /// There must be values of the inputs that give the accelerations, to √ε of the forces there, and one of each only. So an
+    /// input that acts on what the constraints hold is none; multipliers need not be unique. Where a parameter enters the
+    /// equations otherwise than a force does, the values are sought from those that it has (Newton's iteration). All is
+    /// compared in the units in which masses are 1.
+    ///
+    /// ```
+    /// use lagrange_core::prelude::*;
+    ///
+    /// /// A cart that carries a pendulum, and is driven.
+    /// #[derive(Clone, Lagrangian)]
+    /// #[coordinates(x, theta)]
+    /// #[lagrangian(x_dot^2 + (x_dot + theta_dot*cos(theta))^2/2 + (theta_dot*sin(theta))^2/2 + 9.81*cos(theta))]
+    /// #[force(x: push)]
+    /// struct Cart { push: f64 }
+    ///
+    /// let cart = Cart { push: 0.0 };
+    /// let state = State::new([0.0, 0.3], [0.0, 1.0]);
+    /// let moved = Cart { push: 7.0 }.solve(&state)?.accelerations;
+    /// assert!((cart.inputs_for(&state, &moved, &["push"])?.inputs[0] - 7.0).abs() < 1e-13);
+    /// // No push makes the pendulum do as it likes.
+    /// let error = cart.inputs_for(&state, &[0.0, 0.0].into(), &["push"]).unwrap_err();
+    /// assert!(error.to_string().contains("the row of coordinate `theta` lacks a generalized force of"));
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::NotRealizable`] where no values of the inputs give these accelerations, or they violate a constraint;
+    /// [`Error::InputsNotUnique`]; [`Error::ParameterFixed`], [`Error::UnknownName`] and [`Error::RepeatedName`];
+    /// [`Error::EquationsNotFinite`] and [`Error::DerivativeNotFinite`]; [`Error::EigenvaluesNotFound`] where the
+    /// singular values do not converge.
+    #[cfg(feature = "alloc")]
+    fn inputs_for(
+        &self,
+        state: &State<Self::Scalar, N>,
+        accelerations: &SVector<Self::Scalar, N>,
+        inputs: &[&str],
+    ) -> Result<Actuation<Self::Scalar, M>, Error>
+    where
+        Self: Lagrangian<N, M, Scalar: Real> + Clone,
+    {
+        inverse::inputs_for(self, state, accelerations, inputs)
     }
 
     /// The linear system near a state, its inputs the parameters of these names (`u` names all elements of a vector

@@ -5,6 +5,7 @@ use core::ops::Range;
 
 use nalgebra::{ComplexField, SVector};
 
+#[cfg(feature = "alloc")]
 use super::direction::unit;
 use super::{Direction, Linearized, ResidualChange, StateDerivatives};
 use crate::error::Error;

@@ -106,6 +106,28 @@ pub trait Lagrangian<const N: usize, const M: usize> {
         multipliers: &SVector<Self::Scalar, M>,
     ) -> SVector<Self::Scalar, N>;
 
+    /// M q̈ − h − Fᵀλ: the generalized forces that have to act beside those of the system, so that it has these
+    /// accelerations with these multipliers (inverse dynamics). It is emitted as d/dt(∂L/∂q̇) − ∂L/∂q − Q − Fᵀλ, without M:
+    /// for a chain of links it costs as much as their number.
+    ///
+    /// ```
+    /// # use lagrange_core::prelude::*;
+    /// # #[derive(Lagrangian)]
+    /// # #[coordinates(theta)]
+    /// # #[lagrangian(m*l^2/2 * theta_dot^2 + m*g*l*cos(theta))]
+    /// # struct Pendulum { m: f64, l: f64, g: f64 }
+    /// let pendulum = Pendulum { m: 1.0, l: 2.0, g: 9.81 };
+    /// // The torque for θ̈ = 3 where it hangs at rest: m l² θ̈.
+    /// let torque = pendulum.inverse_dynamics(&State::at_rest([0.0]), &[3.0].into(), &[].into());
+    /// assert_eq!(torque[0], 12.0);
+    /// ```
+    fn inverse_dynamics(
+        &self,
+        state: &State<Self::Scalar, N>,
+        accelerations: &SVector<Self::Scalar, N>,
+        multipliers: &SVector<Self::Scalar, M>,
+    ) -> SVector<Self::Scalar, N>;
+
     /// Accelerations and multipliers by the emitted elimination alone, NaN where that cannot vouch for them: where its
     /// smallest pivot, [`Solution::pivot`], leaves less than two thirds of the digits. Nothing branches, so that it runs on
     /// SIMD lanes and dual numbers; lanes are NaN one by one. [`solve`](crate::Simulate::solve) is the checked one: it goes

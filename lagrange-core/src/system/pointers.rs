@@ -45,6 +45,11 @@ macro_rules! forward {
                     state: &State<Self::Scalar, N>,
                     multipliers: &SVector<Self::Scalar, M>
                 ) -> SVector<Self::Scalar, N>;
+                fn inverse_dynamics(
+                    state: &State<Self::Scalar, N>,
+                    accelerations: &SVector<Self::Scalar, N>,
+                    multipliers: &SVector<Self::Scalar, M>
+                ) -> SVector<Self::Scalar, N>;
                 fn accelerations_unchecked(state: &State<Self::Scalar, N>) -> Solution<Self::Scalar, N, M>;
                 fn factor(state: &State<Self::Scalar, N>) -> Self::Factor;
                 fn solve_with<S>(

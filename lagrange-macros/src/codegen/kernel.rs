@@ -90,7 +90,7 @@ impl Style<'_> {
         let is_read = |argument: &Argument| part.inputs.iter().any(|&symbol| source(symbol) == *argument);
         let read = [
             Argument::State,
-            Argument::Solution,
+            Argument::Accelerations,
             Argument::Multipliers,
             Argument::Direction,
             Argument::Rates,
@@ -139,7 +139,7 @@ impl Style<'_> {
 fn source(symbol: Symbol) -> Argument {
     match Variable::of(symbol) {
         Variable::Time | Variable::Coordinate(_) | Variable::Velocity(_) => Argument::State,
-        Variable::Acceleration(_) => Argument::Solution,
+        Variable::Acceleration(_) => Argument::Accelerations,
         Variable::Multiplier(_) => Argument::Multipliers,
         Variable::Parameter(_) => Argument::System,
         Variable::Change(_) => Argument::Direction,

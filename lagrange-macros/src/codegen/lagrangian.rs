@@ -103,6 +103,7 @@ impl Emitter<'_> {
                 let force = |i| equations.constraint_force.get(i).copied().unwrap_or(Id::ZERO);
                 (0..problem.coordinates.len()).map(force).collect()
             }
+            Quantity::InverseDynamics => equations.balance.clone(),
             Quantity::Integral => return self.constraint_integral(method),
             Quantity::Accelerations => return self.accelerations(method),
             Quantity::Factor => return self.factor(method),

@@ -147,7 +147,7 @@ impl Emitter<'_> {
             #[inline]
             #[allow(unused_variables)]
             #signature {
-                let multipliers = &solution.multipliers;
+                let (accelerations, multipliers) = (&solution.accelerations, &solution.multipliers);
                 #statements
                 #(#results)*
             }

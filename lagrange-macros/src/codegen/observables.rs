@@ -55,7 +55,7 @@ impl Emitter<'_> {
         };
         let solved = self.needs_solution(values);
         let signature = self.style.types.of_observable(&name, values.len(), solved);
-        let multipliers = solved.then(|| quote! { let multipliers = &solution.multipliers; });
+        let multipliers = solved.then(|| quote! { let (accelerations, multipliers) = (&solution.accelerations, &solution.multipliers); });
         let doc = format!("The observable `{}`. {}", label.text, kernel.doc);
         let tokens = quote! {
             #[doc = #doc]

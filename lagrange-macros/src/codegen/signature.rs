@@ -75,6 +75,7 @@ impl Types<'_> {
             Argument::MutableSystem => return quote!(&mut self),
             Argument::State => quote!(&__lagrange::State<#scalar, #n>),
             Argument::Solution => quote!(&__lagrange::Solution<#scalar, #n, #m>),
+            Argument::Accelerations => quote!(&__lagrange::nalgebra::SVector<#scalar, #n>),
             Argument::Multipliers => quote!(&__lagrange::nalgebra::SVector<#scalar, #m>),
             Argument::Direction => quote!(&__lagrange::Direction<#scalar, #n>),
             Argument::Rates => quote!(&__lagrange::nalgebra::SVector<#scalar, #p>),

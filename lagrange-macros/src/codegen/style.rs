@@ -41,6 +41,7 @@ impl<'a> Style<'a> {
             [
                 "state",
                 "solution",
+                "accelerations",
                 "multipliers",
                 "direction",
                 "rates",
@@ -181,7 +182,7 @@ impl<'a> Style<'a> {
         });
         let coordinates = pattern(n, Variable::Coordinate, quote!(state.q.data.0[0]));
         let velocities = pattern(n, Variable::Velocity, quote!(state.v.data.0[0]));
-        let accelerations = pattern(n, Variable::Acceleration, quote!(solution.accelerations.data.0[0]));
+        let accelerations = pattern(n, Variable::Acceleration, quote!(accelerations.data.0[0]));
         let multipliers = pattern(m, Variable::Multiplier, quote!(multipliers.data.0[0]));
         let forcing = pattern(n, Variable::Forcing, quote!(forcing.data.0[0]));
         let bias = pattern(m, Variable::Bias, quote!(bias.data.0[0]));

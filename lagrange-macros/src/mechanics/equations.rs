@@ -39,6 +39,8 @@ pub(crate) struct Equations {
     pub(crate) bias: Vec<Id>,
     /// Fᵀλ, in the multipliers' symbols
     pub(crate) constraint_force: Vec<Id>,
+    /// d/dt p − ∂L/∂q − Q − Fᵀλ, in the symbols of accelerations and multipliers
+    pub(crate) balance: Vec<Id>,
     /// M and h as quadratic forms, completed where M is singular: the first over the accelerations alone
     pub(crate) forms: Vec<Form>,
 }
@@ -57,8 +59,11 @@ impl Equations {
         consistency::check(graph, problem, &constraints, diagnostics)?;
         determinacy::check(problem, &motion, &constraints, diagnostics)?;
         let integrability = integrability::classify(graph, problem, &constraints);
+        let forms = Form::all(graph, problem, &motion, &constraints);
+        let constraint_force = constraints.force(graph);
         Some(Self {
-            forms: Form::all(graph, problem, &motion, &constraints),
+            balance: motion.balance(graph, &constraint_force),
+            forms,
             integrability,
             momenta_are_linear: !has_velocity(graph, &motion.mass.concat()),
             momentum: motion.momentum,
@@ -66,7 +71,7 @@ impl Equations {
             momentum_rate: motion.momentum_rate,
             forcing: motion.forcing,
             energy: motion.energy,
-            constraint_force: constraints.force(graph),
+            constraint_force,
             magnitudes: [
                 constraints.magnitude(graph, Variable::Coordinate, |kind| kind == ConstraintKind::Holonomic),
                 constraints.magnitude(graph, Variable::Velocity, |_| true),

@@ -3,7 +3,7 @@
 use super::degree;
 use crate::resolve::Problem;
 use crate::symbolic::{Forward, Graph, Id};
-use crate::variables::{Variable, drift, nodes, symbols};
+use crate::variables::{Variable, drift, nodes, symbols, total_time_derivative};
 
 /// M q̈ = h without constraints.
 pub(super) struct Motion {
@@ -12,6 +12,20 @@ pub(super) struct Motion {
     pub(super) momentum_rate: Vec<Id>,
     pub(super) forcing: Vec<Id>,
     pub(super) energy: Id,
+}
+
+impl Motion {
+    /// dp/dt − ∂L/∂q − Q − Fᵀλ, with accelerations and multipliers as symbols: not by the entries of M, so that it costs
+    /// as much as the Lagrangian.
+    pub(super) fn balance(&self, graph: &mut Graph, constraint_force: &[Id]) -> Vec<Id> {
+        let mut along_motion = total_time_derivative(graph, self.momentum.len());
+        let row = |(i, &momentum): (usize, &Id)| {
+            let inertia = along_motion.of(graph, momentum);
+            let free = graph.sub(inertia, self.momentum_rate[i]);
+            constraint_force.get(i).map_or(free, |&force| graph.sub(free, force))
+        };
+        self.momentum.iter().enumerate().map(row).collect()
+    }
 }
 
 pub(super) fn derive(graph: &mut Graph, problem: &Problem) -> Motion {

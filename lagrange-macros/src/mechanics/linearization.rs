@@ -69,7 +69,6 @@ pub(super) fn linearize(
     equations: &Equations,
 ) -> Option<Linearization> {
     let mut along_motion = total_time_derivative(graph, problem.coordinates.len());
-    let motion = motion(graph, problem, equations, &mut along_motion);
     let acceleration: Vec<Id> =
         equations.rate.iter().map(|&velocity| along_motion.of(graph, velocity)).collect();
     let mut along = |pairs: &[(Symbol, Symbol)]| {
@@ -78,7 +77,7 @@ pub(super) fn linearize(
         let mut along = Forward::along(seeds);
         let mut of = |roots: &[Id]| roots.iter().map(|&root| along.of(graph, root)).collect::<Vec<Id>>();
         Changes {
-            motion: of(&motion),
+            motion: of(&equations.balance),
             acceleration: of(&acceleration),
             rate: of(&equations.rate),
             position: of(&equations.residual),
@@ -88,23 +87,4 @@ pub(super) fn linearize(
     let (state, parameters) = all.split_at(1 + 2 * problem.coordinates.len());
     let linearization = Linearization { by_state: along(state), by_parameters: along(parameters) };
     graph.take_fault().is_none().then_some(linearization)
-}
-
-/// dp/dt − ∂L/∂q − Q − Fᵀλ, with accelerations and multipliers as symbols.
-fn motion(
-    graph: &mut Graph,
-    problem: &Problem,
-    equations: &Equations,
-    along_motion: &mut Forward,
-) -> Vec<Id> {
-    let n = problem.coordinates.len();
-    let row = |i: usize| {
-        let inertia = along_motion.of(graph, equations.momentum[i]);
-        let free = graph.sub(inertia, equations.momentum_rate[i]);
-        match equations.constraint_force.get(i) {
-            Some(&force) => graph.sub(free, force),
-            None => free,
-        }
-    };
-    (0..n).map(row).collect()
 }

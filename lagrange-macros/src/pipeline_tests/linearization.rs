@@ -1,7 +1,7 @@
 //! The derivative of the residual along a direction is a function as long as the system: that is why it is emitted,
 //! and not the Jacobian entry by entry.
 
-use super::{derived, systems};
+use super::{derived, equations, systems};
 use crate::codegen::operations;
 use crate::mechanics::Linearization;
 use crate::resolve::Problem;
@@ -45,6 +45,27 @@ fn the_change_along_a_direction_takes_linearly_many_operations() {
         });
         println!("a chain of {LENGTHS:?} in {name}: {counts:?} operations");
         assert!(counts.windows(3).all(|c| c[2] + c[0] == 2 * c[1]), "{counts:?}");
+    }
+}
+
+/// Inverse dynamics by Newton and Euler's recursion, found from the definitions of the links' velocities; by the entries of M
+/// it would take quadratically many.
+#[test]
+fn inverse_dynamics_takes_linearly_many_operations() {
+    for (name, system) in [("angles", systems::chain as fn(usize) -> String), ("rods", systems::rods)] {
+        let (counts, by_mass): (Vec<usize>, Vec<usize>) = LENGTHS
+            .iter()
+            .map(|&n| {
+                let (graph, _, equations) = equations(&system(n));
+                let entries = [equations.mass.concat(), equations.forcing.clone()].concat();
+                (count(&graph, &equations.balance), count(&graph, &entries))
+            })
+            .unzip();
+        println!(
+            "inverse dynamics of a chain of {LENGTHS:?} in {name}: {counts:?} operations; M and h {by_mass:?}"
+        );
+        assert!(counts.windows(3).all(|c| c[2] + c[0] == 2 * c[1]), "{counts:?}");
+        assert!(counts[4] <= 40 * LENGTHS[4], "{counts:?}");
     }
 }
 

@@ -1,0 +1,241 @@
+//! The inputs by which a system has given accelerations.
+
+use alloc::{format, string::String, vec::Vec};
+
+use nalgebra::{ComplexField, DMatrix, DVector, SVD, SVector};
+
+use super::Linearized;
+use super::argument::Argument;
+use super::direction::unit;
+use crate::error::Error;
+use crate::names::Row;
+use crate::number::{Real, Scalar, larger, power_of_epsilon, vector};
+use crate::solution::kkt::Units;
+use crate::solution::solve::first_row;
+use crate::system::{Solution, State};
+
+/// What gives a system the accelerations asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Actuation<T, const M: usize> {
+    /// The generalized forces on the coordinates named, and the values of the parameters named.
+    pub inputs: DVector<T>,
+    /// The multipliers λ of the constraints, of least norm where these depend on one another, in units in which rows are
+    /// of length 1.
+    pub multipliers: SVector<T, M>,
+    names: Vec<String>,
+}
+
+impl<T, const M: usize> Actuation<T, M> {
+    /// What the inputs are called, in their order.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+}
+
+/// Inputs that enter the equations as forces do are found at once; for others Newton's iteration may take as many steps.
+const STEPS: usize = 30;
+
+/// See [`Linearized::inputs_for`].
+pub(super) fn inputs_for<L, const N: usize, const M: usize, const P: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+    accelerations: &SVector<L::Scalar, N>,
+    names: &[&str],
+) -> Result<Actuation<L::Scalar, M>, Error>
+where
+    L: Linearized<N, M, P, Scalar: Real> + Clone,
+{
+    let inputs = Argument::actuators::<L, N, M, P>(names)?;
+    let mut balance = Balance::new(system.clone(), state, accelerations, inputs)?;
+    for _ in 0..STEPS {
+        let step = balance.step()?;
+        if balance.go(&step) {
+            break;
+        }
+    }
+    balance.check()?;
+    let Balance { inputs, values, multipliers, .. } = balance;
+    let names = inputs.iter().map(|input| format!("{}", input.entry::<L, N, M, P>())).collect();
+    Ok(Actuation { inputs: values, multipliers, names })
+}
+
+/// M a = h + Fᵀλ + Σ τ and F a + γ = 0, at a guess of inputs and multipliers.
+struct Balance<'a, L: Linearized<N, M, P>, const N: usize, const M: usize, const P: usize> {
+    /// With the inputs that are parameters as they are.
+    system: L,
+    state: &'a State<L::Scalar, N>,
+    accelerations: &'a SVector<L::Scalar, N>,
+    inputs: Vec<Argument>,
+    values: DVector<L::Scalar>,
+    multipliers: SVector<L::Scalar, M>,
+    /// In which masses are 1 and rows of constraints of length 1.
+    units: Units<L::Scalar, N, M>,
+}
+
+impl<'a, L, const N: usize, const M: usize, const P: usize> Balance<'a, L, N, M, P>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+{
+    fn new(
+        mut system: L,
+        state: &'a State<L::Scalar, N>,
+        accelerations: &'a SVector<L::Scalar, N>,
+        inputs: Vec<Argument>,
+    ) -> Result<Self, Error> {
+        let (zero, parameters) = (L::Scalar::constant(0.0), system.parameters());
+        let mut values = DVector::from_element(inputs.len(), zero);
+        for (value, input) in values.iter_mut().zip(&inputs) {
+            let Argument::Parameter(k) = *input else { continue };
+            *value = parameters[k];
+            if !system.set_parameter(k, parameters[k]) {
+                return Err(Error::ParameterFixed { name: L::PARAMETERS[k] });
+            }
+        }
+        let f = system.constraint_jacobian(state).transpose().into();
+        let units = Units::of(&system.mass_matrix(state).into(), &f);
+        Ok(Self { system, state, accelerations, inputs, values, multipliers: vector([zero; M]), units })
+    }
+
+    /// A number that belongs to row `i`, the motion's rows first, in its unit.
+    fn scaled(&self, i: usize, x: L::Scalar) -> L::Scalar {
+        if i < N { x * self.units.coordinates[i] } else { self.units.of_row(i - N, x) }
+    }
+
+    /// What is left of each row.
+    fn residual(&self) -> Result<DVector<L::Scalar>, Error> {
+        let Self { system, state, accelerations, .. } = self;
+        let mut motion = system.inverse_dynamics(state, accelerations, &self.multipliers);
+        for (input, value) in self.inputs.iter().zip(&self.values) {
+            if let Argument::Coordinate(i) = *input {
+                motion[i] -= *value;
+            }
+        }
+        let demanded = system.constraint_jacobian(state) * **accelerations + system.constraint_bias(state);
+        if let Some(row) = first_row::<L, N, M>(|i| !motion[i].is_finite(), |a| !demanded[a].is_finite()) {
+            return Err(Error::EquationsNotFinite { row, time: state.t.to_f64() });
+        }
+        let rows = motion.iter().chain(&demanded).enumerate();
+        Ok(DVector::from_iterator(N + M, rows.map(|(i, x)| self.scaled(i, *x))))
+    }
+
+    /// How the rows change with each input and each multiplier.
+    fn jacobian(&self) -> Result<DMatrix<L::Scalar>, Error> {
+        let Self { system, state, multipliers, .. } = self;
+        let (zero, one, count) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0), self.inputs.len());
+        let here =
+            Solution { accelerations: *self.accelerations, multipliers: *multipliers, pivot: one, rank: M };
+        let mut jacobian = DMatrix::from_element(N + M, count + M, zero);
+        for (j, input) in self.inputs.iter().enumerate() {
+            if let Argument::Coordinate(i) = *input {
+                jacobian[(i, j)] = self.scaled(i, -one);
+            }
+            let Argument::Parameter(k) = *input else { continue };
+            let change = system.residual_change_by_parameters(state, &here, &unit(k));
+            for (i, x) in change.motion.iter().chain(&change.acceleration).enumerate() {
+                jacobian[(i, j)] = self.scaled(i, *x);
+            }
+            let (row, entry) = (|i: usize| !jacobian[(i, j)].is_finite(), input.entry::<L, N, M, P>());
+            if let Some(row) = first_row::<L, N, M>(row, |a| !jacobian[(N + a, j)].is_finite()) {
+                return Err(Error::DerivativeNotFinite { row, entry, time: state.t.to_f64() });
+            }
+        }
+        let f = system.constraint_jacobian(state);
+        for (i, a) in (0..N).flat_map(|i| (0..M).map(move |a| (i, a))) {
+            jacobian[(i, count + a)] = self.scaled(i, -f[(a, i)]);
+        }
+        Ok(jacobian)
+    }
+
+    /// The shortest step after which nothing is left to first order, as far as that goes; inputs must be determined.
+    fn step(&self) -> Result<DVector<L::Scalar>, Error> {
+        let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
+        let (residual, mut jacobian) = (self.residual()?, self.jacobian()?);
+        let columns = jacobian.ncols();
+        // Each column of length 1: the units of inputs and multipliers do not count.
+        let lengths = DVector::from_fn(columns, |j, _| {
+            let length = jacobian.column(j).norm();
+            if length > zero { length } else { one }
+        });
+        (0..columns).for_each(|j| jacobian.column_mut(j).unscale_mut(lengths[j]));
+        let mut square = DMatrix::from_element(jacobian.nrows().max(columns), columns, zero);
+        square.view_mut((0, 0), jacobian.shape()).copy_from(&jacobian);
+        let factors = SVD::try_new(square, true, true, L::Scalar::constant(L::Scalar::EPSILON), 0)
+            .ok_or(Error::EigenvaluesNotFound)?;
+        let (Some(u), Some(v)) = (&factors.u, &factors.v_t) else { return Err(Error::EigenvaluesNotFound) };
+        let least = power_of_epsilon::<L::Scalar>(2.0 / 3.0);
+        let mut step = DVector::from_element(columns, zero);
+        let mut free = DVector::from_element(columns, zero);
+        for (k, &sigma) in factors.singular_values.iter().enumerate() {
+            if sigma <= least {
+                free.iter_mut().zip(v.row(k).iter()).for_each(|(x, v)| *x = larger(*x, Scalar::abs(*v)));
+                continue;
+            }
+            let length = (0..N + M).fold(zero, |sum, i| sum + u[(i, k)] * residual[i]) / sigma;
+            (0..columns).for_each(|j| step[j] -= v[(k, j)] * length / lengths[j]);
+        }
+        let is_free = |j: &usize| free[*j] > power_of_epsilon::<L::Scalar>(0.5);
+        let undetermined: Vec<usize> = (0..self.inputs.len()).filter(is_free).collect();
+        if undetermined.is_empty() {
+            return Ok(step);
+        }
+        let inputs = undetermined.into_iter().map(|j| match self.inputs[j] {
+            Argument::Coordinate(i) | Argument::Velocity(i) => L::COORDINATES[i],
+            Argument::Parameter(k) => L::PARAMETERS[k],
+        });
+        Err(Error::InputsNotUnique { inputs: inputs.collect(), time: self.state.t.to_f64() })
+    }
+
+    /// Takes the step; whether it was nothing but round-off.
+    fn go(&mut self, step: &DVector<L::Scalar>) -> bool {
+        let mut is_small = true;
+        let small = L::Scalar::constant(16.0 * L::Scalar::EPSILON);
+        let unknowns = self.values.iter_mut().chain(self.multipliers.iter_mut());
+        for (x, step) in unknowns.zip(step) {
+            *x += *step;
+            is_small &= Scalar::abs(*step) <= small * Scalar::abs(*x);
+        }
+        for (input, value) in self.inputs.iter().zip(&self.values) {
+            if let Argument::Parameter(k) = *input {
+                self.system.set_parameter(k, *value);
+            }
+        }
+        is_small
+    }
+
+    /// Nothing may be left of a row but √ε of its terms.
+    fn check(&self) -> Result<(), Error> {
+        let Self { system, state, accelerations, multipliers, .. } = self;
+        let (m, f) = (system.mass_matrix(state), system.constraint_jacobian(state));
+        let (h, gamma) = (system.forcing(state), system.constraint_bias(state));
+        let zero = L::Scalar::constant(0.0);
+        let sum =
+            |terms: &mut dyn Iterator<Item = L::Scalar>| terms.fold(zero, |sum, x| sum + Scalar::abs(x));
+        let mut terms = DVector::from_element(N + M, zero);
+        for i in 0..N {
+            let forces = sum(&mut (0..M).map(|a| f[(a, i)] * multipliers[a])) + Scalar::abs(h[i]);
+            terms[i] = self.scaled(i, forces + sum(&mut (0..N).map(|j| m[(i, j)] * accelerations[j])));
+        }
+        for a in 0..M {
+            let demands = sum(&mut (0..N).map(|j| f[(a, j)] * accelerations[j])) + Scalar::abs(gamma[a]);
+            terms[N + a] = self.scaled(N + a, demands);
+        }
+        // In these units forces compare, and so do accelerations: what is small beside others may be their round-off.
+        let most = |numbers: &mut dyn Iterator<Item = L::Scalar>| numbers.fold(zero, larger);
+        let force = most(&mut terms.rows(0, N).iter().copied());
+        let own = |i: usize| Scalar::abs(accelerations[i]) / self.units.coordinates[i];
+        let acceleration = most(&mut terms.rows(N, M).iter().copied().chain((0..N).map(own)));
+        let (residual, part) = (self.residual()?, power_of_epsilon::<L::Scalar>(0.5));
+        let scale = |i: usize| if i < N { force } else { acceleration };
+        match (0..N + M).rev().find(|&i| Scalar::abs(residual[i]) > part * scale(i)) {
+            None => Ok(()),
+            Some(i) => {
+                let row = match i.checked_sub(N) {
+                    None => Row::Coordinate(L::COORDINATES[i]),
+                    Some(a) => Row::Constraint(L::CONSTRAINTS[a]),
+                };
+                let left = residual[i] / self.scaled(i, L::Scalar::constant(1.0));
+                Err(Error::NotRealizable { row, residual: left.to_f64(), time: state.t.to_f64() })
+            }
+        }
+    }
+}
