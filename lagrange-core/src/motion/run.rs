@@ -207,6 +207,7 @@ pub(crate) struct Watchdog {
 }
 
 impl Watchdog {
+    #[inline]
     pub(crate) fn new(limits: Limits, statistics: &Statistics) -> Self {
         Self {
             limits,

@@ -3,7 +3,7 @@
 use core::array::from_fn;
 use core::convert::Infallible;
 
-use nalgebra::ComplexField;
+use nalgebra::{ComplexField, SVector};
 
 use super::clock::Clock;
 use super::interpolant::Polynomial;
@@ -174,7 +174,10 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Method<L
         _: &mut Statistics,
     ) -> Result<(), Error> {
         memory.clock.set(state.t);
-        (memory.before, memory.state) = (*state, *state);
+        // Whether it is another is found out beside the motion, which would wait for a copy of what has just been written.
+        if memory.state != *state {
+            (memory.before, memory.state) = (*state, *state);
+        }
         Ok(())
     }
 
@@ -196,7 +199,9 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Method<L
 }
 
 fn is_finite<T: Real, const N: usize>(state: &State<T, N>) -> bool {
-    state.q.iter().chain(&state.v).all(|x| x.is_finite())
+    // Without a branch for each.
+    let all_finite = |x: &SVector<T, N>| x.iter().fold(true, |all, x| all & x.is_finite());
+    all_finite(&state.q) & all_finite(&state.v)
 }
 
 /// The end of a step of `h` from `start`, by the general solve where the elimination cannot vouch for it, and on the
