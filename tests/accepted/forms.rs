@@ -16,7 +16,8 @@ struct System {
     l: f64,
 }
 
-fn main() {
+#[test]
+fn trailing_commas_are_taken() {
     let system = System { m: 1.0, l: 0.0 };
     let state = State::at_rest([0.0; 3]);
     let solution = system.accelerations_unchecked(&state);

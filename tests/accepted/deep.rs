@@ -133,7 +133,8 @@ struct Parentheses;
 #[lagrangian(x_dot^2/2 - f109(x))]
 struct Calls;
 
-fn main() {
+#[test]
+fn the_compiler_and_the_derive_go_that_deep() {
     let state = State::at_rest([1.0]);
     assert_eq!(Parentheses.accelerations_unchecked(&state).accelerations[0], 1.0);
     assert!(Calls.accelerations_unchecked(&state).accelerations[0].is_finite());

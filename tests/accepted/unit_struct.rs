@@ -11,7 +11,8 @@ struct Oscillator;
 #[lagrangian(x_dot^2/2 - x^2/2)]
 struct Braced {}
 
-fn main() {
+#[test]
+fn a_system_may_have_no_parameters() {
     let state = State::at_rest([1.0]);
     assert_eq!(Oscillator.accelerations_unchecked(&state).accelerations[0], -1.0);
     assert_eq!((Braced {}).accelerations_unchecked(&state).accelerations[0], -1.0);

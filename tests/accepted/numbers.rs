@@ -17,7 +17,8 @@ use lagrange_core::prelude::*;
 #[observable(zero = 0 + [x, x])]
 struct System;
 
-fn main() {
+#[test]
+fn numbers_are_read_as_they_are_written() {
     let state = State::at_rest([3.0]);
     assert_eq!(System.thousand(&state), 1000.0);
     assert_eq!(System.five(&state), 5.0);
