@@ -88,3 +88,16 @@ fn all_quantities_take_one_walk_along_the_steps() {
     assert_eq!(path.drift().iter().map(|quantity| quantity.name).collect::<Vec<_>>(), names);
     assert_eq!(work(&|| drop(path.drift())), work(&walk));
 }
+
+#[test]
+fn where_nothing_is_known_to_be_conserved_the_table_says_so() {
+    #[derive(Lagrangian)]
+    #[coordinates(x)]
+    #[lagrangian(x_dot^2/2 - x^2/2)]
+    #[dissipation(x_dot^2/2)]
+    struct Damped;
+
+    let path = Damped.integrate(State::at_rest([1.0]), 1.0, Dop853::default()).unwrap();
+    let said = path.drift().to_string();
+    assert!(said.starts_with("nothing is known to be conserved"), "{said}");
+}

@@ -1,5 +1,7 @@
 //! A point of the velocity phase space at a time, and what the equations of motion give there.
 
+use core::fmt::{self, Display, Formatter};
+
 use nalgebra::SVector;
 
 use crate::number::Scalar;
@@ -12,6 +14,7 @@ use crate::number::Scalar;
 /// use lagrange_core::State;
 /// let state = State::new([0.1, 0.0], [0.0, 2.0]).at_time(1.0);
 /// assert_eq!((state.t, state.q[0], state.v[1]), (1.0, 0.1, 2.0));
+/// assert_eq!(format!("{state:.1}"), "t = 1.0: q = (0.1, 0.0), q̇ = (0.0, 2.0)");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -46,6 +49,23 @@ impl<T: Scalar, const N: usize> State<T, N> {
     #[must_use]
     pub fn at_time(self, t: T) -> Self {
         Self { t, ..self }
+    }
+}
+
+/// `t = 1: q = (0.1, 0), q̇ = (0, 2)`, each number as the format says: `{state:.3}`.
+impl<T: Scalar + Display, const N: usize> Display for State<T, N> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str("t = ")?;
+        Display::fmt(&self.t, f)?;
+        for (name, entries) in [(": q", &self.q), (", q̇", &self.v)] {
+            write!(f, "{name} = ")?;
+            for (i, entry) in entries.iter().enumerate() {
+                f.write_str(if i == 0 { "(" } else { ", " })?;
+                Display::fmt(entry, f)?;
+            }
+            f.write_str(")")?;
+        }
+        Ok(())
     }
 }
 

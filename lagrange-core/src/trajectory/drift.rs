@@ -106,6 +106,9 @@ impl<'d, T> IntoIterator for &'d Drift<T> {
 
 impl<T: Real> Display for Drift<T> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        if self.iter().next().is_none() {
+            return writeln!(f, "nothing is known to be conserved: `#[conserved(name = …)]` says what is");
+        }
         let width = self.iter().map(|quantity| quantity.name.chars().count()).max().unwrap_or(0).max(9);
         writeln!(f, "{:width$}  {:>13}  {:>17}", "conserved", "at the start", "largest deviation")?;
         for Deviation { name, start, largest } in self {

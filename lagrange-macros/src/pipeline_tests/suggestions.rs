@@ -106,3 +106,29 @@ fn no_guesses() {
         assert!(!found.contains("did you mean") && !found.contains("elements of"), "{term}: {found:.300}");
     }
 }
+
+/// What is near none of them is answered with all of them, as many as one reads.
+#[test]
+fn where_nothing_is_near_all_names_are_told() {
+    let said = |constraints: usize| {
+        let constraints: String =
+            (0..constraints).map(|k| format!("#[constraint(stop{k}: x[{k}] = 0)]")).collect();
+        let source = format!(
+            "#[coordinates(x: [12])]
+             #[lagrangian(dot(x_dot, x_dot))]
+             {constraints}
+             #[observable(push = lambda(wall))]
+             struct System;"
+        );
+        expand(tokens(&source)).to_string()
+    };
+    for (constraints, wanted) in [
+        (0, "`wall`: there are no constraints"),
+        (1, "`wall`: the only constraint is `stop0`"),
+        (3, "`wall`: the constraints are `stop0`, `stop1` and `stop2`"),
+        (11, "`stop6`, `stop7` and 3 more"),
+    ] {
+        let found = said(constraints);
+        assert!(found.contains(wanted), "{constraints}: {found:.300}");
+    }
+}

@@ -182,8 +182,8 @@ impl Lowering<'_> {
 
     fn multiplier(&mut self, constraint: &Name, index: Option<i128>) -> Option<Value> {
         let Some(group) = self.multipliers.iter().find(|group| group.name == constraint.text) else {
-            let names = self.multipliers.iter().map(|group| group.name.as_str());
-            let advice = or_meant(nearest(&constraint.text, names));
+            let names = || self.multipliers.iter().map(|group| group.name.as_str());
+            let advice = or_meant(nearest(&constraint.text, names()), "constraint", names());
             return self
                 .report(constraint.place, format!("no constraint is called `{}`{advice}", constraint.text));
         };

@@ -56,8 +56,8 @@ impl Parameters {
         for (position, parameter) in declaration.parameters.iter().enumerate() {
             let name = &parameter.name;
             let Some(index) = parameters.fields.iter().position(|field| field.name.text == name.text) else {
-                let fields = parameters.fields.iter().map(|field| field.name.text.as_str());
-                let advice = or_meant(nearest(&name.text, fields));
+                let fields = || parameters.fields.iter().map(|field| field.name.text.as_str());
+                let advice = or_meant(nearest(&name.text, fields()), "field", fields());
                 diagnostics.error(name.place, format!("there is no field `{}`{advice}", name.text));
                 continue;
             };

@@ -57,12 +57,12 @@ impl Lowering<'_> {
         for force in &declaration.forces {
             let name = &force.target.name;
             let Some(Entity::Coordinate(index)) = self.scope.get(&name.text) else {
-                let coordinates = self.coordinates.iter().map(|coordinate| coordinate.name.text.as_str());
+                let coordinates = || self.coordinates.iter().map(|coordinate| coordinate.name.text.as_str());
                 let near = match self.scope.get(&name.text) {
                     Some(Entity::Velocity(index)) => Some(self.coordinates[index].name.text.as_str()),
-                    _ => nearest(&name.text, coordinates),
+                    _ => nearest(&name.text, coordinates()),
                 };
-                let advice = or_meant(near);
+                let advice = or_meant(near, "coordinate", coordinates());
                 let message = format!("a force acts on a coordinate, and `{}` is none{advice}", name.text);
                 self.diagnostics.error(name.place, message);
                 continue;

@@ -178,10 +178,24 @@ fn did_you_mean(name: &str) -> String {
     format!("did you mean `{name}`?")
 }
 
-/// The end of a message, if something is near.
-pub(super) fn or_meant(near: Option<&str>) -> String {
-    near.map(|near| format!(": {}", did_you_mean(near))).unwrap_or_default()
+/// The end of a message about a name that none of these is: the nearest, or else all of them.
+pub(super) fn or_meant<'n>(near: Option<&str>, kind: &str, names: impl Iterator<Item = &'n str>) -> String {
+    if let Some(near) = near {
+        return format!(": {}", did_you_mean(near));
+    }
+    let mut names: Vec<String> = names.map(|name| format!("`{name}`")).collect();
+    let more = names.len().saturating_sub(NAMED);
+    names.truncate(NAMED);
+    let last = if more > 0 { format!("{more} more") } else { names.pop().unwrap_or_default() };
+    match (&names[..], &*last) {
+        ([], "") => format!(": there are no {kind}s"),
+        ([], only) => format!(": the only {kind} is {only}"),
+        (names, last) => format!(": the {kind}s are {} and {last}", names.join(", ")),
+    }
 }
+
+/// So many names are listed in a message.
+const NAMED: usize = 8;
 
 /// `Sin` where a value belongs.
 fn is_function(text: &str) -> Option<String> {
