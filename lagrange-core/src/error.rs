@@ -229,6 +229,20 @@ pub enum Error {
         /// What is wrong there.
         reason: &'static str,
     },
+    /// A coefficient of restitution that is none.
+    Restitution {
+        /// Its value.
+        value: f64,
+    },
+    /// A leg that does not go on where a journey has come to.
+    LegApart {
+        /// When the leg starts.
+        start: f64,
+        /// When it ends.
+        end: f64,
+        /// When it should start.
+        expected: f64,
+    },
     /// The function of an event is infinite or not a number.
     EventNotFinite {
         /// The name of the event.
@@ -359,6 +373,13 @@ impl Display for Error {
             Self::Resume { line, column, reason } => write!(
                 f,
                 "line {line}, column {column} of the table to resume from is not of this ensemble: {reason}"
+            ),
+            Self::Restitution { value } => {
+                write!(f, "the coefficient of restitution is {value}: it must not be negative, and finite")
+            }
+            Self::LegApart { start, end, expected } => write!(
+                f,
+                "the leg from t = {start} to {end} does not go on from t = {expected}, where the journey has come to: start it there, and lead it the same way in time"
             ),
             Self::EventNotFinite { event, time } => write!(
                 f,

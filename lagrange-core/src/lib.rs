@@ -34,7 +34,8 @@ assert!((friction + 2.0 / 7.0 * 9.81 * 0.3_f64.sin()).abs() < 1e-12);
 //!   force on coordinate a is Σ_α λ_α F_αa.
 //! - [`Motion`] goes on when it is told to: inputs that change, states at chosen times, nothing stored; [`embedded`] is about
 //!   programs without an operating system.
-//! - [`Event`]s are where functions of the motion cross zero: a [`Motion`] stops there, a run records them or ends.
+//! - [`Event`]s are where functions of the motion cross zero: a [`Motion`] stops there, a run records them or ends;
+//!   a [`Journey`] goes on with another system.
 //! - [`ensemble`]: many members at once, on SIMD lanes and on all threads.
 //! - [`Dop853`] and [`Dopri5`] are the methods, [`Trajectory`] is what they give, [`Ending`] why it stops.
 //!
@@ -92,6 +93,8 @@ pub use names::{Entry, Names, Row};
 #[cfg(feature = "std")]
 pub use number::Lanes;
 pub use number::{Dual, Over, Real, Scalar, Wide};
+#[cfg(feature = "alloc")]
+pub use solution::Impact;
 pub use solution::{Adjustment, Consistent, Sample};
 pub use statistics::Statistics;
 pub use system::{
@@ -99,7 +102,7 @@ pub use system::{
     Lagrangian, LinearPart, Pack, Packed, Shared, Solution, State, TotalDerivative,
 };
 #[cfg(feature = "alloc")]
-pub use trajectory::{Csv, Deviation, Drift, Records, Trajectory};
+pub use trajectory::{Csv, Deviation, Drift, Journey, Leg, Named, Records, Trajectory};
 
 /// The README's program is compiled and run with the documentation's examples.
 #[cfg(doctest)]

@@ -200,7 +200,7 @@ const CONSTANTS: [&str; 10] = [
 ];
 
 /// What every system has beside: methods of `Simulate`, `Hamiltonian`, `StateDerivatives` and `Linearized`.
-const PROVIDED: [&str; 28] = [
+const PROVIDED: [&str; 29] = [
     "solve",
     "check_consistent",
     "make_consistent",
@@ -212,6 +212,7 @@ const PROVIDED: [&str; 28] = [
     "integrate_until",
     "sample",
     "event",
+    "impact",
     "hamiltonian",
     "hamilton_equations",
     "integrate_hamiltonian",

@@ -1,5 +1,7 @@
 //! Where functions of a motion cross zero.
 
+mod impacts;
+mod journeys;
 mod rule;
 mod runs;
 mod section;

@@ -45,3 +45,18 @@ fn the_function_is_zero_though_the_time_is_coarse() {
         assert!(crossing.state.q[0].abs() < 1e-16 && crossing.state == *motion.state());
     }
 }
+
+#[test]
+fn an_iterator_gives_the_crossings_alone() {
+    let method = Dop853::with_tolerance(1e-12);
+    let mut event = HenonHeiles.event("section", |s| s.state().q[0]);
+    let mut motion = Motion::new(&HenonHeiles, start(), method).unwrap();
+    let found: Result<Vec<_>, _> = motion.crossings(1000.0, &mut [&mut event]).collect();
+    assert_eq!(found.unwrap(), section(1000.0, method));
+    assert_eq!(motion.state().t, 1000.0);
+    // The first error is the last item.
+    let mut event = HenonHeiles.event("root", |s| s.state().q[0].sqrt());
+    let mut motion = Motion::new(HenonHeiles, start(), method).unwrap();
+    let found: Vec<_> = motion.crossings(1000.0, &mut [&mut event]).collect();
+    assert!(found.len() == 1 && found[0].is_err());
+}

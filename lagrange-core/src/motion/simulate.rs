@@ -12,6 +12,8 @@ use crate::number::Real;
 use crate::number::Scalar;
 use crate::solution::Sample;
 use crate::solution::consistent::{self, Consistent};
+#[cfg(feature = "alloc")]
+use crate::solution::impact::{Impact, impact};
 use crate::solution::solve::solve;
 use crate::system::finite::check_finite;
 #[cfg(feature = "alloc")]
@@ -144,6 +146,45 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
         G: Fn(&Sample<&Self, N, M>) -> V,
     {
         Event::new(name, function)
+    }
+
+    /// The state after an impact: the constraint of this name is hit, its rate turns round and is `restitution` times what it
+    /// was, while all others hold on.
+    ///
+    /// M(v⁺ − v⁻) = FᵀΛ with F v⁺ + b = −e (F v⁻ + b) in the row that is hit, and F v⁺ + b = 0 in the others, e from 0, a
+    /// plastic impact, to 1, an elastic one. It is solved by the factor of this system, the one that has the constraint;
+    /// the motions before and after may be those of another one with the same coordinates. Where the momenta are linear in the
+    /// velocities they jump by FᵀΛ.
+    ///
+    /// ```
+    /// # use lagrange_core::prelude::*;
+    /// /// A ball and the floor.
+    /// #[derive(Lagrangian)]
+    /// #[coordinates(x, y)]
+    /// #[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
+    /// #[constraint(floor: y = 0)]
+    /// struct Touching { m: f64, g: f64 }
+    ///
+    /// let floor = Touching { m: 2.0, g: 9.81 };
+    /// let before = State::new([0.5, 0.0], [1.0, -3.0]);
+    /// let impact = floor.impact(&before, "floor", 0.5)?;
+    /// assert_eq!((impact.state.v[0], impact.state.v[1]), (1.0, 1.5));
+    /// assert_eq!(impact.impulse("floor")?, 2.0 * (1.5 + 3.0));
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`]; [`Error::Restitution`]; [`Error::StateNotFinite`]; [`Error::Inconsistent`] where the
+    /// coordinates are not on a constraint; [`Error::Singular`] and [`Error::Contradictory`] as [`solve`](Self::solve).
+    #[cfg(feature = "alloc")]
+    fn impact(
+        &self,
+        state: &State<Self::Scalar, N>,
+        constraint: &str,
+        restitution: Self::Scalar,
+    ) -> Result<Impact<Self, N, M>, Error> {
+        let hit = lookup::index::<Self, N, M>(&Self::CONSTRAINTS, "constraint", constraint)?;
+        impact(self, state, hit, restitution)
     }
 
     /// The motion from a state to the time `end`, by the method named; backwards where that lies before the state.

@@ -192,6 +192,47 @@ where
         found
     }
 
+    /// The crossings of these events on the way to the time `end`, each found when the iterator is asked for it: a Poincaré
+    /// section, in as much memory as its crossings take. The first that cannot be had is the last item.
+    ///
+    /// ```
+    /// # use lagrange_core::prelude::*;
+    /// #[derive(Lagrangian)]
+    /// #[coordinates(x, y)]
+    /// #[lagrangian((x_dot^2 + y_dot^2)/2 - (x^2 + y^2)/2 - x^2*y + y^3/3)]
+    /// struct HenonHeiles;
+    ///
+    /// let mut section = HenonHeiles.event("section", |sample| sample.state().q[0]).rising();
+    /// let start = State::new([0.0, 0.1], [0.35, 0.1]);
+    /// let mut motion = Motion::new(HenonHeiles, start, Dop853::with_tolerance(1e-12))?;
+    /// for crossing in motion.crossings(1e9, &mut [&mut section]).take(100) {
+    ///     let state = crossing?.state;
+    ///     assert!(state.q[0].abs() < 1e-16);
+    ///     println!("{} {}", state.q[1], state.v[1]);
+    /// }
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// A stroboscopic section is [`states_at`](Self::states_at) at its times.
+    ///
+    /// # Errors
+    /// As [`advance_to_event`](Self::advance_to_event).
+    pub fn crossings<'e>(
+        &mut self,
+        end: L::Scalar,
+        events: &'e mut [&'e mut dyn Watched<L, N, M>],
+    ) -> impl Iterator<Item = Result<Crossing<L::Scalar, N>, Ending>> + use<'_, 'e, L, P, F, N, M> {
+        let mut has_failed = false;
+        core::iter::from_fn(move || {
+            if has_failed {
+                return None;
+            }
+            let found = self.advance_to_event(end, events);
+            has_failed = found.is_err();
+            found.transpose()
+        })
+    }
+
     /// The first crossing after `at`, which moves there.
     fn search(
         &mut self,

@@ -3,6 +3,8 @@
 pub(crate) mod consistent;
 pub(crate) mod eliminate;
 pub(crate) mod flow;
+#[cfg(feature = "alloc")]
+pub(crate) mod impact;
 pub(crate) mod kkt;
 pub(crate) mod near;
 pub(crate) mod newton;
@@ -10,4 +12,6 @@ mod sample;
 pub(crate) mod solve;
 
 pub use consistent::{Adjustment, Consistent};
+#[cfg(feature = "alloc")]
+pub use impact::Impact;
 pub use sample::Sample;

@@ -2,6 +2,7 @@
 
 mod csv;
 mod drift;
+mod journey;
 mod path;
 mod records;
 #[cfg(test)]
@@ -14,6 +15,7 @@ use core::marker::PhantomData;
 
 pub use csv::Csv;
 pub use drift::{Deviation, Drift};
+pub use journey::{Journey, Leg, Named};
 pub(crate) use path::Path;
 pub use records::Records;
 

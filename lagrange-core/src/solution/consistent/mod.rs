@@ -128,24 +128,28 @@ pub(crate) fn check<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: 
     system: &L,
     state: &State<L::Scalar, N>,
 ) -> Result<(), Error> {
-    if const { M == 0 } {
-        return Ok(());
+    BOTH.into_iter().try_for_each(|level| check_level(system, level, state))
+}
+
+/// The coordinates only, or the velocities only.
+pub(crate) fn check_level<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+    system: &L,
+    level: Level,
+    state: &State<L::Scalar, N>,
+) -> Result<(), Error> {
+    let mut residual = Residual::of(system, level, state);
+    if level == Level::Position {
+        residual.limit_terms(system, state);
     }
-    for level in BOTH {
-        let mut residual = Residual::of(system, level, state);
-        if level == Level::Position {
-            residual.limit_terms(system, state);
-        }
-        if let Some(row) = residual.first_above(power_of_epsilon(0.5)) {
-            return Err(Error::Inconsistent {
-                constraint: name(&L::CONSTRAINTS, row),
-                rate: level == Level::Velocity,
-                residual: residual.value[row].to_f64(),
-                time: state.t.to_f64(),
-            });
-        }
+    match residual.first_above(power_of_epsilon(0.5)) {
+        None => Ok(()),
+        Some(row) => Err(Error::Inconsistent {
+            constraint: name(&L::CONSTRAINTS, row),
+            rate: level == Level::Velocity,
+            residual: residual.value[row].to_f64(),
+            time: state.t.to_f64(),
+        }),
     }
-    Ok(())
 }
 
 /// What is projected: the coordinates onto the holonomic constraints, or the velocities onto all.

@@ -1,0 +1,83 @@
+//! Impacts: velocities that jump because a constraint is hit.
+
+use core::fmt::{self, Debug, Formatter};
+use core::marker::PhantomData;
+
+use nalgebra::{ComplexField, SVector};
+
+use super::consistent::{Level, check_level};
+use super::kkt::{self, KktSystem, Rank};
+use super::solve::{fault, is_trustworthy, not_finite};
+use crate::error::Error;
+use crate::number::{Real, Scalar};
+use crate::system::finite::check_finite;
+use crate::system::lookup::index;
+use crate::system::{Lagrangian, Solution, State};
+
+/// What an impact leaves: [`Simulate::impact`](crate::Simulate::impact).
+pub struct Impact<L: Lagrangian<N, M>, const N: usize, const M: usize> {
+    /// The state after it.
+    pub state: State<L::Scalar, N>,
+    /// The impulses Λ of the constraints, in the order written, with the sign of multipliers: FᵀΛ is what the momenta
+    /// jump by.
+    pub impulses: SVector<L::Scalar, M>,
+    system: PhantomData<fn(&L)>,
+}
+
+impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Impact<L, N, M> {
+    /// The impulse of the constraint of this name.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`].
+    pub fn impulse(&self, name: &str) -> Result<L::Scalar, Error> {
+        Ok(self.impulses[index::<L, N, M>(&L::CONSTRAINTS, "constraint", name)?])
+    }
+}
+
+/// See [`Simulate::impact`](crate::Simulate::impact); `hit` is the index of the constraint.
+pub(crate) fn impact<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+    hit: usize,
+    restitution: L::Scalar,
+) -> Result<Impact<L, N, M>, Error> {
+    check_finite(system, state)?;
+    if !(restitution.is_finite() && restitution >= L::Scalar::constant(0.0)) {
+        return Err(Error::Restitution { value: restitution.to_f64() });
+    }
+    check_level(system, Level::Position, state)?;
+    // F (v⁺ − v⁻) is what takes away the rates before, and in the row that is hit turns them round.
+    let mut rates = system.constraint_rate(state);
+    rates[hit] *= L::Scalar::constant(1.0) + restitution;
+    let no_force = SVector::from_element(L::Scalar::constant(0.0));
+    let jump = system.solve_with(&system.factor(state), &no_force, &rates);
+    let jump = if is_trustworthy(&jump) { jump } else { solve_in_general(system, state, &rates)? };
+    let state = State { v: state.v + jump.accelerations, ..*state };
+    Ok(Impact { state, impulses: jump.multipliers, system: PhantomData })
+}
+
+impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Debug for Impact<L, N, M> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Impact").field("state", &self.state).field("impulses", &self.impulses).finish()
+    }
+}
+
+#[cold]
+fn solve_in_general<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+    rates: &SVector<L::Scalar, M>,
+) -> Result<Solution<L::Scalar, N, M>, Error> {
+    let equations = KktSystem {
+        m: system.mass_matrix(state).into(),
+        h: [L::Scalar::constant(0.0); N],
+        f: system.constraint_jacobian(state).transpose().into(),
+        gamma: (*rates).into(),
+    };
+    let time = state.t.to_f64();
+    if let Some(row) = not_finite::<L, N, M>(&equations) {
+        return Err(Error::EquationsNotFinite { row, time });
+    }
+    let solved = kkt::solve(&equations, Rank::on_constraints());
+    solved.map(|(solution, _)| solution).map_err(|found| fault::<L, N, M>(&found, time))
+}

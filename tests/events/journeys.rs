@@ -1,0 +1,170 @@
+//! Motions of several legs, each of a system of its own.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use lagrange_core::{Dop853, Ending, Journey, prelude::*};
+
+use crate::runs::{LADDER, Ladder, leaning};
+use crate::{Ball, Spring};
+
+/// A block that a belt carries along.
+#[derive(Lagrangian, Clone, Copy)]
+#[coordinates(x)]
+#[lagrangian(m/2 * x_dot^2 - k/2 * x^2)]
+#[constraint(friction: x_dot - belt = 0)]
+struct Sticking {
+    m: f64,
+    k: f64,
+    belt: f64,
+}
+
+/// The same, pulled by a force.
+#[derive(Lagrangian, Clone, Copy)]
+#[coordinates(x)]
+#[lagrangian(m/2 * x_dot^2 - k/2 * x^2)]
+#[force(x: pull)]
+struct Slipping {
+    m: f64,
+    k: f64,
+    pull: f64,
+}
+
+const STICKING: Sticking = Sticking { m: 0.7, k: 3.0, belt: 0.4 };
+const SLIPPING: Slipping = Slipping { m: 0.7, k: 3.0, pull: 1.1 };
+const HOLD: f64 = 1.7;
+
+/// 49 events: it gives and is caught by turns, from where the spring is slack.
+fn ride() -> Journey<f64> {
+    let method = Dop853::with_tolerance(1e-13);
+    let mut gives = STICKING.event("gives", |s| Ok(s.multiplier("friction")? - HOLD)).rising().terminal();
+    let mut catches = SLIPPING.event("catches", |s| s.state().v[0] - STICKING.belt).rising().terminal();
+    let (mut journey, mut state) = (Journey::new(), State::new([0.0], [STICKING.belt]));
+    for event in 0..49 {
+        if event % 2 == 0 {
+            gives = gives.terminal_at(event / 2 + 1);
+            let leg = STICKING.integrate_until(state, 1e3, method, &mut [&mut gives]).expect("a start");
+            state = *leg.end().state();
+            journey.push(leg.into_owned()).expect("no gap");
+        } else {
+            catches = catches.terminal_at(event / 2 + 1);
+            let leg = SLIPPING.integrate_until(state, 1e3, method, &mut [&mut catches]).expect("a start");
+            state = State { v: [STICKING.belt].into(), ..*leg.end().state() };
+            journey.push(leg.into_owned()).expect("no gap");
+        }
+    }
+    journey
+}
+
+/// Place, velocity and friction in closed form. Slipping it swings about `pull`/k, from the place where it gives to the
+/// mirror image of that, where it is as fast as the belt again.
+fn exact(t: f64) -> [f64; 3] {
+    let Sticking { m, k, belt } = STICKING;
+    let (first, d, omega) = (HOLD / k / belt, (HOLD - SLIPPING.pull) / k, (k / m).sqrt());
+    if t < first {
+        return [belt * t, belt, k * belt * t];
+    }
+    let (slips, sticks) = ((TAU - 2.0 * (omega * d / belt).atan()) / omega, 2.0 * d / belt);
+    let since = (t - first) % (slips + sticks);
+    if since < slips {
+        let (sine, cosine) = (omega * since).sin_cos();
+        let place = SLIPPING.pull / k + d * cosine + belt / omega * sine;
+        return [place, belt * cosine - omega * d * sine, SLIPPING.pull];
+    }
+    let place = SLIPPING.pull / k - d + belt * (since - slips);
+    [place, belt, k * place]
+}
+
+#[test]
+fn stick_and_slip_over_49_events() {
+    let journey = ride();
+    assert_eq!(journey.legs().len(), 49);
+    assert!(journey.legs().all(|leg| matches!(leg.ending(), Ending::Event { .. })));
+    let ends: Vec<f64> = journey.legs().map(|leg| leg.end_time()).collect();
+    for pair in ends.windows(2) {
+        // Just before and after each event.
+        for t in [pair[0] + 1e-6, pair[1] - 1e-6, 0.5 * (pair[0] + pair[1])] {
+            let (sample, [x, v, friction]) = (journey.at(t).unwrap(), exact(t));
+            assert!((sample.coordinate("x").unwrap() - x).abs() < 1e-9);
+            assert!((sample.velocity("x").unwrap() - v).abs() < 1e-9);
+            let told = sample.multiplier("friction").unwrap_or(SLIPPING.pull);
+            assert!((told - friction).abs() < 1e-9, "{told} instead of {friction}");
+        }
+    }
+    // The legs are there with their types, and no others.
+    assert!(journey.leg::<Trajectory<Sticking, 1, 1>>(0).is_some());
+    assert!(journey.leg::<Trajectory<Slipping, 1, 0>>(0).is_none());
+    let slip = journey.leg::<Trajectory<Slipping, 1, 0>>(47).expect("the last slip");
+    assert_eq!(slip.end().time(), ends[47]);
+    assert!(journey.leg::<Trajectory<Sticking, 1, 1>>(49).is_none());
+}
+
+#[test]
+fn a_journey_answers_at_any_time_by_name() {
+    /// The ladder without the wall.
+    #[derive(Lagrangian, Clone, Copy)]
+    #[coordinates(x, y, theta)]
+    #[lagrangian(m/2 * (x_dot^2 + y_dot^2) + m*a^2/6 * theta_dot^2 - m*g*y)]
+    #[constraint(floor: y - a*sin(theta) = 0)]
+    #[observable(foot = x + a*cos(theta))]
+    struct Sliding {
+        m: f64,
+        a: f64,
+        g: f64,
+    }
+
+    let Ladder { m, a, g } = LADDER;
+    let (sliding, method) = (Arc::new(Sliding { m, a, g }), Dop853::with_tolerance(1e-12));
+    let mut leaves = LADDER.event("leaves", |s| s.multiplier("wall")).falling().terminal();
+    let first = LADDER.integrate_until(leaning(1.2), 10.0, method, &mut [&mut leaves]).unwrap();
+    let left = first.end().time();
+    let mut lies = sliding.event("lies", |s| s.coordinate("theta")).falling().terminal();
+    let second = sliding.integrate_until(*first.end().state(), 10.0, method, &mut [&mut lies]).unwrap();
+    let mut journey = Journey::<f64>::new();
+    assert!(journey.start().is_nan() && journey.ending().is_none() && journey.at(0.0).is_err());
+    journey.push(first.into_owned()).unwrap();
+    journey.push(second.into_owned()).unwrap();
+    assert_eq!((journey.start(), journey.end()), (0.0, journey.legs().last().unwrap().end_time()));
+    assert!(journey.ending().unwrap().to_string().contains("`lies`"));
+    let energy = journey.at(0.0).unwrap().energy();
+    let mut count = 0;
+    for sample in journey.samples(101) {
+        let sample = sample.unwrap();
+        assert!((sample.energy() / energy - 1.0).abs() < 1e-11);
+        assert!(sample.multiplier("floor").unwrap() > 0.0);
+        // Each leg knows what it has.
+        assert_eq!(sample.multiplier("wall").is_ok(), sample.time() < left);
+        assert_eq!(sample.observable("foot").is_ok(), sample.time() >= left);
+        count += 1;
+    }
+    assert_eq!(count, 101);
+    // Where they meet, the next answers.
+    assert!(journey.at(left).unwrap().observable("foot").is_ok());
+    assert!(journey.at(journey.end() + 1e-9).is_err() && journey.at(-1e-9).is_err());
+    assert!(matches!(journey.at(20.0).err(), Some(Error::OutsideTrajectory { start: 0.0, .. })));
+}
+
+#[test]
+fn a_leg_that_does_not_go_on_is_refused() {
+    let leg = |from: f64, to: f64| {
+        let start = State::at_rest([1.0]).at_time(from);
+        Spring.integrate(start, to, Dop853::default()).unwrap().into_owned()
+    };
+    let mut journey = Journey::new();
+    journey.push(leg(0.0, 1.0)).unwrap();
+    let error = journey.push(leg(2.0, 3.0)).unwrap_err();
+    assert!(matches!(error, Error::LegApart { start: 2.0, end: 3.0, expected: 1.0 }), "{error}");
+    let error = journey.push(leg(1.0, 0.5)).unwrap_err();
+    assert!(error.to_string().contains("lead it the same way in time"), "{error}");
+    journey.push(leg(1.0, 1.0)).unwrap();
+    let ball = Ball { g: 9.81 };
+    let flight = ball.integrate(State::at_rest([1.0]).at_time(1.0), 2.0, Dop853::default()).unwrap();
+    journey.push(flight.into_owned()).unwrap();
+    assert!(journey.at(1.5).unwrap().coordinate("height").is_ok() && journey.legs().len() == 3);
+    // Back in time.
+    let mut journey = Journey::new();
+    journey.push(leg(0.0, -1.0)).unwrap();
+    journey.push(leg(-1.0, -2.0)).unwrap();
+    assert!((journey.at(-0.5).unwrap().coordinate("x").unwrap() - 0.5_f64.cos()).abs() < 1e-8);
+    assert_eq!(journey.samples(5).filter_map(Result::ok).last().unwrap().time(), -2.0);
+}
