@@ -1,0 +1,120 @@
+//! A ball that bounces: a flight is a motion, an impact is solved for by the system that has the floor, and where the
+//! bounces accumulate the motion ends by that name.
+//!
+//! From the height h the first fall takes T = √(2h/g), the bounce after impact n takes 2 eⁿ T: it is at rest after
+//! (1 + e)/(1 − e) T.
+
+mod picture;
+
+use lagrange_core::{Ending, Journey, prelude::*};
+use picture::{BLUE, GREY, Points, RED, Result};
+use plotters::prelude::*;
+
+/// In the air.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
+struct Flying {
+    m: f64,
+    g: f64,
+}
+
+/// On the floor.
+#[derive(Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
+#[constraint(floor: y = 0)]
+struct Touching {
+    m: f64,
+    g: f64,
+}
+
+const BALL: Flying = Flying { m: 0.2, g: 9.81 };
+const FLOOR: Touching = Touching { m: BALL.m, g: BALL.g };
+const HEIGHT: f64 = 1.0;
+const RESTITUTION: f64 = 0.8;
+
+/// A bounce: when, the impulse of the floor, and how far from the geometric series the time is.
+type Bounce = (f64, f64, f64);
+
+fn main() -> Result<()> {
+    let (journey, bounces) = bounce()?;
+    println!("A ball dropped from {HEIGHT} m with 0.5 m/s to the side; e = {RESTITUTION}\n");
+    println!("{:>6} {:>14} {:>14} {:>18}", "bounce", "t/s", "impulse/Ns", "off the series/s");
+    for (k, (t, impulse, off)) in bounces.iter().enumerate().filter(|(k, _)| k % 8 == 0) {
+        println!("{:6} {t:14.10} {impulse:14.10} {off:18.1e}", k + 1);
+    }
+    let ending = journey.ending().ok_or("no leg")?;
+    println!("\n{} flights, then: {ending}", journey.legs().len());
+    let rest = (2.0 * HEIGHT / BALL.g).sqrt() * (1.0 + RESTITUTION) / (1.0 - RESTITUTION);
+    println!("by the series it is at rest at t = {rest}, {:.0e} s later", rest - ending.time());
+    let file = picture::path("bouncing_ball")?;
+    draw(&journey, &bounces, &file)?;
+    println!("\npicture: {}", file.display());
+    Ok(())
+}
+
+/// Flights from impact to impact, until they accumulate.
+fn bounce() -> Result<(Journey<f64>, Vec<Bounce>)> {
+    let (mut journey, mut bounces) = (Journey::new(), Vec::new());
+    let mut state = State::new([0.0, HEIGHT], [0.5, 0.0]);
+    let mut lands = BALL.event("lands", |sample| sample.coordinate("y")).falling().terminal();
+    let method = Dop853::with_tolerance(1e-12).max_step(0.1);
+    loop {
+        let flight = BALL.integrate_until(state, 100.0, method, &mut [&mut lands])?;
+        let landing = *flight.end().state();
+        let has_landed = matches!(flight.ending(), Ending::Event { .. });
+        journey.push(flight.into_owned())?;
+        if !has_landed {
+            return Ok((journey, bounces));
+        }
+        let impact = FLOOR.impact(&landing, "floor", RESTITUTION)?;
+        let expected = series(bounces.len() as i32);
+        bounces.push((landing.t, impact.impulse("floor")?, (landing.t - expected).abs()));
+        state = impact.state;
+    }
+}
+
+/// The time of impact n, counted from 0.
+fn series(n: i32) -> f64 {
+    let fall = (2.0 * HEIGHT / BALL.g).sqrt();
+    fall * (1.0 + 2.0 * RESTITUTION * (1.0 - RESTITUTION.powi(n)) / (1.0 - RESTITUTION))
+}
+
+fn draw(journey: &Journey<f64>, bounces: &[Bounce], file: &std::path::Path) -> Result<()> {
+    let root = SVGBackend::new(file, (1100, 900)).into_drawing_area();
+    root.fill(&WHITE)?;
+    let panels = root.split_evenly((2, 2));
+    let [mut flight, mut speed, mut energy] = [const { Points::new() }; 3];
+    for sample in journey.samples(3000) {
+        let sample = sample?;
+        flight.push((sample.coordinate("x")?, sample.coordinate("y")?));
+        speed.push((sample.time(), sample.velocity("y")?));
+        energy.push((sample.time(), sample.energy()));
+    }
+    let ranges = picture::to_scale(picture::bounds(&[&flight]), panels[0].dim_in_pixel());
+    let mut chart = picture::panel(&panels[0], "The way of the ball", ["x in m", "y in m"], ranges)?;
+    picture::curve(&mut chart, "ball", BLUE, &flight)?;
+    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)?;
+    draw_one(&panels[1], "Its velocity jumps", ["t in s", "ẏ in m/s"], ("ẏ", RED, &speed))?;
+    draw_one(&panels[2], "Its energy", ["t in s", "E in J"], ("E", BLUE, &energy))?;
+    let off: Points = (1..).zip(bounces).map(|(k, bounce)| (f64::from(k), bounce.2 * 1e15)).collect();
+    let title = "Times off the geometric series";
+    let mut chart =
+        picture::panel(&panels[3], title, ["bounce", "|Δt| in 1e-15 s"], picture::bounds(&[&off]))?;
+    picture::dots(&mut chart, "difference", GREY, &off)?;
+    picture::legend(&mut chart, SeriesLabelPosition::UpperLeft)?;
+    root.present()?;
+    Ok(())
+}
+
+fn draw_one(
+    area: &picture::Area<'_>,
+    title: &str,
+    names: [&str; 2],
+    (name, color, points): (&str, RGBColor, &Points),
+) -> Result<()> {
+    let mut chart = picture::panel(area, title, names, picture::bounds(&[points]))?;
+    picture::curve(&mut chart, name, color, points)?;
+    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+}
