@@ -1,0 +1,128 @@
+//! A ladder that slides down a smooth wall leaves it before it is down: the push of the wall is a multiplier, and where it
+//! falls through zero the motion goes on with the system that has no wall.
+//!
+//! From rest at the angle θ₀ to the floor it leaves where sin θ = 2/3 sin θ₀, whatever its length and mass.
+
+mod picture;
+
+use lagrange_core::{Journey, Named, prelude::*};
+use picture::{BLUE, GREY, Points, RED, Result};
+use plotters::prelude::*;
+
+/// Between wall and floor; x and y are its middle, 2a its length.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y, theta)]
+#[define(inertia = m*a^2/3)]
+#[lagrangian(m/2 * (x_dot^2 + y_dot^2) + inertia/2 * theta_dot^2 - m*g*y)]
+#[constraint(floor: y - a*sin(theta) = 0)]
+#[constraint(wall: x - a*cos(theta) = 0)]
+struct Leaning {
+    m: f64,
+    a: f64,
+    g: f64,
+}
+
+/// On the floor alone.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y, theta)]
+#[define(inertia = m*a^2/3)]
+#[lagrangian(m/2 * (x_dot^2 + y_dot^2) + inertia/2 * theta_dot^2 - m*g*y)]
+#[constraint(floor: y - a*sin(theta) = 0)]
+struct Sliding {
+    m: f64,
+    a: f64,
+    g: f64,
+}
+
+const LEANING: Leaning = Leaning { m: 12.0, a: 2.0, g: 9.81 };
+const SLIDING: Sliding = Sliding { m: LEANING.m, a: LEANING.a, g: LEANING.g };
+
+fn main() -> Result<()> {
+    println!("A ladder of {} m and {} kg, from rest\n", 2.0 * LEANING.a, LEANING.m);
+    println!("{:>8} {:>12} {:>16} {:>10} {:>10}", "θ₀/rad", "leaves at/s", "θ/rad", "error", "down at/s");
+    for start in [0.4, 0.8, 1.2, 1.5] {
+        let journey = fall(start)?;
+        let leg = journey.leg::<Trajectory<Leaning, 3, 2>>(0).ok_or("the first leg")?;
+        let angle = leg.end().coordinate("theta")?;
+        let error = angle - (2.0 / 3.0 * start.sin()).asin();
+        let (left, down) = (leg.end().time(), journey.end());
+        println!("{start:8.1} {left:12.6} {angle:16.12} {error:10.0e} {down:10.6}");
+    }
+    let journey = fall(1.3)?;
+    println!("\nfrom 1.3 rad: {}", journey.ending().ok_or("no leg")?);
+    let energy = |sample: Box<dyn Named<f64> + '_>| sample.energy();
+    let start = energy(journey.at(journey.start())?);
+    let end = energy(journey.at(journey.end())?);
+    println!("energy at the start and when it is down: {start:.10} J, {end:.10} J");
+    let file = picture::path("sliding_ladder")?;
+    draw(&journey, &file)?;
+    println!("\npicture: {}", file.display());
+    Ok(())
+}
+
+/// Down the wall, and away from it to the floor.
+fn fall(theta: f64) -> Result<Journey<f64>> {
+    let method = Dop853::with_tolerance(1e-12);
+    let start = State::at_rest([LEANING.a * theta.cos(), LEANING.a * theta.sin(), theta]);
+    let mut leaves = LEANING.event("leaves", |sample| sample.multiplier("wall")).falling().terminal();
+    let first = LEANING.integrate_until(start, 100.0, method, &mut [&mut leaves])?.finished()?;
+    let mut lies = SLIDING.event("lies", |sample| sample.coordinate("theta")).falling().terminal();
+    let second =
+        SLIDING.integrate_until(*first.end().state(), 100.0, method, &mut [&mut lies])?.finished()?;
+    let mut journey = Journey::new();
+    journey.push(first.into_owned())?;
+    journey.push(second.into_owned())?;
+    Ok(journey)
+}
+
+fn draw(journey: &Journey<f64>, file: &std::path::Path) -> Result<()> {
+    let root = SVGBackend::new(file, (1100, 900)).into_drawing_area();
+    root.fill(&WHITE)?;
+    let panels = root.split_evenly((2, 2));
+    draw_poses(journey, &panels[0])?;
+    let left = journey.legs().next().ok_or("no leg")?.end_time();
+    let [mut theta, mut floor, mut wall, mut x] = [const { Points::new() }; 4];
+    for sample in journey.samples(600) {
+        let (sample, weight) = (sample?, LEANING.m * LEANING.g);
+        let t = sample.time();
+        theta.push((t, sample.coordinate("theta")?));
+        floor.push((t, sample.multiplier("floor")? / weight));
+        // Who has no wall cannot tell its push.
+        wall.push((t, sample.multiplier("wall").unwrap_or(0.0) / weight));
+        x.push((t, sample.velocity("x")?));
+    }
+    let ranges = picture::bounds(&[&floor, &wall]);
+    let title = "Pushes: the ladder leaves the wall where that is zero";
+    let mut chart = picture::panel(&panels[1], title, ["t in s", "part of the weight"], ranges)?;
+    picture::curve(&mut chart, "floor", BLUE, &floor)?;
+    picture::curve(&mut chart, "wall", RED, &wall)?;
+    picture::dots(&mut chart, "it leaves", GREY, &vec![(left, 0.0)])?;
+    picture::legend(&mut chart, SeriesLabelPosition::LowerLeft)?;
+    let mut chart = picture::panel(&panels[2], "Angle", ["t in s", "θ in rad"], picture::bounds(&[&theta]))?;
+    picture::curve(&mut chart, "θ", BLUE, &theta)?;
+    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)?;
+    let title = "Speed of its middle: even, once it is free";
+    let mut chart = picture::panel(&panels[3], title, ["t in s", "ẋ in m/s"], picture::bounds(&[&x]))?;
+    picture::curve(&mut chart, "ẋ", BLUE, &x)?;
+    picture::legend(&mut chart, SeriesLabelPosition::LowerRight)?;
+    root.present()?;
+    Ok(())
+}
+
+/// At times that are evenly spaced: leaning in blue, free in red.
+fn draw_poses(journey: &Journey<f64>, area: &picture::Area<'_>) -> Result<()> {
+    let ranges = picture::to_scale([-0.2..6.5, -0.2..4.2], area.dim_in_pixel());
+    let mut chart = picture::panel(area, "On its way down", ["x in m", "y in m"], ranges)?;
+    let corner = vec![(0.0, 4.0), (0.0, 0.0), (6.4, 0.0)];
+    picture::curve(&mut chart, "wall and floor", GREY, &corner)?;
+    for sample in journey.samples(25) {
+        let sample = sample?;
+        let (x, theta) = (sample.coordinate("x")?, sample.coordinate("theta")?);
+        let color = if sample.multiplier("wall").is_ok() { BLUE } else { RED };
+        let (sine, cosine) = theta.sin_cos();
+        let [top, foot] =
+            [-1.0, 1.0].map(|end| (x + end * LEANING.a * cosine, LEANING.a * (1.0 - end) * sine));
+        chart.draw_series(LineSeries::new([top, foot], color.stroke_width(2)))?;
+    }
+    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+}
