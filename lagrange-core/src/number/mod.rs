@@ -8,6 +8,7 @@ mod numeric;
 mod over;
 mod scalar;
 
+pub(crate) use array::entries;
 pub use array::{matrix, vector};
 pub use dual::Dual;
 #[cfg(feature = "std")]

@@ -5,7 +5,7 @@ use core::array::from_fn;
 use super::Adaptive;
 use super::clock::Clock;
 use super::pair::{Pair, Slopes, combine};
-use crate::number::{Real, Scalar, exceeds, larger, smaller, sum};
+use crate::number::{Real, Scalar, entries, exceeds, larger, smaller, sum};
 use crate::solution::flow::Phase;
 
 /// The step to try next, and what its choice remembers.
@@ -109,7 +109,7 @@ impl Tolerance {
         let relative = T::constant(self.relative);
         let absolute = T::constant(self.absolute);
         let size = |half: usize, i: usize| a[half][i].abs().max(b[half][i].abs());
-        from_fn(|half| from_fn(|i| absolute + relative * size(half, i)))
+        from_fn(|half| entries(|i| absolute + relative * size(half, i)))
     }
 }
 
@@ -180,7 +180,7 @@ impl<P: Pair> Adaptive<P> {
         after: &Phase<T, N>,
     ) -> T {
         let scale = self.tolerance::<T>().scale(y, y);
-        let change = from_fn(|half| from_fn(|i| after[half][i] - before[half][i]));
+        let change = from_fn(|half| entries(|i| after[half][i] - before[half][i]));
         let one = T::constant(1.0);
         let fastest = larger(norm(one, &change, &scale) / guess, norm(one, before, &scale));
         let step = if fastest > T::constant(1e-15) && fastest.is_finite() {

@@ -2,7 +2,7 @@
 
 use core::array::from_fn;
 
-use crate::number::Real;
+use crate::number::{Real, entries};
 use crate::solution::flow::{Phase, PhasePoint};
 
 /// The motion within one step, as a method knows it: continuous, and equal to the states at both ends.
@@ -76,8 +76,8 @@ fn evaluate<T: Real, const N: usize>(coefficients: &[Phase<T, N>], theta: T) -> 
     let (mut sum, mut slope) = ([[zero; N]; 2], [zero; N]);
     for (k, r) in coefficients.iter().enumerate().rev() {
         let (factor, sign) = if k % 2 == 0 { (theta, one) } else { (one - theta, -one) };
-        slope = from_fn(|i| sign * sum[0][i] + factor * slope[i]);
-        sum = from_fn(|half| from_fn(|i| r[half][i] + factor * sum[half][i]));
+        slope = entries(|i| sign * sum[0][i] + factor * slope[i]);
+        sum = from_fn(|half| entries(|i| r[half][i] + factor * sum[half][i]));
     }
     (sum, slope)
 }

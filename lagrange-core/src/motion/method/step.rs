@@ -12,7 +12,7 @@ use super::{Adaptive, Limits, Method, Step};
 use crate::ending::Ending;
 use crate::error::Error;
 use crate::names::{Entry, Row};
-use crate::number::{Real, Scalar, vector};
+use crate::number::{Real, Scalar, entries, vector};
 use crate::solution::flow::{Basis, Flow, Phase, PhasePoint};
 use crate::solution::solve::name;
 use crate::statistics::Statistics;
@@ -298,7 +298,7 @@ impl<P: Pair> Adaptive<P> {
         let Memory { clock, y, slope: first, active, .. } = memory;
         let guess = self.guess_step(y, first, clock.left());
         let h = clock.directed(guess);
-        let euler = from_fn(|half| from_fn(|i| y[half][i] + h * first[half][i]));
+        let euler = from_fn(|half| entries(|i| y[half][i] + h * first[half][i]));
         let point = PhasePoint { t: clock.now + h, y: euler, velocity: first[0] };
         let mut second = *first;
         match slope::<L, F, N, M>(system, &point, Some(active), &mut second, statistics) {

@@ -13,7 +13,8 @@ use nalgebra::{ComplexField, SVector};
 
 use crate::error::Error;
 use crate::number::{
-    Real, Scalar, beyond_round_off, exceeds, is_within, largest, power_of_epsilon, smaller, sum, vector,
+    Real, Scalar, beyond_round_off, entries, exceeds, is_within, largest, power_of_epsilon, smaller, sum,
+    vector,
 };
 use crate::solution::eliminate::eliminate;
 use crate::solution::kkt::{self, KktSystem, Rank};
@@ -219,13 +220,13 @@ impl<T: Real, const N: usize, const M: usize> Residual<T, N, M> {
         let zero = T::constant(0.0);
         let active = L::CONSTRAINT_KINDS.map(|kind| level.is_active(kind));
         let jacobian = system.constraint_jacobian(state);
-        let jacobian = from_fn(|a| from_fn(|i| if active[a] { jacobian[(a, i)] } else { zero }));
+        let jacobian = from_fn(|a| entries(|i| if active[a] { jacobian[(a, i)] } else { zero }));
         let value = level.residual(system, state);
         let x = *level.unknowns(&mut { *state });
         Self {
-            value: from_fn(|a| if active[a] { value[a] } else { zero }),
-            terms: from_fn(|a| sum(N, |i| Scalar::abs(jacobian[a][i] * x[i]))),
-            sensitivity: from_fn(|a| sum(N, |i| Scalar::abs(jacobian[a][i]))),
+            value: entries(|a| if active[a] { value[a] } else { zero }),
+            terms: entries(|a| sum(N, |i| Scalar::abs(jacobian[a][i] * x[i]))),
+            sensitivity: entries(|a| sum(N, |i| Scalar::abs(jacobian[a][i]))),
             jacobian,
         }
     }
@@ -306,7 +307,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Projecti
         let mut f = residual.jacobian;
         for i in (0..N).filter(|&i| self.held[i]) {
             m.iter_mut().chain(&mut f).for_each(|row| row[i] = zero);
-            m[i] = from_fn(|j| L::Scalar::constant(if i == j { 1.0 } else { 0.0 }));
+            m[i] = entries(|j| L::Scalar::constant(if i == j { 1.0 } else { 0.0 }));
         }
         // Where it serves, it keeps more digits of small constraints beside large ones.
         let fast = eliminate(m, h, f, residual.value);
@@ -319,7 +320,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Projecti
         };
         // Without the velocity constraints a massless coordinate may have no metric: take the plain one.
         let step = general(m).or_else(|| general(diagonal(&m)))?;
-        let moving: SVector<_, N> = vector(from_fn(|i| if self.held[i] { zero } else { step[i] }));
+        let moving: SVector<_, N> = vector(entries(|i| if self.held[i] { zero } else { step[i] }));
         moving.iter().all(|x| x.is_finite()).then_some(moving)
     }
 }
@@ -380,5 +381,5 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Search f
 fn diagonal<T: Real, const N: usize>(m: &[[T; N]; N]) -> [[T; N]; N] {
     let (zero, one) = (T::constant(0.0), T::constant(1.0));
     let mass = |i: usize| if m[i][i] == zero { one } else { Scalar::abs(m[i][i]) };
-    from_fn(|i| from_fn(|j| if i == j { mass(i) } else { zero }))
+    from_fn(|i| entries(|j| if i == j { mass(i) } else { zero }))
 }

@@ -15,7 +15,7 @@ use core::array::from_fn;
 
 use nalgebra::SVector;
 
-use crate::number::{Real, Scalar, larger, largest, norm, power_of_epsilon, smaller, vector};
+use crate::number::{Real, Scalar, entries, larger, largest, norm, power_of_epsilon, smaller, vector};
 use crate::system::Solution;
 use qr::{Qr, dot};
 use symmetric::Symmetric;
@@ -112,15 +112,15 @@ impl<T: Real, const N: usize, const M: usize> Factors<T, N, M> {
     /// M q̈ − Fᵀλ = h, F q̈ + γ = 0.
     pub(crate) fn solve(&self, h: &[T; N], gamma: &[T; M]) -> Result<Solution<T, N, M>, Fault<T, N>> {
         let Rows { units, split } = &self.rows;
-        let mut h = from_fn(|i| h[i] * units.coordinates[i]);
+        let mut h = entries(|i| h[i] * units.coordinates[i]);
         let fixed = self.rows.fixed(gamma);
         if self.must_agree {
             self.rows.check_agreement(gamma, &h, &fixed)?;
         }
         split.enter_basis(&mut h);
         let free = self.free_accelerations(&h, &fixed)?;
-        let q = from_fn(|i| fixed[i] + free[i]);
-        let force = from_fn(|i| if i < split.rank { dot(&self.m[i], &q) - h[i] } else { T::constant(0.0) });
+        let q = entries(|i| fixed[i] + free[i]);
+        let force = entries(|i| if i < split.rank { dot(&self.m[i], &q) - h[i] } else { T::constant(0.0) });
         Ok(Solution {
             accelerations: self.rows.out_of_basis(q),
             multipliers: vector(self.multipliers(&force)),
@@ -142,9 +142,9 @@ impl<T: Real, const N: usize, const M: usize> Factors<T, N, M> {
         if self.along.rank < size {
             return Err(Fault::Singular(undetermined(&self.rows.split, &self.along, size)));
         }
-        let force = from_fn(|i| if i < size { h[rank + i] - dot(&self.m[rank + i], fixed) } else { zero });
+        let force = entries(|i| if i < size { h[rank + i] - dot(&self.m[rank + i], fixed) } else { zero });
         let y = self.along.solve(&force);
-        Ok(from_fn(|i| if i < rank { zero } else { y[i - rank] }))
+        Ok(entries(|i| if i < rank { zero } else { y[i - rank] }))
     }
 
     /// λ with Fᵀλ = M q̈ − h (given in the range basis); of all solutions the one of least Euclidean norm.
@@ -152,7 +152,7 @@ impl<T: Real, const N: usize, const M: usize> Factors<T, N, M> {
         match &self.wide {
             None => {
                 let scaled = self.rows.split.solve(force);
-                from_fn(|a| self.rows.units.of_row(a, scaled[a]))
+                entries(|a| self.rows.units.of_row(a, scaled[a]))
             }
             Some(wide) => {
                 let mut lambda = wide.solve_transposed(force);
@@ -180,7 +180,7 @@ impl<T: Real, const N: usize, const M: usize> Rows<T, N, M> {
     #[cfg(feature = "alloc")]
     pub(crate) fn null_space(&self) -> impl Iterator<Item = SVector<T, N>> {
         (self.split.rank..N)
-            .map(|k| self.out_of_basis(from_fn(|i| T::constant(if i == k { 1.0 } else { 0.0 }))))
+            .map(|k| self.out_of_basis(entries(|i| T::constant(if i == k { 1.0 } else { 0.0 }))))
     }
 
     /// The shortest x with F x + γ = 0; dependent constraints are left out.
@@ -192,7 +192,7 @@ impl<T: Real, const N: usize, const M: usize> Rows<T, N, M> {
     /// From the range basis and natural units.
     fn out_of_basis(&self, mut x: [T; N]) -> SVector<T, N> {
         self.split.leave_basis(&mut x);
-        vector(from_fn(|i| x[i] * self.units.coordinates[i]))
+        vector(entries(|i| x[i] * self.units.coordinates[i]))
     }
 
     /// In the range basis, the shortest x with F x + γ = 0.
@@ -202,7 +202,7 @@ impl<T: Real, const N: usize, const M: usize> Rows<T, N, M> {
 
     /// What the rows times the accelerations must be.
     fn demands(&self, gamma: &[T; M]) -> [T; M] {
-        from_fn(|a| -self.units.of_row(a, gamma[a]))
+        entries(|a| -self.units.of_row(a, gamma[a]))
     }
 
     /// Every dependent constraint must agree with the accelerations that the independent ones fix, to ε^(1/3).
@@ -259,9 +259,9 @@ fn undetermined<T: Real, const N: usize, const M: usize>(
     let mut share = [zero; N];
     for index in 0..size - factors.rank {
         let y = factors.null_vector(index);
-        let mut x = from_fn(|i| if i < split.rank { zero } else { y[i - split.rank] });
+        let mut x = entries(|i| if i < split.rank { zero } else { y[i - split.rank] });
         split.leave_basis(&mut x);
-        share = from_fn(|i| larger(share[i], Scalar::abs(x[i])));
+        share = entries(|i| larger(share[i], Scalar::abs(x[i])));
     }
     share
 }

@@ -1,8 +1,6 @@
 //! Units in which masses are about 1 and constraint rows of length 1.
 
-use core::array::from_fn;
-
-use crate::number::{Real, Scalar, larger, largest, norm, power_of_two};
+use crate::number::{Real, Scalar, entries, larger, largest, norm, power_of_two};
 
 /// The natural units of a mass matrix and a constraint Jacobian.
 ///
@@ -22,8 +20,8 @@ impl<T: Real, const N: usize, const M: usize> Units<T, N, M> {
         let (zero, one) = (T::constant(0.0), T::constant(1.0));
         let mass = |i: usize| Scalar::abs(m[i][i]);
         let mut units = Self {
-            coordinates: from_fn(|i| if mass(i) > zero { one / Scalar::sqrt(mass(i)) } else { zero }),
-            powers: from_fn(|a| power_of_two(largest(&f[a]))),
+            coordinates: entries(|i| if mass(i) > zero { one / Scalar::sqrt(mass(i)) } else { zero }),
+            powers: entries(|a| power_of_two(largest(&f[a]))),
             lengths: [one; M],
         };
         // Where a row ties massless coordinates only, their units are those of its entries.
@@ -37,7 +35,7 @@ impl<T: Real, const N: usize, const M: usize> Units<T, N, M> {
 
     /// The row of this index, of length 1.
     pub(super) fn unit_row(&self, a: usize, row: &[T; N]) -> [T; N] {
-        from_fn(|i| row[i] / self.powers[a] * (self.coordinates[i] / self.lengths[a]))
+        entries(|i| row[i] / self.powers[a] * (self.coordinates[i] / self.lengths[a]))
     }
 
     /// What belongs to a row, such as its residual, in the unit of that row.
@@ -46,8 +44,8 @@ impl<T: Real, const N: usize, const M: usize> Units<T, N, M> {
     }
 
     fn lengths_of(&self, f: &[[T; N]; M]) -> [T; M] {
-        from_fn(|a| {
-            let length = norm::<T>(&from_fn::<T, N, _>(|i| f[a][i] / self.powers[a] * self.coordinates[i]));
+        entries(|a| {
+            let length = norm::<T>(&entries::<T, N>(|i| f[a][i] / self.powers[a] * self.coordinates[i]));
             if length > T::constant(0.0) { length } else { T::constant(1.0) }
         })
     }
