@@ -138,7 +138,8 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
         method: P,
         watch: impl FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<Trajectory<&Self, N, M, HamiltonianFlow>, Error> {
-        run::drive(self, self.legendre(&phase)?, end, &method, &mut [], watch)?.finished()
+        run::drive::<_, _, _, N, M, false>(self, self.legendre(&phase)?, end, &method, &mut [], watch)?
+            .finished()
     }
 
     /// The motion by Hamilton's equations as far as it gets on the way to `end`; [`Trajectory::ending`] tells why it gets no
@@ -153,7 +154,9 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
         end: Self::Scalar,
         method: P,
     ) -> Result<Trajectory<&Self, N, M, HamiltonianFlow>, Error> {
-        run::drive(self, self.legendre(&phase)?, end, &method, &mut [], |_| ControlFlow::Continue(()))
+        run::drive::<_, _, _, N, M, false>(self, self.legendre(&phase)?, end, &method, &mut [], |_| {
+            ControlFlow::Continue(())
+        })
     }
 
     /// The motion by Hamilton's equations as far as the first [terminal](crate::Event::terminal) event, or to the time `end`,
@@ -171,7 +174,7 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
         events: &mut [&mut dyn Watched<Self, N, M>],
     ) -> Result<Trajectory<&Self, N, M, HamiltonianFlow>, Error> {
         let start = self.legendre(&phase)?;
-        run::drive(self, start, end, &method, events, |_| ControlFlow::Continue(()))
+        run::drive::<_, _, _, N, M, true>(self, start, end, &method, events, |_| ControlFlow::Continue(()))
     }
 }
 

@@ -127,9 +127,10 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
 }
 
 /// See [`Simulate::integrate_with`](crate::Simulate::integrate_with) and
-/// [`integrate_until`](crate::Simulate::integrate_until).
+/// [`integrate_until`](crate::Simulate::integrate_until). Where there are no events, and `IS_WATCHED` is false, nothing of
+/// their search is compiled.
 #[cfg(feature = "alloc")]
-pub(crate) fn drive<'a, L, F, P, const N: usize, const M: usize>(
+pub(crate) fn drive<'a, L, F, P, const N: usize, const M: usize, const IS_WATCHED: bool>(
     system: &'a L,
     state: State<L::Scalar, N>,
     end: L::Scalar,
@@ -162,7 +163,7 @@ where
             Err(ending) => break ending,
         };
         let (before, mut after) = (run.before, run.state);
-        if !search.is_empty() {
+        if const { IS_WATCHED } {
             let stride = Stride { system, before, after, interpolant: &interpolant, flow: PhantomData::<F> };
             (after, stopped) = search.record(&stride, &mut path.crossings);
         }

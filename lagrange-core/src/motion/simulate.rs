@@ -226,7 +226,7 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
         watch: impl FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<Trajectory<&Self, N, M>, Error> {
         check_finite(self, &state)?;
-        run::drive(self, state, end, &method, &mut [], watch)?.finished()
+        run::drive::<_, _, _, N, M, false>(self, state, end, &method, &mut [], watch)?.finished()
     }
 
     /// The motion as far as it gets on the way to `end`; [`Trajectory::ending`] tells why it gets no farther.
@@ -267,7 +267,7 @@ assert!(path.ending().is_failure() && path.at(1.0)?.velocity("r")? < -1.0);
         method: P,
     ) -> Result<Trajectory<&Self, N, M>, Error> {
         check_finite(self, &state)?;
-        run::drive(self, state, end, &method, &mut [], |_| ControlFlow::Continue(()))
+        run::drive::<_, _, _, N, M, false>(self, state, end, &method, &mut [], |_| ControlFlow::Continue(()))
     }
 
     /// The motion as far as the first [terminal](Event::terminal) event, or to the time `end`, or as far as it gets:
@@ -312,7 +312,7 @@ assert!((leaves - (2.0 + 0.01 / 9.81) / 3.0).abs() < 1e-9);
         events: &mut [&mut dyn Watched<Self, N, M>],
     ) -> Result<Trajectory<&Self, N, M>, Error> {
         check_finite(self, &state)?;
-        run::drive(self, state, end, &method, events, |_| ControlFlow::Continue(()))
+        run::drive::<_, _, _, N, M, true>(self, state, end, &method, events, |_| ControlFlow::Continue(()))
     }
 
     /// A state at t = 0 from names: `x` a coordinate, `x_dot` its velocity, `r[0]` and `r_dot[0]` those of a vector;

@@ -122,12 +122,6 @@ impl<'e, 'w, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> 
         Ok(None)
     }
 
-    /// Whether there is nothing to search for.
-    #[cfg(feature = "alloc")]
-    pub(crate) fn is_empty(&self) -> bool {
-        self.events.is_empty()
-    }
-
     /// Writes down the crossings within a step, as far as the motion goes: to there, and why not farther.
     #[cfg(feature = "alloc")]
     pub(crate) fn record<F, I>(
