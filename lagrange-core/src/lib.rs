@@ -84,7 +84,10 @@ pub use function::{ByHand, Function, HandWritten};
 pub use hamiltonian::{Hamiltonian, HamiltonianFlow, PhaseRate, PhaseState};
 pub use lagrange_macros::Lagrangian;
 #[cfg(feature = "alloc")]
-pub use linearized::{Actuation, Equilibrium, JacobianBy, Linearization, Stability};
+pub use linearized::{
+    Actuation, Equilibrium, JacobianBy, Linearization, LyapunovSpectrum, Sensitivities, Sensitivity,
+    Stability,
+};
 pub use linearized::{Direction, Jacobian, Linearized, Partials, ResidualChange, StateDerivatives};
 pub use motion::Simulate;
 pub use motion::{Crossing, Dop853, Dopri5, Event, Method, Motion, Progress, RungeKutta4, runge_kutta_step};

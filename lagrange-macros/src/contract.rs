@@ -200,7 +200,7 @@ const CONSTANTS: [&str; 10] = [
 ];
 
 /// What every system has beside: methods of `Simulate`, `Hamiltonian`, `StateDerivatives` and `Linearized`.
-const PROVIDED: [&str; 29] = [
+const PROVIDED: [&str; 31] = [
     "solve",
     "check_consistent",
     "make_consistent",
@@ -228,6 +228,8 @@ const PROVIDED: [&str; 29] = [
     "jacobian",
     "jacobian_by",
     "inputs_for",
+    "integrate_sensitivities",
+    "lyapunov_spectrum",
     "linearize",
     "equilibrium",
 ];

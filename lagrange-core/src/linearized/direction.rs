@@ -57,6 +57,17 @@ pub struct ResidualChange<T, const N: usize, const M: usize> {
 }
 
 impl<T: Scalar, const N: usize, const M: usize> ResidualChange<T, N, M> {
+    /// The sum.
+    #[cfg(feature = "alloc")]
+    pub(super) fn plus(&self, other: &Self) -> Self {
+        Self {
+            motion: self.motion.zip_map(&other.motion, |x, y| x + y),
+            acceleration: self.acceleration.zip_map(&other.acceleration, |x, y| x + y),
+            rate: self.rate.zip_map(&other.rate, |x, y| x + y),
+            position: self.position.zip_map(&other.position, |x, y| x + y),
+        }
+    }
+
     /// What is in one lane.
     pub(crate) fn lane<X: nalgebra::Scalar>(&self, lane: usize) -> ResidualChange<X, N, M>
     where

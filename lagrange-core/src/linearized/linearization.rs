@@ -141,7 +141,7 @@ where
     }
 
     /// An orthonormal basis of the changes (δq, δv) with F δq = 0 for holonomic constraints and δ(F v + b) = 0 for all.
-    fn space(&self) -> Result<DMatrix<L::Scalar>, Error> {
+    pub(super) fn space(&self) -> Result<DMatrix<L::Scalar>, Error> {
         let zero = vector([L::Scalar::constant(0.0); N]);
         let mut changes: Vec<[SVector<L::Scalar, N>; 2]> = Vec::new();
         for q in self.holonomic_rows().null_space() {

@@ -13,10 +13,16 @@ mod jacobian;
 #[cfg(feature = "alloc")]
 mod linearization;
 #[cfg(feature = "alloc")]
+mod lyapunov;
+#[cfg(feature = "alloc")]
+mod sensitivities;
+#[cfg(feature = "alloc")]
 mod spectrum;
 mod tangent;
 #[cfg(test)]
 mod tests;
+#[cfg(feature = "alloc")]
+mod variation;
 
 use core::fmt::Debug;
 
@@ -33,9 +39,15 @@ pub use jacobian::{Jacobian, Partials};
 #[cfg(feature = "alloc")]
 pub use linearization::Linearization;
 #[cfg(feature = "alloc")]
+pub use lyapunov::LyapunovSpectrum;
+#[cfg(feature = "alloc")]
+pub use sensitivities::{Sensitivities, Sensitivity};
+#[cfg(feature = "alloc")]
 pub use spectrum::Stability;
 
 use crate::error::Error;
+#[cfg(feature = "alloc")]
+use crate::motion::{Adaptive, Pair};
 use crate::number::{Over, Real};
 use crate::system::{Lagrangian, Solution, State};
 
@@ -241,6 +253,91 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
         Self: Lagrangian<N, M, Scalar: Real> + Sized,
     {
         columns::jacobian_by(self, state, arguments)
+    }
+
+    /// The motion from a state to the time `end` with its derivatives by entries of the state and by parameters, named
+    /// as in [`jacobian_by`](Self::jacobian_by): solutions of the variational equations.
+    ///
+    /// Each step of the derivatives is the derivative of the step of the motion, so they are as accurate as the motion and
+    /// continuous like it. The error of a step is that of the motion alone, which chooses the steps as without derivatives. On
+    /// constraints the start is the nearest state to the one given, for other parameters too, and so are its derivatives;
+    /// they stay in the tangent space, projected as the state is.
+    ///
+    /// ```
+    /// use lagrange_core::prelude::*;
+    ///
+    /// #[derive(Lagrangian)]
+    /// #[coordinates(x)]
+    /// #[lagrangian(m/2 * x_dot^2 - k/2 * x^2)]
+    /// struct Spring { m: f64, k: f64 }
+    ///
+    /// let spring = Spring { m: 1.0, k: 4.0 };
+    /// let method = Dop853::with_tolerance(1e-12);
+    /// let motion = spring.integrate_sensitivities(State::at_rest([0.5]), 3.0, method, &["x", "k"])?;
+    /// // x = ½ cos(√k t)
+    /// let at = motion.at(1.3)?;
+    /// assert!((at.q[(0, 0)] - (2.0 * 1.3_f64).cos()).abs() < 1e-10);
+    /// assert!((motion.coordinate(1.3, "x", "k")? + 0.5 * 1.3 / 4.0 * (2.0 * 1.3_f64).sin()).abs() < 1e-10);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`integrate`](crate::Simulate::integrate); [`Error::DerivativeNotFinite`]; [`Error::UnknownName`] and
+    /// [`Error::RepeatedName`].
+    #[cfg(feature = "alloc")]
+    fn integrate_sensitivities<Q: Pair>(
+        &self,
+        state: State<Self::Scalar, N>,
+        end: Self::Scalar,
+        method: Adaptive<Q>,
+        arguments: &[&str],
+    ) -> Result<Sensitivities<'_, Self, N, M, P>, Error>
+    where
+        Self: Lagrangian<N, M, Scalar: Real> + Sized,
+    {
+        sensitivities::integrate(self, &state, end, &method, arguments)
+    }
+
+    /// All Lyapunov exponents of the motion from a state to the time `end`: the mean rates at which small changes of the
+    /// state grow, as many as the state has degrees of freedom on the constraints.
+    ///
+    /// Variations from all over the tangent space go along with the motion and are made orthonormal after each step; what that
+    /// takes off their lengths is what they have grown (Benettin, Galgani, Giorgilli and Strelcyn, *Meccanica* 15, 1980). The
+    /// first 21st of the time lets them turn to where they grow, and does not count; the others are looked at one by one, and
+    /// tell how far the means can be relied on. Of the limit for infinite times an exponent of zero is off by about
+    /// ln t/t. Lengths are those of (q, q̇) in the units of the system, which make no difference in the limit. Nothing is stored.
+    ///
+    /// ```
+    /// use lagrange_core::prelude::*;
+    ///
+    /// #[derive(Lagrangian)]
+    /// #[coordinates(x)]
+    /// #[lagrangian(x_dot^2/2 + x^2/2)]
+    /// #[dissipation(x_dot^2/4)]
+    /// struct Hill;
+    ///
+    /// // ẍ = x − ẋ/2 on top of a hill
+    /// let spectrum = Hill.lyapunov_spectrum(State::at_rest([0.0]), 50.0, Dop853::default())?;
+    /// let root = (1.0_f64 / 16.0 + 1.0).sqrt();
+    /// assert!((spectrum.exponents[0] - (root - 0.25)).abs() < 1e-6);
+    /// assert!((spectrum.exponents[1] - (-root - 0.25)).abs() < 1e-6);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`integrate`](crate::Simulate::integrate): among others, [`Error::Unfinished`] where the steps of the method do
+    /// not suffice; [`Error::DerivativeNotFinite`].
+    #[cfg(feature = "alloc")]
+    fn lyapunov_spectrum<Q: Pair>(
+        &self,
+        state: State<Self::Scalar, N>,
+        end: Self::Scalar,
+        method: Adaptive<Q>,
+    ) -> Result<LyapunovSpectrum<Self::Scalar>, Error>
+    where
+        Self: Lagrangian<N, M, Scalar: Real> + Sized,
+    {
+        lyapunov::spectrum(self, &state, end, &method)
     }
 
     /// The inputs by which the system has these accelerations at a state, and the multipliers that belong to them: the

@@ -44,9 +44,18 @@ where
     L: StateDerivatives<N, M, Scalar: Real>,
 {
     pub(super) fn at(system: &'a L, state: &'a State<L::Scalar, N>) -> Result<Self, Error> {
-        let solution = solve(system, state)?;
+        Ok(Self::of(system, state, solve(system, state)?))
+    }
+
+    /// Where the equations are solved already.
+    #[inline]
+    pub(super) fn of(
+        system: &'a L,
+        state: &'a State<L::Scalar, N>,
+        solution: Solution<L::Scalar, N, M>,
+    ) -> Self {
         let (factor, slopes) = (system.factor(state), system.residual_slopes(state, &solution));
-        Ok(Self { system, state, solution, factor, slopes, matrices: OnceCell::new() })
+        Self { system, state, solution, factor, slopes, matrices: OnceCell::new() }
     }
 
     /// Made where they are asked for.
@@ -79,7 +88,7 @@ where
         for first in (0..count).step_by(lanes) {
             let mut directions = Direction::<WideOf<L, N, M>, N>::zero();
             (first..count.min(first + lanes)).for_each(|k| put(k, &mut directions, k - first));
-            let changes = self.system.residual_change_with(&self.slopes, &directions);
+            let changes = self.changes(&directions);
             self.respond(first..count.min(first + lanes), &changes, &entry, &mut give)?;
         }
         Ok(())
@@ -109,6 +118,60 @@ where
             self.respond(block, &changes, &entry, &mut give)?;
         }
         Ok(())
+    }
+
+    /// The derivatives of the residual along these directions.
+    #[inline]
+    pub(super) fn changes(
+        &self,
+        directions: &Direction<WideOf<L, N, M>, N>,
+    ) -> ResidualChange<WideOf<L, N, M>, N, M> {
+        self.system.residual_change_with(&self.slopes, directions)
+    }
+
+    /// What the derivatives of the residual by parameters are made of.
+    #[cfg(feature = "alloc")]
+    pub(super) fn parameter_slopes<const P: usize>(&self) -> L::ParameterSlopes
+    where
+        L: Linearized<N, M, P>,
+    {
+        self.system.residual_slopes_by_parameters(self.state, &self.solution)
+    }
+
+    /// The derivatives of the residual where parameters change at these rates.
+    #[cfg(feature = "alloc")]
+    #[inline]
+    pub(super) fn changes_by_parameters<const P: usize>(
+        &self,
+        slopes: &L::ParameterSlopes,
+        rates: &SVector<WideOf<L, N, M>, P>,
+    ) -> ResidualChange<WideOf<L, N, M>, N, M>
+    where
+        L: Linearized<N, M, P>,
+    {
+        self.system.residual_change_by_parameters_with(slopes, rates)
+    }
+
+    /// What makes up for changes of the residual in so many lanes; `entry` is what to call one.
+    #[cfg(feature = "alloc")]
+    #[inline]
+    pub(super) fn responses(
+        &self,
+        lanes: usize,
+        changes: &ResidualChange<WideOf<L, N, M>, N, M>,
+        entry: impl Fn(usize) -> Entry,
+    ) -> Result<Solution<WideOf<L, N, M>, N, M>, Error> {
+        let mut responses = self.system.solve_with(&self.factor, &-changes.motion, &changes.acceleration);
+        if are_sound::<L::Scalar, N, M>(changes, &responses) {
+            return Ok(responses);
+        }
+        self.respond(0..lanes, changes, &entry, &mut |lane, response| {
+            let entries = responses.accelerations.iter_mut().zip(&response.accelerations);
+            entries.for_each(|(wide, x)| wide.put(lane, *x));
+            let entries = responses.multipliers.iter_mut().zip(&response.multipliers);
+            entries.for_each(|(wide, x)| wide.put(lane, *x));
+        })?;
+        Ok(responses)
     }
 
     /// What makes up for changes of the residual, lane by lane.
@@ -202,17 +265,24 @@ where
 }
 
 /// Whether all lanes can be relied on, all at once: every number is finite, and so is their sum.
+#[inline]
 fn are_sound<T: Real, const N: usize, const M: usize>(
     changes: &ResidualChange<T::Wide, N, M>,
     responses: &Solution<T::Wide, N, M>,
 ) -> bool {
     let ResidualChange { motion, acceleration, rate, position } = changes;
     let Solution { accelerations, multipliers, pivot, .. } = responses;
-    let coordinates = motion.iter().chain(accelerations);
-    let constraints = acceleration.iter().chain(rate).chain(position).chain(multipliers);
-    let zero = T::Wide::constant(0.0);
-    let size = constraints.fold(coordinates.fold(zero, |sum, x| sum + x.abs()), |sum, x| sum + x.abs());
+    let mut size = sum_of_magnitudes(T::Wide::constant(0.0), motion.as_slice());
+    size = sum_of_magnitudes(size, accelerations.as_slice());
+    for constraints in [acceleration, rate, position, multipliers] {
+        size = sum_of_magnitudes(size, constraints.as_slice());
+    }
     (0..T::Wide::COUNT).all(|lane| pivot.lane(lane) > least_pivot() && size.lane(lane).is_finite())
+}
+
+#[inline(always)]
+fn sum_of_magnitudes<W: Scalar>(start: W, numbers: &[W]) -> W {
+    numbers.iter().fold(start, |sum, x| sum + x.abs())
 }
 
 /// The solution in one lane.

@@ -2,7 +2,7 @@
 
 use core::array::from_fn;
 
-use crate::number::{Real, entries};
+use crate::number::{Real, Scalar, entries};
 use crate::solution::flow::{Phase, PhasePoint};
 
 /// The motion within one step, as a method knows it: continuous, and equal to the states at both ends.
@@ -36,7 +36,7 @@ pub type Node<T, const N: usize> = (Phase<T, N>, Phase<T, N>);
 /// Puts the coefficients of the cubic polynomial between two places with these rates, a step of `length` apart, into four
 /// `coefficients`.
 #[inline]
-pub(super) fn hermite<T: Real, const N: usize>(
+pub(crate) fn hermite<T: Scalar, const N: usize>(
     length: T,
     (start, first): (&Phase<T, N>, &Phase<T, N>),
     (end, last): (&Phase<T, N>, &Phase<T, N>),
@@ -71,7 +71,10 @@ impl<T: Real, const N: usize, C: AsRef<[Phase<T, N>]>> Interpolant<T, N> for Pol
 }
 
 /// The polynomial, and the derivative of its first half by θ.
-fn evaluate<T: Real, const N: usize>(coefficients: &[Phase<T, N>], theta: T) -> (Phase<T, N>, [T; N]) {
+pub(crate) fn evaluate<T: Scalar, const N: usize>(
+    coefficients: &[Phase<T, N>],
+    theta: T,
+) -> (Phase<T, N>, [T; N]) {
     let (zero, one) = (T::constant(0.0), T::constant(1.0));
     let (mut sum, mut slope) = ([[zero; N]; 2], [zero; N]);
     for (k, r) in coefficients.iter().enumerate().rev() {

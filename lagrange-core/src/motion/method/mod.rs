@@ -5,10 +5,10 @@ pub(super) mod clock;
 pub(super) mod control;
 mod dop853;
 mod dopri5;
-mod interpolant;
-pub(super) mod pair;
+pub(crate) mod interpolant;
+pub(crate) mod pair;
 mod runge_kutta;
-pub(super) mod step;
+pub(crate) mod step;
 mod stiff;
 
 pub use adaptive::Adaptive;

@@ -59,6 +59,13 @@ impl<T: Real, const N: usize, const M: usize> Memory<T, N, M> {
         self.clock.next(self.control.step)
     }
 
+    /// Where the step taken last starts, how long it is, and its slopes.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn last_step(&self) -> Option<(PhasePoint<T, N>, T, &Slopes<T, N>)> {
+        let Taken { from: Origin { t, y, .. }, h, .. } = self.taken.as_ref()?;
+        Some((PhasePoint { t: *t, y: *y, velocity: self.slopes[0][0] }, *h, &self.slopes))
+    }
+
     fn origin(&self) -> Origin<T, N, M> {
         Origin { t: self.clock.now, y: self.y, active: self.active }
     }

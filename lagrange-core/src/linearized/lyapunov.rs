@@ -1,0 +1,90 @@
+//! Lyapunov exponents: how fast variations of a motion grow, in the long run.
+
+use alloc::{boxed::Box, vec, vec::Vec};
+
+use nalgebra::DMatrix;
+
+use super::Linearized;
+use super::tangent::Tangent;
+use super::variation::Variations;
+use crate::error::Error;
+use crate::motion::run::{Run, Watchdog, check_end};
+use crate::motion::{Adaptive, Pair};
+use crate::number::{Real, Scalar};
+use crate::solution::flow::LagrangianFlow;
+use crate::system::State;
+use crate::system::finite::check_finite;
+
+/// The Lyapunov exponents of a motion, and how far they can be relied on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LyapunovSpectrum<T> {
+    /// The exponents, rates per unit of time, the largest first (as far as they differ by more than their errors).
+    pub exponents: Vec<T>,
+    /// One standard error of each, from how the means over parts of the motion scatter.
+    pub errors: Vec<T>,
+    /// How the estimates settle: at the end of each part, the time and the means until then.
+    pub running: Vec<(T, Vec<T>)>,
+}
+
+/// The motion is looked at in so many parts, beside a first one in which the variations turn to where they grow.
+const PARTS: usize = 20;
+
+/// See [`Linearized::lyapunov_spectrum`].
+pub(super) fn spectrum<L, Q, const N: usize, const M: usize, const P: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+    end: L::Scalar,
+    method: &Adaptive<Q>,
+) -> Result<LyapunovSpectrum<L::Scalar>, Error>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+    Q: Pair,
+{
+    check_finite(system, state)?;
+    check_end(end)?;
+    let (mut run, _) = Run::begin::<L, LagrangianFlow, _, M>(system, state, method)?;
+    let start = run.state;
+    let basis = match const { M == 0 } {
+        true => DMatrix::identity(2 * N, 2 * N),
+        false => Tangent::at(system, &start)?.space()?,
+    };
+    let mut variations = Variations::along(system, &start, &basis)?;
+    let limits = Watchdog::new(method.limits(), &run.statistics);
+    let mut parts = Vec::with_capacity(PARTS + 1);
+    for part in 1..=PARTS + 1 {
+        let done = L::Scalar::constant(part as f64 / (PARTS + 1) as f64);
+        let stop = if part > PARTS { end } else { start.t + (end - start.t) * done };
+        let (mut growth, from) = (vec![L::Scalar::constant(0.0); basis.ncols()], run.state.t);
+        while run.state.t != stop {
+            let step = run.step::<L, LagrangianFlow, _, M>(system, method, stop, &limits);
+            step.map_err(|ending| Error::Unfinished(Box::new(ending)))?;
+            variations.follow::<Q>(system, &run.memory)?;
+            variations.orthonormalize(|j, length| growth[j] += Scalar::ln(length));
+        }
+        parts.push((stop, growth.into_iter().map(|x| x / (stop - from)).collect::<Vec<_>>()));
+    }
+    Ok(LyapunovSpectrum::of(&parts[1..]))
+}
+
+impl<T: Real> LyapunovSpectrum<T> {
+    /// Of the means over equal parts, each with the time of its end.
+    fn of(parts: &[(T, Vec<T>)]) -> Self {
+        let zero = T::constant(0.0);
+        let mut sums = vec![zero; parts.first().map_or(0, |(_, means)| means.len())];
+        let running = (1..).zip(parts).map(|(count, (time, means))| {
+            sums.iter_mut().zip(means).for_each(|(sum, mean)| *sum += *mean);
+            (*time, sums.iter().map(|sum| *sum / T::constant(f64::from(count))).collect::<Vec<_>>())
+        });
+        let running: Vec<(T, Vec<T>)> = running.collect();
+        let exponents = running.last().map_or(Vec::new(), |(_, means)| means.clone());
+        let count = T::constant(parts.len() as f64);
+        let error = |j: usize| {
+            let squares = parts
+                .iter()
+                .fold(zero, |sum, (_, means)| sum + (means[j] - exponents[j]) * (means[j] - exponents[j]));
+            Scalar::sqrt(squares / (count * (count - T::constant(1.0))))
+        };
+        let errors = (0..exponents.len()).map(error).collect();
+        Self { exponents, errors, running }
+    }
+}

@@ -1,0 +1,377 @@
+//! The variational equations, along the steps of a motion.
+//!
+//! A step of the variations is the derivative of the step of the motion, its length held: the stages are those of the
+//! motion, differentiated, each by its own factor (internal differentiation: Bock, *Numerical treatment of inverse problems
+//! in chemical reaction kinetics*, 1981; Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.6,
+//! "Sensitivity analysis"). What a step ends in is projected onto the tangent space, which is the derivative of the
+//! projection of the state where that lies on the constraints: δq += x with M x = Fᵀμ, F x = −δΦ, then δq̇ by
+//! δ(F q̇ + b).
+
+use alloc::vec::Vec;
+
+use nalgebra::{DMatrix, DVectorView, SVector};
+
+use super::argument::Argument;
+use super::tangent::{Tangent, WideOf};
+use super::{Direction, Linearized, ResidualChange, StateDerivatives};
+use crate::error::Error;
+use crate::motion::method::interpolant::hermite;
+use crate::motion::method::pair::{SLOPES, Slopes, advance, last};
+use crate::motion::method::step::Memory;
+use crate::motion::{Combination, Pair};
+use crate::names::Entry;
+use crate::number::{Over, Real, Scalar, Wide, vector};
+use crate::solution::flow::Phase;
+use crate::solution::solve::solve_near;
+use crate::system::{Solution, State};
+
+/// Variations of a motion, as many as there are lanes.
+struct Block<W, const N: usize, const P: usize> {
+    /// δ(q, q̇), and where the step taken last starts.
+    y: Phase<W, N>,
+    start: Phase<W, N>,
+    /// Of the step taken last; the first that of its start.
+    slopes: Slopes<W, N>,
+    /// Where it ends, the slope.
+    slope: Phase<W, N>,
+    /// At which parameters change, if any does.
+    rates: Option<SVector<W, P>>,
+    /// How many of the lanes are taken.
+    lanes: usize,
+}
+
+/// Variations of a motion by some of what it depends on.
+pub(super) struct Variations<
+    L: Linearized<N, M, P, Scalar: Real>,
+    const N: usize,
+    const M: usize,
+    const P: usize,
+> {
+    arguments: Vec<Argument>,
+    blocks: Vec<Block<WideOf<L, N, M>, N, P>>,
+}
+
+impl<L, const N: usize, const M: usize, const P: usize> Variations<L, N, M, P>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+{
+    /// At the start: by its entries, of which nothing but the part along the constraints changes the motion, and by
+    /// parameters, which shift the start where they shift constraints.
+    pub(super) fn begin(
+        system: &L,
+        start: &State<L::Scalar, N>,
+        arguments: Vec<Argument>,
+    ) -> Result<Self, Error> {
+        let lanes = <WideOf<L, N, M> as Wide<L::Scalar>>::COUNT;
+        let blocks = arguments.chunks(lanes).map(Block::of).collect();
+        let mut variations = Self { arguments, blocks };
+        variations.arrive(&Tangent::at(system, start)?)?;
+        Ok(variations)
+    }
+
+    /// At the start, along each column of a basis.
+    pub(super) fn along(
+        system: &L,
+        start: &State<L::Scalar, N>,
+        basis: &DMatrix<L::Scalar>,
+    ) -> Result<Self, Error> {
+        let most = |column: DVectorView<'_, L::Scalar>| match column.icamax() {
+            i if i < N => Argument::Coordinate(i),
+            i => Argument::Velocity(i - N),
+        };
+        let arguments: Vec<Argument> = (0..basis.ncols()).map(|j| most(basis.column(j))).collect();
+        let mut variations = Self::begin(system, start, arguments)?;
+        variations.set(|j, i| basis[(i, j)]);
+        variations.arrive(&Tangent::at(system, start)?)?;
+        Ok(variations)
+    }
+
+    /// How many variations there are.
+    pub(super) fn count(&self) -> usize {
+        self.arguments.len()
+    }
+
+    /// Sets entry i of (q, q̇) of variation j.
+    fn set(&mut self, entry: impl Fn(usize, usize) -> L::Scalar) {
+        let lanes = <WideOf<L, N, M> as Wide<L::Scalar>>::COUNT;
+        for j in 0..self.count() {
+            let y = self.blocks[j / lanes].y.as_flattened_mut();
+            y.iter_mut().enumerate().for_each(|(i, wide)| wide.put(j % lanes, entry(j, i)));
+        }
+    }
+
+    /// Makes the variations orthonormal, one after the other (Gram and Schmidt, each twice), and gives to `take` how long each
+    /// was beside those before it. Slopes go with them: they are linear.
+    pub(super) fn orthonormalize(&mut self, mut take: impl FnMut(usize, L::Scalar)) {
+        let lanes = <WideOf<L, N, M> as Wide<L::Scalar>>::COUNT;
+        let count = self.count();
+        for j in 0..count {
+            for k in (0..j).chain(0..j) {
+                let along = self.dot(j, k);
+                let [into, from] = [j, k].map(|j| (j / lanes, j % lanes));
+                for i in 0..2 * N {
+                    for of in [Block::y_mut, Block::slope_mut] {
+                        let x = of(&mut self.blocks[from.0])[i].lane(from.1);
+                        let entry = &mut of(&mut self.blocks[into.0])[i];
+                        let left = entry.lane(into.1) - along * x;
+                        entry.put(into.1, left);
+                    }
+                }
+            }
+            let length = Scalar::sqrt(self.dot(j, j));
+            for of in [Block::y_mut, Block::slope_mut] {
+                for entry in of(&mut self.blocks[j / lanes]) {
+                    let scaled = entry.lane(j % lanes) / length;
+                    entry.put(j % lanes, scaled);
+                }
+            }
+            take(j, length);
+        }
+    }
+
+    /// The scalar product of two variations.
+    fn dot(&self, j: usize, k: usize) -> L::Scalar {
+        let lanes = <WideOf<L, N, M> as Wide<L::Scalar>>::COUNT;
+        let entries =
+            |j: usize| self.blocks[j / lanes].y.as_flattened().iter().map(move |x| x.lane(j % lanes));
+        entries(j).zip(entries(k)).fold(L::Scalar::constant(0.0), |sum, (x, y)| sum + x * y)
+    }
+
+    /// How many blocks there are.
+    pub(super) fn blocks(&self) -> usize {
+        self.blocks.len()
+    }
+
+    /// δ(q, q̇) in a block.
+    pub(super) fn block(&self, index: usize) -> &Phase<WideOf<L, N, M>, N> {
+        &self.blocks[index].y
+    }
+
+    /// Goes along with a step taken.
+    pub(super) fn follow<Q: Pair>(
+        &mut self,
+        system: &L,
+        memory: &Memory<L::Scalar, N, M>,
+    ) -> Result<(), Error> {
+        self.blocks.iter_mut().for_each(|block| (block.start, block.slopes[0]) = (block.y, block.slope));
+        self.stages::<Q>(system, memory, (1, Q::STAGES))?;
+        self.end::<Q>(system, memory)
+    }
+
+    /// Adds the coefficients of what lies within the step followed last, of which the interpolant has been asked for.
+    pub(super) fn interpolate<Q: Pair>(
+        &mut self,
+        system: &L,
+        memory: &Memory<L::Scalar, N, M>,
+        coefficients: &mut Vec<Phase<WideOf<L, N, M>, N>>,
+    ) -> Result<(), Error> {
+        self.stages::<Q>(system, memory, (last::<Q>() + 1, Q::INTERPOLATION_STAGES))?;
+        if let Some((_, h, _)) = memory.last_step() {
+            let h = WideOf::<L, N, M>::of(h);
+            self.blocks.iter().for_each(|block| block.push_coefficients::<Q>(h, coefficients));
+        }
+        Ok(())
+    }
+
+    /// The slopes of these stages of a step taken, the first of which has the number given.
+    fn stages<Q: Pair>(
+        &mut self,
+        system: &L,
+        memory: &Memory<L::Scalar, N, M>,
+        (first, rows): (usize, &[Combination]),
+    ) -> Result<(), Error> {
+        let Some((from, h, slopes)) = memory.last_step() else { return Ok(()) };
+        let mut place = from.y;
+        for (number, row) in (first..).zip(rows) {
+            advance(&from.y, h, slopes, row, &mut place);
+            let state = state_at(from.t + h * L::Scalar::constant(Q::NODES[number]), &place);
+            let tangent = tangent_at(system, &state, &slopes[number][1], &memory.active)?;
+            let by_parameters = self.parameter_slopes(&tangent);
+            for (k, block) in self.blocks.iter_mut().enumerate() {
+                let names = lane_names::<L, N, M, P>(&self.arguments, k);
+                let mut y = block.start;
+                advance(&block.start, WideOf::<L, N, M>::of(h), &block.slopes, row, &mut y);
+                block.slopes[number] = block.slope_at(&tangent, &by_parameters, &y, &names)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The end of a step, on the tangent space, and the slope there.
+    fn end<Q: Pair>(&mut self, system: &L, memory: &Memory<L::Scalar, N, M>) -> Result<(), Error> {
+        let Some((_, h, _)) = memory.last_step() else { return Ok(()) };
+        for block in &mut self.blocks {
+            advance(&block.start, WideOf::<L, N, M>::of(h), &block.slopes, Q::WEIGHTS, &mut block.y);
+        }
+        let state = state_at(memory.clock.now, &memory.y);
+        self.arrive(&tangent_at(system, &state, &memory.slope[1], &memory.active)?)?;
+        self.blocks.iter_mut().for_each(|block| block.slopes[last::<Q>()] = block.slope);
+        Ok(())
+    }
+
+    /// Onto the tangent space of a state, with the slopes there.
+    fn arrive(&mut self, tangent: &Tangent<'_, L, N, M>) -> Result<(), Error> {
+        let by_parameters = self.parameter_slopes(tangent);
+        for (k, block) in self.blocks.iter_mut().enumerate() {
+            let names = lane_names::<L, N, M, P>(&self.arguments, k);
+            if const { M > 0 } {
+                block.y = block.projected(tangent, &by_parameters, block.y, &names)?;
+            }
+            block.slope = block.slope_at(tangent, &by_parameters, &block.y, &names)?;
+        }
+        Ok(())
+    }
+
+    /// δ(q, q̇) of a block at a state in between, on the tangent space there.
+    pub(super) fn projected(
+        &self,
+        index: usize,
+        tangent: &Tangent<'_, L, N, M>,
+        y: Phase<WideOf<L, N, M>, N>,
+    ) -> Result<Phase<WideOf<L, N, M>, N>, Error> {
+        let names = lane_names::<L, N, M, P>(&self.arguments, index);
+        self.blocks[index].projected(tangent, &self.parameter_slopes(tangent), y, &names)
+    }
+
+    /// Where parameters change.
+    fn parameter_slopes(&self, tangent: &Tangent<'_, L, N, M>) -> Option<L::ParameterSlopes> {
+        self.blocks.iter().any(|block| block.rates.is_some()).then(|| tangent.parameter_slopes())
+    }
+}
+
+/// What the lanes of a block are called.
+fn lane_names<L, const N: usize, const M: usize, const P: usize>(
+    arguments: &[Argument],
+    block: usize,
+) -> impl Fn(usize) -> Entry
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+{
+    let lanes = <WideOf<L, N, M> as Wide<L::Scalar>>::COUNT;
+    move |lane| arguments[lanes * block + lane].entry::<L, N, M, P>()
+}
+
+fn state_at<T: Real, const N: usize>(t: T, [q, v]: &Phase<T, N>) -> State<T, N> {
+    State { t, q: vector(*q), v: vector(*v) }
+}
+
+/// The equations at a stage, of which the accelerations are known; multipliers are not.
+#[inline]
+fn tangent_at<'a, L: StateDerivatives<N, M, Scalar: Real>, const N: usize, const M: usize>(
+    system: &'a L,
+    state: &'a State<L::Scalar, N>,
+    accelerations: &[L::Scalar; N],
+    active: &[bool; M],
+) -> Result<Tangent<'a, L, N, M>, Error> {
+    if const { M > 0 } {
+        return Ok(Tangent::of(
+            system,
+            state,
+            solve_near(system, state, Some(active), |solution, _| *solution)?,
+        ));
+    }
+    let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
+    let (accelerations, multipliers) = (vector(*accelerations), vector([zero; M]));
+    Ok(Tangent::of(system, state, Solution { accelerations, multipliers, pivot: one, rank: M }))
+}
+
+impl<W: Scalar, const N: usize, const P: usize> Block<W, N, P> {
+    /// By these arguments, a lane each.
+    fn of<T: Real>(arguments: &[Argument]) -> Self
+    where
+        W: Wide<T>,
+    {
+        let (zero, one) = (W::constant(0.0), T::constant(1.0));
+        let mut y = [[zero; N]; 2];
+        let mut rates = None;
+        for (lane, argument) in arguments.iter().enumerate() {
+            match *argument {
+                Argument::Coordinate(i) => y[0][i].put(lane, one),
+                Argument::Velocity(i) => y[1][i].put(lane, one),
+                Argument::Parameter(k) => {
+                    rates.get_or_insert_with(|| SVector::<W, P>::from_element(zero))[k].put(lane, one);
+                }
+            }
+        }
+        let slopes = [[[zero; N]; 2]; SLOPES];
+        Self { y, start: y, slopes, slope: slopes[0], rates, lanes: arguments.len() }
+    }
+
+    fn y_mut(&mut self) -> &mut [W] {
+        self.y.as_flattened_mut()
+    }
+
+    fn slope_mut(&mut self) -> &mut [W] {
+        self.slope.as_flattened_mut()
+    }
+
+    /// How the residual changes with these variations.
+    #[inline]
+    fn changes<L, const M: usize>(
+        &self,
+        tangent: &Tangent<'_, L, N, M>,
+        by_parameters: &Option<L::ParameterSlopes>,
+        [q, v]: &Phase<W, N>,
+    ) -> ResidualChange<W, N, M>
+    where
+        L: Linearized<N, M, P, Scalar: Real<Wide = W>>,
+    {
+        let of_state = tangent.changes(&Direction { t: W::constant(0.0), q: vector(*q), v: vector(*v) });
+        let Some((slopes, rates)) = by_parameters.as_ref().zip(self.rates.as_ref()) else { return of_state };
+        of_state.plus(&tangent.changes_by_parameters(slopes, rates))
+    }
+
+    /// δ(q̇, q̈)
+    #[inline]
+    fn slope_at<L, const M: usize>(
+        &self,
+        tangent: &Tangent<'_, L, N, M>,
+        by_parameters: &Option<L::ParameterSlopes>,
+        y: &Phase<W, N>,
+        names: &impl Fn(usize) -> Entry,
+    ) -> Result<Phase<W, N>, Error>
+    where
+        L: Linearized<N, M, P, Scalar: Real<Wide = W>>,
+    {
+        let changes = self.changes(tangent, by_parameters, y);
+        Ok([y[1], tangent.responses(self.lanes, &changes, names)?.accelerations.into()])
+    }
+
+    /// The nearest variations on the tangent space.
+    fn projected<L, const M: usize>(
+        &self,
+        tangent: &Tangent<'_, L, N, M>,
+        by_parameters: &Option<L::ParameterSlopes>,
+        mut y: Phase<W, N>,
+        names: &impl Fn(usize) -> Entry,
+    ) -> Result<Phase<W, N>, Error>
+    where
+        L: Linearized<N, M, P, Scalar: Real<Wide = W>>,
+    {
+        for half in 0..2 {
+            let changes = self.changes(tangent, by_parameters, &y);
+            let left = if half == 0 { changes.position } else { changes.rate };
+            let demands = ResidualChange {
+                motion: changes.motion.map(|_| W::constant(0.0)),
+                acceleration: left,
+                ..changes
+            };
+            let correction = tangent.responses(self.lanes, &demands, names)?.accelerations;
+            y[half].iter_mut().zip(&correction).for_each(|(x, correction)| *x = *x + *correction);
+        }
+        Ok(y)
+    }
+
+    /// Adds the coefficients of the step that led here.
+    fn push_coefficients<Q: Pair>(&self, h: W, coefficients: &mut Vec<Phase<W, N>>) {
+        let zero = [[W::constant(0.0); N]; 2];
+        let cubic = coefficients.len();
+        coefficients.extend([zero; 4]);
+        hermite(h, (&self.start, &self.slopes[0]), (&self.y, &self.slope), &mut coefficients[cubic..]);
+        for row in Q::INTERPOLATION {
+            let mut coefficient = zero;
+            advance(&zero, h, &self.slopes, row, &mut coefficient);
+            coefficients.push(coefficient);
+        }
+    }
+}

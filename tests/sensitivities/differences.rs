@@ -1,0 +1,119 @@
+//! Derivatives of a motion by differences of motions.
+
+use lagrange_core::motion::{Adaptive, Pair};
+use lagrange_core::nalgebra::DVector;
+use lagrange_core::{Entry, prelude::*};
+
+/// The coefficients of the central difference of eighth order (Fornberg 1988).
+const DIFFERENCE: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
+
+/// Steps of the differences, as parts of what is changed: where a motion changes fast with it, only the short one is right.
+const STEPS: [f64; 2] = [1e-2, 2e-3];
+
+/// The largest error of a column, as a part of its largest entry.
+const TOLERANCE: f64 = 1e-9;
+
+/// The states at these times where an argument is changed, the start as near as the constraints allow.
+fn states<S, Q, const N: usize, const M: usize, const P: usize>(
+    system: &S,
+    start: &State<f64, N>,
+    times: &[f64],
+    method: Adaptive<Q>,
+    argument: usize,
+    change: f64,
+) -> DVector<f64>
+where
+    S: Linearized<N, M, P, Scalar = f64> + Clone,
+    Q: Pair + Copy,
+{
+    let (mut system, mut start) = (system.clone(), *start);
+    match argument {
+        i if i < N => start.q[i] += change,
+        i if i < 2 * N => start.v[i - N] += change,
+        i => {
+            let k = i - 2 * N;
+            assert!(system.set_parameter(k, system.parameters()[k] + change));
+        }
+    }
+    let start = system.make_consistent(&start).unwrap().0;
+    let path = system.integrate(start, *times.last().unwrap(), method).unwrap();
+    let states = times.iter().flat_map(|t| {
+        let state = *path.at(*t).unwrap().state();
+        state.q.iter().chain(&state.v).copied().collect::<Vec<f64>>()
+    });
+    DVector::from_iterator(2 * N * times.len(), states)
+}
+
+/// Compares the derivatives by everything at two times within and at the end; gives the largest error.
+pub(crate) fn check<S, Q, const N: usize, const M: usize, const P: usize>(
+    system: &S,
+    start: State<f64, N>,
+    end: f64,
+    method: Adaptive<Q>,
+) -> f64
+where
+    S: Linearized<N, M, P, Scalar = f64> + Clone,
+    Q: Pair + Copy,
+{
+    let start = system.make_consistent(&start).unwrap().0;
+    let mut names: Vec<String> = S::COORDINATES.map(String::from).to_vec();
+    names.extend(S::COORDINATES.map(|name| Entry::Velocity(name).to_string()));
+    names.extend(S::PARAMETERS.map(String::from));
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let motion = system.integrate_sensitivities(start, end, method, &names).unwrap();
+    assert!(motion.arguments().iter().eq(&names));
+    let alone = system.integrate(start, end, method).unwrap();
+    assert_eq!(motion.trajectory().end().state(), alone.end().state(), "the same motion");
+    let times = [0.31, 0.8, 1.0].map(|part| start.t + part * (end - start.t));
+    let found = times.map(|t| motion.at(t).unwrap());
+    let mut worst = 0.0_f64;
+    for (argument, name) in names.iter().enumerate() {
+        let size = match argument {
+            i if i < 2 * N => 1.0,
+            i => system.parameters()[i - 2 * N].abs().max(0.1),
+        };
+        let column = found.iter().flat_map(|at| {
+            at.q.column(argument).iter().chain(&at.v.column(argument)).copied().collect::<Vec<f64>>()
+        });
+        let column = DVector::from_iterator(2 * N * times.len(), column);
+        let errors = STEPS.map(|step| {
+            let (step, mut expected) = (step * size, column.clone() * 0.0);
+            for (k, coefficient) in (1..).zip(DIFFERENCE) {
+                let shifted = |by| states::<_, _, N, M, P>(system, &start, &times, method, argument, by);
+                expected +=
+                    (shifted(f64::from(k) * step) - shifted(-f64::from(k) * step)) * (coefficient / step);
+            }
+            (&column - &expected).amax() / expected.amax().max(1e-3)
+        });
+        let error = errors[0].min(errors[1]);
+        assert!(error < TOLERANCE, "{} by {name}: off by {error:e}", S::NAME);
+        worst = worst.max(error);
+    }
+    for at in &found {
+        check_tangent::<S, N, M, P>(system, at, &names);
+    }
+    println!("{}: {worst:.1e}", S::NAME);
+    worst
+}
+
+/// δΦ = 0 and δ(F q̇ + b) = 0, along the derivatives by the start.
+fn check_tangent<S, const N: usize, const M: usize, const P: usize>(
+    system: &S,
+    at: &lagrange_core::Sensitivity<f64, N>,
+    names: &[&str],
+) where
+    S: Linearized<N, M, P, Scalar = f64>,
+{
+    let solution = system.solve(&at.state).unwrap();
+    for (j, name) in names.iter().enumerate().take(2 * N) {
+        let direction = lagrange_core::Direction {
+            t: 0.0,
+            q: at.q.column(j).fixed_rows::<N>(0).into(),
+            v: at.v.column(j).fixed_rows::<N>(0).into(),
+        };
+        let change = system.residual_change(&at.state, &solution, &direction);
+        let size = direction.q.amax().max(direction.v.amax()).max(1.0);
+        let off = change.position.amax().max(change.rate.amax());
+        assert!(M == 0 || off < 1e-12 * size, "{} leaves the constraints by {name}: {off:e}", S::NAME);
+    }
+}
