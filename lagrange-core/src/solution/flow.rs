@@ -89,6 +89,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Flow<L, 
         State { t: point.t, q: vector(point.y[0]), v: vector(point.y[1]) }
     }
 
+    #[inline]
     fn project(system: &L, point: &PhasePoint<L::Scalar, N>) -> Result<State<L::Scalar, N>, Error> {
         let mut state = Self::state(system, point);
         project(system, &BOTH, &mut state)?;

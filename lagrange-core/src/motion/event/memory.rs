@@ -17,7 +17,7 @@ pub struct Memory<T> {
     pub(super) count: usize,
     /// The function where the search is; zero where the motion starts at a zero, and has not left it.
     pub(super) value: T,
-    /// The same at the next place.
+    /// The same at the place looked at last, where the search goes on from unless something crosses before.
     pub(super) next: T,
     /// The function where the motion starts at a zero, as long as it has not been looked at elsewhere.
     start: Option<T>,
@@ -66,11 +66,22 @@ impl<T: Real> Memory<T> {
         let is_at_zero = is_new && (value == zero || self.last == Some(t));
         self.start = is_at_zero.then_some(value);
         (self.value, self.noise) = (if is_at_zero { zero } else { value }, zero);
+        self.next = self.value;
         is_at_zero
+    }
+
+    /// Goes on to the place looked at last.
+    #[inline]
+    pub(super) fn go_on(&mut self) {
+        self.value = self.next;
+        if self.value != T::constant(0.0) {
+            self.noise = T::constant(0.0);
+        }
     }
 
     /// Takes note of the function at the next place. From a start at a zero it is zero until it leaves the noise there:
     /// four times what it has changed by at the first place, and twice what was left of it at the crossing.
+    #[inline]
     pub(super) fn look(&mut self, value: T) {
         let zero = T::constant(0.0);
         if let Some(start) = self.start.take() {
@@ -82,20 +93,18 @@ impl<T: Real> Memory<T> {
         self.next = if is_noise { zero } else { value };
     }
 
-    /// Goes on to the next place, which others that cross on the way there may have made nearer. That of the first is where
-    /// `has_crossed`, whatever the function says there when it is asked again.
-    pub(super) fn arrive(&mut self, has_crossed: bool) {
-        let zero = T::constant(0.0);
+    /// Goes on to a place where some event crosses: this one if it `has_crossed`, whatever its function says when it is asked
+    /// again, or if it says so.
+    pub(super) fn arrive(&mut self, value: T, has_crossed: bool) {
+        self.look(value);
         if has_crossed || self.crosses() {
-            (self.due, self.left) = (Some(self.value < zero), self.next);
+            (self.due, self.left) = (Some(self.value < T::constant(0.0)), self.next);
         }
-        self.value = self.next;
-        if self.value != zero {
-            self.noise = zero;
-        }
+        self.go_on();
     }
 
     /// Whether the function crosses zero on the way to the next place, the way that the event is about.
+    #[inline]
     pub(super) fn crosses(&self) -> bool {
         let zero = T::constant(0.0);
         let rises = self.value < zero && self.next >= zero;

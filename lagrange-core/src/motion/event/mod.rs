@@ -88,7 +88,8 @@ impl<L: Lagrangian<N, M, Scalar: Real>, G, const N: usize, const M: usize> Event
         self
     }
 
-    /// Looks at g so many times a step. Of several events the largest number counts.
+    /// Looks at g so many times a step. Of several events the largest number counts. Each time but the last costs an evaluation
+    /// of the continuous extension (and on constraints a projection): where g cannot cross twice within a step, one will do.
     #[must_use]
     pub fn pieces(mut self, pieces: usize) -> Self {
         self.memory.pieces = pieces.max(1);
@@ -164,6 +165,10 @@ pub trait Watched<L: Lagrangian<N, M>, const N: usize, const M: usize>: sealed::
     /// What it is about, and what is known of it.
     #[doc(hidden)]
     fn memory(&mut self) -> &mut Memory<L::Scalar>;
+
+    /// Goes on to the place looked at last, and looks at this one: whether its function crosses zero in between.
+    #[doc(hidden)]
+    fn look(&mut self, system: &L, state: &State<L::Scalar, N>) -> Result<bool, Error>;
 }
 
 mod sealed {
@@ -179,6 +184,7 @@ where
     G: Fn(&Sample<&K, N, M>) -> V,
     V: EventValue<L::Scalar>,
 {
+    #[inline]
     fn value(&self, system: &L, state: &State<L::Scalar, N>) -> Result<L::Scalar, Error> {
         let value = (self.function)(&Sample { system: system.borrow(), state: *state }).value()?;
         match nalgebra::ComplexField::is_finite(&value) {
@@ -189,6 +195,13 @@ where
 
     fn memory(&mut self) -> &mut Memory<L::Scalar> {
         &mut self.memory
+    }
+
+    fn look(&mut self, system: &L, state: &State<L::Scalar, N>) -> Result<bool, Error> {
+        let value = self.value(system, state)?;
+        self.memory.go_on();
+        self.memory.look(value);
+        Ok(self.memory.crosses())
     }
 }
 

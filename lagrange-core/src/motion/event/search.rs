@@ -59,6 +59,8 @@ pub(crate) struct Search<'e, 'w, L: Lagrangian<N, M>, const N: usize, const M: u
     events: &'e mut [&'w mut (dyn Watched<L, N, M> + 'w)],
     /// Where the motion starts at a zero: pieces are short near there.
     start: Option<L::Scalar>,
+    /// How many pieces a step is looked at in.
+    pieces: usize,
 }
 
 impl<'e, 'w, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Search<'e, 'w, L, N, M> {
@@ -69,14 +71,16 @@ impl<'e, 'w, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> 
         state: &State<L::Scalar, N>,
         is_new: bool,
     ) -> Result<Self, Error> {
-        let mut start = None;
+        let (mut start, mut pieces) = (None, 1);
         for event in events.iter_mut() {
             let value = event.value(system, state)?;
-            if event.memory().begin(value, state.t, is_new) {
+            let memory = event.memory();
+            if memory.begin(value, state.t, is_new) {
                 start = Some(state.t);
             }
+            pieces = pieces.max(memory.pieces);
         }
-        Ok(Self { events, start })
+        Ok(Self { events, start, pieces })
     }
 
     /// The first crossing after `from`, which moves there, or to the end of the step where there is none.
@@ -92,18 +96,18 @@ impl<'e, 'w, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> 
         F: Flow<L, N, M>,
         I: Interpolant<L::Scalar, N>,
     {
-        let pieces = self.events.iter_mut().fold(1, |most, event| most.max(event.memory().pieces));
-        let mut found = None;
-        for piece in 1..=pieces {
-            let mark = stride.mark(piece, pieces);
-            while found.is_none() && stride.is_ahead(from.t, mark) {
+        for piece in 1..=self.pieces {
+            let mark = stride.mark(piece, self.pieces);
+            while stride.is_ahead(from.t, mark) {
                 let t = self.near_start(stride, from.t).filter(|t| stride.is_ahead(*t, mark)).unwrap_or(mark);
-                let time = from.t.to_f64();
-                self.look(stride, from, t).map_err(|error| Ending::of(error, time))?;
-                found = self.due(from)?;
+                match self.look(stride, from, t) {
+                    Ok(false) => {}
+                    Ok(true) => return self.due(from),
+                    Err(error) => return Err(Ending::of(error, from.t.to_f64())),
+                }
             }
         }
-        Ok(found)
+        Ok(None)
     }
 
     /// Reports a crossing at `state` that has not been reported yet.
@@ -188,39 +192,57 @@ impl<'e, 'w, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> 
         Some(start + distance * length.signum())
     }
 
-    /// Goes on to `t`, or to where an event crosses before.
+    /// Goes on to `t`, or to where an event crosses before; whether one does.
+    #[inline]
     fn look<F, I>(
         &mut self,
         stride: &Stride<'_, L, F, I, N, M>,
         from: &mut State<L::Scalar, N>,
         t: L::Scalar,
-    ) -> Result<(), Error>
+    ) -> Result<bool, Error>
     where
         F: Flow<L, N, M>,
         I: Interpolant<L::Scalar, N>,
     {
         let to = stride.at(t)?;
-        let mut first = None;
+        let mut any_crosses = false;
+        for event in self.events.iter_mut() {
+            any_crosses |= event.look(stride.system, &to)?;
+        }
+        if any_crosses {
+            self.go_to_first(stride, from, &to)?;
+        } else {
+            *from = to;
+        }
+        Ok(any_crosses)
+    }
+
+    /// Goes to where the first event crosses. Its function is zero there or has the other sign, and so may others be.
+    fn go_to_first<F, I>(
+        &mut self,
+        stride: &Stride<'_, L, F, I, N, M>,
+        from: &mut State<L::Scalar, N>,
+        to: &State<L::Scalar, N>,
+    ) -> Result<(), Error>
+    where
+        F: Flow<L, N, M>,
+        I: Interpolant<L::Scalar, N>,
+    {
+        let mut first = (usize::MAX, *to);
         for (index, event) in self.events.iter_mut().enumerate() {
-            let value = event.value(stride.system, &to)?;
             let memory = event.memory();
-            memory.look(value);
             if memory.crosses() {
                 let values = [memory.value, memory.next];
-                let place = locate(stride, &**event, [*from, to], values)?;
-                if first.is_none_or(|(_, earlier): (_, State<_, N>)| stride.is_ahead(place.t, earlier.t)) {
-                    first = Some((index, place));
+                let place = locate(stride, &**event, [*from, *to], values)?;
+                if first.0 == usize::MAX || stride.is_ahead(place.t, first.1.t) {
+                    first = (index, place);
                 }
             }
         }
-        *from = first.map_or(to, |(_, place)| place);
+        *from = first.1;
         for (index, event) in self.events.iter_mut().enumerate() {
-            if first.is_some() {
-                let value = event.value(stride.system, from)?;
-                event.memory().look(value);
-            }
-            let is_first = first.is_some_and(|(first, _)| first == index);
-            event.memory().arrive(is_first);
+            let value = event.value(stride.system, from)?;
+            event.memory().arrive(value, index == first.0);
         }
         Ok(())
     }

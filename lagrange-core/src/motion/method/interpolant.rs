@@ -64,6 +64,8 @@ impl<T: Real, const N: usize> Polynomial<T, [Phase<T, N>; 4]> {
 }
 
 impl<T: Real, const N: usize, C: AsRef<[Phase<T, N>]>> Interpolant<T, N> for Polynomial<T, C> {
+    // Inlined, so that a velocity which nobody asks for is not computed.
+    #[inline(always)]
     fn at(&self, t: T) -> PhasePoint<T, N> {
         let (y, velocity) = evaluate(self.coefficients.as_ref(), (t - self.start) / self.length);
         PhasePoint { t, y, velocity: velocity.map(|x| x / self.length) }
@@ -71,6 +73,7 @@ impl<T: Real, const N: usize, C: AsRef<[Phase<T, N>]>> Interpolant<T, N> for Pol
 }
 
 /// The polynomial, and the derivative of its first half by θ.
+#[inline(always)]
 pub(crate) fn evaluate<T: Scalar, const N: usize>(
     coefficients: &[Phase<T, N>],
     theta: T,
