@@ -97,3 +97,26 @@ fn memory_does_not_grow_with_the_steps() {
         motion.advance_to(20.0).expect("no end before");
     });
 }
+
+/// Crossings of two events, one of them by name, with a change of the state at each.
+#[test]
+fn events_allocate_nothing() {
+    let pendulum = Pendulum { g: 9.81, l: 1.0, u: 0.0 };
+    free(|| {
+        let mut turns = pendulum.event("turns", |s| s.velocity("x"));
+        let mut pulls = pendulum.event("pulls", |s| Ok(s.multiplier("rod")? + 12.0));
+        let start = State::new([0.6, -0.8], [0.8, 0.6]);
+        let mut motion = Motion::new(&pendulum, start, Dop853::default()).expect("a start");
+        let mut count = 0;
+        while let Some(crossing) =
+            motion.advance_to_event(20.0, &mut [&mut turns, &mut pulls]).expect("a motion")
+        {
+            if crossing.event == "pulls" {
+                motion.set_state(State { v: crossing.state.v * 0.999, ..crossing.state }).expect("a state");
+            }
+            count += 1;
+        }
+        assert!(count > 20, "{count}");
+        count
+    });
+}

@@ -207,6 +207,23 @@ fn every_method_has_events() {
     assert!((found.state.t - PI).abs() < 1e-10 && found.rising);
 }
 
+#[test]
+fn single_precision_has_events() {
+    #[derive(Lagrangian)]
+    #[coordinates(x)]
+    #[lagrangian(x_dot^2/2 - k/2 * x^2)]
+    struct Single {
+        k: f32,
+    }
+    let single = Single { k: 1.0 };
+    let mut zero = single.event("zero", |s| s.state().q[0]);
+    let mut motion = Motion::new(&single, State::at_rest([1.0_f32]), Dopri5::with_tolerance(1e-6)).unwrap();
+    for k in 0..5 {
+        let state = motion.advance_to_event(100.0, &mut [&mut zero]).unwrap().expect("it swings").state;
+        assert!((f64::from(state.t) - PI * (0.5 + f64::from(k))).abs() < 1e-4 && state.q[0].abs() < 1e-7);
+    }
+}
+
 /// The height above the floor after n bounces, and when: v = √(2h) at first, e times that after each.
 #[test]
 fn a_ball_bounces_along_the_geometric_series_and_comes_to_rest() {
