@@ -1,5 +1,8 @@
 //! Panels of curves, as an SVG file under `target/`.
 
+// An example may do without some of it.
+#![allow(dead_code)]
+
 use std::error::Error;
 use std::path::PathBuf;
 
