@@ -186,7 +186,7 @@ pub(crate) const LINEARIZED: [Method; 4] = [
 ];
 
 /// The constants of these traits.
-const CONSTANTS: [&str; 10] = [
+const CONSTANTS: [&str; 11] = [
     "NAME",
     "COORDINATES",
     "CONSTRAINTS",
@@ -196,11 +196,14 @@ const CONSTANTS: [&str; 10] = [
     "MOMENTA_ARE_LINEAR",
     "OBSERVABLES",
     "FACTS",
+    "EQUATIONS",
     "PARAMETERS",
 ];
 
-/// What every system has beside: methods of `Simulate`, `Hamiltonian`, `StateDerivatives` and `Linearized`.
-const PROVIDED: [&str; 31] = [
+/// What every system has beside: methods of `Lagrangian` that it can do without, of `Simulate`, `Hamiltonian`,
+/// `StateDerivatives` and `Linearized`.
+const PROVIDED: [&str; 32] = [
+    "visit_parameters",
     "solve",
     "check_consistent",
     "make_consistent",

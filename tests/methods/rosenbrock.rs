@@ -117,6 +117,10 @@ where
         Limits::default()
     }
 
+    fn identify(&self, to: &mut dyn std::fmt::Write) -> std::fmt::Result {
+        write!(to, "Rosenbrock {:?} {:?}", self.step, self.tolerance)
+    }
+
     fn check(&self) -> Result<(), Error> {
         if self.step > 0.0 { Ok(()) } else { Err(Error::Setting { name: "step", value: self.step }) }
     }

@@ -64,6 +64,10 @@ impl Method<Pendulum<f64>, 1, 0> for Taylor {
         Limits::default()
     }
 
+    fn identify(&self, to: &mut dyn std::fmt::Write) -> std::fmt::Result {
+        write!(to, "Taylor {:?}", self.step)
+    }
+
     fn check(&self) -> Result<(), Error> {
         Ok(())
     }

@@ -30,6 +30,10 @@ impl Method<Spring, 1, 0> for Wrong {
         Limits::default()
     }
 
+    fn identify(&self, to: &mut dyn std::fmt::Write) -> std::fmt::Result {
+        write!(to, "Wrong {:?}", self.0)
+    }
+
     fn check(&self) -> Result<(), Error> {
         Ok(())
     }
@@ -103,6 +107,10 @@ impl Method<Spring, 1, 0> for Grudging {
 
     fn limits(&self) -> Limits {
         Limits::default()
+    }
+
+    fn identify(&self, to: &mut dyn std::fmt::Write) -> std::fmt::Result {
+        write!(to, "Grudging")
     }
 
     fn check(&self) -> Result<(), Error> {

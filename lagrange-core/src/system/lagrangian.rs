@@ -4,6 +4,7 @@ use core::fmt::Debug;
 
 use nalgebra::{SMatrix, SVector};
 
+use super::equations::{Equations, equations};
 use super::facts::Facts;
 use super::integrability::{Classification, Integrals};
 use super::state::{Solution, State};
@@ -54,6 +55,14 @@ pub trait Lagrangian<const N: usize, const M: usize> {
 
     /// What the derive found out: conserved quantities, cyclic coordinates, what the energy is.
     const FACTS: Facts;
+
+    /// The system and its equations of motion, to be read; empty for one that is not derived.
+    const EQUATIONS: Equations = equations("", "");
+
+    /// Shows every parameter: each number that the expressions name, in the order of the fields. What a function of the user
+    /// holds is not among them.
+    #[allow(unused_variables)]
+    fn visit_parameters(&self, visit: &mut dyn FnMut(Self::Scalar)) {}
 
     /// L(t, q, q̇).
     fn lagrangian(&self, state: &State<Self::Scalar, N>) -> Self::Scalar;

@@ -2,6 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use super::equations::Equations;
 use super::facts::Facts;
 use super::integrability::{Classification, Integrals};
 use super::lagrangian::{ConstraintKind, Lagrangian};
@@ -26,6 +27,11 @@ macro_rules! forward {
             const MOMENTA_ARE_LINEAR: bool = L::MOMENTA_ARE_LINEAR;
             const OBSERVABLES: &'static [&'static str] = L::OBSERVABLES;
             const FACTS: Facts = L::FACTS;
+            const EQUATIONS: Equations = L::EQUATIONS;
+
+            fn visit_parameters(&self, visit: &mut dyn FnMut(Self::Scalar)) {
+                L::visit_parameters(self, visit);
+            }
 
             forward! { @methods
                 fn lagrangian(state: &State<Self::Scalar, N>) -> Self::Scalar;

@@ -42,7 +42,7 @@ impl Emitter<'_> {
         self.report_refused(kernels(), diagnostics);
         let parts = kernels().flat_map(|kernel| &kernel.parts);
         let (methods, inherent) = (&methods.tokens, &inherent.tokens);
-        let equations = self.equations();
+        let (equations, visit_parameters) = (self.equations(), self.visit_parameters());
         let pack = pack::pack(self.declaration, scalar);
         let Rendered { text, .. } = self.rendered;
         let doc = format!("```text\n{text}```");
@@ -64,7 +64,9 @@ impl Emitter<'_> {
                     const MOMENTA_ARE_LINEAR: bool = #are_linear;
                     const OBSERVABLES: &'static [&'static str] = &[#(#observables),*];
                     #facts
+                    const EQUATIONS: __lagrange::Equations = Self::equations();
                     #methods
+                    #visit_parameters
                 }
 
                 #[doc = #doc]
@@ -184,6 +186,17 @@ impl Emitter<'_> {
         }
         if !of_motion.is_empty() {
             diagnostics.error(self.problem.place, too_long(&of_motion.join("; ")));
+        }
+    }
+
+    fn visit_parameters(&self) -> TokenStream {
+        let scalar = self.style.types.scalar;
+        let values = self.problem.parameters.by_field().into_iter().map(|k| self.style.parameter(k));
+        quote! {
+            #[allow(unused_variables)]
+            fn visit_parameters(&self, visit: &mut dyn ::core::ops::FnMut(#scalar)) {
+                #(visit(#values);)*
+            }
         }
     }
 

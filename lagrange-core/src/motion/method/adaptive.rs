@@ -1,8 +1,9 @@
 //! The settings of a method with step-size control.
 
+use core::fmt;
 use core::marker::PhantomData;
 
-use super::Limits;
+use super::{Limits, Pair};
 use crate::error::Error;
 
 /// An embedded Runge–Kutta pair `P` with its settings.
@@ -87,6 +88,17 @@ impl<P> Adaptive<P> {
     pub fn wall_time(mut self, limit: std::time::Duration) -> Self {
         self.limits.wall_time = Some(limit);
         self
+    }
+
+    /// By the numbers of the pair, not by its name.
+    pub(super) fn identify(&self, to: &mut dyn fmt::Write) -> fmt::Result
+    where
+        P: Pair,
+    {
+        let Self { relative, absolute, max_step, first_step, fixed_step, .. } = self;
+        write!(to, "{:?} {:?} {:?} {:?} {:?} ", P::NODES, P::STAGES, P::WEIGHTS, P::ERROR, P::LOWER_ERROR)?;
+        write!(to, "{:?} {:?} {:?} {:?} ", P::ORDER, P::DAMPING, P::SHRINK, P::GROWTH)?;
+        write!(to, "{relative:?} {absolute:?} {max_step:?} {first_step:?} {fixed_step:?}")
     }
 
     pub(crate) fn limits(&self) -> Limits {

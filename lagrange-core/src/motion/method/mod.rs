@@ -18,6 +18,8 @@ pub use interpolant::{Interpolant, Node, Polynomial};
 pub use pair::{Combination, Pair};
 pub use runge_kutta::{RungeKutta4, runge_kutta_step};
 
+use core::fmt;
+
 use crate::ending::Ending;
 use crate::error::Error;
 use crate::number::Real;
@@ -46,6 +48,13 @@ where
 
     /// When to give up.
     fn limits(&self) -> Limits;
+
+    /// Writes which method it is and the settings that its numbers depend on; the limits do not belong to them. Tables of
+    /// ensembles tell runs apart by it.
+    ///
+    /// # Errors
+    /// What writing gives.
+    fn identify(&self, to: &mut dyn fmt::Write) -> fmt::Result;
 
     /// Checks the settings.
     ///

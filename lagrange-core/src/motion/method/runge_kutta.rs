@@ -2,6 +2,7 @@
 
 use core::array::from_fn;
 use core::convert::Infallible;
+use core::fmt;
 
 use nalgebra::{ComplexField, SVector};
 
@@ -126,6 +127,10 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Method<L
 
     fn limits(&self) -> Limits {
         self.limits
+    }
+
+    fn identify(&self, to: &mut dyn fmt::Write) -> fmt::Result {
+        write!(to, "RungeKutta4 {:?}", self.step)
     }
 
     fn check(&self) -> Result<(), Error> {

@@ -1,6 +1,7 @@
 //! One step of an embedded Runge–Kutta pair, projected onto the constraints.
 
 use core::array::from_fn;
+use core::fmt;
 
 use nalgebra::ComplexField;
 
@@ -103,6 +104,10 @@ where
 
     fn limits(&self) -> Limits {
         self.limits()
+    }
+
+    fn identify(&self, to: &mut dyn fmt::Write) -> fmt::Result {
+        self.identify(to)
     }
 
     fn check(&self) -> Result<(), Error> {

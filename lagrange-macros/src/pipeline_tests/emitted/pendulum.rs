@@ -34,6 +34,7 @@ const _: () = {
             total_derivatives: &[],
             linear_part: __lagrange::LinearPart::Absent,
         };
+        const EQUATIONS: __lagrange::Equations = Self::equations();
         ///7 operations (+ − × ÷ √), 1 elementary function. Of every kind: 10 as derived, then 8 factors taken out.
         #[inline]
         #[allow(unused_variables)]
@@ -268,6 +269,12 @@ const _: () = {
                 }
                 _ => ::core::option::Option::None,
             }
+        }
+        #[allow(unused_variables)]
+        fn visit_parameters(&self, visit: &mut dyn ::core::ops::FnMut(f64)) {
+            visit(self.m);
+            visit(self.l);
+            visit(self.g);
         }
     }
     /**```text
