@@ -220,7 +220,21 @@ pub enum Error {
         /// The end asked for.
         end: f64,
     },
-    /// A table of members that are done, but not of this ensemble.
+    /// A member taken over from another run, which is not to be mixed with this one.
+    OtherRun {
+        /// The index of the member.
+        member: usize,
+        /// In what the runs differ.
+        differs: &'static str,
+    },
+    /// A member asked for that the ensemble does not have.
+    NoSuchMember {
+        /// Its index.
+        member: usize,
+        /// How many members there are.
+        count: usize,
+    },
+    /// A table of members that are done, but not of this system, or of several runs.
     Resume {
         /// The line, counted from 1.
         line: usize,
@@ -370,9 +384,16 @@ impl Display for Error {
                 f,
                 "member {member} of the table to resume from was integrated to t = {time}, not to t = {end}: ask for the same end"
             ),
+            Self::OtherRun { member, differs } => write!(
+                f,
+                "member {member} of the table to resume from is of another run: {differs}; resume with what made the table, or begin a new one"
+            ),
+            Self::NoSuchMember { member, count } => {
+                write!(f, "there is no member {member}: the ensemble has {count}, counted from 0")
+            }
             Self::Resume { line, column, reason } => write!(
                 f,
-                "line {line}, column {column} of the table to resume from is not of this ensemble: {reason}"
+                "line {line}, column {column} of the table of members does not belong there: {reason}"
             ),
             Self::Restitution { value } => {
                 write!(f, "the coefficient of restitution is {value}: it must not be negative, and finite")

@@ -76,7 +76,9 @@ mod trajectory;
 
 pub use ending::Ending;
 #[cfg(feature = "std")]
-pub use ensemble::{Arrival, Ensemble, EnsembleProgress, Member, Outcome};
+pub use ensemble::{
+    Arrival, Ensemble, EnsembleProgress, Fingerprint, Member, MemberEnding, MemberRow, MemberTable, Outcome,
+};
 pub use error::Error;
 #[cfg(feature = "alloc")]
 pub use function::Table;

@@ -3,8 +3,8 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use lagrange_core::Outcome;
 use lagrange_core::prelude::*;
+use lagrange_core::{Member, MemberEnding, MemberTable, Outcome};
 
 use crate::{COUNT, DoublePendulum, END, ensemble, member, on_threads};
 
@@ -39,12 +39,15 @@ fn a_table_reads_back_the_same() {
     assert_eq!(
         lines.next(),
         Some(
-            "member,t,a,b,a_dot,b_dot,accepted,rejected,evaluations,multipliers_are_unique,ending,member_again"
+            "member,system,run,start,t,a,b,a_dot,b_dot,accepted,rejected,evaluations,multipliers_are_unique,ending,member_again"
         )
     );
     assert_eq!(lines.clone().count(), COUNT);
     let line = lines.nth(4).unwrap();
-    assert!(line.starts_with("4,,,,,,,,,,\"the equations are not finite at t = 0; row of"), "{line}");
+    let (index, rest) = line.split_once(',').unwrap();
+    let cells: Vec<&str> = rest.splitn(4, ',').collect();
+    assert!(index == "4" && cells[..3].iter().all(|hash| hash.parse::<u32>().is_ok()), "{line}");
+    assert!(cells[3].starts_with(",,,,,,,,,\"the equations are not finite at t = 0; row of"), "{line}");
     // What is done is not done again, and what failed is.
     let count = AtomicUsize::new(0);
     let again = failing().resume(&table).unwrap().on_progress(|progress| {
@@ -168,8 +171,7 @@ fn rows_that_ran_into_each_other_are_no_row() {
                     done.push(progress.member.index);
                     ControlFlow::Break(())
                 });
-                let coarse = Dopri5::with_tolerance(0.1);
-                let taken = on_threads(1, || resumed.integrate(END, coarse).unwrap());
+                let taken = on_threads(1, || resumed.integrate_on_lanes(END, Dop853::default()).unwrap());
                 let known: Vec<_> = taken.members().iter().filter(|m| !done.contains(&m.index)).collect();
                 assert!(known.into_iter().eq([&whole.members()[0], &whole.members()[5]]), "{table}");
             }
@@ -214,16 +216,16 @@ fn a_table_of_another_ensemble_is_refused() {
     };
     let fewer = Ensemble::from_fn(COUNT - 1, member);
     assert_eq!(reason(fewer.resume(&table)), (COUNT + 1, 1, "there is no such member"));
-    assert_eq!(reason(ensemble().resume(&table.replace(",b,", ",c,"))), (1, 4, "its columns are others"));
+    assert_eq!(reason(ensemble().resume(&table.replace(",b,", ",c,"))), (1, 7, "its columns are others"));
     for (broken, column, why) in [
         ("x\n", 1, "a row starts with the index of a member"),
-        ("3,1.0,1,2,3,4,5,6,7,true,fine,3\n", 11, "it cannot be read"),
-        ("3,1.0,1,2,3,4.x,5,6,7,true,complete,3\n", 6, "it is no finite number"),
+        ("3,7,7,7,1.0,1,2,3,4,5,6,7,true,fine,3\n", 14, "it cannot be read"),
+        ("3,7,7,7,1.0,1,2,3,4.x,5,6,7,true,complete,3\n", 9, "it is no finite number"),
     ] {
         let rows = format!("{}{broken}", table.lines().next().unwrap().to_owned() + "\n");
         assert_eq!(reason(ensemble().resume(&rows)), (2, column, why));
     }
-    let failed = format!("{COUNT}{}\"why, no more\",{COUNT}\n", ",".repeat(10));
+    let failed = format!("{COUNT},7,7,7{}\"why, no more\",{COUNT}\n", ",".repeat(10));
     assert_eq!(reason(ensemble().resume(&failed)), (1, 1, "there is no such member"));
 }
 
@@ -239,4 +241,170 @@ fn members_integrated_to_another_time_are_refused_where_they_belong_to_the_part(
         "member 4 of the table to resume from was integrated to t = 1, not to t = 2: ask for the same end"
     );
     assert!(later(0).is_ok());
+}
+
+/// What the members of a table are computed with, and what another run has instead.
+#[test]
+fn rows_of_another_run_are_refused_by_name() {
+    let table = whole().csv().to_string();
+    let resumed = |ensemble: Ensemble<'static, DoublePendulum<f64>, f64, 2>| ensemble.resume(&table).unwrap();
+    let refused = |run: Result<Outcome<f64, 2>, Error>| match run {
+        Err(Error::OtherRun { member, differs }) => (member, differs),
+        other => panic!("{other:?}"),
+    };
+    const RUN: &str = "the method, one of its settings or the end is another";
+    let method = Dop853::default();
+    let others =
+        [method.relative(1e-10), method.absolute(1e-10), method.max_step(0.1), method.first_step(0.01)];
+    for other in others.into_iter().chain([method.fixed_step(0.01)]) {
+        assert_eq!(refused(resumed(ensemble()).integrate_on_lanes(END, other)), (0, RUN));
+    }
+    assert_eq!(refused(resumed(ensemble()).integrate_on_lanes(END, Dopri5::default())), (0, RUN));
+    assert_eq!(refused(resumed(ensemble()).integrate(END, method)), (0, RUN));
+    // The limits are no part of it.
+    let free = method.max_steps(7_000_000).wall_time(std::time::Duration::from_secs(9));
+    assert_eq!(resumed(ensemble()).integrate_on_lanes(END, free).unwrap(), whole());
+    let start = "the start or the parameters of the member are others";
+    let with = |change: fn(&mut (DoublePendulum<f64>, State<f64, 2>))| {
+        let other = Ensemble::from_fn(COUNT, move |index| {
+            let mut member = member(index);
+            if index == 5 {
+                change(&mut member);
+            }
+            member
+        });
+        refused(resumed(other).integrate_on_lanes(END, method))
+    };
+    let changes: [fn(&mut (DoublePendulum<f64>, State<f64, 2>)); 6] = [
+        |(system, _)| system.m[1] = system.m[1].next_up(),
+        |(system, _)| system.l[0] = system.l[0].next_down(),
+        |(system, _)| system.g += 1.0,
+        |(_, start)| start.q[1] = start.q[1].next_up(),
+        |(_, start)| start.v[0] = -0.0,
+        |(_, start)| start.t = 1e-300,
+    ];
+    for change in changes {
+        assert_eq!(with(change), (5, start));
+    }
+    assert_eq!(
+        resumed(ensemble()).integrate(END, method).unwrap_err().to_string(),
+        "member 0 of the table to resume from is of another run: the method, one of its settings or the end is another; resume with what made the table, or begin a new one"
+    );
+}
+
+/// The same struct but for the sign of the weight.
+mod upward {
+    use lagrange_core::prelude::*;
+
+    #[derive(Lagrangian, Clone, Copy)]
+    #[coordinates(a, b)]
+    #[lagrangian(
+        (m[0] + m[1])/2*l[0]^2*a_dot^2 + m[1]/2*l[1]^2*b_dot^2 + m[1]*l[0]*l[1]*a_dot*b_dot*cos(a - b)
+            - (m[0] + m[1])*g*l[0]*cos(a) + m[1]*g*l[1]*cos(b)
+    )]
+    pub(super) struct DoublePendulum<T> {
+        pub(super) m: [T; 2],
+        pub(super) l: [T; 2],
+        pub(super) g: T,
+    }
+}
+
+#[test]
+fn rows_of_other_equations_are_refused() {
+    let other = || {
+        Ensemble::from_fn(COUNT, |index| {
+            let (DoublePendulum { m, l, g }, start) = member(index);
+            (upward::DoublePendulum { m, l, g }, start)
+        })
+    };
+    let reason = "the system or its equations are others";
+    let resumed = other().resume(&whole().csv().to_string()).unwrap();
+    let error = resumed.integrate_on_lanes(END, Dop853::default()).unwrap_err();
+    assert_eq!(error, Error::OtherRun { member: 0, differs: reason });
+    let outcome = other().integrate_on_lanes(END, Dop853::default()).unwrap();
+    assert_eq!(whole().merge(outcome).unwrap_err(), Error::Merge { reason });
+    let coarse = ensemble().integrate_on_lanes(END, Dop853::with_tolerance(1e-8)).unwrap();
+    let reason = "the method, one of its settings or the end is another";
+    assert_eq!(whole().merge(coarse.clone()).unwrap_err(), Error::Merge { reason });
+    // Two runs in one table: the first row of the second is refused.
+    let mixed = whole().csv().to_string() + &coarse.csv().to_string();
+    let line = COUNT + 3;
+    assert_eq!(ensemble().resume(&mixed).unwrap_err(), Error::Resume { line, column: 3, reason });
+    let shifted = Ensemble::from_fn(COUNT, |index| member(index + 1));
+    let shifted = shifted.integrate_on_lanes(END, Dop853::default()).unwrap();
+    let reason = "the start or the parameters of the member are others";
+    assert_eq!(whole().merge(shifted.clone()).unwrap_err(), Error::Merge { reason });
+    let mixed = whole().csv().to_string() + &shifted.csv().to_string();
+    assert_eq!(ensemble().resume(&mixed).unwrap_err(), Error::Resume { line, column: 4, reason });
+}
+
+#[test]
+fn a_table_is_read_and_cleaned_without_a_run() {
+    let whole = whole();
+    let arrivals = whole.members().iter().filter_map(Member::arrival);
+    let mut steps: Vec<_> = arrivals.map(|a| a.statistics.accepted + a.statistics.rejected).collect();
+    steps.sort_unstable();
+    let method = Dop853::default().max_steps(steps[COUNT / 2]);
+    let limited = ensemble().integrate_on_lanes(END, method).unwrap();
+    assert!(limited.failures().count() > 3 && limited.completed().count() > 0);
+    let bad = |index| {
+        let (system, start) = member(index);
+        (system, if index == 2 { State::at_rest([f64::NAN, 0.0]) } else { start })
+    };
+    let bad = Ensemble::from_fn(COUNT, bad).integrate_on_lanes(END, Dop853::default()).unwrap();
+    let read = |table: &str| MemberTable::read::<DoublePendulum<f64>, 0>(table).unwrap();
+    for outcome in [&limited, &whole, &bad] {
+        let table = read(&outcome.csv().to_string());
+        assert_eq!(table.to_string(), outcome.csv().to_string());
+        for (row, member) in table.rows().iter().zip(outcome.members()) {
+            assert_eq!((row.index, row.fingerprint), (member.index, member.fingerprint));
+            let arrival = member.arrival();
+            assert_eq!(row.state, arrival.map(|arrival| arrival.state));
+            assert_eq!(row.statistics, arrival.map(|arrival| arrival.statistics).unwrap_or_default());
+            assert_eq!(row.has_failed(), member.has_failed());
+            if let MemberEnding::Failed(why) = &row.ending {
+                assert_eq!(format!("member {}: {why}", row.index), member.to_string());
+            }
+        }
+        assert_eq!(table.get(3).unwrap().index, 3);
+        assert!(table.get(COUNT).is_none());
+    }
+    // Rows of both, in any order, twice, cut in the middle: those that arrived are kept.
+    let rows: Vec<String> =
+        limited.members().iter().chain(whole.members()).map(|m| m.csv().to_string()).collect();
+    let shuffled: String = (0..rows.len()).map(|k| rows[k * 5 % rows.len()].as_str()).collect();
+    for torn in [&rows[3][..20], &rows[7][..rows[7].len() - 2], ""] {
+        let table = read(&format!("{shuffled}{torn}{}{}{shuffled}", rows[COUNT + 1], whole.csv()));
+        assert_eq!(table.to_string(), whole.csv().to_string());
+    }
+}
+
+#[test]
+fn a_list_of_members_is_run_alone() {
+    let of_whole = |indices: &[usize], outcome: Outcome<f64, 2>| {
+        let whole = whole();
+        let expected: Vec<_> = indices.iter().map(|&index| whole.get(index).unwrap().clone()).collect();
+        assert_eq!(outcome.members(), expected);
+    };
+    let few = || ensemble().members([17, 3, 8, 3, 12]);
+    let mut seen = Vec::new();
+    let watched = few().on_progress(|progress| {
+        seen.push((progress.done, progress.of));
+        ControlFlow::Continue(())
+    });
+    of_whole(&[3, 8, 12, 17], watched.integrate_on_lanes(END, Dop853::default()).unwrap());
+    assert_eq!(seen, [(1, 4), (2, 4), (3, 4), (4, 4)]);
+    of_whole(&[8, 12], few().shard(0, 2).integrate_on_lanes(END, Dop853::default()).unwrap());
+    of_whole(&[3, 17], few().shard(1, 2).integrate_on_lanes(END, Dop853::default()).unwrap());
+    of_whole(&[], ensemble().members([]).integrate_on_lanes(END, Dop853::default()).unwrap());
+    // Of the table's rows only those in the list are taken.
+    let table =
+        ensemble().members([3, 4]).integrate_on_lanes(END, Dop853::default()).unwrap().csv().to_string();
+    of_whole(
+        &[3, 8, 12, 17],
+        few().resume(&table).unwrap().integrate_on_lanes(END, Dop853::default()).unwrap(),
+    );
+    let error = ensemble().members([3, COUNT]).integrate_on_lanes(END, Dop853::default()).unwrap_err();
+    assert_eq!(error, Error::NoSuchMember { member: COUNT, count: COUNT });
+    assert_eq!(error.to_string(), "there is no member 19: the ensemble has 19, counted from 0");
 }

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
+use super::fingerprint::Fingerprint;
 use super::outcome::{Arrival, Member, Outcome};
 use crate::ending::Ending;
 use crate::error::Error;
@@ -20,6 +21,8 @@ pub(super) struct Plan<'a, L, T, const N: usize> {
     pub(super) make: Make<'a, L, T, N>,
     pub(super) shard: usize,
     pub(super) shards: usize,
+    /// Of these alone, if it is given.
+    pub(super) list: Option<Vec<usize>>,
     /// Taken over from other runs.
     pub(super) done: Vec<Member<T, N>>,
     pub(super) observer: Option<Observer<'a, T, N>>,
@@ -46,15 +49,64 @@ pub(super) struct Job<'a, L, T, const N: usize> {
     make: Make<'a, L, T, N>,
     observer: Option<Observer<'a, T, N>>,
     end: T,
-    count: usize,
-    shard: usize,
-    shards: usize,
+    /// What the fingerprints of all members have in common.
+    run: Fingerprint,
+    part: Part,
     /// Members taken over from another run.
     done: BTreeSet<usize>,
     /// How many members of the part have been given out.
     given: AtomicUsize,
     stopped: AtomicBool,
     ledger: Mutex<Ledger<'a, T, N>>,
+}
+
+/// Which members are to be integrated.
+struct Part {
+    count: usize,
+    shard: usize,
+    shards: usize,
+    /// In ascending order, those of the shard alone.
+    list: Option<Vec<usize>>,
+}
+
+impl Part {
+    fn new(count: usize, shard: usize, shards: usize, list: Option<Vec<usize>>) -> Result<Self, Error> {
+        if shard >= shards {
+            return Err(Error::Shard { shard, of: shards });
+        }
+        if let Some(&member) = list.iter().flatten().find(|member| **member >= count) {
+            return Err(Error::NoSuchMember { member, count });
+        }
+        let list = list.map(|mut list| {
+            list.retain(|index| index % shards == shard);
+            list.sort_unstable();
+            list.dedup();
+            list
+        });
+        Ok(Self { count, shard, shards, list })
+    }
+
+    fn len(&self) -> usize {
+        match &self.list {
+            Some(list) => list.len(),
+            None => self.count.saturating_sub(self.shard).div_ceil(self.shards),
+        }
+    }
+
+    /// The index of the member in this place.
+    fn member(&self, place: usize) -> Option<usize> {
+        match &self.list {
+            Some(list) => list.get(place).copied(),
+            None => {
+                place.checked_mul(self.shards)?.checked_add(self.shard).filter(|index| *index < self.count)
+            }
+        }
+    }
+
+    fn contains(&self, index: usize) -> bool {
+        index % self.shards == self.shard
+            && self.list.as_ref().is_none_or(|list| list.binary_search(&index).is_ok())
+    }
 }
 
 /// What has been done.
@@ -65,34 +117,42 @@ struct Ledger<'a, T, const N: usize> {
 }
 
 impl<'a, L, T: Real, const N: usize> Job<'a, L, T, N> {
-    pub(super) fn new(plan: Plan<'a, L, T, N>, end: T) -> Result<Self, Error> {
-        let Plan { count, make, shard, shards, done, observer, watch } = plan;
-        if shard >= shards {
-            return Err(Error::Shard { shard, of: shards });
-        }
+    pub(super) fn new<const M: usize>(
+        plan: Plan<'a, L, T, N>,
+        end: T,
+        run: Fingerprint,
+    ) -> Result<Self, Error>
+    where
+        L: Lagrangian<N, M, Scalar = T>,
+    {
+        let Plan { count, make, shard, shards, list, done, observer, watch } = plan;
+        let part = Part::new(count, shard, shards, list)?;
         let mut members = done;
-        members.retain(|member| member.index % shards == shard);
+        members.retain(|member| part.contains(member.index));
         members.iter().try_for_each(|member| check_end_of(member, end))?;
+        members.iter().try_for_each(|member| {
+            let (system, start) = make(member.index);
+            check_run_of(member, &run.with_start(&system, &start))
+        })?;
         members.sort_by_key(|member| member.index);
         members.dedup_by_key(|member| member.index);
         let done = members.iter().map(|member| member.index).collect();
-        let of = count.saturating_sub(shard).div_ceil(shards);
-        let ledger = Mutex::new(Ledger { members, of, watch });
+        let ledger = Mutex::new(Ledger { members, of: part.len(), watch });
         let (given, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
-        Ok(Self { make, observer, end, count, shard, shards, done, given, stopped, ledger })
+        Ok(Self { make, observer, end, run, part, done, given, stopped, ledger })
     }
 
     pub(super) fn outcome(self, names: [&'static str; N]) -> Outcome<T, N> {
         let ledger = self.ledger.into_inner().unwrap_or_else(PoisonError::into_inner);
-        Outcome::new(ledger.members, names, self.end)
+        Outcome::new(ledger.members, names, self.end, self.run)
     }
 
     /// The member that nobody has yet.
     fn next(&self) -> Option<usize> {
         loop {
             let place = self.given.fetch_add(1, Ordering::Relaxed);
-            let index = place.checked_mul(self.shards)?.checked_add(self.shard)?;
-            if index >= self.count || self.is_stopped() {
+            let index = self.part.member(place)?;
+            if self.is_stopped() {
                 return None;
             }
             if !self.done.contains(&index) {
@@ -107,13 +167,13 @@ impl<'a, L, T: Real, const N: usize> Job<'a, L, T, N> {
 
     /// Writes down what has become of a member, and stops everything where the caller says so. Once it is stopped
     /// nothing is written down: members that were on their way were cut short.
-    fn report(&self, index: usize, result: Result<Arrival<T, N>, Error>) {
+    fn report(&self, member: Member<T, N>) {
         let mut ledger = self.ledger.lock().unwrap_or_else(PoisonError::into_inner);
         if self.is_stopped() {
             return;
         }
         let Ledger { members, of, watch } = &mut *ledger;
-        members.push(Member { index, result });
+        members.push(member);
         let (done, of) = (members.len(), *of);
         if let Some((watch, member)) = watch.as_mut().zip(members.last())
             && watch(EnsembleProgress { done, of, member }).is_break()
@@ -141,7 +201,9 @@ impl<'a, L, T: Real, const N: usize> Job<'a, L, T, N> {
     {
         while let Some(index) = self.next() {
             let (system, start) = (self.make)(index);
-            self.report(index, self.integrate(index, &system, &start, method));
+            let fingerprint = self.run.with_start(&system, &start);
+            let result = self.integrate(index, &system, &start, method);
+            self.report(Member { index, fingerprint, result });
         }
     }
 
@@ -174,6 +236,14 @@ impl<'a, L, T: Real, const N: usize> Job<'a, L, T, N> {
     }
 }
 
+/// A member taken over must be of this run, with this start and these parameters.
+fn check_run_of<T: Real, const N: usize>(member: &Member<T, N>, expected: &Fingerprint) -> Result<(), Error> {
+    match member.fingerprint.difference(expected) {
+        Some((_, differs)) => Err(Error::OtherRun { member: member.index, differs }),
+        None => Ok(()),
+    }
+}
+
 /// A member taken over must have reached this end, if any.
 fn check_end_of<T: Real, const N: usize>(member: &Member<T, N>, end: T) -> Result<(), Error> {
     match member.arrival() {
@@ -200,9 +270,7 @@ impl<L, const N: usize> Job<'_, L, f64, N> {
                 self.fill(&mut batch, &mut next, &method);
                 batch.step(
                     |index, state| self.observe(index, state),
-                    |Seat { index, statistics, .. }, state, ending| {
-                        self.report(index, Ok(Arrival { state, ending, statistics }));
-                    },
+                    |seat, state, ending| self.report(self.arrived(&seat, state, ending)),
                 );
             }
         }
@@ -229,6 +297,17 @@ impl<L, const N: usize> Job<'_, L, f64, N> {
         }
     }
 
+    fn arrived<const M: usize>(
+        &self,
+        seat: &Seat<L, N, M>,
+        state: State<f64, N>,
+        ending: Ending,
+    ) -> Member<f64, N> {
+        let fingerprint = Fingerprint { start: seat.start, ..self.run };
+        let result = Ok(Arrival { state, ending, statistics: seat.statistics });
+        Member { index: seat.index, fingerprint, result }
+    }
+
     /// The next member that has a motion; those without are reported.
     fn next_seat<P, const M: usize>(&self, method: &Adaptive<P>) -> Option<Seat<L, N, M>>
     where
@@ -238,16 +317,14 @@ impl<L, const N: usize> Job<'_, L, f64, N> {
         loop {
             let index = self.next()?;
             let (system, start) = (self.make)(index);
+            let fingerprint = self.run.with_start(&system, &start);
             let seat = check_finite(&system, &start)
-                .and_then(|()| Seat::new(index, system, &start, self.end, method));
+                .and_then(|()| Seat::new((index, fingerprint.start), system, &start, self.end, method));
             match seat {
-                Err(error) => self.report(index, Err(error)),
+                Err(error) => self.report(Member { index, fingerprint, result: Err(error) }),
                 Ok((mut seat, state)) => match seat.ending_at_start(method) {
                     None => return Some(seat),
-                    Some(ending) => {
-                        let statistics = seat.statistics;
-                        self.report(index, Ok(Arrival { state, ending, statistics }));
-                    }
+                    Some(ending) => self.report(self.arrived(&seat, state, ending)),
                 },
             }
         }

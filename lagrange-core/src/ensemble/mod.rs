@@ -7,6 +7,7 @@
 //!
 //! Members move in coordinates and velocities; there are no ensembles of motions in (q, p).
 
+mod fingerprint;
 mod job;
 mod outcome;
 mod table;
@@ -21,9 +22,11 @@ use crate::motion::run::check_end;
 use crate::motion::{Adaptive, Method, Pair};
 use crate::number::{Lanes, Real};
 use crate::system::{Lagrangian, Pack, State};
+pub use fingerprint::Fingerprint;
 pub use job::EnsembleProgress;
 use job::{Job, Plan};
 pub use outcome::{Arrival, Member, Outcome};
+pub use table::{MemberEnding, MemberRow, MemberTable};
 
 /// Many members, each a system with its start, that are integrated to the same time.
 ///
@@ -59,7 +62,8 @@ impl<'a, L, T: Real, const N: usize> Ensemble<'a, L, T, N> {
     /// thread, and from several at once.
     pub fn from_fn(count: usize, member: impl Fn(usize) -> (L, State<T, N>) + Send + Sync + 'a) -> Self {
         let make = Box::new(member);
-        let plan = Plan { count, make, shard: 0, shards: 1, done: Vec::new(), observer: None, watch: None };
+        let (list, done, observer, watch) = (None, Vec::new(), None, None);
+        let plan = Plan { count, make, shard: 0, shards: 1, list, done, observer, watch };
         Self { plan }
     }
 
@@ -76,6 +80,28 @@ impl<'a, L, T: Real, const N: usize> Ensemble<'a, L, T, N> {
     /// the same size, to be run anywhere and put together by [`Outcome::merge`] or by [`resume`](Self::resume).
     pub fn shard(mut self, shard: usize, of: usize) -> Self {
         (self.plan.shard, self.plan.shards) = (shard, of);
+        self
+    }
+
+    /// Only these members, in any order: those that failed, or a few to be looked at. Of them [`shard`](Self::shard) takes its
+    /// part.
+    ///
+    /// ```
+    /// # use lagrange_core::prelude::*;
+    /// # #[derive(Lagrangian)]
+    /// # #[coordinates(x)]
+    /// # #[lagrangian(x_dot^2/2 - k/2 * x^2)]
+    /// # struct Spring<T> { k: T }
+    /// let springs = || Ensemble::from_fn(100, |n| (Spring { k: n as f64 }, State::at_rest([1.0])));
+    /// let few = springs().members([42, 3, 17]).integrate_on_lanes(1.0, Dop853::default())?;
+    /// assert!(few.members().iter().map(|member| member.index).eq([3, 17, 42]));
+    /// // Once more, with more steps.
+    /// let failed = few.failures().map(|member| member.index);
+    /// springs().members(failed).integrate_on_lanes(1.0, Dop853::default().max_steps(1_000_000))?;
+    /// # Ok::<(), Error>(())
+    /// ```
+    pub fn members(mut self, indices: impl IntoIterator<Item = usize>) -> Self {
+        self.plan.list = Some(indices.into_iter().collect());
         self
     }
 
@@ -106,14 +132,15 @@ impl<'a, L, T: Real, const N: usize> Ensemble<'a, L, T, N> {
     ///
     /// # Errors
     /// What is wrong with the whole: [`Error::Setting`], [`Error::EndNotFinite`], [`Error::Shard`],
-    /// [`Error::OtherEnd`]. What is wrong with a member is in the outcome.
+    /// [`Error::NoSuchMember`], [`Error::OtherEnd`], [`Error::OtherRun`]. What is wrong with a member is in the outcome.
     pub fn integrate<P, const M: usize>(self, end: T, method: P) -> Result<Outcome<T, N>, Error>
     where
         L: Lagrangian<N, M, Scalar = T>,
         P: Method<L, N, M> + Sync,
     {
         method.check()?;
-        self.run(end, |job| job.one_by_one(&method))
+        let run = Fingerprint::of_run::<L, _, N, M>(&method, end, false);
+        self.run(end, run, |job| job.one_by_one(&method))
     }
 
     /// Leaves out what is done: the members in this table, from [`Outcome::csv`] or from the rows of
@@ -122,7 +149,9 @@ impl<'a, L, T: Real, const N: usize> Ensemble<'a, L, T, N> {
     ///
     /// Members that failed are tried again: with the same settings they give the same failure, but for a limit on
     /// wall time. Rows of another part are ignored, and so are lines that were not written to their end, also where
-    /// another row was appended to one.
+    /// another row was appended to one. A row says by its [`Fingerprint`] which run it is of: to be taken over, it must have
+    /// been computed from the same start and parameters, of the same equations, with the same method and settings (limits
+    /// may differ) to the same end, on lanes or not. To see that, all members of the table are made once more.
     ///
     /// ```
     /// # use lagrange_core::prelude::*;
@@ -140,27 +169,29 @@ impl<'a, L, T: Real, const N: usize> Ensemble<'a, L, T, N> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Resume`] for what is no row of this ensemble. For members that were integrated to another time
-    /// [`integrate`](Self::integrate) gives [`Error::OtherEnd`].
+    /// [`Error::Resume`] for what is no row of such a system, and where rows are of different runs. For members that were
+    /// integrated to another time [`integrate`](Self::integrate) gives [`Error::OtherEnd`], for those of another run or start
+    /// [`Error::OtherRun`].
     pub fn resume<const M: usize>(mut self, table: &str) -> Result<Self, Error>
     where
         L: Lagrangian<N, M, Scalar = T>,
         T: core::str::FromStr,
     {
-        self.plan.done.extend(table::read(table, &L::COORDINATES, self.plan.count)?);
+        self.plan.done.extend(MemberTable::of(table, L::COORDINATES, self.plan.count)?.into_members());
         Ok(self)
     }
 
     fn run<const M: usize>(
         self,
         end: T,
+        run: Fingerprint,
         work: impl Fn(&Job<'_, L, T, N>) + Sync,
     ) -> Result<Outcome<T, N>, Error>
     where
         L: Lagrangian<N, M, Scalar = T>,
     {
         check_end(end)?;
-        let job = Job::new(self.plan, end)?;
+        let job = Job::new(self.plan, end, run)?;
         everywhere(|| work(&job));
         Ok(job.outcome(L::COORDINATES))
     }
@@ -188,7 +219,8 @@ impl<L, const N: usize> Ensemble<'_, L, f64, N> {
         Adaptive<P>: Copy + Sync,
     {
         Method::<L, N, M>::check(&method)?;
-        self.run(end, |job| job.on_lanes(method))
+        let run = Fingerprint::of_run::<L, _, N, M>(&method, end, true);
+        self.run(end, run, |job| job.on_lanes(method))
     }
 }
 

@@ -2,6 +2,7 @@
 
 use core::fmt::{self, Display, Formatter};
 
+use super::fingerprint::Fingerprint;
 use crate::ending::Ending;
 use crate::error::Error;
 use crate::number::Real;
@@ -15,6 +16,8 @@ use crate::system::State;
 pub struct Member<T, const N: usize> {
     /// Its index in the ensemble.
     pub index: usize,
+    /// Which run, start and parameters it is of.
+    pub fingerprint: Fingerprint,
     /// Where its motion ended and why, or why there is none.
     pub result: Result<Arrival<T, N>, Error>,
 }
@@ -66,12 +69,18 @@ pub struct Outcome<T, const N: usize> {
     pub(super) members: Vec<Member<T, N>>,
     pub(super) names: [&'static str; N],
     end: T,
+    run: Fingerprint,
 }
 
 impl<T: Real, const N: usize> Outcome<T, N> {
-    pub(super) fn new(mut members: Vec<Member<T, N>>, names: [&'static str; N], end: T) -> Self {
+    pub(super) fn new(
+        mut members: Vec<Member<T, N>>,
+        names: [&'static str; N],
+        end: T,
+        run: Fingerprint,
+    ) -> Self {
         members.sort_by_key(|member| member.index);
-        Self { members, names, end }
+        Self { members, names, end, run }
     }
 
     /// All members that are done, by index.
@@ -99,13 +108,22 @@ impl<T: Real, const N: usize> Outcome<T, N> {
     /// Puts two parts together. Of a member that is in both, this one's is kept.
     ///
     /// # Errors
-    /// [`Error::Merge`] for parts with other coordinates or of motions to another time.
+    /// [`Error::Merge`] for parts of other systems, of motions to another time, with another method or other settings, and for
+    /// parts in which one member has another start or other parameters.
     pub fn merge(mut self, other: Self) -> Result<Self, Error> {
         if self.names != other.names {
             return Err(Error::Merge { reason: "their coordinates differ" });
         }
         if self.end != other.end {
             return Err(Error::Merge { reason: "they were integrated to different times" });
+        }
+        let differences = self
+            .members
+            .iter()
+            .filter_map(|member| Some((member.fingerprint, other.get(member.index)?.fingerprint)));
+        let mut differences = core::iter::once((self.run, other.run)).chain(differences);
+        if let Some((_, reason)) = differences.find_map(|(one, other)| one.difference(&other)) {
+            return Err(Error::Merge { reason });
         }
         self.members.extend(other.members);
         self.members.sort_by_key(|member| member.index);

@@ -1,46 +1,225 @@
 //! Outcomes as comma-separated values, and back.
 
+mod read;
+
 use core::fmt::{self, Display, Formatter};
 use core::str::FromStr;
+use std::collections::BTreeMap;
 
+use super::fingerprint::Fingerprint;
 use super::outcome::{Arrival, Member, Outcome};
 use crate::ending::Ending;
 use crate::error::Error;
 use crate::names::Entry;
-use crate::number::{Real, vector};
+use crate::number::Real;
 use crate::statistics::Statistics;
-use crate::system::State;
+use crate::system::{Lagrangian, State};
+pub(super) use read::read;
 
 impl<T: Real, const N: usize> Member<T, N> {
     /// Its row of the table [`Outcome::csv`], to be written as soon as the member is done.
     pub fn csv(&self) -> impl Display + '_ {
-        Line(self)
+        let arrival = self.arrival();
+        Line {
+            index: self.index,
+            fingerprint: self.fingerprint,
+            reached: arrival.map(|Arrival { state, statistics, .. }| (state, statistics)),
+            ending: match &self.result {
+                Err(error) => quoted(&error.to_string()),
+                Ok(Arrival { ending: Ending::Complete { .. }, .. }) => COMPLETE.into(),
+                Ok(Arrival { ending: Ending::Cancelled { .. }, .. }) => CANCELLED.into(),
+                Ok(Arrival { ending, .. }) => quoted(&ending.to_string()),
+            },
+        }
     }
 }
 
 impl<T: Real, const N: usize> Outcome<T, N> {
-    /// A table as comma-separated values, one line a member: `member`, `t`, coordinates `x` and velocities `x_dot` of
-    /// the last state, the [`Statistics`], `ending`, and `member_again`, by which a line written to its end is known.
+    /// A table as comma-separated values, one line a member: `member`, its [`Fingerprint`] as `system`, `run` and `start`,
+    /// `t`, coordinates `x` and velocities `x_dot` of the last state, the [`Statistics`], `ending`, and `member_again`, by
+    /// which a line written to its end is known. The fingerprint takes at most 33 bytes of a line.
     ///
     /// The ending is `complete`, `cancelled` or what went wrong. Numbers are the shortest that read back the same.
+    /// [`MemberTable`] reads it.
     pub fn csv(&self) -> impl Display + '_ {
-        Lines(self)
+        Lines { names: &self.names, members: &self.members, line: Member::csv }
     }
 }
 
-/// The whole table.
-struct Lines<'o, T, const N: usize>(&'o Outcome<T, N>);
+/// A table of members, cleaned and read back without a motion being run.
+///
+/// It takes what [`Outcome::csv`] and [`Member::csv`] wrote: one table, several in a row, rows alone. Lines that were not
+/// written to their ends are left out, also where another row was appended to one. Of several rows of one member the first
+/// that arrived counts (its ending is `complete` or `cancelled`), and the last where none did. Its `Display` is the table
+/// with those rows, by member.
+///
+/// ```
+/// # use lagrange_core::prelude::*;
+/// use lagrange_core::ensemble::{MemberEnding, MemberTable};
+/// # #[derive(Lagrangian)]
+/// # #[coordinates(x)]
+/// # #[lagrangian(x_dot^2/2 - k/2 * x^2)]
+/// # struct Spring<T> { k: T }
+/// # let springs = Ensemble::from_fn(3, |n| (Spring { k: n as f64 }, State::at_rest([1.0])));
+/// let written = springs.integrate(1.0, Dop853::default())?.csv().to_string();
+/// let torn = format!("{written}{written}2,17");
+/// let table = MemberTable::read::<Spring<f64>, 0>(&torn)?;
+/// assert_eq!(table.to_string(), written);
+/// for row in table.rows() {
+///     assert_eq!(row.ending, MemberEnding::Complete);
+///     println!("{}: {}", row.index, row.state.unwrap().q[0]);
+/// }
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct MemberTable<T, const N: usize> {
+    names: [&'static str; N],
+    rows: Vec<MemberRow<T, N>>,
+}
 
-impl<T: Real, const N: usize> Display for Lines<'_, T, N> {
+/// What a table says of one member.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MemberRow<T, const N: usize> {
+    /// Its index in the ensemble.
+    pub index: usize,
+    /// Of which run it is.
+    pub fingerprint: Fingerprint,
+    /// Its last state; none where it has no motion.
+    pub state: Option<State<T, N>>,
+    /// Steps and evaluations; zero where it has no motion.
+    pub statistics: Statistics,
+    /// Why there is no later state.
+    pub ending: MemberEnding,
+}
+
+/// Why a member's motion ends where it does, as a table says it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum MemberEnding {
+    /// The end was reached.
+    Complete,
+    /// The observer ended it.
+    Cancelled,
+    /// Something kept it from the end.
+    Failed(
+        /// What it was, in words.
+        String,
+    ),
+}
+
+impl<T: Real, const N: usize> MemberTable<T, N> {
+    /// The rows of a table of systems `L`.
+    ///
+    /// # Errors
+    /// [`Error::Resume`] for what is no row of such a system, and where rows are of different runs.
+    pub fn read<L, const M: usize>(table: &str) -> Result<Self, Error>
+    where
+        L: Lagrangian<N, M, Scalar = T>,
+        T: FromStr,
+    {
+        Self::of(table, L::COORDINATES, usize::MAX)
+    }
+
+    /// Of an ensemble of so many members.
+    pub(super) fn of(table: &str, names: [&'static str; N], count: usize) -> Result<Self, Error>
+    where
+        T: FromStr,
+    {
+        let mut rows: BTreeMap<usize, MemberRow<T, N>> = BTreeMap::new();
+        let mut first: Option<Fingerprint> = None;
+        for (line, row) in read(table, &names, count)? {
+            let differs = |(column, reason)| Error::Resume { line, column, reason };
+            let common = row.fingerprint.without_start();
+            check_same(first.get_or_insert(common), &common).map_err(differs)?;
+            match rows.get_mut(&row.index) {
+                None => drop(rows.insert(row.index, row)),
+                Some(known) => {
+                    check_same(&known.fingerprint, &row.fingerprint).map_err(differs)?;
+                    if known.has_failed() {
+                        *known = row;
+                    }
+                }
+            }
+        }
+        Ok(Self { names, rows: rows.into_values().collect() })
+    }
+
+    /// The rows, by member.
+    pub fn rows(&self) -> &[MemberRow<T, N>] {
+        &self.rows
+    }
+
+    /// The row of the member of this index, if there is one.
+    pub fn get(&self, index: usize) -> Option<&MemberRow<T, N>> {
+        self.rows.get(self.rows.binary_search_by_key(&index, |row| row.index).ok()?)
+    }
+
+    /// The members that need not be done again.
+    pub(super) fn into_members(self) -> impl Iterator<Item = Member<T, N>> {
+        self.rows.into_iter().filter_map(|MemberRow { index, fingerprint, state, statistics, ending }| {
+            let state = state?;
+            let time = state.t.to_f64();
+            let ending = match ending {
+                MemberEnding::Complete => Ending::Complete { time },
+                MemberEnding::Cancelled => Ending::Cancelled { time },
+                MemberEnding::Failed(_) => return None,
+            };
+            Some(Member { index, fingerprint, result: Ok(Arrival { state, ending, statistics }) })
+        })
+    }
+}
+
+fn check_same(one: &Fingerprint, other: &Fingerprint) -> Result<(), (usize, &'static str)> {
+    one.difference(other).map_or(Ok(()), Err)
+}
+
+impl<T: Real, const N: usize> Display for MemberTable<T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        writeln!(f, "{}", header(&self.0.names))?;
-        self.0.members.iter().try_for_each(|member| write!(f, "{}", Line(member)))
+        Lines { names: &self.names, members: &self.rows, line: MemberRow::csv }.fmt(f)
+    }
+}
+
+impl<T: Real, const N: usize> MemberRow<T, N> {
+    /// Whether something other than the observer kept it from the end.
+    pub fn has_failed(&self) -> bool {
+        matches!(self.ending, MemberEnding::Failed(_))
+    }
+
+    /// As a row of the table.
+    pub fn csv(&self) -> impl Display + '_ {
+        Line {
+            index: self.index,
+            fingerprint: self.fingerprint,
+            reached: self.state.as_ref().map(|state| (state, &self.statistics)),
+            ending: match &self.ending {
+                MemberEnding::Complete => COMPLETE.into(),
+                MemberEnding::Cancelled => CANCELLED.into(),
+                MemberEnding::Failed(why) => quoted(why),
+            },
+        }
+    }
+}
+
+const COMPLETE: &str = "complete";
+const CANCELLED: &str = "cancelled";
+
+/// The whole table.
+struct Lines<'o, X, F, const N: usize> {
+    names: &'o [&'static str; N],
+    members: &'o [X],
+    line: F,
+}
+
+impl<'o, X, D: Display, F: Fn(&'o X) -> D, const N: usize> Display for Lines<'o, X, F, N> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}", header(self.names))?;
+        self.members.iter().try_for_each(|member| write!(f, "{}", (self.line)(member)))
     }
 }
 
 fn header<const N: usize>(names: &[&'static str; N]) -> String {
     let velocities = names.iter().map(|name| Entry::Velocity(name).to_string());
-    let names = ["member", "t"].into_iter().chain(names.iter().copied()).map(String::from).chain(velocities);
+    let first = ["member", "system", "run", "start", "t"];
+    let names = first.into_iter().chain(names.iter().copied()).map(String::from).chain(velocities);
     let counts = ["accepted", "rejected", "evaluations", "multipliers_are_unique", "ending", "member_again"]
         .map(String::from);
     names.chain(counts).collect::<Vec<_>>().join(",")
@@ -48,127 +227,33 @@ fn header<const N: usize>(names: &[&'static str; N]) -> String {
 
 /// One line of it. The index stands at both ends: a line that was not written to its end, and the row that is then
 /// appended to it, do not pass for a row of a third member.
-struct Line<'m, T, const N: usize>(&'m Member<T, N>);
+struct Line<'m, T, const N: usize> {
+    index: usize,
+    fingerprint: Fingerprint,
+    reached: Option<(&'m State<T, N>, &'m Statistics)>,
+    ending: String,
+}
 
 impl<T: Real, const N: usize> Display for Line<'_, T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let index = self.0.index;
-        write!(f, "{index}")?;
-        match &self.0.result {
-            Err(error) => {
-                (0..2 * N + 5).try_for_each(|_| write!(f, ","))?;
-                write!(f, ",{}", quoted(&error.to_string()))?;
-            }
-            Ok(Arrival { state, ending, statistics }) => {
+        let Self { index, fingerprint: Fingerprint { system, run, start }, reached, ending } = self;
+        write!(f, "{index},{system},{run},{start}")?;
+        match reached {
+            None => (0..2 * N + 5).try_for_each(|_| write!(f, ","))?,
+            Some((state, statistics)) => {
                 // `Debug` of a number is its shortest form that reads back the same.
                 write!(f, ",{:?}", state.t)?;
                 state.q.iter().chain(&state.v).try_for_each(|x| write!(f, ",{x:?}"))?;
                 let Statistics { accepted, rejected, evaluations, multipliers_are_unique } = statistics;
-                write!(f, ",{accepted},{rejected},{evaluations},{multipliers_are_unique},")?;
-                match ending {
-                    Ending::Complete { .. } => write!(f, "complete")?,
-                    Ending::Cancelled { .. } => write!(f, "cancelled")?,
-                    other => write!(f, "{}", quoted(&other.to_string()))?,
-                }
+                write!(f, ",{accepted},{rejected},{evaluations},{multipliers_are_unique}")?;
             }
         }
-        writeln!(f, ",{index}")
+        writeln!(f, ",{ending},{index}")
     }
 }
 
 fn quoted(text: &str) -> String {
     format!("\"{}\"", text.replace('"', "\"\""))
-}
-
-/// The column, counted from 1, and what is wrong there.
-type Wrong = (usize, &'static str);
-
-/// The members of a table that need not be done again.
-pub(super) fn read<T: Real + FromStr, const N: usize>(
-    table: &str,
-    names: &[&'static str; N],
-    count: usize,
-) -> Result<Vec<Member<T, N>>, Error> {
-    let header = header(names);
-    let mut members = Vec::new();
-    // Spreadsheets write a mark before the first line.
-    let table = table.strip_prefix('\u{feff}').unwrap_or(table);
-    for (line, text) in (1..).zip(table.lines()) {
-        let text = text.strip_suffix('\r').unwrap_or(text);
-        let read = match text.trim_start_matches(|digit: char| digit.is_ascii_digit()) {
-            // A row that was cut in its first number, and the header of the next table.
-            rest if rest == header => Ok(None),
-            _ if text.starts_with('m') => check_header::<N>(text, &header).map(|()| None),
-            _ => row(text, count),
-        };
-        members.extend(read.map_err(|(column, reason)| Error::Resume { line, column, reason })?);
-    }
-    Ok(members)
-}
-
-/// The header, or the beginning of one that was not written to its end, also where another line was appended to it.
-fn check_header<const N: usize>(text: &str, header: &str) -> Result<(), Wrong> {
-    let is_same = |(a, b): &(char, char)| a == b;
-    let common: usize = text.chars().zip(header.chars()).take_while(is_same).map(|(a, _)| a.len_utf8()).sum();
-    let starts_line = |rest: &str| rest.is_empty() || rest == header || whole::<N>(rest).is_some();
-    match text[..common].char_indices().any(|(k, c)| starts_line(&text[k + c.len_utf8()..])) {
-        true => Ok(()),
-        false => Err((1 + text[..common].matches(',').count(), "its columns are others")),
-    }
-}
-
-/// The member of a row; none if it failed, or if the row was not written to its end.
-fn row<T: Real + FromStr, const N: usize>(text: &str, count: usize) -> Result<Option<Member<T, N>>, Wrong> {
-    let (index, _) = text.split_once(',').unwrap_or((text, ""));
-    if !index.chars().all(|digit| digit.is_ascii_digit()) || text.starts_with(',') {
-        return Err((1, "a row starts with the index of a member"));
-    }
-    let Some(cells) = whole::<N>(text) else { return Ok(None) };
-    let index = index.parse().ok().filter(|index| *index < count).ok_or((1, "there is no such member"))?;
-    if cells.last().is_some_and(|ending| ending.starts_with('"')) {
-        return Ok(None);
-    }
-    Ok(Some(Member { index, result: Ok(arrival(&cells)?) }))
-}
-
-/// The cells between the two indices of a row that was written to its end.
-fn whole<const N: usize>(text: &str) -> Option<Vec<&str>> {
-    let (index, rest) = text.split_once(',')?;
-    let (rest, again) = rest.rsplit_once(',')?;
-    let cells: Vec<&str> = rest.splitn(2 * N + 6, ',').collect();
-    let ending = cells.get(2 * N + 5)?;
-    (index == again && (ending.starts_with('"') || !ending.contains(','))).then_some(cells)
-}
-
-fn arrival<T: Real + FromStr, const N: usize>(cells: &[&str]) -> Result<Arrival<T, N>, Wrong> {
-    let number = |k: usize| {
-        let number = cells[k].parse().ok().filter(|x: &T| x.is_finite());
-        number.ok_or((k + 2, "it is no finite number"))
-    };
-    let mut state =
-        State { t: number(0)?, q: vector([T::constant(0.0); N]), v: vector([T::constant(0.0); N]) };
-    for i in 0..N {
-        (state.q[i], state.v[i]) = (number(1 + i)?, number(1 + N + i)?);
-    }
-    let statistics = Statistics {
-        accepted: cell(cells, 2 * N + 1)?,
-        rejected: cell(cells, 2 * N + 2)?,
-        evaluations: cell(cells, 2 * N + 3)?,
-        multipliers_are_unique: cell(cells, 2 * N + 4)?,
-    };
-    let time = state.t.to_f64();
-    let ending = match cells[2 * N + 5] {
-        "complete" => Ending::Complete { time },
-        "cancelled" => Ending::Cancelled { time },
-        _ => return Err((2 * N + 7, UNREADABLE)),
-    };
-    Ok(Arrival { state, ending, statistics })
-}
-
-const UNREADABLE: &str = "it cannot be read";
-
-fn cell<V: FromStr>(cells: &[&str], k: usize) -> Result<V, Wrong> {
-    cells[k].parse().map_err(|_| (k + 2, UNREADABLE))
 }
 
 #[cfg(test)]

@@ -70,7 +70,12 @@ fn count<L, P, const N: usize, const M: usize>(
     Adaptive<P>: Copy + Sync,
 {
     let on_lanes = ensemble().integrate_on_lanes(END, method).expect("an outcome");
-    assert_eq!(on_lanes, ensemble().integrate(END, method).expect("an outcome"));
+    let one_by_one = ensemble().integrate(END, method).expect("an outcome");
+    assert_eq!(on_lanes.members().len(), one_by_one.members().len());
+    for (member, alone) in on_lanes.members().iter().zip(one_by_one.members()) {
+        // By their fingerprints they are of different runs.
+        assert_eq!((member.index, &member.result), (alone.index, &alone.result));
+    }
     let rejected = on_lanes.members().iter().filter_map(|member| Some(member.arrival()?.statistics.rejected));
     assert!(rejected.sum::<usize>() > 0);
 }

@@ -14,6 +14,8 @@ use crate::system::{Lagrangian, State};
 pub(crate) struct Seat<L, const N: usize, const M: usize> {
     /// Which member of the ensemble it is.
     pub(crate) index: usize,
+    /// What tells its start and parameters from others.
+    pub(crate) start: u32,
     pub(crate) statistics: Statistics,
     pub(super) system: L,
     /// Its state and slopes are in the lane, and here only while a step is taken alone.
@@ -36,7 +38,7 @@ pub(super) enum Fate {
 impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Seat<L, N, M> {
     /// Before the first step, with the state made consistent.
     pub(crate) fn new<P: Pair>(
-        index: usize,
+        (index, start): (usize, u32),
         system: L,
         state: &State<f64, N>,
         end: f64,
@@ -46,7 +48,7 @@ impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Seat<L, 
         let Run { mut memory, state, mut statistics, .. } = run;
         method.aim::<L, LagrangianFlow, N, M>(&system, &mut memory, end, &mut statistics);
         let limits = Watchdog::new(method.limits(), &statistics);
-        Ok((Self { index, system, memory, end, statistics, limits, failure: None }, state))
+        Ok((Self { index, start, system, memory, end, statistics, limits, failure: None }, state))
     }
 
     /// The clock on the wall starts when it is given a lane.

@@ -4,11 +4,13 @@ use super::*;
 
 const NAMES: [&str; 1] = ["x"];
 const COUNT: usize = 30;
+const MINE: Fingerprint = Fingerprint { system: 71, run: 4_294_967_295, start: 0 };
 
 /// A whole one, of members 3, 12 (which failed) and 21.
 fn table() -> String {
     let arrived = |index: usize, time: f64, ending| Member {
         index,
+        fingerprint: MINE,
         result: Ok(Arrival {
             state: State::new([-1.0 / 3.0], [2e-300]).at_time(time),
             ending,
@@ -20,15 +22,18 @@ fn table() -> String {
             },
         }),
     };
-    let failed =
-        Member { index: 12, result: Err(Error::Setting { name: "a \"setting\", 12", value: f64::NAN }) };
+    let failed = Member {
+        index: 12,
+        fingerprint: MINE,
+        result: Err(Error::Setting { name: "a \"setting\", 12", value: f64::NAN }),
+    };
     let complete = arrived(3, 1.0, Ending::Complete { time: 1.0 });
     let members = vec![complete, failed, arrived(21, 0.25, Ending::Cancelled { time: 0.25 })];
-    Outcome::new(members, NAMES, 1.0).csv().to_string()
+    Outcome::new(members, NAMES, 1.0, MINE).csv().to_string()
 }
 
 fn resume(table: &str) -> Result<Vec<Member<f64, 1>>, Error> {
-    read(table, &NAMES, COUNT)
+    Ok(MemberTable::of(table, NAMES, COUNT)?.into_members().collect())
 }
 
 fn taken(table: &str) -> Vec<Member<f64, 1>> {
@@ -88,7 +93,7 @@ fn lines_twice_and_empty_lines_change_nothing() {
     assert_eq!(members, taken(&table));
 }
 
-const ROW: &str = "3,1.0,0.5,-0.25,12,3,123,true,complete,3";
+const ROW: &str = "3,71,17,5,1.0,0.5,-0.25,12,3,123,true,complete,3";
 
 /// The row with another cell in this column.
 fn with(column: usize, cell: &str) -> String {
@@ -104,20 +109,23 @@ fn a_number_that_is_none_is_refused_with_its_place() {
         "NaN", "inf", "-inf", "infinity", "1e999", "-1e999", " 1.0", "1.0 ", "1,0", "", "0x1", "1.0f64",
         "--1",
     ] {
-        for column in [2, 3, 4] {
+        for column in [5, 6, 7] {
             if !number.contains(',') {
-                refused(&(with(3, "1.5") + &with(column, number)), (2, column));
+                refused(&(with(6, "1.5") + &with(column, number)), (2, column));
             }
         }
     }
     for (column, cell) in [
-        (5, "-1"),
-        (5, "1e3"),
-        (6, "99999999999999999999999"),
-        (7, ""),
-        (8, "True"),
-        (9, "fine"),
-        (9, "complete "),
+        (2, ""),
+        (3, "4294967296"),
+        (4, "-1"),
+        (8, "-1"),
+        (8, "1e3"),
+        (9, "99999999999999999999999"),
+        (10, ""),
+        (11, "True"),
+        (12, "fine"),
+        (12, "complete "),
     ] {
         refused(&with(column, cell), (1, column));
     }
@@ -126,7 +134,7 @@ fn a_number_that_is_none_is_refused_with_its_place() {
 #[test]
 fn numbers_of_every_size_are_read() {
     for number in ["-0", "0", "-0.0", "5e-324", "1e-400", "1.7976931348623157e308", "007", "1", "+1.5"] {
-        let [member] = &taken(&with(3, number))[..] else { panic!("{number}") };
+        let [member] = &taken(&with(6, number))[..] else { panic!("{number}") };
         let read = member.arrival().expect("it arrived").state.q[0];
         assert_eq!(read.to_bits(), number.parse::<f64>().unwrap().to_bits(), "{number}");
     }
@@ -134,7 +142,7 @@ fn numbers_of_every_size_are_read() {
 
 #[test]
 fn an_index_that_is_none_is_refused() {
-    let index = |index: &str| format!("{index},1.0,0.5,-0.25,12,3,123,true,complete,{index}\n");
+    let index = |index: &str| format!("{index},71,17,5,1.0,0.5,-0.25,12,3,123,true,complete,{index}\n");
     for wrong in ["30", "99999999999999999999999", "-0", "+3", " 3", "3 ", "", "x", "3.0"] {
         refused(&index(wrong), (1, 1));
     }
@@ -145,14 +153,35 @@ fn an_index_that_is_none_is_refused() {
 fn other_columns_are_refused() {
     let header = header(&NAMES);
     for (other, column) in [
-        (header.replace(",x,", ",y,"), 3),
-        (header.replace("x_dot,", ""), 4),
-        (header.replace("x,x_dot", "x,y,x_dot,y_dot"), 4),
-        (header.replace(",t,", ",time,"), 2),
-        (header.clone() + ",more", 10),
+        (header.replace(",x,", ",y,"), 6),
+        (header.replace("x_dot,", ""), 7),
+        (header.replace("x,x_dot", "x,y,x_dot,y_dot"), 7),
+        (header.replace(",t,", ",time,"), 5),
+        (header.clone() + ",more", 13),
         (header.replace(',', ";"), 1),
     ] {
         refused(&format!("{other}\n{ROW}\n"), (1, column));
     }
     refused(&format!("\"member\",\"t\"\n{ROW}\n"), (1, 1));
+}
+
+/// The message of a failure was cut, and the member was tried again.
+#[test]
+fn a_failure_that_ran_into_the_next_row_of_its_member_is_no_row() {
+    let table = table();
+    let failed = format!("{}\n", table.lines().nth(2).expect("a row"));
+    let arrived = ROW.replacen('3', "12", 1).strip_suffix('3').expect("a row").to_owned() + "12\n";
+    assert_eq!(taken(&arrived).len(), 1);
+    for next in [&arrived, &failed] {
+        for cut in 1..failed.len() {
+            let joined = format!("{}{next}{arrived}", &failed[..cut]);
+            assert_eq!(taken(&joined.replace(",17,5,", ",4294967295,0,")).len(), 1, "{joined}");
+            assert_eq!(all(&format!("{}{next}", &failed[..cut])).len(), 0, "cut at {cut}");
+        }
+    }
+}
+
+/// All rows, of members that failed too.
+fn all(table: &str) -> Vec<MemberRow<f64, 1>> {
+    MemberTable::of(table, NAMES, COUNT).expect("a table").rows().to_vec()
 }

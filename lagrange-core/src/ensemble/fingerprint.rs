@@ -1,0 +1,126 @@
+//! What tells the rows of one run from those of another.
+
+use core::fmt::{self, Write};
+
+use crate::motion::Method;
+use crate::number::Real;
+use crate::system::{Lagrangian, State};
+
+/// Whose row it is: three hashes, each the 32-bit FNV-1a of Fowler, Noll and Vo, the same on every machine.
+///
+/// Rows whose hashes differ are of different runs. Another run passes for this one by chance once in 4·10⁹ times, and what a
+/// function of the user holds is not seen. Limits on steps and time do not count: they may be raised for the members that
+/// met them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Fingerprint {
+    /// Of the system's name, its equations as text, its coordinates and constraints, and its number type.
+    pub system: u32,
+    /// Of the method and its settings, whether it was on lanes, and the end.
+    pub run: u32,
+    /// Of the time, coordinates, velocities and parameters that the member starts with, bit for bit.
+    pub start: u32,
+}
+
+impl Fingerprint {
+    /// What all members have in common.
+    pub(super) fn of_run<L, P, const N: usize, const M: usize>(
+        method: &P,
+        end: L::Scalar,
+        is_on_lanes: bool,
+    ) -> Self
+    where
+        L: Lagrangian<N, M, Scalar: Real>,
+        P: Method<L, N, M>,
+    {
+        let mut system = Hash::new();
+        let texts = [L::NAME, L::EQUATIONS.text()];
+        texts.iter().chain(&L::COORDINATES).chain(&L::CONSTRAINTS).for_each(|text| system.text(text));
+        system.number(L::Scalar::EPSILON);
+        let mut run = Hash::new();
+        if method.identify(&mut run).is_err() {
+            run.text("not written to its end");
+        }
+        run.text(if is_on_lanes { " on lanes" } else { "" });
+        run.number(end.to_f64());
+        Self { system: system.0, run: run.0, start: 0 }
+    }
+
+    /// With what one member starts from.
+    pub(super) fn with_start<L, const N: usize, const M: usize>(
+        self,
+        system: &L,
+        start: &State<L::Scalar, N>,
+    ) -> Self
+    where
+        L: Lagrangian<N, M, Scalar: Real>,
+    {
+        let mut hash = Hash::new();
+        hash.number(start.t.to_f64());
+        start.q.iter().chain(&start.v).for_each(|x| hash.number(x.to_f64()));
+        system.visit_parameters(&mut |x| hash.number(x.to_f64()));
+        Self { start: hash.0, ..self }
+    }
+
+    /// In what two rows of one member differ, and in which column of a table that is.
+    pub(super) fn difference(&self, other: &Self) -> Option<(usize, &'static str)> {
+        let Self { system, run, start } = *other;
+        let differences = [
+            (2, "the system or its equations are others", self.system != system),
+            (3, "the method, one of its settings or the end is another", self.run != run),
+            (4, "the start or the parameters of the member are others", self.start != start),
+        ];
+        differences.into_iter().find_map(|(column, what, differs)| differs.then_some((column, what)))
+    }
+
+    /// As of another member of the run.
+    pub(super) fn without_start(self) -> Self {
+        Self { start: 0, ..self }
+    }
+}
+
+/// FNV-1a of what was written so far.
+struct Hash(u32);
+
+impl Hash {
+    fn new() -> Self {
+        Self(0x811c_9dc5)
+    }
+
+    fn bytes(&mut self, bytes: &[u8]) {
+        self.0 = bytes.iter().fold(self.0, |hash, byte| (hash ^ u32::from(*byte)).wrapping_mul(0x0100_0193));
+    }
+
+    /// With a mark at its end, which no text has.
+    fn text(&mut self, text: &str) {
+        self.bytes(text.as_bytes());
+        self.bytes(&[0xff]);
+    }
+
+    fn number(&mut self, x: f64) {
+        self.bytes(&x.to_bits().to_le_bytes());
+    }
+}
+
+impl Write for Hash {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        self.bytes(text.as_bytes());
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Values that its authors publish.
+    #[test]
+    fn the_hash_is_that_of_its_authors() {
+        let hash = |text: &str| {
+            let mut hash = Hash::new();
+            hash.bytes(text.as_bytes());
+            hash.0
+        };
+        assert_eq!([hash(""), hash("a"), hash("foobar")], [0x811c_9dc5, 0xe40c_292c, 0xbf9c_f968]);
+    }
+}
