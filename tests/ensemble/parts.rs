@@ -243,6 +243,9 @@ fn members_integrated_to_another_time_are_refused_where_they_belong_to_the_part(
     assert!(later(0).is_ok());
 }
 
+/// What makes another member of one.
+type Change = fn(&mut (DoublePendulum<f64>, State<f64, 2>));
+
 /// What the members of a table are computed with, and what another run has instead.
 #[test]
 fn rows_of_another_run_are_refused_by_name() {
@@ -265,7 +268,7 @@ fn rows_of_another_run_are_refused_by_name() {
     let free = method.max_steps(7_000_000).wall_time(std::time::Duration::from_secs(9));
     assert_eq!(resumed(ensemble()).integrate_on_lanes(END, free).unwrap(), whole());
     let start = "the start or the parameters of the member are others";
-    let with = |change: fn(&mut (DoublePendulum<f64>, State<f64, 2>))| {
+    let with = |change: Change| {
         let other = Ensemble::from_fn(COUNT, move |index| {
             let mut member = member(index);
             if index == 5 {
@@ -275,7 +278,7 @@ fn rows_of_another_run_are_refused_by_name() {
         });
         refused(resumed(other).integrate_on_lanes(END, method))
     };
-    let changes: [fn(&mut (DoublePendulum<f64>, State<f64, 2>)); 6] = [
+    let changes: [Change; 6] = [
         |(system, _)| system.m[1] = system.m[1].next_up(),
         |(system, _)| system.l[0] = system.l[0].next_down(),
         |(system, _)| system.g += 1.0,
