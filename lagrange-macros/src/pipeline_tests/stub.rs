@@ -67,7 +67,14 @@ fn promises(expansion: TokenStream) -> BTreeSet<String> {
     let counted = [" Factor = ", "Slopes = "];
     promises.retain(|promise| !counted.iter().any(|name| promise.contains(name)));
     // What the trait gives to a system that has nothing to say of it.
-    let provided = ["constraint_integral", "CONSTRAINT_CLASSES", "INTEGRALS", "MOMENTA_ARE_LINEAR"];
+    let provided = [
+        "constraint_integral",
+        "CONSTRAINT_CLASSES",
+        "INTEGRALS",
+        "MOMENTA_ARE_LINEAR",
+        "EQUATIONS",
+        "visit_parameters",
+    ];
     promises.retain(|promise| !provided.iter().any(|name| promise.contains(name)));
     promises
 }
