@@ -4,11 +4,11 @@
 use super::lanes::Lanes;
 use super::scalar::Scalar;
 
-/// Numbers that can be computed with by those of type `T`, each of which counts for all of them: [`Lanes`](crate::Lanes)
+/// Numbers that can be computed with by those of type `T`, each of which counts for all of them: `Lanes`
 /// over `f64`, and every scalar over itself.
 ///
-/// What is linear takes them: one factor solves for right-hand sides on lanes, [`Lagrangian::solve_with`]
-/// (crate::Lagrangian::solve_with).
+/// What is linear takes them: one factor solves for right-hand sides on lanes,
+/// [`Lagrangian::solve_with`](crate::Lagrangian::solve_with).
 pub trait Over<T>: Scalar {
     /// The number for all of them.
     fn of(x: T) -> Self;
