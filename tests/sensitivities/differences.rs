@@ -63,7 +63,12 @@ where
     let motion = system.integrate_sensitivities(start, end, method, &names).unwrap();
     assert!(motion.arguments().iter().eq(&names));
     let alone = system.integrate(start, end, method).unwrap();
-    assert_eq!(motion.trajectory().end().state(), alone.end().state(), "the same motion");
+    let (with, alone) = (*motion.trajectory().end().state(), *alone.end().state());
+    let apart = (with.q - alone.q).norm() + (with.v - alone.v).norm();
+    assert!(
+        apart < TOLERANCE * (alone.q.norm() + alone.v.norm()),
+        "the same motion, by other steps: {with:?}, {alone:?}"
+    );
     let times = [0.31, 0.8, 1.0].map(|part| start.t + part * (end - start.t));
     let found = times.map(|t| motion.at(t).unwrap());
     let mut worst = 0.0_f64;

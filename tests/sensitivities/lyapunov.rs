@@ -108,3 +108,29 @@ fn what_ends_too_early_is_an_error() {
     let error = PENDULUM.lyapunov_spectrum(State::at_rest(START), 100.0, method().max_steps(10)).unwrap_err();
     assert!(error.to_string().contains("10 steps"), "{error}");
 }
+
+/// Where the motion stands still its own error is zero, and would allow any step.
+#[test]
+fn variations_choose_the_steps_too() {
+    #[derive(Lagrangian)]
+    #[coordinates(x)]
+    #[lagrangian(x_dot^2/2 + k*x^2/2)]
+    #[dissipation(x_dot^2/4)]
+    struct Hill {
+        k: f64,
+    }
+
+    let (hill, top) = (Hill { k: 1.0 }, State::at_rest([0.0]));
+    let root = (1.0_f64 / 16.0 + 1.0).sqrt();
+    let [up, down] = [root - 0.25, -root - 0.25];
+    let spectrum = hill.lyapunov_spectrum(top, 200.0, Dop853::default()).unwrap();
+    for (found, exact) in spectrum.exponents.iter().zip([up, down]) {
+        assert!((found - exact).abs() < 1e-8, "{found} for {exact}");
+    }
+    let motion = hill.integrate_sensitivities(top, 10.0, Dop853::default(), &["x"]).unwrap();
+    for t in [0.1, 3.7, 10.0] {
+        let exact = (up * (down * t).exp() - down * (up * t).exp()) / (up - down);
+        let found = motion.coordinate(t, "x", "x").unwrap();
+        assert!((found / exact - 1.0).abs() < 1e-7, "{found} for {exact} at {t}");
+    }
+}

@@ -56,9 +56,9 @@ where
         let stop = if part > PARTS { end } else { start.t + (end - start.t) * done };
         let (mut growth, from) = (vec![L::Scalar::constant(0.0); basis.ncols()], run.state.t);
         while run.state.t != stop {
-            let step = run.step::<L, LagrangianFlow, _, M>(system, method, stop, &limits);
+            let along = |run: &mut Run<_, _, N>| variations.follow(system, method, run);
+            let step = run.step_with::<L, LagrangianFlow, _, _, M>(system, method, stop, &limits, along);
             step.map_err(|ending| Error::Unfinished(Box::new(ending)))?;
-            variations.follow::<Q>(system, &run.memory)?;
             variations.orthonormalize(|j, length| growth[j] += Scalar::ln(length));
         }
         parts.push((stop, growth.into_iter().map(|x| x / (stop - from)).collect::<Vec<_>>()));

@@ -258,8 +258,9 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     /// The motion from a state to the time `end` with its derivatives by entries of the state and by parameters, named
     /// as in [`jacobian_by`](Self::jacobian_by): solutions of the variational equations.
     ///
-    /// Each step of the derivatives is the derivative of the step of the motion, so they are as accurate as the motion and
-    /// continuous like it. The error of a step is that of the motion alone, which chooses the steps as without derivatives. On
+    /// Each step of the derivatives is the derivative of the step of the motion, and they are continuous like it. Steps are
+    /// as short as the motion and each derivative need: beside the relative tolerance of its largest entry, a derivative is
+    /// allowed the error of the motion itself, over the size of the parameter or 1. On
     /// constraints the start is the nearest state to the one given, for other parameters too, and so are its derivatives;
     /// they stay in the tangent space, projected as the state is.
     ///
@@ -302,7 +303,8 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     /// state grow, as many as the state has degrees of freedom on the constraints.
     ///
     /// Variations from all over the tangent space go along with the motion and are made orthonormal after each step; what that
-    /// takes off their lengths is what they have grown (Benettin, Galgani, Giorgilli and Strelcyn, *Meccanica* 15, 1980). The
+    /// takes off their lengths is what they have grown (Benettin, Galgani, Giorgilli and Strelcyn, *Meccanica* 15, 1980). Steps
+    /// are as short as the motion and the variations need. The
     /// first 21st of the time lets them turn to where they grow, and does not count; the others are looked at one by one, and
     /// tell how far the means can be relied on. Of the limit for infinite times an exponent of zero is off by about
     /// ln t/t. Lengths are those of (q, q̇) in the units of the system, which make no difference in the limit. Nothing is stored.

@@ -76,12 +76,14 @@ where
         if run.state.t == end {
             break Ending::Complete { time: end.to_f64() };
         }
-        match run.step_with_interpolant::<L, LagrangianFlow, _, M>(system, method, end, &limits) {
+        let along = |run: &mut Run<_, _, N>| {
+            variations.follow(system, method, run)?;
+            variations.interpolate(system, method, run, &mut coefficients)
+        };
+        match run.step_with::<L, LagrangianFlow, _, _, M>(system, method, end, &limits, along) {
             Ok(interpolant) => path.push(run.state, interpolant),
             Err(ending) => break ending,
         }
-        variations.follow::<Q>(system, &run.memory)?;
-        variations.interpolate::<Q>(system, &run.memory, &mut coefficients)?;
         steps.push([run.before.t, run.state.t - run.before.t]);
     };
     let trajectory = Trajectory::new(system, path.finish(), ending, run.statistics, adjustment).finished()?;
@@ -102,7 +104,7 @@ impl<'a, L, const N: usize, const M: usize, const P: usize> Sensitivities<'a, L,
 where
     L: Linearized<N, M, P, Scalar: Real>,
 {
-    /// The motion, that of [`integrate`](crate::Simulate::integrate) with the same method.
+    /// The motion.
     pub fn trajectory(&self) -> &Trajectory<&'a L, N, M> {
         &self.trajectory
     }

@@ -14,16 +14,21 @@ use nalgebra::{DMatrix, DVectorView, SVector};
 use super::argument::Argument;
 use super::tangent::{Tangent, WideOf};
 use super::{Direction, Linearized, ResidualChange, StateDerivatives};
+use crate::ending::Ending;
 use crate::error::Error;
 use crate::motion::method::interpolant::hermite;
 use crate::motion::method::pair::{SLOPES, Slopes, advance, last};
 use crate::motion::method::step::Memory;
-use crate::motion::{Combination, Pair};
+use crate::motion::run::Run;
+use crate::motion::{Adaptive, Combination, Method, Pair};
 use crate::names::Entry;
-use crate::number::{Over, Real, Scalar, Wide, vector};
+use crate::number::{Over, Real, Scalar, Wide, exceeds, vector};
 use crate::solution::flow::Phase;
 use crate::solution::solve::solve_near;
 use crate::system::{Solution, State};
+
+/// What lies within a step of the motion.
+type Within<Q, L, const N: usize, const M: usize> = <Adaptive<Q> as Method<L, N, M>>::Interpolant;
 
 /// Variations of a motion, as many as there are lanes.
 struct Block<W, const N: usize, const P: usize> {
@@ -36,6 +41,8 @@ struct Block<W, const N: usize, const P: usize> {
     slope: Phase<W, N>,
     /// At which parameters change, if any does.
     rates: Option<SVector<W, P>>,
+    /// One over the size of what is varied: that of a parameter, or 1.
+    unit: W,
     /// How many of the lanes are taken.
     lanes: usize,
 }
@@ -63,7 +70,8 @@ where
         arguments: Vec<Argument>,
     ) -> Result<Self, Error> {
         let lanes = <WideOf<L, N, M> as Wide<L::Scalar>>::COUNT;
-        let blocks = arguments.chunks(lanes).map(Block::of).collect();
+        let parameters = system.parameters();
+        let blocks = arguments.chunks(lanes).map(|arguments| Block::of(arguments, &parameters)).collect();
         let mut variations = Self { arguments, blocks };
         variations.arrive(&Tangent::at(system, start)?)?;
         Ok(variations)
@@ -147,30 +155,77 @@ where
         &self.blocks[index].y
     }
 
-    /// Goes along with a step taken.
+    /// Goes along with the step that the run has taken, if it is short enough for the variations too.
+    ///
+    /// # Errors
+    /// Why it is to be taken back.
     pub(super) fn follow<Q: Pair>(
         &mut self,
         system: &L,
-        memory: &Memory<L::Scalar, N, M>,
-    ) -> Result<(), Error> {
+        method: &Adaptive<Q>,
+        run: &mut Run<Memory<L::Scalar, N, M>, L::Scalar, N>,
+    ) -> Result<(), Ending> {
         self.blocks.iter_mut().for_each(|block| (block.start, block.slopes[0]) = (block.y, block.slope));
+        let time = run.before.t.to_f64();
+        let followed = self.go::<Q>(system, &run.memory).map_err(|error| Ending::of(error, time));
+        let (error, worst) =
+            followed.inspect_err(|_| self.step_back()).map(|()| self.error(method, &run.memory))?;
+        if method.accepts(error) {
+            method.accept_with(&mut run.memory, error);
+            return Ok(());
+        }
+        self.step_back();
+        Err(Ending::StepTooSmall { time, entry: self.arguments[worst].entry::<L, N, M, P>() })
+    }
+
+    /// As before the step followed last.
+    fn step_back(&mut self) {
+        self.blocks.iter_mut().for_each(|block| (block.y, block.slope) = (block.start, block.slopes[0]));
+    }
+
+    fn go<Q: Pair>(&mut self, system: &L, memory: &Memory<L::Scalar, N, M>) -> Result<(), Error> {
         self.stages::<Q>(system, memory, (1, Q::STAGES))?;
         self.end::<Q>(system, memory)
     }
 
-    /// Adds the coefficients of what lies within the step followed last, of which the interpolant has been asked for.
+    /// The largest error of a variation as a part of the tolerance, and of which.
+    fn error<Q: Pair>(&self, method: &Adaptive<Q>, memory: &Memory<L::Scalar, N, M>) -> (L::Scalar, usize) {
+        let zero = L::Scalar::constant(0.0);
+        let Some((from, h, _)) = memory.last_step() else { return (zero, 0) };
+        let (lanes, tolerance) =
+            (<WideOf<L, N, M> as Wide<L::Scalar>>::COUNT, method.tolerance::<L::Scalar>());
+        let places = [&from.y, &memory.y];
+        let error = |block: &Block<_, N, P>| {
+            let ends = [&block.start, &block.y];
+            tolerance.error_of_variations::<Q, _, _, N>(&block.slopes, h, ends, places, block.unit)
+        };
+        let errors: Vec<_> = self.blocks.iter().map(error).collect();
+        let each = (0..self.count()).map(|j| (errors[j / lanes].lane(j % lanes), j));
+        each.fold((zero, 0), |worst, one| if exceeds(one.0, worst.0) { one } else { worst })
+    }
+
+    /// What lies within the step followed last: of the motion, and of the variations as coefficients, which are added.
+    ///
+    /// # Errors
+    /// Why the step is to be taken back.
     pub(super) fn interpolate<Q: Pair>(
         &mut self,
         system: &L,
-        memory: &Memory<L::Scalar, N, M>,
+        method: &Adaptive<Q>,
+        run: &mut Run<Memory<L::Scalar, N, M>, L::Scalar, N>,
         coefficients: &mut Vec<Phase<WideOf<L, N, M>, N>>,
-    ) -> Result<(), Error> {
-        self.stages::<Q>(system, memory, (last::<Q>() + 1, Q::INTERPOLATION_STAGES))?;
+    ) -> Result<Within<Q, L, N, M>, Ending> {
+        let Run { memory, statistics, before, .. } = run;
+        let interpolant = Method::<L, N, M>::interpolant(method, system, memory, statistics);
+        let more = (last::<Q>() + 1, Q::INTERPOLATION_STAGES);
+        let within = interpolant.and_then(|within| self.stages::<Q>(system, memory, more).map(|()| within));
+        let within = within.map_err(|error| Ending::of(error, before.t.to_f64()));
+        let within = within.inspect_err(|_| self.step_back())?;
         if let Some((_, h, _)) = memory.last_step() {
             let h = WideOf::<L, N, M>::of(h);
             self.blocks.iter().for_each(|block| block.push_coefficients::<Q>(h, coefficients));
         }
-        Ok(())
+        Ok(within)
     }
 
     /// The slopes of these stages of a step taken, the first of which has the number given.
@@ -277,24 +332,26 @@ fn tangent_at<'a, L: StateDerivatives<N, M, Scalar: Real>, const N: usize, const
 
 impl<W: Scalar, const N: usize, const P: usize> Block<W, N, P> {
     /// By these arguments, a lane each.
-    fn of<T: Real>(arguments: &[Argument]) -> Self
+    fn of<T: Real>(arguments: &[Argument], parameters: &SVector<T, P>) -> Self
     where
         W: Wide<T>,
     {
         let (zero, one) = (W::constant(0.0), T::constant(1.0));
         let mut y = [[zero; N]; 2];
-        let mut rates = None;
+        let (mut rates, mut unit) = (None, W::constant(1.0));
         for (lane, argument) in arguments.iter().enumerate() {
             match *argument {
                 Argument::Coordinate(i) => y[0][i].put(lane, one),
                 Argument::Velocity(i) => y[1][i].put(lane, one),
                 Argument::Parameter(k) => {
                     rates.get_or_insert_with(|| SVector::<W, P>::from_element(zero))[k].put(lane, one);
+                    let size = Scalar::abs(parameters[k]);
+                    unit.put(lane, if size > T::constant(0.0) { one / size } else { one });
                 }
             }
         }
         let slopes = [[[zero; N]; 2]; SLOPES];
-        Self { y, start: y, slopes, slope: slopes[0], rates, lanes: arguments.len() }
+        Self { y, start: y, slopes, slope: slopes[0], rates, unit, lanes: arguments.len() }
     }
 
     fn y_mut(&mut self) -> &mut [W] {

@@ -110,17 +110,44 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
         F: Flow<L, N, M>,
         P: Method<L, N, M, F, Memory = X>,
     {
+        self.step_with::<L, F, P, _, M>(
+            system,
+            method,
+            end,
+            limits,
+            |Self { memory, statistics, before, .. }| {
+                let interpolant = method.interpolant(system, memory, statistics);
+                interpolant.map_err(|error| Ending::of(error, before.t.to_f64()))
+            },
+        )
+    }
+
+    /// One accepted step with what goes along; where that fails the step is taken back, and a shorter one tried.
+    #[inline(always)]
+    pub(crate) fn step_with<L, F, P, R, const M: usize>(
+        &mut self,
+        system: &L,
+        method: &P,
+        end: T,
+        limits: &Watchdog,
+        mut along: impl FnMut(&mut Self) -> Result<R, Ending>,
+    ) -> Result<R, Ending>
+    where
+        L: Lagrangian<N, M, Scalar = T>,
+        F: Flow<L, N, M>,
+        P: Method<L, N, M, F, Memory = X>,
+    {
         loop {
             self.step(system, method, end, limits)?;
-            let error = match method.interpolant(system, &mut self.memory, &mut self.statistics) {
-                Ok(interpolant) => return Ok(interpolant),
-                Err(error) => error,
+            let ending = match along(self) {
+                Ok(result) => return Ok(result),
+                Err(ending) => ending,
             };
             self.state = self.before;
             self.statistics.accepted -= 1;
             self.statistics.rejected += 1;
             if !method.take_back(&mut self.memory) {
-                return Err(Ending::of(error, self.state.t.to_f64()));
+                return Err(ending);
             }
         }
     }

@@ -5,7 +5,9 @@ use core::array::from_fn;
 use super::Adaptive;
 use super::clock::Clock;
 use super::pair::{Pair, Slopes, combine};
-use crate::number::{Real, Scalar, entries, exceeds, larger, smaller, sum};
+#[cfg(feature = "alloc")]
+use super::step::Memory;
+use crate::number::{Over, Real, Scalar, entries, exceeds, larger, smaller, sum};
 use crate::solution::flow::Phase;
 
 /// The step to try next, and what its choice remembers.
@@ -78,16 +80,32 @@ impl Tolerance {
         before: &Phase<T, N>,
         after: &Phase<T, N>,
     ) -> T {
-        let scale = self.scale(before, after);
-        // Times h before they are squared: slopes depend on the unit of time, and their squares leave the numbers.
-        let first = norm(h, &combine(slopes, P::ERROR), &scale);
-        if P::LOWER_ERROR.is_empty() {
-            return first;
-        }
-        let second = norm(h, &combine(slopes, P::LOWER_ERROR), &scale);
-        let both = (first * first + T::constant(0.01) * second * second).sqrt();
-        // Lanes cannot branch where both vanish; so small an error is none.
-        first * first / both.max(T::constant(1e-30))
+        estimate::<P, T, N>(slopes, h, &self.scale(before, after))
+    }
+
+    /// The error of variations over a step from one place to another: as a part of the relative tolerance of the largest
+    /// entry among their coordinates, and among their velocities, and of what the place itself is allowed, in units of
+    /// the variations.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn error_of_variations<P: Pair, T: Scalar, W: Over<T>, const N: usize>(
+        self,
+        slopes: &Slopes<W, N>,
+        h: T,
+        [before, after]: [&Phase<W, N>; 2],
+        places: [&Phase<T, N>; 2],
+        unit: W,
+    ) -> W {
+        let largest = |half: usize| {
+            let sizes = (0..N).map(|i| before[half][i].abs().max(after[half][i].abs()));
+            sizes.fold(W::constant(0.0), |most, size| most.max(size))
+        };
+        let own = self.scale(places[0], places[1]);
+        let relative = W::constant(self.relative);
+        let scale = [0, 1].map(|half| {
+            let largest = relative * largest(half);
+            entries(|i| largest + W::of(own[half][i]) * unit)
+        });
+        estimate::<P, W, N>(slopes, W::of(h), &scale)
     }
 
     /// The entry with the largest error.
@@ -111,6 +129,20 @@ impl Tolerance {
         let size = |half: usize, i: usize| a[half][i].abs().max(b[half][i].abs());
         from_fn(|half| entries(|i| absolute + relative * size(half, i)))
     }
+}
+
+/// The estimate of the error of a step, as a part of the errors allowed.
+#[inline]
+fn estimate<P: Pair, T: Scalar, const N: usize>(slopes: &Slopes<T, N>, h: T, scale: &Phase<T, N>) -> T {
+    // Times h before they are squared: slopes depend on the unit of time, and their squares leave the numbers.
+    let first = norm(h, &combine(slopes, P::ERROR), scale);
+    if P::LOWER_ERROR.is_empty() {
+        return first;
+    }
+    let second = norm(h, &combine(slopes, P::LOWER_ERROR), scale);
+    let both = (first * first + T::constant(0.01) * second * second).sqrt();
+    // Lanes cannot branch where both vanish; so small an error is none.
+    first * first / both.max(T::constant(1e-30))
 }
 
 impl<P: Pair> Adaptive<P> {
@@ -142,6 +174,21 @@ impl<P: Pair> Adaptive<P> {
         // A step that the end has cut says nothing against the one planned, should the motion go on.
         let step = if clock.is_at_end() { larger(control.step, planned) } else { control.step };
         control.step = self.fit(step, clock);
+    }
+
+    /// After a step on which something else went along, with an error of this part of the tolerance: the larger of the two
+    /// errors chooses the next step.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn accept_with<T: Real, const N: usize, const M: usize>(
+        &self,
+        memory: &mut Memory<T, N, M>,
+        error: T,
+    ) {
+        let Some(taken) = memory.taken.as_ref().filter(|_| self.fixed_step.is_none()) else { return };
+        let (step, mut control) = ((taken.h, memory.clock.now), taken.control.clone());
+        let error = larger(error, memory.control.previous_error);
+        self.after_acceptance(&mut control, &mut memory.clock, step, error);
+        memory.control = control;
     }
 
     /// The step made long enough to advance the time, and cut to the longest allowed.

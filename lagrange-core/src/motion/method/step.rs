@@ -43,7 +43,7 @@ pub struct Memory<T, const N: usize, const M: usize> {
 pub(super) struct Taken<T, const N: usize, const M: usize> {
     from: Origin<T, N, M>,
     pub(super) h: T,
-    control: Control<T>,
+    pub(super) control: Control<T>,
 }
 
 /// Where a step starts.
