@@ -259,8 +259,8 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     /// as in [`jacobian_by`](Self::jacobian_by): solutions of the variational equations.
     ///
     /// Each step of the derivatives is the derivative of the step of the motion, and they are continuous like it. Steps are
-    /// as short as the motion and each derivative need: beside the relative tolerance of its largest entry, a derivative is
-    /// allowed the error of the motion itself, over the size of the parameter or 1. On
+    /// as short as the motion and each derivative need: a derivative is allowed ten times the error of the motion itself, over
+    /// the size of the parameter or 1, and of its own largest entry. On
     /// constraints the start is the nearest state to the one given, for other parameters too, and so are its derivatives;
     /// they stay in the tangent space, projected as the state is.
     ///

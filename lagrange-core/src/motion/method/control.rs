@@ -100,10 +100,10 @@ impl Tolerance {
             sizes.fold(W::constant(0.0), |most, size| most.max(size))
         };
         let own = self.scale(places[0], places[1]);
-        let relative = W::constant(self.relative);
+        let [relative, slack] = [self.relative, SLACK].map(W::constant);
         let scale = [0, 1].map(|half| {
             let largest = relative * largest(half);
-            entries(|i| largest + W::of(own[half][i]) * unit)
+            entries(|i| slack * (largest + W::of(own[half][i]) * unit))
         });
         estimate::<P, W, N>(slopes, W::of(h), &scale)
     }
@@ -238,6 +238,11 @@ impl<P: Pair> Adaptive<P> {
         smaller(step, guess * T::constant(100.0))
     }
 }
+
+/// So many times the tolerance variations are allowed: their errors are about as much larger than those of the motion, as a
+/// rule, and are to shorten its steps only where it is no guide.
+#[cfg(feature = "alloc")]
+const SLACK: f64 = 10.0;
 
 /// √(mean (h x/scale)²).
 #[inline]
