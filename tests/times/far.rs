@@ -83,7 +83,9 @@ fn so_it_is_on_lanes() {
     };
     let ensemble = || Ensemble::from_fn(12, member);
     let outcome = ensemble().integrate_on_lanes(end, Dop853::default()).unwrap();
-    assert_eq!(outcome, ensemble().integrate(end, Dop853::default()).unwrap());
+    let alone = ensemble().integrate(end, Dop853::default()).unwrap();
+    // Their fingerprints say which of the two they are.
+    assert!(outcome.members().iter().map(|x| &x.result).eq(alone.members().iter().map(|x| &x.result)));
     assert_eq!(outcome.completed().count(), 12);
     for arrived in outcome.members() {
         let (Spring { omega }, start) = member(arrived.index);
