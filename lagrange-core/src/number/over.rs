@@ -58,6 +58,7 @@ impl Wide<f64> for Lanes {
     }
 }
 
+#[cfg(any(feature = "std", feature = "libm"))]
 macro_rules! alone {
     ($($scalar:ty),*) => {$(
         impl Wide<$scalar> for $scalar {

@@ -37,6 +37,9 @@ pub struct Memory<T> {
     short: usize,
 }
 
+/// An interval is short that is this part of the longest: √ε of `f64`, 2⁻²⁶.
+const SHORT: f64 = 1.0 / 67_108_864.0;
+
 impl<T: Real> Memory<T> {
     pub(super) fn new(name: &'static str) -> Self {
         let zero = T::constant(0.0);
@@ -121,10 +124,8 @@ impl<T: Real> Memory<T> {
         self.count += 1;
         if let Some(last) = self.last.or(self.begun) {
             let interval = Scalar::abs(t - last);
-            let least = larger(
-                self.longest * T::constant(f64::EPSILON.sqrt()),
-                Scalar::abs(t) * T::constant(64.0 * T::EPSILON),
-            );
+            let least =
+                larger(self.longest * T::constant(SHORT), Scalar::abs(t) * T::constant(64.0 * T::EPSILON));
             self.short = if interval <= least { self.short + 1 } else { 0 };
             self.longest = larger(self.longest, interval);
         }

@@ -7,7 +7,9 @@ use super::clock::Clock;
 use super::pair::{Pair, Slopes, combine};
 #[cfg(feature = "alloc")]
 use super::step::Memory;
-use crate::number::{Over, Real, Scalar, entries, exceeds, larger, smaller, sum};
+#[cfg(feature = "alloc")]
+use crate::number::Over;
+use crate::number::{Real, Scalar, entries, exceeds, larger, smaller, sum};
 use crate::solution::flow::Phase;
 
 /// The step to try next, and what its choice remembers.
