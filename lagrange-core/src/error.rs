@@ -264,6 +264,13 @@ pub enum Error {
         /// The time of evaluation.
         time: f64,
     },
+    /// A motion that touches an event and does not cross it: where it does, and whether, has no derivative.
+    Grazing {
+        /// The name of the event.
+        event: &'static str,
+        /// The time of the event.
+        time: f64,
+    },
     /// A time that the trajectory does not cover.
     OutsideTrajectory {
         /// The time asked for.
@@ -405,6 +412,10 @@ impl Display for Error {
             Self::EventNotFinite { event, time } => write!(
                 f,
                 "the function of the event `{event}` is infinite or not a number at t = {time}: make it finite wherever the motion may lead"
+            ),
+            Self::Grazing { event, time } => write!(
+                f,
+                "the motion grazes the event `{event}` at t = {time}: the rate of its function is zero there to round-off, and the event has no derivative; start so that it is crossed, or missed"
             ),
             Self::OutsideTrajectory { time, start, end } => {
                 write!(f, "t = {time} lies outside the trajectory, which covers {start} to {end}")

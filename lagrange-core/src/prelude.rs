@@ -5,6 +5,8 @@ pub use crate::ensemble::Ensemble;
 pub use crate::error::Error;
 pub use crate::function::Function;
 pub use crate::hamiltonian::{Hamiltonian, PhaseState};
+#[cfg(feature = "alloc")]
+pub use crate::linearized::AcrossEvents;
 pub use crate::linearized::Linearized;
 pub use crate::motion::Simulate;
 pub use crate::motion::{Dop853, Dopri5, Motion};

@@ -8,10 +8,19 @@ use lagrange_core::{Entry, prelude::*};
 const DIFFERENCE: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
 
 /// Steps of the differences, as parts of what is changed: where a motion changes fast with it, only the short one is right.
-const STEPS: [f64; 2] = [1e-2, 2e-3];
+pub(crate) const STEPS: [f64; 2] = [1e-2, 2e-3];
 
 /// The largest error of a column, as a part of its largest entry.
-const TOLERANCE: f64 = 1e-9;
+pub(crate) const TOLERANCE: f64 = 1e-9;
+
+/// The derivative of what there is after a change, by central differences of this step.
+pub(crate) fn difference(step: f64, of: impl Fn(f64) -> DVector<f64>) -> DVector<f64> {
+    let parts = (1..).zip(DIFFERENCE).map(|(k, coefficient)| {
+        let change = f64::from(k) * step;
+        (of(change) - of(-change)) * (coefficient / step)
+    });
+    parts.reduce(|sum, part| sum + part).unwrap()
+}
 
 /// The states at these times where an argument is changed, the start as near as the constraints allow.
 fn states<S, Q, const N: usize, const M: usize, const P: usize>(
@@ -61,7 +70,7 @@ where
     names.extend(S::PARAMETERS.map(String::from));
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let motion = system.integrate_sensitivities(start, end, method, &names).unwrap();
-    assert!(motion.arguments().iter().eq(&names));
+    assert!(motion.arguments().iter().map(Entry::to_string).eq(names.iter().copied()));
     let alone = system.integrate(start, end, method).unwrap();
     let (with, alone) = (*motion.trajectory().end().state(), *alone.end().state());
     let apart = (with.q - alone.q).norm() + (with.v - alone.v).norm();
@@ -82,12 +91,8 @@ where
         });
         let column = DVector::from_iterator(2 * N * times.len(), column);
         let errors = STEPS.map(|step| {
-            let (step, mut expected) = (step * size, column.clone() * 0.0);
-            for (k, coefficient) in (1..).zip(DIFFERENCE) {
-                let shifted = |by| states::<_, _, N, M, P>(system, &start, &times, method, argument, by);
-                expected +=
-                    (shifted(f64::from(k) * step) - shifted(-f64::from(k) * step)) * (coefficient / step);
-            }
+            let shifted = |by| states::<_, _, N, M, P>(system, &start, &times, method, argument, by);
+            let expected = difference(step * size, shifted);
             (&column - &expected).amax() / expected.amax().max(1e-3)
         });
         let error = errors[0].min(errors[1]);

@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod differences;
+mod events;
 mod lyapunov;
 
 use std::f64::consts::PI;

@@ -71,3 +71,14 @@ impl Argument {
         }
     }
 }
+
+/// Which of the system's parameters this is, if it is one.
+pub(crate) fn parameter<L, const N: usize, const M: usize, const P: usize>(entry: Entry) -> Option<usize>
+where
+    L: Linearized<N, M, P>,
+{
+    match entry {
+        Entry::Parameter(name) => L::PARAMETERS.iter().position(|known| *known == name),
+        _ => None,
+    }
+}

@@ -14,6 +14,7 @@ use crate::number::{Real, Scalar};
 use crate::solution::flow::LagrangianFlow;
 use crate::system::State;
 use crate::system::finite::check_finite;
+use crate::system::lookup::entry;
 
 /// The Lyapunov exponents of a motion, and how far they can be relied on.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,11 +45,14 @@ where
     check_end(end)?;
     let (mut run, _) = Run::begin::<L, LagrangianFlow, _, M>(system, state, method)?;
     let start = run.state;
+    let tangent = Tangent::at(system, &start)?;
     let basis = match const { M == 0 } {
         true => DMatrix::identity(2 * N, 2 * N),
-        false => Tangent::at(system, &start)?.space()?,
+        false => tangent.space()?,
     };
-    let mut variations = Variations::along(system, &start, &basis)?;
+    let most = |j: usize| entry::<L, N, M>(basis.column(j).icamax());
+    let column = |j: usize| [0, N].map(|half| basis.fixed_view::<N, 1>(half, j).into_owned());
+    let mut variations = Variations::begin(&tangent, (0..basis.ncols()).map(most).collect(), column)?;
     let limits = Watchdog::new(method.limits(), &run.statistics);
     let mut parts = Vec::with_capacity(PARTS + 1);
     for part in 1..=PARTS + 1 {

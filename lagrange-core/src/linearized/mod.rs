@@ -1,10 +1,14 @@
 //! How the motion depends on where it starts, on the parameters and on the time: Jacobians, equilibria, linearization.
 
 #[cfg(feature = "alloc")]
+mod across;
+#[cfg(feature = "alloc")]
 mod argument;
 #[cfg(feature = "alloc")]
 mod columns;
 mod direction;
+#[cfg(feature = "alloc")]
+mod dual_sample;
 #[cfg(feature = "alloc")]
 mod equilibrium;
 #[cfg(feature = "alloc")]
@@ -16,6 +20,8 @@ mod linearization;
 mod lyapunov;
 #[cfg(feature = "alloc")]
 mod sensitivities;
+#[cfg(feature = "alloc")]
+mod sensitivity;
 #[cfg(feature = "alloc")]
 mod spectrum;
 mod tangent;
@@ -29,8 +35,12 @@ use core::fmt::Debug;
 use nalgebra::SVector;
 
 #[cfg(feature = "alloc")]
+pub use across::AcrossEvents;
+#[cfg(feature = "alloc")]
 pub use columns::JacobianBy;
 pub use direction::{Direction, ResidualChange};
+#[cfg(feature = "alloc")]
+pub use dual_sample::{DifferentiableEvent, DualSample, OverDuals};
 #[cfg(feature = "alloc")]
 pub use equilibrium::Equilibrium;
 #[cfg(feature = "alloc")]
@@ -41,7 +51,9 @@ pub use linearization::Linearization;
 #[cfg(feature = "alloc")]
 pub use lyapunov::LyapunovSpectrum;
 #[cfg(feature = "alloc")]
-pub use sensitivities::{Sensitivities, Sensitivity};
+pub use sensitivities::Sensitivities;
+#[cfg(feature = "alloc")]
+pub use sensitivity::Sensitivity;
 #[cfg(feature = "alloc")]
 pub use spectrum::Stability;
 
@@ -262,7 +274,7 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     /// as short as the motion and each derivative need: a derivative is allowed ten times the error of the motion itself, over
     /// the size of the parameter or 1, and of its own largest entry. On
     /// constraints the start is the nearest state to the one given, for other parameters too, and so are its derivatives;
-    /// they stay in the tangent space, projected as the state is.
+    /// they stay in the tangent space, projected as the state is. [`AcrossEvents`] goes on across events.
     ///
     /// ```
     /// use lagrange_core::prelude::*;
@@ -296,7 +308,7 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     where
         Self: Lagrangian<N, M, Scalar: Real> + Sized,
     {
-        sensitivities::integrate(self, &state, end, &method, arguments)
+        self.integrate_sensitivities_until(&self.sensitivity(&state, arguments)?, end, method, &mut [])
     }
 
     /// All Lyapunov exponents of the motion from a state to the time `end`: the mean rates at which small changes of the

@@ -1,19 +1,21 @@
 //! A motion with its derivatives by where it starts and by parameters.
 
-use alloc::{format, string::String, vec::Vec};
+use alloc::{string::String, string::ToString, vec::Vec};
 use core::fmt::{self, Debug, Formatter};
+use core::marker::PhantomData;
 
-use nalgebra::DMatrix;
-
-use super::Linearized;
-use super::argument::Argument;
+use super::dual_sample::DifferentiableEvent;
+use super::sensitivity::{Sensitivity, at_event};
 use super::tangent::{Tangent, WideOf};
 use super::variation::Variations;
+use super::{Direction, Linearized};
 use crate::ending::Ending;
 use crate::error::Error;
+use crate::motion::event::{Search, Stride, Watched};
 use crate::motion::method::interpolant::evaluate;
 use crate::motion::run::{Run, Watchdog, check_end};
 use crate::motion::{Adaptive, Pair};
+use crate::names::Entry;
 use crate::number::{Over, Real, Scalar, Wide};
 use crate::solution::flow::{LagrangianFlow, Phase};
 use crate::system::finite::check_finite;
@@ -32,100 +34,110 @@ pub struct Sensitivities<
     const P: usize,
 > {
     trajectory: Trajectory<&'a L, N, M>,
+    course: Course<L, N, M, P>,
+    end: Result<Sensitivity<L::Scalar, N>, Error>,
+}
+
+/// The derivatives along a motion.
+struct Course<L: Linearized<N, M, P, Scalar: Real>, const N: usize, const M: usize, const P: usize> {
+    /// As they are where the last step ends.
     variations: Variations<L, N, M, P>,
-    names: Vec<String>,
+    /// When it does: a motion may have ended within it.
+    end: L::Scalar,
     /// Start and length of each step.
     steps: Vec<[L::Scalar; 2]>,
     /// Step by step and block by block, the coefficients of what lies between, as many for each.
     coefficients: Vec<Phase<WideOf<L, N, M>, N>>,
 }
 
-/// Derivatives of a state of a motion.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Sensitivity<T, const N: usize> {
-    /// The state.
-    pub state: State<T, N>,
-    /// Of the coordinates, a row each, by each argument, a column each.
-    pub q: DMatrix<T>,
-    /// Of the velocities.
-    pub v: DMatrix<T>,
-}
-
-/// See [`Linearized::integrate_sensitivities`].
+/// See [`AcrossEvents::integrate_sensitivities_until`](super::AcrossEvents::integrate_sensitivities_until).
 pub(super) fn integrate<'a, L, Q, const N: usize, const M: usize, const P: usize>(
     system: &'a L,
-    state: &State<L::Scalar, N>,
+    start: &Sensitivity<L::Scalar, N>,
     end: L::Scalar,
     method: &Adaptive<Q>,
-    names: &[&str],
+    events: &mut [&mut dyn DifferentiableEvent<L, N, M, P>],
 ) -> Result<Sensitivities<'a, L, N, M, P>, Error>
 where
     L: Linearized<N, M, P, Scalar: Real>,
     Q: Pair,
 {
-    let arguments = Argument::named::<L, N, M, P>(names)?;
-    let names = arguments.iter().map(|argument| format!("{}", argument.entry::<L, N, M, P>())).collect();
-    check_finite(system, state)?;
+    check_finite(system, &start.state)?;
     check_end(end)?;
-    let (mut run, adjustment) = Run::begin::<L, LagrangianFlow, _, M>(system, state, method)?;
+    let (mut run, adjustment) = Run::begin::<L, LagrangianFlow, _, M>(system, &start.state, method)?;
     let mut path = Path::from(run.state);
-    let mut variations = Variations::begin(system, &run.state, arguments)?;
+    let mut course = Course::from(system, &run.state, start)?;
+    let mut watched: Vec<_> =
+        events.iter_mut().map(|event| &mut **event as &mut dyn Watched<L, N, M>).collect();
+    let mut search = Search::from(&mut watched, system, &run.state, true)?;
     let limits = Watchdog::new(method.limits(), &run.statistics);
-    let (mut steps, mut coefficients) = (Vec::new(), Vec::new());
+    let mut stopped = search.record_due(&run.state, &mut path.crossings);
     let ending = loop {
+        if let Some(ending) = stopped {
+            break ending;
+        }
         if run.state.t == end {
             break Ending::Complete { time: end.to_f64() };
         }
         let along = |run: &mut Run<_, _, N>| {
-            variations.follow(system, method, run)?;
-            variations.interpolate(system, method, run, &mut coefficients)
+            course.variations.follow(system, method, run)?;
+            course.variations.interpolate(system, method, run, &mut course.coefficients)
         };
-        match run.step_with::<L, LagrangianFlow, _, _, M>(system, method, end, &limits, along) {
-            Ok(interpolant) => path.push(run.state, interpolant),
-            Err(ending) => break ending,
+        let interpolant =
+            match run.step_with::<L, LagrangianFlow, _, _, M>(system, method, end, &limits, along) {
+                Ok(interpolant) => interpolant,
+                Err(ending) => break ending,
+            };
+        let (before, mut after) = (run.before, run.state);
+        course.push(before.t, after.t);
+        let flow = PhantomData::<LagrangianFlow>;
+        let stride = Stride { system, before, after, interpolant: &interpolant, flow };
+        (after, stopped) = search.record(&stride, &mut path.crossings);
+        if after.t != before.t {
+            path.push(after, interpolant);
         }
-        steps.push([run.before.t, run.state.t - run.before.t]);
     };
+    let event = path.crossings.last().map(|crossing| crossing.index);
+    let event = event.filter(|_| matches!(ending, Ending::Event { .. })).and_then(|index| events.get(index));
     let trajectory = Trajectory::new(system, path.finish(), ending, run.statistics, adjustment).finished()?;
-    Ok(Sensitivities { trajectory, variations, names, steps, coefficients })
+    let end = course.at(system, trajectory.end().state()).and_then(|at| match event {
+        None => Ok(at),
+        Some(event) => at_event(system, at, &**event, &run.before),
+    });
+    Ok(Sensitivities { trajectory, course, end })
 }
 
-impl<L, const N: usize, const M: usize, const P: usize> Debug for Sensitivities<'_, L, N, M, P>
+impl<L, const N: usize, const M: usize, const P: usize> Course<L, N, M, P>
 where
     L: Linearized<N, M, P, Scalar: Real>,
 {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let mut sensitivities = f.debug_struct("Sensitivities");
-        sensitivities.field("trajectory", &self.trajectory).field("arguments", &self.names).finish()
-    }
-}
-
-impl<'a, L, const N: usize, const M: usize, const P: usize> Sensitivities<'a, L, N, M, P>
-where
-    L: Linearized<N, M, P, Scalar: Real>,
-{
-    /// The motion.
-    pub fn trajectory(&self) -> &Trajectory<&'a L, N, M> {
-        &self.trajectory
-    }
-
-    /// The names of the arguments, in the order of the columns.
-    pub fn arguments(&self) -> &[String] {
-        &self.names
+    fn from(
+        system: &L,
+        state: &State<L::Scalar, N>,
+        start: &Sensitivity<L::Scalar, N>,
+    ) -> Result<Self, Error> {
+        let tangent = Tangent::at(system, state)?;
+        // At the time given, not at that of the event where the start is one.
+        let column = |j| {
+            let Direction { t, q, v } = start.direction(j);
+            [q - state.v * t, v - tangent.solution.accelerations * t]
+        };
+        let variations = Variations::begin(&tangent, start.arguments().to_vec(), column)?;
+        Ok(Self { variations, end: state.t, steps: Vec::new(), coefficients: Vec::new() })
     }
 
-    /// The state at this time and its derivatives.
-    ///
-    /// # Errors
-    /// As [`Trajectory::at`]; as [`Linearized::jacobian`].
-    pub fn at(&self, t: L::Scalar) -> Result<Sensitivity<L::Scalar, N>, Error> {
-        let state = *self.trajectory.at(t)?.state();
-        let (count, blocks) = (self.names.len(), self.variations.blocks());
-        let (mut q, mut v) = (DMatrix::zeros(N, count), DMatrix::zeros(N, count));
-        let lanes = <WideOf<L, N, M> as Wide<L::Scalar>>::COUNT;
-        let found = if t == self.trajectory.end().time() { None } else { self.step(t) };
-        let tangent =
-            if const { M > 0 } { Some(Tangent::at(*self.trajectory.system(), &state)) } else { None };
+    /// After a step that was followed.
+    fn push(&mut self, start: L::Scalar, end: L::Scalar) {
+        self.steps.push([start, end - start]);
+        self.end = end;
+    }
+
+    /// The derivatives of a state of the motion.
+    fn at(&self, system: &L, state: &State<L::Scalar, N>) -> Result<Sensitivity<L::Scalar, N>, Error> {
+        let (lanes, blocks) = (<WideOf<L, N, M> as Wide<L::Scalar>>::COUNT, self.variations.blocks());
+        let mut at = Sensitivity::of(*state, self.variations.arguments().to_vec());
+        let found = if state.t == self.end { None } else { self.step(state.t) };
+        let tangent = if const { M > 0 } { Some(Tangent::at(system, state)) } else { None };
         let tangent = tangent.transpose()?;
         for block in 0..blocks {
             let mut y = match found {
@@ -139,24 +151,12 @@ where
             if let Some(tangent) = &tangent {
                 y = self.variations.projected(block, tangent, y)?;
             }
-            for column in lanes * block..count.min(lanes * (block + 1)) {
-                for i in 0..N {
-                    q[(i, column)] = y[0][i].lane(column - lanes * block);
-                    v[(i, column)] = y[1][i].lane(column - lanes * block);
-                }
+            for column in lanes * block..at.arguments().len().min(lanes * (block + 1)) {
+                let [q, v] = y.map(|half| half.map(|x| x.lane(column - lanes * block)));
+                at.set(column, [&q, &v]);
             }
         }
-        Ok(Sensitivity { state, q, v })
-    }
-
-    /// The derivative of coordinate `coordinate` by `argument` at this time.
-    ///
-    /// # Errors
-    /// As [`at`](Self::at); [`Error::UnknownName`].
-    pub fn coordinate(&self, t: L::Scalar, coordinate: &str, argument: &str) -> Result<L::Scalar, Error> {
-        let row = lookup::index::<L, N, M>(&L::COORDINATES, "coordinate", coordinate)?;
-        let column = lookup::index::<L, N, M>(&self.names, "argument of these derivatives", argument)?;
-        Ok(self.at(t)?.q[(row, column)])
+        Ok(at)
     }
 
     /// The step of this time, and which part of it has passed.
@@ -165,5 +165,59 @@ where
         let step = self.steps.partition_point(is_past).checked_sub(1)?;
         let [start, length] = self.steps[step];
         Some((step, (t - start) / length))
+    }
+}
+
+impl<L, const N: usize, const M: usize, const P: usize> Debug for Sensitivities<'_, L, N, M, P>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+{
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let mut sensitivities = f.debug_struct("Sensitivities");
+        sensitivities.field("trajectory", &self.trajectory).field("arguments", &self.arguments()).finish()
+    }
+}
+
+impl<'a, L, const N: usize, const M: usize, const P: usize> Sensitivities<'a, L, N, M, P>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+{
+    /// The motion.
+    pub fn trajectory(&self) -> &Trajectory<&'a L, N, M> {
+        &self.trajectory
+    }
+
+    /// The arguments, in the order of the columns.
+    pub fn arguments(&self) -> &[Entry] {
+        self.course.variations.arguments()
+    }
+
+    /// The state at this time and its derivatives.
+    ///
+    /// # Errors
+    /// As [`Trajectory::at`]; as [`Linearized::jacobian`].
+    pub fn at(&self, t: L::Scalar) -> Result<Sensitivity<L::Scalar, N>, Error> {
+        self.course.at(self.trajectory.system(), self.trajectory.at(t)?.state())
+    }
+
+    /// The last state and its derivatives: at an event, where one has ended the motion, with those of its time; else at
+    /// the end that was asked for.
+    ///
+    /// # Errors
+    /// [`Error::Grazing`], and [`Error::EventNotFinite`] where the function of the event has no derivative; as
+    /// [`at`](Self::at).
+    pub fn end(&self) -> Result<&Sensitivity<L::Scalar, N>, Error> {
+        self.end.as_ref().map_err(Error::clone)
+    }
+
+    /// The derivative of coordinate `coordinate` by `argument` at this time.
+    ///
+    /// # Errors
+    /// As [`at`](Self::at); [`Error::UnknownName`].
+    pub fn coordinate(&self, t: L::Scalar, coordinate: &str, argument: &str) -> Result<L::Scalar, Error> {
+        let row = lookup::index::<L, N, M>(&L::COORDINATES, "coordinate", coordinate)?;
+        let names: Vec<String> = self.arguments().iter().map(Entry::to_string).collect();
+        let column = lookup::index::<L, N, M>(&names, "argument of these derivatives", argument)?;
+        Ok(self.at(t)?.q[(row, column)])
     }
 }

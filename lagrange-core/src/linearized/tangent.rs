@@ -17,7 +17,7 @@ use crate::system::{Lagrangian, Solution, State};
 
 /// The equations of motion at a state, solved, factorized and differentiated.
 pub(super) struct Tangent<'a, L: StateDerivatives<N, M>, const N: usize, const M: usize> {
-    system: &'a L,
+    pub(super) system: &'a L,
     pub(super) state: &'a State<L::Scalar, N>,
     pub(super) solution: Solution<L::Scalar, N, M>,
     factor: L::Factor,
@@ -150,6 +150,23 @@ where
         L: Linearized<N, M, P>,
     {
         self.system.residual_change_by_parameters_with(slopes, rates)
+    }
+
+    /// How the residual changes along this direction, and with this parameter, the same in all lanes.
+    #[cfg(feature = "alloc")]
+    pub(super) fn change_with<const P: usize>(
+        &self,
+        direction: &Direction<L::Scalar, N>,
+        parameter: Option<usize>,
+    ) -> ResidualChange<WideOf<L, N, M>, N, M>
+    where
+        L: Linearized<N, M, P>,
+    {
+        let of = WideOf::<L, N, M>::of;
+        let Direction { t, q, v } = direction;
+        let change = self.changes(&Direction { t: of(*t), q: q.map(of), v: v.map(of) });
+        let Some(k) = parameter else { return change };
+        change.plus(&self.changes_by_parameters(&self.parameter_slopes(), &unit(k)))
     }
 
     /// What makes up for changes of the residual in so many lanes; `entry` is what to call one.

@@ -9,9 +9,9 @@
 
 use alloc::vec::Vec;
 
-use nalgebra::{DMatrix, DVectorView, SVector};
+use nalgebra::{ComplexField, SVector};
 
-use super::argument::Argument;
+use super::argument::parameter;
 use super::tangent::{Tangent, WideOf};
 use super::{Direction, Linearized, ResidualChange, StateDerivatives};
 use crate::ending::Ending;
@@ -54,7 +54,7 @@ pub(super) struct Variations<
     const M: usize,
     const P: usize,
 > {
-    arguments: Vec<Argument>,
+    arguments: Vec<Entry>,
     blocks: Vec<Block<WideOf<L, N, M>, N, P>>,
 }
 
@@ -62,50 +62,32 @@ impl<L, const N: usize, const M: usize, const P: usize> Variations<L, N, M, P>
 where
     L: Linearized<N, M, P, Scalar: Real>,
 {
-    /// At the start: by its entries, of which nothing but the part along the constraints changes the motion, and by
-    /// parameters, which shift the start where they shift constraints.
+    /// At the start, along each of these columns of δ(q, q̇), and by those of the arguments that are parameters. On
+    /// constraints they go to the tangent space: parameters may shift the start, and of a change of it nothing but the part along
+    /// the constraints changes the motion.
     pub(super) fn begin(
-        system: &L,
-        start: &State<L::Scalar, N>,
-        arguments: Vec<Argument>,
+        tangent: &Tangent<'_, L, N, M>,
+        arguments: Vec<Entry>,
+        column: impl Fn(usize) -> [SVector<L::Scalar, N>; 2],
     ) -> Result<Self, Error> {
         let lanes = <WideOf<L, N, M> as Wide<L::Scalar>>::COUNT;
-        let parameters = system.parameters();
-        let blocks = arguments.chunks(lanes).map(|arguments| Block::of(arguments, &parameters)).collect();
+        let parameters: Vec<_> = arguments.iter().map(|entry| parameter::<L, N, M, P>(*entry)).collect();
+        let values = tangent.system.parameters();
+        let mut blocks: Vec<Block<WideOf<L, N, M>, N, P>> =
+            parameters.chunks(lanes).map(|parameters| Block::of(parameters, &values)).collect();
+        for j in 0..arguments.len() {
+            let column = column(j);
+            let entries = column.iter().flat_map(SVector::iter);
+            blocks[j / lanes].y_mut().iter_mut().zip(entries).for_each(|(wide, x)| wide.put(j % lanes, *x));
+        }
         let mut variations = Self { arguments, blocks };
-        variations.arrive(&Tangent::at(system, start)?)?;
-        Ok(variations)
-    }
-
-    /// At the start, along each column of a basis.
-    pub(super) fn along(
-        system: &L,
-        start: &State<L::Scalar, N>,
-        basis: &DMatrix<L::Scalar>,
-    ) -> Result<Self, Error> {
-        let most = |column: DVectorView<'_, L::Scalar>| match column.icamax() {
-            i if i < N => Argument::Coordinate(i),
-            i => Argument::Velocity(i - N),
-        };
-        let arguments: Vec<Argument> = (0..basis.ncols()).map(|j| most(basis.column(j))).collect();
-        let mut variations = Self::begin(system, start, arguments)?;
-        variations.set(|j, i| basis[(i, j)]);
-        variations.arrive(&Tangent::at(system, start)?)?;
+        variations.arrive(tangent)?;
         Ok(variations)
     }
 
     /// How many variations there are.
     pub(super) fn count(&self) -> usize {
         self.arguments.len()
-    }
-
-    /// Sets entry i of (q, q̇) of variation j.
-    fn set(&mut self, entry: impl Fn(usize, usize) -> L::Scalar) {
-        let lanes = <WideOf<L, N, M> as Wide<L::Scalar>>::COUNT;
-        for j in 0..self.count() {
-            let y = self.blocks[j / lanes].y.as_flattened_mut();
-            y.iter_mut().enumerate().for_each(|(i, wide)| wide.put(j % lanes, entry(j, i)));
-        }
     }
 
     /// Makes the variations orthonormal, one after the other (Gram and Schmidt, each twice), and gives to `take` how long each
@@ -145,6 +127,11 @@ where
         entries(j).zip(entries(k)).fold(L::Scalar::constant(0.0), |sum, (x, y)| sum + x * y)
     }
 
+    /// Of what they are, in their order.
+    pub(super) fn arguments(&self) -> &[Entry] {
+        &self.arguments
+    }
+
     /// How many blocks there are.
     pub(super) fn blocks(&self) -> usize {
         self.blocks.len()
@@ -175,7 +162,7 @@ where
             return Ok(());
         }
         self.step_back();
-        Err(Ending::StepTooSmall { time, entry: self.arguments[worst].entry::<L, N, M, P>() })
+        Err(Ending::StepTooSmall { time, entry: self.arguments[worst] })
     }
 
     /// As before the step followed last.
@@ -200,7 +187,11 @@ where
             tolerance.error_of_variations::<Q, _, _, N>(&block.slopes, h, ends, places, block.unit)
         };
         let errors: Vec<_> = self.blocks.iter().map(error).collect();
-        let each = (0..self.count()).map(|j| (errors[j / lanes].lane(j % lanes), j));
+        // What is no number is larger than any.
+        let size = |error: L::Scalar| {
+            if error.is_finite() { error } else { L::Scalar::constant(f64::INFINITY) }
+        };
+        let each = (0..self.count()).map(|j| (size(errors[j / lanes].lane(j % lanes)), j));
         each.fold((zero, 0), |worst, one| if exceeds(one.0, worst.0) { one } else { worst })
     }
 
@@ -243,7 +234,7 @@ where
             let tangent = tangent_at(system, &state, &slopes[number][1], &memory.active)?;
             let by_parameters = self.parameter_slopes(&tangent);
             for (k, block) in self.blocks.iter_mut().enumerate() {
-                let names = lane_names::<L, N, M, P>(&self.arguments, k);
+                let names = lane_names::<L, N, M>(&self.arguments, k);
                 let mut y = block.start;
                 advance(&block.start, WideOf::<L, N, M>::of(h), &block.slopes, row, &mut y);
                 block.slopes[number] = block.slope_at(&tangent, &by_parameters, &y, &names)?;
@@ -268,7 +259,7 @@ where
     fn arrive(&mut self, tangent: &Tangent<'_, L, N, M>) -> Result<(), Error> {
         let by_parameters = self.parameter_slopes(tangent);
         for (k, block) in self.blocks.iter_mut().enumerate() {
-            let names = lane_names::<L, N, M, P>(&self.arguments, k);
+            let names = lane_names::<L, N, M>(&self.arguments, k);
             if const { M > 0 } {
                 block.y = block.projected(tangent, &by_parameters, block.y, &names)?;
             }
@@ -284,7 +275,7 @@ where
         tangent: &Tangent<'_, L, N, M>,
         y: Phase<WideOf<L, N, M>, N>,
     ) -> Result<Phase<WideOf<L, N, M>, N>, Error> {
-        let names = lane_names::<L, N, M, P>(&self.arguments, index);
+        let names = lane_names::<L, N, M>(&self.arguments, index);
         self.blocks[index].projected(tangent, &self.parameter_slopes(tangent), y, &names)
     }
 
@@ -295,15 +286,12 @@ where
 }
 
 /// What the lanes of a block are called.
-fn lane_names<L, const N: usize, const M: usize, const P: usize>(
-    arguments: &[Argument],
-    block: usize,
-) -> impl Fn(usize) -> Entry
+fn lane_names<L, const N: usize, const M: usize>(arguments: &[Entry], block: usize) -> impl Fn(usize) -> Entry
 where
-    L: Linearized<N, M, P, Scalar: Real>,
+    L: StateDerivatives<N, M, Scalar: Real>,
 {
     let lanes = <WideOf<L, N, M> as Wide<L::Scalar>>::COUNT;
-    move |lane| arguments[lanes * block + lane].entry::<L, N, M, P>()
+    move |lane| arguments[lanes * block + lane]
 }
 
 fn state_at<T: Real, const N: usize>(t: T, [q, v]: &Phase<T, N>) -> State<T, N> {
@@ -331,27 +319,21 @@ fn tangent_at<'a, L: StateDerivatives<N, M, Scalar: Real>, const N: usize, const
 }
 
 impl<W: Scalar, const N: usize, const P: usize> Block<W, N, P> {
-    /// By these arguments, a lane each.
-    fn of<T: Real>(arguments: &[Argument], parameters: &SVector<T, P>) -> Self
+    /// Of no state yet, by these parameters, a lane each.
+    fn of<T: Real>(parameters: &[Option<usize>], values: &SVector<T, P>) -> Self
     where
         W: Wide<T>,
     {
         let (zero, one) = (W::constant(0.0), T::constant(1.0));
-        let mut y = [[zero; N]; 2];
         let (mut rates, mut unit) = (None, W::constant(1.0));
-        for (lane, argument) in arguments.iter().enumerate() {
-            match *argument {
-                Argument::Coordinate(i) => y[0][i].put(lane, one),
-                Argument::Velocity(i) => y[1][i].put(lane, one),
-                Argument::Parameter(k) => {
-                    rates.get_or_insert_with(|| SVector::<W, P>::from_element(zero))[k].put(lane, one);
-                    let size = Scalar::abs(parameters[k]);
-                    unit.put(lane, if size > T::constant(0.0) { one / size } else { one });
-                }
-            }
+        for (lane, k) in parameters.iter().enumerate().filter_map(|(lane, k)| Some((lane, (*k)?))) {
+            rates.get_or_insert_with(|| SVector::<W, P>::from_element(zero))[k].put(lane, one);
+            let size = Scalar::abs(values[k]);
+            unit.put(lane, if size > T::constant(0.0) { one / size } else { one });
         }
         let slopes = [[[zero; N]; 2]; SLOPES];
-        Self { y, start: y, slopes, slope: slopes[0], rates, unit, lanes: arguments.len() }
+        let y = slopes[0];
+        Self { y, start: y, slopes, slope: y, rates, unit, lanes: parameters.len() }
     }
 
     fn y_mut(&mut self) -> &mut [W] {
@@ -430,5 +412,43 @@ impl<W: Scalar, const N: usize, const P: usize> Block<W, N, P> {
             advance(&zero, h, &self.slopes, row, &mut coefficient);
             coefficients.push(coefficient);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::linearized::tangent::Tangent;
+    use crate::motion::run::{Run, Watchdog};
+    use crate::motion::{Adaptive, Method};
+    use crate::solution::flow::LagrangianFlow;
+    use crate::{Dop853, Entry, prelude::*};
+
+    use super::Variations;
+
+    #[derive(Lagrangian)]
+    #[coordinates(x)]
+    #[lagrangian(x_dot^2/2 - x^2/2)]
+    struct Spring;
+
+    /// An error that is no number is not lost among others: it is too large.
+    #[test]
+    fn an_error_that_is_no_number_refuses_the_step() {
+        let (system, method) = (Spring, Dop853::default());
+        let start = State::at_rest([1.0]);
+        let (mut run, _) = Run::begin::<_, LagrangianFlow, _, 0>(&system, &start, &method).expect("a start");
+        let arguments = vec![Entry::Coordinate("x"), Entry::Velocity("x")];
+        let unit = |j: usize| [[1.0 - j as f64].into(), [j as f64].into()];
+        let tangent = Tangent::at(&system, &start).expect("a start");
+        let mut variations = Variations::<_, 1, 0, 0>::begin(&tangent, arguments, unit).expect("a start");
+        let limits = Watchdog::new(Method::<Spring, 1, 0>::limits(&method), &run.statistics);
+        run.step::<_, LagrangianFlow, _, 0>(&system, &method, 1.0, &limits).expect("a step");
+        variations.follow(&system, &method, &mut run).expect("a step");
+        let (error, _) = variations.error(&method, &run.memory);
+        assert!(method.accepts(error));
+        // Of the first of the two.
+        let broken = &mut variations.blocks[0].slopes[0][1][0];
+        crate::number::Wide::put(broken, 0, f64::NAN);
+        assert_eq!(variations.error(&method, &run.memory), (f64::INFINITY, 0));
+        assert!(!Adaptive::accepts(&method, f64::INFINITY));
     }
 }

@@ -14,7 +14,7 @@ mod tests;
 
 #[cfg(feature = "std")]
 pub(crate) use batch::Batch;
-pub use event::{Crossing, Event, EventValue, Watched};
+pub use event::{Crossing, Event, EventFunction, EventValue, Watched};
 pub use method::{
     Adaptive, Combination, Dop853, Dopri5, DormandPrince54, DormandPrince853, Interpolant, Limits, Method,
     Node, Pair, Polynomial, RungeKutta4, Step, runge_kutta_step,

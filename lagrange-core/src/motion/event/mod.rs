@@ -12,7 +12,7 @@ use memory::Memory;
 pub(crate) use search::{Search, Stride};
 
 use crate::error::Error;
-use crate::number::Real;
+use crate::number::{Dual, Real};
 use crate::solution::Sample;
 use crate::system::{Lagrangian, State};
 
@@ -100,6 +100,16 @@ impl<L: Lagrangian<N, M, Scalar: Real>, G, const N: usize, const M: usize> Event
     pub fn count(&self) -> usize {
         self.memory.count
     }
+
+    #[cfg(feature = "alloc")]
+    pub(crate) fn name(&self) -> &'static str {
+        self.memory.name
+    }
+
+    #[cfg(feature = "alloc")]
+    pub(crate) fn function(&self) -> &G {
+        &self.function
+    }
 }
 
 /// Which crossings an event is about.
@@ -143,10 +153,37 @@ impl<T: Real> EventValue<T> for T {
     }
 }
 
+impl<T: Real> EventValue<Self> for Dual<T> {
+    #[inline]
+    fn value(self) -> Result<Self, Error> {
+        Ok(self)
+    }
+}
+
 impl<T> EventValue<T> for Result<T, Error> {
     #[inline]
     fn value(self) -> Self {
         self
+    }
+}
+
+/// The function of an event: a closure over samples, or one over dual numbers
+/// ([`Linearized::differentiable_event`](crate::Linearized::differentiable_event)).
+pub trait EventFunction<L: Lagrangian<N, M>, const N: usize, const M: usize> {
+    /// Its value at a state.
+    #[doc(hidden)]
+    fn at(&self, system: &L, state: &State<L::Scalar, N>) -> Result<L::Scalar, Error>;
+}
+
+impl<L, G, V, const N: usize, const M: usize> EventFunction<L, N, M> for G
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    G: Fn(&Sample<&L, N, M>) -> V,
+    V: EventValue<L::Scalar>,
+{
+    #[inline]
+    fn at(&self, system: &L, state: &State<L::Scalar, N>) -> Result<L::Scalar, Error> {
+        self(&Sample { system, state: *state }).value()
     }
 }
 
@@ -177,16 +214,15 @@ mod sealed {
 
 impl<L: Lagrangian<N, M>, G, const N: usize, const M: usize> sealed::Sealed for Event<L, G, N, M> {}
 
-impl<L, K, G, V, const N: usize, const M: usize> Watched<L, N, M> for Event<K, G, N, M>
+impl<L, K, G, const N: usize, const M: usize> Watched<L, N, M> for Event<K, G, N, M>
 where
     L: Lagrangian<N, M, Scalar: Real> + Borrow<K>,
     K: Lagrangian<N, M, Scalar = L::Scalar>,
-    G: Fn(&Sample<&K, N, M>) -> V,
-    V: EventValue<L::Scalar>,
+    G: EventFunction<K, N, M>,
 {
     #[inline]
     fn value(&self, system: &L, state: &State<L::Scalar, N>) -> Result<L::Scalar, Error> {
-        let value = (self.function)(&Sample { system: system.borrow(), state: *state }).value()?;
+        let value = self.function.at(system.borrow(), state)?;
         match nalgebra::ComplexField::is_finite(&value) {
             true => Ok(value),
             false => Err(Error::EventNotFinite { event: self.memory.name, time: state.t.to_f64() }),

@@ -1,0 +1,182 @@
+//! Derivatives of a motion across events: what a program calls.
+
+use super::dual_sample::{DifferentiableEvent, DualSample, OverDuals};
+use super::sensitivity::{self, Sensitivity};
+use super::{Linearized, Sensitivities, sensitivities};
+use crate::error::Error;
+use crate::motion::{Adaptive, Event, EventValue, Pair};
+use crate::number::{Dual, Real};
+use crate::solution::flow::Phase;
+use crate::system::State;
+
+/// Derivatives of a motion of several legs: every [`Linearized`] system over `f64` or `f32` has it.
+///
+/// A leg ends at an event, whose time depends on where the motion starts and on the parameters; there a state with its
+/// derivatives, a [`Sensitivity`], is made one after an impact, or one of another system, and starts the next leg. That
+/// is the work of the saltation matrix: R_x + (ẋ⁺ − R_x ẋ⁻ − R_t) g_x/ġ for an event g = 0 and a reset x⁺ = R(t, x⁻).
+///
+/// ```
+/// use lagrange_core::prelude::*;
+///
+/// /// A ball in the air.
+/// #[derive(Lagrangian)]
+/// #[coordinates(y)]
+/// #[lagrangian(y_dot^2/2 - g*y)]
+/// struct Flying { g: f64 }
+///
+/// /// On the floor.
+/// #[derive(Lagrangian)]
+/// #[coordinates(y)]
+/// #[lagrangian(y_dot^2/2 - g*y)]
+/// #[constraint(floor: y = 0)]
+/// struct Touching { g: f64 }
+///
+/// let (ball, floor, method) = (Flying { g: 9.81 }, Touching { g: 9.81 }, Dop853::with_tolerance(1e-12));
+/// let mut lands = ball.differentiable_event("lands", |sample| sample.coordinate("y")).falling().terminal();
+///
+/// // Dropped from 1 m: by the height, by gravity, and by the coefficient of restitution.
+/// let start = ball.sensitivity(&State::at_rest([1.0]), &["y", "g"])?.with(&["e"])?;
+/// let fall = ball.integrate_sensitivities_until(&start, 10.0, method, &mut [&mut lands])?;
+/// let landing = fall.end()?;
+/// // It falls for √(2h/g).
+/// assert!((landing.t[0] - 0.5 * landing.state.t).abs() < 1e-12);
+/// let bounce = floor.impact_sensitivity(landing, "floor", ("e", 0.8))?;
+/// let flight = ball.integrate_sensitivities_until(&bounce, 0.6, method, &mut [])?;
+/// // y = e v τ − g τ²/2 with v = √(2gh), τ = t − v/g
+/// let (v, tau) = ((2.0 * 9.81_f64).sqrt(), 0.6 - (2.0 / 9.81_f64).sqrt());
+/// assert!((flight.coordinate(0.6, "y", "e")? - v * tau).abs() < 1e-12);
+/// # Ok::<(), Error>(())
+/// ```
+///
+/// Parameters are matched by name: what is called `g` in two systems is the same number, and one that a system lacks has no
+/// effect there. Names of coordinates and velocities are those of the start.
+///
+/// Where the motion touches an event and does not cross it, it has no derivative, [`Error::Grazing`]: where the rate of
+/// the event's function is less than √ε of its terms, or of what they were where the step began. Nor has it one where
+/// two events coincide, which is not looked for.
+pub trait AcrossEvents<const N: usize, const M: usize, const P: usize>:
+    Linearized<N, M, P, Scalar: Real> + Sized
+{
+    /// A state with its derivatives by these arguments, to start with: its entries and parameters, named as in
+    /// [`jacobian_by`](Linearized::jacobian_by).
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] and [`Error::RepeatedName`].
+    fn sensitivity(
+        &self,
+        state: &State<Self::Scalar, N>,
+        arguments: &[&str],
+    ) -> Result<Sensitivity<Self::Scalar, N>, Error> {
+        sensitivity::start::<Self, N, M, P>(state, arguments)
+    }
+
+    /// An event of this system, as by [`event`](crate::Simulate::event), whose function can be differentiated: it is
+    /// given a state over dual numbers, and gives one.
+    ///
+    /// The function is evaluated as it is in every run, and gives its derivative beside. It knows no
+    /// observables and no momenta; what it captures, or reads from [`system`](DualSample::system), is constant.
+    ///
+    /// ```
+    /// # use lagrange_core::prelude::*;
+    /// /// A block that rides on a belt, held by a spring.
+    /// #[derive(Lagrangian)]
+    /// #[coordinates(x)]
+    /// #[lagrangian(x_dot^2/2 - k/2 * x^2)]
+    /// #[constraint(friction: x_dot - belt = 0)]
+    /// struct Sticking { k: f64, belt: f64 }
+    ///
+    /// let block = Sticking { k: 4.0, belt: 0.5 };
+    /// let gives =
+    ///     block.differentiable_event("gives", |s| Ok(s.multiplier("friction")? - s.number("hold", 2.0)));
+    /// let mut gives = gives.rising().terminal();
+    /// let start = block.sensitivity(&State::new([0.0], [0.5]), &["k", "belt"])?.with(&["hold"])?;
+    /// let ride = block.integrate_sensitivities_until(&start, 10.0, Dop853::default(), &mut [&mut gives])?;
+    /// // Until t = hold/(k belt)
+    /// for (by, expected) in ride.end()?.t.iter().zip([-0.25, -2.0, 0.5]) {
+    ///     assert!((by - expected).abs() < 1e-9);
+    /// }
+    /// # Ok::<(), Error>(())
+    /// ```
+    fn differentiable_event<V, G>(
+        &self,
+        name: &'static str,
+        function: G,
+    ) -> Event<Self, OverDuals<G, P>, N, M>
+    where
+        V: EventValue<Dual<Self::Scalar>>,
+        G: Fn(&DualSample<'_, Self, N, M, P>) -> V,
+    {
+        Event::new(name, OverDuals(function))
+    }
+
+    /// The motion from a state with derivatives to the first terminal event, or to the time `end`, and its derivatives.
+    ///
+    /// Where a leg before has ended at an event, its time is the start and changes too: derivatives are those at given
+    /// times. On constraints they are projected onto the tangent space.
+    ///
+    /// # Errors
+    /// As [`integrate_sensitivities`](Linearized::integrate_sensitivities) and
+    /// [`integrate_until`](crate::Simulate::integrate_until). Of an event without derivative,
+    /// [`Sensitivities::end`] is the error.
+    fn integrate_sensitivities_until<Q: Pair>(
+        &self,
+        start: &Sensitivity<Self::Scalar, N>,
+        end: Self::Scalar,
+        method: Adaptive<Q>,
+        events: &mut [&mut dyn DifferentiableEvent<Self, N, M, P>],
+    ) -> Result<Sensitivities<'_, Self, N, M, P>, Error> {
+        sensitivities::integrate(self, start, end, &method, events)
+    }
+
+    /// The state with its derivatives after an [`impact`](crate::Simulate::impact), by the system that has the
+    /// constraint. The restitution is a number with its name: an argument of that name is e.
+    ///
+    /// # Errors
+    /// As [`impact`](crate::Simulate::impact); [`Error::DerivativeNotFinite`].
+    fn impact_sensitivity(
+        &self,
+        at: &Sensitivity<Self::Scalar, N>,
+        constraint: &str,
+        restitution: (&str, Self::Scalar),
+    ) -> Result<Sensitivity<Self::Scalar, N>, Error> {
+        sensitivity::impact_sensitivity(self, at, constraint, restitution)
+    }
+
+    /// The state with its derivatives after a reset: coordinates and velocities, of another system and of another
+    /// number where they are, as functions of those of this one. The function is called once for the state and once for each argument.
+    ///
+    /// ```
+    /// # use lagrange_core::prelude::*;
+    /// /// A pendulum, whose string is cut.
+    /// #[derive(Lagrangian)]
+    /// #[coordinates(theta)]
+    /// #[lagrangian(l^2/2 * theta_dot^2 + g*l*cos(theta))]
+    /// struct Pendulum { l: f64, g: f64 }
+    ///
+    /// let pendulum = Pendulum { l: 2.0, g: 9.81 };
+    /// let cut = pendulum.sensitivity(&State::new([0.5], [1.5]), &["theta", "l"])?;
+    /// let thrown = pendulum.carry(&cut, |sample| {
+    ///     let (l, [theta], [omega]) = (sample.parameter("l")?, sample.state().q.into(), sample.state().v.into());
+    ///     let (sin, cos) = theta.sin_cos();
+    ///     Ok([[l * sin, -l * cos], [l * cos * omega, l * sin * omega]])
+    /// })?;
+    /// assert_eq!(thrown.state.v[0], 2.0 * 0.5_f64.cos() * 1.5);
+    /// assert_eq!((thrown.q[(0, 0)], thrown.q[(0, 1)]), (2.0 * 0.5_f64.cos(), 0.5_f64.sin()));
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of the function.
+    fn carry<const K: usize>(
+        &self,
+        at: &Sensitivity<Self::Scalar, N>,
+        map: impl Fn(&DualSample<'_, Self, N, M, P>) -> Result<Phase<Dual<Self::Scalar>, K>, Error>,
+    ) -> Result<Sensitivity<Self::Scalar, K>, Error> {
+        sensitivity::carry(self, at, map)
+    }
+}
+
+impl<L: Linearized<N, M, P, Scalar: Real>, const N: usize, const M: usize, const P: usize>
+    AcrossEvents<N, M, P> for L
+{
+}

@@ -1,0 +1,239 @@
+//! A state over dual numbers, and events whose functions are written over them.
+
+use core::fmt::{self, Debug, Formatter};
+
+use nalgebra::{ComplexField, SVector};
+
+use super::argument::parameter;
+use super::tangent::Tangent;
+use super::{Direction, Linearized};
+use crate::error::Error;
+use crate::motion::{Event, EventFunction, EventValue, Watched};
+use crate::names::Entry;
+use crate::number::{Dual, Real, Scalar, Wide};
+use crate::solution::solve::solve;
+use crate::system::lookup::index;
+use crate::system::{Solution, State};
+
+/// A state of a system over dual numbers: with its change by one argument, as a function needs it that is to be
+/// differentiated.
+///
+/// Quantities have the names that they have in a [`Sample`](crate::Sample): coordinates, velocities, accelerations and
+/// multipliers; to these come the parameters and numbers of one's own, since what a function captures, or reads from the
+/// system, is a constant to it. The mathematics of [`Dual`] numbers is that of [`Scalar`](crate::Scalar).
+pub struct DualSample<'a, L, const N: usize, const M: usize, const P: usize>
+where
+    L: Linearized<N, M, P>,
+{
+    system: &'a L,
+    state: State<Dual<L::Scalar>, N>,
+    /// By what it changes; nothing where the function alone is asked for, or how it changes with the time.
+    argument: Option<Entry>,
+}
+
+impl<'a, L, const N: usize, const M: usize, const P: usize> DualSample<'a, L, N, M, P>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+{
+    pub(super) fn along(
+        system: &'a L,
+        state: &State<L::Scalar, N>,
+        direction: &Direction<L::Scalar, N>,
+        argument: Option<Entry>,
+    ) -> Self {
+        let dual = |value, slope| Dual { value, slope };
+        let (t, q) = (dual(state.t, direction.t), state.q.zip_map(&direction.q, dual));
+        Self { system, state: State { t, q, v: state.v.zip_map(&direction.v, dual) }, argument }
+    }
+
+    /// The system.
+    pub fn system(&self) -> &'a L {
+        self.system
+    }
+
+    /// Time, coordinates and velocities.
+    pub fn state(&self) -> &State<Dual<L::Scalar>, N> {
+        &self.state
+    }
+
+    /// The time, which of an event changes too.
+    pub fn time(&self) -> Dual<L::Scalar> {
+        self.state.t
+    }
+
+    /// The generalized coordinate of this name.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`].
+    pub fn coordinate(&self, name: &str) -> Result<Dual<L::Scalar>, Error> {
+        Ok(self.state.q[index::<L, N, M>(&L::COORDINATES, "coordinate", name)?])
+    }
+
+    /// The generalized velocity of the coordinate of this name.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`].
+    pub fn velocity(&self, name: &str) -> Result<Dual<L::Scalar>, Error> {
+        Ok(self.state.v[index::<L, N, M>(&L::COORDINATES, "coordinate", name)?])
+    }
+
+    /// The generalized acceleration of the coordinate of this name.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
+    pub fn acceleration(&self, name: &str) -> Result<Dual<L::Scalar>, Error> {
+        let index = index::<L, N, M>(&L::COORDINATES, "coordinate", name)?;
+        Ok(self.solution()?.accelerations[index])
+    }
+
+    /// The multiplier λ of the constraint of this name.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
+    pub fn multiplier(&self, name: &str) -> Result<Dual<L::Scalar>, Error> {
+        let index = index::<L, N, M>(&L::CONSTRAINTS, "constraint", name)?;
+        Ok(self.solution()?.multipliers[index])
+    }
+
+    /// The parameter of this name, which changes where it is the argument.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`].
+    pub fn parameter(&self, name: &str) -> Result<Dual<L::Scalar>, Error> {
+        let index = index::<L, N, M>(&L::PARAMETERS, "parameter", name)?;
+        Ok(self.number(L::PARAMETERS[index], self.system.parameters()[index]))
+    }
+
+    /// A number of one's own, which changes where an argument of this name is the one.
+    pub fn number(&self, name: &str, value: L::Scalar) -> Dual<L::Scalar> {
+        Dual { value, slope: slope(self.argument, name) }
+    }
+
+    /// Accelerations and multipliers.
+    ///
+    /// # Errors
+    /// As [`Linearized::jacobian_by`].
+    pub fn solution(&self) -> Result<Solution<Dual<L::Scalar>, N, M>, Error> {
+        let State { t, q, v } = self.state;
+        let state = State { t: t.value, q: q.map(|x| x.value), v: v.map(|x| x.value) };
+        let direction = Direction { t: t.slope, q: q.map(|x| x.slope), v: v.map(|x| x.slope) };
+        if self.argument.is_none() && direction == Direction::zero() {
+            return Ok(dual(
+                &solve(self.system, &state)?,
+                |_| L::Scalar::constant(0.0),
+                |_| L::Scalar::constant(0.0),
+            ));
+        }
+        let tangent = Tangent::at(self.system, &state)?;
+        let parameter = self.argument.and_then(parameter::<L, N, M, P>);
+        let change = tangent.change_with(&direction, parameter);
+        let response = tangent.responses(1, &change, |_| self.argument.unwrap_or(Entry::Time))?;
+        Ok(dual(
+            &tangent.solution,
+            |i| response.accelerations[i].lane(0),
+            |a| response.multipliers[a].lane(0),
+        ))
+    }
+}
+
+/// A solution with its changes.
+fn dual<T: Real, const N: usize, const M: usize>(
+    solution: &Solution<T, N, M>,
+    acceleration: impl Fn(usize) -> T,
+    multiplier: impl Fn(usize) -> T,
+) -> Solution<Dual<T>, N, M> {
+    let Solution { accelerations, multipliers, pivot, rank } = solution;
+    Solution {
+        accelerations: SVector::from_fn(|i, _| Dual { value: accelerations[i], slope: acceleration(i) }),
+        multipliers: SVector::from_fn(|a, _| Dual { value: multipliers[a], slope: multiplier(a) }),
+        pivot: Dual { value: *pivot, slope: T::constant(0.0) },
+        rank: *rank,
+    }
+}
+
+/// How a number of this name changes with the argument: by 1, or not at all.
+pub(super) fn slope<T: Scalar>(argument: Option<Entry>, name: &str) -> T {
+    let is_argument = matches!(argument, Some(Entry::Parameter(known)) if known == name);
+    T::constant(if is_argument { 1.0 } else { 0.0 })
+}
+
+impl<L, const N: usize, const M: usize, const P: usize> Debug for DualSample<'_, L, N, M, P>
+where
+    L: Linearized<N, M, P>,
+{
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let mut sample = f.debug_struct("DualSample");
+        sample
+            .field("system", &L::NAME)
+            .field("state", &self.state)
+            .field("argument", &self.argument)
+            .finish()
+    }
+}
+
+/// The function of an event, written over dual numbers.
+#[derive(Clone, Copy, Debug)]
+pub struct OverDuals<G, const P: usize>(pub(super) G);
+
+impl<L, G, V, const N: usize, const M: usize, const P: usize> EventFunction<L, N, M> for OverDuals<G, P>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+    G: Fn(&DualSample<'_, L, N, M, P>) -> V,
+    V: EventValue<Dual<L::Scalar>>,
+{
+    fn at(&self, system: &L, state: &State<L::Scalar, N>) -> Result<L::Scalar, Error> {
+        Ok((self.0)(&DualSample::along(system, state, &Direction::zero(), None)).value()?.value)
+    }
+}
+
+/// An event of a system that can be differentiated: made by
+/// [`AcrossEvents::differentiable_event`](super::AcrossEvents::differentiable_event).
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not an event of `{L}` that can be differentiated",
+    note = "make one by `system.differentiable_event(\"name\", |sample| …)`, of the same system, and pass `&mut [&mut event]`"
+)]
+pub trait DifferentiableEvent<L, const N: usize, const M: usize, const P: usize>: Watched<L, N, M>
+where
+    L: Linearized<N, M, P>,
+{
+    /// How its function changes along a direction and with an argument; the name of the event where that is not finite.
+    #[doc(hidden)]
+    fn change(
+        &self,
+        system: &L,
+        state: &State<L::Scalar, N>,
+        direction: &Direction<L::Scalar, N>,
+        argument: Option<Entry>,
+    ) -> Result<L::Scalar, Error>;
+
+    /// What it is called.
+    #[doc(hidden)]
+    fn called(&self) -> &'static str;
+}
+
+impl<L, G, V, const N: usize, const M: usize, const P: usize> DifferentiableEvent<L, N, M, P>
+    for Event<L, OverDuals<G, P>, N, M>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+    G: Fn(&DualSample<'_, L, N, M, P>) -> V,
+    V: EventValue<Dual<L::Scalar>>,
+{
+    fn change(
+        &self,
+        system: &L,
+        state: &State<L::Scalar, N>,
+        direction: &Direction<L::Scalar, N>,
+        argument: Option<Entry>,
+    ) -> Result<L::Scalar, Error> {
+        let OverDuals(function) = self.function();
+        let slope = function(&DualSample::along(system, state, direction, argument)).value()?.slope;
+        match slope.is_finite() {
+            true => Ok(slope),
+            false => Err(Error::EventNotFinite { event: self.name(), time: state.t.to_f64() }),
+        }
+    }
+
+    fn called(&self) -> &'static str {
+        self.name()
+    }
+}

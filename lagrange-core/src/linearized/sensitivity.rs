@@ -1,0 +1,232 @@
+//! A state with its derivatives, and what an event makes of them.
+//!
+//! At an event the time changes too: with δ the change of the state at a given time, g(t, q, q̇, p) = 0 there gives
+//! δt = −(g_q δq + g_q̇ δq̇ + g_p δp)/ġ, and the state at the event changes by Δ = δ + ẋ⁻ δt. A reset x⁺ = R(t, x⁻, p) makes
+//! R_t δt + R_x Δ + R_p δp of it, and after the event, at a given time again, it is that − ẋ⁺ δt. Together these are the
+//! saltation matrix, R_x + (ẋ⁺ − R_x ẋ⁻ − R_t) g_x/ġ (Leine and Nijmeijer, *Dynamics and Bifurcations of
+//! Non-Smooth Mechanical Systems*, 2004, chapter 7; Kong, Payne, Zhu and Johnson, "Saltation matrices: the unsung heroes of
+//! hybrid optimal control", *Proceedings of the IEEE* 112, 2024, (3)).
+
+use alloc::vec::Vec;
+
+use nalgebra::{DMatrix, DVector, SVector};
+
+use super::argument::{Argument, parameter};
+use super::dual_sample::{DifferentiableEvent, DualSample, slope};
+use super::tangent::Tangent;
+use super::{Direction, Linearized, ResidualChange};
+use crate::error::Error;
+use crate::names::Entry;
+use crate::number::{Dual, Over, Real, Scalar, Wide, larger, power_of_epsilon, vector};
+use crate::solution::flow::Phase;
+use crate::solution::impact::impact;
+use crate::solution::solve::solve;
+use crate::system::lookup::index;
+use crate::system::{Solution, State};
+
+/// A state of a motion and its derivatives by some arguments: entries of a start, parameters, and numbers of one's
+/// own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sensitivity<T, const N: usize> {
+    /// The state.
+    pub state: State<T, N>,
+    /// Of the time, by each argument: zero at a time that is given. The time of an event changes.
+    pub t: DVector<T>,
+    /// Of the coordinates, a row each, by each argument, a column each.
+    pub q: DMatrix<T>,
+    /// Of the velocities.
+    pub v: DMatrix<T>,
+    arguments: Vec<Entry>,
+}
+
+impl<T: Real, const N: usize> Sensitivity<T, N> {
+    /// Of a state that nothing changes yet.
+    pub(super) fn of(state: State<T, N>, arguments: Vec<Entry>) -> Self {
+        let count = arguments.len();
+        let none = || DMatrix::from_element(N, count, T::constant(0.0));
+        Self { state, t: DVector::from_element(count, T::constant(0.0)), q: none(), v: none(), arguments }
+    }
+
+    /// The arguments, in the order of the columns.
+    pub fn arguments(&self) -> &[Entry] {
+        &self.arguments
+    }
+
+    /// With derivatives by more parameters too, of whatever system the motion will come to, or by numbers of one's own; so
+    /// far the state does not depend on them.
+    ///
+    /// # Errors
+    /// [`Error::RepeatedName`].
+    pub fn with(mut self, names: &[&'static str]) -> Result<Self, Error> {
+        for name in names {
+            let entry = Entry::Parameter(name);
+            if self.arguments.contains(&entry) {
+                return Err(Error::RepeatedName { name: (*name).into() });
+            }
+            self.arguments.push(entry);
+        }
+        let (count, zero) = (self.arguments.len(), T::constant(0.0));
+        self.t = self.t.resize_vertically(count, zero);
+        for x in [&mut self.q, &mut self.v] {
+            *x = core::mem::take(x).resize_horizontally(count, zero);
+        }
+        Ok(self)
+    }
+
+    /// How the state changes with argument `j`.
+    pub(super) fn direction(&self, j: usize) -> Direction<T, N> {
+        let column = |x: &DMatrix<T>| x.fixed_view::<N, 1>(0, j).into_owned();
+        Direction { t: self.t[j], q: column(&self.q), v: column(&self.v) }
+    }
+
+    /// Makes column `j` that of a state which is later by `by`.
+    fn delay(&mut self, j: usize, by: T, accelerations: &SVector<T, N>) {
+        self.t[j] += by;
+        let rates = [&self.state.v, accelerations];
+        for (x, rate) in [&mut self.q, &mut self.v].into_iter().zip(rates) {
+            x.column_mut(j).iter_mut().zip(rate).for_each(|(x, rate)| *x += *rate * by);
+        }
+    }
+
+    /// Sets column `j` of the derivatives of the state.
+    pub(super) fn set(&mut self, j: usize, [q, v]: [&[T]; 2]) {
+        self.q.column_mut(j).copy_from_slice(q);
+        self.v.column_mut(j).copy_from_slice(v);
+    }
+}
+
+/// See [`AcrossEvents::sensitivity`](super::AcrossEvents::sensitivity).
+pub(super) fn start<L, const N: usize, const M: usize, const P: usize>(
+    state: &State<L::Scalar, N>,
+    names: &[&str],
+) -> Result<Sensitivity<L::Scalar, N>, Error>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+{
+    let arguments = Argument::named::<L, N, M, P>(names)?;
+    let entries = arguments.iter().map(|argument| argument.entry::<L, N, M, P>()).collect();
+    let mut start = Sensitivity::of(*state, entries);
+    for (j, argument) in arguments.iter().enumerate() {
+        match *argument {
+            Argument::Coordinate(i) => start.q[(i, j)] = L::Scalar::constant(1.0),
+            Argument::Velocity(i) => start.v[(i, j)] = L::Scalar::constant(1.0),
+            Argument::Parameter(_) => {}
+        }
+    }
+    Ok(start)
+}
+
+/// Derivatives at an event from those at its time. `before` is a state earlier in the motion, which tells how
+/// fast the function of the event may change.
+///
+/// # Errors
+/// [`Error::Grazing`].
+pub(super) fn at_event<L, const N: usize, const M: usize, const P: usize>(
+    system: &L,
+    mut at: Sensitivity<L::Scalar, N>,
+    event: &dyn DifferentiableEvent<L, N, M, P>,
+    before: &State<L::Scalar, N>,
+) -> Result<Sensitivity<L::Scalar, N>, Error>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+{
+    let accelerations = solve(system, &at.state)?.accelerations;
+    let [(rate, terms), (_, earlier)] = [rate(system, &at.state, event)?, rate(system, before, event)?];
+    if Scalar::abs(rate) <= power_of_epsilon::<L::Scalar>(0.5) * larger(terms, earlier) {
+        return Err(Error::Grazing { event: event.called(), time: at.state.t.to_f64() });
+    }
+    for j in 0..at.arguments.len() {
+        let change = event.change(system, &at.state, &at.direction(j), Some(at.arguments[j]))?;
+        at.delay(j, -change / rate, &accelerations);
+    }
+    Ok(at)
+}
+
+/// How fast the function of an event changes along the motion, and the sum of the magnitudes of what this is made of.
+fn rate<L, const N: usize, const M: usize, const P: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+    event: &dyn DifferentiableEvent<L, N, M, P>,
+) -> Result<(L::Scalar, L::Scalar), Error>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+{
+    let accelerations = solve(system, state)?.accelerations;
+    let zero = Direction::zero();
+    let mut sums = [L::Scalar::constant(0.0); 2];
+    for i in 0..=2 * N {
+        let direction = match i {
+            i if i < N => Direction { q: only(i, &state.v), ..zero },
+            i if i < 2 * N => Direction { v: only(i - N, &accelerations), ..zero },
+            _ => Direction::of_time(),
+        };
+        let part = event.change(system, state, &direction, None)?;
+        sums = [sums[0] + part, sums[1] + Scalar::abs(part)];
+    }
+    Ok(sums.into())
+}
+
+/// Entry `i` alone.
+fn only<T: Real, const N: usize>(i: usize, x: &SVector<T, N>) -> SVector<T, N> {
+    SVector::from_fn(|j, _| if i == j { x[j] } else { T::constant(0.0) })
+}
+
+/// See [`AcrossEvents::carry`](super::AcrossEvents::carry).
+pub(super) fn carry<L, const N: usize, const M: usize, const P: usize, const K: usize>(
+    system: &L,
+    at: &Sensitivity<L::Scalar, N>,
+    map: impl Fn(&DualSample<'_, L, N, M, P>) -> Result<Phase<Dual<L::Scalar>, K>, Error>,
+) -> Result<Sensitivity<L::Scalar, K>, Error>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+{
+    let [q, v] = map(&DualSample::along(system, &at.state, &Direction::zero(), None))?
+        .map(|half| vector(half.map(|x| x.value)));
+    let mut after = Sensitivity::of(State { t: at.state.t, q, v }, at.arguments.clone());
+    after.t.copy_from(&at.t);
+    for (j, argument) in at.arguments.iter().enumerate() {
+        let sample = DualSample::along(system, &at.state, &at.direction(j), Some(*argument));
+        let slopes = map(&sample)?.map(|half| half.map(|x| x.slope));
+        after.set(j, [&slopes[0], &slopes[1]]);
+    }
+    Ok(after)
+}
+
+/// See [`AcrossEvents::impact_sensitivity`](super::AcrossEvents::impact_sensitivity).
+///
+/// The jump J of the velocities and the impulses Λ solve M J − FᵀΛ = 0, F J + ρ = 0 with ρ = F q̇⁻ + b, times 1 + e in the row
+/// that is hit. Differentiated, δM J − δFᵀΛ is the change of the residual of motion at accelerations J and multipliers Λ less
+/// that at none, and δF J that of the accelerations of the constraints.
+pub(super) fn impact_sensitivity<L, const N: usize, const M: usize, const P: usize>(
+    system: &L,
+    at: &Sensitivity<L::Scalar, N>,
+    constraint: &str,
+    (name, restitution): (&str, L::Scalar),
+) -> Result<Sensitivity<L::Scalar, N>, Error>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+{
+    let of = <L::Scalar as Real>::Wide::of;
+    let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
+    let hit = index::<L, N, M>(&L::CONSTRAINTS, "constraint", constraint)?;
+    let impact = impact(system, &at.state, hit, restitution)?;
+    let solution = |accelerations, multipliers| Solution { accelerations, multipliers, pivot: one, rank: M };
+    let none = solution(vector([zero; N]), vector([zero; M]));
+    let jumped = Tangent::of(system, &at.state, solution(impact.state.v - at.state.v, impact.impulses));
+    let still = Tangent::of(system, &at.state, none);
+    let rate = system.constraint_rate(&at.state)[hit];
+    let mut after = Sensitivity { state: impact.state, ..at.clone() };
+    for (j, &argument) in at.arguments.iter().enumerate() {
+        let along = (at.direction(j), parameter::<L, N, M, P>(argument));
+        let [with, without] = [&jumped, &still].map(|tangent| tangent.change_with(&along.0, along.1));
+        let mut acceleration = with.acceleration.zip_map(&without.acceleration, |x, y| x - y);
+        acceleration = acceleration.zip_map(&with.rate, |x, y| x + y);
+        let by_restitution = of(slope::<L::Scalar>(Some(argument), name) * rate);
+        acceleration[hit] = acceleration[hit] + of(restitution) * with.rate[hit] + by_restitution;
+        let motion = with.motion.zip_map(&without.motion, |x, y| x - y);
+        let change = ResidualChange { motion, acceleration, ..with };
+        let jump = jumped.responses(1, &change, |_| argument)?.accelerations;
+        after.v.column_mut(j).iter_mut().zip(&jump).for_each(|(v, jump)| *v += jump.lane(0));
+    }
+    Ok(after)
+}
