@@ -156,7 +156,7 @@ pub trait AcrossEvents<const N: usize, const M: usize, const P: usize>:
     /// let pendulum = Pendulum { l: 2.0, g: 9.81 };
     /// let cut = pendulum.sensitivity(&State::new([0.5], [1.5]), &["theta", "l"])?;
     /// let thrown = pendulum.carry(&cut, |sample| {
-    ///     let (l, [theta], [omega]) = (sample.parameter("l")?, sample.state().q.into(), sample.state().v.into());
+    ///     let (l, theta, omega) = (sample.parameter("l")?, sample.coordinate("theta")?, sample.velocity("theta")?);
     ///     let (sin, cos) = theta.sin_cos();
     ///     Ok([[l * sin, -l * cos], [l * cos * omega, l * sin * omega]])
     /// })?;
