@@ -206,6 +206,13 @@ pub enum Error {
         /// How many parts there are.
         of: usize,
     },
+    /// A time at which members are to be sampled that is not finite, or not in order with those before.
+    SampleTime {
+        /// Which one, counted from 0.
+        index: usize,
+        /// The time.
+        time: f64,
+    },
     /// Outcomes of different ensembles, which are no parts of one.
     Merge {
         /// In what they differ.
@@ -386,6 +393,10 @@ impl Display for Error {
                     "there is no part {shard} of {of}: parts are counted from 0, and there is at least one"
                 )
             }
+            Self::SampleTime { index, time } => write!(
+                f,
+                "the sample time {index} (counted from 0) is {time}: give finite times in the order of the motion"
+            ),
             Self::Merge { reason } => write!(f, "the outcomes are not parts of one ensemble: {reason}"),
             Self::OtherEnd { member, time, end } => write!(
                 f,

@@ -5,6 +5,7 @@ mod failures;
 mod fields;
 mod members;
 mod parts;
+mod samples;
 
 use lagrange_core::prelude::*;
 

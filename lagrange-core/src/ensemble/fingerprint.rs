@@ -2,7 +2,7 @@
 
 use core::fmt::{self, Write};
 
-use crate::motion::Method;
+use crate::motion::{Method, Orders};
 use crate::number::Real;
 use crate::system::{Lagrangian, State};
 
@@ -16,7 +16,7 @@ use crate::system::{Lagrangian, State};
 pub struct Fingerprint {
     /// Of the system's name, its equations as text, its coordinates and constraints, and its number type.
     pub system: u32,
-    /// Of the method and its settings, whether it was on lanes, and the end.
+    /// Of the method and its settings, whether it was on lanes, the end, and the times and quantities of samples.
     pub run: u32,
     /// Of the time, coordinates, velocities and parameters that the member starts with, bit for bit.
     pub start: u32,
@@ -28,6 +28,7 @@ impl Fingerprint {
         method: &P,
         end: L::Scalar,
         is_on_lanes: bool,
+        orders: &Orders<'_, L, N, M>,
     ) -> Self
     where
         L: Lagrangian<N, M, Scalar: Real>,
@@ -43,6 +44,9 @@ impl Fingerprint {
         }
         run.text(if is_on_lanes { " on lanes" } else { "" });
         run.number(end.to_f64());
+        if orders.identify(&mut run).is_err() {
+            run.text("not written to its end");
+        }
         Self { system: system.0, run: run.0, start: 0 }
     }
 

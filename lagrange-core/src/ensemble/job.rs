@@ -10,13 +10,14 @@ use super::outcome::{Arrival, Member, Outcome};
 use crate::ending::Ending;
 use crate::error::Error;
 use crate::motion::run::{Run, Watchdog};
-use crate::motion::{Adaptive, Batch, LagrangianFlow, Method, Pair, Seat};
+use crate::motion::{Adaptive, Batch, LagrangianFlow, Method, Orders, Pair, Record, Seat};
 use crate::number::{Lanes, Real};
+use crate::statistics::Statistics;
 use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, Pack, State};
 
 /// What an ensemble is to do.
-pub(super) struct Plan<'a, L, T, const N: usize> {
+pub(super) struct Plan<'a, L: Lagrangian<N, M, Scalar = T>, T, const N: usize, const M: usize> {
     pub(super) count: usize,
     pub(super) make: Make<'a, L, T, N>,
     pub(super) shard: usize,
@@ -27,6 +28,7 @@ pub(super) struct Plan<'a, L, T, const N: usize> {
     pub(super) done: Vec<Member<T, N>>,
     pub(super) observer: Option<Observer<'a, T, N>>,
     pub(super) watch: Option<Watch<'a, T, N>>,
+    pub(super) orders: Orders<'a, L, N, M>,
 }
 
 type Make<'a, L, T, const N: usize> = Box<dyn Fn(usize) -> (L, State<T, N>) + Send + Sync + 'a>;
@@ -45,9 +47,10 @@ pub struct EnsembleProgress<'m, T, const N: usize> {
 }
 
 /// What the threads share.
-pub(super) struct Job<'a, L, T, const N: usize> {
+pub(super) struct Job<'a, L: Lagrangian<N, M, Scalar = T>, T, const N: usize, const M: usize> {
     make: Make<'a, L, T, N>,
     observer: Option<Observer<'a, T, N>>,
+    orders: Orders<'a, L, N, M>,
     end: T,
     /// What the fingerprints of all members have in common.
     run: Fingerprint,
@@ -116,16 +119,13 @@ struct Ledger<'a, T, const N: usize> {
     watch: Option<Watch<'a, T, N>>,
 }
 
-impl<'a, L, T: Real, const N: usize> Job<'a, L, T, N> {
-    pub(super) fn new<const M: usize>(
-        plan: Plan<'a, L, T, N>,
-        end: T,
-        run: Fingerprint,
-    ) -> Result<Self, Error>
-    where
-        L: Lagrangian<N, M, Scalar = T>,
-    {
-        let Plan { count, make, shard, shards, list, done, observer, watch } = plan;
+impl<'a, L, T: Real, const N: usize, const M: usize> Job<'a, L, T, N, M>
+where
+    L: Lagrangian<N, M, Scalar = T>,
+{
+    pub(super) fn new(plan: Plan<'a, L, T, N, M>, end: T, run: Fingerprint) -> Result<Self, Error> {
+        let Plan { count, make, shard, shards, list, done, observer, watch, orders } = plan;
+        orders.check()?;
         let part = Part::new(count, shard, shards, list)?;
         let mut members = done;
         members.retain(|member| part.contains(member.index));
@@ -139,12 +139,12 @@ impl<'a, L, T: Real, const N: usize> Job<'a, L, T, N> {
         let done = members.iter().map(|member| member.index).collect();
         let ledger = Mutex::new(Ledger { members, of: part.len(), watch });
         let (given, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
-        Ok(Self { make, observer, end, run, part, done, given, stopped, ledger })
+        Ok(Self { make, observer, orders, end, run, part, done, given, stopped, ledger })
     }
 
-    pub(super) fn outcome(self, names: [&'static str; N]) -> Outcome<T, N> {
+    pub(super) fn outcome(self) -> Outcome<T, N> {
         let ledger = self.ledger.into_inner().unwrap_or_else(PoisonError::into_inner);
-        Outcome::new(ledger.members, names, self.end, self.run)
+        Outcome::new(ledger.members, L::COORDINATES, self.orders.quantities(), (self.end, self.run))
     }
 
     /// The member that nobody has yet.
@@ -194,46 +194,57 @@ impl<'a, L, T: Real, const N: usize> Job<'a, L, T, N> {
     }
 
     /// Integrates members until there are none left.
-    pub(super) fn one_by_one<P, const M: usize>(&self, method: &P)
-    where
-        L: Lagrangian<N, M, Scalar = T>,
-        P: Method<L, N, M>,
-    {
+    pub(super) fn one_by_one<P: Method<L, N, M>, const IS_WATCHED: bool>(&self, method: &P) {
         while let Some(index) = self.next() {
             let (system, start) = (self.make)(index);
             let fingerprint = self.run.with_start(&system, &start);
-            let result = self.integrate(index, &system, &start, method);
+            let result = self.integrate::<P, IS_WATCHED>(index, &system, &start, method);
             self.report(Member { index, fingerprint, result });
         }
     }
 
-    fn integrate<P, const M: usize>(
+    fn integrate<P: Method<L, N, M>, const IS_WATCHED: bool>(
         &self,
         index: usize,
         system: &L,
         start: &State<T, N>,
         method: &P,
-    ) -> Result<Arrival<T, N>, Error>
-    where
-        L: Lagrangian<N, M, Scalar = T>,
-        P: Method<L, N, M>,
-    {
+    ) -> Result<Arrival<T, N>, Error> {
         check_finite(system, start)?;
         let (mut run, _) = Run::begin::<L, LagrangianFlow, _, M>(system, start, method)?;
+        let mut record = Record::begin(&self.orders, system, &run.state, self.end)?;
         let limits = Watchdog::new(method.limits(), &run.statistics);
         let ending = loop {
             if run.state.t == self.end {
                 break Ending::Complete { time: run.state.t.to_f64() };
             }
-            if let Err(ending) = run.step(system, method, self.end, &limits) {
+            let stepped = match const { IS_WATCHED } {
+                true => record.step(&mut run, system, method, self.end, &limits),
+                false => run.step(system, method, self.end, &limits),
+            };
+            if let Err(ending) = stepped {
                 break ending;
             }
             if self.observe(index, &run.state).is_break() {
                 break Ending::Cancelled { time: run.state.t.to_f64() };
             }
         };
-        Ok(Arrival { state: run.state, ending, statistics: run.statistics })
+        Ok(arrival(run.state, ending, run.statistics, record))
     }
+}
+
+/// Where a motion ended, with what was kept of it on the way.
+fn arrival<L, T: Real, const N: usize, const M: usize>(
+    state: State<T, N>,
+    ending: Ending,
+    statistics: Statistics,
+    record: Record<'_, L, N, M>,
+) -> Arrival<T, N>
+where
+    L: Lagrangian<N, M, Scalar = T>,
+{
+    let (samples, values) = record.finish();
+    Arrival { state, ending, statistics, samples, values }
 }
 
 /// A member taken over must be of this run, with this start and these parameters.
@@ -254,9 +265,9 @@ fn check_end_of<T: Real, const N: usize>(member: &Member<T, N>, end: T) -> Resul
     }
 }
 
-impl<L, const N: usize> Job<'_, L, f64, N> {
+impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Job<'_, L, f64, N, M> {
     /// Integrates members four at a time until there are none left.
-    pub(super) fn on_lanes<P, const M: usize>(&self, method: Adaptive<P>)
+    pub(super) fn on_lanes<P, const IS_WATCHED: bool>(&self, method: Adaptive<P>)
     where
         L: Lagrangian<N, M, Scalar = f64> + Pack<Lanes, Packed: Lagrangian<N, M, Scalar = Lanes>>,
         P: Pair,
@@ -268,19 +279,19 @@ impl<L, const N: usize> Job<'_, L, f64, N> {
             next = self.next_seat(&method);
             while !batch.is_empty() && !self.is_stopped() {
                 self.fill(&mut batch, &mut next, &method);
-                batch.step(
+                batch.step::<IS_WATCHED>(
                     |index, state| self.observe(index, state),
-                    |seat, state, ending| self.report(self.arrived(&seat, state, ending)),
+                    |seat, state, ending| self.report(self.arrived(seat, state, ending)),
                 );
             }
         }
     }
 
     /// Gives free lanes to the next members. One that does not fit beside the others waits until they have ended.
-    fn fill<P, const M: usize>(
-        &self,
-        batch: &mut Batch<L, P, N, M>,
-        next: &mut Option<Seat<L, N, M>>,
+    fn fill<'j, P>(
+        &'j self,
+        batch: &mut Batch<'j, L, P, N, M>,
+        next: &mut Option<Seat<'j, L, N, M>>,
         method: &Adaptive<P>,
     ) where
         L: Lagrangian<N, M, Scalar = f64> + Pack<Lanes, Packed: Lagrangian<N, M, Scalar = Lanes>>,
@@ -297,34 +308,26 @@ impl<L, const N: usize> Job<'_, L, f64, N> {
         }
     }
 
-    fn arrived<const M: usize>(
-        &self,
-        seat: &Seat<L, N, M>,
-        state: State<f64, N>,
-        ending: Ending,
-    ) -> Member<f64, N> {
-        let fingerprint = Fingerprint { start: seat.start, ..self.run };
-        let result = Ok(Arrival { state, ending, statistics: seat.statistics });
-        Member { index: seat.index, fingerprint, result }
+    fn arrived(&self, seat: Seat<'_, L, N, M>, state: State<f64, N>, ending: Ending) -> Member<f64, N> {
+        let Seat { index, start, statistics, record, .. } = seat;
+        let fingerprint = Fingerprint { start, ..self.run };
+        Member { index, fingerprint, result: Ok(arrival(state, ending, statistics, record)) }
     }
 
     /// The next member that has a motion; those without are reported.
-    fn next_seat<P, const M: usize>(&self, method: &Adaptive<P>) -> Option<Seat<L, N, M>>
-    where
-        L: Lagrangian<N, M, Scalar = f64>,
-        P: Pair,
-    {
+    fn next_seat<P: Pair>(&self, method: &Adaptive<P>) -> Option<Seat<'_, L, N, M>> {
         loop {
             let index = self.next()?;
             let (system, start) = (self.make)(index);
             let fingerprint = self.run.with_start(&system, &start);
-            let seat = check_finite(&system, &start)
-                .and_then(|()| Seat::new((index, fingerprint.start), system, &start, self.end, method));
+            let seat = check_finite(&system, &start).and_then(|()| {
+                Seat::new((index, fingerprint.start), system, &start, self.end, method, &self.orders)
+            });
             match seat {
                 Err(error) => self.report(Member { index, fingerprint, result: Err(error) }),
                 Ok((mut seat, state)) => match seat.ending_at_start(method) {
                     None => return Some(seat),
-                    Some(ending) => self.report(self.arrived(&seat, state, ending)),
+                    Some(ending) => self.report(self.arrived(seat, state, ending)),
                 },
             }
         }

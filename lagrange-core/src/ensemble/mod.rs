@@ -3,7 +3,8 @@
 //! [`Ensemble::integrate_on_lanes`] integrates four members at once on SIMD lanes, [`Ensemble::integrate`] one after
 //! the other, and both with the feature `rayon` on all threads of rayon's current pool. What a member gives is bit
 //! for bit the same whatever its neighbours, the number of threads and the part of the ensemble that is run. A member
-//! that fails says why, and spoils no other.
+//! that fails says why, and spoils no other. What lies within the motions can be kept of each: [samples](Ensemble::samples_at) at
+//! given times.
 //!
 //! Members move in coordinates and velocities; there are no ensembles of motions in (q, p).
 
@@ -13,13 +14,14 @@ mod outcome;
 mod table;
 #[cfg(test)]
 mod tests;
+mod within;
 
 use core::fmt::{self, Debug, Formatter};
 use core::ops::ControlFlow;
 
 use crate::error::Error;
 use crate::motion::run::check_end;
-use crate::motion::{Adaptive, Method, Pair};
+use crate::motion::{Adaptive, Method, Orders, Pair};
 use crate::number::{Lanes, Real};
 use crate::system::{Lagrangian, Pack, State};
 pub use fingerprint::Fingerprint;
@@ -53,18 +55,24 @@ pub use table::{MemberEnding, MemberRow, MemberTable};
 /// # Ok::<(), Error>(())
 /// ```
 #[must_use = "an ensemble does nothing until it is integrated"]
-pub struct Ensemble<'a, L, T, const N: usize> {
-    plan: Plan<'a, L, T, N>,
+pub struct Ensemble<'a, L, T, const N: usize, const M: usize = 0, const IS_WATCHED: bool = false>
+where
+    L: Lagrangian<N, M, Scalar = T>,
+{
+    plan: Plan<'a, L, T, N, M>,
 }
 
-impl<'a, L, T: Real, const N: usize> Ensemble<'a, L, T, N> {
+impl<'a, L, T: Real, const N: usize, const M: usize> Ensemble<'a, L, T, N, M>
+where
+    L: Lagrangian<N, M, Scalar = T>,
+{
     /// `count` members, made from their indices 0, 1, …: always the same from the same. `member` is called from any
     /// thread, and from several at once.
     pub fn from_fn(count: usize, member: impl Fn(usize) -> (L, State<T, N>) + Send + Sync + 'a) -> Self {
         let make = Box::new(member);
         let (list, done, observer, watch) = (None, Vec::new(), None, None);
-        let plan = Plan { count, make, shard: 0, shards: 1, list, done, observer, watch };
-        Self { plan }
+        let orders = Orders::default();
+        Self { plan: Plan { count, make, shard: 0, shards: 1, list, done, observer, watch, orders } }
     }
 
     /// These members.
@@ -75,7 +83,13 @@ impl<'a, L, T: Real, const N: usize> Ensemble<'a, L, T, N> {
         // The closure is not called with another index.
         Self::from_fn(members.len(), |index| members[index].clone())
     }
+}
 
+impl<'a, L, T: Real, const N: usize, const M: usize, const IS_WATCHED: bool>
+    Ensemble<'a, L, T, N, M, IS_WATCHED>
+where
+    L: Lagrangian<N, M, Scalar = T>,
+{
     /// Only the members whose index leaves the remainder `shard` when divided by `of`: one of `of` parts of about
     /// the same size, to be run anywhere and put together by [`Outcome::merge`] or by [`resume`](Self::resume).
     pub fn shard(mut self, shard: usize, of: usize) -> Self {
@@ -132,15 +146,15 @@ impl<'a, L, T: Real, const N: usize> Ensemble<'a, L, T, N> {
     ///
     /// # Errors
     /// What is wrong with the whole: [`Error::Setting`], [`Error::EndNotFinite`], [`Error::Shard`],
-    /// [`Error::NoSuchMember`], [`Error::OtherEnd`], [`Error::OtherRun`]. What is wrong with a member is in the outcome.
-    pub fn integrate<P, const M: usize>(self, end: T, method: P) -> Result<Outcome<T, N>, Error>
+    /// [`Error::NoSuchMember`], [`Error::OtherEnd`], [`Error::OtherRun`], [`Error::SampleTime`]. What is wrong with a member is in
+    /// the outcome.
+    pub fn integrate<P>(self, end: T, method: P) -> Result<Outcome<T, N>, Error>
     where
-        L: Lagrangian<N, M, Scalar = T>,
         P: Method<L, N, M> + Sync,
     {
         method.check()?;
-        let run = Fingerprint::of_run::<L, _, N, M>(&method, end, false);
-        self.run(end, run, |job| job.one_by_one(&method))
+        let run = Fingerprint::of_run(&method, end, false, &self.plan.orders);
+        self.run(end, run, |job| job.one_by_one::<P, IS_WATCHED>(&method))
     }
 
     /// Leaves out what is done: the members in this table, from [`Outcome::csv`] or from the rows of
@@ -172,32 +186,31 @@ impl<'a, L, T: Real, const N: usize> Ensemble<'a, L, T, N> {
     /// [`Error::Resume`] for what is no row of such a system, and where rows are of different runs. For members that were
     /// integrated to another time [`integrate`](Self::integrate) gives [`Error::OtherEnd`], for those of another run or start
     /// [`Error::OtherRun`].
-    pub fn resume<const M: usize>(mut self, table: &str) -> Result<Self, Error>
+    pub fn resume(mut self, table: &str) -> Result<Self, Error>
     where
-        L: Lagrangian<N, M, Scalar = T>,
         T: core::str::FromStr,
     {
         self.plan.done.extend(MemberTable::of(table, L::COORDINATES, self.plan.count)?.into_members());
         Ok(self)
     }
 
-    fn run<const M: usize>(
+    fn run(
         self,
         end: T,
         run: Fingerprint,
-        work: impl Fn(&Job<'_, L, T, N>) + Sync,
-    ) -> Result<Outcome<T, N>, Error>
-    where
-        L: Lagrangian<N, M, Scalar = T>,
-    {
+        work: impl Fn(&Job<'_, L, T, N, M>) + Sync,
+    ) -> Result<Outcome<T, N>, Error> {
         check_end(end)?;
         let job = Job::new(self.plan, end, run)?;
         everywhere(|| work(&job));
-        Ok(job.outcome(L::COORDINATES))
+        Ok(job.outcome())
     }
 }
 
-impl<L, const N: usize> Ensemble<'_, L, f64, N> {
+impl<L, const N: usize, const M: usize, const IS_WATCHED: bool> Ensemble<'_, L, f64, N, M, IS_WATCHED>
+where
+    L: Lagrangian<N, M, Scalar = f64>,
+{
     /// The motions to the time `end`, four at once on the [`Lanes`] of each thread, by the method named.
     ///
     /// Each lane has its own time, step and error, and is given the next member when its motion has ended. Compile
@@ -208,23 +221,23 @@ impl<L, const N: usize> Ensemble<'_, L, f64, N> {
     ///
     /// # Errors
     /// As [`integrate`](Self::integrate).
-    pub fn integrate_on_lanes<P, const M: usize>(
-        self,
-        end: f64,
-        method: Adaptive<P>,
-    ) -> Result<Outcome<f64, N>, Error>
+    pub fn integrate_on_lanes<P>(self, end: f64, method: Adaptive<P>) -> Result<Outcome<f64, N>, Error>
     where
-        L: Lagrangian<N, M, Scalar = f64> + Pack<Lanes, Packed: Lagrangian<N, M, Scalar = Lanes>>,
+        L: Pack<Lanes, Packed: Lagrangian<N, M, Scalar = Lanes>>,
         P: Pair,
         Adaptive<P>: Copy + Sync,
     {
         Method::<L, N, M>::check(&method)?;
-        let run = Fingerprint::of_run::<L, _, N, M>(&method, end, true);
-        self.run(end, run, |job| job.on_lanes(method))
+        let run = Fingerprint::of_run(&method, end, true, &self.plan.orders);
+        self.run(end, run, |job| job.on_lanes::<P, IS_WATCHED>(method))
     }
 }
 
-impl<L, T, const N: usize> Debug for Ensemble<'_, L, T, N> {
+impl<L, T, const N: usize, const M: usize, const IS_WATCHED: bool> Debug
+    for Ensemble<'_, L, T, N, M, IS_WATCHED>
+where
+    L: Lagrangian<N, M, Scalar = T>,
+{
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Plan { count, shard, shards, .. } = &self.plan;
         f.debug_struct("Ensemble").field("count", count).field("shard", shard).field("of", shards).finish()

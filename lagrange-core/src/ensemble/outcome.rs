@@ -33,6 +33,11 @@ pub struct Arrival<T, const N: usize> {
     pub ending: Ending,
     /// Steps and evaluations.
     pub statistics: Statistics,
+    /// The states at the times asked for by [`samples_at`](crate::Ensemble::samples_at), as far as the motion came. Of a
+    /// member taken over from a table there are none.
+    pub samples: Vec<State<T, N>>,
+    /// Their quantities: all of the first sample, all of the second, …; [`Outcome::quantity`] gives one by name.
+    pub values: Vec<T>,
 }
 
 impl<T: Real, const N: usize> Member<T, N> {
@@ -68,6 +73,7 @@ impl<T: Real, const N: usize> Display for Member<T, N> {
 pub struct Outcome<T, const N: usize> {
     pub(super) members: Vec<Member<T, N>>,
     pub(super) names: [&'static str; N],
+    quantities: Vec<&'static str>,
     end: T,
     run: Fingerprint,
 }
@@ -76,11 +82,11 @@ impl<T: Real, const N: usize> Outcome<T, N> {
     pub(super) fn new(
         mut members: Vec<Member<T, N>>,
         names: [&'static str; N],
-        end: T,
-        run: Fingerprint,
+        quantities: Vec<&'static str>,
+        (end, run): (T, Fingerprint),
     ) -> Self {
         members.sort_by_key(|member| member.index);
-        Self { members, names, end, run }
+        Self { members, names, quantities, end, run }
     }
 
     /// All members that are done, by index.
@@ -92,6 +98,21 @@ impl<T: Real, const N: usize> Outcome<T, N> {
     pub fn get(&self, index: usize) -> Option<&Member<T, N>> {
         let place = self.members.binary_search_by_key(&index, |member| member.index).ok()?;
         self.members.get(place)
+    }
+
+    /// The [quantity](crate::Ensemble::quantity) of this name at the samples of the member of this index; none of one that is
+    /// not done, or has no motion.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`].
+    pub fn quantity(&self, index: usize, name: &str) -> Result<impl Iterator<Item = T> + '_, Error> {
+        let count = self.quantities.len();
+        let place = self.quantities.iter().position(|known| *known == name).ok_or_else(|| {
+            let known = self.quantities.iter().map(|known| (*known).into()).collect();
+            Error::UnknownName { name: name.into(), kind: "quantity", hint: None, known }
+        })?;
+        let values = self.get(index).and_then(Member::arrival).map_or(&[][..], |arrival| &arrival.values);
+        Ok(values.iter().skip(place).step_by(count).copied())
     }
 
     /// The members that reached the end, with their last states.

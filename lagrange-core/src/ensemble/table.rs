@@ -163,7 +163,11 @@ impl<T: Real, const N: usize> MemberTable<T, N> {
                 MemberEnding::Cancelled => Ending::Cancelled { time },
                 MemberEnding::Failed(_) => return None,
             };
-            Some(Member { index, fingerprint, result: Ok(Arrival { state, ending, statistics }) })
+            Some(Member {
+                index,
+                fingerprint,
+                result: Ok(Arrival { state, ending, statistics, samples: Vec::new(), values: Vec::new() }),
+            })
         })
     }
 }

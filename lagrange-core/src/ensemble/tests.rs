@@ -32,7 +32,7 @@ struct Circle<T> {
     l: T,
 }
 
-fn circles<'a>() -> Ensemble<'a, Circle<f64>, f64, 2> {
+fn circles<'a>() -> Ensemble<'a, Circle<f64>, f64, 2, 1> {
     let radius = |index: usize| 1.0 + index as f64;
     Ensemble::from_fn(10, move |index| {
         (Circle { g: 9.81, l: radius(index) }, State::at_rest([radius(index), 0.0]))
@@ -62,13 +62,14 @@ fn lanes_count_what_each_member_takes_alone() {
 }
 
 fn count<L, P, const N: usize, const M: usize>(
-    ensemble: fn() -> Ensemble<'static, L, f64, N>,
+    ensemble: fn() -> Ensemble<'static, L, f64, N, M>,
     method: Adaptive<P>,
 ) where
     L: Lagrangian<N, M, Scalar = f64> + Pack<Lanes, Packed: Lagrangian<N, M, Scalar = Lanes>>,
     P: Pair,
     Adaptive<P>: Copy + Sync,
 {
+    let ensemble = || ensemble().samples_at([0.0, 0.3, 0.6, END]);
     let on_lanes = ensemble().integrate_on_lanes(END, method).expect("an outcome");
     let one_by_one = ensemble().integrate(END, method).expect("an outcome");
     assert_eq!(on_lanes.members().len(), one_by_one.members().len());

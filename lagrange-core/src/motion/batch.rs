@@ -6,12 +6,17 @@
 //! scalar method. Nothing in a lane depends on the others.
 
 use core::array::from_fn;
+use core::marker::PhantomData;
 use core::ops::ControlFlow;
 
-use super::Adaptive;
-use super::method::pair::{Pair, SLOPES, Slopes, advance, check, error_needs_last, last};
+use super::event::Stride;
+use super::method::Interpolant;
+use super::method::interpolant::{evaluate, hermite};
+use super::method::pair::{Combination, Pair, SLOPES, Slopes, advance, check, error_needs_last, last};
 use super::seat::{Fate, Seat};
+use super::{Adaptive, Method};
 use crate::ending::Ending;
+use crate::error::Error;
 use crate::number::{Lanes, Scalar, sum, vector};
 use crate::solution::consistent::BOTH;
 use crate::solution::flow::{Flow, LagrangianFlow, Phase, PhasePoint};
@@ -20,13 +25,16 @@ use crate::solution::solve::least_pivot;
 use crate::system::{Lagrangian, Pack, Packed, State};
 
 /// Motions in lock-step.
-pub(crate) struct Batch<L: Pack<Lanes>, P, const N: usize, const M: usize> {
+pub(crate) struct Batch<'o, L, P, const N: usize, const M: usize>
+where
+    L: Lagrangian<N, M> + Pack<Lanes>,
+{
     method: Adaptive<P>,
     system: L::Packed,
     y: Phase<Lanes, N>,
     /// The first is that of `y`.
     slopes: Slopes<Lanes, N>,
-    seats: [Option<Seat<L, N, M>>; Lanes::COUNT],
+    seats: [Option<Seat<'o, L, N, M>>; Lanes::COUNT],
 }
 
 /// What the lanes say about a step, before anyone decides.
@@ -69,13 +77,13 @@ impl Trust {
     }
 }
 
-impl<L, P, const N: usize, const M: usize> Batch<L, P, N, M>
+impl<'o, L, P, const N: usize, const M: usize> Batch<'o, L, P, N, M>
 where
     P: Pair,
     L: Lagrangian<N, M, Scalar = f64> + Pack<Lanes, Packed: Lagrangian<N, M, Scalar = Lanes>>,
 {
     /// With a first motion, and the other lanes free.
-    pub(crate) fn new(method: Adaptive<P>, seat: Seat<L, N, M>) -> Self {
+    pub(crate) fn new(method: Adaptive<P>, seat: Seat<'o, L, N, M>) -> Self {
         let zero = [[Lanes::constant(0.0); N]; 2];
         let system = seat.system.pack();
         // Free lanes compute what the first does, to no purpose and no harm.
@@ -96,7 +104,7 @@ where
     }
 
     /// Gives the motion a free lane; gives it back where there is none that it fits in.
-    pub(crate) fn join(&mut self, seat: Seat<L, N, M>) -> Option<Seat<L, N, M>> {
+    pub(crate) fn join(&mut self, seat: Seat<'o, L, N, M>) -> Option<Seat<'o, L, N, M>> {
         let lane = self.seats.iter().position(Option::is_none);
         match lane.filter(|&lane| seat.system.place(&mut self.system, lane)) {
             None => Some(seat),
@@ -109,24 +117,34 @@ where
     }
 
     /// Tries one step in every lane. `accept` is told each new state; `leave` each motion that has ended.
-    pub(crate) fn step(
+    /// Where nothing is to be looked for within steps, and `IS_WATCHED` is false, nothing of that is compiled.
+    pub(crate) fn step<const IS_WATCHED: bool>(
         &mut self,
         mut accept: impl FnMut(usize, &State<f64, N>) -> ControlFlow<()>,
-        mut leave: impl FnMut(Seat<L, N, M>, State<f64, N>, Ending),
+        mut leave: impl FnMut(Seat<'o, L, N, M>, State<f64, N>, Ending),
     ) {
         // In a free lane time stands still.
         let plan = from_fn(|lane| self.seats[lane].as_ref().map_or((0.0, 0.0), |seat| seat.memory.next()));
-        let attempt = self.attempt(&plan);
-        let fates = from_fn(|lane| self.decide(lane, plan[lane], &attempt));
+        let mut attempt = self.attempt(&plan);
+        let mut within = if const { IS_WATCHED } { self.within(&plan, &mut attempt) } else { None };
+        let fates = from_fn(|lane| self.decide::<IS_WATCHED>(lane, plan[lane], &attempt, within.as_mut()));
         self.settle(&fates, &attempt.next);
         for (lane, fate) in fates.into_iter().enumerate() {
             let Some(now) = self.seats[lane].as_ref().map(|seat| seat.memory.clock.now) else { continue };
-            let state = self.state(lane, now);
+            let (mut state, mut stopped) = (self.state(lane, now), None);
             let Some(seat) = &mut self.seats[lane] else { continue };
+            if let Some(within) = &within
+                && const { IS_WATCHED }
+                && fate != Fate::Rejected
+            {
+                (state, stopped) = within.keep(lane, plan[lane].0, seat, state);
+            }
             let here = || [&self.y, &self.slopes[0]].map(|packed| unpacked(packed, lane));
-            let ending = match fate != Fate::Rejected && accept(seat.index, &state).is_break() {
-                true => Some(Ending::Cancelled { time: state.t }),
-                false => seat.ending(&self.method, here),
+            let mut is_cancelled = || fate != Fate::Rejected && accept(seat.index, &state).is_break();
+            let ending = match stopped {
+                None if is_cancelled() => Some(Ending::Cancelled { time: state.t }),
+                None => seat.ending(&self.method, here),
+                stopped => stopped,
             };
             if let Some(ending) = ending
                 && let Some(seat) = self.seats[lane].take()
@@ -142,7 +160,7 @@ where
         let h = Lanes::from(plan.map(|(h, _)| h));
         let end = Lanes::from(plan.map(|(_, time)| time));
         let mut trust = Trust::new();
-        self.stages(h, &mut trust);
+        self.stages(h, (1, P::STAGES), &mut trust);
         let mut next = self.y;
         advance(&self.y, h, &self.slopes, P::WEIGHTS, &mut next);
         trust.numbers(next.as_flattened());
@@ -159,13 +177,13 @@ where
         Attempt { next, error, sound: from_fn(|lane| trusted[lane] && projected[lane]) }
     }
 
-    /// The slopes of the stages after the first.
+    /// The slopes of these stages, the first of which has the number given.
     #[inline]
-    fn stages(&mut self, h: Lanes, trust: &mut Trust) {
+    fn stages(&mut self, h: Lanes, (first, rows): (usize, &[Combination]), trust: &mut Trust) {
         let now =
             Lanes::from(from_fn(|lane| self.seats[lane].as_ref().map_or(0.0, |seat| seat.memory.clock.now)));
         let mut y = self.y;
-        for (number, row) in (1..).zip(P::STAGES) {
+        for (number, row) in (first..).zip(rows) {
             advance(&self.y, h, &self.slopes, row, &mut y);
             self.slope(number, now + h * Lanes::constant(P::NODES[number]), &y, trust);
         }
@@ -211,12 +229,61 @@ where
         })
     }
 
+    /// What lies within the steps that will be accepted, where a lane is to be looked into. One whose stages there are not to
+    /// be trusted is to take its step alone.
+    fn within(
+        &mut self,
+        plan: &[(f64, f64); Lanes::COUNT],
+        attempt: &mut Attempt<N>,
+    ) -> Option<Within<P, N>> {
+        let seats = &self.seats;
+        let lanes = from_fn(|lane| {
+            let looks =
+                |seat: &Seat<'_, L, N, M>| seat.record.looks_into(seat.memory.clock.now, plan[lane].1);
+            seats[lane].as_ref().is_some_and(looks)
+        });
+        if !lanes.contains(&true) {
+            return None;
+        }
+        let now = |lane: usize| seats[lane].as_ref().map_or(0.0, |seat| seat.memory.clock.now);
+        let (before, zero) = (from_fn(|lane| self.state(lane, now(lane))), [[Lanes::constant(0.0); N]; 2]);
+        let mut within = Within::<P, N> { lanes, before, coefficients: P::coefficients(zero) };
+        let is_asked_for: [bool; Lanes::COUNT] =
+            from_fn(|lane| lanes[lane] && attempt.sound[lane] && self.method.accepts(attempt.error[lane]));
+        if is_asked_for.contains(&true) {
+            let (h, mut trust) = (Lanes::from(plan.map(|(h, _)| h)), Trust::new());
+            self.stages(h, (last::<P>() + 1, P::INTERPOLATION_STAGES), &mut trust);
+            let (start, end) = ((&self.y, &self.slopes[0]), (&attempt.next, &self.slopes[last::<P>()]));
+            let (cubic, beyond) = within.coefficients.as_mut().split_at_mut(4);
+            hermite(h, start, end, cubic);
+            for (coefficient, row) in beyond.iter_mut().zip(P::INTERPOLATION) {
+                advance(&zero, h, &self.slopes, row, coefficient);
+            }
+            let trusted = trust.lanes();
+            attempt.sound = from_fn(|lane| attempt.sound[lane] && (!is_asked_for[lane] || trusted[lane]));
+        }
+        Some(within)
+    }
+
     /// What becomes of the step in a lane. None is taken in a free one.
-    fn decide(&mut self, lane: usize, plan: (f64, f64), attempt: &Attempt<N>) -> Fate {
+    fn decide<const IS_WATCHED: bool>(
+        &mut self,
+        lane: usize,
+        plan: (f64, f64),
+        attempt: &Attempt<N>,
+        within: Option<&mut Within<P, N>>,
+    ) -> Fate {
         let Some(seat) = &mut self.seats[lane] else { return Fate::Rejected };
-        let decided = attempt.sound[lane].then(|| seat.decide(plan, attempt.error[lane], &self.method));
+        let (method, within) = (&self.method, within.filter(|within| within.lanes[lane]));
+        let is_looked_into = within.is_some();
+        let decided =
+            attempt.sound[lane].then(|| seat.decide(plan, attempt.error[lane], method, is_looked_into));
         decided.flatten().unwrap_or_else(|| {
-            seat.step_alone(unpacked(&self.y, lane), unpacked(&self.slopes[0], lane), &self.method)
+            let (y, slope) = (unpacked(&self.y, lane), unpacked(&self.slopes[0], lane));
+            seat.step_alone(y, slope, method, |seat| match within {
+                Some(within) if const { IS_WATCHED } => within.place(lane, seat, method),
+                _ => Ok(()),
+            })
         })
     }
 
@@ -246,6 +313,65 @@ where
     fn state(&self, lane: usize, t: f64) -> State<f64, N> {
         let [q, v] = unpacked(&self.y, lane);
         State { t, q: vector(q), v: vector(v) }
+    }
+}
+
+/// What lies within a step, of the lanes that are looked into.
+struct Within<P: Pair, const N: usize> {
+    lanes: [bool; Lanes::COUNT],
+    /// Where the step starts.
+    before: [State<f64, N>; Lanes::COUNT],
+    coefficients: P::Coefficients<Phase<Lanes, N>>,
+}
+
+impl<P: Pair, const N: usize> Within<P, N> {
+    /// Puts what lies within a step that was taken alone into its lane.
+    fn place<L: Lagrangian<N, M, Scalar = f64>, const M: usize>(
+        &mut self,
+        lane: usize,
+        seat: &mut Seat<'_, L, N, M>,
+        method: &Adaptive<P>,
+    ) -> Result<(), Error> {
+        let Seat { system, memory, statistics, .. } = seat;
+        let polynomial = Method::<L, N, M>::interpolant(method, system, memory, statistics)?;
+        let packed = self.coefficients.as_mut().iter_mut();
+        packed.zip(polynomial.coefficients()).for_each(|(packed, one)| packed.place(lane, one));
+        Ok(())
+    }
+
+    /// Keeps what is due in a step of this length to `after`, as far as the motion goes.
+    fn keep<L: Lagrangian<N, M, Scalar = f64>, const M: usize>(
+        &self,
+        lane: usize,
+        length: f64,
+        seat: &mut Seat<'_, L, N, M>,
+        after: State<f64, N>,
+    ) -> (State<f64, N>, Option<Ending>) {
+        if !self.lanes[lane] {
+            return (after, None);
+        }
+        let Seat { record, system, .. } = seat;
+        let (before, coefficients) = (self.before[lane], self.coefficients.as_ref());
+        let interpolant = &LaneOf { lane, start: before.t, length, coefficients };
+        record.keep(&Stride { system, before, after, interpolant, flow: PhantomData::<LagrangianFlow> })
+    }
+}
+
+/// The polynomial in one lane, with the operations of a polynomial alone.
+struct LaneOf<'c, const N: usize> {
+    lane: usize,
+    start: f64,
+    length: f64,
+    coefficients: &'c [Phase<Lanes, N>],
+}
+
+impl<const N: usize> Interpolant<f64, N> for LaneOf<'_, N> {
+    #[inline(always)]
+    fn at(&self, t: f64) -> PhasePoint<f64, N> {
+        let theta = Lanes::constant((t - self.start) / self.length);
+        let (y, velocity) = evaluate(self.coefficients, theta);
+        let velocity = velocity.map(|x| x.to_array()[self.lane] / self.length);
+        PhasePoint { t, y: unpacked(&y, self.lane), velocity }
     }
 }
 

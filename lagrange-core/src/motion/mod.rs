@@ -4,6 +4,8 @@
 mod batch;
 pub(crate) mod event;
 pub(crate) mod method;
+#[cfg(feature = "std")]
+mod record;
 pub(crate) mod run;
 #[cfg(feature = "std")]
 mod seat;
@@ -19,6 +21,8 @@ pub use method::{
     Adaptive, Combination, Dop853, Dopri5, DormandPrince54, DormandPrince853, Interpolant, Limits, Method,
     Node, Pair, Polynomial, RungeKutta4, Step, runge_kutta_step,
 };
+#[cfg(feature = "std")]
+pub(crate) use record::{Orders, Record};
 pub use run::Progress;
 #[cfg(feature = "std")]
 pub(crate) use seat::Seat;

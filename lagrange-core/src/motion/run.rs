@@ -205,6 +205,11 @@ where
     Ok(Trajectory::new(system, path.finish(), ending, run.statistics, adjustment))
 }
 
+/// Whether `t` lies between the other two, which may be in any order.
+pub(super) fn is_between<T: Real>(a: T, t: T, b: T) -> bool {
+    a <= t && t <= b || b <= t && t <= a
+}
+
 /// Whether a step from `now` to `next` leads towards the end, and not past it.
 fn is_towards<T: Real>(now: T, next: T, end: T) -> bool {
     next > now && next <= end || next < now && next >= end

@@ -3,6 +3,7 @@
 use super::method::pair::error_needs_last;
 use super::method::step::Memory;
 use super::method::{Adaptive, Method, Pair, Step};
+use super::record::{Orders, Record};
 use super::run::{Run, Watchdog};
 use crate::ending::Ending;
 use crate::error::Error;
@@ -11,12 +12,14 @@ use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State};
 
 /// A motion that has a lane, or waits for one.
-pub(crate) struct Seat<L, const N: usize, const M: usize> {
+pub(crate) struct Seat<'o, L: Lagrangian<N, M>, const N: usize, const M: usize> {
     /// Which member of the ensemble it is.
     pub(crate) index: usize,
     /// What tells its start and parameters from others.
     pub(crate) start: u32,
     pub(crate) statistics: Statistics,
+    /// What is kept of it on the way.
+    pub(crate) record: Record<'o, L, N, M>,
     pub(super) system: L,
     /// Its state and slopes are in the lane, and here only while a step is taken alone.
     pub(super) memory: Memory<f64, N, M>,
@@ -35,7 +38,7 @@ pub(super) enum Fate {
     Rejected,
 }
 
-impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Seat<L, N, M> {
+impl<'o, L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Seat<'o, L, N, M> {
     /// Before the first step, with the state made consistent.
     pub(crate) fn new<P: Pair>(
         (index, start): (usize, u32),
@@ -43,12 +46,14 @@ impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Seat<L, 
         state: &State<f64, N>,
         end: f64,
         method: &Adaptive<P>,
+        orders: &'o Orders<'o, L, N, M>,
     ) -> Result<(Self, State<f64, N>), Error> {
         let (run, _) = Run::begin::<L, LagrangianFlow, _, M>(&system, state, method)?;
+        let record = Record::begin(orders, &system, &run.state, end)?;
         let Run { mut memory, state, mut statistics, .. } = run;
         method.aim::<L, LagrangianFlow, N, M>(&system, &mut memory, end, &mut statistics);
         let limits = Watchdog::new(method.limits(), &statistics);
-        Ok((Self { index, start, system, memory, end, statistics, limits, failure: None }, state))
+        Ok((Self { index, start, record, system, memory, end, statistics, limits, failure: None }, state))
     }
 
     /// The clock on the wall starts when it is given a lane.
@@ -81,12 +86,13 @@ impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Seat<L, 
         failure.clone().or_else(|| limits.exceeded(statistics, time, stiffness))
     }
 
-    /// Accepts or rejects a step computed on lanes; `None` where it is to be taken alone.
+    /// Accepts or rejects a step computed on lanes, with an interpolant or without; `None` where it is to be taken alone.
     pub(super) fn decide<P: Pair>(
         &mut self,
         (h, time): (f64, f64),
         error: f64,
         method: &Adaptive<P>,
+        is_looked_into: bool,
     ) -> Option<Fate> {
         let Memory { clock, control, active, .. } = &mut self.memory;
         if active.contains(&false) || !clock.is_ahead(time) {
@@ -103,43 +109,52 @@ impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Seat<L, 
                 return None;
             }
         }
-        self.count::<P>(accepted);
+        self.count::<P>(accepted, is_looked_into);
         Some(if accepted { Fate::Accepted } else { Fate::Rejected })
     }
 
     /// As many evaluations as the step takes alone.
-    fn count<P: Pair>(&mut self, accepted: bool) {
+    fn count<P: Pair>(&mut self, accepted: bool, is_looked_into: bool) {
         let statistics = &mut self.statistics;
         let before = error_needs_last::<P>();
         statistics.evaluations += P::STAGES.len() + usize::from(before);
+        statistics.evaluations += if accepted && is_looked_into { P::INTERPOLATION_STAGES.len() } else { 0 };
         statistics.evaluations += usize::from(accepted && (M > 0 || !before));
         statistics.accepted += usize::from(accepted);
         statistics.rejected += usize::from(!accepted);
     }
 
-    /// The step from this state with this slope by the scalar method.
+    /// The step from this state with this slope by the scalar method. `along` is what else belongs to it; where that fails
+    /// the step is taken back.
     #[cold]
     pub(super) fn step_alone<P: Pair>(
         &mut self,
         y: Phase<f64, N>,
         slope: Phase<f64, N>,
         method: &Adaptive<P>,
+        along: impl FnOnce(&mut Self) -> Result<(), Error>,
     ) -> Fate {
-        let Self { system, memory, end, statistics, failure, .. } = self;
-        (memory.y, memory.slope) = (y, slope);
-        match Method::<L, N, M>::step(method, system, memory, *end, statistics) {
-            Step::Accepted(_) => {
-                statistics.accepted += 1;
-                Fate::AcceptedAlone
-            }
+        let now = self.memory.clock.now;
+        (self.memory.y, self.memory.slope) = (y, slope);
+        let Self { system, memory, end, statistics, .. } = self;
+        self.failure = match Method::<L, N, M>::step(method, system, memory, *end, statistics) {
+            Step::Accepted(_) => match along(self) {
+                Ok(()) => {
+                    self.statistics.accepted += 1;
+                    return Fate::AcceptedAlone;
+                }
+                Err(error) => {
+                    self.statistics.rejected += 1;
+                    let is_taken_back = Method::<L, N, M>::take_back(method, &mut self.memory);
+                    (!is_taken_back).then(|| Ending::of(error, now))
+                }
+            },
             Step::Rejected => {
                 statistics.rejected += 1;
-                Fate::Rejected
+                None
             }
-            Step::Failed(ending) => {
-                *failure = Some(ending);
-                Fate::Rejected
-            }
-        }
+            Step::Failed(ending) => Some(ending),
+        };
+        Fate::Rejected
     }
 }

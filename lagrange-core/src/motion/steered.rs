@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 
 use super::Method;
 use super::event::{Crossing, Search, Stride, Watched};
-use super::run::{Run, Watchdog};
+use super::run::{Run, Watchdog, is_between};
 use crate::ending::Ending;
 use crate::error::Error;
 use crate::hamiltonian::{Hamiltonian, HamiltonianFlow, PhaseState};
@@ -396,11 +396,6 @@ where
         }
         self.method.resume(&self.system, memory, state, statistics)
     }
-}
-
-/// Whether `t` lies between the other two, which may be in any order.
-fn is_between<T: Real>(a: T, t: T, b: T) -> bool {
-    a <= t && t <= b || b <= t && t <= a
 }
 
 impl<L, P, F, const N: usize, const M: usize> Debug for Motion<L, P, N, M, F>

@@ -20,6 +20,8 @@ fn table() -> String {
                 evaluations: 123,
                 multipliers_are_unique: true,
             },
+            samples: Vec::new(),
+            values: Vec::new(),
         }),
     };
     let failed = Member {
@@ -29,7 +31,7 @@ fn table() -> String {
     };
     let complete = arrived(3, 1.0, Ending::Complete { time: 1.0 });
     let members = vec![complete, failed, arrived(21, 0.25, Ending::Cancelled { time: 0.25 })];
-    Outcome::new(members, NAMES, 1.0, MINE).csv().to_string()
+    Outcome::new(members, NAMES, Vec::new(), (1.0, MINE)).csv().to_string()
 }
 
 fn resume(table: &str) -> Result<Vec<Member<f64, 1>>, Error> {

@@ -30,7 +30,8 @@ where
     F: Flow<L, N, M>,
     I: Interpolant<L::Scalar, N>,
 {
-    fn at(&self, t: L::Scalar) -> Result<State<L::Scalar, N>, Error> {
+    /// The state at a time within, on the constraints.
+    pub(crate) fn at(&self, t: L::Scalar) -> Result<State<L::Scalar, N>, Error> {
         match t == self.after.t {
             true => Ok(self.after),
             false => F::project(self.system, &self.interpolant.at(t)),

@@ -1,0 +1,67 @@
+//! What is kept of members on their way.
+
+use super::Ensemble;
+use crate::motion::EventValue;
+use crate::number::Real;
+use crate::solution::Sample;
+use crate::system::Lagrangian;
+
+impl<'a, L, T: Real, const N: usize, const M: usize, const IS_WATCHED: bool>
+    Ensemble<'a, L, T, N, M, IS_WATCHED>
+where
+    L: Lagrangian<N, M, Scalar = T>,
+{
+    /// Keeps the states of each member at these times, in [`Arrival::samples`](super::Arrival::samples).
+    ///
+    /// They lie on the continuous extension of the method, projected onto the constraints. Steps are as long as without, and
+    /// the end has the same bits; but where the extension cannot be had a step is tried once more, shorter. On lanes the
+    /// extension costs a quarter of a step in which there is a sample. A member that ends early has the samples up to there.
+    ///
+    /// ```
+    /// # use lagrange_core::prelude::*;
+    /// #[derive(Lagrangian)]
+    /// #[coordinates(x)]
+    /// #[lagrangian(x_dot^2/2 - k/2 * x^2)]
+    /// struct Spring<T> { k: T }
+    ///
+    /// let springs = Ensemble::from_fn(100, |n| (Spring { k: n as f64 }, State::at_rest([1.0])));
+    /// let outcome = springs
+    ///     .samples_at((0..=20).map(|tick| 0.1 * f64::from(tick)))
+    ///     .quantity("energy", |sample| sample.energy())
+    ///     .integrate_on_lanes(2.0, Dop853::default())?;
+    /// for state in &outcome.get(4).unwrap().arrival().unwrap().samples {
+    ///     assert!((state.q[0] - (2.0 * state.t).cos()).abs() < 1e-8);
+    /// }
+    /// assert!(outcome.quantity(4, "energy")?.all(|energy| (energy - 2.0).abs() < 1e-7));
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// The times must be in the order of the motions, and lie between the start of each and the end. The member of
+    /// [`Progress`](super::EnsembleProgress) has its samples, to be written down as soon as it is done: a table of
+    /// [`csv`](super::Outcome::csv) does not hold them, and a member [taken over](Self::resume) from one has none.
+    ///
+    /// # Errors
+    /// [`integrate`](Self::integrate) gives [`Error::SampleTime`](crate::Error::SampleTime) for a time that is not finite or out
+    /// of order; a member that does not cover them has none but
+    /// [`Error::OutsideTrajectory`](crate::Error::OutsideTrajectory).
+    pub fn samples_at(self, times: impl IntoIterator<Item = T>) -> Ensemble<'a, L, T, N, M, true> {
+        let mut plan = self.plan;
+        plan.orders.times = times.into_iter().collect();
+        Ensemble { plan }
+    }
+
+    /// Keeps this quantity of each [sample](Self::samples_at), to be asked for by its name:
+    /// [`Outcome::quantity`](super::Outcome::quantity). The function gives a number, or what gives one by name,
+    /// `|sample| sample.observable("height")`.
+    ///
+    /// It is asked at the start too, so that what it cannot give there is told before the first step. Where it cannot be had
+    /// later, the member ends.
+    pub fn quantity<V: EventValue<T>>(
+        mut self,
+        name: &'static str,
+        function: impl Fn(&Sample<&L, N, M>) -> V + Send + Sync + 'a,
+    ) -> Self {
+        self.plan.orders.quantity(name, function);
+        self
+    }
+}

@@ -1,0 +1,188 @@
+//! What is kept of a motion on its way, beside its end.
+
+use core::fmt::{self, Write};
+use core::marker::PhantomData;
+
+use nalgebra::ComplexField;
+
+use super::event::{EventValue, Stride};
+use super::method::{Interpolant, Method};
+use super::run::{Run, Watchdog, is_between};
+use crate::ending::Ending;
+use crate::error::Error;
+use crate::number::Real;
+use crate::solution::Sample;
+use crate::solution::flow::{Flow, LagrangianFlow};
+use crate::system::{Lagrangian, State};
+
+/// What is to be kept of each of many motions.
+pub(crate) struct Orders<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
+    /// When states are, in the order of the motion.
+    pub(crate) times: Vec<L::Scalar>,
+    quantities: Vec<(&'static str, Quantity<'a, L, N, M>)>,
+}
+
+type Quantity<'a, L, const N: usize, const M: usize> = Box<
+    dyn Fn(&L, &State<<L as Lagrangian<N, M>>::Scalar, N>) -> Result<<L as Lagrangian<N, M>>::Scalar, Error>
+        + Send
+        + Sync
+        + 'a,
+>;
+
+impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Default for Orders<'_, L, N, M> {
+    fn default() -> Self {
+        Self { times: Vec::new(), quantities: Vec::new() }
+    }
+}
+
+impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Orders<'a, L, N, M> {
+    pub(crate) fn quantity<V: EventValue<L::Scalar>>(
+        &mut self,
+        name: &'static str,
+        function: impl Fn(&Sample<&L, N, M>) -> V + Send + Sync + 'a,
+    ) {
+        let value =
+            move |system: &L, state: &State<_, N>| function(&Sample { system, state: *state }).value();
+        self.quantities.push((name, Box::new(value)));
+    }
+
+    /// The names of the quantities.
+    pub(crate) fn quantities(&self) -> Vec<&'static str> {
+        self.quantities.iter().map(|(name, _)| *name).collect()
+    }
+
+    /// Checks what is the same for all motions.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        let times = &self.times;
+        let goes_back = times.last() < times.first();
+        let turns = |pair: &[L::Scalar]| if goes_back { pair[1] > pair[0] } else { pair[1] < pair[0] };
+        let infinite = times.iter().position(|t| !ComplexField::is_finite(t));
+        let wrong = infinite.or_else(|| times.windows(2).position(turns).map(|before| before + 1));
+        match wrong {
+            Some(index) => Err(Error::SampleTime { index, time: times[index].to_f64() }),
+            None => Ok(()),
+        }
+    }
+
+    /// Writes what tells these orders from others; what their functions hold is not seen.
+    pub(crate) fn identify(&self, to: &mut dyn Write) -> fmt::Result {
+        self.times.iter().try_for_each(|t| write!(to, " at {:?}", t.to_f64()))?;
+        self.quantities.iter().try_for_each(|(name, _)| write!(to, " of {name}"))
+    }
+}
+
+/// What is kept of one.
+pub(crate) struct Record<'o, L: Lagrangian<N, M>, const N: usize, const M: usize> {
+    orders: &'o Orders<'o, L, N, M>,
+    samples: Vec<State<L::Scalar, N>>,
+    /// Those of the first sample, those of the second, …
+    values: Vec<L::Scalar>,
+}
+
+impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Record<'o, L, N, M> {
+    /// Before the first step, with what is due at the start.
+    pub(crate) fn begin(
+        orders: &'o Orders<'o, L, N, M>,
+        system: &L,
+        start: &State<L::Scalar, N>,
+        end: L::Scalar,
+    ) -> Result<Self, Error> {
+        let times = &orders.times;
+        if let (Some(&first), Some(&last)) = (times.first(), times.last()) {
+            let outside = |time: L::Scalar| {
+                let [time, start, end] = [time, start.t, end].map(Real::to_f64);
+                Err(Error::OutsideTrajectory { time, start, end })
+            };
+            if !is_between(start.t, first, end) {
+                return outside(first);
+            }
+            if !is_between(first, last, end) {
+                return outside(last);
+            }
+        }
+        let mut record = Self {
+            orders,
+            samples: Vec::with_capacity(times.len()),
+            values: Vec::with_capacity(times.len() * orders.quantities.len()),
+        };
+        // A name that is not known is told before the first step.
+        orders.quantities.iter().try_for_each(|(_, value)| value(system, start).map(drop))?;
+        while record.next_time().is_some_and(|t| t == start.t) {
+            record.push(system, *start)?;
+        }
+        Ok(record)
+    }
+
+    /// When the next sample is.
+    fn next_time(&self) -> Option<L::Scalar> {
+        self.orders.times.get(self.samples.len()).copied()
+    }
+
+    fn push(&mut self, system: &L, state: State<L::Scalar, N>) -> Result<(), Error> {
+        for (_, value) in &self.orders.quantities {
+            self.values.push(value(system, &state)?);
+        }
+        self.samples.push(state);
+        Ok(())
+    }
+
+    /// Whether there is something to be looked for in a step between these times.
+    pub(crate) fn looks_into(&self, from: L::Scalar, to: L::Scalar) -> bool {
+        self.next_time().is_some_and(|t| is_between(from, t, to))
+    }
+
+    /// Keeps what is due in this step, as far as the motion goes: to there, and why not farther.
+    pub(crate) fn keep<F, I>(
+        &mut self,
+        stride: &Stride<'_, L, F, I, N, M>,
+    ) -> (State<L::Scalar, N>, Option<Ending>)
+    where
+        F: Flow<L, N, M>,
+        I: Interpolant<L::Scalar, N>,
+    {
+        let mut at = stride.before;
+        while let Some(t) = self.next_time()
+            && is_between(stride.before.t, t, stride.after.t)
+        {
+            let kept = stride.at(t).and_then(|state| {
+                at = state;
+                self.push(stride.system, state)
+            });
+            if let Err(error) = kept {
+                return (at, Some(Ending::of(error, at.t.to_f64())));
+            }
+        }
+        (stride.after, None)
+    }
+
+    /// A step, and what is due in it. It may end before, where the motion stops.
+    pub(crate) fn step<X, P: Method<L, N, M, Memory = X>>(
+        &mut self,
+        run: &mut Run<X, L::Scalar, N>,
+        system: &L,
+        method: &P,
+        end: L::Scalar,
+        limits: &Watchdog,
+    ) -> Result<(), Ending> {
+        let within = run.step_with::<L, LagrangianFlow, P, _, M>(system, method, end, limits, |run| {
+            let Run { memory, statistics, before, state } = run;
+            let interpolant =
+                self.looks_into(before.t, state.t).then(|| method.interpolant(system, memory, statistics));
+            interpolant.transpose().map_err(|error| Ending::of(error, before.t.to_f64()))
+        })?;
+        let Some(interpolant) = &within else { return Ok(()) };
+        let (before, after) = (run.before, run.state);
+        let flow = PhantomData::<LagrangianFlow>;
+        let (state, stopped) = self.keep(&Stride { system, before, after, interpolant, flow });
+        run.state = state;
+        stopped.map_or(Ok(()), Err)
+    }
+
+    /// The samples, and the quantities of the first, the second, …
+    pub(crate) fn finish(self) -> (Vec<State<L::Scalar, N>>, Vec<L::Scalar>) {
+        let Self { samples, mut values, orders } = self;
+        // Of a sample of which one could not be had there are none.
+        values.truncate(samples.len() * orders.quantities.len());
+        (samples, values)
+    }
+}
