@@ -1,5 +1,7 @@
 //! Why an integration stopped.
 
+#[cfg(feature = "std")]
+use alloc::string::String;
 use core::fmt::{self, Display, Formatter};
 
 use crate::error::Error;
@@ -113,6 +115,14 @@ pub enum Ending {
         /// The name of the event.
         event: &'static str,
     },
+    /// What kept a member of an ensemble from its end in another process, which told it in words.
+    #[cfg(feature = "std")]
+    Elsewhere {
+        /// The last time reached.
+        time: f64,
+        /// Its words.
+        said: String,
+    },
     /// The callback said so.
     Cancelled {
         /// The last time reached.
@@ -139,6 +149,8 @@ impl Ending {
             | Self::EventsAccumulate { time, .. }
             | Self::EventNotFinite { time, .. }
             | Self::Cancelled { time } => time,
+            #[cfg(feature = "std")]
+            Self::Elsewhere { time, .. } => time,
         }
     }
 
@@ -207,6 +219,8 @@ impl Display for Ending {
                 f,
                 "stopped at t = {time}: the function of the event `{event}` is infinite or not a number soon after; make it finite wherever the motion may lead"
             ),
+            #[cfg(feature = "std")]
+            Self::Elsewhere { said, .. } => f.write_str(said),
             Self::Cancelled { time } => write!(f, "cancelled at t = {time}"),
         }
     }

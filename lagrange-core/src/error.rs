@@ -234,6 +234,19 @@ pub enum Error {
         /// In what the runs differ.
         differs: &'static str,
     },
+    /// What went wrong with a member in another process, which told it in words.
+    #[cfg(feature = "std")]
+    Elsewhere {
+        /// Its words.
+        said: String,
+    },
+    /// The ranks of MPI cannot do this ensemble together.
+    Ranks {
+        /// The first rank at fault.
+        rank: usize,
+        /// Why not.
+        reason: &'static str,
+    },
     /// A member asked for that the ensemble does not have.
     NoSuchMember {
         /// Its index.
@@ -406,6 +419,11 @@ impl Display for Error {
                 f,
                 "member {member} of the table to resume from is of another run: {differs}; resume with what made the table, or begin a new one"
             ),
+            #[cfg(feature = "std")]
+            Self::Elsewhere { said } => f.write_str(said),
+            Self::Ranks { rank, reason } => {
+                write!(f, "the ranks cannot do this ensemble together: on rank {rank} {reason}")
+            }
             Self::NoSuchMember { member, count } => {
                 write!(f, "there is no member {member}: the ensemble has {count}, counted from 0")
             }

@@ -3,7 +3,7 @@
 use core::ops::ControlFlow;
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use super::fingerprint::Fingerprint;
 use super::outcome::{Arrival, Member, Outcome};
@@ -50,7 +50,7 @@ pub struct EnsembleProgress<'m, T, const N: usize> {
 pub(super) struct Job<'a, L: Lagrangian<N, M, Scalar = T>, T, const N: usize, const M: usize> {
     make: Make<'a, L, T, N>,
     observer: Option<Observer<'a, T, N>>,
-    orders: Orders<'a, L, N, M>,
+    orders: Arc<Orders<'a, L, N, M>>,
     end: T,
     /// What the fingerprints of all members have in common.
     run: Fingerprint,
@@ -139,6 +139,7 @@ where
         let done = members.iter().map(|member| member.index).collect();
         let ledger = Mutex::new(Ledger { members, of: part.len(), watch });
         let (given, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
+        let orders = Arc::new(orders);
         Ok(Self { make, observer, orders, end, run, part, done, given, stopped, ledger })
     }
 
@@ -147,8 +148,48 @@ where
         Outcome::new(ledger.members, L::COORDINATES, self.orders.quantities(), (self.end, self.run))
     }
 
+    /// These members alone, with what is their own here: its outcome is to be [reported](Self::report).
+    #[cfg(feature = "mpi")]
+    pub(super) fn batch(&self, list: Vec<usize>) -> Job<'_, L, T, N, M> {
+        let observer = self.observer.as_ref().map(|observe| {
+            let observer: Observer<'_, T, N> = Box::new(observe);
+            observer
+        });
+        let ledger = Mutex::new(Ledger { members: Vec::new(), of: list.len(), watch: None });
+        Job {
+            make: Box::new(&self.make),
+            observer,
+            orders: self.orders.clone(),
+            end: self.end,
+            run: self.run,
+            part: Part { count: self.part.count, shard: 0, shards: 1, list: Some(list) },
+            done: BTreeSet::new(),
+            given: AtomicUsize::new(0),
+            stopped: AtomicBool::new(false),
+            ledger,
+        }
+    }
+
+    /// What must be the same on all ranks.
+    #[cfg(feature = "mpi")]
+    pub(super) fn identity(&self) -> [u64; 3] {
+        let Fingerprint { system, run, .. } = self.run;
+        [u64::from(system) << 32 | u64::from(run), self.part.count as u64, self.part.len() as u64]
+    }
+
+    /// How many have not been given out, those done among them included.
+    #[cfg(feature = "mpi")]
+    pub(super) fn left(&self) -> usize {
+        self.part.len().saturating_sub(self.given.load(Ordering::Relaxed))
+    }
+
+    #[cfg(feature = "mpi")]
+    pub(super) fn stop(&self) {
+        self.stopped.store(true, Ordering::Relaxed);
+    }
+
     /// The member that nobody has yet.
-    fn next(&self) -> Option<usize> {
+    pub(super) fn next(&self) -> Option<usize> {
         loop {
             let place = self.given.fetch_add(1, Ordering::Relaxed);
             let index = self.part.member(place)?;
@@ -167,7 +208,7 @@ where
 
     /// Writes down what has become of a member, and stops everything where the caller says so. Once it is stopped
     /// nothing is written down: members that were on their way were cut short.
-    fn report(&self, member: Member<T, N>) {
+    pub(super) fn report(&self, member: Member<T, N>) {
         let mut ledger = self.ledger.lock().unwrap_or_else(PoisonError::into_inner);
         if self.is_stopped() {
             return;

@@ -7,10 +7,14 @@
 //! given times.
 //!
 //! Members move in coordinates and velocities; there are no ensembles of motions in (q, p).
+//!
+#![doc = include_str!("machines.md")]
 
 mod fingerprint;
 mod job;
 mod outcome;
+#[cfg(feature = "mpi")]
+mod ranks;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -28,6 +32,8 @@ pub use fingerprint::Fingerprint;
 pub use job::EnsembleProgress;
 use job::{Job, Plan};
 pub use outcome::{Arrival, Member, Outcome};
+#[cfg(feature = "mpi")]
+pub use ranks::OnRanks;
 pub use table::{MemberEnding, MemberRow, MemberTable};
 
 /// Many members, each a system with its start, that are integrated to the same time.

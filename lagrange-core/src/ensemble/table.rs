@@ -106,6 +106,16 @@ pub enum MemberEnding {
     ),
 }
 
+impl Display for MemberEnding {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Complete => COMPLETE,
+            Self::Cancelled => CANCELLED,
+            Self::Failed(why) => why,
+        })
+    }
+}
+
 impl<T: Real, const N: usize> MemberTable<T, N> {
     /// The rows of a table of systems `L`.
     ///
@@ -153,22 +163,14 @@ impl<T: Real, const N: usize> MemberTable<T, N> {
         self.rows.get(self.rows.binary_search_by_key(&index, |row| row.index).ok()?)
     }
 
+    #[cfg(feature = "mpi")]
+    pub(super) fn into_rows(self) -> impl Iterator<Item = MemberRow<T, N>> {
+        self.rows.into_iter()
+    }
+
     /// The members that need not be done again.
     pub(super) fn into_members(self) -> impl Iterator<Item = Member<T, N>> {
-        self.rows.into_iter().filter_map(|MemberRow { index, fingerprint, state, statistics, ending }| {
-            let state = state?;
-            let time = state.t.to_f64();
-            let ending = match ending {
-                MemberEnding::Complete => Ending::Complete { time },
-                MemberEnding::Cancelled => Ending::Cancelled { time },
-                MemberEnding::Failed(_) => return None,
-            };
-            Some(Member {
-                index,
-                fingerprint,
-                result: Ok(Arrival { state, ending, statistics, samples: Vec::new(), values: Vec::new() }),
-            })
-        })
+        self.rows.into_iter().filter(|row| !row.has_failed()).map(MemberRow::into_member)
     }
 }
 
@@ -186,6 +188,24 @@ impl<T: Real, const N: usize> MemberRow<T, N> {
     /// Whether something other than the observer kept it from the end.
     pub fn has_failed(&self) -> bool {
         matches!(self.ending, MemberEnding::Failed(_))
+    }
+
+    /// The member that it is the row of. What went wrong is known in words only.
+    pub(super) fn into_member(self) -> Member<T, N> {
+        let Self { index, fingerprint, state, statistics, ending } = self;
+        let result = match (state, ending) {
+            (None, ending) => Err(Error::Elsewhere { said: ending.to_string() }),
+            (Some(state), ending) => {
+                let time = state.t.to_f64();
+                let ending = match ending {
+                    MemberEnding::Complete => Ending::Complete { time },
+                    MemberEnding::Cancelled => Ending::Cancelled { time },
+                    MemberEnding::Failed(said) => Ending::Elsewhere { time, said },
+                };
+                Ok(Arrival { state, ending, statistics, samples: Vec::new(), values: Vec::new() })
+            }
+        };
+        Member { index, fingerprint, result }
     }
 
     /// As a row of the table.

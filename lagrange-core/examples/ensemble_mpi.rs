@@ -1,0 +1,107 @@
+//! Double pendulums on all ranks of MPI, resumed after a kill.
+//!
+//! ```text
+//! apt-get install libopenmpi-dev openmpi-bin libclang-dev
+//! cargo build --release -p lagrange-core --features mpi --example ensemble_mpi
+//! mpirun -n 4 target/release/examples/ensemble_mpi 100000 rows.csv
+//! ```
+//!
+//! Rank 0 appends the row of each member to the file as it is done. Killed and started again, it does what is not in the file
+//! yet. The file is the same for any number of ranks. `--plain` as the third argument does the same without MPI, to compare.
+
+use std::error::Error;
+use std::fs::{File, read_to_string, rename, write};
+use std::io::{ErrorKind, Write};
+use std::ops::ControlFlow;
+use std::time::Instant;
+
+use lagrange_core::mpi::{self, Threading, topology::SimpleCommunicator, traits::Communicator};
+use lagrange_core::{Outcome, prelude::*};
+
+/// Two bobs on two rods, the angles from the vertical.
+#[derive(Lagrangian, Clone, Copy)]
+#[coordinates(a, b)]
+#[lagrangian(
+    (m[0] + m[1])/2*l[0]^2*a_dot^2 + m[1]/2*l[1]^2*b_dot^2 + m[1]*l[0]*l[1]*a_dot*b_dot*cos(a - b)
+        + (m[0] + m[1])*g*l[0]*cos(a) + m[1]*g*l[1]*cos(b)
+)]
+struct DoublePendulum<T> {
+    m: [T; 2],
+    l: [T; 2],
+    g: T,
+}
+
+/// Let go at rest from angles that fill the square (−2, 2)² evenly: sums, products and remainders, which are the same on
+/// all machines.
+fn member(index: usize) -> (DoublePendulum<f64>, State<f64, 2>) {
+    let angle = |ratio: f64| 4.0 * ((index + 1) as f64 * ratio).fract() - 2.0;
+    let pendulum = DoublePendulum { m: [1.0; 2], l: [1.0; 2], g: 9.81 };
+    (pendulum, State::at_rest([angle(0.754_877_666_246_692_8), angle(0.569_840_290_998_053_3)]))
+}
+
+/// In seconds.
+const END: f64 = 10.0;
+
+type Pendulums = Ensemble<'static, DoublePendulum<f64>, f64, 2>;
+type Result<T> = std::result::Result<T, Box<dyn Error>>;
+
+fn main() -> Result<()> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let (count, file) = match &arguments[..] {
+        [count, file, ..] => (count.parse()?, file.as_str()),
+        _ => return Err("usage: ensemble_mpi COUNT FILE [--plain]".into()),
+    };
+    let ensemble = Ensemble::from_fn(count, member);
+    if arguments.len() > 2 {
+        let run = |all: Pendulums<'_>| all.integrate_on_lanes(END, Dop853::default()).map(Some);
+        return with_file(ensemble, file, run);
+    }
+    let (universe, _) = mpi::initialize_with_threading(Threading::Funneled).ok_or("MPI is in use")?;
+    let world = universe.world();
+    // The others would wait for a rank that left.
+    on_ranks(&world, ensemble, file).unwrap_or_else(|error| {
+        eprintln!("rank {}: {error}", world.rank());
+        world.abort(1)
+    });
+    Ok(())
+}
+
+/// The file is rank 0's alone.
+fn on_ranks(world: &SimpleCommunicator, ensemble: Pendulums, file: &str) -> Result<()> {
+    let method = Dop853::default();
+    match world.rank() {
+        0 => with_file(ensemble, file, |all| all.on_ranks(world).integrate_on_lanes(END, method)),
+        _ => ensemble.on_ranks(world).integrate_on_lanes(END, method).map(drop).map_err(Into::into),
+    }
+}
+
+/// Takes over what is in the file, and appends what is done.
+fn with_file(
+    ensemble: Pendulums,
+    file: &str,
+    run: impl FnOnce(
+        Ensemble<'_, DoublePendulum<f64>, f64, 2>,
+    ) -> core::result::Result<Option<Outcome<f64, 2>>, lagrange_core::Error>,
+) -> Result<()> {
+    let known = match read_to_string(file) {
+        Err(error) if error.kind() == ErrorKind::NotFound => String::new(),
+        known => known?,
+    };
+    let mut rows = File::options().append(true).create(true).open(file)?;
+    let (mut written, started) = (Ok(()), Instant::now());
+    let ensemble = ensemble.resume(&known)?.on_progress(|progress| {
+        written = rows.write_all(progress.member.csv().to_string().as_bytes());
+        if written.is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    });
+    let outcome = run(ensemble)?;
+    written?;
+    if let Some(outcome) = outcome {
+        // In order, and without what a kill has left of rows.
+        let cleaned = format!("{file}.cleaned");
+        write(&cleaned, outcome.csv().to_string())?;
+        rename(&cleaned, file)?;
+        let (done, failed) = (outcome.members().len(), outcome.failures().count());
+        println!("{done} members, {failed} failures, {:.3} s", started.elapsed().as_secs_f64());
+    }
+    Ok(())
+}
