@@ -42,8 +42,9 @@ fn member(index: usize) -> (DoublePendulum<f64>, State<f64, 2>) {
 /// In seconds.
 const END: f64 = 10.0;
 
-type Pendulums = Ensemble<'static, DoublePendulum<f64>, f64, 2>;
-type Result<T> = std::result::Result<T, Box<dyn Error>>;
+/// Members of which samples are kept, of two coordinates and without constraints.
+type Pendulums<'a> = Ensemble<'a, DoublePendulum<f64>, f64, 2, 0, true>;
+type Result<T, E = Box<dyn Error>> = std::result::Result<T, E>;
 
 fn main() -> Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -51,15 +52,15 @@ fn main() -> Result<()> {
         [count, file, ..] => (count.parse()?, file.as_str()),
         _ => return Err("usage: ensemble_mpi COUNT FILE [--plain]".into()),
     };
-    let ensemble = Ensemble::from_fn(count, member);
+    let pendulums = Ensemble::from_fn(count, member).samples_at([END]);
+    let pendulums = pendulums.quantity("energy", |sample| sample.energy());
     if arguments.len() > 2 {
-        let run = |all: Pendulums<'_>| all.integrate_on_lanes(END, Dop853::default()).map(Some);
-        return with_file(ensemble, file, run);
+        return with_file(pendulums, file, |all| all.integrate_on_lanes(END, Dop853::default()).map(Some));
     }
     let (universe, _) = mpi::initialize_with_threading(Threading::Funneled).ok_or("MPI is in use")?;
     let world = universe.world();
     // The others would wait for a rank that left.
-    on_ranks(&world, ensemble, file).unwrap_or_else(|error| {
+    on_ranks(&world, pendulums, file).unwrap_or_else(|error| {
         eprintln!("rank {}: {error}", world.rank());
         world.abort(1)
     });
@@ -67,21 +68,19 @@ fn main() -> Result<()> {
 }
 
 /// The file is rank 0's alone.
-fn on_ranks(world: &SimpleCommunicator, ensemble: Pendulums, file: &str) -> Result<()> {
+fn on_ranks(world: &SimpleCommunicator, pendulums: Pendulums<'_>, file: &str) -> Result<()> {
     let method = Dop853::default();
     match world.rank() {
-        0 => with_file(ensemble, file, |all| all.on_ranks(world).integrate_on_lanes(END, method)),
-        _ => ensemble.on_ranks(world).integrate_on_lanes(END, method).map(drop).map_err(Into::into),
+        0 => with_file(pendulums, file, |all| all.on_ranks(world).integrate_on_lanes(END, method)),
+        _ => pendulums.on_ranks(world).integrate_on_lanes(END, method).map(drop).map_err(Into::into),
     }
 }
 
 /// Takes over what is in the file, and appends what is done.
 fn with_file(
-    ensemble: Pendulums,
+    pendulums: Pendulums<'_>,
     file: &str,
-    run: impl FnOnce(
-        Ensemble<'_, DoublePendulum<f64>, f64, 2>,
-    ) -> core::result::Result<Option<Outcome<f64, 2>>, lagrange_core::Error>,
+    run: impl FnOnce(Pendulums<'_>) -> Result<Option<Outcome<f64, 2>>, lagrange_core::Error>,
 ) -> Result<()> {
     let known = match read_to_string(file) {
         Err(error) if error.kind() == ErrorKind::NotFound => String::new(),
@@ -89,19 +88,34 @@ fn with_file(
     };
     let mut rows = File::options().append(true).create(true).open(file)?;
     let (mut written, started) = (Ok(()), Instant::now());
-    let ensemble = ensemble.resume(&known)?.on_progress(|progress| {
+    let pendulums = pendulums.resume(&known)?.on_progress(|progress| {
         written = rows.write_all(progress.member.csv().to_string().as_bytes());
         if written.is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     });
-    let outcome = run(ensemble)?;
+    let outcome = run(pendulums)?;
     written?;
-    if let Some(outcome) = outcome {
-        // In order, and without what a kill has left of rows.
-        let cleaned = format!("{file}.cleaned");
-        write(&cleaned, outcome.csv().to_string())?;
-        rename(&cleaned, file)?;
-        let (done, failed) = (outcome.members().len(), outcome.failures().count());
-        println!("{done} members, {failed} failures, {:.3} s", started.elapsed().as_secs_f64());
-    }
+    let Some(outcome) = outcome else { return Ok(()) };
+    // In order, and without what a kill has left of rows.
+    let cleaned = format!("{file}.cleaned");
+    write(&cleaned, outcome.csv().to_string())?;
+    rename(&cleaned, file)?;
+    let (done, failed) = (outcome.members().len(), outcome.failures().count());
+    println!(
+        "{done} members, {failed} failures; of those done now the energy is off by {:e}",
+        off(&outcome)?
+    );
+    eprintln!("{:.3} s", started.elapsed().as_secs_f64());
     Ok(())
+}
+
+/// The largest change of the energy.
+fn off(outcome: &Outcome<f64, 2>) -> Result<f64> {
+    let mut largest = 0.0_f64;
+    for index in outcome.members().iter().map(|member| member.index) {
+        let (pendulum, start) = member(index);
+        for energy in outcome.quantity(index, "energy")? {
+            largest = largest.max((energy - pendulum.energy(&start)).abs());
+        }
+    }
+    Ok(largest)
 }

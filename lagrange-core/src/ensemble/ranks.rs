@@ -133,7 +133,11 @@ where
     ///
     /// # Errors
     /// As [`integrate`](Self::integrate).
-    pub fn integrate_on_lanes<P>(self, end: f64, method: Adaptive<P>) -> Result<Option<Outcome<f64, N>>, Error>
+    pub fn integrate_on_lanes<P>(
+        self,
+        end: f64,
+        method: Adaptive<P>,
+    ) -> Result<Option<Outcome<f64, N>>, Error>
     where
         L: Pack<Lanes, Packed: Lagrangian<N, M, Scalar = Lanes>>,
         P: Pair,
@@ -220,7 +224,8 @@ impl Parcel {
         let mut kept = Vec::new();
         for Arrival { samples, values, .. } in outcome.members().iter().filter_map(Member::arrival) {
             kept.extend([samples.len(), values.len()].map(|count| count as f64));
-            let samples = samples.iter().flat_map(|state| [&state.t].into_iter().chain(&state.q).chain(&state.v));
+            let samples =
+                samples.iter().flat_map(|state| [&state.t].into_iter().chain(&state.q).chain(&state.v));
             kept.extend(samples.chain(values).map(|x| x.to_f64()));
         }
         Self { rows: outcome.csv().to_string(), kept }

@@ -192,12 +192,16 @@ fn all(table: &str) -> Vec<MemberRow<f64, 1>> {
 #[test]
 fn a_row_gives_the_member_that_gives_the_row() {
     let table = table();
-    let late = table.lines().nth(1).expect("a row").replacen(",complete,", ",\"stopped, at last\",", 1) + "\n";
+    let late =
+        table.lines().nth(1).expect("a row").replacen(",complete,", ",\"stopped, at last\",", 1) + "\n";
     let rows = all(&(table + &late.replacen('3', "4", 1).replace(",3\n", ",4\n")));
     assert_eq!(rows.len(), 4);
     for row in rows {
         let member = row.clone().into_member();
-        assert_eq!((member.csv().to_string(), member.has_failed()), (row.csv().to_string(), row.has_failed()));
+        assert_eq!(
+            (member.csv().to_string(), member.has_failed()),
+            (row.csv().to_string(), row.has_failed())
+        );
         assert_eq!(member.arrival().is_some(), row.state.is_some());
     }
 }
