@@ -6,13 +6,13 @@ use core::marker::PhantomData;
 use nalgebra::{ComplexField, SVector};
 
 use super::consistent::{Level, check_level};
-use super::kkt::{self, KktSystem, Rank};
-use super::solve::{fault, is_trustworthy, not_finite};
+use super::kkt::Rank;
+use super::solve::{is_trustworthy, solve_in_general};
 use crate::error::Error;
 use crate::number::{Real, Scalar};
 use crate::system::finite::check_finite;
 use crate::system::lookup::index;
-use crate::system::{Lagrangian, Solution, State};
+use crate::system::{Lagrangian, State};
 
 /// What an impact leaves: [`Simulate::impact`](crate::Simulate::impact).
 pub struct Impact<L: Lagrangian<N, M>, const N: usize, const M: usize> {
@@ -51,7 +51,10 @@ pub(crate) fn impact<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M:
     rates[hit] *= L::Scalar::constant(1.0) + restitution;
     let no_force = SVector::from_element(L::Scalar::constant(0.0));
     let jump = system.solve_with(&system.factor(state), &no_force, &rates);
-    let jump = if is_trustworthy(&jump) { jump } else { solve_in_general(system, state, &rates)? };
+    let jump = match is_trustworthy(&jump) {
+        true => jump,
+        false => solve_in_general(system, state, (no_force, rates), &[true; M], Rank::on_constraints())?.0,
+    };
     let state = State { v: state.v + jump.accelerations, ..*state };
     Ok(Impact { state, impulses: jump.multipliers, system: PhantomData })
 }
@@ -60,24 +63,4 @@ impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Debug for Impact<L, N,
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_struct("Impact").field("state", &self.state).field("impulses", &self.impulses).finish()
     }
-}
-
-#[cold]
-fn solve_in_general<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
-    system: &L,
-    state: &State<L::Scalar, N>,
-    rates: &SVector<L::Scalar, M>,
-) -> Result<Solution<L::Scalar, N, M>, Error> {
-    let equations = KktSystem {
-        m: system.mass_matrix(state).into(),
-        h: [L::Scalar::constant(0.0); N],
-        f: system.constraint_jacobian(state).transpose().into(),
-        gamma: (*rates).into(),
-    };
-    let time = state.t.to_f64();
-    if let Some(row) = not_finite::<L, N, M>(&equations) {
-        return Err(Error::EquationsNotFinite { row, time });
-    }
-    let solved = kkt::solve(&equations, Rank::on_constraints());
-    solved.map(|(solution, _)| solution).map_err(|found| fault::<L, N, M>(&found, time))
 }

@@ -1,6 +1,6 @@
 //! Accelerations and multipliers at a state, by the fast elimination where it can be trusted.
 
-use nalgebra::ComplexField;
+use nalgebra::{ComplexField, SVector};
 
 use crate::error::Error;
 use crate::names::{Names, Row};
@@ -38,7 +38,8 @@ pub(crate) fn solve_near<L: Lagrangian<N, M, Scalar: Real>, R, const N: usize, c
             (&[true; M], Rank::on_constraints())
         }
     };
-    let (solution, active) = solve_in_general(system, state, active, rank)?;
+    let forces = (system.forcing(state), system.constraint_bias(state));
+    let (solution, active) = solve_in_general(system, state, forces, active, rank)?;
     Ok(read(&solution, &active))
 }
 
@@ -54,19 +55,18 @@ pub(crate) fn is_trustworthy<T: Real, const N: usize, const M: usize>(s: &Soluti
     s.pivot > least_pivot() && all_finite(s.accelerations.as_slice()) && all_finite(s.multipliers.as_slice())
 }
 
+/// M x = h + Fᵀλ and F x + γ = 0 with the M and F of a state, by the general solve; and the constraints of those `active`
+/// on which it rests.
 #[cold]
-fn solve_in_general<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+pub(super) fn solve_in_general<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
+    (h, gamma): (SVector<L::Scalar, N>, SVector<L::Scalar, M>),
     active: &[bool; M],
     rank: Rank<L::Scalar>,
 ) -> Result<Solved<L::Scalar, N, M>, Error> {
-    let mut equations = KktSystem {
-        m: system.mass_matrix(state).into(),
-        h: system.forcing(state).into(),
-        f: system.constraint_jacobian(state).transpose().into(),
-        gamma: system.constraint_bias(state).into(),
-    };
+    let (m, f) = (system.mass_matrix(state).into(), system.constraint_jacobian(state).transpose().into());
+    let mut equations = KktSystem { m, h: h.into(), f, gamma: gamma.into() };
     let time = state.t.to_f64();
     if let Some(row) = not_finite::<L, N, M>(&equations) {
         return Err(Error::EquationsNotFinite { row, time });
