@@ -48,6 +48,7 @@ fn main() -> Result<()> {
     println!("\n{} flights, then: {ending}", journey.legs().len());
     let rest = (2.0 * HEIGHT / BALL.g).sqrt() * (1.0 + RESTITUTION) / (1.0 - RESTITUTION);
     println!("by the series it is at rest at t = {rest}, {:.0e} s later", rest - ending.time());
+    identify()?;
     let file = picture::path("bouncing_ball")?;
     draw(&journey, &bounces, &file)?;
     println!("\npicture: {}", file.display());
@@ -73,6 +74,33 @@ fn bounce() -> Result<(Journey<f64>, Vec<Bounce>)> {
         bounces.push((landing.t, impact.impulse("floor")?, (landing.t - expected).abs()));
         state = impact.state;
     }
+}
+
+/// Which restitution makes it land 0.8 m aside the third time? Newton's method, with the derivative of that place across
+/// the impacts.
+fn identify() -> Result<()> {
+    println!("\nit lands 0.8 m aside the third time: e by Newton's method");
+    let (mut restitution, aside) = (0.5, 0.8);
+    for _ in 0..5 {
+        let mut lands = BALL.differentiable_event("lands", |sample| sample.coordinate("y")).falling();
+        let start = State::new([0.0, HEIGHT], [0.5, 0.0]);
+        let mut at = BALL.sensitivity(&start, &[])?.with(&["e"])?;
+        for landing in 1..=3 {
+            lands = lands.terminal_at(landing);
+            let method = Dop853::with_tolerance(1e-12);
+            let flight = BALL.integrate_sensitivities_until(&at, 100.0, method, &mut [&mut lands])?;
+            at = flight.end()?.clone();
+            if landing < 3 {
+                at = FLOOR.impact_sensitivity(&at, "floor", ("e", restitution))?;
+            }
+        }
+        let (x, by_restitution) = (at.state.q[0], at.q[(0, 0)]);
+        println!("e = {restitution:.12}: {x:.12} m, {by_restitution:.6} m more for 1 more");
+        restitution += (aside - x) / by_restitution;
+    }
+    let landing = |e: f64| 0.5 * (2.0 * HEIGHT / BALL.g).sqrt() * (1.0 + 2.0 * e + 2.0 * e * e);
+    assert!((landing(restitution) - aside).abs() < 1e-12);
+    Ok(())
 }
 
 /// The time of impact n, counted from 0.

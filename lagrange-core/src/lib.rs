@@ -29,7 +29,8 @@ assert!((friction + 2.0 / 7.0 * 9.81 * 0.3_f64.sin()).abs() < 1e-12);
 //!
 //! - [`Lagrangian`] is the contract that generated code implements, [`Simulate`] what a program calls.
 //! - [`Hamiltonian`] is the other side: momenta, the Legendre transform, Hamilton's equations, motion in (q, p).
-//! - [`StateDerivatives`] and [`Linearized`] have the derivatives of the motion: Jacobians, equilibria, the linear system near a state.
+//! - [`StateDerivatives`] and [`Linearized`] have the derivatives of the motion: Jacobians, equilibria, the linear system near a state;
+//!   [`AcrossEvents`] those of motions across events.
 //! - [`Solution`] holds accelerations and multipliers; the sign of a multiplier is that of Milton (8.7): the constraint
 //!   force on coordinate a is Σ_α λ_α F_αa.
 //! - [`Motion`] goes on when it is told to: inputs that change, states at chosen times, nothing stored; [`embedded`] is about

@@ -363,6 +363,95 @@ fn a_reset_to_other_coordinates() {
     });
 }
 
+/// The map from one crossing of x = 0 to the next, at one energy, keeps areas of (y, ẏ).
+#[test]
+fn a_poincare_map_keeps_areas() {
+    #[derive(Lagrangian)]
+    #[coordinates(x, y)]
+    #[lagrangian((x_dot^2 + y_dot^2)/2 - (x^2 + y^2)/2 - x^2*y + y^3/3)]
+    struct HenonHeiles;
+
+    let state = State::new([0.0, 0.1], [0.35, 0.1]);
+    let start = HenonHeiles.sensitivity(&state, &["y", "y_dot", "x_dot"]).unwrap();
+    let mut section = HenonHeiles.differentiable_event("section", |s| s.state().q[0]).rising().terminal_at(5);
+    let method = Dop853::with_tolerance(1e-13);
+    let motion = HenonHeiles.integrate_sensitivities_until(&start, 1e3, method, &mut [&mut section]).unwrap();
+    let end = motion.end().unwrap();
+    assert_eq!(motion.trajectory().crossings().len(), 5);
+    assert!(end.q.row(0).amax() < 1e-14 && end.t.amin() > 1e-3, "{end:?}");
+    // At x = 0 the energy is (ẋ² + ẏ² + y²)/2 − y³/3: with y and ẏ changes ẋ.
+    let by_x_dot = [-(0.1 - 0.01) / 0.35, -0.1 / 0.35];
+    let at = |row: &DMatrix<f64>, j: usize| row[(1, j)] + row[(1, 2)] * by_x_dot[j];
+    let area = at(&end.q, 0) * at(&end.v, 1) - at(&end.q, 1) * at(&end.v, 0);
+    assert!((area - 1.0).abs() < 1e-10, "{area}");
+}
+
+/// There and back again: a bounce undoes itself where time goes back.
+#[test]
+fn an_elastic_bounce_backwards() {
+    let (ball, floor) = (Flying { m: 1.0, g: 9.81 }, Touching { m: 1.0, g: 9.81 });
+    let mut lands = ball.differentiable_event("lands", |s| s.coordinate("y")).terminal();
+    let start = ball.sensitivity(&State::new([0.0, 1.0], [1.0, 0.5]), &["x", "y", "x_dot", "y_dot"]).unwrap();
+    let mut at = start.clone();
+    for (bounce, time) in [(1, 10.0), (2, 0.7), (2, -10.0), (3, 0.0)] {
+        lands = lands.terminal_at(bounce);
+        let flight = ball.integrate_sensitivities_until(&at, time, method(), &mut [&mut lands]).unwrap();
+        at = flight.end().unwrap().clone();
+        if time.abs() == 10.0 {
+            assert!(at.state.q[1].abs() < 1e-15 && at.t[1].abs() > 1e-2);
+            at = floor.impact_sensitivity(&at, "floor", ("e", 1.0)).unwrap();
+        }
+    }
+    assert!((&at.q - &start.q).amax() < 1e-13 && (&at.v - &start.v).amax() < 1e-12, "{at:?}");
+}
+
+/// Where the mass matrix is singular and constraints say the same twice, the general solve serves. Of the two ends of a lever,
+/// of which one has the mass, the other is stopped: ẋ⁺ = −e ẋ.
+#[test]
+fn singular_and_dependent_systems_have_derivatives_of_impacts() {
+    #[derive(Lagrangian)]
+    #[coordinates(x, z)]
+    #[lagrangian(m/2 * x_dot^2)]
+    #[constraint(lever: z - r*x = 0)]
+    #[constraint(again: z^2/2 - r^2*x^2/2 = 0)]
+    #[constraint(stop: z - 1 = 0)]
+    struct Lever {
+        m: f64,
+        r: f64,
+    }
+    let (lever, e) = (Lever { m: 4.0, r: 2.0 }, 0.5);
+    let before = lever.sensitivity(&State::new([0.5, 1.0], [1.0, 2.0]), &["m"]).unwrap().with(&["e", "by"]);
+    let mut before = before.unwrap();
+    // Faster on the constraints.
+    (before.v[(0, 2)], before.v[(1, 2)]) = (1.0, 2.0);
+    let after = lever.impact_sensitivity(&before, "stop", ("e", e)).unwrap();
+    let expected = [[0.0, 0.0], [-1.0, -2.0], [-e, -2.0 * e]];
+    for (j, [x, z]) in expected.into_iter().enumerate() {
+        assert!((after.v[(0, j)] - x).abs() < 1e-13 && (after.v[(1, j)] - z).abs() < 1e-13, "{}", after.v);
+    }
+}
+
+/// λ z of a rod is the force on z, and m z̈ = −m g + λ z where masses do not depend on the place.
+#[test]
+fn what_follows_from_a_state_changes_with_it() {
+    let bob = Bob { m: 1.1, n: 0.0, g: 9.81, l: 1.0 };
+    let state = State::new([-0.5, 0.2, -0.9], [0.6, 0.9, 0.0]);
+    let state = bob.make_consistent(&state).unwrap().0;
+    let at = bob.sensitivity(&state, &["x", "y", "z", "z_dot", "m", "n", "g", "l"]).unwrap();
+    let forces = bob.carry(&at, |s| {
+        let [m, g, z] = [s.parameter("m")?, s.parameter("g")?, s.coordinate("z")?];
+        let lever = s.multiplier("rod")? * z;
+        // What n adds is −n d(ẋẏ)… of the rows of x and y, and n ẋ ẏ in that of z.
+        let row =
+            m * s.acceleration("z")? + m * g - s.parameter("n")? * s.velocity("x")? * s.velocity("y")?;
+        Ok([[s.constraint_force("z")?, lever], [row, lever]])
+    });
+    let Sensitivity { state, q, v, .. } = forces.unwrap();
+    assert!((state.q[0] - state.q[1]).abs() < 1e-14 && (state.q[0] - state.v[0]).abs() < 1e-13);
+    assert!(q.row(0).amax() > 1.0 && (q.row(0) - q.row(1)).amax() < 1e-12, "{q}");
+    assert!((q.row(0) - v.row(0)).amax() < 1e-12, "{q}{v}");
+}
+
 #[test]
 fn what_grazes_has_no_derivative() {
     let (ball, start) = (Flying { m: 1.0, g: 1.0 }, State::new([0.0, 0.0], [0.0, 1.0]));

@@ -5,8 +5,8 @@ use core::fmt::{self, Debug, Formatter};
 use nalgebra::{ComplexField, SVector};
 
 use super::argument::parameter;
-use super::tangent::Tangent;
-use super::{Direction, Linearized};
+use super::tangent::{Tangent, WideOf};
+use super::{Direction, Linearized, ResidualChange};
 use crate::error::Error;
 use crate::motion::{Event, EventFunction, EventValue, Watched};
 use crate::names::Entry;
@@ -18,8 +18,8 @@ use crate::system::{Solution, State};
 /// A state of a system over dual numbers: with its change by one argument, as a function needs it that is to be
 /// differentiated.
 ///
-/// Quantities have the names that they have in a [`Sample`](crate::Sample): coordinates, velocities, accelerations and
-/// multipliers; to these come the parameters and numbers of one's own, since what a function captures, or reads from the
+/// Quantities have the names that they have in a [`Sample`](crate::Sample): coordinates, velocities, accelerations,
+/// multipliers and constraint forces; to these come the parameters and numbers of one's own, since what a function captures, or reads from the
 /// system, is a constant to it. The mathematics of [`Dual`] numbers is that of [`Scalar`](crate::Scalar).
 pub struct DualSample<'a, L, const N: usize, const M: usize, const P: usize>
 where
@@ -95,6 +95,26 @@ where
         Ok(self.solution()?.multipliers[index])
     }
 
+    /// The generalized constraint force Σ_α λ_α F_αa on the coordinate of this name.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
+    pub fn constraint_force(&self, name: &str) -> Result<Dual<L::Scalar>, Error> {
+        let i = index::<L, N, M>(&L::COORDINATES, "coordinate", name)?;
+        let (solution, (state, direction)) = (self.solution()?, self.parts());
+        let [multipliers, changes] =
+            [solution.multipliers.map(|x| x.value), solution.multipliers.map(|x| x.slope)];
+        // M q̈ − h − Fᵀλ changes by δFᵀ λ less than where multipliers are none.
+        let accelerations = solution.accelerations.map(|x| x.value);
+        let motion = |multipliers| {
+            let solution = Solution { accelerations, multipliers, pivot: solution.pivot.value, rank: M };
+            self.change_at(&Tangent::of(self.system, &state, solution), &direction).motion[i].lane(0)
+        };
+        let by_direction = motion(multipliers.map(|_| L::Scalar::constant(0.0))) - motion(multipliers);
+        let force = |multipliers| self.system.constraint_force(&state, multipliers)[i];
+        Ok(Dual { value: force(&multipliers), slope: force(&changes) + by_direction })
+    }
+
     /// The parameter of this name, which changes where it is the argument.
     ///
     /// # Errors
@@ -114,25 +134,35 @@ where
     /// # Errors
     /// As [`Linearized::jacobian_by`].
     pub fn solution(&self) -> Result<Solution<Dual<L::Scalar>, N, M>, Error> {
-        let State { t, q, v } = self.state;
-        let state = State { t: t.value, q: q.map(|x| x.value), v: v.map(|x| x.value) };
-        let direction = Direction { t: t.slope, q: q.map(|x| x.slope), v: v.map(|x| x.slope) };
+        let (state, direction) = self.parts();
+        let zero = L::Scalar::constant(0.0);
         if self.argument.is_none() && direction == Direction::zero() {
-            return Ok(dual(
-                &solve(self.system, &state)?,
-                |_| L::Scalar::constant(0.0),
-                |_| L::Scalar::constant(0.0),
-            ));
+            return Ok(dual(&solve(self.system, &state)?, |_| zero, |_| zero));
         }
         let tangent = Tangent::at(self.system, &state)?;
-        let parameter = self.argument.and_then(parameter::<L, N, M, P>);
-        let change = tangent.change_with(&direction, parameter);
+        let change = self.change_at(&tangent, &direction);
         let response = tangent.responses(1, &change, |_| self.argument.unwrap_or(Entry::Time))?;
         Ok(dual(
             &tangent.solution,
             |i| response.accelerations[i].lane(0),
             |a| response.multipliers[a].lane(0),
         ))
+    }
+
+    /// The state, and the direction in which it changes.
+    fn parts(&self) -> (State<L::Scalar, N>, Direction<L::Scalar, N>) {
+        let State { t, q, v } = self.state;
+        let state = State { t: t.value, q: q.map(|x| x.value), v: v.map(|x| x.value) };
+        (state, Direction { t: t.slope, q: q.map(|x| x.slope), v: v.map(|x| x.slope) })
+    }
+
+    /// How the residual changes with the argument.
+    fn change_at(
+        &self,
+        tangent: &Tangent<'_, L, N, M>,
+        direction: &Direction<L::Scalar, N>,
+    ) -> ResidualChange<WideOf<L, N, M>, N, M> {
+        tangent.change_with(direction, self.argument.and_then(parameter::<L, N, M, P>))
     }
 }
 

@@ -276,6 +276,9 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     /// constraints the start is the nearest state to the one given, for other parameters too, and so are its derivatives;
     /// they stay in the tangent space, projected as the state is. [`AcrossEvents`] goes on across events.
     ///
+    /// It takes [`Dop853`](crate::Dop853) and [`Dopri5`](crate::Dopri5), and other embedded [`Pair`]s, on Lagrange's
+    /// equations; motions by other methods, and in momenta, are not differentiated.
+    ///
     /// ```
     /// use lagrange_core::prelude::*;
     ///
@@ -320,6 +323,7 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     /// first 21st of the time lets them turn to where they grow, and does not count; the others are looked at one by one, and
     /// tell how far the means can be relied on. Of the limit for infinite times an exponent of zero is off by about
     /// ln t/t. Lengths are those of (q, q̇) in the units of the system, which make no difference in the limit. Nothing is stored.
+    /// Methods are those of [`integrate_sensitivities`](Self::integrate_sensitivities).
     ///
     /// ```
     /// use lagrange_core::prelude::*;

@@ -187,6 +187,11 @@ where
         &self.trajectory
     }
 
+    /// The motion alone, for a leg of a [`Journey`](crate::Journey) say.
+    pub fn into_trajectory(self) -> Trajectory<&'a L, N, M> {
+        self.trajectory
+    }
+
     /// The arguments, in the order of the columns.
     pub fn arguments(&self) -> &[Entry] {
         self.course.variations.arguments()
