@@ -188,6 +188,12 @@ where
         self.stopped.store(true, Ordering::Relaxed);
     }
 
+    /// The names of the events.
+    #[cfg(feature = "mpi")]
+    pub(super) fn events(&self) -> Vec<&'static str> {
+        self.orders.events()
+    }
+
     /// The member that nobody has yet.
     pub(super) fn next(&self) -> Option<usize> {
         loop {
@@ -284,8 +290,8 @@ fn arrival<L, T: Real, const N: usize, const M: usize>(
 where
     L: Lagrangian<N, M, Scalar = T>,
 {
-    let (samples, values) = record.finish();
-    Arrival { state, ending, statistics, samples, values }
+    let Record { samples, values, crossings, .. } = record;
+    Arrival { state, ending, statistics, samples, values, crossings }
 }
 
 /// A member taken over must be of this run, with this start and these parameters.

@@ -4,7 +4,7 @@
 //! the other, and both with the feature `rayon` on all threads of rayon's current pool. What a member gives is bit
 //! for bit the same whatever its neighbours, the number of threads and the part of the ensemble that is run. A member
 //! that fails says why, and spoils no other. What lies within the motions can be kept of each: [samples](Ensemble::samples_at) at
-//! given times.
+//! given times, and crossings of [events](Ensemble::event).
 //!
 //! Members move in coordinates and velocities; there are no ensembles of motions in (q, p).
 //!

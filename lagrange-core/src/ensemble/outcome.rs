@@ -5,6 +5,7 @@ use core::fmt::{self, Display, Formatter};
 use super::fingerprint::Fingerprint;
 use crate::ending::Ending;
 use crate::error::Error;
+use crate::motion::Crossing;
 use crate::number::Real;
 use crate::statistics::Statistics;
 use crate::system::State;
@@ -38,6 +39,9 @@ pub struct Arrival<T, const N: usize> {
     pub samples: Vec<State<T, N>>,
     /// Their quantities: all of the first sample, all of the second, …; [`Outcome::quantity`] gives one by name.
     pub values: Vec<T>,
+    /// Where [events](crate::Ensemble::event) were, in the order of the motion. Of a member taken over from a table there are
+    /// none.
+    pub crossings: Vec<Crossing<T, N>>,
 }
 
 impl<T: Real, const N: usize> Member<T, N> {

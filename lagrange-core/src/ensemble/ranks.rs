@@ -22,9 +22,10 @@ use super::job::Job;
 use super::outcome::{Arrival, Member, Outcome};
 use super::table::{MemberRow, MemberTable};
 
+use crate::ending::Ending;
 use crate::error::Error;
 use crate::motion::run::check_end;
-use crate::motion::{Adaptive, Method, Pair};
+use crate::motion::{Adaptive, Crossing, Method, Pair};
 use crate::number::{Lanes, Real, vector};
 use crate::system::{Lagrangian, Pack, State};
 
@@ -212,7 +213,8 @@ fn size(world: &SimpleCommunicator) -> usize {
 /// What has become of the members of a batch.
 struct Parcel {
     rows: String,
-    /// What is kept of each member that has a motion: how many samples and values, and these.
+    /// What is kept of each member that has a motion: whether an event ended it; how many samples, values and crossings, and
+    /// these.
     kept: Vec<f64>,
 }
 
@@ -222,11 +224,17 @@ const KEPT: i32 = 1;
 impl Parcel {
     fn of<T: Real, const N: usize>(outcome: &Outcome<T, N>) -> Self {
         let mut kept = Vec::new();
-        for Arrival { samples, values, .. } in outcome.members().iter().filter_map(Member::arrival) {
-            kept.extend([samples.len(), values.len()].map(|count| count as f64));
-            let samples =
-                samples.iter().flat_map(|state| [&state.t].into_iter().chain(&state.q).chain(&state.v));
-            kept.extend(samples.chain(values).map(|x| x.to_f64()));
+        for arrival in outcome.members().iter().filter_map(Member::arrival) {
+            let Arrival { ending, samples, values, crossings, .. } = arrival;
+            let is_event = usize::from(matches!(ending, Ending::Event { .. }));
+            let counts = [is_event, samples.len(), values.len(), crossings.len()];
+            kept.extend(counts.map(|count| count as f64));
+            samples.iter().for_each(|state| kept.extend(numbers(state)));
+            kept.extend(values.iter().map(|x| x.to_f64()));
+            for Crossing { index, count, rising, state, .. } in crossings {
+                kept.extend([*index, *count, usize::from(*rising)].map(|count| count as f64));
+                kept.extend(numbers(state));
+            }
         }
         Self { rows: outcome.csv().to_string(), kept }
     }
@@ -248,24 +256,46 @@ impl Parcel {
     fn members<T: Real + FromStr, const N: usize>(
         self,
         names: [&'static str; N],
+        events: Vec<&'static str>,
     ) -> Result<impl Iterator<Item = Member<T, N>>, Error> {
         let rows = MemberTable::of(&self.rows, names, usize::MAX)?.into_rows();
         let mut kept = self.kept.into_iter();
         Ok(rows.map(MemberRow::into_member).map(move |mut member| {
             if let Ok(arrival) = &mut member.result {
-                restore(arrival, &mut kept);
+                restore(arrival, &events, &mut kept);
             }
             member
         }))
     }
 }
 
-fn restore<T: Real, const N: usize>(arrival: &mut Arrival<T, N>, kept: &mut impl Iterator<Item = f64>) {
+fn numbers<T: Real, const N: usize>(state: &State<T, N>) -> impl Iterator<Item = f64> + '_ {
+    [&state.t].into_iter().chain(&state.q).chain(&state.v).map(|x| x.to_f64())
+}
+
+fn restore<T: Real, const N: usize>(
+    arrival: &mut Arrival<T, N>,
+    events: &[&'static str],
+    kept: &mut impl Iterator<Item = f64>,
+) {
     let mut count = || kept.next().unwrap_or(0.0) as usize;
-    let (samples, values) = (count(), count());
+    let [is_event, samples, values, crossings] = [count(), count(), count(), count()];
     let mut numbers = kept.map(T::constant);
     arrival.samples = (0..samples).map_while(|_| state(&mut numbers)).collect();
-    arrival.values = numbers.take(values).collect();
+    arrival.values = numbers.by_ref().take(values).collect();
+    arrival.crossings = (0..crossings).map_while(|_| crossing(events, &mut numbers)).collect();
+    if let Some(Crossing { event, state, .. }) = arrival.crossings.last().filter(|_| is_event == 1) {
+        arrival.ending = Ending::Event { time: state.t.to_f64(), event };
+    }
+}
+
+fn crossing<T: Real, const N: usize>(
+    events: &[&'static str],
+    numbers: &mut impl Iterator<Item = T>,
+) -> Option<Crossing<T, N>> {
+    let mut count = || Some(numbers.next()?.to_f64() as usize);
+    let (index, count, rising) = (count()?, count()?, count()? == 1);
+    Some(Crossing { event: events.get(index)?, index, count, rising, state: state(numbers)? })
 }
 
 fn state<T: Real, const N: usize>(numbers: &mut impl Iterator<Item = T>) -> Option<State<T, N>> {
@@ -346,7 +376,7 @@ where
             // The rank waits: it comes first.
             self.close(rank);
             self.hand_out(rank);
-            match parcel.members(L::COORDINATES) {
+            match parcel.members(L::COORDINATES, self.job.events()) {
                 Ok(members) => members.for_each(|member| self.job.report(member)),
                 Err(error) => {
                     self.job.stop();
@@ -383,5 +413,33 @@ where
         let each = self.time.as_secs_f64() / self.members.max(1) as f64;
         let timed = if self.members == 0 { LEAST } else { (self.batch.as_secs_f64() / each) as usize };
         timed.max(LEAST).min(share).max(1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::prelude::*;
+
+    #[derive(Lagrangian)]
+    #[coordinates(x)]
+    #[lagrangian(x_dot^2/2 - k/2 * x^2)]
+    struct Spring<T> {
+        k: T,
+    }
+
+    /// Endings by events, crossings and samples are unpacked as they were packed.
+    #[test]
+    fn what_is_kept_of_members_survives_the_way() {
+        let spring = |index: usize| (Spring { k: index as f64 }, State::at_rest([1.0]));
+        let zero = spring(0).0.event("zero", |sample| sample.state().q[0]);
+        let turn = spring(0).0.event("turn", |sample| sample.state().v[0]).terminal_at(2);
+        let springs = Ensemble::from_fn(9, spring).event(zero).event(turn).samples_at([0.0, 1.5, 3.0]);
+        let springs = springs.quantity("speed", |sample| sample.velocity("x"));
+        let outcome = springs.integrate_on_lanes(3.0, Dop853::default()).expect("an outcome");
+        assert!(outcome.members().iter().any(|member| member.to_string().contains("event `turn`")));
+        let parcel = Parcel::of(&outcome);
+        let members = parcel.members(["x"], vec!["zero", "turn"]).expect("members");
+        assert!(members.eq(outcome.members().iter().cloned()));
     }
 }

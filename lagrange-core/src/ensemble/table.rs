@@ -202,7 +202,14 @@ impl<T: Real, const N: usize> MemberRow<T, N> {
                     MemberEnding::Cancelled => Ending::Cancelled { time },
                     MemberEnding::Failed(said) => Ending::Elsewhere { time, said },
                 };
-                Ok(Arrival { state, ending, statistics, samples: Vec::new(), values: Vec::new() })
+                Ok(Arrival {
+                    state,
+                    ending,
+                    statistics,
+                    samples: Vec::new(),
+                    values: Vec::new(),
+                    crossings: Vec::new(),
+                })
             }
         };
         Member { index, fingerprint, result }

@@ -1,7 +1,7 @@
 //! What is kept of members on their way.
 
 use super::Ensemble;
-use crate::motion::EventValue;
+use crate::motion::{Event, EventFunction, EventValue};
 use crate::number::Real;
 use crate::solution::Sample;
 use crate::system::Lagrangian;
@@ -47,6 +47,41 @@ where
     pub fn samples_at(self, times: impl IntoIterator<Item = T>) -> Ensemble<'a, L, T, N, M, true> {
         let mut plan = self.plan;
         plan.orders.times = times.into_iter().collect();
+        Ensemble { plan }
+    }
+
+    /// Watches each member for this event, [one](crate::Simulate::event) of any system of the kind: what a run
+    /// [with events](crate::Simulate::integrate_until) does, on lanes too. Its crossings are in
+    /// [`Arrival::crossings`](super::Arrival::crossings); a [terminal](Event::terminal) one ends the member there, with
+    /// [`Ending::Event`](crate::Ending::Event), and no other. Each member counts for itself.
+    ///
+    /// ```
+    /// # use lagrange_core::prelude::*;
+    /// #[derive(Lagrangian)]
+    /// #[coordinates(height)]
+    /// #[lagrangian(height_dot^2/2 - g*height)]
+    /// struct Ball<T> { g: T }
+    ///
+    /// let ball = |k: usize| Ball { g: 1.0 + k as f64 };
+    /// let lands = ball(0).event("lands", |sample| sample.state().q[0]).falling().terminal();
+    /// let balls = Ensemble::from_fn(10, |k| (ball(k), State::at_rest([1.0]))).event(lands);
+    /// let outcome = balls.integrate_on_lanes(100.0, Dop853::default())?;
+    /// for member in outcome.members() {
+    ///     let arrival = member.arrival().unwrap();
+    ///     assert!((arrival.ending.time() - (2.0 / ball(member.index).g).sqrt()).abs() < 1e-12);
+    ///     assert_eq!(arrival.crossings[0].state, arrival.state);
+    /// }
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// An event whose function cannot be had where a member starts is its error; later on it ends the member, which keeps what
+    /// was found. Each step is looked into, which on lanes costs a quarter of it and the functions.
+    pub fn event<G>(self, event: Event<L, G, N, M>) -> Ensemble<'a, L, T, N, M, true>
+    where
+        G: EventFunction<L, N, M> + Send + Sync + 'a,
+    {
+        let mut plan = self.plan;
+        plan.orders.event(event);
         Ensemble { plan }
     }
 

@@ -351,25 +351,25 @@ impl<P: Pair, const N: usize> Within<P, N> {
             return (after, None);
         }
         let Seat { record, system, .. } = seat;
-        let (before, coefficients) = (self.before[lane], self.coefficients.as_ref());
+        let (before, coefficients) = (self.before[lane], &self.coefficients);
         let interpolant = &LaneOf { lane, start: before.t, length, coefficients };
         record.keep(&Stride { system, before, after, interpolant, flow: PhantomData::<LagrangianFlow> })
     }
 }
 
 /// The polynomial in one lane, with the operations of a polynomial alone.
-struct LaneOf<'c, const N: usize> {
+struct LaneOf<'c, C> {
     lane: usize,
     start: f64,
     length: f64,
-    coefficients: &'c [Phase<Lanes, N>],
+    coefficients: &'c C,
 }
 
-impl<const N: usize> Interpolant<f64, N> for LaneOf<'_, N> {
+impl<const N: usize, C: AsRef<[Phase<Lanes, N>]>> Interpolant<f64, N> for LaneOf<'_, C> {
     #[inline(always)]
     fn at(&self, t: f64) -> PhasePoint<f64, N> {
         let theta = Lanes::constant((t - self.start) / self.length);
-        let (y, velocity) = evaluate(self.coefficients, theta);
+        let (y, velocity) = evaluate(self.coefficients.as_ref(), theta);
         let velocity = velocity.map(|x| x.to_array()[self.lane] / self.length);
         PhasePoint { t, y: unpacked(&y, self.lane), velocity }
     }

@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 
 use nalgebra::ComplexField;
 
-use super::event::{EventValue, Stride};
+use super::event::{Crossing, Event, EventFunction, EventValue, Grid, Search, Stride};
 use super::method::{Interpolant, Method};
 use super::run::{Run, Watchdog, is_between};
 use crate::ending::Ending;
@@ -19,19 +19,18 @@ use crate::system::{Lagrangian, State};
 pub(crate) struct Orders<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
     /// When states are, in the order of the motion.
     pub(crate) times: Vec<L::Scalar>,
-    quantities: Vec<(&'static str, Quantity<'a, L, N, M>)>,
+    quantities: Vec<(&'static str, Box<Value<'a, L, N, M>>)>,
+    /// As they are before the first crossing.
+    events: Vec<Event<L, Box<Value<'a, L, N, M>>, N, M>>,
 }
 
-type Quantity<'a, L, const N: usize, const M: usize> = Box<
-    dyn Fn(&L, &State<<L as Lagrangian<N, M>>::Scalar, N>) -> Result<<L as Lagrangian<N, M>>::Scalar, Error>
-        + Send
-        + Sync
-        + 'a,
->;
+/// A number that follows from a state.
+type Value<'a, L, const N: usize, const M: usize> =
+    dyn Fn(&Sample<&L, N, M>) -> Result<<L as Lagrangian<N, M>>::Scalar, Error> + Send + Sync + 'a;
 
 impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Default for Orders<'_, L, N, M> {
     fn default() -> Self {
-        Self { times: Vec::new(), quantities: Vec::new() }
+        Self { times: Vec::new(), quantities: Vec::new(), events: Vec::new() }
     }
 }
 
@@ -41,14 +40,29 @@ impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Orde
         name: &'static str,
         function: impl Fn(&Sample<&L, N, M>) -> V + Send + Sync + 'a,
     ) {
-        let value =
-            move |system: &L, state: &State<_, N>| function(&Sample { system, state: *state }).value();
-        self.quantities.push((name, Box::new(value)));
+        self.quantities.push((name, Box::new(move |sample: &Sample<&L, N, M>| function(sample).value())));
+    }
+
+    pub(crate) fn event<G>(&mut self, event: Event<L, G, N, M>)
+    where
+        G: EventFunction<L, N, M> + Send + Sync + 'a,
+    {
+        self.events.push(event.map(|function| {
+            let value: Box<Value<'a, L, N, M>> =
+                Box::new(move |sample: &Sample<&L, N, M>| function.at(sample.system, &sample.state));
+            value
+        }));
     }
 
     /// The names of the quantities.
     pub(crate) fn quantities(&self) -> Vec<&'static str> {
         self.quantities.iter().map(|(name, _)| *name).collect()
+    }
+
+    /// The names of the events.
+    #[cfg(feature = "mpi")]
+    pub(crate) fn events(&self) -> Vec<&'static str> {
+        self.events.iter().map(Event::name).collect()
     }
 
     /// Checks what is the same for all motions.
@@ -67,16 +81,20 @@ impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Orde
     /// Writes what tells these orders from others; what their functions hold is not seen.
     pub(crate) fn identify(&self, to: &mut dyn Write) -> fmt::Result {
         self.times.iter().try_for_each(|t| write!(to, " at {:?}", t.to_f64()))?;
-        self.quantities.iter().try_for_each(|(name, _)| write!(to, " of {name}"))
+        self.quantities.iter().try_for_each(|(name, _)| write!(to, " of {name}"))?;
+        self.events.iter().try_for_each(|event| write!(to, " with {:?}", event.anew(|_| ())))
     }
 }
 
 /// What is kept of one.
 pub(crate) struct Record<'o, L: Lagrangian<N, M>, const N: usize, const M: usize> {
     orders: &'o Orders<'o, L, N, M>,
-    samples: Vec<State<L::Scalar, N>>,
-    /// Those of the first sample, those of the second, …
-    values: Vec<L::Scalar>,
+    pub(crate) samples: Vec<State<L::Scalar, N>>,
+    /// The quantities of the first sample, those of the second, …
+    pub(crate) values: Vec<L::Scalar>,
+    pub(crate) crossings: Vec<Crossing<L::Scalar, N>>,
+    events: Vec<Event<L, &'o Value<'o, L, N, M>, N, M>>,
+    grid: Grid<L::Scalar>,
 }
 
 impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Record<'o, L, N, M> {
@@ -100,13 +118,15 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
                 return outside(last);
             }
         }
-        let mut record = Self {
-            orders,
-            samples: Vec::with_capacity(times.len()),
-            values: Vec::with_capacity(times.len() * orders.quantities.len()),
-        };
         // A name that is not known is told before the first step.
-        orders.quantities.iter().try_for_each(|(_, value)| value(system, start).map(drop))?;
+        let sample = Sample { system, state: *start };
+        orders.quantities.iter().try_for_each(|(_, value)| value(&sample).map(drop))?;
+        let mut events: Vec<_> =
+            orders.events.iter().map(|event| event.anew(|function| &**function)).collect();
+        let Search { grid, .. } = Search::from(&mut events, system, start, true)?;
+        let samples = Vec::with_capacity(times.len());
+        let values = Vec::with_capacity(times.len() * orders.quantities.len());
+        let mut record = Self { orders, samples, values, crossings: Vec::new(), events, grid };
         while record.next_time().is_some_and(|t| t == start.t) {
             record.push(system, *start)?;
         }
@@ -119,8 +139,15 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
     }
 
     fn push(&mut self, system: &L, state: State<L::Scalar, N>) -> Result<(), Error> {
+        let (sample, before) = (Sample { system, state }, self.values.len());
         for (_, value) in &self.orders.quantities {
-            self.values.push(value(system, &state)?);
+            match value(&sample) {
+                Ok(value) => self.values.push(value),
+                Err(error) => {
+                    self.values.truncate(before);
+                    return Err(error);
+                }
+            }
         }
         self.samples.push(state);
         Ok(())
@@ -128,7 +155,7 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
 
     /// Whether there is something to be looked for in a step between these times.
     pub(crate) fn looks_into(&self, from: L::Scalar, to: L::Scalar) -> bool {
-        self.next_time().is_some_and(|t| is_between(from, t, to))
+        !self.events.is_empty() || self.next_time().is_some_and(|t| is_between(from, t, to))
     }
 
     /// Keeps what is due in this step, as far as the motion goes: to there, and why not farther.
@@ -140,9 +167,11 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
         F: Flow<L, N, M>,
         I: Interpolant<L::Scalar, N>,
     {
+        let mut search = Search { events: &mut self.events, grid: self.grid };
+        let (end, stopped) = search.record(stride, &mut self.crossings);
         let mut at = stride.before;
         while let Some(t) = self.next_time()
-            && is_between(stride.before.t, t, stride.after.t)
+            && is_between(stride.before.t, t, end.t)
         {
             let kept = stride.at(t).and_then(|state| {
                 at = state;
@@ -152,7 +181,7 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
                 return (at, Some(Ending::of(error, at.t.to_f64())));
             }
         }
-        (stride.after, None)
+        (end, stopped)
     }
 
     /// A step, and what is due in it. It may end before, where the motion stops.
@@ -176,13 +205,5 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
         let (state, stopped) = self.keep(&Stride { system, before, after, interpolant, flow });
         run.state = state;
         stopped.map_or(Ok(()), Err)
-    }
-
-    /// The samples, and the quantities of the first, the second, …
-    pub(crate) fn finish(self) -> (Vec<State<L::Scalar, N>>, Vec<L::Scalar>) {
-        let Self { samples, mut values, orders } = self;
-        // Of a sample of which one could not be had there are none.
-        values.truncate(samples.len() * orders.quantities.len());
-        (samples, values)
     }
 }

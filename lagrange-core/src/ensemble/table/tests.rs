@@ -22,6 +22,7 @@ fn table() -> String {
             },
             samples: Vec::new(),
             values: Vec::new(),
+            crossings: Vec::new(),
         }),
     };
     let failed = Member {

@@ -62,6 +62,13 @@ impl<T: Real> Memory<T> {
         }
     }
 
+    /// What it is about, before the first crossing.
+    #[cfg(feature = "std")]
+    pub(super) fn anew(&self) -> Self {
+        let Self { name, direction, pieces, terminal, .. } = *self;
+        Self { direction, pieces, terminal, ..Self::new(name) }
+    }
+
     /// Takes note of the function where a search begins; whether that seems to be at a zero, where no step led there.
     pub(super) fn begin(&mut self, value: T, t: T, is_new: bool) -> bool {
         let zero = T::constant(0.0);

@@ -9,7 +9,7 @@ use core::fmt::{self, Debug, Formatter};
 use core::marker::PhantomData;
 
 use memory::Memory;
-pub(crate) use search::{Search, Stride};
+pub(crate) use search::{Grid, Search, Stride};
 
 use crate::error::Error;
 use crate::number::{Dual, Real};
@@ -94,6 +94,18 @@ impl<L: Lagrangian<N, M, Scalar: Real>, G, const N: usize, const M: usize> Event
     pub fn pieces(mut self, pieces: usize) -> Self {
         self.memory.pieces = pieces.max(1);
         self
+    }
+
+    /// The same event before its first crossing, for another motion, with what becomes of its function.
+    #[cfg(feature = "std")]
+    pub(crate) fn anew<'g, H>(&'g self, function: impl FnOnce(&'g G) -> H) -> Event<L, H, N, M> {
+        Event { function: function(&self.function), memory: self.memory.anew(), system: PhantomData }
+    }
+
+    /// The same event with what becomes of its function.
+    #[cfg(feature = "std")]
+    pub(crate) fn map<H>(self, function: impl FnOnce(G) -> H) -> Event<L, H, N, M> {
+        Event { function: function(self.function), memory: self.memory, system: PhantomData }
     }
 
     /// How many crossings there were so far.
@@ -213,6 +225,30 @@ mod sealed {
 }
 
 impl<L: Lagrangian<N, M>, G, const N: usize, const M: usize> sealed::Sealed for Event<L, G, N, M> {}
+
+impl<L: Lagrangian<N, M>, const N: usize, const M: usize> sealed::Sealed
+    for &mut (dyn Watched<L, N, M> + '_)
+{
+}
+
+impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Watched<L, N, M>
+    for &mut (dyn Watched<L, N, M> + '_)
+{
+    #[inline]
+    fn value(&self, system: &L, state: &State<L::Scalar, N>) -> Result<L::Scalar, Error> {
+        (**self).value(system, state)
+    }
+
+    #[inline]
+    fn memory(&mut self) -> &mut Memory<L::Scalar> {
+        (**self).memory()
+    }
+
+    #[inline]
+    fn look(&mut self, system: &L, state: &State<L::Scalar, N>) -> Result<bool, Error> {
+        (**self).look(system, state)
+    }
+}
 
 impl<L, K, G, const N: usize, const M: usize> Watched<L, N, M> for Event<K, G, N, M>
 where

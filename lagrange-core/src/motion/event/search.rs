@@ -55,19 +55,29 @@ where
     }
 }
 
-/// The events that a motion is searched for.
-pub(crate) struct Search<'e, 'w, L: Lagrangian<N, M>, const N: usize, const M: usize> {
-    events: &'e mut [&'w mut (dyn Watched<L, N, M> + 'w)],
+/// The events `W` that a motion is searched for.
+pub(crate) struct Search<'e, W, L: Lagrangian<N, M>, const N: usize, const M: usize> {
+    pub(crate) events: &'e mut [W],
+    pub(crate) grid: Grid<L::Scalar>,
+}
+
+/// Where steps are looked at.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Grid<T> {
     /// Where the motion starts at a zero: pieces are short near there.
-    start: Option<L::Scalar>,
+    start: Option<T>,
     /// How many pieces a step is looked at in.
     pieces: usize,
 }
 
-impl<'e, 'w, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Search<'e, 'w, L, N, M> {
+impl<'e, W, L, const N: usize, const M: usize> Search<'e, W, L, N, M>
+where
+    W: Watched<L, N, M>,
+    L: Lagrangian<N, M, Scalar: Real>,
+{
     /// From here on. `is_new` tells that no step led here.
     pub(crate) fn from(
-        events: &'e mut [&'w mut (dyn Watched<L, N, M> + 'w)],
+        events: &'e mut [W],
         system: &L,
         state: &State<L::Scalar, N>,
         is_new: bool,
@@ -81,7 +91,7 @@ impl<'e, 'w, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> 
             }
             pieces = pieces.max(memory.pieces);
         }
-        Ok(Self { events, start, pieces })
+        Ok(Self { events, grid: Grid { start, pieces } })
     }
 
     /// The first crossing after `from`, which moves there, or to the end of the step where there is none.
@@ -97,8 +107,8 @@ impl<'e, 'w, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> 
         F: Flow<L, N, M>,
         I: Interpolant<L::Scalar, N>,
     {
-        for piece in 1..=self.pieces {
-            let mark = stride.mark(piece, self.pieces);
+        for piece in 1..=self.grid.pieces {
+            let mark = stride.mark(piece, self.grid.pieces);
             while stride.is_ahead(from.t, mark) {
                 let t = self.near_start(stride, from.t).filter(|t| stride.is_ahead(*t, mark)).unwrap_or(mark);
                 match self.look(stride, from, t) {
@@ -185,7 +195,7 @@ impl<'e, 'w, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> 
         F: Flow<L, N, M>,
         I: Interpolant<L::Scalar, N>,
     {
-        let (start, length) = (self.start?, stride.length());
+        let (start, length) = (self.grid.start?, stride.length());
         let epsilon = L::Scalar::constant(L::Scalar::EPSILON);
         let size = larger(Scalar::abs(start), epsilon * Scalar::abs(length));
         let least = L::Scalar::constant(16.0) * epsilon * size;
@@ -234,7 +244,7 @@ impl<'e, 'w, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> 
             let memory = event.memory();
             if memory.crosses() {
                 let values = [memory.value, memory.next];
-                let place = locate(stride, &**event, [*from, *to], values)?;
+                let place = locate(stride, event, [*from, *to], values)?;
                 if first.0 == usize::MAX || stride.is_ahead(place.t, first.1.t) {
                     first = (index, place);
                 }
@@ -252,7 +262,7 @@ impl<'e, 'w, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> 
 /// The state where an event crosses zero between these two, at which its function is zero or of the sign at the second.
 fn locate<L, F, I, const N: usize, const M: usize>(
     stride: &Stride<'_, L, F, I, N, M>,
-    event: &dyn Watched<L, N, M>,
+    event: &impl Watched<L, N, M>,
     [a, b]: [State<L::Scalar, N>; 2],
     values: [L::Scalar; 2],
 ) -> Result<State<L::Scalar, N>, Error>
