@@ -1,7 +1,7 @@
 //! Derivatives across events, by closed forms and by differences of motions.
 
 use lagrange_core::nalgebra::{DMatrix, DVector};
-use lagrange_core::{Dual, Sensitivity, prelude::*};
+use lagrange_core::{Dual, Ending, Sensitivity, prelude::*};
 use num_dual::Dual64;
 
 use crate::differences::{STEPS, TOLERANCE, difference};
@@ -154,7 +154,7 @@ fn a_spherical_pendulum_that_hits_a_wall_twice() {
         for hit in 1..=2 {
             hits = hits.terminal_at(hit);
             let swing = bob.integrate_sensitivities_until(&at, 10.0, method(), &mut [&mut hits]).unwrap();
-            assert!(matches!(swing.trajectory().ending(), lagrange_core::Ending::Event { .. }));
+            assert!(matches!(swing.trajectory().ending(), Ending::Event { .. }));
             at = walled.impact_sensitivity(swing.end().unwrap(), "wall", ("e", e)).unwrap();
         }
         let end = 2.2;
@@ -476,6 +476,59 @@ fn what_grazes_has_no_derivative() {
     let motion = ball.integrate_sensitivities_until(&start, 3.0, method, &mut [&mut flat]).unwrap();
     let error = motion.end().unwrap_err().to_string();
     assert!(error.contains("grazes the event `flat` at t = 0.367"), "{error}");
+}
+
+/// What was computed is there, and there is no end to go on from.
+#[test]
+fn what_is_not_finished_is_said() {
+    let (ball, floor) = (Flying { m: 1.0, g: 9.81 }, Touching { m: 1.0, g: 9.81 });
+    let mut at = ball.sensitivity(&State::at_rest([0.0, 1.0]), &["y"]).unwrap();
+    let mut lands = ball.differentiable_event("lands", |s| s.coordinate("y")).falling().terminal();
+    let few = method().max_steps(2);
+    let fall = ball.integrate_sensitivities_until(&at, 5.0, few, &mut [&mut lands]).unwrap();
+    assert!(
+        matches!(fall.trajectory().ending(), Ending::StepLimit { .. })
+            && fall.at(fall.trajectory().end().time() / 2.0).is_ok()
+    );
+    assert!(fall.end().unwrap_err().to_string().contains("after 2 steps") && fall.finished().is_err());
+    assert!(matches!(ball.integrate_sensitivities(at.state, 5.0, few, &["y"]), Err(Error::Unfinished(_))));
+    let mut bounces = 0;
+    let ending = loop {
+        let flight = ball.integrate_sensitivities_until(&at, 50.0, method(), &mut [&mut lands]).unwrap();
+        match flight.end() {
+            Ok(landing) => at = floor.impact_sensitivity(landing, "floor", ("e", 0.4)).unwrap(),
+            Err(_) => break flight.trajectory().ending().clone(),
+        }
+        bounces += 1;
+    };
+    assert!(matches!(ending, Ending::EventsAccumulate { event: "lands", .. }) && bounces > 10, "{ending}");
+}
+
+/// As far as single precision goes.
+#[test]
+fn a_bounce_in_single_precision() {
+    #[derive(Lagrangian)]
+    #[coordinates(y)]
+    #[lagrangian(y_dot^2/2 - g*y)]
+    #[constraint(floor: y = 0)]
+    struct Resting {
+        g: f32,
+    }
+    #[derive(Lagrangian)]
+    #[coordinates(y)]
+    #[lagrangian(y_dot^2/2 - g*y)]
+    struct Falling {
+        g: f32,
+    }
+    let (ball, floor) = (Falling { g: 9.81 }, Resting { g: 9.81 });
+    let mut lands = ball.differentiable_event("lands", |s| s.coordinate("y")).falling().terminal();
+    let start = ball.sensitivity(&State::at_rest([1.0]), &["y", "g"]).unwrap().with(&["e"]).unwrap();
+    let method = Dop853::with_tolerance(1e-6);
+    let fall = ball.integrate_sensitivities_until(&start, 10.0, method, &mut [&mut lands]).unwrap();
+    let bounce = floor.impact_sensitivity(fall.end().unwrap(), "floor", ("e", 0.8)).unwrap();
+    let flight = ball.integrate_sensitivities_until(&bounce, 0.6, method, &mut []).unwrap();
+    let (v, fall) = (19.62_f32.sqrt(), (2.0_f32 / 9.81).sqrt());
+    assert!((flight.coordinate(0.6, "y", "e").unwrap() - v * (0.6 - fall)).abs() < 1e-5);
 }
 
 #[test]

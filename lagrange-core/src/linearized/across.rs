@@ -109,15 +109,16 @@ pub trait AcrossEvents<const N: usize, const M: usize, const P: usize>:
         Event::new(name, OverDuals(function))
     }
 
-    /// The motion from a state with derivatives to the first terminal event, or to the time `end`, and its derivatives.
+    /// The motion from a state with derivatives to the first terminal event, or to the time `end`, or as far as it gets,
+    /// and its derivatives: the ending of the [trajectory](Sensitivities::trajectory) tells which.
     ///
     /// Where a leg before has ended at an event, its time is the start and changes too: derivatives are those at given
     /// times. On constraints they are projected onto the tangent space.
     ///
     /// # Errors
-    /// As [`integrate_sensitivities`](Linearized::integrate_sensitivities) and
-    /// [`integrate_until`](crate::Simulate::integrate_until). Of an event without derivative,
-    /// [`Sensitivities::end`] is the error.
+    /// As [`integrate_until`](crate::Simulate::integrate_until), of what is wrong before the first step;
+    /// [`Error::DerivativeNotFinite`]. [`Sensitivities::end`] is the error where the motion got to neither, or the event has
+    /// no derivative.
     fn integrate_sensitivities_until<Q: Pair>(
         &self,
         start: &Sensitivity<Self::Scalar, N>,

@@ -20,7 +20,7 @@ use crate::system::{Solution, State};
 ///
 /// Quantities have the names that they have in a [`Sample`](crate::Sample): coordinates, velocities, accelerations,
 /// multipliers and constraint forces; to these come the parameters and numbers of one's own, since what a function captures, or reads from the
-/// system, is a constant to it. The mathematics of [`Dual`] numbers is that of [`Scalar`](crate::Scalar).
+/// system, is a constant to it. The mathematics of [`Dual`] numbers is that of [`Scalar`].
 pub struct DualSample<'a, L, const N: usize, const M: usize, const P: usize>
 where
     L: Linearized<N, M, P>,

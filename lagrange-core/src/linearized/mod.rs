@@ -311,7 +311,8 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     where
         Self: Lagrangian<N, M, Scalar: Real> + Sized,
     {
-        self.integrate_sensitivities_until(&self.sensitivity(&state, arguments)?, end, method, &mut [])
+        self.integrate_sensitivities_until(&self.sensitivity(&state, arguments)?, end, method, &mut [])?
+            .finished()
     }
 
     /// All Lyapunov exponents of the motion from a state to the time `end`: the mean rates at which small changes of the

@@ -99,8 +99,9 @@ where
     };
     let event = path.crossings.last().map(|crossing| crossing.index);
     let event = event.filter(|_| matches!(ending, Ending::Event { .. })).and_then(|index| events.get(index));
-    let trajectory = Trajectory::new(system, path.finish(), ending, run.statistics, adjustment).finished()?;
-    let end = course.at(system, trajectory.end().state()).and_then(|at| match event {
+    let trajectory = Trajectory::new(system, path.finish(), ending, run.statistics, adjustment);
+    let end = trajectory.check_finished().and_then(|()| course.at(system, trajectory.end().state()));
+    let end = end.and_then(|at| match event {
         None => Ok(at),
         Some(event) => at_event(system, at, &**event, &run.before),
     });
@@ -182,6 +183,15 @@ impl<'a, L, const N: usize, const M: usize, const P: usize> Sensitivities<'a, L,
 where
     L: Linearized<N, M, P, Scalar: Real>,
 {
+    /// The motion, if nothing but an event kept it from its end.
+    ///
+    /// # Errors
+    /// [`Error::Unfinished`] with the ending.
+    pub fn finished(self) -> Result<Self, Error> {
+        self.trajectory.check_finished()?;
+        Ok(self)
+    }
+
     /// The motion.
     pub fn trajectory(&self) -> &Trajectory<&'a L, N, M> {
         &self.trajectory
@@ -209,7 +219,7 @@ where
     /// the end that was asked for.
     ///
     /// # Errors
-    /// [`Error::Grazing`], and [`Error::EventNotFinite`] where the function of the event has no derivative; as
+    /// [`Error::Unfinished`] where the motion got to neither; [`Error::Grazing`], and [`Error::EventNotFinite`] where the function of the event has no derivative; as
     /// [`at`](Self::at).
     pub fn end(&self) -> Result<&Sensitivity<L::Scalar, N>, Error> {
         self.end.as_ref().map_err(Error::clone)

@@ -131,7 +131,9 @@ where
     L: Linearized<N, M, P, Scalar: Real>,
 {
     let accelerations = solve(system, &at.state)?.accelerations;
-    let [(rate, terms), (_, earlier)] = [rate(system, &at.state, event)?, rate(system, before, event)?];
+    // It may have none there.
+    let earlier = rate(system, before, event).map_or(L::Scalar::constant(0.0), |(_, terms)| terms);
+    let (rate, terms) = rate(system, &at.state, event)?;
     if Scalar::abs(rate) <= power_of_epsilon::<L::Scalar>(0.5) * larger(terms, earlier) {
         return Err(Error::Grazing { event: event.called(), time: at.state.t.to_f64() });
     }

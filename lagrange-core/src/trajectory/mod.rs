@@ -92,8 +92,15 @@ impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Trajectory<S, N, M,
     /// # Errors
     /// [`Error::Unfinished`] with the [`ending`](Self::ending).
     pub fn finished(self) -> Result<Self, Error> {
+        self.check_finished()?;
+        Ok(self)
+    }
+
+    /// Whether it is [`finished`](Self::finished).
+    pub(crate) fn check_finished(&self) -> Result<(), Error> {
         // There is no `From<Ending>`: of two ways into an `Error`, `?` in a closure would not know which is meant.
-        if self.ending.is_failure() { Err(Error::Unfinished(Box::new(self.ending))) } else { Ok(self) }
+        let is_failure = self.ending.is_failure();
+        if is_failure { Err(Error::Unfinished(Box::new(self.ending.clone()))) } else { Ok(()) }
     }
 
     /// The system that moves.

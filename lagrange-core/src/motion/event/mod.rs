@@ -180,7 +180,7 @@ impl<T> EventValue<T> for Result<T, Error> {
 }
 
 /// The function of an event: a closure over samples, or one over dual numbers
-/// ([`Linearized::differentiable_event`](crate::Linearized::differentiable_event)).
+/// (`AcrossEvents::differentiable_event`).
 pub trait EventFunction<L: Lagrangian<N, M>, const N: usize, const M: usize> {
     /// Its value at a state.
     #[doc(hidden)]
