@@ -123,12 +123,12 @@ fn draw(seen: &DVector<f64>, found: &Pendulum, left: &DVector<f64>, file: &std::
         Ok(path.samples(600).map(|sample| (sample.time(), sample.state().q[0])).collect())
     };
     let (guessed, fitted) = (motion(&pendulum(GUESS))?, motion(found)?);
-    let ranges = picture::bounds(&[&dots, &guessed, &fitted]);
+    let ranges = picture::with_room_above(picture::bounds(&[&dots, &guessed, &fitted]), 0.25);
     let mut chart = picture::panel(&above, "A driven pendulum, seen 200 times", ["t/s", "θ/rad"], ranges)?;
     picture::curve(&mut chart, "first guess", GREY, &guessed)?;
     picture::dots(&mut chart, "seen", RED, &dots)?;
     picture::curve(&mut chart, "fit", BLUE, &fitted)?;
-    picture::legend(&mut chart, SeriesLabelPosition::LowerRight)?;
+    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)?;
     let left: Points = (0..READINGS).map(|k| (time(k), left[k])).collect();
     let mut chart = picture::panel(&below, "What the fit leaves", ["t/s", "rad"], picture::bounds(&[&left]))?;
     picture::dots(&mut chart, "seen − fit", RED, &left)?;

@@ -62,14 +62,14 @@ fn draw(largest: &Points, chaotic: &LyapunovSpectrum<f64>, file: &std::path::Pat
     picture::dots(&mut chart, "", BLUE, largest)?;
     let curves: Vec<Points> =
         (0..4).map(|j| chaotic.running.iter().map(|(time, means)| (*time, means[j])).collect()).collect();
-    let ranges = picture::bounds(&curves.iter().collect::<Vec<_>>());
+    let ranges = picture::with_room_above(picture::bounds(&curves.iter().collect::<Vec<_>>()), 0.25);
     let mut chart =
         picture::panel(&panels[1], "All four at 120°, as they settle", ["t/s", "λ/(1/s)"], ranges)?;
     for (curve, (name, color)) in curves.iter().zip([("λ1", RED), ("λ2", GREY), ("λ3", GREY), ("λ4", BLUE)])
     {
         picture::curve(&mut chart, name, color, curve)?;
     }
-    picture::legend(&mut chart, SeriesLabelPosition::MiddleRight)?;
+    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)?;
     root.present()?;
     Ok(())
 }

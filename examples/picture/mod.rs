@@ -38,6 +38,12 @@ pub(crate) fn bounds(curves: &[&Points]) -> [std::ops::Range<f64>; 2] {
     [range(|point| point.0), range(|point| point.1)]
 }
 
+/// The ranges with this part of the height more above, where a legend has room.
+pub(crate) fn with_room_above([x, y]: [std::ops::Range<f64>; 2], part: f64) -> [std::ops::Range<f64>; 2] {
+    let top = y.end + part * (y.end - y.start);
+    [x, y.start..top]
+}
+
 /// The ranges widened until a unit is as long in both directions, for an area of this many pixels.
 pub(crate) fn to_scale([x, y]: [std::ops::Range<f64>; 2], size: (u32, u32)) -> [std::ops::Range<f64>; 2] {
     let plot = (f64::from(size.0) - 75.0, f64::from(size.1) - 100.0);

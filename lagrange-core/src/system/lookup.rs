@@ -3,7 +3,11 @@
 #[cfg(test)]
 mod tests;
 
-use alloc::{format, string::String, vec::Vec};
+use alloc::{
+    format,
+    string::{String, ToString},
+    vec::Vec,
+};
 
 use super::lagrangian::Lagrangian;
 use crate::error::Error;
@@ -11,17 +15,7 @@ use crate::names::Entry;
 
 /// The names of the coordinates, then of the velocities.
 pub(crate) fn entries<L: Lagrangian<N, M>, const N: usize, const M: usize>() -> Vec<String> {
-    L::COORDINATES
-        .iter()
-        .map(|&name| name.into())
-        .chain(L::COORDINATES.iter().map(|name| velocity(name)))
-        .collect()
-}
-
-/// What the velocity of this coordinate is called.
-fn velocity(coordinate: &str) -> String {
-    let (base, index) = coordinate.split_at(coordinate.find('[').unwrap_or(coordinate.len()));
-    [base, "_dot", index].concat()
+    (0..2 * N).map(|index| entry::<L, N, M>(index).to_string()).collect()
 }
 
 /// What is at this index of (q, q̇).
@@ -86,10 +80,10 @@ fn meaning<L: Lagrangian<N, M>, const N: usize, const M: usize>(name: &str) -> O
         let derived = |name, method| (name, format!("the {method} of `{x}`"), method, x);
         [
             (x.into(), "a coordinate".into(), "coordinate", x),
-            derived(velocity(x), "velocity"),
+            derived(Entry::Velocity(x).to_string(), "velocity"),
             derived(format!("{base}_ddot{index}"), "acceleration"),
             derived(format!("p_{x}"), "momentum"),
-            derived(format!("p({x})"), "momentum"),
+            derived(Entry::Momentum(x).to_string(), "momentum"),
         ]
     });
     let constraints = L::CONSTRAINTS.into_iter().flat_map(|c| {
