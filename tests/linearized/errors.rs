@@ -52,6 +52,8 @@ fn an_input_that_shifts_a_constraint_is_refused() {
 fn what_is_behind_a_reference_cannot_be_sought() {
     let error = PENDULUM.equilibrium(&State::at_rest(HANGING), &["g"]).unwrap_err();
     assert_eq!(error, Error::ParameterFixed { name: "g" });
+    let error = PENDULUM.inputs_for(&State::at_rest(HANGING), &[0.0, 0.0].into(), &["g"]).unwrap_err();
+    assert_eq!(error, Error::ParameterFixed { name: "g" });
     // It can be differentiated by, though.
     let jacobian = PENDULUM.jacobian(&State::at_rest(HANGING)).unwrap();
     let by_g = jacobian.multipliers.parameters[(0, 1)];

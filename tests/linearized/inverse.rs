@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use lagrange_core::{Error, Row, prelude::*};
+use lagrange_core::{Entry, Error, Row, prelude::*};
 
 /// A crank, a rod and a slider, which turn as they are told: nothing is free.
 #[derive(Clone, Lagrangian)]
@@ -178,4 +178,30 @@ fn the_torques_of_an_arm_give_the_accelerations_back() {
     assert_eq!(found.names(), ["u[0]", "u[1]"]);
     let moved = Arm { u: [found.inputs[0], found.inputs[1]], ..arm }.solve(&state).unwrap();
     assert!((moved.accelerations - asked).amax() < 1e-13 * 5.0, "{}", moved.accelerations);
+}
+
+/// Pushes along one line, one that hardly acts, and one whose effect begins with an infinite slope.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian((x_dot^2 + y_dot^2)/2)]
+#[force(x: sin(x)*(u[0] + u[1]/3) + sqrt(root))]
+#[force(y: cos(x)*(u[0] + u[1]/3) + 1e-14*weak)]
+struct Pushed {
+    u: [f64; 2],
+    weak: f64,
+    root: f64,
+}
+
+#[test]
+fn inputs_have_their_own_units_and_must_tell_apart() {
+    let pushed = Pushed { u: [0.0; 2], weak: 0.0, root: 0.0 };
+    let state = State::at_rest([0.7, 0.0]);
+    let found = pushed.inputs_for(&state, &[0.0, 3.0].into(), &["weak"]).unwrap();
+    assert!((found.inputs[0] - 3e14).abs() < 1.0, "{found:?}");
+    // In the same direction but for the last digits.
+    let both = pushed.inputs_for(&state, &[0.7_f64.sin(), 0.7_f64.cos()].into(), &["u"]).unwrap_err();
+    assert!(matches!(&both, Error::InputsNotUnique { inputs, .. } if inputs.len() == 2), "{both}");
+    let steep = pushed.inputs_for(&state, &[1.0, 0.0].into(), &["root"]).unwrap_err();
+    let entry = Entry::Parameter("root");
+    assert_eq!(steep, Error::DerivativeNotFinite { row: Row::Coordinate("x"), entry, time: 0.0 });
 }
