@@ -295,6 +295,45 @@ fn rows_of_another_run_are_refused_by_name() {
     );
 }
 
+#[test]
+fn rows_given_twice_count_once() {
+    let table = whole().csv().to_string();
+    let twice = ensemble().resume(&table).unwrap().resume(&table).unwrap();
+    assert_eq!(twice.integrate_on_lanes(END, Dop853::default()).unwrap(), whole());
+}
+
+/// In single precision it is another system.
+#[test]
+fn rows_of_another_number_type_are_refused() {
+    let single = Ensemble::from_fn(COUNT, |index| {
+        let (DoublePendulum { m, l, g }, State { t, q, v }) = member(index);
+        let system = DoublePendulum { m: m.map(|x| x as f32), l: l.map(|x| x as f32), g: g as f32 };
+        (system, State { t: t as f32, q: q.map(|x| x as f32), v: v.map(|x| x as f32) })
+    });
+    let table = single.integrate(END as f32, Dop853::default()).unwrap().csv().to_string();
+    let error = ensemble().resume(&table).unwrap().integrate(END, Dop853::default()).unwrap_err();
+    assert_eq!(error, Error::OtherRun { member: 0, differs: "the system or its equations are others" });
+}
+
+/// Functions that are given to it may differ, which no equation tells.
+#[test]
+fn rows_of_a_system_of_another_name_are_refused() {
+    #[derive(Lagrangian)]
+    #[coordinates(x)]
+    #[lagrangian(x_dot^2/2)]
+    struct Free;
+    #[derive(Lagrangian)]
+    #[coordinates(x)]
+    #[lagrangian(x_dot^2/2)]
+    struct Loose;
+
+    let start = State::new([0.0], [1.0]);
+    let free = Ensemble::from_fn(2, |_| (Free, start)).integrate(END, Dop853::default()).unwrap();
+    let loose = Ensemble::from_fn(2, |_| (Loose, start)).resume(&free.csv().to_string()).unwrap();
+    let error = loose.integrate(END, Dop853::default()).unwrap_err();
+    assert_eq!(error, Error::OtherRun { member: 0, differs: "the system or its equations are others" });
+}
+
 /// The same struct but for the sign of the weight.
 mod upward {
     use lagrange_core::prelude::*;

@@ -184,8 +184,8 @@ fn the_torques_of_an_arm_give_the_accelerations_back() {
 #[derive(Clone, Lagrangian)]
 #[coordinates(x, y)]
 #[lagrangian((x_dot^2 + y_dot^2)/2)]
-#[force(x: sin(x)*(u[0] + u[1]/3) + sqrt(root))]
-#[force(y: cos(x)*(u[0] + u[1]/3) + 1e-14*weak)]
+#[force(x: sin(x)*(u[0] + u[1]) + sqrt(root))]
+#[force(y: cos(x)*(u[0] + 1.000000000001*u[1]) + 1e-14*weak)]
 struct Pushed {
     u: [f64; 2],
     weak: f64,
@@ -198,10 +198,15 @@ fn inputs_have_their_own_units_and_must_tell_apart() {
     let state = State::at_rest([0.7, 0.0]);
     let found = pushed.inputs_for(&state, &[0.0, 3.0].into(), &["weak"]).unwrap();
     assert!((found.inputs[0] - 3e14).abs() < 1.0, "{found:?}");
-    // In the same direction but for the last digits.
+    // In the same direction but for digits that the equations have not.
     let both = pushed.inputs_for(&state, &[0.7_f64.sin(), 0.7_f64.cos()].into(), &["u"]).unwrap_err();
-    assert!(matches!(&both, Error::InputsNotUnique { inputs, .. } if inputs.len() == 2), "{both}");
+    assert!(
+        matches!(&both, Error::InputsNotUnique { inputs, .. } if inputs.as_slice() == ["u[0]", "u[1]"]),
+        "{both}"
+    );
     let steep = pushed.inputs_for(&state, &[1.0, 0.0].into(), &["root"]).unwrap_err();
     let entry = Entry::Parameter("root");
-    assert_eq!(steep, Error::DerivativeNotFinite { row: Row::Coordinate("x"), entry, time: 0.0 });
+    let expected = Error::DerivativeNotFinite { row: Row::Coordinate("x"), entry, time: 0.0 };
+    assert_eq!(steep, expected);
+    assert_eq!(pushed.jacobian_by(&state, &["weak", "root"]).unwrap_err(), expected);
 }

@@ -6,6 +6,7 @@
 mod differences;
 mod events;
 mod lyapunov;
+mod steps;
 
 use std::f64::consts::PI;
 
