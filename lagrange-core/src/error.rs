@@ -218,15 +218,6 @@ pub enum Error {
         /// In what they differ.
         reason: &'static str,
     },
-    /// A member taken over from another run, which was to another time.
-    OtherEnd {
-        /// The index of the member.
-        member: usize,
-        /// The time that it was integrated to.
-        time: f64,
-        /// The end asked for.
-        end: f64,
-    },
     /// A member taken over from another run, which is not to be mixed with this one.
     OtherRun {
         /// The index of the member.
@@ -411,10 +402,6 @@ impl Display for Error {
                 "the sample time {index} (counted from 0) is {time}: give finite times in the order of the motion"
             ),
             Self::Merge { reason } => write!(f, "the outcomes are not parts of one ensemble: {reason}"),
-            Self::OtherEnd { member, time, end } => write!(
-                f,
-                "member {member} of the table to resume from was integrated to t = {time}, not to t = {end}: ask for the same end"
-            ),
             Self::OtherRun { member, differs } => write!(
                 f,
                 "member {member} of the table to resume from is of another run: {differs}; resume with what made the table, or begin a new one"

@@ -14,7 +14,7 @@ use crate::system::{Lagrangian, State};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Fingerprint {
-    /// Of the system's name, its equations as text, its coordinates and constraints, and its number type.
+    /// Of the system's equations as text, which begins with its name, its coordinates and constraints, and its number type.
     pub system: u32,
     /// Of the method and its settings, whether it was on lanes, the end, and the times and quantities of samples.
     pub run: u32,
@@ -35,8 +35,8 @@ impl Fingerprint {
         P: Method<L, N, M>,
     {
         let mut system = Hash::new();
-        let texts = [L::NAME, L::EQUATIONS.text()];
-        texts.iter().chain(&L::COORDINATES).chain(&L::CONSTRAINTS).for_each(|text| system.text(text));
+        let text = L::EQUATIONS.text();
+        [text].iter().chain(&L::COORDINATES).chain(&L::CONSTRAINTS).for_each(|text| system.text(text));
         system.number(L::Scalar::EPSILON);
         let mut run = Hash::new();
         if method.identify(&mut run).is_err() {

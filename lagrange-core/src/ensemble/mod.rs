@@ -152,7 +152,7 @@ where
     ///
     /// # Errors
     /// What is wrong with the whole: [`Error::Setting`], [`Error::EndNotFinite`], [`Error::Shard`],
-    /// [`Error::NoSuchMember`], [`Error::OtherEnd`], [`Error::OtherRun`], [`Error::SampleTime`]. What is wrong with a member is in
+    /// [`Error::NoSuchMember`], [`Error::OtherRun`], [`Error::SampleTime`]. What is wrong with a member is in
     /// the outcome.
     pub fn integrate<P>(self, end: T, method: P) -> Result<Outcome<T, N>, Error>
     where
@@ -189,9 +189,8 @@ where
     /// ```
     ///
     /// # Errors
-    /// [`Error::Resume`] for what is no row of such a system, and where rows are of different runs. For members that were
-    /// integrated to another time [`integrate`](Self::integrate) gives [`Error::OtherEnd`], for those of another run or start
-    /// [`Error::OtherRun`].
+    /// [`Error::Resume`] for what is no row of such a system, and where rows are of different runs. For members of
+    /// another run, to another end or of another start [`integrate`](Self::integrate) gives [`Error::OtherRun`].
     pub fn resume(mut self, table: &str) -> Result<Self, Error>
     where
         T: core::str::FromStr,
