@@ -4,6 +4,8 @@
 #![allow(clippy::unwrap_used)]
 
 mod differences;
+mod event_differences;
+mod event_errors;
 mod events;
 mod lyapunov;
 mod steps;
