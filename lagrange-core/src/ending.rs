@@ -115,6 +115,14 @@ pub enum Ending {
         /// The name of the event.
         event: &'static str,
     },
+    /// The controller of a member of an ensemble failed.
+    #[cfg(feature = "std")]
+    ControllerFailed {
+        /// When it was called.
+        time: f64,
+        /// What it said.
+        said: String,
+    },
     /// What kept a member of an ensemble from its end in another process, which told it in words.
     #[cfg(feature = "std")]
     Elsewhere {
@@ -150,7 +158,7 @@ impl Ending {
             | Self::EventNotFinite { time, .. }
             | Self::Cancelled { time } => time,
             #[cfg(feature = "std")]
-            Self::Elsewhere { time, .. } => time,
+            Self::ControllerFailed { time, .. } | Self::Elsewhere { time, .. } => time,
         }
     }
 
@@ -219,6 +227,10 @@ impl Display for Ending {
                 f,
                 "stopped at t = {time}: the function of the event `{event}` is infinite or not a number soon after; make it finite wherever the motion may lead"
             ),
+            #[cfg(feature = "std")]
+            Self::ControllerFailed { time, said } => {
+                write!(f, "stopped at t = {time}: the controller failed: {said}")
+            }
             #[cfg(feature = "std")]
             Self::Elsewhere { said, .. } => f.write_str(said),
             Self::Cancelled { time } => write!(f, "cancelled at t = {time}"),

@@ -242,9 +242,9 @@ where
     /// Integrates members until there are none left.
     pub(super) fn one_by_one<P: Method<L, N, M>, const IS_WATCHED: bool>(&self, method: &P) {
         while let Some(index) = self.next() {
-            let (system, start) = (self.make)(index);
+            let (mut system, start) = (self.make)(index);
             let fingerprint = self.run.with_start(&system, &start);
-            let result = self.integrate::<P, IS_WATCHED>(index, &system, &start, method);
+            let result = self.integrate::<P, IS_WATCHED>(index, &mut system, &start, method);
             self.report(Member { index, fingerprint, result });
         }
     }
@@ -252,7 +252,7 @@ where
     fn integrate<P: Method<L, N, M>, const IS_WATCHED: bool>(
         &self,
         index: usize,
-        system: &L,
+        system: &mut L,
         start: &State<T, N>,
         method: &P,
     ) -> Result<Arrival<T, N>, Error> {
@@ -265,7 +265,7 @@ where
                 break Ending::Complete { time: run.state.t.to_f64() };
             }
             let stepped = match const { IS_WATCHED } {
-                true => record.step(&mut run, system, method, self.end, &limits),
+                true => record.step(&mut run, (index, &mut *system), method, &limits),
                 false => run.step(system, method, self.end, &limits),
             };
             if let Err(ending) = stepped {
@@ -309,12 +309,12 @@ impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Job<'_, 
         P: Pair,
         Adaptive<P>: Copy,
     {
-        let mut next = self.next_seat(&method);
+        let mut next = self.next_seat::<P, IS_WATCHED>(&method);
         while let Some(first) = next.take() {
             let mut batch = Batch::new(method, first);
-            next = self.next_seat(&method);
+            next = self.next_seat::<P, IS_WATCHED>(&method);
             while !batch.is_empty() && !self.is_stopped() {
-                self.fill(&mut batch, &mut next, &method);
+                self.fill::<P, IS_WATCHED>(&mut batch, &mut next, &method);
                 batch.step::<IS_WATCHED>(
                     |index, state| self.observe(index, state),
                     |seat, state, ending| self.report(self.arrived(seat, state, ending)),
@@ -324,7 +324,7 @@ impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Job<'_, 
     }
 
     /// Gives free lanes to the next members. One that does not fit beside the others waits until they have ended.
-    fn fill<'j, P>(
+    fn fill<'j, P, const IS_WATCHED: bool>(
         &'j self,
         batch: &mut Batch<'j, L, P, N, M>,
         next: &mut Option<Seat<'j, L, N, M>>,
@@ -340,7 +340,7 @@ impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Job<'_, 
             if next.is_some() {
                 break;
             }
-            *next = self.next_seat(method);
+            *next = self.next_seat::<P, IS_WATCHED>(method);
         }
     }
 
@@ -351,13 +351,20 @@ impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Job<'_, 
     }
 
     /// The next member that has a motion; those without are reported.
-    fn next_seat<P: Pair>(&self, method: &Adaptive<P>) -> Option<Seat<'_, L, N, M>> {
+    fn next_seat<P: Pair, const IS_WATCHED: bool>(&self, method: &Adaptive<P>) -> Option<Seat<'_, L, N, M>> {
         loop {
             let index = self.next()?;
             let (system, start) = (self.make)(index);
             let fingerprint = self.run.with_start(&system, &start);
             let seat = check_finite(&system, &start).and_then(|()| {
-                Seat::new((index, fingerprint.start), system, &start, self.end, method, &self.orders)
+                Seat::new::<P, IS_WATCHED>(
+                    (index, fingerprint.start),
+                    system,
+                    &start,
+                    self.end,
+                    method,
+                    &self.orders,
+                )
             });
             match seat {
                 Err(error) => self.report(Member { index, fingerprint, result: Err(error) }),

@@ -1,10 +1,12 @@
 //! What is kept of members on their way.
 
+use core::fmt::Display;
+
 use super::Ensemble;
 use crate::motion::{Event, EventFunction, EventValue};
 use crate::number::Real;
 use crate::solution::Sample;
-use crate::system::Lagrangian;
+use crate::system::{Lagrangian, State};
 
 impl<'a, L, T: Real, const N: usize, const M: usize, const IS_WATCHED: bool>
     Ensemble<'a, L, T, N, M, IS_WATCHED>
@@ -82,6 +84,51 @@ where
     {
         let mut plan = self.plan;
         plan.orders.event(event);
+        Ensemble { plan }
+    }
+
+    /// Steers each member: the controller is called where it starts, and then at every interval, reads the state and sets
+    /// parameters. They hold until it is called again (zero-order hold). It is told the index of the member.
+    ///
+    /// ```
+    /// # use lagrange_core::prelude::*;
+    /// /// A pendulum with a motor at the pivot.
+    /// #[derive(Lagrangian)]
+    /// #[coordinates(theta)]
+    /// #[lagrangian(theta_dot^2/2 + g*cos(theta))]
+    /// #[force(theta: torque)]
+    /// struct Pendulum<T> { g: T, torque: T }
+    ///
+    /// let upright = core::f64::consts::PI;
+    /// let starts = Ensemble::from_fn(50, |k| {
+    ///     (Pendulum { g: 9.81, torque: 0.0 }, State::at_rest([3.0 + 0.01 * k as f64]))
+    /// });
+    /// let steered = starts.controlled(0.01, |_, pendulum, state| {
+    ///     pendulum.torque = 30.0 * (upright - state.q[0]) - 8.0 * state.v[0];
+    ///     if pendulum.torque.abs() < 100.0 { Ok(()) } else { Err("the motor is too weak") }
+    /// });
+    /// let outcome = steered.integrate_on_lanes(5.0, Dopri5::with_tolerance(1e-6))?;
+    /// assert!(outcome.completed().all(|(_, state)| (state.q[0] - upright).abs() < 1e-6));
+    /// assert_eq!(outcome.completed().count(), 50);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// A member that is steered moves as a [`Motion`](crate::Motion) that is advanced to the same times, the start plus so
+    /// many intervals, each reached exactly. What a controller has to remember can be fields of the system; on lanes these must be
+    /// numbers. [Samples](Self::samples_at) are taken before it is called; for [events](Self::event) the motion begins anew
+    /// with each call, so that a function that jumps there does not cross.
+    ///
+    /// # Errors
+    /// Where it fails the member ends, with [`Ending::ControllerFailed`](crate::Ending::ControllerFailed), and keeps all it has.
+    /// [`integrate`](Self::integrate) gives [`Error::Setting`](crate::Error::Setting) for an interval that is not positive and
+    /// finite; one too short to advance the time is [`Ending::TimeTooCoarse`](crate::Ending::TimeTooCoarse).
+    pub fn controlled<E: Display>(
+        self,
+        interval: T,
+        controller: impl Fn(usize, &mut L, &State<T, N>) -> Result<(), E> + Send + Sync + 'a,
+    ) -> Ensemble<'a, L, T, N, M, true> {
+        let mut plan = self.plan;
+        plan.orders.controller(interval, controller);
         Ensemble { plan }
     }
 

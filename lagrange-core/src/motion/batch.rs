@@ -139,19 +139,40 @@ where
             {
                 (state, stopped) = within.keep(lane, plan[lane].0, seat, state);
             }
-            let here = || [&self.y, &self.slopes[0]].map(|packed| unpacked(packed, lane));
             let mut is_cancelled = || fate != Fate::Rejected && accept(seat.index, &state).is_break();
-            let ending = match stopped {
+            let mut ending = match stopped {
                 None if is_cancelled() => Some(Ending::Cancelled { time: state.t }),
-                None => seat.ending(&self.method, here),
                 stopped => stopped,
             };
-            if let Some(ending) = ending
+            if const { IS_WATCHED } && ending.is_none() {
+                ending = self.control(lane, &state);
+            }
+            if let Some(ending) = ending.or_else(|| self.ending(lane))
                 && let Some(seat) = self.seats[lane].take()
             {
                 leave(seat, state, ending);
             }
         }
+    }
+
+    /// Why there is no further step to take in a lane.
+    fn ending(&mut self, lane: usize) -> Option<Ending> {
+        let here = || [&self.y, &self.slopes[0]].map(|packed| unpacked(packed, lane));
+        self.seats[lane].as_mut()?.ending(&self.method, here)
+    }
+
+    /// Calls the controller of a member, where it is due; the ending, where that is one.
+    fn control(&mut self, lane: usize, state: &State<f64, N>) -> Option<Ending> {
+        let seat = self.seats[lane].as_mut().filter(|seat| seat.record.is_due(state.t))?;
+        if let Err(ending) = seat.control(state, &self.method) {
+            return Some(ending);
+        }
+        if !seat.system.place(&mut self.system, lane) {
+            let said = "it changes a field that is no number, which all lanes share".into();
+            return Some(Ending::ControllerFailed { time: state.t, said });
+        }
+        self.load(lane);
+        None
     }
 
     /// Stages, error and projection in all lanes, and the slopes at the end of the step.

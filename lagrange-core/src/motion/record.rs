@@ -1,16 +1,16 @@
 //! What is kept of a motion on its way, beside its end.
 
-use core::fmt::{self, Write};
+use core::fmt::{self, Display, Write};
 use core::marker::PhantomData;
 
 use nalgebra::ComplexField;
 
 use super::event::{Crossing, Event, EventFunction, EventValue, Grid, Search, Stride};
 use super::method::{Interpolant, Method};
-use super::run::{Run, Watchdog, is_between};
+use super::run::{Run, Watchdog, is_between, resume};
 use crate::ending::Ending;
 use crate::error::Error;
-use crate::number::Real;
+use crate::number::{Real, Scalar};
 use crate::solution::Sample;
 use crate::solution::flow::{Flow, LagrangianFlow};
 use crate::system::{Lagrangian, State};
@@ -22,7 +22,15 @@ pub(crate) struct Orders<'a, L: Lagrangian<N, M>, const N: usize, const M: usize
     quantities: Vec<(&'static str, Box<Value<'a, L, N, M>>)>,
     /// As they are before the first crossing.
     events: Vec<Event<L, Box<Value<'a, L, N, M>>, N, M>>,
+    /// Called at the start, and then as often as this.
+    controller: Option<(L::Scalar, Box<Controller<'a, L, N, M>>)>,
 }
+
+/// Sets the parameters of the motion of this index; an error in words.
+type Controller<'a, L, const N: usize, const M: usize> = dyn Fn(usize, &mut L, &State<<L as Lagrangian<N, M>>::Scalar, N>) -> Result<(), String>
+    + Send
+    + Sync
+    + 'a;
 
 /// A number that follows from a state.
 type Value<'a, L, const N: usize, const M: usize> =
@@ -30,7 +38,7 @@ type Value<'a, L, const N: usize, const M: usize> =
 
 impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Default for Orders<'_, L, N, M> {
     fn default() -> Self {
-        Self { times: Vec::new(), quantities: Vec::new(), events: Vec::new() }
+        Self { times: Vec::new(), quantities: Vec::new(), events: Vec::new(), controller: None }
     }
 }
 
@@ -54,6 +62,17 @@ impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Orde
         }));
     }
 
+    pub(crate) fn controller<E: Display>(
+        &mut self,
+        interval: L::Scalar,
+        controller: impl Fn(usize, &mut L, &State<L::Scalar, N>) -> Result<(), E> + Send + Sync + 'a,
+    ) {
+        let in_words = move |index: usize, system: &mut L, state: &State<L::Scalar, N>| {
+            controller(index, system, state).map_err(|error| error.to_string())
+        };
+        self.controller = Some((interval, Box::new(in_words)));
+    }
+
     /// The names of the quantities.
     pub(crate) fn quantities(&self) -> Vec<&'static str> {
         self.quantities.iter().map(|(name, _)| *name).collect()
@@ -72,9 +91,16 @@ impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Orde
         let turns = |pair: &[L::Scalar]| if goes_back { pair[1] > pair[0] } else { pair[1] < pair[0] };
         let infinite = times.iter().position(|t| !ComplexField::is_finite(t));
         let wrong = infinite.or_else(|| times.windows(2).position(turns).map(|before| before + 1));
-        match wrong {
-            Some(index) => Err(Error::SampleTime { index, time: times[index].to_f64() }),
-            None => Ok(()),
+        if let Some(index) = wrong {
+            return Err(Error::SampleTime { index, time: times[index].to_f64() });
+        }
+        match &self.controller {
+            Some((interval, _))
+                if !(ComplexField::is_finite(interval) && *interval > L::Scalar::constant(0.0)) =>
+            {
+                Err(Error::Setting { name: "interval of the controller", value: interval.to_f64() })
+            }
+            _ => Ok(()),
         }
     }
 
@@ -82,7 +108,8 @@ impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Orde
     pub(crate) fn identify(&self, to: &mut dyn Write) -> fmt::Result {
         self.times.iter().try_for_each(|t| write!(to, " at {:?}", t.to_f64()))?;
         self.quantities.iter().try_for_each(|(name, _)| write!(to, " of {name}"))?;
-        self.events.iter().try_for_each(|event| write!(to, " with {:?}", event.anew(|_| ())))
+        self.events.iter().try_for_each(|event| write!(to, " with {:?}", event.anew(|_| ())))?;
+        self.controller.iter().try_for_each(|(interval, _)| write!(to, " every {:?}", interval.to_f64()))
     }
 }
 
@@ -95,6 +122,12 @@ pub(crate) struct Record<'o, L: Lagrangian<N, M>, const N: usize, const M: usize
     pub(crate) crossings: Vec<Crossing<L::Scalar, N>>,
     events: Vec<Event<L, &'o Value<'o, L, N, M>, N, M>>,
     grid: Grid<L::Scalar>,
+    start: L::Scalar,
+    end: L::Scalar,
+    /// Where the motion goes to next: the end, or where the controller is to be called before.
+    pub(crate) goal: L::Scalar,
+    /// How often it has been called.
+    calls: usize,
 }
 
 impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Record<'o, L, N, M> {
@@ -126,7 +159,10 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
         let Search { grid, .. } = Search::from(&mut events, system, start, true)?;
         let samples = Vec::with_capacity(times.len());
         let values = Vec::with_capacity(times.len() * orders.quantities.len());
-        let mut record = Self { orders, samples, values, crossings: Vec::new(), events, grid };
+        let goal = if orders.controller.is_some() { start.t } else { end };
+        let (start_time, crossings) = (start.t, Vec::new());
+        let mut record =
+            Self { orders, samples, values, crossings, events, grid, start: start_time, end, goal, calls: 0 };
         while record.next_time().is_some_and(|t| t == start.t) {
             record.push(system, *start)?;
         }
@@ -184,15 +220,48 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
         (end, stopped)
     }
 
+    /// Whether the controller is to be called before the motion goes on.
+    pub(crate) fn is_due(&self, t: L::Scalar) -> bool {
+        t == self.goal && t != self.end
+    }
+
+    /// Calls the controller, and sets the next goal. The method is to be told.
+    pub(crate) fn control(
+        &mut self,
+        index: usize,
+        system: &mut L,
+        state: &State<L::Scalar, N>,
+    ) -> Result<(), Ending> {
+        let Some((interval, controller)) = &self.orders.controller else { return Ok(()) };
+        let time = state.t.to_f64();
+        controller(index, system, state).map_err(|said| Ending::ControllerFailed { time, said })?;
+        self.calls += 1;
+        let passed = *interval * L::Scalar::constant(self.calls as f64);
+        let next = if self.end < self.start { self.start - passed } else { self.start + passed };
+        self.goal = if is_between(self.start, next, self.end) { next } else { self.end };
+        if self.goal == state.t {
+            return Err(Ending::TimeTooCoarse { time, step: interval.to_f64() });
+        }
+        let search = Search::from(&mut self.events, system, state, true);
+        self.grid = search.map_err(|error| Ending::of(error, time))?.grid;
+        Ok(())
+    }
+
     /// A step, and what is due in it. It may end before, where the motion stops.
     pub(crate) fn step<X, P: Method<L, N, M, Memory = X>>(
         &mut self,
         run: &mut Run<X, L::Scalar, N>,
-        system: &L,
+        (index, system): (usize, &mut L),
         method: &P,
-        end: L::Scalar,
         limits: &Watchdog,
     ) -> Result<(), Ending> {
+        if self.is_due(run.state.t) {
+            self.control(index, system, &run.state)?;
+            let Run { memory, state, statistics, .. } = run;
+            resume::<_, LagrangianFlow, _, N, M>(system, method, memory, state, statistics)
+                .map_err(|error| Ending::of(error, state.t.to_f64()))?;
+        }
+        let (system, end) = (&*system, self.goal);
         let within = run.step_with::<L, LagrangianFlow, P, _, M>(system, method, end, limits, |run| {
             let Run { memory, statistics, before, state } = run;
             let interpolant =

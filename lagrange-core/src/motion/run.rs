@@ -205,6 +205,26 @@ where
     Ok(Trajectory::new(system, path.finish(), ending, run.statistics, adjustment))
 }
 
+/// Tells the method of a system that has been changed, or of another state.
+#[inline]
+pub(super) fn resume<L, F, P, const N: usize, const M: usize>(
+    system: &L,
+    method: &P,
+    memory: &mut P::Memory,
+    state: &State<L::Scalar, N>,
+    statistics: &mut Statistics,
+) -> Result<(), Error>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: Flow<L, N, M>,
+    P: Method<L, N, M, F>,
+{
+    if M > 0 {
+        consistent::check(system, state)?;
+    }
+    method.resume(system, memory, state, statistics)
+}
+
 /// Whether `t` lies between the other two, which may be in any order.
 pub(super) fn is_between<T: Real>(a: T, t: T, b: T) -> bool {
     a <= t && t <= b || b <= t && t <= a

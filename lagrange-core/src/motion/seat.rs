@@ -4,7 +4,7 @@ use super::method::pair::error_needs_last;
 use super::method::step::Memory;
 use super::method::{Adaptive, Method, Pair, Step};
 use super::record::{Orders, Record};
-use super::run::{Run, Watchdog};
+use super::run::{Run, Watchdog, resume};
 use crate::ending::Ending;
 use crate::error::Error;
 use crate::solution::flow::{LagrangianFlow, Phase};
@@ -40,7 +40,7 @@ pub(super) enum Fate {
 
 impl<'o, L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Seat<'o, L, N, M> {
     /// Before the first step, with the state made consistent.
-    pub(crate) fn new<P: Pair>(
+    pub(crate) fn new<P: Pair, const IS_WATCHED: bool>(
         (index, start): (usize, u32),
         system: L,
         state: &State<f64, N>,
@@ -50,10 +50,34 @@ impl<'o, L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Seat
     ) -> Result<(Self, State<f64, N>), Error> {
         let (run, _) = Run::begin::<L, LagrangianFlow, _, M>(&system, state, method)?;
         let record = Record::begin(orders, &system, &run.state, end)?;
-        let Run { mut memory, state, mut statistics, .. } = run;
-        method.aim::<L, LagrangianFlow, N, M>(&system, &mut memory, end, &mut statistics);
+        let Run { memory, state, statistics, .. } = run;
         let limits = Watchdog::new(method.limits(), &statistics);
-        Ok((Self { index, start, record, system, memory, end, statistics, limits, failure: None }, state))
+        let mut seat = Self { index, start, record, system, memory, end, statistics, limits, failure: None };
+        if const { IS_WATCHED } && seat.record.is_due(state.t) {
+            seat.failure = seat.control(&state, method).err();
+        }
+        seat.aim(method);
+        Ok((seat, state))
+    }
+
+    fn aim<P: Pair>(&mut self, method: &Adaptive<P>) {
+        let Self { system, memory, end, statistics, .. } = self;
+        method.aim::<L, LagrangianFlow, N, M>(system, memory, *end, statistics);
+    }
+
+    /// Calls the controller, and goes on from this state with what it has set.
+    pub(super) fn control<P: Pair>(
+        &mut self,
+        state: &State<f64, N>,
+        method: &Adaptive<P>,
+    ) -> Result<(), Ending> {
+        let Self { index, record, system, memory, statistics, .. } = self;
+        record.control(*index, system, state)?;
+        resume::<_, LagrangianFlow, _, N, M>(system, method, memory, state, statistics)
+            .map_err(|error| Ending::of(error, state.t))?;
+        self.end = self.record.goal;
+        self.aim(method);
+        Ok(())
     }
 
     /// The clock on the wall starts when it is given a lane.

@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 
 use super::Method;
 use super::event::{Crossing, Search, Stride, Watched};
-use super::run::{Run, Watchdog, is_between};
+use super::run::{Run, Watchdog, is_between, resume};
 use crate::ending::Ending;
 use crate::error::Error;
 use crate::hamiltonian::{Hamiltonian, HamiltonianFlow, PhaseState};
@@ -391,10 +391,7 @@ where
     #[inline]
     fn resume(&mut self) -> Result<(), Error> {
         let Run { memory, state, statistics, .. } = &mut self.run;
-        if M > 0 {
-            consistent::check(&self.system, state)?;
-        }
-        self.method.resume(&self.system, memory, state, statistics)
+        resume::<_, F, _, N, M>(&self.system, &self.method, memory, state, statistics)
     }
 }
 
