@@ -90,8 +90,8 @@ pub(crate) fn evaluate<T: Scalar, const N: usize>(
     let (mut sum, mut slope) = ([[zero; N]; 2], [zero; N]);
     for (k, r) in coefficients.iter().enumerate().rev() {
         let (factor, sign) = if k % 2 == 0 { (theta, one) } else { (one - theta, -one) };
-        slope = entries(|i| sign * sum[0][i] + factor * slope[i]);
-        sum = from_fn(|half| entries(|i| r[half][i] + factor * sum[half][i]));
+        slope = entries(|i| factor.multiply_add(slope[i], sign * sum[0][i]));
+        sum = from_fn(|half| entries(|i| factor.multiply_add(sum[half][i], r[half][i])));
     }
     (sum, slope)
 }
