@@ -2,7 +2,6 @@
 
 use alloc::{string::String, string::ToString, vec::Vec};
 use core::fmt::{self, Debug, Formatter};
-use core::marker::PhantomData;
 
 use super::dual_sample::DifferentiableEvent;
 use super::sensitivity::{Sensitivity, at_event};
@@ -11,7 +10,7 @@ use super::variation::Variations;
 use super::{Direction, Linearized};
 use crate::ending::Ending;
 use crate::error::Error;
-use crate::motion::event::{Search, Stride, Watched};
+use crate::motion::event::{Search, Watched};
 use crate::motion::method::interpolant::evaluate;
 use crate::motion::run::{Run, Watchdog, check_end};
 use crate::motion::{Adaptive, Pair};
@@ -88,14 +87,9 @@ where
                 Ok(interpolant) => interpolant,
                 Err(ending) => break ending,
             };
-        let (before, mut after) = (run.before, run.state);
-        course.push(before.t, after.t);
-        let flow = PhantomData::<LagrangianFlow>;
-        let stride = Stride { system, before, after, interpolant: &interpolant, flow };
-        (after, stopped) = search.record(&stride, &mut path.crossings);
-        if after.t != before.t {
-            path.push(after, interpolant);
-        }
+        course.push(run.before.t, run.state.t);
+        path.push(run.state, interpolant);
+        stopped = search.record_in::<LagrangianFlow, _>(&mut path, system, [&run.before, &run.state]);
     };
     let event = path.crossings.last().map(|crossing| crossing.index);
     let event = event.filter(|_| matches!(ending, Ending::Event { .. })).and_then(|index| events.get(index));

@@ -372,7 +372,7 @@ impl<P: Pair, const N: usize> Within<P, N> {
             return (after, None);
         }
         let Seat { record, system, .. } = seat;
-        let (before, coefficients) = (self.before[lane], &self.coefficients);
+        let (before, after, coefficients) = (&self.before[lane], &after, &self.coefficients);
         let interpolant = &LaneOf { lane, start: before.t, length, coefficients };
         record.keep(&Stride { system, before, after, interpolant, flow: PhantomData::<LagrangianFlow> })
     }

@@ -204,8 +204,11 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
         I: Interpolant<L::Scalar, N>,
     {
         let mut search = Search { events: &mut self.events, grid: self.grid };
-        let (end, stopped) = search.record(stride, &mut self.crossings);
-        let mut at = stride.before;
+        let (end, stopped) = match search.record(stride, &mut self.crossings) {
+            None => (*stride.after, None),
+            Some((end, ending)) => (end, Some(ending)),
+        };
+        let mut at = *stride.before;
         while let Some(t) = self.next_time()
             && is_between(stride.before.t, t, end.t)
         {
@@ -269,7 +272,7 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
             interpolant.transpose().map_err(|error| Ending::of(error, before.t.to_f64()))
         })?;
         let Some(interpolant) = &within else { return Ok(()) };
-        let (before, after) = (run.before, run.state);
+        let (before, after) = (&run.before, &run.state);
         let flow = PhantomData::<LagrangianFlow>;
         let (state, stopped) = self.keep(&Stride { system, before, after, interpolant, flow });
         run.state = state;

@@ -1,10 +1,10 @@
 //! The loop from the first step to the ending, the same for every method.
 
 #[cfg(feature = "alloc")]
-use core::{marker::PhantomData, ops::ControlFlow};
+use core::ops::ControlFlow;
 
 #[cfg(feature = "alloc")]
-use super::event::{Search, Stride, Watched};
+use super::event::{Search, Watched};
 use super::method::{Limits, Method, Step};
 use crate::ending::Ending;
 use crate::error::Error;
@@ -189,15 +189,11 @@ where
             Ok(interpolant) => interpolant,
             Err(ending) => break ending,
         };
-        let (before, mut after) = (run.before, run.state);
+        path.push(run.state, interpolant);
         if const { IS_WATCHED } {
-            let stride = Stride { system, before, after, interpolant: &interpolant, flow: PhantomData::<F> };
-            (after, stopped) = search.record(&stride, &mut path.crossings);
+            stopped = search.record_in::<F, _>(&mut path, system, [&run.before, &run.state]);
         }
-        if after.t != before.t {
-            path.push(after, interpolant);
-        }
-        let (time, steps) = (after.t.to_f64(), run.statistics.accepted);
+        let (time, steps) = (run.state.t.to_f64(), run.statistics.accepted);
         if stopped.is_none() && watch(Progress { start, time, end: end.to_f64(), steps }).is_break() {
             break Ending::Cancelled { time };
         }

@@ -247,7 +247,7 @@ where
         let mut found = search.due(at)?;
         loop {
             if let (None, Some(interpolant)) = (found, &interpolant) {
-                let (before, after) = (run.before, run.state);
+                let (before, after) = (&run.before, &run.state);
                 let stride = Stride { system, before, after, interpolant, flow: PhantomData::<F> };
                 found = search.next(&stride, at)?;
             }

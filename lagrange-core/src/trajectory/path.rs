@@ -44,6 +44,20 @@ impl<T: Real, const N: usize, I: Interpolant<T, N> + Send + Sync + 'static> Path
         self.last = state;
     }
 
+    /// What lies within the last step, and where crossings within it belong.
+    pub(crate) fn last_step(&mut self) -> Option<(&I, &mut Vec<Crossing<T, N>>)> {
+        Some((self.interpolants.last()?, &mut self.crossings))
+    }
+
+    /// Ends within the last step, or where it starts.
+    pub(crate) fn cut(&mut self, end: State<T, N>) {
+        if self.times.last() == Some(&end.t) {
+            self.times.pop();
+            self.interpolants.pop();
+        }
+        self.last = end;
+    }
+
     pub(crate) fn finish(self) -> Path<T, N> {
         let Self { start, last, crossings, times, interpolants } = self;
         Path { start, last, crossings, times, interpolants: Box::new(interpolants) }

@@ -2,15 +2,15 @@
 
 use super::Direction;
 use crate::ending::Ending;
-use crate::number::{Real, Scalar, larger};
+use crate::number::{Real, Scalar, larger, smaller};
 
 /// What an event is about, and what is known of it from step to step.
 #[derive(Clone, Debug)]
 pub struct Memory<T> {
     pub(super) name: &'static str,
     pub(super) direction: Direction,
-    /// How many pieces a step is looked at in.
-    pub(super) pieces: usize,
+    /// How many pieces a step is looked at in, if that has been asked for.
+    pub(super) pieces: Option<usize>,
     /// The crossing at which a run ends.
     pub(super) terminal: Option<usize>,
     /// How many there were.
@@ -19,6 +19,8 @@ pub struct Memory<T> {
     pub(super) value: T,
     /// The same at the place looked at last, where the search goes on from unless something crosses before.
     pub(super) next: T,
+    /// The same at the end of the step.
+    end: T,
     /// The function where the motion starts at a zero, as long as it has not been looked at elsewhere.
     start: Option<T>,
     /// What counts as zero as long as the motion has not left it.
@@ -37,6 +39,9 @@ pub struct Memory<T> {
     short: usize,
 }
 
+/// Where a function may turn back within a step it is looked at in so many pieces.
+pub(super) const FINE: usize = 8;
+
 /// An interval is short that is this part of the longest: √ε of `f64`, 2⁻²⁶.
 const SHORT: f64 = 1.0 / 67_108_864.0;
 
@@ -46,11 +51,12 @@ impl<T: Real> Memory<T> {
         Self {
             name,
             direction: Direction::Both,
-            pieces: 4,
+            pieces: None,
             terminal: None,
             count: 0,
             value: zero,
             next: zero,
+            end: zero,
             start: None,
             noise: zero,
             due: None,
@@ -101,6 +107,31 @@ impl<T: Real> Memory<T> {
         }
         let is_noise = self.value == zero && Scalar::abs(value) <= self.noise;
         self.next = if is_noise { zero } else { value };
+    }
+
+    /// Takes note of the function at the end of a step, and says in how many pieces the step is to be looked at: none where
+    /// it keeps away from zero, as far as the parabola through its values at the start, in the middle and at the end tells.
+    #[inline]
+    pub(super) fn plan(&mut self, middle: T, end: T) -> usize {
+        self.go_on();
+        self.end = end;
+        let (start, zero) = (self.value, T::constant(0.0));
+        let [rise, bend] = [end - start, (start - middle) + (end - middle)].map(Scalar::abs);
+        let least = smaller(smaller(Scalar::abs(start), Scalar::abs(middle)), Scalar::abs(end));
+        let has_one_sign = start * middle.signum() > zero && start * end.signum() > zero;
+        // The parabola turns back within the step only where it bends by half as much as it rises, and
+        // comes nearer to zero than the least of the three by no more than an eighth of what it bends by.
+        match bend * T::constant(4.0) < rise || bend < least {
+            true if has_one_sign => 0,
+            true => 2,
+            false => FINE,
+        }
+    }
+
+    /// Goes on to the end of the step.
+    #[inline]
+    pub(super) fn skip_step(&mut self) {
+        self.next = self.end;
     }
 
     /// Goes on to a place where some event crosses: this one if it `has_crossed`, whatever its function says when it is asked

@@ -23,9 +23,13 @@ use crate::system::{Lagrangian, State};
 ///
 /// # What is found
 ///
-/// g is evaluated at both ends of each step and at times between that divide it evenly
-/// ([`pieces`](Self::pieces), as a rule 4), on states by the continuous extension of the method, projected onto the
-/// constraints. From one of these times to the next,
+/// g is evaluated at both ends of each step and in the middle, on states by the continuous extension of the method, projected
+/// onto the constraints. Of these values a, b, c it is evaluated at every eighth of the step as well, unless they tell
+/// that it does not turn back near zero in between: that it bends by less than a quarter of what it rises or falls by,
+/// |a − 2b + c| < |c − a|/4, or by less than its distance from zero, the least of |a|, |b|, |c|. So the two zeros of a
+/// parabola are found where they are more than an eighth of a step apart, and a step on which g stays away from zero costs one
+/// evaluation of the continuous extension. [`pieces`](Self::pieces) divides every step evenly instead, as finely
+/// as is asked for. What is left of a step after a crossing is looked at like a step. From one of these times to the next,
 ///
 /// - g crosses zero where it is not zero at the first, and zero or of the other sign at the second. So a zero belongs to
 ///   the piece that it ends: none is reported twice or lost where steps meet, one at the very end of the motion is
@@ -88,11 +92,13 @@ impl<L: Lagrangian<N, M, Scalar: Real>, G, const N: usize, const M: usize> Event
         self
     }
 
-    /// Looks at g so many times a step. Of several events the largest number counts. Each time but the last costs an evaluation
-    /// of the continuous extension (and on constraints a projection): where g cannot cross twice within a step, one will do.
+    /// Looks at g so many times in every step, evenly spaced. Of several events the largest number counts. Each time but the last
+    /// costs an evaluation of the continuous extension (and on constraints a projection): one will do where g cannot
+    /// cross twice within a step, more are needed where it may wiggle within an eighth of one, or between a step's ends and middle
+    /// so that nothing shows there.
     #[must_use]
     pub fn pieces(mut self, pieces: usize) -> Self {
-        self.memory.pieces = pieces.max(1);
+        self.memory.pieces = Some(pieces.max(1));
         self
     }
 
@@ -218,6 +224,15 @@ pub trait Watched<L: Lagrangian<N, M>, const N: usize, const M: usize>: sealed::
     /// Goes on to the place looked at last, and looks at this one: whether its function crosses zero in between.
     #[doc(hidden)]
     fn look(&mut self, system: &L, state: &State<L::Scalar, N>) -> Result<bool, Error>;
+
+    /// Looks at the middle and at the end of a step: in how many pieces its function is to be looked at.
+    #[doc(hidden)]
+    fn plan(
+        &mut self,
+        system: &L,
+        middle: &State<L::Scalar, N>,
+        end: &State<L::Scalar, N>,
+    ) -> Result<usize, Error>;
 }
 
 mod sealed {
@@ -248,6 +263,16 @@ impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Watched<L, N, M>
     fn look(&mut self, system: &L, state: &State<L::Scalar, N>) -> Result<bool, Error> {
         (**self).look(system, state)
     }
+
+    #[inline]
+    fn plan(
+        &mut self,
+        system: &L,
+        middle: &State<L::Scalar, N>,
+        end: &State<L::Scalar, N>,
+    ) -> Result<usize, Error> {
+        (**self).plan(system, middle, end)
+    }
 }
 
 impl<L, K, G, const N: usize, const M: usize> Watched<L, N, M> for Event<K, G, N, M>
@@ -274,6 +299,16 @@ where
         self.memory.go_on();
         self.memory.look(value);
         Ok(self.memory.crosses())
+    }
+
+    fn plan(
+        &mut self,
+        system: &L,
+        middle: &State<L::Scalar, N>,
+        end: &State<L::Scalar, N>,
+    ) -> Result<usize, Error> {
+        let [middle, end] = [self.value(system, middle)?, self.value(system, end)?];
+        Ok(self.memory.plan(middle, end))
     }
 }
 

@@ -6,6 +6,7 @@ use core::marker::PhantomData;
 
 use nalgebra::ComplexField;
 
+use super::memory::FINE;
 use super::narrow::{Probe, narrow};
 use super::{Crossing, Watched};
 use crate::ending::Ending;
@@ -14,12 +15,14 @@ use crate::motion::Interpolant;
 use crate::number::{Real, Scalar, larger};
 use crate::solution::flow::Flow;
 use crate::system::{Lagrangian, State};
+#[cfg(feature = "alloc")]
+use crate::trajectory::Path;
 
 /// A step that was taken, with what lies within.
 pub(crate) struct Stride<'a, L: Lagrangian<N, M>, F, I, const N: usize, const M: usize> {
     pub(crate) system: &'a L,
-    pub(crate) before: State<L::Scalar, N>,
-    pub(crate) after: State<L::Scalar, N>,
+    pub(crate) before: &'a State<L::Scalar, N>,
+    pub(crate) after: &'a State<L::Scalar, N>,
     pub(crate) interpolant: &'a I,
     pub(crate) flow: PhantomData<F>,
 }
@@ -33,7 +36,7 @@ where
     /// The state at a time within, on the constraints.
     pub(crate) fn at(&self, t: L::Scalar) -> Result<State<L::Scalar, N>, Error> {
         match t == self.after.t {
-            true => Ok(self.after),
+            true => Ok(*self.after),
             false => F::project(self.system, &self.interpolant.at(t)),
         }
     }
@@ -42,10 +45,10 @@ where
         self.after.t - self.before.t
     }
 
-    /// The end of this piece.
-    fn mark(&self, piece: usize, of: usize) -> L::Scalar {
+    /// The end of this piece of what is left of the step from there.
+    fn mark(&self, from: L::Scalar, piece: usize, of: usize) -> L::Scalar {
         let part = L::Scalar::constant(piece as f64 / of as f64);
-        if piece == of { self.after.t } else { self.before.t + self.length() * part }
+        if piece == of { self.after.t } else { from + (self.after.t - from) * part }
     }
 
     /// Whether `later` comes after `t` in the motion.
@@ -66,8 +69,10 @@ pub(crate) struct Search<'e, W, L: Lagrangian<N, M>, const N: usize, const M: us
 pub(crate) struct Grid<T> {
     /// Where the motion starts at a zero: pieces are short near there.
     start: Option<T>,
-    /// How many pieces a step is looked at in.
+    /// How many pieces every step is looked at in, none where no event asks for any.
     pieces: usize,
+    /// Whether some event leaves it to what its function does.
+    is_free: bool,
 }
 
 impl<'e, W, L, const N: usize, const M: usize> Search<'e, W, L, N, M>
@@ -82,16 +87,17 @@ where
         state: &State<L::Scalar, N>,
         is_new: bool,
     ) -> Result<Self, Error> {
-        let (mut start, mut pieces) = (None, 1);
+        let (mut start, mut pieces, mut is_free) = (None, 0, false);
         for event in events.iter_mut() {
             let value = event.value(system, state)?;
             let memory = event.memory();
             if memory.begin(value, state.t, is_new) {
                 start = Some(state.t);
             }
-            pieces = pieces.max(memory.pieces);
+            pieces = pieces.max(memory.pieces.unwrap_or(0));
+            is_free |= memory.pieces.is_none();
         }
-        Ok(Self { events, grid: Grid { start, pieces } })
+        Ok(Self { events, grid: Grid { start, pieces, is_free } })
     }
 
     /// The first crossing after `from`, which moves there, or to the end of the step where there is none.
@@ -107,8 +113,12 @@ where
         F: Flow<L, N, M>,
         I: Interpolant<L::Scalar, N>,
     {
-        for piece in 1..=self.grid.pieces {
-            let mark = stride.mark(piece, self.grid.pieces);
+        let (start, pieces) = (from.t, self.plan(stride, from.t));
+        if pieces == 0 {
+            *from = *stride.after;
+        }
+        for piece in 1..=pieces {
+            let mark = stride.mark(start, piece, pieces);
             while stride.is_ahead(from.t, mark) {
                 let t = self.near_start(stride, from.t).filter(|t| stride.is_ahead(*t, mark)).unwrap_or(mark);
                 match self.look(stride, from, t) {
@@ -119,6 +129,27 @@ where
             }
         }
         Ok(None)
+    }
+
+    /// In how many pieces to look at what is left of a step: none where every function keeps away from zero, and is known at
+    /// the end of the step then.
+    #[inline]
+    fn plan<F, I>(&mut self, stride: &Stride<'_, L, F, I, N, M>, from: L::Scalar) -> usize
+    where
+        F: Flow<L, N, M>,
+        I: Interpolant<L::Scalar, N>,
+    {
+        if !self.grid.is_free || from == stride.after.t {
+            return self.grid.pieces;
+        }
+        // What cannot be evaluated there may have crossed before.
+        let Ok(middle) = stride.at(stride.mark(from, 1, 2)) else { return FINE };
+        let plans = self.events.iter_mut().map(|event| event.plan(stride.system, &middle, stride.after));
+        let pieces = plans.fold(self.grid.pieces, |most, pieces| most.max(pieces.unwrap_or(FINE)));
+        if pieces == 0 {
+            self.events.iter_mut().for_each(|event| event.memory().skip_step());
+        }
+        pieces
     }
 
     /// Reports a crossing at `state` that has not been reported yet.
@@ -137,29 +168,51 @@ where
         Ok(None)
     }
 
-    /// Writes down the crossings within a step, as far as the motion goes: to there, and why not farther.
+    /// Writes down the crossings within a step; where and why the motion ends within it, if it does.
     #[cfg(feature = "alloc")]
+    #[inline]
     pub(crate) fn record<F, I>(
         &mut self,
         stride: &Stride<'_, L, F, I, N, M>,
         crossings: &mut Vec<Crossing<L::Scalar, N>>,
-    ) -> (State<L::Scalar, N>, Option<Ending>)
+    ) -> Option<(State<L::Scalar, N>, Ending)>
     where
         F: Flow<L, N, M>,
         I: Interpolant<L::Scalar, N>,
     {
-        let mut at = stride.before;
+        let mut at = *stride.before;
         loop {
             match self.next(stride, &mut at) {
-                Ok(None) => return (stride.after, None),
+                Ok(None) => return None,
                 Ok(Some(crossing)) => crossings.push(crossing),
-                Err(ending) => return (at, Some(ending)),
+                Err(ending) => return Some((at, ending)),
             }
-            let ending = self.ending(crossings).or_else(|| self.record_due(&at, crossings));
-            if ending.is_some() {
-                return (at, ending);
+            if let Some(ending) = self.ending(crossings).or_else(|| self.record_due(&at, crossings)) {
+                return Some((at, ending));
             }
         }
+    }
+
+    /// Writes down the crossings within the last step of a path, between these states, and ends the path where the motion
+    /// ends within it; why it does.
+    // Inlined, so that the path can stay in registers.
+    #[cfg(feature = "alloc")]
+    #[inline(always)]
+    pub(crate) fn record_in<F, I>(
+        &mut self,
+        path: &mut Path<L::Scalar, N, Vec<I>>,
+        system: &L,
+        [before, after]: [&State<L::Scalar, N>; 2],
+    ) -> Option<Ending>
+    where
+        F: Flow<L, N, M>,
+        I: Interpolant<L::Scalar, N> + Send + Sync + 'static,
+    {
+        let (interpolant, crossings) = path.last_step()?;
+        let stride = Stride { system, before, after, interpolant, flow: PhantomData::<F> };
+        let (at, ending) = self.record(&stride, crossings)?;
+        path.cut(at);
+        Some(ending)
     }
 
     /// Writes down what has not been reported yet at this state; the ending, if one of them is that.
