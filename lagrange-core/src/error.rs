@@ -231,6 +231,14 @@ pub enum Error {
         /// Its words.
         said: String,
     },
+    /// A file of a table in Parquet that cannot be read or written, or does not belong there.
+    #[cfg(feature = "parquet")]
+    Parquet {
+        /// The file, or the directory.
+        file: String,
+        /// What is wrong.
+        reason: String,
+    },
     /// The ranks of MPI cannot do this ensemble together.
     Ranks {
         /// The first rank at fault.
@@ -408,6 +416,8 @@ impl Display for Error {
             ),
             #[cfg(feature = "std")]
             Self::Elsewhere { said } => f.write_str(said),
+            #[cfg(feature = "parquet")]
+            Self::Parquet { file, reason } => write!(f, "{file}, of a table of members: {reason}"),
             Self::Ranks { rank, reason } => {
                 write!(f, "the ranks cannot do this ensemble together: on rank {rank} {reason}")
             }

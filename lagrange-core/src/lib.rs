@@ -41,7 +41,8 @@ assert!((friction + 2.0 / 7.0 * 9.81 * 0.3_f64.sin()).abs() < 1e-12);
 //! - [`Dop853`] and [`Dopri5`] are the methods, [`Trajectory`] is what they give, [`Ending`] why it stops.
 //!
 //! Features: `std` (default), without it there are no ensembles; `alloc`, without it there are no trajectories, but motions
-//! step by step; `libm`, elementary functions where there is no `std`; `rayon`, ensembles on all threads; `mpi`, ensembles on many machines; `serde`, states,
+//! step by step; `libm`, elementary functions where there is no `std`; `rayon`, ensembles on all threads; `mpi`, ensembles on many machines; `parquet`, tables of
+//! ensembles as files of Parquet; `serde`, states,
 //! solutions, records of trajectories and endings can be written, and those without names read.
 #![cfg_attr(not(feature = "std"), no_std)]
 // Algorithms on matrices read best with indices.

@@ -84,21 +84,26 @@ impl Fingerprint {
 }
 
 /// FNV-1a of what was written so far.
-struct Hash(u32);
+pub(super) struct Hash(u32);
 
 impl Hash {
-    fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self(0x811c_9dc5)
     }
 
-    fn bytes(&mut self, bytes: &[u8]) {
+    pub(super) fn bytes(&mut self, bytes: &[u8]) {
         self.0 = bytes.iter().fold(self.0, |hash, byte| (hash ^ u32::from(*byte)).wrapping_mul(0x0100_0193));
     }
 
     /// With a mark at its end, which no text has.
-    fn text(&mut self, text: &str) {
+    pub(super) fn text(&mut self, text: &str) {
         self.bytes(text.as_bytes());
         self.bytes(&[0xff]);
+    }
+
+    #[cfg(feature = "parquet")]
+    pub(super) fn value(&self) -> u32 {
+        self.0
     }
 
     fn number(&mut self, x: f64) {

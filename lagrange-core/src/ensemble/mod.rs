@@ -13,6 +13,8 @@
 mod fingerprint;
 mod job;
 mod outcome;
+#[cfg(feature = "parquet")]
+mod parquet;
 #[cfg(feature = "mpi")]
 mod ranks;
 mod table;
@@ -32,6 +34,8 @@ pub use fingerprint::Fingerprint;
 pub use job::EnsembleProgress;
 use job::{Job, Plan};
 pub use outcome::{Arrival, Member, Outcome};
+#[cfg(feature = "parquet")]
+pub use parquet::ParquetTable;
 #[cfg(feature = "mpi")]
 pub use ranks::OnRanks;
 pub use table::{MemberEnding, MemberRow, MemberTable};
@@ -191,12 +195,27 @@ where
     /// # Errors
     /// [`Error::Resume`] for what is no row of such a system, and where rows are of different runs. For members of
     /// another run, to another end or of another start [`integrate`](Self::integrate) gives [`Error::OtherRun`].
-    pub fn resume(mut self, table: &str) -> Result<Self, Error>
+    pub fn resume(self, table: &str) -> Result<Self, Error>
     where
         T: core::str::FromStr,
     {
-        self.plan.done.extend(MemberTable::of(table, L::COORDINATES, self.plan.count)?.into_members());
-        Ok(self)
+        let table = MemberTable::of(table, L::COORDINATES, self.plan.count)?;
+        self.resume_from(table)
+    }
+
+    /// Leaves out what is done as [`resume`](Self::resume) does, by a table that was read.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchMember`], where the table has more members than the ensemble.
+    pub fn resume_from(mut self, table: MemberTable<T, N>) -> Result<Self, Error> {
+        let count = self.plan.count;
+        match table.rows().last() {
+            Some(row) if row.index >= count => Err(Error::NoSuchMember { member: row.index, count }),
+            _ => {
+                self.plan.done.extend(table.into_members());
+                Ok(self)
+            }
+        }
     }
 
     fn run(

@@ -4,6 +4,7 @@ mod read;
 
 use core::fmt::{self, Display, Formatter};
 use core::str::FromStr;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use super::fingerprint::Fingerprint;
@@ -17,20 +18,26 @@ use crate::system::{Lagrangian, State};
 pub(super) use read::read;
 
 impl<T: Real, const N: usize> Member<T, N> {
-    /// Its row of the table [`Outcome::csv`], to be written as soon as the member is done.
-    pub fn csv(&self) -> impl Display + '_ {
+    /// Its row of a table.
+    pub fn row(&self) -> MemberRow<T, N> {
         let arrival = self.arrival();
-        Line {
+        MemberRow {
             index: self.index,
             fingerprint: self.fingerprint,
-            reached: arrival.map(|Arrival { state, statistics, .. }| (state, statistics)),
+            state: arrival.map(|arrival| arrival.state),
+            statistics: arrival.map(|arrival| arrival.statistics).unwrap_or_default(),
             ending: match &self.result {
-                Err(error) => quoted(&error.to_string()),
-                Ok(Arrival { ending: Ending::Complete { .. }, .. }) => COMPLETE.into(),
-                Ok(Arrival { ending: Ending::Cancelled { .. }, .. }) => CANCELLED.into(),
-                Ok(Arrival { ending, .. }) => quoted(&ending.to_string()),
+                Err(error) => MemberEnding::Failed(error.to_string()),
+                Ok(Arrival { ending: Ending::Complete { .. }, .. }) => MemberEnding::Complete,
+                Ok(Arrival { ending: Ending::Cancelled { .. }, .. }) => MemberEnding::Cancelled,
+                Ok(Arrival { ending, .. }) => MemberEnding::Failed(ending.to_string()),
             },
         }
+    }
+
+    /// Its row of the table [`Outcome::csv`], to be written as soon as the member is done.
+    pub fn csv(&self) -> impl Display + '_ {
+        Line(Cow::Owned(self.row()))
     }
 }
 
@@ -116,6 +123,17 @@ impl Display for MemberEnding {
     }
 }
 
+/// As a table has it.
+impl From<&str> for MemberEnding {
+    fn from(text: &str) -> Self {
+        match text {
+            COMPLETE => Self::Complete,
+            CANCELLED => Self::Cancelled,
+            why => Self::Failed(why.into()),
+        }
+    }
+}
+
 impl<T: Real, const N: usize> MemberTable<T, N> {
     /// The rows of a table of systems `L`.
     ///
@@ -134,23 +152,33 @@ impl<T: Real, const N: usize> MemberTable<T, N> {
     where
         T: FromStr,
     {
-        let mut rows: BTreeMap<usize, MemberRow<T, N>> = BTreeMap::new();
+        let wrong = |line, column, reason| Error::Resume { line, column, reason };
+        Self::gather(names, read(table, &names, count)?, wrong)
+    }
+
+    /// Of rows with their places, all of one run. `wrong` says that a column of the row in a place is of another.
+    pub(super) fn gather<X>(
+        names: [&'static str; N],
+        rows: impl IntoIterator<Item = (X, MemberRow<T, N>)>,
+        wrong: impl Fn(X, usize, &'static str) -> Error,
+    ) -> Result<Self, Error> {
+        let mut kept: BTreeMap<usize, MemberRow<T, N>> = BTreeMap::new();
         let mut first: Option<Fingerprint> = None;
-        for (line, row) in read(table, &names, count)? {
-            let differs = |(column, reason)| Error::Resume { line, column, reason };
+        for (place, row) in rows {
             let common = row.fingerprint.without_start();
-            check_same(first.get_or_insert(common), &common).map_err(differs)?;
-            match rows.get_mut(&row.index) {
-                None => drop(rows.insert(row.index, row)),
-                Some(known) => {
-                    check_same(&known.fingerprint, &row.fingerprint).map_err(differs)?;
-                    if known.has_failed() {
-                        *known = row;
-                    }
-                }
+            let known = kept.get_mut(&row.index);
+            let run = first.get_or_insert(common).difference(&common);
+            let start = known.as_ref().and_then(|known| known.fingerprint.difference(&row.fingerprint));
+            if let Some((column, reason)) = run.or(start) {
+                return Err(wrong(place, column, reason));
+            }
+            match known {
+                None => drop(kept.insert(row.index, row)),
+                Some(known) if known.has_failed() => *known = row,
+                Some(_) => {}
             }
         }
-        Ok(Self { names, rows: rows.into_values().collect() })
+        Ok(Self { names, rows: kept.into_values().collect() })
     }
 
     /// The rows, by member.
@@ -172,10 +200,6 @@ impl<T: Real, const N: usize> MemberTable<T, N> {
     pub(super) fn into_members(self) -> impl Iterator<Item = Member<T, N>> {
         self.rows.into_iter().filter(|row| !row.has_failed()).map(MemberRow::into_member)
     }
-}
-
-fn check_same(one: &Fingerprint, other: &Fingerprint) -> Result<(), (usize, &'static str)> {
-    one.difference(other).map_or(Ok(()), Err)
 }
 
 impl<T: Real, const N: usize> Display for MemberTable<T, N> {
@@ -217,16 +241,7 @@ impl<T: Real, const N: usize> MemberRow<T, N> {
 
     /// As a row of the table.
     pub fn csv(&self) -> impl Display + '_ {
-        Line {
-            index: self.index,
-            fingerprint: self.fingerprint,
-            reached: self.state.as_ref().map(|state| (state, &self.statistics)),
-            ending: match &self.ending {
-                MemberEnding::Complete => COMPLETE.into(),
-                MemberEnding::Cancelled => CANCELLED.into(),
-                MemberEnding::Failed(why) => quoted(why),
-            },
-        }
+        Line(Cow::Borrowed(self))
     }
 }
 
@@ -258,20 +273,16 @@ fn header<const N: usize>(names: &[&'static str; N]) -> String {
 
 /// One line of it. The index stands at both ends: a line that was not written to its end, and the row that is then
 /// appended to it, do not pass for a row of a third member.
-struct Line<'m, T, const N: usize> {
-    index: usize,
-    fingerprint: Fingerprint,
-    reached: Option<(&'m State<T, N>, &'m Statistics)>,
-    ending: String,
-}
+struct Line<'m, T: Real, const N: usize>(Cow<'m, MemberRow<T, N>>);
 
 impl<T: Real, const N: usize> Display for Line<'_, T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let Self { index, fingerprint: Fingerprint { system, run, start }, reached, ending } = self;
+        let MemberRow { index, fingerprint, state, statistics, ending } = &*self.0;
+        let Fingerprint { system, run, start } = fingerprint;
         write!(f, "{index},{system},{run},{start}")?;
-        match reached {
+        match state {
             None => (0..2 * N + 5).try_for_each(|_| write!(f, ","))?,
-            Some((state, statistics)) => {
+            Some(state) => {
                 // `Debug` of a number is its shortest form that reads back the same.
                 write!(f, ",{:?}", state.t)?;
                 state.q.iter().chain(&state.v).try_for_each(|x| write!(f, ",{x:?}"))?;
@@ -279,7 +290,10 @@ impl<T: Real, const N: usize> Display for Line<'_, T, N> {
                 write!(f, ",{accepted},{rejected},{evaluations},{multipliers_are_unique}")?;
             }
         }
-        writeln!(f, ",{ending},{index}")
+        match ending {
+            MemberEnding::Failed(why) => writeln!(f, ",{},{index}", quoted(why)),
+            ending => writeln!(f, ",{ending},{index}"),
+        }
     }
 }
 

@@ -1,0 +1,124 @@
+//! Rows as columns, and back.
+
+use super::file::{Column, END, Fault, Values};
+use crate::ensemble::fingerprint::Fingerprint;
+use crate::ensemble::table::MemberRow;
+use crate::linearized::Linearized;
+use crate::names::Entry;
+use crate::number::{Real, vector};
+use crate::statistics::Statistics;
+use crate::system::State;
+
+/// The columns of these rows, and of what their members are made from.
+pub(super) fn columns<L, T, const N: usize, const M: usize, const P: usize>(
+    rows: &[MemberRow<T, N>],
+    made: &[(L, State<T, N>)],
+) -> Vec<Column>
+where
+    L: Linearized<N, M, P, Scalar = T>,
+    T: Real,
+{
+    let integers = |group, name: &str, values: Vec<i64>| Column {
+        group,
+        name: name.into(),
+        values: Values::Integers(values),
+    };
+    let endings = rows.iter().map(|row| row.ending.to_string().into_bytes().into()).collect();
+    let mut columns = vec![
+        integers("", "member", rows.iter().map(|row| row.index as i64).collect()),
+        integers("", "fingerprint", rows.iter().map(|row| i64::from(row.fingerprint.start)).collect()),
+        Column { group: "", name: "ending".into(), values: Values::Texts(endings) },
+    ];
+    columns
+        .extend(states::<L, T, N, M, P>("start", &made.iter().map(|(_, start)| start).collect::<Vec<_>>()));
+    let mut parameters = vec![Vec::new(); P];
+    for (system, _) in made {
+        let mut columns = parameters.iter_mut();
+        system.visit_parameters(&mut |x| columns.next().into_iter().for_each(|of| of.push(x.to_f64())));
+    }
+    columns.extend(L::PARAMETERS.iter().zip(parameters).map(|(name, values)| Column {
+        group: "parameters",
+        name: (*name).into(),
+        values: Values::Numbers(values),
+    }));
+    let ends = || rows.iter().filter_map(|row| Some((row.state.as_ref()?, &row.statistics)));
+    columns.extend(states::<L, T, N, M, P>(END, &ends().map(|(state, _)| state).collect::<Vec<_>>()));
+    let count = |name, of: fn(&Statistics) -> usize| {
+        integers(END, name, ends().map(|(_, statistics)| of(statistics) as i64).collect())
+    };
+    columns.extend([
+        count("accepted", |statistics| statistics.accepted),
+        count("rejected", |statistics| statistics.rejected),
+        count("evaluations", |statistics| statistics.evaluations),
+    ]);
+    let flags = ends().map(|(_, statistics)| statistics.multipliers_are_unique).collect();
+    let name = "multipliers_are_unique".into();
+    columns.push(Column { group: END, name, values: Values::Flags(flags) });
+    columns
+}
+
+/// The rows that such columns are of.
+pub(super) fn rows<T: Real, const N: usize, const P: usize>(
+    (columns, has_end, run): &(Vec<Column>, Vec<bool>, Fingerprint),
+) -> Result<Vec<MemberRow<T, N>>, Fault> {
+    let [members, starts, endings] = &columns[..3] else { return Err(Fault::Other("it has no rows")) };
+    let end = &columns[3 + 2 * N + 1 + P..];
+    let mut ends = 0..;
+    let row = |k: usize| -> Option<MemberRow<T, N>> {
+        let place = if has_end[k] { ends.next() } else { None };
+        let count = |column: usize, place: usize| end[2 * N + 1 + column].values.integer(place);
+        let statistics = |place: usize| {
+            Some(Statistics {
+                accepted: count(0, place)?.try_into().ok()?,
+                rejected: count(1, place)?.try_into().ok()?,
+                evaluations: count(2, place)?.try_into().ok()?,
+                multipliers_are_unique: end[2 * N + 4].values.flag(place)?,
+            })
+        };
+        let (state, statistics) = match place {
+            Some(place) => (Some(state(end, place)?), statistics(place)?),
+            None => (None, Statistics::default()),
+        };
+        Some(MemberRow {
+            index: members.values.integer(k)?.try_into().ok()?,
+            fingerprint: Fingerprint { start: starts.values.integer(k)?.try_into().ok()?, ..*run },
+            state,
+            statistics,
+            ending: endings.values.text(k)?.into(),
+        })
+    };
+    let rows: Option<Vec<_>> = (0..has_end.len()).map(row).collect();
+    rows.ok_or(Fault::Damaged("a number in it is none".into()))
+}
+
+/// The columns of times, coordinates and velocities.
+fn states<L, T, const N: usize, const M: usize, const P: usize>(
+    group: &'static str,
+    states: &[&State<T, N>],
+) -> impl Iterator<Item = Column>
+where
+    L: Linearized<N, M, P, Scalar = T>,
+    T: Real,
+{
+    let column = move |name: String, entry: &dyn Fn(&State<T, N>) -> T| Column {
+        group,
+        name,
+        values: Values::Numbers(states.iter().map(|state| entry(state).to_f64()).collect()),
+    };
+    let names = L::COORDINATES;
+    let coordinates: Vec<_> = (0..N).map(|i| column(names[i].into(), &|state| state.q[i])).collect();
+    let velocity = |i: usize| Entry::Velocity(names[i]).to_string();
+    let velocities: Vec<_> = (0..N).map(|i| column(velocity(i), &|state| state.v[i])).collect();
+    core::iter::once(column("t".into(), &|state| state.t)).chain(coordinates).chain(velocities)
+}
+
+/// The state in this place of the columns of time, coordinates and velocities.
+fn state<T: Real, const N: usize>(columns: &[Column], place: usize) -> Option<State<T, N>> {
+    let number = |k: usize| columns[k].values.number(place).filter(|x| x.is_finite()).map(T::constant);
+    let zero = vector([T::constant(0.0); N]);
+    let mut state = State { t: number(0)?, q: zero, v: zero };
+    for i in 0..N {
+        (state.q[i], state.v[i]) = (number(1 + i)?, number(1 + N + i)?);
+    }
+    Some(state)
+}

@@ -1,0 +1,293 @@
+//! Tables of Parquet: what is written is read, what was cut off is done again, what is of another run is refused.
+
+use std::fs::{copy, create_dir_all, read, read_dir, remove_dir_all, write};
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use lagrange_core::ensemble::ParquetTable;
+use lagrange_core::{MemberTable, Outcome, prelude::*};
+
+#[derive(Lagrangian, Clone, Copy)]
+#[coordinates(a, b)]
+#[lagrangian(m[0]/2*a_dot^2 + m[1]/2*b_dot^2 - k/2*(a - b)^2 - k/4*a^4)]
+struct Oscillators<T> {
+    m: [T; 2],
+    k: T,
+}
+
+const COUNT: usize = 40;
+const TO: f64 = 3.0;
+
+/// The parameters of one are not finite.
+fn member(index: usize) -> (Oscillators<f64>, State<f64, 2>) {
+    let x = 1.0 + index as f64 / 7.0;
+    let k = if index == 7 { f64::NAN } else { x.sqrt() };
+    (Oscillators { m: [1.0, x], k }, State::new([0.3 * x, -0.1], [x - 2.0, 1.0 / 3.0]))
+}
+
+type Members = Ensemble<'static, Oscillators<f64>, f64, 2>;
+
+/// Some meet the limit on steps, and some are ended early.
+fn members() -> Members {
+    Ensemble::from_fn(COUNT, member).observe(|index, state| match index % 5 == 1 && state.t > 1.0 {
+        true => ControlFlow::Break(()),
+        false => ControlFlow::Continue(()),
+    })
+}
+
+fn method() -> Dop853 {
+    Dop853::default().max_steps(36)
+}
+
+fn whole() -> Outcome<f64, 2> {
+    let outcome = members().integrate_on_lanes(TO, method()).expect("an outcome");
+    let failures = outcome.failures().count();
+    assert!(failures > 2 && outcome.completed().count() > 10, "{failures} failures");
+    outcome
+}
+
+/// As the table of comma-separated values has it.
+fn expected(outcome: &Outcome<f64, 2>) -> MemberTable<f64, 2> {
+    MemberTable::read::<Oscillators<f64>, 0>(&outcome.csv().to_string()).expect("a table")
+}
+
+/// A directory that is removed in the end.
+struct Directory(PathBuf);
+
+impl Directory {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("lagrange-{}-{name}", std::process::id()));
+        create_dir_all(&path).expect("a directory");
+        Self(path)
+    }
+
+    fn files(&self) -> Vec<PathBuf> {
+        let mut files: Vec<_> =
+            read_dir(&self.0).expect("a directory").map(|entry| entry.expect("a file").path()).collect();
+        files.sort();
+        files
+    }
+}
+
+impl Drop for Directory {
+    fn drop(&mut self) {
+        let _ = remove_dir_all(&self.0);
+    }
+}
+
+fn table(directory: &Directory) -> ParquetTable<'static, Oscillators<f64>, f64, 2, 0, 3> {
+    ParquetTable::open(&directory.0, member).expect("a table")
+}
+
+/// A file of each of these parts.
+fn write_parts(directory: &Directory, outcome: &Outcome<f64, 2>, parts: usize) {
+    let mut table = table(directory);
+    for part in outcome.members().chunks(outcome.members().len().div_ceil(parts)) {
+        part.iter().for_each(|member| table.push(member).expect("a row"));
+        table.flush().expect("a file");
+    }
+    assert_eq!(directory.files().len(), parts);
+}
+
+#[track_caller]
+fn refused<X>(result: Result<X, Error>, why: &str) {
+    match result.map(drop) {
+        Err(Error::Parquet { reason, .. }) => assert!(reason.contains(why), "{reason}"),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn what_is_written_is_read() {
+    let directory = Directory::new("read");
+    let outcome = whole();
+    write_parts(&directory, &outcome, 3);
+    assert_eq!(table(&directory).read().unwrap(), expected(&outcome));
+    assert!(table(&directory).damaged().is_empty());
+    // None of what failed is taken over.
+    let resumed = members().resume_from(table(&directory).read().unwrap()).unwrap();
+    assert_eq!(resumed.integrate_on_lanes(TO, method()).unwrap(), outcome);
+}
+
+#[test]
+fn single_precision_comes_back_to_the_bit() {
+    let directory = Directory::new("single");
+    let member = |index: usize| {
+        let x = 1.0 + index as f32 / 7.0;
+        (Oscillators { m: [1.0, x], k: x.sqrt() }, State::new([0.3 * x, -0.1], [x - 2.0, 1.0 / 3.0]))
+    };
+    let method = Dop853::with_tolerance(1e-5);
+    let outcome = Ensemble::from_fn(9, member).integrate(3.0_f32, method).unwrap();
+    let mut table = ParquetTable::open(&directory.0, member).unwrap();
+    outcome.members().iter().for_each(|member| table.push(member).unwrap());
+    table.flush().unwrap();
+    let expected = MemberTable::read::<Oscillators<f32>, 0>(&outcome.csv().to_string()).unwrap();
+    assert_eq!(table.read().unwrap(), expected);
+}
+
+/// Files are written on the way where rows have waited long enough, and by the drop.
+#[test]
+fn a_run_that_was_stopped_goes_on_from_the_files() {
+    let directory = Directory::new("stopped");
+    let mut first = table(&directory).every(Duration::ZERO);
+    let stopped = members().on_progress(|progress| {
+        first.push(progress.member).unwrap();
+        if progress.done == 15 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    stopped.integrate_on_lanes(TO, method()).unwrap();
+    assert_eq!(directory.files().len(), 15);
+    // The names of files tell rows, not when they were written.
+    first
+        .read()
+        .unwrap()
+        .rows()
+        .iter()
+        .for_each(|row| assert_eq!(row.fingerprint, whole().get(row.index).unwrap().fingerprint));
+    drop(first);
+    let mut rest = table(&directory);
+    let done = rest.read().unwrap();
+    let mut again = 0;
+    let arrived = done.rows().iter().filter(|row| !row.has_failed()).count();
+    let resumed = members().resume_from(done).unwrap().on_progress(|progress| {
+        again += 1;
+        rest.push(progress.member).unwrap();
+        ControlFlow::Continue(())
+    });
+    assert_eq!(resumed.integrate_on_lanes(TO, method()).unwrap(), whole());
+    assert_eq!(again, COUNT - arrived);
+    drop(rest);
+    assert_eq!(directory.files().len(), 16);
+    assert_eq!(table(&directory).read().unwrap(), expected(&whole()));
+}
+
+#[test]
+fn a_file_that_was_cut_off_loses_its_rows_alone() {
+    let directory = Directory::new("cut");
+    let outcome = whole();
+    write_parts(&directory, &outcome, 4);
+    let cut = directory.files()[1].clone();
+    let bytes = read(&cut).unwrap();
+    for length in (0..bytes.len()).step_by(31).chain(bytes.len() - 9..bytes.len()) {
+        write(&cut, &bytes[..length]).unwrap();
+        let mut table = table(&directory);
+        let rest = table.read().unwrap();
+        assert!(rest.rows().iter().map(|row| row.index).eq((0..10).chain(20..40)), "cut at {length}");
+        assert!(
+            matches!(table.damaged(), [Error::Parquet { file, .. }] if *file == cut.display().to_string())
+        );
+    }
+    let resumed = members().resume_from(table(&directory).read().unwrap()).unwrap();
+    assert_eq!(resumed.integrate_on_lanes(TO, method()).unwrap(), outcome);
+}
+
+/// Rows twice, failures that were tried again, a file that was cut off, and one that was not written to its end.
+#[test]
+fn one_call_cleans() {
+    let directory = Directory::new("clean");
+    let outcome = members().integrate_on_lanes(TO, Dop853::default()).unwrap();
+    let limited = whole();
+    assert_eq!(outcome.failures().count(), 1);
+    write_parts(&directory, &limited, 2);
+    let files = directory.files();
+    copy(&files[0], directory.0.join("copied.parquet")).unwrap();
+    write(directory.0.join("cut.parquet"), &read(&files[1]).unwrap()[..999]).unwrap();
+    write(directory.0.join("rows-000000000-1-00000000.unfinished"), "PAR1").unwrap();
+    let mut table = table(&directory);
+    outcome.members().iter().for_each(|member| table.push(member).unwrap());
+    for _ in 0..2 {
+        table.clean().unwrap();
+        assert_eq!(directory.files().len(), 1);
+        assert_eq!(table.read().unwrap(), expected(&outcome));
+        assert!(table.damaged().is_empty());
+    }
+}
+
+#[test]
+fn tables_of_other_runs_are_refused() {
+    let directory = Directory::new("other");
+    let outcome = whole();
+    write_parts(&directory, &outcome, 2);
+    let settings = "the method, one of its settings or the end is another";
+    // By the ensemble.
+    let resumed = || members().resume_from(table(&directory).read().unwrap()).unwrap();
+    let others = [
+        resumed().integrate_on_lanes(TO, Dop853::with_tolerance(1e-8)),
+        resumed().integrate(TO, method()),
+        resumed().integrate_on_lanes(TO, Dopri5::default()),
+    ];
+    for other in others {
+        assert_eq!(other.unwrap_err(), Error::OtherRun { member: 0, differs: settings });
+    }
+    let fewer = Ensemble::from_fn(COUNT - 1, member).resume_from(table(&directory).read().unwrap());
+    assert_eq!(fewer.unwrap_err(), Error::NoSuchMember { member: COUNT - 1, count: COUNT - 1 });
+    // By the directory, before anything is written into it.
+    let coarse = members().integrate_on_lanes(TO, Dop853::with_tolerance(1e-8)).unwrap();
+    let mut other = table(&directory);
+    other.push(&coarse.members()[0]).unwrap();
+    refused(other.flush(), settings);
+    assert_eq!(
+        other.push(&outcome.members()[1]).unwrap_err(),
+        Error::OtherRun { member: 1, differs: settings }
+    );
+    drop(other);
+    assert_eq!(directory.files().len(), 2);
+    // Put into it by hand.
+    let beside = Directory::new("beside");
+    write_parts(&beside, &coarse, 1);
+    copy(&beside.files()[0], directory.0.join("zzz.parquet")).unwrap();
+    refused(table(&directory).read(), settings);
+    refused(table(&directory).clean(), settings);
+    assert_eq!(directory.files().len(), 3);
+}
+
+#[test]
+fn tables_of_other_systems_and_starts_are_refused() {
+    #[derive(Lagrangian, Clone, Copy)]
+    #[coordinates(a, c)]
+    #[lagrangian(m*(a_dot^2 + c_dot^2)/2)]
+    struct Free {
+        m: f64,
+    }
+    let directory = Directory::new("systems");
+    let outcome = whole();
+    write_parts(&directory, &outcome, 1);
+    let free = |_: usize| (Free { m: 1.0 }, State::at_rest([0.0; 2]));
+    let mut other = ParquetTable::open(&directory.0, free).unwrap();
+    refused(other.read(), "its columns are others");
+    let moved = Ensemble::from_fn(1, free).integrate(1.0, Dop853::default()).unwrap();
+    other.push(&moved.members()[0]).unwrap();
+    refused(other.flush(), "its columns are others");
+    // A row whose member is made otherwise than the ensemble made it.
+    let mut shifted = ParquetTable::open(&directory.0, |index| member(index + 1)).unwrap();
+    let differs = "the start or the parameters of the member are others";
+    assert_eq!(shifted.push(&outcome.members()[4]).unwrap_err(), Error::OtherRun { member: 4, differs });
+}
+
+#[test]
+fn a_directory_that_cannot_be_is_an_error() {
+    let directory = Directory::new("none");
+    let file = directory.0.join("file");
+    write(&file, "").unwrap();
+    let opened = ParquetTable::<Oscillators<f64>, _, 2, 0, 3>::open(file.join("below"), member);
+    assert!(matches!(opened, Err(Error::Parquet { .. })));
+}
+
+/// The name of the file is that of its rows, so that it can be known before.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_an_error_and_the_rows_wait() {
+    let outcome = whole();
+    let elsewhere = Directory::new("elsewhere");
+    write_parts(&elsewhere, &outcome, 1);
+    let name = elsewhere.files()[0].with_extension("unfinished");
+    let directory = Directory::new("full");
+    let full = directory.0.join(name.file_name().unwrap());
+    std::os::unix::fs::symlink("/dev/full", &full).unwrap();
+    let mut table = table(&directory);
+    outcome.members().iter().for_each(|member| table.push(member).unwrap());
+    refused(table.flush(), "No space left");
+    assert!(directory.files().is_empty(), "what was left of the file is removed");
+    table.flush().unwrap();
+    assert_eq!(table.read().unwrap(), expected(&outcome));
+}
