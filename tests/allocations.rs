@@ -120,3 +120,42 @@ fn events_allocate_nothing() {
         count
     });
 }
+
+#[derive(Lagrangian, Clone, Copy)]
+#[coordinates(x)]
+#[lagrangian(x_dot^2/2 - k/2 * x^2)]
+struct Spring<T> {
+    k: T,
+}
+
+/// A member of an ensemble takes one allocation for its samples, one for the values of quantities and one for its events,
+/// however long it moves; on lanes and alone.
+#[test]
+fn a_member_allocates_its_record_and_nothing_on_its_way() {
+    let springs = |count| Ensemble::from_fn(count, |k| (Spring { k: k as f64 }, State::at_rest([1.0])));
+    let times = || (0..100).map(|k| 0.01 * f64::from(k));
+    let method = Dop853::default().max_step(0.02);
+    let count = |count: usize, end: f64, on_lanes: bool, is_watched: bool| {
+        let never = Spring { k: 1.0 }.event("never", |sample| 2.0 - sample.state().q[0]);
+        let run = || match (on_lanes, is_watched) {
+            (true, true) => {
+                let springs = springs(count).samples_at(times()).quantity("v", |sample| sample.state().v[0]);
+                springs.event(never).integrate_on_lanes(end, method)
+            }
+            (true, false) => springs(count).integrate_on_lanes(end, method),
+            (false, true) => {
+                let springs = springs(count).samples_at(times()).quantity("v", |sample| sample.state().v[0]);
+                springs.event(never).integrate(end, method)
+            }
+            (false, false) => springs(count).integrate(end, method),
+        };
+        // Counted is the thread that the members are on.
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+        pool.install(|| measure(|| drop(run()))).count_total
+    };
+    for on_lanes in [true, false] {
+        let more = |members, end| count(members, end, on_lanes, true) - count(members, end, on_lanes, false);
+        assert_eq!(more(48, 1.0) - more(16, 1.0), 3 * 32);
+        assert_eq!(more(16, 10.0), more(16, 1.0));
+    }
+}

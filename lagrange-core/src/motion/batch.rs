@@ -135,9 +135,10 @@ where
             let Some(seat) = &mut self.seats[lane] else { continue };
             if let Some(within) = &within
                 && const { IS_WATCHED }
+                && within.lanes[lane]
                 && fate != Fate::Rejected
             {
-                (state, stopped) = within.keep(lane, plan[lane].0, seat, state);
+                stopped = within.keep(lane, plan[lane].0, seat, &mut state);
             }
             let mut is_cancelled = || fate != Fate::Rejected && accept(seat.index, &state).is_break();
             let mut ending = match stopped {
@@ -266,9 +267,9 @@ where
         if !lanes.contains(&true) {
             return None;
         }
-        let now = |lane: usize| seats[lane].as_ref().map_or(0.0, |seat| seat.memory.clock.now);
-        let (before, zero) = (from_fn(|lane| self.state(lane, now(lane))), [[Lanes::constant(0.0); N]; 2]);
-        let mut within = Within::<P, N> { lanes, before, coefficients: P::coefficients(zero) };
+        let times = from_fn(|lane| seats[lane].as_ref().map_or(0.0, |seat| seat.memory.clock.now));
+        let zero = [[Lanes::constant(0.0); N]; 2];
+        let mut within = Within::<P, N> { lanes, times, y: self.y, coefficients: P::coefficients(zero) };
         let is_asked_for: [bool; Lanes::COUNT] =
             from_fn(|lane| lanes[lane] && attempt.sound[lane] && self.method.accepts(attempt.error[lane]));
         if is_asked_for.contains(&true) {
@@ -340,8 +341,9 @@ where
 /// What lies within a step, of the lanes that are looked into.
 struct Within<P: Pair, const N: usize> {
     lanes: [bool; Lanes::COUNT],
-    /// Where the step starts.
-    before: [State<f64, N>; Lanes::COUNT],
+    /// Where the steps start.
+    times: [f64; Lanes::COUNT],
+    y: Phase<Lanes, N>,
     coefficients: P::Coefficients<Phase<Lanes, N>>,
 }
 
@@ -360,21 +362,19 @@ impl<P: Pair, const N: usize> Within<P, N> {
         Ok(())
     }
 
-    /// Keeps what is due in a step of this length to `after`, as far as the motion goes.
+    /// Keeps what is due in a step of this length to `end`; where the motion stops before, that is then the end, and why.
     fn keep<L: Lagrangian<N, M, Scalar = f64>, const M: usize>(
         &self,
         lane: usize,
         length: f64,
         seat: &mut Seat<'_, L, N, M>,
-        after: State<f64, N>,
-    ) -> (State<f64, N>, Option<Ending>) {
-        if !self.lanes[lane] {
-            return (after, None);
-        }
+        end: &mut State<f64, N>,
+    ) -> Option<Ending> {
         let Seat { record, system, .. } = seat;
-        let (before, after, coefficients) = (&self.before[lane], &after, &self.coefficients);
-        let interpolant = &LaneOf { lane, start: before.t, length, coefficients };
-        record.keep(&Stride { system, before, after, interpolant, flow: PhantomData::<LagrangianFlow> })
+        let (t, [q, v], coefficients) = (self.times[lane], unpacked(&self.y, lane), &self.coefficients);
+        let interpolant = &LaneOf { lane, start: t, length, coefficients };
+        let (before, after) = (&State { t, q: vector(q), v: vector(v) }, &{ *end });
+        record.keep(&Stride { system, before, after, interpolant, flow: PhantomData::<LagrangianFlow> }, end)
     }
 }
 

@@ -194,21 +194,23 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
         !self.events.is_empty() || self.next_time().is_some_and(|t| is_between(from, t, to))
     }
 
-    /// Keeps what is due in this step, as far as the motion goes: to there, and why not farther.
+    /// Keeps what is due in this step to `end`; where the motion stops before, that is then the end, and why.
     pub(crate) fn keep<F, I>(
         &mut self,
         stride: &Stride<'_, L, F, I, N, M>,
-    ) -> (State<L::Scalar, N>, Option<Ending>)
+        end: &mut State<L::Scalar, N>,
+    ) -> Option<Ending>
     where
         F: Flow<L, N, M>,
         I: Interpolant<L::Scalar, N>,
     {
-        let mut search = Search { events: &mut self.events, grid: self.grid };
-        let (end, stopped) = match search.record(stride, &mut self.crossings) {
-            None => (*stride.after, None),
-            Some((end, ending)) => (end, Some(ending)),
-        };
-        let mut at = *stride.before;
+        let (mut at, mut stopped) = (*stride.before, None);
+        if !self.events.is_empty() {
+            let mut search = Search { events: &mut self.events, grid: self.grid };
+            if let Some((state, ending)) = search.record(stride, &mut self.crossings) {
+                (*end, stopped) = (state, Some(ending));
+            }
+        }
         while let Some(t) = self.next_time()
             && is_between(stride.before.t, t, end.t)
         {
@@ -217,10 +219,11 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
                 self.push(stride.system, state)
             });
             if let Err(error) = kept {
-                return (at, Some(Ending::of(error, at.t.to_f64())));
+                *end = at;
+                return Some(Ending::of(error, at.t.to_f64()));
             }
         }
-        (end, stopped)
+        stopped
     }
 
     /// Whether the controller is to be called before the motion goes on.
@@ -272,10 +275,9 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
             interpolant.transpose().map_err(|error| Ending::of(error, before.t.to_f64()))
         })?;
         let Some(interpolant) = &within else { return Ok(()) };
-        let (before, after) = (&run.before, &run.state);
+        let (before, after) = (&run.before, &{ run.state });
         let flow = PhantomData::<LagrangianFlow>;
-        let (state, stopped) = self.keep(&Stride { system, before, after, interpolant, flow });
-        run.state = state;
-        stopped.map_or(Ok(()), Err)
+        let stride = Stride { system, before, after, interpolant, flow };
+        self.keep(&stride, &mut run.state).map_or(Ok(()), Err)
     }
 }

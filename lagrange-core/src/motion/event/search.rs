@@ -34,6 +34,7 @@ where
     I: Interpolant<L::Scalar, N>,
 {
     /// The state at a time within, on the constraints.
+    #[inline]
     pub(crate) fn at(&self, t: L::Scalar) -> Result<State<L::Scalar, N>, Error> {
         match t == self.after.t {
             true => Ok(*self.after),
