@@ -209,7 +209,9 @@ impl Solver<'_> {
     /// The variables from D⁻¹L⁻¹b and γ.
     fn solve(&mut self, factorization: &Factorization, starts: Vec<Entry>, bias: Vec<Entry>) -> Found {
         let Factorization { form, rows, schur, trust: Trust { doubt, .. }, .. } = factorization;
-        let multipliers = self.multipliers(schur, &starts, rows, bias, *doubt);
+        let multipliers = self.multipliers(schur, &starts, rows, bias);
+        // At the end, one by one: the doubt is known long after the first of them, and each waits for the one before.
+        let multipliers: Vec<Entry> = multipliers.into_iter().map(|one| self.add(one, *doubt)).collect();
         let pushes = self.pushes(&multipliers, rows, starts.len());
         let accelerations = self.backward(form, starts, &pushes, *doubt);
         Found { accelerations, multipliers }

@@ -25,7 +25,6 @@ impl Solver<'_> {
         starts: &[Entry],
         rows: &[Sparse],
         bias: Vec<Entry>,
-        doubt: Entry,
     ) -> Vec<Entry> {
         let target = rows.iter().zip(bias).map(|(row, bias)| {
             let reached = self.dot(row, starts);
@@ -35,7 +34,7 @@ impl Solver<'_> {
         let target = target.collect();
         let half = self.forward(schur, target);
         let starts = self.scaled(schur, half);
-        self.backward(schur, starts, &vec![None; rows.len()], doubt)
+        self.backward(schur, starts, &vec![None; rows.len()], None)
     }
 
     /// S = Z D⁻¹ Zᵀ
