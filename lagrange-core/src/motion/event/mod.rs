@@ -9,7 +9,9 @@ use core::fmt::{self, Debug, Formatter};
 use core::marker::PhantomData;
 
 use memory::Memory;
-pub(crate) use search::{Grid, Search, Stride};
+#[cfg(feature = "std")]
+pub(crate) use search::Grid;
+pub(crate) use search::{Search, Stride};
 
 use crate::error::Error;
 use crate::number::{Dual, Real};
