@@ -28,6 +28,10 @@ fn names_are_checked() {
     let state = State::at_rest(HANGING);
     let message = message(PENDULUM.linearize(&state, &["pusch"]));
     assert_eq!(message, "there is no parameter `pusch`: did you mean `push`?");
+    assert_eq!(
+        self::message(PENDULUM.linearize(&state, &["colour"])),
+        "there is no parameter `colour`: there are `m`, `g`, `l`, `push`; a field is a parameter if an expression of the system names it"
+    );
     let error = PENDULUM.linearize(&state, &["push", "push"]).unwrap_err();
     assert_eq!(error, Error::RepeatedName { name: "push".into() });
     let Err(Error::UnknownName { kind, known, .. }) = PENDULUM.equilibrium(&state, &["z"]) else {

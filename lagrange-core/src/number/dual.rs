@@ -14,6 +14,7 @@ use super::scalar::Scalar;
 /// use lagrange_core::{Dual, Scalar};
 /// let x = Dual { value: 2.0_f64, slope: 1.0 };
 /// assert_eq!(x * x * x, Dual { value: 8.0, slope: 12.0 });
+/// assert_eq!((x - 1.0) / 2.0, Dual { value: 0.5, slope: 0.5 });
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual<S> {
@@ -80,6 +81,43 @@ impl<S: Scalar> Neg for Dual<S> {
     #[inline(always)]
     fn neg(self) -> Self {
         Self { value: -self.value, slope: -self.slope }
+    }
+}
+
+/// Numbers beside it are constants.
+impl<S: Scalar> Add<S> for Dual<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, x: S) -> Self {
+        Self { value: self.value + x, ..self }
+    }
+}
+
+impl<S: Scalar> Sub<S> for Dual<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, x: S) -> Self {
+        Self { value: self.value - x, ..self }
+    }
+}
+
+impl<S: Scalar> Mul<S> for Dual<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, x: S) -> Self {
+        Self { value: self.value * x, slope: self.slope * x }
+    }
+}
+
+impl<S: Scalar> Div<S> for Dual<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn div(self, x: S) -> Self {
+        Self { value: self.value / x, slope: self.slope / x }
     }
 }
 

@@ -68,7 +68,15 @@ pub(crate) fn unknown<L: Lagrangian<N, M>, const N: usize, const M: usize>(
     let hint = if let Some(element) = known.iter().find(|known| is_part(known, name)) {
         Some(format!("it is a vector: name an element, such as `{element}`"))
     } else {
-        meaning::<L, N, M>(name).or_else(|| Some(format!("did you mean `{}`?", nearest(name, &known)?)))
+        let near = || Some(format!("did you mean `{}`?", nearest(name, &known)?));
+        // A name that is far from all is most likely that of a field that is in no expression.
+        let idle = || {
+            let names = known.join("`, `");
+            kind.ends_with("parameter").then(|| {
+                format!("there are `{names}`; a field is a parameter if an expression of the system names it")
+            })
+        };
+        meaning::<L, N, M>(name).or_else(near).or_else(idle)
     };
     Error::UnknownName { name: name.into(), kind, hint, known }
 }
