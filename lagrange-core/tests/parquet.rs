@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use lagrange_core::ensemble::ParquetTable;
-use lagrange_core::{MemberTable, Outcome, prelude::*};
+use lagrange_core::{Ending, Member, MemberTable, Outcome, prelude::*};
 
 #[derive(Lagrangian, Clone, Copy)]
 #[coordinates(a, b)]
@@ -26,13 +26,16 @@ fn member(index: usize) -> (Oscillators<f64>, State<f64, 2>) {
     (Oscillators { m: [1.0, x], k }, State::new([0.3 * x, -0.1], [x - 2.0, 1.0 / 3.0]))
 }
 
-type Members = Ensemble<'static, Oscillators<f64>, f64, 2>;
+type Members = Ensemble<'static, Oscillators<f64>, f64, 2, 0, true>;
 
-/// Some meet the limit on steps, and some are ended early.
+/// Some meet the limit on steps, and some are ended early: by the observer, by an event.
 fn members() -> Members {
-    Ensemble::from_fn(COUNT, member).observe(|index, state| match index % 5 == 1 && state.t > 1.0 {
-        true => ControlFlow::Break(()),
-        false => ControlFlow::Continue(()),
+    let back = member(0).0.event("back", |sample| sample.state().v[0] + 5.0).terminal();
+    Ensemble::from_fn(COUNT, member).event(back).observe(|index, state| {
+        match index % 5 == 1 && state.t > 1.0 {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
     })
 }
 
@@ -43,7 +46,13 @@ fn method() -> Dop853 {
 fn whole() -> Outcome<f64, 2> {
     let outcome = members().integrate_on_lanes(TO, method()).expect("an outcome");
     let failures = outcome.failures().count();
-    assert!(failures > 2 && outcome.completed().count() > 10, "{failures} failures");
+    let by_event =
+        |m: &&Member<f64, 2>| m.arrival().is_some_and(|a| matches!(a.ending, Ending::Event { .. }));
+    let ended = outcome.members().iter().filter(by_event).count();
+    assert!(
+        failures > 2 && ended > 2 && outcome.completed().count() > 10,
+        "{failures} failures, {ended} events"
+    );
     outcome
 }
 
@@ -107,7 +116,7 @@ fn what_is_written_is_read() {
     assert!(table(&directory).damaged().is_empty());
     // None of what failed is taken over.
     let resumed = members().resume_from(table(&directory).read().unwrap()).unwrap();
-    assert_eq!(resumed.integrate_on_lanes(TO, method()).unwrap(), outcome);
+    assert_eq!(expected(&resumed.integrate_on_lanes(TO, method()).unwrap()), expected(&outcome));
 }
 
 #[test]
@@ -154,7 +163,7 @@ fn a_run_that_was_stopped_goes_on_from_the_files() {
         rest.push(progress.member).unwrap();
         ControlFlow::Continue(())
     });
-    assert_eq!(resumed.integrate_on_lanes(TO, method()).unwrap(), whole());
+    assert_eq!(expected(&resumed.integrate_on_lanes(TO, method()).unwrap()), expected(&whole()));
     assert_eq!(again, COUNT - arrived);
     drop(rest);
     assert_eq!(directory.files().len(), 16);
@@ -178,7 +187,7 @@ fn a_file_that_was_cut_off_loses_its_rows_alone() {
         );
     }
     let resumed = members().resume_from(table(&directory).read().unwrap()).unwrap();
-    assert_eq!(resumed.integrate_on_lanes(TO, method()).unwrap(), outcome);
+    assert_eq!(expected(&resumed.integrate_on_lanes(TO, method()).unwrap()), expected(&outcome));
 }
 
 /// Rows twice, failures that were tried again, a file that was cut off, and one that was not written to its end.

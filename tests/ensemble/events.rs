@@ -1,11 +1,13 @@
 //! Events of members, lane by lane.
 
 use std::f64::consts::PI;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use lagrange_core::motion::{Adaptive, Pair, Watched};
-use lagrange_core::{Arrival, Crossing, Ending, Outcome, Sample, prelude::*};
+use lagrange_core::{Arrival, Crossing, Ending, MemberEnding, MemberTable, Outcome, Sample, prelude::*};
 
-use crate::{COUNT, END, ensemble, member, on_threads};
+use crate::{COUNT, DoublePendulum, END, ensemble, member, on_threads};
 
 fn arrival<const N: usize>(outcome: &Outcome<f64, N>, index: usize) -> &Arrival<f64, N> {
     outcome.get(index).and_then(|member| member.arrival()).expect("a motion")
@@ -271,6 +273,31 @@ fn members_begin_anew_and_wrong_functions_are_told() {
         Ensemble::from_fn(3, spring).event(typo).integrate(1.0, Dop853::default()).unwrap().members()
     {
         assert!(matches!(member.result, Err(Error::UnknownName { .. })), "{member}");
+    }
+}
+
+/// A member that an event ended has arrived: a table says so, and it is not done again.
+#[test]
+fn members_ended_by_an_event_are_taken_over_from_a_table() {
+    let name = "\"up\", again";
+    let upper = || member(0).0.event(name, |s| s.coordinate("a")).terminal_at(2);
+    let run = || ensemble().event(upper());
+    let whole = run().integrate_on_lanes(2.0, Dop853::default()).unwrap();
+    let ended = MemberEnding::Event(name.into());
+    let table = MemberTable::read::<DoublePendulum<f64>, 0>(&whole.csv().to_string()).unwrap();
+    assert_eq!(table.to_string(), whole.csv().to_string());
+    assert!(table.rows().iter().filter(|row| row.ending == ended).count() >= 5);
+    assert!(table.rows().iter().all(|row| !row.has_failed()));
+    let begun = AtomicUsize::new(0);
+    let counted = run().resume_from(table).unwrap().observe(|_, _| {
+        begun.fetch_add(1, Ordering::Relaxed);
+        ControlFlow::Continue(())
+    });
+    let taken = counted.integrate_on_lanes(2.0, Dop853::default()).unwrap();
+    assert_eq!(begun.into_inner(), 0);
+    for (taken, member) in taken.members().iter().zip(whole.members()) {
+        let (taken, arrival) = (taken.arrival().unwrap(), member.arrival().unwrap());
+        assert_eq!((&taken.state, &taken.ending), (&arrival.state, &arrival.ending));
     }
 }
 

@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::fingerprint::Fingerprint;
 use super::outcome::{Arrival, Member, Outcome};
+use super::table::MemberRow;
 use crate::ending::Ending;
 use crate::error::Error;
 use crate::motion::run::{Run, Watchdog};
@@ -25,7 +26,7 @@ pub(super) struct Plan<'a, L: Lagrangian<N, M, Scalar = T>, T, const N: usize, c
     /// Of these alone, if it is given.
     pub(super) list: Option<Vec<usize>>,
     /// Taken over from other runs.
-    pub(super) done: Vec<Member<T, N>>,
+    pub(super) done: Vec<MemberRow<T, N>>,
     pub(super) observer: Option<Observer<'a, T, N>>,
     pub(super) watch: Option<Watch<'a, T, N>>,
     pub(super) orders: Orders<'a, L, N, M>,
@@ -81,10 +82,9 @@ impl Part {
             return Err(Error::NoSuchMember { member, count });
         }
         let list = list.map(|mut list| {
-            list.retain(|index| index % shards == shard);
             list.sort_unstable();
             list.dedup();
-            list
+            list.into_iter().skip(shard).step_by(shards).collect()
         });
         Ok(Self { count, shard, shards, list })
     }
@@ -107,8 +107,10 @@ impl Part {
     }
 
     fn contains(&self, index: usize) -> bool {
-        index % self.shards == self.shard
-            && self.list.as_ref().is_none_or(|list| list.binary_search(&index).is_ok())
+        match &self.list {
+            Some(list) => list.binary_search(&index).is_ok(),
+            None => index % self.shards == self.shard,
+        }
     }
 }
 
@@ -127,8 +129,9 @@ where
         let Plan { count, make, shard, shards, list, done, observer, watch, orders } = plan;
         orders.check()?;
         let part = Part::new(count, shard, shards, list)?;
-        let mut members = done;
-        members.retain(|member| part.contains(member.index));
+        let events = orders.events();
+        let mine = done.into_iter().filter(|row| part.contains(row.index));
+        let mut members: Vec<_> = mine.map(|row| row.into_member(&events)).collect();
         members.iter().try_for_each(|member| {
             let (system, start) = make(member.index);
             check_run_of(member, &run.with_start(&system, &start))

@@ -100,8 +100,8 @@ impl<'a, L, T: Real, const N: usize, const M: usize, const IS_WATCHED: bool>
 where
     L: Lagrangian<N, M, Scalar = T>,
 {
-    /// Only the members whose index leaves the remainder `shard` when divided by `of`: one of `of` parts of about
-    /// the same size, to be run anywhere and put together by [`Outcome::merge`] or by [`resume`](Self::resume).
+    /// Only one of `of` parts: every `of`-th member, from the one in place `shard` on (counted from 0). The parts differ by one
+    /// member at most; they may be run anywhere, and are put together by [`Outcome::merge`] or by [`resume`](Self::resume).
     pub fn shard(mut self, shard: usize, of: usize) -> Self {
         (self.plan.shard, self.plan.shards) = (shard, of);
         self
@@ -212,7 +212,7 @@ where
         match table.rows().last() {
             Some(row) if row.index >= count => Err(Error::NoSuchMember { member: row.index, count }),
             _ => {
-                self.plan.done.extend(table.into_members());
+                self.plan.done.extend(table.into_rows().filter(|row| !row.has_failed()));
                 Ok(self)
             }
         }

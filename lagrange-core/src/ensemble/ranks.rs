@@ -20,9 +20,8 @@ use super::Ensemble;
 use super::fingerprint::Fingerprint;
 use super::job::Job;
 use super::outcome::{Arrival, Member, Outcome};
-use super::table::{MemberRow, MemberTable};
+use super::table::MemberTable;
 
-use crate::ending::Ending;
 use crate::error::Error;
 use crate::motion::run::check_end;
 use crate::motion::{Adaptive, Crossing, Method, Pair};
@@ -213,8 +212,7 @@ fn size(world: &SimpleCommunicator) -> usize {
 /// What has become of the members of a batch.
 struct Parcel {
     rows: String,
-    /// What is kept of each member that has a motion: whether an event ended it; how many samples, values and crossings, and
-    /// these.
+    /// What is kept of each member that has a motion: how many samples, values and crossings, and these.
     kept: Vec<f64>,
 }
 
@@ -225,9 +223,8 @@ impl Parcel {
     fn of<T: Real, const N: usize>(outcome: &Outcome<T, N>) -> Self {
         let mut kept = Vec::new();
         for arrival in outcome.members().iter().filter_map(Member::arrival) {
-            let Arrival { ending, samples, values, crossings, .. } = arrival;
-            let is_event = usize::from(matches!(ending, Ending::Event { .. }));
-            let counts = [is_event, samples.len(), values.len(), crossings.len()];
+            let Arrival { samples, values, crossings, .. } = arrival;
+            let counts = [samples.len(), values.len(), crossings.len()];
             kept.extend(counts.map(|count| count as f64));
             samples.iter().for_each(|state| kept.extend(numbers(state)));
             kept.extend(values.iter().map(|x| x.to_f64()));
@@ -260,7 +257,8 @@ impl Parcel {
     ) -> Result<impl Iterator<Item = Member<T, N>>, Error> {
         let rows = MemberTable::of(&self.rows, names, usize::MAX)?.into_rows();
         let mut kept = self.kept.into_iter();
-        Ok(rows.map(MemberRow::into_member).map(move |mut member| {
+        Ok(rows.map(move |row| {
+            let mut member = row.into_member(&events);
             if let Ok(arrival) = &mut member.result {
                 restore(arrival, &events, &mut kept);
             }
@@ -279,14 +277,11 @@ fn restore<T: Real, const N: usize>(
     kept: &mut impl Iterator<Item = f64>,
 ) {
     let mut count = || kept.next().unwrap_or(0.0) as usize;
-    let [is_event, samples, values, crossings] = [count(), count(), count(), count()];
+    let [samples, values, crossings] = [count(), count(), count()];
     let mut numbers = kept.map(T::constant);
     arrival.samples = (0..samples).map_while(|_| state(&mut numbers)).collect();
     arrival.values = numbers.by_ref().take(values).collect();
     arrival.crossings = (0..crossings).map_while(|_| crossing(events, &mut numbers)).collect();
-    if let Some(Crossing { event, state, .. }) = arrival.crossings.last().filter(|_| is_event == 1) {
-        arrival.ending = Ending::Event { time: state.t.to_f64(), event };
-    }
 }
 
 fn crossing<T: Real, const N: usize>(

@@ -30,6 +30,9 @@ impl<T: Real, const N: usize> Member<T, N> {
                 Err(error) => MemberEnding::Failed(error.to_string()),
                 Ok(Arrival { ending: Ending::Complete { .. }, .. }) => MemberEnding::Complete,
                 Ok(Arrival { ending: Ending::Cancelled { .. }, .. }) => MemberEnding::Cancelled,
+                Ok(Arrival { ending: Ending::Event { event, .. }, .. }) => {
+                    MemberEnding::Event((*event).into())
+                }
                 Ok(Arrival { ending, .. }) => MemberEnding::Failed(ending.to_string()),
             },
         }
@@ -46,7 +49,7 @@ impl<T: Real, const N: usize> Outcome<T, N> {
     /// `t`, coordinates `x` and velocities `x_dot` of the last state, the [`Statistics`], `ending`, and `member_again`, by
     /// which a line written to its end is known. The fingerprint takes at most 33 bytes of a line.
     ///
-    /// The ending is `complete`, `cancelled` or what went wrong. Numbers are the shortest that read back the same.
+    /// The ending is `complete`, `cancelled`, `event: ` and its name, or what went wrong. Numbers are the shortest that read back the same.
     /// [`MemberTable`] reads it.
     pub fn csv(&self) -> impl Display + '_ {
         Lines { names: &self.names, members: &self.members, line: Member::csv }
@@ -57,7 +60,7 @@ impl<T: Real, const N: usize> Outcome<T, N> {
 ///
 /// It takes what [`Outcome::csv`] and [`Member::csv`] wrote: one table, several in a row, rows alone. Lines that were not
 /// written to their ends are left out, also where another row was appended to one. Of several rows of one member the first
-/// that arrived counts (its ending is `complete` or `cancelled`), and the last where none did. Its `Display` is the table
+/// that arrived counts (nothing went wrong with it), and the last where none did. Its `Display` is the table
 /// with those rows, by member.
 ///
 /// ```
@@ -106,6 +109,11 @@ pub enum MemberEnding {
     Complete,
     /// The observer ended it.
     Cancelled,
+    /// It met an event at which it was to end.
+    Event(
+        /// Its name.
+        String,
+    ),
     /// Something kept it from the end.
     Failed(
         /// What it was, in words.
@@ -115,11 +123,12 @@ pub enum MemberEnding {
 
 impl Display for MemberEnding {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Complete => COMPLETE,
-            Self::Cancelled => CANCELLED,
-            Self::Failed(why) => why,
-        })
+        match self {
+            Self::Complete => f.write_str(COMPLETE),
+            Self::Cancelled => f.write_str(CANCELLED),
+            Self::Event(name) => write!(f, "{EVENT}{name}"),
+            Self::Failed(why) => f.write_str(why),
+        }
     }
 }
 
@@ -129,7 +138,10 @@ impl From<&str> for MemberEnding {
         match text {
             COMPLETE => Self::Complete,
             CANCELLED => Self::Cancelled,
-            why => Self::Failed(why.into()),
+            text => match text.strip_prefix(EVENT) {
+                Some(name) => Self::Event(name.into()),
+                None => Self::Failed(text.into()),
+            },
         }
     }
 }
@@ -191,14 +203,8 @@ impl<T: Real, const N: usize> MemberTable<T, N> {
         self.rows.get(self.rows.binary_search_by_key(&index, |row| row.index).ok()?)
     }
 
-    #[cfg(feature = "mpi")]
     pub(super) fn into_rows(self) -> impl Iterator<Item = MemberRow<T, N>> {
         self.rows.into_iter()
-    }
-
-    /// The members that need not be done again.
-    pub(super) fn into_members(self) -> impl Iterator<Item = Member<T, N>> {
-        self.rows.into_iter().filter(|row| !row.has_failed()).map(MemberRow::into_member)
     }
 }
 
@@ -209,13 +215,13 @@ impl<T: Real, const N: usize> Display for MemberTable<T, N> {
 }
 
 impl<T: Real, const N: usize> MemberRow<T, N> {
-    /// Whether something other than the observer kept it from the end.
+    /// Whether something other than the observer or an event kept it from the end.
     pub fn has_failed(&self) -> bool {
         matches!(self.ending, MemberEnding::Failed(_))
     }
 
-    /// The member that it is the row of. What went wrong is known in words only.
-    pub(super) fn into_member(self) -> Member<T, N> {
+    /// The member that it is the row of, in an ensemble with these events. What went wrong is known in words only.
+    pub(super) fn into_member(self, events: &[&'static str]) -> Member<T, N> {
         let Self { index, fingerprint, state, statistics, ending } = self;
         let result = match (state, ending) {
             (None, ending) => Err(Error::Elsewhere { said: ending.to_string() }),
@@ -224,6 +230,10 @@ impl<T: Real, const N: usize> MemberRow<T, N> {
                 let ending = match ending {
                     MemberEnding::Complete => Ending::Complete { time },
                     MemberEnding::Cancelled => Ending::Cancelled { time },
+                    MemberEnding::Event(name) => match events.iter().find(|event| **event == name) {
+                        Some(event) => Ending::Event { time, event },
+                        None => Ending::Elsewhere { time, said: name },
+                    },
                     MemberEnding::Failed(said) => Ending::Elsewhere { time, said },
                 };
                 Ok(Arrival {
@@ -247,6 +257,7 @@ impl<T: Real, const N: usize> MemberRow<T, N> {
 
 const COMPLETE: &str = "complete";
 const CANCELLED: &str = "cancelled";
+const EVENT: &str = "event: ";
 
 /// The whole table.
 struct Lines<'o, X, F, const N: usize> {
@@ -291,8 +302,8 @@ impl<T: Real, const N: usize> Display for Line<'_, T, N> {
             }
         }
         match ending {
-            MemberEnding::Failed(why) => writeln!(f, ",{},{index}", quoted(why)),
-            ending => writeln!(f, ",{ending},{index}"),
+            MemberEnding::Complete | MemberEnding::Cancelled => writeln!(f, ",{ending},{index}"),
+            ending => writeln!(f, ",{},{index}", quoted(&ending.to_string())),
         }
     }
 }

@@ -79,7 +79,6 @@ impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Orde
     }
 
     /// The names of the events.
-    #[cfg(feature = "mpi")]
     pub(crate) fn events(&self) -> Vec<&'static str> {
         self.events.iter().map(Event::name).collect()
     }

@@ -61,9 +61,8 @@ fn row<T: Real + FromStr, const N: usize>(
     let fingerprint =
         Fingerprint { system: cell(&cells, 0)?, run: cell(&cells, 1)?, start: cell(&cells, 2)? };
     let ending = match cells[2 * N + 8] {
-        COMPLETE => MemberEnding::Complete,
-        CANCELLED => MemberEnding::Cancelled,
-        text => MemberEnding::Failed(unquoted(text).ok_or((2 * N + 10, UNREADABLE))?),
+        text @ (COMPLETE | CANCELLED) => text.into(),
+        text => unquoted(text).ok_or((2 * N + 10, UNREADABLE))?.as_str().into(),
     };
     let has_motion = !matches!(ending, MemberEnding::Failed(_)) || !cells[3].is_empty();
     let (state, statistics) = match has_motion {
