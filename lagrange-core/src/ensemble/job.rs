@@ -185,9 +185,10 @@ where
         self.part.len().saturating_sub(self.given.load(Ordering::Relaxed))
     }
 
+    /// What the fingerprints of all members have in common.
     #[cfg(feature = "mpi")]
-    pub(super) fn stop(&self) {
-        self.stopped.store(true, Ordering::Relaxed);
+    pub(super) fn run(&self) -> Fingerprint {
+        self.run
     }
 
     /// The names of the events.

@@ -4,8 +4,9 @@
 //! way to one who computes, so that no send waits for a receive that does not come. All calls of MPI are made by the thread
 //! that asked for the integration; on rank 0 another thread integrates meanwhile.
 
+mod parcel;
+
 use core::fmt::{self, Debug, Formatter};
-use core::str::FromStr;
 use core::time::Duration;
 use std::panic::resume_unwind;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -14,19 +15,18 @@ use std::time::Instant;
 
 use mpi::Threading;
 use mpi::topology::SimpleCommunicator;
-use mpi::traits::{Communicator, CommunicatorCollectives, Destination, MatchedReceiveVec, Source};
+use mpi::traits::{Communicator, CommunicatorCollectives, Destination, Source};
 
 use super::Ensemble;
 use super::fingerprint::Fingerprint;
 use super::job::Job;
-use super::outcome::{Arrival, Member, Outcome};
-use super::table::MemberTable;
-
+use super::outcome::Outcome;
 use crate::error::Error;
 use crate::motion::run::check_end;
-use crate::motion::{Adaptive, Crossing, Method, Pair};
-use crate::number::{Lanes, Real, vector};
-use crate::system::{Lagrangian, Pack, State};
+use crate::motion::{Adaptive, Method, Pair};
+use crate::number::{Lanes, Real};
+use crate::system::{Lagrangian, Pack};
+use parcel::Parcel;
 
 /// An ensemble on all ranks of a communicator of MPI, from [`Ensemble::on_ranks`].
 #[must_use = "an ensemble does nothing until it is integrated"]
@@ -58,17 +58,13 @@ where
     /// one is told in words, as a table does.
     ///
     /// With the feature `rayon` each rank integrates on all threads of rayon's global pool.
-    pub fn on_ranks(self, communicator: &impl Communicator) -> OnRanks<'a, L, T, N, M, IS_WATCHED>
-    where
-        T: FromStr,
-    {
+    pub fn on_ranks(self, communicator: &impl Communicator) -> OnRanks<'a, L, T, N, M, IS_WATCHED> {
         // Its messages do not meet those of the program.
         OnRanks { ensemble: self, world: communicator.duplicate(), batch: Duration::from_secs(1) }
     }
 }
 
-impl<L, T: Real + FromStr, const N: usize, const M: usize, const IS_WATCHED: bool>
-    OnRanks<'_, L, T, N, M, IS_WATCHED>
+impl<L, T: Real, const N: usize, const M: usize, const IS_WATCHED: bool> OnRanks<'_, L, T, N, M, IS_WATCHED>
 where
     L: Lagrangian<N, M, Scalar = T>,
 {
@@ -113,13 +109,13 @@ where
         let integrate = |list: Vec<usize>| {
             let batch = job.batch(list);
             super::everywhere(|| work(&batch));
-            Parcel::of(&batch.outcome())
+            Parcel::of(batch.outcome().members())
         };
         if !is_first {
             follow(&self.world, integrate);
             return Ok(None);
         }
-        lead(&self.world, &job, self.batch, integrate)?;
+        lead(&self.world, &job, self.batch, integrate);
         Ok(Some(job.outcome()))
     }
 }
@@ -209,99 +205,6 @@ fn size(world: &SimpleCommunicator) -> usize {
     world.size().unsigned_abs() as usize
 }
 
-/// What has become of the members of a batch.
-struct Parcel {
-    rows: String,
-    /// What is kept of each member that has a motion: how many samples, values and crossings, and these.
-    kept: Vec<f64>,
-}
-
-const ROWS: i32 = 0;
-const KEPT: i32 = 1;
-
-impl Parcel {
-    fn of<T: Real, const N: usize>(outcome: &Outcome<T, N>) -> Self {
-        let mut kept = Vec::new();
-        for arrival in outcome.members().iter().filter_map(Member::arrival) {
-            let Arrival { samples, values, crossings, .. } = arrival;
-            let counts = [samples.len(), values.len(), crossings.len()];
-            kept.extend(counts.map(|count| count as f64));
-            samples.iter().for_each(|state| kept.extend(numbers(state)));
-            kept.extend(values.iter().map(|x| x.to_f64()));
-            for Crossing { index, count, rising, state, .. } in crossings {
-                kept.extend([*index, *count, usize::from(*rising)].map(|count| count as f64));
-                kept.extend(numbers(state));
-            }
-        }
-        Self { rows: outcome.csv().to_string(), kept }
-    }
-
-    fn send(&self, to: &impl Destination) {
-        to.send_with_tag(self.rows.as_bytes(), ROWS);
-        to.send_with_tag(&self.kept[..], KEPT);
-    }
-
-    /// The first that has come from any rank, and from which.
-    fn arrived(world: &SimpleCommunicator) -> Option<(usize, Self)> {
-        let message = world.any_process().immediate_matched_probe_with_tag(ROWS)?;
-        let rank = message.1.source_rank();
-        let (rows, _) = message.matched_receive_vec();
-        let (kept, _) = world.process_at_rank(rank).receive_vec_with_tag(KEPT);
-        Some((rank.unsigned_abs() as usize, Self { rows: String::from_utf8_lossy(&rows).into_owned(), kept }))
-    }
-
-    fn members<T: Real + FromStr, const N: usize>(
-        self,
-        names: [&'static str; N],
-        events: Vec<&'static str>,
-    ) -> Result<impl Iterator<Item = Member<T, N>>, Error> {
-        let rows = MemberTable::of(&self.rows, names, usize::MAX)?.into_rows();
-        let mut kept = self.kept.into_iter();
-        Ok(rows.map(move |row| {
-            let mut member = row.into_member(&events);
-            if let Ok(arrival) = &mut member.result {
-                restore(arrival, &events, &mut kept);
-            }
-            member
-        }))
-    }
-}
-
-fn numbers<T: Real, const N: usize>(state: &State<T, N>) -> impl Iterator<Item = f64> + '_ {
-    [&state.t].into_iter().chain(&state.q).chain(&state.v).map(|x| x.to_f64())
-}
-
-fn restore<T: Real, const N: usize>(
-    arrival: &mut Arrival<T, N>,
-    events: &[&'static str],
-    kept: &mut impl Iterator<Item = f64>,
-) {
-    let mut count = || kept.next().unwrap_or(0.0) as usize;
-    let [samples, values, crossings] = [count(), count(), count()];
-    let mut numbers = kept.map(T::constant);
-    arrival.samples = (0..samples).map_while(|_| state(&mut numbers)).collect();
-    arrival.values = numbers.by_ref().take(values).collect();
-    arrival.crossings = (0..crossings).map_while(|_| crossing(events, &mut numbers)).collect();
-}
-
-fn crossing<T: Real, const N: usize>(
-    events: &[&'static str],
-    numbers: &mut impl Iterator<Item = T>,
-) -> Option<Crossing<T, N>> {
-    let mut count = || Some(numbers.next()?.to_f64() as usize);
-    let (index, count, rising) = (count()?, count()?, count()? == 1);
-    Some(Crossing { event: events.get(index)?, index, count, rising, state: state(numbers)? })
-}
-
-fn state<T: Real, const N: usize>(numbers: &mut impl Iterator<Item = T>) -> Option<State<T, N>> {
-    let zero = vector([T::constant(0.0); N]);
-    let mut state = State { t: numbers.next()?, q: zero, v: zero };
-    for x in state.q.iter_mut().chain(&mut state.v) {
-        *x = numbers.next()?;
-    }
-    Some(state)
-}
-
 /// Integrates what rank 0 hands out, until that is nothing.
 fn follow(world: &SimpleCommunicator, integrate: impl Fn(Vec<usize>) -> Parcel) {
     let first = world.process_at_rank(0);
@@ -315,13 +218,12 @@ fn follow(world: &SimpleCommunicator, integrate: impl Fn(Vec<usize>) -> Parcel) 
 }
 
 /// Hands out members and takes them in, while another thread integrates what this rank hands to itself.
-fn lead<L, T: Real + FromStr, const N: usize, const M: usize>(
+fn lead<L, T: Real, const N: usize, const M: usize>(
     world: &SimpleCommunicator,
     job: &Job<'_, L, T, N, M>,
     batch: Duration,
     integrate: impl Fn(Vec<usize>) -> Parcel + Send,
-) -> Result<(), Error>
-where
+) where
     L: Lagrangian<N, M, Scalar = T>,
 {
     thread::scope(|scope| {
@@ -331,13 +233,12 @@ where
             .spawn(move || lists.into_iter().map(integrate).try_for_each(|parcel| finished.send(parcel)));
         let open = vec![None; size(world)];
         let mut desk = Desk { world, own, job, batch, open, members: 0, time: Duration::ZERO };
-        let result = desk.serve(&parcels, || hands.is_finished());
+        desk.serve(&parcels, || hands.is_finished());
         drop(desk);
-        match hands.join() {
-            Ok(_) => result,
-            Err(panic) => resume_unwind(panic),
+        if let Err(panic) = hands.join() {
+            resume_unwind(panic);
         }
-    })
+    });
 }
 
 /// Where rank 0 keeps the books.
@@ -354,13 +255,13 @@ struct Desk<'w, 'a, L: Lagrangian<N, M, Scalar = T>, T, const N: usize, const M:
     time: Duration,
 }
 
-impl<L, T: Real + FromStr, const N: usize, const M: usize> Desk<'_, '_, L, T, N, M>
+impl<L, T: Real, const N: usize, const M: usize> Desk<'_, '_, L, T, N, M>
 where
     L: Lagrangian<N, M, Scalar = T>,
 {
     /// Until all members are done, or the job is stopped, or the thread of this rank has panicked.
-    fn serve(&mut self, parcels: &Receiver<Parcel>, is_lost: impl Fn() -> bool) -> Result<(), Error> {
-        let mut result = Ok(());
+    fn serve(&mut self, parcels: &Receiver<Parcel>, is_lost: impl Fn() -> bool) {
+        let events = self.job.events();
         (0..self.open.len()).for_each(|rank| self.hand_out(rank));
         while self.open.iter().any(Option::is_some) && !is_lost() {
             let own = parcels.try_recv().ok().map(|parcel| (0, parcel));
@@ -371,15 +272,8 @@ where
             // The rank waits: it comes first.
             self.close(rank);
             self.hand_out(rank);
-            match parcel.members(L::COORDINATES, self.job.events()) {
-                Ok(members) => members.for_each(|member| self.job.report(member)),
-                Err(error) => {
-                    self.job.stop();
-                    result = result.and(Err(error));
-                }
-            }
+            parcel.members(self.job.run(), &events).for_each(|member| self.job.report(member));
         }
-        result
     }
 
     fn close(&mut self, rank: usize) {
@@ -408,33 +302,5 @@ where
         let each = self.time.as_secs_f64() / self.members.max(1) as f64;
         let timed = if self.members == 0 { LEAST } else { (self.batch.as_secs_f64() / each) as usize };
         timed.max(LEAST).min(share).max(1)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::prelude::*;
-
-    #[derive(Lagrangian)]
-    #[coordinates(x)]
-    #[lagrangian(x_dot^2/2 - k/2 * x^2)]
-    struct Spring<T> {
-        k: T,
-    }
-
-    /// Endings by events, crossings and samples are unpacked as they were packed.
-    #[test]
-    fn what_is_kept_of_members_survives_the_way() {
-        let spring = |index: usize| (Spring { k: index as f64 }, State::at_rest([1.0]));
-        let zero = spring(0).0.event("zero", |sample| sample.state().q[0]);
-        let turn = spring(0).0.event("turn", |sample| sample.state().v[0]).terminal_at(2);
-        let springs = Ensemble::from_fn(9, spring).event(zero).event(turn).samples_at([0.0, 1.5, 3.0]);
-        let springs = springs.quantity("speed", |sample| sample.velocity("x"));
-        let outcome = springs.integrate_on_lanes(3.0, Dop853::default()).expect("an outcome");
-        assert!(outcome.members().iter().any(|member| member.to_string().contains("event `turn`")));
-        let parcel = Parcel::of(&outcome);
-        let members = parcel.members(["x"], vec!["zero", "turn"]).expect("members");
-        assert!(members.eq(outcome.members().iter().cloned()));
     }
 }

@@ -1,0 +1,193 @@
+//! What has become of the members of a batch, as it travels between ranks: numbers, and the endings in words.
+
+use mpi::topology::SimpleCommunicator;
+use mpi::traits::{Communicator, Destination, MatchedReceiveVec, Source};
+
+use crate::ensemble::fingerprint::Fingerprint;
+use crate::ensemble::outcome::{Arrival, Member};
+use crate::ensemble::table::MemberRow;
+use crate::motion::Crossing;
+use crate::number::{Real, vector};
+use crate::statistics::Statistics;
+use crate::system::State;
+
+/// Of each member the row of a table, then of one that has a motion its samples, values and crossings.
+#[derive(Default)]
+pub(super) struct Parcel {
+    /// Integers are exact up to 2⁵³.
+    numbers: Vec<f64>,
+    /// The endings, one directly after the other: how long each is, is among the numbers.
+    words: String,
+}
+
+const NUMBERS: i32 = 0;
+const WORDS: i32 = 1;
+
+impl Parcel {
+    pub(super) fn of<T: Real, const N: usize>(members: &[Member<T, N>]) -> Self {
+        let mut parcel = Self::default();
+        members.iter().for_each(|member| parcel.pack(member));
+        parcel
+    }
+
+    fn pack<T: Real, const N: usize>(&mut self, member: &Member<T, N>) {
+        let MemberRow { index, fingerprint, state, statistics, ending } = member.row();
+        let Statistics { accepted, rejected, evaluations, multipliers_are_unique } = statistics;
+        let ending = ending.to_string();
+        self.words += &ending;
+        self.counts([index, fingerprint.start as usize, ending.len()]);
+        self.counts([accepted, rejected, evaluations, multipliers_are_unique.into(), state.is_some().into()]);
+        let Some(Arrival { state, samples, values, crossings, .. }) = member.arrival() else { return };
+        self.state(state);
+        self.counts([samples.len(), values.len(), crossings.len()]);
+        samples.iter().for_each(|state| self.state(state));
+        self.numbers.extend(values.iter().map(|x| x.to_f64()));
+        for Crossing { index, count, rising, state, .. } in crossings {
+            self.counts([*index, *count, (*rising).into()]);
+            self.state(state);
+        }
+    }
+
+    fn counts<const K: usize>(&mut self, counts: [usize; K]) {
+        self.numbers.extend(counts.map(|count| count as f64));
+    }
+
+    fn state<T: Real, const N: usize>(&mut self, state: &State<T, N>) {
+        let entries = [&state.t].into_iter().chain(&state.q).chain(&state.v);
+        self.numbers.extend(entries.map(|x| x.to_f64()));
+    }
+
+    pub(super) fn send(&self, to: &impl Destination) {
+        to.send_with_tag(&self.numbers[..], NUMBERS);
+        to.send_with_tag(self.words.as_bytes(), WORDS);
+    }
+
+    /// The first that has come from any rank, and from which.
+    pub(super) fn arrived(world: &SimpleCommunicator) -> Option<(usize, Self)> {
+        let message = world.any_process().immediate_matched_probe_with_tag(NUMBERS)?;
+        let rank = message.1.source_rank();
+        let (numbers, _) = message.matched_receive_vec();
+        let (words, _) = world.process_at_rank(rank).receive_vec_with_tag(WORDS);
+        let words = String::from_utf8_lossy(&words).into_owned();
+        Some((rank.unsigned_abs() as usize, Self { numbers, words }))
+    }
+
+    /// The members of this run, in an ensemble with these events.
+    pub(super) fn members<T: Real, const N: usize>(
+        &self,
+        run: Fingerprint,
+        events: &[&'static str],
+    ) -> impl Iterator<Item = Member<T, N>> {
+        let mut rest = Rest { numbers: self.numbers.iter(), words: &self.words };
+        core::iter::from_fn(move || rest.member(run, events))
+    }
+}
+
+/// What is not unpacked yet.
+struct Rest<'p> {
+    numbers: core::slice::Iter<'p, f64>,
+    words: &'p str,
+}
+
+impl Rest<'_> {
+    fn member<T: Real, const N: usize>(
+        &mut self,
+        run: Fingerprint,
+        events: &[&'static str],
+    ) -> Option<Member<T, N>> {
+        let [index, start, length] = self.counts()?;
+        let [accepted, rejected, evaluations, is_unique, has_motion] = self.counts()?;
+        let (ending, words) = self.words.split_at_checked(length)?;
+        self.words = words;
+        let state = if has_motion == 1 { Some(self.state()?) } else { None };
+        let row = MemberRow {
+            index,
+            fingerprint: Fingerprint { start: start as u32, ..run },
+            state,
+            statistics: Statistics {
+                accepted,
+                rejected,
+                evaluations,
+                multipliers_are_unique: is_unique == 1,
+            },
+            ending: ending.into(),
+        };
+        let mut member = row.into_member(events);
+        if let Ok(arrival) = &mut member.result {
+            self.restore(arrival, events)?;
+        }
+        Some(member)
+    }
+
+    fn restore<T: Real, const N: usize>(
+        &mut self,
+        arrival: &mut Arrival<T, N>,
+        events: &[&'static str],
+    ) -> Option<()> {
+        let [samples, values, crossings] = self.counts()?;
+        arrival.samples = (0..samples).map_while(|_| self.state()).collect();
+        arrival.values = (0..values).map_while(|_| self.number()).collect();
+        arrival.crossings = (0..crossings).map_while(|_| self.crossing(events)).collect();
+        Some(())
+    }
+
+    fn crossing<T: Real, const N: usize>(&mut self, events: &[&'static str]) -> Option<Crossing<T, N>> {
+        let [index, count, rising] = self.counts()?;
+        Some(Crossing { event: events.get(index)?, index, count, rising: rising == 1, state: self.state()? })
+    }
+
+    fn state<T: Real, const N: usize>(&mut self) -> Option<State<T, N>> {
+        let zero = vector([T::constant(0.0); N]);
+        let mut state = State { t: self.number()?, q: zero, v: zero };
+        for x in state.q.iter_mut().chain(&mut state.v) {
+            *x = self.number()?;
+        }
+        Some(state)
+    }
+
+    fn number<T: Real>(&mut self) -> Option<T> {
+        self.numbers.next().copied().map(T::constant)
+    }
+
+    fn counts<const K: usize>(&mut self) -> Option<[usize; K]> {
+        let (counts, _) = self.numbers.as_slice().split_first_chunk::<K>()?;
+        self.numbers.nth(K - 1);
+        Some(counts.map(|count| count as usize))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::prelude::*;
+
+    #[derive(Lagrangian)]
+    #[coordinates(x)]
+    #[lagrangian(x_dot^2/2 - k/2 * x^2)]
+    struct Spring<T> {
+        k: T,
+    }
+
+    /// Endings by events, crossings and samples are unpacked as they were packed; what went wrong is told in words.
+    #[test]
+    fn what_is_kept_of_members_survives_the_way() {
+        let spring = |index: usize| {
+            let k = if index == 4 { f64::NAN } else { index as f64 };
+            (Spring { k }, State::at_rest([1.0]))
+        };
+        let zero = spring(0).0.event("zero", |sample| sample.state().q[0]);
+        let turn = spring(0).0.event("turn", |sample| sample.state().v[0]).terminal_at(2);
+        let springs = Ensemble::from_fn(9, spring).event(zero).event(turn).samples_at([0.0, 1.5, 3.0]);
+        let springs = springs.quantity("speed", |sample| sample.velocity("x"));
+        let outcome = springs.integrate_on_lanes(3.0, Dop853::default()).expect("an outcome");
+        assert!(outcome.members().iter().any(|member| member.to_string().contains("event `turn`")));
+        let run = outcome.members()[0].fingerprint;
+        let parcel = Parcel::of(outcome.members());
+        let members: Vec<Member<f64, 1>> = parcel.members(run, &["zero", "turn"]).collect();
+        assert_eq!(members.len(), 9);
+        for (member, original) in members.iter().zip(outcome.members()) {
+            assert_eq!(member.row(), original.row());
+            assert_eq!(member.arrival(), original.arrival());
+        }
+    }
+}
