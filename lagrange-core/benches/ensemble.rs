@@ -7,6 +7,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
+use lagrange_core::motion::{Adaptive, Pair};
 use lagrange_core::prelude::*;
 use lagrange_core::{Lanes, Pack};
 
@@ -106,7 +107,10 @@ fn motions() {
 }
 
 /// 10⁵ of them, with a hundred samples each and without.
-fn samples() {
+fn samples<P: Pair>(name: &str, method: Adaptive<P>)
+where
+    Adaptive<P>: Copy + Sync,
+{
     const COUNT: usize = 100_000;
     let angles = random(2 * COUNT);
     let ensemble =
@@ -114,11 +118,11 @@ fn samples() {
     let times = || (1..=100).map(|k| 0.1 * f64::from(k));
     let [plain, sampled] = in_turn(
         3,
-        || ensemble().integrate_on_lanes(10.0, Dop853::default()),
-        || ensemble().samples_at(times()).integrate_on_lanes(10.0, Dop853::default()),
+        || ensemble().integrate_on_lanes(10.0, method),
+        || ensemble().samples_at(times()).integrate_on_lanes(10.0, method),
     );
     println!(
-        "10^5 on lanes     ends only  {:7.2} s    100 samples {:6.2} s    ratio {:.2}",
+        "10^5, {name:10}  ends only  {:7.2} s    100 samples {:6.2} s    ratio {:.2}",
         plain / 1e9,
         sampled / 1e9,
         sampled / plain
@@ -128,5 +132,6 @@ fn samples() {
 fn main() {
     accelerations();
     motions();
-    samples();
+    samples("Dop853 1e-9", Dop853::default());
+    samples("Dopri5 1e-6", Dopri5::with_tolerance(1e-6));
 }
