@@ -113,7 +113,8 @@ impl<T: Real, const N: usize> Outcome<T, N> {
         let count = self.quantities.len();
         let place = self.quantities.iter().position(|known| *known == name).ok_or_else(|| {
             let known = self.quantities.iter().map(|known| (*known).into()).collect();
-            Error::UnknownName { name: name.into(), kind: "quantity", hint: None, known }
+            let hint = self.quantities.is_empty().then(|| "ask for it by `Ensemble::quantity`".into());
+            Error::UnknownName { name: name.into(), kind: "quantity", hint, known }
         })?;
         let values = self.get(index).and_then(Member::arrival).map_or(&[][..], |arrival| &arrival.values);
         Ok(values.iter().skip(place).step_by(count).copied())

@@ -7,6 +7,7 @@
 //! Non-Smooth Mechanical Systems*, 2004, chapter 7; Kong, Payne, Zhu and Johnson, "Saltation matrices: the unsung heroes of
 //! hybrid optimal control", *Proceedings of the IEEE* 112, 2024, (3)).
 
+use alloc::string::ToString;
 use alloc::vec::Vec;
 
 use nalgebra::{DMatrix, DVector, SVector};
@@ -59,11 +60,10 @@ impl<T: Real, const N: usize> Sensitivity<T, N> {
     /// [`Error::RepeatedName`].
     pub fn with(mut self, names: &[&'static str]) -> Result<Self, Error> {
         for name in names {
-            let entry = Entry::Parameter(name);
-            if self.arguments.contains(&entry) {
+            if self.arguments.iter().any(|known| known.to_string() == *name) {
                 return Err(Error::RepeatedName { name: (*name).into() });
             }
-            self.arguments.push(entry);
+            self.arguments.push(Entry::Parameter(name));
         }
         let (count, zero) = (self.arguments.len(), T::constant(0.0));
         self.t = self.t.resize_vertically(count, zero);
