@@ -144,7 +144,12 @@ pub trait AcrossEvents<const N: usize, const M: usize, const P: usize>:
     }
 
     /// The state with its derivatives after a reset: coordinates and velocities, of another system and of another
-    /// number where they are, as functions of those of this one. The function is called once for the state and once for each argument.
+    /// number where they are, as functions of those of this one. The function is called once for the state and once for
+    /// each argument.
+    ///
+    /// The parameters of the system that the motion goes on with are given, and depend on no state. Where one would be set from
+    /// the state at the event (the place where a foot comes down), count the coordinates from there: the reset shifts
+    /// them, and the parameter stays.
     ///
     /// ```
     /// # use lagrange_core::prelude::*;
