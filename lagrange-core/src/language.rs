@@ -30,8 +30,10 @@
 //! | `+ - * / ^` | the usual precedence; `-x^2` is `-(x^2)`, `^` groups to the right |
 //! | `sin cos tan asin acos atan atan2 sinh cosh tanh exp ln sqrt abs` | functions; `atan2(y, x)` |
 //! | `der(expr)` | the total time derivative |
-//! | `[a, b, c]`, `v[0]`, `dot(v, w)`, `cross(v, w)`, `norm(v)`, `A * v` | vectors, and matrix times vector |
-//! | `quat_rotate(q, v)`, `quat_rate(q, q_dot)`, `quat_rate_body(q, q_dot)` | orientations as quaternions |
+//! | `[a, b, c]`, `v[0]`, `dot(v, w)`, `cross(v, w)`, `norm(v)` | vectors |
+//! | `[[a, b], [c, d]]`, `A[0][1]`, `A*v`, `v*A`, `A*B`, `transpose(A)`, `trace(A)`, `identity(3)`, `skew(v)` | matrices, by their rows |
+//! | `rot_x(angle)`, `rot_y(angle)`, `rot_z(angle)`, `rot(axis, angle)` | matrices of rotations |
+//! | `quat_rotate(q, v)`, `quat_mul(p, q)`, `quat_conj(q)`, `quat_rate(q, q_dot)`, `quat_rate_body(q, q_dot)` | orientations as quaternions |
 //! | `sum(i in 0..3, expr)` | a sum; ranges are half-open, indices whole numbers |
 //! | `lambda(name)` | the multiplier of a constraint, in observables only |
 //!
@@ -74,14 +76,41 @@
 //! # Vectors
 //!
 //! A coordinate `r: [3]` is a vector, `r_dot` its velocity and `r[0]` an entry; so is a field of type `[f64; 3]` or
-//! `Vector3<f64>`, and a field `[[f64; 3]; 2]` or `Matrix3<f64>` is a matrix, which multiplies a vector from the
-//! left. Vectors add up with vectors of the same length, and take factors and divisors that are numbers; the literal
+//! `Vector3<f64>`. Vectors add up with vectors of the same length, and take factors and divisors that are numbers; the literal
 //! 0 is the zero vector. `norm(v)^2` is `dot(v, v)`, without a root that would have no slope at the origin.
 //! Definitions, forces, constraints and observables may be vectors; L is a number.
 //!
+//! A field `[[f64; 3]; 2]` or `Matrix3<f64>` is a matrix, and so are rows of numbers, `[[a, b], [c, d]]`. In `A*v` the vector is a
+//! column, in `v*A` a row; `skew(v)*w` is `cross(v, w)`. `rot_z(a)` turns a vector by the angle a from x towards y,
+//! `rot_x(a)` from y towards z, `rot_y(a)` from z towards x: as R = rot_z(φ) rot_x(θ) rot_z(ψ) with Euler's angles, R takes what is
+//! said in the frame of the body into the fixed one, and `transpose(R)*der(R)` is `skew` of the angular velocity in
+//! the frame of the body. The axis of `rot(axis, a)` need not be of length 1, but must not be zero.
+//!
+//! ```
+//! use lagrange_core::nalgebra::Vector3;
+//! use lagrange_core::prelude::*;
+//!
+//! /// Two links that turn about axes across each other, with a mass at the tip.
+//! #[derive(Lagrangian)]
+//! #[coordinates(yaw, pitch)]
+//! #[define(tip = rot_z(yaw)*(base + rot_y(pitch)*link))]
+//! #[lagrangian(m/2*dot(der(tip), der(tip)) - m*g*tip[2])]
+//! #[observable(position = tip)]
+//! struct Arm { base: Vector3<f64>, link: Vector3<f64>, m: f64, g: f64 }
+//!
+//! let (base, link) = (Vector3::new(0.0, 0.0, 1.0), Vector3::new(0.5, 0.0, 0.0));
+//! let arm = Arm { base, link, m: 2.0, g: 9.81 };
+//! // A quarter of a turn to the left, the link straight down.
+//! let quarter = core::f64::consts::FRAC_PI_2;
+//! let tip = arm.position(&State::at_rest([quarter, quarter]));
+//! assert!((tip - Vector3::new(0.0, 0.0, 0.5)).norm() < 1e-15);
+//! # Ok::<(), lagrange_core::Error>(())
+//! ```
+//!
 //! A quaternion is a vector of 4, (w, x, y, z). `quat_rotate(q, v)` is the vector that it turns v into, from the
 //! body's frame to the fixed one; `quat_rate(q, q_dot)` is the angular velocity in the fixed frame,
-//! `quat_rate_body(q, q_dot)` in the body's, as 2 q̇ q̄ and 2 q̄ q̇. Nothing is divided by |q|²: the constraint
+//! `quat_rate_body(q, q_dot)` in the body's, as 2 q̇ q̄ and 2 q̄ q̇. `quat_mul(p, q)` is Hamilton's product, first q and then
+//! p as rotations; `quat_conj(q)` is q̄. Nothing is divided by |q|²: the constraint
 //! `dot(q, q) = 1` keeps it 1, and makes up for the mass matrix, which alone is singular. The macro completes it by that
 //! row: no term that vanishes need be added to L.
 //!

@@ -70,28 +70,11 @@ impl Lowering<'_> {
         })
     }
 
-    /// Matrix times vector: the only product of two arrays.
-    fn times(&mut self, x: &Value, y: &Value, place: Place) -> Option<Value> {
-        let rows = match x {
-            Value::Vector(rows) => rows.iter().map(Value::as_vector).collect::<Option<Vec<_>>>(),
-            Value::Scalar(_) => None,
-        };
-        match (rows, y.as_vector()) {
-            (Some(rows), Some(y)) if rows.iter().all(|row| row.len() == y.len()) => {
-                Some(Value::vector(rows.iter().map(|row| self.graph.dot(row, &y))))
-            }
-            (None, Some(_)) => {
-                self.report(place, "two vectors are multiplied with `dot(a, b)` or `cross(a, b)`")
-            }
-            _ => {
-                let (x, y) = (x.shape(), y.shape());
-                self.report(place, format!("{x} cannot be multiplied by {y}: only matrix times vector"))
-            }
-        }
-    }
-
     pub(super) fn power(&mut self, base: &Expression, exponent: &Expression) -> Option<Value> {
-        let (value, exponent) = (self.lower(base), self.scalar(exponent));
+        let value = self.lower(base);
+        // `A^T` is no power, and T no name.
+        let is_matrix = value.as_ref().is_some_and(|value| value.as_matrix().is_some());
+        let exponent = if is_matrix { None } else { self.scalar(exponent) };
         match value? {
             Value::Scalar(value) => {
                 let exponent = exponent?;
@@ -102,7 +85,10 @@ impl Lowering<'_> {
                 }
                 Some(Value::Scalar(self.graph.power(value, exponent)))
             }
-            Value::Vector(_) => self.report(base.place, "a vector has no power: its square is `dot(v, v)`"),
+            value if value.as_matrix().is_some() => {
+                self.report(base.place, "a matrix has no power: write `A*A`, and `transpose(A)`")
+            }
+            _ => self.report(base.place, "a vector has no power: its square is `dot(v, v)`"),
         }
     }
 

@@ -37,7 +37,26 @@ impl Lowering<'_> {
                 return Some(Value::Scalar(self.graph.sqrt(square)));
             }
             "atan2" | "dot" | "cross" => return self.binary(name, arguments, place),
-            "quat_rotate" | "quat_rate" | "quat_rate_body" => return self.quaternion(name, arguments, place),
+            "quat_rotate" | "quat_rate" | "quat_rate_body" | "quat_mul" => {
+                return self.quaternion(name, arguments, place);
+            }
+            "quat_conj" => {
+                let [q] = self.arguments(name, arguments, place)?;
+                let q = self.quaternion_of(name, q)?;
+                return Some(Value::vector(quaternion::conjugate(q, &mut self.graph)));
+            }
+            "transpose" | "trace" | "identity" | "skew" => {
+                let [x] = self.arguments(name, arguments, place)?;
+                return self.matrix(name, x);
+            }
+            "rot_x" | "rot_y" | "rot_z" => {
+                let [angle] = self.arguments(name, arguments, place)?;
+                return self.rotation_about_axis(name, angle);
+            }
+            "rot" => {
+                let [axis, angle] = self.arguments(name, arguments, place)?;
+                return self.rotation(name, axis, angle);
+            }
             _ => {}
         }
         match self.scope.get(&name.text) {
@@ -114,21 +133,25 @@ impl Lowering<'_> {
     /// Quaternions are (w, x, y, z); nothing is divided by their length.
     fn quaternion(&mut self, name: &Name, arguments: &[Expression], place: Place) -> Option<Value> {
         let [q, x] = self.arguments(name, arguments, place)?;
-        let (q, v) = (self.vector_of(q), self.vector_of(x));
+        let (q, v) = (self.quaternion_of(name, q), self.vector_of(x));
         let (q, v) = (q?, v?);
-        let Ok(q) = <[_; 4]>::try_from(q) else {
-            return self
-                .report(place, format!("`{}` takes a quaternion, a vector of 4: (w, x, y, z)", name.text));
-        };
         let graph = &mut self.graph;
         let vector = match (name.text.as_str(), <[_; 3]>::try_from(v.clone()), <[_; 4]>::try_from(v)) {
-            ("quat_rotate", Ok(v), _) => quaternion::rotate(q, v, graph),
-            ("quat_rate", _, Ok(rate)) => quaternion::rate(q, rate, graph),
-            ("quat_rate_body", _, Ok(rate)) => quaternion::rate_in_body(q, rate, graph),
+            ("quat_rotate", Ok(v), _) => quaternion::rotate(q, v, graph).to_vec(),
+            ("quat_rate", _, Ok(rate)) => quaternion::rate(q, rate, graph).to_vec(),
+            ("quat_rate_body", _, Ok(rate)) => quaternion::rate_in_body(q, rate, graph).to_vec(),
+            ("quat_mul", _, Ok(p)) => quaternion::product(q, p, graph).to_vec(),
             ("quat_rotate", ..) => return self.report(x.place, "`quat_rotate` turns a vector of 3"),
+            ("quat_mul", ..) => return self.report(x.place, "a quaternion is a vector of 4: (w, x, y, z)"),
             _ => return self.report(x.place, "the rate of a quaternion is a vector of 4, such as `q_dot`"),
         };
         Some(Value::vector(vector))
+    }
+
+    fn quaternion_of(&mut self, name: &Name, argument: &Expression) -> Option<[Id; 4]> {
+        let q = self.vector_of(argument)?;
+        let wrong = || format!("`{}` takes a quaternion, a vector of 4: (w, x, y, z)", name.text);
+        q.try_into().ok().or_else(|| self.report(argument.place, wrong()))
     }
 
     fn defined_function(

@@ -166,7 +166,12 @@ impl<'a> Lowering<'a> {
         self.of_kind(expression, "vector", Value::as_vector)
     }
 
-    fn of_kind<T>(&mut self, at: &Expression, kind: &str, part: fn(&Value) -> Option<T>) -> Option<T> {
+    pub(super) fn of_kind<T>(
+        &mut self,
+        at: &Expression,
+        kind: &str,
+        part: fn(&Value) -> Option<T>,
+    ) -> Option<T> {
         let value = self.lower(at)?;
         let wrong = |shape| format!("a {kind} belongs here, but this is {shape}");
         part(&value).or_else(|| self.report(at.place, wrong(value.shape())))

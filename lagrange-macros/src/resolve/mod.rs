@@ -5,6 +5,7 @@ mod call;
 mod family;
 mod function;
 mod lower;
+mod matrix;
 mod outline;
 mod parameters;
 mod quaternion;

@@ -114,7 +114,7 @@ impl Lowering<'_> {
             Kind::Negative(_) | Kind::Sum(_) | Kind::SumOver(_) | Kind::Product(_) => vector,
             Kind::Call(name, _) => match (name.text.as_str(), self.scope.get(&name.text)) {
                 (_, Some(Entity::Function(index))) => self.functions[index].length,
-                ("cross" | "der" | "quat_rotate", _) => vector,
+                ("cross" | "der" | "quat_rotate" | "quat_mul" | "quat_conj", _) => vector,
                 ("lambda", _) => {
                     contents.push(self.graph.symbol(Variable::Multiplier(0).symbol()));
                     None

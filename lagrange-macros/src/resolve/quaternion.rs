@@ -21,7 +21,7 @@ pub(super) fn rate_in_body(q: [Id; 4], q_dot: [Id; 4], graph: &mut Graph) -> [Id
     twice(vector_part(product(conjugate, q_dot, graph)), graph)
 }
 
-fn conjugate([w, x, y, z]: [Id; 4], graph: &mut Graph) -> [Id; 4] {
+pub(super) fn conjugate([w, x, y, z]: [Id; 4], graph: &mut Graph) -> [Id; 4] {
     [w, graph.neg(x), graph.neg(y), graph.neg(z)]
 }
 
@@ -34,7 +34,7 @@ fn twice(v: [Id; 3], graph: &mut Graph) -> [Id; 3] {
 }
 
 /// Hamilton's product.
-fn product(p: [Id; 4], q: [Id; 4], graph: &mut Graph) -> [Id; 4] {
+pub(super) fn product(p: [Id; 4], q: [Id; 4], graph: &mut Graph) -> [Id; 4] {
     // For each result the pairs of factors: the index into p, the index into q, the sign.
     const ROWS: [[(usize, usize, i128); 4]; 4] = [
         [(0, 0, 1), (1, 1, -1), (2, 2, -1), (3, 3, -1)],

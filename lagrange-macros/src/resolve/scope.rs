@@ -21,7 +21,8 @@ pub(super) enum Entity {
 }
 
 /// What expressions may call beside the functions of one argument that the graph knows.
-const CALLS: &str = "atan2 sqrt quat_rotate quat_rate quat_rate_body dot cross norm sum der lambda in";
+const CALLS: &str = "atan2 sqrt quat_rotate quat_rate quat_rate_body quat_mul quat_conj dot cross norm transpose trace \
+    identity skew rot rot_x rot_y rot_z sum der lambda in";
 
 /// Functions that expressions may call.
 pub(super) fn functions() -> impl Iterator<Item = &'static str> {

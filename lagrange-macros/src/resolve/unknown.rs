@@ -25,7 +25,7 @@ const SYNONYMS: [&str; 8] = [
 ];
 
 /// Functions of other tools, and what to write here.
-const CALLS: [(&str, &str); 20] = [
+const CALLS: [(&str, &str); 27] = [
     ("log Log log2 log10", "the natural logarithm is `ln`"),
     ("pow Pow powi powf Power", "a power is written `x^2`"),
     ("sqr square sq squared", "a square is written `x^2`"),
@@ -47,7 +47,20 @@ const CALLS: [(&str, &str); 20] = [
         "the total time derivative is `der(x)`, a velocity `x_dot`",
     ),
     ("Rational Fraction frac", "fractions are exact as they are: write `1/2`"),
-    ("Vector Matrix vec", "a vector is written `[a, b, c]`"),
+    ("Vector vec", "a vector is written `[a, b, c]`"),
+    ("Matrix mat matrix", "a matrix is written by its rows, `[[a, b], [c, d]]`"),
+    ("eye Identity unit_matrix", "the matrix that changes nothing is `identity(3)`"),
+    ("transp Transpose tr", "the transpose is `transpose(A)`, the sum of the diagonal `trace(A)`"),
+    ("hat tilde wedge cross_matrix", "the matrix of `cross(v, …)` is `skew(v)`"),
+    (
+        "Rx Ry Rz rotx roty rotz RotX RotY RotZ rotate rotation Rotation",
+        "the rotations about the axes are `rot_x(angle)`, `rot_y(angle)` and `rot_z(angle)`, about any other `rot(axis, angle)`",
+    ),
+    ("matmul multiply mul", "a product is written `A*B`"),
+    (
+        "inv inverse Inverse",
+        "there is no inverse; that of a rotation is `transpose(R)`, that of a quaternion of length 1 `quat_conj(q)`",
+    ),
     ("integrate Integral", "there are no integrals"),
     ("deg rad radians degrees deg2rad", "angles are in radians: write `x*pi/180`"),
     ("sind cosd tand", "angles are in radians: write `sin(x*pi/180)`"),

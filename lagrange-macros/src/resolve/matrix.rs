@@ -1,0 +1,142 @@
+//! Matrices: their products, and the functions that make them or take them apart.
+
+use super::lower::Lowering;
+use super::value::{Value, cross};
+use crate::diagnostics::Place;
+use crate::symbolic::{Function, Graph, Id};
+use crate::syntax::{Expression, LENGTH_LIMIT, Name};
+
+type Rows = Vec<Vec<Id>>;
+
+impl Value {
+    /// The rows of a matrix.
+    pub(super) fn as_matrix(&self) -> Option<Rows> {
+        match self {
+            Self::Vector(rows) if !rows.is_empty() => rows.iter().map(Self::as_vector).collect(),
+            _ => None,
+        }
+    }
+
+    fn matrix(rows: impl IntoIterator<Item: IntoIterator<Item = Id>>) -> Self {
+        Self::Vector(rows.into_iter().map(Self::vector).collect())
+    }
+}
+
+impl Lowering<'_> {
+    /// The product of two arrays, of which one is a matrix: a vector on its left is a row, one on its right a column.
+    pub(super) fn times(&mut self, x: &Value, y: &Value, place: Place) -> Option<Value> {
+        let (row, column) = (x.as_vector(), y.as_vector());
+        if row.is_some() && column.is_some() {
+            return self.report(place, "two vectors are multiplied with `dot(a, b)` or `cross(a, b)`");
+        }
+        let left = row.clone().map_or_else(|| x.as_matrix(), |row| Some(vec![row]));
+        let right = column.clone().map_or_else(|| y.as_matrix().map(transposed), |column| Some(vec![column]));
+        let (Some(left), Some(right)) = (left, right) else {
+            let (x, y) = (x.shape(), y.shape());
+            return self
+                .report(place, format!("{x} cannot be multiplied by {y}: take one matrix of it, `A[i]`"));
+        };
+        if left[0].len() != right[0].len() {
+            let (x, y, across, down) = (x.shape(), y.shape(), left[0].len(), right[0].len());
+            return self.report(place, format!(
+                "{x} cannot be multiplied by {y}: rows on the left have {across} entries, columns on the right {down}"
+            ));
+        }
+        let product = left.iter().map(|row| right.iter().map(|column| self.graph.dot(row, column)).collect());
+        let product: Rows = product.collect();
+        Some(match (row, column) {
+            (None, None) => Value::matrix(product),
+            _ => Value::vector(product.into_iter().flatten()),
+        })
+    }
+
+    /// `transpose(A)`, `trace(A)`, `identity(3)`, `skew(v)`.
+    pub(super) fn matrix(&mut self, name: &Name, argument: &Expression) -> Option<Value> {
+        match name.text.as_str() {
+            "identity" => self.identity(argument),
+            "skew" => {
+                let v = self.three(name, argument)?;
+                Some(Value::matrix(skew(v, &mut self.graph)))
+            }
+            "trace" => {
+                let rows = self.of_kind(argument, "matrix", Value::as_matrix)?;
+                if rows.len() != rows[0].len() {
+                    return self.report(argument.place, "only a square matrix has a trace");
+                }
+                let diagonal = rows.iter().enumerate().map(|(i, row)| row[i]);
+                Some(Value::Scalar(self.graph.total(diagonal)))
+            }
+            _ => Some(Value::matrix(transposed(self.of_kind(argument, "matrix", Value::as_matrix)?))),
+        }
+    }
+
+    fn identity(&mut self, argument: &Expression) -> Option<Value> {
+        let size = self.integer(argument)?;
+        let Some(size) =
+            usize::try_from(size).ok().filter(|n| (1..=LENGTH_LIMIT).contains(&n.saturating_mul(*n)))
+        else {
+            return self.report(
+                argument.place,
+                format!("an identity matrix has at least one row, and at most {LENGTH_LIMIT} numbers"),
+            );
+        };
+        Some(Value::matrix(
+            (0..size).map(|i| (0..size).map(move |j| if i == j { Id::ONE } else { Id::ZERO })),
+        ))
+    }
+
+    /// `rot_x(angle)` and its kin turn a vector about an axis of the frame, by the right-hand rule.
+    pub(super) fn rotation_about_axis(&mut self, name: &Name, angle: &Expression) -> Option<Value> {
+        let angle = self.scalar(angle)?;
+        let axis = match name.text.as_str() {
+            "rot_x" => [Id::ONE, Id::ZERO, Id::ZERO],
+            "rot_y" => [Id::ZERO, Id::ONE, Id::ZERO],
+            _ => [Id::ZERO, Id::ZERO, Id::ONE],
+        };
+        Some(Value::matrix(rotation(axis, angle, &mut self.graph)))
+    }
+
+    /// `rot(axis, angle)`: the axis may be of any length but zero.
+    pub(super) fn rotation(&mut self, name: &Name, axis: &Expression, angle: &Expression) -> Option<Value> {
+        let (vector, angle) = (self.three(name, axis), self.scalar(angle));
+        let (vector, angle) = (vector?, angle?);
+        let square = self.graph.dot(&vector, &vector);
+        if square == Id::ZERO {
+            return self.report(axis.place, "an axis of length zero has no direction");
+        }
+        let length = self.graph.sqrt(square);
+        let unit = vector.map(|x| self.graph.div(x, length));
+        Some(Value::matrix(rotation(unit, angle, &mut self.graph)))
+    }
+
+    /// A value that must be a vector in space.
+    fn three(&mut self, name: &Name, argument: &Expression) -> Option<[Id; 3]> {
+        let vector = self.vector_of(argument)?;
+        let wrong = || format!("`{}` takes a vector of 3", name.text);
+        vector.try_into().ok().or_else(|| self.report(argument.place, wrong()))
+    }
+}
+
+fn transposed(rows: Rows) -> Rows {
+    (0..rows[0].len()).map(|j| rows.iter().map(|row| row[j]).collect()).collect()
+}
+
+/// S with S v = x × v for every v: its columns are x × eⱼ.
+fn skew(x: [Id; 3], graph: &mut Graph) -> Rows {
+    let unit = |j: usize| std::array::from_fn(|i| if i == j { Id::ONE } else { Id::ZERO });
+    transposed((0..3).map(|j| cross(x, unit(j), graph).to_vec()).collect())
+}
+
+/// cos α 1 + sin α S + (1 − cos α) n nᵀ, with S v = n × v (Rodrigues' formula; Goldstein, Poole and Safko, *Classical
+/// Mechanics*, 4.62).
+fn rotation(axis: [Id; 3], angle: Id, graph: &mut Graph) -> Rows {
+    let (sin, cos) = (graph.function(Function::Sin, angle), graph.function(Function::Cos, angle));
+    let versine = graph.sub(Id::ONE, cos);
+    let skew = skew(axis, graph);
+    let mut entry = |i: usize, j: usize| {
+        let along = graph.product([axis[i], axis[j], versine].map(|x| (x, 1.into())));
+        let across = graph.mul(sin, skew[i][j]);
+        graph.total([if i == j { cos } else { Id::ZERO }, across, along])
+    };
+    (0..3).map(|i| (0..3).map(|j| entry(i, j)).collect()).collect()
+}

@@ -1,0 +1,202 @@
+//! The algebra of matrices against nalgebra's, and systems whose Lagrangians are said by matrices.
+
+use approx::assert_relative_eq;
+use lagrange_core::nalgebra::{
+    Matrix2x3, Matrix3, Quaternion, Rotation3, SVector, Unit, UnitQuaternion, Vector2, Vector3, Vector4,
+};
+use lagrange_core::prelude::*;
+
+#[derive(Lagrangian)]
+#[coordinates(r: [3], p: [4], q: [4], x)]
+#[define(turns = rot_z(x)*rot_x(2*x))]
+#[define(made = [[x, 1, 2], [0, x^2, 3], [4, 5, 6]])]
+#[define(chain[0] = made)]
+#[define(chain[i in 1..4] = chain[i-1]*a)]
+#[lagrangian(dot(r_dot, r_dot)/2 + dot(p_dot, p_dot)/2 + dot(q_dot, q_dot)/2 + x_dot^2/2)]
+#[observable(row_by_matrix = r*a)]
+#[observable(row_by_wide = [x, 2]*wide)]
+#[observable(wide_by_matrix = (wide*a)[1])]
+#[observable(matrix_by_tall = (a*transpose(wide))[2])]
+#[observable(by_column = a*made*r)]
+#[observable(between = dot(r*a, r))]
+#[observable(transposed = transpose(made)[0])]
+#[observable(sum_of_diagonal = trace(made*a))]
+#[observable(nothing = (identity(3)*a - a*identity(3))[1])]
+#[observable(sum_of_matrices = (made - 2*a/x)[1])]
+#[observable(by_skew = skew(r)*r_dot)]
+#[observable(by_x = rot_x(x)*r)]
+#[observable(by_y = rot_y(x)*r)]
+#[observable(by_z = rot_z(x)*r)]
+#[observable(about = rot(axis, x)*r)]
+#[observable(about_known = rot([1, 2, -2], x)*r)]
+#[observable(about_z = (rot([0, 0, 3], x) - rot_z(x))*r)]
+#[observable(rate = der(turns)*r)]
+#[observable(spin = [(transpose(turns)*der(turns))[2][1], (transpose(turns)*der(turns))[0][2], (transpose(turns)*der(turns))[1][0]])]
+#[observable(end_of_chain = chain[3][2])]
+#[observable(product = quat_mul(p, q))]
+#[observable(conjugate = quat_conj(q))]
+struct Kit {
+    a: Matrix3<f64>,
+    wide: Matrix2x3<f64>,
+    axis: Vector3<f64>,
+}
+
+const X: f64 = 0.7;
+const RATE: f64 = -1.3;
+
+fn kit() -> Kit {
+    Kit {
+        a: Matrix3::new(1.0, -2.0, 0.5, 3.0, 0.0, 1.5, -1.0, 2.0, 4.0),
+        wide: Matrix2x3::new(1.0, 2.0, 3.0, -4.0, 5.0, 0.5),
+        axis: Vector3::new(2.0, -1.0, 0.5),
+    }
+}
+
+fn made() -> Matrix3<f64> {
+    Matrix3::new(X, 1.0, 2.0, 0.0, X * X, 3.0, 4.0, 5.0, 6.0)
+}
+
+fn r() -> Vector3<f64> {
+    Vector3::new(1.0, -2.0, 3.0)
+}
+
+fn quaternions() -> [Quaternion<f64>; 2] {
+    [Quaternion::new(0.5, -0.25, 1.0, 2.0), Quaternion::new(-1.0, 0.75, 0.5, 1.5)]
+}
+
+fn state() -> State<f64, 12> {
+    let [p, q] = quaternions().map(|q| [q.w, q.i, q.j, q.k]);
+    let mut coordinates = [0.0; 12];
+    coordinates[..3].copy_from_slice(r().as_slice());
+    coordinates[3..7].copy_from_slice(&p);
+    coordinates[7..11].copy_from_slice(&q);
+    coordinates[11] = X;
+    let mut velocities = [0.0; 12];
+    velocities[..3].copy_from_slice(&[0.5, 1.0, -1.0]);
+    velocities[11] = RATE;
+    State::new(coordinates, velocities)
+}
+
+fn assert_near<const K: usize>(found: SVector<f64, K>, expected: SVector<f64, K>) {
+    assert!((found - expected).norm() <= 1e-14 * (1.0 + expected.norm()), "{found} instead of {expected}");
+}
+
+#[test]
+fn matrices_multiply_rows_columns_and_each_other() {
+    let (kit, state, a, r) = (kit(), state(), kit().a, r());
+    assert_near(kit.row_by_matrix(&state), a.transpose() * r);
+    assert_near(kit.row_by_wide(&state), kit.wide.transpose() * Vector2::new(X, 2.0));
+    assert_near(kit.wide_by_matrix(&state), (kit.wide * a).row(1).transpose());
+    assert_near(kit.matrix_by_tall(&state), (a * kit.wide.transpose()).row(2).transpose());
+    assert_near(kit.by_column(&state), a * made() * r);
+    assert_relative_eq!(kit.between(&state), r.dot(&(a * r)), max_relative = 1e-14);
+    assert_near(kit.end_of_chain(&state), (made() * a * a * a).row(2).transpose());
+}
+
+#[test]
+fn matrices_add_up_and_are_taken_apart() {
+    let (kit, state) = (kit(), state());
+    assert_near(kit.transposed(&state), made().column(0).into_owned());
+    assert_relative_eq!(kit.sum_of_diagonal(&state), (made() * kit.a).trace(), max_relative = 1e-14);
+    assert_eq!(kit.nothing(&state), Vector3::zeros());
+    assert_near(kit.sum_of_matrices(&state), (made() - kit.a * (2.0 / X)).row(1).transpose());
+    assert_near(kit.by_skew(&state), r().cross(&Vector3::new(0.5, 1.0, -1.0)));
+}
+
+#[test]
+fn rotations_are_those_of_nalgebra() {
+    let (kit, state, r) = (kit(), state(), r());
+    let about = |axis: Vector3<f64>| Rotation3::from_axis_angle(&Unit::new_normalize(axis), X) * r;
+    assert_near(kit.by_x(&state), about(Vector3::x()));
+    assert_near(kit.by_y(&state), about(Vector3::y()));
+    assert_near(kit.by_z(&state), about(Vector3::z()));
+    assert_near(kit.about(&state), about(kit.axis));
+    assert_near(kit.about_known(&state), about(Vector3::new(1.0, 2.0, -2.0)));
+    assert_eq!(kit.about_z(&state), Vector3::zeros());
+}
+
+#[test]
+fn quaternions_are_those_of_nalgebra() {
+    let (kit, state, [p, q]) = (kit(), state(), quaternions());
+    let numbers = |q: Quaternion<f64>| Vector4::new(q.w, q.i, q.j, q.k);
+    assert_near(kit.product(&state), numbers(p * q));
+    assert_near(kit.conjugate(&state), numbers(q.conjugate()));
+}
+
+/// R = rot_z(x) rot_x(2x) turns by ẋ about z of the fixed frame and by 2ẋ about x of its own: Ṙ = ẋ ẑ × R + R (2ẋ x̂ ×).
+#[test]
+fn a_matrix_has_a_rate() {
+    let (kit, state) = (kit(), state());
+    let [about_z, about_x] = [Vector3::z() * RATE, Vector3::x() * (2.0 * RATE)];
+    let turns = Rotation3::new(Vector3::z() * X) * Rotation3::new(Vector3::x() * (2.0 * X));
+    let rate = about_z.cross_matrix() * turns.matrix() + turns.matrix() * about_x.cross_matrix();
+    assert_near(kit.rate(&state), rate * r());
+    assert_near(kit.spin(&state), about_x + turns.inverse() * about_z);
+}
+
+/// A heavy top said by a matrix of Euler's angles.
+#[derive(Lagrangian)]
+#[coordinates(phi, theta, psi)]
+#[define(turn = rot_z(phi)*rot_x(theta)*rot_z(psi))]
+#[define(rates = transpose(turn)*der(turn))]
+#[define(w = [rates[2][1], rates[0][2], rates[1][0]])]
+#[lagrangian(dot(w, inertia*w)/2 - mgl*(turn*[0, 0, 1])[2])]
+struct ByMatrix {
+    inertia: Matrix3<f64>,
+    mgl: f64,
+}
+
+/// The angular velocity as the books have it (Goldstein, Poole and Safko, *Classical Mechanics*, 4.87).
+#[derive(Lagrangian)]
+#[coordinates(phi, theta, psi)]
+#[define(w = [
+    phi_dot*sin(theta)*sin(psi) + theta_dot*cos(psi),
+    phi_dot*sin(theta)*cos(psi) - theta_dot*sin(psi),
+    phi_dot*cos(theta) + psi_dot
+])]
+#[lagrangian(dot(w, inertia*w)/2 - mgl*cos(theta))]
+struct ByTheBook {
+    inertia: Matrix3<f64>,
+    mgl: f64,
+}
+
+#[test]
+fn a_top_by_a_matrix_moves_as_the_one_in_the_books() {
+    let inertia = Matrix3::new(2.0, 0.1, -0.2, 0.1, 1.5, 0.3, -0.2, 0.3, 0.7);
+    let (matrix, book) = (ByMatrix { inertia, mgl: 3.0 }, ByTheBook { inertia, mgl: 3.0 });
+    for angle in [0.4, 1.3, 2.8] {
+        let state = State::new([0.3, angle, -1.1], [1.7, -0.6, 5.0]);
+        let (found, expected) = (matrix.solve(&state).unwrap(), book.solve(&state).unwrap());
+        assert_relative_eq!(found.accelerations, expected.accelerations, max_relative = 1e-12);
+    }
+}
+
+/// A rigid body, by its orientation as a matrix of nine coordinates and RᵀR = 1, six equations.
+#[derive(Lagrangian)]
+#[coordinates(a: [3], b: [3], c: [3])]
+#[define(turn = transpose([a, b, c]))]
+#[define(rate = der(turn))]
+#[define(metric = transpose(turn)*turn)]
+#[lagrangian(trace(rate*spread*transpose(rate))/2)]
+#[constraint(lengths: [metric[0][0], metric[1][1], metric[2][2]] = [1, 1, 1])]
+#[constraint(angles: [metric[0][1], metric[0][2], metric[1][2]] = 0)]
+struct Body {
+    /// ∫ x xᵀ dm.
+    spread: Matrix3<f64>,
+}
+
+/// Euler's equations for it: I ω̇ = −ω × I ω with I = tr(K) 1 − K, and R̈ = R (ω̂² + ω̇̂).
+#[test]
+fn a_body_by_nine_coordinates_obeys_eulers_equations() {
+    let spread = Matrix3::new(1.0, 0.1, 0.2, 0.1, 2.0, -0.3, 0.2, -0.3, 0.5);
+    let inertia = Matrix3::identity() * spread.trace() - spread;
+    let turn = UnitQuaternion::from_euler_angles(0.4, -0.9, 2.0).to_rotation_matrix().into_inner();
+    let w = Vector3::new(0.7, -1.2, 0.4);
+    let rate = turn * w.cross_matrix();
+    let numbers = |x: &Matrix3<f64>| std::array::from_fn::<f64, 9, _>(|i| x[(i % 3, i / 3)]);
+    let state = State::new(numbers(&turn), numbers(&rate));
+    let w_dot = inertia.try_inverse().unwrap() * -w.cross(&(inertia * w));
+    let expected = turn * (w.cross_matrix() * w.cross_matrix() + w_dot.cross_matrix());
+    let found = Body { spread }.solve(&state).unwrap();
+    assert_near(found.accelerations, SVector::from(numbers(&expected)));
+}
