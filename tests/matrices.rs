@@ -2,9 +2,11 @@
 
 use approx::assert_relative_eq;
 use lagrange_core::nalgebra::{
-    Matrix2x3, Matrix3, Quaternion, Rotation3, SVector, Unit, UnitQuaternion, Vector2, Vector3, Vector4,
+    Matrix2x3, Matrix3, Quaternion, Rotation, Rotation2, Rotation3, SMatrix, SVector, Unit, UnitQuaternion,
+    Vector2, Vector3, Vector4,
 };
 use lagrange_core::prelude::*;
+use lagrange_core::{Lanes, Pack};
 
 #[derive(Lagrangian)]
 #[coordinates(r: [3], p: [4], q: [4], x)]
@@ -199,4 +201,90 @@ fn a_body_by_nine_coordinates_obeys_eulers_equations() {
     let expected = turn * (w.cross_matrix() * w.cross_matrix() + w_dot.cross_matrix());
     let found = Body { spread }.solve(&state).unwrap();
     assert_near(found.accelerations, SVector::from(numbers(&expected)));
+}
+
+/// A field of each form, each number by its place.
+#[derive(Lagrangian, Clone)]
+#[coordinates(x, r: [3])]
+#[lagrangian(x_dot^2/2 + dot(r_dot, r_dot)/2)]
+#[observable(of_matrices = matrices[1]*r + transpose(matrices[0])*r)]
+#[observable(of_arrays = arrays[1][0][2] + 10*arrays[0][1][1])]
+#[observable(of_vectors = vectors[1] - vectors[0])]
+#[observable(of_turn = turn*r)]
+#[observable(of_turns = turns[0]*turns[1]*r)]
+#[observable(of_plane = plane*[x, 1])]
+#[observable(of_unit = quat_rotate(unit, r))]
+#[observable(of_units = quat_rotate(quat_mul(units[1], units[0]), r))]
+#[observable(of_quaternion = quaternion)]
+struct Fields<T: lagrange_core::nalgebra::Scalar> {
+    matrices: [SMatrix<T, 3, 3>; 2],
+    arrays: [[[T; 3]; 2]; 2],
+    vectors: [Vector3<T>; 2],
+    turn: Rotation3<T>,
+    turns: [Rotation<T, 3>; 2],
+    plane: Rotation2<T>,
+    unit: UnitQuaternion<T>,
+    units: [UnitQuaternion<T>; 2],
+    quaternion: Quaternion<T>,
+}
+
+fn fields() -> Fields<f64> {
+    let turn = |x: f64| Rotation3::from_euler_angles(x, 0.5 - x, 2.0 * x);
+    let unit = |x: f64| UnitQuaternion::from_euler_angles(x, 0.3, -x);
+    Fields {
+        matrices: [kit().a, made()],
+        arrays: [[[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]], [[7.0, 8.0, 9.0], [10.0, 11.0, 12.0]]],
+        vectors: [r(), Vector3::new(0.5, 0.25, 8.0)],
+        turn: turn(0.3),
+        turns: [turn(1.1), turn(-0.4)],
+        plane: Rotation2::new(0.8),
+        unit: unit(0.9),
+        units: [unit(-1.3), unit(0.2)],
+        quaternion: quaternions()[0],
+    }
+}
+
+#[test]
+fn fields_are_read_by_their_indices() {
+    let (fields, r) = (fields(), r());
+    let state = State::new([X, r.x, r.y, r.z], [0.0; 4]);
+    assert_near(fields.of_matrices(&state), fields.matrices[1] * r + fields.matrices[0].transpose() * r);
+    assert_eq!(fields.of_arrays(&state), 9.0 + 50.0);
+    assert_near(fields.of_vectors(&state), fields.vectors[1] - fields.vectors[0]);
+    assert_near(fields.of_turn(&state), fields.turn * r);
+    assert_near(fields.of_turns(&state), fields.turns[0] * fields.turns[1] * r);
+    assert_near(fields.of_plane(&state), fields.plane * Vector2::new(X, 1.0));
+    assert_near(fields.of_unit(&state), fields.unit * r);
+    assert_near(fields.of_units(&state), fields.units[1] * fields.units[0] * r);
+    let Quaternion { coords } = fields.quaternion;
+    assert_near(fields.of_quaternion(&state), Vector4::new(coords.w, coords.x, coords.y, coords.z));
+    let names = Fields::<f64>::PARAMETERS;
+    assert!(names.contains(&"matrices[1][2][0]") && names.contains(&"units[1][3]"), "{names:?}");
+}
+
+/// Each lane has the numbers of its own system.
+#[test]
+fn rotations_and_quaternions_lie_on_lanes() {
+    let (one, other) = (fields(), Fields { turn: fields().turns[0], units: [fields().unit; 2], ..fields() });
+    let mut packed: Fields<Lanes> = one.pack();
+    assert!(other.place(&mut packed, 2));
+    let state = State::new([X, 1.0, -2.0, 3.0], [0.0; 4]);
+    let on_lanes = State::new([X, 1.0, -2.0, 3.0].map(Lanes::constant), [Lanes::constant(0.0); 4]);
+    let (turned, twice) = (packed.of_turn(&on_lanes), packed.of_units(&on_lanes));
+    for lane in 0..Lanes::COUNT {
+        let alone = if lane == 2 { &other } else { &one };
+        assert_near(turned.map(|x| x.to_array()[lane]), alone.of_turn(&state));
+        assert_near(twice.map(|x| x.to_array()[lane]), alone.of_units(&state));
+    }
+}
+
+/// Derivatives by the numbers of a rotation are known, but one number of it cannot be changed alone.
+#[test]
+fn a_rotation_stays_one() {
+    let mut fields = fields();
+    let is_set = Fields::<f64>::PARAMETERS.iter().enumerate().filter(|&(k, _)| fields.set_parameter(k, 7.0));
+    let fixed = Fields::<f64>::PARAMETERS.len() - is_set.count();
+    assert_eq!(fixed, 9 + 2 * 9 + 4 + 4 + 2 * 4);
+    assert_eq!(fields.quaternion, Quaternion::new(7.0, 7.0, 7.0, 7.0));
+    assert_eq!(fields.matrices, [SMatrix::<f64, 3, 3>::from_element(7.0); 2]);
 }

@@ -371,7 +371,7 @@ impl Display for Error {
             ),
             Self::ParameterFixed { name } => write!(
                 f,
-                "the parameter `{name}` cannot be changed: its field is a reference, or its type says no shape; make the field a number, an array or a vector of nalgebra"
+                "the parameter `{name}` cannot be changed: its field is a reference or a rotation, or its type says no shape; make the field a number, an array, or a vector or matrix of nalgebra"
             ),
             Self::NotRealizable { row: row @ Row::Coordinate(_), residual, time } => write!(
                 f,

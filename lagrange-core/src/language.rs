@@ -38,7 +38,8 @@
 //! | `lambda(name)` | the multiplier of a constraint, in observables only |
 //!
 //! Fields, coordinates, definitions and built-in names share one namespace; constraints and observables have one
-//! each. A field may be a number, a reference, an array or a nalgebra vector or matrix of numbers; a field that no
+//! each. A field may be a number, a reference, an array or a vector, matrix, rotation (`Rotation3`) or quaternion
+//! (`UnitQuaternion`, which is (w, x, y, z) in expressions) of nalgebra, or an array of these; a field that no
 //! expression uses may have any type.
 //!
 //! Everything is written out when it is compiled. So ranges end at 10,000 at most, the expressions of a system use at most

@@ -185,7 +185,8 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     fn parameters(&self) -> SVector<Self::Scalar, P>;
 
     /// Sets the parameter [`PARAMETERS`](Self::PARAMETERS)`[index]`; false where there is none, or where it is behind a
-    /// reference or in a type that only `#[parameter(…)]` gives a shape.
+    /// reference, in a type that only `#[parameter(…)]` gives a shape, or one of the numbers of a rotation or a unit
+    /// quaternion, which would then be none.
     fn set_parameter(&mut self, index: usize, value: Self::Scalar) -> bool;
 
     /// What the derivatives of the residual by all parameters are made of: plain numbers.

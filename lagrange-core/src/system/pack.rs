@@ -2,7 +2,7 @@
 
 use core::fmt::Debug;
 
-use nalgebra::SMatrix;
+use nalgebra::{Quaternion, Rotation, SMatrix, Unit};
 
 #[cfg(feature = "std")]
 use crate::number::{Lanes, Scalar};
@@ -49,7 +49,7 @@ pub trait Pack<V>: Sized {
 /// A field with other numbers in each lane, where a system alone has the field `X`.
 #[diagnostic::on_unimplemented(
     message = "a field of type `{X}` cannot be put on SIMD lanes",
-    note = "numbers, arrays, and vectors and matrices of nalgebra can, where the field owns them"
+    note = "numbers, arrays, and vectors, matrices, rotations and quaternions of nalgebra can, where the field owns them"
 )]
 pub trait Packed<X> {
     /// The same in every lane.
@@ -99,6 +99,50 @@ where
     #[inline]
     fn place(&mut self, lane: usize, field: &SMatrix<X, R, C>) {
         self.iter_mut().zip(field.iter()).for_each(|(packed, x)| packed.place(lane, x));
+    }
+}
+
+impl<P, X, const D: usize> Packed<Rotation<X, D>> for Rotation<P, D>
+where
+    P: nalgebra::Scalar,
+    X: nalgebra::Scalar,
+    SMatrix<P, D, D>: Packed<SMatrix<X, D, D>>,
+{
+    #[inline]
+    fn splat(field: &Rotation<X, D>) -> Self {
+        Self::from_matrix_unchecked(Packed::splat(field.matrix()))
+    }
+
+    #[inline]
+    fn place(&mut self, lane: usize, field: &Rotation<X, D>) {
+        self.matrix_mut_unchecked().place(lane, field.matrix());
+    }
+}
+
+impl<P, X> Packed<Quaternion<X>> for Quaternion<P>
+where
+    SMatrix<P, 4, 1>: Packed<SMatrix<X, 4, 1>>,
+{
+    #[inline]
+    fn splat(field: &Quaternion<X>) -> Self {
+        Self { coords: Packed::splat(&field.coords) }
+    }
+
+    #[inline]
+    fn place(&mut self, lane: usize, field: &Quaternion<X>) {
+        self.coords.place(lane, &field.coords);
+    }
+}
+
+impl<P: Packed<X>, X> Packed<Unit<X>> for Unit<P> {
+    #[inline]
+    fn splat(field: &Unit<X>) -> Self {
+        Self::new_unchecked(P::splat(field))
+    }
+
+    #[inline]
+    fn place(&mut self, lane: usize, field: &Unit<X>) {
+        self.as_mut_unchecked().place(lane, field);
     }
 }
 

@@ -11,6 +11,7 @@ use super::{Emitter, Written, runtime};
 use crate::contract::{LINEARIZED, Method, Quantity, STATE_DERIVATIVES};
 use crate::mechanics::{Changes, Linearization};
 use crate::symbolic::Graph;
+use crate::syntax::Inside;
 
 /// The programs of what changes: the slopes, and what they make of a direction.
 pub(super) struct Changing {
@@ -115,13 +116,15 @@ impl Emitter<'_> {
         Written { tokens, kernels: Vec::new() }
     }
 
-    /// What is behind a reference, or in a type that only `#[parameter(…)]` gives a shape, cannot be set.
+    /// What is behind a reference, in a type that only `#[parameter(…)]` gives a shape, or one of the numbers of a rotation,
+    /// cannot be set.
     fn set_parameter(&self, method: &Method) -> Written {
         let signature = self.style.types.signature(method);
         let arms = self.problem.parameters.by_field().into_iter().enumerate().filter_map(|(index, k)| {
             let field = &self.problem.parameters.fields[self.problem.parameters.entries[k].field];
             let shape = field.shape.as_ref().ok()?;
-            let settable = !shape.is_reference && shape.scalar.is_some();
+            let is_bound = matches!(shape.layout.inside, Inside::Rotation | Inside::UnitQuaternion);
+            let settable = !shape.is_reference && shape.scalar.is_some() && !is_bound;
             let place = self.style.parameter(k);
             settable.then(|| quote!(#index => #place = value,))
         });

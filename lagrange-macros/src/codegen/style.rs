@@ -8,8 +8,9 @@ use rustc_hash::FxHashMap;
 
 use super::signature::Types;
 use crate::mechanics::changes;
-use crate::resolve::{Element, Problem};
+use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id, Symbol};
+use crate::syntax::{FieldShape, Inside};
 use crate::variables::Variable;
 
 /// What all functions of a system have in common.
@@ -72,11 +73,8 @@ impl<'a> Style<'a> {
         }
         for (k, entry) in problem.parameters.entries.iter().enumerate() {
             let field = &problem.parameters.fields[entry.field].name.text;
-            let text = match entry.element {
-                Element::All => field.clone(),
-                Element::Item(i) => format!("{field}_{i}"),
-                Element::RowItem(i, j) | Element::Cell(i, j) => format!("{field}_{i}_{j}"),
-            };
+            let indices = problem.parameters.indices(k);
+            let text = indices.into_iter().fold(field.clone(), |name, i| format!("{name}_{i}"));
             names.insert(Variable::Parameter(k).symbol(), unique(text));
         }
         let mut definitions: Vec<_> = problem.names.iter().collect();
@@ -138,24 +136,28 @@ impl<'a> Style<'a> {
         let entry = self.problem.parameters.entries[k];
         let field = &self.problem.parameters.fields[entry.field];
         let ident = &field.ident;
-        let index = Literal::usize_unsuffixed;
-        match entry.element {
-            Element::All if field.shape.as_ref().is_ok_and(|shape| shape.is_reference) => {
-                quote!(*self.#ident)
+        let indices = self.problem.parameters.indices(k);
+        let Ok(FieldShape { layout, is_reference, .. }) = &field.shape else { return quote!(self.#ident) };
+        let inside = match layout.inside {
+            Inside::Array => 0,
+            Inside::Matrix | Inside::Rotation => 2,
+            Inside::Quaternion | Inside::UnitQuaternion => 1,
+        };
+        let (arrays, inside) = indices.split_at(indices.len() - inside);
+        let literal = |k: &usize| Literal::usize_unsuffixed(*k);
+        let arrays: Vec<_> = arrays.iter().map(literal).collect();
+        let place = quote!(self.#ident #([#arrays])*);
+        match inside {
+            [k] => {
+                let k = literal(&((k + 3) % 4));
+                quote!(#place.coords[#k])
             }
-            Element::All => quote!(self.#ident),
-            Element::Item(i) => {
-                let i = index(i);
-                quote!(self.#ident[#i])
+            [i, j] => {
+                let (i, j) = (literal(i), literal(j));
+                quote!(#place[(#i, #j)])
             }
-            Element::RowItem(i, j) => {
-                let (i, j) = (index(i), index(j));
-                quote!(self.#ident[#i][#j])
-            }
-            Element::Cell(i, j) => {
-                let (i, j) = (index(i), index(j));
-                quote!(self.#ident[(#i, #j)])
-            }
+            _ if arrays.is_empty() && *is_reference => quote!(*#place),
+            _ => place,
         }
     }
 

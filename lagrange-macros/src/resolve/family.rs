@@ -220,7 +220,7 @@ impl Lowering<'_> {
         let mut path = Vec::new();
         for (level, index) in indices.iter().enumerate() {
             let i = self.integer(index)?;
-            let Some(&length) = layout.lengths().get(level) else {
+            let Some(&length) = layout.lengths.get(level) else {
                 let end = indices[..level].last().map_or(name.place, |before| before.place);
                 return self.report(name.place.to(end), NO_ELEMENTS);
             };

@@ -23,7 +23,7 @@ use crate::variables::Variable;
 pub(crate) use function::Supplied;
 use lower::Lowering;
 pub(crate) use outline::{Observable, Outline, outline};
-pub(crate) use parameters::{Element, Parameters};
+pub(crate) use parameters::Parameters;
 use scope::Scope;
 pub(crate) use scope::is_built_in;
 use value::Value;

@@ -7,27 +7,17 @@ use super::unknown::{nearest, or_meant};
 use super::value::Value;
 use crate::diagnostics::{Diagnostics, Place};
 use crate::symbolic::Graph;
-use crate::syntax::{Declaration, Expression, Field, FieldShape, Kind, Layout, Operator, Parameter};
+use crate::syntax::{Declaration, Expression, Field, FieldShape, Kind, Layout, Operator, Parameter, numbers};
 use crate::variables::Variable;
 
 /// Each number in use is a parameter with a name and a place of its own in what is emitted.
 const NUMBER_LIMIT: usize = 10_000;
 
-/// A number in a field: the field's index and the path to the number inside of it.
+/// A number in a field: the field's index, and which of its numbers that is, counted row by row.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub(crate) struct Entry {
     pub(crate) field: usize,
-    pub(crate) element: Element,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub(crate) enum Element {
-    All,
-    Item(usize),
-    /// Row, then column, of an array of rows.
-    RowItem(usize, usize),
-    /// Row and column of a nalgebra matrix.
-    Cell(usize, usize),
+    pub(crate) number: usize,
 }
 
 /// The fields as the expressions see them.
@@ -75,20 +65,22 @@ impl Parameters {
     fn set_length(&mut self, index: usize, length: usize, place: Place) -> syn::Result<()> {
         let field = &mut self.fields[index];
         match &field.shape {
-            Ok(FieldShape { layout: Layout::Vector(known), .. }) if *known == length => Ok(()),
+            Ok(FieldShape { layout, .. }) if *layout == Layout::array([length]) => Ok(()),
             // A type of another name may be an alias of an array.
-            Ok(FieldShape { layout: Layout::Scalar, scalar: Some(scalar), .. })
-                if is_float(&text(scalar)) =>
+            Ok(FieldShape { layout, scalar: Some(scalar), .. })
+                if layout.is_scalar() && is_float(&text(scalar)) =>
             {
                 let message = format!("`{}` is a scalar: its type is `{}`", field.name.text, text(scalar));
                 Err(place.error(message))
             }
-            Ok(FieldShape { layout: Layout::Scalar, .. }) | Err(_) => {
-                let is_reference = field.shape.as_ref().is_ok_and(|shape| shape.is_reference);
-                field.shape = Ok(FieldShape { layout: Layout::Vector(length), scalar: None, is_reference });
+            Ok(FieldShape { layout, .. }) if !layout.is_scalar() => {
+                Err(place.error(format!("the type of `{}` says another shape", field.name.text)))
+            }
+            shape => {
+                let is_reference = shape.as_ref().is_ok_and(|shape| shape.is_reference);
+                field.shape = Ok(FieldShape { layout: Layout::array([length]), scalar: None, is_reference });
                 Ok(())
             }
-            Ok(_) => Err(place.error(format!("the type of `{}` says another shape", field.name.text))),
         }
     }
 
@@ -101,35 +93,27 @@ impl Parameters {
         graph: &mut Graph,
         diagnostics: &mut Diagnostics,
     ) -> Option<Value> {
-        let layout = self.layout(index, place, diagnostics)?;
-        if layout.lengths().iter().skip(path.len()).product::<usize>() > NUMBER_LIMIT {
+        let lengths = self.layout(index, place, diagnostics)?.lengths;
+        let (outer, inner) = lengths.split_at(path.len());
+        if numbers(inner) > NUMBER_LIMIT {
             return self.too_many(index, place, diagnostics);
         }
-        let mut entry = |element| {
-            let (k, _) = self.entries.insert_full(Entry { field: index, element });
-            Value::Scalar(graph.symbol(Variable::Parameter(k).symbol()))
-        };
-        let mut row = |i, columns, element: fn(usize, usize) -> Element| match path.get(1) {
-            Some(&j) => entry(element(i, j)),
-            None => Value::Vector((0..columns).map(|j| entry(element(i, j))).collect()),
-        };
-        let mut table = |rows, columns, element| match path.first() {
-            Some(&i) => row(i, columns, element),
-            None => Value::Vector((0..rows).map(|i| row(i, columns, element)).collect()),
-        };
-        let value = match layout {
-            Layout::Rows(rows, columns) => table(rows, columns, Element::RowItem),
-            Layout::Matrix(rows, columns) => table(rows, columns, Element::Cell),
-            Layout::Vector(length) => match path.first() {
-                Some(&i) => entry(Element::Item(i)),
-                None => Value::Vector((0..length).map(|i| entry(Element::Item(i))).collect()),
-            },
-            Layout::Scalar => entry(Element::All),
-        };
+        let before = path.iter().zip(outer).fold(0, |number, (i, length)| number * length + i);
+        let value = self.array(index, before * numbers(inner), inner, graph);
         if self.entries.len() > NUMBER_LIMIT {
             return self.too_many(index, place, diagnostics);
         }
         Some(value)
+    }
+
+    /// Arrays of these lengths of the numbers of a field from one on.
+    fn array(&mut self, field: usize, first: usize, lengths: &[usize], graph: &mut Graph) -> Value {
+        let Some((&length, inner)) = lengths.split_first() else {
+            let (k, _) = self.entries.insert_full(Entry { field, number: first });
+            return Value::Scalar(graph.symbol(Variable::Parameter(k).symbol()));
+        };
+        let item = |i: usize| self.array(field, first + i * numbers(inner), inner, graph);
+        Value::Vector((0..length).map(item).collect())
     }
 
     fn too_many<T>(&mut self, index: usize, place: Place, diagnostics: &mut Diagnostics) -> Option<T> {
@@ -163,7 +147,7 @@ impl Parameters {
     ) -> Option<Layout> {
         let Field { name, place: field, shape, .. } = &self.fields[index];
         match shape {
-            Ok(shape) => Some(shape.layout),
+            Ok(shape) => Some(shape.layout.clone()),
             Err(reason) => {
                 let note = format!("`{}` is used here", name.text);
                 self.report_once(index, field.error_beside(reason, place, note), diagnostics)
@@ -173,13 +157,14 @@ impl Parameters {
 
     /// Entry `k` as an expression names it.
     pub(crate) fn name(&self, k: usize) -> String {
-        let Entry { field, element } = self.entries[k];
-        let name = &self.fields[field].name.text;
-        match element {
-            Element::All => name.clone(),
-            Element::Item(i) => format!("{name}[{i}]"),
-            Element::RowItem(i, j) | Element::Cell(i, j) => format!("{name}[{i}][{j}]"),
-        }
+        let name = &self.fields[self.entries[k].field].name.text;
+        self.indices(k).into_iter().fold(name.clone(), |name, i| format!("{name}[{i}]"))
+    }
+
+    /// The indices of entry `k` in its field.
+    pub(crate) fn indices(&self, k: usize) -> Vec<usize> {
+        let Entry { field, number } = self.entries[k];
+        self.fields[field].shape.as_ref().map_or_else(|_| Vec::new(), |shape| shape.layout.indices(number))
     }
 
     /// The number type: what the fields in use are made of, else `f64`.

@@ -148,7 +148,7 @@ impl Scope {
 fn lengths(declaration: &Declaration) -> impl Iterator<Item = (&Name, usize)> {
     let coordinates = declaration.coordinates.iter().filter_map(|known| Some((&known.name, known.length?)));
     let fields = declaration.fields.iter().filter_map(|field| {
-        let length = *field.shape.as_ref().ok()?.layout.lengths().first()?;
+        let length = *field.shape.as_ref().ok()?.layout.lengths.first()?;
         Some((&field.name, length))
     });
     coordinates.chain(fields)

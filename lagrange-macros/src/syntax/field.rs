@@ -28,31 +28,59 @@ pub(crate) struct FieldShape {
     pub(crate) is_reference: bool,
 }
 
+/// Arrays in arrays. The numbers are counted row by row.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) struct Layout {
+    /// From the outside in: none for a single number.
+    pub(crate) lengths: Vec<usize>,
+    pub(crate) inside: Inside,
+}
+
+/// How the numbers in the innermost array are read.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Layout {
-    Scalar,
-    /// `self.a[i]`
-    Vector(usize),
-    /// `self.a[i][j]`: rows of arrays
-    Rows(usize, usize),
-    /// `self.a[(i, j)]`: a nalgebra matrix
-    Matrix(usize, usize),
+pub(crate) enum Inside {
+    /// `a[i][j]`
+    Array,
+    /// `a[(i, j)]`: a nalgebra matrix
+    Matrix,
+    /// As a matrix, whose numbers cannot be set one by one.
+    Rotation,
+    /// `a.coords[(i + 3) % 4]`: a nalgebra quaternion, which has its real part last
+    Quaternion,
+    /// As a quaternion, whose numbers cannot be set one by one.
+    UnitQuaternion,
 }
 
 impl Layout {
-    /// The lengths from the outside in: none for a scalar.
-    pub(crate) fn lengths(self) -> Vec<usize> {
-        match self {
-            Self::Scalar => Vec::new(),
-            Self::Vector(length) => vec![length],
-            Self::Rows(rows, columns) | Self::Matrix(rows, columns) => vec![rows, columns],
-        }
+    pub(crate) fn array(lengths: impl Into<Vec<usize>>) -> Self {
+        Self { lengths: lengths.into(), inside: Inside::Array }
+    }
+
+    pub(crate) fn is_scalar(&self) -> bool {
+        self.lengths.is_empty()
     }
 
     /// How many numbers that is; more than can be counted count as the most.
-    pub(crate) fn numbers(self) -> usize {
-        self.lengths().into_iter().fold(1, usize::saturating_mul)
+    pub(crate) fn numbers(&self) -> usize {
+        numbers(&self.lengths)
     }
+
+    /// The indices of a number.
+    pub(crate) fn indices(&self, mut number: usize) -> Vec<usize> {
+        let index = |length: &usize| {
+            let index = number % length;
+            number /= length;
+            index
+        };
+        let mut indices: Vec<usize> = self.lengths.iter().rev().map(index).collect();
+        indices.reverse();
+        indices
+    }
+}
+
+/// How many numbers arrays in arrays of these lengths have.
+pub(crate) fn numbers(lengths: &[usize]) -> usize {
+    lengths.iter().copied().fold(1, usize::saturating_mul)
 }
 
 /// An array in an expression has at most this many numbers.
@@ -71,7 +99,11 @@ fn shape(ty: &Type) -> Result<FieldShape, String> {
         Type::Reference(reference) => Ok(FieldShape { is_reference: true, ..shape(&reference.elem)? }),
         Type::Paren(inner) => shape(&inner.elem),
         Type::Group(inner) => shape(&inner.elem),
-        Type::Array(array) => nested(shape(&array.elem)?, length(&array.len)?),
+        Type::Array(array) => {
+            let (mut shape, length) = (shape(&array.elem)?, length(&array.len)?);
+            shape.layout.lengths.insert(0, length);
+            Ok(shape)
+        }
         Type::Path(path) => match path.path.segments.last() {
             Some(segment) => named(ty, segment),
             None => Err(unusable(ty)),
@@ -91,19 +123,8 @@ fn short_enough(shape: FieldShape) -> Result<FieldShape, String> {
 fn unusable(ty: &Type) -> String {
     let ty = ty.to_token_stream().to_string().replace(' ', "");
     format!(
-        "a field of type `{ty}` cannot stand in an expression: write `f64`, an array or a nalgebra vector or matrix of it, or say its shape with `#[parameter(name: [3])]`"
+        "a field of type `{ty}` cannot stand in an expression: write `f64`, an array or a nalgebra vector, matrix, rotation or quaternion of it, or say its shape with `#[parameter(name: [3])]`"
     )
-}
-
-fn nested(inner: FieldShape, length: usize) -> Result<FieldShape, String> {
-    let layout = match inner.layout {
-        Layout::Scalar => Layout::Vector(length),
-        Layout::Vector(columns) => Layout::Rows(length, columns),
-        Layout::Rows(..) | Layout::Matrix(..) => {
-            return Err("arrays of matrices cannot stand in an expression".to_owned());
-        }
-    };
-    Ok(FieldShape { layout, ..inner })
 }
 
 fn named(ty: &Type, segment: &PathSegment) -> Result<FieldShape, String> {
@@ -113,10 +134,11 @@ fn named(ty: &Type, segment: &PathSegment) -> Result<FieldShape, String> {
         _ => Vec::new(),
     };
     let layout = match (name.as_str(), &arguments[..]) {
-        ("SVector", [_, n]) => Layout::Vector(argument_length(n)?),
-        ("SMatrix", [_, rows, columns]) => Layout::Matrix(argument_length(rows)?, argument_length(columns)?),
+        ("SVector", [_, n]) => Layout::array([argument_length(n)?]),
+        ("SMatrix", [_, rows, columns]) => matrix(argument_length(rows)?, argument_length(columns)?),
+        ("Rotation", [_, n]) => rotation(argument_length(n)?),
         (_, [_]) => named_layout(&name).ok_or_else(|| unusable(ty))?,
-        (_, []) => Layout::Scalar,
+        (_, []) => Layout::array([]),
         _ => return Err(unusable(ty)),
     };
     let scalar = match arguments.first() {
@@ -127,15 +149,30 @@ fn named(ty: &Type, segment: &PathSegment) -> Result<FieldShape, String> {
     Ok(FieldShape { layout, scalar: Some(scalar), is_reference: false })
 }
 
-/// `Vector3`, `Matrix2`, `Matrix2x3`.
+fn matrix(rows: usize, columns: usize) -> Layout {
+    Layout { lengths: vec![rows, columns], inside: Inside::Matrix }
+}
+
+fn rotation(size: usize) -> Layout {
+    Layout { inside: Inside::Rotation, ..matrix(size, size) }
+}
+
+/// `Vector3`, `Matrix2`, `Matrix2x3`, `Rotation3`, `UnitQuaternion`.
 fn named_layout(name: &str) -> Option<Layout> {
     let size = |text: &str| text.parse().ok().filter(|size| (1..=6).contains(size));
     if let Some(length) = name.strip_prefix("Vector") {
-        return size(length).map(Layout::Vector);
+        return size(length).map(|length| Layout::array([length]));
+    }
+    match name {
+        "Rotation2" => return Some(rotation(2)),
+        "Rotation3" => return Some(rotation(3)),
+        "Quaternion" => return Some(Layout { lengths: vec![4], inside: Inside::Quaternion }),
+        "UnitQuaternion" => return Some(Layout { lengths: vec![4], inside: Inside::UnitQuaternion }),
+        _ => {}
     }
     let sizes = name.strip_prefix("Matrix")?;
     let (rows, columns) = sizes.split_once('x').unwrap_or((sizes, sizes));
-    Some(Layout::Matrix(size(rows)?, size(columns)?))
+    Some(matrix(size(rows)?, size(columns)?))
 }
 
 fn argument_length(argument: &GenericArgument) -> Result<usize, String> {

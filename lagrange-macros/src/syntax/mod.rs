@@ -17,7 +17,7 @@ pub(crate) use attribute::declaration;
 pub(crate) use cursor::{NESTING_LIMIT, shallow, too_deep};
 pub(crate) use declaration::{Constraint, Coordinate, Declaration, Define, Force, Function, Parameter};
 pub(crate) use expression::{Expression, Kind, Operator, Sign, SumOver};
-pub(crate) use field::{Field, FieldShape, LENGTH_LIMIT, Layout};
+pub(crate) use field::{Field, FieldShape, Inside, LENGTH_LIMIT, Layout, numbers};
 pub(crate) use greek::GREEK;
 pub(crate) use name::{Name, normal_form};
 pub(crate) use target::{Target, TargetIndex};
