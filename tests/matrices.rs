@@ -288,3 +288,19 @@ fn a_rotation_stays_one() {
     assert_eq!(fields.quaternion, Quaternion::new(7.0, 7.0, 7.0, 7.0));
     assert_eq!(fields.matrices, [SMatrix::<f64, 3, 3>::from_element(7.0); 2]);
 }
+
+/// A particle in a frame that is turned by fields: r × ṙ is conserved because these are rotations, of any kind. Where the
+/// random numbers of the check were none, this would not compile.
+#[derive(Lagrangian)]
+#[coordinates(r: [3], s: [3])]
+#[define(x = turn*quat_rotate(quaternions[1], r))]
+#[define(y = plane*[s[0], s[1]])]
+#[lagrangian(dot(der(x), der(x))/2 + (dot(der(y), der(y)) + s_dot[2]^2)/2 - k/dot(r, r) - k/dot(s, s))]
+#[conserved(spin = cross(r, r_dot))]
+#[conserved(other_spin = cross(s, s_dot))]
+struct Turned {
+    turn: Rotation3<f64>,
+    quaternions: [UnitQuaternion<f64>; 2],
+    plane: Rotation2<f64>,
+    k: f64,
+}

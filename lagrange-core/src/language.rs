@@ -40,7 +40,7 @@
 //! Fields, coordinates, definitions and built-in names share one namespace; constraints and observables have one
 //! each. A field may be a number, a reference, an array or a vector, matrix, rotation (`Rotation3`) or quaternion
 //! (`UnitQuaternion`, which is (w, x, y, z) in expressions) of nalgebra, or an array of these; a field that no
-//! expression uses may have any type.
+//! expression uses may have any type. What is checked at random numbers is checked at rotations for a field that is one.
 //!
 //! Everything is written out when it is compiled. So ranges end at 10,000 at most, the expressions of a system use at most
 //! 10,000 numbers of its fields, and there are at most 1,000 coordinates and 1,000 constraints. What has more parts belongs

@@ -102,7 +102,8 @@ fn unknown(graph: &Graph, problem: &Problem, root: Id) -> Vec<String> {
 /// Whether a value of it has an error bound that excludes 0.
 fn is_surely_something(graph: &Graph, problem: &Problem, root: Id) -> bool {
     (0..DRAWS).any(|draw| {
-        let mut sample = Sample::new(graph.symbols(&[root]), draw, |symbol| problem.range(symbol));
+        let mut sample =
+            Sample::new(graph.symbols(&[root]), draw, |symbol, draw| problem.drawn(symbol, draw));
         sample.values(graph, &[root])[0].excludes_zero()
     })
 }

@@ -24,7 +24,7 @@ impl Evidence {
 
 /// Whether an expression is zero everywhere, and why one may think so.
 pub(super) fn vanishes(graph: &mut Graph, problem: &Problem, root: Id) -> Option<Evidence> {
-    match graph.is_zero(root, |symbol| problem.range(symbol)) {
+    match graph.is_zero(root, |symbol, draw| problem.drawn(symbol, draw)) {
         Verdict::Zero => Some(Evidence::Proved),
         Verdict::Held(points) => Some(Evidence::Held(points)),
         Verdict::NonZero | Verdict::Undecided => None,

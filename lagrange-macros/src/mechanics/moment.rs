@@ -41,7 +41,7 @@ impl Moment {
         let (coordinates, velocities) = (symbols(n, Variable::Coordinate), symbols(n, Variable::Velocity));
         let parameters = symbols(problem.parameters.entries.len(), Variable::Parameter);
         let all = [&parameters[..], &coordinates, &velocities, &[Variable::Time.symbol()]].concat();
-        let mut moment = Sample::new(all, draw, |symbol| problem.range(symbol));
+        let mut moment = Sample::new(all, draw, |symbol, draw| problem.drawn(symbol, draw));
         let slopes: Vec<&[Id]> = equations.jacobian.iter().map(Vec::as_slice).collect();
         let is_holonomic = |a: &usize| equations.kinds[*a] == ConstraintKind::Holonomic;
         let holonomic = (0..equations.kinds.len()).filter(is_holonomic);

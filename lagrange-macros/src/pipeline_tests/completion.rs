@@ -212,7 +212,7 @@ fn state(graph: &Graph, problem: &Problem, equations: &Equations, draw: u64) -> 
     let roots = [&equations.roots()[..], &equations.forms[0].linear].concat();
     let all = [symbols(n, Variable::Coordinate), symbols(n, Variable::Velocity)];
     let known = graph.symbols(&roots).chain(all.iter().flatten().copied());
-    let mut sample = Sample::new(known, draw, |symbol| problem.range(symbol));
+    let mut sample = Sample::new(known, draw, |symbol, draw| problem.drawn(symbol, draw));
     let is_holonomic = |a: &usize| equations.residual[*a] != Id::ZERO;
     let (residual, slopes): (Vec<Id>, Vec<&[Id]>) = (0..equations.residual.len())
         .filter(is_holonomic)

@@ -2,6 +2,7 @@
 
 mod algebra;
 mod call;
+mod draw;
 mod family;
 mod function;
 mod lower;
@@ -17,9 +18,8 @@ mod value;
 use rustc_hash::FxHashMap;
 
 use crate::diagnostics::{Diagnostics, Place};
-use crate::symbolic::{Graph, Id, Symbol};
+use crate::symbolic::{Graph, Id};
 use crate::syntax::Declaration;
-use crate::variables::Variable;
 pub(crate) use function::Supplied;
 use lower::Lowering;
 pub(crate) use outline::{Observable, Outline, outline};
@@ -57,16 +57,6 @@ pub(crate) struct Problem {
 pub(crate) struct Label {
     pub(crate) text: String,
     pub(crate) place: Place,
-}
-
-impl Problem {
-    /// The interval from which random values of a symbol are drawn.
-    pub(crate) fn range(&self, symbol: Symbol) -> (f64, f64) {
-        match Variable::of(symbol) {
-            Variable::Parameter(k) => self.parameters.ranges[self.parameters.entries[k].field],
-            _ => (-1.25, 1.75),
-        }
-    }
 }
 
 /// Gives every expression its meaning; `None` where something was wrong, which is then reported.

@@ -23,6 +23,7 @@ pub(crate) use differentiate::Forward;
 pub(crate) use elimination::{rank, solve};
 pub(crate) use evaluate::Approximate;
 pub(crate) use graph::{External, Fault, Function, Graph, Id, Node, Symbol};
+pub(crate) use random::{drawn, random};
 pub(crate) use rational::{Rational, to_f64};
 pub(crate) use sample::Sample;
 pub(crate) use scaled::{Scaled, finite_decimal, parse_decimal};

@@ -3,12 +3,12 @@
 use super::graph::Symbol;
 
 /// A value of `symbol` in the range given, the same in every use of one draw.
-pub(super) fn drawn(symbol: Symbol, (low, high): (f64, f64), draw: u64) -> f64 {
+pub(crate) fn drawn(symbol: Symbol, (low, high): (f64, f64), draw: u64) -> f64 {
     low + (high - low) * random(u64::from(symbol.family), u64::from(symbol.index), draw)
 }
 
 /// A number in [0, 1) that depends on nothing but its arguments (Steele, Lea and Flood's SplitMix64).
-pub(super) fn random(family: u64, index: u64, draw: u64) -> f64 {
+pub(crate) fn random(family: u64, index: u64, draw: u64) -> f64 {
     let mut z = (family << 56) ^ (index << 16) ^ draw;
     for _ in 0..2 {
         z = z.wrapping_add(0x9e37_79b9_7f4a_7c15);

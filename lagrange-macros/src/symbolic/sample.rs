@@ -4,7 +4,6 @@ use rustc_hash::FxHashMap;
 
 use super::evaluate::Approximate;
 use super::graph::{Graph, Id, Symbol};
-use super::random::drawn;
 use super::wave::superposition;
 
 /// A point in the space of the symbols, where unknown functions are those of its draw. It remembers the value of
@@ -16,13 +15,13 @@ pub(crate) struct Sample {
 }
 
 impl Sample {
-    /// The random point of number `draw`, each symbol from its range.
+    /// The random point of number `draw`, where each symbol has the value that `drawn` gives it.
     pub(crate) fn new(
         symbols: impl IntoIterator<Item = Symbol>,
         draw: u64,
-        range: impl Fn(Symbol) -> (f64, f64),
+        drawn: impl Fn(Symbol, u64) -> Approximate,
     ) -> Self {
-        let value = |symbol| (symbol, Approximate::exact(drawn(symbol, range(symbol), draw)));
+        let value = |symbol| (symbol, drawn(symbol, draw));
         Self { draw, symbols: symbols.into_iter().map(value).collect(), values: Vec::new() }
     }
 

@@ -21,10 +21,10 @@ const POINTS: usize = 8;
 const DRAWS: u64 = 64;
 
 impl Graph {
-    /// Whether `root` vanishes identically. Each symbol is drawn from the range that `range` gives it.
-    pub(crate) fn is_zero(&mut self, root: Id, range: impl Fn(Symbol) -> (f64, f64)) -> Verdict {
+    /// Whether `root` vanishes identically. Each symbol has in each draw the value that `drawn` gives it.
+    pub(crate) fn is_zero(&mut self, root: Id, drawn: impl Fn(Symbol, u64) -> Approximate) -> Verdict {
         // Most of what is not zero shows it at the first point, and need not be looked through.
-        if root != Id::ZERO && self.samples(root, &range).take(1).any(Approximate::excludes_zero) {
+        if root != Id::ZERO && self.samples(root, &drawn).take(1).any(Approximate::excludes_zero) {
             return Verdict::NonZero;
         }
         let root = self.looked_through(root);
@@ -34,7 +34,7 @@ impl Graph {
         // Outside its domain an expression has no value: draw again.
         let is_known = |value: &Approximate| value.value.is_finite() && value.error.is_finite();
         let mut held = 0;
-        for value in self.samples(root, range).filter(is_known).take(POINTS) {
+        for value in self.samples(root, drawn).filter(is_known).take(POINTS) {
             if value.excludes_zero() {
                 return Verdict::NonZero;
             }
@@ -44,9 +44,13 @@ impl Graph {
     }
 
     /// Its values at random points.
-    fn samples(&self, root: Id, range: impl Fn(Symbol) -> (f64, f64)) -> impl Iterator<Item = Approximate> {
+    fn samples(
+        &self,
+        root: Id,
+        drawn: impl Fn(Symbol, u64) -> Approximate,
+    ) -> impl Iterator<Item = Approximate> {
         let symbols: Vec<Symbol> = self.symbols(&[root]).collect();
         (0..DRAWS)
-            .map(move |draw| Sample::new(symbols.iter().copied(), draw, &range).values(self, &[root])[0])
+            .map(move |draw| Sample::new(symbols.iter().copied(), draw, &drawn).values(self, &[root])[0])
     }
 }

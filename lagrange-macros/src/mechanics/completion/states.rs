@@ -31,7 +31,8 @@ impl System<'_> {
         let rates = if is_moving { rows.to_vec() } else { Vec::new() };
         let symbols: Vec<Symbol> = self.symbols(graph);
         (0..DRAWS).filter_map(move |draw| {
-            let mut sample = Sample::new(symbols.iter().copied(), draw, |symbol| self.problem.range(symbol));
+            let mut sample =
+                Sample::new(symbols.iter().copied(), draw, |symbol, draw| self.problem.drawn(symbol, draw));
             self.settle(graph, &mut sample, &constraints.residual, &places, Variable::Coordinate)?;
             self.settle(graph, &mut sample, &constraints.rate, &rates, Variable::Velocity)?;
             self.state(graph, sample)

@@ -65,7 +65,7 @@ fn is_potential(space: &mut Space, form: &Form, integral: Id, problem: &Problem)
     let gradient = graph.gradient(integral, symbols);
     gradient.into_iter().zip(form).all(|(slope, &entry)| {
         let difference = graph.sub(slope, entry);
-        let verdict = graph.is_zero(difference, |symbol| problem.range(symbol));
+        let verdict = graph.is_zero(difference, |symbol, draw| problem.drawn(symbol, draw));
         matches!(verdict, Verdict::Zero | Verdict::Held(_)) && graph.take_fault().is_none()
     })
 }

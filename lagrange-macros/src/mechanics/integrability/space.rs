@@ -77,7 +77,8 @@ impl Space {
         let coordinates = &self.symbols[..self.symbols.len() - 1];
         let slopes: Vec<&[Id]> = self.holonomic.iter().map(|form| &form[..coordinates.len()]).collect();
         let samples = (0..DRAWS).filter_map(|draw| {
-            let mut sample = Sample::new(symbols.iter().copied(), draw, |symbol| problem.range(symbol));
+            let mut sample =
+                Sample::new(symbols.iter().copied(), draw, |symbol, draw| problem.drawn(symbol, draw));
             sample.project(&self.graph, residuals, &slopes, coordinates)?;
             usable(sample.values(&self.graph, &roots))?;
             Some(sample)

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 
 use super::super::{External, Forward, Function, Graph, Id, Node, Verdict};
 use super::tree::trees;
-use super::{Outcome, for_all, graph, rational, symbol};
+use super::{Outcome, for_all, graph, rational, symbol, within};
 
 /// ∂ of the result `output` of the function 0 by the positions `derivatives`.
 fn partial(graph: &mut Graph, output: u32, derivatives: &[u32], arguments: &[Id]) -> Id {
@@ -22,7 +22,7 @@ fn gradient(graph: &mut Graph, root: Id) -> Vec<Id> {
 
 fn difference_is(graph: &mut Graph, a: Id, b: Id) -> Verdict {
     let difference = graph.sub(a, b);
-    graph.is_zero(difference, |_| (-1.25, 1.75))
+    graph.is_zero(difference, within((-1.25, 1.75)))
 }
 
 #[test]

@@ -20,7 +20,12 @@ use std::fmt::Debug;
 use proptest::strategy::Strategy;
 use proptest::test_runner::{Config, RngSeed, TestCaseError, TestRunner};
 
-use super::{Approximate, Graph, Id, Rational, Sample, Symbol};
+use super::{Approximate, Graph, Id, Rational, Sample, Symbol, drawn};
+
+/// Each symbol from this range.
+fn within(range: (f64, f64)) -> impl Fn(Symbol, u64) -> Approximate {
+    move |symbol, draw| Approximate::exact(drawn(symbol, range, draw))
+}
 
 /// How one random case went.
 enum Outcome {
@@ -68,7 +73,7 @@ impl Graph {
         value: impl Fn(Symbol) -> Approximate,
     ) -> Vec<Approximate> {
         let symbols: Vec<Symbol> = self.symbols(roots).collect();
-        let mut sample = Sample::new([], draw, |_| (0.0, 1.0));
+        let mut sample = Sample::new([], draw, within((0.0, 1.0)));
         sample.set(symbols.into_iter().map(|symbol| (symbol, value(symbol))));
         sample.values(self, roots)
     }

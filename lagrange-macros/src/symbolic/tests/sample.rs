@@ -2,7 +2,7 @@
 
 use crate::symbolic::{Function, Graph, Id, Rational, Sample};
 
-use super::symbol;
+use super::{symbol, within};
 
 #[test]
 fn a_point_is_moved_onto_a_surface() {
@@ -17,7 +17,7 @@ fn a_point_is_moved_onto_a_surface() {
     let sheet = graph.sub(z, sine);
     let mut found = 0;
     for draw in 0..20 {
-        let mut sample = Sample::new([0, 1, 2].map(symbol), draw, |_| (0.5, 1.5));
+        let mut sample = Sample::new([0, 1, 2].map(symbol), draw, within((0.5, 1.5)));
         let unknowns = [0, 1, 2].map(symbol);
         // From far away the second equation of the circle can lead astray; then one draws again.
         let slopes = [circle, again, sheet].map(|root| graph.gradient(root, &unknowns));
@@ -41,7 +41,7 @@ fn where_there_is_no_surface_there_is_no_point() {
     let x = graph.symbol(symbol(0));
     let square = graph.square(x);
     let root = graph.add(square, Id::ONE);
-    let mut sample = Sample::new([symbol(0)], 0, |_| (0.5, 1.5));
+    let mut sample = Sample::new([symbol(0)], 0, within((0.5, 1.5)));
     let slope = graph.gradient(root, &[symbol(0)]);
     assert!(sample.project(&graph, &[root], &[&slope], &[symbol(0)]).is_none());
 }
@@ -59,7 +59,7 @@ fn where_surfaces_touch_there_is_no_point() {
     let slopes = surfaces.map(|root| graph.gradient(root, &unknowns));
     let slopes = slopes.each_ref().map(Vec::as_slice);
     for draw in 0..20 {
-        let mut sample = Sample::new(unknowns, draw, |_| (0.5, 1.5));
+        let mut sample = Sample::new(unknowns, draw, within((0.5, 1.5)));
         assert!(sample.project(&graph, &surfaces, &slopes, &unknowns).is_none());
     }
 }

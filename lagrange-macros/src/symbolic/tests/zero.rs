@@ -4,10 +4,10 @@ use proptest::prelude::*;
 
 use super::super::{Function, Graph, Id, Verdict};
 use super::tree::{Tree, trees};
-use super::{Outcome, for_all, graph, rational, symbol};
+use super::{Outcome, for_all, graph, rational, symbol, within};
 
 fn verdict(graph: &mut Graph, root: Id) -> Verdict {
-    graph.is_zero(root, |_| (-1.25, 1.75))
+    graph.is_zero(root, within((-1.25, 1.75)))
 }
 
 /// The same function of x, y, z in other words: sums multiplied out, functions by their theorems.
@@ -134,7 +134,9 @@ fn samples_come_from_the_range_of_each_symbol() {
     let (mut graph, [x, y, _]) = graph();
     let difference = graph.function(Function::Abs, x);
     let difference = graph.sub(difference, x);
-    let signed = |range: (f64, f64)| move |name| if name == symbol(0) { range } else { (-1.0, 1.0) };
+    let signed = |range: (f64, f64)| {
+        move |name, draw| within(if name == symbol(0) { range } else { (-1.0, 1.0) })(name, draw)
+    };
     assert_eq!(graph.is_zero(difference, signed((0.5, 2.0))), Verdict::Held(8));
     assert_eq!(graph.is_zero(difference, signed((-2.0, -0.5))), Verdict::NonZero);
     assert_eq!(graph.is_zero(y, signed((0.5, 2.0))), Verdict::NonZero);

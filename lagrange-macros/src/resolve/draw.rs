@@ -1,0 +1,68 @@
+//! Random values for what is checked at random points: parameters that their fields' types admit.
+
+use super::{Parameters, Problem};
+use crate::symbolic::{Approximate, Symbol, drawn, random};
+use crate::syntax::Inside;
+use crate::variables::Variable;
+
+impl Problem {
+    /// The value of a symbol in this draw.
+    pub(crate) fn drawn(&self, symbol: Symbol, draw: u64) -> Approximate {
+        match Variable::of(symbol) {
+            Variable::Parameter(k) => self.parameters.drawn(k, symbol, draw),
+            _ => Approximate::exact(drawn(symbol, (-1.25, 1.75), draw)),
+        }
+    }
+}
+
+impl Parameters {
+    fn drawn(&self, k: usize, symbol: Symbol, draw: u64) -> Approximate {
+        let entry = self.entries[k];
+        let plain = || Approximate::exact(drawn(symbol, self.ranges[entry.field], draw));
+        let Ok(shape) = &self.fields[entry.field].shape else { return plain() };
+        let size = shape.layout.lengths.last().copied().unwrap_or(1);
+        // The numbers of one rotation come from one place, whichever of them is asked for.
+        let angles = |rotation: usize| {
+            move |k: usize| {
+                let place = (entry.field << 20 | rotation << 8 | k) as u64;
+                7.0 * random(ANGLES, place, draw)
+            }
+        };
+        match shape.layout.inside {
+            Inside::UnitQuaternion => rounded(unit(angles(entry.number / 4))[entry.number % 4]),
+            Inside::Rotation => {
+                let (rotation, number) = (entry.number / (size * size), entry.number % (size * size));
+                rounded(turn(size, angles(rotation))[number / size][number % size])
+            }
+            Inside::Array | Inside::Matrix | Inside::Quaternion => plain(),
+        }
+    }
+}
+
+/// Of the families of random numbers, one that neither symbols nor unknown functions have.
+const ANGLES: u64 = 253;
+
+/// A number at most 1 that a few sines and products make.
+fn rounded(value: f64) -> Approximate {
+    Approximate { value, error: 32.0 * f64::EPSILON }
+}
+
+/// By Hopf's angles: (cos α cos β, cos α sin β, sin α cos γ, sin α sin γ).
+fn unit(angle: impl Fn(usize) -> f64) -> [f64; 4] {
+    let [(s, c), (t, d), (u, e)] = [0, 1, 2].map(|k| angle(k).sin_cos());
+    [c * d, c * t, s * e, s * u]
+}
+
+/// A turn in the plane of each two axes, one after the other.
+fn turn(size: usize, angle: impl Fn(usize) -> f64) -> Vec<Vec<f64>> {
+    let mut rows: Vec<Vec<f64>> =
+        (0..size).map(|i| (0..size).map(|j| if i == j { 1.0 } else { 0.0 }).collect()).collect();
+    let planes = (0..size).flat_map(|j| (0..j).map(move |i| (i, j)));
+    for (k, (i, j)) in planes.enumerate() {
+        let (sin, cos) = angle(k).sin_cos();
+        for row in &mut rows {
+            (row[i], row[j]) = (cos * row[i] - sin * row[j], sin * row[i] + cos * row[j]);
+        }
+    }
+    rows
+}
