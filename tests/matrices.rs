@@ -304,3 +304,78 @@ struct Turned {
     plane: Rotation2<f64>,
     k: f64,
 }
+
+/// A body about its centre of mass, in coordinates that are turned against its own.
+#[derive(Lagrangian, Clone)]
+#[coordinates(q: [4])]
+#[parameter(inertia: symmetric)]
+#[parameter(turn: rotation)]
+#[define(w = turn*quat_rate_body(q, q_dot))]
+#[lagrangian(dot(w, inertia[1]*w)/2)]
+#[constraint(unit: dot(q, q) = 1)]
+#[conserved(spin = quat_rotate(q, transpose(turn)*(inertia[1]*w)))]
+#[conserved(other_spin = quat_rotate(q, (w*inertia[1])*turn))]
+struct Spinning<T> {
+    inertia: [[[T; 3]; 3]; 2],
+    turn: Matrix3<T>,
+}
+
+fn spinning() -> Spinning<f64> {
+    let inertia = [[2.0, 0.1, -0.2], [0.1, 1.5, 0.3], [-0.2, 0.3, 0.7]];
+    let turn = Rotation3::from_euler_angles(0.4, 1.0, -2.0).into_inner();
+    Spinning { inertia: [[[f64::NAN; 3]; 3], inertia], turn }
+}
+
+/// Turning at ω = 2 q̄ q̇ = (0.4, −0.2, 1).
+fn spinning_state() -> State<f64, 4> {
+    State::new([1.0, 0.0, 0.0, 0.0], [0.0, 0.2, -0.1, 0.5])
+}
+
+#[test]
+fn what_is_said_of_a_matrix_is_verified() {
+    let (good, state) = (spinning(), spinning_state());
+    assert!(good.solve(&state).is_ok());
+    let fault = |spinning: &Spinning<f64>| match spinning.solve(&state) {
+        Err(Error::ParameterNotAsSaid { name, wanted, defect }) => (name, wanted, defect),
+        other => panic!("{other:?}"),
+    };
+    let mut skew = good.clone();
+    skew.inertia[1][2][0] += 5e-3;
+    let (name, wanted, defect) = fault(&skew);
+    assert_eq!((name, wanted), ("inertia[1]", "symmetric"));
+    assert_relative_eq!(defect, 0.01 / 5.395, max_relative = 1e-12);
+    let error = skew.integrate(state, 1.0, Dop853::default()).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "the parameter `inertia[1]` is not symmetric: it is off by 1.9e-3 of its size"
+    );
+    assert!(skew.integrate_hamiltonian(skew.phase_state(&state), 1.0, Dop853::default()).is_err());
+    // The other matrix is not in use, and round-off is no fault.
+    skew.inertia[1][2][0] = good.inertia[1][0][2] * (1.0 + 1e-13);
+    assert!(skew.solve(&state).is_ok());
+    for (i, j, factor) in [(0, 0, 1.001), (2, 1, 0.99)] {
+        let mut bent = good.clone();
+        bent.turn[(i, j)] *= factor;
+        assert_eq!(fault(&bent).1, "a rotation");
+    }
+    let mirrored = Spinning { turn: -good.turn, ..good.clone() };
+    assert_eq!(fault(&mirrored).0, "turn");
+}
+
+/// The numbers on both sides of the diagonal are one parameter: by name, in derivatives, where it is set.
+#[test]
+fn a_symmetric_matrix_has_six_numbers() {
+    let (mut spinning, state) = (spinning(), spinning_state());
+    let names = Spinning::<f64>::PARAMETERS;
+    assert_eq!(names.iter().filter(|name| name.starts_with("inertia")).count(), 6);
+    let k = names.iter().position(|name| *name == "inertia[1][0][2]").unwrap();
+    let jacobian = spinning.jacobian(&state).unwrap();
+    let by = jacobian.accelerations.parameters.column(k).into_owned();
+    let mut moved = |by: f64| {
+        assert!(spinning.set_parameter(k, -0.2 + by));
+        assert_eq!(spinning.inertia[1][2][0], spinning.inertia[1][0][2]);
+        spinning.solve(&state).unwrap().accelerations
+    };
+    let difference = (moved(1e-5) - moved(-1e-5)) / 2e-5;
+    assert!((by - difference).norm() < 1e-9 && difference.norm() > 1e-3, "{by} instead of {difference}");
+}

@@ -22,6 +22,15 @@ pub enum Error {
         /// Its value.
         value: f64,
     },
+    /// A matrix among the parameters is not what its type or `#[parameter(…)]` says.
+    ParameterNotAsSaid {
+        /// The parameter.
+        name: &'static str,
+        /// What it should be: `symmetric`, `a rotation`.
+        wanted: &'static str,
+        /// How far it is from that, as a part of its size.
+        defect: f64,
+    },
     /// The equations of motion evaluate to infinity or not a number.
     EquationsNotFinite {
         /// The first row at fault.
@@ -306,6 +315,9 @@ impl Display for Error {
         match self {
             Self::StateNotFinite { entry, value } => {
                 write!(f, "`{entry}` is {value} in the state given: every entry must be finite")
+            }
+            Self::ParameterNotAsSaid { name, wanted, defect } => {
+                write!(f, "the parameter `{name}` is not {wanted}: it is off by {defect:.1e} of its size")
             }
             Self::EquationsNotFinite { row, time } => write!(
                 f,

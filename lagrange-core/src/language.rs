@@ -40,7 +40,13 @@
 //! Fields, coordinates, definitions and built-in names share one namespace; constraints and observables have one
 //! each. A field may be a number, a reference, an array or a vector, matrix, rotation (`Rotation3`) or quaternion
 //! (`UnitQuaternion`, which is (w, x, y, z) in expressions) of nalgebra, or an array of these; a field that no
-//! expression uses may have any type. What is checked at random numbers is checked at rotations for a field that is one.
+//! expression uses may have any type.
+//!
+//! `#[parameter(inertia: symmetric)]` says that a field of square matrices is symmetric: of the two numbers across the diagonal
+//! one is the parameter, and less is computed. `#[parameter(turn: rotation)]` says that they are rotations, as a `Rotation3`
+//! is by its type. Random checks keep to it, and so must you: `solve`, and whatever starts from a state, gives
+//! [`Error::ParameterNotAsSaid`](crate::Error::ParameterNotAsSaid) where a matrix is off by more than round-off (ε^(2/3) of
+//! its size, 4·10⁻¹¹ for `f64`); the functions ending in `_unchecked` do not look.
 //!
 //! Everything is written out when it is compiled. So ranges end at 10,000 at most, the expressions of a system use at most
 //! 10,000 numbers of its fields, and there are at most 1,000 coordinates and 1,000 constraints. What has more parts belongs

@@ -202,8 +202,9 @@ const CONSTANTS: [&str; 11] = [
 
 /// What every system has beside: methods of `Lagrangian` that it can do without, of `Simulate`, `Hamiltonian`,
 /// `StateDerivatives` and `Linearized`.
-const PROVIDED: [&str; 32] = [
+const PROVIDED: [&str; 33] = [
     "visit_parameters",
+    "visit_defects",
     "solve",
     "check_consistent",
     "make_consistent",

@@ -1,14 +1,15 @@
-//! Whether the entries of a state are numbers.
+//! Whether the entries of a state are numbers, and the parameters what is said of them.
 
 use nalgebra::{ComplexField, SVector};
 
+use super::defect::check_parameters;
 use super::lagrangian::Lagrangian;
 use super::state::State;
 use crate::error::Error;
 use crate::names::Entry;
 use crate::number::Real;
 
-/// Every entry of a state must be a number.
+/// Every entry of a state must be a number, every parameter what is said of it.
 pub(crate) fn check_finite<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
@@ -16,13 +17,15 @@ pub(crate) fn check_finite<L: Lagrangian<N, M, Scalar: Real>, const N: usize, co
     check_entries(system, state.t, [&state.q, &state.v], Entry::Velocity)
 }
 
-/// Time, coordinates and what belongs to them, velocities or momenta, must be numbers; `other` names the latter.
+/// Time, coordinates and what belongs to them, velocities or momenta, must be numbers; `other` names the latter. The
+/// parameters must be what is said of them.
 pub(crate) fn check_entries<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
-    _: &L,
+    system: &L,
     t: L::Scalar,
     [q, others]: [&SVector<L::Scalar, N>; 2],
     other: fn(&'static str) -> Entry,
 ) -> Result<(), Error> {
+    check_parameters(system)?;
     let named = |entry: fn(&'static str) -> Entry| L::COORDINATES.into_iter().map(entry);
     let vectors = named(Entry::Coordinate).zip(q).chain(named(other).zip(others));
     let mut entries = [(Entry::Time, &t)].into_iter().chain(vectors);

@@ -4,6 +4,7 @@ use core::fmt::Debug;
 
 use nalgebra::{SMatrix, SVector};
 
+use super::defect::Defect;
 use super::equations::{Equations, equations};
 use super::facts::Facts;
 use super::integrability::{Classification, Integrals};
@@ -63,6 +64,10 @@ pub trait Lagrangian<const N: usize, const M: usize> {
     /// holds is not among them.
     #[allow(unused_variables)]
     fn visit_parameters(&self, visit: &mut dyn FnMut(Self::Scalar)) {}
+
+    /// Shows each matrix among the parameters that is said to be symmetric or a rotation, and how far it is from that.
+    #[allow(unused_variables)]
+    fn visit_defects(&self, visit: &mut dyn FnMut(&'static str, Defect<Self::Scalar>)) {}
 
     /// L(t, q, q̇).
     fn lagrangian(&self, state: &State<Self::Scalar, N>) -> Self::Scalar;

@@ -1,5 +1,6 @@
 //! What a system is: the contract that generated code implements, its state, and what is known about it.
 
+pub(crate) mod defect;
 pub(crate) mod equations;
 mod evidence;
 mod facts;

@@ -2,6 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use super::defect::Defect;
 use super::equations::Equations;
 use super::facts::Facts;
 use super::integrability::{Classification, Integrals};
@@ -31,6 +32,10 @@ macro_rules! forward {
 
             fn visit_parameters(&self, visit: &mut dyn FnMut(Self::Scalar)) {
                 L::visit_parameters(self, visit);
+            }
+
+            fn visit_defects(&self, visit: &mut dyn FnMut(&'static str, Defect<Self::Scalar>)) {
+                L::visit_defects(self, visit);
             }
 
             forward! { @methods

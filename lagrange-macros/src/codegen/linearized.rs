@@ -11,7 +11,7 @@ use super::{Emitter, Written, runtime};
 use crate::contract::{LINEARIZED, Method, Quantity, STATE_DERIVATIVES};
 use crate::mechanics::{Changes, Linearization};
 use crate::symbolic::Graph;
-use crate::syntax::Inside;
+use crate::syntax::{Inside, Property};
 
 /// The programs of what changes: the slopes, and what they make of a direction.
 pub(super) struct Changing {
@@ -121,12 +121,22 @@ impl Emitter<'_> {
     fn set_parameter(&self, method: &Method) -> Written {
         let signature = self.style.types.signature(method);
         let arms = self.problem.parameters.by_field().into_iter().enumerate().filter_map(|(index, k)| {
-            let field = &self.problem.parameters.fields[self.problem.parameters.entries[k].field];
-            let shape = field.shape.as_ref().ok()?;
-            let is_bound = matches!(shape.layout.inside, Inside::Rotation | Inside::UnitQuaternion);
+            let parameters = &self.problem.parameters;
+            let entry = parameters.entries[k];
+            let (shape, property) =
+                (parameters.fields[entry.field].shape.as_ref().ok()?, parameters.property(entry.field));
+            let is_bound =
+                shape.layout.inside == Inside::UnitQuaternion || property == Some(Property::Rotation);
             let settable = !shape.is_reference && shape.scalar.is_some() && !is_bound;
-            let place = self.style.parameter(k);
-            settable.then(|| quote!(#index => #place = value,))
+            let place = self.style.place(entry);
+            let mirrored = parameters.mirrored(entry);
+            settable.then(|| match property {
+                Some(Property::Symmetric) if mirrored != entry => {
+                    let other = self.style.place(mirrored);
+                    quote!(#index => { #place = value; #other = value; })
+                }
+                _ => quote!(#index => #place = value,),
+            })
         });
         let tokens = quote! {
             #[allow(unused_variables, unreachable_code)]

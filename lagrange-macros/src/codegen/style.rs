@@ -8,7 +8,7 @@ use rustc_hash::FxHashMap;
 
 use super::signature::Types;
 use crate::mechanics::changes;
-use crate::resolve::Problem;
+use crate::resolve::{Entry, Problem};
 use crate::symbolic::{Graph, Id, Symbol};
 use crate::syntax::{FieldShape, Inside};
 use crate::variables::Variable;
@@ -133,11 +133,15 @@ impl<'a> Style<'a> {
 
     /// The value of a parameter, read from its field.
     pub(super) fn parameter(&self, k: usize) -> TokenStream {
-        let entry = self.problem.parameters.entries[k];
-        let field = &self.problem.parameters.fields[entry.field];
+        self.place(self.problem.parameters.entries[k])
+    }
+
+    /// Where a number of a field is.
+    pub(super) fn place(&self, Entry { field, number }: Entry) -> TokenStream {
+        let field = &self.problem.parameters.fields[field];
         let ident = &field.ident;
-        let indices = self.problem.parameters.indices(k);
         let Ok(FieldShape { layout, is_reference, .. }) = &field.shape else { return quote!(self.#ident) };
+        let indices = layout.indices(number);
         let inside = match layout.inside {
             Inside::Array => 0,
             Inside::Matrix | Inside::Rotation => 2,

@@ -2,7 +2,7 @@
 
 use super::{Parameters, Problem};
 use crate::symbolic::{Approximate, Symbol, drawn, random};
-use crate::syntax::Inside;
+use crate::syntax::{FieldShape, Inside, Property};
 use crate::variables::Variable;
 
 impl Problem {
@@ -19,8 +19,7 @@ impl Parameters {
     fn drawn(&self, k: usize, symbol: Symbol, draw: u64) -> Approximate {
         let entry = self.entries[k];
         let plain = || Approximate::exact(drawn(symbol, self.ranges[entry.field], draw));
-        let Ok(shape) = &self.fields[entry.field].shape else { return plain() };
-        let size = shape.layout.lengths.last().copied().unwrap_or(1);
+        let Ok(FieldShape { layout, .. }) = &self.fields[entry.field].shape else { return plain() };
         // The numbers of one rotation come from one place, whichever of them is asked for.
         let angles = |rotation: usize| {
             move |k: usize| {
@@ -28,13 +27,13 @@ impl Parameters {
                 7.0 * random(ANGLES, place, draw)
             }
         };
-        match shape.layout.inside {
-            Inside::UnitQuaternion => rounded(unit(angles(entry.number / 4))[entry.number % 4]),
-            Inside::Rotation => {
-                let (rotation, number) = (entry.number / (size * size), entry.number % (size * size));
-                rounded(turn(size, angles(rotation))[number / size][number % size])
+        let (size, number) = (layout.size(), entry.number);
+        match self.property(entry.field) {
+            _ if layout.inside == Inside::UnitQuaternion => rounded(unit(angles(number / 4))[number % 4]),
+            Some(Property::Rotation) => {
+                rounded(turn(size, angles(number / (size * size)))[number / size % size][number % size])
             }
-            Inside::Array | Inside::Matrix | Inside::Quaternion => plain(),
+            Some(Property::Symmetric) | None => plain(),
         }
     }
 }

@@ -23,7 +23,7 @@ use crate::syntax::Declaration;
 pub(crate) use function::Supplied;
 use lower::Lowering;
 pub(crate) use outline::{Observable, Outline, outline};
-pub(crate) use parameters::Parameters;
+pub(crate) use parameters::{Entry, Parameters};
 use scope::Scope;
 pub(crate) use scope::is_built_in;
 use value::Value;

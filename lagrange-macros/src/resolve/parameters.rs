@@ -7,7 +7,10 @@ use super::unknown::{nearest, or_meant};
 use super::value::Value;
 use crate::diagnostics::{Diagnostics, Place};
 use crate::symbolic::Graph;
-use crate::syntax::{Declaration, Expression, Field, FieldShape, Kind, Layout, Operator, Parameter, numbers};
+use crate::syntax::{
+    Declaration, Expression, Fact, Field, FieldShape, Inside, Kind, Layout, Operator, Parameter, Property,
+    numbers,
+};
 use crate::variables::Variable;
 
 /// Each number in use is a parameter with a name and a place of its own in what is emitted.
@@ -27,6 +30,8 @@ pub(crate) struct Parameters {
     pub(crate) entries: IndexSet<Entry>,
     /// For each field, where random values for tests are drawn from.
     pub(crate) ranges: Vec<(f64, f64)>,
+    /// What is said beside them of the matrices that they are.
+    properties: Vec<Option<Property>>,
     /// The fields of which something wrong is reported.
     reported: Vec<usize>,
 }
@@ -42,7 +47,9 @@ impl Parameters {
     pub(super) fn new(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Self {
         let fields = declaration.fields.clone();
         let ranges = vec![(0.5, 1.5); fields.len()];
-        let mut parameters = Self { fields, entries: IndexSet::new(), ranges, reported: Vec::new() };
+        let properties = vec![None; fields.len()];
+        let mut parameters =
+            Self { fields, entries: IndexSet::new(), ranges, properties, reported: Vec::new() };
         for (position, parameter) in declaration.parameters.iter().enumerate() {
             let name = &parameter.name;
             let Some(index) = parameters.fields.iter().position(|field| field.name.text == name.text) else {
@@ -52,12 +59,11 @@ impl Parameters {
                 continue;
             };
             reject_repeated(parameter, &declaration.parameters[..position], diagnostics);
-            if let Some(length) = parameter.length {
-                diagnostics.note(parameters.set_length(index, length, name.place));
-            }
-            if let Some((low, high)) = &parameter.range {
-                diagnostics.note(bounds(low, high).map(|range| parameters.ranges[index] = range));
-            }
+            diagnostics.note(match &parameter.fact {
+                Fact::Length(length) => parameters.set_length(index, *length, name.place),
+                Fact::Range(low, high) => bounds(low, high).map(|range| parameters.ranges[index] = range),
+                Fact::Property(property) => parameters.set_property(index, *property, name.place),
+            });
         }
         parameters
     }
@@ -81,6 +87,59 @@ impl Parameters {
                 field.shape = Ok(FieldShape { layout: Layout::array([length]), scalar: None, is_reference });
                 Ok(())
             }
+        }
+    }
+
+    fn set_property(&mut self, index: usize, property: Property, place: Place) -> syn::Result<()> {
+        let Field { name, shape, .. } = &self.fields[index];
+        // Of a field without a shape that is said where it is used.
+        let Ok(FieldShape { layout, .. }) = shape else { return Ok(()) };
+        if !matches!(layout.lengths[..], [.., rows, columns] if rows == columns) {
+            let message =
+                format!("`{}` is no square matrix, which alone is symmetric or a rotation", name.text);
+            return Err(place.error(message));
+        }
+        self.properties[index] = Some(property);
+        Ok(())
+    }
+
+    /// What the matrices of a field are said to be, by its type or beside it.
+    pub(crate) fn property(&self, field: usize) -> Option<Property> {
+        let is_rotation = |shape: &FieldShape| shape.layout.inside == Inside::Rotation;
+        let by_type = self.fields[field].shape.as_ref().is_ok_and(is_rotation).then_some(Property::Rotation);
+        by_type.or(self.said(field))
+    }
+
+    /// What is said of them beside their type.
+    pub(crate) fn said(&self, field: usize) -> Option<Property> {
+        self.properties[field]
+    }
+
+    /// The length of the innermost arrays of a field.
+    pub(crate) fn size(&self, field: usize) -> usize {
+        self.fields[field].shape.as_ref().map_or(1, |shape| shape.layout.size())
+    }
+
+    /// The matrix that a number is in, as an expression names it.
+    pub(crate) fn matrix_name(&self, Entry { field, number }: Entry) -> String {
+        let Field { name, shape, .. } = &self.fields[field];
+        let indices = shape.as_ref().map_or_else(|_| Vec::new(), |shape| shape.layout.indices(number));
+        let outer = &indices[..indices.len().saturating_sub(2)];
+        outer.iter().fold(name.text.clone(), |name, i| format!("{name}[{i}]"))
+    }
+
+    /// The number across the diagonal of a matrix.
+    pub(crate) fn mirrored(&self, Entry { field, number }: Entry) -> Entry {
+        let size = self.size(field);
+        let (matrix, row, column) = (number / (size * size), number / size % size, number % size);
+        Entry { field, number: (matrix * size + column) * size + row }
+    }
+
+    /// The number that stands for it: of two across the diagonal of a symmetric matrix the upper one.
+    fn representative(&self, entry: Entry) -> Entry {
+        match self.property(entry.field) {
+            Some(Property::Symmetric) => entry.min(self.mirrored(entry)),
+            _ => entry,
         }
     }
 
@@ -109,7 +168,8 @@ impl Parameters {
     /// Arrays of these lengths of the numbers of a field from one on.
     fn array(&mut self, field: usize, first: usize, lengths: &[usize], graph: &mut Graph) -> Value {
         let Some((&length, inner)) = lengths.split_first() else {
-            let (k, _) = self.entries.insert_full(Entry { field, number: first });
+            let entry = self.representative(Entry { field, number: first });
+            let (k, _) = self.entries.insert_full(entry);
             return Value::Scalar(graph.symbol(Variable::Parameter(k).symbol()));
         };
         let item = |i: usize| self.array(field, first + i * numbers(inner), inner, graph);
@@ -241,11 +301,15 @@ fn is_no_number(name: &str) -> bool {
 /// Two ranges, or two shapes, of one field.
 fn reject_repeated(parameter: &Parameter, earlier: &[Parameter], diagnostics: &mut Diagnostics) {
     let name = &parameter.name;
-    let same = |known: &&Parameter| {
-        known.name.text == name.text && known.length.is_some() == parameter.length.is_some()
+    let what = |fact: &Fact| match fact {
+        Fact::Length(_) => "shape",
+        Fact::Range(..) => "range",
+        Fact::Property(_) => "property",
     };
+    let same =
+        |known: &&Parameter| known.name.text == name.text && what(&known.fact) == what(&parameter.fact);
     if let Some(known) = earlier.iter().find(same) {
-        let what = if parameter.length.is_some() { "shape" } else { "range" };
+        let what = what(&parameter.fact);
         let message = format!("the {what} of `{}` is given twice", name.text);
         diagnostics.push(name.place.error_beside(message, known.name.place, "the first one is here"));
     }

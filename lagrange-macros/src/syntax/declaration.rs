@@ -78,12 +78,26 @@ pub(crate) struct Named {
     pub(crate) value: Expression,
 }
 
-/// `#[parameter(a: [3])]` or `#[parameter(e: 0..1)]`
+/// `#[parameter(a: [3])]`, `#[parameter(e: 0..1)]` or `#[parameter(I: symmetric)]`
 #[derive(Debug)]
 pub(crate) struct Parameter {
     pub(crate) name: Name,
-    pub(crate) length: Option<usize>,
-    pub(crate) range: Option<(Expression, Expression)>,
+    pub(crate) fact: Fact,
+}
+
+/// What is said of a field.
+#[derive(Debug)]
+pub(crate) enum Fact {
+    Length(usize),
+    Range(Expression, Expression),
+    Property(Property),
+}
+
+/// What a matrix is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Property {
+    Symmetric,
+    Rotation,
 }
 
 /// `#[lagrange(crate = path, scalar = T)]`

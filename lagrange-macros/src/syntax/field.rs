@@ -65,6 +65,11 @@ impl Layout {
         numbers(&self.lengths)
     }
 
+    /// The length of the innermost arrays.
+    pub(crate) fn size(&self) -> usize {
+        self.lengths.last().copied().unwrap_or(1)
+    }
+
     /// The indices of a number.
     pub(crate) fn indices(&self, mut number: usize) -> Vec<usize> {
         let index = |length: &usize| {

@@ -5,7 +5,9 @@ use quote::ToTokens;
 use syn::Result;
 
 use super::cursor::Cursor;
-use super::declaration::{Constraint, Coordinate, Define, Force, Function, Named, Options, Parameter};
+use super::declaration::{
+    Constraint, Coordinate, Define, Fact, Force, Function, Named, Options, Parameter, Property,
+};
 use super::expression::{self, Expression, Kind};
 use super::field::{LENGTH_LIMIT, NOT_A_LITERAL};
 use super::name::Name;
@@ -30,7 +32,7 @@ pub(super) const FORMS: [(&str, &str); 11] = [
     ("dissipation", "#[dissipation(expression)]"),
     ("observable", "#[observable(name = expression)]"),
     ("conserved", "#[conserved(name = expression)]"),
-    ("parameter", "#[parameter(name: [3])]` or `#[parameter(name: 0..1)]"),
+    ("parameter", "#[parameter(name: [3])]`, `#[parameter(name: 0..1)]` or `#[parameter(name: symmetric)]"),
     ("lagrange", "#[lagrange(crate = path, scalar = T)]"),
 ];
 
@@ -290,14 +292,30 @@ pub(super) fn observable(word: &str, cursor: &mut Cursor, observables: &mut Vec<
 pub(super) fn parameter(cursor: &mut Cursor) -> Result<Parameter> {
     let name = cursor.name("the name of a field")?;
     colon(cursor, "parameter")?;
-    let parameter = match cursor.peek() {
+    let fact = match cursor.peek() {
         Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Bracket => {
-            Parameter { name, length: Some(brackets(cursor)?), range: None }
+            Fact::Length(brackets(cursor)?)
         }
-        _ => Parameter { name, length: None, range: Some(expression::range(cursor)?) },
+        Some(TokenTree::Ident(_)) => Fact::Property(property(cursor)?),
+        _ => {
+            let (low, high) = expression::range(cursor)?;
+            Fact::Range(low, high)
+        }
     };
     finish(cursor, "parameter")?;
-    Ok(parameter)
+    Ok(Parameter { name, fact })
+}
+
+fn property(cursor: &mut Cursor) -> Result<Property> {
+    let place = cursor.place();
+    match cursor.take_ident().map(|ident| ident.to_string()).as_deref() {
+        Some("symmetric") => Ok(Property::Symmetric),
+        Some("rotation") => Ok(Property::Rotation),
+        _ => Err(place.error(format!(
+            "a matrix is `symmetric` or a `rotation`, and of other fields there is a shape or a range: write `{}`",
+            form("parameter")
+        ))),
+    }
 }
 
 pub(super) fn options(cursor: &mut Cursor, options: &mut Options) -> Result<()> {

@@ -15,7 +15,9 @@ mod unread;
 
 pub(crate) use attribute::declaration;
 pub(crate) use cursor::{NESTING_LIMIT, shallow, too_deep};
-pub(crate) use declaration::{Constraint, Coordinate, Declaration, Define, Force, Function, Parameter};
+pub(crate) use declaration::{
+    Constraint, Coordinate, Declaration, Define, Fact, Force, Function, Parameter, Property,
+};
 pub(crate) use expression::{Expression, Kind, Operator, Sign, SumOver};
 pub(crate) use field::{Field, FieldShape, Inside, LENGTH_LIMIT, Layout, numbers};
 pub(crate) use greek::GREEK;

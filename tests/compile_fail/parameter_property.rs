@@ -1,0 +1,20 @@
+use lagrange_core::prelude::*;
+
+#[derive(Lagrangian)]
+#[coordinates(r: [3])]
+#[parameter(a: symmetric)]
+#[parameter(a: rotation)]
+#[parameter(b: symmetric)]
+#[parameter(c: rotation)]
+#[parameter(k: symmetric)]
+#[parameter(e: symmetric)]
+#[lagrangian(dot(r_dot, a*r_dot)/2 + dot(b, c*r) + dot(r, d*r) + k)]
+struct System {
+    a: [[f64; 3]; 3],
+    b: [f64; 3],
+    c: [[f64; 3]; 2],
+    d: [[f64; 3]; 3],
+    k: f64,
+}
+
+fn main() {}
