@@ -240,7 +240,8 @@ fn beads_leave_their_spheres_on_the_constraint() {
         assert_alone(found, (system, start), 10.0, method, &mut [&mut leaves]);
         let State { q, v, .. } = found.state;
         let off = (q.norm() / system.a - 1.0).abs().max(q.normalize().dot(&v.normalize()).abs());
-        assert!(off < 4.0 * f64::EPSILON, "{off:e}");
+        // Half of it is the rounding of what is measured here: lengths, quotients, products.
+        assert!(off < 8.0 * f64::EPSILON, "{off:e}");
         let expected = (2.0 + start.v[0].powi(2) / (system.g * system.a)) / 3.0;
         let angle = (q[1] / system.a).acos();
         assert!((angle - expected.acos()).abs() < 1e-11, "{angle} instead of {}", expected.acos());
