@@ -11,6 +11,7 @@ use lagrange_core::{Lanes, Pack};
 #[derive(Lagrangian)]
 #[coordinates(r: [3], p: [4], q: [4], x)]
 #[define(turns = rot_z(x)*rot_x(2*x))]
+#[define(raised(T) = 2^T)]
 #[define(made = [[x, 1, 2], [0, x^2, 3], [4, 5, 6]])]
 #[define(chain[0] = made)]
 #[define(chain[i in 1..4] = chain[i-1]*a)]
@@ -21,6 +22,7 @@ use lagrange_core::{Lanes, Pack};
 #[observable(matrix_by_tall = (a*transpose(wide))[2])]
 #[observable(by_column = a*made*r)]
 #[observable(between = dot(r*a, r))]
+#[observable(no_transpose = raised(3))]
 #[observable(transposed = transpose(made)[0])]
 #[observable(sum_of_diagonal = trace(made*a))]
 #[observable(nothing = (identity(3)*a - a*identity(3))[1])]
@@ -92,6 +94,7 @@ fn matrices_multiply_rows_columns_and_each_other() {
     assert_near(kit.matrix_by_tall(&state), (a * kit.wide.transpose()).row(2).transpose());
     assert_near(kit.by_column(&state), a * made() * r);
     assert_relative_eq!(kit.between(&state), r.dot(&(a * r)), max_relative = 1e-14);
+    assert_eq!(kit.no_transpose(&state), 8.0);
     assert_near(kit.end_of_chain(&state), (made() * a * a * a).row(2).transpose());
 }
 

@@ -18,8 +18,11 @@ use lagrange_core::prelude::*;
 #[define(n = inv(skew(r)))]
 #[define(o = Rz(x))]
 #[define(p = Matrix(1, 2))]
+#[define(q = det(skew(r)))]
 #[define(trace = 1)]
-#[lagrangian(dot(r_dot, r_dot)/2 + x_dot^2/2)]
-struct System;
+#[lagrangian(dot(r_dot, r_dot)/2 + x_dot^2/2 + pose)]
+struct System {
+    pose: lagrange_core::nalgebra::Isometry3<f64>,
+}
 
 fn main() {}

@@ -6,7 +6,7 @@ use super::lower::{Lowering, is_literal_zero};
 use super::value::Value;
 use crate::diagnostics::Place;
 use crate::symbolic::{Fault, Id, Rational};
-use crate::syntax::{Expression, LENGTH_LIMIT, Operator, Sign, SumOver};
+use crate::syntax::{Expression, Kind, LENGTH_LIMIT, Operator, Sign, SumOver};
 
 /// The derivatives of a product have the square of its length.
 const FACTOR_LIMIT: usize = 1000;
@@ -71,10 +71,14 @@ impl Lowering<'_> {
     }
 
     pub(super) fn power(&mut self, base: &Expression, exponent: &Expression) -> Option<Value> {
-        let value = self.lower(base);
-        // `A^T` is no power, and T no name.
-        let is_matrix = value.as_ref().is_some_and(|value| value.as_matrix().is_some());
-        let exponent = if is_matrix { None } else { self.scalar(exponent) };
+        if let Kind::Name(name) = &exponent.kind
+            && name.text == "T"
+            && self.scope.get("T").is_none()
+            && !self.locals.iter().any(|(local, _)| local == "T")
+        {
+            return self.report(base.place.to(exponent.place), "the transpose of a matrix is `transpose(A)`");
+        }
+        let (value, exponent) = (self.lower(base), self.scalar(exponent));
         match value? {
             Value::Scalar(value) => {
                 let exponent = exponent?;
@@ -86,7 +90,7 @@ impl Lowering<'_> {
                 Some(Value::Scalar(self.graph.power(value, exponent)))
             }
             value if value.as_matrix().is_some() => {
-                self.report(base.place, "a matrix has no power: write `A*A`, and `transpose(A)`")
+                self.report(base.place, "a matrix has no power: write `A*A`")
             }
             _ => self.report(base.place, "a vector has no power: its square is `dot(v, v)`"),
         }

@@ -25,7 +25,7 @@ const SYNONYMS: [&str; 8] = [
 ];
 
 /// Functions of other tools, and what to write here.
-const CALLS: [(&str, &str); 27] = [
+const CALLS: [(&str, &str); 28] = [
     ("log Log log2 log10", "the natural logarithm is `ln`"),
     ("pow Pow powi powf Power", "a power is written `x^2`"),
     ("sqr square sq squared", "a square is written `x^2`"),
@@ -56,6 +56,7 @@ const CALLS: [(&str, &str); 27] = [
         "Rx Ry Rz rotx roty rotz RotX RotY RotZ rotate rotation Rotation",
         "the rotations about the axes are `rot_x(angle)`, `rot_y(angle)` and `rot_z(angle)`, about any other `rot(axis, angle)`",
     ),
+    ("det determinant Det", "there are no determinants: write it out, as in `dot(cross(A[0], A[1]), A[2])`"),
     ("matmul multiply mul", "a product is written `A*B`"),
     (
         "inv inverse Inverse",

@@ -127,6 +127,11 @@ fn short_enough(shape: FieldShape) -> Result<FieldShape, String> {
 
 fn unusable(ty: &Type) -> String {
     let ty = ty.to_token_stream().to_string().replace(' ', "");
+    if ["Isometry", "Similarity"].iter().any(|name| ty.rsplit("::").any(|part| part.starts_with(name))) {
+        return format!(
+            "a field of type `{ty}` cannot stand in an expression: make it two, a `Rotation3` and a `Vector3`"
+        );
+    }
     format!(
         "a field of type `{ty}` cannot stand in an expression: write `f64`, an array or a nalgebra vector, matrix, rotation or quaternion of it, or say its shape with `#[parameter(name: [3])]`"
     )
