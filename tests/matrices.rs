@@ -298,7 +298,10 @@ fn a_rotation_stays_one() {
 #[coordinates(r: [3], s: [3])]
 #[define(x = turn*quat_rotate(quaternions[1], r))]
 #[define(y = plane*[s[0], s[1]])]
-#[lagrangian(dot(der(x), der(x))/2 + (dot(der(y), der(y)) + s_dot[2]^2)/2 - k/dot(r, r) - k/dot(s, s))]
+#[lagrangian(
+    dot(der(x), der(x))/2 + (dot(der(y), der(y)) + s_dot[2]^2)/2 - k/dot(r, r) - k/dot(s, s)
+        + (dot(quaternions[0], quaternions[0]) - 1)*s[2]
+)]
 #[conserved(spin = cross(r, r_dot))]
 #[conserved(other_spin = cross(s, s_dot))]
 struct Turned {

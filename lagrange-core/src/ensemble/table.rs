@@ -49,8 +49,8 @@ impl<T: Real, const N: usize> Outcome<T, N> {
     /// `t`, coordinates `x` and velocities `x_dot` of the last state, the [`Statistics`], `ending`, and `member_again`, by
     /// which a line written to its end is known. The fingerprint takes at most 33 bytes of a line.
     ///
-    /// The ending is `complete`, `cancelled`, `event: ` and its name, or what went wrong. Numbers are the shortest that read back the same.
-    /// [`MemberTable`] reads it.
+    /// The ending is `complete`, `cancelled`, `event: ` and its name, or what went wrong. Numbers are the shortest that read
+    /// back the same. [`MemberTable`] reads it.
     pub fn csv(&self) -> impl Display + '_ {
         Lines { names: &self.names, members: &self.members, line: Member::csv }
     }

@@ -37,8 +37,11 @@ impl Lowering<'_> {
                 return Some(Value::Scalar(self.graph.sqrt(square)));
             }
             "atan2" | "dot" | "cross" => return self.binary(name, arguments, place),
-            "quat_rotate" | "quat_rate" | "quat_rate_body" | "quat_mul" => {
-                return self.quaternion(name, arguments, place);
+            "quat_rotate" | "quat_rate" | "quat_rate_body" => return self.quaternion(name, arguments, place),
+            "quat_mul" => {
+                let [p, q] = self.arguments(name, arguments, place)?;
+                let (p, q) = (self.quaternion_of(name, p), self.quaternion_of(name, q));
+                return Some(Value::vector(quaternion::product(p?, q?, &mut self.graph)));
             }
             "quat_conj" => {
                 let [q] = self.arguments(name, arguments, place)?;
@@ -137,12 +140,10 @@ impl Lowering<'_> {
         let (q, v) = (q?, v?);
         let graph = &mut self.graph;
         let vector = match (name.text.as_str(), <[_; 3]>::try_from(v.clone()), <[_; 4]>::try_from(v)) {
-            ("quat_rotate", Ok(v), _) => quaternion::rotate(q, v, graph).to_vec(),
-            ("quat_rate", _, Ok(rate)) => quaternion::rate(q, rate, graph).to_vec(),
-            ("quat_rate_body", _, Ok(rate)) => quaternion::rate_in_body(q, rate, graph).to_vec(),
-            ("quat_mul", _, Ok(p)) => quaternion::product(q, p, graph).to_vec(),
+            ("quat_rotate", Ok(v), _) => quaternion::rotate(q, v, graph),
+            ("quat_rate", _, Ok(rate)) => quaternion::rate(q, rate, graph),
+            ("quat_rate_body", _, Ok(rate)) => quaternion::rate_in_body(q, rate, graph),
             ("quat_rotate", ..) => return self.report(x.place, "`quat_rotate` turns a vector of 3"),
-            ("quat_mul", ..) => return self.report(x.place, "a quaternion is a vector of 4: (w, x, y, z)"),
             _ => return self.report(x.place, "the rate of a quaternion is a vector of 4, such as `q_dot`"),
         };
         Some(Value::vector(vector))

@@ -94,6 +94,9 @@ impl Parameters {
         let Field { name, shape, .. } = &self.fields[index];
         // Of a field without a shape that is said where it is used.
         let Ok(FieldShape { layout, .. }) = shape else { return Ok(()) };
+        if !matches!(layout.inside, Inside::Array | Inside::Matrix) {
+            return Err(place.error(format!("the type of `{}` says what it is", name.text)));
+        }
         if !matches!(layout.lengths[..], [.., rows, columns] if rows == columns) {
             let message =
                 format!("`{}` is no square matrix, which alone is symmetric or a rotation", name.text);
