@@ -24,6 +24,7 @@ mod sensitivities;
 mod sensitivity;
 #[cfg(feature = "alloc")]
 mod spectrum;
+mod state_derivatives;
 mod tangent;
 #[cfg(test)]
 mod tests;
@@ -56,79 +57,13 @@ pub use sensitivities::Sensitivities;
 pub use sensitivity::Sensitivity;
 #[cfg(feature = "alloc")]
 pub use spectrum::Stability;
+pub use state_derivatives::StateDerivatives;
 
 use crate::error::Error;
 #[cfg(feature = "alloc")]
 use crate::motion::{Adaptive, Pair};
 use crate::number::{Over, Real};
 use crate::system::{Lagrangian, Solution, State};
-
-/// A system whose equations of motion can be differentiated by the time and the state: what implicit methods and
-/// sensitivities need.
-///
-/// `#[derive(Lagrangian)]` implements it together with [`Linearized`], which adds the parameters and knows how many there
-/// are. A method for stiff systems asks for this trait, `impl<L: StateDerivatives<N, M>> Method<L, N, M> for …`.
-#[diagnostic::on_unimplemented(
-    message = "the derivatives of the equations of motion of `{Self}` are not known",
-    label = "no `StateDerivatives`",
-    note = "`#[derive(Lagrangian)]` gives it to every system whose functions (`#[function(…)]`) have one derivative more than the equations of motion need"
-)]
-pub trait StateDerivatives<const N: usize, const M: usize>: Lagrangian<N, M> {
-    /// What the derivatives of the residual along all directions are made of: plain numbers.
-    type Slopes: Copy + Debug;
-
-    /// What the derivatives of the residual along all directions in time and state are made of, accelerations and
-    /// multipliers held at those of `solution`.
-    fn residual_slopes(
-        &self,
-        state: &State<Self::Scalar, N>,
-        solution: &Solution<Self::Scalar, N, M>,
-    ) -> Self::Slopes;
-
-    /// The derivative of the residual along a direction, or along several at once on [`Lanes`](crate::Lanes), by the
-    /// [`residual_slopes`](Self::residual_slopes) of a state.
-    fn residual_change_with<S: Over<Self::Scalar>>(
-        &self,
-        slopes: &Self::Slopes,
-        direction: &Direction<S, N>,
-    ) -> ResidualChange<S, N, M>;
-
-    /// The derivative of the residual along one direction in time and state, accelerations and multipliers held at those
-    /// of `solution`.
-    fn residual_change(
-        &self,
-        state: &State<Self::Scalar, N>,
-        solution: &Solution<Self::Scalar, N, M>,
-        direction: &Direction<Self::Scalar, N>,
-    ) -> ResidualChange<Self::Scalar, N, M> {
-        self.residual_change_with(&self.residual_slopes(state, solution), direction)
-    }
-
-    /// Accelerations and multipliers at a state, and their derivatives by the time, coordinates and velocities; by no
-    /// parameters.
-    ///
-    /// ```
-    /// use lagrange_core::{StateDerivatives, prelude::*};
-    ///
-    /// #[derive(Lagrangian)]
-    /// #[coordinates(x)]
-    /// #[lagrangian(x_dot^2/2 - k/2 * x^2)]
-    /// struct Spring { k: f64 }
-    ///
-    /// let jacobian = Spring { k: 4.0 }.state_jacobian(&State::at_rest([0.3]))?;
-    /// assert_eq!(jacobian.accelerations.q[(0, 0)], -4.0);
-    /// # Ok::<(), Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// As [`solve`](crate::Simulate::solve); [`Error::DerivativeNotFinite`].
-    fn state_jacobian(&self, state: &State<Self::Scalar, N>) -> Result<Jacobian<Self::Scalar, N, M, 0>, Error>
-    where
-        Self: Lagrangian<N, M, Scalar: Real> + Sized,
-    {
-        jacobian::state_jacobian(self, state)
-    }
-}
 
 /// A system whose equations of motion can be differentiated by parameters too: Jacobians, equilibria, linearization.
 ///

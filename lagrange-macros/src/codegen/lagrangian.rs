@@ -1,6 +1,6 @@
 //! The implementation of `Lagrangian`, and the struct's own methods beside it.
 
-use proc_macro2::{Ident, Span, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::kernel::Kernel;
@@ -11,9 +11,7 @@ use crate::contract::{Gives, LAGRANGIAN, Method, Quantity};
 use crate::diagnostics::Diagnostics;
 use crate::mechanics::ConstraintKind;
 use crate::render::Rendered;
-use crate::resolve::Entry;
 use crate::symbolic::Id;
-use crate::syntax::Property;
 
 impl Emitter<'_> {
     /// Functions that are too long are reported.
@@ -204,41 +202,6 @@ impl Emitter<'_> {
         }
     }
 
-    /// What is said of the parameters beside their types, which are trusted.
-    fn visit_defects(&self) -> Option<TokenStream> {
-        let parameters = &self.problem.parameters;
-        let scalar = self.style.types.scalar;
-        let mut matrices: Vec<(usize, Property, usize)> = Vec::new();
-        for entry in &parameters.entries {
-            let Some(property) = parameters.said(entry.field) else { continue };
-            let size = parameters.size(entry.field);
-            matrices.push((entry.field, property, entry.number - entry.number % (size * size)));
-        }
-        matrices.sort_unstable_by_key(|&(field, _, first)| (field, first));
-        matrices.dedup();
-        let visits = matrices.iter().map(|&(field, property, first)| {
-            let size = parameters.size(field);
-            let rows = (0..size).map(|i| {
-                let row = (0..size).map(|j| self.style.place(Entry { field, number: first + i * size + j }));
-                quote!([#(#row),*])
-            });
-            let (name, defect) =
-                (parameters.matrix_name(Entry { field, number: first }), property_defect(property));
-            quote!(visit(#name, __lagrange::generated::#defect([#(#rows),*]));)
-        });
-        let visits: Vec<_> = visits.collect();
-        (!visits.is_empty()).then(|| {
-            quote! {
-                fn visit_defects(
-                    &self,
-                    visit: &mut dyn ::core::ops::FnMut(&'static str, __lagrange::generated::Defect<#scalar>),
-                ) {
-                    #(#visits)*
-                }
-            }
-        })
-    }
-
     fn equations(&self) -> TokenStream {
         let visibility = &self.declaration.visibility;
         let Rendered { text, latex, .. } = self.rendered;
@@ -249,13 +212,4 @@ impl Emitter<'_> {
             }
         }
     }
-}
-
-/// The function that tells how far a matrix is from being what it is said to be.
-fn property_defect(property: Property) -> Ident {
-    let name = match property {
-        Property::Symmetric => "asymmetry",
-        Property::Rotation => "distortion",
-    };
-    Ident::new(name, Span::mixed_site())
 }

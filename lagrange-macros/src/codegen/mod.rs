@@ -4,6 +4,7 @@ mod accelerations;
 mod body;
 mod bounds;
 mod count;
+mod defects;
 mod eliminate;
 mod facts;
 mod integrability;

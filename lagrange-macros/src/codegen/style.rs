@@ -73,7 +73,7 @@ impl<'a> Style<'a> {
         }
         for (k, entry) in problem.parameters.entries.iter().enumerate() {
             let field = &problem.parameters.fields[entry.field].name.text;
-            let indices = problem.parameters.indices(k);
+            let indices = problem.parameters.indices(*entry);
             let text = indices.into_iter().fold(field.clone(), |name, i| format!("{name}_{i}"));
             names.insert(Variable::Parameter(k).symbol(), unique(text));
         }

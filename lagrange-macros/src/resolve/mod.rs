@@ -9,6 +9,7 @@ mod lower;
 mod matrix;
 mod outline;
 mod parameters;
+mod property;
 mod quaternion;
 mod scope;
 mod statements;

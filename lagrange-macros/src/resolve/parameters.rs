@@ -8,8 +8,7 @@ use super::value::Value;
 use crate::diagnostics::{Diagnostics, Place};
 use crate::symbolic::Graph;
 use crate::syntax::{
-    Declaration, Expression, Fact, Field, FieldShape, Inside, Kind, Layout, Operator, Parameter, Property,
-    numbers,
+    Declaration, Expression, Fact, Field, FieldShape, Kind, Layout, Operator, Parameter, Property, numbers,
 };
 use crate::variables::Variable;
 
@@ -31,7 +30,7 @@ pub(crate) struct Parameters {
     /// For each field, where random values for tests are drawn from.
     pub(crate) ranges: Vec<(f64, f64)>,
     /// What is said beside them of the matrices that they are.
-    properties: Vec<Option<Property>>,
+    pub(super) properties: Vec<Option<Property>>,
     /// The fields of which something wrong is reported.
     reported: Vec<usize>,
 }
@@ -87,62 +86,6 @@ impl Parameters {
                 field.shape = Ok(FieldShape { layout: Layout::array([length]), scalar: None, is_reference });
                 Ok(())
             }
-        }
-    }
-
-    fn set_property(&mut self, index: usize, property: Property, place: Place) -> syn::Result<()> {
-        let Field { name, shape, .. } = &self.fields[index];
-        // Of a field without a shape that is said where it is used.
-        let Ok(FieldShape { layout, .. }) = shape else { return Ok(()) };
-        if !matches!(layout.inside, Inside::Array | Inside::Matrix) {
-            return Err(place.error(format!("the type of `{}` says what it is", name.text)));
-        }
-        if !matches!(layout.lengths[..], [.., rows, columns] if rows == columns) {
-            let message =
-                format!("`{}` is no square matrix, which alone is symmetric or a rotation", name.text);
-            return Err(place.error(message));
-        }
-        self.properties[index] = Some(property);
-        Ok(())
-    }
-
-    /// What the matrices of a field are said to be, by its type or beside it.
-    pub(crate) fn property(&self, field: usize) -> Option<Property> {
-        let is_rotation = |shape: &FieldShape| shape.layout.inside == Inside::Rotation;
-        let by_type = self.fields[field].shape.as_ref().is_ok_and(is_rotation).then_some(Property::Rotation);
-        by_type.or(self.said(field))
-    }
-
-    /// What is said of them beside their type.
-    pub(crate) fn said(&self, field: usize) -> Option<Property> {
-        self.properties[field]
-    }
-
-    /// The length of the innermost arrays of a field.
-    pub(crate) fn size(&self, field: usize) -> usize {
-        self.fields[field].shape.as_ref().map_or(1, |shape| shape.layout.size())
-    }
-
-    /// The matrix that a number is in, as an expression names it.
-    pub(crate) fn matrix_name(&self, Entry { field, number }: Entry) -> String {
-        let Field { name, shape, .. } = &self.fields[field];
-        let indices = shape.as_ref().map_or_else(|_| Vec::new(), |shape| shape.layout.indices(number));
-        let outer = &indices[..indices.len().saturating_sub(2)];
-        outer.iter().fold(name.text.clone(), |name, i| format!("{name}[{i}]"))
-    }
-
-    /// The number across the diagonal of a matrix.
-    pub(crate) fn mirrored(&self, Entry { field, number }: Entry) -> Entry {
-        let size = self.size(field);
-        let (matrix, row, column) = (number / (size * size), number / size % size, number % size);
-        Entry { field, number: (matrix * size + column) * size + row }
-    }
-
-    /// The number that stands for it: of two across the diagonal of a symmetric matrix the upper one.
-    fn representative(&self, entry: Entry) -> Entry {
-        match self.property(entry.field) {
-            Some(Property::Symmetric) => entry.min(self.mirrored(entry)),
-            _ => entry,
         }
     }
 
@@ -220,13 +163,18 @@ impl Parameters {
 
     /// Entry `k` as an expression names it.
     pub(crate) fn name(&self, k: usize) -> String {
-        let name = &self.fields[self.entries[k].field].name.text;
-        self.indices(k).into_iter().fold(name.clone(), |name, i| format!("{name}[{i}]"))
+        let entry = self.entries[k];
+        self.element(entry.field, &self.indices(entry))
     }
 
-    /// The indices of entry `k` in its field.
-    pub(crate) fn indices(&self, k: usize) -> Vec<usize> {
-        let Entry { field, number } = self.entries[k];
+    /// An element of a field as an expression names it.
+    pub(super) fn element(&self, field: usize, indices: &[usize]) -> String {
+        let name = &self.fields[field].name.text;
+        indices.iter().fold(name.clone(), |name, i| format!("{name}[{i}]"))
+    }
+
+    /// The indices of a number in its field.
+    pub(crate) fn indices(&self, Entry { field, number }: Entry) -> Vec<usize> {
         self.fields[field].shape.as_ref().map_or_else(|_| Vec::new(), |shape| shape.layout.indices(number))
     }
 
