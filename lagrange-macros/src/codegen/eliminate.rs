@@ -138,7 +138,7 @@ fn short(pattern: &Pattern) -> Option<Vec<usize>> {
     let (order, cost) = reduction_order(pattern);
     let free = pattern.matrix.len() - pattern.definitions.len();
     let in_loops = free * free * free / 3;
-    let is_worth_it = cost <= UNROLLED || SPARSE * cost <= in_loops;
+    let is_worth_it = cost <= UNROLLED || SPARSE * cost <= in_loops || !pattern.definitions.is_empty();
     (is_worth_it && cost <= OPERATION_LIMIT).then_some(order)
 }
 

@@ -4,11 +4,13 @@ use num_traits::One;
 
 use super::states::State;
 use super::{System, tied};
-use crate::symbolic::{Function, Graph, Id, Rational, Symbol};
+use crate::symbolic::{Function, Graph, Id, Node, Rational, Symbol};
 use crate::variables::Variable;
 
 /// Values that differ by less are those of one expression of the parameters.
 const SAME: f64 = 1e-9;
+/// A weight may be so many times another, or as small a part: either completes M as well.
+const ABOUT: f64 = 8.0;
 /// What cancels in a trace must leave so much of it.
 const LEFT: f64 = 0.1;
 
@@ -96,23 +98,44 @@ impl Weights<'_> {
         if self.states.iter_mut().all(is_large) { trace } else { size }
     }
 
-    /// The same where one coordinate is 1 and all else is 0, if that is its value at every state: then it is an
+    /// The same where one coordinate is 1 and all else is 0, if that is its value at every state, or about: then it is an
     /// expression of the parameters. The trace of a body's inertia is the same in all orientations.
     fn at_a_fixed_state(&mut self, root: Id) -> Id {
         let moving: Vec<Symbol> = self.graph.symbols(&[root]).filter(is_moving).collect();
-        let candidates = moving.iter().map(|&one| {
+        let candidates = moving.iter().filter_map(|&one| {
             let number = |symbol| if symbol == one { Id::ONE } else { Id::ZERO };
             let fixed = self.graph.substituted(root, |symbol| is_moving(&symbol).then(|| number(symbol)));
-            let is_sound = self.graph.take_fault().is_none();
-            (is_sound && self.is_same(root, fixed)).then_some(fixed)
+            self.graph.take_fault().is_none().then_some(fixed)
         });
-        candidates.flatten().next().unwrap_or(root)
+        let candidates: Vec<Id> = candidates.collect();
+        let same = |x: f64, y: f64| (x - y).abs() <= SAME * x.abs();
+        let about = |x: f64, y: f64| (1.0 / ABOUT..ABOUT).contains(&(y / x));
+        let exact = self.with(root, &candidates, same);
+        exact.or_else(|| candidates.into_iter().find_map(|sum| self.part(root, sum, about))).unwrap_or(root)
     }
 
-    fn is_same(&mut self, root: Id, other: Id) -> bool {
-        self.states.iter_mut().all(|state| {
-            let [x, y] = [root, other].map(|root| state.value(self.graph, root));
-            (x - y).abs() <= SAME * x.abs()
+    /// As many terms of a sum as it takes, the largest ones.
+    fn part(&mut self, root: Id, sum: Id, goes: impl Fn(f64, f64) -> bool) -> Option<Id> {
+        let Node::Sum(terms) = self.graph.node(sum) else { return self.with(root, &[sum], goes) };
+        let terms = terms.clone();
+        let terms: Vec<Id> = terms.iter().map(|&term| self.graph.sum([term])).collect();
+        let first = self.states.first_mut()?;
+        let sized = terms.into_iter().map(|term| (first.value(self.graph, term), term));
+        let mut terms: Vec<(f64, Id)> = sized.collect();
+        terms.sort_by(|(x, _), (y, _)| y.total_cmp(x));
+        let parts =
+            (1..=terms.len()).map(|count| self.graph.total(terms[..count].iter().map(|(_, term)| *term)));
+        let parts: Vec<Id> = parts.collect();
+        self.with(root, &parts, goes)
+    }
+
+    /// The first of these whose value goes with that of the root at every state.
+    fn with(&mut self, root: Id, candidates: &[Id], goes: impl Fn(f64, f64) -> bool) -> Option<Id> {
+        candidates.iter().copied().find(|&candidate| {
+            self.states.iter_mut().all(|state| {
+                let [x, y] = [root, candidate].map(|root| state.value(self.graph, root));
+                goes(x, y)
+            })
         })
     }
 }
