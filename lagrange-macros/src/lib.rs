@@ -38,6 +38,7 @@ use syntax::Declaration;
         coordinates,
         define,
         function,
+        frame,
         lagrangian,
         constraint,
         force,

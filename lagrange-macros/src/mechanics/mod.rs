@@ -15,6 +15,9 @@ mod gauss;
 mod integrability;
 mod linearization;
 mod moment;
+mod twists;
+
+use rustc_hash::FxHashMap;
 
 use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
@@ -27,6 +30,7 @@ pub(crate) use evidence::Evidence;
 pub(crate) use facts::Facts;
 pub(crate) use gauge::LinearPart;
 pub(crate) use gauss::Form;
+use gauss::shorter;
 #[cfg(test)]
 pub(crate) use integrability::Kinds;
 pub(crate) use integrability::{Classification, Integrability, Integrals};
@@ -39,6 +43,8 @@ pub(crate) struct Derived {
     pub(crate) facts: Facts,
     /// M q̈, as it is read
     pub(crate) inertia: Vec<Id>,
+    /// What is read in place of an expression, where boundaries that nobody named make that longer.
+    pub(crate) read: FxHashMap<Id, Id>,
     /// `None` where exact arithmetic cannot write it
     pub(crate) linearization: Option<Linearization>,
 }
@@ -49,9 +55,18 @@ pub(crate) fn derive(graph: &mut Graph, problem: &Problem, diagnostics: &mut Dia
     let equations = Equations::derive(graph, problem, diagnostics)?;
     let facts = Facts::find(graph, problem, &equations, diagnostics);
     let accelerations = nodes(graph, equations.mass.len(), Variable::Acceleration);
-    let inertia = equations.mass.iter().map(|row| graph.dot(row, &accelerations)).collect();
+    let inertia: Vec<Id> = equations.mass.iter().map(|row| graph.dot(row, &accelerations)).collect();
+    let read =
+        if problem.frames.len() > 1 { read(graph, &equations, &inertia) } else { FxHashMap::default() };
     diagnostics.stop_at_fault(problem.place, graph)?;
     diagnostics.is_empty().then_some(())?;
     let linearization = linearize(graph, problem, &equations);
-    Some(Derived { equations, facts, inertia, linearization })
+    Some(Derived { equations, facts, inertia, read, linearization })
+}
+
+/// Frames have names for every step; a page is shorter without.
+fn read(graph: &mut Graph, equations: &Equations, inertia: &[Id]) -> FxHashMap<Id, Id> {
+    let Equations { forcing, momentum, energy, constraint_force, .. } = equations;
+    let all = [inertia, forcing, momentum, &[*energy], constraint_force].concat();
+    all.into_iter().map(|id| (id, shorter(graph, id))).collect()
 }

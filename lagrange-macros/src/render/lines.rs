@@ -48,9 +48,13 @@ impl From<Result<[Formula; 2], u64>> for Equation {
 impl Page<'_> {
     /// Sums of nodes as formulas, or how many symbols these would take together where that is too many.
     pub(super) fn readable<const K: usize>(&self, sums: [&[Id]; K]) -> Result<[Formula; K], u64> {
-        let symbols =
-            sums.concat().iter().fold(0, |sum: u64, id| sum.saturating_add(self.symbols[id.index()]));
-        let sum = |parts: &[Id]| Formula::sum(parts.iter().map(|&part| self.derived(part)).collect());
+        let read = |id: &Id| self.derived.read.get(id).copied().unwrap_or(*id);
+        let symbols = sums
+            .concat()
+            .iter()
+            .map(read)
+            .fold(0, |sum: u64, id| sum.saturating_add(self.symbols[id.index()]));
+        let sum = |parts: &[Id]| Formula::sum(parts.iter().map(|part| self.derived(read(part))).collect());
         if symbols > READABLE { Err(symbols) } else { Ok(sums.map(sum)) }
     }
 }

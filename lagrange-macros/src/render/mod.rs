@@ -16,7 +16,7 @@ mod written;
 use crate::mechanics::Derived;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};
-use crate::syntax::{Constraint, Declaration, Define, Expression, Target, TargetIndex};
+use crate::syntax::{Constraint, Declaration, Define, Expression, Frame, Target, TargetIndex};
 use formula::Formula;
 use lines::{Equation, Line, Section};
 use symbols::Notation;
@@ -70,11 +70,12 @@ pub(crate) fn render(
 
 impl Page<'_> {
     fn lagrangian(&self) -> Vec<Line> {
-        let Declaration { lagrangian, defines, dissipation, forces, .. } = self.declaration;
+        let Declaration { lagrangian, frames, defines, dissipation, forces, .. } = self.declaration;
         let line = |left, right: &Expression| Line::of(Equation::Known(left, self.written(right)));
         let name = |text: &str| Formula::labelled(text, 0);
         let mut lines: Vec<Line> = Vec::new();
         lines.extend(lagrangian.as_ref().map(|lagrangian| line(name("L"), lagrangian)));
+        lines.extend(frames.iter().map(|frame| self.frame(frame)));
         lines.extend(defines.iter().map(|define| line(self.defined(define), &define.body)));
         lines.extend(dissipation.as_ref().map(|function| line(name("D"), function)));
         lines.extend(forces.iter().map(|force| {
@@ -82,6 +83,12 @@ impl Page<'_> {
             line(name(&format!("Q_{coordinate}")), &force.value)
         }));
         lines
+    }
+
+    /// A frame by the one that it is in and the steps from there.
+    fn frame(&self, Frame { target, parent, steps, .. }: &Frame) -> Line {
+        let steps = parent.iter().chain(steps).map(|part| self.written(part)).collect();
+        Line::of(Equation::Known(self.target(target), Formula::Product(steps, Vec::new())))
     }
 
     /// The left side of a definition.
@@ -108,18 +115,23 @@ impl Page<'_> {
     }
 
     fn constraints(&self) -> Vec<Line> {
-        let line = |Constraint { target, left, right }: &Constraint| {
+        let line = |Constraint { target, left, right, is_implied }: &Constraint| {
             let name = &target.name.text;
             let is_it = |text: &str| text == name || text.starts_with(&format!("{name}["));
             let rows = self.problem.constraints.iter().enumerate();
             let rows = rows.filter(|(_, (label, _))| is_it(&label.text)).map(|(row, _)| row);
-            Line {
+            let rows: Vec<usize> = rows.collect();
+            // Another constraint may say the same already.
+            if *is_implied && rows.is_empty() {
+                return None;
+            }
+            Some(Line {
                 label: Some(Notation::Unicode.write(&self.target(target))),
                 equation: Equation::Known(self.written(left), self.written(right)),
-                remark: self.kinds(rows),
-            }
+                remark: self.kinds(rows.into_iter()),
+            })
         };
-        self.declaration.constraints.iter().map(line).collect()
+        self.declaration.constraints.iter().filter_map(line).collect()
     }
 
     /// Σ_j M_ij q̈_j = h_i + Σ_α λ_α F_αi, a row for each coordinate.

@@ -3,7 +3,7 @@
 use num_traits::Signed;
 
 use super::lower::{Lowering, is_literal_zero};
-use super::value::Value;
+use super::value::{Shape, Value};
 use crate::diagnostics::Place;
 use crate::symbolic::{Fault, Id, Rational};
 use crate::syntax::{Expression, Kind, LENGTH_LIMIT, Operator, Sign, SumOver};
@@ -14,7 +14,7 @@ const FACTOR_LIMIT: usize = 1000;
 impl Lowering<'_> {
     pub(super) fn sum(&mut self, terms: &[(Sign, Expression)]) -> Option<Value> {
         let mut values: Vec<(Value, Rational)> = Vec::with_capacity(terms.len());
-        let mut failed = false;
+        let (mut shape, mut places, mut failed) = (None, Vec::new(), false);
         for (sign, term) in terms {
             let Some(value) = self.lower(term) else {
                 failed = true;
@@ -24,15 +24,20 @@ impl Lowering<'_> {
             if is_literal_zero(term) {
                 continue;
             }
-            match values.first().map(|(first, _)| first.shape()) {
-                Some(first) if first != value.shape() => {
-                    failed = true;
-                    let message = format!("this is {}, but what it is added to is {first}", value.shape());
-                    self.diagnostics.error(term.place, message);
-                }
-                _ => values.push((value, Rational::from_integer(if *sign == Sign::Minus { -1 } else { 1 }))),
-            }
+            let met = match &shape {
+                Some(shape) => self.meeting(shape, &value, term.place, "what it is added to"),
+                None => Some(value.shape()),
+            };
+            let Some(met) = met else {
+                failed = true;
+                continue;
+            };
+            shape = Some(met);
+            places.push(term.place);
+            values.push((value, Rational::from_integer(if *sign == Sign::Minus { -1 } else { 1 })));
         }
+        let placed: Vec<_> = values.iter().map(|(value, _)| value).zip(places).collect();
+        self.along_what_axes(&placed)?;
         (!failed).then(|| Value::combination(&values, &mut self.graph))
     }
 
@@ -131,11 +136,23 @@ impl Lowering<'_> {
             let value = self.lower(&sum.body);
             self.locals.pop();
             let value = value?;
-            if values.first().is_some_and(|(first, _)| first.shape() != value.shape()) {
-                return self.report(sum.body.place, "the terms of this sum differ in shape");
+            if let Some(differ) =
+                values.first().and_then(|(first, _)| differing(&first.shape(), &value.shape()))
+            {
+                return self.report(sum.body.place, differ);
             }
             values.push((value, Rational::from_integer(1)));
         }
         Some(Value::combination(&values, &mut self.graph))
     }
+}
+
+/// What keeps the terms of a sum apart.
+fn differing(first: &Shape, other: &Shape) -> Option<&'static str> {
+    if first.is_turned_to(other) {
+        return Some(
+            "the terms of this sum are vectors in the axes of several frames: write `express(…, frame)` to have all in the axes of one",
+        );
+    }
+    (first != other).then_some("the terms of this sum differ in shape")
 }

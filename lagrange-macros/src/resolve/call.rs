@@ -2,6 +2,7 @@
 
 use num_traits::Signed;
 
+use super::frames::is_of_frames;
 use super::lower::{Definition, Lowering, Setting};
 use super::quaternion;
 use super::scope::Entity;
@@ -21,9 +22,12 @@ impl Lowering<'_> {
         match name.text.as_str() {
             "lambda" => return self.lambda(name, arguments, place),
             "der" => {
-                let [x] = self.arguments(name, arguments, place)?;
+                let (x, seen_from) = match arguments {
+                    [x, frame] if self.frame_is_meant(frame) => (x, Some(frame)),
+                    _ => (&self.arguments::<1>(name, arguments, place)?[0], None),
+                };
                 let value = self.lower(x)?;
-                return self.rate_of(&value, place);
+                return self.rate_seen_from(&value, seen_from, place);
             }
             "sqrt" => {
                 let [x] = self.arguments(name, arguments, place)?;
@@ -67,6 +71,8 @@ impl Lowering<'_> {
                 self.defined_function(index, name, arguments, place)
             }
             Some(Entity::Function(index)) => self.supplied_function(index, arguments, place),
+            Some(Entity::Frame) => self.frame_alone(name),
+            None if is_of_frames(&name.text) => self.of_frame(name, arguments, place),
             Some(entity) => {
                 let (text, kind) = (&name.text, entity.describe());
                 let is_of_time =
@@ -118,17 +124,21 @@ impl Lowering<'_> {
             let (y, x) = (self.scalar(x), self.scalar(y));
             return Some(Value::Scalar(self.graph.atan2(y?, x?)));
         }
-        let (v, w) = (self.vector_of(x), self.vector_of(y));
+        let (first, second) = (self.lower(x), self.lower(y));
+        let (first, second) = (first?, second?);
+        let (v, w) = (self.vector_in(&first, x.place), self.vector_in(&second, y.place));
         let (v, w) = (v?, w?);
         if v.len() != w.len() {
             return self
                 .report(place, format!("these vectors differ in length: {} and {}", v.len(), w.len()));
         }
+        self.meeting(&first.shape(), &second, y.place, "the other one")?;
+        let axes = self.along_what_axes(&[(&first, x.place), (&second, y.place)])?;
         if name.text == "dot" {
             return Some(Value::Scalar(self.graph.dot(&v, &w)));
         }
         match (<[_; 3]>::try_from(v), <[_; 3]>::try_from(w)) {
-            (Ok(v), Ok(w)) => Some(Value::vector(cross(v, w, &mut self.graph))),
+            (Ok(v), Ok(w)) => Some(Value::vector(cross(v, w, &mut self.graph)).along(axes.as_ref())),
             _ => self.report(place, "`cross` takes vectors of 3"),
         }
     }

@@ -18,14 +18,20 @@ type Field<'e> = (usize, &'e Name);
 impl Lowering<'_> {
     /// Gives the definitions their values, in the order written.
     pub(super) fn define_all(&mut self) {
+        self.frames_after(0);
         for index in 0..self.defines.len() {
-            let define = &self.defines[index];
-            let Some(Entity::Definition(first)) = self.scope.get(&define.target.name.text) else { continue };
-            if define.formals.is_some() {
-                self.function_definition(index);
-            } else {
-                self.value_definition(index, first);
-            }
+            self.define(index);
+            self.frames_after(index + 1);
+        }
+    }
+
+    fn define(&mut self, index: usize) {
+        let define = &self.defines[index];
+        let Some(Entity::Definition(first)) = self.scope.get(&define.target.name.text) else { return };
+        if define.formals.is_some() {
+            self.function_definition(index);
+        } else {
+            self.value_definition(index, first);
         }
     }
 
@@ -177,9 +183,9 @@ impl Lowering<'_> {
             return self.field_element(field, &indices);
         }
         let (value, i) = (self.lower(base)?, self.integer(index)?);
-        let Value::Vector(items) = value else { return self.report(base.place, NO_ELEMENTS) };
-        let i = self.checked(i, items.len(), index.place)?;
-        items.into_iter().nth(i)
+        let Some(length) = value.length() else { return self.report(base.place, NO_ELEMENTS) };
+        let i = self.checked(i, length, index.place)?;
+        value.item(i)
     }
 
     /// `i` where it is one of the indices 0 to `length` − 1.

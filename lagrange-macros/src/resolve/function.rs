@@ -100,10 +100,8 @@ impl Lowering<'_> {
             let length = formal_length(formal, self.coordinates, &self.scope);
             let fits = match (length, value) {
                 (None, Value::Scalar(_)) => true,
-                (Some(length), Value::Vector(_)) => {
-                    value.as_vector().is_some_and(|entries| entries.len() == length)
-                }
-                _ => false,
+                (None, _) => false,
+                (Some(length), value) => value.as_vector().is_some_and(|entries| entries.len() == length),
             };
             if !fits {
                 let wanted =

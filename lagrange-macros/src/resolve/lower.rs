@@ -2,13 +2,14 @@
 
 use num_traits::Zero;
 
+use super::frames::Frames;
 use super::parameters::Parameters;
 use super::scope::{Entity, Scope, is_built_in};
 use super::value::Value;
 use crate::diagnostics::{Diagnostics, Place, fault_message};
 use crate::symbolic::{Fault, Forward, Graph, Id, Rational};
-use crate::syntax::{Coordinate, Declaration, Define, Expression, Function, Kind, Name};
-use crate::variables::{Variable, total_time_derivative};
+use crate::syntax::{Coordinate, Declaration, Define, Expression, Frame, Function, Kind, Name};
+use crate::variables::{Variable, drift, total_time_derivative};
 
 /// What the expression at hand may contain beside coordinates, velocities and time.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -58,6 +59,8 @@ pub(super) struct Lowering<'a> {
     pub(super) offsets: Vec<usize>,
     pub(super) functions: &'a [Function],
     pub(super) defines: &'a [Define],
+    pub(super) declared_frames: &'a [Frame],
+    pub(super) frames: Frames,
     /// By the index of the first `define` of the name.
     pub(super) definitions: Vec<Definition>,
     pub(super) multipliers: Vec<MultiplierGroup>,
@@ -72,6 +75,8 @@ pub(super) struct Lowering<'a> {
     /// The calls of definitions around the expression at hand, the outermost first.
     pub(super) calls: Vec<Place>,
     rate: Forward,
+    /// d/dt where no coordinate accelerates.
+    pub(super) drift: Forward,
     depth: usize,
     steps: usize,
     numbers: usize,
@@ -84,7 +89,7 @@ impl<'a> Lowering<'a> {
         declaration: &'a Declaration,
         diagnostics: &'a mut Diagnostics,
     ) -> Self {
-        let Declaration { coordinates, functions, defines, .. } = declaration;
+        let Declaration { coordinates, functions, defines, frames, .. } = declaration;
         let mut graph = Graph::default();
         let mut count = 0;
         let offsets = coordinates
@@ -96,6 +101,7 @@ impl<'a> Lowering<'a> {
             .collect();
         Self {
             rate: total_time_derivative(&mut graph, count),
+            drift: drift(&mut graph, count),
             graph,
             scope,
             parameters,
@@ -104,6 +110,8 @@ impl<'a> Lowering<'a> {
             offsets,
             functions,
             defines,
+            declared_frames: frames,
+            frames: Frames::default(),
             definitions: defines.iter().map(|_| Definition::Pending).collect(),
             multipliers: Vec::new(),
             observables: Vec::new(),
@@ -173,8 +181,23 @@ impl<'a> Lowering<'a> {
         part: fn(&Value) -> Option<T>,
     ) -> Option<T> {
         let value = self.lower(at)?;
+        self.part(&value, at.place, kind, part)
+    }
+
+    fn part<T>(
+        &mut self,
+        value: &Value,
+        place: Place,
+        kind: &str,
+        part: fn(&Value) -> Option<T>,
+    ) -> Option<T> {
         let wrong = |shape| format!("a {kind} belongs here, but this is {shape}");
-        part(&value).or_else(|| self.report(at.place, wrong(value.shape())))
+        part(value).or_else(|| self.report(place, wrong(value.shape())))
+    }
+
+    /// The entries of a value that must be a vector of numbers.
+    pub(super) fn vector_in(&mut self, value: &Value, place: Place) -> Option<Vec<Id>> {
+        self.part(value, place, "vector", Value::as_vector)
     }
 
     /// The values of several expressions, if all have one.
@@ -239,6 +262,7 @@ impl<'a> Lowering<'a> {
             Some(Entity::Acceleration(index)) => self.acceleration(index, name.place),
             Some(Entity::Definition(index)) => self.definition(index, name),
             Some(Entity::Function(_)) => self.without_parentheses(name),
+            Some(Entity::Frame) => self.frame_alone(name),
             None => self.observable(name),
         }
     }

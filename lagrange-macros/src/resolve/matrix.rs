@@ -46,7 +46,8 @@ impl Lowering<'_> {
         let product: Rows = product.collect();
         Some(match (row, column) {
             (None, None) => Value::matrix(product),
-            _ => Value::vector(product.into_iter().flatten()),
+            // A matrix in the axes of its vector.
+            _ => Value::vector(product.into_iter().flatten()).along(x.axes().or(y.axes())),
         })
     }
 
@@ -98,15 +99,19 @@ impl Lowering<'_> {
 
     /// `rot(axis, angle)`: the axis may be of any length but zero.
     pub(super) fn rotation(&mut self, name: &Name, axis: &Expression, angle: &Expression) -> Option<Value> {
-        let (vector, angle) = (self.three(name, axis), self.scalar(angle));
-        let (vector, angle) = (vector?, angle?);
+        let (unit, angle) = (self.unit(name, axis), self.scalar(angle));
+        Some(Value::matrix(rotation(unit?, angle?, &mut self.graph)))
+    }
+
+    /// A vector in space of length 1, along one of any length but zero.
+    pub(super) fn unit(&mut self, name: &Name, axis: &Expression) -> Option<[Id; 3]> {
+        let vector = self.three(name, axis)?;
         let square = self.graph.dot(&vector, &vector);
         if square == Id::ZERO {
             return self.report(axis.place, "an axis of length zero has no direction");
         }
         let length = self.graph.sqrt(square);
-        let unit = vector.map(|x| self.graph.div(x, length));
-        Some(Value::matrix(rotation(unit, angle, &mut self.graph)))
+        Some(vector.map(|x| self.graph.div(x, length)))
     }
 
     /// A value that must be a vector in space.
@@ -129,7 +134,7 @@ fn skew(x: [Id; 3], graph: &mut Graph) -> Rows {
 
 /// cos α 1 + sin α S + (1 − cos α) n nᵀ, with S v = n × v (Rodrigues' formula; Goldstein, Poole and Safko, *Classical
 /// Mechanics*, 4.62).
-fn rotation(axis: [Id; 3], angle: Id, graph: &mut Graph) -> Rows {
+pub(super) fn rotation(axis: [Id; 3], angle: Id, graph: &mut Graph) -> [[Id; 3]; 3] {
     let (sin, cos) = (graph.function(Function::Sin, angle), graph.function(Function::Cos, angle));
     let versine = graph.sub(Id::ONE, cos);
     let skew = skew(axis, graph);
@@ -138,5 +143,5 @@ fn rotation(axis: [Id; 3], angle: Id, graph: &mut Graph) -> Rows {
         let across = graph.mul(sin, skew[i][j]);
         graph.total([if i == j { cos } else { Id::ZERO }, across, along])
     };
-    (0..3).map(|i| (0..3).map(|j| entry(i, j)).collect()).collect()
+    [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j)))
 }

@@ -4,6 +4,7 @@ mod algebra;
 mod call;
 mod draw;
 mod family;
+mod frames;
 mod function;
 mod lower;
 mod matrix;
@@ -21,6 +22,7 @@ use rustc_hash::FxHashMap;
 use crate::diagnostics::{Diagnostics, Place};
 use crate::symbolic::{Graph, Id};
 use crate::syntax::Declaration;
+pub(crate) use frames::{Body, Frame, Step, Triple, named, sum};
 pub(crate) use function::Supplied;
 use lower::Lowering;
 pub(crate) use outline::{Observable, Outline, outline};
@@ -28,6 +30,7 @@ pub(crate) use parameters::{Entry, Parameters};
 use scope::Scope;
 pub(crate) use scope::is_built_in;
 use value::Value;
+pub(crate) use value::cross;
 
 /// A mechanical system: what it is made of are nodes of a graph beside it.
 pub(crate) struct Problem {
@@ -49,6 +52,9 @@ pub(crate) struct Problem {
     pub(crate) conserved: Vec<(usize, Place)>,
     pub(crate) parameters: Parameters,
     pub(crate) functions: Vec<Supplied>,
+    /// Each after the one that it comes from; the first is at rest.
+    pub(crate) frames: Vec<Frame>,
+    pub(crate) bodies: Vec<Body>,
     /// Names of nodes that are definitions.
     pub(crate) names: FxHashMap<Id, String>,
 }
@@ -77,7 +83,7 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
     let conserved = lowering.conserved(declaration, &observables);
     let names = lowering.names(declaration);
     let coordinates = labels(declaration);
-    let Lowering { graph, parameters, diagnostics, .. } = lowering;
+    let Lowering { graph, parameters, diagnostics, frames, .. } = lowering;
     let (place, lagrangian) = (declaration.lagrangian.as_ref()?.place, lagrangian?);
     let dissipation = match dissipation {
         Some((value, place)) => Some((value?, place)),
@@ -98,6 +104,8 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
         conserved,
         parameters,
         functions,
+        frames: frames.all,
+        bodies: frames.bodies,
         names,
     };
     diagnostics.is_empty().then_some((graph, problem))
@@ -124,9 +132,9 @@ fn element_name(name: &str, index: Option<usize>) -> String {
 fn entry_names(name: &str, value: &Value) -> Vec<String> {
     match value {
         Value::Scalar(_) => vec![name.to_owned()],
-        Value::Vector(items) => {
-            let rows = items.iter().enumerate();
-            rows.flat_map(|(i, item)| entry_names(&format!("{name}[{i}]"), item)).collect()
+        _ => {
+            let rows = (0..).map_while(|i| value.item(i)).enumerate();
+            rows.flat_map(|(i, item)| entry_names(&format!("{name}[{i}]"), &item)).collect()
         }
     }
 }

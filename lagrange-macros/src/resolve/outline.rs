@@ -46,9 +46,12 @@ pub(crate) fn outline(declaration: &Declaration) -> Outline {
     for expression in declaration.lagrangian.iter().chain(&declaration.dissipation).chain(forces) {
         lowering.lower(expression);
     }
-    lowering.constraints(&declaration.constraints);
-    let constraints =
-        declaration.constraints.iter().map(|constraint| lowering.rows(constraint)).sum::<usize>();
+    let rows = lowering.constraints(&declaration.constraints);
+    let is_there = |constraint: &&Constraint| {
+        !constraint.is_implied || rows.iter().any(|(label, _)| label.text == constraint.target.name.text)
+    };
+    let constraints = declaration.constraints.iter().filter(is_there);
+    let constraints = constraints.map(|constraint| lowering.rows(constraint)).sum::<usize>();
     let observables = lowering.observables_seen(declaration);
     let parameters = lowering.parameters;
     let length = |coordinate: &crate::syntax::Coordinate| coordinate.length.unwrap_or(1);
@@ -105,10 +108,7 @@ impl Lowering<'_> {
         // Time for what is not known: it is neither zero nor any other number.
         let mut contents = vec![self.graph.symbol(Variable::Time.symbol())];
         contents.extend(parts.iter().flat_map(Value::flat));
-        let vector = parts.iter().find_map(|part| match part {
-            Value::Vector(items) => Some(items.len()),
-            Value::Scalar(_) => None,
-        });
+        let vector = parts.iter().find_map(Value::length);
         let length = match &expression.kind {
             Kind::Vector(items) => Some(items.len()),
             Kind::Negative(_) | Kind::Sum(_) | Kind::SumOver(_) | Kind::Product(_) => vector,

@@ -33,6 +33,11 @@ impl Parameters {
         self.properties[field]
     }
 
+    /// Whether the numbers of a field are quaternions of length 1 by its type.
+    pub(super) fn is_unit_quaternion(&self, field: usize) -> bool {
+        self.fields[field].shape.as_ref().is_ok_and(|shape| shape.layout.inside == Inside::UnitQuaternion)
+    }
+
     /// The length of the innermost arrays of a field.
     pub(crate) fn size(&self, field: usize) -> usize {
         self.fields[field].shape.as_ref().map_or(1, |shape| shape.layout.size())

@@ -17,8 +17,43 @@ pub(super) fn rate(q: [Id; 4], q_dot: [Id; 4], graph: &mut Graph) -> [Id; 3] {
 
 /// The vector part of 2 q̄ q̇: the angular velocity in the frame of the body.
 pub(super) fn rate_in_body(q: [Id; 4], q_dot: [Id; 4], graph: &mut Graph) -> [Id; 3] {
+    twice(half_rate_in_body(q, q_dot, graph), graph)
+}
+
+/// The vector part of q̄ q̇.
+pub(super) fn half_rate_in_body(q: [Id; 4], q_dot: [Id; 4], graph: &mut Graph) -> [Id; 3] {
     let conjugate = conjugate(q, graph);
-    twice(vector_part(product(conjugate, q_dot, graph)), graph)
+    vector_part(product(conjugate, q_dot, graph))
+}
+
+/// The rotation by q/|q|, row by row, where `scale` is 2/|q|²: 1 + s w S + s S², with S v = (x, y, z) × v.
+pub(super) fn matrix(q: [Id; 4], scale: Id, graph: &mut Graph) -> [[Id; 3]; 3] {
+    let [w, v @ ..] = q;
+    let one = Rational::from_integer(1);
+    let mut times = |x: Id, y: Id| graph.product([scale, x, y].map(|factor| (factor, one)));
+    let turn = v.map(|component| times(w, component));
+    let square = v.map(|x| v.map(|y| times(x, y)));
+    let minus = -one;
+    let mut sum = |terms: &[(Id, Rational)]| graph.sum(terms.iter().copied());
+    let diagonal = |i: usize, j: usize| [(Id::ONE, one), (square[i][i], minus), (square[j][j], minus)];
+    let [a, b, c] = turn;
+    [
+        [
+            sum(&diagonal(1, 2)),
+            sum(&[(square[0][1], one), (c, minus)]),
+            sum(&[(square[0][2], one), (b, one)]),
+        ],
+        [
+            sum(&[(square[0][1], one), (c, one)]),
+            sum(&diagonal(0, 2)),
+            sum(&[(square[1][2], one), (a, minus)]),
+        ],
+        [
+            sum(&[(square[0][2], one), (b, minus)]),
+            sum(&[(square[1][2], one), (a, one)]),
+            sum(&diagonal(0, 1)),
+        ],
+    ]
 }
 
 pub(super) fn conjugate([w, x, y, z]: [Id; 4], graph: &mut Graph) -> [Id; 4] {

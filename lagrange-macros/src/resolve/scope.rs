@@ -18,6 +18,8 @@ pub(super) enum Entity {
     Definition(usize),
     /// A function that the user supplies.
     Function(usize),
+    /// A frame, or several.
+    Frame,
 }
 
 /// What expressions may call beside the functions of one argument that the graph knows.
@@ -68,6 +70,11 @@ impl Scope {
                 scope.shadowing.insert(field.name.text.clone(), field.name.place);
             } else {
                 scope.declare(&field.name, Entity::Field(index), diagnostics);
+            }
+        }
+        for frame in &declaration.frames {
+            if scope.get(&frame.target.name.text) != Some(Entity::Frame) {
+                scope.declare(&frame.target.name, Entity::Frame, diagnostics);
             }
         }
         for (index, define) in declaration.defines.iter().enumerate() {
@@ -163,6 +170,7 @@ impl Entity {
             Self::Acceleration(_) => "the acceleration of a coordinate",
             Self::Definition(_) => "a definition",
             Self::Function(_) => "a function",
+            Self::Frame => "a frame",
         }
     }
 }

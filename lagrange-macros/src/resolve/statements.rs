@@ -6,7 +6,7 @@ use rustc_hash::FxHashMap;
 use super::lower::{Definition, Lowering, MultiplierGroup, Setting, is_literal_zero};
 use super::scope::Entity;
 use super::unknown::{nearest, or_meant};
-use super::value::Value;
+use super::value::{Axes, Value};
 use super::{Label, element_name, entry_names};
 use crate::contract::is_reserved;
 use crate::diagnostics::Place;
@@ -106,6 +106,13 @@ impl Lowering<'_> {
                 format!("the force on `{}` is {wanted}, but this is {}", target.name.text, value.shape());
             return self.diagnostics.error(expression.place, message);
         }
+        if let Some(Axes { name, .. }) = value.axes().filter(|axes| axes.frame != 0) {
+            let message = format!(
+                "a force on `{}` is a number for each coordinate, but this is a vector in the axes of `{name}`: write `express(…, fixed)` where the coordinates are along the fixed axes",
+                target.name.text
+            );
+            return self.diagnostics.error(expression.place, message);
+        }
         for (slot, entry) in forces[start..].iter_mut().zip(entries) {
             *slot = self.graph.add(*slot, entry);
         }
@@ -118,6 +125,14 @@ impl Lowering<'_> {
             let name = &constraint.target.name;
             let is_family = !matches!(constraint.target.index, TargetIndex::None);
             match seen.get(&name.text) {
+                Some((place, _)) if constraint.is_implied => {
+                    let name = &name.text;
+                    let message = format!(
+                        "the frame that `{name}` turns brings a constraint of this name, `dot({name}, {name}) = 1`: choose another name"
+                    );
+                    self.diagnostics.error(*place, message);
+                    continue;
+                }
                 Some((place, family)) if !(is_family && *family) => {
                     self.twice(name, *place, "constraints");
                     continue;
@@ -144,6 +159,9 @@ impl Lowering<'_> {
     fn constraint(&mut self, constraint: &Constraint, element: Option<usize>, rows: &mut Vec<(Label, Id)>) {
         let residual = self.with_index(&constraint.target, element, |lowering| lowering.residual(constraint));
         let Some(residual) = residual else { return };
+        if constraint.is_implied && self.is_among(&residual, rows) {
+            return;
+        }
         let name = &constraint.target.name;
         let mut row = rows.len();
         let symbols = residual.map(&mut |_| {
@@ -165,6 +183,14 @@ impl Lowering<'_> {
         }
     }
 
+    /// Whether a constraint says the same in as many words.
+    fn is_among(&mut self, residual: &Value, rows: &[(Label, Id)]) -> bool {
+        let Some(residual) = residual.as_scalar() else { return false };
+        let factors = [(1, 1), (-1, 1), (1, 2), (-1, 2)].map(|(above, below)| Rational::new(above, below));
+        let multiples = factors.map(|factor| self.graph.sum([(residual, factor)]));
+        rows.iter().any(|(_, row)| multiples.contains(row))
+    }
+
     /// left − right
     pub(super) fn residual(&mut self, constraint: &Constraint) -> Option<Value> {
         let (left, right) = (self.lower(&constraint.left), self.lower(&constraint.right));
@@ -175,11 +201,8 @@ impl Lowering<'_> {
         if is_literal_zero(&constraint.left) {
             return Some(right.map(&mut |id| self.graph.neg(id)));
         }
-        if left.shape() != right.shape() {
-            let (left, right) = (left.shape(), right.shape());
-            return self
-                .report(constraint.right.place, format!("this is {right}, but the other side is {left}"));
-        }
+        self.meeting(&left.shape(), &right, constraint.right.place, "the other side")?;
+        self.along_what_axes(&[(&left, constraint.left.place), (&right, constraint.right.place)])?;
         let terms = [(left, Rational::from_integer(1)), (right, Rational::from_integer(-1))];
         Some(Value::combination(&terms, &mut self.graph))
     }

@@ -4,7 +4,8 @@ use super::scope::{CONSTANTS, Entity, Scope, functions};
 use crate::syntax::{GREEK, Name};
 
 /// Names of fixed quantities elsewhere, one beside the other, and what to write here.
-const NAMES: [(&str, &str); 5] = [
+const NAMES: [(&str, &str); 6] = [
+    ("fixed", "it is the frame at rest, and stands where a frame is asked for: `express(v, fixed)`"),
     ("time Time", "the time is `t`"),
     ("e E exp1", "the exponential function is `exp(x)`"),
     ("deg degree degrees rad radians", "angles are in radians, and a degree is `pi/180`"),

@@ -2,26 +2,60 @@
 
 use std::borrow::Borrow;
 use std::fmt;
+use std::rc::Rc;
 
 use crate::symbolic::{Graph, Id, Rational};
 
-/// A scalar, a vector, or rows of vectors.
+/// A scalar, a vector, or rows of vectors; or a vector in space by its components along the axes of a frame.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Value {
     Scalar(Id),
     Vector(Vec<Self>),
+    Spatial(Axes, [Id; 3]),
 }
 
-/// Lengths from the outside in: none for a scalar.
+/// The axes of a frame, which has a number and a name.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) struct Shape(Vec<usize>);
+pub(crate) struct Axes {
+    pub(super) frame: usize,
+    pub(super) name: Rc<str>,
+}
+
+/// Lengths from the outside in: none for a scalar. A vector in space is along some axes.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) struct Shape {
+    lengths: Vec<usize>,
+    axes: Option<Axes>,
+}
+
+impl Shape {
+    fn plain(lengths: Vec<usize>) -> Self {
+        Self { lengths, axes: None }
+    }
+
+    /// The shape of what is made of both: numbers alone take the axes of the vector that they meet.
+    pub(super) fn with(&self, other: &Self) -> Option<Self> {
+        let is_one = self.lengths == other.lengths;
+        let axes = match (&self.axes, &other.axes) {
+            (Some(one), Some(other)) if one != other => return None,
+            (one, other) => one.as_ref().or(other.as_ref()).cloned(),
+        };
+        is_one.then(|| Self { lengths: self.lengths.clone(), axes })
+    }
+
+    /// Whether only the axes differ.
+    pub(super) fn is_turned_to(&self, other: &Self) -> bool {
+        self.lengths == other.lengths && self.with(other).is_none()
+    }
+}
 
 impl fmt::Display for Shape {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0[..] {
-            [] => write!(f, "a scalar"),
-            [n] => write!(f, "a vector of {n}"),
-            [rows, columns] => write!(f, "a {rows} by {columns} matrix"),
+        match (&self.lengths[..], &self.axes) {
+            ([], _) => write!(f, "a scalar"),
+            ([_], Some(Axes { name, .. })) => write!(f, "a vector in the axes of `{name}`"),
+            ([n], None) => write!(f, "a vector of {n}"),
+            ([rows, columns], _) => write!(f, "a {rows} by {columns} matrix"),
             _ => write!(f, "an array of matrices"),
         }
     }
@@ -30,18 +64,19 @@ impl fmt::Display for Shape {
 impl Value {
     pub(super) fn shape(&self) -> Shape {
         match self {
-            Self::Scalar(_) => Shape(Vec::new()),
+            Self::Scalar(_) => Shape::plain(Vec::new()),
             Self::Vector(items) => {
-                let inner = items.first().map(Self::shape).map_or(Vec::new(), |shape| shape.0);
-                Shape([vec![items.len()], inner].concat())
+                let inner = items.first().map(Self::shape).map_or(Vec::new(), |shape| shape.lengths);
+                Shape::plain([vec![items.len()], inner].concat())
             }
+            Self::Spatial(axes, _) => Shape { lengths: vec![3], axes: Some(axes.clone()) },
         }
     }
 
     pub(super) fn as_scalar(&self) -> Option<Id> {
         match self {
             Self::Scalar(id) => Some(*id),
-            Self::Vector(_) => None,
+            Self::Vector(_) | Self::Spatial(..) => None,
         }
     }
 
@@ -50,6 +85,24 @@ impl Value {
         match self {
             Self::Scalar(_) => None,
             Self::Vector(items) => items.iter().map(Self::as_scalar).collect(),
+            Self::Spatial(_, entries) => Some(entries.to_vec()),
+        }
+    }
+
+    /// The axes of a vector in space.
+    pub(super) fn axes(&self) -> Option<&Axes> {
+        match self {
+            Self::Spatial(axes, _) => Some(axes),
+            Self::Scalar(_) | Self::Vector(_) => None,
+        }
+    }
+
+    /// A vector of three along these axes, if there are any.
+    pub(super) fn along(self, axes: Option<&Axes>) -> Self {
+        let entries = self.as_vector().and_then(|entries| <[Id; 3]>::try_from(entries).ok());
+        match (axes, entries) {
+            (Some(axes), Some(entries)) => Self::Spatial(axes.clone(), entries),
+            _ => self,
         }
     }
 
@@ -62,6 +115,7 @@ impl Value {
         match self {
             Self::Scalar(id) => vec![*id],
             Self::Vector(items) => items.iter().flat_map(Self::flat).collect(),
+            Self::Spatial(_, entries) => entries.to_vec(),
         }
     }
 
@@ -70,26 +124,38 @@ impl Value {
         match self {
             Self::Scalar(_) => 1,
             Self::Vector(items) => items.iter().map(Self::count).sum(),
+            Self::Spatial(..) => 3,
         }
     }
 
     /// Σ coefficient · value, where all have one shape. In one go: term by term, long sums would take the
     /// square of their length.
     pub(super) fn combination<V: Borrow<Self>>(terms: &[(V, Rational)], graph: &mut Graph) -> Self {
-        let Some(Self::Vector(first)) = terms.first().map(|(value, _)| value.borrow()) else {
+        let Some(length) = terms.first().and_then(|(value, _)| value.borrow().length()) else {
             let scalars = terms.iter().filter_map(|(value, c)| Some((value.borrow().as_scalar()?, *c)));
             return Self::Scalar(graph.sum(scalars));
         };
-        let column = |i: usize| -> Vec<(&Self, Rational)> {
-            terms.iter().filter_map(|(value, c)| Some((value.borrow().items().get(i)?, *c))).collect()
+        let column = |i: usize| -> Vec<(Self, Rational)> {
+            terms.iter().filter_map(|(value, c)| Some((value.borrow().item(i)?, *c))).collect()
         };
-        Self::Vector((0..first.len()).map(|i| Self::combination(&column(i), graph)).collect())
+        let axes = terms.iter().find_map(|(value, _)| value.borrow().axes());
+        Self::Vector((0..length).map(|i| Self::combination(&column(i), graph)).collect()).along(axes)
     }
 
-    fn items(&self) -> &[Self] {
+    /// How many parts it has; a scalar has none.
+    pub(super) fn length(&self) -> Option<usize> {
         match self {
-            Self::Scalar(_) => &[],
-            Self::Vector(items) => items,
+            Self::Scalar(_) => None,
+            Self::Vector(items) => Some(items.len()),
+            Self::Spatial(..) => Some(3),
+        }
+    }
+
+    pub(super) fn item(&self, i: usize) -> Option<Self> {
+        match self {
+            Self::Scalar(_) => None,
+            Self::Vector(items) => items.get(i).cloned(),
+            Self::Spatial(_, entries) => entries.get(i).map(|&entry| Self::Scalar(entry)),
         }
     }
 
@@ -98,12 +164,13 @@ impl Value {
         match self {
             Self::Scalar(id) => Self::Scalar(f(*id)),
             Self::Vector(items) => Self::Vector(items.iter().map(|item| item.map(f)).collect()),
+            Self::Spatial(axes, entries) => Self::Spatial(axes.clone(), entries.map(f)),
         }
     }
 }
 
 /// x × y
-pub(super) fn cross(x: [Id; 3], y: [Id; 3], graph: &mut Graph) -> [Id; 3] {
+pub(crate) fn cross(x: [Id; 3], y: [Id; 3], graph: &mut Graph) -> [Id; 3] {
     [(1, 2), (2, 0), (0, 1)].map(|(i, j)| {
         let (forth, back) = (graph.mul(x[i], y[j]), graph.mul(x[j], y[i]));
         graph.sub(forth, back)

@@ -8,6 +8,7 @@ use super::field::Field;
 use super::forms::{
     FORMS, constraint, coordinates, define, force, form, function, observable, only, options, parameter,
 };
+use super::frame::{frame, unit_constraints};
 use crate::diagnostics::{Diagnostics, Place};
 
 /// Reads the struct. What could be read is returned even where something was wrong.
@@ -22,6 +23,7 @@ pub(crate) fn declaration(input: DeriveInput, diagnostics: &mut Diagnostics) -> 
         are_coordinates_read: false,
         defines: Vec::new(),
         functions: Vec::new(),
+        frames: Vec::new(),
         lagrangian: None,
         constraints: Vec::new(),
         forces: Vec::new(),
@@ -46,6 +48,8 @@ pub(crate) fn declaration(input: DeriveInput, diagnostics: &mut Diagnostics) -> 
             diagnostics.error(place, format!("`#[{word}(…)]` is missing, for example `{example}`"));
         }
     }
+    let units = unit_constraints(&declaration);
+    declaration.constraints.extend(units);
     declaration
 }
 
@@ -105,6 +109,7 @@ fn read(declaration: &mut Declaration, word: &str, attribute: &Attribute) -> Res
         }
         "define" => define(cursor, &mut declaration.defines)?,
         "function" => declaration.functions.push(function(cursor)?),
+        "frame" => declaration.frames.push(frame(cursor, declaration.defines.len())?),
         "lagrangian" => only(cursor, &mut declaration.lagrangian)?,
         "constraint" => constraint(cursor, &mut declaration.constraints)?,
         "force" => force(cursor, &mut declaration.forces)?,

@@ -18,6 +18,7 @@ pub(crate) struct Declaration {
     pub(crate) are_coordinates_read: bool,
     pub(crate) defines: Vec<Define>,
     pub(crate) functions: Vec<Function>,
+    pub(crate) frames: Vec<Frame>,
     pub(crate) lagrangian: Option<Expression>,
     pub(crate) constraints: Vec<Constraint>,
     pub(crate) forces: Vec<Force>,
@@ -43,6 +44,18 @@ pub(crate) struct Define {
     pub(crate) body: Expression,
 }
 
+/// `#[frame(body in parent: translate(v), rotate_z(angle))]`
+#[derive(Debug)]
+pub(crate) struct Frame {
+    pub(crate) target: Target,
+    /// The frame that it is in; the fixed one where none is named.
+    pub(crate) parent: Option<Expression>,
+    /// How it comes from there, each step in the axes that the steps before have led to.
+    pub(crate) steps: Vec<Expression>,
+    /// How many definitions stand above.
+    pub(crate) definitions: usize,
+}
+
 /// `#[function(Omega(t): [3] = omega)]`
 #[derive(Debug)]
 pub(crate) struct Function {
@@ -61,6 +74,8 @@ pub(crate) struct Constraint {
     pub(crate) target: Target,
     pub(crate) left: Expression,
     pub(crate) right: Expression,
+    /// Whether nobody wrote it: a frame that is turned by a quaternion brings it.
+    pub(crate) is_implied: bool,
 }
 
 /// `#[force(coordinate: expression)]`

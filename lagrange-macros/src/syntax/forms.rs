@@ -22,10 +22,11 @@ const COORDINATE_LIMIT: usize = 1000;
 const RESULT_LIMIT: usize = 1000;
 
 /// The attributes, and how each is written.
-pub(super) const FORMS: [(&str, &str); 11] = [
+pub(super) const FORMS: [(&str, &str); 12] = [
     ("coordinates", "#[coordinates(x, y)]"),
     ("define", "#[define(name = expression)]"),
     ("function", "#[function(U(r))]` or `#[function(Omega(t): [3] = field)]"),
+    ("frame", "#[frame(body in parent: translate(v), rotate_z(angle))]"),
     ("lagrangian", "#[lagrangian(expression)]"),
     ("constraint", "#[constraint(name: expression = expression)]"),
     ("force", "#[force(coordinate: expression)]"),
@@ -238,7 +239,7 @@ pub(super) fn constraint(cursor: &mut Cursor, constraints: &mut Vec<Constraint>)
             (left.clone(), left, Err(error))
         }
     };
-    constraints.push(Constraint { target, left, right });
+    constraints.push(Constraint { target, left, right, is_implied: false });
     result
 }
 

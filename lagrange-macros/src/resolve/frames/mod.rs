@@ -1,0 +1,193 @@
+//! Frames: each lies in one that is declared before it, and everything said in its axes is lowered to scalars.
+
+mod pose;
+mod spatial;
+mod step;
+
+use std::rc::Rc;
+
+use super::lower::Lowering;
+use super::scope::Entity;
+use super::value::Axes;
+use crate::symbolic::Id;
+use crate::syntax::{Expression, Frame as Declared, Kind, Name, TargetIndex};
+pub(crate) use pose::{Frame, Step, Triple, named, sum};
+pub(super) use spatial::is_of_frames;
+
+/// The name of the frame that all others lie in, in the end.
+pub(super) const FIXED: &str = "fixed";
+
+/// What is known of frames.
+pub(super) struct Frames {
+    /// One a step: those that have a name, and those on the way to them.
+    pub(super) all: Vec<Frame>,
+    pub(super) bodies: Vec<Body>,
+    /// By name and index; none where something was wrong with one, which is then reported.
+    named: Vec<(Rc<str>, Option<Axes>)>,
+    /// The one that is being declared.
+    current: Option<Rc<str>>,
+}
+
+/// A rigid body, by what it is in the axes of its frame and about the frame's origin.
+#[derive(Clone, Debug)]
+pub(crate) struct Body {
+    pub(crate) frame: usize,
+    pub(crate) mass: Id,
+    /// Mass times the position of its centre.
+    pub(crate) moment: Triple,
+    pub(crate) inertia: [Triple; 3],
+    /// The node of its kinetic energy.
+    pub(crate) energy: Id,
+}
+
+impl Default for Frames {
+    fn default() -> Self {
+        Self { all: vec![Frame::fixed()], bodies: Vec::new(), named: Vec::new(), current: None }
+    }
+}
+
+impl Frames {
+    fn get(&self, name: &str) -> Option<&Option<Axes>> {
+        self.named.iter().find(|(known, _)| **known == *name).map(|(_, axes)| axes)
+    }
+}
+
+fn name_of(declared: &Declared, element: Option<usize>) -> Rc<str> {
+    super::element_name(&declared.target.name.text, element).into()
+}
+
+impl Lowering<'_> {
+    /// The frames that are declared after as many definitions.
+    pub(super) fn frames_after(&mut self, definitions: usize) {
+        let frames = self.declared_frames;
+        for declared in frames.iter().filter(|declared| declared.definitions == definitions) {
+            if !matches!(self.scope.get(&declared.target.name.text), Some(Entity::Frame)) {
+                continue;
+            }
+            let mut elements = self.elements(&declared.target).into_iter();
+            // What is wrong with one of a family is wrong with those after it.
+            let mut declare = |element| {
+                self.with_index(&declared.target, element, |lowering| {
+                    lowering.declare_frame(declared, element)
+                })
+            };
+            if elements.any(|element| declare(element).is_none()) {
+                self.frames.named.extend(elements.map(|element| (name_of(declared, element), None)));
+            }
+        }
+    }
+
+    fn declare_frame(&mut self, declared: &Declared, element: Option<usize>) -> Option<()> {
+        let name = name_of(declared, element);
+        if self.frames.get(&name).is_some() {
+            // Guessing reads all declarations twice.
+            let message = || format!("the frame `{name}` is declared twice");
+            return if self.is_guessing {
+                Some(())
+            } else {
+                self.report(declared.target.name.place, message())
+            };
+        }
+        self.frames.current = Some(name.clone());
+        let parent = match &declared.parent {
+            Some(parent) => self.frame(parent).map(|axes| axes.frame),
+            None => Some(0),
+        };
+        // Every step is read, so that all errors are found.
+        let first = self.frames.all.len() - 1;
+        let lies = declared.steps.iter().fold(parent, |before, step| {
+            let lies = self.step(before.unwrap_or(0), first, step);
+            before.and(lies)
+        });
+        let axes = lies.map(|frame| Axes { frame, name: name.clone() });
+        self.frames.current = None;
+        self.frames.named.push((name, axes));
+        lies.map(|_| ())
+    }
+
+    /// An expression that must name a frame.
+    pub(super) fn frame(&mut self, expression: &Expression) -> Option<Axes> {
+        let (name, index) = match &expression.kind {
+            Kind::Name(name) => (name, None),
+            Kind::Index(base, index) => match &base.kind {
+                Kind::Name(name) => (name, Some(index)),
+                _ => return self.no_frame(expression),
+            },
+            _ => return self.no_frame(expression),
+        };
+        match self.scope.get(&name.text) {
+            Some(Entity::Frame) => {}
+            None if name.text == FIXED && index.is_none() => {
+                return Some(Axes { frame: 0, name: FIXED.into() });
+            }
+            _ => return self.no_frame(expression),
+        }
+        let element = match index {
+            Some(index) => Some(self.integer(index)?),
+            None => None,
+        };
+        let text = element.map_or_else(|| name.text.clone(), |i| format!("{}[{i}]", name.text));
+        match self.frames.get(&text) {
+            Some(axes) => axes.clone(),
+            None => self.unknown_frame(expression, name, &text),
+        }
+    }
+
+    /// Whether an expression can only be meant as a frame.
+    pub(super) fn frame_is_meant(&self, expression: &Expression) -> bool {
+        let base = match &expression.kind {
+            Kind::Index(base, _) => base,
+            _ => expression,
+        };
+        let Kind::Name(name) = &base.kind else { return false };
+        let entity = self.scope.get(&name.text);
+        entity == Some(Entity::Frame) || (entity.is_none() && name.text == FIXED)
+    }
+
+    fn no_frame<T>(&mut self, expression: &Expression) -> Option<T> {
+        let example = "frames are declared with `#[frame(body: translate(r), rotate_z(angle))]`, and the one that is at rest is `fixed`";
+        let message = match &expression.kind {
+            Kind::Name(name) => match self.scope.get(&name.text) {
+                Some(entity) => {
+                    format!("a frame belongs here, and `{}` is {}: {example}", name.text, entity.describe())
+                }
+                None => match self.nearest_frame(&name.text) {
+                    Some(near) => format!("no frame is called `{}`: did you mean `{near}`?", name.text),
+                    None => format!("no frame is called `{}`: {example}", name.text),
+                },
+            },
+            _ => format!("a frame belongs here, by its name: {example}"),
+        };
+        self.report(expression.place, message)
+    }
+
+    /// A frame where a value belongs.
+    pub(super) fn frame_alone<T>(&mut self, name: &Name) -> Option<T> {
+        let text = &name.text;
+        let message = format!(
+            "`{text}` is a frame and has no value: what it is asked for is `position({text}, point)`, `velocity({text}, point)`, `angular_velocity({text})` or `kinetic({text}, m, c, I)`"
+        );
+        self.report(name.place, message)
+    }
+
+    fn nearest_frame(&self, name: &str) -> Option<String> {
+        let names = self.declared_frames.iter().map(|declared| declared.target.name.text.as_str());
+        super::unknown::nearest(name, names.chain([FIXED])).map(str::to_owned)
+    }
+
+    /// A frame that is declared, but not before this, or not this element of it.
+    fn unknown_frame<T>(&mut self, expression: &Expression, name: &Name, text: &str) -> Option<T> {
+        let mut declared = self.declared_frames.iter().filter(|frame| frame.target.name.text == name.text);
+        let is_family = declared.any(|frame| !matches!(frame.target.index, TargetIndex::None));
+        let is_itself = self.frames.current.as_deref() == Some(text);
+        let message = match (&expression.kind, is_family) {
+            _ if is_itself => format!("`{text}` cannot lie in itself, nor be placed by itself"),
+            (Kind::Name(_), true) => format!("`{text}` are several frames: take one, such as `{text}[0]`"),
+            (Kind::Index(..), false) => format!("`{}` is one frame, without an index", name.text),
+            _ => format!(
+                "`{text}` is not declared above: a frame is declared after the one that it is in, and before what uses it"
+            ),
+        };
+        self.report(expression.place, message)
+    }
+}

@@ -1,0 +1,282 @@
+//! Vectors in space, and what is asked of a frame: `position(frame, point)` and its kin.
+
+use super::super::call::wrong_number;
+use super::super::lower::Lowering;
+use super::super::value::{Axes, Shape, Value, cross};
+use super::pose::sum;
+use super::{Body, Triple};
+use crate::diagnostics::Place;
+use crate::symbolic::{Id, Rational};
+use crate::syntax::{Expression, Name};
+use crate::variables::Variable;
+
+/// What a frame is asked for. The names are free where no frame is asked.
+const CALLS: [&str; 6] = ["position", "velocity", "angular_velocity", "kinetic", "vector", "express"];
+
+pub(in super::super) fn is_of_frames(name: &str) -> bool {
+    CALLS.contains(&name)
+}
+
+impl Lowering<'_> {
+    /// A call of one of [`CALLS`].
+    pub(in super::super) fn of_frame(
+        &mut self,
+        name: &Name,
+        arguments: &[Expression],
+        place: Place,
+    ) -> Option<Value> {
+        match (name.text.as_str(), arguments) {
+            ("position", [frame, point @ ..]) if point.len() <= 1 => {
+                let (axes, point) = self.point(frame, point)?;
+                let position = self.frames.all[axes.frame].position_of(point, &mut self.graph);
+                Some(Value::Spatial(self.fixed(), position))
+            }
+            ("velocity", [frame, point @ ..]) if point.len() <= 1 => {
+                let (axes, r) = self.point(frame, point)?;
+                let rate = self.rate_of(&Value::vector(r), place)?;
+                let rate = self.components(&rate)?;
+                let velocity = self.frames.all[axes.frame].velocity_of(r, rate, &mut self.graph);
+                Some(Value::Spatial(axes, velocity))
+            }
+            ("angular_velocity", [frame]) => {
+                let axes = self.frame(frame)?;
+                let angular_velocity = self.frames.all[axes.frame].angular_velocity;
+                Some(Value::Spatial(axes, angular_velocity))
+            }
+            ("kinetic", [frame, mass, more @ ..]) if more.len() <= 2 => self.kinetic(frame, mass, more),
+            ("vector", [frame, components]) => {
+                let (axes, components) =
+                    (self.frame(frame), self.lower(components).zip(Some(components.place)));
+                let (axes, (value, place)) = (axes?, components?);
+                self.along(axes, &value, place)
+            }
+            ("express", [vector, frame]) => {
+                let (value, axes) = (self.lower(vector), self.frame(frame));
+                let (value, axes) = (value?, axes?);
+                let (Some(from), Some(components)) = (value.axes().cloned(), self.components(&value)) else {
+                    let message = format!(
+                        "`express` takes a vector in the axes of a frame, but this is {}: `vector(frame, v)` says which axes are meant",
+                        value.shape()
+                    );
+                    return self.report(vector.place, message);
+                };
+                let components = self.turned_into(components, from.frame, axes.frame);
+                Some(Value::Spatial(axes, components))
+            }
+            (_, given) => {
+                let takes = match name.text.as_str() {
+                    "position" | "velocity" => {
+                        "a frame, and a point in its axes where that is not its origin"
+                    }
+                    "kinetic" => {
+                        "a frame, a mass, its centre and the inertia about it, `kinetic(body, m, c, I)`"
+                    }
+                    "vector" => "a frame and the components along its axes",
+                    "express" => "a vector and the frame along whose axes it is wanted",
+                    _ => return self.report(place, wrong_number(name, 1, given.len())),
+                };
+                self.report(place, format!("`{}` takes {takes}", name.text))
+            }
+        }
+    }
+
+    /// A frame, and a point in its axes: the origin where none is given.
+    fn point(&mut self, frame: &Expression, point: &[Expression]) -> Option<(Axes, Triple)> {
+        let (axes, point) = (self.frame(frame), self.lower_all(point).map(|values| (values, point)));
+        let (axes, (values, expressions)) = (axes?, point?);
+        let [value] = &values[..] else { return Some((axes, [Id::ZERO; 3])) };
+        let place = expressions[0].place;
+        let value = self.along(axes.clone(), value, place)?;
+        Some((axes, self.components(&value)?))
+    }
+
+    /// A vector of three as one in these axes, if it is in no others.
+    fn along(&mut self, axes: Axes, value: &Value, place: Place) -> Option<Value> {
+        let Some(components) = self.components(value) else {
+            return self.report(place, format!("a vector of 3 belongs here, but this is {}", value.shape()));
+        };
+        match value.axes() {
+            Some(other) if *other != axes => {
+                let (name, shape) = (&axes.name, value.shape());
+                self.report(place, format!("this is {shape}: write `express(…, {name})`"))
+            }
+            _ => Some(Value::Spatial(axes, components)),
+        }
+    }
+
+    /// ½ m u² + ½ ω·Iω, u the velocity of the centre. Of a body whose centre rests in the frame it is written by the
+    /// twist alone: ½ m v² + v·(ω × h) + ½ ω·Jω, with h = m c and J = I + m (c² 1 − c cᵀ) about the origin.
+    fn kinetic(&mut self, frame: &Expression, mass: &Expression, more: &[Expression]) -> Option<Value> {
+        let (centre, inertia) = (&more[..more.len().min(1)], more.get(1));
+        let (point, mass) = (self.point(frame, centre), self.scalar(mass));
+        let inertia = inertia.map(|inertia| self.inertia(inertia).ok_or(())).transpose();
+        let ((axes, centre), mass, inertia) = (point?, mass?, inertia.ok()?);
+        let inertia = inertia.unwrap_or([[Id::ZERO; 3]; 3]);
+        let rate = self.rate_of(&Value::vector(centre), frame.place)?;
+        let rate = self.components(&rate)?;
+        let body = self.body(axes.frame, mass, centre, inertia);
+        if rate == [Id::ZERO; 3] {
+            let energy = Value::Scalar(body.energy);
+            self.frames.bodies.push(body);
+            return Some(energy);
+        }
+        let frame = &self.frames.all[axes.frame];
+        let (angular_velocity, velocity) =
+            (frame.angular_velocity, frame.velocity_of(centre, rate, &mut self.graph));
+        let square = self.graph.dot(&velocity, &velocity);
+        let moving = self.graph.mul(mass, square);
+        let turning = self.quadratic(angular_velocity, inertia);
+        let half = Rational::new(1, 2);
+        Some(Value::Scalar(self.graph.sum([(moving, half), (turning, half)])))
+    }
+
+    fn body(&mut self, frame: usize, mass: Id, centre: Triple, inertia: [Triple; 3]) -> Body {
+        let graph = &mut self.graph;
+        let moment =
+            centre.map(|component| graph.mul(mass, component)).map(|component| graph.defined(component));
+        let square = graph.dot(&moment, &centre);
+        let entry = |i: usize, j: usize| {
+            let product = graph.mul(moment[i], centre[j]);
+            let shift = if i == j { graph.sub(square, product) } else { graph.neg(product) };
+            // What is not symmetric about an inertia matrix has no effect.
+            let half = Rational::new(1, 2);
+            let own = graph.sum([(inertia[i][j], half), (inertia[j][i], half)]);
+            let entry = graph.add(own, shift);
+            graph.defined(entry)
+        };
+        let inertia = symmetric(entry);
+        let energy = self.energy(frame, mass, moment, inertia);
+        Body { frame, mass, moment, inertia, energy }
+    }
+
+    fn energy(&mut self, frame: usize, mass: Id, moment: Triple, inertia: [Triple; 3]) -> Id {
+        let (angular_velocity, velocity) = {
+            let frame = &self.frames.all[frame];
+            (frame.angular_velocity, frame.velocity)
+        };
+        let turning = self.quadratic(angular_velocity, inertia);
+        let graph = &mut self.graph;
+        let square = graph.dot(&velocity, &velocity);
+        let moving = graph.mul(mass, square);
+        let carried = cross(angular_velocity, moment, graph);
+        let mixed = graph.dot(&velocity, &carried);
+        let half = Rational::new(1, 2);
+        let energy = graph.sum([(moving, half), (mixed, Rational::from_integer(1)), (turning, half)]);
+        graph.defined(energy)
+    }
+
+    fn inertia(&mut self, expression: &Expression) -> Option<[Triple; 3]> {
+        let value = self.lower(expression)?;
+        let rows = value.as_matrix().unwrap_or_default();
+        let rows: Option<Vec<Triple>> = rows.into_iter().map(|row| row.try_into().ok()).collect();
+        let rows = rows.and_then(|rows| rows.try_into().ok());
+        let wrong = || format!("an inertia is a 3 by 3 matrix, but this is {}", value.shape());
+        rows.or_else(|| self.report(expression.place, wrong()))
+    }
+
+    fn quadratic(&mut self, vector: Triple, matrix: [Triple; 3]) -> Id {
+        let image = matrix.map(|row| self.graph.dot(&row, &vector));
+        self.graph.dot(&vector, &image)
+    }
+
+    fn fixed(&self) -> Axes {
+        Axes { frame: 0, name: super::FIXED.into() }
+    }
+
+    /// A vector in the axes of one frame, in those of another: up to the frame that both come from, and down.
+    fn turned_into(&mut self, mut vector: Triple, mut from: usize, to: usize) -> Triple {
+        let mut down = Vec::new();
+        let mut to = to;
+        while from != to {
+            // Of two frames the later one cannot be on the other's way.
+            if from > to {
+                let frame = self.frames.all[from].clone();
+                vector = frame.step.back(vector, &mut self.graph);
+                from = frame.before;
+            } else {
+                down.push(to);
+                to = self.frames.all[to].before;
+            }
+        }
+        for frame in down.into_iter().rev() {
+            let step = self.frames.all[frame].step.clone();
+            vector = step.forth(vector, &mut self.graph);
+        }
+        vector
+    }
+
+    /// `der(v)` of a vector in the axes of a frame, as seen from the fixed one or from another: (dr/dt)_B = dr/dt − ω_B × r
+    /// (Goldstein, Poole and Safko, *Classical Mechanics*, 4.86).
+    pub(in super::super) fn rate_seen_from(
+        &mut self,
+        value: &Value,
+        seen_from: Option<&Expression>,
+        place: Place,
+    ) -> Option<Value> {
+        let seen_from = match seen_from {
+            Some(frame) => Some(self.frame(frame)?),
+            None => None,
+        };
+        let rate = self.rate_of(value, place);
+        let Some(axes) = value.axes().cloned() else {
+            let message = "this has a rate of change of its own, as a vector in the axes of a frame has none: write `der(x)`";
+            return if seen_from.is_some() { self.report(place, message) } else { rate };
+        };
+        let (vector, rate) = (self.components(value)?, self.components(&rate?)?);
+        let mut turning = self.frames.all[axes.frame].angular_velocity;
+        if let Some(seen_from) = seen_from {
+            let other = self.frames.all[seen_from.frame].angular_velocity;
+            let other = self.turned_into(other, seen_from.frame, axes.frame);
+            turning = std::array::from_fn(|i| self.graph.sub(turning[i], other[i]));
+        }
+        let carried = cross(turning, vector, &mut self.graph);
+        Some(Value::Spatial(axes, sum([rate, carried], &mut self.graph)))
+    }
+
+    /// The shape of what is made of both, or what is wrong with that.
+    pub(in super::super) fn meeting(
+        &mut self,
+        first: &Shape,
+        other: &Value,
+        place: Place,
+        what: &str,
+    ) -> Option<Shape> {
+        let shape = other.shape();
+        match first.with(&shape) {
+            Some(both) => Some(both),
+            None if first.is_turned_to(&shape) => self.report(
+                place,
+                format!("this is {shape}, but {what} is {first}: write `express(…, frame)` to have both in the axes of one frame"),
+            ),
+            None => self.report(place, format!("this is {shape}, but {what} is {first}")),
+        }
+    }
+
+    /// Numbers alone take the axes of the vector that they meet: that of coordinates these are meant is not known.
+    pub(in super::super) fn along_what_axes(&mut self, values: &[(&Value, Place)]) -> Option<Option<Axes>> {
+        let axes = values.iter().find_map(|(value, _)| value.axes().cloned());
+        let Some(known) = &axes else { return Some(None) };
+        for (value, place) in values {
+            let moves = self.graph.symbols(&value.flat()).any(|symbol| {
+                matches!(
+                    Variable::of(symbol),
+                    Variable::Coordinate(_) | Variable::Velocity(_) | Variable::Acceleration(_)
+                )
+            });
+            if value.axes().is_none() && value.as_vector().is_some() && moves {
+                let name = &known.name;
+                return self.report(*place, format!(
+                    "along which axes this vector is has to be said, where it meets one in the axes of `{name}`: write `vector({name}, …)` or `vector(fixed, …)`"
+                ));
+            }
+        }
+        Some(axes)
+    }
+}
+
+/// A symmetric matrix from its upper triangle.
+fn symmetric(mut entry: impl FnMut(usize, usize) -> Id) -> [Triple; 3] {
+    let [a, b, c] = [entry(0, 0), entry(0, 1), entry(0, 2)];
+    let [d, e, f] = [entry(1, 1), entry(1, 2), entry(2, 2)];
+    [[a, b, c], [b, d, e], [c, e, f]]
+}

@@ -1,0 +1,189 @@
+//! The steps that lead from a frame to the next: `translate(v)`, `rotate_z(angle)`, `rotate(axis, angle)`, `rotate(q)` and
+//! `rotate(R)`.
+
+use super::super::lower::Lowering;
+use super::super::matrix::rotation;
+use super::super::quaternion;
+use super::super::scope::Entity;
+use super::super::value::Value;
+use super::pose::{Frame, Moved, Step, Triple, Turned, columns, named};
+use crate::symbolic::Id;
+use crate::syntax::{Expression, Kind};
+use crate::variables::Variable;
+
+const STEPS: &str = "a frame comes from the one that it is in by `translate(v)`, `rotate_x(angle)`, `rotate_y(angle)`, `rotate_z(angle)`, `rotate(axis, angle)`, `rotate(q)` with a quaternion and `rotate(R)` with a matrix";
+
+impl Lowering<'_> {
+    /// The frame that this step leads to from the last of several, of which those after `first` have no name.
+    pub(super) fn step(&mut self, before: usize, first: usize, expression: &Expression) -> Option<usize> {
+        let Kind::Call(name, arguments) = &expression.kind else {
+            return self.report(expression.place, STEPS);
+        };
+        let turned = match (name.text.as_str(), &arguments[..]) {
+            ("translate", [by]) => {
+                let moved = self.moved(by)?;
+                let next = self.frames.all[before].moved(before, moved, &mut self.graph);
+                return Some(self.add_frame(next));
+            }
+            ("rotate_x" | "rotate_y" | "rotate_z", [angle]) => {
+                let axis = "xyz".chars().position(|axis| name.text.ends_with(axis))?;
+                let axis = std::array::from_fn(|i| if i == axis { Id::ONE } else { Id::ZERO });
+                let angle = self.scalar(angle)?;
+                self.turned_about(axis, angle, expression)?
+            }
+            ("rotate", [axis, angle]) => {
+                let (axis, angle) = (self.unit(name, axis), self.scalar(angle));
+                self.turned_about(axis?, angle?, expression)?
+            }
+            ("rotate", [by]) => self.turned(by)?,
+            ("translate" | "rotate_x" | "rotate_y" | "rotate_z" | "rotate", _) => {
+                return self
+                    .report(expression.place, format!("`{}` takes other arguments: {STEPS}", name.text));
+            }
+            (text, _) => {
+                return self.report(name.place, format!("`{text}` is no step: {STEPS}"));
+            }
+        };
+        Some(self.turn(before, first, &turned))
+    }
+
+    /// A placement and the turn after it are one rotation: every vector is then turned once.
+    fn turn(&mut self, before: usize, first: usize, turned: &Turned) -> usize {
+        let graph = &mut self.graph;
+        let next = match &self.frames.all[before] {
+            Frame { before: root, step: Step::Turned(placement), .. }
+                if before > first && placement.is_placement() =>
+            {
+                let (root, both) = (*root, placement.then(turned, graph));
+                self.frames.all.pop();
+                self.frames.all[root].turned(root, both, graph)
+            }
+            frame => frame.turned(before, turned.clone(), graph),
+        };
+        self.add_frame(next)
+    }
+
+    fn add_frame(&mut self, frame: Frame) -> usize {
+        self.frames.all.push(frame);
+        self.frames.all.len() - 1
+    }
+
+    fn moved(&mut self, by: &Expression) -> Option<Moved> {
+        let value = self.lower(by)?;
+        let Some(vector) = self.components(&value).filter(|_| value.axes().is_none()) else {
+            let message = format!(
+                "a frame is translated by a vector of 3 in the axes reached so far, but this is {}",
+                value.shape()
+            );
+            return self.report(by.place, message);
+        };
+        let rate = self.rates(vector, by)?;
+        let drift = rate.map(|component| self.drift.of(&mut self.graph, component));
+        Some(Moved { by: vector, rate, drift })
+    }
+
+    /// About an axis of length 1.
+    fn turned_about(&mut self, axis: Triple, angle: Id, at: &Expression) -> Option<Turned> {
+        if axis.iter().any(|&component| self.moves(component)) {
+            let rows = rotation(axis, angle, &mut self.graph);
+            return self.turned_by_matrix(rows, at);
+        }
+        let [speed] = self.rates([angle], at)?;
+        let by = rotation(axis, angle, &mut self.graph);
+        let rate = axis.map(|component| self.graph.mul(component, speed));
+        Some(self.turned_at(by, rate))
+    }
+
+    fn turned(&mut self, by: &Expression) -> Option<Turned> {
+        let value = self.lower(by)?;
+        let rows = value.as_matrix().and_then(|rows| {
+            let rows: Option<Vec<Triple>> = rows.into_iter().map(|row| row.try_into().ok()).collect();
+            <[Triple; 3]>::try_from(rows?).ok()
+        });
+        if let Some(rows) = rows {
+            return self.turned_by_matrix(rows, by);
+        }
+        match value.as_vector().map(<[Id; 4]>::try_from) {
+            Some(Ok(q)) => self.turned_by_quaternion(q, by),
+            _ => {
+                let message = format!(
+                    "`rotate` takes a quaternion (w, x, y, z), a 3 by 3 matrix, or an axis and an angle, but this is {}",
+                    value.shape()
+                );
+                self.report(by.place, message)
+            }
+        }
+    }
+
+    /// S ω of a rotation is Eᵀ Ė.
+    fn turned_by_matrix(&mut self, by: [Triple; 3], at: &Expression) -> Option<Turned> {
+        let rates = self.rates(by.concat().try_into().unwrap_or([Id::ZERO; 9]), at)?;
+        let rates = std::array::from_fn(|i| [rates[3 * i], rates[3 * i + 1], rates[3 * i + 2]]);
+        let (axes, rates) = (columns(by), columns(rates));
+        let rate = [(2, 1), (0, 2), (1, 0)].map(|(i, j)| self.graph.dot(&axes[i], &rates[j]));
+        Some(self.turned_at(by, rate))
+    }
+
+    /// By q/|q|, so that nothing depends on the length.
+    fn turned_by_quaternion(&mut self, q: [Id; 4], at: &Expression) -> Option<Turned> {
+        let graph = &mut self.graph;
+        let square = graph.dot(&q, &q);
+        let is_unit = self.is_unit_parameter(at);
+        let graph = &mut self.graph;
+        let two = graph.integer(2);
+        let scale = if is_unit { two } else { graph.div(two, square) };
+        let scale = graph.defined(scale);
+        let by = quaternion::matrix(q, scale, graph);
+        let rates = self.rates(q, at)?;
+        let graph = &mut self.graph;
+        let half = quaternion::half_rate_in_body(q, rates, graph);
+        let rate = half.map(|component| graph.mul(scale, component));
+        Some(self.turned_at(by, rate))
+    }
+
+    fn turned_at(&mut self, by: [Triple; 3], rate: Triple) -> Turned {
+        let by = by.map(|row| named(row, &mut self.graph));
+        let rate = named(rate, &mut self.graph);
+        let drift = rate.map(|component| self.drift.of(&mut self.graph, component));
+        Turned { by, rate, drift }
+    }
+
+    /// A field whose type says that its length is 1.
+    fn is_unit_parameter(&self, at: &Expression) -> bool {
+        let base = match &at.kind {
+            Kind::Index(base, _) => base,
+            _ => at,
+        };
+        match &base.kind {
+            Kind::Name(name) => match self.scope.get(&name.text) {
+                Some(Entity::Field(field)) => self.parameters.is_unit_quaternion(field),
+                _ => false,
+            },
+            _ => false,
+        }
+    }
+
+    /// d/dt of what may depend on coordinates and time, and on nothing else that changes.
+    fn rates<const K: usize>(&mut self, of: [Id; K], at: &Expression) -> Option<[Id; K]> {
+        let has_rates = self.graph.symbols(&of).any(|symbol| {
+            !matches!(Variable::of(symbol), Variable::Coordinate(_) | Variable::Parameter(_) | Variable::Time)
+        });
+        if has_rates {
+            return self
+                .report(at.place, "where a frame lies depends on coordinates and time, not on velocities");
+        }
+        let rate = Value::vector(of);
+        let rates = self.rate_of(&rate, at.place)?.flat();
+        rates.try_into().ok()
+    }
+
+    /// Whether a number changes in time.
+    fn moves(&self, id: Id) -> bool {
+        self.graph.symbols(&[id]).any(|symbol| !matches!(Variable::of(symbol), Variable::Parameter(_)))
+    }
+
+    /// The three numbers of a vector in space, along whatever axes.
+    pub(super) fn components(&self, value: &Value) -> Option<Triple> {
+        value.as_vector()?.try_into().ok()
+    }
+}

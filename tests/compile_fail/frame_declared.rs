@@ -1,0 +1,26 @@
+use lagrange_core::prelude::*;
+
+#[derive(Lagrangian)]
+#[coordinates(x, y, q: [4], r: [3])]
+#[frame(own in own: rotate_z(x))]
+#[frame(early in late: rotate_z(x))]
+#[frame(late: rotate_z(y))]
+#[frame(a: rotate_z(x))]
+#[frame(a: rotate_z(y))]
+#[frame(link[i in 0..3] in link[i+1]: rotate_z(x))]
+#[frame(b in x: rotate_z(x))]
+#[frame(c: rotate_z(r))]
+#[frame(d: translate(x))]
+#[frame(e: rotate(r))]
+#[frame(f: rotate_w(x))]
+#[frame(g2: x + y)]
+#[frame(h: rotate_z(x, y))]
+#[frame(i2: rotate_z(x_dot))]
+#[frame(j: rotate([0, 0, 0], x))]
+#[frame(chain[k in 0..3]: rotate_z(x))]
+#[frame(inside: translate(velocity(a)))]
+#[frame(q: rotate_x(y))]
+#[lagrangian(x_dot^2 + y_dot^2 + dot(q_dot, q_dot) + dot(r_dot, r_dot))]
+struct System;
+
+fn main() {}

@@ -1,0 +1,5 @@
+//! Frames: each word of their language against poses multiplied by hand, systems against the same systems without frames.
+
+mod moving;
+mod same;
+mod vocabulary;
