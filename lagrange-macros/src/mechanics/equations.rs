@@ -3,6 +3,7 @@
 use super::constraints::ConstraintKind;
 use super::gauss::Form;
 use super::integrability::Kinds;
+use super::twists::Twists;
 use super::{consistency, constraints, determinacy, euler_lagrange, integrability};
 use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
@@ -52,14 +53,15 @@ impl Equations {
         problem: &Problem,
         diagnostics: &mut Diagnostics,
     ) -> Option<Self> {
-        let motion = euler_lagrange::derive(graph, problem);
+        let twists = Twists::of(graph, problem);
+        let motion = euler_lagrange::derive(graph, problem, twists.as_ref());
         reject_idle_dissipation(graph, problem, diagnostics);
         diagnostics.stop_at_fault(problem.place, graph)?;
         let constraints = constraints::derive(graph, problem, diagnostics)?;
         consistency::check(graph, problem, &constraints, diagnostics)?;
         determinacy::check(problem, &motion, &constraints, diagnostics)?;
         let integrability = integrability::classify(graph, problem, &constraints);
-        let forms = Form::all(graph, problem, &motion, &constraints);
+        let forms = Form::all(graph, problem, &motion, twists.as_ref(), &constraints);
         let constraint_force = constraints.force(graph);
         Some(Self {
             balance: motion.balance(graph, &constraint_force),

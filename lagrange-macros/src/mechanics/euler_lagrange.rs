@@ -1,9 +1,10 @@
 //! d/dt(∂L/∂q̇) = ∂L/∂q + Q, solved for what multiplies the accelerations.
 
 use super::degree;
+use super::twists::Twists;
 use crate::resolve::Problem;
 use crate::symbolic::{Forward, Graph, Id};
-use crate::variables::{Variable, drift, nodes, symbols, total_time_derivative};
+use crate::variables::{Variable, drift, has_velocity, nodes, symbols, total_time_derivative};
 
 /// M q̈ = h without constraints.
 pub(super) struct Motion {
@@ -28,22 +29,32 @@ impl Motion {
     }
 }
 
-pub(super) fn derive(graph: &mut Graph, problem: &Problem) -> Motion {
+pub(super) fn derive(graph: &mut Graph, problem: &Problem, twists: Option<&Twists>) -> Motion {
     let n = problem.coordinates.len();
     let both = [symbols(n, Variable::Coordinate), symbols(n, Variable::Velocity)].concat();
     let mut gradient = graph.gradient(problem.lagrangian, &both);
     let momentum = gradient.split_off(n);
     let forces = generalized_forces(graph, problem);
-    let mass = mass_matrix(graph, &momentum);
-    let mut drift = drift(graph, n);
     let momentum_rate: Vec<Id> = (0..n).map(|i| graph.add(gradient[i], forces[i])).collect();
-    let forcing = (0..n).map(|i| {
-        let rate = drift.of(graph, momentum[i]);
-        graph.sub(momentum_rate[i], rate)
-    });
-    let forcing = forcing.collect();
+    let (mass, forcing) = match twists {
+        Some(twists) => twists.mass_and_forcing(graph),
+        None => {
+            let velocities = nodes(graph, n, Variable::Velocity);
+            (hessian(graph, &momentum, &velocities), forcing(graph, &momentum, &momentum_rate))
+        }
+    };
     let energy = energy(graph, problem, &momentum);
     Motion { momentum, mass, momentum_rate, forcing, energy }
+}
+
+/// h = ∂L/∂q + Q − (dp/dt where q̈ = 0)
+fn forcing(graph: &mut Graph, momentum: &[Id], momentum_rate: &[Id]) -> Vec<Id> {
+    let mut drift = drift(graph, momentum.len());
+    let row = |(&momentum, &momentum_rate): (&Id, &Id)| {
+        let rate = drift.of(graph, momentum);
+        graph.sub(momentum_rate, rate)
+    };
+    momentum.iter().zip(momentum_rate).map(row).collect()
 }
 
 /// E = p·q̇ − L, Milton (8.17). A part of L of degree d in the velocities adds (d − 1) times itself (Euler's
@@ -67,15 +78,20 @@ pub(super) fn generalized_forces(graph: &mut Graph, problem: &Problem) -> Vec<Id
     (0..n).map(|i| graph.sub(problem.forces[i], friction[i])).collect()
 }
 
-/// M_ij = ∂p_i/∂q̇_j, of which the lower triangle is differentiated.
-fn mass_matrix(graph: &mut Graph, momentum: &[Id]) -> Vec<Vec<Id>> {
-    let n = momentum.len();
+/// M_ij = ∂p_i/∂v_j, of which the lower triangle is differentiated.
+pub(super) fn hessian(graph: &mut Graph, momenta: &[Id], velocities: &[Id]) -> Vec<Vec<Id>> {
+    let n = momenta.len();
     let mut mass = vec![vec![Id::ZERO; n]; n];
-    for (j, p) in momentum.iter().enumerate() {
-        let mut along = Forward::along([(Variable::Velocity(j).symbol(), Id::ONE)]);
-        mass[j][j] = along.of(graph, *p);
+    if !has_velocity(graph, momenta) {
+        return mass;
+    }
+    for (j, &momentum) in momenta.iter().enumerate() {
+        let rates = velocities.iter().enumerate();
+        let rates = rates.map(|(i, &node)| (node, if i == j { Id::ONE } else { Id::ZERO }));
+        let mut along = Forward::along([]).through(graph, rates);
+        mass[j][j] = along.of(graph, momentum);
         for i in j + 1..n {
-            mass[i][j] = along.of(graph, momentum[i]);
+            mass[i][j] = along.of(graph, momenta[i]);
             mass[j][i] = mass[i][j];
         }
     }

@@ -8,6 +8,7 @@
 use super::completion;
 use super::constraints::Constraints;
 use super::euler_lagrange::{Motion, generalized_forces};
+use super::twists::Twists;
 use crate::resolve::Problem;
 use crate::symbolic::{Forward, Graph, Id, Node, Rational};
 use crate::variables::{Variable, drift, symbols};
@@ -39,19 +40,33 @@ impl Form {
         graph: &mut Graph,
         problem: &Problem,
         motion: &Motion,
+        twists: Option<&Twists>,
         constraints: &Constraints,
     ) -> Vec<Self> {
         let plain = Self::new(motion.mass.clone(), motion.forcing.clone(), Vec::new());
-        let velocities = Velocities::named(graph, problem);
-        let named = (!velocities.rows.is_empty()).then(|| velocities.form(graph, problem));
-        let named = named.filter(|_| graph.take_fault().is_none());
-        let mut forms: Vec<Self> = [plain].into_iter().chain(named).collect();
+        let others = match twists {
+            Some(twists) => twists.forms(graph),
+            None => {
+                let velocities = Velocities::named(graph, problem);
+                Vec::from_iter((!velocities.rows.is_empty()).then(|| velocities.form(graph, problem)))
+            }
+        };
+        let others = others.into_iter().filter(|form| form.matrix.len() <= LIMIT);
+        let others: Vec<Self> = others.filter(|_| graph.take_fault().is_none()).collect();
+        let mut forms: Vec<Self> = [plain].into_iter().chain(others).collect();
         let completing = completion::completing(graph, problem, &motion.mass, constraints);
         for form in &mut forms {
             form.complete(graph, constraints, &completing);
             form.divide_what_is_alone(graph);
         }
         forms
+    }
+
+    /// With each variable after the accelerations as a sum over those before it.
+    pub(super) fn over(matrix: Vec<Vec<Id>>, linear: Vec<Id>, rows: &[Vec<Id>]) -> Self {
+        let entries =
+            |row: &Vec<Id>| row.iter().copied().enumerate().filter(|&(_, entry)| entry != Id::ZERO).collect();
+        Self::new(matrix, linear, rows.iter().map(entries).collect())
     }
 
     fn new(matrix: Vec<Vec<Id>>, linear: Vec<Id>, definitions: Vec<Vec<(usize, Id)>>) -> Self {
@@ -97,7 +112,7 @@ impl Form {
 }
 
 /// The same without the boundaries of definitions, where those hide that terms cancel.
-fn shorter(graph: &mut Graph, entry: Id) -> Id {
+pub(super) fn shorter(graph: &mut Graph, entry: Id) -> Id {
     const LONG: usize = 100;
     let length = |graph: &Graph, root| graph.reachable(&[root]).len();
     let before = length(graph, entry);
@@ -109,11 +124,11 @@ fn shorter(graph: &mut Graph, entry: Id) -> Id {
 }
 
 /// The velocities that definitions name, as variables beside the generalized ones.
-struct Velocities {
+pub(super) struct Velocities {
     /// q̇, then the named velocities.
-    nodes: Vec<Id>,
+    pub(super) nodes: Vec<Id>,
     /// ∂(named velocity)/∂(each of the nodes before it)
-    rows: Vec<Vec<Id>>,
+    pub(super) rows: Vec<Vec<Id>>,
 }
 
 impl Velocities {
@@ -150,11 +165,14 @@ impl Velocities {
     /// they are the coefficients of.
     fn form(&self, graph: &mut Graph, problem: &Problem) -> Form {
         let local = graph.gradient_to(problem.lagrangian, &self.nodes);
-        let (matrix, linear) = (self.hessian(graph, &local), self.linear(graph, problem, &local));
-        let entries =
-            |row: &Vec<Id>| row.iter().copied().enumerate().filter(|&(_, entry)| entry != Id::ZERO).collect();
-        let definitions = self.rows.iter().map(entries).collect();
-        Form::new(matrix, linear, definitions)
+        let linear = self.linear(graph, problem, &local);
+        self.form_of(graph, &local, linear)
+    }
+
+    /// From the momenta ∂ℓ/∂(q̇, w) and b.
+    pub(super) fn form_of(&self, graph: &mut Graph, local: &[Id], linear: Vec<Id>) -> Form {
+        let matrix = self.hessian(graph, local);
+        Form::over(matrix, linear, &self.rows)
     }
 
     /// ∂²ℓ/∂(q̇, w)²

@@ -1,5 +1,6 @@
 //! The pipeline as a whole, outside of a compiler.
 
+mod bodies;
 mod completion;
 mod consistency;
 mod counts;
@@ -37,9 +38,11 @@ fn declaration(source: &str) -> (Declaration, Diagnostics) {
 /// The stages up to mechanics, for a source without errors.
 fn derived(source: &str) -> (Graph, Problem, Derived) {
     let (declaration, mut diagnostics) = declaration(source);
-    let (mut graph, problem) = resolve::problem(&declaration, &mut diagnostics).expect("no errors");
-    let derived = mechanics::derive(&mut graph, &problem, &mut diagnostics).expect("no errors");
-    (graph, problem, derived)
+    let found = resolve::problem(&declaration, &mut diagnostics).and_then(|(mut graph, problem)| {
+        let derived = mechanics::derive(&mut graph, &problem, &mut diagnostics)?;
+        Some((graph, problem, derived))
+    });
+    found.unwrap_or_else(|| panic!("{source}: {}", diagnostics.into_tokens()))
 }
 
 /// The same, of which the equations are looked at.

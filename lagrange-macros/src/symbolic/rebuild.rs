@@ -42,6 +42,21 @@ impl Graph {
         new[&root]
     }
 
+    /// The expression with zero in the place of these nodes; boundaries stay.
+    pub(crate) fn without(&mut self, root: Id, zeros: &[Id]) -> Id {
+        let mut new: FxHashMap<Id, Id> = FxHashMap::default();
+        for id in self.reachable_to(&[root], zeros) {
+            let node = self.node(id).clone();
+            let rebuilt = match node {
+                _ if zeros.contains(&id) => Id::ZERO,
+                Node::Defined(inner) => self.defined(new[&inner]),
+                _ => self.rebuilt(&node, |operand| new[&operand]),
+            };
+            new.insert(id, rebuilt);
+        }
+        new[&root]
+    }
+
     fn rebuilt(&mut self, node: &Node, new: impl Fn(Id) -> Id) -> Id {
         match *node {
             Node::Sum(ref terms) => {

@@ -1,0 +1,75 @@
+//! How fast frames turn and accelerate where no coordinate does: what the velocities alone bring about.
+
+use crate::resolve::{Frame, Problem, Step, Triple, cross, named, sum};
+use crate::symbolic::{Graph, Id, Rational};
+
+/// Of a frame, in its own axes.
+#[derive(Clone, Copy)]
+pub(super) struct Drift {
+    /// ω̇
+    pub(super) turning: Triple,
+    /// The acceleration of the origin as seen from the fixed frame.
+    pub(super) moving: Triple,
+    /// r ↦ ω̇ × r + ω × (ω × r), row by row: what the turning adds to the acceleration of what is at r.
+    pub(super) by_turning: [Triple; 3],
+}
+
+/// Of every frame, where the fixed one accelerates so: against gravity, which then need not be looked at further.
+pub(super) fn drifts(graph: &mut Graph, problem: &Problem, fixed: Triple) -> Vec<Drift> {
+    let rest = Drift { turning: [Id::ZERO; 3], moving: fixed, by_turning: [[Id::ZERO; 3]; 3] };
+    let mut drifts: Vec<Drift> = vec![rest];
+    for frame in &problem.frames[1..] {
+        let next = drifts[frame.before].after(frame, &problem.frames[frame.before], graph);
+        drifts.push(next);
+    }
+    drifts
+}
+
+impl Drift {
+    /// That of the frame which a step leads to from this one.
+    fn after(&self, frame: &Frame, before: &Frame, graph: &mut Graph) -> Self {
+        match &frame.step {
+            Step::None => *self,
+            Step::Moved(moved) => {
+                let carried = self.of_point(moved.by, graph);
+                let coriolis = cross(before.angular_velocity, moved.rate, graph);
+                let moving = sum([carried, coriolis, coriolis, moved.drift], graph);
+                Self { moving: named(moving, graph), ..*self }
+            }
+            Step::Turned(turned) => {
+                let carried = frame.step.forth(self.turning, graph);
+                let across = cross(frame.angular_velocity, turned.rate, graph);
+                let turning = sum([carried, across, turned.drift], graph);
+                let turning = named(turning, graph);
+                let moving = frame.step.forth(self.moving, graph);
+                let by_turning = by_turning(frame.angular_velocity, turning, graph);
+                Self { turning, moving: named(moving, graph), by_turning }
+            }
+        }
+    }
+
+    /// The acceleration of what is at r and rests in the frame.
+    fn of_point(&self, r: Triple, graph: &mut Graph) -> Triple {
+        let carried = self.by_turning.map(|row| graph.dot(&row, &r));
+        sum([self.moving, carried], graph)
+    }
+}
+
+/// The matrix of ω̇ × r + ω × (ω × r) = ω̇ × r + ω (ω·r) − ω² r.
+fn by_turning(w: Triple, turning: Triple, graph: &mut Graph) -> [Triple; 3] {
+    let one = Rational::from_integer(1);
+    let product = w.map(|x| w.map(|y| graph.mul(x, y)));
+    let mut entry = |i: usize, j: usize| {
+        let sum = if i == j {
+            let [b, c] = [(i + 1) % 3, (i + 2) % 3];
+            graph.sum([(product[b][b], -one), (product[c][c], -one)])
+        } else {
+            // ω̇ × e_j has the component ω̇_k along e_i where i, k, j follow one another, or −ω̇_k.
+            let k = 3 - i - j;
+            let sign = if (k + 1) % 3 == j { one } else { -one };
+            graph.sum([(product[i][j], one), (turning[k], sign)])
+        };
+        graph.defined(sum)
+    };
+    [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j)))
+}

@@ -1,0 +1,90 @@
+//! Rigid bodies by Newton's and Euler's equations, in the axes of their frames and about the origins of these.
+//!
+//! With the mass m, the moment h = m c and the inertia J about the origin, whose acceleration is a, the force is
+//! m a + ω̇ × h + ω × (ω × h), and the torque J ω̇ + ω × Jω + h × a. In uniform gravity a is the acceleration against it.
+
+use super::accelerations::drifts;
+use super::{Parts, Twists};
+use crate::resolve::{Body, Frame, Problem, Triple, cross, sum};
+use crate::symbolic::{Graph, Id};
+use crate::variables::Variable;
+
+/// The bodies whose kinetic energies are terms of L, and L without them.
+pub(super) fn apart(graph: &mut Graph, problem: &Problem) -> (Vec<Body>, Id) {
+    let mut bodies: Vec<Body> = Vec::new();
+    for body in &problem.bodies {
+        if bodies.iter().all(|known| known.energy != body.energy) {
+            bodies.push(body.clone());
+        }
+    }
+    let energies = |bodies: &[Body]| bodies.iter().map(|body| body.energy).collect::<Vec<Id>>();
+    let weights = graph.gradient_to(problem.lagrangian, &energies(&bodies));
+    let weighed = bodies.into_iter().zip(weights).filter(|(_, weight)| *weight == Id::ONE);
+    let bodies: Vec<Body> = weighed.map(|(body, _)| body).collect();
+    let others = graph.without(problem.lagrangian, &energies(&bodies));
+    (bodies, others)
+}
+
+impl Twists<'_> {
+    /// The forces of inertia, where the fixed frame accelerates so.
+    pub(super) fn of_bodies(&self, graph: &mut Graph, fixed: Triple, parts: &mut Parts) {
+        let drifts = drifts(graph, self.problem, fixed);
+        let minus = graph.integer(-1);
+        for &Body { frame, mass, moment, inertia, .. } in &self.bodies {
+            let drift = drifts[frame];
+            let Frame { angular_velocity, velocity, .. } = self.problem.frames[frame];
+            let own = drift.moving.map(|component| graph.mul(mass, component));
+            let turning = drift.by_turning.map(|row| graph.dot(&row, &moment));
+            let force = sum([own, turning], graph);
+            let mut times = |vector: Triple| inertia.map(|row| graph.dot(&row, &vector));
+            let (spin, change) = (times(angular_velocity), times(drift.turning));
+            let gyroscopic = cross(angular_velocity, spin, graph);
+            let arm = cross(moment, drift.moving, graph);
+            let torque = sum([change, gyroscopic, arm], graph);
+            self.along(graph, force.map(|component| (minus, component)), velocity, parts);
+            self.along(graph, torque.map(|component| (minus, component)), angular_velocity, parts);
+        }
+    }
+
+    /// Takes from the slopes of L by where frames are what uniform gravity makes of them, and gives the acceleration that
+    /// does the same: mass for mass and moment for moment, whatever the rest is.
+    pub(super) fn without_gravity(&self, graph: &mut Graph, places: &[Id], slopes: &mut [Id]) -> Triple {
+        let slope = |node: Id| places.iter().position(|place| *place == node);
+        let mut fixed = [Id::ZERO; 3];
+        for axis in 0..3 {
+            let candidate = self.bodies.iter().find_map(|body| {
+                let at = slope(self.problem.frames[body.frame].origin[axis])?;
+                (slopes[at] != Id::ZERO).then(|| graph.div(slopes[at], body.mass))
+            });
+            let Some(candidate) = candidate.filter(|&candidate| self.is_uniform(graph, candidate)) else {
+                continue;
+            };
+            let mut rest = slopes.to_vec();
+            for body in &self.bodies {
+                let Frame { axes, origin, .. } = &self.problem.frames[body.frame];
+                let weights =
+                    [(origin[axis], body.mass)].into_iter().chain(axes[axis].into_iter().zip(body.moment));
+                for (node, weight) in weights {
+                    if let Some(at) = slope(node) {
+                        let part = graph.mul(weight, candidate);
+                        let left = graph.sub(rest[at], part);
+                        rest[at] = graph.looked_through(left);
+                    }
+                }
+            }
+            let count = |slopes: &[Id]| slopes.iter().filter(|slope| **slope != Id::ZERO).count();
+            if count(&rest) < count(slopes) {
+                slopes.copy_from_slice(&rest);
+                fixed[axis] = graph.neg(candidate);
+            }
+        }
+        fixed
+    }
+
+    fn is_uniform(&self, graph: &mut Graph, candidate: Id) -> bool {
+        graph.take_fault().is_none()
+            && graph
+                .symbols(&[candidate])
+                .all(|symbol| matches!(Variable::of(symbol), Variable::Parameter(_) | Variable::Time))
+    }
+}

@@ -1,0 +1,224 @@
+//! Lagrange's equations where L is stated in frames, without differentiating what moves the frames.
+//!
+//! Displacements are handed from frame to frame as velocities are, and what belongs to them is handed back: the recursions of
+//! Newton and Euler (Featherstone, *Rigid Body Dynamics Algorithms*, chapter 5). Of rigid bodies the forces are known in
+//! closed form, of everything else in L by Poincaré's equations.
+
+mod accelerations;
+mod bodies;
+mod composite;
+mod poincare;
+
+use indexmap::IndexMap;
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::euler_lagrange::generalized_forces;
+use super::gauss::{Form, Velocities};
+use crate::resolve::{Body, Frame, Problem, Step, Triple};
+use crate::symbolic::{Graph, Id, Node, Rational};
+use crate::variables::{Variable, has_velocity, symbols};
+
+/// The components of the frames' twists as velocities beside the generalized ones.
+pub(super) struct Twists<'p> {
+    problem: &'p Problem,
+    /// q̇, then the rates of rotations by more coordinates than three, then all others.
+    velocities: Velocities,
+    /// How many of these matrices and vectors are over: q̇ and those rates.
+    outer: usize,
+    /// Which of the velocities a node is.
+    numbers: FxHashMap<Id, usize>,
+    /// Whose components the velocities are that are no generalized ones, each once.
+    components: Vec<Component>,
+    /// The bodies whose kinetic energies are terms of L, and L without them.
+    bodies: Vec<Body>,
+    others: Id,
+}
+
+/// A component of the twist of a frame, and which of the velocities it is.
+#[derive(Clone, Copy)]
+struct Component {
+    frame: usize,
+    part: Part,
+    axis: usize,
+    number: usize,
+}
+
+#[derive(Clone, Copy)]
+enum Part {
+    Turning,
+    Moving,
+}
+
+/// For each velocity what belongs to it, as a sum.
+struct Parts(Vec<Vec<(Id, Rational)>>);
+
+impl<'p> Twists<'p> {
+    /// `None` where no frame moves.
+    pub(super) fn of(graph: &mut Graph, problem: &'p Problem) -> Option<Self> {
+        let n = problem.coordinates.len();
+        let nodes: Vec<Id> = symbols(n, Variable::Velocity).iter().map(|&v| graph.symbol(v)).collect();
+        let numbers = nodes.iter().enumerate().map(|(i, &node)| (node, i)).collect();
+        let velocities = Velocities { nodes, rows: Vec::new() };
+        let (bodies, others) = bodies::apart(graph, problem);
+        let mut twists =
+            Self { problem, velocities, outer: n, numbers, components: Vec::new(), bodies, others };
+        for frame in &problem.frames {
+            if let Step::Turned(turned) = &frame.step
+                && twists.columns(graph, turned.rate).len() > 3
+            {
+                turned.rate.iter().for_each(|&node| twists.add(graph, node));
+            }
+        }
+        twists.outer = twists.velocities.nodes.len();
+        twists.add_components(graph);
+        (!twists.components.is_empty()).then_some(twists)
+    }
+
+    fn add_components(&mut self, graph: &mut Graph) {
+        let mut seen: FxHashSet<Id> = FxHashSet::default();
+        for (frame, Frame { angular_velocity, velocity, .. }) in self.problem.frames.iter().enumerate() {
+            for (part, vector) in [(Part::Turning, angular_velocity), (Part::Moving, velocity)] {
+                for (axis, &node) in vector.iter().enumerate() {
+                    self.add(graph, node);
+                    let number = self.numbers.get(&node).copied().filter(|_| seen.insert(node));
+                    if let Some(number) = number.filter(|&number| number >= self.problem.coordinates.len()) {
+                        self.components.push(Component { frame, part, axis, number });
+                    }
+                }
+            }
+        }
+    }
+
+    /// A named number that contains a velocity is one.
+    fn add(&mut self, graph: &mut Graph, node: Id) {
+        let &Node::Defined(inner) = graph.node(node) else { return };
+        if self.numbers.contains_key(&node) || !has_velocity(graph, &[node]) {
+            return;
+        }
+        let row = graph.gradient_to(inner, &self.velocities.nodes);
+        self.numbers.insert(node, self.velocities.nodes.len());
+        self.velocities.nodes.push(node);
+        self.velocities.rows.push(row);
+    }
+
+    /// ∂(vector)/∂(velocity) for each of the outer velocities that it depends on.
+    fn columns(&self, graph: &mut Graph, vector: Triple) -> Vec<(usize, Triple)> {
+        let outer = &self.velocities.nodes[..self.outer];
+        let rows = vector.map(|component| graph.gradient_to(component, outer));
+        let columns = (0..outer.len()).map(|j| (j, [rows[0][j], rows[1][j], rows[2][j]]));
+        columns.filter(|(_, column)| column.iter().any(|&entry| entry != Id::ZERO)).collect()
+    }
+
+    /// M and h, over the accelerations alone.
+    pub(super) fn mass_and_forcing(&self, graph: &mut Graph) -> (Vec<Vec<Id>>, Vec<Id>) {
+        let n = self.problem.coordinates.len();
+        let (mut mass, mut forcing) = (self.mass(graph), self.forcing(graph));
+        for k in (n..self.outer).rev() {
+            let row = &self.velocities.rows[k - n];
+            self.put_in(graph, &mut mass, row);
+            let part = forcing.pop().unwrap_or(Id::ZERO);
+            for (sum, &entry) in forcing.iter_mut().zip(row) {
+                let part = graph.mul(entry, part);
+                *sum = graph.add(*sum, part);
+            }
+        }
+        (mass, forcing)
+    }
+
+    /// The last variable of a form as a sum over those before it: H_ij + g_i H_kj + H_ik g_j + g_i H_kk g_j.
+    fn put_in(&self, graph: &mut Graph, matrix: &mut Vec<Vec<Id>>, row: &[Id]) {
+        let last = matrix.pop().unwrap_or_default();
+        let Some((&own, beside)) = last.split_last() else { return };
+        for i in 0..matrix.len() {
+            matrix[i].pop();
+            for j in 0..=i {
+                let both = graph.mul(row[j], own);
+                let both = graph.add(both, beside[j]);
+                let (forth, back) = (graph.mul(row[i], both), graph.mul(beside[i], row[j]));
+                let sum = graph.total([matrix[i][j], forth, back]);
+                (matrix[i][j], matrix[j][i]) = (sum, sum);
+            }
+        }
+    }
+
+    /// The form over the rates of the outer velocities, where there are others than q̇, and that over the rates of all.
+    pub(super) fn forms(&self, graph: &mut Graph) -> Vec<Form> {
+        let n = self.problem.coordinates.len();
+        let mut forms = Vec::new();
+        if self.outer > n {
+            let (mass, forcing) = (self.mass(graph), self.forcing(graph));
+            forms.push(Form::over(mass, forcing, &self.velocities.rows[..self.outer - n]));
+        }
+        let momenta = graph.gradient_to(self.problem.lagrangian, &self.velocities.nodes);
+        let parts = self.parts(graph);
+        let linear = parts.sums(graph);
+        forms.push(self.velocities.form_of(graph, &momenta, linear));
+        forms
+    }
+
+    /// What belongs to each of the velocities where nothing accelerates.
+    fn parts(&self, graph: &mut Graph) -> Parts {
+        let mut parts = Parts(vec![Vec::new(); self.velocities.nodes.len()]);
+        let places = self.places(graph);
+        let gravity = self.others_of(graph, &places, &mut parts);
+        self.of_bodies(graph, gravity, &mut parts);
+        for (i, force) in generalized_forces(graph, self.problem).into_iter().enumerate() {
+            parts.add(i, force, 1);
+        }
+        parts
+    }
+
+    /// What belongs to the outer velocities, with all that is handed back to them.
+    fn forcing(&self, graph: &mut Graph) -> Vec<Id> {
+        let n = self.problem.coordinates.len();
+        let mut parts = self.parts(graph);
+        for k in (self.outer - n..self.velocities.rows.len()).rev() {
+            let sum = graph.sum(std::mem::take(&mut parts.0[n + k]));
+            let sum = graph.defined(sum);
+            for (i, &entry) in self.velocities.rows[k].iter().enumerate() {
+                let part = graph.mul(entry, sum);
+                parts.add(i, part, 1);
+            }
+        }
+        parts.0.truncate(self.outer);
+        parts.sums(graph)
+    }
+
+    /// The named numbers that say where frames are, each once.
+    fn places(&self, graph: &Graph) -> IndexMap<Id, Place> {
+        let mut places = IndexMap::new();
+        let mut add = |node: Id, place: Place| {
+            if matches!(graph.node(node), Node::Defined(_)) {
+                places.entry(node).or_insert(place);
+            }
+        };
+        for (frame, Frame { axes, origin, .. }) in self.problem.frames.iter().enumerate() {
+            for row in 0..3 {
+                add(origin[row], Place { frame, row, of: None });
+                (0..3).for_each(|axis| add(axes[row][axis], Place { frame, row, of: Some(axis) }));
+            }
+        }
+        places
+    }
+}
+
+impl Parts {
+    fn add(&mut self, number: usize, part: Id, sign: i128) {
+        if part != Id::ZERO {
+            self.0[number].push((part, Rational::from_integer(sign)));
+        }
+    }
+
+    fn sums(self, graph: &mut Graph) -> Vec<Id> {
+        self.0.into_iter().map(|terms| graph.sum(terms)).collect()
+    }
+}
+
+/// Of the rows of a frame's axes or of its origin.
+#[derive(Clone, Copy)]
+struct Place {
+    frame: usize,
+    row: usize,
+    /// Which component of the row; `None` for the origin.
+    of: Option<usize>,
+}
