@@ -42,6 +42,7 @@ use syntax::Declaration;
         lagrangian,
         constraint,
         force,
+        power,
         dissipation,
         observable,
         conserved,

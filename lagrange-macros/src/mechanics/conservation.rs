@@ -187,7 +187,7 @@ fn suspects(graph: &Graph, problem: &Problem) -> String {
     if has_time(&[problem.lagrangian]) {
         suspects.push("the time in the Lagrangian".to_owned());
     }
-    if problem.forces.iter().any(|&force| force != Id::ZERO) {
+    if problem.forces.iter().any(|&force| force != Id::ZERO) || !problem.powers.is_empty() {
         suspects.push("the forces".to_owned());
     }
     if problem.dissipation.is_some() {

@@ -70,12 +70,24 @@ fn energy(graph: &mut Graph, problem: &Problem, momentum: &[Id]) -> Id {
     graph.sub(vis_viva, problem.lagrangian)
 }
 
-/// Q: the forces given, and −∂D/∂q̇ of Rayleigh's dissipation function.
+/// Q: the forces given, force · ∂velocity/∂q̇ of those that act along a velocity, and −∂D/∂q̇ of Rayleigh's dissipation
+/// function.
 pub(super) fn generalized_forces(graph: &mut Graph, problem: &Problem) -> Vec<Id> {
-    let n = problem.coordinates.len();
-    let Some((dissipation, _)) = problem.dissipation else { return problem.forces.clone() };
-    let friction = graph.gradient(dissipation, &symbols(n, Variable::Velocity));
-    (0..n).map(|i| graph.sub(problem.forces[i], friction[i])).collect()
+    let velocities = nodes(graph, problem.coordinates.len(), Variable::Velocity);
+    forces_along(graph, problem, &velocities)
+}
+
+/// The same for these velocities, of which the generalized ones are the first.
+pub(super) fn forces_along(graph: &mut Graph, problem: &Problem, velocities: &[Id]) -> Vec<Id> {
+    let mut forces = graph.pulled_back(&problem.powers, velocities);
+    for (sum, &given) in forces.iter_mut().zip(&problem.forces) {
+        *sum = graph.add(given, *sum);
+    }
+    if let Some((dissipation, _)) = problem.dissipation {
+        let friction = graph.gradient_to(dissipation, velocities);
+        forces.iter_mut().zip(friction).for_each(|(sum, friction)| *sum = graph.sub(*sum, friction));
+    }
+    forces
 }
 
 /// M_ij = ∂p_i/∂v_j, of which the lower triangle is differentiated.

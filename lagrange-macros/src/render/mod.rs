@@ -16,7 +16,7 @@ mod written;
 use crate::mechanics::Derived;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};
-use crate::syntax::{Constraint, Declaration, Define, Expression, Frame, Target, TargetIndex};
+use crate::syntax::{Constraint, Declaration, Define, Expression, Frame, Power, Target, TargetIndex};
 use formula::Formula;
 use lines::{Equation, Line, Section};
 use symbols::Notation;
@@ -70,7 +70,7 @@ pub(crate) fn render(
 
 impl Page<'_> {
     fn lagrangian(&self) -> Vec<Line> {
-        let Declaration { lagrangian, frames, defines, dissipation, forces, .. } = self.declaration;
+        let Declaration { lagrangian, frames, defines, dissipation, forces, powers, .. } = self.declaration;
         let line = |left, right: &Expression| Line::of(Equation::Known(left, self.written(right)));
         let name = |text: &str| Formula::labelled(text, 0);
         let mut lines: Vec<Line> = Vec::new();
@@ -81,6 +81,10 @@ impl Page<'_> {
         lines.extend(forces.iter().map(|force| {
             let coordinate = Notation::Unicode.write(&self.target(&force.target));
             line(name(&format!("Q_{coordinate}")), &force.value)
+        }));
+        lines.extend(powers.iter().map(|Power { force, velocity }| {
+            let factors = [force, velocity].map(|factor| self.written(factor)).to_vec();
+            Line::of(Equation::Known(name("P"), Formula::Call("dot".to_owned(), factors)))
         }));
         lines
     }

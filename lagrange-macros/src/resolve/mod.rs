@@ -4,6 +4,7 @@ mod algebra;
 mod call;
 mod draw;
 mod family;
+mod forces;
 mod frames;
 mod function;
 mod lower;
@@ -44,6 +45,8 @@ pub(crate) struct Problem {
     pub(crate) place: Place,
     /// Q of each coordinate without the dissipation.
     pub(crate) forces: Vec<Id>,
+    /// Forces by the velocities that they act along: each does their product of virtual work.
+    pub(crate) powers: Vec<(Id, Id)>,
     pub(crate) dissipation: Option<(Id, Place)>,
     /// Φ or F q̇ + b as written: left − right.
     pub(crate) constraints: Vec<(Label, Id)>,
@@ -76,6 +79,7 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
     let lagrangian = declaration.lagrangian.as_ref().and_then(|lagrangian| lowering.scalar(lagrangian));
     let terms = lowering.terms(declaration);
     let forces = lowering.forces(declaration);
+    let powers = lowering.powers(declaration);
     let dissipation =
         declaration.dissipation.as_ref().map(|function| (lowering.scalar(function), function.place));
     let constraints = lowering.constraints(&declaration.constraints);
@@ -98,6 +102,7 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
         terms,
         place,
         forces,
+        powers,
         dissipation,
         constraints,
         observables,

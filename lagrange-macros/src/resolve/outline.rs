@@ -43,7 +43,10 @@ pub(crate) fn outline(declaration: &Declaration) -> Outline {
     lowering.define_all();
     lowering.define_all();
     let forces = declaration.forces.iter().map(|force| &force.value);
-    for expression in declaration.lagrangian.iter().chain(&declaration.dissipation).chain(forces) {
+    let powers = declaration.powers.iter().flat_map(|power| [&power.force, &power.velocity]);
+    for expression in
+        declaration.lagrangian.iter().chain(&declaration.dissipation).chain(forces).chain(powers)
+    {
         lowering.lower(expression);
     }
     let rows = lowering.constraints(&declaration.constraints);

@@ -1,17 +1,15 @@
-//! Forces, constraints and observables: what is said of the system beside its Lagrangian.
+//! Constraints and observables: what is said of the system beside its Lagrangian and the forces.
 
 use indexmap::IndexMap;
 use rustc_hash::FxHashMap;
 
 use super::lower::{Definition, Lowering, MultiplierGroup, Setting, is_literal_zero};
-use super::scope::Entity;
-use super::unknown::{nearest, or_meant};
-use super::value::{Axes, Value};
+use super::value::Value;
 use super::{Label, element_name, entry_names};
 use crate::contract::is_reserved;
 use crate::diagnostics::Place;
 use crate::symbolic::{Id, Rational};
-use crate::syntax::{Constraint, Declaration, Expression, Force, Name, Sign, TargetIndex};
+use crate::syntax::{Constraint, Declaration, Expression, Name, Sign, TargetIndex};
 use crate::variables::Variable;
 
 /// As many as coordinates, beyond which some would have to be dependent.
@@ -49,73 +47,6 @@ impl Lowering<'_> {
             conserved.push((index, written.value.place));
         }
         conserved
-    }
-
-    pub(super) fn forces(&mut self, declaration: &Declaration) -> Vec<Id> {
-        let count = declaration.coordinates.iter().map(|coordinate| coordinate.length.unwrap_or(1)).sum();
-        let mut forces = vec![Id::ZERO; count];
-        for force in &declaration.forces {
-            let name = &force.target.name;
-            let Some(Entity::Coordinate(index)) = self.scope.get(&name.text) else {
-                let coordinates = || self.coordinates.iter().map(|coordinate| coordinate.name.text.as_str());
-                let near = match self.scope.get(&name.text) {
-                    Some(Entity::Velocity(index)) => Some(self.coordinates[index].name.text.as_str()),
-                    _ => nearest(&name.text, coordinates()),
-                };
-                let advice = or_meant(near, "coordinate", coordinates());
-                let message = format!("a force acts on a coordinate, and `{}` is none{advice}", name.text);
-                self.diagnostics.error(name.place, message);
-                continue;
-            };
-            for element in self.elements(&force.target) {
-                let value = self.with_index(&force.target, element, |lowering| lowering.lower(&force.value));
-                if let Some(value) = value {
-                    self.add_force(&mut forces, index, element, force, &value);
-                }
-            }
-        }
-        forces
-    }
-
-    fn add_force(
-        &mut self,
-        forces: &mut [Id],
-        coordinate: usize,
-        element: Option<usize>,
-        Force { target, value: expression }: &Force,
-        value: &Value,
-    ) {
-        let length = self.coordinates[coordinate].length;
-        let offset = self.offsets[coordinate];
-        let (start, wanted) = match (element, length) {
-            (None, length) => (offset, length.unwrap_or(1)),
-            (Some(i), Some(length)) if i < length => (offset + i, 1),
-            (Some(i), _) => {
-                let message = format!("there is no coordinate `{}[{i}]`", target.name.text);
-                return self.diagnostics.error(target.name.place, message);
-            }
-        };
-        let entries = value.flat();
-        let is_vector = element.is_none() && length.is_some();
-        if is_literal_zero(expression) {
-            return;
-        }
-        if entries.len() != wanted || is_vector != value.as_vector().is_some() {
-            let wanted = if is_vector { format!("a vector of {wanted}") } else { "a scalar".to_owned() };
-            let message =
-                format!("the force on `{}` is {wanted}, but this is {}", target.name.text, value.shape());
-            return self.diagnostics.error(expression.place, message);
-        }
-        if let Some(Axes { name, .. }) = value.axes().filter(|axes| axes.frame != 0) {
-            let message = format!(
-                "a force on `{}` is a number for each coordinate, but this is a vector in the axes of `{name}`: write `express(…, fixed)` where the coordinates are along the fixed axes",
-                target.name.text
-            );
-            return self.diagnostics.error(expression.place, message);
-        }
-        for (slot, entry) in forces[start..].iter_mut().zip(entries) {
-            *slot = self.graph.add(*slot, entry);
-        }
     }
 
     pub(super) fn constraints(&mut self, constraints: &[Constraint]) -> Vec<(Label, Id)> {

@@ -90,10 +90,18 @@ impl Graph {
 
     /// The same for nodes of any kind, each a variable of its own whatever it is made of.
     pub(crate) fn gradient_to(&mut self, root: Id, variables: &[Id]) -> Vec<Id> {
+        self.pulled_back(&[(Id::ONE, root)], variables)
+    }
+
+    /// Σ weight · ∂root/∂variable, whatever the weights depend on.
+    pub(crate) fn pulled_back(&mut self, roots: &[(Id, Id)], variables: &[Id]) -> Vec<Id> {
         let mut found: FxHashMap<Id, Id> = variables.iter().map(|&variable| (variable, Id::ZERO)).collect();
         let mut adjoints: FxHashMap<Id, Vec<(Id, Rational)>> = FxHashMap::default();
-        adjoints.insert(root, vec![(Id::ONE, Rational::one())]);
-        for id in self.reachable_to(&[root], variables).into_iter().rev() {
+        for &(weight, root) in roots {
+            adjoints.entry(root).or_default().push((weight, Rational::one()));
+        }
+        let roots: Vec<Id> = roots.iter().map(|(_, root)| *root).collect();
+        for id in self.reachable_to(&roots, variables).into_iter().rev() {
             let Some(parts) = adjoints.remove(&id) else { continue };
             let adjoint = self.sum(parts);
             match found.get_mut(&id) {

@@ -7,6 +7,7 @@ use super::declaration::{Declaration, Options};
 use super::field::Field;
 use super::forms::{
     FORMS, constraint, coordinates, define, force, form, function, observable, only, options, parameter,
+    power,
 };
 use super::frame::{frame, unit_constraints};
 use crate::diagnostics::{Diagnostics, Place};
@@ -27,6 +28,7 @@ pub(crate) fn declaration(input: DeriveInput, diagnostics: &mut Diagnostics) -> 
         lagrangian: None,
         constraints: Vec::new(),
         forces: Vec::new(),
+        powers: Vec::new(),
         dissipation: None,
         observables: Vec::new(),
         parameters: Vec::new(),
@@ -113,6 +115,7 @@ fn read(declaration: &mut Declaration, word: &str, attribute: &Attribute) -> Res
         "lagrangian" => only(cursor, &mut declaration.lagrangian)?,
         "constraint" => constraint(cursor, &mut declaration.constraints)?,
         "force" => force(cursor, &mut declaration.forces)?,
+        "power" => declaration.powers.push(power(cursor)?),
         "dissipation" => only(cursor, &mut declaration.dissipation)?,
         "observable" | "conserved" => observable(word, cursor, &mut declaration.observables)?,
         "parameter" => declaration.parameters.push(parameter(cursor)?),

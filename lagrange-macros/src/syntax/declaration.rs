@@ -22,6 +22,7 @@ pub(crate) struct Declaration {
     pub(crate) lagrangian: Option<Expression>,
     pub(crate) constraints: Vec<Constraint>,
     pub(crate) forces: Vec<Force>,
+    pub(crate) powers: Vec<Power>,
     pub(crate) dissipation: Option<Expression>,
     pub(crate) observables: Vec<Named>,
     pub(crate) parameters: Vec<Parameter>,
@@ -83,6 +84,13 @@ pub(crate) struct Constraint {
 pub(crate) struct Force {
     pub(crate) target: Target,
     pub(crate) value: Expression,
+}
+
+/// `#[power(force, velocity)]`
+#[derive(Debug)]
+pub(crate) struct Power {
+    pub(crate) force: Expression,
+    pub(crate) velocity: Expression,
 }
 
 /// `#[observable(name = expression)]` or `#[conserved(name = expression)]`

@@ -6,7 +6,7 @@ use syn::Result;
 
 use super::cursor::Cursor;
 use super::declaration::{
-    Constraint, Coordinate, Define, Fact, Force, Function, Named, Options, Parameter, Property,
+    Constraint, Coordinate, Define, Fact, Force, Function, Named, Options, Parameter, Power, Property,
 };
 use super::expression::{self, Expression, Kind};
 use super::field::{LENGTH_LIMIT, NOT_A_LITERAL};
@@ -22,7 +22,7 @@ const COORDINATE_LIMIT: usize = 1000;
 const RESULT_LIMIT: usize = 1000;
 
 /// The attributes, and how each is written.
-pub(super) const FORMS: [(&str, &str); 12] = [
+pub(super) const FORMS: [(&str, &str); 13] = [
     ("coordinates", "#[coordinates(x, y)]"),
     ("define", "#[define(name = expression)]"),
     ("function", "#[function(U(r))]` or `#[function(Omega(t): [3] = field)]"),
@@ -30,6 +30,7 @@ pub(super) const FORMS: [(&str, &str); 12] = [
     ("lagrangian", "#[lagrangian(expression)]"),
     ("constraint", "#[constraint(name: expression = expression)]"),
     ("force", "#[force(coordinate: expression)]"),
+    ("power", "#[power(force, velocity)]"),
     ("dissipation", "#[dissipation(expression)]"),
     ("observable", "#[observable(name = expression)]"),
     ("conserved", "#[conserved(name = expression)]"),
@@ -276,6 +277,17 @@ pub(super) fn force(cursor: &mut Cursor, forces: &mut Vec<Force>) -> Result<()> 
         read_or_guess(cursor, |cursor| colon(cursor, "force").and_then(|()| last(cursor, "force")));
     forces.push(Force { target, value });
     result
+}
+
+pub(super) fn power(cursor: &mut Cursor) -> Result<Power> {
+    let mut before_comma = cursor.until_comma();
+    let force = expression::whole(&mut before_comma)?;
+    if cursor.is_empty() {
+        return Err(cursor
+            .error(format!("expected the velocity that the force acts along: write `{}`", form("power"))));
+    }
+    let velocity = last(cursor, "power")?;
+    Ok(Power { force, velocity })
 }
 
 /// Even where the value is wrong there is a method of that name, which the program may call.

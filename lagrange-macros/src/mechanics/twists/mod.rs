@@ -12,7 +12,7 @@ mod poincare;
 use indexmap::IndexMap;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::euler_lagrange::generalized_forces;
+use super::euler_lagrange::forces_along;
 use super::gauss::{Form, Velocities};
 use crate::resolve::{Body, Frame, Problem, Step, Triple};
 use crate::symbolic::{Graph, Id, Node, Rational};
@@ -162,7 +162,7 @@ impl<'p> Twists<'p> {
         let places = self.places(graph);
         let gravity = self.others_of(graph, &places, &mut parts);
         self.of_bodies(graph, gravity, &mut parts);
-        for (i, force) in generalized_forces(graph, self.problem).into_iter().enumerate() {
+        for (i, force) in forces_along(graph, self.problem, &self.velocities.nodes).into_iter().enumerate() {
             parts.add(i, force, 1);
         }
         parts

@@ -1,0 +1,117 @@
+//! Forces on coordinates, and forces along velocities.
+
+use super::lower::{Lowering, is_literal_zero};
+use super::scope::Entity;
+use super::unknown::{nearest, or_meant};
+use super::value::{Axes, Value};
+use crate::diagnostics::Place;
+use crate::symbolic::Id;
+use crate::syntax::{Declaration, Force, Power};
+use crate::variables::{Variable, has_velocity, symbols};
+
+impl Lowering<'_> {
+    pub(super) fn forces(&mut self, declaration: &Declaration) -> Vec<Id> {
+        let count = declaration.coordinates.iter().map(|coordinate| coordinate.length.unwrap_or(1)).sum();
+        let mut forces = vec![Id::ZERO; count];
+        for force in &declaration.forces {
+            let name = &force.target.name;
+            let Some(Entity::Coordinate(index)) = self.scope.get(&name.text) else {
+                let coordinates = || self.coordinates.iter().map(|coordinate| coordinate.name.text.as_str());
+                let near = match self.scope.get(&name.text) {
+                    Some(Entity::Velocity(index)) => Some(self.coordinates[index].name.text.as_str()),
+                    _ => nearest(&name.text, coordinates()),
+                };
+                let advice = or_meant(near, "coordinate", coordinates());
+                let message = format!("a force acts on a coordinate, and `{}` is none{advice}", name.text);
+                self.diagnostics.error(name.place, message);
+                continue;
+            };
+            for element in self.elements(&force.target) {
+                let value = self.with_index(&force.target, element, |lowering| lowering.lower(&force.value));
+                if let Some(value) = value {
+                    self.add_force(&mut forces, index, element, force, &value);
+                }
+            }
+        }
+        forces
+    }
+
+    fn add_force(
+        &mut self,
+        forces: &mut [Id],
+        coordinate: usize,
+        element: Option<usize>,
+        Force { target, value: expression }: &Force,
+        value: &Value,
+    ) {
+        let length = self.coordinates[coordinate].length;
+        let offset = self.offsets[coordinate];
+        let (start, wanted) = match (element, length) {
+            (None, length) => (offset, length.unwrap_or(1)),
+            (Some(i), Some(length)) if i < length => (offset + i, 1),
+            (Some(i), _) => {
+                let message = format!("there is no coordinate `{}[{i}]`", target.name.text);
+                return self.diagnostics.error(target.name.place, message);
+            }
+        };
+        let entries = value.flat();
+        let is_vector = element.is_none() && length.is_some();
+        if is_literal_zero(expression) {
+            return;
+        }
+        if entries.len() != wanted || is_vector != value.as_vector().is_some() {
+            let wanted = if is_vector { format!("a vector of {wanted}") } else { "a scalar".to_owned() };
+            let message =
+                format!("the force on `{}` is {wanted}, but this is {}", target.name.text, value.shape());
+            return self.diagnostics.error(expression.place, message);
+        }
+        if let Some(Axes { name, .. }) = value.axes().filter(|axes| axes.frame != 0) {
+            let message = format!(
+                "a force on `{}` is a number for each coordinate, but this is a vector in the axes of `{name}`: write `express(…, fixed)` where the coordinates are along the fixed axes",
+                target.name.text
+            );
+            return self.diagnostics.error(expression.place, message);
+        }
+        for (slot, entry) in forces[start..].iter_mut().zip(entries) {
+            *slot = self.graph.add(*slot, entry);
+        }
+    }
+
+    /// Forces, and the velocities that they act along, number by number.
+    pub(super) fn powers(&mut self, declaration: &Declaration) -> Vec<(Id, Id)> {
+        let mut powers = Vec::new();
+        for Power { force, velocity } in &declaration.powers {
+            let (along, by) = (self.lower(velocity), self.lower(force));
+            let Some((along, by)) = along.zip(by) else { continue };
+            powers.extend(self.acting((&by, force.place), (&along, velocity.place)).unwrap_or_default());
+        }
+        powers
+    }
+
+    fn acting(
+        &mut self,
+        (force, at): (&Value, Place),
+        (velocity, of): (&Value, Place),
+    ) -> Option<Vec<(Id, Id)>> {
+        if velocity.as_matrix().is_some() {
+            let shape = velocity.shape();
+            return self.report(
+                of,
+                format!("a force acts along a velocity, a scalar or a vector, but this is {shape}"),
+            );
+        }
+        self.meeting(&velocity.shape(), force, at, "the velocity that it acts along")?;
+        self.along_what_axes(&[(force, at), (velocity, of)])?;
+        let velocities = velocity.flat();
+        if !has_velocity(&self.graph, &velocities) {
+            return self.report(of, "no velocity occurs in this, so that a force along it does nothing");
+        }
+        let symbols =
+            symbols(self.coordinates.iter().map(|known| known.length.unwrap_or(1)).sum(), Variable::Velocity);
+        let slopes: Vec<Id> = velocities.iter().flat_map(|&one| self.graph.gradient(one, &symbols)).collect();
+        if has_velocity(&self.graph, &slopes) {
+            return self.report(of, "a force acts along what is linear in the velocities: its virtual work is force · ∂velocity/∂q̇ · δq");
+        }
+        Some(force.flat().into_iter().zip(velocities).collect())
+    }
+}
