@@ -64,7 +64,7 @@ impl Equations {
         let forms = Form::all(graph, problem, &motion, twists.as_ref(), &constraints);
         let constraint_force = constraints.force(graph);
         Some(Self {
-            balance: motion.balance(graph, &constraint_force),
+            balance: motion.balance(graph, twists.as_ref(), &constraint_force),
             forms,
             integrability,
             momenta_are_linear: !has_velocity(graph, &motion.mass.concat()),

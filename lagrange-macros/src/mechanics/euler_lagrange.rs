@@ -18,14 +18,30 @@ pub(super) struct Motion {
 impl Motion {
     /// dp/dt − ∂L/∂q − Q − Fᵀλ, with accelerations and multipliers as symbols: not by the entries of M, so that it costs
     /// as much as the Lagrangian.
-    pub(super) fn balance(&self, graph: &mut Graph, constraint_force: &[Id]) -> Vec<Id> {
-        let mut along_motion = total_time_derivative(graph, self.momentum.len());
-        let row = |(i, &momentum): (usize, &Id)| {
-            let inertia = along_motion.of(graph, momentum);
-            let free = graph.sub(inertia, self.momentum_rate[i]);
-            constraint_force.get(i).map_or(free, |&force| graph.sub(free, force))
+    pub(super) fn balance(
+        &self,
+        graph: &mut Graph,
+        twists: Option<&Twists>,
+        constraint_force: &[Id],
+    ) -> Vec<Id> {
+        let mut balance = match twists {
+            Some(twists) => twists.left_over(graph).into_iter().map(|left| graph.neg(left)).collect(),
+            None => self.without_constraints(graph),
         };
-        self.momentum.iter().enumerate().map(row).collect()
+        for (sum, &force) in balance.iter_mut().zip(constraint_force) {
+            *sum = graph.sub(*sum, force);
+        }
+        balance
+    }
+
+    /// dp/dt − ∂L/∂q − Q
+    fn without_constraints(&self, graph: &mut Graph) -> Vec<Id> {
+        let mut along_motion = total_time_derivative(graph, self.momentum.len());
+        let row = |(&momentum, &rate): (&Id, &Id)| {
+            let inertia = along_motion.of(graph, momentum);
+            graph.sub(inertia, rate)
+        };
+        self.momentum.iter().zip(&self.momentum_rate).map(row).collect()
     }
 }
 

@@ -5,8 +5,8 @@ use expect_test::expect;
 use super::{derived, equations};
 use crate::codegen::{Count, solving};
 use crate::mechanics::Equations;
-use crate::symbolic::{Approximate, Graph, Id, Sample};
-use crate::variables::{Variable, nodes};
+use crate::symbolic::{Approximate, Id, Sample};
+use crate::variables::{Variable, nodes, total_time_derivative};
 
 /// Operations of the accelerations and multipliers, by each form.
 fn counts(source: &str) -> Vec<Option<usize>> {
@@ -155,23 +155,27 @@ const SYSTEMS: [&str; 14] = [
      struct Tied { m: f64, l: f64, c: Vector3<f64>, I: Matrix3<f64> }",
 ];
 
-/// M q̈ − h − Fᵀλ by the recursions of the frames, and dp/dt − ∂L/∂q − Q − Fᵀλ by differentiating L, at random states, on the
-/// constraints or off them.
+/// M q̈ − h and the inverse dynamics by the recursions of the frames, and dp/dt − ∂L/∂q − Q by differentiating L, at random
+/// states, on the constraints or off them.
 #[test]
 fn recursions_give_what_differentiation_gives() {
     for source in SYSTEMS {
         let (mut graph, problem, derived) = derived(source);
-        let Equations { mass, forcing, balance, constraint_force, .. } = &derived.equations;
+        let Equations { mass, forcing, momentum, momentum_rate, balance, constraint_force, .. } =
+            &derived.equations;
         let accelerations = nodes(&mut graph, mass.len(), Variable::Acceleration);
         let inertia: Vec<Id> = mass.iter().map(|row| graph.dot(row, &accelerations)).collect();
-        let force = |i: usize| constraint_force.get(i).copied().unwrap_or(Id::ZERO);
-        let row = |graph: &mut Graph, i: usize| {
-            let free = graph.sub(inertia[i], forcing[i]);
-            let left = graph.sub(free, force(i));
-            graph.sub(left, balance[i])
-        };
-        let rows: Vec<Id> = (0..mass.len()).map(|i| row(&mut graph, i)).collect();
-        let roots = [&rows[..], &inertia, balance].concat();
+        let mut along_motion = total_time_derivative(&mut graph, mass.len());
+        let rows = (0..mass.len()).flat_map(|i| {
+            let rate = along_motion.of(&mut graph, momentum[i]);
+            let expected = graph.sub(rate, momentum_rate[i]);
+            let by_forms = graph.sub(inertia[i], forcing[i]);
+            let constraint_force = constraint_force.get(i).copied().unwrap_or(Id::ZERO);
+            let inverse = graph.add(balance[i], constraint_force);
+            [by_forms, inverse].map(|ours| graph.sub(ours, expected))
+        });
+        let rows: Vec<Id> = rows.collect();
+        let roots = [&rows[..], &inertia, forcing].concat();
         let symbols: Vec<_> = graph.symbols(&roots).collect();
         for draw in 0..5 {
             let mut sample =
@@ -181,7 +185,12 @@ fn recursions_give_what_differentiation_gives() {
             let scale = parts.iter().fold(0.0_f64, |scale, part| scale.max(part.value.abs()));
             for (i, difference) in differences.iter().enumerate() {
                 let Approximate { value, .. } = difference;
-                assert!(value.abs() < 1e-11 * scale, "{source}: row {i}: {value:e} of {scale:e}");
+                assert!(
+                    value.abs() < 1e-11 * scale,
+                    "{source}: row {}, {}: {value:e} of {scale:e}",
+                    i / 2,
+                    i % 2
+                );
             }
             assert!(scale > 0.1, "{source}: {scale}");
         }

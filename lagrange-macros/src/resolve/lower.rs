@@ -9,7 +9,7 @@ use super::value::Value;
 use crate::diagnostics::{Diagnostics, Place, fault_message};
 use crate::symbolic::{Fault, Forward, Graph, Id, Rational};
 use crate::syntax::{Coordinate, Declaration, Define, Expression, Frame, Function, Kind, Name};
-use crate::variables::{Variable, drift, total_time_derivative};
+use crate::variables::{Variable, total_time_derivative};
 
 /// What the expression at hand may contain beside coordinates, velocities and time.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -75,8 +75,6 @@ pub(super) struct Lowering<'a> {
     /// The calls of definitions around the expression at hand, the outermost first.
     pub(super) calls: Vec<Place>,
     rate: Forward,
-    /// d/dt where no coordinate accelerates.
-    pub(super) drift: Forward,
     depth: usize,
     steps: usize,
     numbers: usize,
@@ -101,7 +99,6 @@ impl<'a> Lowering<'a> {
             .collect();
         Self {
             rate: total_time_derivative(&mut graph, count),
-            drift: drift(&mut graph, count),
             graph,
             scope,
             parameters,

@@ -1,11 +1,15 @@
-//! How fast frames turn and accelerate where no coordinate does: what the velocities alone bring about.
+//! How fast frames turn and accelerate, along a motion with given accelerations or with none.
 
-use crate::resolve::{Frame, Problem, Step, Triple, cross, named, sum};
-use crate::symbolic::{Graph, Id, Rational};
+use super::Twists;
+use crate::resolve::{Frame, Step, Triple, cross, named, sum};
+use crate::symbolic::{Forward, Graph, Id, Rational};
+
+/// d/dt along a motion of so many coordinates.
+pub(super) type InTime = fn(&mut Graph, usize) -> Forward;
 
 /// Of a frame, in its own axes.
 #[derive(Clone, Copy)]
-pub(super) struct Drift {
+pub(super) struct Acceleration {
     /// ω̇
     pub(super) turning: Triple,
     /// The acceleration of the origin as seen from the fixed frame.
@@ -14,32 +18,43 @@ pub(super) struct Drift {
     pub(super) by_turning: [Triple; 3],
 }
 
-/// Of every frame, where the fixed one accelerates so: against gravity, which then need not be looked at further.
-pub(super) fn drifts(graph: &mut Graph, problem: &Problem, fixed: Triple) -> Vec<Drift> {
-    let rest = Drift { turning: [Id::ZERO; 3], moving: fixed, by_turning: [[Id::ZERO; 3]; 3] };
-    let mut drifts: Vec<Drift> = vec![rest];
-    for frame in &problem.frames[1..] {
-        let next = drifts[frame.before].after(frame, &problem.frames[frame.before], graph);
-        drifts.push(next);
+impl Twists<'_> {
+    /// Of every frame, where the fixed one accelerates so: against gravity, which then need not be looked at further.
+    pub(super) fn accelerations(
+        &self,
+        graph: &mut Graph,
+        in_time: InTime,
+        fixed: Triple,
+    ) -> Vec<Acceleration> {
+        let frames = &self.problem.frames;
+        let mut along = in_time(graph, self.problem.coordinates.len());
+        let rest = [Id::ZERO; 3];
+        let mut found = vec![Acceleration { turning: rest, moving: fixed, by_turning: [rest; 3] }];
+        for frame in &frames[1..] {
+            let next = found[frame.before].after(frame, &frames[frame.before], &mut along, graph);
+            found.push(next);
+        }
+        found
     }
-    drifts
 }
 
-impl Drift {
+impl Acceleration {
     /// That of the frame which a step leads to from this one.
-    fn after(&self, frame: &Frame, before: &Frame, graph: &mut Graph) -> Self {
+    fn after(&self, frame: &Frame, before: &Frame, along: &mut Forward, graph: &mut Graph) -> Self {
+        let mut rates =
+            |vector: Triple, graph: &mut Graph| vector.map(|component| along.of(graph, component));
         match &frame.step {
             Step::None => *self,
             Step::Moved(moved) => {
                 let carried = self.of_point(moved.by, graph);
                 let coriolis = cross(before.angular_velocity, moved.rate, graph);
-                let moving = sum([carried, coriolis, coriolis, moved.drift], graph);
+                let moving = sum([carried, coriolis, coriolis, rates(moved.rate, graph)], graph);
                 Self { moving: named(moving, graph), ..*self }
             }
             Step::Turned(turned) => {
                 let carried = frame.step.forth(self.turning, graph);
                 let across = cross(frame.angular_velocity, turned.rate, graph);
-                let turning = sum([carried, across, turned.drift], graph);
+                let turning = sum([carried, across, rates(turned.rate, graph)], graph);
                 let turning = named(turning, graph);
                 let moving = frame.step.forth(self.moving, graph);
                 let by_turning = by_turning(frame.angular_velocity, turning, graph);

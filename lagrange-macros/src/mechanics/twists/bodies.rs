@@ -3,7 +3,7 @@
 //! With the mass m, the moment h = m c and the inertia J about the origin, whose acceleration is a, the force is
 //! m a + ω̇ × h + ω × (ω × h), and the torque J ω̇ + ω × Jω + h × a. In uniform gravity a is the acceleration against it.
 
-use super::accelerations::drifts;
+use super::accelerations::InTime;
 use super::{Parts, Twists};
 use crate::resolve::{Body, Frame, Problem, Triple, cross, sum};
 use crate::symbolic::{Graph, Id};
@@ -27,19 +27,19 @@ pub(super) fn apart(graph: &mut Graph, problem: &Problem) -> (Vec<Body>, Id) {
 
 impl Twists<'_> {
     /// The forces of inertia, where the fixed frame accelerates so.
-    pub(super) fn of_bodies(&self, graph: &mut Graph, fixed: Triple, parts: &mut Parts) {
-        let drifts = drifts(graph, self.problem, fixed);
+    pub(super) fn of_bodies(&self, graph: &mut Graph, in_time: InTime, fixed: Triple, parts: &mut Parts) {
+        let accelerations = self.accelerations(graph, in_time, fixed);
         let minus = graph.integer(-1);
         for &Body { frame, mass, moment, inertia, .. } in &self.bodies {
-            let drift = drifts[frame];
+            let own = &accelerations[frame];
             let Frame { angular_velocity, velocity, .. } = self.problem.frames[frame];
-            let own = drift.moving.map(|component| graph.mul(mass, component));
-            let turning = drift.by_turning.map(|row| graph.dot(&row, &moment));
-            let force = sum([own, turning], graph);
+            let moving = own.moving.map(|component| graph.mul(mass, component));
+            let turning = own.by_turning.map(|row| graph.dot(&row, &moment));
+            let force = sum([moving, turning], graph);
             let mut times = |vector: Triple| inertia.map(|row| graph.dot(&row, &vector));
-            let (spin, change) = (times(angular_velocity), times(drift.turning));
+            let (spin, change) = (times(angular_velocity), times(own.turning));
             let gyroscopic = cross(angular_velocity, spin, graph);
-            let arm = cross(moment, drift.moving, graph);
+            let arm = cross(moment, own.moving, graph);
             let torque = sum([change, gyroscopic, arm], graph);
             self.along(graph, force.map(|component| (minus, component)), velocity, parts);
             self.along(graph, torque.map(|component| (minus, component)), angular_velocity, parts);

@@ -16,7 +16,8 @@ use super::euler_lagrange::forces_along;
 use super::gauss::{Form, Velocities};
 use crate::resolve::{Body, Frame, Problem, Step, Triple};
 use crate::symbolic::{Graph, Id, Node, Rational};
-use crate::variables::{Variable, has_velocity, symbols};
+use crate::variables::{Variable, drift, has_velocity, symbols, total_time_derivative};
+use accelerations::InTime;
 
 /// The components of the frames' twists as velocities beside the generalized ones.
 pub(super) struct Twists<'p> {
@@ -112,17 +113,16 @@ impl<'p> Twists<'p> {
     /// M and h, over the accelerations alone.
     pub(super) fn mass_and_forcing(&self, graph: &mut Graph) -> (Vec<Vec<Id>>, Vec<Id>) {
         let n = self.problem.coordinates.len();
-        let (mut mass, mut forcing) = (self.mass(graph), self.forcing(graph));
+        let mut mass = self.mass(graph);
         for k in (n..self.outer).rev() {
-            let row = &self.velocities.rows[k - n];
-            self.put_in(graph, &mut mass, row);
-            let part = forcing.pop().unwrap_or(Id::ZERO);
-            for (sum, &entry) in forcing.iter_mut().zip(row) {
-                let part = graph.mul(entry, part);
-                *sum = graph.add(*sum, part);
-            }
+            self.put_in(graph, &mut mass, &self.velocities.rows[k - n]);
         }
-        (mass, forcing)
+        (mass, self.handed_back(graph, drift, n))
+    }
+
+    /// ∂L/∂q + Q − dp/dt, with accelerations as symbols.
+    pub(super) fn left_over(&self, graph: &mut Graph) -> Vec<Id> {
+        self.handed_back(graph, total_time_derivative, self.problem.coordinates.len())
     }
 
     /// The last variable of a form as a sum over those before it: H_ij + g_i H_kj + H_ik g_j + g_i H_kk g_j.
@@ -146,33 +146,33 @@ impl<'p> Twists<'p> {
         let n = self.problem.coordinates.len();
         let mut forms = Vec::new();
         if self.outer > n {
-            let (mass, forcing) = (self.mass(graph), self.forcing(graph));
+            let (mass, forcing) = (self.mass(graph), self.handed_back(graph, drift, self.outer));
             forms.push(Form::over(mass, forcing, &self.velocities.rows[..self.outer - n]));
         }
         let momenta = graph.gradient_to(self.problem.lagrangian, &self.velocities.nodes);
-        let parts = self.parts(graph);
+        let parts = self.parts(graph, drift);
         let linear = parts.sums(graph);
         forms.push(self.velocities.form_of(graph, &momenta, linear));
         forms
     }
 
-    /// What belongs to each of the velocities where nothing accelerates.
-    fn parts(&self, graph: &mut Graph) -> Parts {
+    /// What belongs to each of the velocities.
+    fn parts(&self, graph: &mut Graph, in_time: InTime) -> Parts {
         let mut parts = Parts(vec![Vec::new(); self.velocities.nodes.len()]);
         let places = self.places(graph);
-        let gravity = self.others_of(graph, &places, &mut parts);
-        self.of_bodies(graph, gravity, &mut parts);
+        let gravity = self.others_of(graph, in_time, &places, &mut parts);
+        self.of_bodies(graph, in_time, gravity, &mut parts);
         for (i, force) in forces_along(graph, self.problem, &self.velocities.nodes).into_iter().enumerate() {
             parts.add(i, force, 1);
         }
         parts
     }
 
-    /// What belongs to the outer velocities, with all that is handed back to them.
-    fn forcing(&self, graph: &mut Graph) -> Vec<Id> {
+    /// What belongs to the first velocities, with all that the others hand back to them.
+    fn handed_back(&self, graph: &mut Graph, in_time: InTime, first: usize) -> Vec<Id> {
         let n = self.problem.coordinates.len();
-        let mut parts = self.parts(graph);
-        for k in (self.outer - n..self.velocities.rows.len()).rev() {
+        let mut parts = self.parts(graph, in_time);
+        for k in (first - n..self.velocities.rows.len()).rev() {
             let sum = graph.sum(std::mem::take(&mut parts.0[n + k]));
             let sum = graph.defined(sum);
             for (i, &entry) in self.velocities.rows[k].iter().enumerate() {
@@ -180,7 +180,7 @@ impl<'p> Twists<'p> {
                 parts.add(i, part, 1);
             }
         }
-        parts.0.truncate(self.outer);
+        parts.0.truncate(first);
         parts.sums(graph)
     }
 

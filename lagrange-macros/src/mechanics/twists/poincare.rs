@@ -12,17 +12,18 @@
 
 use indexmap::IndexMap;
 
-use super::accelerations::drifts;
+use super::accelerations::InTime;
 use super::{Component, Part, Parts, Place, Twists};
 use crate::resolve::{Frame, Triple, cross, sum};
 use crate::symbolic::{Forward, Graph, Id, Node};
-use crate::variables::{Variable, drift, symbols};
+use crate::variables::{Variable, symbols};
 
 impl Twists<'_> {
     /// What belongs to the velocities of all in L that is no body; gravity, which is given, is left to the bodies.
     pub(super) fn others_of(
         &self,
         graph: &mut Graph,
+        in_time: InTime,
         places: &IndexMap<Id, Place>,
         parts: &mut Parts,
     ) -> Triple {
@@ -36,7 +37,7 @@ impl Twists<'_> {
         let placed: Vec<Id> = coordinates.iter().chain(places.keys()).copied().collect();
         let gravity = self.without_gravity(graph, &placed, &mut slopes);
         self.at_rest(graph, places, &slopes, parts);
-        self.in_motion(graph, &momenta, parts);
+        self.in_motion(graph, in_time, &momenta, parts);
         gravity
     }
 
@@ -57,11 +58,11 @@ impl Twists<'_> {
     }
 
     /// −d/dt of the momenta, and μ × ω, π × v and π × ω component by component.
-    fn in_motion(&self, graph: &mut Graph, momenta: &[Id], parts: &mut Parts) {
+    fn in_motion(&self, graph: &mut Graph, in_time: InTime, momenta: &[Id], parts: &mut Parts) {
         if momenta.iter().all(|&momentum| momentum == Id::ZERO) {
             return;
         }
-        let mut along = self.drift(graph);
+        let mut along = self.rates(graph, in_time);
         for (number, &momentum) in momenta.iter().enumerate() {
             let rate = along.of(graph, momentum);
             parts.add(number, rate, -1);
@@ -109,21 +110,21 @@ impl Twists<'_> {
         }
     }
 
-    /// d/dt along a motion whose accelerations are zero, by what is known of frames.
-    fn drift(&self, graph: &mut Graph) -> Forward {
-        let drifts = drifts(graph, self.problem, [Id::ZERO; 3]);
+    /// d/dt, by what is known of frames.
+    fn rates(&self, graph: &mut Graph, in_time: InTime) -> Forward {
+        let accelerations = self.accelerations(graph, in_time, [Id::ZERO; 3]);
         let mut rates: Vec<(Id, Id)> = Vec::new();
-        for (frame, drift) in self.problem.frames.iter().zip(drifts) {
+        for (frame, acceleration) in self.problem.frames.iter().zip(accelerations) {
             let Frame { angular_velocity, velocity, axes, origin, .. } = frame;
             let carried = cross(*velocity, *angular_velocity, graph);
-            let moving = sum([drift.moving, carried], graph);
-            let twist = [(*angular_velocity, drift.turning), (*velocity, moving)];
+            let moving = sum([acceleration.moving, carried], graph);
+            let twist = [(*angular_velocity, acceleration.turning), (*velocity, moving)];
             let turned = axes.map(|row| (row, cross(row, *angular_velocity, graph)));
             let moved = (*origin, axes.map(|row| graph.dot(&row, velocity)));
             let vectors = twist.into_iter().chain(turned).chain([moved]);
             rates.extend(vectors.flat_map(|(of, rate)| of.into_iter().zip(rate)));
         }
         rates.retain(|(node, _)| matches!(graph.node(*node), Node::Defined(_)));
-        drift(graph, self.problem.coordinates.len()).through(graph, rates)
+        in_time(graph, self.problem.coordinates.len()).through(graph, rates)
     }
 }

@@ -42,8 +42,6 @@ pub(crate) enum Step {
 pub(crate) struct Moved {
     pub(crate) by: Triple,
     pub(crate) rate: Triple,
-    /// How fast the rate changes where no coordinate accelerates.
-    pub(crate) drift: Triple,
 }
 
 /// By a rotation E, row by row.
@@ -52,7 +50,6 @@ pub(crate) struct Turned {
     pub(crate) by: [Triple; 3],
     /// The angular velocity, in the axes before and after alike: along those after.
     pub(crate) rate: Triple,
-    pub(crate) drift: Triple,
 }
 
 impl Frame {

@@ -78,8 +78,7 @@ impl Lowering<'_> {
             return self.report(by.place, message);
         };
         let rate = self.rates(vector, by)?;
-        let drift = rate.map(|component| self.drift.of(&mut self.graph, component));
-        Some(Moved { by: vector, rate, drift })
+        Some(Moved { by: vector, rate })
     }
 
     /// About an axis of length 1.
@@ -144,8 +143,7 @@ impl Lowering<'_> {
     fn turned_at(&mut self, by: [Triple; 3], rate: Triple) -> Turned {
         let by = by.map(|row| named(row, &mut self.graph));
         let rate = named(rate, &mut self.graph);
-        let drift = rate.map(|component| self.drift.of(&mut self.graph, component));
-        Turned { by, rate, drift }
+        Turned { by, rate }
     }
 
     /// A field whose type says that its length is 1.
