@@ -134,6 +134,14 @@ impl<S: Scalar> Scalar for Dual<S> {
     }
 
     #[inline(always)]
+    fn sin_cos_of<const K: usize>(angles: [Self; K]) -> ([Self; K], [Self; K]) {
+        let (sines, cosines) = S::sin_cos_of(angles.map(|angle| angle.value));
+        let sine = |k: usize| angles[k].chain(sines[k], cosines[k]);
+        let cosine = |k: usize| angles[k].chain(cosines[k], -sines[k]);
+        (core::array::from_fn(sine), core::array::from_fn(cosine))
+    }
+
+    #[inline(always)]
     fn tan(self) -> Self {
         let tangent = self.value.tan();
         self.chain(tangent, S::constant(1.0) + tangent * tangent)

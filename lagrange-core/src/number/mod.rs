@@ -7,6 +7,7 @@ mod lanes;
 mod numeric;
 mod over;
 mod scalar;
+mod sines;
 
 pub(crate) use array::entries;
 pub use array::{matrix, vector};

@@ -1,9 +1,9 @@
 //! Bodies of functions in Rust.
 
 use proc_macro2::{Ident, Literal, Span, TokenStream};
-use quote::{format_ident, quote};
+use quote::{ToTokens, format_ident, quote};
 
-use super::body::{Expression, Local, Part, Place, Statement};
+use super::body::{Expression, Local, Part, Place, Statement, Turn};
 use super::bounds::capability;
 use super::operation::{Call, Operation};
 use super::shape::Arrays;
@@ -30,9 +30,9 @@ impl Style<'_> {
                 let (name, value) = (self.local(local), self.expression(value));
                 quote!(#word #name = #value;)
             }
-            Statement::Turn { sine, cosine, angle } => {
-                let (sine, cosine, angle) = (self.local(sine), self.local(cosine), self.operand(angle));
-                quote!(#word (#sine, #cosine) = __lagrange::Scalar::sin_cos(#angle);)
+            Statement::Turns(turns) => {
+                let turns = self.turns(turns);
+                quote!(#word #turns;)
             }
             Statement::Call(call, results) => {
                 let (pattern, call) = (self.pattern(&call, &results), self.call(call));
@@ -44,6 +44,21 @@ impl Style<'_> {
             }
         });
         quote! { #inputs #(#declarations)* #(#statements)* }
+    }
+
+    /// `(r1, r2) = sin_cos(x)`, or of several.
+    fn turns(&self, turns: Vec<Turn>) -> TokenStream {
+        let name = |local: Option<Local>| match local {
+            Some(local) => self.local(local).into_token_stream(),
+            None => quote!(_),
+        };
+        let sines: Vec<TokenStream> = turns.iter().map(|turn| name(turn.sine)).collect();
+        let cosines: Vec<TokenStream> = turns.iter().map(|turn| name(turn.cosine)).collect();
+        let angles: Vec<TokenStream> = turns.into_iter().map(|turn| self.operand(turn.angle)).collect();
+        match &angles[..] {
+            [angle] => quote!((#(#sines)*, #(#cosines)*) = __lagrange::Scalar::sin_cos(#angle)),
+            _ => quote!(([#(#sines),*], [#(#cosines),*]) = __lagrange::Scalar::sin_cos_of([#(#angles),*])),
+        }
     }
 
     /// An expression that stands alone.

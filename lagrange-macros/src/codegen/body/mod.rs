@@ -36,15 +36,19 @@ pub(super) struct Part {
 #[derive(Clone, Debug)]
 pub(super) enum Statement {
     Let(Local, Expression),
-    /// The sine and the cosine of one argument.
-    Turn {
-        sine: Local,
-        cosine: Local,
-        angle: Expression,
-    },
+    /// Sines and cosines, together.
+    Turns(Vec<Turn>),
     /// A call of a function that the user supplies, and those of its results that are used.
     Call(Call<Expression>, Vec<(u32, Local)>),
     Store(Place, Expression),
+}
+
+/// The sine and the cosine of one angle, as far as they are used.
+#[derive(Clone, Debug)]
+pub(super) struct Turn {
+    pub(super) angle: Expression,
+    pub(super) sine: Option<Local>,
+    pub(super) cosine: Option<Local>,
 }
 
 #[derive(Clone, PartialEq, Eq, Debug)]

@@ -7,7 +7,7 @@ use rustc_hash::FxHashMap;
 
 use super::chunks::{self, Waiting};
 use super::order_of_evaluation::Order;
-use super::{Body, Expression, Local, Part, Place, Statement};
+use super::{Body, Expression, Local, Part, Place, Statement, Turn};
 use crate::codegen::operation::{Call, Operation, Register};
 use crate::codegen::passes::Program;
 use crate::codegen::schedule::Schedule;
@@ -65,6 +65,10 @@ struct Planner<'p> {
     fetched: BTreeSet<Register>,
     /// What is in a local and which a later part uses.
     kept: Vec<Register>,
+    /// For each part the angles in it that depend on no sine and on no other function.
+    plain: Vec<BTreeSet<Register>>,
+    /// Those of this part whose turn has not come.
+    early: BTreeSet<Register>,
 }
 
 struct Value {
@@ -102,6 +106,8 @@ impl<'p> Planner<'p> {
         outputs.values_mut().for_each(|outputs| outputs.sort_unstable());
         let values = schedule.operations.iter().map(|_| None).collect();
         let (places, waiting, index, part, fetched, kept) = Default::default();
+        let mut plain = plain_angles(schedule, sequence, cuts);
+        let early = plain.pop().unwrap_or_default();
         Self {
             schedule,
             uses,
@@ -115,6 +121,8 @@ impl<'p> Planner<'p> {
             part,
             fetched,
             kept,
+            plain,
+            early,
         }
     }
 
@@ -147,19 +155,14 @@ impl<'p> Planner<'p> {
         match self.schedule.operations[index] {
             _ if self.values[index].is_some() => {}
             Operation::Result { call, .. } => self.call(call),
-            Operation::Function(function @ (Function::Sin | Function::Cos), x)
-                if self.partner(function, x).is_some() =>
-            {
-                self.turn(register, function, x);
-            }
+            Operation::Function(Function::Sin | Function::Cos, x) => self.turn(x),
             operation => {
                 let operands = self.schedule.operands(operation);
                 let depth = 1 + operands.map(|operand| self.depth(operand)).max().unwrap_or(0);
                 let expression =
                     Expression::Of(Box::new(operation.with_operands(|operand| self.value(operand))));
-                let is_sine = matches!(operation, Operation::Function(Function::Sin | Function::Cos, _));
                 let is_used_here = self.uses[index] == 1 && self.reach[index] == self.index;
-                if is_used_here && depth < NESTING && !is_sine {
+                if is_used_here && depth < NESTING {
                     self.values[index] = Some(Value { expression, depth });
                 } else {
                     let local = self.local(register);
@@ -194,21 +197,70 @@ impl<'p> Planner<'p> {
         self.part.statements.push(Statement::Call(Call { function, derivatives, arguments }, results));
     }
 
-    /// The sine and the cosine of one argument are computed together, when the first of them is met.
-    fn turn(&mut self, mine: Register, function: Function, x: Register) {
-        let angle = self.value(x);
-        let theirs = self.partner(function, x).unwrap_or(mine);
-        let locals = [mine, theirs].map(|register| self.local(register));
-        let [sine, cosine] = if function == Function::Sin { locals } else { [locals[1], locals[0]] };
-        self.part.locals.extend(locals);
-        self.part.statements.push(Statement::Turn { sine, cosine, angle });
-        [mine, theirs].into_iter().zip(locals).for_each(|(register, local)| self.keep(register, local));
+    /// The sine and the cosine of one argument are computed together, and with them those of all angles of this part that
+    /// are at hand before any: a processor takes several side by side.
+    fn turn(&mut self, x: Register) {
+        let together = std::mem::take(&mut self.early);
+        let angles = if together.contains(&x) { together } else { BTreeSet::from([x]) };
+        angles.iter().for_each(|&angle| self.compute_early(angle));
+        let turns: Vec<Turn> = angles.iter().map(|&angle| self.turn_of(angle)).collect();
+        match &turns[..] {
+            [
+                Turn { angle, sine: Some(only), cosine: None }
+                | Turn { angle, sine: None, cosine: Some(only) },
+            ] => {
+                let function = if turns[0].sine.is_some() { Function::Sin } else { Function::Cos };
+                let expression = Expression::Of(Box::new(Operation::Function(function, angle.clone())));
+                self.assign(*only, expression);
+            }
+            _ => {
+                let locals = turns.iter().flat_map(|turn| [turn.sine, turn.cosine]).flatten();
+                self.part.locals.extend(locals);
+                self.part.statements.push(Statement::Turns(turns));
+            }
+        }
+        for &angle in &angles {
+            let both = [Function::Sin, Function::Cos].map(|function| self.used(function, angle));
+            for register in both.into_iter().flatten() {
+                self.keep(register, self.local(register));
+            }
+        }
     }
 
-    /// The cosine of what this is the sine of, or the sine, if it is used.
-    fn partner(&self, function: Function, x: Register) -> Option<Register> {
-        let other = if function == Function::Sin { Function::Cos } else { Function::Sin };
-        self.schedule.find(Operation::Function(other, x)).filter(|register| self.uses[register.index()] > 0)
+    fn turn_of(&mut self, x: Register) -> Turn {
+        let [sine, cosine] =
+            [Function::Sin, Function::Cos].map(|f| self.used(f, x).map(|register| self.local(register)));
+        Turn { angle: self.value(x), sine, cosine }
+    }
+
+    /// An angle is computed before its turn has come, with what it is made of.
+    fn compute_early(&mut self, angle: Register) {
+        let mut needed = BTreeSet::from([angle]);
+        let mut pending = vec![angle];
+        while let Some(register) = pending.pop() {
+            for operand in self.schedule.operations[register.index()].operands() {
+                if needed.insert(operand) {
+                    pending.push(operand);
+                }
+            }
+        }
+        for register in needed {
+            let is_at_hand = self.values[register.index()].is_some()
+                || matches!(
+                    self.schedule.operations[register.index()],
+                    Operation::Constant(_) | Operation::Input(_)
+                );
+            if !is_at_hand {
+                self.compute(register.index());
+            }
+        }
+    }
+
+    /// The sine or the cosine of this, if it is used.
+    fn used(&self, function: Function, x: Register) -> Option<Register> {
+        self.schedule
+            .find(Operation::Function(function, x))
+            .filter(|register| self.uses[register.index()] > 0)
     }
 
     fn local(&self, register: Register) -> Local {
@@ -260,6 +312,24 @@ impl<'p> Planner<'p> {
             self.part.statements.push(Statement::Store(place, value));
         }
         self.index += 1;
+        self.early = self.plain.pop().unwrap_or_default();
         std::mem::take(&mut self.part)
     }
+}
+
+/// For each part, the last one first, the angles of its sines and cosines that are made of inputs by arithmetic alone.
+fn plain_angles(schedule: &Schedule, sequence: &[usize], cuts: &[Range<usize>]) -> Vec<BTreeSet<Register>> {
+    let mut is_plain = vec![false; schedule.operations.len()];
+    for (index, operation) in schedule.operations.iter().enumerate() {
+        let is_arithmetic = !matches!(
+            operation,
+            Operation::Function(..) | Operation::Power(..) | Operation::Atan2(..) | Operation::Result { .. }
+        );
+        is_plain[index] = is_arithmetic && operation.operands().all(|operand| is_plain[operand.index()]);
+    }
+    let angle = |&index: &usize| match schedule.operations[index] {
+        Operation::Function(Function::Sin | Function::Cos, x) if is_plain[x.index()] => Some(x),
+        _ => None,
+    };
+    cuts.iter().rev().map(|cut| sequence[cut.clone()].iter().filter_map(angle).collect()).collect()
 }

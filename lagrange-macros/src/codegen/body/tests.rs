@@ -81,18 +81,41 @@ fn nesting_ends_before_it_is_deep() {
     assert!((5..=10).contains(&statements(&body).len()), "{body:?}");
 }
 
+/// How many angles are taken at once, statement by statement.
+fn turns(body: &Body) -> Vec<usize> {
+    let turns = statements(body).iter().filter_map(|statement| match statement {
+        Statement::Turns(turns) => Some(turns.len()),
+        _ => None,
+    });
+    turns.collect()
+}
+
 #[test]
 fn sine_and_cosine_of_one_argument_come_together() {
     let mut graph = Graph::default();
     let [x, y] = inputs(&mut graph);
     let [sine, cosine] = [Function::Sin, Function::Cos].map(|function| graph.function(function, x));
-    let alone = graph.function(Function::Cos, y);
+    let inner = graph.mul(sine, y);
+    let alone = graph.function(Function::Cos, inner);
     let roots = [graph.mul(cosine, alone), graph.sub(sine, y), alone];
     let body = checked(&graph, &roots);
-    let turns =
-        statements(&body).iter().filter(|statement| matches!(statement, Statement::Turn { .. })).count();
-    assert_eq!((turns, statements(&body).len()), (1, 2), "{body:?}");
+    assert_eq!((turns(&body), statements(&body).len()), (vec![1], 2), "{body:?}");
     assert_eq!(body.parts[0].locals.len(), 3);
+}
+
+#[test]
+fn angles_that_are_at_hand_are_taken_together() {
+    let mut graph = Graph::default();
+    let [x, y] = inputs(&mut graph);
+    let both = graph.add(x, y);
+    let [a, b, c] = [x, y, both].map(|angle| graph.function(Function::Sin, angle));
+    let cosine = graph.function(Function::Cos, both);
+    let deeper = graph.function(Function::Sin, c);
+    let roots = [graph.mul(a, deeper), graph.mul(b, cosine), c];
+    let body = checked(&graph, &roots);
+    assert_eq!(turns(&body), [3], "{body:?}");
+    // The sum, three sines and the one cosine that is used; what is of a sine comes alone.
+    assert_eq!(body.parts[0].locals.len(), 6, "{body:?}");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::codegen::body::{Body, Expression, Local, Part, Place, Statement};
+use crate::codegen::body::{Body, Expression, Local, Part, Place, Statement, Turn};
 use crate::codegen::operation::{Call, Operation, Register};
 use crate::codegen::schedule::Schedule;
 use crate::symbolic::{Symbol, apply};
@@ -98,10 +98,12 @@ impl<I: Fn(Symbol) -> f64> Frame<'_, I> {
     ) {
         match statement {
             Statement::Let(local, value) => self.define(*local, self.value(value)),
-            Statement::Turn { sine, cosine, angle } => {
-                let angle = self.value(angle);
-                self.define(*sine, angle.sin());
-                self.define(*cosine, angle.cos());
+            Statement::Turns(turns) => {
+                for Turn { angle, sine, cosine } in turns {
+                    let angle = self.value(angle);
+                    sine.iter().for_each(|&sine| self.define(sine, angle.sin()));
+                    cosine.iter().for_each(|&cosine| self.define(cosine, angle.cos()));
+                }
             }
             Statement::Call(Call { function: f, derivatives, arguments }, outputs) => {
                 let arguments = arguments.iter().map(|argument| self.value(argument)).collect();
