@@ -1,6 +1,6 @@
 //! Motions that go on when they are told to: inputs that change, times that are reached, states in between.
 
-use lagrange_core::motion::Limits;
+use lagrange_core::motion::{Flow, Limits};
 use lagrange_core::{Dual, Ending, Lanes, Method, Pack, RungeKutta4, prelude::*, runge_kutta_step};
 
 /// A cart with a motor and a brake.
@@ -72,7 +72,10 @@ fn inputs_are_held_from_tick_to_tick() {
     let (off, evaluations) = driven(Dop853::default());
     assert!(off < 1e-12 && evaluations == 2 + 200 * (1 + 12), "{off:e}, {evaluations} evaluations");
     let (off, evaluations) = driven(Dopri5::with_tolerance(1e-6).fixed_step(0.01));
-    assert!(off < 1e-12 && evaluations == 1 + 200 * (1 + 6), "{off:e}, {evaluations} evaluations");
+    // The rates where a step of one size ends are evaluated after the change, and not before.
+    assert!(off < 1e-12 && evaluations == 1 + 200 * 6, "{off:e}, {evaluations} evaluations");
+    let (off, evaluations) = driven(Dop853::default().fixed_step(0.01));
+    assert!(off < 1e-12 && evaluations == 1 + 200 * 12, "{off:e}, {evaluations} evaluations");
     let (off, evaluations) = driven(RungeKutta4::with_step(0.01));
     assert!(off < 1e-9 && evaluations == 200 * 4, "{off:e}, {evaluations} evaluations");
 }
@@ -132,6 +135,98 @@ fn a_motion_left_alone_is_the_trajectory() {
         assert_eq!(state.unwrap(), *path.at(times(k)).unwrap().state());
     }
     assert_eq!(motion.state(), path.end().state());
+}
+
+/// Steps of one size are the same to the bit whether the rates where they end are evaluated at once, for what lies within,
+/// or by the next step.
+fn same_ends<L, P, F, const N: usize, const M: usize>(
+    mut motion: Motion<L, P, N, M, F>,
+    path: &Trajectory<L, N, M, F>,
+    within: usize,
+    (start, left): (usize, usize),
+) where
+    L: Lagrangian<N, M, Scalar = f64> + Clone,
+    F: Flow<L, N, M>,
+    P: Method<L, N, M, F>,
+{
+    assert_eq!(motion.statistics().evaluations, start);
+    for k in 1..=4 {
+        motion.advance_to(0.5 * f64::from(k)).expect("no end before");
+        assert_eq!(motion.state(), path.at(0.5 * f64::from(k)).expect("a state").state());
+    }
+    let (own, stored) = (*motion.statistics(), path.statistics());
+    assert_eq!((own.accepted, stored.accepted), (32, 32));
+    assert_eq!(own.evaluations + 32 * within + left, stored.evaluations);
+    for t in [1.95, 1.99] {
+        assert_eq!(motion.at(t).expect("a state"), *path.at(t).expect("a state").state());
+    }
+    assert_eq!(motion.statistics().evaluations, own.evaluations + within + left);
+}
+
+#[test]
+fn fixed_steps_are_the_same_whoever_asks_for_their_ends() {
+    let (fifth, eighth) = (Dopri5::default().fixed_step(0.0625), Dop853::default().fixed_step(0.0625));
+    let spring = Spring { omega: 1.3 };
+    let (rest, start) = (State::at_rest([1.0]), swinging());
+    let path = spring.integrate(rest, 2.0, fifth).unwrap();
+    same_ends(Motion::new(&spring, rest, fifth).unwrap(), &path, 0, (1, 1));
+    let path = PENDULUM.integrate(start, 2.0, fifth).unwrap();
+    same_ends(Motion::new(&PENDULUM, start, fifth).unwrap(), &path, 0, (1, 1));
+    let path = PENDULUM.integrate(start, 2.0, eighth).unwrap();
+    same_ends(Motion::new(&PENDULUM, start, eighth).unwrap(), &path, 3, (1, 1));
+    // In momenta the velocity is one of the rates: nothing is left for later.
+    let start = PENDULUM.phase_state(&start);
+    let path = PENDULUM.integrate_hamiltonian(start, 2.0, eighth).unwrap();
+    same_ends(Motion::in_momenta(&PENDULUM, start, eighth).unwrap(), &path, 3, (1, 0));
+}
+
+/// A spring with a hole, in which the force is not a number.
+#[derive(Lagrangian, Clone, Copy)]
+#[coordinates(x)]
+#[lagrangian(x_dot^2/2 - x^2/2)]
+#[force(x: none*sqrt((x - hole)^2 - 1e-24))]
+struct Holed<T> {
+    none: T,
+    hole: T,
+}
+
+/// Where the equations have no solution at the end of a step of one size, the next finds out, or what asks for its rates.
+#[test]
+fn a_step_into_a_hole_is_an_error_of_the_next() {
+    let whole = Holed { none: 0.0, hole: 1e3 };
+    let (start, method) = (State::at_rest([1.0]), Dopri5::default().fixed_step(0.125));
+    let at = *whole.integrate(start, 0.5, method).unwrap().end().state();
+    let holed = Holed { hole: at.q[0], ..whole };
+    let mut motion = Motion::new(holed, start, method).unwrap();
+    motion.advance_to(0.5).unwrap();
+    assert_eq!(*motion.state(), at);
+    assert!(matches!(motion.at(0.45), Err(Error::EquationsNotFinite { time: 0.5, .. })));
+    for _ in 0..2 {
+        let ending = motion.advance_to(1.0).unwrap_err();
+        assert!(matches!(ending, Ending::NotFinite { time: 0.5, .. }), "{ending}");
+        assert_eq!(*motion.state(), at);
+    }
+    motion.system_mut().hole = 1e3;
+    motion.advance_to(1.0).unwrap();
+    assert!((motion.state().q[0] - 1_f64.cos()).abs() < 1e-6);
+    // A trajectory has what lies within each step, and that one has none.
+    let path = holed.integrate_towards(start, 1.0, method).unwrap();
+    assert!(matches!(path.ending(), Ending::NotFinite { time: 0.375, .. }), "{}", path.ending());
+    assert_eq!((path.end().time(), path.statistics().accepted), (0.375, 3));
+    assert!((path.at(0.3).unwrap().coordinate("x").unwrap() - 0.3_f64.cos()).abs() < 1e-6);
+    // On a lane as alone.
+    let both = |index: usize| (if index == 1 { holed } else { whole }, start);
+    let ensemble = || Ensemble::from_fn(5, both);
+    for (end, is_complete) in [(0.5, true), (1.0, false)] {
+        let on_lanes = ensemble().integrate_on_lanes(end, method).unwrap();
+        let one_by_one = ensemble().integrate(end, method).unwrap();
+        for (index, (lane, alone)) in on_lanes.members().iter().zip(one_by_one.members()).enumerate() {
+            assert_eq!(lane.result, alone.result);
+            let arrival = lane.arrival().unwrap();
+            assert_eq!(arrival.ending.is_complete(), index != 1 || is_complete, "{}", arrival.ending);
+            assert!(index != 1 || arrival.state == at);
+        }
+    }
 }
 
 #[test]

@@ -17,6 +17,8 @@ use crate::system::{Lagrangian, State};
 pub struct HamiltonianFlow;
 
 impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Flow<L, N, M> for HamiltonianFlow {
+    const HOLDS_VELOCITY: bool = false;
+
     fn phase(system: &L, state: &State<L::Scalar, N>) -> Phase<L::Scalar, N> {
         [state.q.into(), system.momentum(state).into()]
     }

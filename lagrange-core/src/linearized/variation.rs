@@ -23,7 +23,7 @@ use crate::motion::run::Run;
 use crate::motion::{Adaptive, Combination, Method, Pair};
 use crate::names::Entry;
 use crate::number::{Over, Real, Scalar, Wide, exceeds, vector};
-use crate::solution::flow::Phase;
+use crate::solution::flow::{LagrangianFlow, Phase};
 use crate::solution::solve::solve_near;
 use crate::system::{Solution, State};
 
@@ -154,7 +154,9 @@ where
     ) -> Result<(), Ending> {
         self.blocks.iter_mut().for_each(|block| (block.start, block.slopes[0]) = (block.y, block.slope));
         let time = run.before.t.to_f64();
-        let followed = self.go::<Q>(system, &run.memory).map_err(|error| Ending::of(error, time));
+        let slope = run.memory.ensure_slope::<L, LagrangianFlow>(system, &mut run.statistics);
+        let followed = slope.and_then(|()| self.go::<Q>(system, &run.memory));
+        let followed = followed.map_err(|error| Ending::of(error, time));
         let (error, worst) =
             followed.inspect_err(|_| self.step_back()).map(|()| self.error(method, &run.memory))?;
         if method.accepts(error) {
@@ -231,7 +233,7 @@ where
         for (number, row) in (first..).zip(rows) {
             advance(&from.y, h, slopes, row, &mut place);
             let state = state_at(from.t + h * L::Scalar::constant(Q::NODES[number]), &place);
-            let tangent = tangent_at(system, &state, &slopes[number][1], &memory.active)?;
+            let tangent = tangent_at(system, &state, &slopes[number][1], memory.active.as_ref())?;
             let by_parameters = self.parameter_slopes(&tangent);
             for (k, block) in self.blocks.iter_mut().enumerate() {
                 let names = lane_names::<L, N, M>(&self.arguments, k);
@@ -250,7 +252,7 @@ where
             advance(&block.start, WideOf::<L, N, M>::of(h), &block.slopes, Q::WEIGHTS, &mut block.y);
         }
         let state = state_at(memory.clock.now, &memory.y);
-        self.arrive(&tangent_at(system, &state, &memory.slope[1], &memory.active)?)?;
+        self.arrive(&tangent_at(system, &state, &memory.slope[1], memory.active.as_ref())?)?;
         self.blocks.iter_mut().for_each(|block| block.slopes[last::<Q>()] = block.slope);
         Ok(())
     }
@@ -304,14 +306,10 @@ fn tangent_at<'a, L: StateDerivatives<N, M, Scalar: Real>, const N: usize, const
     system: &'a L,
     state: &'a State<L::Scalar, N>,
     accelerations: &[L::Scalar; N],
-    active: &[bool; M],
+    active: Option<&[bool; M]>,
 ) -> Result<Tangent<'a, L, N, M>, Error> {
     if const { M > 0 } {
-        return Ok(Tangent::of(
-            system,
-            state,
-            solve_near(system, state, Some(active), |solution, _| *solution)?,
-        ));
+        return Ok(Tangent::of(system, state, solve_near(system, state, active, |solution, _| *solution)?));
     }
     let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
     let (accelerations, multipliers) = (vector(*accelerations), vector([zero; M]));
@@ -420,10 +418,9 @@ mod tests {
     use crate::linearized::tangent::Tangent;
     use crate::motion::run::{Run, Watchdog};
     use crate::motion::{Adaptive, Method};
-    use crate::solution::flow::LagrangianFlow;
     use crate::{Dop853, Entry, prelude::*};
 
-    use super::Variations;
+    use super::{LagrangianFlow, Variations};
 
     #[derive(Lagrangian)]
     #[coordinates(x)]

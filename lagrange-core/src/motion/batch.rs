@@ -12,7 +12,7 @@ use core::ops::ControlFlow;
 use super::event::Stride;
 use super::method::Interpolant;
 use super::method::interpolant::{evaluate, hermite};
-use super::method::pair::{Combination, Pair, SLOPES, Slopes, advance, check, error_needs_last, last};
+use super::method::pair::{Combination, Pair, SLOPES, Slopes, advance, check, last};
 use super::seat::{Fate, Seat};
 use super::{Adaptive, Method};
 use crate::ending::Ending;
@@ -186,13 +186,13 @@ where
         let mut next = self.y;
         advance(&self.y, h, &self.slopes, P::WEIGHTS, &mut next);
         trust.numbers(next.as_flattened());
-        if error_needs_last::<P>() {
+        if self.method.error_needs_last() {
             self.slope(last::<P>(), end, &next, &mut trust);
         }
         let tolerance = self.method.tolerance::<f64>();
         let error = tolerance.error::<P, _, N>(&self.slopes, h, &self.y, &next).to_array();
         let projected = if M > 0 { self.project(&mut next, plan, &error) } else { [true; Lanes::COUNT] };
-        if M > 0 || !error_needs_last::<P>() {
+        if M > 0 || !self.method.error_needs_last() {
             self.slope(last::<P>(), end, &next, &mut trust);
         }
         let trusted = trust.lanes();

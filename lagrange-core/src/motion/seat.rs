@@ -1,6 +1,5 @@
 //! A motion that has a SIMD lane, and what becomes of its steps.
 
-use super::method::pair::error_needs_last;
 use super::method::step::Memory;
 use super::method::{Adaptive, Method, Pair, Step};
 use super::record::{Orders, Record};
@@ -65,6 +64,16 @@ impl<'o, L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Seat
         method.aim::<L, LagrangianFlow, N, M>(system, memory, *end, statistics);
     }
 
+    /// The lane is to have the slope, if there is a step to take.
+    fn ensure_slope(&mut self) -> Result<(), Ending> {
+        let Self { system, memory, statistics, .. } = self;
+        if memory.clock.is_at_end() {
+            return Ok(());
+        }
+        let slope = memory.ensure_slope::<L, LagrangianFlow>(system, statistics);
+        slope.map_err(|error| Ending::of(error, memory.clock.now))
+    }
+
     /// Calls the controller, and goes on from this state with what it has set.
     pub(super) fn control<P: Pair>(
         &mut self,
@@ -119,7 +128,7 @@ impl<'o, L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Seat
         is_looked_into: bool,
     ) -> Option<Fate> {
         let Memory { clock, control, active, .. } = &mut self.memory;
-        if active.contains(&false) || !clock.is_ahead(time) {
+        if active.is_some_and(|active| active.contains(&false)) || !clock.is_ahead(time) {
             return None;
         }
         let accepted = method.accepts(error);
@@ -133,17 +142,21 @@ impl<'o, L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Seat
                 return None;
             }
         }
-        self.count::<P>(accepted, is_looked_into);
+        self.count(method, accepted, is_looked_into);
         Some(if accepted { Fate::Accepted } else { Fate::Rejected })
     }
 
     /// As many evaluations as the step takes alone.
-    fn count<P: Pair>(&mut self, accepted: bool, is_looked_into: bool) {
-        let statistics = &mut self.statistics;
-        let before = error_needs_last::<P>();
-        statistics.evaluations += P::STAGES.len() + usize::from(before);
+    fn count<P: Pair>(&mut self, method: &Adaptive<P>, accepted: bool, is_looked_into: bool) {
+        let Self { statistics, memory: Memory { active, .. }, .. } = self;
+        let (at_start, before) = (active.is_none(), method.error_needs_last());
+        statistics.evaluations += P::STAGES.len() + usize::from(at_start) + usize::from(before);
         statistics.evaluations += if accepted && is_looked_into { P::INTERPOLATION_STAGES.len() } else { 0 };
-        statistics.evaluations += usize::from(accepted && (M > 0 || !before));
+        if accepted {
+            let at_end = is_looked_into || !method.ignores_error();
+            statistics.evaluations += usize::from(at_end && (M > 0 || !before));
+            *active = at_end.then_some([true; M]);
+        }
         statistics.accepted += usize::from(accepted);
         statistics.rejected += usize::from(!accepted);
     }
@@ -165,6 +178,7 @@ impl<'o, L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Seat
             Step::Accepted(_) => match along(self) {
                 Ok(()) => {
                     self.statistics.accepted += 1;
+                    self.failure = self.ensure_slope().err();
                     return Fate::AcceptedAlone;
                 }
                 Err(error) => {

@@ -20,8 +20,8 @@ use crate::system::{Lagrangian, State};
 /// A motion that goes on when it is told to, by so much or to a time, and may be steered in between.
 ///
 /// Between two advances its state and the parameters of its system can be read and set. What is set holds until it is set
-/// again (zero-order hold); that costs one evaluation of the equations, and the length of the steps is kept. Every time
-/// asked for is reached exactly, so that inputs change there and nowhere else; it may lie in the past.
+/// again (zero-order hold); that costs one evaluation of the equations, or none where all steps are of one size, and the
+/// length of the steps is kept. Every time asked for is reached exactly, so that inputs change there and nowhere else; it may lie in the past.
 ///
 /// Nothing is stored and nothing allocated: a motion takes as much memory after 10⁹ steps as after one, and works without
 /// the feature `alloc`. It owns its system, which may be a reference.

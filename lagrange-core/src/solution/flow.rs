@@ -12,6 +12,9 @@ pub type Phase<T, const N: usize> = [[T; N]; 2];
 
 /// The equations that a method integrates, of the first order in a [`Phase`] whose first half is q.
 pub trait Flow<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> {
+    /// Whether the second half of a phase is the velocity, so that a state is known where its rates are not.
+    const HOLDS_VELOCITY: bool;
+
     /// Where a state is in the phase space.
     fn phase(system: &L, state: &State<L::Scalar, N>) -> Phase<L::Scalar, N>;
 
@@ -64,6 +67,8 @@ pub struct Basis<const M: usize> {
 pub struct LagrangianFlow;
 
 impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Flow<L, N, M> for LagrangianFlow {
+    const HOLDS_VELOCITY: bool = true;
+
     #[inline]
     fn phase(_: &L, state: &State<L::Scalar, N>) -> Phase<L::Scalar, N> {
         [state.q.into(), state.v.into()]

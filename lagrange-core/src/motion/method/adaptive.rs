@@ -78,7 +78,10 @@ impl<P> Adaptive<P> {
     }
 
     /// All steps of this size, to the round-off of the time (the last may be shorter), whatever the error: to measure
-    /// orders of convergence.
+    /// orders of convergence, and for control loops.
+    ///
+    /// The rates at the end of a step are evaluated by what needs them, the next step or what lies within this one; where the
+    /// equations have no solution there, that is the error.
     pub fn fixed_step(self, step: f64) -> Self {
         Self { fixed_step: Some(step), ..self }
     }

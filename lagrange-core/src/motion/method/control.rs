@@ -4,7 +4,7 @@ use core::array::from_fn;
 
 use super::Adaptive;
 use super::clock::Clock;
-use super::pair::{Pair, Slopes, combine};
+use super::pair::{Pair, Slopes, combine, last};
 #[cfg(feature = "alloc")]
 use super::step::Memory;
 #[cfg(feature = "alloc")]
@@ -153,9 +153,22 @@ impl<P: Pair> Adaptive<P> {
         Tolerance { relative: self.relative.max(16.0 * T::EPSILON), absolute: self.absolute }
     }
 
+    /// Whether nobody looks at the error of a step, because all are of one size. What the rates at its end are is then left
+    /// to those who need them, the next step or what lies within: to nobody, where the system changes first.
+    #[inline]
+    pub(crate) fn ignores_error(&self) -> bool {
+        self.fixed_step.is_some()
+    }
+
+    /// Whether the error can be had only with the slope at the end of the step, and is looked at.
+    #[inline]
+    pub(crate) fn error_needs_last(&self) -> bool {
+        !self.ignores_error() && P::ERROR.iter().any(|(slope, _)| *slope == last::<P>())
+    }
+
     /// Whether a step with this part of the tolerance as its error will do; nothing refuses a fixed step.
     pub(crate) fn accepts<T: Real>(&self, error: T) -> bool {
-        self.fixed_step.is_some() || !exceeds(error, T::constant(1.0))
+        self.ignores_error() || !exceeds(error, T::constant(1.0))
     }
 
     /// After an accepted step of this length to this time: moves the clock, and chooses the next step.

@@ -8,7 +8,7 @@ use nalgebra::ComplexField;
 use super::clock::Clock;
 use super::control::{Control, Place};
 use super::interpolant::{Polynomial, hermite};
-use super::pair::{Combination, Pair, SLOPES, Slopes, advance, check, error_needs_last, last};
+use super::pair::{Combination, Pair, SLOPES, Slopes, advance, check, last};
 use super::{Adaptive, Limits, Method, Step};
 use crate::ending::Ending;
 use crate::error::Error;
@@ -28,10 +28,10 @@ pub struct Memory<T, const N: usize, const M: usize> {
     is_planned: bool,
     /// Where the motion is.
     pub(crate) y: Phase<T, N>,
-    /// The rates there.
+    /// The rates there, where they are known.
     pub(crate) slope: Phase<T, N>,
-    /// Which constraints they rest on: as many as are independent at `y`.
-    pub(crate) active: [bool; M],
+    /// Which constraints they rest on: as many as are independent at `y`. `None` where the rates are not known yet.
+    pub(crate) active: Option<[bool; M]>,
     /// Of the step tried last, the first that of its start.
     pub(super) slopes: Slopes<T, N>,
     /// The step that led here.
@@ -51,7 +51,7 @@ pub(super) struct Taken<T, const N: usize, const M: usize> {
 struct Origin<T, const N: usize, const M: usize> {
     t: T,
     y: Phase<T, N>,
-    active: [bool; M],
+    active: Option<[bool; M]>,
 }
 
 impl<T: Real, const N: usize, const M: usize> Memory<T, N, M> {
@@ -65,6 +65,20 @@ impl<T: Real, const N: usize, const M: usize> Memory<T, N, M> {
     pub(crate) fn last_step(&self) -> Option<(PhasePoint<T, N>, T, &Slopes<T, N>)> {
         let Taken { from: Origin { t, y, .. }, h, .. } = self.taken.as_ref()?;
         Some((PhasePoint { t: *t, y: *y, velocity: self.slopes[0][0] }, *h, &self.slopes))
+    }
+
+    /// Evaluates the rates where the motion is, unless they are known.
+    #[inline]
+    pub(crate) fn ensure_slope<L: Lagrangian<N, M, Scalar = T>, F: Flow<L, N, M>>(
+        &mut self,
+        system: &L,
+        statistics: &mut Statistics,
+    ) -> Result<(), Error> {
+        if self.active.is_none() {
+            let point = PhasePoint { t: self.clock.now, y: self.y, velocity: self.slope[0] };
+            self.active = Some(slope::<L, F, N, M>(system, &point, None, &mut self.slope, statistics)?);
+        }
+        Ok(())
     }
 
     fn origin(&self) -> Origin<T, N, M> {
@@ -86,11 +100,11 @@ impl<T> From<Error> for Refusal<T> {
     }
 }
 
-/// Where a step ends, its error as a part of the tolerance, and which constraints its slope rests on.
+/// Where a step ends, its error as a part of the tolerance, and which constraints its slope rests on, if that is known.
 struct Reached<T, const N: usize, const M: usize> {
     y: Phase<T, N>,
     error: T,
-    active: [bool; M],
+    active: Option<[bool; M]>,
 }
 
 impl<P, L, F, const N: usize, const M: usize> Method<L, N, M, F> for Adaptive<P>
@@ -127,7 +141,7 @@ where
             is_planned: false,
             y: zero,
             slope: zero,
-            active: [true; M],
+            active: None,
             slopes: [zero; SLOPES],
             taken: None,
         };
@@ -142,11 +156,11 @@ where
         state: &State<L::Scalar, N>,
         statistics: &mut Statistics,
     ) -> Result<(), Error> {
-        let point = PhasePoint { t: state.t, y: F::phase(system, state), velocity: state.v.into() };
-        memory.active = slope::<L, F, N, M>(system, &point, None, &mut memory.slope, statistics)?;
-        (memory.y, memory.taken) = (point.y, None);
         memory.clock.set(state.t);
-        Ok(())
+        // The velocity is where the search for that of the rates starts.
+        (memory.y, memory.slope[0]) = (F::phase(system, state), state.v.into());
+        (memory.active, memory.taken) = (None, None);
+        memory.ensure_slope::<L, F>(system, statistics)
     }
 
     fn step(
@@ -163,7 +177,7 @@ where
             return Step::Failed(Ending::TimeTooCoarse { time: now, step: memory.control.step.to_f64() });
         }
         let ending = match self.attempt::<L, F, N, M>(system, memory, h, time, statistics) {
-            Ok(reached) => return Step::Accepted(self.take::<_, N, M>(memory, (h, time), &reached)),
+            Ok(reached) => return Step::Accepted(self.take::<L, F, N, M>(memory, (h, time), &reached)),
             Err(Refusal::Inaccurate(error, place)) => {
                 memory.control.refuse::<P>(h, error);
                 Ending::StepTooSmall { time: now, entry: entry::<L, F, N, M>(place) }
@@ -183,6 +197,8 @@ where
         memory: &mut Self::Memory,
         statistics: &mut Statistics,
     ) -> Result<Self::Interpolant, Error> {
+        memory.ensure_slope::<L, F>(system, statistics)?;
+        memory.slopes[last::<P>()] = memory.slope;
         let now = memory.clock.now.to_f64();
         let no_step = Error::OutsideTrajectory { time: now, start: now, end: now };
         let Taken { from, h, .. } = memory.taken.as_ref().ok_or(no_step)?;
@@ -241,16 +257,17 @@ impl<P: Pair> Adaptive<P> {
     }
 
     /// Moves to where the step has led.
-    fn take<T: Real, const N: usize, const M: usize>(
+    fn take<L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize>(
         &self,
-        memory: &mut Memory<T, N, M>,
-        (h, time): (T, T),
-        reached: &Reached<T, N, M>,
-    ) -> State<T, N> {
+        memory: &mut Memory<L::Scalar, N, M>,
+        (h, time): (L::Scalar, L::Scalar),
+        reached: &Reached<L::Scalar, N, M>,
+    ) -> State<L::Scalar, N> {
         memory.taken = Some(Taken { from: memory.origin(), h, control: memory.control.clone() });
         (memory.y, memory.active, memory.slope) = (reached.y, reached.active, memory.slopes[last::<P>()]);
         self.after_acceptance(&mut memory.control, &mut memory.clock, (h, time), reached.error);
-        State { t: time, q: vector(memory.y[0]), v: vector(memory.slope[0]) }
+        let velocity = if F::HOLDS_VELOCITY { &memory.y[1] } else { &memory.slope[0] };
+        State { t: time, q: vector(memory.y[0]), v: vector(*velocity) }
     }
 
     /// Stages, error, projection: whatever fails refuses the step.
@@ -263,25 +280,28 @@ impl<P: Pair> Adaptive<P> {
         statistics: &mut Statistics,
     ) -> Result<Reached<L::Scalar, N, M>, Refusal<L::Scalar>> {
         const { check::<P>() };
+        memory.ensure_slope::<L, F>(system, statistics)?;
         let (from, slopes) = (memory.origin(), &mut memory.slopes);
         slopes[0] = memory.slope;
         stages::<P, L, F, N, M>(system, &from, h, slopes, (1, P::STAGES), statistics)?;
         let mut next = PhasePoint { t: time, y: from.y, velocity: slopes[0][0] };
         advance(&from.y, h, slopes, P::WEIGHTS, &mut next.y);
         check_finite::<L, N, M>(time, &next.y)?;
-        let mut active = from.active;
-        if error_needs_last::<P>() {
-            active = slope::<L, F, N, M>(system, &next, Some(&active), &mut slopes[last::<P>()], statistics)?;
+        let mut active = None;
+        if self.error_needs_last() {
+            let near = from.active.as_ref();
+            active = Some(slope::<L, F, N, M>(system, &next, near, &mut slopes[last::<P>()], statistics)?);
         }
         let error = self.check_error(slopes, h, &from.y, &next.y)?;
         if M > 0 {
-            next.y = F::phase(system, &F::project(system, &next)?);
+            (next.y, active) = (F::phase(system, &F::project(system, &next)?), None);
         }
-        if M > 0 || !error_needs_last::<P>() {
-            active = slope::<L, F, N, M>(system, &next, None, &mut slopes[last::<P>()], statistics)?;
+        if active.is_none() && !(self.ignores_error() && F::HOLDS_VELOCITY) {
+            active = Some(slope::<L, F, N, M>(system, &next, None, &mut slopes[last::<P>()], statistics)?);
         }
         Ok(Reached { y: next.y, error, active })
     }
+
     /// The error as a part of the tolerance, at most 1; nothing refuses a fixed step.
     fn check_error<T: Real, const N: usize>(
         &self,
@@ -290,7 +310,7 @@ impl<P: Pair> Adaptive<P> {
         before: &Phase<T, N>,
         after: &Phase<T, N>,
     ) -> Result<T, Refusal<T>> {
-        if self.fixed_step.is_some() {
+        if self.ignores_error() {
             return Ok(T::constant(0.0));
         }
         let tolerance = self.tolerance::<T>();
@@ -313,7 +333,7 @@ impl<P: Pair> Adaptive<P> {
         let euler = from_fn(|half| entries(|i| y[half][i] + h * first[half][i]));
         let point = PhasePoint { t: clock.now + h, y: euler, velocity: first[0] };
         let mut second = *first;
-        match slope::<L, F, N, M>(system, &point, Some(active), &mut second, statistics) {
+        match slope::<L, F, N, M>(system, &point, active.as_ref(), &mut second, statistics) {
             Ok(_) => self.first_step_from(guess, y, first, &second),
             Err(_) => guess,
         }
@@ -338,7 +358,8 @@ where
     for (number, row) in rows.iter().enumerate().map(|(i, row)| (first + i, row)) {
         advance(&from.y, h, slopes, row, &mut point.y);
         point.t = from.t + h * L::Scalar::constant(P::NODES[number]);
-        inlined_slope::<L, F, N, M>(system, &point, Some(&from.active), &mut slopes[number], statistics)?;
+        let near = from.active.as_ref();
+        inlined_slope::<L, F, N, M>(system, &point, near, &mut slopes[number], statistics)?;
     }
     Ok(())
 }
