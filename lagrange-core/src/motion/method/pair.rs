@@ -145,6 +145,33 @@ pub(crate) fn advance<T: Scalar, const N: usize>(
     sums(slopes, row, |i, sum| start[i] + h * sum, end);
 }
 
+/// Whether slopes are short enough to be carried from stage to stage in registers. Numbers written to memory one by one
+/// cannot be read several at a time before they have reached the cache: every stage would wait for the last slope.
+pub(crate) const fn is_carried<const N: usize>() -> bool {
+    2 * N <= BLOCK
+}
+
+/// As [`advance`], with the slope of this number, evaluated last, at hand as well: where slopes are carried, it is taken
+/// instead of the one in memory.
+#[inline(always)]
+pub(crate) fn advance_from<T: Scalar, const N: usize>(
+    (number, newest): (usize, &Phase<T, N>),
+    start: &Phase<T, N>,
+    h: T,
+    slopes: &Slopes<T, N>,
+    row: &[(usize, f64)],
+    end: &mut Phase<T, N>,
+) {
+    match row.split_last() {
+        Some(((slope, coefficient), earlier)) if is_carried::<N>() && *slope == number => {
+            let (start, newest) = (start.as_flattened(), newest.as_flattened());
+            let coefficient = T::constant(*coefficient);
+            sums(slopes, earlier, |i, sum| start[i] + h * coefficient.multiply_add(newest[i], sum), end);
+        }
+        _ => advance(start, h, slopes, row, end),
+    }
+}
+
 #[inline]
 pub(crate) fn combine<T: Scalar, const N: usize>(slopes: &Slopes<T, N>, row: &[(usize, f64)]) -> Phase<T, N> {
     let mut combined = [[T::constant(0.0); N]; 2];

@@ -8,7 +8,7 @@ use nalgebra::ComplexField;
 use super::clock::Clock;
 use super::control::{Control, Place};
 use super::interpolant::{Polynomial, hermite};
-use super::pair::{Combination, Pair, SLOPES, Slopes, advance, check, last};
+use super::pair::{Combination, Pair, SLOPES, Slopes, advance, advance_from, check, is_carried, last};
 use super::{Adaptive, Limits, Method, Step};
 use crate::ending::Ending;
 use crate::error::Error;
@@ -355,11 +355,15 @@ where
     F: Flow<L, N, M>,
 {
     let mut point = PhasePoint { t: from.t, y: from.y, velocity: slopes[0][0] };
+    let mut newest = slopes[first - 1];
     for (number, row) in rows.iter().enumerate().map(|(i, row)| (first + i, row)) {
-        advance(&from.y, h, slopes, row, &mut point.y);
+        advance_from((number - 1, &newest), &from.y, h, slopes, row, &mut point.y);
         point.t = from.t + h * L::Scalar::constant(P::NODES[number]);
-        let near = from.active.as_ref();
-        inlined_slope::<L, F, N, M>(system, &point, near, &mut slopes[number], statistics)?;
+        let rates = if const { is_carried::<N>() } { &mut newest } else { &mut slopes[number] };
+        inlined_slope::<L, F, N, M>(system, &point, from.active.as_ref(), rates, statistics)?;
+        if const { is_carried::<N>() } {
+            slopes[number] = newest;
+        }
     }
     Ok(())
 }
