@@ -122,7 +122,11 @@ where
     /// The system, to change its parameters from here on; coordinates and velocities stay as they are. The
     /// last step is then none that [`at`](Self::at) could look into.
     pub fn system_mut(&mut self) -> &mut L {
-        self.go_on_from(*self.state());
+        // A copy onto itself would be waited for by whoever reads the state.
+        if let Some(stop) = self.stop {
+            self.run.state = stop;
+        }
+        self.forget_step();
         &mut self.system
     }
 
@@ -141,7 +145,12 @@ where
 
     /// From here on, where no step leads to.
     fn go_on_from(&mut self, state: State<L::Scalar, N>) {
-        (self.run.state, self.stop, self.interpolant) = (state, None, None);
+        self.run.state = state;
+        self.forget_step();
+    }
+
+    fn forget_step(&mut self) {
+        (self.stop, self.interpolant) = (None, None);
         (self.has_step, self.is_current) = (false, false);
     }
 

@@ -171,6 +171,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Method<L
         Step::Accepted(next)
     }
 
+    #[inline]
     fn resume(
         &self,
         _: &L,
