@@ -233,7 +233,7 @@ where
         for (number, row) in (first..).zip(rows) {
             advance(&from.y, h, slopes, row, &mut place);
             let state = state_at(from.t + h * L::Scalar::constant(Q::NODES[number]), &place);
-            let tangent = tangent_at(system, &state, &slopes[number][1], memory.active.as_ref())?;
+            let tangent = tangent_at(system, &state, &slopes[number][1], &memory.active)?;
             let by_parameters = self.parameter_slopes(&tangent);
             for (k, block) in self.blocks.iter_mut().enumerate() {
                 let names = lane_names::<L, N, M>(&self.arguments, k);
@@ -252,7 +252,7 @@ where
             advance(&block.start, WideOf::<L, N, M>::of(h), &block.slopes, Q::WEIGHTS, &mut block.y);
         }
         let state = state_at(memory.clock.now, &memory.y);
-        self.arrive(&tangent_at(system, &state, &memory.slope[1], memory.active.as_ref())?)?;
+        self.arrive(&tangent_at(system, &state, &memory.slope[1], &memory.active)?)?;
         self.blocks.iter_mut().for_each(|block| block.slopes[last::<Q>()] = block.slope);
         Ok(())
     }
@@ -306,10 +306,14 @@ fn tangent_at<'a, L: StateDerivatives<N, M, Scalar: Real>, const N: usize, const
     system: &'a L,
     state: &'a State<L::Scalar, N>,
     accelerations: &[L::Scalar; N],
-    active: Option<&[bool; M]>,
+    active: &[bool; M],
 ) -> Result<Tangent<'a, L, N, M>, Error> {
     if const { M > 0 } {
-        return Ok(Tangent::of(system, state, solve_near(system, state, active, |solution, _| *solution)?));
+        return Ok(Tangent::of(
+            system,
+            state,
+            solve_near(system, state, Some(active), |solution, _| *solution)?,
+        ));
     }
     let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
     let (accelerations, multipliers) = (vector(*accelerations), vector([zero; M]));

@@ -128,7 +128,7 @@ impl<'o, L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Seat
         is_looked_into: bool,
     ) -> Option<Fate> {
         let Memory { clock, control, active, .. } = &mut self.memory;
-        if active.is_some_and(|active| active.contains(&false)) || !clock.is_ahead(time) {
+        if active.contains(&false) || !clock.is_ahead(time) {
             return None;
         }
         let accepted = method.accepts(error);
@@ -148,14 +148,14 @@ impl<'o, L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Seat
 
     /// As many evaluations as the step takes alone.
     fn count<P: Pair>(&mut self, method: &Adaptive<P>, accepted: bool, is_looked_into: bool) {
-        let Self { statistics, memory: Memory { active, .. }, .. } = self;
-        let (at_start, before) = (active.is_none(), method.error_needs_last());
+        let Self { statistics, memory: Memory { has_slope, .. }, .. } = self;
+        let (at_start, before) = (!*has_slope, method.error_needs_last());
         statistics.evaluations += P::STAGES.len() + usize::from(at_start) + usize::from(before);
         statistics.evaluations += if accepted && is_looked_into { P::INTERPOLATION_STAGES.len() } else { 0 };
         if accepted {
             let at_end = is_looked_into || !method.ignores_error();
             statistics.evaluations += usize::from(at_end && (M > 0 || !before));
-            *active = at_end.then_some([true; M]);
+            *has_slope = at_end;
         }
         statistics.accepted += usize::from(accepted);
         statistics.rejected += usize::from(!accepted);

@@ -4,7 +4,7 @@ use core::array::from_fn;
 
 use super::Adaptive;
 use super::clock::Clock;
-use super::pair::{Pair, Slopes, combine, last};
+use super::pair::{Pair, Slopes, combine, error_needs_last};
 #[cfg(feature = "alloc")]
 use super::step::Memory;
 #[cfg(feature = "alloc")]
@@ -163,7 +163,7 @@ impl<P: Pair> Adaptive<P> {
     /// Whether the error can be had only with the slope at the end of the step, and is looked at.
     #[inline]
     pub(crate) fn error_needs_last(&self) -> bool {
-        !self.ignores_error() && P::ERROR.iter().any(|(slope, _)| *slope == last::<P>())
+        !self.ignores_error() && error_needs_last::<P>()
     }
 
     /// Whether a step with this part of the tolerance as its error will do; nothing refuses a fixed step.

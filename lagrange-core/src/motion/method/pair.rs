@@ -82,6 +82,12 @@ pub(crate) const fn last<P: Pair>() -> usize {
     P::STAGES.len() + 1
 }
 
+/// Whether the error can be had only with the slope at the end of the step.
+#[inline]
+pub(crate) fn error_needs_last<P: Pair>() -> bool {
+    P::ERROR.iter().any(|(slope, _)| *slope == last::<P>())
+}
+
 /// Room for the slopes of a step.
 pub(crate) const SLOPES: usize = 16;
 

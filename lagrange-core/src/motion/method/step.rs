@@ -8,7 +8,9 @@ use nalgebra::ComplexField;
 use super::clock::Clock;
 use super::control::{Control, Place};
 use super::interpolant::{Polynomial, hermite};
-use super::pair::{Combination, Pair, SLOPES, Slopes, advance, advance_from, check, is_carried, last};
+use super::pair::{
+    Combination, Pair, SLOPES, Slopes, advance, advance_from, check, error_needs_last, is_carried, last,
+};
 use super::{Adaptive, Limits, Method, Step};
 use crate::ending::Ending;
 use crate::error::Error;
@@ -28,10 +30,12 @@ pub struct Memory<T, const N: usize, const M: usize> {
     is_planned: bool,
     /// Where the motion is.
     pub(crate) y: Phase<T, N>,
-    /// The rates there, where they are known.
+    /// Whether the rates there are known.
+    pub(crate) has_slope: bool,
+    /// The rates.
     pub(crate) slope: Phase<T, N>,
-    /// Which constraints they rest on: as many as are independent at `y`. `None` where the rates are not known yet.
-    pub(crate) active: Option<[bool; M]>,
+    /// Which constraints they rest on: as many as are independent at `y`.
+    pub(crate) active: [bool; M],
     /// Of the step tried last, the first that of its start.
     pub(super) slopes: Slopes<T, N>,
     /// The step that led here.
@@ -51,7 +55,7 @@ pub(super) struct Taken<T, const N: usize, const M: usize> {
 struct Origin<T, const N: usize, const M: usize> {
     t: T,
     y: Phase<T, N>,
-    active: Option<[bool; M]>,
+    active: [bool; M],
 }
 
 impl<T: Real, const N: usize, const M: usize> Memory<T, N, M> {
@@ -74,9 +78,10 @@ impl<T: Real, const N: usize, const M: usize> Memory<T, N, M> {
         system: &L,
         statistics: &mut Statistics,
     ) -> Result<(), Error> {
-        if self.active.is_none() {
+        if !self.has_slope {
             let point = PhasePoint { t: self.clock.now, y: self.y, velocity: self.slope[0] };
-            self.active = Some(slope::<L, F, N, M>(system, &point, None, &mut self.slope, statistics)?);
+            self.active = slope::<L, F, N, M>(system, &point, None, &mut self.slope, statistics)?;
+            self.has_slope = true;
         }
         Ok(())
     }
@@ -100,11 +105,11 @@ impl<T> From<Error> for Refusal<T> {
     }
 }
 
-/// Where a step ends, its error as a part of the tolerance, and which constraints its slope rests on, if that is known.
+/// Where a step ends, its error as a part of the tolerance, and which constraints its slope rests on.
 struct Reached<T, const N: usize, const M: usize> {
     y: Phase<T, N>,
     error: T,
-    active: Option<[bool; M]>,
+    active: [bool; M],
 }
 
 impl<P, L, F, const N: usize, const M: usize> Method<L, N, M, F> for Adaptive<P>
@@ -140,8 +145,9 @@ where
             control: Control::new(L::Scalar::constant(0.0)),
             is_planned: false,
             y: zero,
+            has_slope: false,
             slope: zero,
-            active: None,
+            active: [true; M],
             slopes: [zero; SLOPES],
             taken: None,
         };
@@ -159,7 +165,7 @@ where
         memory.clock.set(state.t);
         // The velocity is where the search for that of the rates starts.
         (memory.y, memory.slope[0]) = (F::phase(system, state), state.v.into());
-        (memory.active, memory.taken) = (None, None);
+        (memory.has_slope, memory.taken) = (false, None);
         memory.ensure_slope::<L, F>(system, statistics)
     }
 
@@ -176,7 +182,12 @@ where
         if !memory.clock.is_ahead(time) {
             return Step::Failed(Ending::TimeTooCoarse { time: now, step: memory.control.step.to_f64() });
         }
-        let ending = match self.attempt::<L, F, N, M>(system, memory, h, time, statistics) {
+        // Compiled for each, so that a step chosen by its error waits for nothing that others do.
+        let attempt = match self.ignores_error() {
+            true => self.attempt::<L, F, N, M, true>(system, memory, (h, time), statistics),
+            false => self.attempt::<L, F, N, M, false>(system, memory, (h, time), statistics),
+        };
+        let ending = match attempt {
             Ok(reached) => return Step::Accepted(self.take::<L, F, N, M>(memory, (h, time), &reached)),
             Err(Refusal::Inaccurate(error, place)) => {
                 memory.control.refuse::<P>(h, error);
@@ -220,7 +231,7 @@ where
     fn take_back(&self, memory: &mut Self::Memory) -> bool {
         let Some(Taken { from, h, control }) = memory.taken.take() else { return false };
         (memory.clock.now, memory.y, memory.active) = (from.t, from.y, from.active);
-        (memory.slope, memory.control) = (memory.slopes[0], control);
+        (memory.has_slope, memory.slope, memory.control) = (true, memory.slopes[0], control);
         memory.control.halve(h);
         self.can_try_again(memory)
     }
@@ -265,44 +276,51 @@ impl<P: Pair> Adaptive<P> {
     ) -> State<L::Scalar, N> {
         memory.taken = Some(Taken { from: memory.origin(), h, control: memory.control.clone() });
         (memory.y, memory.active, memory.slope) = (reached.y, reached.active, memory.slopes[last::<P>()]);
+        memory.has_slope = !(self.ignores_error() && F::HOLDS_VELOCITY);
         self.after_acceptance(&mut memory.control, &mut memory.clock, (h, time), reached.error);
         let velocity = if F::HOLDS_VELOCITY { &memory.y[1] } else { &memory.slope[0] };
         State { t: time, q: vector(memory.y[0]), v: vector(*velocity) }
     }
 
     /// Stages, error, projection: whatever fails refuses the step.
-    fn attempt<L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize>(
+    fn attempt<L, F, const N: usize, const M: usize, const IS_FIXED: bool>(
         &self,
         system: &L,
         memory: &mut Memory<L::Scalar, N, M>,
-        h: L::Scalar,
-        time: L::Scalar,
+        (h, time): (L::Scalar, L::Scalar),
         statistics: &mut Statistics,
-    ) -> Result<Reached<L::Scalar, N, M>, Refusal<L::Scalar>> {
+    ) -> Result<Reached<L::Scalar, N, M>, Refusal<L::Scalar>>
+    where
+        L: Lagrangian<N, M, Scalar: Real>,
+        F: Flow<L, N, M>,
+    {
         const { check::<P>() };
-        memory.ensure_slope::<L, F>(system, statistics)?;
+        if IS_FIXED {
+            memory.ensure_slope::<L, F>(system, statistics)?;
+        }
         let (from, slopes) = (memory.origin(), &mut memory.slopes);
         slopes[0] = memory.slope;
         stages::<P, L, F, N, M>(system, &from, h, slopes, (1, P::STAGES), statistics)?;
         let mut next = PhasePoint { t: time, y: from.y, velocity: slopes[0][0] };
         advance(&from.y, h, slopes, P::WEIGHTS, &mut next.y);
         check_finite::<L, N, M>(time, &next.y)?;
-        let mut active = None;
-        if self.error_needs_last() {
-            let near = from.active.as_ref();
-            active = Some(slope::<L, F, N, M>(system, &next, near, &mut slopes[last::<P>()], statistics)?);
+        let mut active = from.active;
+        let needs_last = !IS_FIXED && error_needs_last::<P>();
+        if needs_last {
+            active = slope::<L, F, N, M>(system, &next, Some(&active), &mut slopes[last::<P>()], statistics)?;
         }
-        let error = self.check_error(slopes, h, &from.y, &next.y)?;
+        let error =
+            if IS_FIXED { L::Scalar::constant(0.0) } else { self.check_error(slopes, h, &from.y, &next.y)? };
         if M > 0 {
-            (next.y, active) = (F::phase(system, &F::project(system, &next)?), None);
+            next.y = F::phase(system, &F::project(system, &next)?);
         }
-        if active.is_none() && !(self.ignores_error() && F::HOLDS_VELOCITY) {
-            active = Some(slope::<L, F, N, M>(system, &next, None, &mut slopes[last::<P>()], statistics)?);
+        if !(IS_FIXED && F::HOLDS_VELOCITY) && (M > 0 || !needs_last) {
+            active = slope::<L, F, N, M>(system, &next, None, &mut slopes[last::<P>()], statistics)?;
         }
         Ok(Reached { y: next.y, error, active })
     }
 
-    /// The error as a part of the tolerance, at most 1; nothing refuses a fixed step.
+    /// The error as a part of the tolerance, at most 1.
     fn check_error<T: Real, const N: usize>(
         &self,
         slopes: &Slopes<T, N>,
@@ -310,9 +328,6 @@ impl<P: Pair> Adaptive<P> {
         before: &Phase<T, N>,
         after: &Phase<T, N>,
     ) -> Result<T, Refusal<T>> {
-        if self.ignores_error() {
-            return Ok(T::constant(0.0));
-        }
         let tolerance = self.tolerance::<T>();
         let error = tolerance.error::<P, T, N>(slopes, h, before, after);
         if !self.accepts(error) {
@@ -333,7 +348,7 @@ impl<P: Pair> Adaptive<P> {
         let euler = from_fn(|half| entries(|i| y[half][i] + h * first[half][i]));
         let point = PhasePoint { t: clock.now + h, y: euler, velocity: first[0] };
         let mut second = *first;
-        match slope::<L, F, N, M>(system, &point, active.as_ref(), &mut second, statistics) {
+        match slope::<L, F, N, M>(system, &point, Some(active), &mut second, statistics) {
             Ok(_) => self.first_step_from(guess, y, first, &second),
             Err(_) => guess,
         }
@@ -360,7 +375,7 @@ where
         advance_from((number - 1, &newest), &from.y, h, slopes, row, &mut point.y);
         point.t = from.t + h * L::Scalar::constant(P::NODES[number]);
         let rates = if const { is_carried::<N>() } { &mut newest } else { &mut slopes[number] };
-        inlined_slope::<L, F, N, M>(system, &point, from.active.as_ref(), rates, statistics)?;
+        inlined_slope::<L, F, N, M>(system, &point, Some(&from.active), rates, statistics)?;
         if const { is_carried::<N>() } {
             slopes[number] = newest;
         }
