@@ -4,7 +4,9 @@ use core::array::from_fn;
 
 use super::Adaptive;
 use super::clock::Clock;
-use super::pair::{Pair, Slopes, combine, error_needs_last};
+#[cfg(feature = "std")]
+use super::pair::error_needs_last;
+use super::pair::{Pair, Slopes, combine};
 #[cfg(feature = "alloc")]
 use super::step::Memory;
 #[cfg(feature = "alloc")]
@@ -161,6 +163,7 @@ impl<P: Pair> Adaptive<P> {
     }
 
     /// Whether the error can be had only with the slope at the end of the step, and is looked at.
+    #[cfg(feature = "std")]
     #[inline]
     pub(crate) fn error_needs_last(&self) -> bool {
         !self.ignores_error() && error_needs_last::<P>()
