@@ -65,7 +65,7 @@ fn machines_cost_less_than_by_hand() {
     expect![[r#"
         arm: 2310
         by Denavit and Hartenberg: 1883
-        quadruped: 5400
+        quadruped: 5446
         in angles: 5176
     "#]]
     .assert_eq(&counts.concat());

@@ -288,3 +288,30 @@ fn a_sphere_is_completed_to_a_diagonal() {
         assert!(row.iter().enumerate().all(|(j, &entry)| (i == j) == (entry != Id::ZERO)), "{row:?}");
     }
 }
+
+/// Random parameters are positive, and those of a machine are not: of the inertia of what hangs on an arm no part may be
+/// taken that changes sign with the arm.
+#[test]
+fn a_weight_is_positive_whichever_way_arms_point() {
+    let source =
+        "#[coordinates(q: [4], s)] #[frame(f: rotate(q))] #[frame(a in f: translate([l, l, l]), rotate_x(s))]
+        #[lagrangian(kinetic(f, m, [0, 0, 0], identity(3)*i) + kinetic(a, M, [c, c, c], identity(3)*i))]
+        struct Arm { m: f64, M: f64, l: f64, c: f64, i: f64 }";
+    let (graph, problem, equations) = equations(source);
+    for [l, c] in [[1.0, 1.0], [-1.0, 0.9], [1.0, -0.9], [-1.0, 1.1], [1.0, -1.1]] {
+        let input = |symbol: Symbol| match Variable::of(symbol) {
+            Variable::Parameter(k) => match problem.parameters.name(k).as_str() {
+                "l" => l,
+                "c" => c,
+                "i" => 0.1,
+                _ => 1.0,
+            },
+            Variable::Coordinate(_) => 0.5,
+            _ => 0.0,
+        };
+        for solution in solutions(&graph, &equations, input) {
+            let pivot = solution.and_then(|solution| solution.last().copied());
+            assert!(pivot.is_some_and(|pivot| pivot > 1e-3), "arm {l}, centre {c}: {pivot:?}");
+        }
+    }
+}

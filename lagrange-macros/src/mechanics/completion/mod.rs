@@ -7,6 +7,7 @@
 //! takes is found at random states. Were it found wrong, the pivot would tell at run time.
 
 mod pivots;
+mod positive;
 mod states;
 mod weight;
 

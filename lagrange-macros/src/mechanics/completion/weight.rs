@@ -2,9 +2,10 @@
 
 use num_traits::One;
 
+use super::positive::positive_terms;
 use super::states::State;
 use super::{System, tied};
-use crate::symbolic::{Function, Graph, Id, Node, Rational, Symbol};
+use crate::symbolic::{Function, Graph, Id, Rational, Symbol};
 use crate::variables::Variable;
 
 /// Values that differ by less are those of one expression of the parameters.
@@ -114,18 +115,17 @@ impl Weights<'_> {
         exact.or_else(|| candidates.into_iter().find_map(|sum| self.part(root, sum, about))).unwrap_or(root)
     }
 
-    /// As many terms of a sum as it takes, the largest ones.
+    /// As many terms of a sum as it takes, the largest ones: of those that are positive at other parameters as well, or
+    /// else all.
     fn part(&mut self, root: Id, sum: Id, goes: impl Fn(f64, f64) -> bool) -> Option<Id> {
-        let Node::Sum(terms) = self.graph.node(sum) else { return self.with(root, &[sum], goes) };
-        let terms = terms.clone();
-        let terms: Vec<Id> = terms.iter().map(|&term| self.graph.sum([term])).collect();
+        let terms = positive_terms(self.graph, sum);
         let first = self.states.first_mut()?;
         let sized = terms.into_iter().map(|term| (first.value(self.graph, term), term));
         let mut terms: Vec<(f64, Id)> = sized.collect();
         terms.sort_by(|(x, _), (y, _)| y.total_cmp(x));
         let parts =
             (1..=terms.len()).map(|count| self.graph.total(terms[..count].iter().map(|(_, term)| *term)));
-        let parts: Vec<Id> = parts.collect();
+        let parts: Vec<Id> = parts.chain([sum]).collect();
         self.with(root, &parts, goes)
     }
 

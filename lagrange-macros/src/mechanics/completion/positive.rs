@@ -1,0 +1,90 @@
+//! Sums of what is positive for every mass, inertia and length, whatever its direction.
+//!
+//! A mass and a moment of inertia are positive, and a component of a vector may have any sign: so what is multiplied out
+//! may count on m c² and I, each odd in one number alone, and not on m c s, which is odd in three.
+
+use num_traits::{One, Signed};
+use rustc_hash::FxHashMap;
+
+use crate::symbolic::{Function, Graph, Id, Node, Rational};
+
+/// An expression multiplied out to more products than that is not looked at.
+const LONG: usize = 64;
+
+/// The factors of a product that it is odd in, in order, and whether it has a minus.
+type Product = (Vec<Id>, bool);
+
+/// The terms of a sum that are surely positive, taken out of definitions where these are not as a whole.
+pub(super) fn positive_terms(graph: &mut Graph, sum: Id) -> Vec<Id> {
+    let products = products(graph, sum);
+    let is_positive = |id: Id| {
+        let products = products.get(&id).and_then(Option::as_ref);
+        products.is_some_and(|all| all.iter().all(|(odd, is_negative)| !is_negative && odd.len() <= 1))
+    };
+    let (mut pending, mut found) = (vec![(sum, Rational::one())], Vec::new());
+    while let Some((id, coefficient)) = pending.pop() {
+        match graph.node(id) {
+            Node::Sum(terms) => pending.extend(terms.iter().map(|&(term, c)| (term, c * coefficient))),
+            _ if is_positive(id) && coefficient.is_positive() => found.push((id, coefficient)),
+            &Node::Defined(inner) => pending.push((inner, coefficient)),
+            _ => {}
+        }
+    }
+    found.into_iter().map(|term| graph.sum([term])).collect()
+}
+
+/// Of everything in an expression the different products that it is a sum of; `None` where these are very many.
+fn products(graph: &Graph, root: Id) -> FxHashMap<Id, Option<Vec<Product>>> {
+    let mut products: FxHashMap<Id, Option<Vec<Product>>> = FxHashMap::default();
+    for id in graph.reachable(&[root]) {
+        let of = |id: &Id| products.get(id).cloned().flatten();
+        let found = match graph.node(id) {
+            Node::Number(x) => Some(vec![(Vec::new(), x.is_negative())]),
+            Node::Pi | Node::Function(Function::Abs | Function::Exp | Function::Cosh, _) => Some(number()),
+            Node::Defined(inner) => of(inner),
+            Node::Sum(terms) => terms.iter().try_fold(Vec::new(), |mut sum, (term, c)| {
+                sum.extend(
+                    of(term)?.into_iter().map(|(odd, is_negative)| (odd, is_negative != c.is_negative())),
+                );
+                Some(sum)
+            }),
+            Node::Product(factors) => factors.iter().try_fold(number(), |product, (factor, e)| match e {
+                _ if e.is_one() => Some(multiplied(&product, &of(factor)?)),
+                _ if e.is_integer() && e.numer() % 2 != 0 => {
+                    Some(multiplied(&product, &[(vec![*factor], false)]))
+                }
+                _ => Some(product),
+            }),
+            _ => Some(vec![(vec![id], false)]),
+        };
+        let short = found.map(|mut found| {
+            found.sort_unstable();
+            found.dedup();
+            found
+        });
+        products.insert(id, short.filter(|found| found.len() <= LONG));
+    }
+    products
+}
+
+/// Odd in nothing.
+fn number() -> Vec<Product> {
+    vec![(Vec::new(), false)]
+}
+
+fn multiplied(one: &[Product], other: &[Product]) -> Vec<Product> {
+    let products = one.iter().flat_map(|(odd, minus)| {
+        other.iter().map(move |(too, more)| (in_one_alone(odd, too), minus != more))
+    });
+    products.collect()
+}
+
+/// What is odd in both is even in the product.
+fn in_one_alone(one: &[Id], other: &[Id]) -> Vec<Id> {
+    let without = |these: &[Id], those: &[Id]| -> Vec<Id> {
+        these.iter().copied().filter(|id| !those.contains(id)).collect()
+    };
+    let mut alone = [without(one, other), without(other, one)].concat();
+    alone.sort_unstable();
+    alone
+}
