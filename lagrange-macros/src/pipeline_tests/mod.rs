@@ -15,6 +15,7 @@ mod sizes;
 mod stub;
 mod suggestions;
 mod systems;
+mod trees;
 
 use proc_macro2::TokenStream;
 

@@ -1,0 +1,254 @@
+//! A system as it is drawn: the source of the macro and the model of the oracle, word for number.
+
+use std::collections::BTreeMap;
+
+use super::algebra::{Matrix, Vector, product, transposed, turn_by, unit};
+use super::model::{Joint, Link, Load, Model, Motion, Tie};
+
+/// Numbers at random, the same in every run (Steele, Lea and Flood's SplitMix64).
+pub(super) struct Random(pub(super) u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    pub(super) fn below(&mut self, bound: usize) -> usize {
+        (self.next() % bound as u64) as usize
+    }
+
+    /// One of as many times.
+    pub(super) fn once_in(&mut self, times: usize) -> bool {
+        self.below(times) == 0
+    }
+
+    pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * (self.next() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    pub(super) fn vector(&mut self) -> Vector {
+        [0; 3].map(|_| self.between(-1.0, 1.0))
+    }
+
+    pub(super) fn quaternion(&mut self) -> [f64; 4] {
+        let q = [0; 4].map(|_| self.between(-1.0, 1.0));
+        let length = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if length < 0.1 { self.quaternion() } else { q.map(|x| x / length) }
+    }
+}
+
+#[derive(Default)]
+pub(super) struct Draft {
+    pub(super) model: Model,
+    /// `r: [3]`
+    coordinates: Vec<String>,
+    /// Names, types and numbers, row by row.
+    fields: Vec<(String, String, Vec<f64>)>,
+    frames: Vec<String>,
+    terms: Vec<String>,
+    attributes: Vec<String>,
+    dissipation: Vec<String>,
+    /// The names of the multipliers, in the order of the model's ties.
+    multipliers: Vec<String>,
+    /// Coordinates that are angles or lengths on their own.
+    pub(super) scalars: Vec<usize>,
+    /// With so many coordinates it takes no further joint of several.
+    pub(super) enough: usize,
+    /// How often what was drawn.
+    pub(super) counts: BTreeMap<&'static str, usize>,
+}
+
+/// A frame that is being declared, or is.
+#[derive(Clone)]
+pub(super) struct Frame {
+    pub(super) name: String,
+    pub(super) link: usize,
+    /// How many coordinates have moved it since the last frame with a body.
+    pub(super) light: usize,
+    /// The steps so far.
+    pub(super) steps: Vec<String>,
+}
+
+impl Draft {
+    pub(super) fn source(&self) -> String {
+        let mut attributes = vec![format!("coordinates({})", self.coordinates.join(", "))];
+        attributes.extend_from_slice(&self.frames);
+        attributes.push(format!("lagrangian({})", self.terms.join(" + ")));
+        if !self.dissipation.is_empty() {
+            attributes.push(format!("dissipation({})", self.dissipation.join(" + ")));
+        }
+        attributes.extend_from_slice(&self.attributes);
+        let attributes: Vec<String> =
+            attributes.iter().map(|attribute| format!("#[{attribute}]\n")).collect();
+        let fields: Vec<String> = self.fields.iter().map(|(name, ty, _)| format!("{name}: {ty}")).collect();
+        format!("{}struct Tree {{ {} }}", attributes.concat(), fields.join(", "))
+    }
+
+    /// A number of a field.
+    pub(super) fn number(&self, field: &str, number: usize) -> f64 {
+        let found = self.fields.iter().find(|(name, ..)| name == field);
+        found.expect("a field").2[number]
+    }
+
+    /// The place of a multiplier among those of the oracle.
+    pub(super) fn multiplier(&self, name: &str) -> usize {
+        self.multipliers.iter().position(|known| known == name).expect("a constraint")
+    }
+
+    pub(super) fn count(&mut self, what: &'static str) {
+        *self.counts.entry(what).or_default() += 1;
+    }
+
+    pub(super) fn field(&mut self, ty: impl Into<String>, numbers: impl Into<Vec<f64>>) -> String {
+        let name = format!("p{}", self.fields.len());
+        self.fields.push((name.clone(), ty.into(), numbers.into()));
+        name
+    }
+
+    pub(super) fn number_field(&mut self, number: f64) -> String {
+        self.field("f64", [number])
+    }
+
+    pub(super) fn vector_field(&mut self, vector: Vector) -> String {
+        self.field("Vector3<f64>", vector)
+    }
+
+    /// A coordinate of one number, of three, or of four that are a unit quaternion; and which the first is.
+    pub(super) fn coordinate(&mut self, random: &mut Random, length: usize) -> (String, usize) {
+        let first = self.model.coordinates.len();
+        let name = format!("c{first}");
+        self.coordinates.push(if length == 1 { name.clone() } else { format!("{name}: [{length}]") });
+        for _ in 0..length {
+            self.model.coordinates.push(random.between(-1.0, 1.0));
+            self.model.velocities.push(random.between(-1.0, 1.0));
+            self.model.forces.push(0.0);
+        }
+        if length == 1 {
+            self.scalars.push(first);
+        }
+        (name, first)
+    }
+
+    /// A quaternion with a rate at right angles to it, and the constraint that its frame brings.
+    pub(super) fn ball(&mut self, random: &mut Random) -> (String, usize) {
+        let (name, first) = self.coordinate(random, 4);
+        let (q, model) = (random.quaternion(), &mut self.model);
+        let along: f64 = (0..4).map(|k| q[k] * model.velocities[first + k]).sum();
+        for (k, entry) in q.into_iter().enumerate() {
+            model.coordinates[first + k] = entry;
+            model.velocities[first + k] -= along * entry;
+        }
+        self.tie(Tie::Unit(first), name.clone());
+        (name, first)
+    }
+
+    /// A tie with its multipliers.
+    pub(super) fn tie(&mut self, tie: Tie, name: String) {
+        match tie {
+            Tie::Together(..) => self.multipliers.extend((0..3).map(|k| format!("{name}[{k}]"))),
+            _ => self.multipliers.push(name),
+        }
+        self.model.ties.push(tie);
+    }
+
+    /// Takes the last tie back.
+    pub(super) fn untie(&mut self) {
+        let rows = if let Some(Tie::Together(..)) = self.model.ties.pop() { 3 } else { 1 };
+        self.multipliers.truncate(self.multipliers.len() - rows);
+    }
+
+    pub(super) fn term(&mut self, text: String) {
+        self.terms.push(text);
+    }
+
+    pub(super) fn dissipation(&mut self, text: String) {
+        self.dissipation.push(text);
+    }
+
+    pub(super) fn attribute(&mut self, text: String) {
+        self.attributes.push(text);
+    }
+
+    pub(super) fn load(&mut self, load: Load) {
+        self.model.loads.push(load);
+    }
+
+    /// A step of a frame, which may be several links.
+    pub(super) fn step(&mut self, frame: &mut Frame, text: String, joints: impl IntoIterator<Item = Joint>) {
+        frame.steps.push(text);
+        for joint in joints {
+            self.model.links.push(Link { before: frame.link, joint });
+            frame.link = self.model.links.len();
+        }
+    }
+
+    pub(super) fn frame_attribute(&mut self, text: String) {
+        self.frames.push(format!("frame({text})"));
+    }
+
+    /// What is at rest before a joint or after it.
+    pub(super) fn placed(&mut self, random: &mut Random, frame: &mut Frame) {
+        match random.below(5) {
+            0 | 1 => {
+                let by = random.vector();
+                let text = format!("translate({})", self.vector_field(by));
+                self.step(frame, text, [Joint::Slide(by.map(Motion::fixed))]);
+            }
+            2 => {
+                self.count("placed by a rotation");
+                let by = turn_by(random.quaternion());
+                let text = format!("rotate({})", self.field("Rotation3<f64>", by.concat()));
+                self.step(frame, text, [Joint::Placed(by)]);
+            }
+            3 => {
+                self.count("placed by a matrix");
+                let by = turn_by(random.quaternion());
+                let text = format!("rotate({})", self.field("Matrix3<f64>", by.concat()));
+                self.step(frame, text, [Joint::Placed(by)]);
+            }
+            _ => {
+                self.count("placed by a unit quaternion");
+                let by = random.quaternion();
+                let text = format!("rotate({})", self.field("UnitQuaternion<f64>", by));
+                self.step(frame, text, [Joint::Placed(turn_by(by))]);
+            }
+        }
+    }
+
+    /// A field for an inertia. What is not symmetric about it has no effect.
+    pub(super) fn inertia(&mut self, random: &mut Random) -> (String, Matrix) {
+        let own = inertia(random);
+        let mut entries = own.concat();
+        match random.below(3) {
+            0 => {
+                let [x, y, z] = random.vector();
+                let odd = [0.0, -z, y, z, 0.0, -x, -y, x, 0.0];
+                entries.iter_mut().zip(odd).for_each(|(entry, odd)| *entry += odd);
+                (self.field("Matrix3<f64>", entries), own)
+            }
+            1 => {
+                let name = self.field("Matrix3<f64>", entries);
+                self.attribute(format!("parameter({name}: symmetric)"));
+                (name, own)
+            }
+            _ => (self.field("Matrix3<f64>", entries), own),
+        }
+    }
+}
+
+/// Of moments between 0.2 and 1 about axes of its own.
+pub(super) fn inertia(random: &mut Random) -> Matrix {
+    let axes = turn_by(random.quaternion());
+    let [a, b, c] = [0; 3].map(|_| random.between(0.2, 1.0));
+    product(product(axes, [[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]]), transposed(axes))
+}
+
+/// An axis as it is written, of any length but nearly none, and the same with length 1.
+pub(super) fn axis(random: &mut Random) -> (Vector, Vector) {
+    let axis = random.vector();
+    if super::algebra::norm(axis) < 0.2 { self::axis(random) } else { (axis, unit(axis)) }
+}

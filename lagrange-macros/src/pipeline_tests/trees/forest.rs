@@ -1,0 +1,252 @@
+//! Trees of frames at random, with bodies, loads and ties.
+
+use super::algebra::{Matrix, UNIT, Vector, scaled, turn_by};
+use super::draft::{Draft, Frame, Random, inertia};
+use super::joints::{AXES, KINDS};
+use super::loads::{loads, ties};
+use super::model::{Body, Joint, Load, Motion, Point};
+
+/// The first trees are small, so that they are derived in little time.
+const SMALL: u64 = 60;
+
+/// The tree of this number.
+pub(super) fn tree(number: u64) -> Draft {
+    let mut random = Random(number);
+    let random = &mut random;
+    let (most, enough) = match number {
+        0..SMALL if random.once_in(6) => (4, 3),
+        0..SMALL => (2, 2),
+        _ => (8, 10),
+    };
+    let mut draft = Draft::default();
+    draft.enough = enough;
+    draft.model.time = random.between(-1.0, 1.0);
+    let gravity = gravity(&mut draft, random);
+    let mut frames = Vec::new();
+    if random.once_in(10) {
+        family(&mut draft, random, &gravity, &mut frames);
+    }
+    let largest = 1 + random.below(most);
+    let more = (1 + random.below(largest)).saturating_sub(frames.len()).max(1);
+    grow(&mut draft, random, &gravity, &mut frames, more);
+    loads(&mut draft, random, &frames);
+    ties(&mut draft, random, &frames);
+    draft
+}
+
+/// As terms of the vector that it is, or down an axis.
+enum Gravity {
+    None,
+    Vector(String, Vector),
+    Down(String, usize, f64),
+}
+
+fn gravity(draft: &mut Draft, random: &mut Random) -> Gravity {
+    match random.below(4) {
+        0 => Gravity::None,
+        1 => {
+            let g = random.between(1.0, 10.0);
+            Gravity::Down(draft.number_field(g), random.below(3), g)
+        }
+        _ => {
+            let g = scaled(5.0, random.vector());
+            Gravity::Vector(draft.vector_field(g), g)
+        }
+    }
+}
+
+impl Gravity {
+    /// L of a mass at a point of a frame.
+    fn term(&self, mass: &str, frame: &str, centre: &str) -> Option<String> {
+        match self {
+            Self::None => None,
+            Self::Vector(g, _) => Some(format!("{mass}*dot({g}, position({frame}, {centre}))")),
+            Self::Down(g, axis, _) => Some(format!("(-{mass}*{g}*position({frame}, {centre})[{axis}])")),
+        }
+    }
+
+    fn acceleration(&self) -> Vector {
+        match self {
+            Self::None => [0.0; 3],
+            Self::Vector(_, g) => *g,
+            Self::Down(_, axis, g) => std::array::from_fn(|k| if k == *axis { -g } else { 0.0 }),
+        }
+    }
+}
+
+/// A chain that is declared in one attribute, with arrays for fields.
+fn family(draft: &mut Draft, random: &mut Random, gravity: &Gravity, frames: &mut Vec<Frame>) {
+    draft.count("family");
+    let length = 2 + random.below(3);
+    let (name, first) = draft.coordinate(random, length);
+    let numbers = |of: &mut dyn FnMut() -> Vec<f64>| (0..length).map(|_| of()).collect::<Vec<_>>();
+    let arms = numbers(&mut || random.vector().to_vec());
+    let turns = numbers(&mut || random.quaternion().to_vec());
+    let masses = numbers(&mut || vec![random.between(0.5, 2.0)]);
+    let centres = numbers(&mut || random.vector().to_vec());
+    let inertias = numbers(&mut || inertia(random).concat());
+    let mut field =
+        |ty: &str, numbers: &[Vec<f64>]| draft.field(format!("[{ty}; {length}]"), numbers.concat());
+    let (arm, place) = (field("Vector3<f64>", &arms), field("UnitQuaternion<f64>", &turns));
+    let (mass, centre) = (field("f64", &masses), field("Vector3<f64>", &centres));
+    let inertia = field("Matrix3<f64>", &inertias);
+    let axis = random.below(3);
+    let steps = format!("translate({arm}[i]), rotate({place}[i]), rotate_{}({name}[i])", AXES[axis]);
+    draft.frame_attribute(format!("link[0]: {}", steps.replace("[i]", "[0]")));
+    draft.frame_attribute(format!("link[i in 1..{length}] in link[i-1]: {steps}"));
+    let weight = gravity.term(&format!("{mass}[i]"), "link[i]", &format!("{centre}[i]"));
+    let weight = weight.map_or_else(String::new, |term| format!(" + {term}"));
+    draft.term(format!(
+        "sum(i in 0..{length}, kinetic(link[i], {mass}[i], {centre}[i], {inertia}[i]){weight})"
+    ));
+    let vector = |of: &[Vec<f64>], i: usize| -> Vector { [of[i][0], of[i][1], of[i][2]] };
+    let mut frame = Frame { name: String::new(), link: 0, light: 0, steps: Vec::new() };
+    for i in 0..length {
+        let turn = turn_by([turns[i][0], turns[i][1], turns[i][2], turns[i][3]]);
+        let joints = [
+            Joint::Slide(vector(&arms, i).map(Motion::fixed)),
+            Joint::Placed(turn),
+            Joint::Turn(UNIT[axis], Motion::of(first + i)),
+        ];
+        draft.step(&mut frame, String::new(), joints);
+        let at = vector(&centres, i);
+        let rows: Matrix = std::array::from_fn(|j| vector(&[inertias[i][3 * j..3 * j + 3].to_vec()], 0));
+        add_body(
+            draft,
+            gravity,
+            true,
+            Body { mass: masses[i][0], centre: Point { link: frame.link, at }, inertia: rows },
+        );
+        frames.push(Frame { name: format!("link[{i}]"), ..frame.clone() });
+    }
+}
+
+/// More frames, each in one of those before it.
+fn grow(draft: &mut Draft, random: &mut Random, gravity: &Gravity, frames: &mut Vec<Frame>, more: usize) {
+    let before = frames.len();
+    let parents: Vec<Option<usize>> = (before..before + more)
+        .map(|i| if random.once_in(2) { i.checked_sub(1) } else { random.below(i + 1).checked_sub(1) })
+        .collect();
+    for (i, &parent) in parents.iter().enumerate() {
+        let is_leaf = !parents.contains(&Some(before + i));
+        let fixed = Frame { name: "fixed".into(), link: 0, light: 0, steps: Vec::new() };
+        let on = parent.map_or(fixed, |parent| frames[parent].clone());
+        let name = format!("f{}", before + i);
+        let mut frame = Frame { name: name.clone(), steps: Vec::new(), ..on.clone() };
+        let coordinates = joint(draft, random, &mut frame);
+        let place = parent.map_or_else(String::new, |_| format!(" in {}", on.name));
+        draft.frame_attribute(format!("{name}{place}: {}", frame.steps.join(", ")));
+        frame.light = on.light + coordinates;
+        if is_leaf || frame.light > 1 || !random.once_in(4) {
+            bodies(draft, random, gravity, &mut frame);
+        } else {
+            draft.count("frame without a body");
+        }
+        frames.push(frame);
+    }
+    if frames.iter().all(|frame| !draft.model.is_moved(frame.link)) {
+        grow(draft, random, gravity, frames, 1);
+    }
+}
+
+/// The steps of a frame; how many coordinates they bring.
+fn joint(draft: &mut Draft, random: &mut Random, frame: &mut Frame) -> usize {
+    let start = draft.model.coordinates.len();
+    let most = match frame.light {
+        0 if start < draft.enough => 6,
+        _ => 1,
+    };
+    let (name, _, draw) = loop {
+        let kind = KINDS[random.below(KINDS.len())];
+        if kind.1 <= most {
+            break kind;
+        }
+    };
+    draft.count(name);
+    // A light frame is moved by two coordinates that are about different axes at different places.
+    if random.once_in(2) || name == "fixed" || frame.light > 0 {
+        (0..=random.below(2).max(frame.light)).for_each(|_| draft.placed(random, frame));
+    }
+    draw(draft, random, frame);
+    if random.once_in(4) {
+        draft.placed(random, frame);
+    }
+    draft.model.coordinates.len() - start
+}
+
+/// One body or more, so that the frame has an inertia in every direction.
+fn bodies(draft: &mut Draft, random: &mut Random, gravity: &Gravity, frame: &mut Frame) {
+    frame.light = 0;
+    body(draft, random, gravity, frame);
+    if random.once_in(6) {
+        draft.count("second body");
+        body(draft, random, gravity, frame);
+    }
+    if random.once_in(6) {
+        draft.count("point mass beside a body");
+        let (mass, at) = (random.between(0.5, 2.0), random.vector());
+        let (m, c) = (draft.number_field(mass), draft.vector_field(at));
+        draft.term(format!("kinetic({}, {m}, {c})", frame.name));
+        let centre = Point { link: frame.link, at };
+        add_body(draft, gravity, false, Body { mass, centre, inertia: [[0.0; 3]; 3] });
+    }
+    if random.once_in(8) {
+        slider(draft, random, gravity, frame);
+    }
+}
+
+/// A body with a centre that moves in the frame, beside others.
+fn slider(draft: &mut Draft, random: &mut Random, gravity: &Gravity, frame: &Frame) {
+    draft.count("body with a centre that moves");
+    let (mass, at) = (random.between(0.5, 2.0), random.vector());
+    let (m, c) = (draft.number_field(mass), draft.vector_field(at));
+    let (i, inertia) = draft.inertia(random);
+    let (name, coordinate) = draft.coordinate(random, 1);
+    let (f, c) = (&frame.name, format!("[{name}, {c}[1], {c}[2]]"));
+    draft.term(format!("kinetic({f}, {m}, {c}, {i})"));
+    if let Some(term) = gravity.term(&m, f, &c) {
+        draft.term(term);
+    }
+    let joint = Joint::Slide([Motion::of(coordinate), Motion::fixed(at[1]), Motion::fixed(at[2])]);
+    let mut slider = frame.clone();
+    draft.step(&mut slider, String::new(), [joint]);
+    let centre = Point { link: slider.link, at: [0.0; 3] };
+    add_body(draft, gravity, true, Body { mass, centre, inertia });
+}
+
+fn body(draft: &mut Draft, random: &mut Random, gravity: &Gravity, frame: &Frame) {
+    let (mass, at) = (random.between(0.5, 2.0), random.vector());
+    let (m, c) = (draft.number_field(mass), draft.vector_field(at));
+    let (i, inertia) = draft.inertia(random);
+    let (f, mut times) = (&frame.name, 1.0);
+    match random.below(8) {
+        0 => {
+            draft.count("body by its velocities");
+            draft.term(format!("{m}/2*dot(velocity({f}, {c}), velocity({f}, {c}))"));
+            draft.term(format!("dot(angular_velocity({f}), {i}*angular_velocity({f}))/2"));
+        }
+        1 => {
+            draft.count("two bodies at once");
+            draft.term(format!("2*kinetic({f}, {m}, {c}, {i})"));
+            times = 2.0;
+        }
+        _ => {
+            draft.count("body");
+            draft.term(format!("kinetic({f}, {m}, {c}, {i})"));
+        }
+    }
+    let is_heavy = !random.once_in(8);
+    if is_heavy && let Some(term) = gravity.term(&m, f, &c) {
+        draft.term(format!("{times}*{term}"));
+    }
+    let inertia = inertia.map(|row| scaled(times, row));
+    let centre = Point { link: frame.link, at };
+    add_body(draft, gravity, is_heavy, Body { mass: times * mass, centre, inertia });
+}
+
+fn add_body(draft: &mut Draft, gravity: &Gravity, is_heavy: bool, body: Body) {
+    if is_heavy {
+        draft.load(Load::Given(body.centre, scaled(body.mass, gravity.acceleration())));
+    }
+    draft.model.bodies.push(body);
+}
