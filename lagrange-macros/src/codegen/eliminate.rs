@@ -154,7 +154,7 @@ impl Solver<'_> {
         let matrix = form.matrix.iter().map(|row| self.entries(row)).collect();
         let definitions = form.definitions.iter().map(|row| self.sparse_entries(row)).collect();
         let reduced = self.factor(matrix, definitions, &order);
-        let rows = self.rows(equations, &reduced);
+        let rows = self.rows(form, equations, &reduced);
         let schur = self.schur_factors(&reduced, &rows)?;
         let completing = self.completing(form, equations);
         let trust = self.trust(!rows.is_empty());
@@ -197,13 +197,13 @@ impl Solver<'_> {
     }
 
     /// Z = F L⁻ᵀ
-    fn rows(&mut self, equations: &Equations, factors: &Factors) -> Vec<Sparse> {
+    fn rows(&mut self, form: &Form, equations: &Equations, factors: &Factors) -> Vec<Sparse> {
         let row = |row: &Vec<Id>| {
             let mut row = self.entries(row);
             row.resize(factors.reciprocals.len(), None);
             arithmetic::sparse(&self.forward(factors, row))
         };
-        equations.jacobian.iter().map(row).collect()
+        form.rows.as_ref().unwrap_or(&equations.jacobian).iter().map(row).collect()
     }
 
     /// The variables from D⁻¹L⁻¹b and γ.

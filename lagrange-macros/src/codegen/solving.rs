@@ -51,7 +51,8 @@ fn entries<'a>(form: &'a Form, equations: &'a Equations, others: impl Iterator<I
     let definitions = form.definitions.iter().flatten().map(|(_, entry)| entry);
     let matrices = form.matrix.iter().chain(&equations.jacobian).flatten();
     let weights = form.completing.iter().map(|(_, weight)| weight);
-    matrices.chain(definitions).chain(weights).chain(others).copied().collect()
+    let rows = form.rows.iter().flatten().flatten();
+    matrices.chain(definitions).chain(rows).chain(weights).chain(others).copied().collect()
 }
 
 fn results(Solved { accelerations, multipliers, pivot }: Solved) -> Vec<Register> {

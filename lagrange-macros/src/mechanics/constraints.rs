@@ -3,6 +3,7 @@
 use ConstraintKind::{Holonomic, Velocity};
 
 use super::evidence::vanishes;
+use super::twists::Twists;
 use crate::diagnostics::Diagnostics;
 use crate::resolve::{Label, Problem};
 use crate::symbolic::{Function, Graph, Id};
@@ -63,11 +64,12 @@ impl Constraints {
 pub(super) fn derive(
     graph: &mut Graph,
     problem: &Problem,
+    twists: Option<&Twists>,
     diagnostics: &mut Diagnostics,
 ) -> Option<Constraints> {
     let mut constraints = Constraints::default();
     for &(Label { place, .. }, expression) in &problem.constraints {
-        if let Some(message) = constraints.push(graph, problem, expression) {
+        if let Some(message) = constraints.push(graph, problem, twists, expression) {
             diagnostics.error(place, message);
         }
         diagnostics.stop_at_fault(place, graph);
@@ -77,15 +79,27 @@ pub(super) fn derive(
 
 impl Constraints {
     /// Adds a constraint with its derivatives, and says what is wrong with it.
-    fn push(&mut self, graph: &mut Graph, problem: &Problem, expression: Id) -> Option<String> {
+    fn push(
+        &mut self,
+        graph: &mut Graph,
+        problem: &Problem,
+        twists: Option<&Twists>,
+        expression: Id,
+    ) -> Option<String> {
         let n = problem.coordinates.len();
-        let mut drift = drift(graph, n);
+        let mut drift = match twists {
+            Some(twists) => twists.rates(graph, drift),
+            None => drift(graph, n),
+        };
         let (kind, residual, rate, variable): (_, _, _, fn(usize) -> Variable) =
             match has_velocity(graph, &[expression]) {
                 false => (Holonomic, expression, drift.of(graph, expression), Variable::Coordinate),
                 true => (Velocity, Id::ZERO, expression, Variable::Velocity),
             };
-        let jacobian = graph.gradient(expression, &symbols(n, variable));
+        let jacobian = match twists {
+            Some(twists) => twists.row(graph, expression, n),
+            None => graph.gradient(expression, &symbols(n, variable)),
+        };
         let wrong = malformed(graph, problem, expression, kind, &jacobian);
         self.kinds.push(kind);
         self.residual.push(residual);

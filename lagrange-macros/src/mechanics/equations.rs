@@ -57,7 +57,7 @@ impl Equations {
         let motion = euler_lagrange::derive(graph, problem, twists.as_ref());
         reject_idle_dissipation(graph, problem, diagnostics);
         diagnostics.stop_at_fault(problem.place, graph)?;
-        let constraints = constraints::derive(graph, problem, diagnostics)?;
+        let constraints = constraints::derive(graph, problem, twists.as_ref(), diagnostics)?;
         consistency::check(graph, problem, &constraints, diagnostics)?;
         determinacy::check(problem, &motion, &constraints, diagnostics)?;
         let integrability = integrability::classify(graph, problem, &constraints);

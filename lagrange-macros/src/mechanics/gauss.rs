@@ -26,6 +26,8 @@ pub(crate) struct Form {
     pub(crate) linear: Vec<Id>,
     /// For each named velocity its rate as a sum over the x before it: which, and its coefficient.
     pub(crate) definitions: Vec<Vec<(usize, Id)>>,
+    /// F over x, if it is not that over the accelerations alone.
+    pub(crate) rows: Option<Vec<Vec<Id>>>,
     /// b_i/H_ii of an acceleration that is tied to nothing else.
     pub(crate) alone: Vec<Option<Id>>,
     /// The constraints a with σ_a F_aᵀF_a in H and −σ_a γ_a F_a in b, each with its σ: a solve for other h and γ takes
@@ -71,7 +73,12 @@ impl Form {
 
     fn new(matrix: Vec<Vec<Id>>, linear: Vec<Id>, definitions: Vec<Vec<(usize, Id)>>) -> Self {
         let alone = vec![None; matrix.len()];
-        Self { matrix, linear, definitions, alone, completing: Vec::new() }
+        Self { matrix, linear, definitions, rows: None, alone, completing: Vec::new() }
+    }
+
+    /// The same with constraints on all its variables.
+    pub(super) fn with(self, rows: Vec<Vec<Id>>) -> Self {
+        Self { rows: Some(rows), ..self }
     }
 
     /// H + FᵀσF and b − Fᵀσγ, of the constraints given with their σ; as it is where exact arithmetic cannot write that.

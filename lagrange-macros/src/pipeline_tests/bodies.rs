@@ -44,6 +44,28 @@ const QUADRUPED: &str = "#[coordinates(r: [3], q: [4], hip: [4], thigh: [4], sha
     struct Quadruped { m: f64, centre: Vector3<f64>, inertia: Matrix3<f64>, p1: [Vector3<f64>; 4], p2: [Vector3<f64>; 4], p3: [Vector3<f64>; 4],
       m1: [f64; 4], c1: [Vector3<f64>; 4], i1: [Matrix3<f64>; 4], m2: [f64; 4], c2: [Vector3<f64>; 4], i2: [Matrix3<f64>; 4], m3: [f64; 4], c3: [Vector3<f64>; 4], i3: [Matrix3<f64>; 4], g: f64, tau1: [f64; 4], tau2: [f64; 4], tau3: [f64; 4] }";
 
+const STEWART: &str = "#[coordinates(r: [3], q: [4], yaw: [6], pitch: [6], s: [6])]
+    #[parameter(inertia: symmetric)] #[parameter(i1: symmetric)] #[parameter(i2: symmetric)]
+    #[frame(plate: translate(r), rotate(q))]
+    #[frame(cylinder[k in 0..6]: translate(base[k]), rotate_x(yaw[k]), rotate_y(pitch[k]))]
+    #[frame(piston[k in 0..6] in cylinder[k]: translate([0, 0, s[k]]))]
+    #[lagrangian(kinetic(plate, m, centre, inertia) - m*g*r[2]
+      + sum(k in 0..6, kinetic(cylinder[k], m1, c1, i1) + kinetic(piston[k], m2, c2, i2) - g*(m1*position(cylinder[k], c1)[2] + m2*position(piston[k], c2)[2])))]
+    #[constraint(ball[k in 0..6]: position(piston[k]) = position(plate, anchor[k]))]
+    #[force(s: push)]
+    struct Stewart { m: f64, centre: Vector3<f64>, inertia: Matrix3<f64>, base: [Vector3<f64>; 6], anchor: [Vector3<f64>; 6], m1: f64, c1: Vector3<f64>, i1: Matrix3<f64>, m2: f64, c2: Vector3<f64>, i2: Matrix3<f64>, g: f64, push: [f64; 6] }";
+
+const FOUR_BAR: &str = "#[coordinates(a, b: [3], c)]
+    #[parameter(i1: symmetric)] #[parameter(i2: symmetric)] #[parameter(i3: symmetric)]
+    #[frame(crank: rotate(p1), rotate_z(a))]
+    #[frame(coupler in crank: translate(l1), rotate_z(b[0]), rotate_y(b[1]), rotate_x(b[2]))]
+    #[frame(rocker: translate(l3), rotate(p3), rotate_z(c))]
+    #[lagrangian(kinetic(crank, m1, c1, i1) + kinetic(coupler, m2, c2, i2) + kinetic(rocker, m3, c3, i3)
+      - g*(m1*position(crank, c1)[2] + m2*position(coupler, c2)[2] + m3*position(rocker, c3)[2]))]
+    #[constraint(ball: position(coupler, l2) = position(rocker, l4))]
+    #[force(a: torque)]
+    struct FourBar { p1: Rotation3<f64>, p3: Rotation3<f64>, l1: Vector3<f64>, l2: Vector3<f64>, l3: Vector3<f64>, l4: Vector3<f64>, m1: f64, c1: Vector3<f64>, i1: Matrix3<f64>, m2: f64, c2: Vector3<f64>, i2: Matrix3<f64>, m3: f64, c3: Vector3<f64>, i3: Matrix3<f64>, g: f64, torque: f64 }";
+
 fn least(source: &str) -> usize {
     counts(source).into_iter().flatten().min().expect("short enough")
 }
@@ -60,6 +82,8 @@ fn machines_cost_less_than_by_hand() {
         ("by Denavit and Hartenberg", DENAVIT),
         ("quadruped", QUADRUPED),
         ("in angles", &in_angles),
+        ("four-bar", FOUR_BAR),
+        ("Stewart platform", STEWART),
     ]
     .map(|(name, source)| format!("{name}: {}\n", least(source)));
     expect![[r#"
@@ -67,6 +91,8 @@ fn machines_cost_less_than_by_hand() {
         by Denavit and Hartenberg: 1883
         quadruped: 5446
         in angles: 5176
+        four-bar: 852
+        Stewart platform: 8532
     "#]]
     .assert_eq(&counts.concat());
 }
@@ -85,10 +111,12 @@ fn a_long_arm_costs_as_much_as_its_length() {
 }
 
 /// Systems with every kind of step, and with all that L may contain beside bodies.
-const SYSTEMS: [&str; 14] = [
+const SYSTEMS: [&str; 16] = [
     ARM,
     DENAVIT,
     QUADRUPED,
+    STEWART,
+    FOUR_BAR,
     // Frames that are carried along by time, by functions and by each other.
     "#[coordinates(x, y, z)] #[function(Omega(t))] #[function(s(t): [3])]
      #[frame(earth: translate(s(t)), rotate_y(latitude), rotate_x(Omega(t)))]

@@ -23,7 +23,7 @@ use rustc_hash::FxHashMap;
 use crate::diagnostics::{Diagnostics, Place};
 use crate::symbolic::{Graph, Id};
 use crate::syntax::Declaration;
-pub(crate) use frames::{Body, Frame, Step, Triple, named, sum};
+pub(crate) use frames::{Body, Frame, Step, Triple, columns, named, sum};
 pub(crate) use function::Supplied;
 use lower::Lowering;
 pub(crate) use outline::{Observable, Outline, outline};

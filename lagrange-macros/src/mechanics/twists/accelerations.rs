@@ -5,7 +5,7 @@ use crate::resolve::{Frame, Step, Triple, cross, named, sum};
 use crate::symbolic::{Forward, Graph, Id, Rational};
 
 /// d/dt along a motion of so many coordinates.
-pub(super) type InTime = fn(&mut Graph, usize) -> Forward;
+pub(in super::super) type InTime = fn(&mut Graph, usize) -> Forward;
 
 /// Of a frame, in its own axes.
 #[derive(Clone, Copy)]

@@ -147,18 +147,24 @@ impl<'p> Twists<'p> {
         let mut forms = Vec::new();
         if self.outer > n {
             let (mass, forcing) = (self.mass(graph), self.handed_back(graph, drift, self.outer));
-            forms.push(Form::over(mass, forcing, &self.velocities.rows[..self.outer - n]));
+            let form = Form::over(mass, forcing, &self.velocities.rows[..self.outer - n]);
+            forms.push(form.with(self.rows(graph, self.outer)));
         }
         let momenta = graph.gradient_to(self.problem.lagrangian, &self.velocities.nodes);
         let parts = self.parts(graph, drift);
         let linear = parts.sums(graph);
-        forms.push(self.velocities.form_of(graph, &momenta, linear));
+        let form = self.velocities.form_of(graph, &momenta, linear);
+        forms.push(form.with(self.rows(graph, self.velocities.nodes.len())));
         forms
+    }
+
+    fn rows(&self, graph: &mut Graph, first: usize) -> Vec<Vec<Id>> {
+        self.problem.constraints.iter().map(|&(_, constraint)| self.row(graph, constraint, first)).collect()
     }
 
     /// What belongs to each of the velocities.
     fn parts(&self, graph: &mut Graph, in_time: InTime) -> Parts {
-        let mut parts = Parts(vec![Vec::new(); self.velocities.nodes.len()]);
+        let mut parts = self.nothing();
         let places = self.places(graph);
         let gravity = self.others_of(graph, in_time, &places, &mut parts);
         self.of_bodies(graph, in_time, gravity, &mut parts);
@@ -170,8 +176,13 @@ impl<'p> Twists<'p> {
 
     /// What belongs to the first velocities, with all that the others hand back to them.
     fn handed_back(&self, graph: &mut Graph, in_time: InTime, first: usize) -> Vec<Id> {
+        let parts = self.parts(graph, in_time);
+        self.hand_back(graph, parts, first)
+    }
+
+    /// Parts of the first velocities, from those of all.
+    fn hand_back(&self, graph: &mut Graph, mut parts: Parts, first: usize) -> Vec<Id> {
         let n = self.problem.coordinates.len();
-        let mut parts = self.parts(graph, in_time);
         for k in (first - n..self.velocities.rows.len()).rev() {
             let sum = graph.sum(std::mem::take(&mut parts.0[n + k]));
             let sum = graph.defined(sum);
@@ -182,6 +193,24 @@ impl<'p> Twists<'p> {
         }
         parts.0.truncate(first);
         parts.sums(graph)
+    }
+
+    /// F of a constraint, over the first velocities.
+    pub(super) fn row(&self, graph: &mut Graph, constraint: Id, first: usize) -> Vec<Id> {
+        let mut parts = self.nothing();
+        if has_velocity(graph, &[constraint]) {
+            let slopes = graph.gradient_to(constraint, &self.velocities.nodes);
+            slopes.into_iter().enumerate().for_each(|(number, slope)| parts.add(number, slope, 1));
+        } else {
+            let places = self.places(graph);
+            let (_, slopes) = self.slopes(graph, constraint, &places);
+            self.at_rest(graph, &places, &slopes, &mut parts);
+        }
+        self.hand_back(graph, parts, first)
+    }
+
+    fn nothing(&self) -> Parts {
+        Parts(vec![Vec::new(); self.velocities.nodes.len()])
     }
 
     /// The named numbers that say where frames are, each once.

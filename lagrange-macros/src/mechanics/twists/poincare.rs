@@ -14,9 +14,9 @@ use indexmap::IndexMap;
 
 use super::accelerations::InTime;
 use super::{Component, Part, Parts, Place, Twists};
-use crate::resolve::{Frame, Triple, cross, sum};
+use crate::resolve::{Frame, Triple, columns, cross, named, sum};
 use crate::symbolic::{Forward, Graph, Id, Node};
-use crate::variables::{Variable, symbols};
+use crate::variables::{Variable, nodes};
 
 impl Twists<'_> {
     /// What belongs to the velocities of all in L that is no body; gravity, which is given, is left to the bodies.
@@ -27,13 +27,8 @@ impl Twists<'_> {
         places: &IndexMap<Id, Place>,
         parts: &mut Parts,
     ) -> Triple {
-        let n = self.problem.coordinates.len();
-        let coordinates = symbols(n, Variable::Coordinate).into_iter().map(|q| graph.symbol(q));
-        let coordinates: Vec<Id> = coordinates.collect();
-        let held: Vec<Id> =
-            [&coordinates[..], &self.velocities.nodes, &places.keys().copied().collect::<Vec<_>>()].concat();
-        let mut slopes = graph.gradient_to(self.others, &held);
-        let momenta: Vec<Id> = slopes.drain(n..n + self.velocities.nodes.len()).collect();
+        let (momenta, mut slopes) = self.slopes(graph, self.others, places);
+        let coordinates = nodes(graph, self.problem.coordinates.len(), Variable::Coordinate);
         let placed: Vec<Id> = coordinates.iter().chain(places.keys()).copied().collect();
         let gravity = self.without_gravity(graph, &placed, &mut slopes);
         self.at_rest(graph, places, &slopes, parts);
@@ -41,8 +36,30 @@ impl Twists<'_> {
         gravity
     }
 
+    /// ∂(expression)/∂(velocities), and by the coordinates and what says where the frames are, all others held.
+    pub(super) fn slopes(
+        &self,
+        graph: &mut Graph,
+        expression: Id,
+        places: &IndexMap<Id, Place>,
+    ) -> (Vec<Id>, Vec<Id>) {
+        let n = self.problem.coordinates.len();
+        let coordinates = nodes(graph, n, Variable::Coordinate);
+        let held = coordinates.iter().chain(&self.velocities.nodes).chain(places.keys());
+        let held: Vec<Id> = held.copied().collect();
+        let mut slopes = graph.gradient_to(expression, &held);
+        let of_velocities = slopes.drain(n..n + self.velocities.nodes.len()).collect();
+        (of_velocities, slopes)
+    }
+
     /// ∂L/∂q where the velocities and what says where the frames are are held, and forces and torques by the latter.
-    fn at_rest(&self, graph: &mut Graph, places: &IndexMap<Id, Place>, slopes: &[Id], parts: &mut Parts) {
+    pub(super) fn at_rest(
+        &self,
+        graph: &mut Graph,
+        places: &IndexMap<Id, Place>,
+        slopes: &[Id],
+        parts: &mut Parts,
+    ) {
         let (of_coordinates, of_places) = slopes.split_at(self.problem.coordinates.len());
         of_coordinates.iter().enumerate().for_each(|(i, &slope)| parts.add(i, slope, 1));
         for (place, &slope) in places.values().zip(of_places).filter(|(_, slope)| **slope != Id::ZERO) {
@@ -110,8 +127,8 @@ impl Twists<'_> {
         }
     }
 
-    /// d/dt, by what is known of frames.
-    fn rates(&self, graph: &mut Graph, in_time: InTime) -> Forward {
+    /// d/dt, by what is known of frames: of where they are the second rate too, which is an acceleration.
+    pub(in super::super) fn rates(&self, graph: &mut Graph, in_time: InTime) -> Forward {
         let accelerations = self.accelerations(graph, in_time, [Id::ZERO; 3]);
         let mut rates: Vec<(Id, Id)> = Vec::new();
         for (frame, acceleration) in self.problem.frames.iter().zip(accelerations) {
@@ -119,9 +136,14 @@ impl Twists<'_> {
             let carried = cross(*velocity, *angular_velocity, graph);
             let moving = sum([acceleration.moving, carried], graph);
             let twist = [(*angular_velocity, acceleration.turning), (*velocity, moving)];
-            let turned = axes.map(|row| (row, cross(row, *angular_velocity, graph)));
-            let moved = (*origin, axes.map(|row| graph.dot(&row, velocity)));
-            let vectors = twist.into_iter().chain(turned).chain([moved]);
+            let [moved, accelerated] =
+                [*velocity, acceleration.moving].map(|vector| axes.map(|row| graph.dot(&row, &vector)));
+            let moved = named(moved, graph);
+            let turned = axes.map(|row| named(cross(row, *angular_velocity, graph), graph));
+            let by_turning = columns(acceleration.by_turning);
+            let turned_further = axes.map(|row| by_turning.map(|column| graph.dot(&row, &column)));
+            let of_axes = axes.iter().copied().zip(turned).chain(turned.into_iter().zip(turned_further));
+            let vectors = twist.into_iter().chain(of_axes).chain([(*origin, moved), (moved, accelerated)]);
             rates.extend(vectors.flat_map(|(of, rate)| of.into_iter().zip(rate)));
         }
         rates.retain(|(node, _)| matches!(graph.node(*node), Node::Defined(_)));

@@ -134,7 +134,7 @@ impl Turned {
     }
 }
 
-pub(super) fn columns([a, b, c]: [Triple; 3]) -> [Triple; 3] {
+pub(crate) fn columns([a, b, c]: [Triple; 3]) -> [Triple; 3] {
     std::array::from_fn(|j| [a[j], b[j], c[j]])
 }
 
