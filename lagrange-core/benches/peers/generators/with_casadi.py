@@ -5,16 +5,11 @@ usage: with_casadi.py planar|chain|spherical N ldl|schur|kkt OUTPUT.c
 Prints what the C function takes, as JSON. q, v and p are as in the harness.
 """
 
-import json
-import os
 import sys
 import time
-from collections import Counter
 
 import casadi as ca
-
-ARITHMETIC = "ADD SUB MUL SQ NEG TWICE DIV INV SQRT".split()
-NAMES = {getattr(ca, name): name[3:] for name in dir(ca) if name.startswith("OP_")}
+from casadi_source import generate, report
 
 
 def planar(n, p):
@@ -67,22 +62,6 @@ def equations(q, v, lagrangian, constraints, how):
     return solution[: q.numel()], solution[q.numel() :]
 
 
-def generate(function, output):
-    """CasADi writes into the working folder; a wrapper has the signature of the harness."""
-    folder, name = os.path.split(os.path.abspath(output))
-    os.chdir(folder)
-    function.generate("generated_" + name)
-    with open(name, "w") as file:
-        file.write(f"""#include "generated_{name}"
-void accelerations(const double *q, const double *v, const double *p, double *a, double *lambda) {{
-    double w[{max(1, function.sz_w())}];
-    const double *in[3] = {{q, v, p}};
-    double *out[2] = {{a, lambda}};
-    evaluate(in, out, 0, w, 0);
-}}
-""")
-
-
 def main():
     system, n, how, output = sys.argv[1], int(sys.argv[2]), sys.argv[3], sys.argv[4]
     start = time.perf_counter()
@@ -91,16 +70,7 @@ def main():
     a, multipliers = (ca.densify(result) for result in equations(*stated, how))
     function = ca.Function("evaluate", [stated[0], stated[1], p], [a, multipliers], {"cse": True})
     generate(function, output)
-    count = Counter(NAMES[function.instruction_id(k)] for k in range(function.n_instructions()))
-    print(
-        json.dumps(
-            {
-                "operations": sum(count[name] for name in ARITHMETIC),
-                "functions": count["SIN"] + count["COS"],
-                "seconds": time.perf_counter() - start,
-            }
-        )
-    )
+    report(function, start)
 
 
 main()
