@@ -33,9 +33,10 @@ def ours(name, flags, label="ours"):
     return Implementation(label, "ours", build_ours("ours", flags) / "libours.so", name)
 
 
-def ours_called(name, flags):
+def ours_called(name, flags, *features):
     """The emitted function not inlined: what a larger program gets."""
-    return Implementation("ours, not inlined", "ours", build_ours("ours", flags, "call") / "libours.so", name)
+    built = build_ours("ours", flags, "call", *features)
+    return Implementation("ours, not inlined", "ours", built / "libours.so", name)
 
 
 def by_hand(source, function, label, flags, **defines):
@@ -50,6 +51,16 @@ def by_hand(source, function, label, flags, **defines):
 
 
 CASADI = {"ldl": "CasADi, LDLᵀ", "schur": "CasADi, Schur + LDLᵀ", "kkt": "CasADi, LDLᵀ of the whole"}
+CASADI_ROBOTS = {"CasADi, articulated bodies": (), "fast-math: CasADi, articulated bodies": ("-ffast-math",)}
+PINOCCHIO = {
+    "local": "Pinocchio, articulated bodies, local",
+    "world": "Pinocchio, articulated bodies, world",
+    "composite": "Pinocchio, composite bodies + Cholesky",
+}
+# What other tools read and write in these is declared in the harness.
+HARNESS = f"-I{HERE / 'harness'}"
+# Pinocchio's lists of joints are longer than Boost's are by default.
+BOOST = ("-DBOOST_MPL_LIMIT_LIST_SIZE=30", "-DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS")
 WRENFOLD = {"unrolled": "wrenfold, unrolled LDLᵀ", "loops": "wrenfold, M and h"}
 SYMPY = {"unrolled": "SymPy, symbolic LU", "loops": "SymPy, M and h"}
 
@@ -59,6 +70,28 @@ def casadi(system, n, how, flags):
     generate("with_casadi.py", system, n, how, source)
     library = compile_c([source], source.with_suffix(".so"), flags)
     return Implementation(CASADI[how], "tool", library)
+
+
+def casadi_robots(system, n, label, flags, *options):
+    source = place(f"casadi_{system}_{n}.c", flags)
+    generate("with_casadi_robots.py", system, n, source)
+    library = place("".join([source.stem, *options]) + ".so", flags)
+    return Implementation(label, "tool", compile_c([source], library, flags, HARNESS, *options))
+
+
+def pinocchio(how, flags):
+    """Its templates take minutes to compile, so it is done once."""
+    source, library = HERE / "generators" / "with_pinocchio.cpp", place("pinocchio.so", flags)
+    sources = [source, HERE / "harness" / "systems.h", HERE / "harness" / "robots.h"]
+    if not library.exists() or library.stat().st_mtime < max(one.stat().st_mtime for one in sources):
+        packages = next((SHOP / "venv").glob("lib/python*/site-packages"))
+        eigen = packages / "casadi" / "include" / "eigen3"
+        run(
+            *("g++", "-std=c++17", *flags.gcc, "-DNDEBUG", "-w", "-fPIC", "-shared", *BOOST, HARNESS),
+            *(f"-I{packages / 'cmeel.prefix' / 'include'}", f"-I{eigen}", source, "-o", library),
+            seconds=1200,
+        )
+    return Implementation(PINOCCHIO[how], "tool", library, how)
 
 
 def wrenfold(n, how, flags):

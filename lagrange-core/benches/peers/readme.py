@@ -2,7 +2,8 @@
 
 import re
 
-TOOLS = ("CasADi", "wrenfold", "heyoka", "SymPy")
+TOOLS = ("CasADi", "wrenfold", "heyoka", "SymPy", "Pinocchio")
+ROBOTS = ("arm of 6 joints", "quadruped", "arm of 20 joints", "humanoid")
 
 TEXT = """\
 Against the tools that people use, in one run of `python3 lagrange-core/benches/peers/run.py`, which builds, checks and
@@ -40,7 +41,7 @@ def text(about, sections):
 
 def where(about):
     rustc, gcc = (re.search(r"\d+\.\d+\.\d+(?= \(|$)", about[name])[0] for name in ("rustc", "gcc"))
-    spelled = {tool.lower(): tool for tool in TOOLS}
+    spelled = {tool.lower(): tool for tool in TOOLS} | {"pin": "Pinocchio"}
     tools = ", ".join(f"{spelled[name]} {version}" for name, version in about["packages"].items() if name in spelled)
     return (
         f"{about['date']}, {about['cpu']}, {about['cores']} cores, {about['system']},\n"
@@ -86,6 +87,11 @@ def fastest(sections):
             for n in (5, 20, 50)
         ),
         row("the same, spherical pendulum", spherical, least, "native", thomas),
+        *(
+            row(f"accelerations, {what}", sections["robots"], "native", what, "")
+            for what in ROBOTS
+            if "robots" in sections
+        ),
         row("accelerations of 8 double pendulums, AVX2 lanes", lanes, least.replace("ours", "ours on lanes"), "avx2", ""),
     ]
     return table(["nanoseconds", "ours", "the fastest tool", "by hand, O(n)"], rows)

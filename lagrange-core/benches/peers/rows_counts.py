@@ -12,12 +12,12 @@ PLANAR, CHAIN = (2, 3, 5, 8, 10, 20), (5, 10, 20, 50)
 COUNT = re.compile(r'#\[doc = "(\d+) operations? \([^"]*\), (\d+) elementary functions?')
 
 
-def emitted():
+def emitted(*features):
     """The counts that stand in the documentation of the emitted `accelerations_unchecked`, by the name of the struct."""
     # The expansion is printed when the crate is compiled, so it must be compiled anew.
     (HERE / "ours" / "src" / "lib.rs").touch()
     printed = subprocess.run(
-        ["cargo", "check", "--lib"],
+        ["cargo", "check", "--lib", "--features", ",".join(features)],
         cwd=HERE / "ours",
         capture_output=True,
         text=True,

@@ -16,6 +16,7 @@ import rows_ensemble
 import rows_growth
 import rows_lanes
 import rows_planar
+import rows_robots
 import tables
 import workshop
 from report import Bar, Section
@@ -27,6 +28,7 @@ ROWS = {
     "counts": rows_counts.rows,
     "chain": rows_chain.chains,
     "spherical": rows_chain.spherical,
+    "robots": rows_robots.rows,
     "lanes": rows_lanes.rows,
     "ensemble": rows_ensemble.rows,
     "duals": rows_duals.rows,

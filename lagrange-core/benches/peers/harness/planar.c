@@ -5,9 +5,9 @@
 #include "systems.h"
 #include <math.h>
 
-enum { LINKS = 32, SIDE_BY_SIDE = 8 };
+enum { SIDE_BY_SIDE = 8 };
 
-static void eliminate(int n, long double m[LINKS][LINKS + 1], long double *x) {
+void eliminate(int n, long double m[UNKNOWNS][UNKNOWNS + 1], long double *x) {
     for (int c = 0; c < n; c++) {
         int pivot = c;
         for (int r = c; r < n; r++)
@@ -30,7 +30,7 @@ static void eliminate(int n, long double m[LINKS][LINKS + 1], long double *x) {
 }
 
 static void reference(int n, const double *q, const double *v, const double *p, long double *a) {
-    long double m[LINKS][LINKS + 1], below[LINKS + 1] = {0};
+    long double m[UNKNOWNS][UNKNOWNS + 1], below[UNKNOWNS + 1] = {0};
     const double *length = p + n;
     for (int i = n - 1; i >= 0; i--) below[i] = below[i + 1] + p[i];
     for (int i = 0; i < n; i++) {
@@ -46,7 +46,7 @@ static void reference(int n, const double *q, const double *v, const double *p, 
 }
 
 static double error_of(int n, const double *q, const double *v, const double *p, const double *a) {
-    long double exact[LINKS], scale = 0, error = 0;
+    long double exact[UNKNOWNS], scale = 0, error = 0;
     reference(n, q, v, p, exact);
     for (int i = 0; i < n; i++) {
         scale = fmaxl(scale, fabsl(exact[i]));

@@ -2,7 +2,9 @@
 #ifndef SYSTEMS_H
 #define SYSTEMS_H
 
-enum { STATES = 64, ENTRIES = 256 };
+#include "robots.h"
+
+enum { STATES = 64, ENTRIES = 256, PARAMETERS = 1024, OWN = 128, UNKNOWNS = 40 };
 
 /* Every implementation: q, v and p in, v right after q; accelerations and multipliers (where there are any) out. */
 typedef void (*Evaluation)(const double *q, const double *v, const double *p, double *a, double *lambda);
@@ -10,7 +12,8 @@ typedef void (*Evaluation)(const double *q, const double *v, const double *p, do
 typedef struct {
     int n, coordinates;
     /* q, then v, of each state. */
-    double states[STATES][2 * ENTRIES], p[ENTRIES];
+    double states[STATES][2 * ENTRIES], p[PARAMETERS];
+    Robot robot;
 } Inputs;
 
 static inline double *q_of(Inputs *in, long s) { return in->states[s % STATES]; }
@@ -30,6 +33,9 @@ const System *find_system(const char *name);
 /* A random number in [low, high). */
 double uniform(double low, double high);
 
-extern const System PLANAR, LANES, CHAIN, SPHERICAL, BODIES;
+/* Solves n equations, whose right sides stand after the columns of the matrix, in which nothing is left as it was. */
+void eliminate(int n, long double m[UNKNOWNS][UNKNOWNS + 1], long double *x);
+
+extern const System PLANAR, LANES, CHAIN, SPHERICAL, BODIES, ARM, DENAVIT, QUADRUPED, QUADRUPED_ANGLES, HUMANOID;
 
 #endif

@@ -4,15 +4,19 @@
 //! void f(const double *q, const double *v, const double *p, double *accelerations, double *multipliers);
 //! ```
 //!
-//! The parameters p are m[0..n], l[0..n], g, in the order of the structs' fields.
+//! The parameters p are in the order of the structs' fields: m[0..n], l[0..n], g, but for bodies in space.
 //!
 //! Each system is evaluated in one place, where the compiler takes the emitted function apart and leaves out what is
 //! not used. With the feature `call` it stays a function that gives the whole [`Solution`], as in a larger program.
 
 mod lanes;
+#[cfg(feature = "robots")]
+mod robots;
 mod systems;
 
 use lagrange_core::{Solution, prelude::*};
+#[cfg(feature = "robots")]
+use robots::*;
 use systems::*;
 
 #[cfg_attr(feature = "call", inline(never))]
@@ -77,6 +81,16 @@ export! {
     chain_20: Chain20, 40, 20;
     chain_50: Chain50, 100, 50;
     spherical_1: Spherical, 3, 1;
+}
+
+#[cfg(feature = "robots")]
+export! {
+    arm_6: Arm6, 6, 0;
+    arm_20: Arm20, 20, 0;
+    denavit_6: Denavit6, 6, 0;
+    quadruped_0: Quadruped, 19, 1;
+    quadruped_angles_0: QuadrupedAngles, 18, 0;
+    humanoid_0: Humanoid, 37, 1;
 }
 
 /// The forces ∂L/∂q of three bodies, and their energy.

@@ -1,0 +1,28 @@
+/* Bodies in space that hang together by joints. */
+#ifndef ROBOTS_H
+#define ROBOTS_H
+
+enum { BODIES_AT_MOST = 31, SPEEDS_AT_MOST = BODIES_AT_MOST + 5 };
+
+/* A link whose joint stands at `at` in the axes of the link before, turned by `place` (columns one after another). */
+typedef struct {
+    char axis;
+    int parent;
+    double place[9], at[3], m, centre[3], inertia[9], tau;
+} Link;
+
+typedef struct {
+    int count;
+    double g;
+    Link links[BODIES_AT_MOST];
+} Robot;
+
+/* Position and orientation (x, y, z, w) of a free base, then the angles. */
+int positions(const Robot *robot);
+/* Velocity and angular velocity of a free base in its own axes, then those of the angles. */
+int speeds(const Robot *robot);
+
+/* The derivatives of the speeds, by Newton's and Euler's equations in long double. */
+void newton_euler(const Robot *robot, const double *q, const double *v, long double *a);
+
+#endif
