@@ -2,7 +2,7 @@
 
 import shutil
 
-from workshop import ROOT, SHOP
+from workshop import HERE, ROOT, SHOP
 
 PLANAR = """
 #[coordinates(theta: [{n}])]
@@ -22,11 +22,20 @@ CHAIN = """
 """
 SYSTEMS = {"pendulum": (PLANAR, (2, 5, 10, 20, 40, 80, 160)), "chain": (CHAIN, (2, 10, 20, 50, 100, 200, 400))}
 STRUCT = "#[derive(Lagrangian)]{attributes}pub struct System {{ pub m: [f64; {n}], pub l: [f64; {n}], pub g: f64 }}\n"
+MADE = "System {{ m: [1.0; {n}], l: [1.0; {n}], g: 9.81 }}"
+MADE_HUMANOID = """Humanoid {
+        at: [Vector3::repeat(0.1); 30],
+        centre: [Vector3::zeros(); 31],
+        inertia: [Matrix3::identity(); 31],
+        m: [1.0; 31],
+        g: 9.81,
+        tau: [0.0; 30],
+    }"""
 
 # How the system is used: a program that uses every emitted function, one that integrates, one that does nothing with
 # the system, and a library that exports it.
 MAIN = """fn main() {{
-    let system = std::hint::black_box(System {{ m: [1.0; {n}], l: [1.0; {n}], g: 9.81 }});
+    let system = std::hint::black_box({made});
     let state = std::hint::black_box(State::at_rest({start}));
     {statement}
 }}
@@ -66,8 +75,15 @@ def source(system, n, use):
     filled = {"n": n, "start": angles if system == "pendulum" else hanging}
     text = STRUCT.format(attributes=attributes.format(**filled), **filled)
     if USES[use]:
-        text += MAIN.format(statement=USES[use], **filled)
+        text += MAIN.format(made=MADE.format(n=n), start=filled["start"], statement=USES[use])
     return "use lagrange_core::prelude::*;\n" + text
+
+
+def humanoid():
+    """A program that uses every function of a body of 30 joints."""
+    upright = "std::array::from_fn::<f64, 37, _>(|k| if k == 3 { 1.0 } else { 0.0 })"
+    stated = (HERE / "ours" / "src" / "robots" / "humanoid.rs").read_text()
+    return stated + MAIN.format(made=MADE_HUMANOID, start=upright, statement=EVERY)
 
 
 def project():

@@ -11,12 +11,13 @@ import shutil
 import subprocess
 from dataclasses import dataclass
 
-from growth_project import SYSTEMS, USES, project, source
+from growth_project import SYSTEMS, USES, humanoid, project, source
 from report import Bar, Section
 from workshop import SHOP, progress, run
 
-# Seconds for the macro, rustc in release and in dev, of the systems that have bars.
+# Seconds for the macro, rustc in release and in dev, of the systems that have bars; of the humanoid all in release.
 BARS = {("pendulum", 10): (0.3, 0.7, 1), ("pendulum", 20): (1, 2, 2), ("chain", 50): (1.5, 3, 3)}
+HUMANOID_BAR = 35
 PROFILES = ("release", "dev")
 REPEATS, LIMIT_S = 3, 60
 TARGET = SHOP / "growth-target"
@@ -114,6 +115,17 @@ def grow(section, folder, system, empty, options):
         yield cells
 
 
+def grow_humanoid(section, folder, options):
+    """The macro and rustc together, in release."""
+    progress("growth: humanoid")
+    what = "humanoid of 30 joints, every function, release: macro and rustc, s"
+    try:
+        cost = least(folder, humanoid(), "every function", "release", 1 if options.quick else REPEATS)
+        section.bars.append(Bar(what, cost.macros + cost.rest, HUMANOID_BAR))
+    except Refused as reason:
+        section.bars.append(Bar(f"{what}: {reason}", LIMIT_S, HUMANOID_BAR))
+
+
 def rows(options):
     section = Section("Growth of compile times, in seconds beyond an empty crate")
     section.text(
@@ -133,4 +145,5 @@ def rows(options):
     }
     lines = [cells for system in SYSTEMS for cells in grow(section, folder, system, empty, options)]
     section.table("seconds", HEAD, lines)
+    grow_humanoid(section, folder, options)
     return section
