@@ -200,8 +200,12 @@ impl<'p> Planner<'p> {
     /// The sine and the cosine of one argument are computed together, and with them those of all angles of this part that
     /// are at hand before any: a processor takes several side by side.
     fn turn(&mut self, x: Register) {
-        let together = std::mem::take(&mut self.early);
-        let angles = if together.contains(&x) { together } else { BTreeSet::from([x]) };
+        let mut angles = std::mem::take(&mut self.early);
+        // An earlier part may have taken the cosine with a sine.
+        angles.retain(|&angle| !self.is_taken(angle));
+        if !angles.contains(&x) {
+            self.early = std::mem::replace(&mut angles, BTreeSet::from([x]));
+        }
         angles.iter().for_each(|&angle| self.compute_early(angle));
         let turns: Vec<Turn> = angles.iter().map(|&angle| self.turn_of(angle)).collect();
         match &turns[..] {
@@ -225,6 +229,11 @@ impl<'p> Planner<'p> {
                 self.keep(register, self.local(register));
             }
         }
+    }
+
+    fn is_taken(&self, angle: Register) -> bool {
+        let both = [Function::Sin, Function::Cos].into_iter().filter_map(|f| self.used(f, angle));
+        both.into_iter().any(|register| self.values[register.index()].is_some())
     }
 
     fn turn_of(&mut self, x: Register) -> Turn {

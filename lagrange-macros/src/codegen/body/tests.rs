@@ -103,6 +103,26 @@ fn sine_and_cosine_of_one_argument_come_together() {
     assert_eq!(body.parts[0].locals.len(), 3);
 }
 
+/// The sine is used in the first part of a long function, the cosine in the last, and another angle in both.
+#[test]
+fn what_an_earlier_part_has_taken_is_not_taken_again() {
+    let mut graph = Graph::default();
+    let [x, y] = inputs(&mut graph);
+    let mut sum = graph.function(Function::Sin, x);
+    for k in 0..6_000 {
+        let scaled = graph.sum([(y, crate::symbolic::Rational::new(1, k + 2))]);
+        let term = graph.sum([(sum, 1.into()), (scaled, 1.into())]);
+        sum = graph.mul(term, y);
+        sum = graph.defined(sum);
+    }
+    let cosine = graph.function(Function::Cos, x);
+    let doubled = graph.add(y, y);
+    let other = graph.function(Function::Sin, doubled);
+    let last = graph.product([sum, cosine, other].map(|factor| (factor, 1.into())));
+    let body = checked(&graph, &[last]);
+    assert!(body.parts.len() > 1, "{} parts", body.parts.len());
+}
+
 #[test]
 fn angles_that_are_at_hand_are_taken_together() {
     let mut graph = Graph::default();
