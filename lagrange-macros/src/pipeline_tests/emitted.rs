@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use expect_test::expect_file;
 use proc_macro2::{TokenStream, TokenTree};
+use quote::ToTokens;
 
 use super::{systems, tokens};
 use crate::expand;
@@ -31,14 +32,23 @@ impl Circular {
                 self.function = text.clone();
             }
             if let TokenTree::Group(group) = token {
-                if ["sin", "cos", "sin_cos"].contains(&before[1].as_str()) && before[0] == ":" {
-                    self.arguments.entry(self.function.clone()).or_default().push(text.clone());
+                let taken = self.arguments.entry(self.function.clone()).or_default();
+                match before[1].as_str() {
+                    "sin" | "cos" | "sin_cos" if before[0] == ":" => taken.push(group.stream().to_string()),
+                    "sin_cos_of" => taken.extend(angles(group.stream())),
+                    _ => {}
                 }
                 self.read(group.stream());
             }
             before = [std::mem::take(&mut before[1]), text];
         }
     }
+}
+
+/// `a` and `b` of `[a, b]`
+fn angles(argument: TokenStream) -> Vec<String> {
+    let array: syn::ExprArray = syn::parse2(argument).expect("an array");
+    array.elems.iter().map(|angle| angle.to_token_stream().to_string()).collect()
 }
 
 #[test]
