@@ -8,6 +8,7 @@ use lagrange_core::prelude::*;
 #[define(twice(v) = 2*v)]
 #[define(rate(v) = der(v))]
 #[define(length2(v) = dot(v, v))]
+#[define(x_index = 1)]
 #[define(p[i in 0..3] = [x^i, r[i], i])]
 #[lagrangian(dot(r_dot, r_dot)/2 + dot(q_dot, q_dot)/2 + x_dot^2/2)]
 #[observable(square_of_norm = norm(r)^2)]
@@ -24,6 +25,9 @@ use lagrange_core::prelude::*;
 #[observable(right = r*x)]
 #[observable(entry = (r - a)[1])]
 #[observable(made = [x, 2*x])]
+#[observable(part = (2*q)[1..4])]
+#[observable(part_of_field = a[0..2] - rows[1][x_index..3])]
+#[observable(part_of_family = p[1..3][1])]
 #[observable(of_scalar = twice(x))]
 #[observable(of_vector = twice(r))]
 #[observable(of_velocity = twice(r_dot))]
@@ -100,6 +104,15 @@ fn vectors_take_numbers_and_signs() {
     assert_eq!(kit.right(&state), r * -2.0);
     assert_eq!(kit.entry(&state), 4.0);
     assert_eq!(kit.made(&state), Vector2::new(-2.0, -4.0));
+}
+
+#[test]
+fn a_slice_is_a_vector_of_some_elements() {
+    let (kit, state) = (kit(), state());
+    let q = state.q;
+    assert_eq!(kit.part(&state), Vector3::new(q[4], q[5], q[6]) * 2.0);
+    assert_eq!(kit.part_of_field(&state), Vector2::new(1.0 - 5.0, -2.0 - 6.0));
+    assert_eq!(kit.part_of_family(&state), Vector3::new(4.0, 3.0, 2.0));
 }
 
 #[test]

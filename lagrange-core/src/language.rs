@@ -30,7 +30,7 @@
 //! | `+ - * / ^` | the usual precedence; `-x^2` is `-(x^2)`, `^` groups to the right |
 //! | `sin cos tan asin acos atan atan2 sinh cosh tanh exp ln sqrt abs` | functions; `atan2(y, x)` |
 //! | `der(expr)` | the total time derivative |
-//! | `[a, b, c]`, `v[0]`, `dot(v, w)`, `cross(v, w)`, `norm(v)` | vectors |
+//! | `[a, b, c]`, `v[0]`, `v[1..3]`, `dot(v, w)`, `cross(v, w)`, `norm(v)` | vectors |
 //! | `[[a, b], [c, d]]`, `A[0][1]`, `A*v`, `v*A`, `A*B`, `transpose(A)`, `trace(A)`, `identity(3)`, `skew(v)` | matrices, by their rows |
 //! | `rot_x(angle)`, `rot_y(angle)`, `rot_z(angle)`, `rot(axis, angle)` | matrices of rotations |
 //! | `quat_rotate(q, v)`, `quat_mul(p, q)`, `quat_conj(q)`, `quat_rate(q, q_dot)`, `quat_rate_body(q, q_dot)` | orientations as quaternions |

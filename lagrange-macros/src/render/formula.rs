@@ -19,9 +19,9 @@ pub(super) enum Formula {
     },
     /// An entry of what is no name.
     Entry(Box<Self>, Box<Self>),
-    /// An index that runs from the first to before the last.
+    /// An index that runs from the first to before the last; of a slice it has no name.
     Running {
-        index: String,
+        index: Option<String>,
         from: Box<Self>,
         to: Box<Self>,
     },

@@ -112,7 +112,7 @@ impl Page<'_> {
             TargetIndex::Element(element) => Some(self.written(element)),
             TargetIndex::Family { index, from, to } => {
                 let [from, to] = [from, to].map(|end| Box::new(self.written(end)));
-                Some(Formula::Running { index: index.text.clone(), from, to })
+                Some(Formula::Running { index: Some(index.text.clone()), from, to })
             }
         };
         Formula::Name { base: name.text.clone(), dots: 0, indices: index.into_iter().collect() }

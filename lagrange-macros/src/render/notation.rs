@@ -17,7 +17,7 @@ impl Notation {
             Formula::Pi => self.pick("π", r"\pi").to_owned(),
             Formula::Name { base, dots, indices } => self.name(base, *dots, indices),
             Formula::Entry(whole, index) => self.entry(self.at_least(whole, Binding::Atom), index),
-            Formula::Running { index, from, to } => self.running(index, from, to),
+            Formula::Running { index, from, to } => self.running(index.as_deref(), from, to),
             Formula::Multiplier(constraint) => self.subscript(self.pick("λ", r"\lambda"), constraint),
             Formula::Negative(inner) => {
                 format!("{}{}", self.pick("−", "-"), self.at_least(inner, Binding::Product))
@@ -221,7 +221,7 @@ impl Notation {
     fn sum_over(self, index: &str, from: &Formula, to: &Formula, body: &Formula) -> String {
         let body = self.at_least(body, Binding::Product);
         match self {
-            Self::Unicode => format!("Σ({}) {body}", self.running(index, from, to)),
+            Self::Unicode => format!("Σ({}) {body}", self.running(Some(index), from, to)),
             Self::Latex => {
                 let (from, last) = (self.write(from), self.last(to));
                 format!(r"\sum_{{{index} = {from}}}^{{{last}}} {body}")
@@ -230,8 +230,9 @@ impl Notation {
     }
 
     /// i = 0 … 2
-    fn running(self, index: &str, from: &Formula, to: &Formula) -> String {
-        format!("{index} = {} {} {}", self.write(from), self.pick("…", r"\ldots"), self.last(to))
+    fn running(self, index: Option<&str>, from: &Formula, to: &Formula) -> String {
+        let index = index.map_or(String::new(), |index| format!("{index} = "));
+        format!("{index}{} {} {}", self.write(from), self.pick("…", r"\ldots"), self.last(to))
     }
 
     /// The whole number before `end`.

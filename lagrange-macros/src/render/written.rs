@@ -16,7 +16,11 @@ impl Page<'_> {
             Kind::Number(value) => Formula::number(*value),
             Kind::Name(name) if name.text == "pi" => Formula::Pi,
             Kind::Name(name) => self.named(&name.text),
-            Kind::Index(base, index) => self.indexed(base, index),
+            Kind::Index(base, index) => self.indexed(self.written(base), self.written(index)),
+            Kind::Slice(slice) => {
+                let (from, to) = (boxed(&slice.from), boxed(&slice.to));
+                self.indexed(self.written(&slice.base), Formula::Running { index: None, from, to })
+            }
             Kind::Call(name, arguments) => call(&name.text, all(arguments)),
             Kind::SumOver(sum) => Formula::SumOver {
                 index: sum.index.text.clone(),
@@ -52,9 +56,8 @@ impl Page<'_> {
         Formula::product(number, above, below)
     }
 
-    fn indexed(&self, base: &Expression, index: &Expression) -> Formula {
-        let index = self.written(index);
-        match self.written(base) {
+    fn indexed(&self, base: Formula, index: Formula) -> Formula {
+        match base {
             Formula::Name { base, dots, mut indices } => {
                 indices.push(index);
                 Formula::Name { base, dots, indices }

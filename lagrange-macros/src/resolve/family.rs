@@ -6,7 +6,8 @@ use super::lower::{Definition, Lowering};
 use super::scope::{Entity, is_built_in};
 use super::value::Value;
 use crate::diagnostics::Place;
-use crate::syntax::{Expression, Kind, Name, Target, TargetIndex};
+use crate::symbolic::Rational;
+use crate::syntax::{Expression, Kind, Name, Slice, Target, TargetIndex};
 
 /// The longest range: each of its indices is written out.
 const RANGE_LIMIT: i128 = 10_000;
@@ -186,6 +187,16 @@ impl Lowering<'_> {
         let Some(length) = value.length() else { return self.report(base.place, NO_ELEMENTS) };
         let i = self.checked(i, length, index.place)?;
         value.item(i)
+    }
+
+    /// `base[from..to]`, element by element: what is left out of a large field costs nothing.
+    pub(super) fn slice(&mut self, Slice { base, from, to }: &Slice) -> Option<Value> {
+        let range = self.range(from, to)?;
+        let element = |i: usize| {
+            let number = Kind::Number(Rational::from_integer(i as i128).into());
+            self.index(base, &Expression { kind: number, place: from.place.to(to.place) })
+        };
+        range.map(element).collect::<Option<Vec<Value>>>().map(Value::Vector)
     }
 
     /// `i` where it is one of the indices 0 to `length` − 1.

@@ -148,6 +148,7 @@ impl<'a> Lowering<'a> {
             Kind::Number(value) => Some(Value::Scalar(self.graph.scaled(*value))),
             Kind::Name(name) => self.name(name),
             Kind::Index(base, index) => self.index(base, index),
+            Kind::Slice(slice) => self.slice(slice),
             Kind::Call(name, arguments) => self.call(name, arguments, place),
             Kind::SumOver(sum) => self.sum_over(sum),
             Kind::Negative(inner) => {

@@ -114,6 +114,7 @@ impl Lowering<'_> {
         let vector = parts.iter().find_map(Value::length);
         let length = match &expression.kind {
             Kind::Vector(items) => Some(items.len()),
+            Kind::Slice(_) => vector,
             Kind::Negative(_) | Kind::Sum(_) | Kind::SumOver(_) | Kind::Product(_) => vector,
             Kind::Call(name, _) => match (name.text.as_str(), self.scope.get(&name.text)) {
                 (_, Some(Entity::Function(index))) => self.functions[index].length,

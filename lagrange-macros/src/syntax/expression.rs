@@ -36,6 +36,8 @@ pub(crate) enum Kind {
     Number(Scaled),
     Name(Name),
     Index(Box<Expression>, Box<Expression>),
+    /// `base[from..to]`
+    Slice(Box<Slice>),
     Call(Name, Vec<Expression>),
     /// `sum(index in from..to, body)`
     SumOver(Box<SumOver>),
@@ -44,6 +46,14 @@ pub(crate) enum Kind {
     Product(Vec<(Operator, Expression)>),
     Power(Box<Expression>, Box<Expression>),
     Vector(Vec<Expression>),
+}
+
+/// `base[from..to]`
+#[derive(Clone, Debug)]
+pub(crate) struct Slice {
+    pub(crate) base: Expression,
+    pub(crate) from: Expression,
+    pub(crate) to: Expression,
 }
 
 /// `sum(index in from..to, body)`
@@ -64,6 +74,11 @@ pub(super) fn whole(cursor: &mut Cursor) -> Result<Expression> {
 /// `from..to`, where the dots have not been read yet.
 pub(super) fn range(cursor: &mut Cursor) -> Result<(Expression, Expression)> {
     let from = sum(cursor, 0)?;
+    Ok((from, end_of_range(cursor, 0)?))
+}
+
+/// `..to`
+fn end_of_range(cursor: &mut Cursor, depth: usize) -> Result<Expression> {
     let dots = cursor.place();
     if !(cursor.take_punct('.') && cursor.take_punct('.')) {
         return Err(dots.error("expected a range such as `0..3`"));
@@ -71,7 +86,10 @@ pub(super) fn range(cursor: &mut Cursor) -> Result<(Expression, Expression)> {
     if cursor.is_punct('=') {
         return Err(dots.to(cursor.place()).error("ranges are half-open: write `0..3` for 0, 1, 2"));
     }
-    Ok((from, sum(cursor, 0)?))
+    if cursor.is_empty() {
+        return Err(cursor.error("a range says where it ends: write `0..3` for 0, 1, 2"));
+    }
+    sum(cursor, depth)
 }
 
 fn deeper(cursor: &Cursor, depth: usize) -> Result<usize> {
@@ -162,11 +180,16 @@ fn postfix(cursor: &mut Cursor, depth: usize) -> Result<Expression> {
         depth = deeper(cursor, depth)?;
         let mut inside = Cursor::inside(&brackets);
         let index = sum(&mut inside, depth)?;
+        let to = inside.is_punct('.').then(|| end_of_range(&mut inside, depth)).transpose()?;
         if !inside.is_empty() {
             return Err(inside.error("one index a bracket: write `a[i][j]`"));
         }
         let place = expression.place.to(cursor.last_place());
-        expression = Expression { kind: Kind::Index(Box::new(expression), Box::new(index)), place };
+        let kind = match to {
+            Some(to) => Kind::Slice(Box::new(Slice { base: expression, from: index, to })),
+            None => Kind::Index(Box::new(expression), Box::new(index)),
+        };
+        expression = Expression { kind, place };
     }
     suffix_after_index(cursor, &expression)?;
     Ok(expression)
@@ -309,6 +332,7 @@ impl Expression {
             Kind::Index(first, second) | Kind::Power(first, second) => vec![first, second],
             Kind::Call(_, items) | Kind::Vector(items) => items.iter().collect(),
             Kind::SumOver(sum) => vec![&sum.from, &sum.to, &sum.body],
+            Kind::Slice(slice) => vec![&slice.base, &slice.from, &slice.to],
             Kind::Sum(terms) => terms.iter().map(|(_, term)| term).collect(),
             Kind::Product(factors) => factors.iter().map(|(_, factor)| factor).collect(),
         }

@@ -19,7 +19,7 @@ pub(crate) use cursor::{NESTING_LIMIT, shallow, too_deep};
 pub(crate) use declaration::{
     Constraint, Coordinate, Declaration, Define, Fact, Force, Frame, Function, Parameter, Power, Property,
 };
-pub(crate) use expression::{Expression, Kind, Operator, Sign, SumOver};
+pub(crate) use expression::{Expression, Kind, Operator, Sign, Slice, SumOver};
 pub(crate) use field::{Field, FieldShape, Inside, LENGTH_LIMIT, Layout, numbers};
 pub(crate) use greek::GREEK;
 pub(crate) use name::{Name, normal_form};
