@@ -29,6 +29,7 @@
 //! | `x`, `x_dot` or `ẋ` | a coordinate and its velocity; `x_ddot` or `ẍ` in observables only |
 //! | `+ - * / ^` | the usual precedence; `-x^2` is `-(x^2)`, `^` groups to the right |
 //! | `sin cos tan asin acos atan atan2 sinh cosh tanh exp ln sqrt abs` | functions; `atan2(y, x)` |
+//! | `min(x, y)`, `max(x, y)`, `clamp(x, low, high)` | limits, in forces and observables: a Lagrangian, a constraint or a frame has slopes everywhere |
 //! | `der(expr)` | the total time derivative |
 //! | `[a, b, c]`, `v[0]`, `v[1..3]`, `dot(v, w)`, `cross(v, w)`, `norm(v)` | vectors |
 //! | `[[a, b], [c, d]]`, `A[0][1]`, `A*v`, `v*A`, `A*B`, `transpose(A)`, `trace(A)`, `identity(3)`, `skew(v)` | matrices, by their rows |
@@ -175,7 +176,7 @@
 //!
 //! Vectors know along which axes they are: those of different frames are not added, nor is the product of two taken, before one
 //! is expressed in the axes of the other; `v[0]` is a component along the frame's own axis. Plain numbers, `[1, 0, 0]` or a
-//! field, take the axes of the vector that they meet.
+//! field, take the axes of the vector that they meet; what is computed from coordinates has to say its own, `vector(fixed, r_dot)`.
 //!
 //! ```
 //! use lagrange_core::nalgebra::{Matrix3, Vector3};

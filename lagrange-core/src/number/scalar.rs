@@ -78,6 +78,21 @@ pub trait Scalar:
     /// derivatives the values are compared.
     #[must_use]
     fn by_order(self, other: Self, less: Self, equal: Self, greater: Self) -> Self;
+    /// The larger of `self` and 0, and NaN where `self` is: what `max` and `min` are made of.
+    #[inline(always)]
+    #[must_use]
+    fn ramp(self) -> Self {
+        let [zero, half] = [0.0, 0.5].map(Self::constant);
+        // With derivatives: half of the slope where it changes.
+        self.by_order(zero, zero, self * half, self)
+    }
+    /// 0 below zero, 1 above it, ½ there, and NaN where `self` is: the slope of [`ramp`](Self::ramp).
+    #[inline(always)]
+    #[must_use]
+    fn step(self) -> Self {
+        let [zero, half, one] = [0.0, 0.5, 1.0].map(Self::constant);
+        self.by_order(zero, zero, half, one)
+    }
     /// `self` · `y`, and zero where `self` is zero, be `y` infinite or not a number.
     #[inline(always)]
     #[must_use]

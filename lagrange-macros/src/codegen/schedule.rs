@@ -76,7 +76,9 @@ impl Schedule {
         for (operation, _) in self.operations.iter().zip(uses).filter(|(_, uses)| *uses > 0) {
             match operation {
                 Operation::Constant(_) | Operation::Input(_) => {}
-                Operation::Function(Function::Abs, _) => count.arithmetic += 1,
+                Operation::Function(Function::Abs | Function::Ramp | Function::Step, _) => {
+                    count.arithmetic += 1
+                }
                 Operation::Function(..) | Operation::Atan2(..) | Operation::Power(..) => count.functions += 1,
                 Operation::Result { .. } => count.calls += 1,
                 Operation::MultiplyAdd(..) | Operation::SubtractProduct(..) => count.arithmetic += 2,

@@ -4,7 +4,7 @@ use num_traits::{One, Signed};
 
 use super::Page;
 use super::formula::Formula;
-use crate::symbolic::{Graph, Id, Node, Rational, Scaled};
+use crate::symbolic::{Function, Graph, Id, Node, Rational, Scaled};
 use crate::variables::Variable;
 
 impl Page<'_> {
@@ -21,6 +21,7 @@ impl Page<'_> {
                 if terms.len() == 1 { terms.remove(0) } else { Formula::Sum(terms) }
             }
             Node::Product(_) => self.derived_term(id, Rational::one()),
+            Node::Function(Function::Ramp, x) => Formula::Call("max".to_owned(), all(&[*x, Id::ZERO])),
             Node::Function(function, x) => Formula::Call(function.name().to_owned(), all(&[*x])),
             Node::External(external) => self.supplied(external, all(&external.arguments)),
             Node::Atan2(y, x) => Formula::Call("atan2".to_owned(), all(&[*y, *x])),

@@ -52,6 +52,17 @@ impl Lowering<'_> {
                 let q = self.quaternion_of(name, q)?;
                 return Some(Value::vector(quaternion::conjugate(q, &mut self.graph)));
             }
+            "min" | "max" => {
+                let [x, y] = self.arguments(name, arguments, place)?;
+                let (x, y) = (self.scalar(x), self.scalar(y));
+                return Some(Value::Scalar(self.extreme(&name.text, x?, y?)));
+            }
+            "clamp" => {
+                let [x, low, high] = self.arguments(name, arguments, place)?;
+                let (x, low, high) = (self.scalar(x), self.scalar(low), self.scalar(high));
+                let above = self.extreme("max", x?, low?);
+                return Some(Value::Scalar(self.extreme("min", above, high?)));
+            }
             "transpose" | "trace" | "identity" | "skew" => {
                 let [x] = self.arguments(name, arguments, place)?;
                 return self.matrix(name, x);
@@ -101,6 +112,15 @@ impl Lowering<'_> {
     ) -> Option<&'e [Expression; K]> {
         let exact = arguments.try_into().ok();
         exact.or_else(|| self.report(place, wrong_number(name, K, arguments.len())))
+    }
+
+    /// max(x, y) = y + max(x − y, 0), and min(x, y) = y − max(y − x, 0).
+    fn extreme(&mut self, name: &str, x: Id, y: Id) -> Id {
+        let graph = &mut self.graph;
+        let (more, less) = if name == "max" { (x, y) } else { (y, x) };
+        let difference = graph.sub(more, less);
+        let beyond = graph.function(Function::Ramp, difference);
+        if name == "max" { graph.add(y, beyond) } else { graph.sub(y, beyond) }
     }
 
     /// A scalar at which the function has a real value, as far as it is a number.

@@ -77,6 +77,7 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
     let mut lowering = Lowering::new(scope, parameters, declaration, diagnostics);
     lowering.define_all();
     let lagrangian = declaration.lagrangian.as_ref().and_then(|lagrangian| lowering.scalar(lagrangian));
+    lowering.reject_kinks(declaration, lagrangian);
     let terms = lowering.terms(declaration);
     let forces = lowering.forces(declaration);
     let powers = lowering.powers(declaration);

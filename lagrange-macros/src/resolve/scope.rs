@@ -24,11 +24,11 @@ pub(super) enum Entity {
 
 /// What expressions may call beside the functions of one argument that the graph knows.
 const CALLS: &str = "atan2 sqrt quat_rotate quat_rate quat_rate_body quat_mul quat_conj dot cross norm transpose trace \
-    identity skew rot rot_x rot_y rot_z sum der lambda in";
+    identity skew rot rot_x rot_y rot_z min max clamp sum der lambda in";
 
 /// Functions that expressions may call.
 pub(super) fn functions() -> impl Iterator<Item = &'static str> {
-    symbolic::Function::NAMES.into_iter().map(|(name, _)| name).chain(CALLS.split(' '))
+    symbolic::Function::callable().map(|(name, _)| name).chain(CALLS.split(' '))
 }
 
 /// Names with a fixed meaning that are not functions.

@@ -28,6 +28,23 @@ impl Lowering<'_> {
         lagrangian.terms().into_iter().filter_map(lower).collect()
     }
 
+    /// What is differentiated to get the equations has slopes everywhere.
+    pub(super) fn reject_kinks(&mut self, declaration: &Declaration, lagrangian: Option<Id>) {
+        let place = declaration.lagrangian.as_ref().map(|lagrangian| lagrangian.place);
+        if let (Some(lagrangian), Some(place)) = (lagrangian, place) {
+            self.reject_kink("the Lagrangian", lagrangian, place);
+        }
+    }
+
+    pub(super) fn reject_kink(&mut self, what: &str, value: Id, place: Place) {
+        if self.graph.has_kink(value) {
+            let message = format!(
+                "`min`, `max` and `clamp` have no place in {what}, whose slopes must be smooth: they limit forces and observables"
+            );
+            self.diagnostics.error(place, message);
+        }
+    }
+
     /// A conserved quantity has a rate of change, so it contains no accelerations and no multipliers.
     pub(super) fn conserved(
         &mut self,
@@ -93,6 +110,8 @@ impl Lowering<'_> {
         if constraint.is_implied && self.is_among(&residual, rows) {
             return;
         }
+        let place = constraint.left.place.to(constraint.right.place);
+        residual.flat().into_iter().for_each(|row| self.reject_kink("a constraint", row, place));
         let name = &constraint.target.name;
         let mut row = rows.len();
         let symbols = residual.map(&mut |_| {

@@ -26,15 +26,19 @@ const SYNONYMS: [&str; 8] = [
 ];
 
 /// Functions of other tools, and what to write here.
-const CALLS: [(&str, &str); 28] = [
+const CALLS: [(&str, &str); 29] = [
+    (
+        "Min minimum Max maximum saturate sat",
+        "the smaller and the larger of two are `min(x, y)` and `max(x, y)`, a limit on both sides `clamp(x, low, high)`",
+    ),
     ("log Log log2 log10", "the natural logarithm is `ln`"),
     ("pow Pow powi powf Power", "a power is written `x^2`"),
     ("sqr square sq squared", "a square is written `x^2`"),
     ("fabs magnitude", "the absolute value is `abs(x)`, the length of a vector `norm(v)`"),
     ("arcsin arccos arctan ArcSin ArcCos ArcTan", "inverse functions are `asin`, `acos`, `atan`"),
     (
-        "min max Min Max floor ceil round mod sign sgn signum heaviside Heaviside step Piecewise",
-        "the expression must be smooth (`abs`, `sqrt` and `tanh` may serve)",
+        "floor ceil round mod sign sgn signum heaviside Heaviside step Piecewise",
+        "the expression must be smooth (`abs`, `sqrt` and `tanh` may serve, and `min`, `max` and `clamp` in forces)",
     ),
     ("cot", "write `1/tan(x)`"),
     ("sec", "write `1/cos(x)`"),

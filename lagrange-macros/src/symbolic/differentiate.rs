@@ -246,6 +246,8 @@ impl Graph {
             Function::Exp => id,
             Function::Ln => self.pow(x, -one),
             Function::Abs => self.div(x, id),
+            Function::Ramp => self.function(Function::Step, x),
+            Function::Step => Id::ZERO,
         }
     }
 

@@ -163,6 +163,12 @@ pub(super) fn apply(function: Function, x: Approximate) -> Approximate {
         Function::Exp => (v.exp(), (v + x.error).exp()),
         Function::Ln => (v.ln(), inverse(least)),
         Function::Abs => (v.abs(), 1.0),
+        Function::Ramp => (v.max(0.0), 1.0),
+        // Beside its jump it does not change.
+        Function::Step => (
+            0.5 + 0.5 * if v == 0.0 { 0.0 } else { v.signum() },
+            if least > 0.0 { 0.0 } else { f64::INFINITY },
+        ),
     };
     // Twice, for the roundings of the slope.
     Approximate::rounded(value, if x.error == 0.0 { 0.0 } else { 2.0 * slope * x.error })

@@ -44,11 +44,15 @@ pub(crate) enum Function {
     Exp,
     Ln,
     Abs,
+    /// The larger of the argument and 0, which `max` and `min` are made of.
+    Ramp,
+    /// Its slope: 0 below zero, 1 above it.
+    Step,
 }
 
 impl Function {
-    /// Every function with the name it has in expressions, in formulas and in emitted code.
-    pub(crate) const NAMES: [(&'static str, Self); 12] = [
+    /// Every function with the name it has in expressions, in formulas and in emitted code; the last two are in no expression.
+    const NAMES: [(&'static str, Self); 14] = [
         ("sin", Self::Sin),
         ("cos", Self::Cos),
         ("tan", Self::Tan),
@@ -61,14 +65,21 @@ impl Function {
         ("exp", Self::Exp),
         ("ln", Self::Ln),
         ("abs", Self::Abs),
+        ("ramp", Self::Ramp),
+        ("step", Self::Step),
     ];
+
+    /// Those that expressions may call.
+    pub(crate) fn callable() -> impl Iterator<Item = (&'static str, Self)> {
+        Self::NAMES.into_iter().filter(|(_, function)| !matches!(function, Self::Ramp | Self::Step))
+    }
 
     pub(crate) fn name(self) -> &'static str {
         Self::NAMES[self as usize].0
     }
 
     pub(crate) fn named(name: &str) -> Option<Self> {
-        Self::NAMES.iter().find(|(known, _)| *known == name).map(|(_, function)| *function)
+        Self::callable().find(|(known, _)| *known == name).map(|(_, function)| function)
     }
 }
 
@@ -274,6 +285,12 @@ impl Graph {
         }
         found.sort_unstable();
         found
+    }
+
+    /// Whether `root` contains what is made of [`Function::Ramp`].
+    pub(crate) fn has_kink(&self, root: Id) -> bool {
+        let is_kink = |id: &Id| matches!(self.node(*id), Node::Function(Function::Ramp | Function::Step, _));
+        self.reachable(&[root]).iter().any(is_kink)
     }
 
     /// The free variables of `root`, each once.

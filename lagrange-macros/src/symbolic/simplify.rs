@@ -294,6 +294,7 @@ impl Graph {
         use Function as F;
         match (function, x) {
             (F::Sin | F::Tan | F::Asin | F::Atan | F::Sinh | F::Tanh | F::Abs, Id::ZERO) => Some(Id::ZERO),
+            (F::Ramp, _) => self.as_number(x).map(|value| if value.is_positive() { x } else { Id::ZERO }),
             (F::Cos | F::Cosh | F::Exp, Id::ZERO) => Some(Id::ONE),
             (F::Ln | F::Acos, Id::ONE) => Some(Id::ZERO),
             (F::Abs, _) => self.as_number(x).map(|value| self.number(value.abs())),
@@ -341,7 +342,7 @@ fn parity(function: Function) -> Parity {
     match function {
         F::Cos | F::Cosh | F::Abs => Parity::Even,
         F::Sin | F::Tan | F::Asin | F::Atan | F::Sinh | F::Tanh => Parity::Odd,
-        F::Acos | F::Exp | F::Ln => Parity::None,
+        F::Acos | F::Exp | F::Ln | F::Ramp | F::Step => Parity::None,
     }
 }
 

@@ -74,7 +74,9 @@ fn unexpected_sign(cursor: &Cursor, sign: char) -> syn::Error {
 
 fn unexpected_point(cursor: &Cursor) -> syn::Error {
     if cursor.is_pair('.', '.') {
-        return cursor.pair_place().error("a range has both its ends, and stands in a slice `v[0..3]` or in `sum(i in 0..3, expression)`");
+        return cursor.pair_place().error(
+            "a range has both its ends, and stands in a slice `v[0..3]` or in `sum(i in 0..3, expression)`",
+        );
     }
     let message = match (cursor.last(), cursor.follower()) {
         (_, Some(TokenTree::Literal(_))) => "a number begins with a digit: write `0.5`",

@@ -265,8 +265,9 @@ impl Lowering<'_> {
             });
             if value.axes().is_none() && value.as_vector().is_some() && moves {
                 let name = &known.name;
+                let or = if known.frame == 0 { String::new() } else { format!("`vector({name}, …)` or ") };
                 return self.report(*place, format!(
-                    "along which axes this vector is has to be said, where it meets one in the axes of `{name}`: write `vector({name}, …)` or `vector(fixed, …)`"
+                    "along which axes this vector is has to be said, where it meets one in the axes of `{name}`: write {or}`vector(fixed, …)`"
                 ));
             }
         }

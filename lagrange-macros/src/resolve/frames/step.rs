@@ -170,6 +170,7 @@ impl Lowering<'_> {
             return self
                 .report(at.place, "where a frame lies depends on coordinates and time, not on velocities");
         }
+        of.iter().for_each(|&one| self.reject_kink("the placement of a frame", one, at.place));
         let rate = Value::vector(of);
         let rates = self.rate_of(&rate, at.place)?.flat();
         rates.try_into().ok()

@@ -180,6 +180,11 @@ impl Double {
             Function::Ln => self.ln(),
             Function::Abs if self.high < 0.0 => -self,
             Function::Abs => self,
+            Function::Ramp if self.high < 0.0 => ZERO,
+            Function::Ramp => self,
+            Function::Step if self.high < 0.0 => ZERO,
+            Function::Step if self.high > 0.0 => ONE,
+            Function::Step => ONE.times_power_of_two(-1),
         }
     }
 }

@@ -199,6 +199,9 @@ pub(crate) fn apply<D: DualNum<Primitive = f64>>(function: Function, x: &D) -> D
         Function::Exp => x.exp(),
         Function::Ln => x.ln(),
         Function::Abs => x.abs(),
+        Function::Ramp if x.re() > 0.0 => x.clone(),
+        Function::Ramp => D::from(0.0),
+        Function::Step => D::from(0.5 + 0.5 * if x.re() == 0.0 { 0.0 } else { x.re().signum() }),
     }
 }
 
