@@ -23,9 +23,8 @@ use plotters::prelude::*;
 
 #[derive(Lagrangian)]
 #[coordinates(r: [3])]
-#[define(v = r_dot)]
-#[define(W = [0, rate*cos(latitude), rate*sin(latitude)])]
-#[lagrangian(m/2*dot(v, v) + m*dot(v, cross(W, r)) + m/2*dot(cross(W, r), cross(W, r)) - m*g*r[2])]
+#[frame(site: rotate_z(rate*t), rotate_x(pi/2), rotate_x(-latitude))]
+#[lagrangian(kinetic(site, m, r) - m*g*r[2])]
 #[constraint(string: (dot(r, r) - l^2)/2 = 0)]
 struct FoucaultPendulum {
     m: f64,
