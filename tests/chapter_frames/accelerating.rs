@@ -18,14 +18,14 @@ macro_rules! in_the_frame {
         #[function(V(t): [3] = frame)]
         #[define(v = r_dot)]
         #[lagrangian($($l)*)]
-        struct $name {
+        pub(crate) struct $name {
             m: f64,
             potential: Well,
             frame: Velocity,
         }
 
         impl $name {
-            fn new(m: f64, potential: Well, frame: Frame) -> Self {
+            pub(crate) fn new(m: f64, potential: Well, frame: Frame) -> Self {
                 Self { m, potential, frame: Velocity(frame) }
             }
         }

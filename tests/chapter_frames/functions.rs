@@ -90,13 +90,13 @@ impl Frame {
 
 /// The same, as functions for a system's fields.
 macro_rules! function_of_time {
-    ($(#[$doc:meta])* $name:ident, |$frame:ident, $t:ident| $value:expr) => {
+    ($(#[$doc:meta])* $name:ident: $n:literal, |$frame:ident, $t:ident| $value:expr) => {
         $(#[$doc])*
         #[derive(Clone, Copy)]
         pub(crate) struct $name(pub(crate) Frame);
 
-        impl Function<1, 3> for $name {
-            fn eval<S: Scalar>(&self, [$t]: [S; 1]) -> [S; 3] {
+        impl Function<1, $n> for $name {
+            fn eval<S: Scalar>(&self, [$t]: [S; 1]) -> [S; $n] {
                 let $frame = self.0;
                 $value
             }
@@ -105,16 +105,24 @@ macro_rules! function_of_time {
 }
 
 function_of_time!(
+    /// R(t).
+    Origin: 3, |frame, t| frame.origin(t)
+);
+function_of_time!(
     /// V(t) = Ṙ.
-    Velocity, |frame, t| frame.velocity(t)
+    Velocity: 3, |frame, t| frame.velocity(t)
+);
+function_of_time!(
+    /// The angles by which the axes are turned.
+    Angles: 2, |frame, t| frame.angles(t)
 );
 function_of_time!(
     /// Ω(t), along the turning axes.
-    AngularVelocity, |frame, t| frame.angular_velocity(t)
+    AngularVelocity: 3, |frame, t| frame.angular_velocity(t)
 );
 function_of_time!(
     /// A(t) = R̈, along the turning axes.
-    Acceleration, |frame, t| frame.along_axes(t, frame.acceleration(t))
+    Acceleration: 3, |frame, t| frame.along_axes(t, frame.acceleration(t))
 );
 
 /// The potential U, which goes along with a frame, as a function of the inertial coordinates and of time.

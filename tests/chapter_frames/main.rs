@@ -1,6 +1,7 @@
 //! Noninertial frames: Milton (8.32)–(8.51), and systems in them with a known motion.
 
 mod accelerating;
+mod declared;
 mod functions;
 #[path = "../derivatives/random.rs"]
 mod random;

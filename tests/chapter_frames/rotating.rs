@@ -21,7 +21,7 @@ use crate::random::Random;
 #[observable(euler = m*cross(r, der(W)))]
 #[observable(coriolis = 2*m*cross(v, W))]
 #[observable(centrifugal = m*cross(W, cross(r, W)))]
-struct Rotating {
+pub(crate) struct Rotating {
     m: f64,
     potential: Well,
     rotation: AngularVelocity,
@@ -29,7 +29,7 @@ struct Rotating {
 }
 
 impl Rotating {
-    fn new(m: f64, potential: Well, frame: Frame) -> Self {
+    pub(crate) fn new(m: f64, potential: Well, frame: Frame) -> Self {
         Self { m, potential, rotation: AngularVelocity(frame), push: Acceleration(frame) }
     }
 
@@ -42,7 +42,7 @@ impl Rotating {
         self.m * self.accelerations_unchecked(state).accelerations
     }
 
-    fn angular_velocity(&self, t: f64) -> Vector3<f64> {
+    pub(crate) fn angular_velocity(&self, t: f64) -> Vector3<f64> {
         self.rotation.0.angular_velocity(t).into()
     }
 
@@ -57,7 +57,7 @@ impl Rotating {
     }
 
     /// The state as seen from the inertial frame: R + Q r and Ṙ + Q (v + Ω×r).
-    fn seen_from_outside(&self, state: &State<f64, 3>) -> State<f64, 3> {
+    pub(crate) fn seen_from_outside(&self, state: &State<f64, 3>) -> State<f64, 3> {
         let (frame, t) = (self.rotation.0, state.t);
         let [origin, velocity] = [frame.origin(t), frame.velocity(t)].map(Vector3::from);
         let carried = state.v + self.angular_velocity(t).cross(&state.q);
