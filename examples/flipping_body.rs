@@ -2,10 +2,10 @@
 //! or a book that is thrown.
 //!
 //! The body is a frame that moves by a vector and turns by a unit quaternion; no force acts. Its angular momentum stands
-//! still in space. Seen from the body it goes round on a sphere, along lines of constant energy; two of these cross where
-//! the middle axis is, and close to them it goes from one end of that axis almost to the other. How, is known (L. D. Landau
-//! and E. M. Lifshitz, *Mechanics*, §37): with I₁ < I₂ < I₃ and M² > 2 E I₂ the components of ω go as cn τ, sn τ and dn τ,
-//! and it turns over every 2K/ν, which grows with the logarithm of how well the axis was aimed at.
+//! still in space. Seen from the body it goes round on a sphere, along lines of constant energy; two of these cross
+//! where the middle axis is, and close to them it goes from one end of that axis almost to the other. How, is known
+//! (L. D. Landau and E. M. Lifshitz, *Mechanics*, §37): with I₁ < I₂ < I₃ and M² > 2 E I₂ the components of ω go as
+//! cn τ, sn τ and dn τ, and it turns over every 2K/ν, which grows with the logarithm of how well the axis was aimed at.
 
 mod picture;
 
