@@ -1,6 +1,6 @@
 //! A bicycle that rolls on two wheels, against the benchmark of J. P. Meijaard, J. M. Papadopoulos, A. Ruina and A. L. Schwab,
 //! "Linearized dynamics equations for the balance and steer of a bicycle: a benchmark and review", *Proceedings of the Royal
-//! Society A* 463 (2007): its parameters (table 1), the matrices of (5.3) for them and the eigenvalues (table 2).
+//! Society A* 463 (2007): its parameters, their canonical matrices, and the eigenvalues.
 //!
 //! Here nothing is linear, and no contact point is a coordinate: the bodies are frames, the wheels touch the ground, and the
 //! material points with which they do are at rest. The linear system about riding straight ahead is [`Linearized::linearize`]'s;
@@ -53,7 +53,7 @@ struct Bicycle {
     front_inertia: Matrix3<f64>,
 }
 
-/// Table 1.
+/// The benchmark's parameters.
 fn bicycle() -> Bicycle {
     let wheel = |xx: f64, yy: f64| Matrix3::from_diagonal(&Vector3::new(xx, yy, xx));
     let half = |xx: f64, yy: f64, zz: f64, xz: f64| Matrix3::new(xx, 0.0, xz, 0.0, yy, 0.0, xz, 0.0, zz);
@@ -133,7 +133,7 @@ fn lean_and_steer_have_the_equations_of_the_benchmark() {
     }
 }
 
-/// Table 2 at 0, 4, 5 and 10 m/s, and where the weave becomes stable.
+/// The eigenvalues at 0, 4, 5 and 10 m/s, and where the weave becomes stable.
 const SPECTRA: [(f64, [[f64; 2]; 4]); 5] = [
     (
         0.0,
