@@ -77,7 +77,7 @@ impl Schedule {
             match operation {
                 Operation::Constant(_) | Operation::Input(_) => {}
                 Operation::Function(Function::Abs | Function::Ramp | Function::Step, _) => {
-                    count.arithmetic += 1
+                    count.arithmetic += 1;
                 }
                 Operation::Function(..) | Operation::Atan2(..) | Operation::Power(..) => count.functions += 1,
                 Operation::Result { .. } => count.calls += 1,
