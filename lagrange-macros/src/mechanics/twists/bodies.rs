@@ -5,7 +5,7 @@
 
 use super::accelerations::InTime;
 use super::{Parts, Twists};
-use crate::resolve::{Body, Frame, Problem, Triple, cross, sum};
+use crate::resolve::{Body, Frame, Problem, Step, Triple, cross, sum};
 use crate::symbolic::{Graph, Id};
 use crate::variables::Variable;
 
@@ -33,9 +33,7 @@ impl Twists<'_> {
         for &Body { frame, mass, moment, inertia, .. } in &self.bodies {
             let own = &accelerations[frame];
             let Frame { angular_velocity, velocity, .. } = self.problem.frames[frame];
-            let moving = own.moving.map(|component| graph.mul(mass, component));
-            let turning = own.by_turning.map(|row| graph.dot(&row, &moment));
-            let force = sum([moving, turning], graph);
+            let force = own.by_turning.map(|row| graph.dot(&row, &moment));
             let mut times = |vector: Triple| inertia.map(|row| graph.dot(&row, &vector));
             let (spin, change) = (times(angular_velocity), times(own.turning));
             let gyroscopic = cross(angular_velocity, spin, graph);
@@ -43,7 +41,24 @@ impl Twists<'_> {
             let torque = sum([change, gyroscopic, arm], graph);
             self.along(graph, force.map(|component| (minus, component)), velocity, parts);
             self.along(graph, torque.map(|component| (minus, component)), angular_velocity, parts);
+            // What the origin takes is the same along whatever axes, also those from before it is turned.
+            let first = self.unturned(frame);
+            let own = accelerations[first].moving.map(|component| graph.neg(component));
+            self.along(
+                graph,
+                own.map(|component| (mass, component)),
+                self.problem.frames[first].velocity,
+                parts,
+            );
         }
+    }
+
+    /// The first frame with the origin of this one.
+    fn unturned(&self, mut frame: usize) -> usize {
+        while let Step::Turned(_) = self.problem.frames[frame].step {
+            frame = self.problem.frames[frame].before;
+        }
+        frame
     }
 
     /// Takes from the slopes of L by where frames are what uniform gravity makes of them, and gives the acceleration that
