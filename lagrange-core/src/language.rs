@@ -209,7 +209,7 @@
 //! Frames are not only shorter to write. The macro knows how velocities go from frame to frame, and differentiates none of
 //! it: accelerations come from the recursions of Newton and Euler and from the inertia of what moves as one, or from the
 //! articulated-body algorithm, whichever is faster (Featherstone, *Rigid Body Dynamics Algorithms*). An arm of six joints
-//! takes 2,310 operations this way, and several times as many by `der` of positions along the fixed axes. What is not used is
+//! takes some 2,300 operations this way, and four times as many by `der` of positions along the fixed axes. What is not used is
 //! not computed: a potential `m*g*position(body, c)[2]` needs one row of a rotation, or none.
 //!
 //! # Functions that you supply
