@@ -1,3 +1,4 @@
+use lagrange_core::nalgebra::Matrix3;
 use lagrange_core::prelude::*;
 
 #[derive(Lagrangian)]
@@ -22,5 +23,16 @@ use lagrange_core::prelude::*;
 #[frame(q: rotate_x(y))]
 #[lagrangian(x_dot^2 + y_dot^2 + dot(q_dot, q_dot) + dot(r_dot, r_dot))]
 struct System;
+
+#[derive(Lagrangian)]
+#[coordinates(x, y)]
+#[define(stretched = rot_z(x)*[[1, 0, 0], [0, 1, 0], [0, 0, 2]])]
+#[frame(a: rotate(field))]
+#[frame(b: rotate(stretched))]
+#[frame(mirrored: rotate([[1, 0, 0], [0, 1, 0], [0, 0, -1]]))]
+#[frame(good: rotate(turn*rot_x(y)))]
+#[parameter(turn: rotation)]
+#[lagrangian(kinetic(a, m, [1, 0, 0]) + kinetic(b, m) + kinetic(mirrored, m) + kinetic(good, m))]
+struct NoRotations { m: f64, field: Matrix3<f64>, turn: Matrix3<f64> }
 
 fn main() {}

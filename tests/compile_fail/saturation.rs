@@ -18,4 +18,10 @@ struct Kinks;
 #[force(x: min)]
 struct Wrong;
 
+#[derive(Lagrangian)]
+#[coordinates(x)]
+#[lagrangian(x_dot^2)]
+#[dissipation(max(x_dot, 0)^2)]
+struct OneSided;
+
 fn main() {}

@@ -8,14 +8,19 @@ use crate::variables::Variable;
 impl Problem {
     /// The value of a symbol in this draw.
     pub(crate) fn drawn(&self, symbol: Symbol, draw: u64) -> Approximate {
-        match Variable::of(symbol) {
-            Variable::Parameter(k) => self.parameters.drawn(k, symbol, draw),
-            _ => Approximate::exact(drawn(symbol, (-1.25, 1.75), draw)),
-        }
+        self.parameters.value_of(symbol, draw)
     }
 }
 
 impl Parameters {
+    /// The value of any symbol in this draw.
+    pub(super) fn value_of(&self, symbol: Symbol, draw: u64) -> Approximate {
+        match Variable::of(symbol) {
+            Variable::Parameter(k) => self.drawn(k, symbol, draw),
+            _ => Approximate::exact(drawn(symbol, (-1.25, 1.75), draw)),
+        }
+    }
+
     fn drawn(&self, k: usize, symbol: Symbol, draw: u64) -> Approximate {
         let entry = self.entries[k];
         let plain = || Approximate::exact(drawn(symbol, self.ranges[entry.field], draw));

@@ -11,8 +11,7 @@ use crate::variables::{Variable, has_velocity, symbols};
 
 impl Lowering<'_> {
     pub(super) fn forces(&mut self, declaration: &Declaration) -> Vec<Id> {
-        let count = declaration.coordinates.iter().map(|coordinate| coordinate.length.unwrap_or(1)).sum();
-        let mut forces = vec![Id::ZERO; count];
+        let mut forces = vec![Id::ZERO; self.count];
         for force in &declaration.forces {
             let name = &force.target.name;
             let Some(Entity::Coordinate(index)) = self.scope.get(&name.text) else {
@@ -106,8 +105,7 @@ impl Lowering<'_> {
         if !has_velocity(&self.graph, &velocities) {
             return self.report(of, "no velocity occurs in this, so that a force along it does nothing");
         }
-        let symbols =
-            symbols(self.coordinates.iter().map(|known| known.length.unwrap_or(1)).sum(), Variable::Velocity);
+        let symbols = symbols(self.count, Variable::Velocity);
         let slopes: Vec<Id> = velocities.iter().flat_map(|&one| self.graph.gradient(one, &symbols)).collect();
         if has_velocity(&self.graph, &slopes) {
             return self.report(of, "a force acts along what is linear in the velocities: its virtual work is force · ∂velocity/∂q̇ · δq");

@@ -55,8 +55,9 @@ pub(super) struct Lowering<'a> {
     pub(super) parameters: Parameters,
     pub(super) diagnostics: &'a mut Diagnostics,
     pub(super) coordinates: &'a [Coordinate],
-    /// The first flat index of each coordinate.
+    /// The first flat index of each coordinate, and how many there are.
     pub(super) offsets: Vec<usize>,
+    pub(super) count: usize,
     pub(super) functions: &'a [Function],
     pub(super) defines: &'a [Define],
     pub(super) declared_frames: &'a [Frame],
@@ -105,6 +106,7 @@ impl<'a> Lowering<'a> {
             diagnostics,
             coordinates,
             offsets,
+            count,
             functions,
             defines,
             declared_frames: frames,

@@ -23,7 +23,7 @@ use rustc_hash::FxHashMap;
 use crate::diagnostics::{Diagnostics, Place};
 use crate::symbolic::{Graph, Id};
 use crate::syntax::Declaration;
-pub(crate) use frames::{Body, Frame, Step, Triple, columns, named, sum};
+pub(crate) use frames::{Body, Frame, Step, Triple, columns, named, sum, symmetric};
 pub(crate) use function::Supplied;
 use lower::Lowering;
 pub(crate) use outline::{Observable, Outline, outline};
@@ -77,12 +77,17 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
     let mut lowering = Lowering::new(scope, parameters, declaration, diagnostics);
     lowering.define_all();
     let lagrangian = declaration.lagrangian.as_ref().and_then(|lagrangian| lowering.scalar(lagrangian));
-    lowering.reject_kinks(declaration, lagrangian);
+    if let (Some(value), Some(written)) = (lagrangian, &declaration.lagrangian) {
+        lowering.reject_kink("the Lagrangian", value, written.place);
+    }
     let terms = lowering.terms(declaration);
     let forces = lowering.forces(declaration);
     let powers = lowering.powers(declaration);
     let dissipation =
         declaration.dissipation.as_ref().map(|function| (lowering.scalar(function), function.place));
+    if let Some((Some(value), place)) = dissipation {
+        lowering.reject_kink("a dissipation function", value, place);
+    }
     let constraints = lowering.constraints(&declaration.constraints);
     let observables = lowering.observables(declaration);
     let conserved = lowering.conserved(declaration, &observables);

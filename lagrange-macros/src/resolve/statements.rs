@@ -29,13 +29,6 @@ impl Lowering<'_> {
     }
 
     /// What is differentiated to get the equations has slopes everywhere.
-    pub(super) fn reject_kinks(&mut self, declaration: &Declaration, lagrangian: Option<Id>) {
-        let place = declaration.lagrangian.as_ref().map(|lagrangian| lagrangian.place);
-        if let (Some(lagrangian), Some(place)) = (lagrangian, place) {
-            self.reject_kink("the Lagrangian", lagrangian, place);
-        }
-    }
-
     pub(super) fn reject_kink(&mut self, what: &str, value: Id, place: Place) {
         if self.graph.has_kink(value) {
             let message = format!(

@@ -293,6 +293,11 @@ impl Graph {
         self.reachable(&[root]).iter().any(is_kink)
     }
 
+    /// Whether a function of which nothing is known is in one of `roots`.
+    pub(crate) fn has_external(&self, roots: &[Id]) -> bool {
+        self.reachable(roots).iter().any(|id| matches!(self.node(*id), Node::External(_)))
+    }
+
     /// The free variables of `root`, each once.
     pub(crate) fn symbols(&self, roots: &[Id]) -> impl Iterator<Item = Symbol> {
         self.reachable(roots).into_iter().filter_map(|id| match self.node(id) {

@@ -6,7 +6,7 @@
 use super::accelerations::InTime;
 use super::{Parts, Twists};
 use crate::resolve::{Body, Frame, Problem, Step, Triple, cross, sum};
-use crate::symbolic::{Graph, Id};
+use crate::symbolic::{Graph, Id, Symbol};
 use crate::variables::Variable;
 
 /// The bodies whose kinetic energies are terms of L, and L without them.
@@ -69,11 +69,10 @@ impl Twists<'_> {
         for axis in 0..3 {
             let candidate = self.bodies.iter().find_map(|body| {
                 let at = slope(self.problem.frames[body.frame].origin[axis])?;
-                (slopes[at] != Id::ZERO).then(|| graph.div(slopes[at], body.mass))
+                let candidate = (slopes[at] != Id::ZERO).then(|| graph.div(slopes[at], body.mass))?;
+                is_uniform(graph, candidate, body.mass).then_some(candidate)
             });
-            let Some(candidate) = candidate.filter(|&candidate| self.is_uniform(graph, candidate)) else {
-                continue;
-            };
+            let Some(candidate) = candidate else { continue };
             let mut rest = slopes.to_vec();
             for body in &self.bodies {
                 let Frame { axes, origin, .. } = &self.problem.frames[body.frame];
@@ -95,11 +94,12 @@ impl Twists<'_> {
         }
         fixed
     }
+}
 
-    fn is_uniform(&self, graph: &mut Graph, candidate: Id) -> bool {
-        graph.take_fault().is_none()
-            && graph
-                .symbols(&[candidate])
-                .all(|symbol| matches!(Variable::of(symbol), Variable::Parameter(_) | Variable::Time))
-    }
+/// Whether it is the same everywhere, and no force divided by a mass, which may be zero.
+fn is_uniform(graph: &mut Graph, candidate: Id, mass: Id) -> bool {
+    let of_mass: Vec<Symbol> = graph.symbols(&[mass]).collect();
+    let is_given = |symbol| matches!(Variable::of(symbol), Variable::Parameter(_) | Variable::Time);
+    graph.take_fault().is_none()
+        && graph.symbols(&[candidate]).all(|symbol| is_given(symbol) && !of_mass.contains(&symbol))
 }

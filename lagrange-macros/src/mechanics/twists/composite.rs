@@ -4,7 +4,7 @@
 
 use super::super::euler_lagrange::hessian;
 use super::Twists;
-use crate::resolve::{Frame, Step, Triple, cross};
+use crate::resolve::{Frame, Step, Triple, cross, symmetric};
 use crate::symbolic::{Graph, Id, Rational};
 
 /// Mass, mass times the position of the centre, and inertia about the origin, in the axes of a frame.
@@ -211,11 +211,4 @@ impl Momentum {
 
 fn pairs(x: Triple, y: Triple) -> [(Id, Id); 3] {
     std::array::from_fn(|i| (x[i], y[i]))
-}
-
-/// A symmetric matrix from its upper triangle.
-fn symmetric(mut entry: impl FnMut(usize, usize) -> Id) -> [Triple; 3] {
-    let [a, b, c] = [entry(0, 0), entry(0, 1), entry(0, 2)];
-    let [d, e, f] = [entry(1, 1), entry(1, 2), entry(2, 2)];
-    [[a, b, c], [b, d, e], [c, e, f]]
 }

@@ -16,7 +16,7 @@ use super::euler_lagrange::forces_along;
 use super::gauss::{Form, Velocities};
 use crate::resolve::{Body, Frame, Problem, Step, Triple};
 use crate::symbolic::{Graph, Id, Node, Rational};
-use crate::variables::{Variable, drift, has_velocity, symbols, total_time_derivative};
+use crate::variables::{Variable, drift, has_velocity, nodes, total_time_derivative};
 use accelerations::InTime;
 
 /// The components of the frames' twists as velocities beside the generalized ones.
@@ -57,7 +57,7 @@ impl<'p> Twists<'p> {
     /// `None` where no frame moves.
     pub(super) fn of(graph: &mut Graph, problem: &'p Problem) -> Option<Self> {
         let n = problem.coordinates.len();
-        let nodes: Vec<Id> = symbols(n, Variable::Velocity).iter().map(|&v| graph.symbol(v)).collect();
+        let nodes = nodes(graph, n, Variable::Velocity);
         let numbers = nodes.iter().enumerate().map(|(i, &node)| (node, i)).collect();
         let velocities = Velocities { nodes, rows: Vec::new() };
         let (bodies, others) = bodies::apart(graph, problem);

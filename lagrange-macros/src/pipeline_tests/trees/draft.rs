@@ -207,7 +207,9 @@ impl Draft {
             3 => {
                 self.count("placed by a matrix");
                 let by = turn_by(random.quaternion());
-                let text = format!("rotate({})", self.field("Matrix3<f64>", by.concat()));
+                let name = self.field("Matrix3<f64>", by.concat());
+                self.attribute(format!("parameter({name}: rotation)"));
+                let text = format!("rotate({name})");
                 self.step(frame, text, [Joint::Placed(by)]);
             }
             _ => {

@@ -11,7 +11,7 @@ use super::scope::Entity;
 use super::value::Axes;
 use crate::symbolic::Id;
 use crate::syntax::{Expression, Frame as Declared, Kind, Name, TargetIndex};
-pub(crate) use pose::{Frame, Step, Triple, columns, named, sum};
+pub(crate) use pose::{Frame, Step, Triple, columns, named, sum, symmetric};
 pub(super) use spatial::is_of_frames;
 
 /// The name of the frame that all others lie in, in the end.

@@ -142,6 +142,13 @@ pub(crate) fn sum<const K: usize>(vectors: [Triple; K], graph: &mut Graph) -> Tr
     std::array::from_fn(|i| graph.total(vectors.map(|vector| vector[i])))
 }
 
+/// A symmetric matrix from its upper triangle.
+pub(crate) fn symmetric(mut entry: impl FnMut(usize, usize) -> Id) -> [Triple; 3] {
+    let [a, b, c] = [entry(0, 0), entry(0, 1), entry(0, 2)];
+    let [d, e, f] = [entry(1, 1), entry(1, 2), entry(2, 2)];
+    [[a, b, c], [b, d, e], [c, e, f]]
+}
+
 /// Boundaries, so that what builds on them is not multiplied out.
 pub(crate) fn named(vector: Triple, graph: &mut Graph) -> Triple {
     vector.map(|component| graph.defined(component))

@@ -3,7 +3,7 @@
 use super::super::call::wrong_number;
 use super::super::lower::Lowering;
 use super::super::value::{Axes, Shape, Value, cross};
-use super::pose::sum;
+use super::pose::{sum, symmetric};
 use super::{Body, Triple};
 use crate::diagnostics::Place;
 use crate::symbolic::{Id, Rational};
@@ -273,11 +273,4 @@ impl Lowering<'_> {
         }
         Some(axes)
     }
-}
-
-/// A symmetric matrix from its upper triangle.
-fn symmetric(mut entry: impl FnMut(usize, usize) -> Id) -> [Triple; 3] {
-    let [a, b, c] = [entry(0, 0), entry(0, 1), entry(0, 2)];
-    let [d, e, f] = [entry(1, 1), entry(1, 2), entry(2, 2)];
-    [[a, b, c], [b, d, e], [c, e, f]]
 }

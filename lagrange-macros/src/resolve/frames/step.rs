@@ -5,12 +5,15 @@ use super::super::lower::Lowering;
 use super::super::matrix::rotation;
 use super::super::quaternion;
 use super::super::scope::Entity;
-use super::super::value::Value;
+use super::super::value::{Value, cross};
 use super::pose::{Frame, Moved, Step, Triple, Turned, columns, named};
-use crate::symbolic::Id;
+use crate::symbolic::{Id, Sample, Symbol};
 use crate::syntax::{Expression, Kind};
 use crate::variables::Variable;
 
+/// As many random values are tried.
+const DRAWS: u64 = 3;
+const NO_ROTATION: &str = "this matrix is no rotation, whose columns are of length 1, across each other and right-handed: say of a field that it is one, `#[parameter(R: rotation)]`, or make it a `Rotation3`";
 const STEPS: &str = "a frame comes from the one that it is in by `translate(v)`, `rotate_x(angle)`, `rotate_y(angle)`, `rotate_z(angle)`, `rotate(axis, angle)`, `rotate(q)` with a quaternion and `rotate(R)` with a matrix";
 
 impl Lowering<'_> {
@@ -100,6 +103,7 @@ impl Lowering<'_> {
             <[Triple; 3]>::try_from(rows?).ok()
         });
         if let Some(rows) = rows {
+            self.check_rotation(rows, by)?;
             return self.turned_by_matrix(rows, by);
         }
         match value.as_vector().map(<[Id; 4]>::try_from) {
@@ -112,6 +116,29 @@ impl Lowering<'_> {
                 self.report(by.place, message)
             }
         }
+    }
+
+    /// At random values of all that it is made of, unless that is functions of which nothing is known.
+    fn check_rotation(&mut self, rows: [Triple; 3], at: &Expression) -> Option<()> {
+        let graph = &mut self.graph;
+        let [a, b, c] = columns(rows);
+        let lengths = [graph.dot(&a, &a), graph.dot(&b, &b)].map(|square| graph.sub(square, Id::ONE));
+        let third = cross(a, b, graph);
+        let third: Triple = std::array::from_fn(|i| graph.sub(third[i], c[i]));
+        let zeros = [&lengths[..], &[graph.dot(&a, &b)], &third].concat();
+        if graph.has_external(&zeros) {
+            return Some(());
+        }
+        let symbols: Vec<Symbol> = graph.symbols(&zeros).collect();
+        let is_none = (0..DRAWS).any(|draw| {
+            let value = |symbol, draw| self.parameters.value_of(symbol, draw);
+            let mut sample = Sample::new(symbols.iter().copied(), draw, value);
+            sample.values(&self.graph, &zeros).iter().any(|value| value.excludes_zero())
+        });
+        if is_none {
+            return self.report(at.place, NO_ROTATION);
+        }
+        Some(())
     }
 
     /// S ω of a rotation is Eᵀ Ė.
