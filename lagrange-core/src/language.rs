@@ -160,7 +160,7 @@
 //! | `rotate_x(angle)`, `rotate_y`, `rotate_z` | about an axis of its own, by the right-hand rule |
 //! | `rotate(axis, angle)` | about any axis, of whatever length |
 //! | `rotate(q)` | by a quaternion (w, x, y, z), of whatever length but zero; where it is a coordinate, the constraint `dot(q, q) = 1` comes with it, named like it, as the last |
-//! | `rotate(R)` | by a rotation matrix, which turns vectors from the new axes into the old: a `Rotation3`, a `Matrix3` with `#[parameter(R: rotation)]`, a product of rotations |
+//! | `rotate(R)` | by a rotation matrix, which turns vectors from the new axes into the old: a `Rotation3`, a `Matrix3` with `#[parameter(R: rotation)]`, a product of rotations, which is taken turn by turn |
 //!
 //! What a step is made of may depend on coordinates and on time: a joint, or a motion that is prescribed.
 //!

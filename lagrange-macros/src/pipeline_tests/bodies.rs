@@ -3,7 +3,7 @@
 use expect_test::expect;
 
 use super::{derived, equations};
-use crate::codegen::{Count, solving};
+use crate::codegen::{Count, solutions, solving};
 use crate::mechanics::Equations;
 use crate::symbolic::{Approximate, Id, Sample};
 use crate::variables::{Variable, nodes, total_time_derivative};
@@ -110,8 +110,58 @@ fn a_long_arm_costs_as_much_as_its_length() {
     assert_eq!(least(&arm(20)), lengths[3]);
 }
 
+/// A frame that is turned by a product, however that is written, and its turns one by one.
+#[test]
+fn a_product_of_rotations_is_its_turns() {
+    let source = |definitions: &str, steps: &str| {
+        format!(
+            "#[coordinates(a, b, c)] #[define(in_one_order = [axis, r, [l, m, g]])] {definitions}
+             #[frame(one: translate([0, a, l]), {steps})] #[frame(two in one: translate([l, 0, 0]), rotate_y(c))]
+             #[lagrangian(kinetic(one, m, r, I) + kinetic(two, m, r, I) - m*g*position(two, r)[2])]
+             struct Turned {{ m: f64, g: f64, l: f64, r: Vector3<f64>, I: Matrix3<f64>, axis: Vector3<f64>, place: Rotation3<f64> }}"
+        )
+    };
+    let spellings = [
+        ("", "rotate(rot_z(a)*place*rot(axis, a*b))"),
+        ("", "rotate(rot_z(a)), rotate(place*rot(axis, a*b))"),
+        ("#[define(R = rot_z(a)*place*rot(axis, a*b))]", "rotate(R)"),
+        ("#[define(P = place)] #[define(R(x) = P*rot(axis, x))]", "rotate(rot_z(a)*R(a*b))"),
+        (
+            "#[define(E[0] = rot_z(a))] #[define(E[1] = E[0]*place)] #[define(E[2] = E[1]*rot(axis, a*b))]",
+            "rotate(E[2])",
+        ),
+        ("#[define(B = rot(axis, -a*b)*transpose(place)*rot_z(-a))]", "rotate(transpose(B))"),
+        ("#[define(E = [place, rot(axis, a*b)])]", "rotate(rot_z(a)*E[0]*E[1])"),
+    ];
+    let accelerations = |source: &str| {
+        let (graph, problem, equations) = equations(source);
+        let values = solutions(&graph, &equations, |symbol| problem.drawn(symbol, 1).value);
+        values[0].clone().expect("short enough")
+    };
+    let steps = source("", "rotate_z(a), rotate(place), rotate(axis, a*b)");
+    let (expected, cost) = (accelerations(&steps), counts(&steps));
+    for (definitions, product) in spellings {
+        let product = source(definitions, product);
+        assert_eq!(counts(&product), cost, "{product}");
+        for (ours, expected) in accelerations(&product).iter().zip(&expected) {
+            assert!((ours - expected).abs() < 1e-12 * expected.abs(), "{product}: {ours} and {expected}");
+        }
+    }
+}
+
+/// Each is twice as long as the one before: as many turns are not taken one by one.
+#[test]
+fn rotations_that_double_come_to_an_end() {
+    let definitions = "#[define(R[0] = rot_x(a))] #[define(R[i in 1..40] = R[i-1]*R[i-1])]";
+    let (graph, _, equations) = equations(&format!(
+        "#[coordinates(a)] {definitions} #[frame(body: rotate(R[39]))] #[lagrangian(kinetic(body, m, [0, 0, 0], identity(3)))]
+         struct Doubled {{ m: f64 }}"
+    ));
+    assert!(!solving(&graph, &equations).is_empty());
+}
+
 /// Systems with every kind of step, and with all that L may contain beside bodies.
-const SYSTEMS: [&str; 16] = [
+const SYSTEMS: [&str; 18] = [
     ARM,
     DENAVIT,
     QUADRUPED,
@@ -141,7 +191,17 @@ const SYSTEMS: [&str; 16] = [
      #[frame(c in b: rotate_x(p))]
      #[lagrangian(kinetic(a, m, c0, I) + kinetic(b, m, c0, I) + kinetic(c, m, c0, I) + dot(angular_velocity(b), c0)*p)]
      struct Twins { m: f64, c0: Vector3<f64>, I: Matrix3<f64> }",
-    // A rotation by a matrix that moves.
+    // A rotation by a matrix that moves, of which no turns are known.
+    "#[coordinates(p, q)]
+     #[frame(a: rotate([[cos(p*q), -sin(p*q), 0], [sin(p*q), cos(p*q), 0], [0, 0, 1]]), translate([p, 0, 0]), rotate_x(q))]
+     #[lagrangian(kinetic(a, m, c, I) - m*g*position(a, c)[1])]
+     struct Entries { m: f64, g: f64, c: Vector3<f64>, I: Matrix3<f64> }",
+    // By a product of a turn and of reflections, which are no rotations.
+    "#[coordinates(p, q)] #[define(M = [[0, 1, 0], [1, 0, 0], [0, 0, 1]])]
+     #[frame(a: rotate(M*rot_x(p)*M), translate([p, 0, 0]), rotate_x(q))]
+     #[lagrangian(kinetic(a, m, c, I) - m*g*position(a, c)[1])]
+     struct Mirrored { m: f64, g: f64, c: Vector3<f64>, I: Matrix3<f64> }",
+    // A product of turns.
     "#[coordinates(p, q)] #[define(R = rot_x(p)*rot_z(q))]
      #[frame(a: rotate(R), translate([p, 0, 0]))]
      #[lagrangian(kinetic(a, m, c, I) - m*g*position(a, c)[1])]

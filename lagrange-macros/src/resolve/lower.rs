@@ -5,6 +5,7 @@ use num_traits::Zero;
 use super::frames::Frames;
 use super::parameters::Parameters;
 use super::scope::{Entity, Scope, is_built_in};
+use super::turns::Turns;
 use super::value::Value;
 use crate::diagnostics::{Diagnostics, Place, fault_message};
 use crate::symbolic::{Fault, Forward, Graph, Id, Rational};
@@ -62,6 +63,7 @@ pub(super) struct Lowering<'a> {
     pub(super) defines: &'a [Define],
     pub(super) declared_frames: &'a [Frame],
     pub(super) frames: Frames,
+    pub(super) turns: Turns,
     /// By the index of the first `define` of the name.
     pub(super) definitions: Vec<Definition>,
     pub(super) multipliers: Vec<MultiplierGroup>,
@@ -111,6 +113,7 @@ impl<'a> Lowering<'a> {
             defines,
             declared_frames: frames,
             frames: Frames::default(),
+            turns: Turns::default(),
             definitions: defines.iter().map(|_| Definition::Pending).collect(),
             multipliers: Vec::new(),
             observables: Vec::new(),
@@ -184,7 +187,7 @@ impl<'a> Lowering<'a> {
         self.part(&value, at.place, kind, part)
     }
 
-    fn part<T>(
+    pub(super) fn part<T>(
         &mut self,
         value: &Value,
         place: Place,

@@ -45,7 +45,11 @@ impl Lowering<'_> {
         let product = left.iter().map(|row| right.iter().map(|column| self.graph.dot(row, column)).collect());
         let product: Rows = product.collect();
         Some(match (row, column) {
-            (None, None) => Value::matrix(product),
+            (None, None) => {
+                let product = Value::matrix(product);
+                self.remember_product(x, y, &product);
+                product
+            }
             // A matrix in the axes of its vector.
             _ => Value::vector(product.into_iter().flatten()).along(x.axes().or(y.axes())),
         })
@@ -67,7 +71,13 @@ impl Lowering<'_> {
                 let diagonal = rows.iter().enumerate().map(|(i, row)| row[i]);
                 Some(Value::Scalar(self.graph.total(diagonal)))
             }
-            _ => Some(Value::matrix(transposed(self.of_kind(argument, "matrix", Value::as_matrix)?))),
+            _ => {
+                let matrix = self.lower(argument)?;
+                let rows = self.part(&matrix, argument.place, "matrix", Value::as_matrix)?;
+                let transpose = Value::matrix(transposed(rows));
+                self.remember_transpose(&matrix, &transpose);
+                Some(transpose)
+            }
         }
     }
 
@@ -94,13 +104,19 @@ impl Lowering<'_> {
             "rot_y" => [Id::ZERO, Id::ONE, Id::ZERO],
             _ => [Id::ZERO, Id::ZERO, Id::ONE],
         };
-        Some(Value::matrix(rotation(axis, angle, &mut self.graph)))
+        Some(self.turn_about(axis, angle))
     }
 
     /// `rot(axis, angle)`: the axis may be of any length but zero.
     pub(super) fn rotation(&mut self, name: &Name, axis: &Expression, angle: &Expression) -> Option<Value> {
         let (unit, angle) = (self.unit(name, axis), self.scalar(angle));
-        Some(Value::matrix(rotation(unit?, angle?, &mut self.graph)))
+        Some(self.turn_about(unit?, angle?))
+    }
+
+    fn turn_about(&mut self, axis: [Id; 3], angle: Id) -> Value {
+        let matrix = rotation(axis, angle, &mut self.graph);
+        self.remember_turn(matrix, axis, angle);
+        Value::matrix(matrix)
     }
 
     /// A vector in space of length 1, along one of any length but zero.

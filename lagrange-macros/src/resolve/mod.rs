@@ -15,6 +15,7 @@ mod property;
 mod quaternion;
 mod scope;
 mod statements;
+mod turns;
 mod unknown;
 mod value;
 

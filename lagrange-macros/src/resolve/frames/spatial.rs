@@ -167,11 +167,8 @@ impl Lowering<'_> {
 
     fn inertia(&mut self, expression: &Expression) -> Option<[Triple; 3]> {
         let value = self.lower(expression)?;
-        let rows = value.as_matrix().unwrap_or_default();
-        let rows: Option<Vec<Triple>> = rows.into_iter().map(|row| row.try_into().ok()).collect();
-        let rows = rows.and_then(|rows| rows.try_into().ok());
         let wrong = || format!("an inertia is a 3 by 3 matrix, but this is {}", value.shape());
-        rows.or_else(|| self.report(expression.place, wrong()))
+        value.as_map_of_space().or_else(|| self.report(expression.place, wrong()))
     }
 
     fn quadratic(&mut self, vector: Triple, matrix: [Triple; 3]) -> Id {

@@ -5,6 +5,7 @@ use super::super::lower::Lowering;
 use super::super::matrix::rotation;
 use super::super::quaternion;
 use super::super::scope::Entity;
+use super::super::turns::Turn;
 use super::super::value::{Value, cross};
 use super::pose::{Frame, Moved, Step, Triple, Turned, columns, named};
 use crate::symbolic::{Id, Sample, Symbol};
@@ -22,7 +23,7 @@ impl Lowering<'_> {
         let Kind::Call(name, arguments) = &expression.kind else {
             return self.report(expression.place, STEPS);
         };
-        let turned = match (name.text.as_str(), &arguments[..]) {
+        let turns = match (name.text.as_str(), &arguments[..]) {
             ("translate", [by]) => {
                 let moved = self.moved(by)?;
                 let next = self.frames.all[before].moved(before, moved, &mut self.graph);
@@ -32,11 +33,11 @@ impl Lowering<'_> {
                 let axis = "xyz".chars().position(|axis| name.text.ends_with(axis))?;
                 let axis = std::array::from_fn(|i| if i == axis { Id::ONE } else { Id::ZERO });
                 let angle = self.scalar(angle)?;
-                self.turned_about(axis, angle, expression)?
+                vec![self.turned_about(axis, angle, expression)?]
             }
             ("rotate", [axis, angle]) => {
                 let (axis, angle) = (self.unit(name, axis), self.scalar(angle));
-                self.turned_about(axis?, angle?, expression)?
+                vec![self.turned_about(axis?, angle?, expression)?]
             }
             ("rotate", [by]) => self.turned(by)?,
             ("translate" | "rotate_x" | "rotate_y" | "rotate_z" | "rotate", _) => {
@@ -47,7 +48,7 @@ impl Lowering<'_> {
                 return self.report(name.place, format!("`{text}` is no step: {STEPS}"));
             }
         };
-        Some(self.turn(before, first, &turned))
+        Some(turns.iter().fold(before, |before, turned| self.turn(before, first, turned)))
     }
 
     /// A placement and the turn after it are one rotation: every vector is then turned once.
@@ -86,7 +87,7 @@ impl Lowering<'_> {
 
     /// About an axis of length 1.
     fn turned_about(&mut self, axis: Triple, angle: Id, at: &Expression) -> Option<Turned> {
-        if axis.iter().any(|&component| self.moves(component)) {
+        if self.move_in_time(&axis) {
             let rows = rotation(axis, angle, &mut self.graph);
             return self.turned_by_matrix(rows, at);
         }
@@ -96,18 +97,13 @@ impl Lowering<'_> {
         Some(self.turned_at(by, rate))
     }
 
-    fn turned(&mut self, by: &Expression) -> Option<Turned> {
+    fn turned(&mut self, by: &Expression) -> Option<Vec<Turned>> {
         let value = self.lower(by)?;
-        let rows = value.as_matrix().and_then(|rows| {
-            let rows: Option<Vec<Triple>> = rows.into_iter().map(|row| row.try_into().ok()).collect();
-            <[Triple; 3]>::try_from(rows?).ok()
-        });
-        if let Some(rows) = rows {
-            self.check_rotation(rows, by)?;
-            return self.turned_by_matrix(rows, by);
+        if let Some(matrix) = value.as_map_of_space() {
+            return self.turned_by_product(matrix, by);
         }
         match value.as_vector().map(<[Id; 4]>::try_from) {
-            Some(Ok(q)) => self.turned_by_quaternion(q, by),
+            Some(Ok(q)) => Some(vec![self.turned_by_quaternion(q, by)?]),
             _ => {
                 let message = format!(
                     "`rotate` takes a quaternion (w, x, y, z), a 3 by 3 matrix, or an axis and an angle, but this is {}",
@@ -118,8 +114,25 @@ impl Lowering<'_> {
         }
     }
 
+    /// Turn by turn where these are known: of a product of matrices that are none alone, the whole may still be a rotation.
+    fn turned_by_product(&mut self, matrix: [Triple; 3], at: &Expression) -> Option<Vec<Turned>> {
+        let turns = self.turns_of(matrix).unwrap_or_default();
+        let is_rotation = |turn: &Turn| !matches!(turn, &Turn::Placed(rows) if self.is_no_rotation(rows));
+        if !turns.is_empty() && turns.iter().all(is_rotation) {
+            let turned = turns.into_iter().map(|turn| match turn {
+                Turn::About(axis, angle) => self.turned_about(axis, angle, at),
+                Turn::Placed(rows) => self.turned_by_matrix(rows, at),
+            });
+            return turned.collect();
+        }
+        if self.is_no_rotation(matrix) {
+            return self.report(at.place, NO_ROTATION);
+        }
+        Some(vec![self.turned_by_matrix(matrix, at)?])
+    }
+
     /// At random values of all that it is made of, unless that is functions of which nothing is known.
-    fn check_rotation(&mut self, rows: [Triple; 3], at: &Expression) -> Option<()> {
+    fn is_no_rotation(&mut self, rows: [Triple; 3]) -> bool {
         let graph = &mut self.graph;
         let [a, b, c] = columns(rows);
         let lengths = [graph.dot(&a, &a), graph.dot(&b, &b)].map(|square| graph.sub(square, Id::ONE));
@@ -127,18 +140,14 @@ impl Lowering<'_> {
         let third: Triple = std::array::from_fn(|i| graph.sub(third[i], c[i]));
         let zeros = [&lengths[..], &[graph.dot(&a, &b)], &third].concat();
         if graph.has_external(&zeros) {
-            return Some(());
+            return false;
         }
         let symbols: Vec<Symbol> = graph.symbols(&zeros).collect();
-        let is_none = (0..DRAWS).any(|draw| {
+        (0..DRAWS).any(|draw| {
             let value = |symbol, draw| self.parameters.value_of(symbol, draw);
             let mut sample = Sample::new(symbols.iter().copied(), draw, value);
             sample.values(&self.graph, &zeros).iter().any(|value| value.excludes_zero())
-        });
-        if is_none {
-            return self.report(at.place, NO_ROTATION);
-        }
-        Some(())
+        })
     }
 
     /// S ω of a rotation is Eᵀ Ė.
@@ -201,11 +210,6 @@ impl Lowering<'_> {
         let rate = Value::vector(of);
         let rates = self.rate_of(&rate, at.place)?.flat();
         rates.try_into().ok()
-    }
-
-    /// Whether a number changes in time.
-    fn moves(&self, id: Id) -> bool {
-        self.graph.symbols(&[id]).any(|symbol| !matches!(Variable::of(symbol), Variable::Parameter(_)))
     }
 
     /// The three numbers of a vector in space, along whatever axes.
