@@ -52,6 +52,12 @@ def by_hand(source, function, label, flags, **defines):
 
 CASADI = {"ldl": "CasADi, LDLᵀ", "schur": "CasADi, Schur + LDLᵀ", "kkt": "CasADi, LDLᵀ of the whole"}
 CASADI_ROBOTS = {"CasADi, articulated bodies": (), "fast-math: CasADi, articulated bodies": ("-ffast-math",)}
+CASADI_LOOPS = {
+    ("lagrangian", "degree"): "CasADi, LDLᵀ",
+    ("lagrangian", "loops"): "CasADi, LDLᵀ loop by loop",
+    ("newton", "degree"): "CasADi, bodies by hand, LDLᵀ",
+    ("newton", "loops"): "CasADi, bodies by hand, LDLᵀ loop by loop",
+}
 PINOCCHIO = {
     "local": "Pinocchio, articulated bodies, local",
     "world": "Pinocchio, articulated bodies, world",
@@ -77,6 +83,12 @@ def casadi_robots(system, n, label, flags, *options):
     generate("with_casadi_robots.py", system, n, source)
     library = place("".join([source.stem, *options]) + ".so", flags)
     return Implementation(label, "tool", compile_c([source], library, flags, HARNESS, *options))
+
+
+def casadi_loops(system, form, order, flags):
+    source = place(f"casadi_{system}_{form}_{order}.c", flags)
+    generate("with_casadi_loops.py", system, form, order, source)
+    return Implementation(CASADI_LOOPS[form, order], "tool", compile_c([source], source.with_suffix(".so"), flags))
 
 
 def pinocchio(how, flags):

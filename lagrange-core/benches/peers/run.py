@@ -15,6 +15,7 @@ import rows_duals
 import rows_ensemble
 import rows_growth
 import rows_lanes
+import rows_loops
 import rows_planar
 import rows_robots
 import tables
@@ -29,6 +30,7 @@ ROWS = {
     "chain": rows_chain.chains,
     "spherical": rows_chain.spherical,
     "robots": rows_robots.rows,
+    "loops": rows_loops.rows,
     "lanes": rows_lanes.rows,
     "ensemble": rows_ensemble.rows,
     "duals": rows_duals.rows,

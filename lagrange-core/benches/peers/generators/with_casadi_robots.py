@@ -13,25 +13,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import casadi as ca
+from casadi_space import Fields, about, cross
 from casadi_source import generate, report
 
 HERE = Path(__file__).resolve().parent
 TREE = r'TREE\({}, "(\w+)",\s*([-\d,\s]+)\)'
-
-
-class Fields:
-    """The parameters in the order of the fields of ours."""
-
-    def __init__(self):
-        self.all = []
-
-    def take(self, rows, columns=1):
-        taken = ca.SX.sym(f"p{len(self.all)}", rows, columns)
-        self.all.append(ca.vec(taken))
-        return taken
-
-    def each(self, count, rows, columns=1):
-        return [self.take(rows, columns) for _ in range(count)]
 
 
 @dataclass
@@ -81,17 +67,6 @@ def robot(system, axes, parents, fields, q):
     return links, g
 
 
-def about(axis, angle):
-    """A rotation about an axis, with its zeros."""
-    k = "xyz".index(axis)
-    i, j = (k + 1) % 3, (k + 2) % 3
-    turn = ca.SX(3, 3)
-    turn[k, k] = 1
-    turn[i, i] = turn[j, j] = ca.cos(angle)
-    turn[j, i], turn[i, j] = ca.sin(angle), -ca.sin(angle)
-    return turn
-
-
 def of_quaternion(q):
     x, y, z, w = (q[k] for k in range(4))
     return ca.blockcat(
@@ -101,14 +76,6 @@ def of_quaternion(q):
             [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
         ]
     )
-
-
-def cross(u):
-    """The matrix of u ×; ca.skew has no structural zeros."""
-    matrix = ca.SX(3, 3)
-    matrix[0, 1], matrix[0, 2], matrix[1, 2] = -u[2], u[1], -u[0]
-    matrix[1, 0], matrix[2, 0], matrix[2, 1] = u[2], -u[1], u[0]
-    return matrix
 
 
 def moved(link, motion):

@@ -19,14 +19,13 @@ static const struct {
 #undef TREE
 };
 
-static void random_rotation(double *r) {
+void random_rotation(double *r) {
     double q[4];
     random_quaternion(q);
     rotation_matrix(q, r);
 }
 
-/* Principal moments of about `size`, in any axes. */
-static void random_inertia(double *inertia, double size) {
+void random_inertia(double *inertia, double size) {
     double r[9], moments[3];
     random_rotation(r);
     for (int k = 0; k < 3; k++) moments[k] = size * uniform(0.6, 1.1);

@@ -25,4 +25,9 @@ int speeds(const Robot *robot);
 /* The derivatives of the speeds, by Newton's and Euler's equations in long double. */
 void newton_euler(const Robot *robot, const double *q, const double *v, long double *a);
 
+/* By columns. */
+void random_rotation(double *r);
+/* Principal moments of about `size`, in any axes. */
+void random_inertia(double *inertia, double size);
+
 #endif

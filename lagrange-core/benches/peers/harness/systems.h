@@ -4,7 +4,7 @@
 
 #include "robots.h"
 
-enum { STATES = 64, ENTRIES = 256, PARAMETERS = 1024, OWN = 128, UNKNOWNS = 40 };
+enum { STATES = 64, ENTRIES = 256, PARAMETERS = 1024, OWN = 128, UNKNOWNS = 44 };
 
 /* Every implementation: q, v and p in, v right after q; accelerations and multipliers (where there are any) out. */
 typedef void (*Evaluation)(const double *q, const double *v, const double *p, double *a, double *lambda);
@@ -36,6 +36,7 @@ double uniform(double low, double high);
 /* Solves n equations, whose right sides stand after the columns of the matrix, in which nothing is left as it was. */
 void eliminate(int n, long double m[UNKNOWNS][UNKNOWNS + 1], long double *x);
 
-extern const System PLANAR, LANES, CHAIN, SPHERICAL, BODIES, ARM, DENAVIT, QUADRUPED, QUADRUPED_ANGLES, HUMANOID;
+extern const System PLANAR, LANES, CHAIN, SPHERICAL, BODIES, ARM, DENAVIT, QUADRUPED, QUADRUPED_ANGLES, HUMANOID, FOUR_BAR,
+    STEWART;
 
 #endif

@@ -91,6 +91,8 @@ export! {
     quadruped_0: Quadruped, 19, 1;
     quadruped_angles_0: QuadrupedAngles, 18, 0;
     humanoid_0: Humanoid, 37, 1;
+    four_bar_0: FourBar, 5, 3;
+    stewart_0: Stewart, 25, 19;
 }
 
 /// The forces ∂L/∂q of three bodies, and their energy.

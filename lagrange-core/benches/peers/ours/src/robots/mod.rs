@@ -1,8 +1,10 @@
 //! Bodies in space, each stated as a user would.
 
 mod humanoid;
+mod loops;
 
 pub use humanoid::Humanoid;
+pub use loops::{FourBar, Stewart};
 use lagrange_core::{
     nalgebra::{Matrix3, Rotation3, Vector3},
     prelude::*,
