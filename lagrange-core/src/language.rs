@@ -59,7 +59,8 @@
 //! is shared is computed once, and a recursion along a chain costs as much as its length. That holds for the solved
 //! accelerations too: the rates of velocities that definitions name are unknowns beside the accelerations where that
 //! makes the equations sparse (the articulated-body algorithm). So name the velocities of a chain or a tree, or its places
-//! with `der(…)` in L, each from the one before.
+//! with `der(…)` in L, each from the one before; where bodies turn in space, declare their [frames](#frames) instead, which
+//! costs a fraction.
 //!
 //! ```
 //! use lagrange_core::prelude::*;
@@ -209,8 +210,9 @@
 //! Frames are not only shorter to write. The macro knows how velocities go from frame to frame, and differentiates none of
 //! it: accelerations come from the recursions of Newton and Euler and from the inertia of what moves as one, or from the
 //! articulated-body algorithm, whichever is faster (Featherstone, *Rigid Body Dynamics Algorithms*). An arm of six joints
-//! takes some 2,300 operations this way, and four times as many by `der` of positions along the fixed axes. What is not used is
-//! not computed: a potential `m*g*position(body, c)[2]` needs one row of a rotation, or none.
+//! takes some 2,300 operations this way, and four times as many by `der` of positions along the fixed axes; where three angles
+//! or more turn, one after another, what `der` differentiates, the equations of a struct say so in its documentation. What is
+//! not used is not computed: a potential `m*g*position(body, c)[2]` needs one row of a rotation, or none.
 //!
 //! # Functions that you supply
 //!

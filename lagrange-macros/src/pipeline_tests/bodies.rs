@@ -15,7 +15,7 @@ fn counts(source: &str) -> Vec<Option<usize>> {
     solving(&graph, &equations).into_iter().map(|counts| counts.and_then(last)).collect()
 }
 
-const ARM: &str = "#[coordinates(q: [6])]
+pub(super) const ARM: &str = "#[coordinates(q: [6])]
     #[parameter(inertia: symmetric)]
     #[frame(link[0]: rotate(place[0]), rotate_z(q[0]))]
     #[frame(link[i in 1..6] in link[i-1]: translate(arm[i]), rotate(place[i]), rotate_z(q[i]))]
@@ -66,7 +66,7 @@ const FOUR_BAR: &str = "#[coordinates(a, b: [3], c)]
     #[force(a: torque)]
     struct FourBar { p1: Rotation3<f64>, p3: Rotation3<f64>, l1: Vector3<f64>, l2: Vector3<f64>, l3: Vector3<f64>, l4: Vector3<f64>, m1: f64, c1: Vector3<f64>, i1: Matrix3<f64>, m2: f64, c2: Vector3<f64>, i2: Matrix3<f64>, m3: f64, c3: Vector3<f64>, i3: Matrix3<f64>, g: f64, torque: f64 }";
 
-fn least(source: &str) -> usize {
+pub(super) fn least(source: &str) -> usize {
     counts(source).into_iter().flatten().min().expect("short enough")
 }
 

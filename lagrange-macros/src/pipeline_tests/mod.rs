@@ -8,6 +8,7 @@ mod determinism;
 mod doubling;
 mod elimination;
 mod emitted;
+mod in_turn;
 mod integrability;
 mod linearization;
 mod long;

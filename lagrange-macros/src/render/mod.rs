@@ -21,6 +21,12 @@ use formula::Formula;
 use lines::{Equation, Line, Section};
 use symbols::Notation;
 
+/// What is said of positions that three angles turn, one after another, and that are differentiated.
+const IN_FRAMES: &str =
+    "`der` differentiates here what three angles or more turn, one after another: say how the parts lie
+  by `#[frame(…)]`, and what they do by `position(…)`, `velocity(…)` and `kinetic(…)`, and the accelerations
+  take fewer operations (see lagrange_core::language#frames).";
+
 /// The same system, written twice.
 pub(crate) struct Rendered {
     pub(crate) text: String,
@@ -57,7 +63,10 @@ pub(crate) fn render(
             note: derived.equations.integrability.integrals.and_then(kinds::note),
             ..section("Constraints", page.constraints())
         },
-        section("Equations of motion", page.motion()),
+        Section {
+            note: problem.frames_are_cheaper.then(|| IN_FRAMES.to_owned()),
+            ..section("Equations of motion", page.motion())
+        },
         section("Conserved", page.conserved()),
         section(
             "Total time derivatives in the Lagrangian",

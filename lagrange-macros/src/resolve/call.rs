@@ -27,6 +27,7 @@ impl Lowering<'_> {
                     _ => (&self.arguments::<1>(name, arguments, place)?[0], None),
                 };
                 let value = self.lower(x)?;
+                self.note_differentiated(&value);
                 return self.rate_seen_from(&value, seen_from, place);
             }
             "sqrt" => {

@@ -64,6 +64,8 @@ pub(super) struct Lowering<'a> {
     pub(super) declared_frames: &'a [Frame],
     pub(super) frames: Frames,
     pub(super) turns: Turns,
+    /// Vectors and matrices of which rates were asked.
+    pub(super) differentiated: Vec<Id>,
     /// By the index of the first `define` of the name.
     pub(super) definitions: Vec<Definition>,
     pub(super) multipliers: Vec<MultiplierGroup>,
@@ -114,6 +116,7 @@ impl<'a> Lowering<'a> {
             declared_frames: frames,
             frames: Frames::default(),
             turns: Turns::default(),
+            differentiated: Vec::new(),
             definitions: defines.iter().map(|_| Definition::Pending).collect(),
             multipliers: Vec::new(),
             observables: Vec::new(),

@@ -7,6 +7,7 @@ mod family;
 mod forces;
 mod frames;
 mod function;
+mod in_turn;
 mod lower;
 mod matrix;
 mod outline;
@@ -59,6 +60,8 @@ pub(crate) struct Problem {
     /// Each after the one that it comes from; the first is at rest.
     pub(crate) frames: Vec<Frame>,
     pub(crate) bodies: Vec<Body>,
+    /// Whether it could be stated in frames, and would cost less.
+    pub(crate) frames_are_cheaper: bool,
     /// Names of nodes that are definitions.
     pub(crate) names: FxHashMap<Id, String>,
 }
@@ -93,6 +96,7 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
     let observables = lowering.observables(declaration);
     let conserved = lowering.conserved(declaration, &observables);
     let names = lowering.names(declaration);
+    let frames_are_cheaper = lowering.frames_are_cheaper();
     let coordinates = labels(declaration);
     let Lowering { graph, parameters, diagnostics, frames, .. } = lowering;
     let (place, lagrangian) = (declaration.lagrangian.as_ref()?.place, lagrangian?);
@@ -118,6 +122,7 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
         functions,
         frames: frames.all,
         bodies: frames.bodies,
+        frames_are_cheaper,
         names,
     };
     diagnostics.is_empty().then_some((graph, problem))

@@ -218,3 +218,20 @@ fn functions_families_and_vectors() {
         "#]],
     );
 }
+
+/// What frames would be cheaper for is told so, where the equations stand.
+#[test]
+fn positions_by_turns_are_told_of_frames() {
+    let source = "#[coordinates(a, b, c)]
+         #[define(x = rot_z(a)*rot_y(b)*rot_x(c)*centre)]
+         #[lagrangian(m/2*dot(der(x), der(x)) + J/2*(a_dot^2 + b_dot^2 + c_dot^2))]
+         struct Turned { m: f64, J: f64, centre: Vector3<f64> }";
+    let Rendered { text, .. } = rendered(source);
+    let (_, motion) = text.split_once("Equations of motion").expect("a heading");
+    let (motion, _) = motion.split_once("\n\n").expect("a section after it");
+    let note: Vec<&str> = motion.trim().lines().skip(3).map(str::trim).collect();
+    expect![[r#"
+        `der` differentiates here what three angles or more turn, one after another: say how the parts lie
+        by `#[frame(…)]`, and what they do by `position(…)`, `velocity(…)` and `kinetic(…)`, and the accelerations
+        take fewer operations (see lagrange_core::language#frames)."#]].assert_eq(&note.join("\n"));
+}
