@@ -55,7 +55,11 @@
 //!
 //! # Definitions
 //!
-//! Values, functions and families. A family over 0..n is a vector. Definitions are kept as they are written: what
+//! Values, functions and families. A family over 0..n is a vector, one of two indices,
+//! `#[define(d[i in 0..3, j in 0..3] = …)]`, a matrix of the entries `d[i][j]`; the range of an index may depend on those before
+//! it, `d[i in 0..3, j in 0..i]`. Definitions come before what uses them, but for elements of families: where a family needs
+//! an element of another one, or of its own, that is found first, so that two recursions may use each other, and one may run
+//! from its end, `#[define(p[i in 0..4] = a[i] + x*p[i+1])]`. Definitions are kept as they are written: what
 //! is shared is computed once, and a recursion along a chain costs as much as its length. That holds for the solved
 //! accelerations too: the rates of velocities that definitions name are unknowns beside the accelerations where that
 //! makes the equations sparse (the articulated-body algorithm). So name the velocities of a chain or a tree, or its places
@@ -85,9 +89,35 @@
 //! # Vectors
 //!
 //! A coordinate `r: [3]` is a vector, `r_dot` its velocity and `r[0]` an entry; so is a field of type `[f64; 3]` or
-//! `Vector3<f64>`. Vectors add up with vectors of the same length, and take factors and divisors that are numbers; the literal
+//! `Vector3<f64>`. A coordinate `r: [4, 3]` is an array of four vectors `r[i]`, of velocities `r_dot[i]`, and has entries `r[i][j]`,
+//! by which states, tables and equations name them too. Vectors add up with vectors of the same length, and take factors and divisors that are numbers; the literal
 //! 0 is the zero vector. `norm(v)^2` is `dot(v, v)`, without a root that would have no slope at the origin.
-//! Definitions, forces, constraints and observables may be vectors; L is a number.
+//! Definitions, forces, constraints and observables may be vectors; L is a number. A force on all of a coordinate has its
+//! shape; `#[force(r[1]: …)]` acts on one vector of an array, `#[force(r[1][2]: …)]` on an entry, `#[force(r[i in 0..4]: …)]`
+//! on each.
+//!
+//! ```
+//! use lagrange_core::prelude::*;
+//!
+//! /// Four beads on a string of three pieces, in the wind.
+//! #[derive(Lagrangian)]
+//! #[coordinates(r: [4, 3])]
+//! #[lagrangian(sum(i in 0..4, m/2*dot(r_dot[i], r_dot[i]) - m*g*r[i][2]))]
+//! #[constraint(rod[i in 0..3]: norm(r[i+1] - r[i])^2 = l^2)]
+//! #[force(r[i in 0..4]: c*(wind - r_dot[i]))]
+//! #[observable(height[i in 0..4] = r[i][2])]
+//! struct Beads { m: f64, g: f64, l: f64, c: f64, wind: [f64; 3] }
+//!
+//! let beads = Beads { m: 0.1, g: 9.81, l: 0.5, c: 0.1, wind: [2.0, 0.0, 0.0] };
+//! let rough = beads.state_from(&[("r[1][0]", 0.5), ("r[2][0]", 1.0), ("r[3][0]", 1.5), ("r_dot[3][1]", 1.0)])?;
+//! let (start, _) = beads.make_consistent(&rough)?;
+//! let path = beads.integrate(start, 20.0, Dop853::default())?;
+//! // In the end it falls as fast as the air lets it, all beads alike.
+//! let end = path.end();
+//! assert!((end.velocity("r[2][2]")? + 0.1 * 9.81 / 0.1).abs() < 1e-4);
+//! assert_eq!(beads.height(end.state())[3], end.observable("height[3]")?);
+//! # Ok::<(), lagrange_core::Error>(())
+//! ```
 //!
 //! A field `[[f64; 3]; 2]` or `Matrix3<f64>` is a matrix, and so are rows of numbers, `[[a, b], [c, d]]`. In `A*v` the vector is a
 //! column, in `v*A` a row; `skew(v)*w` is `cross(v, w)`. `rot_z(a)` turns a vector by the angle a from x towards y,
@@ -153,14 +183,15 @@
 //! `#[frame(name in parent: step, step, …)]` declares a frame by the steps that lead to it from the one that it is in,
 //! each step in the axes that the steps before have reached. Without `in` it starts from the frame at rest, which is
 //! called `fixed`. A family, `link[i in 1..6] in link[i-1]`, is a chain; with a table of whole numbers,
-//! `#[define(parent = [0, 0, 1, 1])]` and `part[i in 1..4] in part[parent[i]]`, a tree.
+//! `#[define(parent = [0, 0, 1, 1])]` and `part[i in 1..4] in part[parent[i]]`, a tree; with two indices,
+//! `leg[i in 0..4, j in 1..3] in leg[i][j-1]`, several chains.
 //!
 //! | step | |
 //! |---|---|
 //! | `translate(v)` | the origin moves by a vector |
 //! | `rotate_x(angle)`, `rotate_y`, `rotate_z` | about an axis of its own, by the right-hand rule |
 //! | `rotate(axis, angle)` | about any axis, of whatever length |
-//! | `rotate(q)` | by a quaternion (w, x, y, z), of whatever length but zero; where it is a coordinate, the constraint `dot(q, q) = 1` comes with it, named like it, as the last |
+//! | `rotate(q)` | by a quaternion (w, x, y, z), of whatever length but zero; where it is a coordinate, the constraint `dot(q, q) = 1` comes with it, named like it, as the last; so it does for each `rotate(q[i])` of a coordinate `q: [3, 4]`, named `q[i]` |
 //! | `rotate(R)` | by a rotation matrix, which turns vectors from the new axes into the old: a `Rotation3`, a `Matrix3` with `#[parameter(R: rotation)]`, a product of rotations, which is taken turn by turn |
 //!
 //! What a step is made of may depend on coordinates and on time: a joint, or a motion that is prescribed.
@@ -302,7 +333,7 @@
 //! and velocities; with them it must be linear in them, and it is enforced on the velocities. Each scalar equation
 //! has one multiplier, and the constraint force on coordinate a is Σ_α λ_α F_αa, with F = ∂Φ/∂q or the coefficients
 //! of q̇. A vector equation is one constraint a component, `c[0]`, `c[1]`, …; a family is written
-//! `rod[i in 0..3]: …`. Constraints that contradict each other, `y = 0` and `y = 1`, and one that says the same as another
+//! `rod[i in 0..3]: …` or, with two indices, `rod[i in 0..3, j in 0..i]: …`. Constraints that contradict each other, `y = 0` and `y = 1`, and one that says the same as another
 //! are errors while compiling where that is certain; other dependent constraints are for the numbers to tell.
 //!
 //! ```
@@ -352,6 +383,11 @@
 //! ```
 //!
 //! # Forces, dissipation, observables
+//!
+//! An observable is a method of its name, and gives a number, a vector (`SVector`) or a matrix (`SMatrix`); its entries are
+//! asked for as `spin[2]` and `turn[0][1]`. Those of a family, `#[observable(height[i in 0..3] = y[i])]`, are one
+//! vector, and vectors in a family a matrix, one a row. Forces may be families too, `#[force(theta[i in 0..3]: -k[i]*theta_dot[i])]`,
+//! and so may powers: `#[power(i in 0..3, push[i], velocity(leg[i], foot))]`, for each i and in all.
 //!
 //! ```
 //! use lagrange_core::prelude::*;

@@ -7,7 +7,7 @@ use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 use crate::expand;
 
 /// Between them these use every attribute and every form of expression.
-const SYSTEMS: [&str; 4] = [
+const SYSTEMS: [&str; 5] = [
     "#[coordinates(x, phi)]
     #[define(inertia = 2/5 * m * a^2)]
     #[lagrangian(m/2 * x_dot^2 + inertia/2 * phi_dot^2 + m*9.81*x*sin(alpha))]
@@ -33,6 +33,15 @@ const SYSTEMS: [&str; 4] = [
     #[constraint(rod[i in 0..2]: theta[i] = theta[i + 1])]
     #[observable(pulls = [lambda(rod)[0], lambda(rod[1])])]
     struct Chain<T> { l: T }",
+    "#[coordinates(r: [2, 3], q: [2, 4])]
+    #[frame(body[i in 0..2]: translate(r[i]), rotate(q[i]))]
+    #[define(d[i in 0..2, j in 0..i] = norm(r[i] - r[j]))]
+    #[define(a[i in 0..2] = b[i] + m)] #[define(b[i in 0..2] = sum(j in 0..i, a[j]))]
+    #[lagrangian(sum(i in 0..2, kinetic(body[i], m) + sum(j in 0..i, a[i]/d[i][j])))]
+    #[force(r[k in 0..2, 1]: -r_dot[k][0])]
+    #[power(i in 0..2, vector(body[i], r[1]), velocity(body[i]))]
+    #[observable(turning[i in 0..2] = angular_velocity(body[i]))]
+    struct Bodies { m: f64 }",
     "#[coordinates(x, y)]
     #[lagrangian((x_dot^2 + y_dot^2)/(2*x^0.5) - sqrt(x*y)^3 + x^y * ln(x) - tanh(1e-3 * x))]
     #[conserved(e = (x_dot^2 + y_dot^2)/(2*x^0.5) + sqrt(x*y)^3 - x^y * ln(x) + tanh(1e-3 * x))]

@@ -12,7 +12,7 @@ use lagrange_core::prelude::*;
 #[define(h = square + wide)]
 #[define(i = [[1, 2], [3, 4, 5]])]
 #[lagrangian(dot(r_dot, r_dot)/2)]
-#[observable(whole = square*square)]
+#[observable(whole = [square, square])]
 struct System {
     wide: [[f64; 3]; 2],
     square: [[f64; 2]; 2],

@@ -30,7 +30,7 @@ impl Emitter<'_> {
         let (graph, problem) = (self.style.graph, self.problem);
         let mut roots = self.derived.equations.roots();
         roots.push(problem.lagrangian);
-        roots.extend(problem.observables.iter().flat_map(|(_, values)| values));
+        roots.extend(problem.observables.iter().flat_map(|observed| &observed.values));
         roots.extend(more);
         let mut orders = BTreeMap::new();
         for id in graph.reachable(&roots) {

@@ -3,11 +3,12 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::observables::method_name;
+use super::observables::{entry_of, method_name};
 use super::shape::Shape;
 use super::{Emitter, Written};
 use crate::contract::Method;
 use crate::mechanics::{Evidence, LinearPart, Quantity};
+use crate::resolve::Observed;
 
 impl Emitter<'_> {
     pub(super) fn facts(&self) -> TokenStream {
@@ -67,9 +68,9 @@ impl Emitter<'_> {
                 return Written { tokens, kernels: vec![kernel] };
             }
             Quantity::Observable(observable, entry) => {
-                let (label, values) = &self.problem.observables[observable];
-                let method = method_name(&label.text, label.place.start());
-                let entry = (values.len() > 1).then(|| quote!(.data.0[0][#entry]));
+                let Observed { label, lengths, .. } = &self.problem.observables[observable];
+                let (method, entry) =
+                    (method_name(&label.text, label.place.start()), entry_of(lengths, entry));
                 quote!(self.#method(state) #entry)
             }
         };

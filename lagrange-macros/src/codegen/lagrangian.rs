@@ -181,8 +181,8 @@ impl Emitter<'_> {
             let observable = kernel.name.strip_prefix(OBSERVABLE);
             let takes = format!("`{}` takes {count}", observable.unwrap_or(&kernel.name));
             let observables = &self.problem.observables;
-            match observables.iter().find(|(label, _)| Some(label.text.as_str()) == observable) {
-                Some((label, _)) => diagnostics.error(label.place, too_long(&takes)),
+            match observables.iter().find(|observed| Some(observed.label.text.as_str()) == observable) {
+                Some(observed) => diagnostics.error(observed.label.place, too_long(&takes)),
                 None => of_motion.push(takes),
             }
         }

@@ -1,12 +1,12 @@
 //! Observables: a method for each, and all of them by index.
 
-use proc_macro2::Span;
+use proc_macro2::{Span, TokenStream};
 use quote::quote;
 
 use super::shape::Shape;
 use super::{Emitter, Written};
 use crate::contract::Method;
-use crate::resolve::Label;
+use crate::resolve::Observed;
 use crate::symbolic::Id;
 use crate::variables::Variable;
 
@@ -16,21 +16,17 @@ pub(super) const OBSERVABLE: &str = "observable_";
 impl Emitter<'_> {
     /// Flat names, in the order of [`observable_by_index`](Self::observable_by_index).
     pub(super) fn observable_names(&self) -> Vec<String> {
-        let names = self.problem.observables.iter().flat_map(|(label, values)| match values.len() {
-            1 => vec![label.text.clone()],
-            length => (0..length).map(|i| format!("{}[{i}]", label.text)).collect(),
-        });
-        names.collect()
+        self.problem.observables.iter().flat_map(Observed::names).collect()
     }
 
     pub(super) fn observable_by_index(&self, method: &Method) -> Written {
-        let entries = self.problem.observables.iter().flat_map(|(label, values)| {
+        let entries = self.problem.observables.iter().flat_map(|Observed { label, lengths, values }| {
             let method = method_name(&label.text, label.place.start());
             let solution = self.needs_solution(values).then(|| quote!(, solution));
             let call = quote!(self.#method(state #solution));
-            (0..values.len()).map(move |i| match values.len() {
-                1 => call.clone(),
-                _ => quote!(#call.data.0[0][#i]),
+            (0..values.len()).map(move |k| {
+                let entry = entry_of(lengths, k);
+                quote!(#call #entry)
             })
         });
         let arms =
@@ -43,18 +39,23 @@ impl Emitter<'_> {
     }
 
     /// The method of an observable.
-    pub(super) fn observable(&self, (label, values): &(Label, Vec<Id>)) -> Written {
+    pub(super) fn observable(&self, Observed { label, lengths, values }: &Observed) -> Written {
         let visibility = &self.declaration.visibility;
         let name = method_name(&label.text, label.place.start());
-        let shape = if values.len() == 1 { Shape::Number } else { Shape::Vector(values.len()) };
-        let kernel = self.style.kernel(&format!("{OBSERVABLE}{}", label.text), values, &[shape]);
+        let (shape, wrapped) = match lengths[..] {
+            [] => (Shape::Number, None),
+            [length] => (Shape::Vector(length), Some(quote!(vector))),
+            [rows, ..] => (Shape::Matrix(values.len() / rows, rows), Some(quote!(matrix))),
+        };
+        let kernel =
+            self.style.kernel(&format!("{OBSERVABLE}{}", label.text), &by_columns(lengths, values), &[shape]);
         let (statements, results) = (&kernel.statements, &kernel.results);
-        let result = match shape {
-            Shape::Number => quote!(#(#results)*),
-            _ => quote!(#(__lagrange::generated::vector(#results))*),
+        let result = match wrapped {
+            Some(wrapped) => quote!(#(__lagrange::generated::#wrapped(#results))*),
+            None => quote!(#(#results)*),
         };
         let solved = self.needs_solution(values);
-        let signature = self.style.types.of_observable(&name, values.len(), solved);
+        let signature = self.style.types.of_observable(&name, lengths, solved);
         let multipliers = solved.then(|| quote! { let (accelerations, multipliers) = (&solution.accelerations, &solution.multipliers); });
         let doc = format!("The observable `{}`. {}", label.text, kernel.doc);
         let tokens = quote! {
@@ -69,6 +70,19 @@ impl Emitter<'_> {
         };
         Written { tokens, kernels: vec![kernel] }
     }
+}
+
+/// The numbers of an array as nalgebra's matrices have them, which are stored by columns.
+fn by_columns(lengths: &[usize], values: &[Id]) -> Vec<Id> {
+    let columns = lengths.get(1).copied().unwrap_or(1);
+    (0..columns).flat_map(|column| values.iter().skip(column).step_by(columns).copied()).collect()
+}
+
+/// A number of an array, counted row by row, in nalgebra's matrix; nothing of what is a number itself.
+pub(super) fn entry_of(lengths: &[usize], number: usize) -> Option<TokenStream> {
+    let columns = lengths.get(1).copied().unwrap_or(1);
+    let (row, column) = (number / columns, number % columns);
+    (!lengths.is_empty()).then(|| quote!(.data.0[#column][#row]))
 }
 
 pub(super) fn method_name(text: &str, span: Span) -> syn::Ident {

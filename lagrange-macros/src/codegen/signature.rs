@@ -37,13 +37,19 @@ impl Types<'_> {
         quote!(<#wide: __lagrange::Over<#scalar>>)
     }
 
-    /// Of the method of an observable of so many numbers.
-    pub(super) fn of_observable(&self, name: &Ident, length: usize, needs_solution: bool) -> TokenStream {
+    /// Of the method of an observable, a number or an array of these lengths.
+    pub(super) fn of_observable(&self, name: &Ident, lengths: &[usize], needs_solution: bool) -> TokenStream {
         let takes =
             &[Argument::System, Argument::State, Argument::Solution][..2 + usize::from(needs_solution)];
         let arguments = takes.iter().map(|&argument| self.argument(argument));
         let generic = self.open().map(|n| quote!(<#n>));
-        let returns = if length == 1 { self.returns(Gives::Number) } else { self.vector(&quote!(#length)) };
+        let returns = match lengths {
+            [] => self.returns(Gives::Number),
+            [length, ..] => {
+                let columns = lengths.get(1).unwrap_or(&1);
+                self.matrix(&quote!(#length), &quote!(#columns))
+            }
+        };
         quote!(fn #name #generic(#(#arguments),*) -> #returns)
     }
 
@@ -96,10 +102,7 @@ impl Types<'_> {
         match gives {
             Gives::Number => quote!(#scalar),
             Gives::Vector(length) => self.vector(&self.dimension(length)),
-            Gives::Matrix(rows, columns) => {
-                let (rows, columns) = (self.dimension(rows), self.dimension(columns));
-                quote!(__lagrange::nalgebra::SMatrix<#scalar, #rows, #columns>)
-            }
+            Gives::Matrix(rows, columns) => self.matrix(&self.dimension(rows), &self.dimension(columns)),
             Gives::Solution => quote!(__lagrange::Solution<#scalar, #n, #m>),
             Gives::Factor => quote!(Self::Factor),
             Gives::Slopes => quote!(Self::Slopes),
@@ -108,6 +111,11 @@ impl Types<'_> {
             Gives::Optional => quote!(::core::option::Option<#scalar>),
             Gives::Success => quote!(bool),
         }
+    }
+
+    fn matrix(&self, rows: &TokenStream, columns: &TokenStream) -> TokenStream {
+        let scalar = self.scalar;
+        quote!(__lagrange::nalgebra::SMatrix<#scalar, #rows, #columns>)
     }
 
     fn vector(&self, length: &TokenStream) -> TokenStream {

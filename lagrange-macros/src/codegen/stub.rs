@@ -31,9 +31,9 @@ pub(crate) fn stub(declaration: &Declaration, outline: &Outline) -> TokenStream 
     let (of_lagrangian, of_linearized) = (LAGRANGIAN.iter().map(never), LINEARIZED.iter().map(never));
     let of_state_derivatives = STATE_DERIVATIVES.iter().map(never);
     let visibility = &declaration.visibility;
-    let observables = observables.iter().map(|Observable { name, length, needs_solution }| {
+    let observables = observables.iter().map(|Observable { name, lengths, needs_solution }| {
         let method = method_name(&name.text, name.place.start());
-        let signature = types.of_observable(&method, *length, *needs_solution);
+        let signature = types.of_observable(&method, lengths, *needs_solution);
         quote! { #visibility #signature { loop {} } }
     });
     let pack = pack(declaration, scalar);

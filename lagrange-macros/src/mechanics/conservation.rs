@@ -97,10 +97,8 @@ pub(super) fn of_observables(
     let problem = moments.problem;
     let mut conserved = Vec::new();
     for &(observable, place) in &problem.conserved {
-        let (label, values) = &problem.observables[observable];
-        for (entry, &value) in values.iter().enumerate() {
-            let name =
-                if values.len() == 1 { label.text.clone() } else { format!("{}[{entry}]", label.text) };
+        let observed = &problem.observables[observable];
+        for (entry, (name, &value)) in observed.names().into_iter().zip(&observed.values).enumerate() {
             match trial(graph, moments, value) {
                 Trial::Held(states) => conserved.push(Conserved {
                     name,

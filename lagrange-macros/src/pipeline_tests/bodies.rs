@@ -97,6 +97,32 @@ fn machines_cost_less_than_by_hand() {
     .assert_eq(&counts.concat());
 }
 
+/// Bodies in arrays are the same bodies.
+#[test]
+fn bodies_in_arrays_cost_as_much_as_each_by_its_name() {
+    let system = |head: &str, r: [&str; 3], q: [&str; 3]| {
+        let frames: String =
+            (0..3).map(|i| format!("#[frame(b{i}: translate({}), rotate({}))]", r[i], q[i])).collect();
+        let energies: Vec<_> = (0..3)
+            .map(|i| {
+                format!("kinetic(b{i}, m, c, inertia) - m*g*position(b{i}, c)[2] - k*dot({0}, {0})", r[i])
+            })
+            .collect();
+        format!(
+            "#[coordinates({head})] #[parameter(inertia: symmetric)] {frames} #[lagrangian({})]
+            struct S {{ m: f64, c: [f64; 3], inertia: Matrix3<f64>, g: f64, k: f64 }}",
+            energies.join(" + ")
+        )
+    };
+    let apart = system(
+        "r0: [3], r1: [3], r2: [3], q0: [4], q1: [4], q2: [4]",
+        ["r0", "r1", "r2"],
+        ["q0", "q1", "q2"],
+    );
+    let together = system("r: [3, 3], q: [3, 4]", ["r[0]", "r[1]", "r[2]"], ["q[0]", "q[1]", "q[2]"]);
+    assert_eq!(counts(&together), counts(&apart));
+}
+
 /// Of the form over the rates of all velocities, which is the one that long chains are solved by.
 #[test]
 fn a_long_arm_costs_as_much_as_its_length() {

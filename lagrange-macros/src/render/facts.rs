@@ -26,10 +26,10 @@ impl Page<'_> {
             Quantity::Energy => (derived("E", equations.energy), remark_on_energy(*evidence, facts)),
             // A vector is written as such, once.
             Quantity::Observable(observable, 0) => {
-                let name = &*self.problem.observables[observable].0.text;
+                let name = &*self.problem.observables[observable].label.text;
                 let mut said = self.declaration.observables.iter().filter(|known| known.is_conserved);
-                let value = &said.find(|known| known.name.text == name)?.value;
-                (Equation::Known(named(name), self.written(value)), held(*evidence))
+                let said = said.find(|known| known.target.name.text == name)?;
+                (Equation::Known(self.target(&said.target), self.written(&said.value)), held(*evidence))
             }
             Quantity::Observable(..) => return None,
         };

@@ -91,9 +91,10 @@ impl Page<'_> {
             let coordinate = Notation::Unicode.write(&self.target(&force.target));
             line(name(&format!("Q_{coordinate}")), &force.value)
         }));
-        lines.extend(powers.iter().map(|Power { force, velocity }| {
+        lines.extend(powers.iter().map(|Power { indices, force, velocity }| {
             let factors = [force, velocity].map(|factor| self.written(factor)).to_vec();
-            Line::of(Equation::Known(name("P"), Formula::Call("dot".to_owned(), factors)))
+            let left = Formula::Name { base: "P".to_owned(), dots: 0, indices: self.indices(indices) };
+            Line::of(Equation::Known(left, Formula::Call("dot".to_owned(), factors)))
         }));
         lines
     }
@@ -115,16 +116,19 @@ impl Page<'_> {
         }
     }
 
-    fn target(&self, Target { name, index }: &Target) -> Formula {
-        let index = match index {
-            TargetIndex::None => None,
-            TargetIndex::Element(element) => Some(self.written(element)),
+    pub(super) fn target(&self, Target { name, indices }: &Target) -> Formula {
+        Formula::Name { base: name.text.clone(), dots: 0, indices: self.indices(indices) }
+    }
+
+    fn indices(&self, indices: &[TargetIndex]) -> Vec<Formula> {
+        let index = |index: &TargetIndex| match index {
+            TargetIndex::Element(element) => self.written(element),
             TargetIndex::Family { index, from, to } => {
                 let [from, to] = [from, to].map(|end| Box::new(self.written(end)));
-                Some(Formula::Running { index: Some(index.text.clone()), from, to })
+                Formula::Running { index: Some(index.text.clone()), from, to }
             }
         };
-        Formula::Name { base: name.text.clone(), dots: 0, indices: index.into_iter().collect() }
+        indices.iter().map(index).collect()
     }
 
     fn constraints(&self) -> Vec<Line> {

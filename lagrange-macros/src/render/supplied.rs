@@ -2,8 +2,9 @@
 
 use super::Page;
 use super::formula::Formula;
-use crate::resolve::Supplied;
-use crate::symbolic::External;
+use crate::resolve::{Supplied, entry_names};
+use crate::symbolic::{External, Rational};
+use crate::syntax::{Layout, numbers};
 
 impl Page<'_> {
     /// `A[0](r)`, `U′(s)`, `∂U/∂r[0]`
@@ -11,7 +12,7 @@ impl Page<'_> {
         let function = &self.problem.functions[external.function as usize];
         let name = match function.outputs {
             1 => function.name.clone(),
-            _ => format!("{}[{}]", function.name, external.output),
+            _ => function.names[external.output as usize].clone(),
         };
         let order = external.derivatives.len();
         if order == 0 {
@@ -31,33 +32,44 @@ impl Page<'_> {
 
 /// Every number that a function takes, by the names in its declaration.
 fn formal_entries(function: &Supplied) -> Vec<Formula> {
-    let entries = |(name, length): &(String, Option<usize>)| match length {
-        None => vec![Formula::labelled(name, 0)],
-        Some(length) => (0..*length).map(|i| Formula::labelled(&format!("{name}[{i}]"), 0)).collect(),
-    };
-    function.formals.iter().flat_map(entries).collect()
+    let names = function.formals.iter().flat_map(|(name, lengths)| entry_names(name, lengths));
+    names.map(|name| Formula::labelled(&name, 0)).collect()
 }
 
 /// Numbers put together into the arguments that the function takes: all entries of a vector are the vector.
 fn grouped(flat: &[Formula], function: &Supplied) -> Vec<Formula> {
     let mut rest = flat;
     let mut arguments = Vec::new();
-    for (_, length) in &function.formals {
-        let (entries, others) = rest.split_at(length.unwrap_or(1));
+    for (_, lengths) in &function.formals {
+        let (entries, others) = rest.split_at(numbers(lengths));
         rest = others;
-        let argument = match (length, &entries[0]) {
-            (None, entry) => entry.clone(),
-            (Some(_), Formula::Name { base, dots, .. }) if are_all_entries(base, *dots, entries) => {
-                Formula::Name { base: base.clone(), dots: *dots, indices: Vec::new() }
-            }
-            _ => Formula::Vector(entries.to_vec()),
-        };
-        arguments.push(argument);
+        arguments.push(array(entries, lengths));
     }
     arguments
 }
 
-fn are_all_entries(base: &str, dots: usize, entries: &[Formula]) -> bool {
-    let is_entry = |(i, entry): (usize, &Formula)| *entry == Formula::labelled(&format!("{base}[{i}]"), dots);
-    entries.iter().enumerate().all(is_entry)
+/// Arrays of these lengths: by a name, where all of what it names is in them.
+fn array(entries: &[Formula], lengths: &[usize]) -> Formula {
+    let [length, inner @ ..] = lengths else { return entries[0].clone() };
+    whole(entries, lengths).unwrap_or_else(|| {
+        let parts = entries.chunks(entries.len() / length);
+        Formula::Vector(parts.map(|part| array(part, inner)).collect())
+    })
+}
+
+/// What has these entries and no others.
+fn whole(entries: &[Formula], lengths: &[usize]) -> Option<Formula> {
+    let Formula::Name { base, dots, indices } = &entries[0] else { return None };
+    let outer = &indices[..indices.len().checked_sub(lengths.len())?];
+    let named = |inner: Vec<usize>| {
+        let inner = inner.into_iter().map(|i| Formula::Number(Rational::from_integer(i as i128)));
+        Formula::Name {
+            base: base.clone(),
+            dots: *dots,
+            indices: outer.iter().cloned().chain(inner).collect(),
+        }
+    };
+    let layout = Layout::array(lengths);
+    let mut numbered = entries.iter().enumerate();
+    numbered.all(|(k, entry)| *entry == named(layout.indices(k))).then(|| named(Vec::new()))
 }

@@ -224,40 +224,28 @@ impl Lowering<'_> {
             );
         }
         let [constraint] = self.arguments(name, arguments, place)?;
-        let (base, index) = match &constraint.kind {
-            Kind::Index(base, index) => (&**base, Some(index)),
-            _ => (constraint, None),
-        };
-        let Kind::Name(constraint) = &base.kind else {
+        let Some((constraint, indices)) = constraint.element() else {
             return self.report(place, "`lambda` takes the name of a constraint");
         };
-        let index = index.map(|index| self.integer(index).ok_or(())).transpose().ok()?;
-        self.multiplier(constraint, index)
+        let indices: Vec<_> = indices.into_iter().map(|index| self.integer(index)).collect();
+        self.multiplier(constraint, &indices.into_iter().collect::<Option<Vec<i128>>>()?)
     }
 
-    fn multiplier(&mut self, constraint: &Name, index: Option<i128>) -> Option<Value> {
+    /// The first indices are those of a family's element, what follows are the element's own.
+    fn multiplier(&mut self, constraint: &Name, indices: &[i128]) -> Option<Value> {
         let Some(group) = self.multipliers.iter().find(|group| group.name == constraint.text) else {
             let names = || self.multipliers.iter().map(|group| group.name.as_str());
             let advice = or_meant(nearest(&constraint.text, names()), "constraint", names());
             return self
                 .report(constraint.place, format!("no constraint is called `{}`{advice}", constraint.text));
         };
-        let whole = match &group.elements[..] {
-            [(None, value)] => value.clone(),
-            elements => Value::Vector(elements.iter().map(|(_, value)| value.clone()).collect()),
-        };
-        let Some(index) = index else { return Some(whole) };
-        let found = match (&group.elements[..], &whole) {
-            ([(None, _)], Value::Vector(items)) => {
-                usize::try_from(index).ok().and_then(|i| items.get(i)).cloned()
-            }
-            (elements, _) => elements
-                .iter()
-                .find(|(i, _)| i.is_some_and(|i| i as i128 == index))
-                .map(|(_, value)| value.clone()),
-        };
-        let missing = || format!("there is no constraint `{}[{index}]`", constraint.text);
-        found.or_else(|| self.report(constraint.place, missing()))
+        let path = indices.iter().map(|&i| usize::try_from(i).ok()).collect::<Option<Vec<usize>>>();
+        let found = path.and_then(|path| {
+            let (own, rest) = path.split_at(path.len().min(group.elements.rank()));
+            rest.iter().try_fold(group.elements.part(own)?, |value, &i| value.item(i))
+        });
+        let text = indices.iter().fold(constraint.text.clone(), |text, i| format!("{text}[{i}]"));
+        found.or_else(|| self.report(constraint.place, format!("there is no constraint `{text}`")))
     }
 }
 

@@ -1,12 +1,13 @@
 //! Forces on coordinates, and forces along velocities.
 
+use super::element_name;
 use super::lower::{Lowering, is_literal_zero};
 use super::scope::Entity;
 use super::unknown::{nearest, or_meant};
-use super::value::{Axes, Value};
+use super::value::{Axes, Shape, Value};
 use crate::diagnostics::Place;
 use crate::symbolic::Id;
-use crate::syntax::{Declaration, Force, Power};
+use crate::syntax::{Declaration, Force, Power, numbers};
 use crate::variables::{Variable, has_velocity, symbols};
 
 impl Lowering<'_> {
@@ -25,10 +26,11 @@ impl Lowering<'_> {
                 self.diagnostics.error(name.place, message);
                 continue;
             };
-            for element in self.elements(&force.target) {
-                let value = self.with_index(&force.target, element, |lowering| lowering.lower(&force.value));
+            let indices = &force.target.indices;
+            for element in self.elements(indices) {
+                let value = self.with_indices(indices, &element, |lowering| lowering.lower(&force.value));
                 if let Some(value) = value {
-                    self.add_force(&mut forces, index, element, force, &value);
+                    self.add_force(&mut forces, index, &element, force, &value);
                 }
             }
         }
@@ -39,39 +41,34 @@ impl Lowering<'_> {
         &mut self,
         forces: &mut [Id],
         coordinate: usize,
-        element: Option<usize>,
+        element: &[usize],
         Force { target, value: expression }: &Force,
         value: &Value,
     ) {
-        let length = self.coordinates[coordinate].length;
-        let offset = self.offsets[coordinate];
-        let (start, wanted) = match (element, length) {
-            (None, length) => (offset, length.unwrap_or(1)),
-            (Some(i), Some(length)) if i < length => (offset + i, 1),
-            (Some(i), _) => {
-                let message = format!("there is no coordinate `{}[{i}]`", target.name.text);
-                return self.diagnostics.error(target.name.place, message);
-            }
-        };
-        let entries = value.flat();
-        let is_vector = element.is_none() && length.is_some();
+        let lengths = &self.coordinates[coordinate].lengths;
+        let name = element_name(&target.name.text, element);
+        if element.len() > lengths.len() || element.iter().zip(lengths).any(|(i, length)| i >= length) {
+            let message = format!("there is no coordinate `{name}`");
+            return self.diagnostics.error(target.name.place, message);
+        }
+        let (outer, inner) = lengths.split_at(element.len());
+        let before = element.iter().zip(outer).fold(0, |number, (i, length)| number * length + i);
+        let start = self.offsets[coordinate] + before * numbers(inner);
         if is_literal_zero(expression) {
             return;
         }
-        if entries.len() != wanted || is_vector != value.as_vector().is_some() {
-            let wanted = if is_vector { format!("a vector of {wanted}") } else { "a scalar".to_owned() };
-            let message =
-                format!("the force on `{}` is {wanted}, but this is {}", target.name.text, value.shape());
+        if value.shape().lengths != inner {
+            let wanted = Shape::plain(inner.to_vec());
+            let message = format!("the force on `{name}` is {wanted}, but this is {}", value.shape());
             return self.diagnostics.error(expression.place, message);
         }
-        if let Some(Axes { name, .. }) = value.axes().filter(|axes| axes.frame != 0) {
+        if let Some(Axes { name: axes, .. }) = value.axes().filter(|axes| axes.frame != 0) {
             let message = format!(
-                "a force on `{}` is a number for each coordinate, but this is a vector in the axes of `{name}`: write `express(…, fixed)` where the coordinates are along the fixed axes",
-                target.name.text
+                "a force on `{name}` is a number for each coordinate, but this is a vector in the axes of `{axes}`: write `express(…, fixed)` where the coordinates are along the fixed axes"
             );
             return self.diagnostics.error(expression.place, message);
         }
-        for (slot, entry) in forces[start..].iter_mut().zip(entries) {
+        for (slot, entry) in forces[start..].iter_mut().zip(value.flat()) {
             *slot = self.graph.add(*slot, entry);
         }
     }
@@ -79,12 +76,19 @@ impl Lowering<'_> {
     /// Forces, and the velocities that they act along, number by number.
     pub(super) fn powers(&mut self, declaration: &Declaration) -> Vec<(Id, Id)> {
         let mut powers = Vec::new();
-        for Power { force, velocity } in &declaration.powers {
-            let (along, by) = (self.lower(velocity), self.lower(force));
-            let Some((along, by)) = along.zip(by) else { continue };
-            powers.extend(self.acting((&by, force.place), (&along, velocity.place)).unwrap_or_default());
+        for power in &declaration.powers {
+            for element in self.elements(&power.indices) {
+                let acting = self.with_indices(&power.indices, &element, |lowering| lowering.power_of(power));
+                let Some(acting) = acting else { break };
+                powers.extend(acting);
+            }
         }
         powers
+    }
+
+    fn power_of(&mut self, Power { force, velocity, .. }: &Power) -> Option<Vec<(Id, Id)>> {
+        let (along, by) = (self.lower(velocity), self.lower(force));
+        self.acting((&by?, force.place), (&along?, velocity.place))
     }
 
     fn acting(

@@ -1,13 +1,15 @@
 //! Functions that the user supplies: fields that are called.
 
 use super::call::wrong_number;
+use super::entry_names;
 use super::lower::Lowering;
 use super::scope::{Entity, Scope};
 use super::unknown::nearest;
+use super::value::Shape;
 use super::value::Value;
 use crate::diagnostics::{Diagnostics, Place};
 use crate::symbolic::External;
-use crate::syntax::{Coordinate, Declaration, Expression, Function, Name};
+use crate::syntax::{Coordinate, Declaration, Expression, Function, Name, numbers};
 
 /// A function as generated code calls it.
 pub(crate) struct Supplied {
@@ -19,12 +21,14 @@ pub(crate) struct Supplied {
     pub(crate) is_reference: bool,
     /// Where the attribute names it.
     pub(crate) place: Place,
-    /// Its arguments as declared, with the lengths of those that are vectors.
-    pub(crate) formals: Vec<(String, Option<usize>)>,
+    /// Its arguments as declared, with the lengths of those that are arrays.
+    pub(crate) formals: Vec<(String, Vec<usize>)>,
     /// How many numbers it takes, all arguments together.
     pub(crate) inputs: usize,
     /// How many numbers it gives.
     pub(crate) outputs: usize,
+    /// What they are called: `A[0]`, `A[1]`.
+    pub(crate) names: Vec<String>,
 }
 
 /// The functions, each with its field found.
@@ -41,7 +45,7 @@ pub(super) fn supplied(
         };
         let formals = function.formals.iter();
         let formals: Vec<_> = formals
-            .map(|formal| (formal.0.text.clone(), formal_length(formal, &declaration.coordinates, scope)))
+            .map(|formal| (formal.0.text.clone(), formal_lengths(formal, &declaration.coordinates, scope)))
             .collect();
         let (ty, is_reference) = match &field.ty {
             syn::Type::Reference(reference) => (&*reference.elem, true),
@@ -53,9 +57,10 @@ pub(super) fn supplied(
             ty: ty.clone(),
             is_reference,
             place: function.name.place,
-            inputs: formals.iter().map(|(_, length)| length.unwrap_or(1)).sum(),
+            inputs: formals.iter().map(|(_, lengths)| numbers(lengths)).sum(),
             formals,
-            outputs: function.length.unwrap_or(1),
+            outputs: numbers(&function.lengths),
+            names: entry_names(&function.name.text, &function.lengths),
         })
     });
     supplied.collect()
@@ -71,15 +76,17 @@ fn no_such_field(Function { name, field, .. }: &Function, declaration: &Declarat
 }
 
 /// A formal takes the shape it says, else that of the coordinate of its name, else it is a scalar.
-fn formal_length(
-    (name, length): &(Name, Option<usize>),
+fn formal_lengths(
+    (name, lengths): &(Name, Vec<usize>),
     coordinates: &[Coordinate],
     scope: &Scope,
-) -> Option<usize> {
-    length.or_else(|| match scope.get(&name.text) {
-        Some(Entity::Coordinate(index) | Entity::Velocity(index)) => coordinates[index].length,
-        _ => None,
-    })
+) -> Vec<usize> {
+    match scope.get(&name.text) {
+        Some(Entity::Coordinate(index) | Entity::Velocity(index)) if lengths.is_empty() => {
+            coordinates[index].lengths.clone()
+        }
+        _ => lengths.clone(),
+    }
 }
 
 impl Lowering<'_> {
@@ -97,15 +104,9 @@ impl Lowering<'_> {
         let values = self.lower_all(arguments)?;
         let mut flat = Vec::new();
         for ((value, argument), formal) in values.iter().zip(arguments).zip(&function.formals) {
-            let length = formal_length(formal, self.coordinates, &self.scope);
-            let fits = match (length, value) {
-                (None, Value::Scalar(_)) => true,
-                (None, _) => false,
-                (Some(length), value) => value.as_vector().is_some_and(|entries| entries.len() == length),
-            };
-            if !fits {
-                let wanted =
-                    length.map_or_else(|| "a scalar".to_owned(), |length| format!("a vector of {length}"));
+            let lengths = formal_lengths(formal, self.coordinates, &self.scope);
+            if value.shape().lengths != lengths {
+                let wanted = Shape::plain(lengths);
                 let message =
                     format!("`{name}` takes {wanted} as `{}`, but this is {}", formal.0.text, value.shape());
                 return self.report(argument.place, message);
@@ -118,9 +119,7 @@ impl Lowering<'_> {
                 External { function: index as u32, output, derivatives: Box::default(), arguments };
             lowering.graph.external(external)
         };
-        Some(match function.length {
-            None => Value::Scalar(output(self, 0)),
-            Some(length) => Value::vector((0..length).map(|i| output(self, i as u32)).collect::<Vec<_>>()),
-        })
+        let outputs: Vec<_> = (0..numbers(&function.lengths)).map(|i| output(self, i as u32)).collect();
+        Some(Value::array(&function.lengths, &outputs))
     }
 }

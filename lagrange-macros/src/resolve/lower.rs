@@ -2,6 +2,8 @@
 
 use num_traits::Zero;
 
+use super::define::Progress;
+use super::family::Family;
 use super::frames::Frames;
 use super::parameters::Parameters;
 use super::scope::{Entity, Scope, is_built_in};
@@ -27,8 +29,7 @@ pub(super) enum Definition {
     /// Its turn has not come.
     Pending,
     Value(Value),
-    /// Elements of a family, by index.
-    Family(std::collections::BTreeMap<usize, Value>),
+    Family(Family),
     Function,
     /// Something was wrong with it, and reported.
     Wrong,
@@ -38,8 +39,7 @@ pub(super) enum Definition {
 #[derive(Debug)]
 pub(super) struct MultiplierGroup {
     pub(super) name: String,
-    /// Elements by index; one without index for a scalar constraint.
-    pub(super) elements: Vec<(Option<usize>, Value)>,
+    pub(super) elements: Family,
 }
 
 /// Expressions deeper than this, calls of definitions included, would exhaust the compiler's stack.
@@ -68,6 +68,7 @@ pub(super) struct Lowering<'a> {
     pub(super) differentiated: Vec<Id>,
     /// By the index of the first `define` of the name.
     pub(super) definitions: Vec<Definition>,
+    pub(super) progress: Progress,
     pub(super) multipliers: Vec<MultiplierGroup>,
     pub(super) observables: Vec<(String, Value)>,
     pub(super) setting: Setting,
@@ -98,8 +99,8 @@ impl<'a> Lowering<'a> {
         let offsets = coordinates
             .iter()
             .map(|coordinate| {
-                count += coordinate.length.unwrap_or(1);
-                count - coordinate.length.unwrap_or(1)
+                count += coordinate.count();
+                count - coordinate.count()
             })
             .collect();
         Self {
@@ -118,6 +119,7 @@ impl<'a> Lowering<'a> {
             turns: Turns::default(),
             differentiated: Vec::new(),
             definitions: defines.iter().map(|_| Definition::Pending).collect(),
+            progress: Progress::default(),
             multipliers: Vec::new(),
             observables: Vec::new(),
             setting: Setting::Equations,
@@ -279,13 +281,10 @@ impl<'a> Lowering<'a> {
     }
 
     fn variable(&mut self, index: usize, variable: fn(usize) -> Variable) -> Value {
-        let offset = self.offsets[index];
-        match self.coordinates[index].length {
-            None => Value::Scalar(self.graph.symbol(variable(offset).symbol())),
-            Some(length) => {
-                Value::vector((offset..offset + length).map(|i| self.graph.symbol(variable(i).symbol())))
-            }
-        }
+        let (offset, coordinate) = (self.offsets[index], &self.coordinates[index]);
+        let entries = (offset..).take(coordinate.count());
+        let entries: Vec<Id> = entries.map(|i| self.graph.symbol(variable(i).symbol())).collect();
+        Value::array(&coordinate.lengths, &entries)
     }
 
     fn acceleration(&mut self, index: usize, place: Place) -> Option<Value> {

@@ -2,12 +2,14 @@
 
 mod algebra;
 mod call;
+mod define;
 mod draw;
 mod family;
 mod forces;
 mod frames;
 mod function;
 mod in_turn;
+mod index;
 mod lower;
 mod matrix;
 mod outline;
@@ -24,7 +26,7 @@ use rustc_hash::FxHashMap;
 
 use crate::diagnostics::{Diagnostics, Place};
 use crate::symbolic::{Graph, Id};
-use crate::syntax::Declaration;
+use crate::syntax::{Declaration, Layout};
 pub(crate) use frames::{Body, Frame, Step, Triple, columns, named, sum, symmetric};
 pub(crate) use function::Supplied;
 use lower::Lowering;
@@ -32,7 +34,6 @@ pub(crate) use outline::{Observable, Outline, outline};
 pub(crate) use parameters::{Entry, Parameters};
 use scope::Scope;
 pub(crate) use scope::is_built_in;
-use value::Value;
 pub(crate) use value::cross;
 
 /// A mechanical system: what it is made of are nodes of a graph beside it.
@@ -52,7 +53,7 @@ pub(crate) struct Problem {
     pub(crate) dissipation: Option<(Id, Place)>,
     /// Φ or F q̇ + b as written: left − right.
     pub(crate) constraints: Vec<(Label, Id)>,
-    pub(crate) observables: Vec<(Label, Vec<Id>)>,
+    pub(crate) observables: Vec<Observed>,
     /// The observables that are said to be conserved, and where.
     pub(crate) conserved: Vec<(usize, Place)>,
     pub(crate) parameters: Parameters,
@@ -64,6 +65,21 @@ pub(crate) struct Problem {
     pub(crate) frames_are_cheaper: bool,
     /// Names of nodes that are definitions.
     pub(crate) names: FxHashMap<Id, String>,
+}
+
+/// What is observed: a number, a vector or a matrix.
+pub(crate) struct Observed {
+    pub(crate) label: Label,
+    pub(crate) lengths: Vec<usize>,
+    /// Row by row.
+    pub(crate) values: Vec<Id>,
+}
+
+impl Observed {
+    /// Of every number, as it is asked for.
+    pub(crate) fn names(&self) -> Vec<String> {
+        entry_names(&self.label.text, &self.lengths)
+    }
 }
 
 /// A name for users to read, and where it was given.
@@ -131,27 +147,20 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
 /// Flat names of the coordinates: `x`, `r[0]`, `r[1]`.
 pub(crate) fn labels(declaration: &Declaration) -> Vec<Label> {
     let elements = declaration.coordinates.iter().flat_map(|coordinate| {
-        let (text, place) = (&coordinate.name.text, coordinate.name.place);
-        let element = move |i: Option<usize>| Label { text: element_name(text, i), place };
-        match coordinate.length {
-            None => vec![element(None)],
-            Some(length) => (0..length).map(|i| element(Some(i))).collect(),
-        }
+        let place = coordinate.name.place;
+        let texts = entry_names(&coordinate.name.text, &coordinate.lengths);
+        texts.into_iter().map(move |text| Label { text, place })
     });
     elements.collect()
 }
 
-fn element_name(name: &str, index: Option<usize>) -> String {
-    index.map_or_else(|| name.to_owned(), |i| format!("{name}[{i}]"))
+/// `x`, `x[0]` or `x[0][1]`
+fn element_name(name: &str, indices: &[usize]) -> String {
+    indices.iter().fold(name.to_owned(), |name, i| format!("{name}[{i}]"))
 }
 
-/// `x` of a scalar, `x[0]`, `x[1]` of a vector, `x[0][1]` of rows.
-fn entry_names(name: &str, value: &Value) -> Vec<String> {
-    match value {
-        Value::Scalar(_) => vec![name.to_owned()],
-        _ => {
-            let rows = (0..).map_while(|i| value.item(i)).enumerate();
-            rows.flat_map(|(i, item)| entry_names(&format!("{name}[{i}]"), &item)).collect()
-        }
-    }
+/// `x` of a number, `x[0]`, `x[1]` of a vector, `x[0][1]` of arrays in arrays of these lengths.
+pub(crate) fn entry_names(name: &str, lengths: &[usize]) -> Vec<String> {
+    let layout = Layout::array(lengths);
+    (0..layout.numbers()).map(|number| element_name(name, &layout.indices(number))).collect()
 }

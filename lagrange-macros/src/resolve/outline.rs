@@ -1,13 +1,14 @@
 //! What the rest of a program relies on: how many of what there is, and which methods. It is found where something is
 //! wrong too, as far as it can be, so that one error does not bring others about.
 
-use super::Parameters;
 use super::lower::{Lowering, Setting};
 use super::scope::{Entity, Scope};
 use super::value::Value;
+use super::{Label, Parameters};
 use crate::contract::is_reserved;
 use crate::diagnostics::Diagnostics;
-use crate::syntax::{Constraint, Declaration, Expression, Kind, Name};
+use crate::symbolic::Id;
+use crate::syntax::{Constraint, Coordinate, Declaration, Expression, Kind, Name};
 use crate::variables::Variable;
 
 /// As many wrong values are looked into: each is read twice, and so is what is wrong in it.
@@ -27,8 +28,8 @@ pub(crate) struct Outline {
 /// An observable seen from outside.
 pub(crate) struct Observable {
     pub(crate) name: Name,
-    /// How many numbers it is.
-    pub(crate) length: usize,
+    /// The lengths of the arrays that it is.
+    pub(crate) lengths: Vec<usize>,
     pub(crate) needs_solution: bool,
 }
 
@@ -42,27 +43,33 @@ pub(crate) fn outline(declaration: &Declaration) -> Outline {
     // Once more for what is defined further down than where it is used.
     lowering.define_all();
     lowering.define_all();
-    let forces = declaration.forces.iter().map(|force| &force.value);
-    let powers = declaration.powers.iter().flat_map(|power| [&power.force, &power.velocity]);
-    for expression in
-        declaration.lagrangian.iter().chain(&declaration.dissipation).chain(forces).chain(powers)
-    {
-        lowering.lower(expression);
+    let alone = declaration.lagrangian.iter().chain(&declaration.dissipation).map(|alone| (&[][..], alone));
+    let forces = declaration.forces.iter().map(|force| (&force.target.indices[..], &force.value));
+    let powers = declaration.powers.iter();
+    let powers =
+        powers.flat_map(|power| [&power.force, &power.velocity].map(|part| (&power.indices[..], part)));
+    for (indices, expression) in alone.chain(forces).chain(powers) {
+        for element in lowering.elements(indices) {
+            lowering.with_indices(indices, &element, |lowering| lowering.lower(expression));
+        }
     }
     let rows = lowering.constraints(&declaration.constraints);
-    let is_there = |constraint: &&Constraint| {
-        !constraint.is_implied || rows.iter().any(|(label, _)| label.text == constraint.target.name.text)
+    let is_row_of = |label: &Label, name: &str| {
+        label.text.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('['))
     };
-    let constraints = declaration.constraints.iter().filter(is_there);
-    let constraints = constraints.map(|constraint| lowering.rows(constraint)).sum::<usize>();
+    let count = |constraint: &Constraint| match constraint.is_implied {
+        // Another constraint may say the same already.
+        true => rows.iter().filter(|(label, _)| is_row_of(label, &constraint.target.name.text)).count(),
+        false => lowering.rows(constraint),
+    };
+    let constraints = declaration.constraints.iter().map(count).sum::<usize>();
     let observables = lowering.observables_seen(declaration);
     let parameters = lowering.parameters;
-    let length = |coordinate: &crate::syntax::Coordinate| coordinate.length.unwrap_or(1);
     Outline {
         scalar: parameters.likely_scalar(declaration),
         coordinates: declaration
             .are_coordinates_read
-            .then(|| declaration.coordinates.iter().map(length).sum()),
+            .then(|| declaration.coordinates.iter().map(Coordinate::count).sum()),
         constraints,
         parameters: parameters.entries.len(),
         observables,
@@ -72,9 +79,10 @@ pub(crate) fn outline(declaration: &Declaration) -> Outline {
 impl Lowering<'_> {
     /// How many equations a constraint is; all elements of a family are as many, and what cannot be told is one.
     fn rows(&mut self, constraint: &Constraint) -> usize {
-        let elements = self.elements(&constraint.target);
-        let first = elements.first().copied().flatten();
-        let value = self.with_index(&constraint.target, first, |lowering| {
+        let indices = &constraint.target.indices;
+        let elements = self.elements(indices);
+        let first = elements.first().cloned().unwrap_or_default();
+        let value = self.with_indices(indices, &first, |lowering| {
             lowering.residual(constraint).or_else(|| lowering.lower(&constraint.left))
         });
         elements.len().max(1) * value.map_or(1, |value| value.count())
@@ -84,16 +92,16 @@ impl Lowering<'_> {
         self.setting = Setting::Observable;
         let mut seen: Vec<Observable> = Vec::new();
         for observable in &declaration.observables {
-            let name = &observable.name;
+            let name = &observable.target.name;
             if is_reserved(&name.text) || seen.iter().any(|known| known.name.text == name.text) {
                 continue;
             }
-            let value = self.lower(&observable.value).unwrap_or(Value::Vector(Vec::new()));
-            let length = value.as_vector().map_or(1, |entries| entries.len().max(1));
+            let value = self.observed(observable).unwrap_or(Value::Scalar(Id::ZERO));
+            let lengths = value.lengths();
             let needs_solution =
                 self.graph.symbols(&value.flat()).any(|symbol| Variable::of(symbol).is_solved());
             self.observables.push((name.text.clone(), value));
-            seen.push(Observable { name: name.clone(), length, needs_solution });
+            seen.push(Observable { name: name.clone(), lengths, needs_solution });
         }
         seen
     }
@@ -117,7 +125,7 @@ impl Lowering<'_> {
             Kind::Slice(_) => vector,
             Kind::Negative(_) | Kind::Sum(_) | Kind::SumOver(_) | Kind::Product(_) => vector,
             Kind::Call(name, _) => match (name.text.as_str(), self.scope.get(&name.text)) {
-                (_, Some(Entity::Function(index))) => self.functions[index].length,
+                (_, Some(Entity::Function(index))) => self.functions[index].lengths.first().copied(),
                 ("cross" | "der" | "quat_rotate" | "quat_mul" | "quat_conj", _) => vector,
                 ("lambda", _) => {
                     contents.push(self.graph.symbol(Variable::Multiplier(0).symbol()));

@@ -59,7 +59,7 @@ impl Parameters {
             };
             reject_repeated(parameter, &declaration.parameters[..position], diagnostics);
             diagnostics.note(match &parameter.fact {
-                Fact::Length(length) => parameters.set_length(index, *length, name.place),
+                Fact::Shape(lengths) => parameters.set_shape(index, lengths, name.place),
                 Fact::Range(low, high) => bounds(low, high).map(|range| parameters.ranges[index] = range),
                 Fact::Property(property) => parameters.set_property(index, *property, name.place),
             });
@@ -67,10 +67,10 @@ impl Parameters {
         parameters
     }
 
-    fn set_length(&mut self, index: usize, length: usize, place: Place) -> syn::Result<()> {
+    fn set_shape(&mut self, index: usize, lengths: &[usize], place: Place) -> syn::Result<()> {
         let field = &mut self.fields[index];
         match &field.shape {
-            Ok(FieldShape { layout, .. }) if *layout == Layout::array([length]) => Ok(()),
+            Ok(FieldShape { layout, .. }) if *layout == Layout::array(lengths) => Ok(()),
             // A type of another name may be an alias of an array.
             Ok(FieldShape { layout, scalar: Some(scalar), .. })
                 if layout.is_scalar() && is_float(&text(scalar)) =>
@@ -83,7 +83,7 @@ impl Parameters {
             }
             shape => {
                 let is_reference = shape.as_ref().is_ok_and(|shape| shape.is_reference);
-                field.shape = Ok(FieldShape { layout: Layout::array([length]), scalar: None, is_reference });
+                field.shape = Ok(FieldShape { layout: Layout::array(lengths), scalar: None, is_reference });
                 Ok(())
             }
         }
@@ -253,7 +253,7 @@ fn is_no_number(name: &str) -> bool {
 fn reject_repeated(parameter: &Parameter, earlier: &[Parameter], diagnostics: &mut Diagnostics) {
     let name = &parameter.name;
     let what = |fact: &Fact| match fact {
-        Fact::Length(_) => "shape",
+        Fact::Shape(_) => "shape",
         Fact::Range(..) => "range",
         Fact::Property(_) => "property",
     };

@@ -4,7 +4,7 @@ use indexmap::IndexMap;
 
 use crate::diagnostics::{Diagnostics, Place};
 use crate::symbolic;
-use crate::syntax::{Declaration, Function, Name, TargetIndex, normal_form};
+use crate::syntax::{Declaration, Function, Name, normal_form};
 
 /// What a name in an expression may refer to.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -126,7 +126,7 @@ impl Scope {
         }
     }
 
-    /// Elements of a family share their name; anything else of one name clashes.
+    /// Elements of a family share their name, and have as many indices; anything else of one name clashes.
     fn declare_definition(
         &mut self,
         declaration: &Declaration,
@@ -134,9 +134,19 @@ impl Scope {
         name: &Name,
         diagnostics: &mut Diagnostics,
     ) {
-        let is_element = |index: usize| !matches!(declaration.defines[index].target.index, TargetIndex::None);
+        let rank = |index: usize| declaration.defines[index].target.indices.len();
         match self.entities.get(&name.text) {
-            Some((Entity::Definition(first), _)) if is_element(*first) && is_element(index) => {}
+            Some(&(Entity::Definition(first), place)) if rank(first) > 0 && rank(index) > 0 => {
+                if rank(first) != rank(index) {
+                    let message = format!(
+                        "`{}` has {} here: the elements of a family have equally many",
+                        name.text,
+                        indices(rank(index))
+                    );
+                    let note = format!("`{}` has {}", name.text, indices(rank(first)));
+                    diagnostics.push(name.place.error_beside(message, place, note));
+                }
+            }
             _ => self.declare(name, Entity::Definition(index), diagnostics),
         }
     }
@@ -151,9 +161,14 @@ impl Scope {
     }
 }
 
+fn indices(rank: usize) -> String {
+    if rank == 1 { "one index".to_owned() } else { format!("{rank} indices") }
+}
+
 /// The arrays among coordinates and fields.
 fn lengths(declaration: &Declaration) -> impl Iterator<Item = (&Name, usize)> {
-    let coordinates = declaration.coordinates.iter().filter_map(|known| Some((&known.name, known.length?)));
+    let coordinates =
+        declaration.coordinates.iter().filter_map(|known| Some((&known.name, *known.lengths.first()?)));
     let fields = declaration.fields.iter().filter_map(|field| {
         let length = *field.shape.as_ref().ok()?.layout.lengths.first()?;
         Some((&field.name, length))

@@ -3,13 +3,14 @@
 use indexmap::IndexMap;
 use rustc_hash::FxHashMap;
 
+use super::family::Family;
 use super::lower::{Definition, Lowering, MultiplierGroup, Setting, is_literal_zero};
 use super::value::Value;
-use super::{Label, element_name, entry_names};
+use super::{Label, Observed, element_name, entry_names};
 use crate::contract::is_reserved;
 use crate::diagnostics::Place;
 use crate::symbolic::{Id, Rational};
-use crate::syntax::{Constraint, Declaration, Expression, Name, Sign, TargetIndex};
+use crate::syntax::{Constraint, Declaration, Expression, Name, Named, Sign};
 use crate::variables::Variable;
 
 /// As many as coordinates, beyond which some would have to be dependent.
@@ -42,11 +43,11 @@ impl Lowering<'_> {
     pub(super) fn conserved(
         &mut self,
         declaration: &Declaration,
-        observables: &[(Label, Vec<Id>)],
+        observables: &[Observed],
     ) -> Vec<(usize, Place)> {
         let mut conserved = Vec::new();
-        for (index, (label, values)) in observables.iter().enumerate() {
-            let written = declaration.observables.iter().find(|named| named.name.text == label.text);
+        for (index, Observed { label, values, .. }) in observables.iter().enumerate() {
+            let written = declaration.observables.iter().find(|named| named.target.name.text == label.text);
             let Some(written) = written.filter(|named| named.is_conserved) else { continue };
             if self.graph.symbols(values).any(|symbol| Variable::of(symbol).is_solved()) {
                 self.diagnostics.error(
@@ -61,10 +62,11 @@ impl Lowering<'_> {
 
     pub(super) fn constraints(&mut self, constraints: &[Constraint]) -> Vec<(Label, Id)> {
         let mut rows: Vec<(Label, Id)> = Vec::new();
-        let mut seen: IndexMap<String, (Place, bool)> = IndexMap::new();
+        let mut seen: IndexMap<String, (Place, usize)> = IndexMap::new();
         for constraint in constraints {
             let name = &constraint.target.name;
-            let is_family = !matches!(constraint.target.index, TargetIndex::None);
+            let indices = &constraint.target.indices;
+            let is_one_of = |known: &usize| constraint.target.is_family() && *known == indices.len();
             match seen.get(&name.text) {
                 Some((place, _)) if constraint.is_implied => {
                     let name = &name.text;
@@ -74,14 +76,14 @@ impl Lowering<'_> {
                     self.diagnostics.error(*place, message);
                     continue;
                 }
-                Some((place, family)) if !(is_family && *family) => {
+                Some((place, known)) if !is_one_of(known) => {
                     self.twice(name, *place, "constraints");
                     continue;
                 }
-                _ => seen.insert(name.text.clone(), (name.place, is_family)),
+                _ => seen.insert(name.text.clone(), (name.place, indices.len())),
             };
-            for element in self.elements(&constraint.target) {
-                self.constraint(constraint, element, &mut rows);
+            for element in self.elements(indices) {
+                self.constraint(constraint, &element, &mut rows);
                 if rows.len() > CONSTRAINT_LIMIT {
                     let message = format!("a system has at most {CONSTRAINT_LIMIT} constraints");
                     self.diagnostics.error(name.place, message);
@@ -97,10 +99,11 @@ impl Lowering<'_> {
         self.diagnostics.push(name.place.error_beside(message, other, "the other one is here"));
     }
 
-    fn constraint(&mut self, constraint: &Constraint, element: Option<usize>, rows: &mut Vec<(Label, Id)>) {
-        let residual = self.with_index(&constraint.target, element, |lowering| lowering.residual(constraint));
+    fn constraint(&mut self, constraint: &Constraint, element: &[usize], rows: &mut Vec<(Label, Id)>) {
+        let indices = &constraint.target.indices;
+        let residual = self.with_indices(indices, element, |lowering| lowering.residual(constraint));
         let Some(residual) = residual else { return };
-        if constraint.is_implied && self.is_among(&residual, rows) {
+        if constraint.is_implied && (!self.is_of_frame(&residual) || self.is_among(&residual, rows)) {
             return;
         }
         let place = constraint.left.place.to(constraint.right.place);
@@ -111,19 +114,25 @@ impl Lowering<'_> {
             row += 1;
             self.graph.symbol(Variable::Multiplier(row - 1).symbol())
         });
-        let texts = entry_names(&element_name(&name.text, element), &residual);
+        let texts = entry_names(&element_name(&name.text, element), &residual.shape().lengths);
         for (text, id) in texts.into_iter().zip(residual.flat()) {
             if rows.iter().any(|(label, _)| label.text == text) {
                 self.diagnostics.error(name.place, format!("the constraint `{text}` is given twice"));
             }
             rows.push((Label { text, place: constraint.left.place.to(constraint.right.place) }, id));
         }
-        match self.multipliers.iter_mut().find(|group| group.name == name.text) {
-            Some(group) => group.elements.push((element, symbols)),
-            None => self
-                .multipliers
-                .push(MultiplierGroup { name: name.text.clone(), elements: vec![(element, symbols)] }),
-        }
+        let known = self.multipliers.iter().position(|group| group.name == name.text);
+        let group = known.unwrap_or_else(|| {
+            self.multipliers.push(MultiplierGroup { name: name.text.clone(), elements: Family::default() });
+            self.multipliers.len() - 1
+        });
+        self.multipliers[group].elements.insert(element.to_vec(), symbols);
+    }
+
+    /// Whether |q|² = 1 is of a quaternion that turns a frame. Where something is wrong, that may not be known.
+    fn is_of_frame(&mut self, residual: &Value) -> bool {
+        let square = residual.as_scalar().map(|residual| self.graph.add(residual, Id::ONE));
+        self.is_guessing || square.is_some_and(|square| self.frames.squares.contains(&square))
     }
 
     /// Whether a constraint says the same in as many words.
@@ -150,32 +159,50 @@ impl Lowering<'_> {
         Some(Value::combination(&terms, &mut self.graph))
     }
 
-    pub(super) fn observables(&mut self, declaration: &Declaration) -> Vec<(Label, Vec<Id>)> {
+    pub(super) fn observables(&mut self, declaration: &Declaration) -> Vec<Observed> {
         self.setting = Setting::Observable;
         let mut observables = Vec::new();
         for (position, observable) in declaration.observables.iter().enumerate() {
-            let name = &observable.name;
+            let name = &observable.target.name;
             if is_reserved(&name.text) {
                 let message = format!("every system has a method `{}`: choose another name", name.text);
                 self.diagnostics.error(name.place, message);
                 continue;
             }
             let earlier =
-                declaration.observables[..position].iter().find(|known| known.name.text == name.text);
+                declaration.observables[..position].iter().find(|known| known.target.name.text == name.text);
             if let Some(earlier) = earlier {
-                self.twice(name, earlier.name.place, "observables");
+                self.twice(name, earlier.target.name.place, "observables");
                 continue;
             }
-            let Some(value) = self.lower(&observable.value) else { continue };
-            if value.as_scalar().is_none() && value.as_vector().is_none() {
-                let message = format!("an observable is a scalar or a vector, but this is {}", value.shape());
+            let Some(value) = self.observed(observable) else { continue };
+            let lengths = value.lengths();
+            if lengths.len() > 2 {
+                let message =
+                    format!("an observable is a scalar, a vector or a matrix, but this is {}", value.shape());
                 self.diagnostics.error(observable.value.place, message);
                 continue;
             }
-            observables.push((Label { text: name.text.clone(), place: name.place }, value.flat()));
+            let label = Label { text: name.text.clone(), place: name.place };
+            observables.push(Observed { label, lengths, values: value.flat() });
             self.observables.push((name.text.clone(), value));
         }
         observables
+    }
+
+    /// The value of an observable; those of a family in an array.
+    pub(super) fn observed(&mut self, Named { target, value, .. }: &Named) -> Option<Value> {
+        let mut family = Family::default();
+        for element in self.elements(&target.indices) {
+            let value = self.with_indices(&target.indices, &element, |lowering| lowering.lower(value))?;
+            family.insert(element, value);
+        }
+        if let Some(gap) = family.gap(&[]) {
+            let missing = element_name(&target.name.text, &gap);
+            let message = format!("the elements of an observable begin at 0: `{missing}` is missing");
+            return self.report(target.name.place, message);
+        }
+        self.even(family.part(&[])?, value.place)
     }
 
     /// The names that definitions give to nodes; of two for one node, the first.
@@ -183,13 +210,13 @@ impl Lowering<'_> {
         let mut names = FxHashMap::default();
         for (define, definition) in declaration.defines.iter().zip(&self.definitions) {
             let name = &define.target.name.text;
-            let elements: Vec<(Option<usize>, &Value)> = match definition {
-                Definition::Value(value) => vec![(None, value)],
-                Definition::Family(elements) => elements.iter().map(|(i, value)| (Some(*i), value)).collect(),
+            let elements: Vec<(&[usize], &Value)> = match definition {
+                Definition::Value(value) => vec![(&[], value)],
+                Definition::Family(family) => family.iter().collect(),
                 _ => continue,
             };
             for (element, value) in elements {
-                let texts = entry_names(&element_name(name, element), value);
+                let texts = entry_names(&element_name(name, element), &value.shape().lengths);
                 for (text, id) in texts.into_iter().zip(value.flat()) {
                     names.entry(id).or_insert(text);
                 }

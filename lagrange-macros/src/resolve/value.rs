@@ -24,12 +24,12 @@ pub(crate) struct Axes {
 /// Lengths from the outside in: none for a scalar. A vector in space is along some axes.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct Shape {
-    lengths: Vec<usize>,
+    pub(super) lengths: Vec<usize>,
     axes: Option<Axes>,
 }
 
 impl Shape {
-    fn plain(lengths: Vec<usize>) -> Self {
+    pub(super) fn plain(lengths: Vec<usize>) -> Self {
         Self { lengths, axes: None }
     }
 
@@ -73,6 +73,11 @@ impl Value {
         }
     }
 
+    /// From the outside in; an array of one number is that number.
+    pub(super) fn lengths(&self) -> Vec<usize> {
+        if self.count() == 1 { Vec::new() } else { self.shape().lengths }
+    }
+
     pub(super) fn as_scalar(&self) -> Option<Id> {
         match self {
             Self::Scalar(id) => Some(*id),
@@ -103,6 +108,17 @@ impl Value {
         match (axes, entries) {
             (Some(axes), Some(entries)) => Self::Spatial(axes.clone(), entries),
             _ => self,
+        }
+    }
+
+    /// Arrays of these lengths of numbers that come row by row.
+    pub(super) fn array(lengths: &[usize], entries: &[Id]) -> Self {
+        match lengths {
+            [] => Self::Scalar(entries[0]),
+            [length, inner @ ..] => {
+                let parts = entries.chunks(entries.len() / length);
+                Self::Vector(parts.map(|part| Self::array(inner, part)).collect())
+            }
         }
     }
 
@@ -140,6 +156,14 @@ impl Value {
         };
         let axes = terms.iter().find_map(|(value, _)| value.borrow().axes());
         Self::Vector((0..length).map(|i| Self::combination(&column(i), graph)).collect()).along(axes)
+    }
+
+    /// The shapes of two parts of an array that differ in their lengths.
+    pub(super) fn uneven(&self) -> Option<[Shape; 2]> {
+        let Self::Vector(items) = self else { return None };
+        let shapes: Vec<Shape> = items.iter().map(Self::shape).collect();
+        let odd = shapes.iter().find(|shape| shape.lengths != shapes[0].lengths);
+        odd.map(|odd| [shapes[0].clone(), odd.clone()])
     }
 
     /// How many parts it has; a scalar has none.

@@ -3,9 +3,9 @@
 use proc_macro2::TokenStream;
 
 use super::expression::Expression;
-use super::field::Field;
+use super::field::{Field, numbers};
 use super::name::Name;
-use super::target::Target;
+use super::target::{Target, TargetIndex};
 
 /// The struct and its attributes as written.
 pub(crate) struct Declaration {
@@ -29,11 +29,19 @@ pub(crate) struct Declaration {
     pub(crate) options: Options,
 }
 
-/// `#[coordinates(x, r: [3])]`, one entry.
+/// `#[coordinates(x, r: [3], corners: [4, 3])]`, one entry.
 #[derive(Clone, Debug)]
 pub(crate) struct Coordinate {
     pub(crate) name: Name,
-    pub(crate) length: Option<usize>,
+    /// From the outside in: none for a number.
+    pub(crate) lengths: Vec<usize>,
+}
+
+impl Coordinate {
+    /// How many numbers it is.
+    pub(crate) fn count(&self) -> usize {
+        numbers(&self.lengths)
+    }
 }
 
 /// `#[define(name = expression)]`
@@ -61,10 +69,10 @@ pub(crate) struct Frame {
 #[derive(Debug)]
 pub(crate) struct Function {
     pub(crate) name: Name,
-    /// Each formal, with its length if it says one.
-    pub(crate) formals: Vec<(Name, Option<usize>)>,
-    /// The length of the result, if it is a vector.
-    pub(crate) length: Option<usize>,
+    /// Each formal, with its lengths if it says any.
+    pub(crate) formals: Vec<(Name, Vec<usize>)>,
+    /// The lengths of the result: none where it is a number.
+    pub(crate) lengths: Vec<usize>,
     /// The field; by default the one of the function's name.
     pub(crate) field: Name,
 }
@@ -86,9 +94,11 @@ pub(crate) struct Force {
     pub(crate) value: Expression,
 }
 
-/// `#[power(force, velocity)]`
+/// `#[power(force, velocity)]` or `#[power(i in 0..3, force, velocity)]`
 #[derive(Debug)]
 pub(crate) struct Power {
+    /// For each of these, and in all.
+    pub(crate) indices: Vec<TargetIndex>,
     pub(crate) force: Expression,
     pub(crate) velocity: Expression,
 }
@@ -96,7 +106,7 @@ pub(crate) struct Power {
 /// `#[observable(name = expression)]` or `#[conserved(name = expression)]`
 #[derive(Debug)]
 pub(crate) struct Named {
-    pub(crate) name: Name,
+    pub(crate) target: Target,
     pub(crate) is_conserved: bool,
     pub(crate) value: Expression,
 }
@@ -111,7 +121,7 @@ pub(crate) struct Parameter {
 /// What is said of a field.
 #[derive(Debug)]
 pub(crate) enum Fact {
-    Length(usize),
+    Shape(Vec<usize>),
     Range(Expression, Expression),
     Property(Property),
 }

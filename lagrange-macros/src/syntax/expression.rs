@@ -324,6 +324,19 @@ impl Expression {
         self.parts().into_iter().for_each(|part| part.indices(visit));
     }
 
+    /// The name and the indices, where it is nothing but those: `x`, `x[0]`, `x[i][j]`.
+    pub(crate) fn element(&self) -> Option<(&Name, Vec<&Self>)> {
+        let (mut base, mut indices) = (self, Vec::new());
+        while let Kind::Index(inner, index) = &base.kind {
+            indices.insert(0, &**index);
+            base = inner;
+        }
+        match &base.kind {
+            Kind::Name(name) => Some((name, indices)),
+            _ => None,
+        }
+    }
+
     /// The expressions that it is made of.
     pub(crate) fn parts(&self) -> Vec<&Self> {
         match &self.kind {

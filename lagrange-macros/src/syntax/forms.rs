@@ -9,9 +9,9 @@ use super::declaration::{
     Constraint, Coordinate, Define, Fact, Force, Function, Named, Options, Parameter, Power, Property,
 };
 use super::expression::{self, Expression, Kind};
-use super::field::{LENGTH_LIMIT, NOT_A_LITERAL};
+use super::field::{LENGTH_LIMIT, NOT_A_LITERAL, numbers};
 use super::name::Name;
-use super::target::{Target, TargetIndex, target};
+use super::target::{Target, running, target};
 use super::unread::unread;
 use crate::diagnostics::Place;
 
@@ -30,7 +30,7 @@ pub(super) const FORMS: [(&str, &str); 13] = [
     ("lagrangian", "#[lagrangian(expression)]"),
     ("constraint", "#[constraint(name: expression = expression)]"),
     ("force", "#[force(coordinate: expression)]"),
-    ("power", "#[power(force, velocity)]"),
+    ("power", "#[power(force, velocity)]` or `#[power(i in 0..3, force, velocity)]"),
     ("dissipation", "#[dissipation(expression)]"),
     ("observable", "#[observable(name = expression)]"),
     ("conserved", "#[conserved(name = expression)]"),
@@ -95,10 +95,10 @@ pub(super) fn coordinates(cursor: &mut Cursor, coordinates: &mut Vec<Coordinate>
     let mut count = 0;
     while !cursor.is_empty() {
         let name = cursor.name("the name of a coordinate")?;
-        let length = length(cursor)?;
-        count += length.unwrap_or(1);
-        reject_too_many(count, &name)?;
-        coordinates.push(Coordinate { name, length });
+        let coordinate = Coordinate { name, lengths: shape(cursor)? };
+        count += coordinate.count();
+        reject_too_many(count, &coordinate.name)?;
+        coordinates.push(coordinate);
         if cursor.is_punct('=') {
             return Err(cursor.error("a coordinate gets its value at the start from a `State`, not here"));
         }
@@ -119,23 +119,32 @@ fn reject_too_many(count: usize, last: &Name) -> Result<()> {
     )))
 }
 
-/// `: [3]`, if there is a length.
-fn length(cursor: &mut Cursor) -> Result<Option<usize>> {
-    if cursor.take_punct(':') { brackets(cursor).map(Some) } else { Ok(None) }
+/// `: [3]` or `: [4, 3]`; nothing of a number.
+fn shape(cursor: &mut Cursor) -> Result<Vec<usize>> {
+    if cursor.take_punct(':') { lengths(cursor) } else { Ok(Vec::new()) }
 }
 
-/// `[3]`
-fn brackets(cursor: &mut Cursor) -> Result<usize> {
-    let wanted = "expected a length such as `[3]`, an integer literal";
-    let Some(group) = cursor.take_group(Delimiter::Bracket) else { return Err(cursor.error(wanted)) };
-    let place = Place::at(group.span());
-    let length = expression::whole(&mut Cursor::inside(&group)).map(|length| length.kind);
-    let value = match length {
+const LENGTHS: &str =
+    "expected a length such as `[3]`, an integer literal, or `[4, 3]` for an array of vectors";
+
+/// `[3]` or `[4, 3]`
+fn lengths(cursor: &mut Cursor) -> Result<Vec<usize>> {
+    let Some(group) = cursor.take_group(Delimiter::Bracket) else { return Err(cursor.error(LENGTHS)) };
+    let (mut inside, place) = (Cursor::inside(&group), Place::at(group.span()));
+    let mut lengths = vec![length(&mut inside.until_comma(), place)?];
+    while !inside.is_empty() {
+        lengths.push(length(&mut inside.until_comma(), place)?);
+    }
+    if numbers(&lengths) > LENGTH_LIMIT { Err(place.error(LENGTHS)) } else { Ok(lengths) }
+}
+
+fn length(cursor: &mut Cursor, place: Place) -> Result<usize> {
+    let value = match expression::whole(cursor).map(|length| length.kind) {
         Ok(Kind::Number(value)) => value.to_integer().and_then(|value| usize::try_from(value).ok()),
         Ok(Kind::Name(_)) => return Err(place.error(NOT_A_LITERAL)),
         _ => None,
     };
-    value.filter(|length| (1..=LENGTH_LIMIT).contains(length)).ok_or_else(|| place.error(wanted))
+    value.filter(|length| *length > 0).ok_or_else(|| place.error(LENGTHS))
 }
 
 /// The expression that the attribute ends with, after its `=` or `:`.
@@ -166,14 +175,14 @@ pub(super) fn function(cursor: &mut Cursor) -> Result<Function> {
         return Err(cursor.error(format!("expected its arguments: write `{}`", form("function"))));
     };
     let formals = formals(&group, "a constant is a field", shaped)?;
-    let length = length(cursor)?;
-    if length > Some(RESULT_LIMIT) {
+    let lengths = shape(cursor)?;
+    if numbers(&lengths) > RESULT_LIMIT {
         let message = format!("a function has at most {RESULT_LIMIT} results");
         return Err(cursor.last_place().error(message));
     }
     let field = if cursor.take_punct('=') { cursor.name("the name of a field")? } else { name.clone() };
     finish(cursor, "function")?;
-    Ok(Function { name, formals, length, field })
+    Ok(Function { name, formals, lengths, field })
 }
 
 /// Reads the names of a function's arguments, and what `read` finds behind each.
@@ -198,16 +207,12 @@ fn formals<T>(
 }
 
 /// `s: [3]`
-fn shaped(
-    cursor: &mut Cursor,
-    name: Name,
-    earlier: &[(Name, Option<usize>)],
-) -> Result<(Name, Option<usize>)> {
-    let length = length(cursor)?;
+fn shaped(cursor: &mut Cursor, name: Name, earlier: &[(Name, Vec<usize>)]) -> Result<(Name, Vec<usize>)> {
+    let lengths = shape(cursor)?;
     if earlier.iter().any(|(earlier, _)| earlier.text == name.text) {
         return Err(name.place.error(format!("the argument `{}` is given twice", name.text)));
     }
-    Ok((name, length))
+    Ok((name, lengths))
 }
 
 fn equals(cursor: &mut Cursor, word: &str) -> Result<()> {
@@ -232,7 +237,7 @@ pub(super) fn constraint(cursor: &mut Cursor, constraints: &mut Vec<Constraint>)
         Ok(sides)
     });
     let name = Name { text: String::new(), place: written.place() };
-    let target = target.unwrap_or(Target { name, index: TargetIndex::None });
+    let target = target.unwrap_or(Target::whole(name));
     let (left, right, result) = match sides {
         Ok((left, right)) => (left, right, Ok(())),
         Err(error) => {
@@ -280,6 +285,11 @@ pub(super) fn force(cursor: &mut Cursor, forces: &mut Vec<Force>) -> Result<()> 
 }
 
 pub(super) fn power(cursor: &mut Cursor) -> Result<Power> {
+    let mut indices = Vec::new();
+    while let Some(index) = running(cursor)? {
+        indices.push(index);
+        cursor.expect_punct(',', &format!("expected `,` and a force: write `{}`", form("power")))?;
+    }
     let mut before_comma = cursor.until_comma();
     let force = expression::whole(&mut before_comma)?;
     if cursor.is_empty() {
@@ -287,18 +297,15 @@ pub(super) fn power(cursor: &mut Cursor) -> Result<Power> {
             .error(format!("expected the velocity that the force acts along: write `{}`", form("power"))));
     }
     let velocity = last(cursor, "power")?;
-    Ok(Power { force, velocity })
+    Ok(Power { indices, force, velocity })
 }
 
 /// Even where the value is wrong there is a method of that name, which the program may call.
 pub(super) fn observable(word: &str, cursor: &mut Cursor, observables: &mut Vec<Named>) -> Result<()> {
     let target = target(cursor, &format!("a name: write `{}`", form(word)))?;
-    if !matches!(target.index, TargetIndex::None) {
-        return Err(target.name.place.error("an observable is not a family: write a vector `[a, b]`"));
-    }
     let (value, result) =
         read_or_guess(cursor, |cursor| equals(cursor, word).and_then(|()| last(cursor, word)));
-    observables.push(Named { name: target.name, is_conserved: word == "conserved", value });
+    observables.push(Named { target, is_conserved: word == "conserved", value });
     result
 }
 
@@ -307,7 +314,7 @@ pub(super) fn parameter(cursor: &mut Cursor) -> Result<Parameter> {
     colon(cursor, "parameter")?;
     let fact = match cursor.peek() {
         Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Bracket => {
-            Fact::Length(brackets(cursor)?)
+            Fact::Shape(lengths(cursor)?)
         }
         Some(TokenTree::Ident(_)) => Fact::Property(property(cursor)?),
         _ => {

@@ -4,7 +4,7 @@ use proc_macro2::{Delimiter, TokenTree};
 use syn::Result;
 
 use super::cursor::Cursor;
-use super::declaration::{Constraint, Coordinate, Declaration, Frame};
+use super::declaration::{Constraint, Declaration, Frame};
 use super::expression::{self, Expression, Kind};
 use super::forms::form;
 use super::name::Name;
@@ -41,51 +41,64 @@ fn unseparated(step: &Cursor) -> Option<syn::Error> {
     is_name.then(|| step.error("expected `,` between the steps of a frame"))
 }
 
-/// `ground` or `link[i-1]`
+/// `ground`, `link[i-1]` or `leg[i][0]`
 fn parent(cursor: &mut Cursor) -> Result<Expression> {
     let name = cursor.name("the frame that it is in")?;
     let place = name.place;
-    let base = Expression { kind: Kind::Name(name), place };
-    let Some(brackets) = cursor.take_group(Delimiter::Bracket) else { return Ok(base) };
-    let index = expression::whole(&mut Cursor::inside(&brackets))?;
-    let place = place.to(cursor.last_place());
-    Ok(Expression { kind: Kind::Index(Box::new(base), Box::new(index)), place })
+    let mut parent = Expression { kind: Kind::Name(name), place };
+    while let Some(brackets) = cursor.take_group(Delimiter::Bracket) {
+        let index = expression::whole(&mut Cursor::inside(&brackets))?;
+        let place = place.to(cursor.last_place());
+        parent = Expression { kind: Kind::Index(Box::new(parent), Box::new(index)), place };
+    }
+    Ok(parent)
 }
 
-/// dot(q, q) = 1 of each coordinate that frames are turned by as a quaternion.
+/// dot(q, q) = 1 of each coordinate that frames are turned by as a quaternion, and of each row of one that is several.
 pub(super) fn unit_constraints(declaration: &Declaration) -> Vec<Constraint> {
     let steps = declaration.frames.iter().flat_map(|frame| &frame.steps);
     let mut found: Vec<Constraint> = Vec::new();
-    for q in steps.filter_map(turned_by) {
-        let is_quaternion =
-            |coordinate: &Coordinate| coordinate.name.text == q.text && coordinate.length == Some(4);
+    for (q, indices) in steps.filter_map(turned_by) {
+        let coordinate = declaration.coordinates.iter().find(|coordinate| coordinate.name.text == q.text);
         let is_new = found.iter().all(|known| known.target.name.text != q.text);
-        if is_new && declaration.coordinates.iter().any(is_quaternion) {
-            found.push(unit_constraint(q));
+        match coordinate.map(|coordinate| &coordinate.lengths[..]) {
+            Some([rows @ .., 4]) if is_new && rows.len() == indices => found.push(unit_constraint(q, rows)),
+            _ => {}
         }
     }
     found
 }
 
-/// `q` of `rotate(q)`
-fn turned_by(step: &Expression) -> Option<&Name> {
+/// `q` of `rotate(q)`, or of `rotate(q[i])` with as many indices.
+fn turned_by(step: &Expression) -> Option<(&Name, usize)> {
     match &step.kind {
         Kind::Call(name, arguments) if name.text == "rotate" => match &arguments[..] {
-            [Expression { kind: Kind::Name(q), .. }] => Some(q),
+            [q] => q.element().map(|(q, indices)| (q, indices.len())),
             _ => None,
         },
         _ => None,
     }
 }
 
-fn unit_constraint(q: &Name) -> Constraint {
+/// `q[i in 0..rows]: dot(q[i], q[i]) = 1`
+fn unit_constraint(q: &Name, rows: &[usize]) -> Constraint {
     let at = |kind| Expression { kind, place: q.place };
-    let factor = at(Kind::Name(q.clone()));
-    let dot = Name { text: "dot".to_owned(), place: q.place };
+    let number = |value: usize| at(Kind::Number(Rational::from_integer(value as i128).into()));
+    let name = |text: &str| Name { text: text.to_owned(), place: q.place };
+    // An index hides what else bears its name.
+    let letter = if q.text.starts_with('i') { 'k' } else { 'i' };
+    let names: Vec<Name> =
+        (0..rows.len()).map(|level| name(&format!("{letter}{}", "'".repeat(level)))).collect();
+    let factor = names.iter().fold(at(Kind::Name(q.clone())), |base, index| {
+        at(Kind::Index(Box::new(base), Box::new(at(Kind::Name(index.clone())))))
+    });
+    let indices = names.into_iter().zip(rows);
+    let indices =
+        indices.map(|(index, &row)| TargetIndex::Family { index, from: number(0), to: number(row) });
     Constraint {
-        target: Target { name: q.clone(), index: TargetIndex::None },
-        left: at(Kind::Call(dot, vec![factor.clone(), factor])),
-        right: at(Kind::Number(Rational::from_integer(1).into())),
+        target: Target { name: q.clone(), indices: indices.collect() },
+        left: at(Kind::Call(name("dot"), vec![factor.clone(), factor])),
+        right: number(1),
         is_implied: true,
     }
 }

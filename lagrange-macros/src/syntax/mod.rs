@@ -17,7 +17,8 @@ mod unread;
 pub(crate) use attribute::declaration;
 pub(crate) use cursor::{NESTING_LIMIT, shallow, too_deep};
 pub(crate) use declaration::{
-    Constraint, Coordinate, Declaration, Define, Fact, Force, Frame, Function, Parameter, Power, Property,
+    Constraint, Coordinate, Declaration, Define, Fact, Force, Frame, Function, Named, Parameter, Power,
+    Property,
 };
 pub(crate) use expression::{Expression, Kind, Operator, Sign, Slice, SumOver};
 pub(crate) use field::{Field, FieldShape, Inside, LENGTH_LIMIT, Layout, numbers};

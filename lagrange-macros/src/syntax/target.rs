@@ -4,43 +4,67 @@ use proc_macro2::Delimiter;
 use syn::Result;
 
 use super::cursor::Cursor;
-use super::expression::{self, Expression};
+use super::expression::{self, Expression, Kind};
 use super::name::Name;
 
-/// `name`, `name[0]` or `name[i in 1..10]`.
+/// `name`, `name[0]`, `name[i in 1..10]` or `name[i in 0..3, j in 0..i]`, which may be written `name[i in 0..3][j in 0..i]`.
 #[derive(Clone, Debug)]
 pub(crate) struct Target {
     pub(crate) name: Name,
-    pub(crate) index: TargetIndex,
+    pub(crate) indices: Vec<TargetIndex>,
 }
 
 #[derive(Clone, Debug)]
 pub(crate) enum TargetIndex {
-    None,
     Element(Expression),
     Family { index: Name, from: Expression, to: Expression },
 }
 
+impl Target {
+    /// Of the thing itself, without indices.
+    pub(super) fn whole(name: Name) -> Self {
+        Self { name, indices: Vec::new() }
+    }
+
+    /// Whether it is one of several of the name.
+    pub(crate) fn is_family(&self) -> bool {
+        !self.indices.is_empty()
+    }
+}
+
 pub(super) fn target(cursor: &mut Cursor, wanted: &str) -> Result<Target> {
-    let name = cursor.name(wanted)?;
-    let index = match cursor.take_group(Delimiter::Bracket) {
-        None => TargetIndex::None,
-        Some(brackets) => target_index(&mut Cursor::inside(&brackets))?,
-    };
-    Ok(Target { name, index })
+    let mut target = Target::whole(cursor.name(wanted)?);
+    while let Some(brackets) = cursor.take_group(Delimiter::Bracket) {
+        let mut inside = Cursor::inside(&brackets);
+        target.indices.push(target_index(&mut inside.until_comma())?);
+        while !inside.is_empty() {
+            target.indices.push(target_index(&mut inside.until_comma())?);
+        }
+    }
+    Ok(target)
 }
 
 fn target_index(cursor: &mut Cursor) -> Result<TargetIndex> {
-    let start = cursor.place();
-    if let Some(ident) = cursor.take_ident() {
-        if cursor.take_word("in") {
-            let (from, to) = expression::range(cursor)?;
-            if !cursor.is_empty() {
-                return Err(cursor.error("expected the end of the range"));
-            }
-            return Ok(TargetIndex::Family { index: Name::new(&ident), from, to });
+    if let Some(index) = running(cursor)? {
+        if !cursor.is_empty() {
+            return Err(cursor.error("expected the end of the range"));
         }
-        return Err(start.error(format!("a family is written `name[{ident} in 0..3]`")));
+        return Ok(index);
     }
-    expression::whole(cursor).map(TargetIndex::Element)
+    let (start, first) = (cursor.place(), cursor.clone().take_ident());
+    match (expression::whole(cursor), first) {
+        (Ok(Expression { kind: Kind::Name(_), .. }) | Err(_), Some(index)) => {
+            Err(start.error(format!("a family is written `name[{index} in 0..3]`")))
+        }
+        (index, _) => index.map(TargetIndex::Element),
+    }
+}
+
+/// `i in 0..3`, if that stands here.
+pub(super) fn running(cursor: &mut Cursor) -> Result<Option<TargetIndex>> {
+    let mut ahead = cursor.clone();
+    let Some(ident) = ahead.take_ident().filter(|_| ahead.take_word("in")) else { return Ok(None) };
+    let (from, to) = expression::range(&mut ahead)?;
+    *cursor = ahead;
+    Ok(Some(TargetIndex::Family { index: Name::new(&ident), from, to }))
 }

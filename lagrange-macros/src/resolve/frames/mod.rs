@@ -4,13 +4,14 @@ mod pose;
 mod spatial;
 mod step;
 
+use std::cmp::Ordering;
 use std::rc::Rc;
 
 use super::lower::Lowering;
 use super::scope::Entity;
 use super::value::Axes;
 use crate::symbolic::Id;
-use crate::syntax::{Expression, Frame as Declared, Kind, Name, TargetIndex};
+use crate::syntax::{Expression, Frame as Declared, Kind, Name};
 pub(crate) use pose::{Frame, Step, Triple, columns, named, sum, symmetric};
 pub(super) use spatial::is_of_frames;
 
@@ -22,6 +23,8 @@ pub(super) struct Frames {
     /// One a step: those that have a name, and those on the way to them.
     pub(super) all: Vec<Frame>,
     pub(super) bodies: Vec<Body>,
+    /// |q|² of the quaternions that turn them.
+    pub(super) squares: Vec<Id>,
     /// By name and index; none where something was wrong with one, which is then reported.
     named: Vec<(Rc<str>, Option<Axes>)>,
     /// The one that is being declared.
@@ -42,7 +45,13 @@ pub(crate) struct Body {
 
 impl Default for Frames {
     fn default() -> Self {
-        Self { all: vec![Frame::fixed()], bodies: Vec::new(), named: Vec::new(), current: None }
+        Self {
+            all: vec![Frame::fixed()],
+            bodies: Vec::new(),
+            squares: Vec::new(),
+            named: Vec::new(),
+            current: None,
+        }
     }
 }
 
@@ -52,7 +61,7 @@ impl Frames {
     }
 }
 
-fn name_of(declared: &Declared, element: Option<usize>) -> Rc<str> {
+fn name_of(declared: &Declared, element: &[usize]) -> Rc<str> {
     super::element_name(&declared.target.name.text, element).into()
 }
 
@@ -64,20 +73,19 @@ impl Lowering<'_> {
             if !matches!(self.scope.get(&declared.target.name.text), Some(Entity::Frame)) {
                 continue;
             }
-            let mut elements = self.elements(&declared.target).into_iter();
+            let indices = &declared.target.indices;
+            let mut elements = self.elements(indices).into_iter();
             // What is wrong with one of a family is wrong with those after it.
-            let mut declare = |element| {
-                self.with_index(&declared.target, element, |lowering| {
-                    lowering.declare_frame(declared, element)
-                })
+            let mut declare = |element: Vec<usize>| {
+                self.with_indices(indices, &element, |lowering| lowering.declare_frame(declared, &element))
             };
             if elements.any(|element| declare(element).is_none()) {
-                self.frames.named.extend(elements.map(|element| (name_of(declared, element), None)));
+                self.frames.named.extend(elements.map(|element| (name_of(declared, &element), None)));
             }
         }
     }
 
-    fn declare_frame(&mut self, declared: &Declared, element: Option<usize>) -> Option<()> {
+    fn declare_frame(&mut self, declared: &Declared, element: &[usize]) -> Option<()> {
         let name = name_of(declared, element);
         if self.frames.get(&name).is_some() {
             // Guessing reads all declarations twice.
@@ -107,26 +115,18 @@ impl Lowering<'_> {
 
     /// An expression that must name a frame.
     pub(super) fn frame(&mut self, expression: &Expression) -> Option<Axes> {
-        let (name, index) = match &expression.kind {
-            Kind::Name(name) => (name, None),
-            Kind::Index(base, index) => match &base.kind {
-                Kind::Name(name) => (name, Some(index)),
-                _ => return self.no_frame(expression),
-            },
-            _ => return self.no_frame(expression),
-        };
+        let Some((name, indices)) = expression.element() else { return self.no_frame(expression) };
         match self.scope.get(&name.text) {
             Some(Entity::Frame) => {}
-            None if name.text == FIXED && index.is_none() => {
+            None if name.text == FIXED && indices.is_empty() => {
                 return Some(Axes { frame: 0, name: FIXED.into() });
             }
             _ => return self.no_frame(expression),
         }
-        let element = match index {
-            Some(index) => Some(self.integer(index)?),
-            None => None,
-        };
-        let text = element.map_or_else(|| name.text.clone(), |i| format!("{}[{i}]", name.text));
+        let mut text = name.text.clone();
+        for index in indices {
+            text += &format!("[{}]", self.integer(index)?);
+        }
         match self.frames.get(&text) {
             Some(axes) => axes.clone(),
             None => self.unknown_frame(expression, name, &text),
@@ -135,11 +135,7 @@ impl Lowering<'_> {
 
     /// Whether an expression can only be meant as a frame.
     pub(super) fn frame_is_meant(&self, expression: &Expression) -> bool {
-        let base = match &expression.kind {
-            Kind::Index(base, _) => base,
-            _ => expression,
-        };
-        let Kind::Name(name) = &base.kind else { return false };
+        let Some((name, _)) = expression.element() else { return false };
         let entity = self.scope.get(&name.text);
         entity == Some(Entity::Frame) || (entity.is_none() && name.text == FIXED)
     }
@@ -177,13 +173,17 @@ impl Lowering<'_> {
 
     /// A frame that is declared, but not before this, or not this element of it.
     fn unknown_frame<T>(&mut self, expression: &Expression, name: &Name, text: &str) -> Option<T> {
-        let mut declared = self.declared_frames.iter().filter(|frame| frame.target.name.text == name.text);
-        let is_family = declared.any(|frame| !matches!(frame.target.index, TargetIndex::None));
+        let declared = self.declared_frames.iter().filter(|frame| frame.target.name.text == name.text);
+        let wanted = declared.map(|frame| frame.target.indices.len()).max().unwrap_or(0);
+        let given = expression.element().map_or(0, |(_, indices)| indices.len());
         let is_itself = self.frames.current.as_deref() == Some(text);
-        let message = match (&expression.kind, is_family) {
+        let message = match given.cmp(&wanted) {
             _ if is_itself => format!("`{text}` cannot lie in itself, nor be placed by itself"),
-            (Kind::Name(_), true) => format!("`{text}` are several frames: take one, such as `{text}[0]`"),
-            (Kind::Index(..), false) => format!("`{}` is one frame, without an index", name.text),
+            Ordering::Less => {
+                let one = "[0]".repeat(wanted - given);
+                format!("`{text}` are several frames: take one, such as `{text}{one}`")
+            }
+            Ordering::Greater if wanted == 0 => format!("`{}` is one frame, without an index", name.text),
             _ => format!(
                 "`{text}` is not declared above: a frame is declared after the one that it is in, and before what uses it"
             ),

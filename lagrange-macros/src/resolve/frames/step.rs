@@ -163,6 +163,7 @@ impl Lowering<'_> {
     fn turned_by_quaternion(&mut self, q: [Id; 4], at: &Expression) -> Option<Turned> {
         let graph = &mut self.graph;
         let square = graph.dot(&q, &q);
+        self.frames.squares.push(square);
         let is_unit = self.is_unit_parameter(at);
         let graph = &mut self.graph;
         let two = graph.integer(2);
@@ -184,15 +185,8 @@ impl Lowering<'_> {
 
     /// A field whose type says that its length is 1.
     fn is_unit_parameter(&self, at: &Expression) -> bool {
-        let base = match &at.kind {
-            Kind::Index(base, _) => base,
-            _ => at,
-        };
-        match &base.kind {
-            Kind::Name(name) => match self.scope.get(&name.text) {
-                Some(Entity::Field(field)) => self.parameters.is_unit_quaternion(field),
-                _ => false,
-            },
+        match at.element().and_then(|(name, _)| self.scope.get(&name.text)) {
+            Some(Entity::Field(field)) => self.parameters.is_unit_quaternion(field),
             _ => false,
         }
     }

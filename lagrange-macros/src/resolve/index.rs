@@ -1,0 +1,108 @@
+//! Elements and slices of arrays, fields and families.
+
+use super::lower::Lowering;
+use super::scope::Entity;
+use super::value::Value;
+use crate::diagnostics::Place;
+use crate::symbolic::Rational;
+use crate::syntax::{Expression, Kind, Name, Slice};
+
+const NO_ELEMENTS: &str = "this is a scalar: it has no elements";
+
+/// What is indexed, and an index of it.
+type Indexed<'e> = (&'e Expression, &'e Expression);
+
+impl Lowering<'_> {
+    /// `base[index]`
+    pub(super) fn index(&mut self, base: &Expression, index: &Expression) -> Option<Value> {
+        let indices = chain(base, index);
+        if let Kind::Name(name) = &indices[0].0.kind
+            && !self.locals.iter().any(|(local, _)| *local == name.text)
+        {
+            match self.scope.get(&name.text) {
+                Some(Entity::Field(field)) => return self.field_element(field, name, &indices),
+                Some(Entity::Definition(first)) if self.defines[first].target.is_family() => {
+                    return self.family_element(first, name, &indices);
+                }
+                _ => {}
+            }
+        }
+        let value = self.lower(base)?;
+        self.item(&value, (base, index))
+    }
+
+    fn item(&mut self, value: &Value, (base, index): Indexed<'_>) -> Option<Value> {
+        let i = self.integer(index)?;
+        let Some(length) = value.length() else { return self.report(base.place, NO_ELEMENTS) };
+        let i = self.checked(i, length, index.place)?;
+        value.item(i)
+    }
+
+    /// `base[from..to]`, element by element: what is left out of a large field costs nothing.
+    pub(super) fn slice(&mut self, Slice { base, from, to }: &Slice) -> Option<Value> {
+        let range = self.range(from, to)?;
+        let element = |i: usize| {
+            let number = Kind::Number(Rational::from_integer(i as i128).into());
+            self.index(base, &Expression { kind: number, place: from.place.to(to.place) })
+        };
+        let elements = range.map(element).collect::<Option<Vec<Value>>>()?;
+        self.even(Value::Vector(elements), from.place.to(to.place))
+    }
+
+    /// `i` where it is one of the indices 0 to `length` − 1.
+    fn checked(&mut self, i: i128, length: usize, place: Place) -> Option<usize> {
+        let found = usize::try_from(i).ok().filter(|&i| i < length);
+        let last = length.saturating_sub(1);
+        let wrong = || format!("the index {i} is out of range: the elements are 0 to {last}");
+        found.or_else(|| self.report(place, wrong()))
+    }
+
+    /// Of a large field only the elements in use may cost.
+    fn field_element(&mut self, field: usize, name: &Name, indices: &[Indexed<'_>]) -> Option<Value> {
+        let layout = self.parameters.layout(field, name.place, self.diagnostics)?;
+        let mut path = Vec::new();
+        for (level, (_, index)) in indices.iter().enumerate() {
+            let i = self.integer(index)?;
+            let Some(&length) = layout.lengths.get(level) else {
+                let end = indices[..level].last().map_or(name.place, |(_, before)| before.place);
+                return self.report(name.place.to(end), NO_ELEMENTS);
+            };
+            path.push(self.checked(i, length, index.place)?);
+        }
+        self.parameters.value(field, &path, name.place, &mut self.graph, self.diagnostics)
+    }
+
+    /// As many indices as the family has are those of an element, what follows are the element's own.
+    fn family_element(&mut self, first: usize, name: &Name, indices: &[Indexed<'_>]) -> Option<Value> {
+        let rank = self.defines[first].target.indices.len().min(indices.len());
+        let mut path = Vec::new();
+        for (_, index) in &indices[..rank] {
+            path.push(self.integer(index)?);
+        }
+        let mut value = self.element(first, &name.text, &path, indices[rank - 1].1.place)?;
+        for &indexed in &indices[rank..] {
+            value = self.item(&value, indexed)?;
+        }
+        Some(value)
+    }
+
+    /// An array whose parts have one shape, as all that is made of them relies on.
+    pub(super) fn even(&mut self, value: Value, place: Place) -> Option<Value> {
+        match value.uneven() {
+            Some([first, other]) => {
+                self.report(place, format!("this is no array: {first} stands in it beside {other}"))
+            }
+            None => Some(value),
+        }
+    }
+}
+
+/// `base[index]` index by index, from the left: as many may follow one another as there is room for.
+fn chain<'e>(base: &'e Expression, index: &'e Expression) -> Vec<Indexed<'e>> {
+    let mut chain = vec![(base, index)];
+    while let Kind::Index(base, index) = &chain[chain.len() - 1].0.kind {
+        chain.push((base, index));
+    }
+    chain.reverse();
+    chain
+}
