@@ -39,6 +39,11 @@ def ours_called(name, flags, *features):
     return Implementation("ours, not inlined", "ours", built / "libours.so", name)
 
 
+def quantity(name, flags):
+    label = "ours, checked" if "checked" in name else "ours"
+    return Implementation(label, "ours", build_ours("ours", flags, "robots") / "libours.so", name)
+
+
 def by_hand(source, function, label, flags, **defines):
     name = "_".join(["hand", source, *map(str, defines.values())])
     library = compile_c(
@@ -63,10 +68,22 @@ PINOCCHIO = {
     "world": "Pinocchio, articulated bodies, world",
     "composite": "Pinocchio, composite bodies + Cholesky",
 }
+PINOCCHIO_QUANTITIES = {
+    "inverse": "Pinocchio, rnea",
+    "mass_local": "Pinocchio, crba, local",
+    "mass_world": "Pinocchio, crba, world",
+    "jacobian_frame": "Pinocchio, computeFrameJacobian",
+    "jacobian_joints": "Pinocchio, computeJointJacobians",
+    "derivatives": "Pinocchio, computeABADerivatives",
+}
 # What other tools read and write in these is declared in the harness.
 HARNESS = f"-I{HERE / 'harness'}"
-# Pinocchio's lists of joints are longer than Boost's are by default.
-BOOST = ("-DBOOST_MPL_LIMIT_LIST_SIZE=30", "-DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS")
+# Pinocchio's lists of joints and of arguments are longer than Boost's are by default.
+BOOST = (
+    "-DBOOST_MPL_LIMIT_LIST_SIZE=30",
+    "-DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS",
+    "-DBOOST_FUSION_INVOKE_MAX_ARITY=10",
+)
 WRENFOLD = {"unrolled": "wrenfold, unrolled LDLᵀ", "loops": "wrenfold, M and h"}
 SYMPY = {"unrolled": "SymPy, symbolic LU", "loops": "SymPy, M and h"}
 
@@ -92,9 +109,19 @@ def casadi_loops(system, form, order, flags):
 
 
 def pinocchio(how, flags):
+    return Implementation(PINOCCHIO[how], "tool", pinocchio_library("with_pinocchio", flags), how)
+
+
+def pinocchio_quantity(function, flags):
+    library = pinocchio_library("with_pinocchio_quantities", flags)
+    return Implementation(PINOCCHIO_QUANTITIES[function], "tool", library, function)
+
+
+def pinocchio_library(name, flags):
     """Its templates take minutes to compile, so it is done once."""
-    source, library = HERE / "generators" / "with_pinocchio.cpp", place("pinocchio.so", flags)
-    sources = [source, HERE / "harness" / "systems.h", HERE / "harness" / "robots.h"]
+    generators = HERE / "generators"
+    source, library = generators / f"{name}.cpp", place(f"{name}.so", flags)
+    sources = [source, generators / "pinocchio_model.h", *(HERE / "harness" / one for one in ("systems.h", "robots.h"))]
     if not library.exists() or library.stat().st_mtime < max(one.stat().st_mtime for one in sources):
         packages = next((SHOP / "venv").glob("lib/python*/site-packages"))
         eigen = packages / "casadi" / "include" / "eigen3"
@@ -103,7 +130,7 @@ def pinocchio(how, flags):
             *(f"-I{packages / 'cmeel.prefix' / 'include'}", f"-I{eigen}", source, "-o", library),
             seconds=1200,
         )
-    return Implementation(PINOCCHIO[how], "tool", library, how)
+    return library
 
 
 def wrenfold(n, how, flags):

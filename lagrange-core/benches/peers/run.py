@@ -17,6 +17,7 @@ import rows_growth
 import rows_lanes
 import rows_loops
 import rows_planar
+import rows_quantities
 import rows_robots
 import tables
 import workshop
@@ -31,6 +32,7 @@ ROWS = {
     "spherical": rows_chain.spherical,
     "robots": rows_robots.rows,
     "loops": rows_loops.rows,
+    "quantities": rows_quantities.rows,
     "lanes": rows_lanes.rows,
     "ensemble": rows_ensemble.rows,
     "duals": rows_duals.rows,

@@ -37,8 +37,10 @@ double uniform(double low, double high) {
 }
 
 const System *find_system(const char *name) {
-    static const System *const SYSTEMS[] = {&PLANAR,  &LANES,     &CHAIN,            &SPHERICAL, &BODIES,   &ARM,
-                                            &DENAVIT, &QUADRUPED, &QUADRUPED_ANGLES, &HUMANOID,  &FOUR_BAR, &STEWART};
+    static const System *const SYSTEMS[] = {
+        &PLANAR,   &LANES,    &CHAIN,   &SPHERICAL,   &BODIES,   &ARM,          &DENAVIT,         &QUADRUPED, &QUADRUPED_ANGLES,
+        &HUMANOID, &FOUR_BAR, &STEWART, &ARM_INVERSE, &ARM_MASS, &ARM_JACOBIAN, &ARM_DERIVATIVES,
+    };
     for (size_t k = 0; k < sizeof SYSTEMS / sizeof *SYSTEMS; k++)
         if (!strcmp(SYSTEMS[k]->name, name)) return SYSTEMS[k];
     return NULL;

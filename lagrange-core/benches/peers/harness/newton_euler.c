@@ -97,8 +97,7 @@ static void load(Motion *motion, const Link *link) {
     add_cross(motion->torque, 1, motion->rate, spin);
 }
 
-/* The forces and torques at the joints that accelerations take. */
-static void forces(const Robot *robot, const double *q, const double *v, const Real *a, Real g, Real *result) {
+void joint_forces(const Robot *robot, const double *q, const double *v, const Real *a, Real g, Real *result) {
     static Motion motions[BODIES_AT_MOST + 1];
     memset(motions, 0, sizeof motions);
     /* The ground is the last of all; it accelerates upwards instead of weight. */
@@ -137,11 +136,11 @@ void newton_euler(const Robot *robot, const double *q, const double *v, long dou
     static const double rest[SPEEDS_AT_MOST];
     Real unit[SPEEDS_AT_MOST] = {0}, column[SPEEDS_AT_MOST];
     int n = speeds(robot), more = n - robot->count;
-    forces(robot, q, v, unit, robot->g, column);
+    joint_forces(robot, q, v, unit, robot->g, column);
     for (int i = 0; i < n; i++) m[i][n] = (i < more ? 0 : robot->links[i - more].tau) - column[i];
     for (int k = 0; k < n; k++) {
         unit[k] = 1;
-        forces(robot, q, rest, unit, 0, column);
+        joint_forces(robot, q, rest, unit, 0, column);
         for (int i = 0; i < n; i++) m[i][k] = column[i];
         unit[k] = 0;
     }

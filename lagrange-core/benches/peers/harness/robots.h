@@ -22,6 +22,9 @@ int positions(const Robot *robot);
 /* Velocity and angular velocity of a free base in its own axes, then those of the angles. */
 int speeds(const Robot *robot);
 
+/* The forces and torques at the joints that accelerations take, g being the constant of gravity. */
+void joint_forces(const Robot *robot, const double *q, const double *v, const long double *a, long double g,
+                  long double *result);
 /* The derivatives of the speeds, by Newton's and Euler's equations in long double. */
 void newton_euler(const Robot *robot, const double *q, const double *v, long double *a);
 

@@ -37,6 +37,6 @@ double uniform(double low, double high);
 void eliminate(int n, long double m[UNKNOWNS][UNKNOWNS + 1], long double *x);
 
 extern const System PLANAR, LANES, CHAIN, SPHERICAL, BODIES, ARM, DENAVIT, QUADRUPED, QUADRUPED_ANGLES, HUMANOID, FOUR_BAR,
-    STEWART;
+    STEWART, ARM_INVERSE, ARM_MASS, ARM_JACOBIAN, ARM_DERIVATIVES;
 
 #endif

@@ -2,6 +2,7 @@
 
 mod humanoid;
 mod loops;
+mod quantities;
 
 pub use humanoid::Humanoid;
 pub use loops::{FourBar, Stewart};
