@@ -15,6 +15,14 @@ use lagrange_core::prelude::*;
 use picture::{BLUE, GREY, Points, RED, Result};
 use plotters::prelude::*;
 
+/// A link without the joint: in its frame, about its centre.
+#[derive(Clone, Copy)]
+struct Body {
+    m: f64,
+    centre: Vector3<f64>,
+    inertia: Matrix3<f64>,
+}
+
 /// Around the circle from rest to rest, led by the hand.
 #[derive(Lagrangian)]
 #[coordinates(q: [6])]
@@ -23,7 +31,10 @@ use plotters::prelude::*;
 #[define(alpha = [pi/2, 0, -pi/2, pi/2, -pi/2, 0])]
 #[frame(link[0]: rotate_z(q[0]), translate([a[0], 0, d[0]]), rotate_x(alpha[0]))]
 #[frame(link[i in 1..6] in link[i-1]: rotate_z(q[i]), translate([a[i], 0, d[i]]), rotate_x(alpha[i]))]
-#[lagrangian(sum(i in 0..6, kinetic(link[i], m[i], centre[i], inertia[i]) - m[i]*g*position(link[i], centre[i])[2]))]
+#[parameter(body: [6] {m, centre: [3], inertia: symmetric})]
+#[lagrangian(sum(i in 0..6,
+    kinetic(link[i], body[i].m, body[i].centre, body[i].inertia) - body[i].m*g*position(link[i], body[i].centre)[2]
+))]
 #[define(turn = 2*pi*t/round - sin(2*pi*t/round))]
 #[constraint(tool: position(link[5]) = middle + radius*[0, sin(turn), cos(turn)])]
 #[define(along = express(vector(link[5], [0, 0, 1]), fixed))]
@@ -35,9 +46,7 @@ use plotters::prelude::*;
 #[observable(wrist = position(link[3]))]
 #[observable(tip = position(link[5]))]
 struct Led {
-    m: [f64; 6],
-    centre: [Vector3<f64>; 6],
-    inertia: [Matrix3<f64>; 6],
+    body: [Body; 6],
     g: f64,
     middle: Vector3<f64>,
     radius: f64,
@@ -54,12 +63,13 @@ struct Led {
 #[define(alpha = [pi/2, 0, -pi/2, pi/2, -pi/2, 0])]
 #[frame(link[0]: rotate_z(q[0]), translate([a[0], 0, d[0]]), rotate_x(alpha[0]))]
 #[frame(link[i in 1..6] in link[i-1]: rotate_z(q[i]), translate([a[i], 0, d[i]]), rotate_x(alpha[i]))]
-#[lagrangian(sum(i in 0..6, kinetic(link[i], m[i], centre[i], inertia[i]) - m[i]*g*position(link[i], centre[i])[2]))]
+#[parameter(body: [6] {m, centre: [3], inertia: symmetric})]
+#[lagrangian(sum(i in 0..6,
+    kinetic(link[i], body[i].m, body[i].centre, body[i].inertia) - body[i].m*g*position(link[i], body[i].centre)[2]
+))]
 #[force(q: motor(t))]
 struct Arm {
-    m: [f64; 6],
-    centre: [Vector3<f64>; 6],
-    inertia: [Matrix3<f64>; 6],
+    body: [Body; 6],
     g: f64,
     motors: Chebyshev,
 }
@@ -92,27 +102,20 @@ fn main() -> Result<()> {
 
 impl Led {
     fn puma() -> Self {
-        let diagonal = |x: f64, y: f64, z: f64| Matrix3::from_diagonal(&Vector3::new(x, y, z));
-        let centre = [
-            [0.0, -0.3, 0.05],
-            [-0.25, 0.0, 0.1],
-            [-0.02, 0.0, 0.07],
-            [0.0, -0.1, 0.0],
-            [0.0, 0.0, 0.0],
-            [0.0, 0.0, -0.08],
-        ];
-        let inertia = [
-            diagonal(0.8, 0.35, 0.8),
-            diagonal(0.13, 0.53, 0.54),
-            diagonal(0.07, 0.09, 0.013),
-            diagonal(2e-3, 1.3e-3, 2e-3),
-            diagonal(3e-4, 4e-4, 3e-4),
-            diagonal(3e-3, 3e-3, 1e-3),
-        ];
+        let body = |m: f64, centre: [f64; 3], inertia: [f64; 3]| Body {
+            m,
+            centre: centre.into(),
+            inertia: Matrix3::from_diagonal(&inertia.into()),
+        };
         Self {
-            m: [13.0, 17.0, 5.0, 0.8, 0.4, 1.0],
-            centre: centre.map(Vector3::from),
-            inertia,
+            body: [
+                body(13.0, [0.0, -0.3, 0.05], [0.8, 0.35, 0.8]),
+                body(17.0, [-0.25, 0.0, 0.1], [0.13, 0.53, 0.54]),
+                body(5.0, [-0.02, 0.0, 0.07], [0.07, 0.09, 0.013]),
+                body(0.8, [0.0, -0.1, 0.0], [2e-3, 1.3e-3, 2e-3]),
+                body(0.4, [0.0, 0.0, 0.0], [3e-4, 4e-4, 3e-4]),
+                body(1.0, [0.0, 0.0, -0.08], [3e-3, 3e-3, 1e-3]),
+            ],
             g: 9.81,
             middle: Vector3::new(0.5, 0.0, 0.45),
             radius: 0.15,
@@ -121,7 +124,7 @@ impl Led {
     }
 
     fn driven(&self, motors: Chebyshev) -> Arm {
-        Arm { m: self.m, centre: self.centre, inertia: self.inertia, g: self.g, motors }
+        Arm { body: self.body, g: self.g, motors }
     }
 
     /// What the joints need without the hand, whose forces are given as zero.

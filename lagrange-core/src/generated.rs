@@ -4,3 +4,4 @@ pub use crate::number::{matrix, only_where, vector};
 pub use crate::solution::eliminate::{LoopFactor, doubt, eliminate};
 pub use crate::system::defect::{Defect, asymmetry, distortion};
 pub use crate::system::equations::equations;
+pub use crate::system::member::Member;

@@ -31,6 +31,7 @@
 //! | `sin cos tan asin acos atan atan2 sinh cosh tanh exp ln sqrt abs` | functions; `atan2(y, x)` |
 //! | `min(x, y)`, `max(x, y)`, `clamp(x, low, high)` | limits, in forces and observables: a Lagrangian, a constraint or a frame has slopes everywhere |
 //! | `der(expr)` | the total time derivative |
+//! | `base.m`, `link[2].c[0]` | members of fields that are structs, of the shape that is declared |
 //! | `[a, b, c]`, `v[0]`, `v[1..3]`, `dot(v, w)`, `cross(v, w)`, `norm(v)` | vectors |
 //! | `[[a, b], [c, d]]`, `A[0][1]`, `A*v`, `v*A`, `A*B`, `transpose(A)`, `trace(A)`, `identity(3)`, `skew(v)` | matrices, by their rows |
 //! | `rot_x(angle)`, `rot_y(angle)`, `rot_z(angle)`, `rot(axis, angle)` | matrices of rotations |
@@ -40,8 +41,8 @@
 //!
 //! Fields, coordinates, definitions and built-in names share one namespace; constraints and observables have one
 //! each. A field may be a number, a reference, an array or a vector, matrix, rotation (`Rotation3`) or quaternion
-//! (`UnitQuaternion`, which is (w, x, y, z) in expressions) of nalgebra, or an array of these; a field that no
-//! expression uses may have any type.
+//! (`UnitQuaternion`, which is (w, x, y, z) in expressions) of nalgebra, or an array of these, or a struct (below); a field
+//! that no expression uses may have any type.
 //!
 //! `#[parameter(inertia: symmetric)]` says that a field of square matrices is symmetric: of the two numbers across the diagonal
 //! one is the parameter, and less is computed. `#[parameter(turn: rotation)]` says that they are rotations, as a `Rotation3`
@@ -52,6 +53,55 @@
 //! Everything is written out when it is compiled. So ranges end at 10,000 at most, the expressions of a system use at most
 //! 10,000 numbers of its fields, and there are at most 1,000 coordinates and 1,000 constraints. What has more parts belongs
 //! into a function of its own, with a loop in it (below).
+//!
+//! # Structs among the fields
+//!
+//! What belongs together may stand in a struct of its own, `link[i].m` beside `link[i].c`. A derive cannot see another
+//! type: `#[parameter(link: [6] {m, c: [3]})]` says how many structs a field is, if there are several, and of what shape those
+//! of their members are that expressions use.
+//!
+//! | declared | type of the member |
+//! |---|---|
+//! | `m` | a number |
+//! | `c: [3]` | `[f64; 3]` or `Vector3<f64>` |
+//! | `A: [3, 3]` | `[[f64; 3]; 3]` or `Matrix3<f64>` |
+//! | `I: symmetric` | the same, a symmetric matrix of 3 by 3 |
+//! | `R: rotation` | the same or `Rotation3<f64>`: a rotation |
+//! | `q: quaternion` | `UnitQuaternion<f64>` |
+//! | `place: pose` | `Isometry3<f64>`, with the members `translation`, a vector, and `rotation`, a quaternion |
+//! | `tip: {m, c: [3]}`, `wheel: [4] {m}` | a struct again, or an array of such |
+//!
+//! The field may own the structs, or be a reference to them, or a `Vec`, which must have as many, or a smart pointer. A member
+//! that the struct has not, or of another type, is a compile error where it is declared. What is declared symmetric or
+//! a rotation is verified as with other fields. The numbers are parameters like others, called as in expressions; those of
+//! members of members, and behind references, cannot be set. A field that is an `Isometry3` is a pose without being declared;
+//! the step `pose(place)` of a frame uses it as a whole.
+//!
+//! ```
+//! use lagrange_core::nalgebra::{Isometry3, Vector3};
+//! use lagrange_core::prelude::*;
+//!
+//! struct Rod { m: f64, l: f64 }
+//!
+//! /// Two rods, one on the other, hung up somewhere.
+//! #[derive(Lagrangian)]
+//! #[coordinates(q: [2])]
+//! #[parameter(rod: [2] {m, l})]
+//! #[frame(upper: pose(place), rotate_z(q[0]))]
+//! #[frame(lower in upper: translate([rod[0].l, 0, 0]), rotate_z(q[1]))]
+//! #[define(point(i) = [rod[i].l/2, 0, 0])]
+//! #[define(ends(i) = rod[i].m*rod[i].l^2/12*[[0, 0, 0], [0, 1, 0], [0, 0, 1]])]
+//! #[define(height = rod[0].m*position(upper, point(0))[1] + rod[1].m*position(lower, point(1))[1])]
+//! #[lagrangian(kinetic(upper, rod[0].m, point(0), ends(0)) + kinetic(lower, rod[1].m, point(1), ends(1)) - g*height)]
+//! struct Rods { rod: [Rod; 2], place: Isometry3<f64>, g: f64 }
+//!
+//! let place = Isometry3::new(Vector3::zeros(), -core::f64::consts::FRAC_PI_2 * Vector3::z());
+//! let rods = Rods { rod: [Rod { m: 2.0, l: 1.0 }, Rod { m: 1.0, l: 0.5 }], place, g: 9.81 };
+//! // They hang straight down.
+//! assert!(rods.solve(&State::at_rest([0.0; 2]))?.accelerations.norm() < 1e-12);
+//! assert!(Rods::PARAMETERS.contains(&"rod[1].l") && Rods::PARAMETERS.contains(&"place.rotation[0]"));
+//! # Ok::<(), lagrange_core::Error>(())
+//! ```
 //!
 //! # Definitions
 //!
@@ -193,6 +243,7 @@
 //! | `rotate(axis, angle)` | about any axis, of whatever length |
 //! | `rotate(q)` | by a quaternion (w, x, y, z), of whatever length but zero; where it is a coordinate, the constraint `dot(q, q) = 1` comes with it, named like it, as the last; so it does for each `rotate(q[i])` of a coordinate `q: [3, 4]`, named `q[i]` |
 //! | `rotate(R)` | by a rotation matrix, which turns vectors from the new axes into the old: a `Rotation3`, a `Matrix3` with `#[parameter(R: rotation)]`, a product of rotations, which is taken turn by turn |
+//! | `pose(place)` | `translate(place.translation), rotate(place.rotation)`: by an `Isometry3`, which takes a point r of the new frame to R r + t in the old |
 //!
 //! What a step is made of may depend on coordinates and on time: a joint, or a motion that is prescribed.
 //!

@@ -22,7 +22,7 @@ use lagrange_core::prelude::*;
 #[define(trace = 1)]
 #[lagrangian(dot(r_dot, r_dot)/2 + x_dot^2/2 + pose)]
 struct System {
-    pose: lagrange_core::nalgebra::Isometry3<f64>,
+    pose: lagrange_core::nalgebra::Isometry2<f64>,
 }
 
 fn main() {}

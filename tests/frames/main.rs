@@ -6,6 +6,7 @@
 
 mod bicycle;
 mod moving;
+mod poses;
 mod powers;
 mod same;
 mod vocabulary;

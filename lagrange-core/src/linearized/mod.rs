@@ -112,7 +112,7 @@ use crate::system::{Lagrangian, Solution, State};
     note = "`#[derive(Lagrangian)]` gives it to every system whose functions (`#[function(…)]`) have one derivative more than the equations of motion need"
 )]
 pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDerivatives<N, M> {
-    /// Names of the parameters, `m` or `m[0]` or `a[0][1]`, in the order of the fields: all numbers that the expressions
+    /// Names of the parameters, `m` or `m[0]` or `link[2].m`, in the order of the fields: all numbers that the expressions
     /// name, and no others. Of an array of which they name `a[0]` alone, the rest are none.
     const PARAMETERS: [&'static str; P];
 
@@ -120,8 +120,8 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     fn parameters(&self) -> SVector<Self::Scalar, P>;
 
     /// Sets the parameter [`PARAMETERS`](Self::PARAMETERS)`[index]`; false where there is none, or where it is behind a
-    /// reference, in a type that only `#[parameter(…)]` gives a shape, or one of the numbers of a rotation or a unit
-    /// quaternion, which would then be none.
+    /// reference, in a type that only `#[parameter(…)]` gives a shape, in a member of a member of a struct, or one of the
+    /// numbers of a rotation or a unit quaternion, which would then be none.
     fn set_parameter(&mut self, index: usize, value: Self::Scalar) -> bool;
 
     /// What the derivatives of the residual by all parameters are made of: plain numbers.

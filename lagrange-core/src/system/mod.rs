@@ -9,6 +9,7 @@ mod integrability;
 mod lagrangian;
 #[cfg(feature = "alloc")]
 pub(crate) mod lookup;
+pub(crate) mod member;
 mod pack;
 mod pointers;
 mod state;

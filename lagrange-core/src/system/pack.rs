@@ -2,7 +2,7 @@
 
 use core::fmt::Debug;
 
-use nalgebra::{Quaternion, Rotation, SMatrix, Unit};
+use nalgebra::{Isometry, Quaternion, Rotation, SMatrix, Translation, Unit};
 
 #[cfg(feature = "std")]
 use crate::number::{Lanes, Scalar};
@@ -49,7 +49,8 @@ pub trait Pack<V>: Sized {
 /// A field with other numbers in each lane, where a system alone has the field `X`.
 #[diagnostic::on_unimplemented(
     message = "a field of type `{X}` cannot be put on SIMD lanes",
-    note = "numbers, arrays, and vectors, matrices, rotations and quaternions of nalgebra can, where the field owns them"
+    note = "numbers, arrays, and vectors, matrices, rotations, quaternions and isometries of nalgebra can, where the field owns them",
+    note = "implement `Packed` for a struct of your own, member by member"
 )]
 pub trait Packed<X> {
     /// The same in every lane.
@@ -143,6 +144,39 @@ impl<P: Packed<X>, X> Packed<Unit<X>> for Unit<P> {
     #[inline]
     fn place(&mut self, lane: usize, field: &Unit<X>) {
         self.as_mut_unchecked().place(lane, field);
+    }
+}
+
+impl<P: Packed<X>, X, const D: usize> Packed<Translation<X, D>> for Translation<P, D>
+where
+    SMatrix<P, D, 1>: Packed<SMatrix<X, D, 1>>,
+{
+    #[inline]
+    fn splat(field: &Translation<X, D>) -> Self {
+        Self { vector: Packed::splat(&field.vector) }
+    }
+
+    #[inline]
+    fn place(&mut self, lane: usize, field: &Translation<X, D>) {
+        self.vector.place(lane, &field.vector);
+    }
+}
+
+impl<P, X, R, Q, const D: usize> Packed<Isometry<X, Q, D>> for Isometry<P, R, D>
+where
+    R: Packed<Q>,
+    Translation<P, D>: Packed<Translation<X, D>>,
+{
+    #[inline]
+    fn splat(field: &Isometry<X, Q, D>) -> Self {
+        let (rotation, translation) = (R::splat(&field.rotation), Packed::splat(&field.translation));
+        Self { rotation, translation }
+    }
+
+    #[inline]
+    fn place(&mut self, lane: usize, field: &Isometry<X, Q, D>) {
+        self.rotation.place(lane, &field.rotation);
+        self.translation.place(lane, &field.translation);
     }
 }
 

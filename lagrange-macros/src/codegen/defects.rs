@@ -41,9 +41,9 @@ impl Emitter<'_> {
     fn visit_defect(&self, first: Entry) -> Option<TokenStream> {
         let parameters = &self.problem.parameters;
         let size = parameters.size(first.field);
-        let place = |number: usize| self.style.place(Entry { number: first.number + number, ..first });
+        let entry = |number: usize| self.style.number(Entry { number: first.number + number, ..first });
         let rows = (0..size).map(|i| {
-            let row = (0..size).map(|j| place(i * size + j));
+            let row = (0..size).map(|j| entry(i * size + j));
             quote!([#(#row),*])
         });
         let name = parameters.matrix_name(first);

@@ -44,7 +44,7 @@ impl Emitter<'_> {
         let (methods, inherent) = (&methods.tokens, &inherent.tokens);
         let (equations, visit_parameters, visit_defects) =
             (self.equations(), self.visit_parameters(), self.visit_defects());
-        let pack = pack::pack(self.declaration, scalar);
+        let (pack, check_members) = (pack::pack(self.declaration, scalar), self.check_members());
         let Rendered { text, .. } = self.rendered;
         let doc = format!("```text\n{text}```");
         quote! {
@@ -81,6 +81,7 @@ impl Emitter<'_> {
                 }
 
                 #pack
+                #check_members
             };
         }
     }

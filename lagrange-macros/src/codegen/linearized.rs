@@ -11,7 +11,7 @@ use super::{Emitter, Written, runtime};
 use crate::contract::{LINEARIZED, Method, Quantity, STATE_DERIVATIVES};
 use crate::mechanics::{Changes, Linearization};
 use crate::symbolic::Graph;
-use crate::syntax::{Inside, Property};
+use crate::syntax::Property;
 
 /// The programs of what changes: the slopes, and what they make of a direction.
 pub(super) struct Changing {
@@ -120,23 +120,15 @@ impl Emitter<'_> {
     /// cannot be set.
     fn set_parameter(&self, method: &Method) -> Written {
         let signature = self.style.types.signature(method);
-        let arms = self.problem.parameters.by_field().into_iter().enumerate().filter_map(|(index, k)| {
-            let parameters = &self.problem.parameters;
+        let parameters = &self.problem.parameters;
+        let is_settable = |&(_, k): &(usize, usize)| parameters.is_settable(parameters.entries[k]);
+        let arms = parameters.by_field().into_iter().enumerate().filter(is_settable).map(|(index, k)| {
             let entry = parameters.entries[k];
-            let (shape, property) =
-                (parameters.fields[entry.field].shape.as_ref().ok()?, parameters.property(entry.field));
-            let is_bound =
-                shape.layout.inside == Inside::UnitQuaternion || property == Some(Property::Rotation);
-            let settable = !shape.is_reference && shape.scalar.is_some() && !is_bound;
-            let place = self.style.place(entry);
-            let mirrored = parameters.mirrored(entry);
-            settable.then(|| match property {
-                Some(Property::Symmetric) if mirrored != entry => {
-                    let other = self.style.place(mirrored);
-                    quote!(#index => { #place = value; #other = value; })
-                }
-                _ => quote!(#index => #place = value,),
-            })
+            let (set, mirrored) =
+                (|entry| self.style.set_number(entry, &quote!(value)), parameters.mirrored(entry));
+            let both = parameters.property(entry.field) == Some(Property::Symmetric) && mirrored != entry;
+            let sets = [Some(entry), both.then_some(mirrored)].into_iter().flatten().map(set);
+            quote!(#index => { #(#sets)* })
         });
         let tokens = quote! {
             #[allow(unused_variables, unreachable_code)]

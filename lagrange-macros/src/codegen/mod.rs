@@ -11,6 +11,7 @@ mod integrability;
 mod kernel;
 mod lagrangian;
 mod linearized;
+mod members;
 mod observables;
 mod operation;
 mod pack;

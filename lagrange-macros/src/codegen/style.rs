@@ -71,11 +71,8 @@ impl<'a> Style<'a> {
             names.insert(Variable::Multiplier(a).symbol(), unique(format!("lambda_{}", label.text)));
             names.insert(Variable::Bias(a).symbol(), unique(format!("bias_{}", label.text)));
         }
-        for (k, entry) in problem.parameters.entries.iter().enumerate() {
-            let field = &problem.parameters.fields[entry.field].name.text;
-            let indices = problem.parameters.indices(*entry);
-            let text = indices.into_iter().fold(field.clone(), |name, i| format!("{name}_{i}"));
-            names.insert(Variable::Parameter(k).symbol(), unique(text));
+        for k in 0..problem.parameters.entries.len() {
+            names.insert(Variable::Parameter(k).symbol(), unique(problem.parameters.name(k)));
         }
         let mut definitions: Vec<_> = problem.names.iter().collect();
         definitions.sort_unstable();
@@ -133,11 +130,25 @@ impl<'a> Style<'a> {
 
     /// The value of a parameter, read from its field.
     pub(super) fn parameter(&self, k: usize) -> TokenStream {
-        self.place(self.problem.parameters.entries[k])
+        self.number(self.problem.parameters.entries[k])
     }
 
-    /// Where a number of a field is.
-    pub(super) fn place(&self, Entry { field, number }: Entry) -> TokenStream {
+    /// A number of a field.
+    pub(super) fn number(&self, entry: Entry) -> TokenStream {
+        let of_member = self.number_of_member(&quote!(self), entry);
+        of_member.unwrap_or_else(|| self.place(entry))
+    }
+
+    /// The statement that gives a number of a field another value, in a function that returns whether it could.
+    pub(super) fn set_number(&self, entry: Entry, value: &TokenStream) -> TokenStream {
+        self.set_number_of_member(entry, value).unwrap_or_else(|| {
+            let place = self.place(entry);
+            quote!(#place = #value;)
+        })
+    }
+
+    /// Where a number of a field without members is.
+    fn place(&self, Entry { field, number }: Entry) -> TokenStream {
         let field = &self.problem.parameters.fields[field];
         let ident = &field.ident;
         let Ok(FieldShape { layout, is_reference, .. }) = &field.shape else { return quote!(self.#ident) };
@@ -256,7 +267,7 @@ fn is_local(name: &str) -> bool {
 
 /// An identifier like `text` that nothing else bears.
 fn identifier(text: &str, taken: &mut HashSet<String>) -> Ident {
-    let mut name = text.replace("][", "_").replace('[', "_").replace(']', "");
+    let mut name = text.replace("][", "_").replace("].", "_").replace(['[', '.'], "_").replace(']', "");
     if is_local(&name) || syn::parse_str::<Ident>(&name).is_err() || !taken.insert(name.clone()) {
         let is_free = |candidate: &String| !taken.contains(candidate);
         name = (1..).map(|k| format!("{name}__{k}")).find(is_free).unwrap_or(name);

@@ -17,6 +17,8 @@ pub(super) enum Formula {
         dots: usize,
         indices: Vec<Self>,
     },
+    /// A member of a struct: the struct, and the member's name with its indices.
+    Member(Box<Self>, Box<Self>),
     /// An entry of what is no name.
     Entry(Box<Self>, Box<Self>),
     /// An index that runs from the first to before the last; of a slice it has no name.
@@ -57,8 +59,11 @@ pub(super) enum Formula {
 }
 
 impl Formula {
-    /// `r_dot[2]`, given the flat name of a coordinate and the number of dots.
+    /// `r_dot[2]`, given the flat name of a coordinate and the number of dots; or a parameter, `link[2].c[0]`.
     pub(super) fn labelled(text: &str, dots: usize) -> Self {
+        if let Some((of, member)) = text.rsplit_once('.') {
+            return Self::Member(Box::new(Self::labelled(of, 0)), Box::new(Self::labelled(member, dots)));
+        }
         let mut parts = text.split('[');
         let base = parts.next().unwrap_or_default().to_owned();
         let indices = parts.map(|part| Self::index(part.trim_end_matches(']'))).collect();
@@ -69,6 +74,18 @@ impl Formula {
         match text.parse::<i128>() {
             Ok(number) => Self::Number(Rational::from_integer(number)),
             Err(_) => Self::Name { base: text.to_owned(), dots: 0, indices: Vec::new() },
+        }
+    }
+
+    /// An element of it.
+    pub(super) fn indexed(self, index: Self) -> Self {
+        match self {
+            Self::Name { base, dots, mut indices } => {
+                indices.push(index);
+                Self::Name { base, dots, indices }
+            }
+            Self::Member(of, member) => Self::Member(of, Box::new(member.indexed(index))),
+            other => Self::Entry(Box::new(other), Box::new(index)),
         }
     }
 

@@ -16,6 +16,7 @@ impl Notation {
             Formula::Scaled(value) => self.scaled(*value),
             Formula::Pi => self.pick("π", r"\pi").to_owned(),
             Formula::Name { base, dots, indices } => self.name(base, *dots, indices),
+            Formula::Member(of, member) => self.member(of, member),
             Formula::Entry(whole, index) => self.entry(self.at_least(whole, Binding::Atom), index),
             Formula::Running { index, from, to } => self.running(index.as_deref(), from, to),
             Formula::Multiplier(constraint) => self.subscript(self.pick("λ", r"\lambda"), constraint),
@@ -277,10 +278,7 @@ impl Notation {
 
     /// Greek by their names; dots above the last letter; indices below.
     fn name(self, base: &str, dots: usize, indices: &[Formula]) -> String {
-        let (base, tail) = match base.split_once('_') {
-            Some((base, tail)) if !base.is_empty() && !tail.is_empty() => (base, Some(tail)),
-            _ => (base, None),
-        };
+        let (base, tail) = with_tail(base);
         let letter = self.letter(base);
         let letter = match (self, dots) {
             (_, 0) => letter,
@@ -294,13 +292,41 @@ impl Notation {
             Self::Latex => {
                 let below: Vec<String> =
                     tail.map(|tail| self.letter(tail)).into_iter().chain(indices).collect();
-                if below.is_empty() { letter } else { format!("{letter}_{{{}}}", below.join(", ")) }
+                self.with_below(letter, &below)
             }
             Self::Unicode => {
                 let tail = tail.map(|tail| format!("_{tail}")).unwrap_or_default();
                 let indices: String = indices.map(|index| format!("[{index}]")).collect();
                 format!("{letter}{tail}{indices}")
             }
+        }
+    }
+
+    fn with_below(self, letter: String, below: &[String]) -> String {
+        if below.is_empty() { letter } else { format!("{letter}_{{{}}}", below.join(", ")) }
+    }
+
+    /// In LaTeX the member's letter, with all else below: the mass of `link[2]` is mₗᵢₙₖ,₂.
+    fn member(self, of: &Formula, member: &Formula) -> String {
+        match self {
+            Self::Unicode => format!("{}.{}", self.write(of), self.write(member)),
+            Self::Latex => {
+                let [letter, below @ ..] = &self.apart(member)[..] else { return String::new() };
+                self.with_below(letter.clone(), &[self.apart(of), below.to_vec()].concat())
+            }
+        }
+    }
+
+    /// A name, and what stands below it.
+    fn apart(self, formula: &Formula) -> Vec<String> {
+        match formula {
+            Formula::Name { base, indices, .. } => {
+                let (base, tail) = with_tail(base);
+                let names = std::iter::once(base).chain(tail).map(|name| self.letter(name));
+                names.chain(indices.iter().map(|index| self.write(index))).collect()
+            }
+            Formula::Member(of, member) => [self.apart(of), self.apart(member)].concat(),
+            other => vec![self.write(other)],
         }
     }
 
@@ -321,5 +347,13 @@ impl Notation {
             Self::Unicode => format!("{base}_{below}"),
             Self::Latex => format!(r"{base}_{{\mathrm{{{}}}}}", below.replace('_', r"\_")),
         }
+    }
+}
+
+/// `theta` and `1` of `theta_1`.
+fn with_tail(name: &str) -> (&str, Option<&str>) {
+    match name.split_once('_') {
+        Some((base, tail)) if !base.is_empty() && !tail.is_empty() => (base, Some(tail)),
+        _ => (name, None),
     }
 }

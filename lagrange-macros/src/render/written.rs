@@ -16,10 +16,14 @@ impl Page<'_> {
             Kind::Number(value) => Formula::number(*value),
             Kind::Name(name) if name.text == "pi" => Formula::Pi,
             Kind::Name(name) => self.named(&name.text),
-            Kind::Index(base, index) => self.indexed(self.written(base), self.written(index)),
+            Kind::Index(base, index) => self.written(base).indexed(self.written(index)),
+            Kind::Member(base, member) => {
+                let name = Formula::Name { base: member.text.clone(), dots: 0, indices: Vec::new() };
+                Formula::Member(boxed(base), Box::new(name))
+            }
             Kind::Slice(slice) => {
                 let (from, to) = (boxed(&slice.from), boxed(&slice.to));
-                self.indexed(self.written(&slice.base), Formula::Running { index: None, from, to })
+                self.written(&slice.base).indexed(Formula::Running { index: None, from, to })
             }
             Kind::Call(name, arguments) => call(&name.text, all(arguments)),
             Kind::SumOver(sum) => Formula::SumOver {
@@ -54,16 +58,6 @@ impl Page<'_> {
             if *operator == Operator::Times { above.push(magnitude) } else { below.push(magnitude) }
         }
         Formula::product(number, above, below)
-    }
-
-    fn indexed(&self, base: Formula, index: Formula) -> Formula {
-        match base {
-            Formula::Name { base, dots, mut indices } => {
-                indices.push(index);
-                Formula::Name { base, dots, indices }
-            }
-            other => Formula::Entry(Box::new(other), Box::new(index)),
-        }
     }
 
     /// `x_dot` is x with a dot if x is a coordinate.

@@ -1,5 +1,6 @@
 //! Elements and slices of arrays, fields and families.
 
+use super::access::{NO_ELEMENTS, Part};
 use super::lower::Lowering;
 use super::scope::Entity;
 use super::value::Value;
@@ -7,25 +8,23 @@ use crate::diagnostics::Place;
 use crate::symbolic::Rational;
 use crate::syntax::{Expression, Kind, Name, Slice};
 
-const NO_ELEMENTS: &str = "this is a scalar: it has no elements";
-
 /// What is indexed, and an index of it.
 type Indexed<'e> = (&'e Expression, &'e Expression);
 
 impl Lowering<'_> {
     /// `base[index]`
     pub(super) fn index(&mut self, base: &Expression, index: &Expression) -> Option<Value> {
+        if let Some(mut access) = self.access(base) {
+            access.parts.push(Part::Index(index));
+            return self.field_value(&access);
+        }
         let indices = chain(base, index);
         if let Kind::Name(name) = &indices[0].0.kind
             && !self.locals.iter().any(|(local, _)| *local == name.text)
+            && let Some(Entity::Definition(first)) = self.scope.get(&name.text)
+            && self.defines[first].target.is_family()
         {
-            match self.scope.get(&name.text) {
-                Some(Entity::Field(field)) => return self.field_element(field, name, &indices),
-                Some(Entity::Definition(first)) if self.defines[first].target.is_family() => {
-                    return self.family_element(first, name, &indices);
-                }
-                _ => {}
-            }
+            return self.family_element(first, name, &indices);
         }
         let value = self.lower(base)?;
         self.item(&value, (base, index))
@@ -50,26 +49,11 @@ impl Lowering<'_> {
     }
 
     /// `i` where it is one of the indices 0 to `length` − 1.
-    fn checked(&mut self, i: i128, length: usize, place: Place) -> Option<usize> {
+    pub(super) fn checked(&mut self, i: i128, length: usize, place: Place) -> Option<usize> {
         let found = usize::try_from(i).ok().filter(|&i| i < length);
         let last = length.saturating_sub(1);
         let wrong = || format!("the index {i} is out of range: the elements are 0 to {last}");
         found.or_else(|| self.report(place, wrong()))
-    }
-
-    /// Of a large field only the elements in use may cost.
-    fn field_element(&mut self, field: usize, name: &Name, indices: &[Indexed<'_>]) -> Option<Value> {
-        let layout = self.parameters.layout(field, name.place, self.diagnostics)?;
-        let mut path = Vec::new();
-        for (level, (_, index)) in indices.iter().enumerate() {
-            let i = self.integer(index)?;
-            let Some(&length) = layout.lengths.get(level) else {
-                let end = indices[..level].last().map_or(name.place, |(_, before)| before.place);
-                return self.report(name.place.to(end), NO_ELEMENTS);
-            };
-            path.push(self.checked(i, length, index.place)?);
-        }
-        self.parameters.value(field, &path, name.place, &mut self.graph, self.diagnostics)
     }
 
     /// As many indices as the family has are those of an element, what follows are the element's own.

@@ -2,6 +2,7 @@
 
 use num_traits::Zero;
 
+use super::access::Access;
 use super::define::Progress;
 use super::family::Family;
 use super::frames::Frames;
@@ -159,6 +160,7 @@ impl<'a> Lowering<'a> {
             Kind::Name(name) => self.name(name),
             Kind::Index(base, index) => self.index(base, index),
             Kind::Slice(slice) => self.slice(slice),
+            Kind::Member(..) => self.member(expression),
             Kind::Call(name, arguments) => self.call(name, arguments, place),
             Kind::SumOver(sum) => self.sum_over(sum),
             Kind::Negative(inner) => {
@@ -262,9 +264,7 @@ impl<'a> Lowering<'a> {
             _ => {}
         }
         match self.scope.get(&name.text) {
-            Some(Entity::Field(index)) => {
-                self.parameters.value(index, &[], name.place, &mut self.graph, self.diagnostics)
-            }
+            Some(Entity::Field(field)) => self.field_value(&Access { field, name, parts: Vec::new() }),
             Some(Entity::Coordinate(index)) => Some(self.variable(index, Variable::Coordinate)),
             Some(Entity::Velocity(index)) => Some(self.variable(index, Variable::Velocity)),
             Some(Entity::Acceleration(index)) => self.acceleration(index, name.place),

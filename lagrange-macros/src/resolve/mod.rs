@@ -1,5 +1,6 @@
 //! From a [`Declaration`] to a [`Problem`]: every name bound, every expression a scalar in the graph.
 
+mod access;
 mod algebra;
 mod call;
 mod define;
@@ -12,6 +13,7 @@ mod in_turn;
 mod index;
 mod lower;
 mod matrix;
+mod members;
 mod outline;
 mod parameters;
 mod property;

@@ -133,7 +133,7 @@ impl Lowering<'_> {
                 }
                 _ => None,
             },
-            Kind::Number(_) | Kind::Name(_) | Kind::Index(..) | Kind::Power(..) => None,
+            Kind::Number(_) | Kind::Name(_) | Kind::Index(..) | Kind::Member(..) | Kind::Power(..) => None,
         };
         let sum = self.graph.total(contents);
         length.map_or(Value::Scalar(sum), |length| Value::vector(vec![sum; length]))

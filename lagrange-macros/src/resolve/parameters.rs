@@ -39,7 +39,7 @@ impl Parameters {
     /// Which entry is which, in the order of the fields and not in that of their first use.
     pub(crate) fn by_field(&self) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.entries.len()).collect();
-        order.sort_by_key(|&k| self.entries[k]);
+        order.sort_by_cached_key(|&k| self.rank(self.entries[k]));
         order
     }
 
@@ -49,22 +49,44 @@ impl Parameters {
         let properties = vec![None; fields.len()];
         let mut parameters =
             Self { fields, entries: IndexSet::new(), ranges, properties, reported: Vec::new() };
-        for (position, parameter) in declaration.parameters.iter().enumerate() {
+        parameters.add_known_structures();
+        let is_struct = |(_, parameter): &(usize, &Parameter)| matches!(parameter.fact, Fact::Struct(_));
+        let said = || declaration.parameters.iter().enumerate();
+        // What members there are comes before what is said of them all.
+        let (structs, others) = (said().filter(is_struct), said().filter(|said| !is_struct(said)));
+        for (position, parameter) in structs.chain(others) {
             let name = &parameter.name;
-            let Some(index) = parameters.fields.iter().position(|field| field.name.text == name.text) else {
-                let fields = || parameters.fields.iter().map(|field| field.name.text.as_str());
+            let Some(index) = declaration.fields.iter().position(|field| field.name.text == name.text) else {
+                let fields = || declaration.fields.iter().map(|field| field.name.text.as_str());
                 let advice = or_meant(nearest(&name.text, fields()), "field", fields());
                 diagnostics.error(name.place, format!("there is no field `{}`{advice}", name.text));
                 continue;
             };
-            reject_repeated(parameter, &declaration.parameters[..position], diagnostics);
-            diagnostics.note(match &parameter.fact {
-                Fact::Shape(lengths) => parameters.set_shape(index, lengths, name.place),
-                Fact::Range(low, high) => bounds(low, high).map(|range| parameters.ranges[index] = range),
-                Fact::Property(property) => parameters.set_property(index, *property, name.place),
-            });
+            let earlier = &declaration.parameters[..position];
+            let result = reject_repeated(parameter, earlier).and_then(|()| parameters.set(index, parameter));
+            diagnostics.note(result);
         }
         parameters
+    }
+
+    fn set(&mut self, index: usize, Parameter { name, fact }: &Parameter) -> syn::Result<()> {
+        match fact {
+            Fact::Struct(structure) => self.set_structure(index, structure, name.place),
+            Fact::Shape(lengths) => {
+                self.reject_struct(index, name.place)?;
+                self.set_shape(index, lengths, name.place)
+            }
+            Fact::Property(property) => {
+                self.reject_struct(index, name.place)?;
+                self.set_property(index, *property, name.place)
+            }
+            Fact::Range(low, high) => {
+                let range = bounds(low, high)?;
+                let members: Vec<usize> = self.members_of(index).collect();
+                members.into_iter().chain([index]).for_each(|k| self.ranges[k] = range);
+                Ok(())
+            }
+        }
     }
 
     fn set_shape(&mut self, index: usize, lengths: &[usize], place: Place) -> syn::Result<()> {
@@ -123,7 +145,7 @@ impl Parameters {
     }
 
     fn too_many<T>(&mut self, index: usize, place: Place, diagnostics: &mut Diagnostics) -> Option<T> {
-        let name = &self.fields[index].name.text;
+        let name = self.fields[index].text();
         let error = place.error(format!(
             "with `{name}` the expressions use more than {NUMBER_LIMIT} numbers of fields: leave them to a function, `#[function(U(x))]`, in whose field they are"
         ));
@@ -169,8 +191,7 @@ impl Parameters {
 
     /// An element of a field as an expression names it.
     pub(super) fn element(&self, field: usize, indices: &[usize]) -> String {
-        let name = &self.fields[field].name.text;
-        indices.iter().fold(name.clone(), |name, i| format!("{name}[{i}]"))
+        self.spelled(field, self.fields[field].members.len(), indices)
     }
 
     /// The indices of a number in its field.
@@ -216,7 +237,9 @@ impl Parameters {
                 }
             }
         }
-        found.map_or_else(|| syn::parse_quote!(f64), |(scalar, _)| scalar)
+        let of_structs =
+            || self.entries.iter().find_map(|entry| self.scalar_argument(entry.field, declaration));
+        found.map(|(scalar, _)| scalar).or_else(of_structs).unwrap_or_else(|| syn::parse_quote!(f64))
     }
 
     /// The number type as far as it can be told: the one asked for or used, or a type parameter, or `f64`.
@@ -226,19 +249,23 @@ impl Parameters {
         if is_given || (!self.entries.is_empty() && is_scalar_name(&text(&used), declaration)) {
             return used;
         }
-        let shapes = self.fields.iter().filter_map(|field| field.shape.as_ref().ok()?.scalar.as_ref());
-        let is_parameter = |scalar: &&syn::Type| {
+        let of_field = |k: usize| match &self.fields[k].shape {
+            Ok(FieldShape { scalar: Some(scalar), .. }) => Some(scalar.clone()),
+            _ => self.scalar_argument(k, declaration),
+        };
+        let is_parameter = |scalar: &syn::Type| {
             declaration.generics.type_params().any(|parameter| parameter.ident == text(scalar))
         };
-        shapes.clone().find(is_parameter).cloned().unwrap_or_else(|| syn::parse_quote!(f64))
+        let mut scalars = (0..self.fields.len()).filter_map(of_field);
+        scalars.find(is_parameter).unwrap_or_else(|| syn::parse_quote!(f64))
     }
 }
 
-fn text(ty: &syn::Type) -> String {
+pub(super) fn text(ty: &syn::Type) -> String {
     ty.to_token_stream().to_string().replace(' ', "")
 }
 
-fn is_float(name: &str) -> bool {
+pub(super) fn is_float(name: &str) -> bool {
     ["f64", "f32"].contains(&name.rsplit("::").next().unwrap_or(name))
 }
 
@@ -250,23 +277,21 @@ fn is_no_number(name: &str) -> bool {
 }
 
 /// Two ranges, or two shapes, of one field.
-fn reject_repeated(parameter: &Parameter, earlier: &[Parameter], diagnostics: &mut Diagnostics) {
+fn reject_repeated(parameter: &Parameter, earlier: &[Parameter]) -> syn::Result<()> {
     let name = &parameter.name;
     let what = |fact: &Fact| match fact {
-        Fact::Shape(_) => "shape",
+        Fact::Shape(_) | Fact::Struct(_) => "shape",
         Fact::Range(..) => "range",
         Fact::Property(_) => "property",
     };
     let same =
         |known: &&Parameter| known.name.text == name.text && what(&known.fact) == what(&parameter.fact);
-    if let Some(known) = earlier.iter().find(same) {
-        let what = what(&parameter.fact);
-        let message = format!("the {what} of `{}` is given twice", name.text);
-        diagnostics.push(name.place.error_beside(message, known.name.place, "the first one is here"));
-    }
+    let Some(known) = earlier.iter().find(same) else { return Ok(()) };
+    let message = format!("the {} of `{}` is given twice", what(&parameter.fact), name.text);
+    Err(name.place.error_beside(message, known.name.place, "the first one is here"))
 }
 
-fn is_scalar_name(name: &str, declaration: &Declaration) -> bool {
+pub(super) fn is_scalar_name(name: &str, declaration: &Declaration) -> bool {
     let last = name.rsplit("::").next().unwrap_or(name);
     is_float(name) || declaration.generics.type_params().any(|parameter| parameter.ident == last)
 }
@@ -276,7 +301,7 @@ fn not_a_scalar(name: &str) -> String {
         return format!("a field of type `{name}` cannot stand in an expression: make it `f64`");
     }
     format!(
-        "a field of type `{name}` cannot stand in an expression: write `f64`, `f32` or a type parameter, or name the number type with `#[lagrange(scalar = {name})]`"
+        "a field of type `{name}` cannot stand in an expression: write `f64`, `f32` or a type parameter, or name the number type with `#[lagrange(scalar = {name})]`, or the members of a struct with `#[parameter(name: {{m}})]`"
     )
 }
 

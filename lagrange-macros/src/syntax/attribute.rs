@@ -6,10 +6,10 @@ use super::cursor::Cursor;
 use super::declaration::{Declaration, Options};
 use super::field::Field;
 use super::forms::{
-    FORMS, constraint, coordinates, define, force, form, function, observable, only, options, parameter,
-    power,
+    FORMS, constraint, coordinates, define, force, form, function, observable, only, options, power,
 };
 use super::frame::{frame, unit_constraints};
+use super::parameter::parameter;
 use crate::diagnostics::{Diagnostics, Place};
 
 /// Reads the struct. What could be read is returned even where something was wrong.

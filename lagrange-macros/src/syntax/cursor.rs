@@ -140,6 +140,19 @@ impl Cursor {
         }
     }
 
+    /// `m` of `.m`, unless it is called.
+    pub(super) fn take_member(&mut self) -> Option<Ident> {
+        match self.tokens.get(self.position..)? {
+            [_, _, TokenTree::Group(group), ..] if group.delimiter() == Delimiter::Parenthesis => None,
+            [TokenTree::Punct(point), TokenTree::Ident(member), ..] if point.as_char() == '.' => {
+                let member = member.clone();
+                self.position += 2;
+                Some(member)
+            }
+            _ => None,
+        }
+    }
+
     /// A name, or an error that says what was wanted.
     pub(super) fn name(&mut self, wanted: &str) -> Result<Name> {
         let Some(ident) = self.take_ident() else { return Err(self.error(format!("expected {wanted}"))) };

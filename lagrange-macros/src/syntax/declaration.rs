@@ -3,8 +3,9 @@
 use proc_macro2::TokenStream;
 
 use super::expression::Expression;
-use super::field::{Field, numbers};
+use super::field::{Field, Property, numbers};
 use super::name::Name;
+use super::structure::Structure;
 use super::target::{Target, TargetIndex};
 
 /// The struct and its attributes as written.
@@ -111,7 +112,7 @@ pub(crate) struct Named {
     pub(crate) value: Expression,
 }
 
-/// `#[parameter(a: [3])]`, `#[parameter(e: 0..1)]` or `#[parameter(I: symmetric)]`
+/// `#[parameter(a: [3])]`, `#[parameter(e: 0..1)]`, `#[parameter(I: symmetric)]` or `#[parameter(link: [6] {m, c: [3]})]`
 #[derive(Debug)]
 pub(crate) struct Parameter {
     pub(crate) name: Name,
@@ -124,13 +125,7 @@ pub(crate) enum Fact {
     Shape(Vec<usize>),
     Range(Expression, Expression),
     Property(Property),
-}
-
-/// What a matrix is.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Property {
-    Symmetric,
-    Rotation,
+    Struct(Structure),
 }
 
 /// `#[lagrange(crate = path, scalar = T)]`

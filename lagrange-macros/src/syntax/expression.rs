@@ -38,6 +38,8 @@ pub(crate) enum Kind {
     Index(Box<Expression>, Box<Expression>),
     /// `base[from..to]`
     Slice(Box<Slice>),
+    /// `base.member`
+    Member(Box<Expression>, Name),
     Call(Name, Vec<Expression>),
     /// `sum(index in from..to, body)`
     SumOver(Box<SumOver>),
@@ -176,23 +178,41 @@ fn power(cursor: &mut Cursor, depth: usize) -> Result<Expression> {
 fn postfix(cursor: &mut Cursor, depth: usize) -> Result<Expression> {
     let mut expression = atom(cursor, depth)?;
     let mut depth = depth;
-    while let Some(brackets) = cursor.take_group(Delimiter::Bracket) {
-        depth = deeper(cursor, depth)?;
-        let mut inside = Cursor::inside(&brackets);
-        let index = sum(&mut inside, depth)?;
-        let to = inside.is_punct('.').then(|| end_of_range(&mut inside, depth)).transpose()?;
-        if !inside.is_empty() {
-            return Err(inside.error("one index a bracket: write `a[i][j]`"));
-        }
-        let place = expression.place.to(cursor.last_place());
-        let kind = match to {
-            Some(to) => Kind::Slice(Box::new(Slice { base: expression, from: index, to })),
-            None => Kind::Index(Box::new(expression), Box::new(index)),
+    loop {
+        let start = expression.place;
+        let kind = if let Some(brackets) = cursor.take_group(Delimiter::Bracket) {
+            depth = deeper(cursor, depth)?;
+            in_brackets(&brackets, expression, depth)?
+        } else if has_members(&expression)
+            && let Some(member) = cursor.take_member()
+        {
+            depth = deeper(cursor, depth)?;
+            Kind::Member(Box::new(expression), Name::new(&member))
+        } else {
+            break;
         };
-        expression = Expression { kind, place };
+        expression = Expression { kind, place: start.to(cursor.last_place()) };
     }
     suffix_after_index(cursor, &expression)?;
     Ok(expression)
+}
+
+/// `base[index]` or `base[from..to]`
+fn in_brackets(brackets: &Group, base: Expression, depth: usize) -> Result<Kind> {
+    let mut inside = Cursor::inside(brackets);
+    let index = sum(&mut inside, depth)?;
+    let to = inside.is_punct('.').then(|| end_of_range(&mut inside, depth)).transpose()?;
+    if !inside.is_empty() {
+        return Err(inside.error("one index a bracket: write `a[i][j]`"));
+    }
+    Ok(match to {
+        Some(to) => Kind::Slice(Box::new(Slice { base, from: index, to })),
+        None => Kind::Index(Box::new(base), Box::new(index)),
+    })
+}
+
+fn has_members(base: &Expression) -> bool {
+    matches!(base.kind, Kind::Name(_) | Kind::Index(..) | Kind::Member(..))
 }
 
 /// `r[0]_dot` reaches us as `r[0] _dot`.
@@ -341,7 +361,7 @@ impl Expression {
     pub(crate) fn parts(&self) -> Vec<&Self> {
         match &self.kind {
             Kind::Number(_) | Kind::Name(_) => Vec::new(),
-            Kind::Negative(inner) => vec![inner],
+            Kind::Negative(inner) | Kind::Member(inner, _) => vec![inner],
             Kind::Index(first, second) | Kind::Power(first, second) => vec![first, second],
             Kind::Call(_, items) | Kind::Vector(items) => items.iter().collect(),
             Kind::SumOver(sum) => vec![&sum.from, &sum.to, &sum.body],

@@ -6,16 +6,26 @@ use syn::{Expr, ExprLit, GenericArgument, Lit, PathArguments, PathSegment, Type}
 use super::name::Name;
 use crate::diagnostics::Place;
 
-/// A field, usable as a parameter or not.
+/// A field, or a member of one that is a struct; usable as a parameter or not.
 #[derive(Clone)]
 pub(crate) struct Field {
     pub(crate) name: Name,
     pub(crate) ident: syn::Ident,
+    /// Which member of it this is, from the outside in; none where it is the field itself.
+    pub(crate) members: Vec<Segment>,
     pub(crate) ty: Type,
     /// Where its type stands.
     pub(crate) place: Place,
     /// How to read numbers from it, or why that cannot be done.
     pub(crate) shape: Result<FieldShape, String>,
+}
+
+/// `.m` after the field and so many indices.
+#[derive(Clone)]
+pub(crate) struct Segment {
+    pub(crate) name: Name,
+    pub(crate) ident: syn::Ident,
+    pub(crate) after: usize,
 }
 
 /// The layout of the numbers in a field.
@@ -51,9 +61,33 @@ pub(crate) enum Inside {
     UnitQuaternion,
 }
 
+/// What a matrix is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Property {
+    Symmetric,
+    Rotation,
+}
+
 impl Layout {
     pub(crate) fn array(lengths: impl Into<Vec<usize>>) -> Self {
         Self { lengths: lengths.into(), inside: Inside::Array }
+    }
+
+    pub(super) fn matrix(rows: usize, columns: usize) -> Self {
+        Self { lengths: vec![rows, columns], inside: Inside::Matrix }
+    }
+
+    pub(super) fn rotation(size: usize) -> Self {
+        Self { inside: Inside::Rotation, ..Self::matrix(size, size) }
+    }
+
+    pub(super) fn quaternion(inside: Inside) -> Self {
+        Self { lengths: vec![4], inside }
+    }
+
+    /// As many of these, in arrays in arrays.
+    pub(crate) fn within(&self, lengths: &[usize]) -> Self {
+        Self { lengths: [lengths, &self.lengths].concat(), ..*self }
     }
 
     pub(crate) fn is_scalar(&self) -> bool {
@@ -95,7 +129,32 @@ impl Field {
     pub(super) fn new(field: &syn::Field, ident: &syn::Ident) -> Self {
         let place = Place::of(&field.ty);
         let shape = shape(&field.ty).and_then(short_enough);
-        Self { name: Name::new(ident), ident: ident.clone(), ty: field.ty.clone(), place, shape }
+        let (name, ty) = (Name::new(ident), field.ty.clone());
+        Self { name, ident: ident.clone(), members: Vec::new(), ty, place, shape }
+    }
+
+    /// What an expression calls it, without indices.
+    pub(crate) fn text(&self) -> String {
+        let members = self.members.iter().map(|member| member.name.text.as_str());
+        [self.name.text.as_str()].into_iter().chain(members).collect::<Vec<_>>().join(".")
+    }
+}
+
+/// The lengths of arrays as far as a type says them, and what is in them; behind a reference, too.
+pub(crate) fn arrays(ty: &Type) -> (Vec<usize>, &Type) {
+    match ty {
+        Type::Reference(reference) => arrays(&reference.elem),
+        Type::Paren(inner) => arrays(&inner.elem),
+        Type::Group(inner) => arrays(&inner.elem),
+        Type::Array(array) => match length(&array.len) {
+            Ok(length) => {
+                let (mut lengths, element) = arrays(&array.elem);
+                lengths.insert(0, length);
+                (lengths, element)
+            }
+            Err(_) => (Vec::new(), ty),
+        },
+        _ => (Vec::new(), ty),
     }
 }
 
@@ -117,7 +176,7 @@ fn shape(ty: &Type) -> Result<FieldShape, String> {
     }
 }
 
-fn short_enough(shape: FieldShape) -> Result<FieldShape, String> {
+pub(crate) fn short_enough(shape: FieldShape) -> Result<FieldShape, String> {
     match shape.layout.numbers() {
         1..=LENGTH_LIMIT => Ok(shape),
         0 => Err("a field without any number cannot stand in an expression".to_owned()),
@@ -129,24 +188,21 @@ fn unusable(ty: &Type) -> String {
     let ty = ty.to_token_stream().to_string().replace(' ', "");
     if ["Isometry", "Similarity"].iter().any(|name| ty.rsplit("::").any(|part| part.starts_with(name))) {
         return format!(
-            "a field of type `{ty}` cannot stand in an expression: make it two, a `Rotation3` and a `Vector3`"
+            "a field of type `{ty}` cannot stand in an expression, as an `Isometry3` can: make it two, a rotation and a vector"
         );
     }
     format!(
-        "a field of type `{ty}` cannot stand in an expression: write `f64`, an array or a nalgebra vector, matrix, rotation or quaternion of it, or say its shape with `#[parameter(name: [3])]`"
+        "a field of type `{ty}` cannot stand in an expression: write `f64`, an array or a nalgebra vector, matrix, rotation or quaternion of it, or say its shape with `#[parameter(name: [3])]`, or the members of structs with `#[parameter(name: [3] {{m}})]`"
     )
 }
 
 fn named(ty: &Type, segment: &PathSegment) -> Result<FieldShape, String> {
     let name = segment.ident.to_string();
-    let arguments: Vec<&GenericArgument> = match &segment.arguments {
-        PathArguments::AngleBracketed(arguments) => arguments.args.iter().collect(),
-        _ => Vec::new(),
-    };
+    let arguments = arguments(segment);
     let layout = match (name.as_str(), &arguments[..]) {
         ("SVector", [_, n]) => Layout::array([argument_length(n)?]),
-        ("SMatrix", [_, rows, columns]) => matrix(argument_length(rows)?, argument_length(columns)?),
-        ("Rotation", [_, n]) => rotation(argument_length(n)?),
+        ("SMatrix", [_, rows, columns]) => Layout::matrix(argument_length(rows)?, argument_length(columns)?),
+        ("Rotation", [_, n]) => Layout::rotation(argument_length(n)?),
         (_, [_]) => named_layout(&name).ok_or_else(|| unusable(ty))?,
         (_, []) => Layout::array([]),
         _ => return Err(unusable(ty)),
@@ -159,12 +215,11 @@ fn named(ty: &Type, segment: &PathSegment) -> Result<FieldShape, String> {
     Ok(FieldShape { layout, scalar: Some(scalar), is_reference: false })
 }
 
-fn matrix(rows: usize, columns: usize) -> Layout {
-    Layout { lengths: vec![rows, columns], inside: Inside::Matrix }
-}
-
-fn rotation(size: usize) -> Layout {
-    Layout { inside: Inside::Rotation, ..matrix(size, size) }
+pub(crate) fn arguments(segment: &PathSegment) -> Vec<&GenericArgument> {
+    match &segment.arguments {
+        PathArguments::AngleBracketed(arguments) => arguments.args.iter().collect(),
+        _ => Vec::new(),
+    }
 }
 
 /// `Vector3`, `Matrix2`, `Matrix2x3`, `Rotation3`, `UnitQuaternion`.
@@ -174,15 +229,15 @@ fn named_layout(name: &str) -> Option<Layout> {
         return size(length).map(|length| Layout::array([length]));
     }
     match name {
-        "Rotation2" => return Some(rotation(2)),
-        "Rotation3" => return Some(rotation(3)),
-        "Quaternion" => return Some(Layout { lengths: vec![4], inside: Inside::Quaternion }),
-        "UnitQuaternion" => return Some(Layout { lengths: vec![4], inside: Inside::UnitQuaternion }),
+        "Rotation2" => return Some(Layout::rotation(2)),
+        "Rotation3" => return Some(Layout::rotation(3)),
+        "Quaternion" => return Some(Layout::quaternion(Inside::Quaternion)),
+        "UnitQuaternion" => return Some(Layout::quaternion(Inside::UnitQuaternion)),
         _ => {}
     }
     let sizes = name.strip_prefix("Matrix")?;
     let (rows, columns) = sizes.split_once('x').unwrap_or((sizes, sizes));
-    Some(matrix(size(rows)?, size(columns)?))
+    Some(Layout::matrix(size(rows)?, size(columns)?))
 }
 
 fn argument_length(argument: &GenericArgument) -> Result<usize, String> {

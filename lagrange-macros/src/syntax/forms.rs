@@ -5,9 +5,7 @@ use quote::ToTokens;
 use syn::Result;
 
 use super::cursor::Cursor;
-use super::declaration::{
-    Constraint, Coordinate, Define, Fact, Force, Function, Named, Options, Parameter, Power, Property,
-};
+use super::declaration::{Constraint, Coordinate, Define, Force, Function, Named, Options, Power};
 use super::expression::{self, Expression, Kind};
 use super::field::{LENGTH_LIMIT, NOT_A_LITERAL, numbers};
 use super::name::Name;
@@ -34,7 +32,10 @@ pub(super) const FORMS: [(&str, &str); 13] = [
     ("dissipation", "#[dissipation(expression)]"),
     ("observable", "#[observable(name = expression)]"),
     ("conserved", "#[conserved(name = expression)]"),
-    ("parameter", "#[parameter(name: [3])]`, `#[parameter(name: 0..1)]` or `#[parameter(name: symmetric)]"),
+    (
+        "parameter",
+        "#[parameter(name: [3])]`, `#[parameter(name: 0..1)]`, `#[parameter(name: symmetric)]` or `#[parameter(name: {m, c: [3]})]",
+    ),
     ("lagrange", "#[lagrange(crate = path, scalar = T)]"),
 ];
 
@@ -43,7 +44,7 @@ pub(super) fn form(word: &str) -> &'static str {
 }
 
 /// A trailing comma, and then nothing.
-fn finish(cursor: &mut Cursor, word: &str) -> Result<()> {
+pub(super) fn finish(cursor: &mut Cursor, word: &str) -> Result<()> {
     cursor.take_punct(',');
     if cursor.is_empty() {
         return Ok(());
@@ -128,7 +129,7 @@ const LENGTHS: &str =
     "expected a length such as `[3]`, an integer literal, or `[4, 3]` for an array of vectors";
 
 /// `[3]` or `[4, 3]`
-fn lengths(cursor: &mut Cursor) -> Result<Vec<usize>> {
+pub(super) fn lengths(cursor: &mut Cursor) -> Result<Vec<usize>> {
     let Some(group) = cursor.take_group(Delimiter::Bracket) else { return Err(cursor.error(LENGTHS)) };
     let (mut inside, place) = (Cursor::inside(&group), Place::at(group.span()));
     let mut lengths = vec![length(&mut inside.until_comma(), place)?];
@@ -222,7 +223,7 @@ fn equals(cursor: &mut Cursor, word: &str) -> Result<()> {
     cursor.expect_punct('=', &format!("expected `=`: write `{}`", form(word)))
 }
 
-fn colon(cursor: &mut Cursor, word: &str) -> Result<()> {
+pub(super) fn colon(cursor: &mut Cursor, word: &str) -> Result<()> {
     cursor.expect_punct(':', &format!("expected `:` after the name: write `{}`", form(word)))
 }
 
@@ -307,35 +308,6 @@ pub(super) fn observable(word: &str, cursor: &mut Cursor, observables: &mut Vec<
         read_or_guess(cursor, |cursor| equals(cursor, word).and_then(|()| last(cursor, word)));
     observables.push(Named { target, is_conserved: word == "conserved", value });
     result
-}
-
-pub(super) fn parameter(cursor: &mut Cursor) -> Result<Parameter> {
-    let name = cursor.name("the name of a field")?;
-    colon(cursor, "parameter")?;
-    let fact = match cursor.peek() {
-        Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Bracket => {
-            Fact::Shape(lengths(cursor)?)
-        }
-        Some(TokenTree::Ident(_)) => Fact::Property(property(cursor)?),
-        _ => {
-            let (low, high) = expression::range(cursor)?;
-            Fact::Range(low, high)
-        }
-    };
-    finish(cursor, "parameter")?;
-    Ok(Parameter { name, fact })
-}
-
-fn property(cursor: &mut Cursor) -> Result<Property> {
-    let place = cursor.place();
-    match cursor.take_ident().map(|ident| ident.to_string()).as_deref() {
-        Some("symmetric") => Ok(Property::Symmetric),
-        Some("rotation") => Ok(Property::Rotation),
-        _ => Err(place.error(format!(
-            "a matrix is `symmetric` or a `rotation`, and of other fields there is a shape or a range: write `{}`",
-            form("parameter")
-        ))),
-    }
 }
 
 pub(super) fn options(cursor: &mut Cursor, options: &mut Options) -> Result<()> {

@@ -10,7 +10,9 @@ mod frame;
 mod greek;
 mod name;
 mod number;
+mod parameter;
 mod slips;
+mod structure;
 mod target;
 mod unread;
 
@@ -18,10 +20,13 @@ pub(crate) use attribute::declaration;
 pub(crate) use cursor::{NESTING_LIMIT, shallow, too_deep};
 pub(crate) use declaration::{
     Constraint, Coordinate, Declaration, Define, Fact, Force, Frame, Function, Named, Parameter, Power,
-    Property,
 };
 pub(crate) use expression::{Expression, Kind, Operator, Sign, Slice, SumOver};
-pub(crate) use field::{Field, FieldShape, Inside, LENGTH_LIMIT, Layout, numbers};
+pub(crate) use field::{
+    Field, FieldShape, Inside, LENGTH_LIMIT, Layout, Property, Segment, arguments, arrays, numbers,
+    short_enough,
+};
 pub(crate) use greek::GREEK;
 pub(crate) use name::{Name, normal_form};
+pub(crate) use structure::{Member, MemberShape, Structure};
 pub(crate) use target::{Target, TargetIndex};

@@ -84,7 +84,7 @@ fn unexpected_point(cursor: &Cursor) -> syn::Error {
             "a product needs its sign, and an exponent a digit before it: write `2.0*x`, `2.0e3`"
         }
         _ => {
-            "there are no methods or fields here: write `sin(x)` for `x.sin()`, `r[0]` for `r.x`, `m` for `self.m`"
+            "there are no methods here, and members only of fields that are structs: write `sin(x)` for `x.sin()`, `r[0]` for `r.x`, `m` for `self.m`"
         }
     };
     cursor.error(message)

@@ -362,9 +362,15 @@ const _: () = {
         #[allow(unused_variables, unreachable_code)]
         fn set_parameter(&mut self, index: usize, value: f64) -> bool {
             match index {
-                0usize => self.m = value,
-                1usize => self.l = value,
-                2usize => self.g = value,
+                0usize => {
+                    self.m = value;
+                }
+                1usize => {
+                    self.l = value;
+                }
+                2usize => {
+                    self.g = value;
+                }
                 _ => return false,
             }
             true

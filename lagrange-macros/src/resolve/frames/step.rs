@@ -1,10 +1,9 @@
-//! The steps that lead from a frame to the next: `translate(v)`, `rotate_z(angle)`, `rotate(axis, angle)`, `rotate(q)` and
-//! `rotate(R)`.
+//! The steps that lead from a frame to the next: `translate(v)`, `rotate_z(angle)`, `rotate(axis, angle)`, `rotate(q)`,
+//! `rotate(R)` and `pose(P)`.
 
 use super::super::lower::Lowering;
 use super::super::matrix::rotation;
 use super::super::quaternion;
-use super::super::scope::Entity;
 use super::super::turns::Turn;
 use super::super::value::{Value, cross};
 use super::pose::{Frame, Moved, Step, Triple, Turned, columns, named};
@@ -15,7 +14,8 @@ use crate::variables::Variable;
 /// As many random values are tried.
 const DRAWS: u64 = 3;
 const NO_ROTATION: &str = "this matrix is no rotation, whose columns are of length 1, across each other and right-handed: say of a field that it is one, `#[parameter(R: rotation)]`, or make it a `Rotation3`";
-const STEPS: &str = "a frame comes from the one that it is in by `translate(v)`, `rotate_x(angle)`, `rotate_y(angle)`, `rotate_z(angle)`, `rotate(axis, angle)`, `rotate(q)` with a quaternion and `rotate(R)` with a matrix";
+const STEPS: &str = "a frame comes from the one that it is in by `translate(v)`, `rotate_x(angle)`, `rotate_y(angle)`, `rotate_z(angle)`, `rotate(axis, angle)`, `rotate(q)` with a quaternion, `rotate(R)` with a matrix and `pose(P)` with an isometry";
+const NO_POSE: &str = "`pose` takes a field that is an `Isometry3`, or a member that is a `pose`: of other things `translate(v), rotate(R)`";
 
 impl Lowering<'_> {
     /// The frame that this step leads to from the last of several, of which those after `first` have no name.
@@ -23,24 +23,26 @@ impl Lowering<'_> {
         let Kind::Call(name, arguments) = &expression.kind else {
             return self.report(expression.place, STEPS);
         };
-        let turns = match (name.text.as_str(), &arguments[..]) {
-            ("translate", [by]) => {
-                let moved = self.moved(by)?;
-                let next = self.frames.all[before].moved(before, moved, &mut self.graph);
-                return Some(self.add_frame(next));
-            }
+        let (before, turns) = match (name.text.as_str(), &arguments[..]) {
+            ("translate", [by]) => (self.translated(before, by)?, Vec::new()),
             ("rotate_x" | "rotate_y" | "rotate_z", [angle]) => {
                 let axis = "xyz".chars().position(|axis| name.text.ends_with(axis))?;
                 let axis = std::array::from_fn(|i| if i == axis { Id::ONE } else { Id::ZERO });
                 let angle = self.scalar(angle)?;
-                vec![self.turned_about(axis, angle, expression)?]
+                (before, vec![self.turned_about(axis, angle, expression)?])
             }
             ("rotate", [axis, angle]) => {
                 let (axis, angle) = (self.unit(name, axis), self.scalar(angle));
-                vec![self.turned_about(axis?, angle?, expression)?]
+                (before, vec![self.turned_about(axis?, angle?, expression)?])
             }
-            ("rotate", [by]) => self.turned(by)?,
-            ("translate" | "rotate_x" | "rotate_y" | "rotate_z" | "rotate", _) => {
+            ("rotate", [by]) => (before, self.turned(by)?),
+            ("pose", [place]) => {
+                let Some([translation, rotation]) = self.parts_of_pose(place) else {
+                    return self.report(place.place, NO_POSE);
+                };
+                (self.translated(before, &translation)?, self.turned(&rotation)?)
+            }
+            ("pose" | "translate" | "rotate_x" | "rotate_y" | "rotate_z" | "rotate", _) => {
                 return self
                     .report(expression.place, format!("`{}` takes other arguments: {STEPS}", name.text));
             }
@@ -70,6 +72,12 @@ impl Lowering<'_> {
     fn add_frame(&mut self, frame: Frame) -> usize {
         self.frames.all.push(frame);
         self.frames.all.len() - 1
+    }
+
+    fn translated(&mut self, before: usize, by: &Expression) -> Option<usize> {
+        let moved = self.moved(by)?;
+        let next = self.frames.all[before].moved(before, moved, &mut self.graph);
+        Some(self.add_frame(next))
     }
 
     fn moved(&mut self, by: &Expression) -> Option<Moved> {
@@ -185,10 +193,7 @@ impl Lowering<'_> {
 
     /// A field whose type says that its length is 1.
     fn is_unit_parameter(&self, at: &Expression) -> bool {
-        match at.element().and_then(|(name, _)| self.scope.get(&name.text)) {
-            Some(Entity::Field(field)) => self.parameters.is_unit_quaternion(field),
-            _ => false,
-        }
+        self.field_in(at).is_some_and(|field| self.parameters.is_unit_quaternion(field))
     }
 
     /// d/dt of what may depend on coordinates and time, and on nothing else that changes.
