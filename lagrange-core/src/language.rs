@@ -252,6 +252,7 @@
 //! | `position(frame, point)` | where a point is, from the origin of the fixed frame and along its axes; the point by its components in the frame, the frame's origin without |
 //! | `velocity(frame, point)` | its velocity relative to the fixed frame, along the axes of `frame`; if the point moves in the frame, with that |
 //! | `angular_velocity(frame)` | relative to the fixed frame, along the axes of `frame` |
+//! | `jacobian(v)` | ∂v/∂q̇ of a velocity, linear or angular or any other, in observables: a row for each component and a column for each coordinate. What a force along v does, Jᵀ·force, is `#[power(force, v)]` |
 //! | `kinetic(frame, m, c, I)` | the kinetic energy of a rigid body: mass, centre of mass, inertia about the centre, all in the axes of `frame`; without `I` that of a point, without `c` of one at the origin |
 //! | `express(v, frame)` | a vector along the axes of another frame |
 //! | `vector(frame, [a, b, c])` | the vector with these components along the axes of `frame` |
@@ -274,6 +275,7 @@
 //! #[constraint(rear_axle: velocity(car)[1] = 0)]
 //! #[constraint(trailing_axle: velocity(trailer)[1] = 0)]
 //! #[observable(ahead = velocity(car)[0])]
+//! #[observable(J = jacobian(express(velocity(car, seat), fixed)))]
 //! #[observable(felt = der(velocity(car, seat)))]
 //! struct Car { m: f64, b: f64, l: f64, centre: Vector3<f64>, inertia: Matrix3<f64>, seat: Vector3<f64> }
 //!
@@ -286,6 +288,8 @@
 //! assert!(path.end().observable("ahead")? > 0.9);
 //! assert!(path.end().coordinate("hitch")?.abs() < 1e-5);
 //! assert!(path.end().observable("felt[1]")?.abs() < 1e-5);
+//! // Turned by its heading alone, the seat moves across its distance from the axle.
+//! assert_eq!(car.J(&State::at_rest([0.0; 4])).column(2), Vector3::new(-0.3, 1.0, 0.0));
 //! # Ok::<(), lagrange_core::Error>(())
 //! ```
 //!

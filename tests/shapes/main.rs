@@ -5,5 +5,6 @@
 
 mod bodies;
 mod families;
+mod jacobian;
 mod observables;
 mod particles;

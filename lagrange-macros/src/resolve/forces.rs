@@ -1,13 +1,13 @@
 //! Forces on coordinates, and forces along velocities.
 
 use super::element_name;
-use super::lower::{Lowering, is_literal_zero};
+use super::lower::{Lowering, Setting, is_literal_zero};
 use super::scope::Entity;
 use super::unknown::{nearest, or_meant};
 use super::value::{Axes, Shape, Value};
 use crate::diagnostics::Place;
 use crate::symbolic::Id;
-use crate::syntax::{Declaration, Force, Power, numbers};
+use crate::syntax::{Declaration, Expression, Force, Power, numbers};
 use crate::variables::{Variable, has_velocity, symbols};
 
 impl Lowering<'_> {
@@ -109,11 +109,41 @@ impl Lowering<'_> {
         if !has_velocity(&self.graph, &velocities) {
             return self.report(of, "no velocity occurs in this, so that a force along it does nothing");
         }
-        let symbols = symbols(self.count, Variable::Velocity);
-        let slopes: Vec<Id> = velocities.iter().flat_map(|&one| self.graph.gradient(one, &symbols)).collect();
-        if has_velocity(&self.graph, &slopes) {
+        let slopes = self.slopes(&velocities);
+        if has_velocity(&self.graph, &slopes.concat()) {
             return self.report(of, "a force acts along what is linear in the velocities: its virtual work is force · ∂velocity/∂q̇ · δq");
         }
         Some(force.flat().into_iter().zip(velocities).collect())
+    }
+
+    /// ∂v/∂q̇ of each of several numbers, by all velocities.
+    fn slopes(&mut self, of: &[Id]) -> Vec<Vec<Id>> {
+        let symbols = symbols(self.count, Variable::Velocity);
+        of.iter().map(|&one| self.graph.gradient(one, &symbols)).collect()
+    }
+
+    /// `jacobian(v)`: ∂v/∂q̇, a row for each number of v and a column for each coordinate.
+    pub(super) fn jacobian(&mut self, velocity: &Expression, place: Place) -> Option<Value> {
+        if self.setting != Setting::Observable {
+            return self.report(place, "a Jacobian is for observables: what a force does by it, Jᵀ·force, is `#[power(force, velocity)]`");
+        }
+        let value = self.lower(velocity)?;
+        if value.as_scalar().is_none() && value.as_vector().is_none() {
+            let shape = value.shape();
+            return self.report(
+                velocity.place,
+                format!("a Jacobian is that of a scalar or a vector, but this is {shape}"),
+            );
+        }
+        let velocities = value.flat();
+        if !has_velocity(&self.graph, &velocities) {
+            return self.report(velocity.place, "no velocity occurs in this: a Jacobian is that of a velocity, such as `velocity(hand, point)` or `der(x)`");
+        }
+        let rows = self.slopes(&velocities);
+        if has_velocity(&self.graph, &rows.concat()) {
+            return self.report(velocity.place, "a Jacobian is that of what is linear in the velocities");
+        }
+        let mut rows: Vec<Value> = rows.into_iter().map(Value::vector).collect();
+        Some(if value.as_scalar().is_some() { rows.remove(0) } else { Value::Vector(rows) })
     }
 }

@@ -11,7 +11,8 @@ use crate::syntax::{Expression, Name};
 use crate::variables::Variable;
 
 /// What a frame is asked for. The names are free where no frame is asked.
-const CALLS: [&str; 6] = ["position", "velocity", "angular_velocity", "kinetic", "vector", "express"];
+const CALLS: [&str; 7] =
+    ["position", "velocity", "angular_velocity", "jacobian", "kinetic", "vector", "express"];
 
 pub(in super::super) fn is_of_frames(name: &str) -> bool {
     CALLS.contains(&name)
@@ -38,6 +39,7 @@ impl Lowering<'_> {
                 let velocity = self.frames.all[axes.frame].velocity_of(r, rate, &mut self.graph);
                 Some(Value::Spatial(axes, velocity))
             }
+            ("jacobian", [velocity]) => self.jacobian(velocity, place),
             ("angular_velocity", [frame]) => {
                 let axes = self.frame(frame)?;
                 let angular_velocity = self.frames.all[axes.frame].angular_velocity;
