@@ -310,3 +310,71 @@ fn a_pendulum_without_mass_is_singular() {
     let error = Pendulum { m: 0.0, g: 9.81, l: 3.0 }.solve(&state).unwrap_err();
     assert!(matches!(error, Error::Singular { .. }), "{error}");
 }
+
+/// A plate that hangs on legs, each of which turns about its foot by an angle and can be screwed out: what closes a leg is
+/// eliminated before the plate.
+#[derive(Lagrangian)]
+#[coordinates(r: [2], phi, turn: [8], length: [8])]
+#[define(end[k in 0..8] = foot[k] + length[k]*[cos(turn[k]), sin(turn[k])])]
+#[define(corner[k in 0..8] = r + a[k]*[cos(phi + k), sin(phi + k)])]
+#[lagrangian(m/2*dot(r_dot, r_dot) + inertia/2*phi_dot^2 - m*g*r[1] + sum(k in 0..8,
+    inertia/9*turn_dot[k]^2 + m/7*dot(der(end[k]), der(end[k])) - m/7*g*end[k][1]))]
+#[constraint(closed[k in 0..8]: end[k] = corner[k])]
+struct Plate {
+    foot: [[f64; 2]; 8],
+    a: [f64; 8],
+    m: f64,
+    inertia: f64,
+    g: f64,
+}
+
+impl Plate {
+    /// Of legs of these lengths, in no order.
+    fn of(lengths: [f64; 8]) -> (Self, State<f64, 19>) {
+        let mut seed = 11;
+        let mut plate = Self { foot: [[0.0; 2]; 8], a: [0.7; 8], m: 3.0, inertia: 0.4, g: 9.81 };
+        let mut state = State::new([0.0; 19], std::array::from_fn::<f64, 19, _>(|_| random(&mut seed)));
+        for (k, length) in lengths.into_iter().enumerate() {
+            let (turn, at) = (3.0 * random(&mut seed), k as f64);
+            plate.foot[k] = [0.7 * at.cos() - length * turn.cos(), 0.7 * at.sin() - length * turn.sin()];
+            (state.q[3 + k], state.q[11 + k]) = (turn, length);
+        }
+        (plate, state)
+    }
+}
+
+#[test]
+fn loops_are_closed_before_what_they_hang_on() {
+    let (plate, state) = Plate::of([0.5, 0.9, 1.3, 0.4, 2.0, 0.8, 1.1, 0.6]);
+    assert!(residual(&plate, &state) < 1e-14);
+    let (factor, solution) = (plate.factor(&state), plate.solve(&state).unwrap());
+    let again = plate.solve_with(&factor, &plate.forcing(&state), &plate.constraint_bias(&state));
+    assert!((again.accelerations - solution.accelerations).amax() < 1e-12 * solution.accelerations.amax());
+    assert!((again.multipliers - solution.multipliers).amax() < 1e-12 * solution.multipliers.amax());
+}
+
+/// A leg without length has no way to go along with the plate but one. It need not: the plate stands still there, and the
+/// equations have a solution, which is found or not, but not wrong.
+#[test]
+fn a_loop_that_cannot_be_closed_alone_gives_no_wrong_number() {
+    for length in [0.0, 1e-12, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2] {
+        let (plate, state) = Plate::of([length, 0.9, 1.3, 0.4, 2.0, 0.8, 1.1, 0.6]);
+        let (unchecked, checked) = (plate.accelerations_unchecked(&state), plate.solve(&state).unwrap());
+        let matrix = plate.mass_matrix(&state);
+        let f = plate.constraint_jacobian(&state);
+        let mut whole = lagrange_core::nalgebra::DMatrix::zeros(35, 35);
+        whole.view_mut((0, 0), (19, 19)).copy_from(&matrix);
+        whole.view_mut((0, 19), (19, 16)).copy_from(&-f.transpose());
+        whole.view_mut((19, 0), (16, 19)).copy_from(&f);
+        let mut right = lagrange_core::nalgebra::DVector::zeros(35);
+        right.rows_mut(0, 19).copy_from(&plate.forcing(&state));
+        right.rows_mut(19, 16).copy_from(&-plate.constraint_bias(&state));
+        let dense = whole.full_piv_lu().solve(&right).unwrap();
+        let scale = dense.rows(0, 19).amax();
+        let off = (checked.accelerations - dense.rows(0, 19)).amax() / scale;
+        assert!(off < 1e-8, "{length:e}: solved, off by {off:e}");
+        let off = (unchecked.accelerations - dense.rows(0, 19)).amax() / scale;
+        println!("{length:e}: {off:e}, pivot {:e}", unchecked.pivot);
+        assert!(off.is_nan() || off < 1e-8, "{length:e}: unchecked, off by {off:e}");
+    }
+}

@@ -4,9 +4,10 @@
 //! defined one is put in. Then the Schur complement S = F M⁻¹ Fᵀ = Z D⁻¹ Zᵀ with Z = F L⁻ᵀ, and S = L D Lᵀ in its
 //! turn. Every structural zero is gone, and both factorizations go in an order of little fill. (Golub and Van Loan,
 //! *Matrix Computations*, 4.1.2; Nocedal and Wright, *Numerical Optimization*, 16.2. One LDLᵀ of the whole indefinite
-//! matrix would need pivots that only run time can choose.)
+//! matrix would need pivots that only run time can choose, but for [`loops`] that hang on something.)
 
 mod arithmetic;
+mod loops;
 mod order;
 mod pivot;
 mod reduce;
@@ -41,7 +42,9 @@ pub(super) struct Solved {
 /// The matrix of the equations of motion, M and −Fᵀ above F and 0, factored.
 pub(super) struct Factorization {
     form: Factors,
-    /// Z = F L⁻ᵀ
+    /// How many multipliers are among the variables of the form, all or none.
+    among: usize,
+    /// Z = F L⁻ᵀ of the others.
     rows: Vec<Sparse>,
     schur: Factors,
     /// σ_a F_a of the constraints a that complete M: a solve takes γ_a times as much from its h.
@@ -62,8 +65,8 @@ struct Trust {
 pub(super) fn eliminate(schedule: &mut Schedule, form: &Form, equations: &Equations) -> Option<Solved> {
     let mut solver = Solver::new(schedule);
     let factorization = solver.factorize(form, equations)?;
-    let starts = solver.starts(form, &factorization.form);
     let bias = solver.entries(&equations.bias);
+    let starts = solver.starts(form, &factorization, &bias);
     let found = solver.solve(&factorization, starts, bias);
     Some(solver.finish(found, equations.forcing.len(), factorization.trust.pivot))
 }
@@ -99,6 +102,7 @@ pub(super) fn solve_with(
     let bias: Vec<Entry> = (0..m).map(|a| input(Variable::Bias(a))).collect();
     let mut solver = Solver::new(schedule);
     let mut forcing = solver.completed(&factorization, forcing, &bias);
+    forcing.extend_from_slice(&bias[..factorization.among]);
     forcing.resize(factorization.form.reciprocals.len(), None);
     let forward = solver.forward(&factorization.form, forcing);
     let starts = solver.scaled(&factorization.form, forward);
@@ -123,14 +127,24 @@ impl Factorization {
         let completing = self.completing.iter().map(|(a, weighted)| (*a, row(weighted))).collect();
         let Trust { pivot, doubt } = self.trust;
         let trust = Trust { pivot: new(pivot), doubt: doubt.map(new) };
-        Self { form, rows, schur, completing, trust }
+        Self { form, among: self.among, rows, schur, completing, trust }
     }
 }
 
-fn order(form: &Form) -> Option<Vec<usize>> {
-    let matrix = form.matrix.iter().map(|row| row.iter().map(|&id| id != Id::ZERO).collect()).collect();
+fn pattern(matrix: &[Vec<Id>]) -> Vec<Vec<bool>> {
+    matrix.iter().map(|row| row.iter().map(|&id| id != Id::ZERO).collect()).collect()
+}
+
+/// The order, and how many multipliers are in it.
+fn order(form: &Form, equations: &Equations) -> Option<(Vec<usize>, usize)> {
+    let (matrix, rows) = (pattern(&form.matrix), pattern(&equations.jacobian));
+    if form.definitions.is_empty()
+        && let Some(order) = loops::order(&matrix, &rows)
+    {
+        return Some((order, rows.len()));
+    }
     let definitions = form.definitions.iter().map(|row| row.iter().map(|&(i, _)| i).collect()).collect();
-    short(&Pattern { matrix, definitions })
+    Some((short(&Pattern { matrix, definitions, after: Vec::new() })?, 0))
 }
 
 /// The order of a reduction that is better not left to loops, and not longer than a function may be.
@@ -150,15 +164,30 @@ struct Found {
 
 impl Solver<'_> {
     fn factorize(&mut self, form: &Form, equations: &Equations) -> Option<Factorization> {
-        let order = order(form)?;
-        let matrix = form.matrix.iter().map(|row| self.entries(row)).collect();
+        let (order, among) = order(form, equations)?;
+        let mut matrix: Vec<Vec<Entry>> = form.matrix.iter().map(|row| self.entries(row)).collect();
+        if among > 0 {
+            self.put_among(&mut matrix, &equations.jacobian);
+        }
         let definitions = form.definitions.iter().map(|row| self.sparse_entries(row)).collect();
-        let reduced = self.factor(matrix, definitions, &order);
-        let rows = self.rows(form, equations, &reduced);
+        let reduced = self.factor(matrix, definitions, &order, among);
+        let rows = if among > 0 { Vec::new() } else { self.rows(form, equations, &reduced) };
         let schur = self.schur_factors(&reduced, &rows)?;
         let completing = self.completing(form, equations);
-        let trust = self.trust(!rows.is_empty());
-        Some(Factorization { form: reduced, rows, schur, completing, trust })
+        let trust = self.trust(!equations.jacobian.is_empty());
+        Some(Factorization { form: reduced, among, rows, schur, completing, trust })
+    }
+
+    /// −Fᵀ beside a matrix, and −F below.
+    fn put_among(&mut self, matrix: &mut Vec<Vec<Entry>>, jacobian: &[Vec<Id>]) {
+        let n = matrix.len();
+        for row in jacobian {
+            let mut below = self.entries(row);
+            below.iter_mut().for_each(|entry| *entry = self.negate(*entry));
+            matrix.iter_mut().zip(&below).for_each(|(row, &entry)| row.push(entry));
+            matrix.push(below);
+        }
+        matrix[n..].iter_mut().for_each(|row| row.resize(n + jacobian.len(), None));
     }
 
     /// σ_a F_a of the constraints that complete M.
@@ -183,10 +212,14 @@ impl Solver<'_> {
     }
 
     /// D⁻¹L⁻¹b. What is tied to nothing is divided in the graph, where it may cancel.
-    fn starts(&mut self, form: &Form, factors: &Factors) -> Vec<Entry> {
-        let linear = self.entries(&form.linear);
-        let linear = self.forward(factors, linear);
-        let starts = self.scaled(factors, linear);
+    fn starts(&mut self, form: &Form, factorization: &Factorization, bias: &[Entry]) -> Vec<Entry> {
+        let mut linear = self.entries(&form.linear);
+        linear.extend_from_slice(&bias[..factorization.among]);
+        let linear = self.forward(&factorization.form, linear);
+        let starts = self.scaled(&factorization.form, linear);
+        if factorization.among > 0 {
+            return starts;
+        }
         let divided = starts.into_iter().zip(&form.alone);
         divided.map(|(start, alone)| alone.map_or(start, |quotient| self.entry(quotient))).collect()
     }
@@ -208,12 +241,13 @@ impl Solver<'_> {
 
     /// The variables from D⁻¹L⁻¹b and γ.
     fn solve(&mut self, factorization: &Factorization, starts: Vec<Entry>, bias: Vec<Entry>) -> Found {
-        let Factorization { form, rows, schur, trust: Trust { doubt, .. }, .. } = factorization;
+        let Factorization { form, among, rows, schur, trust: Trust { doubt, .. }, .. } = factorization;
         let multipliers = self.multipliers(schur, &starts, rows, bias);
         // At the end, one by one: the doubt is known long after the first of them, and each waits for the one before.
-        let multipliers: Vec<Entry> = multipliers.into_iter().map(|one| self.add(one, *doubt)).collect();
+        let mut multipliers: Vec<Entry> = multipliers.into_iter().map(|one| self.add(one, *doubt)).collect();
         let pushes = self.pushes(&multipliers, rows, starts.len());
-        let accelerations = self.backward(form, starts, &pushes, *doubt);
+        let mut accelerations = self.backward(form, starts, &pushes, *doubt);
+        multipliers.extend(accelerations.split_off(accelerations.len() - among));
         Found { accelerations, multipliers }
     }
 

@@ -10,6 +10,8 @@ pub(super) struct Pattern {
     pub(super) matrix: Vec<Vec<bool>>,
     /// What the last variables of the form are made of, for each of them.
     pub(super) definitions: Vec<Vec<usize>>,
+    /// What has to go before each variable, as far as that is so of any.
+    pub(super) after: Vec<Vec<usize>>,
 }
 
 /// The order, and how many multiplications and additions it takes.
@@ -30,7 +32,7 @@ struct Reduction<'p> {
     /// The variables before it are free, the others defined.
     free: usize,
     neighbours: Vec<BTreeSet<usize>>,
-    /// How many definitions that are left contain each variable.
+    /// How many definitions that are left contain each variable, and how many have to go before it.
     needed: Vec<usize>,
     left: BTreeSet<usize>,
     order: Vec<usize>,
@@ -43,6 +45,7 @@ impl<'p> Reduction<'p> {
         let entry = |i: usize, j: usize| pattern.matrix[i][j] || pattern.matrix[j][i];
         let mut needed = vec![0; n];
         pattern.definitions.iter().flatten().for_each(|&variable| needed[variable] += 1);
+        pattern.after.iter().enumerate().for_each(|(variable, before)| needed[variable] += before.len());
         Self {
             pattern,
             free: n - pattern.definitions.len(),
@@ -84,6 +87,9 @@ impl<'p> Reduction<'p> {
         for &i in &clique {
             self.neighbours[i].extend(clique.iter().filter(|&&j| j != i));
         }
+        for (later, before) in self.pattern.after.iter().enumerate() {
+            self.needed[later] -= before.iter().filter(|&&i| i == variable).count();
+        }
         clique.len() * (clique.len() + 2)
     }
 
@@ -106,7 +112,7 @@ mod tests {
 
     fn matrix(n: usize, occupied: impl Fn(usize, usize) -> bool) -> Pattern {
         let matrix = (0..n).map(|i| (0..n).map(|j| i == j || occupied(i, j)).collect()).collect();
-        Pattern { matrix, definitions: Vec::new() }
+        Pattern { matrix, definitions: Vec::new(), after: Vec::new() }
     }
 
     #[test]
@@ -128,7 +134,7 @@ mod tests {
         let n = 4;
         let matrix = (0..2 * n).map(|i| (0..2 * n).map(|j| i == j && i >= n).collect()).collect();
         let definitions = (0..n).map(|i| if i == 0 { vec![0] } else { vec![i, n + i - 1] }).collect();
-        let (order, _) = reduction_order(&Pattern { matrix, definitions });
+        let (order, _) = reduction_order(&Pattern { matrix, definitions, after: Vec::new() });
         assert_eq!(order, [7, 3, 6, 2, 5, 1, 4, 0]);
     }
 }

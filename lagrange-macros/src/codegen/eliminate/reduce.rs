@@ -81,6 +81,9 @@ struct Reduced {
     matrix: Vec<Vec<Entry>>,
     /// The diagonal as it would be had nothing been subtracted.
     scale: Vec<Entry>,
+    /// Where the multipliers start that are among the variables. On their diagonal, which is zero, every coordinate leaves
+    /// something that is negative.
+    multipliers: usize,
 }
 
 impl Reduced {
@@ -102,16 +105,19 @@ impl Reduced {
 }
 
 impl Solver<'_> {
-    /// Reduces a form of which the matrix is symmetric; the variables behind the free ones have definitions.
+    /// Reduces a form of which the matrix is symmetric; the variables behind the free ones have definitions, or the last of
+    /// them are so many multipliers.
     pub(super) fn factor(
         &mut self,
         matrix: Vec<Vec<Entry>>,
         definitions: Vec<Sparse>,
         order: &[usize],
+        multipliers: usize,
     ) -> Factors {
         let free = matrix.len() - definitions.len();
         let scale = (0..matrix.len()).map(|i| matrix[i][i]).collect();
-        let mut form = Reduced { matrix, scale };
+        let multipliers = matrix.len() - multipliers;
+        let mut form = Reduced { matrix, scale, multipliers };
         let mut factors = Factors { steps: Vec::new(), reciprocals: vec![None; form.matrix.len()] };
         let mut rest = order;
         while let Some(&variable) = rest.first() {
@@ -149,6 +155,9 @@ impl Solver<'_> {
                 let part = self.multiply(Some(l), Some(other));
                 let rest = self.subtract(form.matrix[i][j], part);
                 form.set(i, j, rest);
+                if i == j && variable < form.multipliers && i >= form.multipliers {
+                    form.scale[i] = self.subtract(form.scale[i], part);
+                }
             }
             column.push((i, l));
         }

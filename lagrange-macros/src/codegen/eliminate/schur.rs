@@ -14,8 +14,8 @@ impl Solver<'_> {
     pub(super) fn schur_factors(&mut self, factors: &Factors, rows: &[Sparse]) -> Option<Factors> {
         let schur = self.complement(factors, rows);
         let matrix = schur.iter().map(|row| row.iter().map(Option::is_some).collect()).collect();
-        let order = short(&Pattern { matrix, definitions: Vec::new() })?;
-        Some(self.factor(schur, Vec::new(), &order))
+        let order = short(&Pattern { matrix, definitions: Vec::new(), after: Vec::new() })?;
+        Some(self.factor(schur, Vec::new(), &order, 0))
     }
 
     /// S λ = −γ − Z D⁻¹L⁻¹b, where the last is given but for Z.
