@@ -41,6 +41,9 @@ pub(crate) enum Quantity {
     ResidualChange,
     ParameterSlopes,
     ResidualChangeByParameters,
+    SeriesSlopes,
+    SeriesRightHandSides,
+    SeriesFactors,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -55,6 +58,9 @@ pub(crate) enum Argument {
     Factor,
     Slopes,
     ParameterSlopes,
+    SeriesSlopes,
+    Sums,
+    Order,
     Forcing,
     Bias,
     Rates,
@@ -73,7 +79,9 @@ impl Argument {
             Multipliers => "multipliers",
             Direction => "direction",
             Self::Factor => "factor",
-            Self::Slopes | Self::ParameterSlopes => "slopes",
+            Self::Slopes | Self::ParameterSlopes | Self::SeriesSlopes => "slopes",
+            Self::Sums => "sums",
+            Self::Order => "order",
             Forcing => "forcing",
             Bias => "bias",
             Rates => "rates",
@@ -93,6 +101,11 @@ pub(crate) enum Gives {
     Factor,
     Slopes,
     ParameterSlopes,
+    SeriesSlopes,
+    /// In the places of h and γ.
+    RightHandSides,
+    /// The newest terms of the two factors of each sum.
+    Factors,
     ResidualChange,
     /// A number, if there is one of that index.
     Optional,
@@ -185,6 +198,31 @@ pub(crate) const LINEARIZED: [Method; 4] = [
     ),
 ];
 
+/// The methods of `TaylorSeries`.
+pub(crate) const TAYLOR_SERIES: [Method; 3] = [
+    method(Quantity::SeriesSlopes, "series_slopes", &[System, State, Solution], Gives::SeriesSlopes),
+    method(
+        Quantity::SeriesRightHandSides,
+        "series_right_hand_sides",
+        &[System, Argument::SeriesSlopes, Argument::Sums, Argument::Order, Direction],
+        Gives::RightHandSides,
+    ),
+    method(
+        Quantity::SeriesFactors,
+        "series_factors",
+        &[
+            System,
+            Argument::SeriesSlopes,
+            Argument::Sums,
+            Argument::Order,
+            Direction,
+            Argument::Accelerations,
+            Multipliers,
+        ],
+        Gives::Factors,
+    ),
+];
+
 /// The constants of these traits.
 const CONSTANTS: [&str; 11] = [
     "NAME",
@@ -244,7 +282,7 @@ const OTHERS: [&str; 10] =
 
 /// Whether no observable can bear the name, because every system has something so called.
 pub(crate) fn is_reserved(name: &str) -> bool {
-    let emitted = LAGRANGIAN.iter().chain(&STATE_DERIVATIVES).chain(&LINEARIZED);
+    let emitted = LAGRANGIAN.iter().chain(&STATE_DERIVATIVES).chain(&LINEARIZED).chain(&TAYLOR_SERIES);
     let is_method = emitted.into_iter().any(|method| method.name == name);
     is_method || CONSTANTS.contains(&name) || PROVIDED.contains(&name) || OTHERS.contains(&name)
 }
@@ -306,6 +344,7 @@ mod tests {
             ("Lagrangian", &LAGRANGIAN[..]),
             ("StateDerivatives", &STATE_DERIVATIVES[..]),
             ("Linearized", &LINEARIZED[..]),
+            ("TaylorSeries", &TAYLOR_SERIES[..]),
         ] {
             let methods = methods(&traits[name]);
             for method in emitted {

@@ -24,6 +24,16 @@ pub(crate) enum Variable {
     ParameterChange(usize),
     /// A number that the derivatives along any direction are made of.
     Slope(usize),
+    /// The newest Taylor coefficient of an acceleration.
+    AccelerationChange(usize),
+    /// The newest Taylor coefficient of a multiplier.
+    MultiplierChange(usize),
+    /// A sum over products of Taylor coefficients before the newest.
+    Sum(usize),
+    /// The order of the newest Taylor coefficients …
+    Order,
+    /// … and 1 over it.
+    OrderReciprocal,
 }
 
 impl Variable {
@@ -41,6 +51,11 @@ impl Variable {
             Self::Bias(a) => (9, a),
             Self::ParameterChange(k) => (10, k),
             Self::Slope(k) => (11, k),
+            Self::AccelerationChange(i) => (12, i),
+            Self::MultiplierChange(a) => (13, a),
+            Self::Sum(k) => (14, k),
+            Self::Order => (15, 0),
+            Self::OrderReciprocal => (16, 0),
         };
         Symbol { family, index: index as u32 }
     }
@@ -48,6 +63,20 @@ impl Variable {
     /// Whether only the solution of the equations of motion gives it a value.
     pub(crate) fn is_solved(self) -> bool {
         matches!(self, Self::Acceleration(_) | Self::Multiplier(_))
+    }
+
+    /// Whether it is what a linear function is taken of: a change, or a Taylor coefficient.
+    pub(crate) fn is_change(self) -> bool {
+        matches!(
+            self,
+            Self::Change(_)
+                | Self::ParameterChange(_)
+                | Self::AccelerationChange(_)
+                | Self::MultiplierChange(_)
+                | Self::Sum(_)
+                | Self::Order
+                | Self::OrderReciprocal
+        )
     }
 
     pub(crate) fn of(symbol: Symbol) -> Self {
@@ -64,7 +93,12 @@ impl Variable {
             8 => Self::Forcing(index),
             9 => Self::Bias(index),
             10 => Self::ParameterChange(index),
-            _ => Self::Slope(index),
+            11 => Self::Slope(index),
+            12 => Self::AccelerationChange(index),
+            13 => Self::MultiplierChange(index),
+            14 => Self::Sum(index),
+            15 => Self::Order,
+            _ => Self::OrderReciprocal,
         }
     }
 }

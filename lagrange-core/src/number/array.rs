@@ -28,3 +28,16 @@ pub(crate) fn entries<T: Scalar, const K: usize>(mut of: impl FnMut(usize) -> T)
     }
     entries
 }
+
+/// An array that can be filled, as long as it is.
+pub trait Filled<T>: Copy + AsRef<[T]> + AsMut<[T]> {
+    /// With `x` in every place.
+    fn filled(x: T) -> Self;
+}
+
+impl<T: Copy, const K: usize> Filled<T> for [T; K] {
+    #[inline(always)]
+    fn filled(x: T) -> Self {
+        [x; K]
+    }
+}

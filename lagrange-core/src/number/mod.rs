@@ -10,7 +10,7 @@ mod scalar;
 mod sines;
 
 pub(crate) use array::entries;
-pub use array::{matrix, vector};
+pub use array::{Filled, matrix, vector};
 pub use dual::Dual;
 #[cfg(feature = "std")]
 pub use lanes::Lanes;

@@ -13,6 +13,7 @@ pub(crate) mod member;
 mod pack;
 mod pointers;
 mod state;
+mod taylor_series;
 
 pub use equations::Equations;
 pub use evidence::Evidence;
@@ -21,3 +22,4 @@ pub use integrability::{Classification, Extent, Integrability, Integrals};
 pub use lagrangian::{ConstraintKind, Lagrangian};
 pub use pack::{Pack, Packed, Shared};
 pub use state::{Solution, State};
+pub use taylor_series::{RightHandSides, TaylorSeries};

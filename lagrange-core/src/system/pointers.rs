@@ -9,6 +9,7 @@ use super::integrability::{Classification, Integrals};
 use super::lagrangian::{ConstraintKind, Lagrangian};
 use super::pack::Pack;
 use super::state::{Solution, State};
+use super::taylor_series::{RightHandSides, TaylorSeries};
 use crate::linearized::{Direction, ResidualChange, StateDerivatives};
 use crate::number::Over;
 
@@ -90,6 +91,33 @@ macro_rules! forward {
                     slopes: &Self::Slopes,
                     direction: &Direction<S, N>
                 ) -> ResidualChange<S, N, M>;
+            }
+        }
+
+        #[diagnostic::do_not_recommend]
+        impl<L: TaylorSeries<N, M>, const N: usize, const M: usize> TaylorSeries<N, M> for $pointer {
+            type SeriesSlopes = L::SeriesSlopes;
+            type Sums = L::Sums;
+
+            forward! { @methods
+                fn series_slopes(
+                    state: &State<Self::Scalar, N>,
+                    solution: &Solution<Self::Scalar, N, M>
+                ) -> Self::SeriesSlopes;
+                fn series_right_hand_sides(
+                    slopes: &Self::SeriesSlopes,
+                    sums: &Self::Sums,
+                    order: &[Self::Scalar; 2],
+                    direction: &Direction<Self::Scalar, N>
+                ) -> RightHandSides<Self::Scalar, N, M>;
+                fn series_factors(
+                    slopes: &Self::SeriesSlopes,
+                    sums: &Self::Sums,
+                    order: &[Self::Scalar; 2],
+                    direction: &Direction<Self::Scalar, N>,
+                    accelerations: &SVector<Self::Scalar, N>,
+                    multipliers: &SVector<Self::Scalar, M>
+                ) -> [Self::Sums; 2];
             }
         }
 

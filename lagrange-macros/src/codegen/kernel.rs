@@ -96,6 +96,8 @@ impl Style<'_> {
             Argument::Rates,
             Argument::Factor,
             Argument::Slopes,
+            Argument::Sums,
+            Argument::Order,
             Argument::Forcing,
             Argument::Bias,
         ];
@@ -130,6 +132,10 @@ impl Style<'_> {
                 let slopes = self.slopes_type();
                 quote!(slopes: &#slopes)
             }
+            Argument::Sums => {
+                let (scalar, sums) = (self.types.scalar, self.sums);
+                quote!(sums: &[#scalar; #sums])
+            }
             _ => self.types.argument(argument),
         }
     }
@@ -139,8 +145,8 @@ impl Style<'_> {
 fn source(symbol: Symbol) -> Argument {
     match Variable::of(symbol) {
         Variable::Time | Variable::Coordinate(_) | Variable::Velocity(_) => Argument::State,
-        Variable::Acceleration(_) => Argument::Accelerations,
-        Variable::Multiplier(_) => Argument::Multipliers,
+        Variable::Acceleration(_) | Variable::AccelerationChange(_) => Argument::Accelerations,
+        Variable::Multiplier(_) | Variable::MultiplierChange(_) => Argument::Multipliers,
         Variable::Parameter(_) => Argument::System,
         Variable::Change(_) => Argument::Direction,
         Variable::Factor(_) => Argument::Factor,
@@ -148,6 +154,8 @@ fn source(symbol: Symbol) -> Argument {
         Variable::Bias(_) => Argument::Bias,
         Variable::ParameterChange(_) => Argument::Rates,
         Variable::Slope(_) => Argument::Slopes,
+        Variable::Sum(_) => Argument::Sums,
+        Variable::Order | Variable::OrderReciprocal => Argument::Order,
     }
 }
 

@@ -120,7 +120,10 @@ impl Emitter<'_> {
             | Quantity::Slopes
             | Quantity::ResidualChange
             | Quantity::ParameterSlopes
-            | Quantity::ResidualChangeByParameters => Vec::new(),
+            | Quantity::ResidualChangeByParameters
+            | Quantity::SeriesSlopes
+            | Quantity::SeriesRightHandSides
+            | Quantity::SeriesFactors => Vec::new(),
         };
         // nalgebra's matrices are stored by columns, of which there is one a coordinate.
         let (shape, wrapped) = match method.gives {

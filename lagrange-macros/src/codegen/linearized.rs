@@ -51,8 +51,8 @@ impl Emitter<'_> {
         let write = |method: &Method| match method.quantity {
             Quantity::Parameters => self.parameters(method),
             Quantity::SetParameter => self.set_parameter(method),
-            Quantity::Slopes => self.slopes(method, &changing.by_state),
-            Quantity::ParameterSlopes => self.slopes(method, &changing.by_parameters),
+            Quantity::Slopes => self.slopes(method, &changing.by_state[0]),
+            Quantity::ParameterSlopes => self.slopes(method, &changing.by_parameters[0]),
             Quantity::ResidualChange => self.residual_change(method, &changing.by_state),
             _ => self.residual_change(method, &changing.by_parameters),
         };
@@ -69,16 +69,7 @@ impl Emitter<'_> {
         let scalar = self.style.types.scalar;
         let [of_state_slopes, of_parameter_slopes] =
             [&changing.by_state, &changing.by_parameters].map(|[slopes, _]| slopes.results.len());
-        let parts: Vec<_> = kernels.iter().flat_map(|kernel| &kernel.parts).collect();
-        let parts = (!parts.is_empty()).then(|| {
-            quote! {
-                #[automatically_derived]
-                #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
-                impl #impl_generics #ident #type_generics #where_clause {
-                    #(#parts)*
-                }
-            }
-        });
+        let parts = self.parts_of(&kernels, &generics);
         let by_field = self.problem.parameters.by_field();
         let names = by_field.iter().map(|&k| self.problem.parameters.name(k));
         Some(quote! {
@@ -143,7 +134,8 @@ impl Emitter<'_> {
         Written { tokens, kernels: Vec::new() }
     }
 
-    fn slopes(&self, method: &Method, [slopes, _]: &[Program; 2]) -> Written {
+    /// The numbers that something linear is made of.
+    pub(super) fn slopes(&self, method: &Method, slopes: &Program) -> Written {
         let kernel = self.style.write(method.name, slopes, &[Shape::Vector(slopes.results.len())]);
         let (statements, results, doc) = (&kernel.statements, &kernel.results, &kernel.doc);
         let signature = self.style.types.signature(method);

@@ -17,6 +17,7 @@ mod operation;
 mod pack;
 mod passes;
 mod schedule;
+mod series;
 mod shape;
 mod signature;
 mod solving;
@@ -41,6 +42,7 @@ use bounds::FUNCTION_ORDER;
 pub(crate) use count::Count;
 use kernel::{Kernel, OPERATION_LIMIT};
 use linearized::Changing;
+use series::Series;
 use solving::Solving;
 pub(crate) use stub::stub;
 use style::Style;
@@ -59,9 +61,11 @@ pub(crate) fn implementation(
 ) -> Option<TokenStream> {
     let solving = Solving::cheapest(graph, &derived.equations);
     let changing = derived.linearization.as_ref().map(|linearization| Changing::new(graph, linearization));
-    let slopes = changing.as_ref().map_or(0, Changing::slopes);
+    let series = Series::new(graph, &derived.equations);
+    let slopes = changing.as_ref().map_or(0, Changing::slopes).max(series.as_ref().map_or(0, Series::slopes));
     let numbers = solving.as_ref().map(|solving| solving.factor.results.len());
-    let style = Style::new(graph, problem, numbers, slopes);
+    let sums = series.as_ref().map_or(0, |series| series.sums);
+    let style = Style::new(graph, problem, numbers, slopes, sums);
     let emitter = Emitter { declaration, problem, derived, rendered, solving, style };
     for (function, order) in emitter.orders(&[]).into_iter().filter(|(_, order)| *order > FUNCTION_ORDER) {
         let Supplied { name, place, .. } = &problem.functions[function as usize];
@@ -75,6 +79,7 @@ pub(crate) fn implementation(
     tokens.extend(
         linearization.and_then(|(linearization, changing)| emitter.linearized(linearization, &changing)),
     );
+    tokens.extend(series.as_ref().map(|series| emitter.taylor_series(series)));
     Some(tokens)
 }
 
@@ -94,6 +99,25 @@ struct Emitter<'a> {
     /// `None` where the equations are better solved in loops.
     solving: Option<Solving>,
     style: Style<'a>,
+}
+
+impl Emitter<'_> {
+    /// The methods that long functions call, where there are any.
+    fn parts_of(&self, kernels: &[Kernel], generics: &syn::Generics) -> Option<TokenStream> {
+        let parts: Vec<_> = kernels.iter().flat_map(|kernel| &kernel.parts).collect();
+        let (impl_generics, _, where_clause) = generics.split_for_impl();
+        let (_, type_generics, _) = self.declaration.generics.split_for_impl();
+        let ident = &self.declaration.ident;
+        (!parts.is_empty()).then(|| {
+            quote! {
+                #[automatically_derived]
+                #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
+                impl #impl_generics #ident #type_generics #where_clause {
+                    #(#parts)*
+                }
+            }
+        })
+    }
 }
 
 /// Methods, and the kernels in them.

@@ -88,6 +88,9 @@ impl Types<'_> {
             Argument::Factor => quote!(&Self::Factor),
             Argument::Slopes => quote!(&Self::Slopes),
             Argument::ParameterSlopes => quote!(&Self::ParameterSlopes),
+            Argument::SeriesSlopes => quote!(&Self::SeriesSlopes),
+            Argument::Sums => quote!(&Self::Sums),
+            Argument::Order => quote!(&[#scalar; 2]),
             Argument::Forcing => quote!(&__lagrange::nalgebra::SVector<#scalar, #n>),
             Argument::Bias => quote!(&__lagrange::nalgebra::SVector<#scalar, #m>),
             Argument::Index => quote!(usize),
@@ -107,6 +110,12 @@ impl Types<'_> {
             Gives::Factor => quote!(Self::Factor),
             Gives::Slopes => quote!(Self::Slopes),
             Gives::ParameterSlopes => quote!(Self::ParameterSlopes),
+            Gives::SeriesSlopes => quote!(Self::SeriesSlopes),
+            Gives::RightHandSides => {
+                let [forcing, bias] = [n, m].map(|length| self.vector(&length));
+                quote!((#forcing, #bias))
+            }
+            Gives::Factors => quote!([Self::Sums; 2]),
             Gives::ResidualChange => quote!(__lagrange::ResidualChange<#scalar, #n, #m>),
             Gives::Optional => quote!(::core::option::Option<#scalar>),
             Gives::Success => quote!(bool),

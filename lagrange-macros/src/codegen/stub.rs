@@ -9,7 +9,7 @@ use super::observables::method_name;
 use super::pack::pack;
 use super::runtime;
 use super::signature::Types;
-use crate::contract::{LAGRANGIAN, LINEARIZED, Method, STATE_DERIVATIVES};
+use crate::contract::{LAGRANGIAN, LINEARIZED, Method, STATE_DERIVATIVES, TAYLOR_SERIES};
 use crate::resolve::{Observable, Outline};
 use crate::syntax::Declaration;
 
@@ -30,6 +30,7 @@ pub(crate) fn stub(declaration: &Declaration, outline: &Outline) -> TokenStream 
     };
     let (of_lagrangian, of_linearized) = (LAGRANGIAN.iter().map(never), LINEARIZED.iter().map(never));
     let of_state_derivatives = STATE_DERIVATIVES.iter().map(never);
+    let of_taylor_series = TAYLOR_SERIES.iter().map(never);
     let visibility = &declaration.visibility;
     let observables = observables.iter().map(|Observable { name, lengths, needs_solution }| {
         let method = method_name(&name.text, name.place.start());
@@ -68,6 +69,14 @@ pub(crate) fn stub(declaration: &Declaration, outline: &Outline) -> TokenStream 
                 type ParameterSlopes = ();
                 const PARAMETERS: [&'static str; #p] = [""; #p];
                 #(#of_linearized)*
+            }
+
+            #[automatically_derived]
+            #[allow(unused_variables, clippy::all)]
+            impl #impl_generics __lagrange::TaylorSeries<#n, #m> for #ident #type_generics #where_clause {
+                type SeriesSlopes = ();
+                type Sums = [#scalar; 0];
+                #(#of_taylor_series)*
             }
 
             #[automatically_derived]

@@ -25,6 +25,8 @@ pub(super) struct Style<'a> {
     narrow: Option<&'a syn::Type>,
     /// How many slopes the functions read.
     slopes: usize,
+    /// How many sums over Taylor coefficients they read.
+    pub(super) sums: usize,
     /// Whether the scalar is `f64`, so that constants are plain literals.
     is_f64: bool,
     /// Names of the inputs and definitions, valid as identifiers and all different.
@@ -34,8 +36,14 @@ pub(super) struct Style<'a> {
 
 impl<'a> Style<'a> {
     /// `numbers` are those of the factor; where there are none the runtime has its own. Of the `slopes` there are at most
-    /// so many.
-    pub(super) fn new(graph: &'a Graph, problem: &'a Problem, numbers: Option<usize>, slopes: usize) -> Self {
+    /// so many, of the `sums` over Taylor coefficients as many.
+    pub(super) fn new(
+        graph: &'a Graph,
+        problem: &'a Problem,
+        numbers: Option<usize>,
+        slopes: usize,
+        sums: usize,
+    ) -> Self {
         let scalar = &problem.scalar;
         let is_f64 = quote!(#scalar).to_string() == "f64";
         let mut taken = HashSet::from(
@@ -48,6 +56,8 @@ impl<'a> Style<'a> {
                 "rates",
                 "factor",
                 "slopes",
+                "sums",
+                "order",
                 "forcing",
                 "bias",
                 "index",
@@ -65,10 +75,12 @@ impl<'a> Style<'a> {
             names.insert(Variable::Coordinate(i).symbol(), unique(format!("{base}{index}")));
             names.insert(Variable::Velocity(i).symbol(), unique(format!("{base}_dot{index}")));
             names.insert(Variable::Acceleration(i).symbol(), unique(format!("{base}_ddot{index}")));
+            names.insert(Variable::AccelerationChange(i).symbol(), unique(format!("d_{base}_ddot{index}")));
             names.insert(Variable::Forcing(i).symbol(), unique(format!("forcing_{base}{index}")));
         }
         for (a, (label, _)) in problem.constraints.iter().enumerate() {
             names.insert(Variable::Multiplier(a).symbol(), unique(format!("lambda_{}", label.text)));
+            names.insert(Variable::MultiplierChange(a).symbol(), unique(format!("d_lambda_{}", label.text)));
             names.insert(Variable::Bias(a).symbol(), unique(format!("bias_{}", label.text)));
         }
         for k in 0..problem.parameters.entries.len() {
@@ -88,6 +100,11 @@ impl<'a> Style<'a> {
         for k in 0..slopes {
             names.insert(Variable::Slope(k).symbol(), unique(format!("s{k}")));
         }
+        for k in 0..sums {
+            names.insert(Variable::Sum(k).symbol(), unique(format!("sum{k}")));
+        }
+        names.insert(Variable::Order.symbol(), unique("k".to_owned()));
+        names.insert(Variable::OrderReciprocal.symbol(), unique("reciprocal_k".to_owned()));
         let (n, m) = (problem.coordinates.len(), problem.constraints.len());
         let types = Types {
             scalar,
@@ -99,13 +116,18 @@ impl<'a> Style<'a> {
             Some(numbers) => quote!([#scalar; #numbers]),
             None => quote!(__lagrange::generated::LoopFactor<#scalar, #n, #m>),
         };
-        Self { graph, problem, types, factor, narrow: None, slopes, is_f64, names, definition_names }
+        Self { graph, problem, types, factor, narrow: None, slopes, sums, is_f64, names, definition_names }
     }
 
     /// For functions that compute with any numbers over those of the system, called `wide`, and read so many slopes.
     pub(super) fn over<'w>(&'w self, wide: &'w syn::Type, slopes: usize) -> Style<'w> {
         let types = Types { scalar: wide, ..self.types };
         Style { types, narrow: Some(self.types.scalar), slopes, is_f64: false, ..self.clone() }
+    }
+
+    /// For functions that read so many slopes.
+    pub(super) fn reading(&self, slopes: usize) -> Self {
+        Style { slopes, ..self.clone() }
     }
 
     /// What a method beside those of the traits is generic over.
@@ -201,6 +223,8 @@ impl<'a> Style<'a> {
         let velocities = pattern(n, Variable::Velocity, quote!(state.v.data.0[0]));
         let accelerations = pattern(n, Variable::Acceleration, quote!(accelerations.data.0[0]));
         let multipliers = pattern(m, Variable::Multiplier, quote!(multipliers.data.0[0]));
+        let newest = pattern(n, Variable::AccelerationChange, quote!(accelerations.data.0[0]));
+        let newest_multipliers = pattern(m, Variable::MultiplierChange, quote!(multipliers.data.0[0]));
         let forcing = pattern(n, Variable::Forcing, quote!(forcing.data.0[0]));
         let bias = pattern(m, Variable::Bias, quote!(bias.data.0[0]));
         let others = used.iter().filter_map(|symbol| {
@@ -215,6 +239,12 @@ impl<'a> Style<'a> {
                     let k = Literal::usize_unsuffixed(k);
                     self.widened(&quote!(slopes[#k]))
                 }
+                Variable::Sum(k) => {
+                    let k = Literal::usize_unsuffixed(k);
+                    quote!(sums[#k])
+                }
+                Variable::Order => quote!(order[0]),
+                Variable::OrderReciprocal => quote!(order[1]),
                 Variable::ParameterChange(k) => {
                     let place = Literal::usize_unsuffixed(k);
                     quote!(rates.data.0[0][#place])
@@ -224,7 +254,10 @@ impl<'a> Style<'a> {
             let name = &self.names[symbol];
             Some(quote! { let #name = #value; })
         });
-        quote! { #time #coordinates #velocities #accelerations #multipliers #forcing #bias #(#others)* }
+        quote! {
+            #time #coordinates #velocities #accelerations #multipliers #newest #newest_multipliers #forcing #bias
+            #(#others)*
+        }
     }
 
     /// How fast the time, a coordinate or a velocity changes along `direction`.

@@ -8,7 +8,7 @@ use super::{consistency, constraints, determinacy, euler_lagrange, integrability
 use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};
-use crate::variables::{Variable, has_velocity};
+use crate::variables::{Variable, has_velocity, total_time_derivative};
 
 /// M q̈ − Fᵀλ = h and F q̈ + γ = 0, every entry a node of the problem's graph.
 #[derive(Debug)]
@@ -42,6 +42,8 @@ pub(crate) struct Equations {
     pub(crate) constraint_force: Vec<Id>,
     /// d/dt p − ∂L/∂q − Q − Fᵀλ, in the symbols of accelerations and multipliers
     pub(crate) balance: Vec<Id>,
+    /// d/dt (F q̇ + b), in the symbols of accelerations
+    pub(crate) constraint_acceleration: Vec<Id>,
     /// M and h as quadratic forms, completed where M is singular: the first over the accelerations alone
     pub(crate) forms: Vec<Form>,
 }
@@ -63,6 +65,9 @@ impl Equations {
         let integrability = integrability::classify(graph, problem, &constraints);
         let forms = Form::all(graph, problem, &motion, twists.as_ref(), &constraints);
         let constraint_force = constraints.force(graph);
+        let mut along_motion = total_time_derivative(graph, problem.coordinates.len());
+        let constraint_acceleration =
+            constraints.rate.iter().map(|&rate| along_motion.of(graph, rate)).collect();
         Some(Self {
             balance: motion.balance(graph, twists.as_ref(), &constraint_force),
             forms,
@@ -74,6 +79,7 @@ impl Equations {
             forcing: motion.forcing,
             energy: motion.energy,
             constraint_force,
+            constraint_acceleration,
             magnitudes: [
                 constraints.magnitude(graph, Variable::Coordinate, |kind| kind == ConstraintKind::Holonomic),
                 constraints.magnitude(graph, Variable::Velocity, |_| true),

@@ -8,7 +8,7 @@
 use super::equations::Equations;
 use crate::resolve::Problem;
 use crate::symbolic::{Forward, Graph, Id, Symbol};
-use crate::variables::{Variable, symbols, total_time_derivative};
+use crate::variables::{Variable, symbols};
 
 /// How the residual changes, at given accelerations and multipliers.
 pub(crate) struct Linearization {
@@ -68,9 +68,6 @@ pub(super) fn linearize(
     problem: &Problem,
     equations: &Equations,
 ) -> Option<Linearization> {
-    let mut along_motion = total_time_derivative(graph, problem.coordinates.len());
-    let acceleration: Vec<Id> =
-        equations.rate.iter().map(|&velocity| along_motion.of(graph, velocity)).collect();
     let mut along = |pairs: &[(Symbol, Symbol)]| {
         let seeds: Vec<_> =
             pairs.iter().map(|&(argument, change)| (argument, graph.symbol(change))).collect();
@@ -78,7 +75,7 @@ pub(super) fn linearize(
         let mut of = |roots: &[Id]| roots.iter().map(|&root| along.of(graph, root)).collect::<Vec<Id>>();
         Changes {
             motion: of(&equations.balance),
-            acceleration: of(&acceleration),
+            acceleration: of(&equations.constraint_acceleration),
             rate: of(&equations.rate),
             position: of(&equations.residual),
         }

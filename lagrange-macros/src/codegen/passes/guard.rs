@@ -69,7 +69,7 @@ impl Guard {
             _ => None,
         });
         if let Operation::Input(symbol) = operation
-            && matches!(Variable::of(symbol), Variable::Change(_) | Variable::ParameterChange(_))
+            && Variable::of(symbol).is_change()
         {
             return Kind::Rate { activity: self.schedule.push(Operation::Function(Function::Abs, register)) };
         }

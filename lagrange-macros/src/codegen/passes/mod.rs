@@ -1,5 +1,6 @@
 //! What is done to a schedule before it is written: the same results, up to rounding, for less work.
 
+mod balance;
 mod factors;
 mod fuse;
 mod guard;
@@ -45,6 +46,17 @@ impl Program {
         [slopes, changes].map(|(schedule, results)| Self::unchanged(schedule, results))
     }
 
+    /// Computes what is linear in Taylor coefficients: first the numbers that do not depend on them, then each of two lists of
+    /// results by these.
+    pub(super) fn of_orders(schedule: Schedule, results: [Vec<Register>; 2]) -> (Self, [Self; 2]) {
+        let whole = Self::new(schedule, results.concat());
+        let split::Parts { slopes: (numbers, slopes), changes: (changes, all) } =
+            split::split(&whole.schedule, &whole.results);
+        let (first, second) = all.split_at(results[0].len());
+        let parts = [first, second].map(|results| Self::unchanged(changes.clone(), results.to_vec()));
+        (Self::unchanged(numbers, slopes), parts)
+    }
+
     /// The results in as few operations as the passes find.
     pub(super) fn new(schedule: Schedule, results: Vec<Register>) -> Self {
         let program = Self::unchanged(schedule, results);
@@ -62,6 +74,12 @@ impl Program {
     fn unchanged(schedule: Schedule, results: Vec<Register>) -> Self {
         let counts = vec![("as derived", schedule.count(&results))];
         Self { schedule, results, counts }
+    }
+
+    /// With long sums as trees, for functions that are waited for.
+    pub(super) fn balanced(mut self) -> Self {
+        (self.schedule, self.results) = balance::balanced(&self.schedule, &self.results);
+        self
     }
 
     /// The same with products and sums in one operation each. That is harder to read, and for what is called all the

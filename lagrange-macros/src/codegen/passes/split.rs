@@ -46,7 +46,7 @@ pub(super) fn split(source: &Schedule, results: &[Register]) -> Parts {
 }
 
 fn is_rate(symbol: crate::symbolic::Symbol) -> bool {
-    matches!(Variable::of(symbol), Variable::Change(_) | Variable::ParameterChange(_))
+    Variable::of(symbol).is_change()
 }
 
 /// Where the result of an operation is.

@@ -1,0 +1,60 @@
+//! The contract for Taylor series of the motion.
+
+use core::fmt::Debug;
+
+use nalgebra::SVector;
+
+use super::lagrangian::Lagrangian;
+use super::state::{Solution, State};
+use crate::linearized::Direction;
+use crate::number::Filled;
+
+/// What the right-hand sides of the equations of motion are: in the places of h and of γ.
+pub type RightHandSides<T, const N: usize, const M: usize> = (SVector<T, N>, SVector<T, M>);
+
+/// A system whose motion can be expanded in a Taylor series, order by order: what [`Taylor`](crate::Taylor) integrates.
+///
+/// `#[derive(Lagrangian)]` implements it where everything in the equations has a Taylor series. The coefficients of
+/// accelerations and multipliers of every order k solve one linear system, M x − Fᵀλ = h, F x = −γ with the M and F of the state
+/// that is expanded about; only the right-hand sides differ. They and what the next order needs are linear in
+/// the newest coefficients, made of numbers of the state, the [slopes](Self::series_slopes), and of sums Σ x_j y_{k−j} over
+/// the coefficients before (Griewank and Walther, *Evaluating Derivatives*, 13.2).
+#[diagnostic::on_unimplemented(
+    message = "the Taylor series of the motion of `{Self}` is not known",
+    label = "no `TaylorSeries`",
+    note = "`#[derive(Lagrangian)]` gives it to every system but those with `abs`, `min`, `max`, `clamp` or a function that the user supplies (`#[function(…)]`) in the equations of motion: use `Dop853` there"
+)]
+pub trait TaylorSeries<const N: usize, const M: usize>: Lagrangian<N, M> {
+    /// What an order is made of beside coefficients: plain numbers.
+    type SeriesSlopes: Copy + Debug;
+    /// One number for each sum, and zeros up to a multiple of four.
+    type Sums: Filled<Self::Scalar>;
+
+    /// The numbers that all orders are made of.
+    fn series_slopes(
+        &self,
+        state: &State<Self::Scalar, N>,
+        solution: &Solution<Self::Scalar, N, M>,
+    ) -> Self::SeriesSlopes;
+
+    /// What stands for h and γ where the coefficients of accelerations and multipliers are solved for, of an order that is
+    /// given with its reciprocal; `direction` has the coefficients of time, coordinates and velocities of that order.
+    fn series_right_hand_sides(
+        &self,
+        slopes: &Self::SeriesSlopes,
+        sums: &Self::Sums,
+        order: &[Self::Scalar; 2],
+        direction: &Direction<Self::Scalar, N>,
+    ) -> RightHandSides<Self::Scalar, N, M>;
+
+    /// The terms of that order of the two factors of each sum.
+    fn series_factors(
+        &self,
+        slopes: &Self::SeriesSlopes,
+        sums: &Self::Sums,
+        order: &[Self::Scalar; 2],
+        direction: &Direction<Self::Scalar, N>,
+        accelerations: &SVector<Self::Scalar, N>,
+        multipliers: &SVector<Self::Scalar, M>,
+    ) -> [Self::Sums; 2];
+}

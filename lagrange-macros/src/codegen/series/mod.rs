@@ -1,0 +1,108 @@
+//! The capability of Taylor series: what one order of them takes.
+
+mod functions;
+mod recurrences;
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::kernel::OPERATION_LIMIT;
+use super::operation::{Operation, Register};
+use super::passes::Program;
+use super::shape::Shape;
+use super::{Emitter, Written, runtime};
+use crate::contract::{Method, Quantity, TAYLOR_SERIES};
+use crate::mechanics::Equations;
+use crate::symbolic::{Graph, Id};
+use recurrences::{Recurrences, Stage};
+
+/// The runtime computes so many sums side by side.
+const WIDTH: usize = 4;
+
+/// The programs of an order.
+pub(super) struct Series {
+    /// The numbers of order 0 that the others are made of.
+    slopes: Program,
+    /// The right-hand sides that the coefficients of accelerations and multipliers are solved for.
+    right_hand_sides: Program,
+    /// The newest terms of the factors of each sum.
+    factors: Program,
+    /// How many sums there are, those included that fill up the last group.
+    pub(super) sums: usize,
+}
+
+impl Series {
+    /// Of dp/dt − ∂L/∂q − Q − Fᵀλ and F q̈ + γ; `None` where something in them has no Taylor series, or is too long.
+    pub(super) fn new(graph: &Graph, equations: &Equations) -> Option<Self> {
+        let Equations { balance, constraint_acceleration, .. } = equations;
+        let roots: Vec<Id> = balance.iter().chain(constraint_acceleration).copied().collect();
+        let Program { schedule, results, .. } = Program::of(graph, &roots);
+        let (mut recurrences, results) = Recurrences::of(&schedule, &results, balance.len())?;
+        let mut rest: Vec<Register> =
+            results.into_iter().map(|result| recurrences.newest(result, Stage::Before)).collect();
+        for sum in &mut rest[..balance.len()] {
+            *sum = recurrences.schedule.push(Operation::Negate(*sum));
+        }
+        let sums = recurrences.sums.len().next_multiple_of(WIDTH);
+        let factors = recurrences.factors(sums).concat();
+        let schedule = recurrences.schedule;
+        let (slopes, [right_hand_sides, factors]) = Program::of_orders(schedule, [rest, factors]);
+        let series = Self {
+            slopes,
+            right_hand_sides: right_hand_sides.balanced().fused(),
+            factors: factors.balanced().fused(),
+            sums,
+        };
+        let is_short = |program: &Program| program.count().total() <= OPERATION_LIMIT;
+        let are_short = [&series.slopes, &series.right_hand_sides, &series.factors].into_iter().all(is_short);
+        are_short.then_some(series)
+    }
+
+    /// How many numbers of order 0 there are.
+    pub(super) fn slopes(&self) -> usize {
+        self.slopes.results.len()
+    }
+}
+
+impl Emitter<'_> {
+    /// The implementation of `TaylorSeries`.
+    pub(super) fn taylor_series(&self, series: &Series) -> TokenStream {
+        let style = self.style.reading(series.slopes());
+        let (n, m, sums) = (self.problem.coordinates.len(), self.problem.constraints.len(), series.sums);
+        let of_order = |method: &Method, program: &Program, shapes: [usize; 2]| {
+            let kernel = style.write(method.name, program, &shapes.map(Shape::Vector));
+            self.function(method, kernel, |results| match (method.quantity, results) {
+                (Quantity::SeriesFactors, _) => quote!([#(#results),*]),
+                _ => quote!((#(__lagrange::generated::vector(#results)),*)),
+            })
+        };
+        let write = |method: &Method| match method.quantity {
+            Quantity::SeriesSlopes => self.slopes(method, &series.slopes),
+            Quantity::SeriesRightHandSides => of_order(method, &series.right_hand_sides, [n, m]),
+            _ => of_order(method, &series.factors, [sums; 2]),
+        };
+        let Written { tokens, kernels } = TAYLOR_SERIES.iter().map(write).collect();
+        let generics = self.generics(&self.orders(&[]), true);
+        let parts = self.parts_of(&kernels, &generics);
+        let (impl_generics, _, where_clause) = generics.split_for_impl();
+        let (_, type_generics, _) = self.declaration.generics.split_for_impl();
+        let (runtime, ident, scalar) =
+            (runtime(self.declaration), &self.declaration.ident, style.types.scalar);
+        let ([n, m, _], slopes) = (style.types.dimensions(), series.slopes());
+        quote! {
+            const _: () = {
+                use #runtime as __lagrange;
+
+                #[automatically_derived]
+                #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
+                impl #impl_generics __lagrange::TaylorSeries<#n, #m> for #ident #type_generics #where_clause {
+                    type SeriesSlopes = [#scalar; #slopes];
+                    type Sums = [#scalar; #sums];
+                    #tokens
+                }
+
+                #parts
+            };
+        }
+    }
+}

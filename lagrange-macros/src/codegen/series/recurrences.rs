@@ -1,0 +1,307 @@
+//! The Taylor coefficients of a schedule's results along a motion, order by order.
+//!
+//! The newest coefficient of a product, (xy)_k = x₀ y_k + y₀ x_k + Σ x_j y_{k−j} with j from 1 to k − 1, is linear in the
+//! newest coefficients of its factors; so is that of every other operation, by a recurrence with sums of the same form
+//! (Griewank and Walther, *Evaluating Derivatives*, table 13.2; Jorba and Zou, *Experimental Mathematics* 14 (2005),
+//! proposition 2.1). The sums are all alike and left to the runtime. What remains of an order is a linear function of the
+//! newest coefficients, made of numbers of order 0.
+
+use indexmap::IndexSet;
+use rustc_hash::FxHashMap;
+
+use crate::codegen::operation::{Operation, Register};
+use crate::codegen::schedule::Schedule;
+use crate::symbolic::{Function, Symbol};
+use crate::variables::Variable;
+
+/// A quantity along the motion, by its place among all.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub(super) struct Quantity(pub(super) usize);
+
+/// Its coefficients, in the schedule that is being built.
+#[derive(Clone, Copy)]
+pub(super) struct Coefficients {
+    /// That of order 0.
+    first: Register,
+    /// The newest, in each [`Stage`]; a register that is not there is a zero. `None` for a constant of the motion.
+    newest: Option<[Option<Register>; 2]>,
+}
+
+/// How an order is computed twice: accelerations and multipliers of that order are what it is computed for.
+#[derive(Clone, Copy)]
+pub(super) enum Stage {
+    /// With zeros in their place.
+    Before,
+    After,
+}
+
+const STAGES: [Stage; 2] = [Stage::Before, Stage::After];
+
+/// What a sum is taken of, with j from 1 to k − 1.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(super) enum Sum {
+    /// Σ x_j y_{k−j}
+    Product(Quantity, Quantity),
+    /// Σ j x_j y_{k−j}
+    Weighted(Quantity, Quantity),
+}
+
+/// The schedule of an order, with that of order 0 in it.
+#[derive(Default)]
+pub(super) struct Recurrences {
+    pub(super) schedule: Schedule,
+    coordinates: usize,
+    pub(super) quantities: Vec<Coefficients>,
+    pub(super) sums: IndexSet<Sum>,
+    /// Sine and cosine of an angle.
+    pub(super) turns: FxHashMap<(Function, Quantity), [Quantity; 2]>,
+}
+
+impl Recurrences {
+    /// Of `results`, with so many coordinates; `None` where an operation has no Taylor series, or none that is known.
+    pub(super) fn of(
+        source: &Schedule,
+        results: &[Register],
+        coordinates: usize,
+    ) -> Option<(Self, Vec<Quantity>)> {
+        let mut recurrences = Self { coordinates, ..Self::default() };
+        let (uses, mut quantities) = (source.uses(results), FxHashMap::default());
+        for (index, &operation) in source.operations.iter().enumerate().filter(|(index, _)| uses[*index] > 0)
+        {
+            let quantity = recurrences.operation(operation.with_operands(|x| quantities[&x]))?;
+            quantities.insert(Register::at(index), quantity);
+        }
+        Some((recurrences, results.iter().map(|result| quantities[result]).collect()))
+    }
+
+    /// The newest coefficient; a zero where there is none.
+    pub(super) fn newest(&mut self, of: Quantity, stage: Stage) -> Register {
+        let newest = self.quantities[of.0].newest.and_then(|newest| newest[stage as usize]);
+        newest.unwrap_or_else(|| self.schedule.constant(0.0))
+    }
+
+    /// The newest terms of the factors of each sum, filled up with zeros to so many.
+    pub(super) fn factors(&mut self, count: usize) -> [Vec<Register>; 2] {
+        let mut factors = [Vec::new(), Vec::new()];
+        for sum in self.sums.clone() {
+            let (Sum::Product(x, y) | Sum::Weighted(x, y)) = sum;
+            let [mut left, right] = [x, y].map(|factor| self.newest(factor, Stage::After));
+            if let Sum::Weighted(..) = sum {
+                let order = self.order();
+                left = self.schedule.push(Operation::Multiply(order, left));
+            }
+            factors[0].push(left);
+            factors[1].push(right);
+        }
+        let zero = self.schedule.constant(0.0);
+        factors.iter_mut().for_each(|all| all.resize(count, zero));
+        factors
+    }
+
+    fn operation(&mut self, operation: Operation<Quantity>) -> Option<Quantity> {
+        Some(match operation {
+            Operation::Constant(bits) => self.at_rest(Operation::Constant(bits)),
+            Operation::Input(symbol) => self.input(symbol),
+            Operation::Negate(x) => self.negated(x),
+            Operation::Add(x, y) => self.linear(Operation::Add(x, y), |of, [x, y]| of.sum(x, y)),
+            Operation::Subtract(x, y) => {
+                self.linear(Operation::Subtract(x, y), |of, [x, y]| of.difference(x, y))
+            }
+            Operation::Multiply(x, y) => self.product(x, y),
+            Operation::Divide(x, y) => self.quotient(x, y),
+            Operation::SquareRoot(x) => self.root(x),
+            Operation::Function(function, x) => self.function(function, x)?,
+            Operation::Atan2(y, x) => self.angle_of(y, x),
+            Operation::Power(x, exponent) => self.power(x, exponent),
+            _ => return None,
+        })
+    }
+
+    pub(super) fn add(&mut self, first: Register, newest: Option<[Option<Register>; 2]>) -> Quantity {
+        self.quantities.push(Coefficients { first, newest });
+        Quantity(self.quantities.len() - 1)
+    }
+
+    /// What does not depend on anything that moves.
+    pub(super) fn at_rest(&mut self, operation: Operation) -> Quantity {
+        let first = self.schedule.push(operation);
+        self.add(first, None)
+    }
+
+    fn input(&mut self, symbol: Symbol) -> Quantity {
+        let (newest, is_solved) = match Variable::of(symbol) {
+            Variable::Time => (Variable::Change(0), false),
+            Variable::Coordinate(i) => (Variable::Change(1 + i), false),
+            Variable::Velocity(i) => (Variable::Change(1 + self.coordinates + i), false),
+            Variable::Acceleration(i) => (Variable::AccelerationChange(i), true),
+            Variable::Multiplier(a) => (Variable::MultiplierChange(a), true),
+            _ => return self.at_rest(Operation::Input(symbol)),
+        };
+        let first = self.schedule.push(Operation::Input(symbol));
+        let newest = Some(self.schedule.push(Operation::Input(newest.symbol())));
+        self.add(first, Some([newest.filter(|_| !is_solved), newest]))
+    }
+
+    pub(super) fn first(&self, of: Quantity) -> Register {
+        self.quantities[of.0].first
+    }
+
+    pub(super) fn is_at_rest(&self, of: Quantity) -> bool {
+        self.quantities[of.0].newest.is_none()
+    }
+
+    /// An operation by order 0, and by the newest coefficients as `newest` makes it of those of `operands`, in each stage.
+    pub(super) fn moving<const K: usize>(
+        &mut self,
+        first: Register,
+        operands: [Quantity; K],
+        mut newest: impl FnMut(&mut Self, [Option<Register>; K]) -> Option<Register>,
+    ) -> Quantity {
+        let both = STAGES.map(|stage| {
+            let of = |x: Quantity| self.quantities[x.0].newest.and_then(|newest| newest[stage as usize]);
+            let operands = operands.map(of);
+            newest(self, operands)
+        });
+        self.add(first, Some(both))
+    }
+
+    pub(super) fn linear<const K: usize>(
+        &mut self,
+        operation: Operation<Quantity>,
+        newest: impl FnMut(&mut Self, [Option<Register>; K]) -> Option<Register>,
+    ) -> Quantity {
+        let operands: Vec<Quantity> = operation.operands().collect();
+        let first = operation.with_operands(|x| self.first(x));
+        let first = self.schedule.push(first);
+        match <[Quantity; K]>::try_from(operands) {
+            Ok(operands) if operands.iter().any(|&x| !self.is_at_rest(x)) => {
+                self.moving(first, operands, newest)
+            }
+            _ => self.add(first, None),
+        }
+    }
+
+    fn negated(&mut self, x: Quantity) -> Quantity {
+        self.linear(Operation::Negate(x), |of, [x]| of.negative(x))
+    }
+
+    /// (xy)_k = x₀ y_k + y₀ x_k + Σ x_j y_{k−j}
+    pub(super) fn product(&mut self, x: Quantity, y: Quantity) -> Quantity {
+        let [x0, y0] = [x, y].map(|x| self.first(x));
+        let first = self.schedule.push(Operation::Multiply(x0, y0));
+        match [x, y].map(|x| self.is_at_rest(x)) {
+            [true, true] => self.add(first, None),
+            [true, false] => self.moving(first, [y], |of, [y]| of.times(x0, y)),
+            [false, true] => self.moving(first, [x], |of, [x]| of.times(y0, x)),
+            [false, false] => {
+                let sum = self.product_sum(x, y);
+                self.moving(first, [x, y], |of, [x, y]| {
+                    let (left, right) = (of.times(x0, y), of.times(y0, x));
+                    let ends = of.sum(left, right);
+                    of.sum(ends, Some(sum))
+                })
+            }
+        }
+    }
+
+    /// Of z = x/y: z_k = (x_k − z₀ y_k − Σ z_j y_{k−j})/y₀
+    fn quotient(&mut self, x: Quantity, y: Quantity) -> Quantity {
+        let [x0, y0] = [x, y].map(|x| self.first(x));
+        let z0 = self.schedule.push(Operation::Divide(x0, y0));
+        if self.is_at_rest(x) && self.is_at_rest(y) {
+            return self.add(z0, None);
+        }
+        let over = self.reciprocal(y0);
+        if self.is_at_rest(y) {
+            return self.moving(z0, [x], |of, [x]| of.times(over, x));
+        }
+        self.defined(z0, |of, z| {
+            let sum = of.product_sum(z, y);
+            of.moving(z0, [x, y], |of, [x, y]| {
+                let known = of.times(z0, y);
+                let known = of.sum(known, Some(sum));
+                let rest = of.difference(x, known);
+                of.times(over, rest)
+            })
+        })
+    }
+
+    /// Of z = √x: z_k = (x_k − Σ z_j z_{k−j})/(2 z₀)
+    pub(super) fn root(&mut self, x: Quantity) -> Quantity {
+        let x0 = self.first(x);
+        let z0 = self.schedule.push(Operation::SquareRoot(x0));
+        if self.is_at_rest(x) {
+            return self.add(z0, None);
+        }
+        let twice = self.schedule.push(Operation::Add(z0, z0));
+        let over = self.reciprocal(twice);
+        self.defined(z0, |of, z| {
+            let sum = of.product_sum(z, z);
+            of.moving(z0, [x], |of, [x]| {
+                let rest = of.difference(x, Some(sum));
+                of.times(over, rest)
+            })
+        })
+    }
+
+    /// A quantity by a recurrence that it occurs in itself: known by its place before it is by its coefficients.
+    pub(super) fn defined(
+        &mut self,
+        first: Register,
+        recurrence: impl FnOnce(&mut Self, Quantity) -> Quantity,
+    ) -> Quantity {
+        let quantity = self.add(first, Some([None; 2]));
+        let made = recurrence(self, quantity);
+        self.quantities[quantity.0] = self.quantities[made.0];
+        quantity
+    }
+
+    pub(super) fn product_sum(&mut self, x: Quantity, y: Quantity) -> Register {
+        self.place(Sum::Product(x.min(y), x.max(y)))
+    }
+
+    /// Σ j x_j y_{k−j}/k
+    pub(super) fn weighted_sum(&mut self, x: Quantity, y: Quantity) -> Register {
+        let sum = self.place(Sum::Weighted(x, y));
+        let reciprocal = self.schedule.push(Operation::Input(Variable::OrderReciprocal.symbol()));
+        self.schedule.push(Operation::Multiply(sum, reciprocal))
+    }
+
+    /// A sum, as the runtime gives it.
+    fn place(&mut self, sum: Sum) -> Register {
+        let (place, _) = self.sums.insert_full(sum);
+        self.schedule.push(Operation::Input(Variable::Sum(place).symbol()))
+    }
+
+    fn order(&mut self) -> Register {
+        self.schedule.push(Operation::Input(Variable::Order.symbol()))
+    }
+
+    pub(super) fn reciprocal(&mut self, x: Register) -> Register {
+        let one = self.schedule.constant(1.0);
+        self.schedule.push(Operation::Divide(one, x))
+    }
+
+    pub(super) fn sum(&mut self, x: Option<Register>, y: Option<Register>) -> Option<Register> {
+        match (x, y) {
+            (Some(x), Some(y)) => Some(self.schedule.push(Operation::Add(x, y))),
+            _ => x.or(y),
+        }
+    }
+
+    pub(super) fn difference(&mut self, x: Option<Register>, y: Option<Register>) -> Option<Register> {
+        match (x, y) {
+            (Some(x), Some(y)) => Some(self.schedule.push(Operation::Subtract(x, y))),
+            (None, y) => self.negative(y),
+            (x, None) => x,
+        }
+    }
+
+    pub(super) fn negative(&mut self, x: Option<Register>) -> Option<Register> {
+        x.map(|x| self.schedule.push(Operation::Negate(x)))
+    }
+
+    pub(super) fn times(&mut self, number: Register, x: Option<Register>) -> Option<Register> {
+        x.map(|x| self.schedule.push(Operation::Multiply(number, x)))
+    }
+}
