@@ -38,7 +38,7 @@ assert!((friction + 2.0 / 7.0 * 9.81 * 0.3_f64.sin()).abs() < 1e-12);
 //! - [`Event`]s are where functions of the motion cross zero: a [`Motion`] stops there, a run records them or ends;
 //!   a [`Journey`] goes on with another system.
 //! - [`ensemble`]: many members at once, on SIMD lanes and on all threads.
-//! - [`Dop853`] and [`Dopri5`] are the methods, [`Trajectory`] is what they give, [`Ending`] why it stops.
+//! - [`Dop853`] and [`Dopri5`] are the methods, [`Taylor`] the one for round-off, [`Trajectory`] is what they give, [`Ending`] why it stops.
 //!
 //! Features: `std` (default), without it there are no ensembles; `alloc`, without it there are no trajectories, but motions
 //! step by step; `libm`, elementary functions where there is no `std`; `rayon`, ensembles on all threads; `mpi`, ensembles on many machines; `parquet`, tables of
@@ -94,6 +94,8 @@ pub use linearized::{
 };
 pub use linearized::{Direction, Jacobian, Linearized, Partials, ResidualChange, StateDerivatives};
 pub use motion::Simulate;
+#[cfg(feature = "alloc")]
+pub use motion::Taylor;
 pub use motion::{Crossing, Dop853, Dopri5, Event, Method, Motion, Progress, RungeKutta4, runge_kutta_step};
 #[cfg(feature = "mpi")]
 pub use mpi;
@@ -101,14 +103,15 @@ pub use nalgebra;
 pub use names::{Entry, Names, Row};
 #[cfg(feature = "std")]
 pub use number::Lanes;
-pub use number::{Dual, Over, Real, Scalar, Wide};
+pub use number::{Dual, Filled, Over, Real, Scalar, Wide};
 #[cfg(feature = "alloc")]
 pub use solution::Impact;
 pub use solution::{Adjustment, Consistent, Sample};
 pub use statistics::Statistics;
 pub use system::{
     Classification, Conserved, ConstraintKind, Equations, Evidence, Extent, Facts, Integrability, Integrals,
-    Lagrangian, LinearPart, Pack, Packed, Shared, Solution, State, TotalDerivative,
+    Lagrangian, LinearPart, Pack, Packed, RightHandSides, Shared, Solution, State, TaylorSeries,
+    TotalDerivative,
 };
 #[cfg(feature = "alloc")]
 pub use trajectory::{Csv, Deviation, Drift, Journey, Leg, Named, Records, Trajectory};

@@ -9,6 +9,8 @@ pub use crate::hamiltonian::{Hamiltonian, PhaseState};
 pub use crate::linearized::AcrossEvents;
 pub use crate::linearized::Linearized;
 pub use crate::motion::Simulate;
+#[cfg(feature = "alloc")]
+pub use crate::motion::Taylor;
 pub use crate::motion::{Dop853, Dopri5, Motion};
 pub use crate::number::Scalar;
 pub use crate::system::State;

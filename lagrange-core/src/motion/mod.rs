@@ -11,6 +11,8 @@ pub(crate) mod run;
 mod seat;
 pub(crate) mod simulate;
 mod steered;
+#[cfg(feature = "alloc")]
+mod taylor;
 #[cfg(test)]
 mod tests;
 
@@ -28,5 +30,7 @@ pub use run::Progress;
 pub(crate) use seat::Seat;
 pub use simulate::Simulate;
 pub use steered::Motion;
+#[cfg(feature = "alloc")]
+pub use taylor::{Taylor, TaylorPolynomial};
 
 pub use crate::solution::flow::{Basis, Flow, LagrangianFlow, Phase, PhasePoint};

@@ -1,0 +1,102 @@
+//! The order of the series and the length of a step.
+
+use super::Taylor;
+use super::expansion::{Expansion, Solved};
+use super::polynomial::ROOM;
+use crate::motion::method::clock::Clock;
+use crate::number::{Filled, Real, Scalar, exceeds, larger, smaller};
+use crate::system::State;
+
+/// The accelerations of a series and of the equations may differ by so many times the tolerance, and by this part of the
+/// velocities.
+const DEFECT: [f64; 2] = [1e4, 1e-10];
+/// A step may be so many times as long as the one before.
+const GROWTH: f64 = 10.0;
+
+impl Taylor {
+    /// The tolerance, as far as the numbers go.
+    pub(super) fn tolerance<T: Real>(&self) -> f64 {
+        self.relative.max(T::EPSILON)
+    }
+
+    /// The order that takes the least work for this tolerance (Jorba and Zou, (3-11)).
+    pub(super) fn order<T: Real>(&self) -> usize {
+        let order = 1.0 - 0.5 * ln(self.tolerance::<T>());
+        (larger(order, 4.0) as usize + 1).min(ROOM - 2)
+    }
+
+    /// A unit of time about as long as a step.
+    pub(super) fn unit<T: Real, const N: usize, const M: usize>(
+        &self,
+        planned: T,
+        state: &State<T, N>,
+        solved: &Solved<T, N, M>,
+    ) -> T {
+        let (zero, one) = (T::constant(0.0), T::constant(1.0));
+        if planned > zero {
+            return planned;
+        }
+        // As long as the velocities take to change by their size, or by 1.
+        let size = |x: &[T]| x.iter().fold(zero, |most, x| larger(most, Scalar::abs(*x)));
+        let unit = (one + size(state.v.as_slice())) / size(solved.solution.accelerations.as_slice());
+        if unit.is_finite() && unit > zero { unit } else { one }
+    }
+
+    /// The length of a step after which the last coefficients no longer matter (Jorba and Zou, 3.2.1, with five
+    /// coefficients instead of two: where every fourth alone is not zero, two know nothing).
+    pub(super) fn choose<S: Filled<T>, T: Real, const N: usize>(
+        &self,
+        series: &Expansion<S, T, N>,
+        before: T,
+        clock: &Clock<T>,
+    ) -> T {
+        let order = series.order();
+        let slack = T::constant(self.absolute / self.tolerance::<T>());
+        let [q, v] =
+            [&series.q, &series.v].map(|x| x[0].map(|x| T::constant(1.0) / (Scalar::abs(x) + slack)));
+        let size = |k: usize| {
+            let parts = [(&series.q[k], &q), (&series.v[k], &v)];
+            let parts = parts.into_iter().flat_map(|(x, over)| (0..N).map(|i| Scalar::abs(x[i]) * over[i]));
+            parts.fold(T::constant(0.0), larger)
+        };
+        let rate = |k: usize| log2_roughly(size(k).to_f64()) / k as f64;
+        let rate = (order - 4..=order).map(rate).fold(f64::NEG_INFINITY, f64::max);
+        let step = match rate > f64::NEG_INFINITY {
+            true => {
+                Scalar::abs(series.unit) * T::constant(exp(safety(order) - core::f64::consts::LN_2 * rate))
+            }
+            false => clock.left(),
+        };
+        let step = if before > T::constant(0.0) { smaller(step, T::constant(GROWTH) * before) } else { step };
+        let step = if step > T::constant(0.0) { clock.at_least(step) } else { clock.left() };
+        self.max_step.map_or(step, |longest| smaller(step, T::constant(longest)))
+    }
+
+    /// Whether accelerations are off by too much. What does not become less with the step is not the fault of the series.
+    pub(super) fn refuses<T: Real>(&self, defect: T, before: Option<T>) -> bool {
+        let [times, part] = DEFECT;
+        let bound = T::constant(larger(times * self.tolerance::<T>(), part));
+        exceeds(defect, bound) && before.is_none_or(|before| defect * T::constant(8.0) < before)
+    }
+}
+
+fn ln(x: f64) -> f64 {
+    <f64 as Scalar>::ln(x)
+}
+
+/// The logarithm of the part of the radius of convergence that is taken (Jorba and Zou, (3-12)).
+fn safety(order: usize) -> f64 {
+    -2.0 - 0.7 / (order as f64 - 1.0)
+}
+
+/// The logarithm to the base 2, at most 0.09 too small: divided by the order it is as good as any. That of zero is −∞.
+fn log2_roughly(x: f64) -> f64 {
+    const FRACTION: u64 = (1 << 52) - 1;
+    let bits = x.to_bits();
+    let exponent = (bits >> 52) as f64 - 1023.0;
+    if x > 0.0 { exponent + (bits & FRACTION) as f64 / (1_u64 << 52) as f64 } else { f64::NEG_INFINITY }
+}
+
+fn exp(x: f64) -> f64 {
+    <f64 as Scalar>::exp(x)
+}

@@ -1,0 +1,206 @@
+//! A motion as a power series about one of its states.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::sums::Factors;
+use crate::error::Error;
+use crate::linearized::Direction;
+use crate::number::{Filled, Real, Scalar, vector};
+use crate::solution::kkt::{self, KktSystem, Rank};
+use crate::solution::solve::{fault, is_trustworthy, not_finite, solve_near};
+use crate::system::{Lagrangian, RightHandSides, Solution, State, TaylorSeries};
+
+/// Accelerations and multipliers at a state, and on which constraints they rest.
+#[derive(Clone, Debug)]
+pub(super) struct Solved<T, const N: usize, const M: usize> {
+    pub(super) solution: Solution<T, N, M>,
+    active: [bool; M],
+}
+
+impl<T: Real, const N: usize, const M: usize> Solved<T, N, M> {
+    pub(super) fn at<L: Lagrangian<N, M, Scalar = T>>(
+        system: &L,
+        state: &State<T, N>,
+    ) -> Result<Self, Error> {
+        solve_near(system, state, None, |solution, active| Self { solution: *solution, active: *active })
+    }
+}
+
+/// The coefficients of coordinates and velocities about a state, up to an order, in powers of (t − t₀)/unit.
+#[derive(Clone, Debug)]
+pub(super) struct Expansion<S, T, const N: usize> {
+    pub(super) start: T,
+    /// The unit of time: with one near the length of a step, no coefficient leaves the numbers.
+    pub(super) unit: T,
+    /// From order 0; one more of the coordinates than of the velocities.
+    pub(super) q: Vec<[T; N]>,
+    pub(super) v: Vec<[T; N]>,
+    factors: Factors<T>,
+    sums: S,
+}
+
+impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
+    /// Room for a series of this order.
+    pub(super) fn new(order: usize) -> Self {
+        let zero = T::constant(0.0);
+        let sums = S::filled(zero);
+        Self {
+            start: zero,
+            unit: T::constant(1.0),
+            q: vec![[zero; N]; order + 2],
+            v: vec![[zero; N]; order + 1],
+            factors: Factors::new(sums.as_ref().len(), order),
+            sums,
+        }
+    }
+
+    pub(super) fn order(&self) -> usize {
+        self.v.len() - 1
+    }
+
+    /// Expands the motion about a state, by the solution of the equations there.
+    pub(super) fn about<L, const M: usize>(
+        &mut self,
+        system: &L,
+        state: &State<T, N>,
+        solved: &Solved<T, N, M>,
+        unit: T,
+    ) -> Result<(), Error>
+    where
+        L: TaylorSeries<N, M, Scalar = T, Sums = S>,
+    {
+        (self.start, self.unit) = (state.t, unit);
+        (self.q[0], self.v[0]) = (state.q.into(), state.v.into());
+        if is_trustworthy(&solved.solution) && solved.solution.multipliers_are_unique() {
+            let factor = system.factor(state);
+            let solve =
+                |(forcing, bias): &RightHandSides<T, N, M>| Ok(system.solve_with(&factor, forcing, bias));
+            self.orders(system, state, solved, solve)?;
+            if self.is_finite() {
+                return Ok(());
+            }
+        }
+        // Where the factor cannot vouch for numbers they are none.
+        let general = General::at(system, state, solved.active)?;
+        self.orders(system, state, solved, |sides| general.solve::<L>(sides))
+    }
+
+    /// Whether the coefficients of the highest order are numbers, to which all others lead.
+    fn is_finite(&self) -> bool {
+        let order = self.order();
+        self.q[order + 1].iter().chain(&self.v[order]).all(|x| x.is_finite())
+    }
+
+    /// All orders, by what solves for accelerations and multipliers.
+    #[inline(always)]
+    fn orders<L, const M: usize>(
+        &mut self,
+        system: &L,
+        state: &State<T, N>,
+        solved: &Solved<T, N, M>,
+        solve: impl Fn(&RightHandSides<T, N, M>) -> Result<Solution<T, N, M>, Error>,
+    ) -> Result<(), Error>
+    where
+        L: TaylorSeries<N, M, Scalar = T, Sums = S>,
+    {
+        let (slopes, highest) = (system.series_slopes(state, &solved.solution), self.order());
+        let mut newest = solved.solution;
+        for order in 1..=highest {
+            let numbers = [order as f64, 1.0 / order as f64].map(T::constant);
+            let direction = self.advance(order, &newest, numbers[1]);
+            if order == highest {
+                break;
+            }
+            self.factors.add_up(order, &mut self.sums);
+            newest = solve(&system.series_right_hand_sides(&slopes, &self.sums, &numbers, &direction))?;
+            let Solution { accelerations, multipliers, .. } = &newest;
+            let factors =
+                system.series_factors(&slopes, &self.sums, &numbers, &direction, accelerations, multipliers);
+            self.factors.put(order, &factors);
+        }
+        self.q[highest + 1] = scaled(&self.v[highest], unit_over(self.unit, highest + 1));
+        Ok(())
+    }
+
+    /// The coefficients of this order, by the accelerations of the order before.
+    #[inline(always)]
+    fn advance<const M: usize>(
+        &mut self,
+        order: usize,
+        newest: &Solution<T, N, M>,
+        reciprocal: T,
+    ) -> Direction<T, N> {
+        let factor = self.unit * reciprocal;
+        self.q[order] = scaled(&self.v[order - 1], factor);
+        self.v[order] = scaled(&newest.accelerations.data.0[0], factor);
+        let t = if order == 1 { self.unit } else { T::constant(0.0) };
+        Direction { t, q: vector(self.q[order]), v: vector(self.v[order]) }
+    }
+
+    /// By how much coordinates and velocities change over a step of this length, and the accelerations at its end.
+    pub(super) fn change(&self, length: T) -> [[T; N]; 3] {
+        let theta = length / self.unit;
+        let zero = [T::constant(0.0); N];
+        let sum = |coefficients: &[[T; N]]| {
+            let sum = coefficients[1..].iter().rev().fold(zero, |sum, c| horner(&sum, theta, c));
+            scaled(&sum, theta)
+        };
+        let order = self.order();
+        let rate = (1..=order).rev().fold(zero, |sum, k| {
+            let weighted = scaled(&self.v[k], T::constant(k as f64));
+            horner(&sum, theta, &weighted)
+        });
+        [sum(&self.q[..=order]), sum(&self.v), scaled(&rate, T::constant(1.0) / self.unit)]
+    }
+}
+
+fn unit_over<T: Scalar>(unit: T, order: usize) -> T {
+    unit * T::constant(1.0 / order as f64)
+}
+
+fn scaled<T: Scalar, const N: usize>(x: &[T; N], factor: T) -> [T; N] {
+    core::array::from_fn(|i| factor * x[i])
+}
+
+fn horner<T: Scalar, const N: usize>(sum: &[T; N], theta: T, coefficient: &[T; N]) -> [T; N] {
+    core::array::from_fn(|i| sum[i].multiply_add(theta, coefficient[i]))
+}
+
+/// The general factors of a state, on the constraints that are independent there.
+struct General<T, const N: usize, const M: usize> {
+    factors: kkt::Factors<T, N, M>,
+    active: [bool; M],
+    time: f64,
+}
+
+impl<T: Real, const N: usize, const M: usize> General<T, N, M> {
+    #[cold]
+    fn at<L: Lagrangian<N, M, Scalar = T>>(
+        system: &L,
+        state: &State<T, N>,
+        active: [bool; M],
+    ) -> Result<Self, Error> {
+        let zero = T::constant(0.0);
+        let (m, mut f): (_, [[T; N]; M]) =
+            (system.mass_matrix(state).into(), system.constraint_jacobian(state).transpose().into());
+        for a in (0..M).filter(|&a| !active[a]) {
+            f[a] = [zero; N];
+        }
+        let (equations, time) = (KktSystem { m, h: [zero; N], f, gamma: [zero; M] }, state.t.to_f64());
+        if let Some(row) = not_finite::<L, N, M>(&equations) {
+            return Err(Error::EquationsNotFinite { row, time });
+        }
+        let factors = kkt::Factors::of(&equations.m, &equations.f, Rank::off_constraints());
+        Ok(Self { factors, active, time })
+    }
+
+    fn solve<L: Lagrangian<N, M, Scalar = T>>(
+        &self,
+        (forcing, bias): &RightHandSides<T, N, M>,
+    ) -> Result<Solution<T, N, M>, Error> {
+        let bias = core::array::from_fn(|a| if self.active[a] { bias[a] } else { T::constant(0.0) });
+        let solution = self.factors.solve(&(*forcing).into(), &bias);
+        solution.map_err(|found| fault::<L, N, M>(&found, self.time))
+    }
+}

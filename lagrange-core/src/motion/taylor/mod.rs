@@ -1,0 +1,310 @@
+//! Taylor's method: the motion expanded in a power series about each state, to round-off.
+
+mod control;
+mod expansion;
+mod polynomial;
+mod sums;
+
+use core::array::from_fn;
+use core::fmt;
+
+use nalgebra::ComplexField;
+
+use super::method::clock::Clock;
+use super::method::{Limits, Method, Step};
+use crate::ending::Ending;
+use crate::error::Error;
+use crate::names::Entry;
+use crate::number::{Real, Scalar, vector};
+use crate::solution::consistent::{BOTH, project};
+use crate::solution::solve::{first_row, name};
+use crate::statistics::Statistics;
+use crate::system::{State, TaylorSeries};
+use expansion::{Expansion, Solved};
+pub use polynomial::TaylorPolynomial;
+
+/// Taylor's method: each step is a power series of the motion about its start, whose coefficients come from recurrences
+/// that the derive has found (Jorba and Zou, *Experimental Mathematics* 14 (2005) 99–117).
+///
+/// For smooth motions at tolerances below about 10⁻¹⁰, down to round-off, which is the default. The coefficients of accelerations
+/// and multipliers of all orders are solved for with the one matrix that the equations have at the start of the step, so that
+/// constraints cost nothing extra, and a chain as much as its length.
+///
+/// The order follows from the tolerance, 12 for 10⁻⁹ and 20 for round-off; the length of a step from the last five
+/// coefficients, zeros passed over: from a symmetric start every fourth alone may be there. It is at most ten times that of the step
+/// before, and refused where the accelerations of the series at its end are not those of the equations. Rounding errors of the
+/// states are carried along (compensated sums); each state is projected onto the constraints. Between its ends a step is the
+/// series itself.
+///
+/// A system with `abs`, `min`, `max`, `clamp` or a function that the user supplies in its equations has no
+/// [`TaylorSeries`], and the compiler says so. Parameters may change between steps. Nothing is allocated in a step.
+///
+/// ```
+/// use lagrange_core::prelude::*;
+///
+/// #[derive(Lagrangian)]
+/// #[coordinates(x, y)]
+/// #[lagrangian((x_dot^2 + y_dot^2)/2 + 1/sqrt(x^2 + y^2))]
+/// struct Kepler;
+///
+/// // An ellipse of eccentricity 0.5, ten times around.
+/// let start = State::new([0.5, 0.0], [0.0, 3.0_f64.sqrt()]);
+/// let end = 20.0 * std::f64::consts::PI;
+/// let path = Kepler.integrate(start, end, Taylor::default())?;
+/// assert!((path.end().coordinate("x")? - 0.5).abs() < 1e-12);
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[must_use]
+pub struct Taylor {
+    relative: f64,
+    absolute: f64,
+    max_step: Option<f64>,
+    limits: Limits,
+}
+
+/// Tolerances at round-off, at most 100 000 steps, no limit on wall time.
+impl Default for Taylor {
+    fn default() -> Self {
+        Self::with_tolerance(f64::EPSILON)
+    }
+}
+
+impl Taylor {
+    /// This relative and absolute tolerance.
+    pub fn with_tolerance(tolerance: f64) -> Self {
+        Self { relative: tolerance, absolute: tolerance, max_step: None, limits: Limits::default() }
+    }
+
+    /// The error allowed as a fraction of each entry. Below the round-off unit of the scalar it counts as that.
+    pub fn relative(self, tolerance: f64) -> Self {
+        Self { relative: tolerance, ..self }
+    }
+
+    /// The error allowed in the unit of each entry, which matters where the entry is about zero.
+    pub fn absolute(self, tolerance: f64) -> Self {
+        Self { absolute: tolerance, ..self }
+    }
+
+    /// The longest step allowed.
+    pub fn max_step(self, step: f64) -> Self {
+        Self { max_step: Some(step), ..self }
+    }
+
+    /// How many steps may be tried.
+    pub fn max_steps(mut self, steps: usize) -> Self {
+        self.limits.max_steps = steps;
+        self
+    }
+
+    /// How long the integration may take by the clock on the wall.
+    #[cfg(feature = "std")]
+    pub fn wall_time(mut self, limit: std::time::Duration) -> Self {
+        self.limits.wall_time = Some(limit);
+        self
+    }
+}
+
+/// What Taylor's method carries from step to step.
+#[derive(Clone, Debug)]
+pub struct Memory<S, T, const N: usize, const M: usize> {
+    clock: Clock<T>,
+    state: State<T, N>,
+    solved: Solved<T, N, M>,
+    /// What rounding has left of the state: coordinates and velocities.
+    rest: [[T; N]; 2],
+    /// About the state, or about where the last step started.
+    series: Expansion<S, T, N>,
+    is_expanded: bool,
+    /// The length of the next step; zero before the first.
+    planned: T,
+    /// By how much the accelerations were off at the end of the step refused last.
+    refused: Option<T>,
+    before: Option<State<T, N>>,
+}
+
+impl<L, const N: usize, const M: usize> Method<L, N, M> for Taylor
+where
+    L: TaylorSeries<N, M, Scalar: Real>,
+{
+    type Memory = Memory<L::Sums, L::Scalar, N, M>;
+    type Interpolant = TaylorPolynomial<L::Scalar, N>;
+
+    fn limits(&self) -> Limits {
+        self.limits
+    }
+
+    fn identify(&self, to: &mut dyn fmt::Write) -> fmt::Result {
+        let Self { relative, absolute, max_step, .. } = self;
+        write!(to, "Taylor {relative:?} {absolute:?} {max_step:?}")
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        let settings = [
+            ("relative tolerance", Some(self.relative)),
+            ("absolute tolerance", Some(self.absolute)),
+            ("longest step", self.max_step),
+        ];
+        let wrong = |value: f64| !(value > 0.0 && value.is_finite());
+        match settings.into_iter().find_map(|(name, value)| value.filter(|v| wrong(*v)).map(|v| (name, v))) {
+            None => Ok(()),
+            Some((name, value)) => Err(Error::Setting { name, value }),
+        }
+    }
+
+    fn begin(
+        &self,
+        system: &L,
+        start: &State<L::Scalar, N>,
+        statistics: &mut Statistics,
+    ) -> Result<Self::Memory, Error> {
+        statistics.evaluations += 1;
+        let zero = L::Scalar::constant(0.0);
+        Ok(Memory {
+            clock: Clock::new(start.t, None),
+            state: *start,
+            solved: Solved::at(system, start)?,
+            rest: [[zero; N]; 2],
+            series: Expansion::new(self.order::<L::Scalar>()),
+            is_expanded: false,
+            planned: zero,
+            refused: None,
+            before: None,
+        })
+    }
+
+    fn resume(
+        &self,
+        system: &L,
+        memory: &mut Self::Memory,
+        state: &State<L::Scalar, N>,
+        statistics: &mut Statistics,
+    ) -> Result<(), Error> {
+        statistics.evaluations += 1;
+        memory.clock.set(state.t);
+        (memory.state, memory.solved) = (*state, Solved::at(system, state)?);
+        (memory.is_expanded, memory.refused, memory.before) = (false, None, None);
+        memory.rest = [[L::Scalar::constant(0.0); N]; 2];
+        Ok(())
+    }
+
+    fn step(
+        &self,
+        system: &L,
+        memory: &mut Self::Memory,
+        end: L::Scalar,
+        statistics: &mut Statistics,
+    ) -> Step<L::Scalar, N> {
+        memory.clock.aim(end);
+        let now = memory.clock.now.to_f64();
+        if let Err(error) = self.expand(system, memory, statistics) {
+            return Step::Failed(Ending::of(error, now));
+        }
+        let (h, time) = memory.clock.next(memory.planned);
+        if !memory.clock.is_ahead(time) {
+            return Step::Failed(Ending::TimeTooCoarse { time: now, step: memory.planned.to_f64() });
+        }
+        statistics.evaluations += 1;
+        let ending = match self.attempt(system, memory, h, time) {
+            Ok(Attempt::Reached(next)) => return Step::Accepted(next),
+            Ok(Attempt::Inaccurate(i)) => {
+                Ending::StepTooSmall { time: now, entry: Entry::Velocity(name(&L::COORDINATES, i)) }
+            }
+            Err(error) => Ending::of(error, now),
+        };
+        memory.planned = Scalar::abs(h) * L::Scalar::constant(0.5);
+        if memory.clock.advances_by(memory.planned) { Step::Rejected } else { Step::Failed(ending) }
+    }
+
+    fn interpolant(
+        &self,
+        _: &L,
+        memory: &mut Self::Memory,
+        _: &mut Statistics,
+    ) -> Result<Self::Interpolant, Error> {
+        let Expansion { start, unit, q, .. } = &memory.series;
+        Ok(TaylorPolynomial::new(*start, *unit, q))
+    }
+}
+
+/// What became of a step.
+enum Attempt<T, const N: usize> {
+    Reached(State<T, N>),
+    /// The velocity of this coordinate is off the most.
+    Inaccurate(usize),
+}
+
+impl Taylor {
+    /// Expands the motion about the state, and chooses the length of the step, unless that is done.
+    fn expand<L: TaylorSeries<N, M, Scalar: Real>, const N: usize, const M: usize>(
+        &self,
+        system: &L,
+        memory: &mut Memory<L::Sums, L::Scalar, N, M>,
+        statistics: &mut Statistics,
+    ) -> Result<(), Error> {
+        if memory.is_expanded {
+            return Ok(());
+        }
+        let Memory { clock, state, solved, series, planned, .. } = memory;
+        let unit = clock.directed(self.unit(*planned, state, solved));
+        series.about(system, state, solved, unit)?;
+        statistics.evaluations += series.order();
+        let row =
+            |i: usize| series.v[series.order()][i].is_finite() && series.q[series.order()][i].is_finite();
+        if let Some(row) = first_row::<L, N, M>(|i| !row(i), |_| false) {
+            return Err(Error::EquationsNotFinite { row, time: state.t.to_f64() });
+        }
+        *planned = self.choose(series, *planned, clock);
+        (memory.is_expanded, memory.refused) = (true, None);
+        Ok(())
+    }
+
+    /// One step of this length.
+    fn attempt<L: TaylorSeries<N, M, Scalar: Real>, const N: usize, const M: usize>(
+        &self,
+        system: &L,
+        memory: &mut Memory<L::Sums, L::Scalar, N, M>,
+        h: L::Scalar,
+        time: L::Scalar,
+    ) -> Result<Attempt<L::Scalar, N>, Error> {
+        let Memory { state, rest, series, .. } = memory;
+        let [dq, dv, accelerations] = series.change(h);
+        let (q, rest_q) = compensated(&state.q.into(), &dq, &rest[0]);
+        let (v, rest_v) = compensated(&state.v.into(), &dv, &rest[1]);
+        let mut next = State { t: time, q: vector(q), v: vector(v) };
+        if let Some(row) = first_row::<L, N, M>(|i| !(q[i].is_finite() && v[i].is_finite()), |_| false) {
+            return Err(Error::EquationsNotFinite { row, time: state.t.to_f64() });
+        }
+        project(system, &BOTH, &mut next)?;
+        let solved = Solved::at(system, &next)?;
+        let defect = |i: usize| {
+            let off = Scalar::abs((accelerations[i] - solved.solution.accelerations[i]) * h);
+            off / (Scalar::abs(next.v[i])
+                + Scalar::abs(state.v[i])
+                + L::Scalar::constant(self.absolute / self.tolerance::<L::Scalar>()))
+        };
+        let worst = (0..N).fold(0, |worst, i| if defect(i) > defect(worst) { i } else { worst });
+        if self.refuses(defect(worst), memory.refused) {
+            memory.refused = Some(defect(worst));
+            return Ok(Attempt::Inaccurate(worst));
+        }
+        memory.rest = [(q, next.q, rest_q), (v, next.v, rest_v)].map(|(x, projected, rest)| {
+            from_fn(|i| if projected[i] == x[i] { rest[i] } else { L::Scalar::constant(0.0) })
+        });
+        memory.before = Some(memory.state);
+        (memory.state, memory.solved, memory.is_expanded) = (next, solved, false);
+        memory.clock.now = time;
+        Ok(Attempt::Reached(next))
+    }
+}
+
+/// The sum, and what rounding has left of it (Knuth, *The Art of Computer Programming*, 4.2.2, theorem B).
+fn compensated<T: Real, const N: usize>(x: &[T; N], change: &[T; N], rest: &[T; N]) -> ([T; N], [T; N]) {
+    let change: [T; N] = from_fn(|i| change[i] + rest[i]);
+    let sum: [T; N] = from_fn(|i| x[i] + change[i]);
+    let rest = from_fn(|i| {
+        let added = sum[i] - x[i];
+        (x[i] - (sum[i] - added)) + (change[i] - added)
+    });
+    (sum, rest)
+}

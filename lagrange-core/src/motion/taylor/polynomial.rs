@@ -1,0 +1,43 @@
+//! What lies within a step of Taylor's method: the series itself.
+
+use crate::motion::method::Interpolant;
+use crate::number::{Real, vector};
+use crate::solution::flow::PhasePoint;
+
+/// So many coefficients are there room for.
+pub(super) const ROOM: usize = 22;
+
+/// The Taylor series of the coordinates about the start of a step; the velocities are its derivative.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TaylorPolynomial<T, const N: usize> {
+    start: T,
+    unit: T,
+    count: usize,
+    coefficients: [[T; N]; ROOM],
+}
+
+impl<T: Real, const N: usize> TaylorPolynomial<T, N> {
+    /// Of the coefficients of powers of (t − start)/unit, of which there are at most [`ROOM`].
+    pub(super) fn new(start: T, unit: T, coefficients: &[[T; N]]) -> Self {
+        let mut all = [[T::constant(0.0); N]; ROOM];
+        let count = coefficients.len().min(ROOM);
+        all[..count].copy_from_slice(&coefficients[..count]);
+        Self { start, unit, count, coefficients: all }
+    }
+}
+
+impl<T: Real, const N: usize> Interpolant<T, N> for TaylorPolynomial<T, N> {
+    fn at(&self, t: T) -> PhasePoint<T, N> {
+        let theta = (t - self.start) / self.unit;
+        let zero = T::constant(0.0);
+        let (mut q, mut slope) = ([zero; N], [zero; N]);
+        for coefficient in self.coefficients[..self.count].iter().rev() {
+            for i in 0..N {
+                slope[i] = slope[i].multiply_add(theta, q[i]);
+                q[i] = q[i].multiply_add(theta, coefficient[i]);
+            }
+        }
+        let v = vector(slope.map(|x| x / self.unit)).into();
+        PhasePoint { t, y: [q, v], velocity: v }
+    }
+}

@@ -1,0 +1,136 @@
+//! Steps: how they are chosen, what lies within, where they end, and what goes wrong.
+
+use lagrange_core::{Ending, Method, prelude::*};
+
+#[derive(Lagrangian)]
+#[coordinates(x)]
+#[lagrangian(x_dot^2/2 - k*x^2/2)]
+struct Spring<T> {
+    k: T,
+}
+
+#[test]
+fn equilibria_take_one_step() -> Result<(), Error> {
+    let path = Spring { k: 4.0 }.integrate(State::at_rest([0.0]), 1e6, Taylor::default())?;
+    assert_eq!((path.statistics().accepted, path.end().coordinate("x")?), (1, 0.0));
+    Ok(())
+}
+
+#[test]
+fn a_step_is_the_series_between_its_ends() -> Result<(), Error> {
+    let path = Spring { k: 4.0 }.integrate(State::at_rest([0.3]), 10.0, Taylor::default())?;
+    assert!(path.statistics().accepted < 40, "{:?}", path.statistics());
+    for i in 0..=1000 {
+        let t = f64::from(i) * 0.01;
+        let state = *path.at(t)?.state();
+        let (x, v) = (0.3 * (2.0 * t).cos(), -0.6 * (2.0 * t).sin());
+        assert!((state.q[0] - x).abs() < 2e-15 && (state.v[0] - v).abs() < 4e-15, "at {t}");
+    }
+    Ok(())
+}
+
+#[test]
+fn backwards_leads_to_the_start() -> Result<(), Error> {
+    let spring = Spring { k: 4.0 };
+    let there = *spring.integrate(State::at_rest([0.3]), 10.0, Taylor::default())?.end().state();
+    let back = *spring.integrate(there, 0.0, Taylor::default())?.end().state();
+    assert!((back.q[0] - 0.3).abs() < 1e-15 && back.v[0].abs() < 2e-15, "{back:?}");
+    Ok(())
+}
+
+#[test]
+fn tolerances_are_kept_with_as_many_orders_as_they_take() -> Result<(), Error> {
+    let mut steps = Vec::new();
+    for tolerance in [1e-3, 1e-6, 1e-9, 1e-12, 1e-15] {
+        let method = Taylor::with_tolerance(tolerance);
+        let path = Spring { k: 1.0 }.integrate(State::at_rest([1.0]), 10.0, method)?;
+        let off = (path.end().coordinate("x")? - 10.0_f64.cos()).abs();
+        assert!(off < 10.0 * tolerance, "{tolerance:e}: {off:e}");
+        steps.push(path.statistics().accepted);
+    }
+    assert!(steps.is_sorted_by(|more, fewer| more > fewer), "{steps:?}");
+    Ok(())
+}
+
+#[test]
+fn single_precision_is_as_exact_as_it_is() -> Result<(), Error> {
+    let path = Spring { k: 1.0_f32 }.integrate(State::at_rest([1.0]), 10.0, Taylor::default())?;
+    let off = (path.end().coordinate("x")? - 10.0_f32.cos()).abs();
+    assert!(off < 1e-6, "{off}");
+    Ok(())
+}
+
+/// ẍ = u with an input that changes, and a state that is set.
+#[test]
+fn inputs_and_states_can_change() -> Result<(), Error> {
+    #[derive(Lagrangian)]
+    #[coordinates(x)]
+    #[lagrangian(x_dot^2/2)]
+    #[force(x: u)]
+    struct Cart {
+        u: f64,
+    }
+    let mut motion = Motion::new(Cart { u: 2.0 }, State::at_rest([0.0]), Taylor::default())?;
+    assert_eq!(motion.advance_to(1.0), Ok(()));
+    motion.system_mut().u = -2.0;
+    assert_eq!(motion.advance_to(2.0), Ok(()));
+    assert_eq!((motion.state().q[0], motion.state().v[0]), (2.0, 0.0));
+    motion.set_state(State { t: 5.0, ..State::at_rest([1.0]) })?;
+    assert_eq!(motion.advance_to(6.0), Ok(()));
+    assert_eq!((motion.state().q[0], motion.state().v[0]), (0.0, -2.0));
+    Ok(())
+}
+
+#[test]
+fn events_are_found_on_the_series() -> Result<(), Error> {
+    let spring = Spring { k: 1.0 };
+    let mut crossing = spring.event("through the middle", |sample| sample.coordinate("x"));
+    let path =
+        spring.integrate_until(State::at_rest([1.0]), 100.0, Taylor::default(), &mut [&mut crossing])?;
+    let times: Vec<f64> = path.crossings().iter().map(|crossing| crossing.state.t).collect();
+    assert_eq!(times.len(), 32);
+    for (k, time) in times.iter().enumerate() {
+        let expected = std::f64::consts::PI * (k as f64 + 0.5);
+        assert!((time - expected).abs() < 4e-16 * 100.0, "{time} {expected}");
+    }
+    Ok(())
+}
+
+/// A mass that falls into a centre: the time ends there.
+#[test]
+fn a_collision_ends_the_motion_with_its_time() {
+    #[derive(Lagrangian)]
+    #[coordinates(r)]
+    #[lagrangian(r_dot^2/2 + 1/r)]
+    struct Fall;
+    // From rest at r = 1 it takes π/√8.
+    let result = Fall.integrate(State::at_rest([1.0]), 2.0, Taylor::default());
+    let Err(Error::Unfinished(ending)) = result else { panic!("{result:?}") };
+    let off = ending.time() - std::f64::consts::PI / 8.0_f64.sqrt();
+    assert!(off.abs() < 1e-9, "{ending:?}");
+}
+
+#[test]
+fn settings_that_cannot_work_are_refused() {
+    let start = State::at_rest([1.0]);
+    for method in
+        [Taylor::with_tolerance(0.0), Taylor::default().max_step(-1.0), Taylor::default().relative(f64::NAN)]
+    {
+        let error = Spring { k: 1.0 }.integrate(start, 1.0, method).err();
+        assert!(matches!(error, Some(Error::Setting { .. })), "{error:?}");
+    }
+    let mut text = String::new();
+    Method::<Spring<f64>, 1, 0>::identify(&Taylor::default(), &mut text).expect("a string takes all");
+    assert!(text.starts_with("Taylor"));
+}
+
+#[test]
+fn a_limit_on_steps_keeps_what_was_computed() -> Result<(), Error> {
+    let spring = Spring { k: 1.0 };
+    let method = Taylor::default().max_steps(10);
+    let path = spring.integrate_towards(State::at_rest([1.0]), 1e6, method)?;
+    assert!(matches!(path.ending(), Ending::StepLimit { steps: 10, .. }), "{:?}", path.ending());
+    let last = path.end();
+    assert!((last.coordinate("x")? - last.time().cos()).abs() < 1e-14);
+    Ok(())
+}

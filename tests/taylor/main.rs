@@ -1,0 +1,40 @@
+//! Taylor's method against closed solutions, published values, conservation laws and another method.
+
+mod classics;
+mod control;
+mod functions;
+mod systems;
+
+use lagrange_core::{Method, TaylorSeries, prelude::*};
+
+/// The state at the end, by Taylor's method to round-off.
+fn end<L, const N: usize, const M: usize>(
+    system: &L,
+    start: State<f64, N>,
+    end: f64,
+) -> Result<State<f64, N>, Error>
+where
+    L: TaylorSeries<N, M, Scalar = f64>,
+{
+    let path = system.integrate(start, end, Taylor::default())?;
+    assert_eq!(path.ending().time(), end, "{:?}", path.ending());
+    Ok(*path.end().state())
+}
+
+/// The largest difference from what `Dop853` gives.
+fn difference<L, const N: usize, const M: usize>(
+    system: &L,
+    start: State<f64, N>,
+    until: f64,
+) -> Result<f64, Error>
+where
+    L: TaylorSeries<N, M, Scalar = f64>,
+    Dop853: Method<L, N, M>,
+{
+    let ours = end(system, start, until)?;
+    let path = system.integrate(start, until, Dop853::with_tolerance(1e-14))?;
+    let theirs = *path.end().state();
+    let off = (ours.q - theirs.q).abs().max().max((ours.v - theirs.v).abs().max());
+    println!("{}: {off:e}", L::NAME);
+    Ok(off)
+}
