@@ -123,7 +123,7 @@ struct Spherical {
     g: f64,
 }
 
-/// Energy and angular momentum over ten thousand seconds, and the constraint at every step and between.
+/// The constraint, and the energy over a thousand seconds: with a constraint kept to a few ulp only it grows by 4e-13.
 #[test]
 fn a_spherical_pendulum_keeps_what_it_keeps() -> Result<(), Error> {
     let system = Spherical { g: 9.81 };
@@ -138,6 +138,6 @@ fn a_spherical_pendulum_keeps_what_it_keeps() -> Result<(), Error> {
         energy = energy.max((system.energy(state) - system.energy(&start)).abs());
     }
     println!("{position:e} {rate:e} {energy:e}");
-    assert!(position <= 4.0 * f64::EPSILON && rate <= 4.0 * 3.6 * f64::EPSILON && energy < 1e-12);
+    assert!(position <= 2.0 * f64::EPSILON && rate <= 4.0 * f64::EPSILON && energy < 2e-13);
     Ok(())
 }

@@ -232,7 +232,7 @@ where
     ) -> [bool; Lanes::COUNT] {
         let end = Lanes::from(plan.map(|(_, time)| time));
         let state = State { t: end, q: vector(next[0]), v: vector(next[1]) };
-        let (near, doubt) = near::project::<_, f64, N, M>(&self.system, &BOTH, state);
+        let (near, doubt) = near::project::<_, f64, N, M>(&self.system, &BOTH, near::TO_ROUND_OFF, state);
         let is_there = doubt.to_array().map(|doubt| doubt == 0.0);
         let chosen = Lanes::from(is_there.map(|is_there| if is_there { 1.0 } else { 0.0 }));
         let before = *next;

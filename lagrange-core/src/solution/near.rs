@@ -11,8 +11,19 @@ use super::consistent::Level;
 use crate::number::{Real, Scalar, sum};
 use crate::system::{Lagrangian, State};
 
+/// When a correction is made, and how many at most.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Corrections {
+    /// Where more is left than this part of the terms' size, in units of round-off.
+    beyond: f64,
+    most: usize,
+}
+
 /// From as far off as the error of a step one correction leads to round-off, as a rule.
-const CORRECTIONS: usize = 3;
+pub(crate) const TO_ROUND_OFF: Corrections = Corrections { beyond: 4.0, most: 3 };
+/// One whatever is left. What is small enough to be let pass is so for many steps in a row, and always the same: energy then
+/// grows or dies as time goes on.
+pub(crate) const ONCE: Corrections = Corrections { beyond: 0.0, most: 1 };
 
 /// The state on the constraints of these levels, and a doubt: zero where it is there to round-off, lane by lane, in the
 /// precision of `R`.
@@ -20,6 +31,7 @@ const CORRECTIONS: usize = 3;
 pub(crate) fn project<L, R, const N: usize, const M: usize>(
     system: &L,
     levels: &[Level],
+    corrections: Corrections,
     mut state: State<L::Scalar, N>,
 ) -> (State<L::Scalar, N>, L::Scalar)
 where
@@ -30,11 +42,11 @@ where
     let (factor, mut doubt) = (system.factor(&state), zero);
     for &level in levels.iter().filter(|level| level.concerns::<L, N, M>()) {
         let size = level.magnitude(system, &state);
-        let mut rounds = 0..CORRECTIONS;
+        let mut rounds = 0..corrections.most;
         // Evaluated in one place: it is inlined.
         let residual = loop {
             let residual = level.residual(system, &state);
-            let left = excess(&residual, &size, 4.0 * R::EPSILON);
+            let left = excess(&residual, &size, corrections.beyond * R::EPSILON);
             if left == zero || rounds.next().is_none() {
                 break residual;
             }

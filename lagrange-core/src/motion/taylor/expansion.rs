@@ -151,7 +151,7 @@ impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
             let weighted = scaled(&self.v[k], T::constant(k as f64));
             horner(&sum, theta, &weighted)
         });
-        [sum(&self.q[..=order]), sum(&self.v), scaled(&rate, T::constant(1.0) / self.unit)]
+        [sum(&self.q), sum(&self.v), scaled(&rate, T::constant(1.0) / self.unit)]
     }
 }
 

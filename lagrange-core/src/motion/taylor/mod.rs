@@ -16,7 +16,8 @@ use crate::ending::Ending;
 use crate::error::Error;
 use crate::names::Entry;
 use crate::number::{Real, Scalar, vector};
-use crate::solution::consistent::{BOTH, project};
+use crate::solution::consistent::{BOTH, project_by};
+use crate::solution::near::ONCE;
 use crate::solution::solve::{first_row, name};
 use crate::statistics::Statistics;
 use crate::system::{State, TaylorSeries};
@@ -275,7 +276,7 @@ impl Taylor {
         if let Some(row) = first_row::<L, N, M>(|i| !(q[i].is_finite() && v[i].is_finite()), |_| false) {
             return Err(Error::EquationsNotFinite { row, time: state.t.to_f64() });
         }
-        project(system, &BOTH, &mut next)?;
+        project_by(ONCE, system, &BOTH, &mut next)?;
         let solved = Solved::at(system, &next)?;
         let defect = |i: usize| {
             let off = Scalar::abs((accelerations[i] - solved.solution.accelerations[i]) * h);

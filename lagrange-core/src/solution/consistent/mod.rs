@@ -83,11 +83,22 @@ pub(crate) fn project<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M
     levels: &[Level],
     state: &mut State<L::Scalar, N>,
 ) -> Result<(), Error> {
+    project_by(near::TO_ROUND_OFF, system, levels, state)
+}
+
+/// The same by these corrections, as long as the state is that near.
+#[inline]
+pub(crate) fn project_by<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+    corrections: near::Corrections,
+    system: &L,
+    levels: &[Level],
+    state: &mut State<L::Scalar, N>,
+) -> Result<(), Error> {
     // Of a constant, nothing is compiled of what can never be reached.
     if const { M == 0 } || !levels.iter().any(|level| level.concerns::<L, N, M>()) {
         return Ok(());
     }
-    let (near, doubt) = near::project::<L, L::Scalar, N, M>(system, levels, *state);
+    let (near, doubt) = near::project::<L, L::Scalar, N, M>(system, levels, corrections, *state);
     if doubt == L::Scalar::constant(0.0) {
         *state = near;
         return Ok(());
