@@ -76,7 +76,8 @@ impl Taylor {
     pub(super) fn refuses<T: Real>(&self, defect: T, before: Option<T>) -> bool {
         let [times, part] = DEFECT;
         let bound = T::constant(larger(times * self.tolerance::<T>(), part));
-        exceeds(defect, bound) && before.is_none_or(|before| defect * T::constant(8.0) < before)
+        let is_noise = |before: T| defect.is_finite() && !exceeds(before, defect * T::constant(8.0));
+        exceeds(defect, bound) && !before.is_some_and(is_noise)
     }
 }
 

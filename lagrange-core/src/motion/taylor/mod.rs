@@ -121,7 +121,6 @@ pub struct Memory<S, T, const N: usize, const M: usize> {
     planned: T,
     /// By how much the accelerations were off at the end of the step refused last.
     refused: Option<T>,
-    before: Option<State<T, N>>,
 }
 
 impl<L, const N: usize, const M: usize> Method<L, N, M> for Taylor
@@ -170,7 +169,6 @@ where
             is_expanded: false,
             planned: zero,
             refused: None,
-            before: None,
         })
     }
 
@@ -184,7 +182,7 @@ where
         statistics.evaluations += 1;
         memory.clock.set(state.t);
         (memory.state, memory.solved) = (*state, Solved::at(system, state)?);
-        (memory.is_expanded, memory.refused, memory.before) = (false, None, None);
+        (memory.is_expanded, memory.refused) = (false, None);
         memory.rest = [[L::Scalar::constant(0.0); N]; 2];
         Ok(())
     }
@@ -292,7 +290,6 @@ impl Taylor {
         memory.rest = [(q, next.q, rest_q), (v, next.v, rest_v)].map(|(x, projected, rest)| {
             from_fn(|i| if projected[i] == x[i] { rest[i] } else { L::Scalar::constant(0.0) })
         });
-        memory.before = Some(memory.state);
         (memory.state, memory.solved, memory.is_expanded) = (next, solved, false);
         memory.clock.now = time;
         Ok(Attempt::Reached(next))
