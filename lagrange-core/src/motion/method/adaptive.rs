@@ -3,7 +3,7 @@
 use core::fmt;
 use core::marker::PhantomData;
 
-use super::{Limits, Pair};
+use super::{Limits, Pair, check_settings};
 use crate::error::Error;
 
 /// An embedded Runge–Kutta pair `P` with its settings.
@@ -108,19 +108,13 @@ impl<P> Adaptive<P> {
         self.limits
     }
 
-    /// All settings must be positive and finite.
     pub(super) fn check(&self) -> Result<(), Error> {
-        let settings = [
+        check_settings([
             ("relative tolerance", Some(self.relative)),
             ("absolute tolerance", Some(self.absolute)),
             ("longest step", self.max_step),
             ("first step", self.first_step),
             ("fixed step", self.fixed_step),
-        ];
-        let wrong = |value: f64| !(value > 0.0 && value.is_finite());
-        match settings.into_iter().find_map(|(name, value)| value.filter(|v| wrong(*v)).map(|v| (name, v))) {
-            None => Ok(()),
-            Some((name, value)) => Err(Error::Setting { name, value }),
-        }
+        ])
     }
 }

@@ -126,6 +126,18 @@ where
     }
 }
 
+/// All settings that there are must be positive and finite.
+pub(super) fn check_settings<const K: usize>(
+    settings: [(&'static str, Option<f64>); K],
+) -> Result<(), Error> {
+    let is_wrong = |value: &f64| !(*value > 0.0 && value.is_finite());
+    let wrong = settings.into_iter().find_map(|(name, value)| Some((name, value.filter(is_wrong)?)));
+    match wrong {
+        None => Ok(()),
+        Some((name, value)) => Err(Error::Setting { name, value }),
+    }
+}
+
 /// What became of a step.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step<T, const N: usize> {

@@ -8,7 +8,7 @@ use nalgebra::{ComplexField, SVector};
 
 use super::clock::Clock;
 use super::interpolant::Polynomial;
-use super::{Limits, Method, Step};
+use super::{Limits, Method, Step, check_settings};
 use crate::ending::Ending;
 use crate::error::Error;
 use crate::number::{Real, Scalar, vector};
@@ -134,10 +134,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Method<L
     }
 
     fn check(&self) -> Result<(), Error> {
-        match self.step > 0.0 && self.step.is_finite() {
-            true => Ok(()),
-            false => Err(Error::Setting { name: "fixed step", value: self.step }),
-        }
+        check_settings([("fixed step", Some(self.step))])
     }
 
     fn begin(&self, _: &L, start: &State<L::Scalar, N>, _: &mut Statistics) -> Result<Self::Memory, Error> {

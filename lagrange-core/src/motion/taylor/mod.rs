@@ -11,7 +11,7 @@ use core::fmt;
 use nalgebra::ComplexField;
 
 use super::method::clock::Clock;
-use super::method::{Limits, Method, Step};
+use super::method::{Limits, Method, Step, check_settings};
 use crate::ending::Ending;
 use crate::error::Error;
 use crate::names::Entry;
@@ -140,16 +140,11 @@ where
     }
 
     fn check(&self) -> Result<(), Error> {
-        let settings = [
+        check_settings([
             ("relative tolerance", Some(self.relative)),
             ("absolute tolerance", Some(self.absolute)),
             ("longest step", self.max_step),
-        ];
-        let wrong = |value: f64| !(value > 0.0 && value.is_finite());
-        match settings.into_iter().find_map(|(name, value)| value.filter(|v| wrong(*v)).map(|v| (name, v))) {
-            None => Ok(()),
-            Some((name, value)) => Err(Error::Setting { name, value }),
-        }
+        ])
     }
 
     fn begin(
