@@ -224,7 +224,7 @@ pub(crate) const TAYLOR_SERIES: [Method; 3] = [
 ];
 
 /// The constants of these traits.
-const CONSTANTS: [&str; 11] = [
+const CONSTANTS: [&str; 12] = [
     "NAME",
     "COORDINATES",
     "CONSTRAINTS",
@@ -236,6 +236,7 @@ const CONSTANTS: [&str; 11] = [
     "FACTS",
     "EQUATIONS",
     "PARAMETERS",
+    "ROOTS",
 ];
 
 /// What every system has beside: methods of `Lagrangian` that it can do without, of `Simulate`, `Hamiltonian`,

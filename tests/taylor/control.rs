@@ -134,3 +134,61 @@ fn a_limit_on_steps_keeps_what_was_computed() -> Result<(), Error> {
     assert!((last.coordinate("x")? - last.time().cos()).abs() < 1e-14);
     Ok(())
 }
+
+/// m v̇ = −m g − c v √v² upwards and down: v = w tan(φ₀ − g t/w) to the top, then −w tanh(g t/w), with w = √(m g/c).
+#[test]
+fn drag_by_the_root_of_a_square_turns_with_the_velocity() -> Result<(), Error> {
+    #[derive(Lagrangian)]
+    #[coordinates(x)]
+    #[lagrangian(x_dot^2/2 - g*x)]
+    #[force(x: -c * x_dot * sqrt(x_dot^2))]
+    struct Thrown {
+        g: f64,
+        c: f64,
+    }
+    let (g, c, v) = (9.81, 0.7, 3.0_f64);
+    let terminal = (g / c).sqrt();
+    let up = terminal / g * (v / terminal).atan();
+    let thrown = Thrown { g, c };
+    let path = thrown.integrate_towards(State::new([0.0], [v]), 2.0, Taylor::default())?;
+    let expected = -terminal * (g * (2.0 - up) / terminal).tanh();
+    let off = (path.end().velocity("x")? - expected).abs();
+    assert!(off < 4e-14, "{off:e} {:?} {:?}", path.ending(), path.statistics());
+    Ok(())
+}
+
+/// ẍ = |(t − 1)² − d²|, which is negative without the bars between 1 − d and 1 + d only, well within a step.
+#[test]
+fn a_root_that_comes_down_to_zero_twice_in_a_step_is_seen() -> Result<(), Error> {
+    #[derive(Lagrangian)]
+    #[coordinates(x)]
+    #[lagrangian(x_dot^2/2 + x * sqrt(((t - 1)^2 - d^2)^2))]
+    struct Driven {
+        d: f64,
+    }
+    for d in [0.3, 1e-2, 1e-3] {
+        let driven = Driven { d };
+        let path = driven.integrate_towards(State::at_rest([0.0]), 3.0, Taylor::default())?;
+        // ∫|s² − d²| from −1 to 2 is that without bars and twice the part that is negative.
+        let expected = (8.0 + 1.0) / 3.0 - 3.0 * d * d + 2.0 * (4.0 / 3.0) * d.powi(3);
+        let off = (path.end().velocity("x")? - expected).abs();
+        assert!(off < 4e-14, "{d}: {off:e} {:?} {:?}", path.ending(), path.statistics());
+    }
+    Ok(())
+}
+
+/// A potential |sin x|, by no even power that one could see: about the kink its root is rounding errors.
+#[test]
+fn a_kink_that_numbers_do_not_resolve_ends_the_motion() -> Result<(), Error> {
+    #[derive(Lagrangian)]
+    #[coordinates(x)]
+    #[lagrangian(x_dot^2/2 - sqrt(1 - cos(x)^2))]
+    struct Valley;
+    let path = Valley.integrate_towards(State::at_rest([1.0]), 20.0, Taylor::default())?;
+    let end = path.end();
+    let (x, v) = (end.coordinate("x")?, end.velocity("x")?);
+    let off = v * v / 2.0 + x.sin().abs() - 1.0_f64.sin();
+    assert!(matches!(path.ending(), Ending::NotFinite { .. }) && x.abs() < 1e-7, "{:?}", path.ending());
+    assert!(off.abs() < 1e-8, "{off:e}");
+    Ok(())
+}

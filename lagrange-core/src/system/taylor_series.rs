@@ -26,9 +26,13 @@ pub type RightHandSides<T, const N: usize, const M: usize> = (SVector<T, N>, SVe
 )]
 pub trait TaylorSeries<const N: usize, const M: usize>: Lagrangian<N, M> {
     /// What an order is made of beside coefficients: plain numbers.
-    type SeriesSlopes: Copy + Debug;
+    type SeriesSlopes: Copy + Debug + AsRef<[Self::Scalar]>;
     /// One number for each sum, and zeros up to a multiple of four.
     type Sums: Filled<Self::Scalar>;
+
+    /// For each root of something that moves, √x or x²ᐟ⁵, the place of a sum whose right factor it is, and of its value among the
+    /// slopes. The series of a root goes on below zero, the root does not: that of √x² is ±x.
+    const ROOTS: &'static [[usize; 2]] = &[];
 
     /// The numbers that all orders are made of.
     fn series_slopes(

@@ -74,7 +74,7 @@ pub(crate) fn stub(declaration: &Declaration, outline: &Outline) -> TokenStream 
             #[automatically_derived]
             #[allow(unused_variables, clippy::all)]
             impl #impl_generics __lagrange::TaylorSeries<#n, #m> for #ident #type_generics #where_clause {
-                type SeriesSlopes = ();
+                type SeriesSlopes = [#scalar; 0];
                 type Sums = [#scalar; 0];
                 #(#of_taylor_series)*
             }

@@ -73,6 +73,7 @@ fn promises(expansion: TokenStream) -> BTreeSet<String> {
         "INTEGRALS",
         "MOMENTA_ARE_LINEAR",
         "EQUATIONS",
+        "ROOTS",
         "visit_parameters",
     ];
     promises.retain(|promise| !provided.iter().any(|name| promise.contains(name)));

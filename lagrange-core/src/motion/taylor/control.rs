@@ -4,12 +4,9 @@ use super::Taylor;
 use super::expansion::{Expansion, Solved};
 use super::polynomial::ROOM;
 use crate::motion::method::clock::Clock;
-use crate::number::{Filled, Real, Scalar, exceeds, larger, smaller};
+use crate::number::{Filled, Real, Scalar, larger, smaller};
 use crate::system::State;
 
-/// The accelerations of a series and of the equations may differ by so many times the tolerance, and by this part of the
-/// velocities.
-const DEFECT: [f64; 2] = [1e4, 1e-10];
 /// A step may be so many times as long as the one before.
 const GROWTH: f64 = 10.0;
 
@@ -70,14 +67,6 @@ impl Taylor {
         let step = if before > T::constant(0.0) { smaller(step, T::constant(GROWTH) * before) } else { step };
         let step = if step > T::constant(0.0) { clock.at_least(step) } else { clock.left() };
         self.max_step.map_or(step, |longest| smaller(step, T::constant(longest)))
-    }
-
-    /// Whether accelerations are off by too much. What does not become less with the step is not the fault of the series.
-    pub(super) fn refuses<T: Real>(&self, defect: T, before: Option<T>) -> bool {
-        let [times, part] = DEFECT;
-        let bound = T::constant(larger(times * self.tolerance::<T>(), part));
-        let is_noise = |before: T| defect.is_finite() && !exceeds(before, defect * T::constant(8.0));
-        exceeds(defect, bound) && !before.is_some_and(is_noise)
     }
 }
 

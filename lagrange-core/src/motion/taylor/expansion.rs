@@ -36,13 +36,15 @@ pub(super) struct Expansion<S, T, const N: usize> {
     /// From order 0; one more of the coordinates than of the velocities.
     pub(super) q: Vec<[T; N]>,
     pub(super) v: Vec<[T; N]>,
-    factors: Factors<T>,
+    pub(super) factors: Factors<T>,
     sums: S,
+    /// The values of roots, in the order of [`TaylorSeries::ROOTS`].
+    pub(super) roots: Vec<T>,
 }
 
 impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
-    /// Room for a series of this order.
-    pub(super) fn new(order: usize) -> Self {
+    /// Room for a series of this order, of so many roots.
+    pub(super) fn new(order: usize, roots: usize) -> Self {
         let zero = T::constant(0.0);
         let sums = S::filled(zero);
         Self {
@@ -52,6 +54,7 @@ impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
             v: vec![[zero; N]; order + 1],
             factors: Factors::new(sums.as_ref().len(), order),
             sums,
+            roots: vec![zero; roots],
         }
     }
 
@@ -105,6 +108,9 @@ impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
         L: TaylorSeries<N, M, Scalar = T, Sums = S>,
     {
         let (slopes, highest) = (system.series_slopes(state, &solved.solution), self.order());
+        for (root, &[_, slope]) in self.roots.iter_mut().zip(L::ROOTS) {
+            *root = slopes.as_ref()[slope];
+        }
         let mut newest = solved.solution;
         for order in 1..=highest {
             let numbers = [order as f64, 1.0 / order as f64].map(T::constant);

@@ -42,6 +42,12 @@ impl<T: Scalar> Factors<T> {
         }
     }
 
+    /// The coefficients of the right factor of a sum, from order 1, of which there are so many.
+    pub(super) fn right_factor(&self, place: usize, count: usize) -> impl Iterator<Item = T> + Clone {
+        let group = &self.right[place / WIDTH * (self.orders + BLOCK)..];
+        (1..=count).map(move |order| group[self.orders - order][place % WIDTH])
+    }
+
     /// The sums of an order, of the factors of all orders before it.
     #[inline(always)]
     pub(super) fn add_up<S: Filled<T>>(&self, order: usize, sums: &mut S) {

@@ -17,6 +17,7 @@ use super::operation::{Operation, Register};
 use super::schedule::Schedule;
 use super::time::Time;
 use crate::symbolic::{Graph, Id};
+use crate::variables::Variable;
 
 /// The passes do not make a function half as long: beyond, they are not tried.
 const HOPELESS: usize = 2 * OPERATION_LIMIT;
@@ -47,14 +48,27 @@ impl Program {
     }
 
     /// Computes what is linear in Taylor coefficients: first the numbers that do not depend on them, then each of two lists of
-    /// results by these.
-    pub(super) fn of_orders(schedule: Schedule, results: [Vec<Register>; 2]) -> (Self, [Self; 2]) {
-        let whole = Self::new(schedule, results.concat());
+    /// results by these. Tells where among the numbers those of `kept` are.
+    pub(super) fn of_orders(
+        schedule: Schedule,
+        results: [Vec<Register>; 2],
+        kept: &[Register],
+    ) -> (Self, [Self; 2], Vec<Option<usize>>) {
+        let whole = Self::new(schedule, [&results.concat(), kept].concat());
         let split::Parts { slopes: (numbers, slopes), changes: (changes, all) } =
             split::split(&whole.schedule, &whole.results);
-        let (first, second) = all.split_at(results[0].len());
+        let (first, rest) = all.split_at(results[0].len());
+        let (second, kept) = rest.split_at(results[1].len());
         let parts = [first, second].map(|results| Self::unchanged(changes.clone(), results.to_vec()));
-        (Self::unchanged(numbers, slopes), parts)
+        let place = |kept: &Register| match changes.operations[kept.index()] {
+            Operation::Input(symbol) => match Variable::of(symbol) {
+                Variable::Slope(place) => Some(place),
+                _ => None,
+            },
+            _ => None,
+        };
+        let kept = kept.iter().map(place).collect();
+        (Self::unchanged(numbers, slopes), parts, kept)
     }
 
     /// The results in as few operations as the passes find.

@@ -1,6 +1,6 @@
 //! The recurrences of elementary functions, from the differential equations that they solve.
 
-use super::recurrences::{Quantity, Recurrences};
+use super::recurrences::{Quantity, Recurrences, Sum};
 use crate::codegen::operation::{Operation, Register};
 use crate::symbolic::Function;
 
@@ -168,8 +168,12 @@ impl Recurrences {
         }
         let over = self.reciprocal(x0);
         let scale = self.schedule.push(Operation::Multiply(e, z0));
+        let is_root = matches!(self.schedule.operations[e.index()], Operation::Constant(e) if f64::from_bits(e).fract() != 0.0);
         self.defined(z0, |of, z| {
             let [of_x, of_z] = [of.weighted_sum(x, z), of.weighted_sum(z, x)];
+            if is_root {
+                of.watch(Sum::Weighted(x, z), z0);
+            }
             let of_x = of.schedule.push(Operation::Multiply(e, of_x));
             of.moving(z0, [x], |of, [x]| {
                 let end = of.times(scale, x);

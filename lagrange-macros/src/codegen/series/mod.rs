@@ -29,6 +29,8 @@ pub(super) struct Series {
     factors: Program,
     /// How many sums there are, those included that fill up the last group.
     pub(super) sums: usize,
+    /// For each root the place of a sum whose right factor it is, and of its value among the slopes.
+    roots: Vec<[usize; 2]>,
 }
 
 impl Series {
@@ -45,13 +47,17 @@ impl Series {
         }
         let sums = recurrences.sums.len().next_multiple_of(WIDTH);
         let factors = recurrences.factors(sums).concat();
-        let schedule = recurrences.schedule;
-        let (slopes, [right_hand_sides, factors]) = Program::of_orders(schedule, [rest, factors]);
+        let Recurrences { schedule, roots, .. } = recurrences;
+        let (places, values): (Vec<usize>, Vec<Register>) = roots.into_iter().unzip();
+        let (slopes, [right_hand_sides, factors], values) =
+            Program::of_orders(schedule, [rest, factors], &values);
+        let roots = places.into_iter().zip(values).filter_map(|(place, value)| Some([place, value?]));
         let series = Self {
             slopes,
             right_hand_sides: right_hand_sides.balanced().fused(),
             factors: factors.balanced().fused(),
             sums,
+            roots: roots.collect(),
         };
         let is_short = |program: &Program| program.count().total() <= OPERATION_LIMIT;
         let are_short = [&series.slopes, &series.right_hand_sides, &series.factors].into_iter().all(is_short);
@@ -89,6 +95,10 @@ impl Emitter<'_> {
         let (runtime, ident, scalar) =
             (runtime(self.declaration), &self.declaration.ident, style.types.scalar);
         let ([n, m, _], slopes) = (style.types.dimensions(), series.slopes());
+        let roots = (!series.roots.is_empty()).then(|| {
+            let [places, values] = [0, 1].map(|i| series.roots.iter().map(move |root| root[i]));
+            quote!(const ROOTS: &'static [[usize; 2]] = &[#([#places, #values]),*];)
+        });
         quote! {
             const _: () = {
                 use #runtime as __lagrange;
@@ -98,6 +108,7 @@ impl Emitter<'_> {
                 impl #impl_generics __lagrange::TaylorSeries<#n, #m> for #ident #type_generics #where_clause {
                     type SeriesSlopes = [#scalar; #slopes];
                     type Sums = [#scalar; #sums];
+                    #roots
                     #tokens
                 }
 

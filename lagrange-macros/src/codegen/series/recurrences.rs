@@ -53,6 +53,8 @@ pub(super) struct Recurrences {
     coordinates: usize,
     pub(super) quantities: Vec<Coefficients>,
     pub(super) sums: IndexSet<Sum>,
+    /// Values of roots, each with the place of a sum whose right factor it is.
+    pub(super) roots: Vec<(usize, Register)>,
     /// Sine and cosine of an angle.
     pub(super) turns: FxHashMap<(Function, Quantity), [Quantity; 2]>,
 }
@@ -237,11 +239,18 @@ impl Recurrences {
         let over = self.reciprocal(twice);
         self.defined(z0, |of, z| {
             let sum = of.product_sum(z, z);
+            of.watch(Sum::Product(z, z), z0);
             of.moving(z0, [x], |of, [x]| {
                 let rest = of.difference(x, Some(sum));
                 of.times(over, rest)
             })
         })
+    }
+
+    /// Notes a root, whose series goes on below zero as it does not: that of √x² is ±x.
+    pub(super) fn watch(&mut self, sum: Sum, first: Register) {
+        let (place, _) = self.sums.insert_full(sum);
+        self.roots.push((place, first));
     }
 
     /// A quantity by a recurrence that it occurs in itself: known by its place before it is by its coefficients.

@@ -1,0 +1,99 @@
+//! Whether a series is the motion: its accelerations are those of the equations where it leads.
+
+use core::array::from_fn;
+
+use super::Taylor;
+use super::expansion::{Expansion, Solved};
+use crate::error::Error;
+use crate::number::{Filled, Real, Scalar, exceeds, larger, vector};
+use crate::system::{State, TaylorSeries};
+
+/// At the end of a step accelerations may differ by so many times the tolerance, and by this part of the velocities.
+const DEFECT: [f64; 2] = [1e4, 1e-10];
+/// Where a root is below zero in the series they may differ by so many times the tolerance alone: nothing is left to
+/// what the step after makes good.
+const STRICT: f64 = 64.0;
+/// Rounding errors are estimated from two states that are so many units of it away, and may be so many times as large.
+const ROUNDING: [f64; 2] = [4.0, 16.0];
+
+/// A step to be looked at.
+pub(super) struct Tried<'a, S, T, const N: usize, const M: usize> {
+    pub(super) series: &'a Expansion<S, T, N>,
+    pub(super) start: &'a State<T, N>,
+    pub(super) end: &'a State<T, N>,
+    pub(super) solved: &'a Solved<T, N, M>,
+    pub(super) length: T,
+}
+
+impl<S: Filled<T>, T: Real, const N: usize, const M: usize> Tried<'_, S, T, N, M> {
+    /// The velocity that is off the most, where one is by too much.
+    pub(super) fn inaccurate<L>(&self, system: &L, method: &Taylor) -> Result<Option<usize>, Error>
+    where
+        L: TaylorSeries<N, M, Scalar = T, Sums = S>,
+    {
+        let tolerance = method.tolerance::<T>();
+        let [times, part] = DEFECT;
+        let [_, _, accelerations] = self.series.change(self.length);
+        let bound = larger(times * tolerance, part);
+        let mut found = self.off(system, method, (self.end, self.solved), &accelerations, bound);
+        for length in self.series.roots_below_zero::<L, M>(self.length) {
+            let [dq, dv, accelerations] = self.series.change(length);
+            let [q, v] = [(self.start.q, dq), (self.start.v, dv)]
+                .map(|(x, change)| vector(from_fn(|i| x[i] + change[i])));
+            let there = State { t: self.start.t + length, q, v };
+            let solved = Solved::at(system, &there)?;
+            found = found
+                .or_else(|| self.off(system, method, (&there, &solved), &accelerations, STRICT * tolerance));
+        }
+        Ok(found)
+    }
+
+    fn off<L>(
+        &self,
+        system: &L,
+        method: &Taylor,
+        (state, solved): (&State<T, N>, &Solved<T, N, M>),
+        accelerations: &[T; N],
+        bound: f64,
+    ) -> Option<usize>
+    where
+        L: TaylorSeries<N, M, Scalar = T, Sums = S>,
+    {
+        let slack = T::constant(method.absolute / method.tolerance::<T>());
+        let off = |i: usize| Scalar::abs(accelerations[i] - solved.solution.accelerations[i]);
+        let defect = |i: usize| {
+            let speeds = Scalar::abs(self.start.v[i]) + Scalar::abs(self.end.v[i]);
+            off(i) * Scalar::abs(self.length) / (speeds + slack)
+        };
+        let worst = (0..N).fold(0, |worst, i| if defect(i) > defect(worst) { i } else { worst });
+        let is_too_much = exceeds(defect(worst), T::constant(bound));
+        (is_too_much && !is_rounding(system, state, solved, worst, off(worst))).then_some(worst)
+    }
+}
+
+/// Whether rounding errors of the state alone change this acceleration about as much.
+#[cold]
+fn is_rounding<L, T: Real, const N: usize, const M: usize>(
+    system: &L,
+    state: &State<T, N>,
+    solved: &Solved<T, N, M>,
+    row: usize,
+    off: T,
+) -> bool
+where
+    L: TaylorSeries<N, M, Scalar = T>,
+{
+    let [units, times] = ROUNDING;
+    let factors = [1.0, -1.0].map(|sign| T::constant(1.0 + sign * units * T::EPSILON));
+    let moved = |[even, odd]: [T; 2]| {
+        let moved = |x: &[T; N]| vector(from_fn(|i| x[i] * if i % 2 == 0 { even } else { odd }));
+        let state = State { t: state.t * even, q: moved(&state.q.into()), v: moved(&state.v.into()) };
+        Solved::at(system, &state)
+    };
+    [factors, [factors[1], factors[0]]].into_iter().any(|factors| {
+        let change = |other: Solved<T, N, M>| {
+            Scalar::abs(other.solution.accelerations[row] - solved.solution.accelerations[row])
+        };
+        moved(factors).is_ok_and(|other| off <= change(other) * T::constant(times))
+    })
+}

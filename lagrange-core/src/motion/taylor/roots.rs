@@ -1,0 +1,66 @@
+//! Where the series of a root is not the root: √x² goes on as x where x changes its sign.
+
+use super::expansion::Expansion;
+use crate::number::{Filled, Real, Scalar, exceeds};
+use crate::system::TaylorSeries;
+
+/// In so many parts is a step looked at, and so many times is the least value closed in on, by a third each.
+const PARTS: usize = 8;
+const THIRDS: usize = 40;
+
+/// The series of a root, in powers of (t − t₀)/unit.
+struct Root<I, T> {
+    value: T,
+    /// From order 1.
+    coefficients: I,
+}
+
+impl<T: Real, I: Iterator<Item = T> + Clone> Root<I, T> {
+    /// Where in a step of this length the series is least, if it comes below zero. Mostly its coefficients tell at once that it
+    /// does not: the point where a root ends is seven steps away.
+    fn vanishes(&self, length: T) -> Option<T> {
+        let (change, _) = self.coefficients.clone().fold((T::constant(0.0), length), |(sum, power), c| {
+            (sum + Scalar::abs(c * power), power * length)
+        });
+        if change < self.value { None } else { self.least(length) }
+    }
+
+    #[cold]
+    fn least(&self, length: T) -> Option<T> {
+        let part = length / T::constant(PARTS as f64);
+        let at = |k: usize| part * T::constant(k as f64);
+        let lowest =
+            (1..=PARTS).fold(1, |lowest, k| if self.at(at(k)) < self.at(at(lowest)) { k } else { lowest });
+        let (mut from, mut to) = (at(lowest - 1), at((lowest + 1).min(PARTS)));
+        for _ in 0..THIRDS {
+            let third = (to - from) / T::constant(3.0);
+            let [near, far] = [from + third, to - third];
+            if self.at(near) < self.at(far) { to = far } else { from = near }
+        }
+        let candidates = [(from + to) / T::constant(2.0), at(lowest)];
+        candidates.into_iter().find(|&theta| exceeds(T::constant(0.0), self.at(theta)))
+    }
+
+    fn at(&self, theta: T) -> T {
+        let (sum, _) = self
+            .coefficients
+            .clone()
+            .fold((self.value, theta), |(sum, power), c| (c.multiply_add(power, sum), power * theta));
+        sum
+    }
+}
+
+impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
+    /// How far into a step of this length some root is below zero by its series, in the unit of time of the numbers, for each such root.
+    pub(super) fn roots_below_zero<L, const M: usize>(&self, length: T) -> impl Iterator<Item = T>
+    where
+        L: TaylorSeries<N, M, Scalar = T, Sums = S>,
+    {
+        let theta = length / self.unit;
+        let vanishes = move |(&[place, _], &value): (&[usize; 2], &T)| {
+            let coefficients = self.factors.right_factor(place, self.order() - 1);
+            Root { value, coefficients }.vanishes(theta)
+        };
+        L::ROOTS.iter().zip(&self.roots).filter_map(vanishes).map(|theta| theta * self.unit)
+    }
+}
