@@ -1,60 +1,28 @@
 """2,000 double pendulums from rest to T = 10: microseconds a trajectory, on one thread."""
 
 import array
-import json
 import random
-import subprocess
 from statistics import median, quantiles
 
-from peers import Implementation
+from contest import Contestant, in_rotation
 from report import Section, comparison
 from timing import Timing
-from workshop import HERE, NATIVE, PYTHON, SHOP, Missing, build_ours, progress
+from workshop import HERE, NATIVE, PYTHON, SHOP, build_ours, progress
 
 PENDULUMS, TOLERANCES, REFERENCE_TOLERANCE = 2000, (1e-6, 1e-9, 1e-12), 1e-15
 ROUNDS, QUICK_ROUNDS = 21, 3
 
 
-class Contestant:
-    """A process that integrates the ensemble whenever it is asked to."""
-
-    def __init__(self, name, kind, tolerance, *command):
-        self.implementation = Implementation(name, kind, None)
-        self.ends, self.times = SHOP / f"ends-{name}-{tolerance:g}".replace(" ", "-"), []
-        self.process = subprocess.Popen(
-            [*map(str, command), str(tolerance), str(SHOP / "starts"), str(self.ends)],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-        )
-
-    def run(self):
-        """One run, its time in microseconds a trajectory."""
-        try:
-            self.process.stdin.write("\n")
-            self.process.stdin.flush()
-            self.times.append(1e6 * json.loads(self.process.stdout.readline())["seconds"] / PENDULUMS)
-        except (BrokenPipeError, json.JSONDecodeError):
-            said = self.process.communicate()[1].strip().splitlines() or ["it ends without a word"]
-            raise Missing(f"{self.implementation.name}: {said[-1]}") from None
-
-    def finish(self):
-        """The last states, four numbers a pendulum."""
-        self.process.communicate()
-        states = array.array("d")
-        states.frombytes(self.ends.read_bytes())
-        return states
-
-
 def ours(way, tolerance):
     name = "ours, on lanes" if way == "lanes" else "ours, one by one"
-    return Contestant(name, "ours", tolerance, build_ours("ours", NATIVE) / "ensemble", way)
+    command = [build_ours("ours", NATIVE) / "ensemble", way, tolerance, SHOP / "starts"]
+    return Contestant(name, "ours", f"{tolerance:g}", *command)
 
 
 def heyoka(batch, tolerance):
     name = f"heyoka, batch of {batch}" if batch > 1 else "heyoka, scalar"
-    return Contestant(name, "tool", tolerance, PYTHON, HERE / "generators" / "heyoka_ensemble.py", batch)
+    command = [PYTHON, HERE / "generators" / "heyoka_ensemble.py", batch, tolerance, SHOP / "starts"]
+    return Contestant(name, "tool", f"{tolerance:g}", *command)
 
 
 def starts():
@@ -72,11 +40,14 @@ def errors(states, reference):
 
 def contest(contestants, exact, rounds):
     """The timings, runs in rotation, each with the errors of all pendulums."""
-    for _ in range(rounds):
-        for one in contestants:
-            one.run()
+    in_rotation(contestants, rounds)
     judged = [errors(one.finish(), exact) for one in contestants]
-    return [(Timing(one.implementation, median(error), one.times), error) for one, error in zip(contestants, judged)]
+    return [(timing(one, error), error) for one, error in zip(contestants, judged)]
+
+
+def timing(contestant, error):
+    """In microseconds a trajectory."""
+    return Timing(contestant.implementation, median(error), [time / PENDULUMS for time in contestant.times])
 
 
 def rows(options):

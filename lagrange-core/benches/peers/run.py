@@ -19,6 +19,7 @@ import rows_loops
 import rows_planar
 import rows_quantities
 import rows_robots
+import rows_taylor
 import tables
 import workshop
 from report import Bar, Section
@@ -34,6 +35,7 @@ ROWS = {
     "loops": rows_loops.rows,
     "quantities": rows_quantities.rows,
     "lanes": rows_lanes.rows,
+    "taylor": rows_taylor.rows,
     "ensemble": rows_ensemble.rows,
     "duals": rows_duals.rows,
     "growth": rows_growth.rows,

@@ -16,9 +16,9 @@ macro_rules! planar {
         #[lagrangian(sum(i in 0..$n, m[i]/2*(vx[i]^2 + vy[i]^2) - m[i]*g*y[i]))]
         #[repr(C)]
         pub struct $name {
-            m: [f64; $n],
-            l: [f64; $n],
-            g: f64,
+            pub m: [f64; $n],
+            pub l: [f64; $n],
+            pub g: f64,
         }
     };
 }
@@ -33,9 +33,9 @@ macro_rules! chain {
         #[constraint(rod[i in 1..$n]: ((x[i]-x[i-1])^2 + (y[i]-y[i-1])^2 - l[i]^2)/2 = 0)]
         #[repr(C)]
         pub struct $name {
-            m: [f64; $n],
-            l: [f64; $n],
-            g: f64,
+            pub m: [f64; $n],
+            pub l: [f64; $n],
+            pub g: f64,
         }
     };
 }
@@ -58,9 +58,9 @@ chain!(Chain50, 50);
 #[constraint(string: (x^2 + y^2 + z^2 - l^2)/2 = 0)]
 #[repr(C)]
 pub struct Spherical {
-    m: f64,
-    l: f64,
-    g: f64,
+    pub m: f64,
+    pub l: f64,
+    pub g: f64,
 }
 
 /// Three bodies under gravity.
