@@ -192,3 +192,23 @@ fn a_kink_that_numbers_do_not_resolve_ends_the_motion() -> Result<(), Error> {
     assert!(off.abs() < 1e-8, "{off:e}");
     Ok(())
 }
+
+/// A motion that has left the domain of its equations is set back into it.
+#[test]
+fn what_was_no_number_is_forgotten() -> Result<(), Error> {
+    #[derive(Lagrangian)]
+    #[coordinates(x)]
+    #[lagrangian(x_dot^2/2 + x^(3/2))]
+    struct Slope;
+    let mut motion = Motion::new(Slope, State::new([1.0], [-1.0]), Taylor::default())?;
+    for _ in 0..3 {
+        motion.set_state(State::new([0.0], [-1.0]))?;
+        assert!(motion.advance_to(1.0).is_err());
+        motion.set_state(State::new([1.0], [2.0 / 5.0_f64.sqrt()]))?;
+        assert_eq!(motion.advance_to(0.5), Ok(()));
+        let state = motion.state();
+        let off = state.v[0].powi(2) / 2.0 - state.q[0].powf(1.5) - (0.4 - 1.0);
+        assert!(off.abs() < 1e-14, "{off:e}");
+    }
+    Ok(())
+}

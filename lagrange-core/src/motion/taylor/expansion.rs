@@ -107,6 +107,9 @@ impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
     where
         L: TaylorSeries<N, M, Scalar = T, Sums = S>,
     {
+        if !self.is_finite() {
+            self.factors.clear();
+        }
         let (slopes, highest) = (system.series_slopes(state, &solved.solution), self.order());
         for (root, &[_, slope]) in self.roots.iter_mut().zip(L::ROOTS) {
             *root = slopes.as_ref()[slope];

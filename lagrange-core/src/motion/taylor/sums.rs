@@ -30,6 +30,14 @@ impl<T: Scalar> Factors<T> {
         Self { orders, left: room.clone(), right: room }
     }
 
+    /// Forgets all: a sum runs on over terms of a motion before, by zeros, which leave what is not a number as it is.
+    #[cold]
+    pub(super) fn clear(&mut self) {
+        for factor in [&mut self.left, &mut self.right] {
+            factor.fill([T::constant(0.0); WIDTH]);
+        }
+    }
+
     /// The terms of an order.
     #[inline(always)]
     pub(super) fn put<S: Filled<T>>(&mut self, order: usize, [left, right]: &[S; 2]) {
