@@ -103,7 +103,7 @@ pub use nalgebra;
 pub use names::{Entry, Names, Row};
 #[cfg(feature = "std")]
 pub use number::Lanes;
-pub use number::{Dual, Filled, Over, Real, Scalar, Wide};
+pub use number::{Dual, Filled, Over, PowerSeries, Real, Scalar, Wide};
 #[cfg(feature = "alloc")]
 pub use solution::Impact;
 pub use solution::{Adjustment, Consistent, Sample};

@@ -224,7 +224,8 @@ pub(crate) const TAYLOR_SERIES: [Method; 3] = [
 ];
 
 /// The constants of these traits.
-const CONSTANTS: [&str; 12] = [
+const CONSTANTS: [&str; 13] = [
+    "ARGUMENTS",
     "NAME",
     "COORDINATES",
     "CONSTRAINTS",
@@ -241,7 +242,7 @@ const CONSTANTS: [&str; 12] = [
 
 /// What every system has beside: methods of `Lagrangian` that it can do without, of `Simulate`, `Hamiltonian`,
 /// `StateDerivatives` and `Linearized`.
-const PROVIDED: [&str; 33] = [
+const PROVIDED: [&str; 34] = [
     "visit_parameters",
     "visit_defects",
     "solve",
@@ -275,6 +276,7 @@ const PROVIDED: [&str; 33] = [
     "lyapunov_spectrum",
     "linearize",
     "equilibrium",
+    "series_functions",
 ];
 
 /// The function of the struct itself, and methods that other derives give.

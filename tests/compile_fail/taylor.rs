@@ -1,4 +1,4 @@
-use lagrange_core::prelude::*;
+use lagrange_core::{ByHand, HandWritten, Table, prelude::*};
 
 #[derive(Lagrangian)]
 #[coordinates(x)]
@@ -16,14 +16,24 @@ struct Supplied<F> {
 
 struct Square;
 
-impl Function<1, 1> for Square {
-    fn eval<S: Scalar>(&self, [x]: [S; 1]) -> [S; 1] {
+impl HandWritten<1, 1> for Square {
+    fn value(&self, [x]: [f64; 1]) -> [f64; 1] {
         [x * x]
+    }
+
+    fn gradient(&self, [x]: [f64; 1]) -> [[f64; 1]; 1] {
+        [[2.0 * x]]
+    }
+
+    fn hessian(&self, _: [f64; 1]) -> [[[f64; 1]; 1]; 1] {
+        [[[2.0]]]
     }
 }
 
 fn main() {
     let start = State::at_rest([1.0]);
     let _ = Kinked.integrate(start, 1.0, Taylor::default());
-    let _ = Supplied { U: Square }.integrate(start, 1.0, Taylor::default());
+    let _ = Supplied { U: ByHand(Square) }.integrate(start, 1.0, Taylor::default());
+    let table = Table::new(&[(0.0, 0.0), (1.0, 1.0)]).unwrap();
+    let _ = Supplied { U: table }.integrate(start, 1.0, Taylor::default());
 }

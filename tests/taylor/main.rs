@@ -3,6 +3,7 @@
 mod classics;
 mod control;
 mod functions;
+mod supplied;
 mod systems;
 
 use lagrange_core::{Method, TaylorSeries, prelude::*};

@@ -38,6 +38,11 @@ use crate::number::{Dual, Scalar};
 /// let force = planet.forcing(&State::at_rest([0.0, 2.0, 0.0]));
 /// assert_eq!(force.as_slice(), [0.0, -1.0, 0.0]);
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a function of {I} number(s) with {O} result(s) over every scalar",
+    label = "not known over every scalar",
+    note = "implement `lagrange_core::Function<{I}, {O}>` for it; `ByHand` and `Table` are known over `f64` alone, which is enough for `Dop853`"
+)]
 pub trait Function<const I: usize, const O: usize> {
     /// The values at `x`.
     fn eval<S: Scalar>(&self, x: [S; I]) -> [S; O];

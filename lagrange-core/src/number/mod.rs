@@ -7,6 +7,7 @@ mod lanes;
 mod numeric;
 mod over;
 mod scalar;
+mod series;
 mod sines;
 
 pub(crate) use array::entries;
@@ -20,3 +21,6 @@ pub(crate) use numeric::{
 };
 pub use over::{Over, Wide};
 pub use scalar::{Real, Scalar};
+pub use series::PowerSeries;
+#[cfg(feature = "alloc")]
+pub(crate) use series::ROOM;

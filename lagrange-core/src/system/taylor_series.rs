@@ -7,7 +7,7 @@ use nalgebra::SVector;
 use super::lagrangian::Lagrangian;
 use super::state::{Solution, State};
 use crate::linearized::Direction;
-use crate::number::Filled;
+use crate::number::{Filled, PowerSeries};
 
 /// What the right-hand sides of the equations of motion are: in the places of h and of γ.
 pub type RightHandSides<T, const N: usize, const M: usize> = (SVector<T, N>, SVector<T, M>);
@@ -22,7 +22,7 @@ pub type RightHandSides<T, const N: usize, const M: usize> = (SVector<T, N>, SVe
 #[diagnostic::on_unimplemented(
     message = "the Taylor series of the motion of `{Self}` is not known",
     label = "no `TaylorSeries`",
-    note = "`#[derive(Lagrangian)]` gives it to every system but those with `abs`, `min`, `max`, `clamp` or a function that the user supplies (`#[function(…)]`) in the equations of motion: use `Dop853` there"
+    note = "`#[derive(Lagrangian)]` gives it to every system but those with `abs`, `min`, `max` or `clamp` in the equations of motion: use `Dop853` there"
 )]
 pub trait TaylorSeries<const N: usize, const M: usize>: Lagrangian<N, M> {
     /// What an order is made of beside coefficients: plain numbers.
@@ -33,6 +33,9 @@ pub trait TaylorSeries<const N: usize, const M: usize>: Lagrangian<N, M> {
     /// For each root of something that moves, √x or x²ᐟ⁵, the place of a sum whose right factor it is, and of its value among the
     /// slopes. The series of a root goes on below zero, the root does not: that of √x² is ±x.
     const ROOTS: &'static [[usize; 2]] = &[];
+    /// For each argument of a function that the user supplies, the place of a sum whose left factor it is, and of its value among
+    /// the slopes.
+    const ARGUMENTS: &'static [[usize; 2]] = &[];
 
     /// The numbers that all orders are made of.
     fn series_slopes(
@@ -40,6 +43,12 @@ pub trait TaylorSeries<const N: usize, const M: usize>: Lagrangian<N, M> {
         state: &State<Self::Scalar, N>,
         solution: &Solution<Self::Scalar, N, M>,
     ) -> Self::SeriesSlopes;
+
+    /// Puts into their places among the sums what the functions that the user supplies add to this order, by the series of
+    /// their arguments, in which the coefficients of that order are zero.
+    fn series_functions(&self, order: usize, arguments: &[PowerSeries<Self::Scalar>], sums: &mut Self::Sums) {
+        let _ = (order, arguments, sums);
+    }
 
     /// What stands for h and γ where the coefficients of accelerations and multipliers are solved for, of an order that is
     /// given with its reciprocal; `direction` has the coefficients of time, coordinates and velocities of that order.

@@ -2,11 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
 use syn::GenericParam;
 use syn::spanned::Spanned;
 
 use super::Emitter;
+use super::operation::Call;
 use crate::resolve::Supplied;
 use crate::symbolic::{Id, Node};
 use crate::syntax::Declaration;
@@ -45,17 +47,58 @@ impl Emitter<'_> {
     /// The struct's generics with what the fields must be able to do, asked for at the fields' types: at once, or only
     /// where somebody uses it. (A bound on a concrete type is checked at once, unless it is of a higher rank.)
     pub(super) fn generics(&self, orders: &BTreeMap<u32, usize>, at_once: bool) -> syn::Generics {
+        let scalar = self.style.types.scalar;
+        let mut generics = bounded_generics(self.declaration, scalar);
+        self.ask_for(&mut generics, orders, &quote!(#scalar), at_once);
+        generics
+    }
+
+    /// Bounds of functions over a scalar.
+    pub(super) fn ask_for(
+        &self,
+        generics: &mut syn::Generics,
+        orders: &BTreeMap<u32, usize>,
+        scalar: &TokenStream,
+        at_once: bool,
+    ) {
         let quantifier = (!at_once).then(|| quote!(for<'__lagrange>));
-        let mut generics = bounded_generics(self.declaration, self.style.types.scalar);
         for (&function, &order) in orders {
             let Supplied { ty, inputs, outputs, .. } = &self.problem.functions[function as usize];
-            let (capability, scalar) = (format_ident!("{}", capability(order).0), self.style.types.scalar);
+            let capability = format_ident!("{}", capability(order).0);
             let bound =
                 quote_spanned!(ty.span()=> __lagrange::function::#capability<#scalar, #inputs, #outputs>);
             generics.make_where_clause().predicates.push(syn::parse_quote!(#quantifier #ty: #bound));
         }
-        generics
     }
+}
+
+/// The highest derivative of each function among calls, and of those known.
+pub(super) fn orders_of<'c, X: 'c>(
+    known: BTreeMap<u32, usize>,
+    calls: impl Iterator<Item = &'c Call<X>>,
+) -> BTreeMap<u32, usize> {
+    calls.fold(known, |mut orders, call| {
+        let order = orders.entry(call.function).or_default();
+        *order = call.derivatives.len().max(*order);
+        orders
+    })
+}
+
+/// A call of a function on numbers of this type.
+pub(super) fn call_of<X>(
+    supplied: &Supplied,
+    call: &Call<X>,
+    scalar: &TokenStream,
+    argument: impl FnMut(&X) -> TokenStream,
+) -> TokenStream {
+    let Supplied { field, is_reference, inputs, outputs, .. } = supplied;
+    let field = if *is_reference { quote!(self.#field) } else { quote!(&self.#field) };
+    let arguments = call.arguments.iter().map(argument);
+    let by = call.derivatives.iter().map(|&i| Literal::u32_unsuffixed(i));
+    let by = (!call.derivatives.is_empty()).then(|| quote!(, [#(#by),*]));
+    let (capability, method) = capability(call.derivatives.len());
+    let (capability, method) = (format_ident!("{capability}"), format_ident!("{method}"));
+    quote!(__lagrange::function::#capability::<#scalar, #inputs, #outputs>::#method(#field, [#(#arguments),*] #by))
 }
 
 /// The struct's generics, where a scalar that is a type parameter is bound to be one.

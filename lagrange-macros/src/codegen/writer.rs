@@ -4,7 +4,7 @@ use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
 use super::body::{Expression, Local, Part, Place, Statement, Turn};
-use super::bounds::capability;
+use super::bounds::call_of;
 use super::operation::{Call, Operation};
 use super::shape::Arrays;
 use super::style::Style;
@@ -35,7 +35,7 @@ impl Style<'_> {
                 quote!(#word #turns;)
             }
             Statement::Call(call, results) => {
-                let (pattern, call) = (self.pattern(&call, &results), self.call(call));
+                let (pattern, call) = (self.pattern(&call, &results), self.call(&call));
                 quote!(#word #pattern = #call;)
             }
             Statement::Store(place, value) => {
@@ -123,18 +123,9 @@ impl Style<'_> {
         quote!([#(#names),*])
     }
 
-    fn call(&self, call: Call<Expression>) -> TokenStream {
-        let Call { function, derivatives, arguments } = call;
-        let function = &self.problem.functions[function as usize];
-        let field = &function.field;
-        let field = if function.is_reference { quote!(self.#field) } else { quote!(&self.#field) };
-        let arguments = arguments.into_iter().map(|argument| self.operand(argument));
-        let by = derivatives.iter().map(|&i| Literal::u32_unsuffixed(i));
-        let by = (!derivatives.is_empty()).then(|| quote!(, [#(#by),*]));
-        let (capability, method) = capability(derivatives.len());
-        let (capability, method) = (format_ident!("{capability}"), format_ident!("{method}"));
-        let (scalar, inputs, results) = (self.types.scalar, function.inputs, function.outputs);
-        quote!(__lagrange::function::#capability::<#scalar, #inputs, #results>::#method(#field, [#(#arguments),*] #by))
+    fn call(&self, call: &Call<Expression>) -> TokenStream {
+        let (function, scalar) = (&self.problem.functions[call.function as usize], self.types.scalar);
+        call_of(function, call, &quote!(#scalar), |argument| self.operand(argument.clone()))
     }
 
     /// A definition's name, or `r12`, `call3_0`, unless the user has something of that name.

@@ -73,7 +73,9 @@ fn promises(expansion: TokenStream) -> BTreeSet<String> {
         "INTEGRALS",
         "MOMENTA_ARE_LINEAR",
         "EQUATIONS",
+        "ARGUMENTS",
         "ROOTS",
+        "series_functions",
         "visit_parameters",
     ];
     promises.retain(|promise| !provided.iter().any(|name| promise.contains(name)));

@@ -2,9 +2,8 @@
 
 use super::Taylor;
 use super::expansion::{Expansion, Solved};
-use super::polynomial::ROOM;
 use crate::motion::method::clock::Clock;
-use crate::number::{Filled, Real, Scalar, larger, smaller};
+use crate::number::{Filled, ROOM, Real, Scalar, larger, smaller};
 use crate::system::State;
 
 /// A step may be so many times as long as the one before.

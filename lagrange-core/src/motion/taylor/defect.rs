@@ -13,6 +13,8 @@ const DEFECT: [f64; 2] = [1e4, 1e-10];
 /// Where a root is below zero in the series they may differ by so many times the tolerance alone: nothing is left to
 /// what the step after makes good.
 const STRICT: f64 = 64.0;
+/// A step with functions that the user supplies is looked at after each of so many parts.
+const PARTS: usize = 4;
 /// Rounding errors are estimated from two states that are so many units of it away, and may be so many times as large.
 const ROUNDING: [f64; 2] = [4.0, 16.0];
 
@@ -36,16 +38,26 @@ impl<S: Filled<T>, T: Real, const N: usize, const M: usize> Tried<'_, S, T, N, M
         let [_, _, accelerations] = self.series.change(self.length);
         let bound = larger(times * tolerance, part);
         let mut found = self.off(system, method, (self.end, self.solved), &accelerations, bound);
-        for length in self.series.roots_below_zero::<L, M>(self.length) {
+        let at_roots =
+            self.series.roots_below_zero::<L, M>(self.length).map(|length| (length, STRICT * tolerance));
+        for (length, bound) in at_roots.chain(self.within_functions::<L>(bound)) {
             let [dq, dv, accelerations] = self.series.change(length);
             let [q, v] = [(self.start.q, dq), (self.start.v, dv)]
                 .map(|(x, change)| vector(from_fn(|i| x[i] + change[i])));
             let there = State { t: self.start.t + length, q, v };
             let solved = Solved::at(system, &there)?;
-            found = found
-                .or_else(|| self.off(system, method, (&there, &solved), &accelerations, STRICT * tolerance));
+            found = found.or_else(|| self.off(system, method, (&there, &solved), &accelerations, bound));
         }
         Ok(found)
+    }
+
+    /// Where else to look, with what bound: inside of functions that the user supplies may be kinks that nobody tells of.
+    fn within_functions<L>(&self, bound: f64) -> impl Iterator<Item = (T, f64)>
+    where
+        L: TaylorSeries<N, M, Scalar = T, Sums = S>,
+    {
+        let (length, parts) = (self.length, if L::ARGUMENTS.is_empty() { 1..1 } else { 1..PARTS });
+        parts.map(move |k| (length * T::constant(k as f64 / PARTS as f64), bound))
     }
 
     fn off<L>(

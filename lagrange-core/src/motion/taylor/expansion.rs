@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use super::sums::Factors;
 use crate::error::Error;
 use crate::linearized::Direction;
-use crate::number::{Filled, Real, Scalar, vector};
+use crate::number::{Filled, PowerSeries, Real, Scalar, vector};
 use crate::solution::kkt::{self, KktSystem, Rank};
 use crate::solution::solve::{fault, is_trustworthy, not_finite, solve_near};
 use crate::system::{Lagrangian, RightHandSides, Solution, State, TaylorSeries};
@@ -40,11 +40,16 @@ pub(super) struct Expansion<S, T, const N: usize> {
     sums: S,
     /// The values of roots, in the order of [`TaylorSeries::ROOTS`].
     pub(super) roots: Vec<T>,
+    /// The arguments of functions that the user supplies, in the order of [`TaylorSeries::ARGUMENTS`].
+    arguments: Vec<PowerSeries<T>>,
 }
 
 impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
-    /// Room for a series of this order, of so many roots.
-    pub(super) fn new(order: usize, roots: usize) -> Self {
+    /// Room for a series of this order.
+    pub(super) fn new<L, const M: usize>(order: usize) -> Self
+    where
+        L: TaylorSeries<N, M, Scalar = T, Sums = S>,
+    {
         let zero = T::constant(0.0);
         let sums = S::filled(zero);
         Self {
@@ -54,7 +59,8 @@ impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
             v: vec![[zero; N]; order + 1],
             factors: Factors::new(sums.as_ref().len(), order),
             sums,
-            roots: vec![zero; roots],
+            roots: vec![zero; L::ROOTS.len()],
+            arguments: vec![PowerSeries::constant(0.0); L::ARGUMENTS.len()],
         }
     }
 
@@ -114,6 +120,9 @@ impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
         for (root, &[_, slope]) in self.roots.iter_mut().zip(L::ROOTS) {
             *root = slopes.as_ref()[slope];
         }
+        for (argument, &[_, slope]) in self.arguments.iter_mut().zip(L::ARGUMENTS) {
+            *argument = PowerSeries::new(&[slopes.as_ref()[slope], T::constant(0.0)]);
+        }
         let mut newest = solved.solution;
         for order in 1..=highest {
             let numbers = [order as f64, 1.0 / order as f64].map(T::constant);
@@ -122,11 +131,17 @@ impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
                 break;
             }
             self.factors.add_up(order, &mut self.sums);
+            if const { !L::ARGUMENTS.is_empty() } {
+                system.series_functions(order, &self.arguments, &mut self.sums);
+            }
             newest = solve(&system.series_right_hand_sides(&slopes, &self.sums, &numbers, &direction))?;
             let Solution { accelerations, multipliers, .. } = &newest;
             let factors =
                 system.series_factors(&slopes, &self.sums, &numbers, &direction, accelerations, multipliers);
             self.factors.put(order, &factors);
+            for (argument, &[place, _]) in self.arguments.iter_mut().zip(L::ARGUMENTS) {
+                argument.extend(factors[0].as_ref()[place]);
+            }
         }
         self.q[highest + 1] = scaled(&self.v[highest], unit_over(self.unit, highest + 1));
         Ok(())

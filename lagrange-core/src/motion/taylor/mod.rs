@@ -44,8 +44,9 @@ pub use polynomial::TaylorPolynomial;
 /// across it makes no difference, some thirty before and after; where the kink is a jump of a force, which no step is short
 /// enough for, the motion ends with that time.
 ///
-/// A system with `abs`, `min`, `max`, `clamp` or a function that the user supplies in its equations has no
-/// [`TaylorSeries`], and the compiler says so. Parameters may change between steps. Nothing is allocated in a step.
+/// A system with `abs`, `min`, `max` or `clamp` in its equations has no [`TaylorSeries`], nor one with a function that is not known over
+/// every scalar, and the compiler says so. A [`Function`](crate::Function) is evaluated on a [`PowerSeries`](crate::PowerSeries) at every order; of
+/// kinks inside of it each step is aware at its quarters only, to 10⁻¹⁰ of the velocities. Parameters may change between steps. Nothing is allocated in a step.
 ///
 /// ```
 /// use lagrange_core::prelude::*;
@@ -165,7 +166,7 @@ where
             state: *start,
             solved: Solved::at(system, start)?,
             rest: [[zero; N]; 2],
-            series: Expansion::new(self.order::<L::Scalar>(), L::ROOTS.len()),
+            series: Expansion::new::<L, M>(self.order::<L::Scalar>()),
             is_expanded: false,
             planned: zero,
         })

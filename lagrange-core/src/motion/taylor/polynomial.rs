@@ -1,11 +1,8 @@
 //! What lies within a step of Taylor's method: the series itself.
 
 use crate::motion::method::Interpolant;
-use crate::number::{Real, vector};
+use crate::number::{ROOM, Real, vector};
 use crate::solution::flow::PhasePoint;
-
-/// So many coefficients are there room for.
-pub(super) const ROOM: usize = 22;
 
 /// The Taylor series of the coordinates about the start of a step; the velocities are its derivative.
 #[derive(Clone, Copy, Debug, PartialEq)]

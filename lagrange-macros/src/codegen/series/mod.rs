@@ -2,9 +2,10 @@
 
 mod functions;
 mod recurrences;
+mod supplied;
 
 use proc_macro2::TokenStream;
-use quote::quote;
+use quote::{format_ident, quote};
 
 use super::kernel::OPERATION_LIMIT;
 use super::operation::{Operation, Register};
@@ -15,6 +16,7 @@ use crate::contract::{Method, Quantity, TAYLOR_SERIES};
 use crate::mechanics::Equations;
 use crate::symbolic::{Graph, Id};
 use recurrences::{Recurrences, Stage};
+use supplied::CallOnSeries;
 
 /// The runtime computes so many sums side by side.
 const WIDTH: usize = 4;
@@ -31,6 +33,10 @@ pub(super) struct Series {
     pub(super) sums: usize,
     /// For each root the place of a sum whose right factor it is, and of its value among the slopes.
     roots: Vec<[usize; 2]>,
+    /// For each argument of a function that the user supplies the place of a sum whose left factor it is, and of its value among
+    /// the slopes.
+    arguments: Vec<[usize; 2]>,
+    calls: Vec<CallOnSeries>,
 }
 
 impl Series {
@@ -45,19 +51,26 @@ impl Series {
         for sum in &mut rest[..balance.len()] {
             *sum = recurrences.schedule.push(Operation::Negate(*sum));
         }
+        let (calls, arguments) = recurrences.calls();
         let sums = recurrences.sums.len().next_multiple_of(WIDTH);
         let factors = recurrences.factors(sums).concat();
         let Recurrences { schedule, roots, .. } = recurrences;
-        let (places, values): (Vec<usize>, Vec<Register>) = roots.into_iter().unzip();
-        let (slopes, [right_hand_sides, factors], values) =
-            Program::of_orders(schedule, [rest, factors], &values);
-        let roots = places.into_iter().zip(values).filter_map(|(place, value)| Some([place, value?]));
+        let kept: Vec<Register> = roots.iter().chain(&arguments).map(|&(_, value)| value).collect();
+        let (slopes, [right_hand_sides, factors], kept) =
+            Program::of_orders(schedule, [rest, factors], &kept);
+        let mut kept = kept.into_iter();
+        let mut with_slopes = |all: Vec<(usize, Register)>| {
+            all.into_iter().zip(&mut kept).map(|((place, _), slope)| Some([place, slope?])).collect()
+        };
+        let (roots, arguments): (Option<_>, Option<_>) = (with_slopes(roots), with_slopes(arguments));
         let series = Self {
             slopes,
             right_hand_sides: right_hand_sides.balanced().fused(),
             factors: factors.balanced().fused(),
             sums,
-            roots: roots.collect(),
+            roots: roots?,
+            arguments: arguments?,
+            calls,
         };
         let is_short = |program: &Program| program.count().total() <= OPERATION_LIMIT;
         let are_short = [&series.slopes, &series.right_hand_sides, &series.factors].into_iter().all(is_short);
@@ -68,6 +81,13 @@ impl Series {
     pub(super) fn slopes(&self) -> usize {
         self.slopes.results.len()
     }
+}
+
+/// A constant of pairs of places, where there are any.
+fn places((name, pairs): (&str, &Vec<[usize; 2]>)) -> Option<TokenStream> {
+    let name = format_ident!("{name}");
+    let [sums, slopes] = [0, 1].map(|i| pairs.iter().map(move |pair| pair[i]));
+    (!pairs.is_empty()).then(|| quote!(const #name: &'static [[usize; 2]] = &[#([#sums, #slopes]),*];))
 }
 
 impl Emitter<'_> {
@@ -88,17 +108,15 @@ impl Emitter<'_> {
             _ => of_order(method, &series.factors, [sums; 2]),
         };
         let Written { tokens, kernels } = TAYLOR_SERIES.iter().map(write).collect();
-        let generics = self.generics(&self.orders(&[]), true);
+        let generics = self.generics_on_series(series);
         let parts = self.parts_of(&kernels, &generics);
         let (impl_generics, _, where_clause) = generics.split_for_impl();
         let (_, type_generics, _) = self.declaration.generics.split_for_impl();
         let (runtime, ident, scalar) =
             (runtime(self.declaration), &self.declaration.ident, style.types.scalar);
         let ([n, m, _], slopes) = (style.types.dimensions(), series.slopes());
-        let roots = (!series.roots.is_empty()).then(|| {
-            let [places, values] = [0, 1].map(|i| series.roots.iter().map(move |root| root[i]));
-            quote!(const ROOTS: &'static [[usize; 2]] = &[#([#places, #values]),*];)
-        });
+        let [roots, arguments] = [("ROOTS", &series.roots), ("ARGUMENTS", &series.arguments)].map(places);
+        let functions = self.series_functions(series);
         quote! {
             const _: () = {
                 use #runtime as __lagrange;
@@ -109,7 +127,9 @@ impl Emitter<'_> {
                     type SeriesSlopes = [#scalar; #slopes];
                     type Sums = [#scalar; #sums];
                     #roots
+                    #arguments
                     #tokens
+                    #functions
                 }
 
                 #parts

@@ -9,7 +9,7 @@
 use indexmap::IndexSet;
 use rustc_hash::FxHashMap;
 
-use crate::codegen::operation::{Operation, Register};
+use crate::codegen::operation::{Call, Operation, Register};
 use crate::codegen::schedule::Schedule;
 use crate::symbolic::{Function, Symbol};
 use crate::variables::Variable;
@@ -24,7 +24,7 @@ pub(super) struct Coefficients {
     /// That of order 0.
     first: Register,
     /// The newest, in each [`Stage`]; a register that is not there is a zero. `None` for a constant of the motion.
-    newest: Option<[Option<Register>; 2]>,
+    pub(super) newest: Option<[Option<Register>; 2]>,
 }
 
 /// How an order is computed twice: accelerations and multipliers of that order are what it is computed for.
@@ -35,7 +35,7 @@ pub(super) enum Stage {
     After,
 }
 
-const STAGES: [Stage; 2] = [Stage::Before, Stage::After];
+pub(super) const STAGES: [Stage; 2] = [Stage::Before, Stage::After];
 
 /// What a sum is taken of, with j from 1 to k − 1.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -44,6 +44,10 @@ pub(super) enum Sum {
     Product(Quantity, Quantity),
     /// Σ j x_j y_{k−j}
     Weighted(Quantity, Quantity),
+    /// No sum, but a place where an argument of a function that the user supplies is kept.
+    Argument(Quantity),
+    /// What such a function adds, by the place among the calls and that of the result.
+    Value(usize, u32),
 }
 
 /// The schedule of an order, with that of order 0 in it.
@@ -55,6 +59,8 @@ pub(super) struct Recurrences {
     pub(super) sums: IndexSet<Sum>,
     /// Values of roots, each with the place of a sum whose right factor it is.
     pub(super) roots: Vec<(usize, Register)>,
+    /// Calls of functions that the user supplies.
+    pub(super) calls: IndexSet<Call<Quantity>>,
     /// Sine and cosine of an angle.
     pub(super) turns: FxHashMap<(Function, Quantity), [Quantity; 2]>,
 }
@@ -70,7 +76,14 @@ impl Recurrences {
         let (uses, mut quantities) = (source.uses(results), FxHashMap::default());
         for (index, &operation) in source.operations.iter().enumerate().filter(|(index, _)| uses[*index] > 0)
         {
-            let quantity = recurrences.operation(operation.with_operands(|x| quantities[&x]))?;
+            let quantity = match operation {
+                Operation::Result { call, output } => {
+                    let Call { function, derivatives, arguments } = source.calls[call as usize].clone();
+                    let arguments = arguments.iter().map(|argument| quantities[argument]).collect();
+                    recurrences.result(Call { function, derivatives, arguments }, output)?
+                }
+                _ => recurrences.operation(operation.with_operands(|x| quantities[&x]))?,
+            };
             quantities.insert(Register::at(index), quantity);
         }
         Some((recurrences, results.iter().map(|result| quantities[result]).collect()))
@@ -85,17 +98,21 @@ impl Recurrences {
     /// The newest terms of the factors of each sum, filled up with zeros to so many.
     pub(super) fn factors(&mut self, count: usize) -> [Vec<Register>; 2] {
         let mut factors = [Vec::new(), Vec::new()];
+        let zero = self.schedule.constant(0.0);
         for sum in self.sums.clone() {
-            let (Sum::Product(x, y) | Sum::Weighted(x, y)) = sum;
-            let [mut left, right] = [x, y].map(|factor| self.newest(factor, Stage::After));
-            if let Sum::Weighted(..) = sum {
-                let order = self.order();
-                left = self.schedule.push(Operation::Multiply(order, left));
-            }
+            let [left, right] = match sum {
+                Sum::Product(x, y) => [x, y].map(|factor| self.newest(factor, Stage::After)),
+                Sum::Weighted(x, y) => {
+                    let [left, right] = [x, y].map(|factor| self.newest(factor, Stage::After));
+                    let order = self.order();
+                    [self.schedule.push(Operation::Multiply(order, left)), right]
+                }
+                Sum::Argument(x) => [self.newest(x, Stage::After), zero],
+                Sum::Value(..) => [zero; 2],
+            };
             factors[0].push(left);
             factors[1].push(right);
         }
-        let zero = self.schedule.constant(0.0);
         factors.iter_mut().for_each(|all| all.resize(count, zero));
         factors
     }
@@ -277,7 +294,7 @@ impl Recurrences {
     }
 
     /// A sum, as the runtime gives it.
-    fn place(&mut self, sum: Sum) -> Register {
+    pub(super) fn place(&mut self, sum: Sum) -> Register {
         let (place, _) = self.sums.insert_full(sum);
         self.schedule.push(Operation::Input(Variable::Sum(place).symbol()))
     }

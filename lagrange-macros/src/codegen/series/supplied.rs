@@ -1,0 +1,141 @@
+//! Functions that the user supplies, on series: the runtime evaluates them on [`PowerSeries`](lagrange_core::PowerSeries) of their arguments.
+
+use std::collections::BTreeMap;
+
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+use super::Series;
+use super::recurrences::{Quantity, Recurrences, STAGES, Sum};
+use crate::codegen::Emitter;
+use crate::codegen::bounds::{FUNCTION_ORDER, call_of, orders_of};
+use crate::codegen::operation::{Call, Operation, Register};
+
+/// An argument of a call.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(super) enum Argument {
+    /// By the bits of its value.
+    Constant(u64),
+    /// By its place among those that the runtime keeps.
+    Kept(usize),
+}
+
+/// A call on series, and where its results belong among the sums.
+pub(super) struct CallOnSeries {
+    call: Call<Argument>,
+    results: Vec<(u32, usize)>,
+}
+
+impl Recurrences {
+    /// A result of a function, y = U(x): y_k = Σ ∂U/∂x_i x_{i,k} and what older coefficients add; `None` where that takes
+    /// derivatives of a higher order than functions have.
+    pub(super) fn result(&mut self, call: Call<Quantity>, output: u32) -> Option<Quantity> {
+        let first = self.value(&call, None, output);
+        if call.arguments.iter().all(|&x| self.is_at_rest(x)) {
+            return Some(self.add(first, None));
+        }
+        (call.derivatives.len() < FUNCTION_ORDER).then_some(())?;
+        let moving = (0..).zip(call.arguments.clone()).filter(|&(_, x)| !self.is_at_rest(x));
+        let moving: Vec<(u32, Quantity)> = moving.collect();
+        let slopes: Vec<(Register, Quantity)> =
+            moving.into_iter().map(|(i, x)| (self.value(&call, Some(i), output), x)).collect();
+        let (place, _) = self.calls.insert_full(call);
+        let sum = self.place(Sum::Value(place, output));
+        let newest = STAGES.map(|stage| {
+            let mut all = Some(sum);
+            for &(slope, x) in &slopes {
+                let newest = self.quantities[x.0].newest.and_then(|newest| newest[stage as usize]);
+                let change = self.times(slope, newest);
+                all = self.sum(all, change);
+            }
+            all
+        });
+        Some(self.add(first, Some(newest)))
+    }
+
+    /// A result of a call at order 0, or its derivative by one more argument.
+    fn value(&mut self, call: &Call<Quantity>, by: Option<u32>, output: u32) -> Register {
+        let mut derivatives: Vec<u32> = call.derivatives.iter().copied().chain(by).collect();
+        derivatives.sort_unstable();
+        let arguments = call.arguments.iter().map(|&x| self.first(x)).collect();
+        let call = Call { function: call.function, derivatives: derivatives.into(), arguments };
+        let (call, _) = self.schedule.calls.insert_full(call);
+        self.schedule.push(Operation::Result { call: call as u32, output })
+    }
+
+    /// The calls, with a place among the sums for each argument that is no constant, and these with their values at order 0.
+    pub(super) fn calls(&mut self) -> (Vec<CallOnSeries>, Vec<(usize, Register)>) {
+        let mut kept: Vec<(usize, Register)> = Vec::new();
+        let calls = core::mem::take(&mut self.calls);
+        let calls =
+            calls.into_iter().enumerate().map(|(place, Call { function, derivatives, arguments })| {
+                let arguments = arguments.iter().map(|&x| self.argument(x, &mut kept)).collect();
+                let results = self.sums.iter().enumerate().filter_map(|(at, sum)| match sum {
+                    Sum::Value(of, output) if *of == place => Some((*output, at)),
+                    _ => None,
+                });
+                CallOnSeries { call: Call { function, derivatives, arguments }, results: results.collect() }
+            });
+        (calls.collect(), kept)
+    }
+
+    fn argument(&mut self, x: Quantity, kept: &mut Vec<(usize, Register)>) -> Argument {
+        let first = self.first(x);
+        if let Operation::Constant(bits) = self.schedule.operations[first.index()] {
+            return Argument::Constant(bits);
+        }
+        let (place, _) = self.sums.insert_full(Sum::Argument(x));
+        let known = kept.iter().position(|&(known, _)| known == place);
+        Argument::Kept(known.unwrap_or_else(|| {
+            kept.push((place, first));
+            kept.len() - 1
+        }))
+    }
+}
+
+impl Emitter<'_> {
+    /// The method that evaluates the functions on series, where there are any.
+    pub(super) fn series_functions(&self, series: &Series) -> Option<TokenStream> {
+        let scalar = self.style.types.scalar;
+        let calls = series.calls.iter().map(|call| self.call_on_series(call));
+        (!series.calls.is_empty()).then(|| {
+            quote! {
+                #[doc = "What the functions add to an order."]
+                fn series_functions(&self, order: usize, arguments: &[__lagrange::PowerSeries<#scalar>], sums: &mut Self::Sums) {
+                    #(#calls)*
+                }
+            }
+        })
+    }
+
+    fn call_on_series(&self, CallOnSeries { call, results }: &CallOnSeries) -> TokenStream {
+        let (function, scalar) = (&self.problem.functions[call.function as usize], self.style.types.scalar);
+        let values =
+            call_of(function, call, &quote!(__lagrange::PowerSeries<#scalar>), |argument| match argument {
+                Argument::Constant(bits) => {
+                    let value = Literal::f64_unsuffixed(f64::from_bits(*bits));
+                    quote!(__lagrange::Scalar::constant(#value))
+                }
+                Argument::Kept(place) => quote!(arguments[#place]),
+            });
+        let puts = results.iter().map(|&(output, place)| {
+            let output = output as usize;
+            quote!(sums[#place] = values[#output].coefficient(order);)
+        });
+        quote! {
+            let values = #values;
+            #(#puts)*
+        }
+    }
+
+    /// What functions must be able to do on series, and one derivative more than the equations need of numbers; asked for only
+    /// where somebody uses it.
+    pub(super) fn generics_on_series(&self, series: &Series) -> syn::Generics {
+        let scalar = self.style.types.scalar;
+        let orders = orders_of(self.orders(&[]), series.slopes.schedule.calls.iter());
+        let mut generics = self.generics(&orders, series.calls.is_empty());
+        let on_series = orders_of(BTreeMap::new(), series.calls.iter().map(|of| &of.call));
+        self.ask_for(&mut generics, &on_series, &quote!(__lagrange::PowerSeries<#scalar>), false);
+        generics
+    }
+}
