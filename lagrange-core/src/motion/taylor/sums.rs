@@ -10,7 +10,10 @@ use crate::number::{Filled, Scalar};
 const WIDTH: usize = 4;
 const BLOCK: usize = 4;
 
-type Group<T> = [T; WIDTH];
+/// Aligned as the instructions that read it would have it: every other one would otherwise touch two lines of the cache.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(32))]
+struct Group<T>([T; WIDTH]);
 
 /// The factors of all sums so far, order by order.
 #[derive(Clone, Debug)]
@@ -26,7 +29,7 @@ pub(super) struct Factors<T> {
 impl<T: Scalar> Factors<T> {
     /// Room for so many sums.
     pub(super) fn new(sums: usize, orders: usize) -> Self {
-        let room = vec![[T::constant(0.0); WIDTH]; sums / WIDTH * (orders + BLOCK)];
+        let room = vec![Group([T::constant(0.0); WIDTH]); sums / WIDTH * (orders + BLOCK)];
         Self { orders, left: room.clone(), right: room }
     }
 
@@ -34,7 +37,7 @@ impl<T: Scalar> Factors<T> {
     #[cold]
     pub(super) fn clear(&mut self) {
         for factor in [&mut self.left, &mut self.right] {
-            factor.fill([T::constant(0.0); WIDTH]);
+            factor.fill(Group([T::constant(0.0); WIDTH]));
         }
     }
 
@@ -45,7 +48,7 @@ impl<T: Scalar> Factors<T> {
         for (all, newest, place) in places {
             let groups = all.chunks_exact_mut(self.orders + BLOCK);
             for (group, newest) in groups.zip(newest.as_ref().as_chunks().0) {
-                group[place] = *newest;
+                group[place] = Group(*newest);
             }
         }
     }
@@ -53,7 +56,7 @@ impl<T: Scalar> Factors<T> {
     /// The coefficients of the right factor of a sum, from order 1, of which there are so many.
     pub(super) fn right_factor(&self, place: usize, count: usize) -> impl Iterator<Item = T> + Clone {
         let group = &self.right[place / WIDTH * (self.orders + BLOCK)..];
-        (1..=count).map(move |order| group[self.orders - order][place % WIDTH])
+        (1..=count).map(move |order| group[self.orders - order].0[place % WIDTH])
     }
 
     /// The sums of an order, of the factors of all orders before it.
@@ -71,11 +74,11 @@ impl<T: Scalar> Factors<T> {
 
 /// Σ x_j y_j of blocks, in as many parts side by side as a block has.
 #[inline(always)]
-fn products<T: Scalar>(x: &[[Group<T>; BLOCK]], y: &[[Group<T>; BLOCK]]) -> Group<T> {
+fn products<T: Scalar>(x: &[[Group<T>; BLOCK]], y: &[[Group<T>; BLOCK]]) -> [T; WIDTH] {
     let mut parts = [[T::constant(0.0); WIDTH]; BLOCK];
     for (x, y) in x.iter().zip(y) {
         for ((part, x), y) in parts.iter_mut().zip(x).zip(y) {
-            *part = from_fn(|lane| x[lane].multiply_add(y[lane], part[lane]));
+            *part = from_fn(|lane| x.0[lane].multiply_add(y.0[lane], part[lane]));
         }
     }
     let [a, b, c, d] = parts;
