@@ -2,6 +2,7 @@
 
 mod classics;
 mod control;
+mod events;
 mod functions;
 mod supplied;
 mod systems;

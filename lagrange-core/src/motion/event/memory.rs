@@ -118,7 +118,8 @@ impl<T: Real> Memory<T> {
         let (start, zero) = (self.value, T::constant(0.0));
         let [rise, bend] = [end - start, (start - middle) + (end - middle)].map(Scalar::abs);
         let least = smaller(smaller(Scalar::abs(start), Scalar::abs(middle)), Scalar::abs(end));
-        let has_one_sign = start * middle.signum() > zero && start * end.signum() > zero;
+        let values = [start, middle, end];
+        let has_one_sign = values.iter().all(|x| *x > zero) || values.iter().all(|x| *x < zero);
         // The parabola turns back within the step only where it bends by half as much as it rises, and
         // comes nearer to zero than the least of the three by no more than an eighth of what it bends by.
         match bend * T::constant(4.0) < rise || bend < least {
