@@ -1,9 +1,11 @@
 //! Taylor's method against closed solutions, published values, conservation laws and another method.
 
 mod classics;
+mod constrained;
 mod control;
 mod events;
 mod functions;
+mod references;
 mod supplied;
 mod systems;
 

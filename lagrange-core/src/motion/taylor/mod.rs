@@ -160,11 +160,12 @@ where
         statistics: &mut Statistics,
     ) -> Result<Self::Memory, Error> {
         statistics.evaluations += 1;
-        let zero = L::Scalar::constant(0.0);
+        let (zero, solved) = (L::Scalar::constant(0.0), Solved::at(system, start)?);
+        statistics.multipliers_are_unique &= solved.solution.multipliers_are_unique();
         Ok(Memory {
             clock: Clock::new(start.t, None),
             state: *start,
-            solved: Solved::at(system, start)?,
+            solved,
             rest: [[zero; N]; 2],
             series: Expansion::new::<L, M>(self.order::<L::Scalar>()),
             is_expanded: false,
@@ -182,6 +183,7 @@ where
         statistics.evaluations += 1;
         memory.clock.set(state.t);
         (memory.state, memory.solved) = (*state, Solved::at(system, state)?);
+        statistics.multipliers_are_unique &= memory.solved.solution.multipliers_are_unique();
         memory.is_expanded = false;
         memory.rest = [[L::Scalar::constant(0.0); N]; 2];
         Ok(())
@@ -205,7 +207,10 @@ where
         }
         statistics.evaluations += 1;
         let ending = match self.attempt(system, memory, h, time) {
-            Ok(Attempt::Reached(next)) => return Step::Accepted(next),
+            Ok(Attempt::Reached(next)) => {
+                statistics.multipliers_are_unique &= memory.solved.solution.multipliers_are_unique();
+                return Step::Accepted(next);
+            }
             Ok(Attempt::Inaccurate(i)) => {
                 Ending::StepTooSmall { time: now, entry: Entry::Velocity(name(&L::COORDINATES, i)) }
             }

@@ -1,0 +1,112 @@
+//! Motions on constraints: there and back, between the steps, constraints too many, inputs that change.
+
+use lagrange_core::prelude::*;
+
+#[derive(Lagrangian)]
+#[coordinates(x, y, z)]
+#[lagrangian((x_dot^2 + y_dot^2 + z_dot^2)/2 - g*z)]
+#[constraint(rod: (x^2 + y^2 + z^2 - l^2)/2 = 0)]
+struct Spherical {
+    g: f64,
+    l: f64,
+}
+
+const SPHERICAL: Spherical = Spherical { g: 9.81, l: 1.0 };
+
+fn thrown() -> State<f64, 3> {
+    State::new([0.6, 0.0, -0.8], [0.0, 1.3, 0.0])
+}
+
+#[test]
+fn there_and_back() -> Result<(), Error> {
+    let path = SPHERICAL.integrate(thrown(), 20.0, Taylor::default())?;
+    let there = *path.end().state();
+    let path = SPHERICAL.integrate(there, 0.0, Taylor::default())?;
+    let back = *path.end().state();
+    let off = (back.q - thrown().q).amax().max((back.v - thrown().v).amax());
+    println!("{off:e} after {} steps", path.statistics().accepted);
+    assert!(off < 1e-13 && (there.q - thrown().q).amax() > 0.1, "{off:e} {there:?}");
+    Ok(())
+}
+
+/// At times on a grid, which are not those of steps, by both ways that there are to them.
+#[test]
+fn constraints_hold_between_the_steps() -> Result<(), Box<dyn core::error::Error>> {
+    let path = SPHERICAL.integrate(thrown(), 20.0, Taylor::default())?;
+    assert!(path.statistics().accepted < 300);
+    let mut motion = Motion::new(&SPHERICAL, thrown(), Taylor::default())?;
+    let times = (0..=2000).map(|k| 0.01 * f64::from(k));
+    let mut worst = [0.0_f64; 3];
+    for state in motion.states_at(times) {
+        let state = state?;
+        let sampled = *path.at(state.t)?.state();
+        for state in [&state, &sampled] {
+            let energy = SPHERICAL.energy(state) - SPHERICAL.energy(&thrown());
+            let off =
+                [2.0 * SPHERICAL.constraint_residual(state)[0], SPHERICAL.constraint_rate(state)[0], energy];
+            worst = std::array::from_fn(|i| worst[i].max(off[i].abs()));
+        }
+        assert_eq!(state, sampled);
+    }
+    println!("{worst:?}");
+    // In units of l² and of l·max|v|, which is 4.
+    assert!(worst[0] <= 16.0 * f64::EPSILON && worst[1] <= 4.0 * 16.0 * f64::EPSILON && worst[2] < 1e-13);
+    Ok(())
+}
+
+#[derive(Lagrangian)]
+#[coordinates(x, y, z)]
+#[lagrangian((x_dot^2 + y_dot^2 + z_dot^2)/2 - g*y)]
+#[constraint(sphere: (x^2 + y^2 + z^2 - 1)/2 = 0)]
+#[constraint(plane: z = 0)]
+#[constraint(cylinder: x^2 + y^2 = 1)]
+struct Thrice {
+    g: f64,
+}
+
+/// Any two make a circle. A bob that is let go at the height of its suspension is held by 3 g y along it: of that the
+/// sphere's row r and the cylinder's 2 r have the least multipliers in the ratio of 1 to 2.
+#[test]
+fn a_constraint_too_many_shares_its_force() -> Result<(), Error> {
+    let system = Thrice { g: 9.81 };
+    let path = system.integrate(State::at_rest([1.0, 0.0, 0.0]), 10.0, Taylor::default())?;
+    assert!(!path.multipliers_are_unique());
+    for sample in path.steps().chain(path.samples(500)) {
+        let y = sample.coordinate("y")?;
+        let along = 3.0 * 9.81 * y / 5.0;
+        let [sphere, plane, cylinder] = sample.solution()?.multipliers.into();
+        let speed = sample.state().v.norm_squared() + 2.0 * 9.81 * y;
+        let off = [sphere - along, plane, cylinder - 2.0 * along, speed];
+        assert!(off.iter().all(|off| off.abs() < 1e-12), "{off:?} at {}", sample.time());
+    }
+    Ok(())
+}
+
+#[derive(Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian((x_dot^2 + y_dot^2)/2)]
+#[force(x: -u*y)]
+#[force(y: u*x)]
+#[constraint(ring: x^2 + y^2 = 1)]
+struct Bead {
+    u: f64,
+}
+
+/// A force along the ring is an angular acceleration: between changes the angle is a parabola.
+#[test]
+fn inputs_change_every_ten_milliseconds() -> Result<(), Box<dyn core::error::Error>> {
+    let mut bead = Motion::new(Bead { u: 0.0 }, State::new([1.0, 0.0], [0.0, 0.5]), Taylor::default())?;
+    let (mut angle, mut rate) = (0.0_f64, 0.5_f64);
+    for k in 1..=500 {
+        let (u, tick) = (20.0 * (f64::from(k) * 0.7).sin() + 3.0, 0.01 * f64::from(k) - bead.state().t);
+        bead.system_mut().u = u;
+        bead.advance_to(0.01 * f64::from(k))?;
+        angle += tick * (rate + tick * u / 2.0);
+        rate += tick * u;
+        let State { q, v, .. } = *bead.state();
+        let off = [q[0] - angle.cos(), q[1] - angle.sin(), v[0] + rate * q[1], v[1] - rate * q[0]];
+        assert!(off.iter().all(|off| off.abs() < 2e-13), "{k}: {off:?}");
+    }
+    println!("{} steps, angle {angle}", bead.statistics().accepted);
+    Ok(())
+}
