@@ -93,6 +93,8 @@ pub use linearized::{
     Sensitivities, Sensitivity, Stability,
 };
 pub use linearized::{Direction, Jacobian, Linearized, Partials, ResidualChange, StateDerivatives};
+#[cfg(feature = "std")]
+pub use motion::LaneMethod;
 pub use motion::Simulate;
 #[cfg(feature = "alloc")]
 pub use motion::Taylor;

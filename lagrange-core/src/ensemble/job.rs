@@ -11,11 +11,11 @@ use super::table::MemberRow;
 use crate::ending::Ending;
 use crate::error::Error;
 use crate::motion::run::{Run, Watchdog};
-use crate::motion::{Adaptive, Batch, LagrangianFlow, Method, Orders, Pair, Record, Seat};
-use crate::number::{Lanes, Real};
+use crate::motion::{Batch, LagrangianFlow, LaneMethod, Method, Orders, Record, Seat};
+use crate::number::Real;
 use crate::statistics::Statistics;
 use crate::system::finite::check_finite;
-use crate::system::{Lagrangian, Pack, State};
+use crate::system::{Lagrangian, State};
 
 /// What an ensemble is to do.
 pub(super) struct Plan<'a, L: Lagrangian<N, M, Scalar = T>, T, const N: usize, const M: usize> {
@@ -307,18 +307,13 @@ fn check_run_of<T: Real, const N: usize>(member: &Member<T, N>, expected: &Finge
 
 impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Job<'_, L, f64, N, M> {
     /// Integrates members four at a time until there are none left.
-    pub(super) fn on_lanes<P, const IS_WATCHED: bool>(&self, method: Adaptive<P>)
-    where
-        L: Lagrangian<N, M, Scalar = f64> + Pack<Lanes, Packed: Lagrangian<N, M, Scalar = Lanes>>,
-        P: Pair,
-        Adaptive<P>: Copy,
-    {
-        let mut next = self.next_seat::<P, IS_WATCHED>(&method);
+    pub(super) fn on_lanes<P: LaneMethod<L, N, M>, const IS_WATCHED: bool>(&self, method: &P) {
+        let mut next = self.next_seat::<P, IS_WATCHED>(method);
         while let Some(first) = next.take() {
             let mut batch = Batch::new(method, first);
-            next = self.next_seat::<P, IS_WATCHED>(&method);
+            next = self.next_seat::<P, IS_WATCHED>(method);
             while !batch.is_empty() && !self.is_stopped() {
-                self.fill::<P, IS_WATCHED>(&mut batch, &mut next, &method);
+                self.fill::<P, IS_WATCHED>(&mut batch, &mut next, method);
                 batch.step::<IS_WATCHED>(
                     |index, state| self.observe(index, state),
                     |seat, state, ending| self.report(self.arrived(seat, state, ending)),
@@ -328,15 +323,12 @@ impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Job<'_, 
     }
 
     /// Gives free lanes to the next members. One that does not fit beside the others waits until they have ended.
-    fn fill<'j, P, const IS_WATCHED: bool>(
+    fn fill<'j, P: LaneMethod<L, N, M>, const IS_WATCHED: bool>(
         &'j self,
         batch: &mut Batch<'j, L, P, N, M>,
-        next: &mut Option<Seat<'j, L, N, M>>,
-        method: &Adaptive<P>,
-    ) where
-        L: Lagrangian<N, M, Scalar = f64> + Pack<Lanes, Packed: Lagrangian<N, M, Scalar = Lanes>>,
-        P: Pair,
-    {
+        next: &mut Option<Seat<'j, L, P, N, M>>,
+        method: &P,
+    ) {
         while batch.has_free_lane()
             && let Some(seat) = next.take()
         {
@@ -348,20 +340,28 @@ impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Job<'_, 
         }
     }
 
-    fn arrived(&self, seat: Seat<'_, L, N, M>, state: State<f64, N>, ending: Ending) -> Member<f64, N> {
+    fn arrived<P: LaneMethod<L, N, M>>(
+        &self,
+        seat: Seat<'_, L, P, N, M>,
+        state: State<f64, N>,
+        ending: Ending,
+    ) -> Member<f64, N> {
         let Seat { index, start, statistics, record, .. } = seat;
         let fingerprint = Fingerprint { start, ..self.run };
         Member { index, fingerprint, result: Ok(arrival(state, ending, statistics, record)) }
     }
 
     /// The next member that has a motion; those without are reported.
-    fn next_seat<P: Pair, const IS_WATCHED: bool>(&self, method: &Adaptive<P>) -> Option<Seat<'_, L, N, M>> {
+    fn next_seat<P: LaneMethod<L, N, M>, const IS_WATCHED: bool>(
+        &self,
+        method: &P,
+    ) -> Option<Seat<'_, L, P, N, M>> {
         loop {
             let index = self.next()?;
             let (system, start) = (self.make)(index);
             let fingerprint = self.run.with_start(&system, &start);
             let seat = check_finite(&system, &start).and_then(|()| {
-                Seat::new::<P, IS_WATCHED>(
+                Seat::new::<IS_WATCHED>(
                     (index, fingerprint.start),
                     system,
                     &start,

@@ -16,15 +16,13 @@
 //! any of them may end, or go on along the other branch that begins there. The example `methods` prints what an error costs by
 //! the first three in eight systems; the README has its table.
 
-#[cfg(feature = "std")]
-mod batch;
 pub(crate) mod event;
+#[cfg(feature = "std")]
+mod lanes;
 pub(crate) mod method;
 #[cfg(feature = "std")]
 mod record;
 pub(crate) mod run;
-#[cfg(feature = "std")]
-mod seat;
 pub(crate) mod simulate;
 mod steered;
 #[cfg(feature = "alloc")]
@@ -32,9 +30,11 @@ mod taylor;
 #[cfg(test)]
 mod tests;
 
-#[cfg(feature = "std")]
-pub(crate) use batch::Batch;
 pub use event::{Crossing, Event, EventFunction, EventValue, Watched};
+#[cfg(feature = "std")]
+pub use lanes::LaneMethod;
+#[cfg(feature = "std")]
+pub(crate) use lanes::{Batch, Seat};
 pub use method::{
     Adaptive, Combination, Dop853, Dopri5, DormandPrince54, DormandPrince853, Interpolant, Limits, Method,
     Node, Pair, Polynomial, RungeKutta4, Step, runge_kutta_step,
@@ -42,8 +42,6 @@ pub use method::{
 #[cfg(feature = "std")]
 pub(crate) use record::{Orders, Record};
 pub use run::Progress;
-#[cfg(feature = "std")]
-pub(crate) use seat::Seat;
 pub use simulate::Simulate;
 pub use steered::Motion;
 #[cfg(feature = "alloc")]

@@ -28,14 +28,6 @@ impl<T: Real, C> Polynomial<T, C> {
     pub fn new(start: T, length: T, coefficients: C) -> Self {
         Self { start, length, coefficients }
     }
-
-    #[cfg(feature = "std")]
-    pub(crate) fn coefficients<X>(&self) -> &[X]
-    where
-        C: AsRef<[X]>,
-    {
-        self.coefficients.as_ref()
-    }
 }
 
 /// The place and its rates at one end of a step.

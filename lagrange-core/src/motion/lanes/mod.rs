@@ -1,0 +1,106 @@
+//! Motions side by side on SIMD lanes, by every method that can step so.
+//!
+//! A step is computed for all lanes at once; what decides is done lane by lane, as for a motion alone. Where a lane meets what
+//! the lanes cannot do (an elimination that is not to be trusted, constraints that depend on one another, numbers that are not
+//! finite, the end of all steps) its step is taken alone, by the scalar method. Nothing in a lane depends on the others.
+
+mod batch;
+mod pair;
+mod seat;
+mod trust;
+
+pub(crate) use batch::Batch;
+pub(crate) use seat::{Fate, Seat};
+pub(crate) use trust::Trust;
+
+use super::{Interpolant, Method};
+use crate::error::Error;
+use crate::number::Lanes;
+use crate::solution::flow::Phase;
+use crate::statistics::Statistics;
+use crate::system::Lagrangian;
+
+/// A method that integrates four members of an ensemble at once: [`Dop853`](crate::Dop853), [`Dopri5`](crate::Dopri5) and every
+/// other [`Pair`](crate::motion::Pair), and [`Taylor`](crate::Taylor) where the system has a Taylor series.
+///
+/// [`Ensemble::integrate_on_lanes`](crate::Ensemble::integrate_on_lanes) takes it. What it consists of belongs to this crate.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not integrate `{L}` on SIMD lanes",
+    note = "`Dop853` and `Dopri5` do, and `Taylor` where the equations of motion have a Taylor series",
+    note = "`Ensemble::integrate` takes every method, and integrates one member at a time"
+)]
+pub trait LaneMethod<L, const N: usize, const M: usize>: Method<L, N, M> + Sized
+where
+    L: Lagrangian<N, M, Scalar = f64>,
+{
+    /// Four systems with their states, and what a step of them takes.
+    #[doc(hidden)]
+    type Abreast;
+
+    /// The time that a motion has reached.
+    #[doc(hidden)]
+    fn now(memory: &Self::Memory) -> f64;
+
+    /// Whether a motion has no way left.
+    #[doc(hidden)]
+    fn is_at_end(memory: &Self::Memory) -> bool;
+
+    /// Finds out what a step towards the end starts with, unless that is known.
+    #[doc(hidden)]
+    fn prepare(
+        &self,
+        system: &L,
+        memory: &mut Self::Memory,
+        end: f64,
+        statistics: &mut Statistics,
+    ) -> Result<(), Error>;
+
+    /// This motion in all lanes. Free ones compute what the first does, to no purpose and no harm.
+    #[doc(hidden)]
+    fn abreast(&self, system: &L, memory: &Self::Memory) -> Self::Abreast;
+
+    /// Puts the parameters into a lane; `false`, and nothing done, where a field that all lanes share differs.
+    #[doc(hidden)]
+    fn place(abreast: &mut Self::Abreast, lane: usize, system: &L) -> bool;
+
+    /// Puts where a motion is into a lane.
+    #[doc(hidden)]
+    fn load(abreast: &mut Self::Abreast, lane: usize, memory: &Self::Memory);
+
+    /// Gives the motion what its lane holds.
+    #[doc(hidden)]
+    fn unload(abreast: &Self::Abreast, lane: usize, memory: &mut Self::Memory);
+
+    /// Coordinates and velocities in a lane.
+    #[doc(hidden)]
+    fn phase(abreast: &Self::Abreast, lane: usize) -> Phase<f64, N>;
+
+    /// Tries a step in all lanes and moves the clocks of those where it is accepted; `None` for one that is to be taken alone.
+    /// Of no step is it known where it leads within, where `IS_WATCHED` is false.
+    #[doc(hidden)]
+    fn attempt<const IS_WATCHED: bool>(
+        &self,
+        abreast: &mut Self::Abreast,
+        seats: &mut Seats<'_, L, Self, N, M>,
+    ) -> [Option<Fate>; Lanes::COUNT];
+
+    /// Moves the lanes chosen to where their steps lead.
+    #[doc(hidden)]
+    fn settle(abreast: &mut Self::Abreast, chosen: Lanes);
+
+    /// What lies within the step of a lane that was tried last.
+    #[doc(hidden)]
+    fn within(abreast: &Self::Abreast, lane: usize) -> impl Interpolant<f64, N>;
+}
+
+/// Who is in which lane.
+pub(crate) type Seats<'o, L, P, const N: usize, const M: usize> =
+    [Option<Seat<'o, L, P, N, M>>; Lanes::COUNT];
+
+/// What lies in one lane.
+pub(crate) fn unpacked<const R: usize, const N: usize>(
+    packed: &[[Lanes; N]; R],
+    lane: usize,
+) -> [[f64; N]; R] {
+    packed.map(|row| row.map(|x| x.to_array()[lane]))
+}

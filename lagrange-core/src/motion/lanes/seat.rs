@@ -1,0 +1,171 @@
+//! A motion that has a SIMD lane, and what becomes of its steps.
+
+use core::fmt::{self, Debug, Formatter};
+
+use super::LaneMethod;
+use crate::ending::Ending;
+use crate::error::Error;
+use crate::motion::record::{Orders, Record};
+use crate::motion::run::{Run, Watchdog, resume};
+use crate::motion::{Method, Step};
+use crate::solution::flow::LagrangianFlow;
+use crate::statistics::Statistics;
+use crate::system::{Lagrangian, State};
+
+/// A motion that has a lane, or waits for one.
+pub struct Seat<'o, L, P, const N: usize, const M: usize>
+where
+    L: Lagrangian<N, M, Scalar = f64>,
+    P: Method<L, N, M>,
+{
+    /// Which member of the ensemble it is.
+    pub(crate) index: usize,
+    /// What tells its start and parameters from others.
+    pub(crate) start: u32,
+    pub(crate) statistics: Statistics,
+    /// What is kept of it on the way.
+    pub(crate) record: Record<'o, L, N, M>,
+    pub(crate) system: L,
+    /// Where it is lies in the lane, and here only while a step is taken alone.
+    pub(crate) memory: P::Memory,
+    /// What lies within the last step, where that was taken alone and is to be looked into.
+    pub(super) within: Option<P::Interpolant>,
+    end: f64,
+    limits: Watchdog,
+    /// Why no step will do.
+    failure: Option<Ending>,
+}
+
+impl<L, P, const N: usize, const M: usize> Debug for Seat<'_, L, P, N, M>
+where
+    L: Lagrangian<N, M, Scalar = f64>,
+    P: Method<L, N, M>,
+{
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { index, statistics, end, .. } = self;
+        let mut text = f.debug_struct("Seat");
+        text.field("index", index).field("statistics", statistics).field("end", end).finish_non_exhaustive()
+    }
+}
+
+/// What became of a step in one lane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fate {
+    /// The lane is to be moved to where it leads.
+    Accepted,
+    /// Taken alone: the lane is to be loaded with the result.
+    AcceptedAlone,
+    /// The lane stays where it is.
+    Rejected,
+}
+
+impl<'o, L, P, const N: usize, const M: usize> Seat<'o, L, P, N, M>
+where
+    L: Lagrangian<N, M, Scalar = f64>,
+    P: LaneMethod<L, N, M>,
+{
+    /// Before the first step, with the state made consistent.
+    pub(crate) fn new<const IS_WATCHED: bool>(
+        (index, start): (usize, u32),
+        system: L,
+        state: &State<f64, N>,
+        end: f64,
+        method: &P,
+        orders: &'o Orders<'o, L, N, M>,
+    ) -> Result<(Self, State<f64, N>), Error> {
+        let (run, _) = Run::begin::<L, LagrangianFlow, _, M>(&system, state, method)?;
+        let record = Record::begin(orders, &system, &run.state, end)?;
+        let Run { memory, state, statistics, .. } = run;
+        let limits = Watchdog::new(method.limits(), &statistics);
+        let (within, failure) = (None, None);
+        let mut seat =
+            Self { index, start, record, system, memory, within, end, statistics, limits, failure };
+        if const { IS_WATCHED } && seat.record.is_due(state.t) {
+            seat.failure = seat.control(&state, method).err();
+        }
+        let prepared = seat.prepare(method).err();
+        seat.failure = seat.failure.or(prepared);
+        Ok((seat, state))
+    }
+
+    pub(crate) fn now(&self) -> f64 {
+        P::now(&self.memory)
+    }
+
+    fn prepare(&mut self, method: &P) -> Result<(), Ending> {
+        let Self { system, memory, end, statistics, .. } = self;
+        let prepared = method.prepare(system, memory, *end, statistics);
+        prepared.map_err(|error| Ending::of(error, self.now()))
+    }
+
+    /// Calls the controller, and goes on from this state with what it has set.
+    pub(super) fn control(&mut self, state: &State<f64, N>, method: &P) -> Result<(), Ending> {
+        let Self { index, record, system, memory, statistics, .. } = self;
+        record.control(*index, system, state)?;
+        resume::<_, LagrangianFlow, _, N, M>(system, method, memory, state, statistics)
+            .map_err(|error| Ending::of(error, state.t))?;
+        self.end = self.record.goal;
+        self.prepare(method)
+    }
+
+    /// The clock on the wall starts when it is given a lane.
+    pub(super) fn begin(mut self, method: &P) -> Self {
+        self.limits = Watchdog::new(method.limits(), &self.statistics);
+        self
+    }
+
+    /// Why there is no step to take.
+    pub(crate) fn ending_at_start(&mut self, method: &P) -> Option<Ending> {
+        self.ending(method, |_| ())
+    }
+
+    /// Why there is no further step to take; `unload` gives the memory what the lane holds.
+    pub(super) fn ending(&mut self, method: &P, unload: impl FnOnce(&mut P::Memory)) -> Option<Ending> {
+        let Self { system, memory, end, statistics, limits, failure, .. } = self;
+        let time = P::now(memory);
+        if P::is_at_end(memory) {
+            return Some(Ending::Complete { time });
+        }
+        let stiffness = || {
+            unload(memory);
+            method.stiffness(system, memory, *end)
+        };
+        failure.clone().or_else(|| limits.exceeded(statistics, time, stiffness))
+    }
+
+    /// The step from where the memory is, by the scalar method, with what lies within where that is asked for: where there is
+    /// none the step is taken back.
+    #[cold]
+    pub(super) fn step_alone<const IS_WATCHED: bool>(&mut self, method: &P) -> Fate {
+        let now = self.now();
+        let Self { system, memory, end, statistics, .. } = self;
+        self.failure = match method.step(system, memory, *end, statistics) {
+            Step::Accepted(_) => match self.look_within::<IS_WATCHED>(now, method) {
+                Ok(()) => {
+                    self.statistics.accepted += 1;
+                    self.failure = self.prepare(method).err();
+                    return Fate::AcceptedAlone;
+                }
+                Err(error) => {
+                    self.statistics.rejected += 1;
+                    let is_taken_back = method.take_back(&mut self.memory);
+                    (!is_taken_back).then(|| Ending::of(error, now))
+                }
+            },
+            Step::Rejected => {
+                statistics.rejected += 1;
+                None
+            }
+            Step::Failed(ending) => Some(ending),
+        };
+        Fate::Rejected
+    }
+
+    fn look_within<const IS_WATCHED: bool>(&mut self, before: f64, method: &P) -> Result<(), Error> {
+        if const { IS_WATCHED } && self.record.looks_into(before, self.now()) {
+            let Self { system, memory, statistics, .. } = self;
+            self.within = Some(method.interpolant(system, memory, statistics)?);
+        }
+        Ok(())
+    }
+}
