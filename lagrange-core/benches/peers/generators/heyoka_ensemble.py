@@ -3,7 +3,7 @@
 usage: heyoka_ensemble.py BATCH TOLERANCE STARTS ENDS
 
 The protocol is that of ours, see `ensemble.rs`. The equations are in closed form, which is faster than those that
-`heyoka.lagrangian` gives. BATCH 1 is the scalar integrator.
+`heyoka.lagrangian` gives. BATCH 1 is the scalar integrator, `exact` that in extended precision, to its round-off.
 """
 
 import json
@@ -25,6 +25,9 @@ def equations():
 
 
 def integrator(batch, tolerance):
+    if batch == "exact":
+        number = np.longdouble
+        return hy.taylor_adaptive(equations(), [number(0.0)] * 4, pars=[number(GRAVITY)], fp_type=number)
     if batch == 1:
         return hy.taylor_adaptive(equations(), [0.0] * 4, pars=[GRAVITY], tol=tolerance)
     parameters = np.full((1, batch), GRAVITY)
@@ -33,21 +36,24 @@ def integrator(batch, tolerance):
 
 def run(taylor, batch, starts):
     """The last states, a column each."""
-    states = starts.copy()
-    for k in range(0, states.shape[1], batch):
-        part = slice(k, k + batch) if batch > 1 else k
-        if batch > 1:
+    states, width, number = starts.copy(), batch, float
+    if batch == "exact":
+        width, number = 1, np.longdouble
+    for k in range(0, states.shape[1], width):
+        part = slice(k, k + width) if width > 1 else k
+        if width > 1:
             taylor.set_time(0.0)
         else:
-            taylor.time = 0.0
+            taylor.time = number(0.0)
         taylor.state[:] = states[:, part]
-        taylor.propagate_until(END)
+        taylor.propagate_until(number(END))
         states[:, part] = taylor.state
     return states
 
 
 def main():
-    batch, tolerance, starts, ends = int(sys.argv[1]), float(sys.argv[2]), sys.argv[3], sys.argv[4]
+    batch = sys.argv[1] if sys.argv[1] == "exact" else int(sys.argv[1])
+    tolerance, starts, ends = float(sys.argv[2]), sys.argv[3], sys.argv[4]
     hy.llvm_state.set_diskcache_enabled(False)
     angles = np.fromfile(starts).reshape(-1, 2).T
     initial = np.vstack([angles, np.zeros_like(angles)])

@@ -1,12 +1,13 @@
 //! Many double pendulums from rest to T = 10, timed.
 //!
-//! `ensemble lanes|one-by-one TOLERANCE STARTS ENDS`: STARTS holds the initial angles, two `f64` a pendulum in the machine's byte
+//! `ensemble taylor|dop853 lanes|one-by-one TOLERANCE STARTS ENDS`: STARTS holds the initial angles, two `f64` a pendulum in the machine's byte
 //! order. Each line on the standard input asks for one run, which answers with the seconds it took as a line of JSON; at
 //! its end the last states are written to ENDS, two angles and two rates a pendulum.
 
 use std::io::{BufRead, stdin};
 use std::time::Instant;
 
+use lagrange_core::LaneMethod;
 use lagrange_core::prelude::*;
 
 const END: f64 = 10.0;
@@ -25,8 +26,11 @@ struct DoublePendulum<T> {
 
 type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
 
-fn run(on_lanes: bool, starts: &[[f64; 2]], tolerance: f64) -> Outcome<Vec<State<f64, 2>>> {
-    let method = Dop853::with_tolerance(tolerance);
+fn run(
+    on_lanes: bool,
+    starts: &[[f64; 2]],
+    method: impl LaneMethod<DoublePendulum<f64>, 2, 0> + Sync,
+) -> Outcome<Vec<State<f64, 2>>> {
     let member = |k: usize| (DoublePendulum { g: 9.81 }, State::at_rest(starts[k]));
     let ensemble = Ensemble::from_fn(starts.len(), member);
     let outcome =
@@ -36,8 +40,9 @@ fn run(on_lanes: bool, starts: &[[f64; 2]], tolerance: f64) -> Outcome<Vec<State
 }
 
 fn main() -> Outcome<()> {
-    let [_, way, tolerance, starts, ends] = <[String; 5]>::try_from(std::env::args().collect::<Vec<_>>())
-        .map_err(|_| "usage: ensemble lanes|one-by-one TOLERANCE STARTS ENDS")?;
+    let [_, method, way, tolerance, starts, ends] =
+        <[String; 6]>::try_from(std::env::args().collect::<Vec<_>>())
+            .map_err(|_| "usage: ensemble taylor|dop853 lanes|one-by-one TOLERANCE STARTS ENDS")?;
     let numbers: Vec<f64> =
         std::fs::read(starts)?.as_chunks().0.iter().map(|&bytes| f64::from_ne_bytes(bytes)).collect();
     let (tolerance, starts) = (tolerance.parse()?, numbers.as_chunks().0);
@@ -45,7 +50,10 @@ fn main() -> Outcome<()> {
     for line in stdin().lock().lines() {
         line?;
         let begun = Instant::now();
-        states = run(way == "lanes", starts, tolerance)?;
+        states = match &*method {
+            "taylor" => run(way == "lanes", starts, Taylor::with_tolerance(tolerance))?,
+            _ => run(way == "lanes", starts, Dop853::with_tolerance(tolerance))?,
+        };
         println!("{{\"seconds\": {}}}", begun.elapsed().as_secs_f64());
     }
     let numbers = states.iter().flat_map(|state| state.q.iter().chain(state.v.iter()));
