@@ -159,3 +159,21 @@ fn a_member_allocates_its_record_and_nothing_on_its_way() {
         assert_eq!(more(16, 10.0), more(16, 1.0));
     }
 }
+
+/// Taylor's method has its memory from the start of a member, and on lanes from that of a batch.
+#[test]
+fn members_by_series_allocate_nothing_on_their_way() {
+    let count = |end: f64, on_lanes: bool| {
+        let springs = Ensemble::from_fn(16, |k| (Spring { k: k as f64 }, State::at_rest([1.0])));
+        // As many steps for each, so that there are as many batches.
+        let method = Taylor::default().max_step(0.05);
+        let run = || {
+            if on_lanes { springs.integrate_on_lanes(end, method) } else { springs.integrate(end, method) }
+        };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+        pool.install(|| measure(|| drop(run()))).count_total
+    };
+    for on_lanes in [true, false] {
+        assert_eq!(count(10.0, on_lanes), count(1.0, on_lanes));
+    }
+}

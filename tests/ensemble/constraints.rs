@@ -12,14 +12,14 @@ use crate::{noise, on_threads};
 #[coordinates(x, y, z)]
 #[lagrangian(m/2*(x_dot^2 + y_dot^2 + z_dot^2) - m*g*z)]
 #[constraint(string: (x^2 + y^2 + z^2 - l^2)/2 = 0)]
-struct Spherical<T> {
+pub(crate) struct Spherical<T> {
     m: T,
     g: T,
-    l: T,
+    pub(crate) l: T,
 }
 
 /// On a sphere of its own radius, with a velocity along it.
-fn member(index: usize) -> (Spherical<f64>, State<f64, 3>) {
+pub(crate) fn member(index: usize) -> (Spherical<f64>, State<f64, 3>) {
     let number = |entry| noise(index, entry);
     let (l, polar, azimuth) = (0.5 + number(0), 1.0 + 2.0 * number(1), 6.0 * number(2));
     let (sin, cos) = polar.sin_cos();
@@ -76,23 +76,24 @@ fn neighbours_change_no_bit<P: Pair + Copy + Sync>(method: Adaptive<P>) {
 #[lagrangian(m/2*(x_dot^2 + y_dot^2) - m*g*y)]
 #[constraint(rod: (x^2 + y^2 - l^2)/2 = 0)]
 #[constraint(again: (x^2 + y^2 - l^2)*(2 + x) = 0)]
-struct Twice<T> {
+pub(crate) struct Twice<T> {
     m: T,
     g: T,
     l: T,
 }
 
+pub(crate) fn twice(index: usize) -> (Twice<f64>, State<f64, 2>) {
+    let (angle, l) = (0.2 + noise(index, 0), 1.0 + noise(index, 1));
+    (Twice { m: 1.0, g: 9.81, l }, State::at_rest([l * angle.sin(), -l * angle.cos()]))
+}
+
 #[test]
 fn constraints_that_depend_on_one_another_are_solved_alone() {
-    let member = |index: usize| {
-        let (angle, l) = (0.2 + noise(index, 0), 1.0 + noise(index, 1));
-        (Twice { m: 1.0, g: 9.81, l }, State::at_rest([l * angle.sin(), -l * angle.cos()]))
-    };
     let method = Dopri5::with_tolerance(0.1);
-    let outcome = Ensemble::from_fn(9, member).integrate_on_lanes(3.0, method).unwrap();
+    let outcome = Ensemble::from_fn(9, twice).integrate_on_lanes(3.0, method).unwrap();
     assert_eq!(outcome.completed().count(), 9);
     for (index, state) in outcome.completed() {
-        let (system, start) = member(index);
+        let (system, start) = twice(index);
         let path = system.integrate(start, 3.0, method).unwrap();
         assert_eq!(state, path.end().state(), "member {index}");
         assert!(!outcome.get(index).unwrap().arrival().unwrap().statistics.multipliers_are_unique);

@@ -63,7 +63,7 @@ fn a_member_with_another_shared_field_does_not_fit() {
 }
 
 #[derive(Clone, Copy, PartialEq)]
-struct Power {
+pub(crate) struct Power {
     strength: f64,
 }
 
@@ -77,22 +77,23 @@ impl Function<1, 1> for Power {
 #[coordinates(x)]
 #[function(U(x) = potential)]
 #[lagrangian(m/2*x_dot^2 - U(x))]
-struct Trapped<T> {
+pub(crate) struct Trapped<T> {
     m: T,
     potential: Power,
 }
 
 /// Every third member has another potential, which no lane may take from its neighbour.
+pub(crate) fn trapped(index: usize) -> (Trapped<f64>, State<f64, 1>) {
+    let potential = Power { strength: [1.0, 1.0, 3.0][index % 3] };
+    (Trapped { m: 1.0 + noise(index, 0), potential }, State::at_rest([1.0]))
+}
+
 #[test]
 fn members_with_other_functions_do_not_mix() {
-    let member = |index: usize| {
-        let potential = Power { strength: [1.0, 1.0, 3.0][index % 3] };
-        (Trapped { m: 1.0 + noise(index, 0), potential }, State::at_rest([1.0]))
-    };
-    let outcome = Ensemble::from_fn(20, member).integrate_on_lanes(3.0, Dop853::default()).unwrap();
+    let outcome = Ensemble::from_fn(20, trapped).integrate_on_lanes(3.0, Dop853::default()).unwrap();
     assert_eq!(outcome.completed().count(), 20);
     for (index, state) in outcome.completed() {
-        let (system, start) = member(index);
+        let (system, start) = trapped(index);
         let path = system.integrate(start, 3.0, Dop853::default()).unwrap();
         assert!((state.q[0] - path.end().state().q[0]).abs() < 1e-12, "member {index}");
     }

@@ -8,6 +8,7 @@ mod fields;
 mod members;
 mod parts;
 mod samples;
+mod taylor;
 
 use lagrange_core::prelude::*;
 

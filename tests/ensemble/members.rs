@@ -52,13 +52,13 @@ fn on_lanes_each_member_moves_as_it_does_alone() {
 #[derive(Lagrangian)]
 #[coordinates(x)]
 #[lagrangian(m/2*x_dot^2 - k/2*x^2 + m*x*cos(5*t))]
-struct Spring<T> {
-    m: T,
-    k: T,
+pub(crate) struct Spring<T> {
+    pub(crate) m: T,
+    pub(crate) k: T,
 }
 
 /// Where a spring driven by cos 5t is, and how fast, with x = 0.5 and ẋ = −1 at the time `from`.
-fn driven(omega: f64, from: f64, t: f64) -> (f64, f64) {
+pub(crate) fn driven(omega: f64, from: f64, t: f64) -> (f64, f64) {
     let forced =
         |t: f64| ((5.0 * t).cos() / (omega.powi(2) - 25.0), -5.0 * (5.0 * t).sin() / (omega.powi(2) - 25.0));
     let (a, b) = (0.5 - forced(from).0, (-1.0 - forced(from).1) / omega);

@@ -28,8 +28,8 @@ use core::ops::ControlFlow;
 use crate::error::Error;
 use crate::motion::run::check_end;
 use crate::motion::{LaneMethod, Method, Orders};
-use crate::number::Real;
-use crate::system::{Lagrangian, State};
+use crate::number::{Lanes, Real};
+use crate::system::{Lagrangian, Pack, State};
 pub use fingerprint::Fingerprint;
 pub use job::EnsembleProgress;
 use job::{Job, Plan};
@@ -235,18 +235,20 @@ impl<L, const N: usize, const M: usize, const IS_WATCHED: bool> Ensemble<'_, L, 
 where
     L: Lagrangian<N, M, Scalar = f64>,
 {
-    /// The motions to the time `end`, four at once on the [`Lanes`](crate::Lanes) of each thread, by the method named.
+    /// The motions to the time `end`, four at once on the [`Lanes`] of each thread, by the method named: `Dop853`, `Dopri5`,
+    /// [`Taylor`](crate::Taylor) or another [`LaneMethod`].
     ///
     /// Each lane has its own time, step and error, and is given the next member when its motion has ended. Compile
     /// with `RUSTFLAGS="-C target-cpu=native"`, so that the lanes are AVX2's. The numbers differ from those of
     /// [`integrate`](Self::integrate) by rounding, as far as the motion carries that. A limit on wall time counts
-    /// the time that a lane spends with the others. Where members differ in a field that lanes [share](crate::Pack), order
+    /// the time that a lane spends with the others. Where members differ in a field that lanes [share](Pack), order
     /// them so that equal ones follow each other: one that does not fit waits until the lanes beside are empty.
     ///
     /// # Errors
     /// As [`integrate`](Self::integrate).
     pub fn integrate_on_lanes<P>(self, end: f64, method: P) -> Result<Outcome<f64, N>, Error>
     where
+        L: Pack<Lanes, Packed: Lagrangian<N, M, Scalar = Lanes>>,
         P: LaneMethod<L, N, M> + Sync,
     {
         method.check()?;

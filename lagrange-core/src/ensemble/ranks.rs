@@ -24,8 +24,8 @@ use super::outcome::Outcome;
 use crate::error::Error;
 use crate::motion::run::check_end;
 use crate::motion::{LaneMethod, Method};
-use crate::number::Real;
-use crate::system::Lagrangian;
+use crate::number::{Lanes, Real};
+use crate::system::{Lagrangian, Pack};
 use parcel::Parcel;
 
 /// An ensemble on all ranks of a communicator of MPI, from [`Ensemble::on_ranks`].
@@ -124,13 +124,14 @@ impl<L, const N: usize, const M: usize, const IS_WATCHED: bool> OnRanks<'_, L, f
 where
     L: Lagrangian<N, M, Scalar = f64>,
 {
-    /// The motions to the time `end`, four at once on the [`Lanes`](crate::Lanes) of each thread, as by [`Ensemble::integrate_on_lanes`]: at
+    /// The motions to the time `end`, four at once on the [`Lanes`] of each thread, as by [`Ensemble::integrate_on_lanes`]: at
     /// rank 0 the outcome of all, elsewhere none.
     ///
     /// # Errors
     /// As [`integrate`](Self::integrate).
     pub fn integrate_on_lanes<P>(self, end: f64, method: P) -> Result<Option<Outcome<f64, N>>, Error>
     where
+        L: Pack<Lanes, Packed: Lagrangian<N, M, Scalar = Lanes>>,
         P: LaneMethod<L, N, M> + Sync,
     {
         let run = Fingerprint::of_run(&method, end, true, &self.ensemble.plan.orders);

@@ -1,11 +1,15 @@
 //! The order of the series and the length of a step.
 
+use core::array::from_fn;
+
 use super::Taylor;
 use super::expansion::{Expansion, Solved};
 use crate::motion::method::clock::Clock;
 use crate::number::{Filled, ROOM, Real, Scalar, larger, smaller};
 use crate::system::State;
 
+/// So many coefficients tell how long a step is to be.
+const LAST: usize = 5;
 /// A step may be so many times as long as the one before.
 const GROWTH: f64 = 10.0;
 
@@ -38,34 +42,46 @@ impl Taylor {
         if unit.is_finite() && unit > zero { unit } else { one }
     }
 
+    /// What of the absolute tolerance each entry has beside its size.
+    pub(super) fn slack<T: Real>(&self) -> f64 {
+        self.absolute / self.tolerance::<T>()
+    }
+
     /// The length of a step after which the last coefficients no longer matter (Jorba and Zou, 3.2.1, with five
     /// coefficients instead of two: where every fourth alone is not zero, two know nothing).
-    pub(super) fn choose<S: Filled<T>, T: Real, const N: usize>(
-        &self,
-        series: &Expansion<S, T, N>,
-        before: T,
-        clock: &Clock<T>,
-    ) -> T {
-        let order = series.order();
-        let slack = T::constant(self.absolute / self.tolerance::<T>());
-        let [q, v] =
-            [&series.q, &series.v].map(|x| x[0].map(|x| T::constant(1.0) / (Scalar::abs(x) + slack)));
-        let size = |k: usize| {
-            let parts = [(&series.q[k], &q), (&series.v[k], &v)];
-            let parts = parts.into_iter().flat_map(|(x, over)| (0..N).map(|i| Scalar::abs(x[i]) * over[i]));
-            parts.fold(T::constant(0.0), larger)
-        };
-        let rate = |k: usize| log2_roughly(size(k).to_f64()) / k as f64;
-        let rate = (order - 4..=order).map(rate).fold(f64::NEG_INFINITY, f64::max);
+    pub(super) fn choose<T: Real>(&self, last: &Last<T>, before: T, clock: &Clock<T>) -> T {
+        let Last { order, unit, sizes } = *last;
+        let rate = |k: usize, size: T| log2_roughly(size.to_f64()) / k as f64;
+        let rates = (order + 1 - LAST..).zip(sizes).map(|(k, size)| rate(k, size));
+        let rate = rates.fold(f64::NEG_INFINITY, f64::max);
         let step = match rate > f64::NEG_INFINITY {
-            true => {
-                Scalar::abs(series.unit) * T::constant(exp(safety(order) - core::f64::consts::LN_2 * rate))
-            }
+            true => Scalar::abs(unit) * T::constant(exp(safety(order) - core::f64::consts::LN_2 * rate)),
             false => clock.left(),
         };
         let step = if before > T::constant(0.0) { smaller(step, T::constant(GROWTH) * before) } else { step };
         let step = if step > T::constant(0.0) { clock.at_least(step) } else { clock.left() };
         self.max_step.map_or(step, |longest| smaller(step, T::constant(longest)))
+    }
+}
+
+/// The last coefficients of a series, up to its order.
+pub(super) struct Last<T> {
+    pub(super) order: usize,
+    pub(super) unit: T,
+    /// As parts of what they belong to, the largest of each order.
+    pub(super) sizes: [T; LAST],
+}
+
+impl<T: Scalar> Last<T> {
+    pub(super) fn of<S: Filled<T>, const N: usize>(series: &Expansion<S, T, N>, slack: T) -> Self {
+        let order = series.order();
+        let [q, v] = [&series.q, &series.v].map(|x| x[0].map(|x| T::constant(1.0) / (x.abs() + slack)));
+        let size = |k: usize| {
+            let parts = [(&series.q[k], &q), (&series.v[k], &v)];
+            let parts = parts.into_iter().flat_map(|(x, over)| (0..N).map(|i| x[i].abs() * over[i]));
+            parts.fold(T::constant(0.0), |most, part| most.max(part))
+        };
+        Self { order, unit: series.unit, sizes: from_fn(|i| size(order + 1 - LAST + i)) }
     }
 }
 

@@ -34,13 +34,13 @@ impl<S: Filled<T>, T: Real, const N: usize, const M: usize> Tried<'_, S, T, N, M
         L: TaylorSeries<N, M, Scalar = T, Sums = S>,
     {
         let tolerance = method.tolerance::<T>();
-        let [times, part] = DEFECT;
         let [_, _, accelerations] = self.series.change(self.length);
-        let bound = larger(times * tolerance, part);
+        let bound = method.defect_allowed::<T>();
         let mut found = self.off(system, method, (self.end, self.solved), &accelerations, bound);
         let at_roots =
             self.series.roots_below_zero::<L, M>(self.length).map(|length| (length, STRICT * tolerance));
-        for (length, bound) in at_roots.chain(self.within_functions::<L>(bound)) {
+        let within = parts::<L, N, M>().map(|part| (self.length * T::constant(part), bound));
+        for (length, bound) in at_roots.chain(within) {
             let [dq, dv, accelerations] = self.series.change(length);
             let [q, v] = [(self.start.q, dq), (self.start.v, dv)]
                 .map(|(x, change)| vector(from_fn(|i| x[i] + change[i])));
@@ -49,15 +49,6 @@ impl<S: Filled<T>, T: Real, const N: usize, const M: usize> Tried<'_, S, T, N, M
             found = found.or_else(|| self.off(system, method, (&there, &solved), &accelerations, bound));
         }
         Ok(found)
-    }
-
-    /// Where else to look, with what bound: inside of functions that the user supplies may be kinks that nobody tells of.
-    fn within_functions<L>(&self, bound: f64) -> impl Iterator<Item = (T, f64)>
-    where
-        L: TaylorSeries<N, M, Scalar = T, Sums = S>,
-    {
-        let (length, parts) = (self.length, if L::ARGUMENTS.is_empty() { 1..1 } else { 1..PARTS });
-        parts.map(move |k| (length * T::constant(k as f64 / PARTS as f64), bound))
     }
 
     fn off<L>(
@@ -71,16 +62,32 @@ impl<S: Filled<T>, T: Real, const N: usize, const M: usize> Tried<'_, S, T, N, M
     where
         L: TaylorSeries<N, M, Scalar = T, Sums = S>,
     {
-        let slack = T::constant(method.absolute / method.tolerance::<T>());
+        let slack = T::constant(method.slack::<T>());
         let off = |i: usize| Scalar::abs(accelerations[i] - solved.solution.accelerations[i]);
-        let defect = |i: usize| {
-            let speeds = Scalar::abs(self.start.v[i]) + Scalar::abs(self.end.v[i]);
-            off(i) * Scalar::abs(self.length) / (speeds + slack)
-        };
+        let defect = |i: usize| part([self.start.v[i], self.end.v[i]], off(i), self.length, slack);
         let worst = (0..N).fold(0, |worst, i| if defect(i) > defect(worst) { i } else { worst });
         let is_too_much = exceeds(defect(worst), T::constant(bound));
         (is_too_much && !is_rounding(system, state, solved, worst, off(worst))).then_some(worst)
     }
+}
+
+impl Taylor {
+    /// By so much accelerations may differ at the end of a step, as a part of the velocities.
+    pub(super) fn defect_allowed<T: Real>(&self) -> f64 {
+        let [times, part] = DEFECT;
+        larger(times * self.tolerance::<T>(), part)
+    }
+}
+
+/// After which parts of a step to look as well: inside of functions that the user supplies may be kinks that nobody tells of.
+pub(super) fn parts<L: TaylorSeries<N, M>, const N: usize, const M: usize>() -> impl Iterator<Item = f64> {
+    let inner = if L::ARGUMENTS.is_empty() { 1..1 } else { 1..PARTS };
+    inner.map(|k| k as f64 / PARTS as f64)
+}
+
+/// What so much of acceleration makes in a step, as a part of the velocity at its start and its end.
+pub(super) fn part<T: Scalar>([start, end]: [T; 2], off: T, length: T, slack: T) -> T {
+    off * length.abs() / (start.abs() + end.abs() + slack)
 }
 
 /// Whether rounding errors of the state alone change this acceleration about as much.

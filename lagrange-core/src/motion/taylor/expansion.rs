@@ -2,6 +2,7 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
+use core::convert::Infallible;
 
 use super::sums::Factors;
 use crate::error::Error;
@@ -44,7 +45,7 @@ pub(super) struct Expansion<S, T, const N: usize> {
     arguments: Vec<PowerSeries<T>>,
 }
 
-impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
+impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
     /// Room for a series of this order.
     pub(super) fn new<L, const M: usize>(order: usize) -> Self
     where
@@ -68,62 +69,35 @@ impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
         self.v.len() - 1
     }
 
-    /// Expands the motion about a state, by the solution of the equations there.
-    pub(super) fn about<L, const M: usize>(
+    /// The coefficients of the highest order, to which all others lead: where they are numbers, all are.
+    pub(super) fn last(&self) -> [&[T; N]; 2] {
+        let order = self.order();
+        [&self.q[order + 1], &self.v[order]]
+    }
+
+    /// Expands the motion about a state, by what the equations give there and what solves for accelerations and multipliers.
+    #[inline(always)]
+    pub(super) fn orders<L, E, const M: usize>(
         &mut self,
         system: &L,
         state: &State<T, N>,
-        solved: &Solved<T, N, M>,
+        solution: &Solution<T, N, M>,
         unit: T,
-    ) -> Result<(), Error>
+        solve: impl Fn(&RightHandSides<T, N, M>) -> Result<Solution<T, N, M>, E>,
+    ) -> Result<(), E>
     where
         L: TaylorSeries<N, M, Scalar = T, Sums = S>,
     {
         (self.start, self.unit) = (state.t, unit);
         (self.q[0], self.v[0]) = (state.q.into(), state.v.into());
-        if is_trustworthy(&solved.solution) && solved.solution.multipliers_are_unique() {
-            let factor = system.factor(state);
-            let solve =
-                |(forcing, bias): &RightHandSides<T, N, M>| Ok(system.solve_with(&factor, forcing, bias));
-            self.orders(system, state, solved, solve)?;
-            if self.is_finite() {
-                return Ok(());
-            }
-        }
-        // Where the factor cannot vouch for numbers they are none.
-        let general = General::at(system, state, solved.active)?;
-        self.orders(system, state, solved, |sides| general.solve::<L>(sides))
-    }
-
-    /// Whether the coefficients of the highest order are numbers, to which all others lead.
-    fn is_finite(&self) -> bool {
-        let order = self.order();
-        self.q[order + 1].iter().chain(&self.v[order]).all(|x| x.is_finite())
-    }
-
-    /// All orders, by what solves for accelerations and multipliers.
-    #[inline(always)]
-    fn orders<L, const M: usize>(
-        &mut self,
-        system: &L,
-        state: &State<T, N>,
-        solved: &Solved<T, N, M>,
-        solve: impl Fn(&RightHandSides<T, N, M>) -> Result<Solution<T, N, M>, Error>,
-    ) -> Result<(), Error>
-    where
-        L: TaylorSeries<N, M, Scalar = T, Sums = S>,
-    {
-        if !self.is_finite() {
-            self.factors.clear();
-        }
-        let (slopes, highest) = (system.series_slopes(state, &solved.solution), self.order());
+        let (slopes, highest) = (system.series_slopes(state, solution), self.order());
         for (root, &[_, slope]) in self.roots.iter_mut().zip(L::ROOTS) {
             *root = slopes.as_ref()[slope];
         }
         for (argument, &[_, slope]) in self.arguments.iter_mut().zip(L::ARGUMENTS) {
             *argument = PowerSeries::new(&[slopes.as_ref()[slope], T::constant(0.0)]);
         }
-        let mut newest = solved.solution;
+        let mut newest = *solution;
         for order in 1..=highest {
             let numbers = [order as f64, 1.0 / order as f64].map(T::constant);
             let direction = self.advance(order, &newest, numbers[1]);
@@ -176,6 +150,34 @@ impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
             horner(&sum, theta, &weighted)
         });
         [sum(&self.q), sum(&self.v), scaled(&rate, T::constant(1.0) / self.unit)]
+    }
+}
+
+impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
+    /// Expands the motion about a state, by the solution of the equations there.
+    pub(super) fn about<L, const M: usize>(
+        &mut self,
+        system: &L,
+        state: &State<T, N>,
+        solved: &Solved<T, N, M>,
+        unit: T,
+    ) -> Result<(), Error>
+    where
+        L: TaylorSeries<N, M, Scalar = T, Sums = S>,
+    {
+        let Solved { solution, active } = solved;
+        if is_trustworthy(solution) && solution.multipliers_are_unique() {
+            let factor = system.factor(state);
+            let solve =
+                |(forcing, bias): &RightHandSides<T, N, M>| Ok(system.solve_with(&factor, forcing, bias));
+            let Ok::<(), Infallible>(()) = self.orders(system, state, solution, unit, solve);
+            if self.last().into_iter().flatten().all(|x| x.is_finite()) {
+                return Ok(());
+            }
+        }
+        // Where the factor cannot vouch for numbers they are none.
+        let general = General::at(system, state, *active)?;
+        self.orders(system, state, solution, unit, |sides| general.solve::<L>(sides))
     }
 }
 

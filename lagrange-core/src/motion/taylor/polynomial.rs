@@ -15,11 +15,11 @@ pub struct TaylorPolynomial<T, const N: usize> {
 
 impl<T: Real, const N: usize> TaylorPolynomial<T, N> {
     /// Of the coefficients of powers of (t − start)/unit, of which there are at most [`ROOM`].
-    pub(super) fn new(start: T, unit: T, coefficients: &[[T; N]]) -> Self {
+    pub(super) fn new(start: T, unit: T, coefficients: impl ExactSizeIterator<Item = [T; N]>) -> Self {
         let mut all = [[T::constant(0.0); N]; ROOM];
-        let count = coefficients.len().min(ROOM);
-        all[..count].copy_from_slice(&coefficients[..count]);
-        Self { start, unit, count, coefficients: all }
+        let count = coefficients.len();
+        all.iter_mut().zip(coefficients).for_each(|(place, coefficient)| *place = coefficient);
+        Self { start, unit, count: count.min(ROOM), coefficients: all }
     }
 }
 

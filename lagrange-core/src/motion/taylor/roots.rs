@@ -9,20 +9,27 @@ const PARTS: usize = 8;
 const THIRDS: usize = 40;
 
 /// The series of a root, in powers of (t − t₀)/unit.
-struct Root<I, T> {
+pub(super) struct Root<I, T> {
     value: T,
     /// From order 1.
     coefficients: I,
 }
 
+impl<T: Scalar, I: Iterator<Item = T> + Clone> Root<I, T> {
+    /// Its value, and by how much it changes at most in a step of this length. Mostly that tells that it does not vanish: the
+    /// point where a root ends is seven steps away.
+    pub(super) fn value_and_change(&self, length: T) -> [T; 2] {
+        let zero = T::constant(0.0);
+        let sum = |(sum, power): (T, T), c: T| (sum + (c * power).abs(), power * length);
+        [self.value, self.coefficients.clone().fold((zero, length), sum).0]
+    }
+}
+
 impl<T: Real, I: Iterator<Item = T> + Clone> Root<I, T> {
-    /// Where in a step of this length the series is least, if it comes below zero. Mostly its coefficients tell at once that it
-    /// does not: the point where a root ends is seven steps away.
+    /// Where in a step of this length the series is least, if it comes below zero.
     fn vanishes(&self, length: T) -> Option<T> {
-        let (change, _) = self.coefficients.clone().fold((T::constant(0.0), length), |(sum, power), c| {
-            (sum + Scalar::abs(c * power), power * length)
-        });
-        if change < self.value { None } else { self.least(length) }
+        let [value, change] = self.value_and_change(length);
+        if change < value { None } else { self.least(length) }
     }
 
     #[cold]
@@ -50,17 +57,29 @@ impl<T: Real, I: Iterator<Item = T> + Clone> Root<I, T> {
     }
 }
 
+impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
+    /// The roots, in powers of the unit of time.
+    pub(super) fn series_of_roots<L, const M: usize>(
+        &self,
+    ) -> impl Iterator<Item = Root<impl Iterator<Item = T> + Clone, T>>
+    where
+        L: TaylorSeries<N, M, Scalar = T, Sums = S>,
+    {
+        let coefficients = |place| self.factors.right_factor(place, self.order() - 1);
+        let root =
+            move |(&[place, _], &value): (&[usize; 2], &T)| Root { value, coefficients: coefficients(place) };
+        L::ROOTS.iter().zip(&self.roots).map(root)
+    }
+}
+
 impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
-    /// How far into a step of this length some root is below zero by its series, in the unit of time of the numbers, for each such root.
+    /// How far into a step of this length some root is below zero by its series, for each such root.
     pub(super) fn roots_below_zero<L, const M: usize>(&self, length: T) -> impl Iterator<Item = T>
     where
         L: TaylorSeries<N, M, Scalar = T, Sums = S>,
     {
         let theta = length / self.unit;
-        let vanishes = move |(&[place, _], &value): (&[usize; 2], &T)| {
-            let coefficients = self.factors.right_factor(place, self.order() - 1);
-            Root { value, coefficients }.vanishes(theta)
-        };
-        L::ROOTS.iter().zip(&self.roots).filter_map(vanishes).map(|theta| theta * self.unit)
+        let vanishing = self.series_of_roots::<L, M>().filter_map(move |root| root.vanishes(theta));
+        vanishing.map(|theta| theta * self.unit)
     }
 }

@@ -1,0 +1,258 @@
+//! Steps of Taylor's method on SIMD lanes.
+//!
+//! Expanded are all motions at once, each in its own unit of time. A step that is refused goes on alone until one is accepted.
+
+use core::array::from_fn;
+use core::convert::Infallible;
+use core::iter::once;
+
+use super::control::Last;
+use super::defect::{part, parts};
+use super::expansion::Expansion;
+use super::{Memory, Taylor, TaylorPolynomial, compensated, left};
+use crate::error::Error;
+use crate::motion::Interpolant;
+use crate::motion::lanes::{Fate, LaneMethod, Seats, Trust, unpacked};
+use crate::number::{Filled, Lanes, Scalar, vector};
+use crate::solution::consistent::BOTH;
+use crate::solution::flow::Phase;
+use crate::solution::near;
+use crate::statistics::Statistics;
+use crate::system::{Pack, Packed, RightHandSides, Solution, State, TaylorSeries};
+
+/// Four motions, and what a step of them takes.
+#[derive(Debug)]
+pub struct Abreast<S, U, const N: usize, const M: usize> {
+    system: S,
+    here: Place<N, M>,
+    /// About where the step tried last starts.
+    series: Expansion<U, Lanes, N>,
+    /// Where it leads.
+    next: Place<N, M>,
+}
+
+/// Where motions are, with what rounding has left of that, and what the equations give there.
+#[derive(Clone, Copy, Debug)]
+struct Place<const N: usize, const M: usize> {
+    y: Phase<Lanes, N>,
+    rest: [[Lanes; N]; 2],
+    solution: Solution<Lanes, N, M>,
+}
+
+/// The step to try in a lane.
+#[derive(Clone, Copy, Default)]
+struct Plan {
+    /// How long it was to be before it was cut to the time that there is.
+    planned: f64,
+    h: f64,
+    end: f64,
+}
+
+impl<L, const N: usize, const M: usize> LaneMethod<L, N, M> for Taylor
+where
+    L: TaylorSeries<N, M, Scalar = f64> + Pack<Lanes, Packed: TaylorSeries<N, M, Scalar = Lanes>>,
+{
+    type Abreast = Abreast<L::Packed, <L::Packed as TaylorSeries<N, M>>::Sums, N, M>;
+
+    fn now(memory: &Self::Memory) -> f64 {
+        memory.clock.now
+    }
+
+    fn is_at_end(memory: &Self::Memory) -> bool {
+        memory.clock.is_at_end()
+    }
+
+    fn prepare(&self, _: &L, memory: &mut Self::Memory, end: f64, _: &mut Statistics) -> Result<(), Error> {
+        memory.clock.aim(end);
+        Ok(())
+    }
+
+    fn abreast(&self, system: &L, memory: &Self::Memory) -> Self::Abreast {
+        let zero = [[Lanes::constant(0.0); N]; 2];
+        let solution = Solution {
+            accelerations: Packed::splat(&memory.solved.solution.accelerations),
+            multipliers: Packed::splat(&memory.solved.solution.multipliers),
+            pivot: Packed::splat(&memory.solved.solution.pivot),
+            rank: M,
+        };
+        let y = Packed::splat(&[memory.state.q.into(), memory.state.v.into()]);
+        let here = Place { y, rest: zero, solution };
+        let series = Expansion::new::<L::Packed, M>(self.order::<f64>());
+        Abreast { system: system.pack(), here, series, next: here }
+    }
+
+    fn place(abreast: &mut Self::Abreast, lane: usize, system: &L) -> bool {
+        system.place(&mut abreast.system, lane)
+    }
+
+    fn load(Abreast { here, .. }: &mut Self::Abreast, lane: usize, memory: &Self::Memory) {
+        let (state, solution) = (&memory.state, &memory.solved.solution);
+        here.y.place(lane, &[state.q.into(), state.v.into()]);
+        here.rest.place(lane, &memory.rest);
+        here.solution.accelerations.place(lane, &solution.accelerations);
+        here.solution.multipliers.place(lane, &solution.multipliers);
+        here.solution.pivot.place(lane, &solution.pivot);
+    }
+
+    fn unload(Abreast { here, .. }: &Self::Abreast, lane: usize, memory: &mut Self::Memory) {
+        let (state, solution) = (&mut memory.state, &mut memory.solved.solution);
+        let [q, v] = unpacked(&here.y, lane);
+        (state.t, state.q, state.v) = (memory.clock.now, vector(q), vector(v));
+        memory.rest = unpacked(&here.rest, lane);
+        solution.accelerations = here.solution.accelerations.map(|x| x.to_array()[lane]);
+        solution.multipliers = here.solution.multipliers.map(|x| x.to_array()[lane]);
+        solution.pivot = here.solution.pivot.to_array()[lane];
+    }
+
+    fn phase(abreast: &Self::Abreast, lane: usize) -> Phase<f64, N> {
+        unpacked(&abreast.here.y, lane)
+    }
+
+    #[inline(always)]
+    fn attempt<const IS_WATCHED: bool>(
+        &self,
+        abreast: &mut Self::Abreast,
+        seats: &mut Seats<'_, L, Self, N, M>,
+    ) -> [Option<Fate>; Lanes::COUNT] {
+        let mut trust = Trust::new();
+        let time = |memory: &Self::Memory| {
+            let Memory { clock, state, solved, planned, .. } = memory;
+            // The state that the memory holds is that of the lane before the first step, and asked for then alone.
+            (clock.now, clock.directed(self.unit(*planned, state, solved)))
+        };
+        let times = seats.each_ref().map(|seat| seat.as_ref().map_or((0.0, 1.0), |seat| time(&seat.memory)));
+        abreast.expand(times, &mut trust);
+        let last = Last::of(&abreast.series, Lanes::constant(self.slack::<f64>()));
+        // In a free lane time stands still.
+        let plan = from_fn(|lane| {
+            seats[lane].as_ref().map_or(Plan::default(), |seat| self.plan(&last, lane, &seat.memory))
+        });
+        let keeps = abreast.advance(self, &plan, &mut trust);
+        let trusted = trust.lanes();
+        from_fn(|lane| {
+            let seat = seats[lane].as_mut()?;
+            let Memory { clock, solved, is_expanded, planned, .. } = &mut seat.memory;
+            let can_go = !*is_expanded && solved.solution.multipliers_are_unique();
+            if !(can_go && trusted[lane] && keeps[lane] && clock.is_ahead(plan[lane].end)) {
+                return None;
+            }
+            (*planned, clock.now) = (plan[lane].planned, plan[lane].end);
+            seat.statistics.evaluations += last.order + 1;
+            seat.statistics.accepted += 1;
+            Some(Fate::Accepted)
+        })
+    }
+
+    fn settle(Abreast { here, next, .. }: &mut Self::Abreast, chosen: Lanes) {
+        here.numbers().zip(next.numbers()).for_each(|(here, next)| *here = next.select(chosen, *here));
+    }
+
+    fn within(Abreast { series, .. }: &Self::Abreast, lane: usize) -> impl Interpolant<f64, N> {
+        let [start, unit] = [series.start, series.unit].map(|x| x.to_array()[lane]);
+        TaylorPolynomial::new(start, unit, series.q.iter().map(|q| q.map(|x| x.to_array()[lane])))
+    }
+}
+
+impl Taylor {
+    /// The step that the last coefficients of a lane ask for.
+    fn plan<U, const N: usize, const M: usize>(
+        &self,
+        last: &Last<Lanes>,
+        lane: usize,
+        memory: &Memory<U, f64, N, M>,
+    ) -> Plan {
+        let (unit, sizes) = (last.unit.to_array()[lane], last.sizes.map(|size| size.to_array()[lane]));
+        let planned = self.choose(&Last { order: last.order, unit, sizes }, memory.planned, &memory.clock);
+        let (h, end) = memory.clock.next(planned);
+        Plan { planned, h, end }
+    }
+}
+
+impl<S, U, const N: usize, const M: usize> Abreast<S, U, N, M>
+where
+    S: TaylorSeries<N, M, Scalar = Lanes, Sums = U>,
+    U: Filled<Lanes>,
+{
+    /// Expands the motions at these times in these units of time.
+    fn expand(&mut self, times: [(f64, f64); Lanes::COUNT], trust: &mut Trust) {
+        let Self { system, here: Place { y, solution, .. }, series, .. } = self;
+        let (t, unit) = (times.map(|(t, _)| t).into(), times.map(|(_, unit)| unit).into());
+        let state = State { t, q: vector(y[0]), v: vector(y[1]) };
+        let factor = system.factor(&state);
+        let solve =
+            |(forcing, bias): &RightHandSides<Lanes, N, M>| Ok(system.solve_with(&factor, forcing, bias));
+        let Ok::<(), Infallible>(()) = series.orders(system, &state, solution, unit, solve);
+        trust.solution(solution);
+        series.last().into_iter().for_each(|last| trust.numbers(last));
+    }
+
+    /// Goes along the series, onto the constraints; which lanes are then where the equations lead.
+    fn advance(
+        &mut self,
+        method: &Taylor,
+        plan: &[Plan; Lanes::COUNT],
+        trust: &mut Trust,
+    ) -> [bool; Lanes::COUNT] {
+        let (h, t) = (plan.map(|plan| plan.h).into(), plan.map(|plan| plan.end).into());
+        let Place { y, rest, .. } = &self.here;
+        let [dq, dv, accelerations] = self.series.change(h);
+        let (q, rest_q) = compensated(&y[0], &dq, &rest[0]);
+        let (v, rest_v) = compensated(&y[1], &dv, &rest[1]);
+        let (mut state, mut doubt) = (State { t, q: vector(q), v: vector(v) }, Lanes::constant(0.0));
+        if M > 0 {
+            (state, doubt) = near::project::<_, f64, N, M>(&self.system, &BOTH, near::ONCE, state);
+        }
+        let solution = self.system.accelerations_unchecked(&state);
+        trust.solution(&solution);
+        [&q, &v, &accelerations].into_iter().for_each(|numbers| trust.numbers(numbers));
+        let slack = Lanes::constant(method.slack::<f64>());
+        let off = |accelerations: &[Lanes; N], solution: &Solution<Lanes, N, M>| {
+            let off = |i: usize| (accelerations[i] - solution.accelerations[i]).abs();
+            let parts = (0..N).map(|i| part([y[1][i], state.v[i]], off(i), h, slack));
+            parts.fold(Lanes::constant(0.0), |worst, part| worst.max(part))
+        };
+        let mut worst = off(&accelerations, &solution);
+        for (accelerations, solution) in self.within_functions(h) {
+            trust.numbers(&accelerations);
+            trust.solution(&solution);
+            worst = worst.max(off(&accelerations, &solution));
+        }
+        let worst = worst.to_array();
+        let (doubt, bound) = (doubt.to_array(), method.defect_allowed::<f64>());
+        let y = [state.q.into(), state.v.into()];
+        let rest = [left(&q, &y[0], &rest_q), left(&v, &y[1], &rest_v)];
+        self.next = Place { y, rest, solution };
+        let keeps_roots = self.keeps_roots(h);
+        from_fn(|lane| doubt[lane] == 0.0 && worst[lane] <= bound && keeps_roots[lane])
+    }
+
+    /// What the series and the equations give where the scalar method looks for kinks inside of functions that the user supplies.
+    fn within_functions(&self, h: Lanes) -> impl Iterator<Item = ([Lanes; N], Solution<Lanes, N, M>)> {
+        let (parts, y, start) = (parts::<S, N, M>(), &self.here.y, self.series.start);
+        parts.map(move |part| {
+            let length = h * Lanes::constant(part);
+            let [dq, dv, accelerations] = self.series.change(length);
+            let [q, v] = [(&y[0], dq), (&y[1], dv)].map(|(x, change)| vector(from_fn(|i| x[i] + change[i])));
+            let there = State { t: start + length, q, v };
+            (accelerations, self.system.accelerations_unchecked(&there))
+        })
+    }
+
+    /// In which lanes no root can come down to zero in a step of this length.
+    fn keeps_roots(&self, h: Lanes) -> [bool; Lanes::COUNT] {
+        let theta = h / self.series.unit;
+        self.series.series_of_roots::<S, M>().fold([true; Lanes::COUNT], |keeps, root| {
+            let [value, change] = root.value_and_change(theta).map(Lanes::to_array);
+            from_fn(|lane| keeps[lane] && change[lane] < value[lane])
+        })
+    }
+}
+
+impl<const N: usize, const M: usize> Place<N, M> {
+    /// All that there is in each lane.
+    fn numbers(&mut self) -> impl Iterator<Item = &mut Lanes> {
+        let Self { y, rest, solution: Solution { accelerations, multipliers, pivot, .. } } = self;
+        let place = y.as_flattened_mut().iter_mut().chain(rest.as_flattened_mut());
+        place.chain(accelerations.iter_mut()).chain(multipliers.iter_mut()).chain(once(pivot))
+    }
+}
