@@ -13,7 +13,7 @@
 //!   its error, which half the step tells.
 //!
 //! None is for stiff systems. Where constraints become dependent at one pose alone, as in a linkage that folds flat, a motion by
-//! any of them may end, or go on along the other branch that begins there. The example `methods` prints what an error costs by
+//! any of them may end; [`Taylor`] steps across where it can, the others may go on along another branch that begins there. The example `methods` prints what an error costs by
 //! the first three in eight systems; the README has its table.
 
 pub(crate) mod event;

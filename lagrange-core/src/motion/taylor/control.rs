@@ -75,13 +75,9 @@ pub(super) struct Last<T> {
 impl<T: Scalar> Last<T> {
     pub(super) fn of<S: Filled<T>, const N: usize>(series: &Expansion<S, T, N>, slack: T) -> Self {
         let order = series.order();
-        let [q, v] = [&series.q, &series.v].map(|x| x[0].map(|x| T::constant(1.0) / (x.abs() + slack)));
-        let size = |k: usize| {
-            let parts = [(&series.q[k], &q), (&series.v[k], &v)];
-            let parts = parts.into_iter().flat_map(|(x, over)| (0..N).map(|i| x[i].abs() * over[i]));
-            parts.fold(T::constant(0.0), |most, part| most.max(part))
-        };
-        Self { order, unit: series.unit, sizes: from_fn(|i| size(order + 1 - LAST + i)) }
+        let scales = series.scales(slack);
+        let sizes = from_fn(|i| series.size(order + 1 - LAST + i, &scales));
+        Self { order, unit: series.unit, sizes }
     }
 }
 
@@ -95,7 +91,7 @@ fn safety(order: usize) -> f64 {
 }
 
 /// The logarithm to the base 2, at most 0.09 too small: divided by the order it is as good as any. That of zero is −∞.
-fn log2_roughly(x: f64) -> f64 {
+pub(super) fn log2_roughly(x: f64) -> f64 {
     const FRACTION: u64 = (1 << 52) - 1;
     let bits = x.to_bits();
     let exponent = (bits >> 52) as f64 - 1023.0;

@@ -72,6 +72,16 @@ impl<S: Filled<T>, T: Real, const N: usize, const M: usize> Tried<'_, S, T, N, M
 }
 
 impl Taylor {
+    /// The coordinate whose value or velocity is moved the most, where that is by too much: near a pose where constraints become
+    /// dependent a projection leads onto another branch of the motion.
+    pub(super) fn moved<T: Real, const N: usize>(&self, sums: [(&[T; N], &[T; N]); 2]) -> Option<usize> {
+        let (slack, bound) = (T::constant(self.slack::<T>()), T::constant(self.defect_allowed::<T>()));
+        let is_moved = |(sum, projected): &(&[T; N], &[T; N]), i: usize| {
+            exceeds(Scalar::abs(projected[i] - sum[i]), bound * (Scalar::abs(sum[i]) + slack))
+        };
+        (0..N).find(|&i| sums.iter().any(|pair| is_moved(pair, i)))
+    }
+
     /// By so much accelerations may differ at the end of a step, as a part of the velocities.
     pub(super) fn defect_allowed<T: Real>(&self) -> f64 {
         let [times, part] = DEFECT;

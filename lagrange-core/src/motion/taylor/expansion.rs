@@ -37,6 +37,8 @@ pub(super) struct Expansion<S, T, const N: usize> {
     /// From order 0; one more of the coordinates than of the velocities.
     pub(super) q: Vec<[T; N]>,
     pub(super) v: Vec<[T; N]>,
+    /// Up to which order they are summed: all, or where those beyond are rounding.
+    pub(super) summed: usize,
     pub(super) factors: Factors<T>,
     sums: S,
     /// The values of roots, in the order of [`TaylorSeries::ROOTS`].
@@ -58,6 +60,7 @@ impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
             unit: T::constant(1.0),
             q: vec![[zero; N]; order + 2],
             v: vec![[zero; N]; order + 1],
+            summed: order,
             factors: Factors::new(sums.as_ref().len(), order),
             sums,
             roots: vec![zero; L::ROOTS.len()],
@@ -88,7 +91,7 @@ impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
     where
         L: TaylorSeries<N, M, Scalar = T, Sums = S>,
     {
-        (self.start, self.unit) = (state.t, unit);
+        (self.start, self.unit, self.summed) = (state.t, unit, self.order());
         (self.q[0], self.v[0]) = (state.q.into(), state.v.into());
         let (slopes, highest) = (system.series_slopes(state, solution), self.order());
         for (root, &[_, slope]) in self.roots.iter_mut().zip(L::ROOTS) {
@@ -136,20 +139,32 @@ impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
         Direction { t, q: vector(self.q[order]), v: vector(self.v[order]) }
     }
 
+    /// What coefficients of coordinates and velocities are measured by: 1 over their sizes.
+    pub(super) fn scales(&self, slack: T) -> [[T; N]; 2] {
+        [&self.q, &self.v].map(|x| x[0].map(|x| T::constant(1.0) / (x.abs() + slack)))
+    }
+
+    /// The largest coefficient of an order on these scales.
+    pub(super) fn size(&self, order: usize, scales: &[[T; N]; 2]) -> T {
+        let parts = [&self.q[order], &self.v[order]].into_iter().zip(scales);
+        let parts = parts.flat_map(|(x, scales)| (0..N).map(|i| x[i].abs() * scales[i]));
+        parts.fold(T::constant(0.0), |most, part| most.max(part))
+    }
+
     /// By how much coordinates and velocities change over a step of this length, and the accelerations at its end.
     pub(super) fn change(&self, length: T) -> [[T; N]; 3] {
         let theta = length / self.unit;
         let zero = [T::constant(0.0); N];
         let sum = |coefficients: &[[T; N]]| {
-            let sum = coefficients[1..].iter().rev().fold(zero, |sum, c| horner(&sum, theta, c));
+            let sum = coefficients.iter().rev().fold(zero, |sum, c| horner(&sum, theta, c));
             scaled(&sum, theta)
         };
-        let order = self.order();
+        let order = self.summed;
         let rate = (1..=order).rev().fold(zero, |sum, k| {
             let weighted = scaled(&self.v[k], T::constant(k as f64));
             horner(&sum, theta, &weighted)
         });
-        [sum(&self.q), sum(&self.v), scaled(&rate, T::constant(1.0) / self.unit)]
+        [sum(&self.q[1..order + 2]), sum(&self.v[1..=order]), scaled(&rate, T::constant(1.0) / self.unit)]
     }
 }
 
@@ -166,7 +181,7 @@ impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
         L: TaylorSeries<N, M, Scalar = T, Sums = S>,
     {
         let Solved { solution, active } = solved;
-        if is_trustworthy(solution) && solution.multipliers_are_unique() {
+        if is_trustworthy(solution) && solution.multipliers_are_unique() && !solved.is_close_to_dependence() {
             let factor = system.factor(state);
             let solve =
                 |(forcing, bias): &RightHandSides<T, N, M>| Ok(system.solve_with(&factor, forcing, bias));

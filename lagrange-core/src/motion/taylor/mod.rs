@@ -1,6 +1,7 @@
 //! Taylor's method: the motion expanded in a power series about each state, to round-off.
 
 mod control;
+mod crossing;
 mod defect;
 mod expansion;
 #[cfg(feature = "std")]
@@ -19,13 +20,14 @@ use super::method::{Limits, Method, Step, check_settings};
 use crate::ending::Ending;
 use crate::error::Error;
 use crate::names::Entry;
-use crate::number::{Real, Scalar, vector};
+use crate::number::{Filled, Real, Scalar, vector};
 use crate::solution::consistent::{BOTH, project_by};
 use crate::solution::near::ONCE;
 use crate::solution::solve::{first_row, name};
 use crate::statistics::Statistics;
 use crate::system::{State, TaylorSeries};
 use control::Last;
+use crossing::Crossing;
 use defect::Tried;
 use expansion::{Expansion, Solved};
 pub use polynomial::TaylorPolynomial;
@@ -42,6 +44,9 @@ pub use polynomial::TaylorPolynomial;
 /// before, and refused where the accelerations of the series at its end are not those of the equations. Rounding errors of the
 /// states are carried along (compensated sums); each state is projected onto the constraints. Between its ends a step is the
 /// series itself.
+///
+/// Where constraints become dependent at one pose alone, a step leads across it, summed up to the orders that are not yet rounding
+/// errors, to about 10⁻¹²; where none does, the motion ends before the pose.
 ///
 /// A root that comes down to zero has a kink there, as √x² has, which its series does not know. Steps close in on it until one
 /// across it makes no difference, some thirty before and after; where the kink is a jump of a force, which no step is short
@@ -131,6 +136,8 @@ pub struct Memory<S, T, const N: usize, const M: usize> {
     is_expanded: bool,
     /// The length of the next step; zero before the first.
     planned: T,
+    /// Where the step is summed by fewer orders.
+    crossing: Option<Crossing<T>>,
 }
 
 impl<L, const N: usize, const M: usize> Method<L, N, M> for Taylor
@@ -174,6 +181,7 @@ where
             series: Expansion::new::<L, M>(self.order::<L::Scalar>()),
             is_expanded: false,
             planned: zero,
+            crossing: None,
         })
     }
 
@@ -220,7 +228,7 @@ where
             }
             Err(error) => Ending::of(error, now),
         };
-        memory.planned = Scalar::abs(h) * L::Scalar::constant(0.5);
+        memory.shorten(h);
         if memory.clock.advances_by(memory.planned) { Step::Rejected } else { Step::Failed(ending) }
     }
 
@@ -230,8 +238,26 @@ where
         memory: &mut Self::Memory,
         _: &mut Statistics,
     ) -> Result<Self::Interpolant, Error> {
-        let Expansion { start, unit, q, .. } = &memory.series;
-        Ok(TaylorPolynomial::new(*start, *unit, q.iter().copied()))
+        let Expansion { start, unit, q, summed, .. } = &memory.series;
+        Ok(TaylorPolynomial::new(*start, *unit, q[..summed + 2].iter().copied()))
+    }
+}
+
+impl<S: Filled<T>, T: Real, const N: usize, const M: usize> Memory<S, T, N, M> {
+    /// Plans another step after one of this length was refused.
+    fn shorten(&mut self, h: T) {
+        let next = self.crossing.take().map(Crossing::longer);
+        self.planned = match next {
+            Some(Ok(crossing)) => {
+                self.crossing = Some(crossing);
+                crossing.length
+            }
+            Some(Err(planned)) => {
+                self.series.summed = self.series.order();
+                planned
+            }
+            None => Scalar::abs(h) * T::constant(0.5),
+        };
     }
 }
 
@@ -263,7 +289,13 @@ impl Taylor {
             return Err(Error::EquationsNotFinite { row, time: state.t.to_f64() });
         }
         let last = Last::of(series, L::Scalar::constant(self.slack::<L::Scalar>()));
-        *planned = self.choose(&last, *planned, clock);
+        let before = *planned;
+        *planned = self.choose(&last, before, clock);
+        let may_cross = solved.is_near_dependence(*planned, before);
+        memory.crossing = if may_cross { self.cross(series, *planned) } else { None };
+        if let Some(crossing) = memory.crossing {
+            *planned = crossing.length;
+        }
         memory.is_expanded = true;
         Ok(())
     }
@@ -286,6 +318,12 @@ impl Taylor {
         }
         project_by(ONCE, system, &BOTH, &mut next)?;
         let solved = Solved::at(system, &next)?;
+        if memory.solved.avoids(&solved) {
+            return Ok(Attempt::Inaccurate(0));
+        }
+        if let Some(worst) = self.moved([(&q, &next.q.into()), (&v, &next.v.into())]) {
+            return Ok(Attempt::Inaccurate(worst));
+        }
         let tried = Tried { series, start: state, end: &next, solved: &solved, length: h };
         if let Some(worst) = tried.inaccurate(system, self)? {
             return Ok(Attempt::Inaccurate(worst));

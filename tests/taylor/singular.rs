@@ -1,0 +1,99 @@
+//! Poses at which constraints become dependent: the motion goes on as it would without them, or ends with a word.
+
+use lagrange_core::{TaylorSeries, prelude::*};
+
+/// Windows: verticals about (i, 0), between which couplers hang; rods of length and mass 1, by their ends. When all rods are
+/// level the couplers' constraints depend on the others', and each corner could stay behind.
+macro_rules! windows {
+    ($name:ident, $n:literal, $corners:literal) => {
+        #[derive(Lagrangian)]
+        #[coordinates(x: [$corners], y: [$corners])]
+        #[lagrangian(sum(i in 0..$corners, (x_dot[i]^2 + y_dot[i]^2)/6 - g*y[i]/2)
+                    + sum(i in 0..$n, (x_dot[i]^2 + y_dot[i]^2 + x_dot[i]*x_dot[i+1] + y_dot[i]*y_dot[i+1]
+                        + x_dot[i+1]^2 + y_dot[i+1]^2)/6 - g*(y[i] + y[i+1])/2))]
+        #[constraint(vertical[i in 0..$corners]: (x[i] - i)^2 + y[i]^2 = 1)]
+        #[constraint(coupler[i in 0..$n]: (x[i+1] - x[i])^2 + (y[i+1] - y[i])^2 = 1)]
+        struct $name {
+            g: f64,
+        }
+    };
+}
+windows!(Window, 1, 2);
+windows!(TwoWindows, 2, 3);
+
+/// The same with the couplers level by themselves: n + 1 rods about their ends, and n masses at these.
+#[derive(Lagrangian)]
+#[coordinates(theta)]
+#[lagrangian(((n + 1)/3 + n)*theta_dot^2/2 - ((n + 1)/2 + n)*g*sin(theta))]
+struct Reduced {
+    n: f64,
+    g: f64,
+}
+
+/// Four bars, of 4, 1, 2 and 3, by the angles of three: they fold flat.
+#[derive(Lagrangian)]
+#[coordinates(a, b, c)]
+#[lagrangian(a_dot^2/6 + a_dot^2 + 4*b_dot^2/3 + 2*a_dot*b_dot*cos(a - b) + 9*c_dot^2/2
+    - g*(sin(a)/2 + 2*(sin(a) + sin(b)) + 9*sin(c)/2))]
+#[constraint(x: cos(a) + 2*cos(b) - 3*cos(c) = 4)]
+#[constraint(y: sin(a) + 2*sin(b) - 3*sin(c) = 0)]
+struct Linkage {
+    g: f64,
+}
+
+const END: f64 = 10.0;
+const TOLERANCES: [f64; 9] = [f64::EPSILON, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-6];
+
+/// How long each tolerance leads from upright, and how far from what the reduced pendulum does then.
+fn windows<L, const N: usize, const M: usize>(windows: &L, n: usize) -> Result<Vec<(f64, f64)>, Error>
+where
+    L: TaylorSeries<N, M, Scalar = f64>,
+{
+    let upright = core::array::from_fn(|i| if i <= n { i as f64 } else { 1.0 });
+    let start = State::new(upright, core::array::from_fn(|i| if i <= n { 1.0 } else { 0.0 }));
+    let reduced = Reduced { n: n as f64, g: 9.81 };
+    let upright = State::new([core::f64::consts::FRAC_PI_2], [-1.0]);
+    let pendulum = reduced.integrate(upright, END, Dop853::with_tolerance(1e-14))?;
+    let each = TOLERANCES.map(|tolerance| {
+        let path = windows.integrate_towards(start, END, Taylor::with_tolerance(tolerance))?;
+        let (time, end) = (path.ending().time(), *path.end().state());
+        let (sine, cosine) = pendulum.at(time)?.state().q[0].sin_cos();
+        let expected = |i: usize| if i <= n { i as f64 + cosine } else { sine };
+        let off = (0..N).map(|i| (end.q[i] - expected(i)).abs()).fold(0.0, f64::max);
+        println!("{tolerance:e}: to {time}, {off:e} off, {} steps", path.statistics().accepted);
+        Ok((time, off))
+    });
+    each.into_iter().collect()
+}
+
+fn assert_goes_on(found: &[(f64, f64)], at_least: usize) {
+    for ((_, off), tolerance) in found.iter().zip(TOLERANCES) {
+        let allowed = (1e3 * tolerance).max(1e-9);
+        assert!(*off < allowed, "{tolerance:e}: {off:e} off, and no word");
+    }
+    let through = found.iter().filter(|(time, _)| *time == END).count();
+    assert!(found[0].0 == END && through >= at_least, "{found:?}");
+}
+
+#[test]
+fn windows_are_stepped_across() -> Result<(), Error> {
+    assert_goes_on(&windows(&Window { g: 9.81 }, 1)?, 9);
+    assert_goes_on(&windows(&TwoWindows { g: 9.81 }, 2)?, 6);
+    Ok(())
+}
+
+/// Here a whole row of the Jacobian vanishes, whatever the others are: below 1e-10 the motion ends there.
+#[test]
+fn a_linkage_that_folds_keeps_its_energy_as_far_as_it_goes() -> Result<(), Error> {
+    let linkage = Linkage { g: 9.81 };
+    let start = State::at_rest([1.0, 0.762_873_910_257_525, 2.306_798_799_395_277]);
+    let (start, _) = linkage.make_consistent(&start)?;
+    for tolerance in TOLERANCES {
+        let path = linkage.integrate_towards(start, END, Taylor::with_tolerance(tolerance))?;
+        let change = linkage.energy(path.end().state()) - linkage.energy(&start);
+        println!("{tolerance:e}: to {}, energy {change:e}", path.ending().time());
+        assert!(change.abs() < (1e3 * tolerance).max(1e-9), "{tolerance:e}: {change:e}");
+        assert!(tolerance < 1e-9 || path.ending().time() == END, "{:?}", path.ending());
+    }
+    Ok(())
+}
