@@ -132,8 +132,9 @@ impl Double {
 
     /// The sine and the cosine, likewise by 1 − cos.
     fn sin_cos(self) -> (Self, Self) {
-        let halvings = 20;
-        let x = self.times_power_of_two(-halvings);
+        let (halvings, turns) = (20, (self.high / std::f64::consts::TAU).round());
+        let rest = self - PI.times_power_of_two(1) * Self::from(turns);
+        let x = rest.times_power_of_two(-halvings);
         let (mut term, mut sine, mut versine) = (x, x, ZERO);
         for k in 2..16 {
             term = term * x / Self::from(f64::from(k));
@@ -221,6 +222,8 @@ fn twice_the_precision_is_reached() {
     assert!(near(sine * sine + cosine * cosine, ONE));
     assert!(near(sine.atan2(cosine), third));
     assert!(near(PI.sin_cos().0, ZERO) && near(PI.sin_cos().1, -ONE));
+    let far = PI * Double::from(2e6) + third;
+    assert!(far.sin_cos().0.distance(sine.high) < sine.low.abs() + 1e-24);
     assert!(near(Double::from(0.5).apply(Function::Asin), PI / Double::from(6.0)));
     assert!(near(third.apply(Function::Tanh), third.apply(Function::Sinh) / third.apply(Function::Cosh)));
 }
