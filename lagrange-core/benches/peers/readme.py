@@ -17,7 +17,7 @@ dual numbers, which take the same derivatives at run time (num-dual {num_dual}, 
 
 {duals}
 
-2,000 double pendulums from rest to t = 10. Methods of different order are compared: heyoka's Taylor series are more exact
+{taylor}2,000 double pendulums from rest to t = 10. Methods of different order are compared: heyoka's Taylor series are more exact
 at the same tolerance, and 8 is the width of AVX-512, for which there are no lanes here.
 
 {ensemble}
@@ -28,6 +28,15 @@ Compile times beyond an empty crate, all functions in use; functions of more tha
 """
 
 
+TAYLOR = """\
+Single motions by Taylor's method to round-off. heyoka is given the first two simplified by hand, without the multiplier that
+ours computes, and derives the others from the Lagrangian. `Dop853` is at 10⁻¹³:
+
+{table}
+
+"""
+
+
 def text(about, sections):
     return TEXT.format(
         about=where(about),
@@ -35,6 +44,7 @@ def text(about, sections):
         fastest=fastest(sections),
         duals=duals(sections["duals"]),
         ensemble=ensemble(sections["ensemble"]),
+        taylor=taylor(sections),
         growth=growth(sections["growth"]),
     )
 
@@ -106,6 +116,28 @@ def duals(section):
         ["nanoseconds", "ours", "num-dual"],
         [[what, *(time(section, "native", column, name) for name in ("ours", other))] for what, column, other in rows],
     )
+
+
+def taylor(sections):
+    """Single motions, where they were measured."""
+    if "taylor" not in sections:
+        return ""
+    section, times = sections["taylor"], "least times"
+    quality = "steps × time a step / error of the last state"
+
+    def cells(column, name):
+        return [time(section, times, column, name), section.cell(quality, column, name).split(" / ")[-1]]
+
+    def best(column):
+        had = [name for name in section.names(times) if name.startswith("heyoka") and cells(column, name)[0] != "–"]
+        return cells(column, min(had, key=lambda name: float(cells(column, name)[0])))
+
+    columns = section.captioned(times).head[1:]
+    rows = [
+        [column, *cells(column, "ours, Taylor"), *best(column), *cells(column, "ours, Dop853")] for column in columns
+    ]
+    head = ["µs for the whole motion, error at its end", "`Taylor`", "error", "heyoka", "error", "`Dop853`", "error"]
+    return TAYLOR.format(table=table(head, rows))
 
 
 def ensemble(section):

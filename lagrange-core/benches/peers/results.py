@@ -1,6 +1,7 @@
 """What was measured: `results.json`, from which all tables are written."""
 
 import json
+import sys
 from dataclasses import asdict
 
 from report import Bar, Section, Table
@@ -20,6 +21,19 @@ def load():
     return measured["about"], {name: section(**fields) for name, fields in measured["sections"].items()}
 
 
+def updated(about, sections, order):
+    """What the last full run measured, but for these rows, which were measured by themselves."""
+    before, all_sections = load()
+    packages = before["packages"] | about["packages"]
+    others = [fact for fact in ("cpu", "rustc", "gcc") if about[fact] != before[fact]]
+    others += [name for name, version in before["packages"].items() if packages[name] != version]
+    if others:
+        sys.exit(f"the last full run had another {', '.join(others)}: run all rows")
+    alone = before["alone"] | dict.fromkeys(sections, f"{about['commit']}, {about['date']}")
+    all_sections |= sections
+    return before | {"alone": alone, "packages": packages}, {name: all_sections[name] for name in order if name in all_sections}
+
+
 def section(title, parts, bars, missing):
     parts = [part if isinstance(part, str) else Table(**part) for part in parts]
     return Section(title, parts, [Bar(**bar) for bar in bars], missing)
@@ -35,7 +49,7 @@ def markdown(about, sections):
         f"Load average at the start: {about['load']:.2f}",
         f"Compilers: {about['rustc']}; {about['gcc']}",
         f"Python {about['python']}: {packages}; num-dual {about['num-dual']}",
-        *about["notes"],
+        *(f"The row {row} was measured by itself, at commit {where}" for row, where in about["alone"].items()),
         about["effort"],
     ]
     passed = f"{sum(bar.passes for bar in bars)} of {len(bars)} bars pass; the run took {about['minutes']:.1f} minutes."

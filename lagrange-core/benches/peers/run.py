@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs ours and the tools that people use now in one go and prints the tables.
 
-python3 lagrange-core/benches/peers/run.py [ROW...] [--quick] [--slow] [--output FILE]
+python3 lagrange-core/benches/peers/run.py [ROW...] [--quick] [--slow] [--update] [--output FILE]
 """
 
 import argparse
@@ -48,6 +48,9 @@ def options():
     parser.add_argument("--quick", action="store_true", help="few short samples: to see that it works")
     parser.add_argument("--slow", action="store_true", help="also SymPy at n = 20, which derives for minutes")
     parser.add_argument(
+        "--update", action="store_true", help="puts the rows in the place of those of the last full run, and says so there"
+    )
+    parser.add_argument(
         "--output", type=Path, help="where the tables go; default results.json, RESULTS.md and README.md after a full run"
     )
     chosen = parser.parse_args()
@@ -70,15 +73,15 @@ def main():
     chosen, start = options(), time.monotonic()
     SHOP.mkdir(parents=True, exist_ok=True)
     set_up_python()
-    about = workshop.about() | {"notes": [], "effort": str(chosen.effort)}
+    about = workshop.about() | {"alone": {}, "effort": str(chosen.effort)}
     sections = {name: section(name, chosen) for name in chosen.rows or ROWS}
     about["minutes"] = (time.monotonic() - start) / 60
     text = results.markdown(about, sections)
     print(text)
     if chosen.output:
         chosen.output.write_text(text)
-    elif not chosen.quick and not chosen.rows:
-        results.save(about, sections)
+    elif not chosen.quick and (chosen.update or not chosen.rows):
+        results.save(*(results.updated(about, sections, ROWS) if chosen.rows else (about, sections)))
         tables.write()
 
 
