@@ -5,11 +5,11 @@ mod loops;
 mod quantities;
 
 pub use humanoid::Humanoid;
-pub use loops::{FourBar, Stewart};
 use lagrange_core::{
     nalgebra::{Matrix3, Rotation3, Vector3},
     prelude::*,
 };
+pub use loops::{FourBar, Stewart};
 
 /// n revolute joints about axes placed arbitrarily, one after another.
 macro_rules! arm {
