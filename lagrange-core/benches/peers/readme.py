@@ -17,8 +17,8 @@ dual numbers, which take the same derivatives at run time (num-dual {num_dual}, 
 
 {duals}
 
-{taylor}2,000 double pendulums from rest to t = 10. Methods of different order are compared: heyoka's Taylor series are more exact
-at the same tolerance, and 8 is the width of AVX-512, for which there are no lanes here.
+{taylor}2,000 double pendulums from rest to t = 10. By Taylor's method errors are smaller than `Dop853`'s at the same tolerance; 8 is
+the width of AVX-512, for which there are no lanes here.
 
 {ensemble}
 
@@ -55,8 +55,14 @@ def where(about):
     tools = ", ".join(f"{spelled[name]} {version}" for name, version in about["packages"].items() if name in spelled)
     return (
         f"{about['date']}, {about['cpu']}, {about['cores']} cores, {about['system']},\n"
-        f"native flags; rustc {rustc}, gcc {gcc}; {tools}.\nLeast of {about['effort'].split()[0]} samples."
+        f"native flags; rustc {rustc}, gcc {gcc}; {tools}.\nLeast of {about['effort'].split()[0]} samples.{alone(about)}"
     )
+
+
+def alone(about):
+    """Which rows were measured when."""
+    rows = ", ".join(f"`{row}` ({where})" for row, where in about["alone"].items())
+    return f" Measured by themselves: {rows}." if rows else ""
 
 
 def table(head, rows):
