@@ -8,7 +8,7 @@ use super::{Fate, LaneMethod, Seat, Seats};
 use crate::ending::Ending;
 use crate::motion::event::Stride;
 use crate::number::{Lanes, vector};
-use crate::solution::flow::LagrangianFlow;
+use crate::solution::flow::{LagrangianFlow, Phase};
 use crate::system::{Lagrangian, State};
 
 /// Motions in lock-step.
@@ -65,12 +65,15 @@ where
         let fates = self.method.attempt::<IS_WATCHED>(&mut self.abreast, &mut self.seats);
         let fates = from_fn(|lane| fates[lane].unwrap_or_else(|| self.step_alone::<IS_WATCHED>(lane)));
         let before = from_fn::<_, { Lanes::COUNT }, _>(|lane| {
-            if const { IS_WATCHED } { Some(self.state(lane, starts[lane])) } else { None }
+            if const { IS_WATCHED } { Some(state(P::phase(&self.abreast, lane), starts[lane])) } else { None }
         });
         self.settle(&fates);
         for (lane, fate) in fates.into_iter().enumerate() {
             let Some(now) = self.seats[lane].as_ref().map(Seat::now) else { continue };
-            let mut state = self.state(lane, now);
+            let mut state = match fate {
+                Fate::Accepted => state(P::reached(&self.abreast, lane), now),
+                _ => state(P::phase(&self.abreast, lane), now),
+            };
             let is_accepted = fate != Fate::Rejected;
             let before = before[lane].as_ref().filter(|_| is_accepted);
             let stopped = before.and_then(|before| self.keep(lane, before, &mut state));
@@ -153,9 +156,8 @@ where
             P::load(&mut self.abreast, lane, &seat.memory);
         }
     }
+}
 
-    fn state(&self, lane: usize, t: f64) -> State<f64, N> {
-        let [q, v] = P::phase(&self.abreast, lane);
-        State { t, q: vector(q), v: vector(v) }
-    }
+fn state<const N: usize>([q, v]: Phase<f64, N>, t: f64) -> State<f64, N> {
+    State { t, q: vector(q), v: vector(v) }
 }

@@ -75,6 +75,11 @@ where
     #[doc(hidden)]
     fn phase(abreast: &Self::Abreast, lane: usize) -> Phase<f64, N>;
 
+    /// Where the step tried last leads in a lane. After it is taken this is the same, and need not wait for the numbers to be
+    /// written there.
+    #[doc(hidden)]
+    fn reached(abreast: &Self::Abreast, lane: usize) -> Phase<f64, N>;
+
     /// Tries a step in all lanes and moves the clocks of those where it is accepted; `None` for one that is to be taken alone.
     /// Of no step is it known where it leads within, where `IS_WATCHED` is false.
     #[doc(hidden)]

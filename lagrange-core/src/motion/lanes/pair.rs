@@ -95,6 +95,10 @@ where
         unpacked(&abreast.y, lane)
     }
 
+    fn reached(abreast: &Self::Abreast, lane: usize) -> Phase<f64, N> {
+        unpacked(&abreast.next, lane)
+    }
+
     #[inline(always)]
     fn attempt<const IS_WATCHED: bool>(
         &self,

@@ -108,6 +108,10 @@ where
         unpacked(&abreast.here.y, lane)
     }
 
+    fn reached(abreast: &Self::Abreast, lane: usize) -> Phase<f64, N> {
+        unpacked(&abreast.next.y, lane)
+    }
+
     #[inline(always)]
     fn attempt<const IS_WATCHED: bool>(
         &self,

@@ -1,4 +1,4 @@
-//! Functions that the user supplies, on series: the runtime evaluates them on [`PowerSeries`](lagrange_core::PowerSeries) of their arguments.
+//! Functions that the user supplies, on series: the runtime evaluates them on power series of their arguments.
 
 use std::collections::BTreeMap;
 
