@@ -115,8 +115,12 @@ pub trait Scalar:
 
 #[inline(always)]
 fn one_by_one<S: Scalar, const K: usize>(angles: [S; K]) -> ([S; K], [S; K]) {
-    let both = angles.map(S::sin_cos);
-    (both.map(|(sine, _)| sine), both.map(|(_, cosine)| cosine))
+    // Not by `map`, which the compiler leaves a function of its own for lanes.
+    let (mut sines, mut cosines) = (angles, angles);
+    for ((sine, cosine), angle) in sines.iter_mut().zip(&mut cosines).zip(angles) {
+        (*sine, *cosine) = angle.sin_cos();
+    }
+    (sines, cosines)
 }
 
 /// A value as one of another type, if the types are the same; which they are is known to the compiler.

@@ -107,5 +107,12 @@ pub(crate) fn unpacked<const R: usize, const N: usize>(
     packed: &[[Lanes; N]; R],
     lane: usize,
 ) -> [[f64; N]; R] {
-    packed.map(|row| row.map(|x| x.to_array()[lane]))
+    // Not by `map`, which the compiler leaves a function of its own, whose result is waited for.
+    let mut phase = [[0.0; N]; R];
+    for (half, packed) in phase.iter_mut().zip(packed) {
+        for (x, packed) in half.iter_mut().zip(packed) {
+            *x = packed.to_array()[lane];
+        }
+    }
+    phase
 }
