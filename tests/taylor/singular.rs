@@ -97,3 +97,16 @@ fn a_linkage_that_folds_keeps_its_energy_as_far_as_it_goes() -> Result<(), Error
     }
     Ok(())
 }
+
+/// Across singular poses, too, where a step is as long as its sum needs.
+#[test]
+fn no_step_is_longer_than_allowed() -> Result<(), Error> {
+    let longest = 2e-3;
+    let start = State::new([0.0, 1.0, 1.0, 1.0], [1.0, 1.0, 0.0, 0.0]);
+    let path = Window { g: 9.81 }.integrate_towards(start, 1.0, Taylor::default().max_step(longest))?;
+    let times: Vec<f64> = path.steps().map(|step| step.state().t).collect();
+    for pair in times.windows(2) {
+        assert!(pair[1] - pair[0] < longest * (1.0 + 1e-9), "{pair:?}");
+    }
+    Ok(())
+}

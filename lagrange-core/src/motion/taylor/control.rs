@@ -60,6 +60,11 @@ impl Taylor {
         };
         let step = if before > T::constant(0.0) { smaller(step, T::constant(GROWTH) * before) } else { step };
         let step = if step > T::constant(0.0) { clock.at_least(step) } else { clock.left() };
+        self.limited(step)
+    }
+
+    /// No longer than the user allows.
+    pub(super) fn limited<T: Real>(&self, step: T) -> T {
         self.max_step.map_or(step, |longest| smaller(step, T::constant(longest)))
     }
 }

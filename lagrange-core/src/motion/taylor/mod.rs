@@ -229,6 +229,7 @@ where
             Err(error) => Ending::of(error, now),
         };
         memory.shorten(h);
+        memory.planned = self.limited(memory.planned);
         if memory.clock.advances_by(memory.planned) { Step::Rejected } else { Step::Failed(ending) }
     }
 
@@ -294,7 +295,7 @@ impl Taylor {
         let may_cross = solved.is_near_dependence(*planned, before);
         memory.crossing = if may_cross { self.cross(series, *planned) } else { None };
         if let Some(crossing) = memory.crossing {
-            *planned = crossing.length;
+            *planned = self.limited(crossing.length);
         }
         memory.is_expanded = true;
         Ok(())

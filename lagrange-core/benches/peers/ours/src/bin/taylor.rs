@@ -12,7 +12,7 @@ use lagrange_core::{Method, TaylorSeries, prelude::*};
 use systems::*;
 
 #[path = "../systems.rs"]
-#[allow(dead_code)]
+#[allow(dead_code, reason = "only some of the systems are integrated here")]
 mod systems;
 
 const GRAVITY: f64 = 9.81;
