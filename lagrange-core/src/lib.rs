@@ -89,8 +89,8 @@ pub use hamiltonian::{Hamiltonian, HamiltonianFlow, PhaseRate, PhaseState};
 pub use lagrange_macros::Lagrangian;
 #[cfg(feature = "alloc")]
 pub use linearized::{
-    AcrossEvents, Actuation, DualSample, Equilibrium, JacobianBy, Linearization, LyapunovSpectrum,
-    Sensitivities, Sensitivity, Stability,
+    AcrossEvents, Actuation, DifferentiableMethod, DualSample, Equilibrium, JacobianBy, Linearization,
+    LyapunovSpectrum, Sensitivities, Sensitivity, Stability,
 };
 pub use linearized::{Direction, Jacobian, Linearized, Partials, ResidualChange, StateDerivatives};
 #[cfg(feature = "std")]

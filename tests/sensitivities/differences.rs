@@ -1,8 +1,7 @@
 //! Derivatives of a motion by differences of motions.
 
-use lagrange_core::motion::{Adaptive, Pair};
 use lagrange_core::nalgebra::DVector;
-use lagrange_core::{Entry, prelude::*};
+use lagrange_core::{DifferentiableMethod, Entry, prelude::*};
 
 /// The coefficients of the central difference of eighth order (Fornberg 1988).
 const DIFFERENCE: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
@@ -23,17 +22,17 @@ pub(crate) fn difference(step: f64, of: impl Fn(f64) -> DVector<f64>) -> DVector
 }
 
 /// The states at these times where an argument is changed, the start as near as the constraints allow.
-fn states<S, Q, const N: usize, const M: usize, const P: usize>(
+fn states<S, D, const N: usize, const M: usize, const P: usize>(
     system: &S,
     start: &State<f64, N>,
     times: &[f64],
-    method: Adaptive<Q>,
+    method: D,
     argument: usize,
     change: f64,
 ) -> DVector<f64>
 where
     S: Linearized<N, M, P, Scalar = f64> + Clone,
-    Q: Pair + Copy,
+    D: DifferentiableMethod<S, N, M, P> + Copy,
 {
     let (mut system, mut start) = (system.clone(), *start);
     match argument {
@@ -53,16 +52,29 @@ where
     DVector::from_iterator(2 * N * times.len(), states)
 }
 
-/// Compares the derivatives by everything at two times within and at the end; gives the largest error.
-pub(crate) fn check<S, Q, const N: usize, const M: usize, const P: usize>(
+/// [`check`]s the derivatives by pairs and by Taylor's method, which give the same.
+pub(crate) fn check_each<S, const N: usize, const M: usize, const P: usize>(
     system: &S,
     start: State<f64, N>,
     end: f64,
-    method: Adaptive<Q>,
+) where
+    S: Linearized<N, M, P, Scalar = f64> + Clone,
+    Taylor: DifferentiableMethod<S, N, M, P>,
+{
+    check(system, start, end, crate::method());
+    check(system, start, end, Taylor::default());
+}
+
+/// Compares the derivatives by everything at two times within and at the end; gives the largest error.
+pub(crate) fn check<S, D, const N: usize, const M: usize, const P: usize>(
+    system: &S,
+    start: State<f64, N>,
+    end: f64,
+    method: D,
 ) -> f64
 where
     S: Linearized<N, M, P, Scalar = f64> + Clone,
-    Q: Pair + Copy,
+    D: DifferentiableMethod<S, N, M, P> + Copy,
 {
     let start = system.make_consistent(&start).unwrap().0;
     let mut names: Vec<String> = S::COORDINATES.map(String::from).to_vec();

@@ -2,9 +2,9 @@
 
 use super::dual_sample::{DifferentiableEvent, DualSample, OverDuals};
 use super::sensitivity::{self, Sensitivity};
-use super::{Linearized, Sensitivities, sensitivities};
+use super::{DifferentiableMethod, Linearized, Sensitivities, sensitivities};
 use crate::error::Error;
-use crate::motion::{Adaptive, Event, EventValue, Pair};
+use crate::motion::{Event, EventValue};
 use crate::number::{Dual, Real};
 use crate::solution::flow::Phase;
 use crate::system::State;
@@ -119,11 +119,11 @@ pub trait AcrossEvents<const N: usize, const M: usize, const P: usize>:
     /// As [`integrate_until`](crate::Simulate::integrate_until), of what is wrong before the first step;
     /// [`Error::DerivativeNotFinite`]. [`Sensitivities::end`] is the error where the motion got to neither, or the event has
     /// no derivative.
-    fn integrate_sensitivities_until<Q: Pair>(
+    fn integrate_sensitivities_until<D: DifferentiableMethod<Self, N, M, P>>(
         &self,
         start: &Sensitivity<Self::Scalar, N>,
         end: Self::Scalar,
-        method: Adaptive<Q>,
+        method: D,
         events: &mut [&mut dyn DifferentiableEvent<Self, N, M, P>],
     ) -> Result<Sensitivities<'_, Self, N, M, P>, Error> {
         sensitivities::integrate(self, start, end, &method, events)

@@ -6,10 +6,9 @@ use nalgebra::DMatrix;
 
 use super::Linearized;
 use super::tangent::Tangent;
-use super::variation::Variations;
+use super::variation::{DifferentiableMethod, Variations};
 use crate::error::Error;
 use crate::motion::run::{Run, Watchdog, check_end};
-use crate::motion::{Adaptive, Pair};
 use crate::number::{Real, Scalar};
 use crate::solution::flow::LagrangianFlow;
 use crate::system::State;
@@ -31,15 +30,15 @@ pub struct LyapunovSpectrum<T> {
 const PARTS: usize = 20;
 
 /// See [`Linearized::lyapunov_spectrum`].
-pub(super) fn spectrum<L, Q, const N: usize, const M: usize, const P: usize>(
+pub(super) fn spectrum<L, D, const N: usize, const M: usize, const P: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
     end: L::Scalar,
-    method: &Adaptive<Q>,
+    method: &D,
 ) -> Result<LyapunovSpectrum<L::Scalar>, Error>
 where
     L: Linearized<N, M, P, Scalar: Real>,
-    Q: Pair,
+    D: DifferentiableMethod<L, N, M, P>,
 {
     check_finite(system, state)?;
     check_end(end)?;
@@ -53,6 +52,7 @@ where
     let most = |j: usize| entry::<L, N, M>(basis.column(j).icamax());
     let column = |j: usize| [0, N].map(|half| basis.fixed_view::<N, 1>(half, j).into_owned());
     let mut variations = Variations::begin(&tangent, (0..basis.ncols()).map(most).collect(), column)?;
+    let mut companion = method.companion(system, &start, &variations)?;
     let limits = Watchdog::new(method.limits(), &run.statistics);
     let mut parts = Vec::with_capacity(PARTS + 1);
     for part in 1..=PARTS + 1 {
@@ -60,10 +60,14 @@ where
         let stop = if part > PARTS { end } else { start.t + (end - start.t) * done };
         let (mut growth, from) = (vec![L::Scalar::constant(0.0); basis.ncols()], run.state.t);
         while run.state.t != stop {
-            let along = |run: &mut Run<_, _, N>| variations.follow(system, method, run);
-            let step = run.step_with::<L, LagrangianFlow, _, _, M>(system, method, stop, &limits, along);
+            let prepared = method.prepare(system, &mut run, stop, &variations, &mut companion);
+            let along = |run: &mut Run<_, _, N>| method.follow(system, run, &mut variations, &mut companion);
+            let step = prepared.and_then(|()| {
+                run.step_with::<L, LagrangianFlow, _, _, M>(system, method, stop, &limits, along)
+            });
             step.map_err(|ending| Error::Unfinished(Box::new(ending)))?;
-            variations.orthonormalize(|j, length| growth[j] += Scalar::ln(length));
+            let linear = &mut D::linear(&mut companion);
+            variations.orthonormalize(linear, |j, length| growth[j] += Scalar::ln(length));
         }
         parts.push((stop, growth.into_iter().map(|x| x / (stop - from)).collect::<Vec<_>>()));
     }

@@ -58,10 +58,14 @@ pub use sensitivity::Sensitivity;
 #[cfg(feature = "alloc")]
 pub use spectrum::Stability;
 pub use state_derivatives::StateDerivatives;
+#[cfg(feature = "alloc")]
+pub(crate) use tangent::{Tangent, WideOf};
+#[cfg(feature = "alloc")]
+pub use variation::DifferentiableMethod;
+#[cfg(feature = "alloc")]
+pub(crate) use variation::{Block, Variations};
 
 use crate::error::Error;
-#[cfg(feature = "alloc")]
-use crate::motion::{Adaptive, Pair};
 use crate::number::{Over, Real};
 use crate::system::{Lagrangian, Solution, State};
 
@@ -212,8 +216,9 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     /// constraints the start is the nearest state to the one given, for other parameters too, and so are its derivatives;
     /// they stay in the tangent space, projected as the state is. [`AcrossEvents`] goes on across events.
     ///
-    /// It takes [`Dop853`](crate::Dop853) and [`Dopri5`](crate::Dopri5), and other embedded [`Pair`]s, on Lagrange's
-    /// equations; motions by other methods, and in momenta, are not differentiated.
+    /// It takes [`Dop853`](crate::Dop853) and [`Dopri5`](crate::Dopri5), and other embedded [`Pair`](crate::motion::Pair)s, on
+    /// Lagrange's equations, and [`Taylor`](crate::Taylor) where the number type of the system is a parameter; motions by
+    /// other methods, and in momenta, are not differentiated.
     ///
     /// ```
     /// use lagrange_core::prelude::*;
@@ -237,11 +242,11 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     /// As [`integrate`](crate::Simulate::integrate); [`Error::DerivativeNotFinite`]; [`Error::UnknownName`] and
     /// [`Error::RepeatedName`].
     #[cfg(feature = "alloc")]
-    fn integrate_sensitivities<Q: Pair>(
+    fn integrate_sensitivities<D: DifferentiableMethod<Self, N, M, P>>(
         &self,
         state: State<Self::Scalar, N>,
         end: Self::Scalar,
-        method: Adaptive<Q>,
+        method: D,
         arguments: &[&str],
     ) -> Result<Sensitivities<'_, Self, N, M, P>, Error>
     where
@@ -283,11 +288,11 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     /// As [`integrate`](crate::Simulate::integrate): among others, [`Error::Unfinished`] where the steps of the method do
     /// not suffice; [`Error::DerivativeNotFinite`].
     #[cfg(feature = "alloc")]
-    fn lyapunov_spectrum<Q: Pair>(
+    fn lyapunov_spectrum<D: DifferentiableMethod<Self, N, M, P>>(
         &self,
         state: State<Self::Scalar, N>,
         end: Self::Scalar,
-        method: Adaptive<Q>,
+        method: D,
     ) -> Result<LyapunovSpectrum<Self::Scalar>, Error>
     where
         Self: Lagrangian<N, M, Scalar: Real> + Sized,

@@ -6,14 +6,12 @@ use core::fmt::{self, Debug, Formatter};
 use super::dual_sample::DifferentiableEvent;
 use super::sensitivity::{Sensitivity, at_event};
 use super::tangent::{Tangent, WideOf};
-use super::variation::Variations;
+use super::variation::{DifferentiableMethod, Variations};
 use super::{Direction, Linearized};
 use crate::ending::Ending;
 use crate::error::Error;
 use crate::motion::event::{Search, Watched};
-use crate::motion::method::interpolant::evaluate;
 use crate::motion::run::{Run, Watchdog, check_end};
-use crate::motion::{Adaptive, Pair};
 use crate::names::Entry;
 use crate::number::{Over, Real, Scalar, Wide};
 use crate::solution::flow::{LagrangianFlow, Phase};
@@ -47,25 +45,30 @@ struct Course<L: Linearized<N, M, P, Scalar: Real>, const N: usize, const M: usi
     steps: Vec<[L::Scalar; 2]>,
     /// Step by step and block by block, the coefficients of what lies between, as many for each.
     coefficients: Vec<Phase<WideOf<L, N, M>, N>>,
+    /// What they are the coefficients of.
+    between: Between<WideOf<L, N, M>, N>,
 }
 
+/// What lies after a part of a step, by its coefficients.
+type Between<W, const N: usize> = fn(&[Phase<W, N>], W) -> Phase<W, N>;
+
 /// See [`AcrossEvents::integrate_sensitivities_until`](super::AcrossEvents::integrate_sensitivities_until).
-pub(super) fn integrate<'a, L, Q, const N: usize, const M: usize, const P: usize>(
+pub(super) fn integrate<'a, L, D, const N: usize, const M: usize, const P: usize>(
     system: &'a L,
     start: &Sensitivity<L::Scalar, N>,
     end: L::Scalar,
-    method: &Adaptive<Q>,
+    method: &D,
     events: &mut [&mut dyn DifferentiableEvent<L, N, M, P>],
 ) -> Result<Sensitivities<'a, L, N, M, P>, Error>
 where
     L: Linearized<N, M, P, Scalar: Real>,
-    Q: Pair,
+    D: DifferentiableMethod<L, N, M, P>,
 {
     check_finite(system, &start.state)?;
     check_end(end)?;
     let (mut run, adjustment) = Run::begin::<L, LagrangianFlow, _, M>(system, &start.state, method)?;
     let mut path = Path::from(run.state);
-    let mut course = Course::from(system, &run.state, start)?;
+    let (mut course, mut companion) = Course::from(system, &run.state, start, method)?;
     let mut watched: Vec<_> =
         events.iter_mut().map(|event| &mut **event as &mut dyn Watched<L, N, M>).collect();
     let mut search = Search::from(&mut watched, system, &run.state, true)?;
@@ -78,9 +81,13 @@ where
         if run.state.t == end {
             break Ending::Complete { time: end.to_f64() };
         }
+        let variations = &mut course.variations;
+        if let Err(ending) = method.prepare(system, &mut run, end, variations, &mut companion) {
+            break ending;
+        }
         let along = |run: &mut Run<_, _, N>| {
-            course.variations.follow(system, method, run)?;
-            course.variations.interpolate(system, method, run, &mut course.coefficients)
+            method.follow(system, run, variations, &mut companion)?;
+            method.interpolate(system, run, variations, &mut companion, &mut course.coefficients)
         };
         let interpolant =
             match run.step_with::<L, LagrangianFlow, _, _, M>(system, method, end, &limits, along) {
@@ -106,11 +113,13 @@ impl<L, const N: usize, const M: usize, const P: usize> Course<L, N, M, P>
 where
     L: Linearized<N, M, P, Scalar: Real>,
 {
-    fn from(
+    /// With what the variations take along.
+    fn from<D: DifferentiableMethod<L, N, M, P>>(
         system: &L,
         state: &State<L::Scalar, N>,
         start: &Sensitivity<L::Scalar, N>,
-    ) -> Result<Self, Error> {
+        method: &D,
+    ) -> Result<(Self, D::Companion), Error> {
         let tangent = Tangent::at(system, state)?;
         // At the time given, not at that of the event where the start is one.
         let column = |j| {
@@ -118,7 +127,9 @@ where
             [q - state.v * t, v - tangent.solution.accelerations * t]
         };
         let variations = Variations::begin(&tangent, start.arguments().to_vec(), column)?;
-        Ok(Self { variations, end: state.t, steps: Vec::new(), coefficients: Vec::new() })
+        let companion = method.companion(system, state, &variations)?;
+        let (steps, coefficients) = (Vec::new(), Vec::new());
+        Ok((Self { variations, end: state.t, steps, coefficients, between: D::between }, companion))
     }
 
     /// After a step that was followed.
@@ -129,7 +140,7 @@ where
 
     /// The derivatives of a state of the motion.
     fn at(&self, system: &L, state: &State<L::Scalar, N>) -> Result<Sensitivity<L::Scalar, N>, Error> {
-        let (lanes, blocks) = (<WideOf<L, N, M> as Wide<L::Scalar>>::COUNT, self.variations.blocks());
+        let (lanes, blocks) = (<WideOf<L, N, M> as Wide<L::Scalar>>::COUNT, self.variations.blocks.len());
         let mut at = Sensitivity::of(*state, self.variations.arguments().to_vec());
         let found = if state.t == self.end { None } else { self.step(state.t) };
         let tangent = if const { M > 0 } { Some(Tangent::at(system, state)) } else { None };
@@ -140,7 +151,7 @@ where
                 Some((step, part)) => {
                     let each = self.coefficients.len() / (self.steps.len() * blocks);
                     let first = each * (step * blocks + block);
-                    evaluate(&self.coefficients[first..first + each], WideOf::<L, N, M>::of(part)).0
+                    (self.between)(&self.coefficients[first..first + each], WideOf::<L, N, M>::of(part))
                 }
             };
             if let Some(tangent) = &tangent {

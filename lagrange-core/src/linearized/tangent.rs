@@ -16,7 +16,7 @@ use crate::solution::solve::{fault, first_row, is_trustworthy, least_pivot, solv
 use crate::system::{Lagrangian, Solution, State};
 
 /// The equations of motion at a state, solved, factorized and differentiated.
-pub(super) struct Tangent<'a, L: StateDerivatives<N, M>, const N: usize, const M: usize> {
+pub(crate) struct Tangent<'a, L: StateDerivatives<N, M>, const N: usize, const M: usize> {
     pub(super) system: &'a L,
     pub(super) state: &'a State<L::Scalar, N>,
     pub(super) solution: Solution<L::Scalar, N, M>,
@@ -26,10 +26,10 @@ pub(super) struct Tangent<'a, L: StateDerivatives<N, M>, const N: usize, const M
 }
 
 /// As many numbers as are best computed with at once.
-pub(super) type WideOf<L, const N: usize, const M: usize> = <<L as Lagrangian<N, M>>::Scalar as Real>::Wide;
+pub(crate) type WideOf<L, const N: usize, const M: usize> = <<L as Lagrangian<N, M>>::Scalar as Real>::Wide;
 
 /// What the emitted factor does not tell, or cannot vouch for.
-pub(super) struct Matrices<T, const N: usize, const M: usize> {
+pub(crate) struct Matrices<T, const N: usize, const M: usize> {
     /// The mass matrix, row by row.
     #[cfg(feature = "alloc")]
     pub(super) m: [[T; N]; N],
@@ -49,7 +49,7 @@ where
 
     /// Where the equations are solved already.
     #[inline]
-    pub(super) fn of(
+    pub(crate) fn of(
         system: &'a L,
         state: &'a State<L::Scalar, N>,
         solution: Solution<L::Scalar, N, M>,

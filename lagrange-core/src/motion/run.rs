@@ -33,7 +33,7 @@ pub struct Progress {
 
 /// A motion on its way: where it is, what its method carries and what it took so far.
 #[derive(Debug)]
-pub(crate) struct Run<X, T, const N: usize> {
+pub struct Run<X, T, const N: usize> {
     pub(crate) memory: X,
     pub(crate) state: State<T, N>,
     /// Where the last step started.

@@ -1,11 +1,13 @@
-//! Systems side by side: one struct over SIMD lanes with the parameters of another system in each lane.
+//! A system over other numbers: one struct over SIMD lanes with the parameters of another system in each lane, or over dual
+//! numbers.
 
 use core::fmt::Debug;
 
 use nalgebra::{Isometry, Quaternion, Rotation, SMatrix, Translation, Unit};
 
 #[cfg(feature = "std")]
-use crate::number::{Lanes, Scalar};
+use crate::number::Lanes;
+use crate::number::{Dual, Scalar, Wide};
 
 /// A system that can share SIMD lanes of the type `V` with others of its kind.
 ///
@@ -29,10 +31,10 @@ use crate::number::{Lanes, Scalar};
 /// assert_eq!(accelerations[0].to_array(), [-8.0, -8.0, -8.0, -3.0]);
 /// ```
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` cannot be put on SIMD lanes",
+    message = "`{Self}` cannot be computed with other numbers, which SIMD lanes and derivatives of Taylor series take",
     label = "its number type is fixed",
     note = "make the number type a parameter, `struct X<T> {{ m: T, l: [T; 2] }}`, and derive `Lagrangian` for that",
-    note = "`Ensemble::integrate` takes any system, and integrates one member at a time"
+    note = "of any system, `Ensemble::integrate` integrates one member at a time, and `Dop853` differentiates motions"
 )]
 pub trait Pack<V>: Sized {
     /// The system over lanes.
@@ -72,6 +74,19 @@ impl Packed<f64> for Lanes {
         let mut all = self.to_array();
         all[lane] = *x;
         *self = all.into();
+    }
+}
+
+/// With no slope.
+impl<W: Wide<X>, X: Scalar> Packed<X> for Dual<W> {
+    #[inline]
+    fn splat(x: &X) -> Self {
+        Self { value: W::of(*x), slope: W::constant(0.0) }
+    }
+
+    #[inline]
+    fn place(&mut self, lane: usize, x: &X) {
+        self.value.put(lane, *x);
     }
 }
 

@@ -260,7 +260,7 @@ impl<P: Pair> Adaptive<P> {
 /// So many times the tolerance variations are allowed: their errors are about as much larger than those of the motion, as a
 /// rule, and are to shorten its steps only where it is no guide.
 #[cfg(feature = "alloc")]
-const SLACK: f64 = 10.0;
+pub(crate) const SLACK: f64 = 10.0;
 
 /// √(mean (h x/scale)²).
 #[inline]

@@ -9,7 +9,7 @@ use crate::number::{Filled, ROOM, Real, Scalar, larger, smaller};
 use crate::system::State;
 
 /// So many coefficients tell how long a step is to be.
-const LAST: usize = 5;
+pub(super) const LAST: usize = 5;
 /// A step may be so many times as long as the one before.
 const GROWTH: f64 = 10.0;
 

@@ -16,7 +16,7 @@ use crate::system::{Lagrangian, RightHandSides, Solution, State, TaylorSeries};
 #[derive(Clone, Debug)]
 pub(super) struct Solved<T, const N: usize, const M: usize> {
     pub(super) solution: Solution<T, N, M>,
-    active: [bool; M],
+    pub(super) active: [bool; M],
 }
 
 impl<T: Real, const N: usize, const M: usize> Solved<T, N, M> {
@@ -25,6 +25,13 @@ impl<T: Real, const N: usize, const M: usize> Solved<T, N, M> {
         state: &State<T, N>,
     ) -> Result<Self, Error> {
         solve_near(system, state, None, |solution, active| Self { solution: *solution, active: *active })
+    }
+
+    /// Whether the factor of the elimination is good enough for all orders.
+    pub(super) fn is_by_elimination(&self) -> bool {
+        is_trustworthy(&self.solution)
+            && self.solution.multipliers_are_unique()
+            && !self.is_close_to_dependence()
     }
 }
 
@@ -181,7 +188,7 @@ impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
         L: TaylorSeries<N, M, Scalar = T, Sums = S>,
     {
         let Solved { solution, active } = solved;
-        if is_trustworthy(solution) && solution.multipliers_are_unique() && !solved.is_close_to_dependence() {
+        if solved.is_by_elimination() {
             let factor = system.factor(state);
             let solve =
                 |(forcing, bias): &RightHandSides<T, N, M>| Ok(system.solve_with(&factor, forcing, bias));
@@ -209,7 +216,7 @@ fn horner<T: Scalar, const N: usize>(sum: &[T; N], theta: T, coefficient: &[T; N
 }
 
 /// The general factors of a state, on the constraints that are independent there.
-struct General<T, const N: usize, const M: usize> {
+pub(super) struct General<T, const N: usize, const M: usize> {
     factors: kkt::Factors<T, N, M>,
     active: [bool; M],
     time: f64,
@@ -217,7 +224,7 @@ struct General<T, const N: usize, const M: usize> {
 
 impl<T: Real, const N: usize, const M: usize> General<T, N, M> {
     #[cold]
-    fn at<L: Lagrangian<N, M, Scalar = T>>(
+    pub(super) fn at<L: Lagrangian<N, M, Scalar = T>>(
         system: &L,
         state: &State<T, N>,
         active: [bool; M],
@@ -236,7 +243,7 @@ impl<T: Real, const N: usize, const M: usize> General<T, N, M> {
         Ok(Self { factors, active, time })
     }
 
-    fn solve<L: Lagrangian<N, M, Scalar = T>>(
+    pub(super) fn solve<L: Lagrangian<N, M, Scalar = T>>(
         &self,
         (forcing, bias): &RightHandSides<T, N, M>,
     ) -> Result<Solution<T, N, M>, Error> {

@@ -9,6 +9,7 @@ mod lanes;
 mod polynomial;
 mod roots;
 mod sums;
+mod variations;
 
 use core::array::from_fn;
 use core::fmt;
@@ -56,6 +57,8 @@ pub use polynomial::TaylorPolynomial;
 /// every scalar, and the compiler says so. A [`Function`](crate::Function) is evaluated on a [`PowerSeries`](crate::PowerSeries) at every order; of
 /// kinks inside of it each step is aware at its quarters only, to 10⁻¹⁰ of the velocities. Parameters may change between steps. Nothing is allocated in a step.
 /// In an ensemble four members are expanded at once on SIMD lanes, each with its own step: `Ensemble::integrate_on_lanes`.
+/// Derivatives of a motion come from the recurrences over dual numbers, to the same error:
+/// [`integrate_sensitivities`](crate::Linearized::integrate_sensitivities).
 ///
 /// ```
 /// use lagrange_core::prelude::*;
@@ -138,6 +141,15 @@ pub struct Memory<S, T, const N: usize, const M: usize> {
     planned: T,
     /// Where the step is summed by fewer orders.
     crossing: Option<Crossing<T>>,
+    /// What was known where the step taken last starts.
+    before: Option<Before<T, N, M>>,
+}
+
+/// What is known of a state beside its series.
+#[derive(Clone, Debug)]
+struct Before<T, const N: usize, const M: usize> {
+    solved: Solved<T, N, M>,
+    rest: [[T; N]; 2],
 }
 
 impl<L, const N: usize, const M: usize> Method<L, N, M> for Taylor
@@ -182,6 +194,7 @@ where
             is_expanded: false,
             planned: zero,
             crossing: None,
+            before: None,
         })
     }
 
@@ -196,7 +209,7 @@ where
         memory.clock.set(state.t);
         (memory.state, memory.solved) = (*state, Solved::at(system, state)?);
         statistics.multipliers_are_unique &= memory.solved.solution.multipliers_are_unique();
-        memory.is_expanded = false;
+        (memory.is_expanded, memory.before) = (false, None);
         memory.rest = [[L::Scalar::constant(0.0); N]; 2];
         Ok(())
     }
@@ -228,9 +241,7 @@ where
             }
             Err(error) => Ending::of(error, now),
         };
-        memory.shorten(h);
-        memory.planned = self.limited(memory.planned);
-        if memory.clock.advances_by(memory.planned) { Step::Rejected } else { Step::Failed(ending) }
+        if self.can_be_shorter(memory, h) { Step::Rejected } else { Step::Failed(ending) }
     }
 
     fn interpolant(
@@ -241,6 +252,15 @@ where
     ) -> Result<Self::Interpolant, Error> {
         let Expansion { start, unit, q, summed, .. } = &memory.series;
         Ok(TaylorPolynomial::new(*start, *unit, q[..summed + 2].iter().copied()))
+    }
+
+    fn take_back(&self, memory: &mut Self::Memory) -> bool {
+        let Some(Before { solved, rest }) = memory.before.take() else { return false };
+        let (start, h) = (memory.series.start, memory.clock.now - memory.series.start);
+        memory.clock.now = start;
+        memory.state = State { t: start, q: vector(memory.series.q[0]), v: vector(memory.series.v[0]) };
+        (memory.solved, memory.rest, memory.is_expanded) = (solved, rest, true);
+        self.can_be_shorter(memory, h)
     }
 }
 
@@ -270,6 +290,17 @@ enum Attempt<T, const N: usize> {
 }
 
 impl Taylor {
+    /// Plans another step after one of this length was refused, if a time is that near.
+    fn can_be_shorter<S: Filled<T>, T: Real, const N: usize, const M: usize>(
+        &self,
+        memory: &mut Memory<S, T, N, M>,
+        h: T,
+    ) -> bool {
+        memory.shorten(h);
+        memory.planned = self.limited(memory.planned);
+        memory.clock.advances_by(memory.planned)
+    }
+
     /// Expands the motion about the state, and chooses the length of the step, unless that is done.
     fn expand<L: TaylorSeries<N, M, Scalar: Real>, const N: usize, const M: usize>(
         &self,
@@ -329,9 +360,13 @@ impl Taylor {
         if let Some(worst) = tried.inaccurate(system, self)? {
             return Ok(Attempt::Inaccurate(worst));
         }
-        memory.rest = [(q, next.q, rest_q), (v, next.v, rest_v)]
+        let rest = [(q, next.q, rest_q), (v, next.v, rest_v)]
             .map(|(sum, projected, rest)| left(&sum, &projected.into(), &rest));
-        (memory.state, memory.solved, memory.is_expanded) = (next, solved, false);
+        memory.before = Some(Before {
+            solved: core::mem::replace(&mut memory.solved, solved),
+            rest: core::mem::replace(&mut memory.rest, rest),
+        });
+        (memory.state, memory.is_expanded) = (next, false);
         memory.clock.now = time;
         Ok(Attempt::Reached(next))
     }

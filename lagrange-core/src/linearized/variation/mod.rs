@@ -1,0 +1,271 @@
+//! The variational equations, along the steps of a motion.
+//!
+//! A step of the variations is the derivative of the step of the motion, its length held, which is a method's own affair
+//! (internal differentiation: Bock, *Numerical treatment of inverse problems in chemical reaction kinetics*, 1981; Hairer,
+//! Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.6, "Sensitivity analysis"). What a step ends in is
+//! projected onto the tangent space, which is the derivative of the projection of the state where that lies on the
+//! constraints: δq += x with M x = Fᵀμ, F x = −δΦ, then δq̇ by δ(F q̇ + b).
+
+mod differentiable;
+mod stages;
+
+use alloc::vec::Vec;
+
+use nalgebra::SVector;
+
+use super::argument::parameter;
+use super::tangent::{Tangent, WideOf};
+use super::{Direction, Linearized, ResidualChange, StateDerivatives};
+use crate::error::Error;
+use crate::names::Entry;
+use crate::number::{Real, Scalar, Wide, vector};
+use crate::solution::flow::Phase;
+
+pub use differentiable::DifferentiableMethod;
+
+/// Variations of a motion, as many as there are lanes.
+#[derive(Clone, Debug)]
+pub(crate) struct Block<W, const N: usize, const P: usize> {
+    /// δ(q, q̇).
+    pub(crate) y: Phase<W, N>,
+    /// At which parameters change, if any does.
+    pub(crate) rates: Option<SVector<W, P>>,
+    /// One over the size of what is varied: that of a parameter, or 1.
+    pub(crate) unit: W,
+    /// How many of the lanes are taken.
+    pub(crate) lanes: usize,
+}
+
+/// Variations of a motion by some of what it depends on.
+#[derive(Debug)]
+pub struct Variations<L: Linearized<N, M, P, Scalar: Real>, const N: usize, const M: usize, const P: usize> {
+    arguments: Vec<Entry>,
+    pub(crate) blocks: Vec<Block<WideOf<L, N, M>, N, P>>,
+}
+
+impl<L, const N: usize, const M: usize, const P: usize> Variations<L, N, M, P>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+{
+    /// At the start, along each of these columns of δ(q, q̇), and by those of the arguments that are parameters. On
+    /// constraints they go to the tangent space: parameters may shift the start, and of a change of it nothing but the part along
+    /// the constraints changes the motion.
+    pub(super) fn begin(
+        tangent: &Tangent<'_, L, N, M>,
+        arguments: Vec<Entry>,
+        column: impl Fn(usize) -> [SVector<L::Scalar, N>; 2],
+    ) -> Result<Self, Error> {
+        let lanes = <WideOf<L, N, M> as Wide<L::Scalar>>::COUNT;
+        let parameters: Vec<_> = arguments.iter().map(|entry| parameter::<L, N, M, P>(*entry)).collect();
+        let values = tangent.system.parameters();
+        let mut blocks: Vec<Block<WideOf<L, N, M>, N, P>> =
+            parameters.chunks(lanes).map(|parameters| Block::of(parameters, &values)).collect();
+        for j in 0..arguments.len() {
+            let column = column(j);
+            let entries = column.iter().flat_map(SVector::iter);
+            blocks[j / lanes].y_mut().iter_mut().zip(entries).for_each(|(wide, x)| wide.put(j % lanes, *x));
+        }
+        let mut variations = Self { arguments, blocks };
+        variations.arrive(tangent)?;
+        Ok(variations)
+    }
+
+    /// How many variations there are.
+    pub(super) fn count(&self) -> usize {
+        self.arguments.len()
+    }
+
+    /// Makes the variations orthonormal, one after the other (Gram and Schmidt, each twice), and gives to `take` how long each
+    /// was beside those before it. What `linear` gives of a block goes with it.
+    pub(super) fn orthonormalize(
+        &mut self,
+        linear: &mut [&mut [WideOf<L, N, M>]],
+        mut take: impl FnMut(usize, L::Scalar),
+    ) {
+        for j in 0..self.count() {
+            for k in (0..j).chain(0..j) {
+                let along = self.dot(j, k);
+                self.combine(linear, [j, k], |x, y| x - along * y);
+            }
+            let length = Scalar::sqrt(self.dot(j, j));
+            self.combine(linear, [j, j], |x, _| x / length);
+            take(j, length);
+        }
+    }
+
+    /// Puts into the first of two variations what is made of both.
+    fn combine(
+        &mut self,
+        linear: &mut [&mut [WideOf<L, N, M>]],
+        [into, from]: [usize; 2],
+        of: impl Fn(L::Scalar, L::Scalar) -> L::Scalar,
+    ) {
+        let lanes = <WideOf<L, N, M> as Wide<L::Scalar>>::COUNT;
+        let [into, from] = [into, from].map(|j| (j / lanes, j % lanes));
+        let combine = |x: &mut WideOf<L, N, M>, y: WideOf<L, N, M>| {
+            let combined = of(x.lane(into.1), y.lane(from.1));
+            x.put(into.1, combined);
+        };
+        for i in 0..2 * N {
+            let y = self.blocks[from.0].y_mut()[i];
+            combine(&mut self.blocks[into.0].y_mut()[i], y);
+        }
+        for i in 0..linear.get(into.0).map_or(0, |all| all.len()) {
+            let y = linear[from.0][i];
+            combine(&mut linear[into.0][i], y);
+        }
+    }
+
+    /// The scalar product of two variations.
+    fn dot(&self, j: usize, k: usize) -> L::Scalar {
+        let lanes = <WideOf<L, N, M> as Wide<L::Scalar>>::COUNT;
+        let entries =
+            |j: usize| self.blocks[j / lanes].y.as_flattened().iter().map(move |x| x.lane(j % lanes));
+        entries(j).zip(entries(k)).fold(L::Scalar::constant(0.0), |sum, (x, y)| sum + x * y)
+    }
+
+    /// Of what they are, in their order.
+    pub(crate) fn arguments(&self) -> &[Entry] {
+        &self.arguments
+    }
+
+    /// What this lane of a block is a variation by.
+    pub(crate) fn argument(&self, block: usize, lane: usize) -> Entry {
+        lane_names::<L, N, M>(&self.arguments, block)(lane)
+    }
+
+    /// δ(q, q̇) in a block.
+    pub(super) fn block(&self, index: usize) -> &Phase<WideOf<L, N, M>, N> {
+        &self.blocks[index].y
+    }
+
+    /// Onto the tangent space of a state.
+    pub(crate) fn arrive(&mut self, tangent: &Tangent<'_, L, N, M>) -> Result<(), Error> {
+        if const { M > 0 } {
+            let by_parameters = self.parameter_slopes(tangent);
+            for (k, block) in self.blocks.iter_mut().enumerate() {
+                let names = lane_names::<L, N, M>(&self.arguments, k);
+                block.y = block.projected(tangent, &by_parameters, block.y, &names)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// δ(q̇, q̈) of each block at a state, of these δ(q, q̇).
+    pub(crate) fn slopes_at(
+        &self,
+        tangent: &Tangent<'_, L, N, M>,
+        y: impl Fn(usize, &Block<WideOf<L, N, M>, N, P>) -> Phase<WideOf<L, N, M>, N>,
+        mut give: impl FnMut(usize, Phase<WideOf<L, N, M>, N>),
+    ) -> Result<(), Error> {
+        let by_parameters = self.parameter_slopes(tangent);
+        for (k, block) in self.blocks.iter().enumerate() {
+            let names = lane_names::<L, N, M>(&self.arguments, k);
+            give(k, block.slope_at(tangent, &by_parameters, &y(k, block), &names)?);
+        }
+        Ok(())
+    }
+
+    /// δ(q, q̇) of a block at a state in between, on the tangent space there.
+    pub(super) fn projected(
+        &self,
+        index: usize,
+        tangent: &Tangent<'_, L, N, M>,
+        y: Phase<WideOf<L, N, M>, N>,
+    ) -> Result<Phase<WideOf<L, N, M>, N>, Error> {
+        let names = lane_names::<L, N, M>(&self.arguments, index);
+        self.blocks[index].projected(tangent, &self.parameter_slopes(tangent), y, &names)
+    }
+
+    /// Where parameters change.
+    fn parameter_slopes(&self, tangent: &Tangent<'_, L, N, M>) -> Option<L::ParameterSlopes> {
+        self.blocks.iter().any(|block| block.rates.is_some()).then(|| tangent.parameter_slopes())
+    }
+}
+
+/// What the lanes of a block are called.
+fn lane_names<L, const N: usize, const M: usize>(arguments: &[Entry], block: usize) -> impl Fn(usize) -> Entry
+where
+    L: StateDerivatives<N, M, Scalar: Real>,
+{
+    let lanes = <WideOf<L, N, M> as Wide<L::Scalar>>::COUNT;
+    move |lane| arguments[lanes * block + lane]
+}
+
+impl<W: Scalar, const N: usize, const P: usize> Block<W, N, P> {
+    /// Of no state yet, by these parameters, a lane each.
+    fn of<T: Real>(parameters: &[Option<usize>], values: &SVector<T, P>) -> Self
+    where
+        W: Wide<T>,
+    {
+        let (zero, one) = (W::constant(0.0), T::constant(1.0));
+        let (mut rates, mut unit) = (None, W::constant(1.0));
+        for (lane, k) in parameters.iter().enumerate().filter_map(|(lane, k)| Some((lane, (*k)?))) {
+            rates.get_or_insert_with(|| SVector::<W, P>::from_element(zero))[k].put(lane, one);
+            let size = Scalar::abs(values[k]);
+            unit.put(lane, if size > T::constant(0.0) { one / size } else { one });
+        }
+        Self { y: [[zero; N]; 2], rates, unit, lanes: parameters.len() }
+    }
+
+    fn y_mut(&mut self) -> &mut [W] {
+        self.y.as_flattened_mut()
+    }
+
+    /// How the residual changes with these variations.
+    #[inline]
+    fn changes<L, const M: usize>(
+        &self,
+        tangent: &Tangent<'_, L, N, M>,
+        by_parameters: &Option<L::ParameterSlopes>,
+        [q, v]: &Phase<W, N>,
+    ) -> ResidualChange<W, N, M>
+    where
+        L: Linearized<N, M, P, Scalar: Real<Wide = W>>,
+    {
+        let of_state = tangent.changes(&Direction { t: W::constant(0.0), q: vector(*q), v: vector(*v) });
+        let Some((slopes, rates)) = by_parameters.as_ref().zip(self.rates.as_ref()) else { return of_state };
+        of_state.plus(&tangent.changes_by_parameters(slopes, rates))
+    }
+
+    /// δ(q̇, q̈)
+    #[inline]
+    fn slope_at<L, const M: usize>(
+        &self,
+        tangent: &Tangent<'_, L, N, M>,
+        by_parameters: &Option<L::ParameterSlopes>,
+        y: &Phase<W, N>,
+        names: &impl Fn(usize) -> Entry,
+    ) -> Result<Phase<W, N>, Error>
+    where
+        L: Linearized<N, M, P, Scalar: Real<Wide = W>>,
+    {
+        let changes = self.changes(tangent, by_parameters, y);
+        Ok([y[1], tangent.responses(self.lanes, &changes, names)?.accelerations.into()])
+    }
+
+    /// The nearest variations on the tangent space.
+    fn projected<L, const M: usize>(
+        &self,
+        tangent: &Tangent<'_, L, N, M>,
+        by_parameters: &Option<L::ParameterSlopes>,
+        mut y: Phase<W, N>,
+        names: &impl Fn(usize) -> Entry,
+    ) -> Result<Phase<W, N>, Error>
+    where
+        L: Linearized<N, M, P, Scalar: Real<Wide = W>>,
+    {
+        for half in 0..2 {
+            let changes = self.changes(tangent, by_parameters, &y);
+            let left = if half == 0 { changes.position } else { changes.rate };
+            let demands = ResidualChange {
+                motion: changes.motion.map(|_| W::constant(0.0)),
+                acceleration: left,
+                ..changes
+            };
+            let correction = tangent.responses(self.lanes, &demands, names)?.accelerations;
+            y[half].iter_mut().zip(&correction).for_each(|(x, correction)| *x = *x + *correction);
+        }
+        Ok(y)
+    }
+}

@@ -1,0 +1,285 @@
+//! Variations along the steps of Runge–Kutta pairs: the stages of the motion, differentiated, each by its own factor.
+
+use alloc::vec::Vec;
+
+use nalgebra::ComplexField;
+
+use super::{Block, DifferentiableMethod, Linearized, StateDerivatives, Variations};
+use crate::ending::Ending;
+use crate::error::Error;
+use crate::linearized::tangent::{Tangent, WideOf};
+use crate::motion::method::interpolant::{evaluate, hermite};
+use crate::motion::method::pair::{SLOPES, Slopes, advance, last};
+use crate::motion::method::step::Memory;
+use crate::motion::run::Run;
+use crate::motion::{Adaptive, Combination, Method, Pair};
+use crate::number::{Over, Real, Scalar, Wide, exceeds, vector};
+use crate::solution::flow::{LagrangianFlow, Phase};
+use crate::solution::solve::solve_near;
+use crate::system::{Solution, State};
+
+/// The slopes of a block of variations.
+#[derive(Clone, Debug)]
+pub struct Stages<W, const N: usize> {
+    /// Where the step taken last starts.
+    start: Phase<W, N>,
+    /// Of that step; the first that of its start.
+    slopes: Slopes<W, N>,
+    /// Where it ends.
+    slope: Phase<W, N>,
+}
+
+impl<Q, L, const N: usize, const M: usize, const P: usize> DifferentiableMethod<L, N, M, P> for Adaptive<Q>
+where
+    Q: Pair,
+    L: Linearized<N, M, P, Scalar: Real>,
+{
+    type Companion = Vec<Stages<WideOf<L, N, M>, N>>;
+
+    fn companion(
+        &self,
+        system: &L,
+        start: &State<L::Scalar, N>,
+        variations: &Variations<L, N, M, P>,
+    ) -> Result<Self::Companion, Error> {
+        let zero = [[WideOf::<L, N, M>::constant(0.0); N]; 2];
+        let none = Stages { start: zero, slopes: [zero; SLOPES], slope: zero };
+        let mut all = vec![none; variations.blocks.len()];
+        let tangent = Tangent::at(system, start)?;
+        variations.slopes_at(&tangent, |_, block| block.y, |k, slope| all[k].slope = slope)?;
+        Ok(all)
+    }
+
+    fn linear(companion: &mut Self::Companion) -> Vec<&mut [WideOf<L, N, M>]> {
+        companion.iter_mut().map(|stages| stages.slope.as_flattened_mut()).collect()
+    }
+
+    fn follow(
+        &self,
+        system: &L,
+        run: &mut Run<Self::Memory, L::Scalar, N>,
+        variations: &mut Variations<L, N, M, P>,
+        all: &mut Self::Companion,
+    ) -> Result<(), Ending> {
+        for (block, stages) in variations.blocks.iter().zip(&mut *all) {
+            (stages.start, stages.slopes[0]) = (block.y, stages.slope);
+        }
+        let time = run.before.t.to_f64();
+        let slope = run.memory.ensure_slope::<L, LagrangianFlow>(system, &mut run.statistics);
+        let followed = slope.and_then(|()| go::<Q, L, N, M, P>(system, &run.memory, variations, all));
+        let followed = followed.map_err(|error| Ending::of(error, time));
+        let (error, worst) = followed
+            .inspect_err(|_| step_back(variations, all))
+            .map(|()| self.error_of(&run.memory, variations, all))?;
+        if self.accepts(error) {
+            self.accept_with(&mut run.memory, error);
+            return Ok(());
+        }
+        step_back(variations, all);
+        Err(Ending::StepTooSmall { time, entry: variations.arguments()[worst] })
+    }
+
+    fn interpolate(
+        &self,
+        system: &L,
+        run: &mut Run<Self::Memory, L::Scalar, N>,
+        variations: &mut Variations<L, N, M, P>,
+        all: &mut Self::Companion,
+        coefficients: &mut Vec<Phase<WideOf<L, N, M>, N>>,
+    ) -> Result<Self::Interpolant, Ending> {
+        let Run { memory, statistics, before, .. } = run;
+        let interpolant = Method::<L, N, M>::interpolant(self, system, memory, statistics);
+        let more = (last::<Q>() + 1, Q::INTERPOLATION_STAGES);
+        let within = interpolant.and_then(|within| {
+            stages::<Q, L, N, M, P>(system, memory, variations, all, more).map(|()| within)
+        });
+        let within = within.map_err(|error| Ending::of(error, before.t.to_f64()));
+        let within = within.inspect_err(|_| step_back(variations, all))?;
+        if let Some((_, h, _)) = memory.last_step() {
+            let h = WideOf::<L, N, M>::of(h);
+            let steps = variations.blocks.iter().zip(all);
+            steps.for_each(|(block, stages)| stages.push_coefficients::<Q>(h, &block.y, coefficients));
+        }
+        Ok(within)
+    }
+
+    fn between(
+        coefficients: &[Phase<WideOf<L, N, M>, N>],
+        part: WideOf<L, N, M>,
+    ) -> Phase<WideOf<L, N, M>, N> {
+        evaluate(coefficients, part).0
+    }
+}
+
+impl<Q: Pair> Adaptive<Q> {
+    /// The largest error of a variation as a part of the tolerance, and of which.
+    fn error_of<L, const N: usize, const M: usize, const P: usize>(
+        &self,
+        memory: &Memory<L::Scalar, N, M>,
+        variations: &Variations<L, N, M, P>,
+        all: &[Stages<WideOf<L, N, M>, N>],
+    ) -> (L::Scalar, usize)
+    where
+        L: Linearized<N, M, P, Scalar: Real>,
+    {
+        let zero = L::Scalar::constant(0.0);
+        let Some((from, h, _)) = memory.last_step() else { return (zero, 0) };
+        let (lanes, tolerance) = (<WideOf<L, N, M> as Wide<L::Scalar>>::COUNT, self.tolerance::<L::Scalar>());
+        let places = [&from.y, &memory.y];
+        let error = |(block, stages): (&Block<_, N, P>, &Stages<_, N>)| {
+            let ends = [&stages.start, &block.y];
+            tolerance.error_of_variations::<Q, _, _, N>(&stages.slopes, h, ends, places, block.unit)
+        };
+        let errors: Vec<_> = variations.blocks.iter().zip(all).map(error).collect();
+        // What is no number is larger than any.
+        let size = |error: L::Scalar| {
+            if error.is_finite() { error } else { L::Scalar::constant(f64::INFINITY) }
+        };
+        let each = (0..variations.count()).map(|j| (size(errors[j / lanes].lane(j % lanes)), j));
+        each.fold((zero, 0), |worst, one| if exceeds(one.0, worst.0) { one } else { worst })
+    }
+}
+
+/// As before the step followed last.
+fn step_back<L, const N: usize, const M: usize, const P: usize>(
+    variations: &mut Variations<L, N, M, P>,
+    all: &mut [Stages<WideOf<L, N, M>, N>],
+) where
+    L: Linearized<N, M, P, Scalar: Real>,
+{
+    for (block, stages) in variations.blocks.iter_mut().zip(all) {
+        (block.y, stages.slope) = (stages.start, stages.slopes[0]);
+    }
+}
+
+/// To the end of the step that the motion has taken.
+fn go<Q: Pair, L, const N: usize, const M: usize, const P: usize>(
+    system: &L,
+    memory: &Memory<L::Scalar, N, M>,
+    variations: &mut Variations<L, N, M, P>,
+    all: &mut [Stages<WideOf<L, N, M>, N>],
+) -> Result<(), Error>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+{
+    stages::<Q, L, N, M, P>(system, memory, variations, all, (1, Q::STAGES))?;
+    let Some((_, h, _)) = memory.last_step() else { return Ok(()) };
+    for (block, stages) in variations.blocks.iter_mut().zip(&*all) {
+        advance(&stages.start, WideOf::<L, N, M>::of(h), &stages.slopes, Q::WEIGHTS, &mut block.y);
+    }
+    let state = state_at(memory.clock.now, &memory.y);
+    let tangent = tangent_at(system, &state, &memory.slope[1], &memory.active)?;
+    variations.arrive(&tangent)?;
+    variations.slopes_at(
+        &tangent,
+        |_, block| block.y,
+        |k, slope| {
+            (all[k].slope, all[k].slopes[last::<Q>()]) = (slope, slope);
+        },
+    )
+}
+
+/// The slopes of these stages of a step taken, the first of which has the number given.
+fn stages<Q: Pair, L, const N: usize, const M: usize, const P: usize>(
+    system: &L,
+    memory: &Memory<L::Scalar, N, M>,
+    variations: &Variations<L, N, M, P>,
+    all: &mut [Stages<WideOf<L, N, M>, N>],
+    (first, rows): (usize, &[Combination]),
+) -> Result<(), Error>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+{
+    let Some((from, h, slopes)) = memory.last_step() else { return Ok(()) };
+    let (mut place, wide) = (from.y, WideOf::<L, N, M>::of(h));
+    for (number, row) in (first..).zip(rows) {
+        advance(&from.y, h, slopes, row, &mut place);
+        let state = state_at(from.t + h * L::Scalar::constant(Q::NODES[number]), &place);
+        let tangent = tangent_at(system, &state, &slopes[number][1], &memory.active)?;
+        let at_stage = |k: usize| {
+            let (Stages { start, slopes, .. }, mut y) = (&all[k], all[k].start);
+            advance(start, wide, slopes, row, &mut y);
+            y
+        };
+        let y: Vec<_> = (0..all.len()).map(at_stage).collect();
+        variations.slopes_at(&tangent, |k, _| y[k], |k, slope| all[k].slopes[number] = slope)?;
+    }
+    Ok(())
+}
+
+fn state_at<T: Real, const N: usize>(t: T, [q, v]: &Phase<T, N>) -> State<T, N> {
+    State { t, q: vector(*q), v: vector(*v) }
+}
+
+/// The equations at a stage, of which the accelerations are known; multipliers are not.
+#[inline]
+fn tangent_at<'a, L: StateDerivatives<N, M, Scalar: Real>, const N: usize, const M: usize>(
+    system: &'a L,
+    state: &'a State<L::Scalar, N>,
+    accelerations: &[L::Scalar; N],
+    active: &[bool; M],
+) -> Result<Tangent<'a, L, N, M>, Error> {
+    if const { M > 0 } {
+        return Ok(Tangent::of(
+            system,
+            state,
+            solve_near(system, state, Some(active), |solution, _| *solution)?,
+        ));
+    }
+    let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
+    let (accelerations, multipliers) = (vector(*accelerations), vector([zero; M]));
+    Ok(Tangent::of(system, state, Solution { accelerations, multipliers, pivot: one, rank: M }))
+}
+
+impl<W: Scalar, const N: usize> Stages<W, N> {
+    /// Adds the coefficients of the step that led to `y`.
+    fn push_coefficients<Q: Pair>(&self, h: W, y: &Phase<W, N>, coefficients: &mut Vec<Phase<W, N>>) {
+        let zero = [[W::constant(0.0); N]; 2];
+        let cubic = coefficients.len();
+        coefficients.extend([zero; 4]);
+        hermite(h, (&self.start, &self.slopes[0]), (y, &self.slope), &mut coefficients[cubic..]);
+        for row in Q::INTERPOLATION {
+            let mut coefficient = zero;
+            advance(&zero, h, &self.slopes, row, &mut coefficient);
+            coefficients.push(coefficient);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::linearized::tangent::Tangent;
+    use crate::motion::run::{Run, Watchdog};
+    use crate::motion::{Adaptive, Method};
+    use crate::{Dop853, Entry, prelude::*};
+
+    use super::{DifferentiableMethod, LagrangianFlow, Variations};
+
+    #[derive(Lagrangian)]
+    #[coordinates(x)]
+    #[lagrangian(x_dot^2/2 - x^2/2)]
+    struct Spring;
+
+    /// An error that is no number is not lost among others: it is too large.
+    #[test]
+    fn an_error_that_is_no_number_refuses_the_step() {
+        let (system, method) = (Spring, Dop853::default());
+        let start = State::at_rest([1.0]);
+        let (mut run, _) = Run::begin::<_, LagrangianFlow, _, 0>(&system, &start, &method).expect("a start");
+        let arguments = vec![Entry::Coordinate("x"), Entry::Velocity("x")];
+        let unit = |j: usize| [[1.0 - j as f64].into(), [j as f64].into()];
+        let tangent = Tangent::at(&system, &start).expect("a start");
+        let mut variations = Variations::<_, 1, 0, 0>::begin(&tangent, arguments, unit).expect("a start");
+        let limits = Watchdog::new(Method::<Spring, 1, 0>::limits(&method), &run.statistics);
+        run.step::<_, LagrangianFlow, _, 0>(&system, &method, 1.0, &limits).expect("a step");
+        let mut stages = method.companion(&system, &start, &variations).expect("a start");
+        method.follow(&system, &mut run, &mut variations, &mut stages).expect("a step");
+        let (error, _) = method.error_of(&run.memory, &variations, &stages);
+        assert!(method.accepts(error));
+        // Of the first of the two.
+        let broken = &mut stages[0].slopes[0][1][0];
+        crate::number::Wide::put(broken, 0, f64::NAN);
+        assert_eq!(method.error_of(&run.memory, &variations, &stages), (f64::INFINITY, 0));
+        assert!(!Adaptive::accepts(&method, f64::INFINITY));
+    }
+}

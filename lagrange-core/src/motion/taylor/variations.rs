@@ -1,0 +1,380 @@
+//! Variations along the steps of Taylor's method: the recurrences of the motion, over dual numbers.
+//!
+//! Every number that a series is made of has its changes beside it, along one direction a lane, and so have its
+//! coefficients: it is differentiated, the length of the step held, by the rules by which it was made.
+
+use alloc::vec::Vec;
+use core::array::from_fn;
+use core::convert::Infallible;
+
+use nalgebra::{ComplexField, SVector};
+
+use super::control::{LAST, Last};
+use super::expansion::{Expansion, General};
+use super::{Memory, Taylor};
+use crate::ending::Ending;
+use crate::error::Error;
+use crate::linearized::{Block, DifferentiableMethod, Linearized, Tangent, Variations, WideOf};
+use crate::motion::Method;
+use crate::motion::method::control::SLACK;
+use crate::motion::run::Run;
+use crate::names::Entry;
+use crate::number::{Dual, Filled, Over, Real, Scalar, Wide, entries, exceeds, smaller, vector};
+use crate::solution::flow::Phase;
+use crate::solution::solve::{first_row, least_pivot};
+use crate::system::{Lagrangian, Pack, RightHandSides, Solution, State, TaylorSeries};
+
+/// Numbers with their changes along as many directions as there are lanes.
+type Duals<L, const N: usize, const M: usize> = Dual<WideOf<L, N, M>>;
+/// The system over these.
+type OverDuals<L, const N: usize, const M: usize> = <L as Pack<Duals<L, N, M>>>::Packed;
+type Sums<L, const N: usize, const M: usize> = <OverDuals<L, N, M> as TaylorSeries<N, M>>::Sums;
+
+/// A motion with as many variations as there are lanes.
+#[derive(Debug)]
+pub struct Varied<S, U, W, const N: usize> {
+    /// Its parameters change at the rates of the block.
+    system: S,
+    series: Expansion<U, Dual<W>, N>,
+}
+
+impl<L, const N: usize, const M: usize, const P: usize> DifferentiableMethod<L, N, M, P> for Taylor
+where
+    L: Linearized<N, M, P, Scalar: Real> + TaylorSeries<N, M> + Pack<Duals<L, N, M>>,
+    OverDuals<L, N, M>: TaylorSeries<N, M, Scalar = Duals<L, N, M>> + Linearized<N, M, P>,
+{
+    type Companion = Vec<Varied<OverDuals<L, N, M>, Sums<L, N, M>, WideOf<L, N, M>, N>>;
+
+    fn companion(
+        &self,
+        system: &L,
+        _: &State<L::Scalar, N>,
+        variations: &Variations<L, N, M, P>,
+    ) -> Result<Self::Companion, Error> {
+        let order = self.order::<L::Scalar>();
+        let varied = |block: &Block<_, N, P>| {
+            let system = with_rates::<L, N, M, P>(system, block.rates.as_ref())?;
+            Ok(Varied { system, series: Expansion::new::<OverDuals<L, N, M>, M>(order) })
+        };
+        variations.blocks.iter().map(varied).collect()
+    }
+
+    fn prepare(
+        &self,
+        system: &L,
+        run: &mut Run<Self::Memory, L::Scalar, N>,
+        end: L::Scalar,
+        variations: &Variations<L, N, M, P>,
+        companion: &mut Self::Companion,
+    ) -> Result<(), Ending> {
+        let (memory, time) = (&mut run.memory, run.state.t.to_f64());
+        memory.clock.aim(end);
+        let of = |error| Ending::of(error, time);
+        self.expand(system, memory, &mut run.statistics).map_err(of)?;
+        for (k, (varied, block)) in companion.iter_mut().zip(&variations.blocks).enumerate() {
+            let entry = |lane| variations.argument(k, lane);
+            varied.expand::<L, _, M, P>(system, memory, block, entry).map_err(of)?;
+            let scales = self.scales([&block.y; 2], block.unit, &memory.series);
+            let sizes: [_; LAST] = from_fn(|i| varied.size(varied.series.order() + 1 - LAST + i, &scales));
+            for lane in 0..block.lanes {
+                let (order, unit) = (varied.series.order(), memory.series.unit);
+                let last = Last { order, unit, sizes: sizes.map(|size| size.lane(lane)) };
+                let longest = self.choose(&last, memory.planned, &memory.clock);
+                memory.planned = smaller(memory.planned, longest);
+            }
+        }
+        Ok(())
+    }
+
+    fn follow(
+        &self,
+        system: &L,
+        run: &mut Run<Self::Memory, L::Scalar, N>,
+        variations: &mut Variations<L, N, M, P>,
+        companion: &mut Self::Companion,
+    ) -> Result<(), Ending> {
+        let (memory, time) = (&run.memory, run.before.t.to_f64());
+        let before: Vec<_> = variations.blocks.iter().map(|block| block.y).collect();
+        let rates: Vec<_> = variations
+            .blocks
+            .iter_mut()
+            .zip(companion)
+            .map(|(block, varied)| varied.advance(block, &memory.series, memory.clock.now))
+            .collect();
+        let ending = match self.off::<L, N, M, P>(system, memory, variations, (&before, &rates)) {
+            Ok(None) => return Ok(()),
+            Ok(Some(entry)) => Ending::StepTooSmall { time, entry },
+            Err(error) => Ending::of(error, time),
+        };
+        variations.blocks.iter_mut().zip(before).for_each(|(block, y)| block.y = y);
+        Err(ending)
+    }
+
+    fn interpolate(
+        &self,
+        system: &L,
+        run: &mut Run<Self::Memory, L::Scalar, N>,
+        _: &mut Variations<L, N, M, P>,
+        companion: &mut Self::Companion,
+        coefficients: &mut Vec<Phase<WideOf<L, N, M>, N>>,
+    ) -> Result<Self::Interpolant, Ending> {
+        let Run { memory, statistics, before, .. } = run;
+        let within = Method::<L, N, M>::interpolant(self, system, memory, statistics);
+        let within = within.map_err(|error| Ending::of(error, before.t.to_f64()))?;
+        let theta = (memory.clock.now - memory.series.start) / memory.series.unit;
+        companion.iter().for_each(|varied| varied.push_coefficients(theta, coefficients));
+        Ok(within)
+    }
+
+    fn between(
+        coefficients: &[Phase<WideOf<L, N, M>, N>],
+        part: WideOf<L, N, M>,
+    ) -> Phase<WideOf<L, N, M>, N> {
+        let zero = [[WideOf::<L, N, M>::constant(0.0); N]; 2];
+        coefficients.iter().rev().fold(zero, |sum, coefficient| {
+            from_fn(|half| entries(|i| sum[half][i].multiply_add(part, coefficient[half][i])))
+        })
+    }
+}
+
+impl Taylor {
+    /// One over what coefficients of variations are measured by: the largest entry among their coordinates, and among
+    /// their velocities, and what the motion itself is measured by, in units of the variations.
+    fn scales<S, T: Real, W: Wide<T>, const N: usize>(
+        &self,
+        ends: [&Phase<W, N>; 2],
+        unit: W,
+        series: &Expansion<S, T, N>,
+    ) -> Phase<W, N> {
+        let slack = T::constant(self.slack::<T>());
+        let (own, one, times) = ([&series.q[0], &series.v[0]], W::constant(1.0), W::constant(SLACK));
+        from_fn(|half| {
+            let sizes = ends.iter().flat_map(|y| y[half].iter().map(|x| x.abs()));
+            let largest = sizes.fold(W::constant(0.0), |most, size| most.max(size));
+            entries(|i| one / (times * (largest + unit * W::of(Scalar::abs(own[half][i]) + slack))))
+        })
+    }
+
+    /// Brings the variations onto the tangent space, and gives one whose accelerations at the end of its series are not those
+    /// of the equations.
+    fn off<L, const N: usize, const M: usize, const P: usize>(
+        &self,
+        system: &L,
+        memory: &Memory<L::Sums, L::Scalar, N, M>,
+        variations: &mut Variations<L, N, M, P>,
+        (before, rates): (&[Phase<WideOf<L, N, M>, N>], &[[WideOf<L, N, M>; N]]),
+    ) -> Result<Option<Entry>, Error>
+    where
+        L: Linearized<N, M, P, Scalar: Real> + TaylorSeries<N, M>,
+    {
+        let tangent = Tangent::of(system, &memory.state, memory.solved.solution);
+        variations.arrive(&tangent)?;
+        let length = WideOf::<L, N, M>::of(Scalar::abs(memory.clock.now - memory.series.start));
+        let bound = L::Scalar::constant(self.defect_allowed::<L::Scalar>());
+        let mut worst = None;
+        let look = |k: usize, [_, slope]: Phase<WideOf<L, N, M>, N>| {
+            let block = &variations.blocks[k];
+            let [_, scales] = self.scales([&before[k], &block.y], block.unit, &memory.series);
+            let off = (0..N).map(|i| (rates[k][i] - slope[i]).abs() * length * scales[i]);
+            let off = off.fold(WideOf::<L, N, M>::constant(0.0), |most, off| most + off);
+            let lane = (0..block.lanes).find(|&lane| exceeds(off.lane(lane), bound));
+            worst = worst.or_else(|| lane.map(|lane| variations.argument(k, lane)));
+        };
+        variations.slopes_at(&tangent, |_, block| block.y, look)?;
+        Ok(worst)
+    }
+}
+
+/// The system over dual numbers, its parameters changing at these rates.
+fn with_rates<L, const N: usize, const M: usize, const P: usize>(
+    system: &L,
+    rates: Option<&SVector<WideOf<L, N, M>, P>>,
+) -> Result<OverDuals<L, N, M>, Error>
+where
+    L: Linearized<N, M, P, Scalar: Real> + Pack<Duals<L, N, M>>,
+    OverDuals<L, N, M>: Linearized<N, M, P, Scalar = Duals<L, N, M>>,
+{
+    let (mut over, values) = (system.pack(), system.parameters());
+    let Some(rates) = rates else { return Ok(over) };
+    let zero = L::Scalar::constant(0.0);
+    for k in 0..P {
+        let changes = (0..WideOf::<L, N, M>::COUNT).any(|lane| rates[k].lane(lane) != zero);
+        let value = Dual { value: WideOf::<L, N, M>::of(values[k]), slope: rates[k] };
+        if changes && !over.set_parameter(k, value) {
+            return Err(Error::ParameterFixed { name: L::PARAMETERS[k] });
+        }
+    }
+    Ok(over)
+}
+
+impl<S, U, W: Scalar, const N: usize> Varied<S, U, W, N>
+where
+    U: Filled<Dual<W>>,
+{
+    /// Expands motion and variations about where the motion is.
+    fn expand<L, V, const M: usize, const P: usize>(
+        &mut self,
+        system: &L,
+        memory: &Memory<V, L::Scalar, N, M>,
+        block: &Block<W, N, P>,
+        entry: impl Fn(usize) -> Entry,
+    ) -> Result<(), Error>
+    where
+        L: Lagrangian<N, M, Scalar: Real<Wide = W>>,
+        S: TaylorSeries<N, M, Scalar = Dual<W>, Sums = U>,
+        W: Wide<L::Scalar>,
+        V: Filled<L::Scalar>,
+    {
+        let dual = |value: L::Scalar, slope| Dual { value: W::of(value), slope };
+        let (at, none, [q, v]) = (&memory.state, W::constant(0.0), &block.y);
+        let state = State {
+            t: dual(at.t, none),
+            q: vector(from_fn(|i| dual(at.q[i], q[i]))),
+            v: vector(from_fn(|i| dual(at.v[i], v[i]))),
+        };
+        let unit = dual(memory.series.unit, none);
+        let solution = self.system.accelerations_unchecked(&state);
+        if memory.solved.is_by_elimination() && is_sound::<L::Scalar, W, N, M>(&solution) {
+            let factor = self.system.factor(&state);
+            let solve = |(forcing, bias): &RightHandSides<_, N, M>| {
+                Ok(self.system.solve_with(&factor, forcing, bias))
+            };
+            let Ok::<(), Infallible>(()) = self.series.orders(&self.system, &state, &solution, unit, solve);
+        } else {
+            let general = DualGeneral::at(system, &self.system, (at, &state), memory.solved.active)?;
+            let sides = (self.system.forcing(&state), self.system.constraint_bias(&state));
+            let (solution, solve) = (general.solve::<L>(&sides)?, |sides: &_| general.solve::<L>(sides));
+            self.series.orders(&self.system, &state, &solution, unit, solve)?;
+        }
+        self.check::<L, M>(block.lanes, at.t, entry)
+    }
+
+    /// The changes of all coefficients must be numbers.
+    fn check<L, const M: usize>(
+        &self,
+        lanes: usize,
+        time: L::Scalar,
+        entry: impl Fn(usize) -> Entry,
+    ) -> Result<(), Error>
+    where
+        L: Lagrangian<N, M, Scalar: Real<Wide = W>>,
+        W: Wide<L::Scalar>,
+    {
+        let last = self.series.last();
+        for lane in 0..lanes {
+            let is_broken = |i: usize| last.iter().any(|x| !x[i].slope.lane(lane).is_finite());
+            if let Some(row) = first_row::<L, N, M>(is_broken, |_| false) {
+                return Err(Error::DerivativeNotFinite { row, entry: entry(lane), time: time.to_f64() });
+            }
+        }
+        Ok(())
+    }
+
+    /// The largest change of a coefficient of an order, on these scales.
+    fn size(&self, order: usize, scales: &Phase<W, N>) -> W {
+        let coefficients = [&self.series.q[order], &self.series.v[order]];
+        let sizes = coefficients.iter().zip(scales);
+        let sizes = sizes.flat_map(|(x, scales)| (0..N).map(move |i| x[i].slope.abs() * scales[i]));
+        sizes.fold(W::constant(0.0), |most, size| most.max(size))
+    }
+
+    /// Brings the variations to the end of the step that the motion has taken, and gives how their velocities change there.
+    fn advance<T: Real<Wide = W>, V, const P: usize>(
+        &mut self,
+        block: &mut Block<W, N, P>,
+        motion: &Expansion<V, T, N>,
+        now: T,
+    ) -> [W; N]
+    where
+        W: Wide<T>,
+    {
+        self.series.summed = motion.summed;
+        let length = Dual { value: W::of(now - motion.start), slope: W::constant(0.0) };
+        let [dq, dv, rates] = self.series.change(length).map(|all| all.map(|x| x.slope));
+        block.y = [(block.y[0], dq), (block.y[1], dv)].map(|(y, change)| entries(|i| y[i] + change[i]));
+        rates
+    }
+
+    /// Adds the coefficients of powers of the part of a step that has passed, which is this multiple of the unit.
+    fn push_coefficients<T: Real>(&self, theta: T, coefficients: &mut Vec<Phase<W, N>>)
+    where
+        W: Wide<T>,
+    {
+        let Expansion { q, v, summed, .. } = &self.series;
+        let (mut power, theta, zero) = (W::constant(1.0), W::of(theta), [W::constant(0.0); N]);
+        for order in 0..q.len() {
+            let is_summed = [order <= summed + 1, order <= *summed];
+            let of = |x: Option<&[Dual<W>; N]>, is_summed: bool| match x.filter(|_| is_summed) {
+                Some(x) => x.map(|x| x.slope * power),
+                None => zero,
+            };
+            coefficients.push([of(q.get(order), is_summed[0]), of(v.get(order), is_summed[1])]);
+            power = power * theta;
+        }
+    }
+}
+
+/// Whether the elimination can be relied on in all lanes.
+fn is_sound<T: Real, W: Wide<T>, const N: usize, const M: usize>(solution: &Solution<Dual<W>, N, M>) -> bool {
+    (0..W::COUNT).all(|lane| solution.pivot.value.lane(lane) > least_pivot())
+}
+
+/// The general factors of a state, and how the matrix changes with it.
+struct DualGeneral<T, W, const N: usize, const M: usize> {
+    general: General<T, N, M>,
+    /// δM and δF, row by row.
+    m: [[W; N]; N],
+    f: [[W; N]; M],
+}
+
+impl<T: Real<Wide = W>, W: Wide<T>, const N: usize, const M: usize> DualGeneral<T, W, N, M> {
+    #[cold]
+    fn at<L, S>(
+        system: &L,
+        over: &S,
+        (state, varied): (&State<T, N>, &State<Dual<W>, N>),
+        active: [bool; M],
+    ) -> Result<Self, Error>
+    where
+        L: Lagrangian<N, M, Scalar = T>,
+        S: Lagrangian<N, M, Scalar = Dual<W>>,
+    {
+        let (m, f) = (over.mass_matrix(varied), over.constraint_jacobian(varied));
+        let zero = W::constant(0.0);
+        let f = from_fn(|a| entries(|i| if active[a] { f[(a, i)].slope } else { zero }));
+        let m = from_fn(|i| entries(|j| m[(i, j)].slope));
+        Ok(Self { general: General::at(system, state, active)?, m, f })
+    }
+
+    /// M x − Fᵀλ = h and F x = −γ; differentiated, M δx − Fᵀδλ = δh − δM x + δFᵀλ and F δx = −δγ − δF x.
+    fn solve<L: Lagrangian<N, M, Scalar = T>>(
+        &self,
+        (h, gamma): &RightHandSides<Dual<W>, N, M>,
+    ) -> Result<Solution<Dual<W>, N, M>, Error> {
+        let values = (h.map(|x| x.value.lane(0)), gamma.map(|x| x.value.lane(0)));
+        let Solution { accelerations: x, multipliers, pivot, rank } = self.general.solve::<L>(&values)?;
+        let dual = |value: T| Dual { value: W::of(value), slope: W::constant(0.0) };
+        let mut all = Solution {
+            accelerations: x.map(dual),
+            multipliers: multipliers.map(dual),
+            pivot: dual(pivot),
+            rank,
+        };
+        for lane in 0..W::COUNT {
+            let (m, f) =
+                (|i: usize, j: usize| self.m[i][j].lane(lane), |a: usize, i: usize| self.f[a][i].lane(lane));
+            let h = SVector::from_fn(|i, _| {
+                let inertia = (0..N).fold(h[i].slope.lane(lane), |sum, j| sum - m(i, j) * x[j]);
+                (0..M).fold(inertia, |sum, a| sum + f(a, i) * multipliers[a])
+            });
+            let gamma = SVector::from_fn(|a, _| {
+                (0..N).fold(gamma[a].slope.lane(lane), |sum, i| sum + f(a, i) * x[i])
+            });
+            let change = self.general.solve::<L>(&(h, gamma))?;
+            let pairs = all.accelerations.iter_mut().zip(&change.accelerations);
+            let pairs = pairs.chain(all.multipliers.iter_mut().zip(&change.multipliers));
+            pairs.for_each(|(x, change)| x.slope.put(lane, *change));
+        }
+        Ok(all)
+    }
+}
