@@ -38,6 +38,14 @@ pub struct Varied<S, U, W, const N: usize> {
     series: Expansion<U, Dual<W>, N>,
 }
 
+/// A step of a block of variations.
+struct Step<W, const N: usize> {
+    /// Where it starts.
+    before: Phase<W, N>,
+    /// How the velocities change at the end of the series.
+    rates: [W; N],
+}
+
 impl<L, const N: usize, const M: usize, const P: usize> DifferentiableMethod<L, N, M, P> for Taylor
 where
     L: Linearized<N, M, P, Scalar: Real> + TaylorSeries<N, M> + Pack<Duals<L, N, M>>,
@@ -94,19 +102,18 @@ where
         companion: &mut Self::Companion,
     ) -> Result<(), Ending> {
         let (memory, time) = (&run.memory, run.before.t.to_f64());
-        let before: Vec<_> = variations.blocks.iter().map(|block| block.y).collect();
-        let rates: Vec<_> = variations
+        let steps: Vec<_> = variations
             .blocks
             .iter_mut()
             .zip(companion)
             .map(|(block, varied)| varied.advance(block, &memory.series, memory.clock.now))
             .collect();
-        let ending = match self.off::<L, N, M, P>(system, memory, variations, (&before, &rates)) {
+        let ending = match self.off(system, memory, variations, &steps) {
             Ok(None) => return Ok(()),
             Ok(Some(entry)) => Ending::StepTooSmall { time, entry },
             Err(error) => Ending::of(error, time),
         };
-        variations.blocks.iter_mut().zip(before).for_each(|(block, y)| block.y = y);
+        variations.blocks.iter_mut().zip(steps).for_each(|(block, step)| block.y = step.before);
         Err(ending)
     }
 
@@ -162,7 +169,7 @@ impl Taylor {
         system: &L,
         memory: &Memory<L::Sums, L::Scalar, N, M>,
         variations: &mut Variations<L, N, M, P>,
-        (before, rates): (&[Phase<WideOf<L, N, M>, N>], &[[WideOf<L, N, M>; N]]),
+        steps: &[Step<WideOf<L, N, M>, N>],
     ) -> Result<Option<Entry>, Error>
     where
         L: Linearized<N, M, P, Scalar: Real> + TaylorSeries<N, M>,
@@ -174,8 +181,9 @@ impl Taylor {
         let mut worst = None;
         let look = |k: usize, [_, slope]: Phase<WideOf<L, N, M>, N>| {
             let block = &variations.blocks[k];
-            let [_, scales] = self.scales([&before[k], &block.y], block.unit, &memory.series);
-            let off = (0..N).map(|i| (rates[k][i] - slope[i]).abs() * length * scales[i]);
+            let Step { before, rates } = &steps[k];
+            let [_, scales] = self.scales([before, &block.y], block.unit, &memory.series);
+            let off = (0..N).map(|i| (rates[i] - slope[i]).abs() * length * scales[i]);
             let off = off.fold(WideOf::<L, N, M>::constant(0.0), |most, off| most + off);
             let lane = (0..block.lanes).find(|&lane| exceeds(off.lane(lane), bound));
             worst = worst.or_else(|| lane.map(|lane| variations.argument(k, lane)));
@@ -278,21 +286,22 @@ where
         sizes.fold(W::constant(0.0), |most, size| most.max(size))
     }
 
-    /// Brings the variations to the end of the step that the motion has taken, and gives how their velocities change there.
+    /// Brings the variations to the end of the step that the motion has taken.
     fn advance<T: Real<Wide = W>, V, const P: usize>(
         &mut self,
         block: &mut Block<W, N, P>,
         motion: &Expansion<V, T, N>,
         now: T,
-    ) -> [W; N]
+    ) -> Step<W, N>
     where
         W: Wide<T>,
     {
         self.series.summed = motion.summed;
         let length = Dual { value: W::of(now - motion.start), slope: W::constant(0.0) };
         let [dq, dv, rates] = self.series.change(length).map(|all| all.map(|x| x.slope));
-        block.y = [(block.y[0], dq), (block.y[1], dv)].map(|(y, change)| entries(|i| y[i] + change[i]));
-        rates
+        let before = block.y;
+        block.y = [(before[0], dq), (before[1], dv)].map(|(y, change)| entries(|i| y[i] + change[i]));
+        Step { before, rates }
     }
 
     /// Adds the coefficients of powers of the part of a step that has passed, which is this multiple of the unit.
