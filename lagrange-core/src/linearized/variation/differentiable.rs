@@ -14,7 +14,7 @@ use crate::system::State;
 
 /// A [`Method`] whose steps can be differentiated, so that derivatives of a motion go along with it.
 ///
-/// [`Dop853`](crate::Dop853), [`Dopri5`](crate::Dopri5) and other embedded [`Pair`](crate::Pair)s differentiate their
+/// [`Dop853`](crate::Dop853), [`Dopri5`](crate::Dopri5) and other embedded [`Pair`](crate::motion::Pair)s differentiate their
 /// stages. [`Taylor`](crate::Taylor) expands the motion over dual numbers, for which the number type of the system must be a
 /// type parameter. There are no others.
 #[diagnostic::on_unimplemented(
