@@ -33,6 +33,7 @@ pub struct Progress {
 
 /// A motion on its way: where it is, what its method carries and what it took so far.
 #[derive(Debug)]
+#[cfg_attr(not(feature = "alloc"), allow(unreachable_pub, reason = "what differentiates motions allocates"))]
 pub struct Run<X, T, const N: usize> {
     pub(crate) memory: X,
     pub(crate) state: State<T, N>,

@@ -23,6 +23,7 @@ pub(crate) struct Corrections {
 pub(crate) const TO_ROUND_OFF: Corrections = Corrections { beyond: 4.0, most: 3 };
 /// One whatever is left. What is small enough to be let pass is so for many steps in a row, and always the same: energy then
 /// grows or dies as time goes on.
+#[cfg(feature = "alloc")]
 pub(crate) const ONCE: Corrections = Corrections { beyond: 0.0, most: 1 };
 
 /// The state on the constraints of these levels, and a doubt: zero where it is there to round-off, lane by lane, in the

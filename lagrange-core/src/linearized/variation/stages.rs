@@ -1,5 +1,6 @@
 //! Variations along the steps of Runge–Kutta pairs: the stages of the motion, differentiated, each by its own factor.
 
+use alloc::vec;
 use alloc::vec::Vec;
 
 use nalgebra::ComplexField;
