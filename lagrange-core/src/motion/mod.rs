@@ -14,7 +14,7 @@
 //!
 //! None is for stiff systems. Where constraints become dependent at one pose alone, as in a linkage that folds flat, a motion by
 //! any of them may end; [`Taylor`] steps across where it can, the others may go on along another branch that begins there. The example `methods` prints what an error costs by
-//! the first three in eight systems; the README has its table.
+//! the first three in eight systems; the book has its table.
 
 pub(crate) mod event;
 #[cfg(feature = "std")]
