@@ -13,6 +13,7 @@ mod integrability;
 mod linearization;
 mod long;
 mod sizes;
+mod stages;
 mod stub;
 mod suggestions;
 mod systems;
