@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Writes RESULTS.md, and the tables of the project's README, from results.json; with --check only says whether they agree.
+"""Writes RESULTS.md, and the tables of README and book, from results.json and methods.txt; with --check only says whether they agree.
 
 python3 lagrange-core/benches/peers/tables.py [--check]
 """
 
 import sys
 
-import readme
+import pages
 import results
 from workshop import HERE, ROOT
 
@@ -18,12 +18,22 @@ def documents():
     """Each file, and what must stand in it."""
     about, sections = results.load()
     yield HERE / "RESULTS.md", results.markdown(about, sections)
-    path = ROOT / "README.md"
+    methods = pages.of_methods((HERE / "methods.txt").read_text())
+    for name, text in (
+        ("README.md", pages.of_readme(about, sections)),
+        ("book/src/costs.md", pages.of_costs(about, sections)),
+        ("book/src/methods.md", methods),
+    ):
+        yield ROOT / name, between_marks(ROOT / name, text)
+
+
+def between_marks(path, text):
+    """What is in this file, with this text between the marks."""
     before, _, rest = path.read_text().partition(BEGIN)
     _, mark, after = rest.partition(END)
     if not mark:
         sys.exit(f"{path} has not both marks: {BEGIN}{END}")
-    yield path, before + BEGIN + "\n" + readme.text(about, sections) + "\n" + END + after
+    return before + BEGIN + "\n" + text + "\n" + END + after
 
 
 def write():
@@ -34,7 +44,7 @@ def write():
 def check():
     """Fails where a table is not what was measured."""
     if wrong := [str(path.relative_to(ROOT)) for path, text in documents() if path.read_text() != text]:
-        sys.exit(f"{' and '.join(wrong)}: not what results.json says; run {HERE.relative_to(ROOT)}/tables.py")
+        sys.exit(f"{' and '.join(wrong)}: not what was measured; run {HERE.relative_to(ROOT)}/tables.py")
 
 
 if __name__ == "__main__":

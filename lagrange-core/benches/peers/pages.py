@@ -1,14 +1,21 @@
-"""What the README says about speed, from what was measured."""
+"""What the README and the book say about speed, from what was measured."""
 
 import re
 
 TOOLS = ("CasADi", "wrenfold", "heyoka", "SymPy", "Pinocchio")
 ROBOTS = ("arm of 6 joints", "quadruped", "arm of 20 joints", "humanoid")
 
-TEXT = """\
+README = """\
+Against the tools that people use, built, checked and timed in turn by `python3 lagrange-core/benches/peers/run.py`. {about}
+
+{fastest}
+
+What one writes by hand is C for this one system.
+"""
+
+COSTS = """\
 Against the tools that people use, in one run of `python3 lagrange-core/benches/peers/run.py`, which builds, checks and
-times all of them in turn ([its folder](lagrange-core/benches/peers/README.md) says how, `RESULTS.md` there has everything,
-plain flags too). {about}
+times all of them in turn (`README.md` in its folder says how, `RESULTS.md` there has everything, plain flags too). {about}
 
 {fastest}
 
@@ -37,8 +44,13 @@ ours computes, and derives the others from the Lagrangian. `Dop853` is at 10⁻�
 """
 
 
-def text(about, sections):
-    return TEXT.format(
+def of_readme(about, sections):
+    return README.format(about=where(about), fastest=fastest(sections))
+
+
+def of_costs(about, sections):
+    """The page of the book."""
+    return COSTS.format(
         about=where(about),
         num_dual=about["num-dual"],
         fastest=fastest(sections),
@@ -47,6 +59,16 @@ def text(about, sections):
         taylor=taylor(sections),
         growth=growth(sections["growth"]),
     )
+
+
+def of_methods(printed):
+    """What an error costs, from what the example `methods` printed."""
+    rows = [re.split(r" {2,}", line.strip()) for line in printed.splitlines()]
+    rows = [row for row in rows if len(row) == 11]
+    names = ("Taylor", "Dop853", "Dopri5")
+    heads = [f"{error}: {names[0]}" for error in ("10⁻⁶", "10⁻⁹", "10⁻¹²")]
+    head = [cell for first in heads for cell in (first, *names[1:])]
+    return table(["time in µs, to an error of", *head, "least error of Taylor"], rows)
 
 
 def where(about):
