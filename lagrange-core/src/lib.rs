@@ -27,24 +27,111 @@ assert!((friction + 2.0 / 7.0 * 9.81 * 0.3_f64.sin()).abs() < 1e-12);
 "#
 )]
 //!
-//! - [`Lagrangian`] is the contract that generated code implements, [`Simulate`] what a program calls.
-//! - [`Hamiltonian`] is the other side: momenta, the Legendre transform, Hamilton's equations, motion in (q, p).
-//! - [`StateDerivatives`] and [`Linearized`] have the derivatives of the motion: Jacobians, equilibria, the linear system near a state;
-//!   [`AcrossEvents`] those of motions across events.
-//! - [`Solution`] holds accelerations and multipliers; the sign of a multiplier is that of Milton (8.7): the constraint
-//!   force on coordinate a is Σ_α λ_α F_αa.
-//! - [`Motion`] goes on when it is told to: inputs that change, states at chosen times, nothing stored; [`embedded`] is about
-//!   programs without an operating system.
-//! - [`Event`]s are where functions of the motion cross zero: a [`Motion`] stops there, a run records them or ends;
-//!   a [`Journey`] goes on with another system.
-//! - [`ensemble`]: many members at once, on SIMD lanes and on all threads.
-//! - [`Dop853`] and [`Dopri5`] are the methods, [`Taylor`] the one for round-off, [`Trajectory`] is what they give, [`Ending`] why it stops.
+//! The struct's fields are the parameters. `coordinates` names the variables, `x_dot` is the velocity of `x`, a constraint has a name, under
+//! which its multiplier is had. [`language`] has all forms: vectors, frames, forces, functions of one's own.
 //!
-//! Features: `std` (default), without it there are no ensembles; `alloc`, without it there are no trajectories, but motions
+//! # States
+//!
+//! A [`State`] is a time, coordinates and velocities; those that are named make one, and `make_consistent` moves it onto the
+//! constraints. At a state everything is known: accelerations, multipliers, momenta, the matrices of the equations.
+//!
+//! ```
+//! # use lagrange_core::prelude::*;
+//! /// A bob on a rod, in the plane.
+//! #[derive(Lagrangian)]
+//! #[coordinates(x, y)]
+//! #[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
+//! #[constraint(rod: (x^2 + y^2 - l^2)/2 = 0)]
+//! #[observable(pull = -lambda(rod)*l)]
+//! struct Pendulum { m: f64, g: f64, l: f64 }
+//!
+//! let pendulum = Pendulum { m: 2.0, g: 9.81, l: 1.0 };
+//! let (state, _) = pendulum.make_consistent(&State::at_rest([0.1, -1.0]))?;
+//! let solution = pendulum.solve(&state)?;
+//! assert_eq!(solution.accelerations.len(), 2);
+//! // At rest the rod carries m g cos θ.
+//! assert!((pendulum.pull(&state, &solution) + 2.0 * 9.81 * state.q[1]).abs() < 1e-12);
+//! # Ok::<(), Error>(())
+//! ```
+//!
+//! The sign of a multiplier is that of Milton (8.7), everywhere: d/dt(∂L/∂q̇) = ∂L/∂q + Q + Fᵀλ, with F = ∂Φ/∂q and Φ = left − right.
+//! `Pendulum::equations()` is the system to be read, and stands in its documentation.
+//!
+//! # Motions
+//!
+//! [`integrate`](Simulate::integrate) goes from a state to a time by a method that the call names: [`Dop853`] as a rule, [`Taylor`] to round-off,
+//! [`Dopri5`] for coarse errors ([`motion`] compares them). Every step ends on the constraints. A [`Trajectory`] answers at any
+//! time, by name; why it ends is an [`Ending`]. Where a function of the motion crosses zero is an [`Event`].
+//!
+#![cfg_attr(
+    feature = "std",
+    doc = r#"
+```
+# use lagrange_core::prelude::*;
+# #[derive(Lagrangian)]
+# #[coordinates(x, y)]
+# #[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
+# #[constraint(rod: (x^2 + y^2 - l^2)/2 = 0)]
+# #[observable(pull = -lambda(rod)*l)]
+# struct Pendulum { m: f64, g: f64, l: f64 }
+let pendulum = Pendulum { m: 2.0, g: 9.81, l: 1.0 };
+let mut lowest = pendulum.event("lowest", |sample| sample.coordinate("x")).falling();
+let start = State::at_rest([1.0, 0.0]);
+let path = pendulum.integrate_until(start, 5.0, Dop853::default(), &mut [&mut lowest])?;
+// At the lowest point it pulls with 3 m g.
+for crossing in path.crossings() {
+    let sample = path.at(crossing.state.t)?;
+    assert!((sample.observable("pull")? - 3.0 * 2.0 * 9.81).abs() < 1e-6);
+}
+println!("{}", path.csv(50).energy());
+# Ok::<(), Error>(())
+```
+"#
+)]
+//!
+//! # Inputs
+//!
+//! A [`Motion`] goes on when it is told to: parameters change in between, states are read, nothing is stored.
+//!
+//! ```
+//! # use lagrange_core::prelude::*;
+//! #[derive(Lagrangian)]
+//! #[coordinates(x)]
+//! #[lagrangian(m/2 * x_dot^2)]
+//! #[force(x: push)]
+//! struct Cart { m: f64, push: f64 }
+//!
+//! let mut motion = Motion::new(Cart { m: 2.0, push: 0.0 }, State::at_rest([1.0]), Dop853::default())?;
+//! for tick in 1..=1000 {
+//!     let state = *motion.state();
+//!     motion.system_mut().push = -3.0 * state.q[0] - 4.0 * state.v[0];
+//!     motion.advance_to(0.01 * f64::from(tick))?;
+//! }
+//! assert!(motion.state().q[0].abs() < 1e-3);
+//! # Ok::<(), Box<dyn core::error::Error>>(())
+//! ```
+//!
+//! # What else there is
+//!
+//! - [`Hamiltonian`]: momenta, the Legendre transform, Hamilton's equations, motion in (q, p).
+//! - [`Linearized`] and [`StateDerivatives`]: exact derivatives; equilibria, the linear system near a state, inverse dynamics, motions with
+//!   their derivatives; [`AcrossEvents`] those across impacts.
+//! - [`Ensemble`]: many members at once, on SIMD lanes, on all threads, on many machines ([`ensemble`]).
+//! - [`Journey`]: a motion of several legs, of several systems; [`Simulate::impact`].
+//! - [`Lagrangian`] is the contract that generated code implements, [`Solution`] what it gives; [`Scalar`] what numbers must be.
+//! - [`embedded`] is about programs without an operating system.
+//!
+//! The book in the repository follows a course of mechanics, and has how-tos.
+//!
+//! # Features
+//!
+//! `std` (default), without it there are no ensembles; `alloc`, without it there are no trajectories, but motions
 //! step by step; `libm`, elementary functions where there is no `std`; `rayon`, ensembles on all threads; `mpi`, ensembles on many machines; `parquet`, tables of
 //! ensembles as files of Parquet; `serde`, states,
 //! solutions, records of trajectories and endings can be written, and those without names read.
 #![cfg_attr(not(feature = "std"), no_std)]
+// docs.rs shows which feature an item needs.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 // Algorithms on matrices read best with indices.
 #![allow(clippy::needless_range_loop)]
 
