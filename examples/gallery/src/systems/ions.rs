@@ -7,14 +7,14 @@ use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob};
 /// In the frame of the trap, which turns; k is the repulsion.
 #[derive(Lagrangian)]
 #[coordinates(r: [5, 3])]
-#[define(W = [0, 0, Omega])]
+#[define(W = [0, 0, omega])]
 #[define(U(s) = (s[0]^2 + stiffness*s[1]^2 + 3*s[2]^2)/2)]
 #[define(interaction = sum(a in 0..4, sum(b in a+1..5, k/norm(r[a] - r[b]))))]
 #[define(v_0[a in 0..5] = r_dot[a] + cross(W, r[a]))]
 #[lagrangian(sum(a in 0..5, m/2*dot(v_0[a], v_0[a]) - U(r[a])) - interaction)]
 pub(super) struct StirredIons {
     m: f64,
-    Omega: f64,
+    omega: f64,
     stiffness: f64,
     k: f64,
 }
@@ -27,7 +27,7 @@ impl Exhibit<15, 0, 4> for StirredIons {
     const ABOUT: &'static str = "Five ions repel each other in a trap that is longer in one direction and turns. Seen from the trap \
         nothing depends on the time, and E = E₀ − Σ L·Ω is conserved; neither term is by itself. Milton (8.52), (8.53).";
     const KNOBS: &'static [Knob; 4] = &[
-        knob("Omega", "rate of the trap", "rad/s", [0.0, 0.9], 0.3),
+        knob("omega", "rate of the trap", "rad/s", [0.0, 0.9], 0.3),
         knob("k", "repulsion", "J m", [0.1, 3.0], 1.0),
         knob("stiffness", "stiffness across", "N/m", [1.0, 4.0], 1.6),
         knob("m", "mass", "kg", [0.2, 3.0], 1.0),
@@ -36,7 +36,7 @@ impl Exhibit<15, 0, 4> for StirredIons {
 
     fn set([rate, k, stiffness, m]: [f64; 4]) -> (Self, State<f64, 15>) {
         let kicks = std::array::from_fn(|i| 0.2 * (7.0 * i as f64).sin());
-        (Self { m, Omega: rate, stiffness, k }, State::new(PLACES, kicks))
+        (Self { m, omega: rate, stiffness, k }, State::new(PLACES, kicks))
     }
 
     fn view(&self, state: &State<f64, 15>) -> View {

@@ -1,6 +1,6 @@
 //! A robot arm of six joints, led around a circle.
 
-use lagrange_core::nalgebra::Matrix3;
+use lagrange_core::nalgebra::{Matrix3, Vector3};
 use lagrange_core::prelude::*;
 
 use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob};
@@ -9,7 +9,7 @@ use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob};
 #[derive(Clone, Copy)]
 pub(super) struct Body {
     m: f64,
-    centre: Point,
+    centre: Vector3<f64>,
     inertia: Matrix3<f64>,
 }
 
@@ -38,7 +38,7 @@ pub(super) struct Body {
 pub(super) struct RobotArm {
     body: [Body; 6],
     g: f64,
-    middle: Point,
+    middle: Vector3<f64>,
     radius: f64,
     round: f64,
 }

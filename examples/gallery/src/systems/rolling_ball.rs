@@ -1,6 +1,6 @@
 //! A ball on a floor, a tilted plane or a turntable, Milton (8.4)–(8.7).
 
-use lagrange_core::nalgebra::{Quaternion, UnitQuaternion, UnitVector3};
+use lagrange_core::nalgebra::{Quaternion, UnitQuaternion, UnitVector3, Vector3};
 use lagrange_core::prelude::*;
 
 use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob};
@@ -15,8 +15,8 @@ use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob};
 pub(super) struct RollingBall {
     m: f64,
     a: f64,
-    g: Point,
-    n: Point,
+    g: Vector3<f64>,
+    n: Vector3<f64>,
     w: f64,
 }
 

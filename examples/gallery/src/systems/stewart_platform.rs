@@ -1,6 +1,6 @@
 //! A plate on six legs with springs.
 
-use lagrange_core::nalgebra::{Matrix3, Quaternion, UnitQuaternion};
+use lagrange_core::nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 use lagrange_core::prelude::*;
 
 use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob};
@@ -21,8 +21,8 @@ use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob};
 pub(super) struct StewartPlatform {
     m: f64,
     inertia: Matrix3<f64>,
-    foot: [Point; 6],
-    corner: [Point; 6],
+    foot: [Vector3<f64>; 6],
+    corner: [Vector3<f64>; 6],
     rod: f64,
     half: f64,
     slender: Matrix3<f64>,

@@ -8,14 +8,14 @@ use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob, xy};
 #[derive(Lagrangian)]
 #[coordinates(r: [3])]
 #[define(v = r_dot)]
-#[define(W = [0, 0, Omega])]
+#[define(W = [0, 0, omega])]
 #[lagrangian(m/2*dot(v, v) + m*dot(v, cross(W, r)) + m/2*dot(cross(W, r), cross(W, r)) - k/2*dot(r, r))]
 #[observable(coriolis = 2*m*cross(v, W))]
 #[observable(centrifugal = m*cross(W, cross(r, W)))]
 pub(super) struct Turntable {
     m: f64,
     k: f64,
-    Omega: f64,
+    omega: f64,
 }
 
 /// The frame on the left, what one sees from outside on the right.
@@ -27,7 +27,7 @@ impl Exhibit<3, 0, 5> for Turntable {
         of Coriolis, red, along the radius, the centrifugal force and the spring together. What is conserved is \
         E = E₀ − L·Ω. Milton (8.43)–(8.57).";
     const KNOBS: &'static [Knob; 5] = &[
-        knob("Omega", "rate of the frame", "rad/s", [-4.0, 4.0], 1.0),
+        knob("omega", "rate of the frame", "rad/s", [-4.0, 4.0], 1.0),
         knob("k", "stiffness of the spring", "N/m", [0.0, 10.0], 3.0),
         knob("x_0", "where it starts", "m", [0.1, 1.0], 0.8),
         knob("u_0", "speed outwards, in the frame", "m/s", [-1.0, 1.0], 0.0),
@@ -35,7 +35,7 @@ impl Exhibit<3, 0, 5> for Turntable {
     ];
 
     fn set([rate, k, x, outwards, sideways]: [f64; 5]) -> (Self, State<f64, 3>) {
-        (Self { m: 1.0, k, Omega: rate }, State::new([x, 0.0, 0.0], [outwards, sideways, 0.0]))
+        (Self { m: 1.0, k, omega: rate }, State::new([x, 0.0, 0.0], [outwards, sideways, 0.0]))
     }
 
     fn view(&self, state: &State<f64, 3>) -> View {
@@ -47,7 +47,7 @@ impl Exhibit<3, 0, 5> for Turntable {
     }
 
     fn draw(&self, now: &Moment<3, 0>, scene: &mut Scene) {
-        let (r, angle) = (now.state.q, self.Omega * now.state.t);
+        let (r, angle) = (now.state.q, self.omega * now.state.t);
         for (side, turn) in [(-APART, 0.0), (APART, angle)] {
             let middle = xy(side, 0.0);
             scene.disc(Paint::Guide, middle, Point::z(), 1.1);
@@ -73,7 +73,7 @@ fn inside(r: Point) -> Point {
 
 impl Turntable {
     fn outside(&self, state: &State<f64, 3>) -> Point {
-        let (sine, cosine) = (self.Omega * state.t).sin_cos();
+        let (sine, cosine) = (self.omega * state.t).sin_cos();
         xy(APART + state.q.x * cosine - state.q.y * sine, state.q.x * sine + state.q.y * cosine)
     }
 }
