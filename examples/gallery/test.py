@@ -68,7 +68,9 @@ def is_drawn(tab):
     """Something is seen, and it changes."""
     count = """(() => {
         const { width, height } = element("scene");
-        const data = element("scene").getContext("2d").getImageData(0, 0, width, height).data;
+        const copy = new OffscreenCanvas(width, height).getContext("2d", { willReadFrequently: true });
+        copy.drawImage(element("scene"), 0, 0);
+        const { data } = copy.getImageData(0, 0, width, height);
         let sum = 0, seen = 0;
         for (let k = 3; k < data.length; k += 4) { seen += data[k] > 200; sum = (sum*31 + data[k]*data[k - 1]) % 1000003; }
         return [seen, sum];
@@ -141,6 +143,7 @@ def test_system(tab, url, key, pictures):
 def test_keyboard(tab, url):
     """Keys, the link of a page that is opened, and light and dark."""
     tab.resize(1280, 900)
+    tab.scheme("light")
     tab.open(f"{url}#spherical-pendulum?theta_0=0.7&speed=2&at=1.5", READY)
     check(tab.tell("[page.card.key, page.values[0], page.speed, page.playing]") == ["spherical-pendulum", 0.7, 2, False], "the link is not obeyed")
     check(abs(tab.tell("page.t") - 1.5) < 1e-9, "nor is its time")
