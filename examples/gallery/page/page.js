@@ -106,7 +106,8 @@ function set(index, value) {
 
 function play(isOn) {
   page.playing = isOn;
-  element("play").textContent = isOn ? "⏸" : "▶";
+  const shape = isOn ? "M1.5 1h2.4v8H1.5zM6 1h2.4v8H6z" : "M2 .6v8.8L9.4 5z";
+  element("play").innerHTML = `<svg viewBox="0 0 10 10"><path d="${shape}"/></svg>`;
   page.dirty = true;
   keepLink();
 }
@@ -121,8 +122,7 @@ function goTo(t) {
       show.advance(t);
     } catch (error) {
       say(`Here it ends: ${error}`);
-      page.playing = false;
-      element("play").textContent = "▶";
+      play(false);
     }
     last = show.span()[1];
     if (!page.playing) t = Math.min(t, last);

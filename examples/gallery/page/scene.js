@@ -1,6 +1,8 @@
 // Draws the numbers of a scene: kind, paint, size, the number of points, and these, again and again.
 
 const PAINTS = ["body", "other", "fixed", "guide", "constraint", "force", "momentum"];
+/// The height of what is below the scene.
+const STRIP = 28;
 const [LINE, TRAIL, BALL, DOT, FACE, ARROW, RING] = [0, 1, 2, 3, 4, 5, 6];
 
 /// The colours of the page as numbers, since gradients need their parts.
@@ -84,9 +86,14 @@ function ordered(found, flat) {
 
 function drawScene(canvas, numbers, view, turned, paints) {
   const { pen, width, height } = fit(canvas);
-  const { scale, flat, see } = camera(view, turned, width, height);
-  const thick = Math.max(0.6, Math.min(1.5, Math.min(width, height) / 480));
-  if (flat) drawGrid(pen, view, scale, width, height, paints);
+  const high = height - STRIP;
+  const { scale, flat, see } = camera(view, turned, width, high);
+  const thick = Math.max(0.6, Math.min(1.5, Math.min(width, high) / 480));
+  pen.save();
+  pen.beginPath();
+  pen.rect(0, 0, width, high);
+  pen.clip();
+  if (flat) drawGrid(pen, view, scale, width, high, paints);
   pen.lineCap = pen.lineJoin = "round";
   const arrows = new Set();
   for (const thing of ordered(things(numbers, see), flat)) {
@@ -100,7 +107,8 @@ function drawScene(canvas, numbers, view, turned, paints) {
     else if (kind === RING) drawRing(pen, points, size * thick, rgba(mixed(colour, paints.panel, 0.15), 0.8));
     else if (kind === ARROW && drawArrow(pen, points, size * thick, rgba(colour))) arrows.add(paint);
   }
-  drawScales(pen, view, scale, height, arrows, paints);
+  pen.restore();
+  drawScales(pen, view, scale, [width, height], arrows, paints);
 }
 
 function path(pen, points) {
@@ -122,12 +130,19 @@ function disc(pen, [x, y], radius, style) {
   pen.fill();
 }
 
-/// The older the fainter.
+/// The older the fainter; round, by parabolas between the middles of its lines.
 function drawTrail(pen, points, width, colour) {
   const parts = 24;
-  for (let k = 0; k < parts; k++) {
-    const [from, to] = [k, k + 1].map(end => Math.round((end * (points.length - 1)) / parts));
-    if (to > from) stroke(pen, points.slice(from, to + 1), width, rgba(colour, 0.05 + (0.75 * (k + 1)) / parts));
+  const middle = k => [0, 1].map(i => (points[Math.max(k - 1, 0)][i] + points[k][i]) / 2);
+  pen.lineWidth = width;
+  for (let part = 0; part < parts; part++) {
+    const [from, to] = [part, part + 1].map(end => Math.round((end * (points.length - 1)) / parts));
+    pen.beginPath();
+    pen.moveTo(...middle(from));
+    for (let k = from; k < to; k++) pen.quadraticCurveTo(points[k][0], points[k][1], ...middle(k + 1));
+    if (part === parts - 1) pen.lineTo(...points[points.length - 1]);
+    pen.strokeStyle = rgba(colour, 0.05 + (0.75 * (part + 1)) / parts);
+    pen.stroke();
   }
 }
 
@@ -142,7 +157,8 @@ function drawBall(pen, [x, y], radius, colour, paint) {
 
 /// Faces that are seen edge on are darker.
 function drawFace(pen, points, colour, paint, flat, paints) {
-  const [a, b, c] = points;
+  const third = points.length / 3;
+  const [a, b, c] = [0, 1, 2].map(k => points[Math.floor(k * third)]);
   const across = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
   const size = Math.hypot(b[0] - a[0], b[1] - a[1]) * Math.hypot(c[0] - a[0], c[1] - a[1]) || 1;
   const dark = flat ? 0 : 0.35 * (1 - Math.min(1, Math.abs(across) / size));
@@ -165,7 +181,7 @@ function drawArrow(pen, [[ax, ay], [bx, by]], width, style) {
   const length = Math.hypot(bx - ax, by - ay);
   if (!(length > 2)) return false;
   const [ux, uy] = [(bx - ax) / length, (by - ay) / length];
-  const head = Math.min(4.2 * width, 0.6 * length);
+  const head = Math.min(4.2 * width, 0.45 * length);
   const [hx, hy] = [bx - ux * head, by - uy * head];
   stroke(pen, [[ax, ay], [hx, hy]], width, style);
   path(pen, [[bx, by], [hx - uy * head * 0.45, hy + ux * head * 0.45], [hx + uy * head * 0.45, hy - ux * head * 0.45]]);
@@ -186,19 +202,20 @@ function drawGrid(pen, [cx, cy], scale, width, height, paints) {
   lines(cy, height, y => stroke(pen, [[0, height / 2 - y], [width, height / 2 - y]], 1, style));
 }
 
-/// How long the arrow of a force is.
-function drawScales(pen, [, , , radius, force], scale, height, arrows, paints) {
+/// How long the arrow of a force is, below the scene.
+function drawScales(pen, [, , , radius, force], scale, [width, height], arrows, paints) {
   const newton = (scale * radius) / force;
-  const amount = nice(110 / newton);
-  const names = { constraint: "constraint force", force: "force" };
-  let y = height - 14;
+  const amount = nice((0.15 * width) / newton);
+  const names = { constraint: "of constraints", force: "other force" };
+  let [x, y] = [14, height - STRIP / 2];
   pen.font = "13px system-ui, 'DejaVu Sans', sans-serif";
-  pen.textBaseline = "middle";
-  for (const paint of ["force", "constraint"].filter(paint => arrows.has(paint))) {
+  [pen.textBaseline, pen.textAlign] = ["middle", "left"];
+  for (const paint of ["constraint", "force"].filter(paint => arrows.has(paint))) {
     const length = amount * newton;
-    drawArrow(pen, [[14, y], [14 + length, y]], 2.5, rgba(paints[paint]));
+    const text = `${+amount.toPrecision(2)} N ${names[paint]}`;
+    drawArrow(pen, [[x, y], [x + length, y]], 2.5, rgba(paints[paint]));
     pen.fillStyle = rgba(paints.ink);
-    pen.fillText(`${names[paint]}, ${minus(String(+amount.toPrecision(2)))} N`, 22 + length, y);
-    y -= 20;
+    pen.fillText(text, x + length + 8, y);
+    x += length + pen.measureText(text).width + 28;
   }
 }

@@ -28,8 +28,9 @@ function toLink({ card, values, speed, forces, playing, t }) {
 function slider(knob, changed) {
   const label = document.createElement("label");
   const step = nice((knob.high - knob.low) / 150);
-  const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
-  label.innerHTML = `<span>${pretty(knob.name)} <span class="meaning">${escaped(knob.meaning)}</span></span><output></output>
+  const shown = (String(knob.value).split(".")[1] ?? "").length;
+  const digits = Math.max(shown, -Math.floor(Math.log10(step) + 1e-9));
+  label.innerHTML = `<span><span class="name">${pretty(knob.name)}</span> <span class="meaning">${escaped(knob.meaning)}</span></span><output></output>
     <input type="range" name="${knob.name}" min="${knob.low}" max="${knob.high}" step="any">`;
   const [input, output] = [label.querySelector("input"), label.querySelector("output")];
   const show = value => {

@@ -13,7 +13,7 @@ const KEPT: usize = 7200;
 /// Frames in a second of watching.
 const RATE: f64 = 60.0;
 /// How many frames a trail is long.
-const TRAIL: usize = 600;
+const TRAIL: usize = 900;
 /// Energies and constraints come to at most so small a part of their size.
 const TOLERANCE: f64 = 1e-12;
 /// Of so many constraints the multipliers are plotted.

@@ -23,7 +23,7 @@ impl Exhibit<3, 1, 4> for FoucaultPendulum {
         clockwise in the north by sin(latitude) of a turn a day, and not at all on the equator. The Lagrangian is that of \
         a frame: no force of Coriolis is written anywhere. x points east, y north. Milton (8.44).";
     const KNOBS: &'static [Knob; 4] = &[
-        knob("latitude", "latitude", "rad", [-1.57, 1.57], 0.85),
+        knob("latitude", "north of the equator", "rad", [-1.57, 1.57], 0.85),
         knob("rate", "how fast the Earth turns", "rad/s", [0.0, 0.3], 0.08),
         knob("a", "how far it is held to the east", "m", [0.2, 5.0], 3.0),
         knob("l", "length", "m", [6.0, 67.0], 15.0),

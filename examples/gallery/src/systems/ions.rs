@@ -29,7 +29,7 @@ impl Exhibit<15, 0, 4> for StirredIons {
     const KNOBS: &'static [Knob; 4] = &[
         knob("omega", "rate of the trap", "rad/s", [0.0, 0.9], 0.3),
         knob("k", "repulsion", "J m", [0.1, 3.0], 1.0),
-        knob("stiffness", "stiffness across", "N/m", [1.0, 4.0], 1.6),
+        knob("stiffness", "across the trap, along it 1", "N/m", [1.0, 4.0], 1.6),
         knob("m", "mass", "kg", [0.2, 3.0], 1.0),
     ];
     const PACE: f64 = 2.0;

@@ -44,7 +44,7 @@ impl Exhibit<7, 4, 5> for RollingBall {
 
     fn view(&self, state: &State<f64, 7>) -> View {
         let away = state.q.fixed_rows::<3>(0).norm();
-        View { from: Some([-0.9, 0.6]), ..View::space(Point::zeros(), away.max(0.9) + 0.2, 8.0 * self.m) }
+        View { from: Some([-0.9, 0.6]), ..View::space(Point::zeros(), away.max(0.9) + 0.2, 24.0 * self.m) }
     }
 
     fn trails(&self, state: &State<f64, 7>) -> Vec<Point> {
