@@ -1,12 +1,16 @@
 // The text that the derive writes, set as formulas: letters slanted, words and functions upright.
 
-const WORD = /(\p{L}\p{M}*)((?:\p{L}\p{M}*|_[\p{L}\p{N}]+)*)|[&<>]/gu;
+const WORD = /(\p{L}\p{M}*)((?:\p{L}\p{M}*|_[\p{L}\p{N}]+)*)((?:\[[^[\]]*\])*)|[&<>]/gu;
+/// Of more rows than that only the first are seen at once.
+const ROWS = 12;
 
+/// Indices, after an underscore or in brackets, stand below.
 function formula(text) {
-  return text.replace(WORD, (all, letter, rest) => {
+  return text.replace(WORD, (all, letter, rest, indices) => {
     if (!letter) return escaped(all);
-    if (rest && !rest.startsWith("_")) return all;
-    return `<i>${letter}</i>` + (rest ? `<sub>${rest.slice(1).replace(/_/g, " ")}</sub>` : "");
+    const isWord = rest && !rest.startsWith("_");
+    const below = [...(isWord ? [] : rest.split("_").slice(1)), ...[...indices.matchAll(/\[(.*?)\]/g)].map(([, index]) => index)];
+    return (isWord ? letter + rest : `<i>${letter}</i>`) + (below.length ? `<sub>${below.join(" ")}</sub>` : "");
   });
 }
 
@@ -20,6 +24,14 @@ function row(line) {
 
 /// A heading is a line that is not indented; the first line is the name of the system.
 function formulas(text) {
-  const lines = text.split("\n").slice(1).filter(line => line.trim());
-  return lines.map(line => (line.startsWith(" ") ? row(line) : `<h4>${escaped(line)}</h4>`)).join("");
+  const sections = [];
+  for (const line of text.split("\n").slice(1).filter(line => line.trim())) {
+    if (line.startsWith(" ")) sections.at(-1).rows.push(row(line));
+    else sections.push({ heading: `<h4>${escaped(line)}</h4>`, rows: [] });
+  }
+  return sections.map(({ heading, rows }) => {
+    const [first, rest] = [rows.slice(0, ROWS), rows.slice(ROWS)];
+    const more = rest.length ? `<details><summary>${rest.length} more</summary>${rest.join("")}</details>` : "";
+    return heading + first.join("") + more;
+  }).join("");
 }

@@ -62,7 +62,9 @@ impl<const N: usize, const M: usize> Moment<N, M> {
 /// A system that is shown, with `K` sliders.
 ///
 /// The derive has its equations and what it conserves; here is what can be set, where it starts, and how it is drawn.
-pub trait Exhibit<const N: usize, const M: usize, const K: usize>: Lagrangian<N, M, Scalar = f64> + Sized + 'static {
+pub trait Exhibit<const N: usize, const M: usize, const K: usize>:
+    Lagrangian<N, M, Scalar = f64> + Sized + 'static
+{
     /// What it is called.
     const TITLE: &'static str;
     /// What to look at.

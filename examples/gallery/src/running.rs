@@ -38,6 +38,9 @@ pub(crate) trait Running {
     fn series(&self, quantity: usize, from: f64, to: f64) -> Vec<f64>;
 }
 
+/// A system at its start, or why it cannot start.
+pub(crate) type Opened = Result<Box<dyn Running>, String>;
+
 /// What is kept of a frame.
 struct Frame<const N: usize> {
     state: State<f64, N>,
@@ -57,9 +60,7 @@ where
 }
 
 /// The exhibit with its sliders at these values, at its start.
-pub(crate) fn open<E, const N: usize, const M: usize, const K: usize>(
-    knobs: &[f64],
-) -> Result<Box<dyn Running>, String>
+pub(crate) fn open<E, const N: usize, const M: usize, const K: usize>(knobs: &[f64]) -> Opened
 where
     E: Exhibit<N, M, K>,
     Dop853: Method<E, N, M>,
@@ -67,7 +68,8 @@ where
     let knobs = knobs.try_into().map_err(|_| format!("{} has {K} sliders", E::NAME))?;
     let (system, start) = E::set(knobs);
     let (start, _) = system.make_consistent(&start).map_err(|error| error.to_string())?;
-    let motion = Motion::new(system, start, Dop853::with_tolerance(TOLERANCE)).map_err(|error| error.to_string())?;
+    let motion =
+        Motion::new(system, start, Dop853::with_tolerance(TOLERANCE)).map_err(|error| error.to_string())?;
     let mut live = Live { motion, frames: VecDeque::new(), forgotten: 0 };
     live.record();
     Ok(Box::new(live))

@@ -146,7 +146,8 @@ impl Scene {
     pub fn spring(&mut self, from: Point, to: Point, width: f64) {
         let along = to - from;
         let across = Point::z().cross(&along).try_normalize(1e-9).unwrap_or_else(Point::x) * width;
-        let turn = |k: u32| from + along * (0.08 + 0.84 * f64::from(k) / 24.0) + across * SWAY[k as usize % 4];
+        let turn =
+            |k: u32| from + along * (0.08 + 0.84 * f64::from(k) / 24.0) + across * SWAY[k as usize % 4];
         let mut points = vec![from];
         points.extend((0..=24).map(turn));
         points.push(to);
@@ -194,7 +195,8 @@ impl Scene {
 const SWAY: [f64; 4] = [0.0, 1.0, 0.0, -1.0];
 
 fn circle(centre: Point, normal: Point, radius: f64) -> Vec<Point> {
-    let turn = Rotation3::rotation_between(&Point::z(), &normal).unwrap_or_else(|| Rotation3::from_euler_angles(3.0, 0.0, 0.0));
+    let turn = Rotation3::rotation_between(&Point::z(), &normal)
+        .unwrap_or_else(|| Rotation3::from_euler_angles(3.0, 0.0, 0.0));
     let at = |k: u32| {
         let (sine, cosine) = (std::f64::consts::TAU * f64::from(k) / 48.0).sin_cos();
         centre + turn * (radius * xy(cosine, sine))

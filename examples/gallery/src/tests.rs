@@ -28,7 +28,8 @@ fn every_system_keeps_what_it_conserves() {
     for entry in all() {
         let running = run(&entry, &values(&entry), 10.0);
         let quantities = running.quantities();
-        let series: Vec<_> = (0..quantities.len()).map(|quantity| running.series(quantity, 0.0, 10.0)).collect();
+        let series: Vec<_> =
+            (0..quantities.len()).map(|quantity| running.series(quantity, 0.0, 10.0)).collect();
         let largest = |values: &[f64]| values.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
         let energies = quantities.iter().zip(&series).filter(|(quantity, _)| quantity.kind == "energy");
         let energy = energies.map(|(_, values)| largest(values)).fold(0.0, f64::max);
@@ -67,7 +68,11 @@ fn what_is_between_frames_is_on_the_way() {
         let [before, between, after] = [0.0, 0.5, 1.0].map(|part| running.state(part * step));
         for i in 0..before.len() {
             let apart = (between[i] - f64::midpoint(before[i], after[i])).abs();
-            assert!(apart <= 0.2 * (after[i] - before[i]).abs() + 0.02, "{}: entry {i} is {apart} off", entry.key);
+            assert!(
+                apart <= 0.2 * (after[i] - before[i]).abs() + 0.02,
+                "{}: entry {i} is {apart} off",
+                entry.key
+            );
         }
     }
 }
@@ -78,5 +83,7 @@ fn links_name_one_system_each() {
     keys.sort_unstable();
     keys.dedup();
     assert_eq!(keys.len(), all().len());
-    assert!(all().iter().all(|entry| entry.knobs.iter().all(|knob| knob.range[0] <= knob.value && knob.value <= knob.range[1])));
+    assert!(all().iter().all(|entry| {
+        entry.knobs.iter().all(|knob| knob.range[0] <= knob.value && knob.value <= knob.range[1])
+    }));
 }

@@ -20,9 +20,10 @@ const TARGET: &str = "wasm32-unknown-unknown";
 const SCRIPTS: [&str; 6] = ["names.js", "formulas.js", "scene.js", "plots.js", "settings.js", "page.js"];
 
 fn main() -> Result<()> {
-    let gallery = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let gallery = Path::new(env!("CARGO_MANIFEST_DIR")).parent().ok_or("no folder above")?;
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| gallery.join("target"), PathBuf::from);
-    compile(&gallery)?;
+    let target = std::path::absolute(target)?;
+    compile(gallery)?;
     let bindings = target.join("bindings");
     Bindgen::new()
         .input_path(target.join(TARGET).join("page/gallery.wasm"))
@@ -32,14 +33,25 @@ fn main() -> Result<()> {
     let page = page(&gallery.join("page"), &bindings)?;
     let file = target.join("gallery.html");
     fs::write(&file, &page)?;
-    println!("{}: {} kB", file.display(), page.len() / 1000);
+    eprintln!("{} kB", page.len() / 1000);
+    println!("{}", file.display());
     Ok(())
 }
 
 fn compile(gallery: &Path) -> Result<()> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut build = Command::new(cargo);
-    build.args(["build", "--locked", "--package", "gallery", "--lib", "--profile", "page", "--target", TARGET]);
+    build.args([
+        "build",
+        "--locked",
+        "--package",
+        "gallery",
+        "--lib",
+        "--profile",
+        "page",
+        "--target",
+        TARGET,
+    ]);
     let status = build.current_dir(gallery).status()?;
     if status.success() { Ok(()) } else { Err("the systems were not compiled".into()) }
 }

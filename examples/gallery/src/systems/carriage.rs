@@ -47,7 +47,8 @@ impl Exhibit<2, 1, 5> for Carriage {
 
     fn draw(&self, now: &Moment<2, 1>, scene: &mut Scene) {
         let corner = |x: f64, y: f64| xy(1.45 * x, 1.3 * y);
-        let walls = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0), corner(-1.0, -1.0)];
+        let walls =
+            [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0), corner(-1.0, -1.0)];
         scene.line(Paint::Fixed, 3.0, &walls);
         // Where the carriage is: A twice integrated, from rest.
         let (t, turn) = (now.state.t, self.omega * now.state.t);

@@ -38,7 +38,7 @@ impl Exhibit<4, 2, 7> for DoublePendulum {
 
     fn view(&self, _: &State<f64, 4>) -> View {
         let weight = (self.m[0] + self.m[1]) * 9.81;
-        View::plane(Point::zeros(), 1.15 * (self.l[0] + self.l[1]), 5.0 * weight)
+        View::plane(Point::zeros(), 1.15 * (self.l[0] + self.l[1]), 10.0 * weight)
     }
 
     fn trails(&self, state: &State<f64, 4>) -> Vec<Point> {
@@ -50,8 +50,8 @@ impl Exhibit<4, 2, 7> for DoublePendulum {
         scene.line(Paint::Fixed, 4.0, &[Point::zeros(), bobs[0], bobs[1]]);
         scene.dot(Paint::Fixed, 8.0, Point::zeros());
         let reach = self.l[0] + self.l[1];
-        for i in 0..2 {
-            scene.ball(Paint::Body, 0.06 * reach * self.m[i].cbrt(), bobs[i]);
+        for (bob, m) in bobs.into_iter().zip(self.m) {
+            scene.ball(Paint::Body, 0.06 * reach * m.cbrt(), bob);
         }
         // Φ = (r² − l²)/2: a rod acts along itself, by λ times its vector.
         let pulls = [bobs[0] * now.multipliers[0], (bobs[1] - bobs[0]) * now.multipliers[1]];

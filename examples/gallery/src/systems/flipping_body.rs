@@ -43,7 +43,10 @@ impl Exhibit<7, 1, 5> for FlippingBody {
         let omega = pose * (spin * Point::new(0.0, off.cos(), off.sin()));
         let rate = (Quaternion::from_imag(omega) * pose.into_inner()) / 2.0;
         let q = [0.0, 0.0, 0.0, pose.w, pose.i, pose.j, pose.k];
-        (Self { m, inertia, edges: [w, h, d] }, State::new(q, [0.0, 0.0, 0.0, rate.w, rate.i, rate.j, rate.k]))
+        (
+            Self { m, inertia, edges: [w, h, d] },
+            State::new(q, [0.0, 0.0, 0.0, rate.w, rate.i, rate.j, rate.k]),
+        )
     }
 
     fn view(&self, _: &State<f64, 7>) -> View {

@@ -35,7 +35,10 @@ impl Exhibit<3, 1, 4> for FoucaultPendulum {
     }
 
     fn view(&self, _: &State<f64, 3>) -> View {
-        View { from: Some([-1.2, 0.6]), ..View::space(Point::z() * (-0.72 * self.l), 0.5 * self.l, 4.0 * self.m * self.g) }
+        View {
+            from: Some([-1.2, 0.6]),
+            ..View::space(Point::z() * (-0.72 * self.l), 0.5 * self.l, 4.0 * self.m * self.g)
+        }
     }
 
     fn trails(&self, state: &State<f64, 3>) -> Vec<Point> {

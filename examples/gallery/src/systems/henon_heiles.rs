@@ -55,7 +55,11 @@ fn contour(energy: f64) -> Vec<Point> {
         let (mut inside, mut outside) = (0.0, edge(sine, cosine));
         for _ in 0..30 {
             let middle = f64::midpoint(inside, outside);
-            if potential(middle * cosine, middle * sine) < energy { inside = middle } else { outside = middle }
+            if potential(middle * cosine, middle * sine) < energy {
+                inside = middle;
+            } else {
+                outside = middle;
+            }
         }
         xy(cosine, sine) * inside
     };

@@ -22,7 +22,7 @@ mod turntable;
 use lagrange_core::{Equations, Method, prelude::*};
 
 use crate::exhibit::{Exhibit, Knob};
-use crate::running::{self, Running};
+use crate::running::{self, Opened};
 
 /// A system that can be shown.
 #[derive(Clone, Copy, Debug)]
@@ -43,7 +43,7 @@ pub struct Entry {
     pub conserves_energy: bool,
     /// The names of its coordinates.
     pub coordinates: &'static [&'static str],
-    pub(crate) open: fn(&[f64]) -> Result<Box<dyn Running>, String>,
+    pub(crate) open: fn(&[f64]) -> Opened,
 }
 
 /// The entry of an exhibit.

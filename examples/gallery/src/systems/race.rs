@@ -41,7 +41,11 @@ impl Exhibit<6, 3, 5> for Race {
 
     fn view(&self, state: &State<f64, 6>) -> View {
         let middle = self.downhill() * (state.q[0] + state.q[2]) / 2.0;
-        View::plane(middle, 4.5_f64.max(0.6 * (state.q[0] - state.q[2]).abs() + 2.0), 1.5 * self.m * 9.81 * self.alpha.sin().max(0.02))
+        View::plane(
+            middle,
+            4.5_f64.max(0.6 * (state.q[0] - state.q[2]).abs() + 2.0),
+            1.5 * self.m * 9.81 * self.alpha.sin().max(0.02),
+        )
     }
 
     fn draw(&self, now: &Moment<6, 3>, scene: &mut Scene) {

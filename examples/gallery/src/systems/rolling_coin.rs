@@ -68,7 +68,8 @@ impl Exhibit<6, 3, 4> for RollingCoin {
 
 impl RollingCoin {
     fn tilted(&self, state: &State<f64, 6>) -> Rotation3<f64> {
-        Rotation3::from_axis_angle(&Point::z_axis(), state.q[3]) * Rotation3::from_axis_angle(&Point::x_axis(), state.q[4])
+        Rotation3::from_axis_angle(&Point::z_axis(), state.q[3])
+            * Rotation3::from_axis_angle(&Point::x_axis(), state.q[4])
     }
 
     fn contact(&self, state: &State<f64, 6>) -> Point {

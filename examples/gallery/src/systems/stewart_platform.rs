@@ -65,7 +65,8 @@ impl Exhibit<25, 19, 5> for StewartPlatform {
             k,
             rest: 0.85,
         };
-        let start = platform.at_rest(Point::new(x, 0.0, 0.75 + z), UnitQuaternion::from_euler_angles(0.0, 0.0, twist));
+        let start = platform
+            .at_rest(Point::new(x, 0.0, 0.75 + z), UnitQuaternion::from_euler_angles(0.0, 0.0, twist));
         (platform, start)
     }
 
