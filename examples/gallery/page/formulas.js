@@ -16,7 +16,7 @@ function formula(text) {
 
 /// A label, an equation and a remark, each of which may be missing but the equation.
 function row(line) {
-  const [, label, rest] = line.trim().match(/^(?:([^:=(]{1,40}):\s+)?(.*)$/u);
+  const [, label, rest] = line.trim().match(/^(?:((?:[^:=([]|\[[^\]]*\])+):\s+)?(.*)$/u);
   const [, equation, remark] = rest.match(/^(.*?)(?:\s{3}\((.*)\))?$/u);
   const part = (kind, html) => (html ? `<span class="${kind}">${html}</span>` : "");
   return `<div class="row">${part("label", label && formula(label))}${part("equation", formula(equation))}${part("remark", remark && escaped(remark))}</div>`;

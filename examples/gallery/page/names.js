@@ -14,7 +14,7 @@ function escaped(text) {
 function pretty(name) {
   const [, base, indices] = name.match(/^([^[]*)(.*)$/);
   const [first, ...rest] = base.split("_");
-  const below = [...rest.map(word => GREEK[word] ?? word), ...[...indices.matchAll(/\d+/g)].map(([digit]) => +digit + 1)];
+  const below = [...rest.map(word => GREEK[word] ?? word), ...[...indices.matchAll(/\d+/g)].map(([digit]) => digit)];
   const letter = GREEK[first] ?? first;
   if ([...letter].length === 1) return `<i>${escaped(letter)}</i>` + (below.length ? `<sub>${escaped(below.join(" "))}</sub>` : "");
   return escaped([letter, ...below].join(" "));
