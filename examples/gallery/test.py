@@ -19,6 +19,8 @@ READY = "page.show && page.paints"
 LOSS = 1e-9
 # What is to be seen of a slider in coordinates and velocities at the start.
 SEEN = {
+    "bead": {"x_0": "s[0]"},
+    "polar-pendulum": {"theta_0": "s[0]", "w_0": "s[3]"},
     "double-pendulum": {"theta_1": "Math.atan2(s[0], -s[2])", "l_1": "Math.hypot(s[0], s[2])"},
     "chain": {"theta": "Math.atan2(s[25] - s[24], s[74] - s[75])"},
     "spherical-pendulum": {"v_0": "s[4]", "l": "Math.hypot(s[0], s[1], s[2])"},

@@ -1,5 +1,6 @@
 //! The systems that are shown, a file each.
 
+mod bead;
 mod carriage;
 mod chain;
 mod chaplygin_sleigh;
@@ -9,6 +10,7 @@ mod foucault_pendulum;
 mod heavy_top;
 mod henon_heiles;
 mod ions;
+mod polar_pendulum;
 mod race;
 mod robot_arm;
 mod rolling_ball;
@@ -68,9 +70,11 @@ where
 /// All of them, from pendulums to machines.
 pub fn all() -> Vec<Entry> {
     vec![
+        entry::<bead::Bead, _, _, _>("bead"),
         entry::<double_pendulum::DoublePendulum, _, _, _>("double-pendulum"),
         entry::<chain::Chain, _, _, _>("chain"),
         entry::<spherical_pendulum::SphericalPendulum, _, _, _>("spherical-pendulum"),
+        entry::<polar_pendulum::PolarPendulum, _, _, _>("polar-pendulum"),
         entry::<foucault_pendulum::FoucaultPendulum, _, _, _>("foucault-pendulum"),
         entry::<race::Race, _, _, _>("race"),
         entry::<rolling_cylinder::RollingCylinder, _, _, _>("rolling-cylinder"),
