@@ -206,7 +206,7 @@ function drawGrid(pen, [cx, cy], scale, width, height, paints) {
 function drawScales(pen, [, , , radius, force], scale, [width, height], arrows, paints) {
   const newton = (scale * radius) / force;
   const amount = nice((0.15 * width) / newton);
-  const names = { constraint: "of constraints", force: "other force" };
+  const names = { constraint: "of constraints", force: arrows.has("constraint") ? "of other forces" : "of forces" };
   let [x, y] = [14, height - STRIP / 2];
   pen.font = "13px system-ui, 'DejaVu Sans', sans-serif";
   [pen.textBaseline, pen.textAlign] = ["middle", "left"];

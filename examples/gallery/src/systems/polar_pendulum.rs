@@ -15,7 +15,7 @@ pub(super) struct PolarPendulum {
 }
 
 impl Exhibit<2, 0, 5> for PolarPendulum {
-    const TITLE: &'static str = "The same in angles";
+    const TITLE: &'static str = "Spherical pendulum in angles";
     const ABOUT: &'static str = "The spherical pendulum by two angles needs no constraint, and the derive sees that φ is cyclic: p_φ is \
         conserved. With that and the energy the bob moves between two heights, drawn as circles, which it touches in turn. \
         Milton (8.23)–(8.31).";

@@ -71,7 +71,7 @@ impl Exhibit<25, 19, 5> for StewartPlatform {
     }
 
     fn view(&self, _: &State<f64, 25>) -> View {
-        View::space(Point::z() * 0.42, 0.9, 8.0 * self.m)
+        View::space(Point::z() * 0.42, 0.9, 16.0 * self.m)
     }
 
     fn trails(&self, state: &State<f64, 25>) -> Vec<Point> {

@@ -42,7 +42,7 @@ impl Exhibit<6, 0, 3> for ThreeBodies {
 
     fn view(&self, state: &State<f64, 6>) -> View {
         let middle = xy(state.q.fixed_rows::<3>(0).mean(), state.q.fixed_rows::<3>(3).mean());
-        View::plane(middle, 0.9, 3.0)
+        View::plane(middle, 1.2, 4.0)
     }
 
     fn trails(&self, state: &State<f64, 6>) -> Vec<Point> {

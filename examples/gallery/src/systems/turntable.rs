@@ -39,7 +39,7 @@ impl Exhibit<3, 0, 5> for Turntable {
     }
 
     fn view(&self, state: &State<f64, 3>) -> View {
-        View::plane(Point::zeros(), 1.25_f64.max(state.q.norm() + APART), 6.0)
+        View::plane(Point::zeros(), 2.4_f64.max(state.q.norm() + APART), 10.0)
     }
 
     fn trails(&self, state: &State<f64, 3>) -> Vec<Point> {
