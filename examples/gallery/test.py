@@ -35,6 +35,7 @@ SEEN = {
     "heavy-top": {"theta_0": "Math.acos(s[2]/Math.hypot(s[0], s[1], s[2]))", "l": "Math.hypot(s[0], s[1], s[2])"},
     "flipping-body": {"s": "2*Math.hypot(s[10], s[11], s[12], s[13])"},
     "stewart-platform": {"x_0": "s[0]", "z_0": "s[2] - 0.75"},
+    "cart-pole": {"x_0": "s[0]", "theta_0": "s[1]"},
     "henon-heiles": {"y_0": "s[1]"},
 }
 

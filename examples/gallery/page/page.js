@@ -37,7 +37,8 @@ function choose({ card, values, at, speed, forces }) {
   element("speed").value = page.speed;
   element("forces").checked = forces;
   begin();
-  play(at === undefined);
+  const isCalm = matchMedia("(prefers-reduced-motion: reduce)").matches;
+  play(at === undefined && !isCalm);
   if (at !== undefined) goTo(at);
 }
 

@@ -2,6 +2,7 @@
 
 mod bead;
 mod carriage;
+mod cart_pole;
 mod chain;
 mod chaplygin_sleigh;
 mod double_pendulum;
@@ -88,6 +89,7 @@ pub fn all() -> Vec<Entry> {
         entry::<flipping_body::FlippingBody, _, _, _>("flipping-body"),
         entry::<stewart_platform::StewartPlatform, _, _, _>("stewart-platform"),
         entry::<robot_arm::RobotArm, _, _, _>("robot-arm"),
+        entry::<cart_pole::CartPole, _, _, _>("cart-pole"),
         entry::<henon_heiles::HenonHeiles, _, _, _>("henon-heiles"),
         entry::<three_bodies::ThreeBodies, _, _, _>("three-bodies"),
     ]

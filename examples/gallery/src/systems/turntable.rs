@@ -23,8 +23,8 @@ const APART: f64 = 1.25;
 
 impl Exhibit<3, 0, 5> for Turntable {
     const TITLE: &'static str = "Turning frame";
-    const ABOUT: &'static str = "A mass on a spring, seen from a frame that turns (left) and from outside (right). Green is the force \
-        of Coriolis, red, along the radius, the centrifugal force and the spring together. What is conserved is \
+    const ABOUT: &'static str = "A mass on a spring, seen from a frame that turns (left) and from outside (right). One arrow is the force \
+        of Coriolis, across the velocity, the other, along the radius, the centrifugal force and the spring together. What is conserved is \
         E = E₀ − L·Ω. Milton (8.43)–(8.57).";
     const KNOBS: &'static [Knob; 5] = &[
         knob("omega", "rate of the frame", "rad/s", [-4.0, 4.0], 1.0),
@@ -63,7 +63,7 @@ impl Exhibit<3, 0, 5> for Turntable {
         scene.spring(xy(APART, 0.0), self.outside(&now.state), 0.05);
         scene.ball(Paint::Body, 0.07, self.outside(&now.state));
         scene.force(bob, self.coriolis(&now.state));
-        scene.constraint_force(bob, self.centrifugal(&now.state) - self.k * r);
+        scene.force(bob, self.centrifugal(&now.state) - self.k * r);
     }
 }
 
