@@ -1,6 +1,5 @@
 //! A panel: what is drawn is kept until all of it is known, so that the legend stands above the axes and hides nothing.
 
-use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
@@ -125,11 +124,10 @@ impl Panel {
         let (wide, _) = area.dim_in_pixel();
         let middle = (wide as i32 / 2, 8 * UNIT);
         area.draw_text(&self.title, &text(TITLE, HPos::Center, VPos::Top), middle)?;
-        let (above, below) = area.split_vertically(32 * UNIT);
+        let (_, below) = area.split_vertically(32 * UNIT);
         let lines = self.legend(wide as i32 - 2 * MARGIN);
         let (legend, below) = below.split_vertically(lines.len() as i32 * LINE);
         draw_legend(&lines, &legend)?;
-        drop(above);
         match &self.bar {
             None => self.draw_axes(&below),
             Some(bar) => {
@@ -200,7 +198,7 @@ fn text(size: f64, h: HPos, v: VPos) -> TextStyle<'static> {
     TextStyle::from(("sans-serif", size)).pos(Pos::new(h, v))
 }
 
-fn draw_legend(lines: &[Vec<(i32, &Mark)>], area: &DrawingArea<super::Svg, Shift>) -> Result<()> {
+fn draw_legend(lines: &[Vec<(i32, &Mark)>], area: &Area) -> Result<()> {
     for (line, k) in lines.iter().zip(0..) {
         let middle = k * LINE + LINE / 2;
         for (start, mark) in line {

@@ -16,8 +16,8 @@ pub(super) struct Bead {
 
 impl Exhibit<2, 1, 3> for Bead {
     const TITLE: &'static str = "Bead on a wire";
-    const ABOUT: &'static str = "The wire is a constraint, and pushes across itself, by what the multiplier says: more than the \
-        weight where it is curved and the bead is fast.";
+    const ABOUT: &'static str = "The wire is a constraint, and pushes across itself, by what the multiplier \
+        says: more than the weight where it is curved and the bead is fast.";
     const KNOBS: &'static [Knob; 3] = &[
         knob("x_0", "where it is let go", "m", [-1.2, 1.2], 1.0),
         knob("b", "curvature of the wire", "1/m", [0.2, 3.0], 1.5),

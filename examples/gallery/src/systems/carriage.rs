@@ -22,9 +22,9 @@ pub(super) struct Carriage {
 
 impl Exhibit<2, 1, 5> for Carriage {
     const TITLE: &'static str = "Pendulum in a carriage";
-    const ABOUT: &'static str = "Seen from the carriage, which accelerates by A(t), a force −mA acts (green); the rod’s is red. With a \
-        steady A it hangs askew. Shaken close to its own frequency it swings up. Its energy here is not conserved. \
-        Milton (8.32)–(8.42).";
+    const ABOUT: &'static str = "Seen from the carriage, which accelerates by A(t), a force −mA acts \
+        (green); the rod’s is red. With a steady A it hangs askew. Shaken close to its own frequency it \
+        swings up. Its energy here is not conserved. Milton (8.32)–(8.42).";
     const KNOBS: &'static [Knob; 5] = &[
         knob("gain", "steady acceleration", "m/s²", [-10.0, 10.0], 2.0),
         knob("reach", "how far it is shaken", "m", [0.0, 0.5], 0.1),

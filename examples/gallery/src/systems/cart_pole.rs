@@ -30,8 +30,9 @@ const GAIN: [f64; 4] = [-3.1623, -42.9893, -4.4086, -9.9971];
 
 impl Exhibit<2, 0, 5> for CartPole {
     const TITLE: &'static str = "Pole on a cart";
-    const ABOUT: &'static str = "A feedback balances the pole in a steady wind, leaning against that; the green arrows are the wind and \
-        the push of the motor. Make the feedback weaker, and see when the pole falls.";
+    const ABOUT: &'static str = "A feedback balances the pole in a steady wind, leaning against that; the \
+        green arrows are the wind and the push of the motor. Make the feedback weaker, and see when the \
+        pole falls.";
     const KNOBS: &'static [Knob; 5] = &[
         knob("theta_0", "angle from the upright", "rad", [-0.9, 0.9], 0.45),
         knob("x_0", "where the cart starts", "m", [-1.0, 1.0], 0.5),

@@ -19,9 +19,10 @@ pub(super) struct Chain {
 
 impl Exhibit<100, 50, 4> for Chain {
     const TITLE: &'static str = "Chain of 50 rods";
-    const ABOUT: &'static str = "A hundred coordinates and fifty constraints. The derive solves for accelerations and multipliers \
-        while it compiles, from one end of the chain to the other, so that a step costs as much as the chain is long. \
-        The arrows are what the rods push each joint with, together.";
+    const ABOUT: &'static str = "A hundred coordinates and fifty constraints. The derive solves for \
+        accelerations and multipliers while it compiles, from one end of the chain to the other, so that a \
+        step costs as much as the chain is long. The arrows are what the rods push each joint with, \
+        together.";
     const KNOBS: &'static [Knob; 4] = &[
         knob("theta", "angle from hanging", "rad", [0.0, 3.0], 1.5),
         knob("beta", "how far it is bent", "rad", [-3.0, 3.0], 0.8),

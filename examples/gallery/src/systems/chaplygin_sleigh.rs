@@ -18,9 +18,9 @@ pub(super) struct ChaplyginSleigh {
 
 impl Exhibit<3, 1, 4> for ChaplyginSleigh {
     const TITLE: &'static str = "Chaplygin’s sleigh";
-    const ABOUT: &'static str = "It glides along its blade and cannot slip sideways. The energy is conserved, and yet all motions end \
-        alike: straight ahead with the centre of mass in front, as if there were friction. Let it start backwards: it turns \
-        around. The constraint is nonholonomic.";
+    const ABOUT: &'static str = "It glides along its blade and cannot slip sideways. The energy is \
+        conserved, and yet all motions end alike: straight ahead with the centre of mass in front, as if \
+        there were friction. Let it start backwards: it turns around. The constraint is nonholonomic.";
     const KNOBS: &'static [Knob; 4] = &[
         knob("v_0", "speed along the blade", "m/s", [-2.0, 2.0], -1.0),
         knob("w_0", "rate of turning", "rad/s", [-3.0, 3.0], 0.15),

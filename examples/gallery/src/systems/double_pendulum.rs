@@ -17,8 +17,9 @@ pub(super) struct DoublePendulum {
 
 impl Exhibit<4, 2, 7> for DoublePendulum {
     const TITLE: &'static str = "Double pendulum";
-    const ABOUT: &'static str = "Two bobs on rigid rods, in Cartesian coordinates: each rod is a constraint, and its multiplier is \
-        what the rod pulls with. Let go from high up it is chaos, yet the energy stays.";
+    const ABOUT: &'static str = "Two bobs on rigid rods, in Cartesian coordinates: each rod is a \
+        constraint, and its multiplier is what the rod pulls with. Let go from high up it is chaos, yet the \
+        energy stays.";
     const KNOBS: &'static [Knob; 7] = &[
         knob("theta_1", "first angle from hanging", "rad", [-3.1, 3.1], 2.0),
         knob("theta_2", "second angle from hanging", "rad", [-3.1, 3.1], 2.6),

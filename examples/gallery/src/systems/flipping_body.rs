@@ -23,9 +23,9 @@ pub(super) struct FlippingBody {
 
 impl Exhibit<7, 1, 5> for FlippingBody {
     const TITLE: &'static str = "Book thrown into the air";
-    const ABOUT: &'static str = "A free body spun about its middle axis turns over, again and again, while its angular momentum (the \
-        arrow) stands still. The closer the axis was aimed at, the longer it waits. About the other two axes it is steady: \
-        make the height the longest edge or the shortest.";
+    const ABOUT: &'static str = "A free body spun about its middle axis turns over, again and again, while \
+        its angular momentum (the arrow) stands still. The closer the axis was aimed at, the longer it \
+        waits. About the other two axes it is steady: make the height the longest edge or the shortest.";
     const KNOBS: &'static [Knob; 5] = &[
         knob("s", "spin, about the height", "rad/s", [0.0, 20.0], 9.0),
         knob("epsilon", "how far off the axis", "rad", [0.0, 0.5], 0.01),

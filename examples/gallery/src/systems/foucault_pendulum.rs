@@ -19,9 +19,10 @@ pub(super) struct FoucaultPendulum {
 
 impl Exhibit<3, 1, 4> for FoucaultPendulum {
     const TITLE: &'static str = "Foucault’s pendulum";
-    const ABOUT: &'static str = "A pendulum let go from rest in the frame of the Earth, which here turns in minutes. Its plane turns \
-        clockwise in the north by sin(latitude) of a turn a day, and not at all on the equator. The Lagrangian is that of \
-        a frame: no force of Coriolis is written anywhere. x points east, y north. Milton (8.44).";
+    const ABOUT: &'static str = "A pendulum let go from rest in the frame of the Earth, which here turns in \
+        minutes. Its plane turns clockwise in the north by sin(latitude) of a turn a day, and not at all on \
+        the equator. The Lagrangian is that of a frame: no force of Coriolis is written anywhere. x points \
+        east, y north. Milton (8.44).";
     const KNOBS: &'static [Knob; 4] = &[
         knob("latitude", "north of the equator", "rad", [-1.57, 1.57], 0.85),
         knob("rate", "how fast the Earth turns", "rad/s", [0.0, 0.3], 0.08),

@@ -22,9 +22,10 @@ pub(super) struct HeavyTop {
 
 impl Exhibit<7, 4, 5> for HeavyTop {
     const TITLE: &'static str = "Heavy top";
-    const ABOUT: &'static str = "A top on its tip, its pose a unit quaternion, the push of the floor a multiplier (red). It is let go \
-        leaning and nods while it precesses; give it the right turn and it does not nod; spun too slowly it falls \
-        under the floor. The angular momentum about its centre is blue-green.";
+    const ABOUT: &'static str = "A top on its tip, its pose a unit quaternion, the push of the floor a \
+        multiplier (red). It is let go leaning and nods while it precesses; give it the right turn and it \
+        does not nod; spun too slowly it falls under the floor. The angular momentum about its centre is \
+        blue-green.";
     const KNOBS: &'static [Knob; 5] = &[
         knob("s", "spin", "rad/s", [0.0, 200.0], 90.0),
         knob("theta_0", "angle from upright", "rad", [0.05, 1.5], 0.6),

@@ -11,9 +11,9 @@ pub(super) struct HenonHeiles;
 
 impl Exhibit<2, 0, 3> for HenonHeiles {
     const TITLE: &'static str = "Hénon and Heiles";
-    const ABOUT: &'static str = "A star in a galaxy, at x = 0 to start with. Its energy draws the line that it cannot cross; from 1/6 on \
-        it may leave. At a low energy its path fills a pattern, as if something else were conserved; closer to 1/6 most \
-        paths are chaos. (M. Hénon and C. Heiles, 1964.)";
+    const ABOUT: &'static str = "A star in a galaxy, at x = 0 to start with. Its energy draws the line that \
+        it cannot cross; from 1/6 on it may leave. At a low energy its path fills a pattern, as if \
+        something else were conserved; closer to 1/6 most paths are chaos. (M. Hénon and C. Heiles, 1964.)";
     const KNOBS: &'static [Knob; 3] = &[
         knob("E", "energy", "", [0.01, 0.166], 0.125),
         knob("y_0", "where it starts", "", [-0.45, 0.6], -0.1),

@@ -24,8 +24,9 @@ const PLACES: [f64; 15] = [1.4, 0.1, 0.0, -0.2, 0.7, 0.1, -1.5, -0.1, 0.0, 0.1, 
 
 impl Exhibit<15, 0, 4> for StirredIons {
     const TITLE: &'static str = "Ions in a stirred trap";
-    const ABOUT: &'static str = "Five ions repel each other in a trap that is longer in one direction and turns. Seen from the trap \
-        nothing depends on the time, and E = E₀ − Σ L·Ω is conserved; neither term is by itself. Milton (8.52), (8.53).";
+    const ABOUT: &'static str = "Five ions repel each other in a trap that is longer in one direction and \
+        turns. Seen from the trap nothing depends on the time, and E = E₀ − Σ L·Ω is conserved; neither \
+        term is by itself. Milton (8.52), (8.53).";
     const KNOBS: &'static [Knob; 4] = &[
         knob("omega", "rate of the trap", "rad/s", [0.0, 0.9], 0.3),
         knob("k", "repulsion", "J m", [0.1, 3.0], 1.0),

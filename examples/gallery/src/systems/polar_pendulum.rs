@@ -16,9 +16,9 @@ pub(super) struct PolarPendulum {
 
 impl Exhibit<2, 0, 5> for PolarPendulum {
     const TITLE: &'static str = "Spherical pendulum in angles";
-    const ABOUT: &'static str = "The spherical pendulum by two angles needs no constraint, and the derive sees that φ is cyclic: p_φ is \
-        conserved. With that and the energy the bob moves between two heights, drawn as circles, which it touches in turn. \
-        Milton (8.23)–(8.31).";
+    const ABOUT: &'static str = "The spherical pendulum by two angles needs no constraint, and the derive \
+        sees that φ is cyclic: p_φ is conserved. With that and the energy the bob moves between two \
+        heights, drawn as circles, which it touches in turn. Milton (8.23)–(8.31).";
     const KNOBS: &'static [Knob; 5] = &[
         knob("theta_0", "angle from hanging", "rad", [0.1, 2.8], 1.1),
         knob("w_0", "rate of turning", "rad/s", [0.3, 6.0], 1.4),

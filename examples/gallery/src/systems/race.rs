@@ -22,9 +22,9 @@ const APART: f64 = 2.4;
 
 impl Exhibit<6, 3, 5> for Race {
     const TITLE: &'static str = "Sphere, cylinder and hoop";
-    const ABOUT: &'static str = "They roll down inclines without slipping; ẍ is 5/7, 2/3 and 1/2 of g sin α, whatever their mass and \
-        radius. The multiplier of rolling is friction: it points up the slope, and is largest for the hoop. \
-        Milton (8.8)–(8.10).";
+    const ABOUT: &'static str = "They roll down inclines without slipping; ẍ is 5/7, 2/3 and 1/2 of g sin \
+        α, whatever their mass and radius. The multiplier of rolling is friction: it points up the slope, \
+        and is largest for the hoop. Milton (8.8)–(8.10).";
     const KNOBS: &'static [Knob; 5] = &[
         knob("alpha", "incline", "rad", [0.0, 0.5], 0.06),
         knob("v_0", "speed at the start, up the slope", "m/s", [0.0, 4.0], 1.5),

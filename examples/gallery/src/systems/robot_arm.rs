@@ -45,8 +45,9 @@ pub(super) struct RobotArm {
 
 impl Exhibit<6, 6, 4> for RobotArm {
     const TITLE: &'static str = "Robot arm, led by the hand";
-    const ABOUT: &'static str = "Six joints, and a hand that leads the tool around a circle, pointing down: six constraints that depend \
-        on time. Their multipliers are the force and the moments of the hand, which bears the arm, as its motors are off.";
+    const ABOUT: &'static str = "Six joints, and a hand that leads the tool around a circle, pointing down: \
+        six constraints that depend on time. Their multipliers are the force and the moments of the hand, \
+        which bears the arm, as its motors are off.";
     const KNOBS: &'static [Knob; 4] = &[
         knob("T", "time for a round", "s", [0.8, 6.0], 2.5),
         knob("R", "radius of the circle", "m", [0.02, 0.2], 0.15),

@@ -22,9 +22,9 @@ pub(super) struct RollingBall {
 
 impl Exhibit<7, 4, 5> for RollingBall {
     const TITLE: &'static str = "Ball on a turntable";
-    const ABOUT: &'static str = "A ball that rolls without slipping, V − a Ω×n = w n×r: nonholonomic, its orientation a unit \
-        quaternion. On a turntable it goes in circles at 2/7 of the table’s rate, and where the table is tilted these \
-        drift sideways, not down. Milton (8.4)–(8.7).";
+    const ABOUT: &'static str = "A ball that rolls without slipping, V − a Ω×n = w n×r: nonholonomic, its \
+        orientation a unit quaternion. On a turntable it goes in circles at 2/7 of the table’s rate, and \
+        where the table is tilted these drift sideways, not down. Milton (8.4)–(8.7).";
     const KNOBS: &'static [Knob; 5] = &[
         knob("w", "rate of the table", "rad/s", [-6.0, 6.0], 3.0),
         knob("alpha", "how far it is tilted", "rad", [0.0, 0.1], 0.01),

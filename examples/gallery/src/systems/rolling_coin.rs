@@ -23,8 +23,8 @@ pub(super) struct RollingCoin {
 
 impl Exhibit<6, 3, 4> for RollingCoin {
     const TITLE: &'static str = "Rolling coin";
-    const ABOUT: &'static str = "A coin whose lowest point is at rest: three constraints on six coordinates, two of them \
-        nonholonomic. Fast enough it stays up by itself, its path a row of loops.";
+    const ABOUT: &'static str = "A coin whose lowest point is at rest: three constraints on six \
+        coordinates, two of them nonholonomic. Fast enough it stays up by itself, its path a row of loops.";
     const KNOBS: &'static [Knob; 4] = &[
         knob("lean", "how far it leans", "rad", [-0.8, 0.8], 0.35),
         knob("w_r", "how fast it rolls", "rad/s", [0.0, 12.0], 6.0),

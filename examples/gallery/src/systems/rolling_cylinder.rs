@@ -22,8 +22,9 @@ const SPRING: f64 = 1.6;
 
 impl Exhibit<2, 1, 5> for RollingCylinder {
     const TITLE: &'static str = "Cylinder on a spring";
-    const ABOUT: &'static str = "Rolling is written with velocities, Ẋ − aφ̇ = 0; the derive finds out that it is the rate of X − aφ. \
-        The cylinder oscillates with ω² = 2k/3m, and friction turns around twice a period. Milton (8.4)–(8.7).";
+    const ABOUT: &'static str = "Rolling is written with velocities, Ẋ − aφ̇ = 0; the derive finds out that \
+        it is the rate of X − aφ. The cylinder oscillates with ω² = 2k/3m, and friction turns around twice \
+        a period. Milton (8.4)–(8.7).";
     const KNOBS: &'static [Knob; 5] = &[
         knob("X_0", "where it is let go", "m", [-0.9, 1.2], 0.9),
         knob("alpha", "incline", "rad", [0.0, 0.6], 0.2),

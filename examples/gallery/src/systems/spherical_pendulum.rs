@@ -17,9 +17,9 @@ pub(super) struct SphericalPendulum {
 
 impl Exhibit<3, 1, 5> for SphericalPendulum {
     const TITLE: &'static str = "Spherical pendulum";
-    const ABOUT: &'static str = "A bob on a string. It swings between two heights and the ellipse turns, by 3πab/4l² an orbit \
-        where it is small: try small angles. The red arrow is the tension, −λl; the string could not push. \
-        Milton (8.11)–(8.31).";
+    const ABOUT: &'static str = "A bob on a string. It swings between two heights and the ellipse turns, by \
+        3πab/4l² an orbit where it is small: try small angles. The red arrow is the tension, −λl; the \
+        string could not push. Milton (8.11)–(8.31).";
     const KNOBS: &'static [Knob; 5] = &[
         knob("theta_0", "angle from hanging", "rad", [0.05, 3.0], 1.1),
         knob("v_0", "speed sideways", "m/s", [0.0, 5.0], 1.2),

@@ -33,8 +33,9 @@ pub(super) struct StewartPlatform {
 
 impl Exhibit<25, 19, 5> for StewartPlatform {
     const TITLE: &'static str = "Stewart platform on springs";
-    const ABOUT: &'static str = "A plate on six legs that can stretch: 25 coordinates with 19 constraints, of which six degrees of freedom \
-        are left. That the legs end at the plate are the constraints, and the arrows what they push it with.";
+    const ABOUT: &'static str = "A plate on six legs that can stretch: 25 coordinates with 19 constraints, \
+        of which six degrees of freedom are left. That the legs end at the plate are the constraints, and \
+        the arrows what they push it with.";
     const KNOBS: &'static [Knob; 5] = &[
         knob("z_0", "how high it is lifted", "m", [-0.15, 0.3], 0.1),
         knob("x_0", "how far to the side", "m", [-0.2, 0.2], 0.1),

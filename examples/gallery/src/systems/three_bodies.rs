@@ -23,8 +23,9 @@ const MIDDLE: [f64; 2] = [-0.93240737, -0.86473146];
 
 impl Exhibit<6, 0, 3> for ThreeBodies {
     const TITLE: &'static str = "Three bodies on an eight";
-    const ABOUT: &'static str = "Three equal masses chase each other along one curve, by gravity alone. The motion is stable: a little \
-        push makes the eight drift and turn. With masses too different it falls apart.";
+    const ABOUT: &'static str = "Three equal masses chase each other along one curve, by gravity alone. The \
+        motion is stable: a little push makes the eight drift and turn. With masses too different it falls \
+        apart.";
     const KNOBS: &'static [Knob; 3] = &[
         knob("m_1", "mass of the first, to the others’", "", [0.9, 1.1], 1.0),
         knob("u", "push of the first along x", "", [-0.1, 0.1], 0.0),

@@ -23,9 +23,9 @@ const APART: f64 = 1.25;
 
 impl Exhibit<3, 0, 5> for Turntable {
     const TITLE: &'static str = "Turning frame";
-    const ABOUT: &'static str = "A mass on a spring, seen from a frame that turns (left) and from outside (right). One arrow is the force \
-        of Coriolis, across the velocity, the other, along the radius, the centrifugal force and the spring together. What is conserved is \
-        E = E₀ − L·Ω. Milton (8.43)–(8.57).";
+    const ABOUT: &'static str = "A mass on a spring, seen from a frame that turns (left) and from outside \
+        (right). One arrow is the force of Coriolis, across the velocity, the other, along the radius, the \
+        centrifugal force and the spring together. What is conserved is E = E₀ − L·Ω. Milton (8.43)–(8.57).";
     const KNOBS: &'static [Knob; 5] = &[
         knob("omega", "rate of the frame", "rad/s", [-4.0, 4.0], 1.0),
         knob("k", "stiffness of the spring", "N/m", [0.0, 10.0], 3.0),
