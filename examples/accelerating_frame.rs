@@ -7,7 +7,7 @@ mod picture;
 
 use lagrange_core::nalgebra::Vector3;
 use lagrange_core::prelude::*;
-use picture::{BLUE, GREY, Points, RED, Result};
+use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
 
 /// V(t): along x the carriage goes to and fro, along y it gains speed.
@@ -185,8 +185,7 @@ fn checks(moments: &[Moment]) -> Result<()> {
 }
 
 fn draw(moments: &[Moment], file: &std::path::Path) -> Result<()> {
-    let root = SVGBackend::new(file, (1100, 900)).into_drawing_area();
-    root.fill(&WHITE)?;
+    let root = picture::sheet(file, (1100, 900))?;
     let panels = root.split_evenly((2, 2));
     draw_in_the_carriage(moments, &panels[0])?;
     draw_from_the_ground(moments, &panels[1])?;
@@ -196,69 +195,58 @@ fn draw(moments: &[Moment], file: &std::path::Path) -> Result<()> {
     Ok(())
 }
 
-fn draw_in_the_carriage(moments: &[Moment], area: &picture::Area<'_>) -> Result<()> {
+fn draw_in_the_carriage(moments: &[Moment], area: &picture::Area) -> Result<()> {
     let path: Points = moments.iter().take(801).map(|(_, s)| (s[0].q[0], s[0].q[1])).collect();
-    let mut ranges = picture::bounds(&[&path]);
-    // Room for the legend above.
-    ranges[1].end += 0.4;
-    let ranges = picture::to_scale(ranges, area.dim_in_pixel());
     let title = "In the carriage, 20 s: it hangs back";
-    let mut chart = picture::panel(area, title, ["x in m", "y in m"], ranges)?;
-    picture::curve(&mut chart, "mass", BLUE, &path)?;
-    picture::dots(&mut chart, "start", RED, &vec![path[0]])?;
+    let mut chart = Panel::new(title, ["x in m", "y in m"]).equal_axes();
+    chart.curve("mass", BLUE, &path);
+    chart.dots("start", RED, &vec![path[0]]);
     let still = -CARRIAGE.gain * M / SPRING.k;
-    picture::dots(&mut chart, "where k r = −m A_y", GREY, &vec![(0.0, still)])?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    chart.dots("where k r = −m A_y", GREY, &vec![(0.0, still)]);
+    chart.draw(area)
 }
 
-fn draw_from_the_ground(moments: &[Moment], area: &picture::Area<'_>) -> Result<()> {
+fn draw_from_the_ground(moments: &[Moment], area: &picture::Area) -> Result<()> {
     let first = || moments.iter().take(161);
     let carriage: Points = first().map(|(t, _)| CARRIAGE.place(*t)).map(|r| (r[0], r[1])).collect();
     let mass: Points = first().map(|(t, s)| CARRIAGE.place(*t) + s[0].q).map(|r| (r[0], r[1])).collect();
-    let mut chart = picture::panel(
-        area,
-        "From the ground, 4 s, with the spring",
-        ["x in m", "y in m"],
-        picture::to_scale([-1.5..2.5, -0.3..3.6], area.dim_in_pixel()),
-    )?;
-    picture::curve(&mut chart, "carriage", GREY, &carriage)?;
-    picture::curve(&mut chart, "mass", BLUE, &mass)?;
+    let mut chart = Panel::new("From the ground, 4 s, with the spring", ["x in m", "y in m"]).equal_axes();
+    chart.curve("carriage", GREY, &carriage);
+    chart.curve("mass", BLUE, &mass);
     for i in (0..=160).step_by(10) {
-        chart.draw_series([PathElement::new([carriage[i], mass[i]], RED.stroke_width(1))])?;
+        chart.line([carriage[i], mass[i]], RED.stroke_width(1));
     }
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    chart.draw(area)
 }
 
 /// The three motions take turns, or one would hide the others.
-fn draw_time(moments: &[Moment], area: &picture::Area<'_>) -> Result<()> {
+fn draw_time(moments: &[Moment], area: &picture::Area) -> Result<()> {
     let curve: Points = (0..=800).map(|i| f64::from(i) / 40.0).map(|t| (t, exact(t)[0])).collect();
     let title = "x in the carriage, from three Lagrangians";
-    let mut chart = picture::panel(area, title, ["t in s", "x in m"], [-0.4..20.4, -1.2..2.2])?;
-    picture::curve(&mut chart, "driven oscillation, exact", GREY, &curve)?;
+    let mut chart = Panel::new(title, ["t in s", "x in m"]);
+    chart.curve("driven oscillation, exact", GREY, &curve);
     for (index, (name, color)) in [("L₀", BLUE), ("(8.36)", RED), ("(8.40)", BLACK)].into_iter().enumerate()
     {
         let every = moments.iter().take(801).skip(8 * index).step_by(24);
         let points: Points = every.map(|(t, s)| (*t, s[index].q[0])).collect();
-        picture::dots(&mut chart, name, color, &points)?;
+        chart.dots(name, color, &points);
     }
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    chart.draw(area)
 }
 
-fn draw_energies(moments: &[Moment], area: &picture::Area<'_>) -> Result<()> {
+fn draw_energies(moments: &[Moment], area: &picture::Area) -> Result<()> {
     let of = |index: usize| -> Points {
         moments.iter().take(401).map(|(t, states)| (*t, energies(states)[index])).collect()
     };
     let all = [of(0), of(1), of(2)];
-    let mut ranges = picture::bounds(&[&all[0], &all[1], &all[2]]);
-    ranges[1].end += 3.0;
     let title = "Three energies E = p·v − L";
-    let mut chart = picture::panel(area, title, ["t in s", "E in J"], ranges)?;
+    let mut chart = Panel::new(title, ["t in s", "E in J"]);
     for (points, (name, color)) in all.iter().zip([
         ("L₀: m/2 v² − m/2 V² + U", BLUE),
         ("(8.36): m/2 v² + U", RED),
         ("(8.40): m/2 v² + U + m r·A", BLACK),
     ]) {
-        picture::curve(&mut chart, name, color, points)?;
+        chart.curve(name, color, points);
     }
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    chart.draw(area)
 }

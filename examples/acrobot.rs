@@ -13,7 +13,7 @@ use std::f64::consts::{PI, TAU};
 
 use lagrange_core::nalgebra::{DMatrix, Matrix4, RowVector4, Vector4};
 use lagrange_core::prelude::*;
-use picture::{BLUE, GREY, Points, RED, Result};
+use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
 
 /// Two uniform rods; `theta` is the first one's angle from hanging, `phi` that of the second to the first.
@@ -159,43 +159,35 @@ fn report(record: &Record) -> Result<()> {
 }
 
 fn draw(acrobot: &Acrobot, controller: &Controller, record: &Record, file: &std::path::Path) -> Result<()> {
-    let root = SVGBackend::new(file, (1100, 950)).into_drawing_area();
-    root.fill(&WHITE)?;
+    let root = picture::sheet(file, (1100, 950))?;
     let panels = root.split_evenly((2, 2));
     draw_poses(acrobot, record, &panels[0])?;
     let angle = |i: usize| record.states.iter().map(|state| (state.t, state.q[i])).collect::<Points>();
     draw_two(&panels[1], ["Swung up, and balanced", "angles in rad"], [("θ", &angle(0)), ("φ", &angle(1))])?;
     let top: Points = vec![(0.0, controller.energy), (END, controller.energy)];
     draw_two(&panels[2], ["Its energy", "E in J"], [("at the top", &top), ("E", &record.energies)])?;
-    let mut chart = picture::panel(
-        &panels[3],
-        "The torque at the elbow",
-        ["t in s", "u in N m"],
-        picture::bounds(&[&record.torques]),
-    )?;
-    picture::curve(&mut chart, "u", BLUE, &record.torques)?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)?;
+    let mut chart = Panel::new("The torque at the elbow", ["t in s", "u in N m"]);
+    chart.curve("u", BLUE, &record.torques);
+    chart.draw(&panels[3])?;
     root.present()?;
     Ok(())
 }
 
 fn draw_two(
-    area: &picture::Area<'_>,
+    area: &picture::Area,
     [title, name]: [&str; 2],
     [first, second]: [(&str, &Points); 2],
 ) -> Result<()> {
-    let ranges = picture::bounds(&[first.1, second.1]);
-    let mut chart = picture::panel(area, title, ["t in s", name], ranges)?;
-    picture::curve(&mut chart, first.0, RED, first.1)?;
-    picture::curve(&mut chart, second.0, BLUE, second.1)?;
-    picture::legend(&mut chart, SeriesLabelPosition::MiddleRight)
+    let mut chart = Panel::new(title, ["t in s", name]);
+    chart.curve(first.0, RED, first.1);
+    chart.curve(second.0, BLUE, second.1);
+    chart.draw(area)
 }
 
 /// The links at moments before it is caught, darker the later, and the way of the tip.
-fn draw_poses(acrobot: &Acrobot, record: &Record, area: &picture::Area<'_>) -> Result<()> {
+fn draw_poses(acrobot: &Acrobot, record: &Record, area: &picture::Area) -> Result<()> {
     let [l, k] = acrobot.l;
-    let ranges = picture::to_scale([-2.1..2.1, -2.1..2.1], area.dim_in_pixel());
-    let mut chart = picture::panel(area, "The last second before the top", ["x in m", "y in m"], ranges)?;
+    let mut chart = Panel::new("The last second before the top", ["x in m", "y in m"]).equal_axes();
     let caught = record.caught.ok_or("it was not caught")?;
     let mut tips = Points::new();
     let shown = record.states.iter().filter(|state| (caught - 1.0..caught + 1.5).contains(&state.t));
@@ -206,9 +198,9 @@ fn draw_poses(acrobot: &Acrobot, record: &Record, area: &picture::Area<'_>) -> R
         tips.push(tip);
         if tick % 10 == 0 {
             let style = GREY.mix(0.2 + 0.8 * tick as f64 / 250.0).stroke_width(2);
-            chart.draw_series(LineSeries::new([(0.0, 0.0), elbow, tip], style))?;
+            chart.line([(0.0, 0.0), elbow, tip], style);
         }
     }
-    picture::curve(&mut chart, "tip", BLUE, &tips)?;
-    picture::legend(&mut chart, SeriesLabelPosition::LowerRight)
+    chart.curve("tip", BLUE, &tips);
+    chart.draw(area)
 }

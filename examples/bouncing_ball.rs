@@ -7,7 +7,7 @@
 mod picture;
 
 use lagrange_core::{Ending, Journey, prelude::*};
-use picture::{BLUE, GREY, Points, RED, Result};
+use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
 
 /// In the air.
@@ -110,8 +110,7 @@ fn series(n: i32) -> f64 {
 }
 
 fn draw(journey: &Journey<f64>, bounces: &[Bounce], file: &std::path::Path) -> Result<()> {
-    let root = SVGBackend::new(file, (1100, 900)).into_drawing_area();
-    root.fill(&WHITE)?;
+    let root = picture::sheet(file, (1100, 900))?;
     let panels = root.split_evenly((2, 2));
     let [mut flight, mut speed, mut energy] = [const { Points::new() }; 3];
     for sample in journey.samples(3000) {
@@ -120,29 +119,27 @@ fn draw(journey: &Journey<f64>, bounces: &[Bounce], file: &std::path::Path) -> R
         speed.push((sample.time(), sample.velocity("y")?));
         energy.push((sample.time(), sample.energy()));
     }
-    let ranges = picture::to_scale(picture::bounds(&[&flight]), panels[0].dim_in_pixel());
-    let mut chart = picture::panel(&panels[0], "The way of the ball", ["x in m", "y in m"], ranges)?;
-    picture::curve(&mut chart, "ball", BLUE, &flight)?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)?;
+    let mut chart = Panel::new("The way of the ball", ["x in m", "y in m"]).equal_axes();
+    chart.curve("ball", BLUE, &flight);
+    chart.draw(&panels[0])?;
     draw_one(&panels[1], "Its velocity jumps", ["t in s", "ẏ in m/s"], ("ẏ", RED, &speed))?;
     draw_one(&panels[2], "Its energy", ["t in s", "E in J"], ("E", BLUE, &energy))?;
     let off: Points = (1..).zip(bounces).map(|(k, bounce)| (f64::from(k), bounce.2 * 1e15)).collect();
     let title = "Times off the geometric series";
-    let mut chart =
-        picture::panel(&panels[3], title, ["bounce", "|Δt| in 1e-15 s"], picture::bounds(&[&off]))?;
-    picture::dots(&mut chart, "difference", GREY, &off)?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperLeft)?;
+    let mut chart = Panel::new(title, ["bounce", "|Δt| in 10⁻¹⁵ s"]);
+    chart.dots("difference", GREY, &off);
+    chart.draw(&panels[3])?;
     root.present()?;
     Ok(())
 }
 
 fn draw_one(
-    area: &picture::Area<'_>,
+    area: &picture::Area,
     title: &str,
     names: [&str; 2],
     (name, color, points): (&str, RGBColor, &Points),
 ) -> Result<()> {
-    let mut chart = picture::panel(area, title, names, picture::bounds(&[points]))?;
-    picture::curve(&mut chart, name, color, points)?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    let mut chart = Panel::new(title, names);
+    chart.curve(name, color, points);
+    chart.draw(area)
 }

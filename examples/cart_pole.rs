@@ -8,7 +8,7 @@ mod picture;
 
 use lagrange_core::nalgebra::{Complex, DMatrix, DVector, Vector4};
 use lagrange_core::{Linearization, prelude::*};
-use picture::{BLUE, GREY, Points, RED, Result};
+use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
 
 /// θ is measured from the upright.
@@ -124,8 +124,7 @@ fn draw(
     rest: &State<f64, 2>,
     file: &std::path::Path,
 ) -> Result<()> {
-    let root = SVGBackend::new(file, (1100, 950)).into_drawing_area();
-    root.fill(&WHITE)?;
+    let root = picture::sheet(file, (1100, 950))?;
     let panels = root.split_evenly((2, 2));
     draw_poses(path, &panels[0])?;
     draw_motion(path, closed, rest, &panels[1])?;
@@ -136,9 +135,8 @@ fn draw(
 }
 
 /// Cart and pole at moments of the first two seconds.
-fn draw_poses(path: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
-    let ranges = picture::to_scale([-0.1..1.5, -0.15..0.75], area.dim_in_pixel());
-    let mut chart = picture::panel(area, "Cart and pole, the first 2 s", ["x in m", "y in m"], ranges)?;
+fn draw_poses(path: &Path<'_>, area: &picture::Area) -> Result<()> {
+    let mut chart = Panel::new("Cart and pole, the first 2 s", ["x in m", "y in m"]).equal_axes();
     let mut bobs = Points::new();
     for step in 0..=200 {
         let s = *path.at(f64::from(step) * 0.01)?.state();
@@ -146,19 +144,19 @@ fn draw_poses(path: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
         bobs.push(bob);
         if step % 20 == 0 {
             let style = GREY.mix(0.3 + 0.7 * f64::from(step) / 200.0).stroke_width(2);
-            chart.draw_series(LineSeries::new([cart, bob], style))?;
+            chart.line([cart, bob], style);
         }
     }
-    picture::curve(&mut chart, "bob", BLUE, &bobs)?;
-    picture::dots(&mut chart, "start", RED, &vec![bobs[0]])?;
-    picture::legend(&mut chart, SeriesLabelPosition::LowerRight)
+    chart.curve("bob", BLUE, &bobs);
+    chart.dots("start", RED, &vec![bobs[0]]);
+    chart.draw(area)
 }
 
 fn draw_motion(
     path: &Path<'_>,
     closed: &Linearization<f64>,
     rest: &State<f64, 2>,
-    area: &picture::Area<'_>,
+    area: &picture::Area,
 ) -> Result<()> {
     let start = *path.start().state();
     let mut curves = [const { Points::new() }; 4];
@@ -169,42 +167,40 @@ fn draw_motion(
         curves.iter_mut().zip(values).for_each(|(curve, value)| curve.push((s.t, value)));
     }
     let [x, theta, linear_x, linear_theta] = &curves;
-    let ranges = picture::bounds(&[x, theta, linear_x, linear_theta]);
     let title = "Back to the balance: the motion, and the linear system";
-    let mut chart = picture::panel(area, title, ["t in s", "x in m, δθ in rad"], ranges)?;
-    picture::curve(&mut chart, "linear", GREY, linear_x)?;
-    chart.draw_series(LineSeries::new(linear_theta.iter().copied(), GREY.stroke_width(2)))?;
-    picture::curve(&mut chart, "x", BLUE, x)?;
-    picture::curve(&mut chart, "δθ", RED, theta)?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    let mut chart = Panel::new(title, ["t in s", "x in m, δθ in rad"]);
+    chart.curve("linear", GREY, linear_x);
+    chart.line(linear_theta.iter().copied(), GREY.stroke_width(2));
+    chart.curve("x", BLUE, x);
+    chart.curve("δθ", RED, theta);
+    chart.draw(area)
 }
 
-fn draw_control(path: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_control(path: &Path<'_>, area: &picture::Area) -> Result<()> {
     let mut control = Points::new();
     for sample in path.samples(800) {
         control.push((sample.time(), sample.observable("u")?));
     }
     let title = "The force on the cart: it ends at −0.5 N against the wind";
-    let mut chart = picture::panel(area, title, ["t in s", "u in N"], picture::bounds(&[&control]))?;
-    picture::curve(&mut chart, "u", BLUE, &control)?;
-    picture::legend(&mut chart, SeriesLabelPosition::LowerRight)
+    let mut chart = Panel::new(title, ["t in s", "u in N"]);
+    chart.curve("u", BLUE, &control);
+    chart.draw(area)
 }
 
 fn draw_eigenvalues(
     open: &Linearization<f64>,
     closed: &Linearization<f64>,
-    area: &picture::Area<'_>,
+    area: &picture::Area,
 ) -> Result<()> {
     let points = |near: &Linearization<f64>| -> Result<Points> {
         Ok(near.eigenvalues()?.iter().map(|s| (s.re, s.im)).collect())
     };
     let (open, closed) = (points(open)?, points(closed)?);
-    let ranges = picture::to_scale(picture::bounds(&[&open, &closed]), area.dim_in_pixel());
-    let axis: Points = vec![(0.0, ranges[1].start), (0.0, ranges[1].end)];
+    let axis: Points = vec![(0.0, -1.5), (0.0, 1.5)];
     let title = "Eigenvalues: left of the axis is stable";
-    let mut chart = picture::panel(area, title, ["Re s in 1/s", "Im s in 1/s"], ranges)?;
-    picture::curve(&mut chart, "Re s = 0", GREY, &axis)?;
-    picture::dots(&mut chart, "without feedback", RED, &open)?;
-    picture::dots(&mut chart, "with feedback", BLUE, &closed)?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperLeft)
+    let mut chart = Panel::new(title, ["Re s in 1/s", "Im s in 1/s"]).equal_axes();
+    chart.curve("Re s = 0", GREY, &axis);
+    chart.dots("without feedback", RED, &open);
+    chart.dots("with feedback", BLUE, &closed);
+    chart.draw(area)
 }

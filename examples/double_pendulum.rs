@@ -8,7 +8,7 @@ use std::f64::consts::FRAC_PI_2;
 use std::time::Instant;
 
 use lagrange_core::{Method, prelude::*};
-use picture::{BLUE, GREY, Points, RED, Result};
+use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
 
 /// Two bobs of mass m on rods of length l, by the rods' angles from the vertical.
@@ -88,9 +88,8 @@ fn measure(name: &str, method: impl Method<DoublePendulum, 2, 0> + Copy) -> Resu
 }
 
 fn draw(taylor: &Path<'_>, other: &Path<'_>, file: &std::path::Path) -> Result<()> {
-    let root = SVGBackend::new(file, (1150, 560)).into_drawing_area();
-    root.fill(&WHITE)?;
-    let (left, right) = root.split_horizontally(520);
+    let root = picture::sheet(file, (1150, 560))?;
+    let (left, right) = root.split_horizontally(picture::px(520));
     draw_motion(taylor, &left)?;
     let right = right.split_evenly((2, 1));
     draw_steps(taylor, other, &right[0])?;
@@ -105,21 +104,19 @@ fn bobs(state: &State<f64, 2>) -> [(f64, f64); 2] {
     [(a.0, -a.1), (a.0 + b.0, -a.1 - b.1)]
 }
 
-fn draw_motion(path: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_motion(path: &Path<'_>, area: &picture::Area) -> Result<()> {
     let moments: Vec<_> = path.samples(2001).map(|sample| bobs(sample.state())).collect();
     let of = |k: usize| -> Points { moments.iter().map(|bobs| bobs[k]).collect() };
     let (upper, lower) = (of(0), of(1));
-    let ranges = picture::with_room_above(picture::bounds(&[&upper, &lower]), 0.3);
-    let ranges = picture::to_scale(ranges, area.dim_in_pixel());
-    let mut chart = picture::panel(area, "The bobs in 10 s", ["x in m", "y in m"], ranges)?;
-    picture::curve(&mut chart, "upper bob", GREY, &upper)?;
-    picture::curve(&mut chart, "lower bob", BLUE, &lower)?;
+    let mut chart = Panel::new("The bobs in 10 s", ["x in m", "y in m"]).equal_axes();
+    chart.curve("upper bob", GREY, &upper);
+    chart.curve("lower bob", BLUE, &lower);
     let rods = |k: usize| [(0.0, 0.0), moments[k][0], moments[k][1]];
     for k in [0, 2000] {
-        chart.draw_series(LineSeries::new(rods(k), BLACK.stroke_width(3)))?;
+        chart.line(rods(k), BLACK.stroke_width(3));
     }
-    picture::dots(&mut chart, "at the start and at the end", RED, &[rods(0), rods(2000)].concat())?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    chart.dots("at the start and at the end", RED, &[rods(0), rods(2000)].concat());
+    chart.draw(area)
 }
 
 /// In ms.
@@ -128,13 +125,12 @@ fn steps(path: &Path<'_>) -> Points {
     times.windows(2).map(|pair| (pair[0], 1e3 * (pair[1] - pair[0]))).collect()
 }
 
-fn draw_steps(taylor: &Path<'_>, other: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_steps(taylor: &Path<'_>, other: &Path<'_>, area: &picture::Area) -> Result<()> {
     let (ours, theirs) = (steps(taylor), steps(other));
-    let ranges = picture::with_room_above(picture::bounds(&[&ours, &theirs]), 0.3);
-    let mut chart = picture::panel(area, "Steps", ["t in s", "length in ms"], ranges)?;
-    picture::curve(&mut chart, &format!("Taylor: {}", ours.len()), BLUE, &ours)?;
-    picture::curve(&mut chart, &format!("Dop853, tolerance 1e-15: {}", theirs.len()), RED, &theirs)?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    let mut chart = Panel::new("Steps", ["t in s", "length in ms"]);
+    chart.curve(&format!("Taylor: {}", ours.len()), BLUE, &ours);
+    chart.curve(&format!("Dop853, tolerance 10⁻¹⁵: {}", theirs.len()), RED, &theirs);
+    chart.draw(area)
 }
 
 /// In 10⁻¹³ J.
@@ -143,11 +139,10 @@ fn gained(path: &Path<'_>) -> Points {
     path.steps().map(|sample| (sample.time(), 1e13 * (sample.energy() - before))).collect()
 }
 
-fn draw_energy(taylor: &Path<'_>, other: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_energy(taylor: &Path<'_>, other: &Path<'_>, area: &picture::Area) -> Result<()> {
     let (ours, theirs) = (gained(taylor), gained(other));
-    let ranges = picture::with_room_above(picture::bounds(&[&ours, &theirs]), 0.3);
-    let mut chart = picture::panel(area, "Energy gained", ["t in s", "in 1e-13 J"], ranges)?;
-    picture::curve(&mut chart, "Dop853, tolerance 1e-15", RED, &theirs)?;
-    picture::curve(&mut chart, "Taylor", BLUE, &ours)?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    let mut chart = Panel::new("Energy gained", ["t in s", "in 10⁻¹³ J"]);
+    chart.curve("Dop853, tolerance 10⁻¹⁵", RED, &theirs);
+    chart.curve("Taylor", BLUE, &ours);
+    chart.draw(area)
 }

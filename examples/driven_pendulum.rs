@@ -9,7 +9,7 @@ mod picture;
 use std::f64::consts::TAU;
 
 use lagrange_core::prelude::*;
-use picture::{BLUE, GREY, Points, RED, Result};
+use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
 
 #[derive(Lagrangian)]
@@ -59,9 +59,8 @@ fn period(velocities: &[f64]) -> Option<usize> {
 }
 
 fn draw(file: &std::path::Path) -> Result<()> {
-    let root = SVGBackend::new(file, (1100, 900)).into_drawing_area();
-    root.fill(&WHITE)?;
-    let (upper, lower) = root.split_vertically(450);
+    let root = picture::sheet(file, (1100, 900))?;
+    let (upper, lower) = root.split_vertically(picture::px(450));
     draw_range(&upper, "All of it", 0.95..1.5, BLUE)?;
     let panels = lower.split_evenly((1, 2));
     draw_range(&panels[0], "The first doublings", 1.06..1.09, RED)?;
@@ -70,26 +69,20 @@ fn draw(file: &std::path::Path) -> Result<()> {
     Ok(())
 }
 
-fn draw_range(
-    area: &picture::Area<'_>,
-    title: &str,
-    range: std::ops::Range<f64>,
-    color: RGBColor,
-) -> Result<()> {
+fn draw_range(area: &picture::Area, title: &str, range: std::ops::Range<f64>, color: RGBColor) -> Result<()> {
     let mut points = Points::new();
     for k in 0..=240 {
         let drive = range.start + (range.end - range.start) * f64::from(k) / 240.0;
         points.extend(stroboscope(drive)?.into_iter().map(|v| (drive, v)));
     }
-    let mut chart = picture::panel(area, title, ["g", "θ̇ at t = 2πk/ω"], picture::bounds(&[&points]))?;
-    chart.draw_series(points.iter().map(|&at| Circle::new(at, 1, color.filled())))?;
-    Ok(())
+    let mut chart = Panel::new(title, ["g", "θ̇ at t = 2πk/ω"]);
+    chart.specks(1, color, points);
+    chart.draw(area)
 }
 
 /// Before and after the first doubling, with where they are looked at.
-fn draw_orbits(area: &picture::Area<'_>) -> Result<()> {
-    let ranges = picture::to_scale([-3.5..3.5, -3.0..3.0], area.dim_in_pixel());
-    let mut chart = picture::panel(area, "Before and after one becomes two", ["θ", "θ̇"], ranges)?;
+fn draw_orbits(area: &picture::Area) -> Result<()> {
+    let mut chart = Panel::new("Before and after one becomes two", ["θ", "θ̇"]).equal_axes();
     let mut seen = Points::new();
     for (drive, color) in [(1.06, GREY), (1.075, BLUE)] {
         let pendulum = Driven { quality: 2.0, omega: OMEGA, drive };
@@ -100,9 +93,9 @@ fn draw_orbits(area: &picture::Area<'_>) -> Result<()> {
         let at = |t: f64| path.at(t).map(|sample| (sample.state().q[0] - TAU * turns, sample.state().v[0]));
         let times = (0..=400).map(|k| start + 2.0 * TAU / OMEGA * f64::from(k) / 400.0);
         let orbit: std::result::Result<Points, Error> = times.map(at).collect();
-        picture::curve(&mut chart, &format!("g = {drive}"), color, &orbit?)?;
+        chart.curve(&format!("g = {drive}"), color, &orbit?);
         seen.extend([at(start)?, at(start + TAU / OMEGA)?]);
     }
-    picture::dots(&mut chart, "looked at", RED, &seen)?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    chart.dots("looked at", RED, &seen);
+    chart.draw(area)
 }

@@ -11,7 +11,7 @@ use std::time::Instant;
 
 use lagrange_core::{Ending, prelude::*};
 use lagrange_core::{Member, Outcome};
-use picture::{BLUE, GREY, Points, RED, Result};
+use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
 
 #[derive(Lagrangian, Clone, Copy)]
@@ -91,9 +91,8 @@ fn report(outcome: &Outcome<f64, 2>, seconds: f64) {
 }
 
 fn draw(outcome: &Outcome<f64, 2>, file: &std::path::Path) -> Result<()> {
-    let root = SVGBackend::new(file, (1500, 750)).into_drawing_area();
-    root.fill(&WHITE)?;
-    let (left, right) = root.split_horizontally(750);
+    let root = picture::sheet(file, (1500, 750))?;
+    let (left, right) = root.split_horizontally(picture::px(750));
     draw_map(outcome, &left)?;
     draw_decay(outcome, &right)?;
     root.present()?;
@@ -101,21 +100,21 @@ fn draw(outcome: &Outcome<f64, 2>, file: &std::path::Path) -> Result<()> {
 }
 
 /// Each member as a square, the darker the later it flips.
-fn draw_map(outcome: &Outcome<f64, 2>, area: &picture::Area<'_>) -> Result<()> {
-    let ranges = picture::to_scale([-PI..PI, -PI..PI], area.dim_in_pixel());
-    let mut chart = picture::panel(
-        area,
-        "Let go at rest: light flips at once, dark late, white not in 10 s",
+fn draw_map(outcome: &Outcome<f64, 2>, area: &picture::Area) -> Result<()> {
+    let mut chart = Panel::new(
+        "Let go at rest: when it flips; white not in 10 s",
         ["upper angle a in rad", "lower angle b in rad"],
-        ranges,
-    )?;
-    let half = PI / SIDE as f64;
-    let squares = outcome.members().iter().filter_map(|member| {
-        let ([a, b], part) = (angles(member.index), flip(member)? / END);
-        let color = HSLColor(0.62 - 0.5 * (1.0 - part), 0.7, 0.75 - 0.55 * part);
-        Some(Rectangle::new([(a - half, b - half), (a + half, b + half)], color.filled()))
-    });
-    chart.draw_series(squares)?;
+    )
+    .equal_axes();
+    // A little larger, or there would be seams.
+    let half = 1.04 * PI / SIDE as f64;
+    for member in outcome.members() {
+        if let ([a, b], Some(t)) = (angles(member.index), flip(member)) {
+            let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+            chart.face(corners.map(|(x, y)| (a + half * x, b + half * y)), late(t));
+        }
+    }
+    chart.colour_bar("flips at, in s", 0.0..END, late);
     let (mut upper, mut lower) = (Points::new(), Points::new());
     for k in -500..=500 {
         let a = f64::from(k) / 500.0 * (1.0_f64 / 3.0).acos();
@@ -123,17 +122,22 @@ fn draw_map(outcome: &Outcome<f64, 2>, area: &picture::Area<'_>) -> Result<()> {
         upper.push((a, b));
         lower.push((a, -b));
     }
-    picture::curve(
-        &mut chart,
+    chart.curve(
         "no flip inside: 3 cos a + cos b > 2",
         RED,
         &upper.into_iter().chain(lower.into_iter().rev()).collect(),
-    )?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperMiddle)
+    );
+    chart.draw(area)
+}
+
+/// The darker the later.
+fn late(t: f64) -> RGBAColor {
+    let part = t / END;
+    HSLColor(0.62 - 0.5 * (1.0 - part), 0.7, 0.75 - 0.55 * part).to_rgba()
 }
 
 /// How many have not flipped yet.
-fn draw_decay(outcome: &Outcome<f64, 2>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_decay(outcome: &Outcome<f64, 2>, area: &picture::Area) -> Result<()> {
     let able: Vec<_> = outcome.members().iter().filter(|member| may_flip(angles(member.index))).collect();
     let left = |t: f64| able.iter().filter(|member| flip(member).is_none_or(|flip| flip > t)).count();
     let share: Points = (0..=400)
@@ -141,15 +145,9 @@ fn draw_decay(outcome: &Outcome<f64, 2>, area: &picture::Area<'_>) -> Result<()>
         .map(|t| (t, left(t) as f64 / able.len() as f64))
         .collect();
     let none: Points = vec![(0.0, 0.0), (END, 0.0)];
-    let ranges = picture::bounds(&[&share, &none]);
-    let mut chart = picture::panel(
-        area,
-        "Those with the energy to flip",
-        ["t in s", "share that has not flipped"],
-        ranges,
-    )?;
-    picture::curve(&mut chart, "not flipped", BLUE, &share)?;
-    picture::curve(&mut chart, "none left", GREY, &none)?;
-    picture::dots(&mut chart, "at the end", RED, &share[400..].to_vec())?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    let mut chart = Panel::new("Those with the energy to flip", ["t in s", "share that has not flipped"]);
+    chart.curve("not flipped", BLUE, &share);
+    chart.curve("none left", GREY, &none);
+    chart.dots("at the end", RED, &share[400..].to_vec());
+    chart.draw(area)
 }

@@ -9,8 +9,7 @@ mod picture;
 
 use lagrange_core::nalgebra::{DVector, Matrix3, MatrixXx3, Vector3};
 use lagrange_core::prelude::*;
-use picture::{BLUE, GREY, Points, RED, Result};
-use plotters::prelude::*;
+use picture::{BLUE, GREY, Panel, Points, RED, Result};
 
 #[derive(Clone, Lagrangian)]
 #[coordinates(theta)]
@@ -114,24 +113,23 @@ impl Noise {
 }
 
 fn draw(seen: &DVector<f64>, found: &Pendulum, left: &DVector<f64>, file: &std::path::Path) -> Result<()> {
-    let root = SVGBackend::new(file, (1000, 800)).into_drawing_area();
-    root.fill(&WHITE)?;
-    let (above, below) = root.split_vertically(500);
+    let root = picture::sheet(file, (1000, 800))?;
+    let (above, below) = root.split_vertically(picture::px(500));
     let dots: Points = (0..READINGS).map(|k| (time(k), seen[k])).collect();
     let motion = |pendulum: &Pendulum| -> Result<Points> {
         let path = pendulum.integrate(State::at_rest([1.0]), END, Dop853::default())?;
         Ok(path.samples(600).map(|sample| (sample.time(), sample.state().q[0])).collect())
     };
     let (guessed, fitted) = (motion(&pendulum(GUESS))?, motion(found)?);
-    let ranges = picture::with_room_above(picture::bounds(&[&dots, &guessed, &fitted]), 0.25);
-    let mut chart = picture::panel(&above, "A driven pendulum, seen 200 times", ["t/s", "θ/rad"], ranges)?;
-    picture::curve(&mut chart, "first guess", GREY, &guessed)?;
-    picture::dots(&mut chart, "seen", RED, &dots)?;
-    picture::curve(&mut chart, "fit", BLUE, &fitted)?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)?;
+    let mut chart = Panel::new("A driven pendulum, seen 200 times", ["t/s", "θ/rad"]);
+    chart.curve("first guess", GREY, &guessed);
+    chart.dots("seen", RED, &dots);
+    chart.curve("fit", BLUE, &fitted);
+    chart.draw(&above)?;
     let left: Points = (0..READINGS).map(|k| (time(k), left[k])).collect();
-    let mut chart = picture::panel(&below, "What the fit leaves", ["t/s", "rad"], picture::bounds(&[&left]))?;
-    picture::dots(&mut chart, "seen − fit", RED, &left)?;
+    let mut chart = Panel::new("What the fit leaves", ["t/s", "rad"]);
+    chart.dots("seen − fit", RED, &left);
+    chart.draw(&below)?;
     root.present()?;
     Ok(())
 }

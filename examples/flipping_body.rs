@@ -13,7 +13,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use lagrange_core::nalgebra::{Matrix3, Vector3};
 use lagrange_core::prelude::*;
-use picture::{BLUE, GREY, Points, RED, Result};
+use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
 
 #[derive(Clone, Lagrangian)]
@@ -191,8 +191,7 @@ fn checks(body: &Body, path: &Path<'_>) {
 }
 
 fn draw(body: &Body, path: &Path<'_>, found: &Points, file: &std::path::Path) -> Result<()> {
-    let root = SVGBackend::new(file, (1100, 950)).into_drawing_area();
-    root.fill(&WHITE)?;
+    let root = picture::sheet(file, (1100, 950))?;
     let panels = root.split_evenly((2, 2));
     draw_rates(body, path, &panels[0])?;
     draw_momentum(body, path, &panels[1])?;
@@ -202,47 +201,44 @@ fn draw(body: &Body, path: &Path<'_>, found: &Points, file: &std::path::Path) ->
     Ok(())
 }
 
-fn draw_rates(body: &Body, path: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_rates(body: &Body, path: &Path<'_>, area: &picture::Area) -> Result<()> {
     let law = body.landau(SHOWN);
     let title = format!("Spun {SHOWN} rad off its middle axis: about its own axes");
-    let mut chart =
-        picture::panel(area, &title, ["t in s", "ω in 1/s"], [-0.1..DURATION + 0.1, -16.0..26.0])?;
+    let mut chart = Panel::new(&title, ["t in s", "ω in 1/s"]);
     for i in 0..3 {
         let curve = (0..=1200).map(|k| DURATION * f64::from(k) / 1200.0).map(|t| (t, law.omega(t)[i]));
-        chart.draw_series(LineSeries::new(curve, GREY.stroke_width(2)))?;
+        chart.line(curve, GREY.stroke_width(2));
     }
     for (i, name, color) in
         [(0, "ω₁, about the long edge", BLACK), (1, "ω₂, about the middle one", RED), (2, "ω₃", BLUE)]
     {
         let points = path.samples(91).map(|s| (s.time(), body.omega(s.state())[i])).collect();
-        picture::dots(&mut chart, name, color, &points)?;
+        chart.dots(name, color, &points);
     }
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    chart.draw(area)
 }
 
 /// What stands still, and what turns over with respect to it.
-fn draw_momentum(body: &Body, path: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_momentum(body: &Body, path: &Path<'_>, area: &picture::Area) -> Result<()> {
     let size = body.momentum_in_space(path.start().state()).norm();
-    let ranges = [-0.1..DURATION + 0.1, -1.15..1.8];
-    let mut chart = picture::panel(area, "Along the axes of space", ["t in s", "component"], ranges)?;
+    let mut chart = Panel::new("Along the axes of space", ["t in s", "component"]);
     let over = |s: &State<f64, 7>| body.middle_axis(s).dot(&body.momentum_in_space(s)) / size;
     let turning: Points = path.samples(600).map(|s| (s.time(), over(s.state()))).collect();
-    picture::curve(&mut chart, "middle axis of the body, along the angular momentum", RED, &turning)?;
+    chart.curve("middle axis of the body, along the angular momentum", RED, &turning);
     for (i, name, color) in [(0, "x", BLACK), (1, "y", BLUE), (2, "z", GREY)] {
         let component = |s: &State<f64, 7>| body.momentum_in_space(s)[i] / size;
         let points = path.samples(41).map(|s| (s.time(), component(s.state()))).collect();
-        picture::dots(&mut chart, &format!("angular momentum M_{name}/M"), color, &points)?;
+        chart.dots(&format!("angular momentum M_{name}/M"), color, &points);
     }
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    chart.draw(area)
 }
 
 /// The angular momentum as the body sees it, from the side of the third axis.
-fn draw_sphere(body: &Body, area: &picture::Area<'_>) -> Result<()> {
-    let ranges = picture::to_scale([-1.1..1.1, -1.1..1.6], area.dim_in_pixel());
+fn draw_sphere(body: &Body, area: &picture::Area) -> Result<()> {
     let title = "The angular momentum, seen from the body";
-    let mut chart = picture::panel(area, title, ["M₁/M", "M₂/M"], ranges)?;
+    let mut chart = Panel::new(title, ["M₁/M", "M₂/M"]).equal_axes();
     let rim = (0..=360).map(|degree| f64::from(degree).to_radians().sin_cos()).collect();
-    picture::curve(&mut chart, "sphere of |M|", GREY, &rim)?;
+    chart.curve("sphere of |M|", GREY, &rim);
     for (aim, name, color) in [
         (1.2, "", BLUE),
         (0.7, "", BLUE),
@@ -253,23 +249,22 @@ fn draw_sphere(body: &Body, area: &picture::Area<'_>) -> Result<()> {
         let seen = |s: &State<f64, 7>| (body.inertia * body.omega(s)).normalize();
         let points: Points = path.samples(400).map(|s| seen(s.state())).map(|m| (m[0], m[1])).collect();
         if name.is_empty() {
-            chart.draw_series(LineSeries::new(points, color.stroke_width(2)))?;
+            chart.line(points, color.stroke_width(2));
         } else {
-            picture::curve(&mut chart, name, color, &points)?;
+            chart.curve(name, color, &points);
         }
     }
-    picture::legend(&mut chart, SeriesLabelPosition::UpperLeft)
+    chart.draw(area)
 }
 
-fn draw_flips(body: &Body, found: &Points, area: &picture::Area<'_>) -> Result<()> {
+fn draw_flips(body: &Body, found: &Points, area: &picture::Area) -> Result<()> {
     let law: Points = (0..=220)
         .map(|k| -2.6 + f64::from(k) / 100.0)
         .map(|power| (power, body.landau(10.0_f64.powf(power)).flip()))
         .collect();
-    let ranges = picture::with_room_above(picture::bounds(&[&law]), 0.2);
     let names = ["log₁₀ of the angle off the middle axis", "s"];
-    let mut chart = picture::panel(area, "How long it takes to turn over", names, ranges)?;
-    picture::curve(&mut chart, "2K/ν", GREY, &law)?;
-    picture::dots(&mut chart, "between two zeros of ω₂", RED, found)?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    let mut chart = Panel::new("How long it takes to turn over", names);
+    chart.curve("2K/ν", GREY, &law);
+    chart.dots("between two zeros of ω₂", RED, found);
+    chart.draw(area)
 }

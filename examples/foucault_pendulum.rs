@@ -18,8 +18,7 @@ use std::f64::consts::{PI, TAU};
 
 use lagrange_core::prelude::*;
 use pendulum::{Orbit, crossings};
-use picture::{BLUE, GREY, Points, RED, Result};
-use plotters::prelude::*;
+use picture::{BLUE, GREY, Panel, Points, RED, Result};
 
 #[derive(Lagrangian)]
 #[coordinates(r: [3])]
@@ -151,8 +150,7 @@ fn checks(pendulum: &FoucaultPendulum, path: &Path<'_>) {
 
 /// From the days at each latitude.
 fn draw(paris: &FoucaultPendulum, days: &[(f64, Points)], file: &std::path::Path) -> Result<()> {
-    let root = SVGBackend::new(file, (1100, 950)).into_drawing_area();
-    root.fill(&WHITE)?;
+    let root = picture::sheet(file, (1100, 950))?;
     let panels = root.split_evenly((2, 2));
     draw_rosette(&panels[0])?;
     draw_hours(days, &panels[1])?;
@@ -163,39 +161,38 @@ fn draw(paris: &FoucaultPendulum, days: &[(f64, Points)], file: &std::path::Path
 }
 
 /// On the real Earth a day has 5247 swings, too many to draw.
-fn draw_rosette(area: &picture::Area<'_>) -> Result<()> {
+fn draw_rosette(area: &picture::Area) -> Result<()> {
     let fast = FoucaultPendulum { rate: 200.0 * TAU / DAY, ..FoucaultPendulum::at(PARIS) };
     let path = fast.integrate(fast.held(3.0), DAY / 200.0, Dop853::with_tolerance(1e-11))?;
     let bob: Points = path.samples(6000).map(|s| (s.state().q.x, s.state().q.y)).collect();
     let law = fast.vertical() * DAY / 200.0;
-    let ranges = picture::to_scale([-3.1..3.1, -3.6..3.1], area.dim_in_pixel());
     let title = "From above: a day in Paris, on an Earth 200 times as fast";
-    let mut chart = picture::panel(area, title, ["east, in m", "north, in m"], ranges)?;
-    picture::curve(&mut chart, "bob", BLUE, &bob)?;
-    picture::dots(&mut chart, "let go", RED, &vec![(3.0, 0.0)])?;
+    let mut chart = Panel::new(title, ["east, in m", "north, in m"]).equal_axes();
+    chart.curve("bob", BLUE, &bob);
+    chart.dots("let go", RED, &vec![(3.0, 0.0)]);
     let end = vec![(0.0, 0.0), (3.0 * law.cos(), -3.0 * law.sin())];
-    picture::curve(&mut chart, "2π sin(latitude)", RED, &end)?;
-    picture::legend(&mut chart, SeriesLabelPosition::LowerRight)
+    chart.curve("2π sin(latitude)", RED, &end);
+    chart.draw(area)
 }
 
-fn draw_hours(days: &[(f64, Points)], area: &picture::Area<'_>) -> Result<()> {
+fn draw_hours(days: &[(f64, Points)], area: &picture::Area) -> Result<()> {
     let title = "The plane of the swing on the real Earth";
     let axes = ["sidereal hours", "azimuth in degrees"];
-    let mut chart = picture::panel(area, title, axes, [-0.3..24.3, -380.0..450.0])?;
+    let mut chart = Panel::new(title, axes);
     for (which, color) in [(0, RED), (1, BLUE), (4, GREY)] {
         let (degrees, plane) = &days[which];
         let pendulum = FoucaultPendulum::at(*degrees);
         let hour = |&(t, azimuth): &(f64, f64)| (t * 24.0 / DAY, azimuth.to_degrees());
         let law = [0.0, DAY].map(|t| hour(&(t, -pendulum.vertical() * t))).to_vec();
         let motion = plane.iter().step_by(400).map(hour).collect();
-        picture::curve(&mut chart, &format!("−Ω t sin({degrees}°)").replace('-', "−"), color, &law)?;
-        picture::dots(&mut chart, "integrated motion", color, &motion)?;
+        chart.curve(&format!("−Ω t sin({degrees}°)").replace('-', "−"), color, &law);
+        chart.dots("integrated motion", color, &motion);
     }
-    picture::legend(&mut chart, SeriesLabelPosition::UpperLeft)
+    chart.draw(area)
 }
 
 /// An hour is enough to measure the rate.
-fn draw_latitudes(area: &picture::Area<'_>) -> Result<()> {
+fn draw_latitudes(area: &picture::Area) -> Result<()> {
     let law: Points =
         (-90..=90).map(f64::from).map(|degrees| (degrees, 15.0 * degrees.to_radians().sin())).collect();
     let mut motion = Points::new();
@@ -206,18 +203,16 @@ fn draw_latitudes(area: &picture::Area<'_>) -> Result<()> {
         let (t, azimuth) = plane[plane.len() - 1];
         motion.push((degrees, -azimuth.to_degrees() / t * DAY / 24.0));
     }
-    let mut chart = picture::panel(
-        area,
+    let mut chart = Panel::new(
         "Clockwise in the north, not at all at the equator",
         ["latitude in degrees", "degrees in a sidereal hour"],
-        picture::bounds(&[&law]),
-    )?;
-    picture::curve(&mut chart, "15° sin(latitude)", GREY, &law)?;
-    picture::dots(&mut chart, "integrated motion", RED, &motion)?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperLeft)
+    );
+    chart.curve("15° sin(latitude)", GREY, &law);
+    chart.dots("integrated motion", RED, &motion);
+    chart.draw(area)
 }
 
-fn draw_corrections(paris: &FoucaultPendulum, plane: &Points, area: &picture::Area<'_>) -> Result<()> {
+fn draw_corrections(paris: &FoucaultPendulum, plane: &Points, area: &picture::Area) -> Result<()> {
     let hour = |t: f64| t * 24.0 / DAY;
     let motion: Points = plane
         .iter()
@@ -229,15 +224,12 @@ fn draw_corrections(paris: &FoucaultPendulum, plane: &Points, area: &picture::Ar
     };
     let ellipse = law(&|t| paris.as_an_ellipse(3.0, t));
     let both = law(&|t| paris.as_an_ellipse(3.0, t) + paris.centrifugal(3.0, t));
-    let [x, y] = picture::bounds(&[&ellipse, &both, &motion]);
-    let mut chart = picture::panel(
-        area,
+    let mut chart = Panel::new(
         "Paris: what the motion lacks of Foucault's law",
         ["sidereal hours", "azimuth + Ω t sin(latitude), in degrees"],
-        [x, y.start..y.end * 1.5],
-    )?;
-    picture::curve(&mut chart, "precession as an ellipse", GREY, &ellipse)?;
-    picture::curve(&mut chart, "and the centrifugal force", BLUE, &both)?;
-    picture::dots(&mut chart, "integrated motion", RED, &motion)?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperLeft)
+    );
+    chart.curve("precession as an ellipse", GREY, &ellipse);
+    chart.curve("and the centrifugal force", BLUE, &both);
+    chart.dots("integrated motion", RED, &motion);
+    chart.draw(area)
 }

@@ -7,8 +7,7 @@
 mod picture;
 
 use lagrange_core::prelude::*;
-use picture::{BLUE, GREY, Points, RED, Result};
-use plotters::prelude::*;
+use picture::{BLUE, GREY, Panel, Points, RED, Result};
 
 #[derive(Lagrangian)]
 #[coordinates(x, y)]
@@ -80,20 +79,18 @@ fn orbit(energy: f64, start: State<f64, 2>) -> Result<Points> {
 }
 
 fn draw(energies: &[f64; 2], sections: &[Vec<Points>], file: &std::path::Path) -> Result<()> {
-    let root = SVGBackend::new(file, (1100, 560)).into_drawing_area();
-    root.fill(&WHITE)?;
+    let root = picture::sheet(file, (1100, 560))?;
     let panels = root.split_evenly((1, 2));
     for ((area, energy), section) in panels.iter().zip(energies).zip(sections) {
         let title = format!("E = 1/{:.0}", 1.0 / energy);
         let (edge, starts) = (edge(*energy), section.iter().map(|points| points[0]).collect());
-        let ranges = picture::to_scale(picture::bounds(&[&edge]), area.dim_in_pixel());
-        let mut chart = picture::panel(area, &title, ["y", "ẏ"], ranges)?;
+        let mut chart = Panel::new(&title, ["y", "ẏ"]).equal_axes();
         for points in section {
-            chart.draw_series(points.iter().map(|&at| Circle::new(at, 1, BLUE.filled())))?;
+            chart.specks(1, BLUE, points.iter().copied());
         }
-        picture::curve(&mut chart, "ẋ = 0", GREY, &edge)?;
-        picture::dots(&mut chart, "starts", RED, &starts)?;
-        picture::legend(&mut chart, SeriesLabelPosition::UpperRight)?;
+        chart.curve("ẋ = 0", GREY, &edge);
+        chart.dots("starts", RED, &starts);
+        chart.draw(area)?;
     }
     root.present()?;
     Ok(())

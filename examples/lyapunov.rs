@@ -7,8 +7,7 @@
 mod picture;
 
 use lagrange_core::{LyapunovSpectrum, prelude::*};
-use picture::{BLUE, GREY, Points, RED, Result};
-use plotters::prelude::*;
+use picture::{BLUE, GREY, Panel, Points, RED, Result};
 
 #[derive(Clone, Lagrangian)]
 #[coordinates(a, b)]
@@ -53,23 +52,20 @@ fn exponents(degrees: f64) -> Result<LyapunovSpectrum<f64>> {
 }
 
 fn draw(largest: &Points, chaotic: &LyapunovSpectrum<f64>, file: &std::path::Path) -> Result<()> {
-    let root = SVGBackend::new(file, (1100, 480)).into_drawing_area();
-    root.fill(&WHITE)?;
+    let root = picture::sheet(file, (1100, 480))?;
     let panels = root.split_evenly((1, 2));
-    let ranges = picture::bounds(&[largest]);
-    let mut chart = picture::panel(&panels[0], "The largest exponent", ["φ/°", "λ/(1/s)"], ranges)?;
-    picture::curve(&mut chart, "λ", BLUE, largest)?;
-    picture::dots(&mut chart, "", BLUE, largest)?;
+    let mut chart = Panel::new("The largest exponent", ["φ/°", "λ/(1/s)"]);
+    chart.curve("λ", BLUE, largest);
+    chart.specks(4, BLUE, largest.iter().copied());
+    chart.draw(&panels[0])?;
     let curves: Vec<Points> =
         (0..4).map(|j| chaotic.running.iter().map(|(time, means)| (*time, means[j])).collect()).collect();
-    let ranges = picture::with_room_above(picture::bounds(&curves.iter().collect::<Vec<_>>()), 0.25);
-    let mut chart =
-        picture::panel(&panels[1], "All four at 120°, as they settle", ["t/s", "λ/(1/s)"], ranges)?;
-    for (curve, (name, color)) in curves.iter().zip([("λ1", RED), ("λ2", GREY), ("λ3", GREY), ("λ4", BLUE)])
+    let mut chart = Panel::new("All four at 120°, as they settle", ["t/s", "λ/(1/s)"]);
+    for (curve, (name, color)) in curves.iter().zip([("λ₁", RED), ("λ₂", GREY), ("λ₃", GREY), ("λ₄", BLUE)])
     {
-        picture::curve(&mut chart, name, color, curve)?;
+        chart.curve(name, color, curve);
     }
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)?;
+    chart.draw(&panels[1])?;
     root.present()?;
     Ok(())
 }

@@ -7,7 +7,7 @@
 mod picture;
 
 use lagrange_core::prelude::*;
-use picture::{BLUE, GREY, Points, RED, Result};
+use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
 
 /// The repulsion of two ions, k/|s|.
@@ -158,8 +158,7 @@ fn checks(ions: &StirredIons, inertial: &IonsAtRest, path: &Path<'_>, other: &Pa
 }
 
 fn draw(ions: &StirredIons, path: &Path<'_>, other: &PathAtRest<'_>, file: &std::path::Path) -> Result<()> {
-    let root = SVGBackend::new(file, (1100, 950)).into_drawing_area();
-    root.fill(&WHITE)?;
+    let root = picture::sheet(file, (1100, 950))?;
     let panels = root.split_evenly((2, 2));
     let seen = |state: fn(&State<f64, 12>, f64) -> State<f64, 12>| -> Vec<State<f64, 12>> {
         path.samples(2000).map(|s| state(s.state(), ions.rate)).collect()
@@ -174,43 +173,38 @@ fn draw(ions: &StirredIons, path: &Path<'_>, other: &PathAtRest<'_>, file: &std:
 
 const BROWN: RGBColor = RGBColor(150, 110, 40);
 
-fn draw_paths(title: &str, states: &[State<f64, 12>], area: &picture::Area<'_>) -> Result<()> {
-    let ranges = picture::to_scale([-1.9..1.9, -2.1..1.9], area.dim_in_pixel());
-    let mut chart = picture::panel(area, title, ["x", "y"], ranges)?;
+fn draw_paths(title: &str, states: &[State<f64, 12>], area: &picture::Area) -> Result<()> {
+    let mut chart = Panel::new(title, ["x", "y"]).equal_axes();
     for (ion, color) in [BLUE, RED, GREY, BROWN].into_iter().enumerate() {
         let place = |s: &State<f64, 12>| (s.q[3 * ion], s.q[3 * ion + 1]);
-        chart.draw_series(LineSeries::new(states.iter().map(place), color.stroke_width(1)))?;
+        chart.line(states.iter().map(place), color.stroke_width(1));
         let end = states.last().map(place).into_iter().collect();
         let name =
             if ion == 3 { "heavy ion at the end".to_owned() } else { format!("ion {} at the end", ion + 1) };
-        picture::dots(&mut chart, &name, color, &end)?;
+        chart.dots(&name, color, &end);
     }
-    picture::legend(&mut chart, SeriesLabelPosition::LowerRight)
+    chart.draw(area)
 }
 
-fn draw_energies(ions: &StirredIons, path: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_energies(ions: &StirredIons, path: &Path<'_>, area: &picture::Area) -> Result<()> {
     let against_time = |value: fn(&StirredIons, &State<f64, 12>) -> f64| -> Points {
         let start = value(ions, path.start().state());
         path.samples(800).map(|s| (s.time(), value(ions, s.state()) - start)).collect()
     };
     let [at_rest, stirring] = [StirredIons::inertial_energy, StirredIons::stirring].map(against_time);
     let energy = against_time(StirredIons::energy);
-    let [x, y] = picture::bounds(&[&at_rest, &stirring, &energy]);
-    // Room for the legend above.
-    let ranges = [x, y.start..y.end + 0.4 * (y.end - y.start)];
-    let mut chart =
-        picture::panel(area, "E = E₀ − Σ L_a·Ω, Milton (8.53)", ["t", "change since the start"], ranges)?;
-    picture::curve(&mut chart, "E₀, in the frame at rest", BLUE, &at_rest)?;
-    picture::dots(&mut chart, "Σ L_a·Ω", RED, &stirring.into_iter().step_by(20).collect())?;
-    picture::curve(&mut chart, "E, in the frame of the trap", GREY, &energy)?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    let mut chart = Panel::new("E = E₀ − Σ L_a·Ω, Milton (8.53)", ["t", "change since the start"]);
+    chart.curve("E₀, in the frame at rest", BLUE, &at_rest);
+    chart.dots("Σ L_a·Ω", RED, &stirring.into_iter().step_by(20).collect());
+    chart.curve("E, in the frame of the trap", GREY, &energy);
+    chart.draw(area)
 }
 
 fn draw_drift(
     ions: &StirredIons,
     path: &Path<'_>,
     other: &PathAtRest<'_>,
-    area: &picture::Area<'_>,
+    area: &picture::Area,
 ) -> Result<()> {
     let start = ions.energy(path.start().state());
     let (mut drift, mut apart) = (Points::new(), Points::new());
@@ -219,10 +213,8 @@ fn draw_drift(
         drift.push((s.t, (ions.energy(s) - start) * 1e12));
         apart.push((s.t, (at_rest(s, ions.rate).q - other.at(s.t)?.state().q).amax() * 1e12));
     }
-    let [x, y] = picture::bounds(&[&drift, &apart]);
-    let ranges = [x, y.start..y.end + 0.35 * (y.end - y.start)];
-    let mut chart = picture::panel(area, "What integration leaves", ["t", "deviation × 10¹²"], ranges)?;
-    picture::curve(&mut chart, "E less its start", BLUE, &drift)?;
-    picture::curve(&mut chart, "both motions, largest distance", RED, &apart)?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperLeft)
+    let mut chart = Panel::new("What integration leaves", ["t", "deviation × 10¹²"]);
+    chart.curve("E less its start", BLUE, &drift);
+    chart.curve("both motions, largest distance", RED, &apart);
+    chart.draw(area)
 }

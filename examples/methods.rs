@@ -9,8 +9,7 @@ use std::time::Instant;
 
 use lagrange_core::nalgebra::{Matrix3, SVector, Vector3};
 use lagrange_core::{Method, TaylorSeries, prelude::*};
-use picture::{BLUE, GREY, Points, RED, Result};
-use plotters::prelude::*;
+use picture::{BLUE, GREY, Panel, Points, RED, Result};
 
 #[derive(Lagrangian, Clone, Copy)]
 #[coordinates(x, y)]
@@ -255,20 +254,18 @@ where
 }
 
 fn draw(rows: &[Row], file: &std::path::Path) -> Result<()> {
-    let root = SVGBackend::new(file, (1500, 760)).into_drawing_area();
-    root.fill(&WHITE)?;
+    let root = picture::sheet(file, (1500, 760))?;
     for (row, area) in rows.iter().zip(root.split_evenly((2, 4))) {
         let log = |curve: &Curve| -> Points {
             curve.iter().map(|point| (-point.0.max(1e-17).log10(), point.1.log10())).collect()
         };
         let curves = row.curves.each_ref().map(log);
-        let ranges = picture::with_room_above(picture::bounds(&curves.each_ref()), 0.35);
         let axes = ["digits that are right", "log₁₀ of time in µs"];
-        let mut chart = picture::panel(&area, row.name, axes, ranges)?;
+        let mut chart = Panel::new(row.name, axes);
         for ((name, color), points) in NAMES.iter().zip([BLUE, RED, GREY]).zip(&curves) {
-            picture::curve(&mut chart, name, color, points)?;
+            chart.curve(name, color, points);
         }
-        picture::legend(&mut chart, SeriesLabelPosition::UpperLeft)?;
+        chart.draw(&area)?;
     }
     root.present()?;
     Ok(())

@@ -10,7 +10,7 @@ use std::time::Instant;
 
 use lagrange_core::nalgebra::SVector;
 use lagrange_core::{Method, TaylorSeries, prelude::*};
-use picture::{BLUE, GREY, Points, RED, Result};
+use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
 
 const G: f64 = 9.81;
@@ -99,9 +99,8 @@ where
 }
 
 fn draw(path: &Path<'_>, file: &std::path::Path) -> Result<()> {
-    let root = SVGBackend::new(file, (1150, 560)).into_drawing_area();
-    root.fill(&WHITE)?;
-    let (left, right) = root.split_horizontally(560);
+    let root = picture::sheet(file, (1150, 560))?;
+    let (left, right) = root.split_horizontally(picture::px(560));
     draw_fall(path, &left)?;
     let right = right.split_evenly((2, 1));
     draw_tip(path, &right[0])?;
@@ -120,37 +119,37 @@ fn joints(angles: &SVector<f64, 20>) -> Points {
     std::iter::once((0.0, 0.0)).chain(next).collect()
 }
 
-fn draw_fall(path: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_fall(path: &Path<'_>, area: &picture::Area) -> Result<()> {
     let shape = |t: f64| -> Result<Points> { Ok(joints(&path.at(t)?.state().q)) };
     let times: Vec<f64> = (0..=14).map(|k| 0.08 * f64::from(k)).collect();
     let shapes: Vec<Points> = times.iter().map(|&t| shape(t)).collect::<Result<_>>()?;
-    let ranges = picture::to_scale(picture::bounds(&shapes.iter().collect::<Vec<_>>()), area.dim_in_pixel());
     let title = "20 links every 0.08 s, to t = 1.12 s";
-    let mut chart = picture::panel(area, title, ["x in m", "y in m"], ranges)?;
+    let mut chart = Panel::new(title, ["x in m", "y in m"]).equal_axes();
     for (points, k) in shapes.iter().zip(0_u32..) {
         let color = BLUE.mix(0.25 + 0.05 * f64::from(k));
-        chart.draw_series(LineSeries::new(points.iter().copied(), color.stroke_width(2)))?;
+        chart.line(points.iter().copied(), color.stroke_width(2));
     }
     let tips = shapes.iter().filter_map(|points| points.last().copied()).collect();
-    picture::dots(&mut chart, "tip", RED, &tips)?;
-    picture::legend(&mut chart, SeriesLabelPosition::LowerRight)
+    chart.dots("tip", RED, &tips);
+    chart.draw(area)
 }
 
-fn draw_tip(path: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_tip(path: &Path<'_>, area: &picture::Area) -> Result<()> {
     let mut speeds = Points::new();
     for sample in path.samples(1500) {
         let State { q, v, t } = *sample.state();
         let along = |part: fn(f64) -> f64| q.iter().zip(&v).map(|(q, v)| part(*q) * v / 20.0).sum::<f64>();
         speeds.push((t, along(f64::cos).hypot(along(f64::sin))));
     }
-    let mut chart = picture::panel(area, "The tip", ["t in s", "speed in m/s"], picture::bounds(&[&speeds]))?;
-    picture::curve(&mut chart, "speed", GREY, &speeds)
+    let mut chart = Panel::new("The tip", ["t in s", "speed in m/s"]);
+    chart.curve("speed", GREY, &speeds);
+    chart.draw(area)
 }
 
-fn draw_energy(path: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_energy(path: &Path<'_>, area: &picture::Area) -> Result<()> {
     let before = path.start().energy();
     let drift = path.steps().map(|sample| (sample.time(), 1e15 * (sample.energy() - before))).collect();
-    let mut chart =
-        picture::panel(area, "Energy gained", ["t in s", "in 1e-15 J"], picture::bounds(&[&drift]))?;
-    picture::curve(&mut chart, "energy", BLUE, &drift)
+    let mut chart = Panel::new("Energy gained", ["t in s", "in 10⁻¹⁵ J"]);
+    chart.curve("energy", BLUE, &drift);
+    chart.draw(area)
 }

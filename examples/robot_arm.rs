@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 
 use lagrange_core::nalgebra::{Matrix3, SVector, Vector3};
 use lagrange_core::prelude::*;
-use picture::{BLUE, GREY, Points, RED, Result};
+use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
 
 /// A link without the joint: in its frame, about its centre.
@@ -218,8 +218,7 @@ fn checks(led: &Led, path: &Path<'_>, arm: &Arm, driven: &Trajectory<&Arm, 6, 0>
 }
 
 fn draw(led: &Led, path: &Path<'_>, driven: &Trajectory<&Arm, 6, 0>, file: &std::path::Path) -> Result<()> {
-    let root = SVGBackend::new(file, (1100, 950)).into_drawing_area();
-    root.fill(&WHITE)?;
+    let root = picture::sheet(file, (1100, 950))?;
     let panels = root.split_evenly((2, 2));
     // From the right, a little from ahead and from above.
     let oblique = |p: Vector3<f64>| (0.8 * p[0] + 0.6 * p[1], 0.95 * p[2] + 0.3 * (0.8 * p[1] - 0.6 * p[0]));
@@ -235,7 +234,7 @@ fn draw(led: &Led, path: &Path<'_>, driven: &Trajectory<&Arm, 6, 0>, file: &std:
 fn draw_poses(
     led: &Led,
     driven: &Trajectory<&Arm, 6, 0>,
-    area: &picture::Area<'_>,
+    area: &picture::Area,
     [title, x, y]: [&str; 3],
     project: &dyn Fn(Vector3<f64>) -> (f64, f64),
 ) -> Result<()> {
@@ -251,23 +250,21 @@ fn draw_poses(
         (0..=200).map(|k| led.target(led.round * f64::from(k) / 200.0)).map(project).collect();
     let mut curves: Vec<&Points> = poses.iter().collect();
     curves.push(&circle);
-    let ranges =
-        picture::to_scale(picture::with_room_above(picture::bounds(&curves), 0.25), area.dim_in_pixel());
-    let mut chart = picture::panel(area, title, [x, y], ranges)?;
+    let mut chart = Panel::new(title, [x, y]).equal_axes();
     for (k, pose) in poses.iter().enumerate() {
         let style = GREY.mix(0.2 + 0.1 * k as f64).stroke_width(3);
-        chart.draw_series(LineSeries::new(pose.iter().copied(), style))?;
+        chart.line(pose.iter().copied(), style);
     }
-    picture::curve(&mut chart, "circle that it is to draw", BLUE, &circle)?;
+    chart.curve("circle that it is to draw", BLUE, &circle);
     let tips = poses.iter().map(|pose| pose[pose.len() - 1]).collect();
-    picture::dots(&mut chart, "tool, every quarter of a second", RED, &tips)?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperLeft)
+    chart.dots("tool, every quarter of a second", RED, &tips);
+    chart.draw(area)
 }
 
 fn draw_torques(
     led: &Led,
     path: &Path<'_>,
-    area: &picture::Area<'_>,
+    area: &picture::Area,
     [title, name]: [&str; 2],
     joints: [usize; 3],
 ) -> Result<()> {
@@ -283,12 +280,11 @@ fn draw_torques(
         torques.iter().map(|(t, torque)| (*t, torque[i])).collect()
     };
     let curves = joints.map(|i| of(&motors, i));
-    let ranges = picture::with_room_above(picture::bounds(&curves.each_ref()), 0.4);
-    let mut chart = picture::panel(area, title, ["t in s", name], ranges)?;
+    let mut chart = Panel::new(title, ["t in s", name]);
     for ((i, curve), color) in joints.into_iter().zip(&curves).zip([BLACK, RED, BLUE]) {
-        picture::curve(&mut chart, &format!("joint {}", i + 1), color, curve)?;
+        chart.curve(&format!("joint {}", i + 1), color, curve);
     }
     let dots = joints.into_iter().flat_map(|i| of(&hand, i)).collect();
-    picture::dots(&mut chart, "forces of the hand about the joint", GREY, &dots)?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    chart.dots("forces of the hand about the joint", GREY, &dots);
+    chart.draw(area)
 }

@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 
 use lagrange_core::nalgebra::Vector3;
 use lagrange_core::prelude::*;
-use picture::{BLUE, GREY, Points, RED, Result};
+use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
 
 #[derive(Lagrangian)]
@@ -149,8 +149,7 @@ fn checks(ball: &Ball, path: &Path<'_>) -> Result<()> {
 }
 
 fn draw(balls: &[Ball], paths: &[Path<'_>], file: &std::path::Path) -> Result<()> {
-    let root = SVGBackend::new(file, (1100, 950)).into_drawing_area();
-    root.fill(&WHITE)?;
+    let root = picture::sheet(file, (1100, 950))?;
     let panels = root.split_evenly((2, 2));
     draw_straight(balls, paths, &panels[0])?;
     draw_turntable(&balls[2], &paths[2], &panels[1])?;
@@ -171,23 +170,19 @@ fn exact_centre(ball: &Ball, end: f64) -> Points {
     times.map(|t| ball.exact(t)).map(|r| (r[0], r[1])).collect()
 }
 
-fn draw_straight(balls: &[Ball], paths: &[Path<'_>], area: &picture::Area<'_>) -> Result<()> {
+fn draw_straight(balls: &[Ball], paths: &[Path<'_>], area: &picture::Area) -> Result<()> {
     let exact = [exact_centre(&balls[0], 3.0), exact_centre(&balls[1], 3.0)];
-    let mut ranges = picture::bounds(&[&exact[0], &exact[1]]);
-    // Room for the legend above.
-    ranges[1].end += 0.8;
-    let ranges = picture::to_scale(ranges, area.dim_in_pixel());
     let title = "Without a turntable: 3 s, every 0.2 s";
-    let mut chart = picture::panel(area, title, ["x in m (down the slope)", "y in m"], ranges)?;
-    picture::curve(&mut chart, "straight line, parabola 5/14 g_∥ t²", GREY, &exact[0])?;
-    chart.draw_series(LineSeries::new(exact[1].iter().copied(), GREY.stroke_width(2)))?;
-    picture::dots(&mut chart, "on the floor", BLUE, &centre(&paths[0], 3.0))?;
-    picture::dots(&mut chart, "on the tilted plane", RED, &centre(&paths[1], 3.0))?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    let mut chart = Panel::new(title, ["x in m (down the slope)", "y in m"]).equal_axes();
+    chart.curve("straight line, parabola 5/14 g_∥ t²", GREY, &exact[0]);
+    chart.line(exact[1].iter().copied(), GREY.stroke_width(2));
+    chart.dots("on the floor", BLUE, &centre(&paths[0], 3.0));
+    chart.dots("on the tilted plane", RED, &centre(&paths[1], 3.0));
+    chart.draw(area)
 }
 
 /// The ball goes round once while the table turns three and a half times.
-fn draw_turntable(ball: &Ball, path: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_turntable(ball: &Ball, path: &Path<'_>, area: &picture::Area) -> Result<()> {
     let period = 3.5 * TAU / ball.w;
     let exact = exact_centre(ball, period);
     let seen_from_table: Points = (0..=900)
@@ -197,39 +192,33 @@ fn draw_turntable(ball: &Ball, path: &Path<'_>, area: &picture::Area<'_>) -> Res
             (r[0] * cosine + r[1] * sine, r[1] * cosine - r[0] * sine)
         })
         .collect();
-    let mut ranges = picture::bounds(&[&exact, &seen_from_table]);
-    ranges[1].end += 0.4;
-    let ranges = picture::to_scale(ranges, area.dim_in_pixel());
     let title = "Turntable: one circle in 7/2 of its turns";
-    let mut chart = picture::panel(area, title, ["x in m", "y in m"], ranges)?;
-    picture::curve(&mut chart, "seen from the table", RED, &seen_from_table)?;
-    picture::curve(&mut chart, "circle at 2/7 of the table's rate", GREY, &exact)?;
-    picture::dots(&mut chart, "centre, every 0.2 s", BLUE, &centre(path, period))?;
-    picture::dots(&mut chart, "axis of the table", GREY, &vec![(0.0, 0.0)])?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    let mut chart = Panel::new(title, ["x in m", "y in m"]).equal_axes();
+    chart.curve("seen from the table", RED, &seen_from_table);
+    chart.curve("circle at 2/7 of the table's rate", GREY, &exact);
+    chart.dots("centre, every 0.2 s", BLUE, &centre(path, period));
+    chart.dots("axis of the table", GREY, &vec![(0.0, 0.0)]);
+    chart.draw(area)
 }
 
 /// Tilted, the turntable does not let the ball roll down: the circles drift across the slope.
-fn draw_drift(ball: &Ball, path: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_drift(ball: &Ball, path: &Path<'_>, area: &picture::Area) -> Result<()> {
     let exact = exact_centre(ball, DURATION);
     let found = centre(path, DURATION);
     let (from, drift) = (exact[0], ball.drift() * DURATION);
     let straight = vec![from, (from.0 + drift[0], from.1 + drift[1])];
-    let mut ranges = picture::bounds(&[&exact, &straight]);
-    ranges[1].end += 0.9;
-    let ranges = picture::to_scale(ranges, area.dim_in_pixel());
     let title = "Tilted turntable: it drifts across the slope (12 s)";
-    let mut chart = picture::panel(area, title, ["x in m (down the slope)", "y in m"], ranges)?;
-    picture::curve(&mut chart, "circle and drift", GREY, &exact)?;
-    picture::curve(&mut chart, "drift 5/2 n×g/w", RED, &straight)?;
-    picture::dots(&mut chart, "centre, every 0.2 s", BLUE, &found)?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    let mut chart = Panel::new(title, ["x in m (down the slope)", "y in m"]).equal_axes();
+    chart.curve("circle and drift", GREY, &exact);
+    chart.curve("drift 5/2 n×g/w", RED, &straight);
+    chart.dots("centre, every 0.2 s", BLUE, &found);
+    chart.draw(area)
 }
 
 /// What the constraint asks of Ω: its component along x is that of n × (V − w n×r)/a.
-fn draw_spin(balls: &[Ball], paths: &[Path<'_>], area: &picture::Area<'_>) -> Result<()> {
+fn draw_spin(balls: &[Ball], paths: &[Path<'_>], area: &picture::Area) -> Result<()> {
     let title = "The spin follows the velocity: Ω_x = −(V_y − w x)/a";
-    let mut chart = picture::panel(area, title, ["t in s", "Ω_x in 1/s"], [-0.2..12.2, -10.0..25.0])?;
+    let mut chart = Panel::new(title, ["t in s", "Ω_x in 1/s"]);
     for (index, name, color) in [(0, "floor", BLUE), (2, "turntable", RED)] {
         let (ball, path) = (&balls[index], &paths[index]);
         let wanted: Points = path
@@ -238,8 +227,8 @@ fn draw_spin(balls: &[Ball], paths: &[Path<'_>], area: &picture::Area<'_>) -> Re
             .map(|(t, [r, v])| (t, -(v[1] - ball.w * r[0]) / ball.a))
             .collect();
         let found: Points = path.samples(41).map(|s| (s.time(), ball.spin(s.state())[0])).collect();
-        chart.draw_series(LineSeries::new(wanted, GREY.stroke_width(2)))?;
-        picture::dots(&mut chart, &format!("Ω_x on the {name}"), color, &found)?;
+        chart.line(wanted, GREY.stroke_width(2));
+        chart.dots(&format!("Ω_x on the {name}"), color, &found);
     }
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    chart.draw(area)
 }

@@ -9,7 +9,7 @@ mod picture;
 use std::f64::consts::TAU;
 
 use lagrange_core::prelude::*;
-use picture::{BLUE, GREY, Points, RED, Result};
+use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
 
 /// The constraint written with velocities.
@@ -127,8 +127,7 @@ fn checks(path: &Path<'_>, other: &OtherPath<'_>) -> Result<()> {
 }
 
 fn draw(path: &Path<'_>, other: &OtherPath<'_>, file: &std::path::Path) -> Result<()> {
-    let root = SVGBackend::new(file, (1100, 900)).into_drawing_area();
-    root.fill(&WHITE)?;
+    let root = picture::sheet(file, (1100, 900))?;
     let panels = root.split_evenly((2, 2));
     draw_incline(path, &panels[0])?;
     draw_difference(path, other, &panels[1])?;
@@ -147,31 +146,30 @@ fn draw(path: &Path<'_>, other: &OtherPath<'_>, file: &std::path::Path) -> Resul
     let exact = |index: usize| -> Points {
         (0..=400).map(|i| f64::from(i) / 40.0).map(|t| (t, CYLINDER.exact(t)[index])).collect()
     };
-    draw_both(&panels[2], "Distance along the incline", "X in m", -0.05..1.15, &exact(0), &x)?;
-    draw_both(&panels[3], "Friction: the multiplier, along +X", "λ in N", -1.2..2.2, &exact(1), &friction)?;
+    draw_both(&panels[2], "Distance along the incline", "X in m", &exact(0), &x)?;
+    draw_both(&panels[3], "Friction: the multiplier, along +X", "λ in N", &exact(1), &friction)?;
     root.present()?;
     Ok(())
 }
 
 /// The cylinder on its way down, with a mark that turns.
-fn draw_incline(path: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_incline(path: &Path<'_>, area: &picture::Area) -> Result<()> {
     let (sine, cosine) = CYLINDER.alpha.sin_cos();
     let slope = |x: f64, height: f64| (x * cosine + height * sine, -x * sine + height * cosine);
-    let ranges = picture::to_scale([-0.6..1.0, -0.35..0.65], area.dim_in_pixel());
     let title = "Half a swing: the mark turns as the axle moves";
-    let mut chart = picture::panel(area, title, ["horizontal, in m", "vertical, in m"], ranges)?;
-    picture::curve(&mut chart, "incline", GREY, &vec![slope(-0.6, 0.0), slope(1.0, 0.0)])?;
+    let mut chart = Panel::new(title, ["horizontal, in m", "vertical, in m"]).equal_axes();
+    chart.curve("incline", GREY, &vec![slope(-0.6, 0.0), slope(1.0, 0.0)]);
     for part in [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0] {
         let sample = path.at(f64::acos(1.0 - 2.0 * part) / CYLINDER.angular_frequency())?;
         let (x, phi) = (sample.coordinate("X")?, sample.coordinate("phi")?);
         let rim = |angle: f64| slope(x + CYLINDER.a * angle.sin(), CYLINDER.a * (1.0 + angle.cos()));
         let outline: Points = (0..=90).map(|i| rim(f64::from(i) * TAU / 90.0)).collect();
-        chart.draw_series(LineSeries::new(outline, BLUE.stroke_width(2)))?;
-        chart.draw_series([PathElement::new([slope(x, CYLINDER.a), rim(phi)], BLUE.stroke_width(2))])?;
-        chart.draw_series([Circle::new(rim(phi), 4, BLUE.filled())])?;
+        chart.line(outline, BLUE.stroke_width(2));
+        chart.line([slope(x, CYLINDER.a), rim(phi)], BLUE.stroke_width(2));
+        chart.specks(4, BLUE, [rim(phi)]);
     }
-    picture::curve(&mut chart, "spring, slack at the start", RED, &spring(slope))?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    chart.curve("spring, slack at the start", RED, &spring(slope));
+    chart.draw(area)
 }
 
 /// A zigzag from the wall to the axle.
@@ -184,33 +182,27 @@ fn spring(slope: impl Fn(f64, f64) -> (f64, f64)) -> Points {
     (0..=20).map(|i| slope(-0.55 + f64::from(i) * 0.0275, CYLINDER.a + zigzag(i))).collect()
 }
 
-fn draw_difference(path: &Path<'_>, other: &OtherPath<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_difference(path: &Path<'_>, other: &OtherPath<'_>, area: &picture::Area) -> Result<()> {
     let rows = deviations(path, other, 1000)?;
     let picked = |index: usize| -> Points { rows.iter().map(|(t, row)| (*t, row[index] * 1e12)).collect() };
     let (forms, exact) = (picked(0), picked(3));
-    let mut chart = picture::panel(
-        area,
-        "Deviations of X over 50 s",
-        ["t in s", "|difference| in 1e-12 m"],
-        picture::bounds(&[&forms, &exact]),
-    )?;
-    picture::curve(&mut chart, "from the exact law", GREY, &exact)?;
-    picture::curve(&mut chart, "between the two forms", BLUE, &forms)?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperLeft)
+    let mut chart = Panel::new("Deviations of X over 50 s", ["t in s", "|difference| in 10⁻¹² m"]);
+    chart.curve("from the exact law", GREY, &exact);
+    chart.curve("between the two forms", BLUE, &forms);
+    chart.draw(area)
 }
 
-/// What both forms give for a quantity, beside the exact law; there is room for the legend above.
+/// What both forms give for a quantity, beside the exact law.
 fn draw_both(
-    area: &picture::Area<'_>,
+    area: &picture::Area,
     title: &str,
     name: &str,
-    range: std::ops::Range<f64>,
     exact: &Points,
     [by_velocities, by_position]: &[Points; 2],
 ) -> Result<()> {
-    let mut chart = picture::panel(area, title, ["t in s", name], [-0.2..10.2, range])?;
-    picture::curve(&mut chart, "exact", GREY, exact)?;
-    picture::dots(&mut chart, "with Ẋ − aφ̇ = 0", BLUE, by_velocities)?;
-    picture::dots(&mut chart, "with X − aφ = 0", RED, by_position)?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    let mut chart = Panel::new(title, ["t in s", name]);
+    chart.curve("exact", GREY, exact);
+    chart.dots("with Ẋ − aφ̇ = 0", BLUE, by_velocities);
+    chart.dots("with X − aφ = 0", RED, by_position);
+    chart.draw(area)
 }

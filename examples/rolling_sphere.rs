@@ -8,7 +8,7 @@ mod picture;
 use std::f64::consts::TAU;
 
 use lagrange_core::prelude::*;
-use picture::{BLUE, GREY, Points, RED, Result};
+use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
 
 /// A sphere of mass `m` and radius `a` rolling down an incline without slipping.
@@ -92,9 +92,8 @@ fn checks(sphere: &RollingSphere, path: &Path<'_>) -> Result<()> {
 }
 
 fn draw(sphere: &RollingSphere, path: &Path<'_>, file: &std::path::Path) -> Result<()> {
-    let root = SVGBackend::new(file, (1100, 900)).into_drawing_area();
-    root.fill(&WHITE)?;
-    let (upper, lower) = root.split_vertically(470);
+    let root = picture::sheet(file, (1100, 900))?;
+    let (upper, lower) = root.split_vertically(picture::px(470));
     draw_incline(sphere, path, &upper)?;
     let panels = lower.split_evenly((1, 2));
     draw_motion(sphere, path, &panels[0])?;
@@ -104,21 +103,20 @@ fn draw(sphere: &RollingSphere, path: &Path<'_>, file: &std::path::Path) -> Resu
 }
 
 /// The sphere at equal intervals of the first 0.9 s, with a mark that turns, and the forces along the slope.
-fn draw_incline(sphere: &RollingSphere, path: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_incline(sphere: &RollingSphere, path: &Path<'_>, area: &picture::Area) -> Result<()> {
     let (sine, cosine) = sphere.alpha.sin_cos();
     let slope = |x: f64, height: f64| (x * cosine + height * sine, -x * sine + height * cosine);
-    let ranges = picture::to_scale([-0.15..1.0, -0.36..0.24], area.dim_in_pixel());
     let title = "The sphere every 0.15 s: gravity along the slope, and friction against it";
-    let mut chart = picture::panel(area, title, ["horizontal, in m", "vertical, in m"], ranges)?;
-    picture::curve(&mut chart, "incline", GREY, &vec![slope(-0.15, 0.0), slope(1.1, 0.0)])?;
+    let mut chart = Panel::new(title, ["horizontal, in m", "vertical, in m"]).equal_axes();
+    chart.curve("incline", GREY, &vec![slope(-0.15, 0.0), slope(1.1, 0.0)]);
     for k in 0..=6 {
         let sample = path.at(0.15 * f64::from(k))?;
         let (x, phi) = (sample.coordinate("x")?, sample.coordinate("phi")?);
         let rim = |angle: f64| slope(x + sphere.a * angle.sin(), sphere.a * (1.0 + angle.cos()));
         let outline: Points = (0..=90).map(|i| rim(f64::from(i) * TAU / 90.0)).collect();
-        chart.draw_series(LineSeries::new(outline, BLUE.stroke_width(2)))?;
-        chart.draw_series([PathElement::new([slope(x, sphere.a), rim(phi)], BLUE.stroke_width(2))])?;
-        chart.draw_series([Circle::new(rim(phi), 4, BLUE.filled())])?;
+        chart.line(outline, BLUE.stroke_width(2));
+        chart.line([slope(x, sphere.a), rim(phi)], BLUE.stroke_width(2));
+        chart.specks(4, BLUE, [rim(phi)]);
     }
     // One newton is drawn 6 cm long, at the last position.
     let last = path.at(0.9)?;
@@ -128,38 +126,32 @@ fn draw_incline(sphere: &RollingSphere, path: &Path<'_>, area: &picture::Area<'_
     let along = |height: f64, force: f64| [slope(x, height), slope(x + 0.06 * force, height)];
     arrow(&mut chart, "m g sin α", GREY, along(sphere.a, weight))?;
     arrow(&mut chart, "friction λ", RED, along(0.0, friction))?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    chart.draw(area)
 }
 
 /// An arrow with its name in the legend; its head is 2 cm long.
-fn arrow(
-    chart: &mut picture::Chart<'_, '_>,
-    name: &str,
-    color: RGBColor,
-    [from, to]: [(f64, f64); 2],
-) -> Result<()> {
-    picture::curve(chart, name, color, &vec![from, to])?;
+fn arrow(chart: &mut Panel, name: &str, color: RGBColor, [from, to]: [(f64, f64); 2]) -> Result<()> {
+    chart.curve(name, color, &vec![from, to]);
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let head = 0.02 / dx.hypot(dy).max(1e-9);
     let back = (to.0 - head * dx, to.1 - head * dy);
     let side = |sign: f64| (back.0 - sign * head * dy / 2.0, back.1 + sign * head * dx / 2.0);
-    chart.draw_series([Polygon::new([to, side(1.0), side(-1.0)], color.filled())])?;
+    chart.face([to, side(1.0), side(-1.0)], color);
     Ok(())
 }
 
-fn draw_motion(sphere: &RollingSphere, path: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_motion(sphere: &RollingSphere, path: &Path<'_>, area: &picture::Area) -> Result<()> {
     let exact: Points =
         path.samples(200).map(|s| s.time()).map(|t| (t, sphere.exact_acceleration() * t * t / 2.0)).collect();
     let integrated: Points = path.samples(16).map(|s| (s.time(), s.state().q[0])).collect();
-    let mut chart =
-        picture::panel(area, "Path down the slope", ["t in s", "x in m"], picture::bounds(&[&exact]))?;
-    picture::curve(&mut chart, "5/14 g sin α t²", GREY, &exact)?;
-    picture::dots(&mut chart, "integrated", BLUE, &integrated)?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperLeft)
+    let mut chart = Panel::new("Path down the slope", ["t in s", "x in m"]);
+    chart.curve("5/14 g sin α t²", GREY, &exact);
+    chart.dots("integrated", BLUE, &integrated);
+    chart.draw(area)
 }
 
 /// Along the slope m ẍ = m g sin α + λ: five sevenths of the weight's component accelerate the centre.
-fn draw_friction(sphere: &RollingSphere, path: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_friction(sphere: &RollingSphere, path: &Path<'_>, area: &picture::Area) -> Result<()> {
     let weight = sphere.m * sphere.g * sphere.alpha.sin();
     let constant = |force: f64| -> Points { vec![(0.0, force), (3.0, force)] };
     let mut forces = [Points::new(), Points::new()];
@@ -167,14 +159,9 @@ fn draw_friction(sphere: &RollingSphere, path: &Path<'_>, area: &picture::Area<'
         forces[0].push((sample.time(), sphere.m * sample.acceleration("x")?));
         forces[1].push((sample.time(), sample.multiplier("no_slip")?));
     }
-    let mut chart = picture::panel(
-        area,
-        "Forces along the slope",
-        ["t in s", "force in N"],
-        [-0.1..3.1, -0.45 * weight..1.9 * weight],
-    )?;
-    picture::curve(&mut chart, "gravity m g sin α", GREY, &constant(weight))?;
-    picture::dots(&mut chart, "m ẍ: 5/7 of it", BLUE, &forces[0])?;
-    picture::dots(&mut chart, "friction λ: −2/7 of it", RED, &forces[1])?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperLeft)
+    let mut chart = Panel::new("Forces along the slope", ["t in s", "force in N"]);
+    chart.curve("gravity m g sin α", GREY, &constant(weight));
+    chart.dots("m ẍ: 5/7 of it", BLUE, &forces[0]);
+    chart.dots("friction λ: −2/7 of it", RED, &forces[1]);
+    chart.draw(area)
 }

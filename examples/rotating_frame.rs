@@ -10,7 +10,7 @@ mod picture;
 
 use lagrange_core::nalgebra::{Rotation3, Vector3};
 use lagrange_core::prelude::*;
-use picture::{BLUE, GREY, Points, RED, Result};
+use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
 
 #[derive(Lagrangian)]
@@ -253,8 +253,7 @@ fn draw(
     uniform_path: &Path<'_>,
     file: &std::path::Path,
 ) -> Result<()> {
-    let root = SVGBackend::new(file, (1100, 950)).into_drawing_area();
-    root.fill(&WHITE)?;
+    let root = picture::sheet(file, (1100, 950))?;
     let panels = root.split_evenly((2, 2));
     draw_in_frame(path, &panels[0])?;
     draw_from_outside(path, &panels[1])?;
@@ -269,52 +268,43 @@ fn moments<'p>(path: &'p Path<'_>) -> impl Iterator<Item = State<f64, 3>> + 'p {
     path.samples(5001).take(1501).map(|sample| *sample.state())
 }
 
-fn draw_in_frame(path: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_in_frame(path: &Path<'_>, area: &picture::Area) -> Result<()> {
     let seen: Points = moments(path).map(|s| (s.q[0], s.q[1])).collect();
-    let mut ranges = picture::bounds(&[&seen]);
-    // Room for the legend above.
-    ranges[1].end += 0.3;
-    let ranges = picture::to_scale(ranges, area.dim_in_pixel());
-    let mut chart = picture::panel(area, "In the turning frame, 15 s", ["x in m", "y in m"], ranges)?;
-    picture::curve(&mut chart, "mass", BLUE, &seen)?;
-    picture::dots(&mut chart, "start", RED, &vec![seen[0]])?;
-    picture::dots(&mut chart, "where the spring is fixed", GREY, &vec![(0.0, 0.0)])?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    let mut chart = Panel::new("In the turning frame, 15 s", ["x in m", "y in m"]).equal_axes();
+    chart.curve("mass", BLUE, &seen);
+    chart.dots("start", RED, &vec![seen[0]]);
+    chart.dots("where the spring is fixed", GREY, &vec![(0.0, 0.0)]);
+    chart.draw(area)
 }
 
-fn draw_from_outside(path: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_from_outside(path: &Path<'_>, area: &picture::Area) -> Result<()> {
     let start = *path.start().state();
     let law: Points = moments(path).map(|s| exact(&start, s.t)).map(|r| (r[0], r[1])).collect();
     let seen: Points =
         moments(path).step_by(20).map(|s| MOVING.seen_from_outside(&s)[0]).map(|r| (r[0], r[1])).collect();
     let reach = vec![(-MOVING.reach, 0.0), (MOVING.reach, 0.0)];
-    let mut ranges = picture::bounds(&[&law]);
-    ranges[1].end += 0.4;
-    let ranges = picture::to_scale(ranges, area.dim_in_pixel());
     let title = "The same from the inertial frame";
-    let mut chart = picture::panel(area, title, ["x₀ in m", "y₀ in m"], ranges)?;
-    picture::curve(&mut chart, "driven oscillation, exact", GREY, &law)?;
-    picture::dots(&mut chart, "transformed, every 0.2 s", BLUE, &seen)?;
-    picture::curve(&mut chart, "where the frame's origin goes", RED, &reach)?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    let mut chart = Panel::new(title, ["x₀ in m", "y₀ in m"]).equal_axes();
+    chart.curve("driven oscillation, exact", GREY, &law);
+    chart.dots("transformed, every 0.2 s", BLUE, &seen);
+    chart.curve("where the frame's origin goes", RED, &reach);
+    chart.draw(area)
 }
 
-fn draw_forces(system: &InFrame, path: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_forces(system: &InFrame, path: &Path<'_>, area: &picture::Area) -> Result<()> {
     let along_x = |force: fn(&InFrame, &State<f64, 3>) -> Vector3<f64>| -> Points {
         moments(path).map(|s| (s.t, force(system, &s)[0])).collect()
     };
     let forces = [along_x(InFrame::euler), along_x(InFrame::coriolis), along_x(InFrame::centrifugal)];
-    let mut ranges = picture::bounds(&[&forces[0], &forces[1], &forces[2]]);
-    ranges[1].end += 1.0;
     let title = "The forces of the frame, their x components";
-    let mut chart = picture::panel(area, title, ["t in s", "force in N"], ranges)?;
-    picture::curve(&mut chart, "Coriolis 2m v×Ω", BLUE, &forces[1])?;
-    picture::curve(&mut chart, "centrifugal m Ω×(r×Ω)", RED, &forces[2])?;
-    picture::curve(&mut chart, "Euler m r×dΩ/dt", BLACK, &forces[0])?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    let mut chart = Panel::new(title, ["t in s", "force in N"]);
+    chart.curve("Coriolis 2m v×Ω", BLUE, &forces[1]);
+    chart.curve("centrifugal m Ω×(r×Ω)", RED, &forces[2]);
+    chart.curve("Euler m r×dΩ/dt", BLACK, &forces[0]);
+    chart.draw(area)
 }
 
-fn draw_energy(system: &InFrame, path: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_energy(system: &InFrame, path: &Path<'_>, area: &picture::Area) -> Result<()> {
     let [mut inertial, mut angular, mut difference] = [Points::new(), Points::new(), Points::new()];
     for s in moments(path) {
         let [e0, l] = outside(system, &s);
@@ -323,13 +313,11 @@ fn draw_energy(system: &InFrame, path: &Path<'_>, area: &picture::Area<'_>) -> R
         difference.push((s.t, e0 - l));
     }
     let integrated: Points = moments(path).step_by(50).map(|s| (s.t, system.energy(&s))).collect();
-    let mut ranges = picture::bounds(&[&inertial, &angular, &integrated]);
-    ranges[1].end += 0.4;
     let title = "Uniform rotation, anisotropic spring";
-    let mut chart = picture::panel(area, title, ["t in s", "energy in J"], ranges)?;
-    picture::curve(&mut chart, "E₀, inertial frame", GREY, &inertial)?;
-    picture::curve(&mut chart, "L·Ω", RED, &angular)?;
-    picture::curve(&mut chart, "E₀ − L·Ω", BLUE, &difference)?;
-    picture::dots(&mut chart, "E, turning frame", BLUE, &integrated)?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    let mut chart = Panel::new(title, ["t in s", "energy in J"]);
+    chart.curve("E₀, inertial frame", GREY, &inertial);
+    chart.curve("L·Ω", RED, &angular);
+    chart.curve("E₀ − L·Ω", BLUE, &difference);
+    chart.dots("E, turning frame", BLUE, &integrated);
+    chart.draw(area)
 }

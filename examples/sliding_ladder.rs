@@ -6,7 +6,7 @@
 mod picture;
 
 use lagrange_core::{Journey, Named, prelude::*};
-use picture::{BLUE, GREY, Points, RED, Result};
+use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
 
 /// Between wall and floor; x and y are its middle, 2a its length.
@@ -76,8 +76,7 @@ fn fall(theta: f64) -> Result<Journey<f64>> {
 }
 
 fn draw(journey: &Journey<f64>, file: &std::path::Path) -> Result<()> {
-    let root = SVGBackend::new(file, (1100, 900)).into_drawing_area();
-    root.fill(&WHITE)?;
+    let root = picture::sheet(file, (1100, 900))?;
     let panels = root.split_evenly((2, 2));
     draw_poses(journey, &panels[0])?;
     let left = journey.legs().next().ok_or("no leg")?.end_time();
@@ -91,30 +90,28 @@ fn draw(journey: &Journey<f64>, file: &std::path::Path) -> Result<()> {
         wall.push((t, sample.multiplier("wall").unwrap_or(0.0) / weight));
         x.push((t, sample.velocity("x")?));
     }
-    let ranges = picture::bounds(&[&floor, &wall]);
     let title = "Pushes: the ladder leaves the wall where that is zero";
-    let mut chart = picture::panel(&panels[1], title, ["t in s", "part of the weight"], ranges)?;
-    picture::curve(&mut chart, "floor", BLUE, &floor)?;
-    picture::curve(&mut chart, "wall", RED, &wall)?;
-    picture::dots(&mut chart, "it leaves", GREY, &vec![(left, 0.0)])?;
-    picture::legend(&mut chart, SeriesLabelPosition::LowerLeft)?;
-    let mut chart = picture::panel(&panels[2], "Angle", ["t in s", "θ in rad"], picture::bounds(&[&theta]))?;
-    picture::curve(&mut chart, "θ", BLUE, &theta)?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)?;
+    let mut chart = Panel::new(title, ["t in s", "part of the weight"]);
+    chart.curve("floor", BLUE, &floor);
+    chart.curve("wall", RED, &wall);
+    chart.dots("it leaves", GREY, &vec![(left, 0.0)]);
+    chart.draw(&panels[1])?;
+    let mut chart = Panel::new("Angle", ["t in s", "θ in rad"]);
+    chart.curve("θ", BLUE, &theta);
+    chart.draw(&panels[2])?;
     let title = "Speed of its middle: even, once it is free";
-    let mut chart = picture::panel(&panels[3], title, ["t in s", "ẋ in m/s"], picture::bounds(&[&x]))?;
-    picture::curve(&mut chart, "ẋ", BLUE, &x)?;
-    picture::legend(&mut chart, SeriesLabelPosition::LowerRight)?;
+    let mut chart = Panel::new(title, ["t in s", "ẋ in m/s"]);
+    chart.curve("ẋ", BLUE, &x);
+    chart.draw(&panels[3])?;
     root.present()?;
     Ok(())
 }
 
 /// At times that are evenly spaced: leaning in blue, free in red.
-fn draw_poses(journey: &Journey<f64>, area: &picture::Area<'_>) -> Result<()> {
-    let ranges = picture::to_scale([-0.2..6.5, -0.2..4.2], area.dim_in_pixel());
-    let mut chart = picture::panel(area, "On its way down", ["x in m", "y in m"], ranges)?;
+fn draw_poses(journey: &Journey<f64>, area: &picture::Area) -> Result<()> {
+    let mut chart = Panel::new("On its way down", ["x in m", "y in m"]).equal_axes();
     let corner = vec![(0.0, 4.0), (0.0, 0.0), (6.4, 0.0)];
-    picture::curve(&mut chart, "wall and floor", GREY, &corner)?;
+    chart.curve("wall and floor", GREY, &corner);
     for sample in journey.samples(25) {
         let sample = sample?;
         let (x, theta) = (sample.coordinate("x")?, sample.coordinate("theta")?);
@@ -122,7 +119,7 @@ fn draw_poses(journey: &Journey<f64>, area: &picture::Area<'_>) -> Result<()> {
         let (sine, cosine) = theta.sin_cos();
         let [top, foot] =
             [-1.0, 1.0].map(|end| (x + end * LEANING.a * cosine, LEANING.a * (1.0 - end) * sine));
-        chart.draw_series(LineSeries::new([top, foot], color.stroke_width(2)))?;
+        chart.line([top, foot], color.stroke_width(2));
     }
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    chart.draw(area)
 }

@@ -18,8 +18,7 @@ use std::f64::consts::{PI, TAU};
 
 use lagrange_core::prelude::*;
 use pendulum::{Orbit, crossings};
-use picture::{BLUE, GREY, Points, RED, Result};
-use plotters::prelude::*;
+use picture::{BLUE, GREY, Panel, Points, RED, Result};
 
 #[derive(Lagrangian)]
 #[coordinates(x, y, z)]
@@ -167,8 +166,7 @@ fn arithmetic_geometric_mean(mut a: f64, mut b: f64) -> f64 {
 }
 
 fn draw(ellipses: &[Ellipse], file: &std::path::Path) -> Result<()> {
-    let root = SVGBackend::new(file, (1100, 950)).into_drawing_area();
-    root.fill(&WHITE)?;
+    let root = picture::sheet(file, (1100, 950))?;
     let panels = root.split_evenly((2, 2));
     draw_ellipse(&panels[0])?;
     draw_precession(ellipses, &panels[1])?;
@@ -184,34 +182,33 @@ fn draw(ellipses: &[Ellipse], file: &std::path::Path) -> Result<()> {
 }
 
 /// The largest ellipse of the table, now and five orbits later.
-fn draw_ellipse(area: &picture::Area<'_>) -> Result<()> {
+fn draw_ellipse(area: &picture::Area) -> Result<()> {
     let exact = orbit([0.1, 0.2]);
     let path = motion(&exact, ORBITS)?;
     let turn = |first: f64| -> Result<Points> {
         let times = (0..=200).map(|k| (first + f64::from(k) / 200.0) * 2.0 * exact.nutation());
         times.map(|t| Ok(path.at(t)?.state().q.xy())).map(|q| q.map(|q| (q.x, q.y))).collect()
     };
-    let ranges = picture::to_scale([-0.22..0.22, -0.25..0.2], area.dim_in_pixel());
     let title = "From above, a = 0.2 l: the ellipse turns as the bob does";
-    let mut chart = picture::panel(area, title, ["x in l", "y in l"], ranges)?;
-    picture::curve(&mut chart, "first orbit", GREY, &turn(0.0)?)?;
-    picture::curve(&mut chart, "11th orbit", BLUE, &turn(10.0)?)?;
+    let mut chart = Panel::new(title, ["x in l", "y in l"]).equal_axes();
+    chart.curve("first orbit", GREY, &turn(0.0)?);
+    chart.curve("11th orbit", BLUE, &turn(10.0)?);
     let angle = 10.0 * exact.precession();
-    picture::dots(&mut chart, "start", GREY, &vec![(0.2, 0.0)])?;
-    picture::dots(&mut chart, "10 Δφ farther", RED, &vec![(0.2 * angle.cos(), 0.2 * angle.sin())])?;
-    picture::legend(&mut chart, SeriesLabelPosition::LowerRight)
+    chart.dots("start", GREY, &vec![(0.2, 0.0)]);
+    chart.dots("10 Δφ farther", RED, &vec![(0.2 * angle.cos(), 0.2 * angle.sin())]);
+    chart.draw(area)
 }
 
-fn draw_precession(ellipses: &[Ellipse], area: &picture::Area<'_>) -> Result<()> {
+fn draw_precession(ellipses: &[Ellipse], area: &picture::Area) -> Result<()> {
     let points = |value: fn(&Ellipse) -> f64| -> Points {
         ellipses.iter().map(|e| (e.a.log10(), value(e).log10())).collect()
     };
     let law = points(|e| e.law[0]);
     let axes = ["log₁₀ a/l", "log₁₀ Δφ/rad"];
-    let mut chart = picture::panel(area, "Precession an orbit, b = a/2", axes, picture::bounds(&[&law]))?;
-    picture::curve(&mut chart, "law 3π a b / 4 l²", GREY, &law)?;
-    picture::dots(&mut chart, "integrated motion", RED, &points(|e| e.motion[0]))?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperLeft)
+    let mut chart = Panel::new("Precession an orbit, b = a/2", axes);
+    chart.curve("law 3π a b / 4 l²", GREY, &law);
+    chart.dots("integrated motion", RED, &points(|e| e.motion[0]));
+    chart.draw(area)
 }
 
 /// How the law is approached: by the square of the amplitude.
@@ -219,15 +216,14 @@ fn draw_error(
     ellipses: &[Ellipse],
     which: usize,
     [title, floor_name]: [&str; 2],
-    area: &picture::Area<'_>,
+    area: &picture::Area,
 ) -> Result<()> {
     let points = |value: &dyn Fn(&Ellipse) -> f64| -> Points {
         ellipses.iter().map(|e| (e.a.log10(), value(e).abs().log10())).collect()
     };
-    let mut chart =
-        picture::panel(area, title, ["log₁₀ a/l", "log₁₀ |value/law − 1|"], [-4.0..-0.5, -15.0..2.0])?;
-    picture::curve(&mut chart, floor_name, GREY, &points(&|e| ROUND_OFF[which] / e.law[which]))?;
-    picture::curve(&mut chart, "quadrature: slope 2", BLUE, &points(&|e| e.error(which, e.quadrature)))?;
-    picture::dots(&mut chart, "integrated motion", RED, &points(&|e| e.error(which, e.motion)))?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperLeft)
+    let mut chart = Panel::new(title, ["log₁₀ a/l", "log₁₀ |value/law − 1|"]);
+    chart.curve(floor_name, GREY, &points(&|e| ROUND_OFF[which] / e.law[which]));
+    chart.curve("quadrature: slope 2", BLUE, &points(&|e| e.error(which, e.quadrature)));
+    chart.dots("integrated motion", RED, &points(&|e| e.error(which, e.motion)));
+    chart.draw(area)
 }

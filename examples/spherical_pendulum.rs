@@ -8,8 +8,7 @@ mod picture;
 use std::f64::consts::TAU;
 
 use lagrange_core::prelude::*;
-use picture::{BLUE, GREY, Points, RED, Result};
-use plotters::prelude::*;
+use picture::{BLUE, GREY, Panel, Points, RED, Result};
 
 #[derive(Lagrangian)]
 #[coordinates(x, y, z)]
@@ -98,8 +97,7 @@ fn exact_tension(pendulum: &SphericalPendulum, energy: f64, z: f64) -> f64 {
 }
 
 fn draw(pendulum: &SphericalPendulum, path: &Path<'_>, file: &std::path::Path) -> Result<()> {
-    let root = SVGBackend::new(file, (1100, 950)).into_drawing_area();
-    root.fill(&WHITE)?;
+    let root = picture::sheet(file, (1100, 950))?;
     let panels = root.split_evenly((2, 2));
     draw_from_above(path, &panels[0])?;
     draw_from_the_side(path, &panels[1])?;
@@ -114,30 +112,27 @@ fn moments<'p>(path: &'p Path<'_>) -> impl Iterator<Item = State<f64, 3>> + 'p {
     (0..=2400).filter_map(|k| path.at(f64::from(k) * 0.005).ok()).map(|sample| *sample.state())
 }
 
-fn draw_from_above(path: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_from_above(path: &Path<'_>, area: &picture::Area) -> Result<()> {
     let bob: Points = moments(path).map(|s| (s.q[0], s.q[1])).collect();
     let circle: Points = (0..=120).map(|k| f64::from(k) * TAU / 120.0).map(|a| (a.cos(), a.sin())).collect();
-    let ranges = picture::to_scale(picture::bounds(&[&circle]), area.dim_in_pixel());
-    let mut chart =
-        picture::panel(area, "From above: the ellipse precesses (12 s)", ["x in m", "y in m"], ranges)?;
-    picture::curve(&mut chart, "reach of the string", GREY, &circle)?;
-    picture::curve(&mut chart, "bob", BLUE, &bob)?;
-    picture::dots(&mut chart, "start", RED, &vec![bob[0]])?;
-    picture::dots(&mut chart, "below the suspension", GREY, &vec![(0.0, 0.0)])?;
-    picture::legend(&mut chart, SeriesLabelPosition::LowerRight)
+    let mut chart = Panel::new("From above: the ellipse precesses (12 s)", ["x in m", "y in m"]).equal_axes();
+    chart.curve("reach of the string", GREY, &circle);
+    chart.curve("bob", BLUE, &bob);
+    chart.dots("start", RED, &vec![bob[0]]);
+    chart.dots("below the suspension", GREY, &vec![(0.0, 0.0)]);
+    chart.draw(area)
 }
 
-fn draw_from_the_side(path: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_from_the_side(path: &Path<'_>, area: &picture::Area) -> Result<()> {
     let bob: Points = moments(path).map(|s| (s.q[0], s.q[2])).collect();
-    let ranges = picture::to_scale([-1.1..1.1, -1.15..0.15], area.dim_in_pixel());
-    let mut chart = picture::panel(area, "From the side: between two heights", ["x in m", "z in m"], ranges)?;
-    picture::curve(&mut chart, "bob", BLUE, &bob)?;
-    picture::curve(&mut chart, "string at the start", GREY, &vec![(0.0, 0.0), bob[0]])?;
-    picture::dots(&mut chart, "start", RED, &vec![bob[0]])?;
-    picture::legend(&mut chart, SeriesLabelPosition::LowerRight)
+    let mut chart = Panel::new("From the side: between two heights", ["x in m", "z in m"]).equal_axes();
+    chart.curve("bob", BLUE, &bob);
+    chart.curve("string at the start", GREY, &vec![(0.0, 0.0), bob[0]]);
+    chart.dots("start", RED, &vec![bob[0]]);
+    chart.draw(area)
 }
 
-fn draw_tension(pendulum: &SphericalPendulum, path: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_tension(pendulum: &SphericalPendulum, path: &Path<'_>, area: &picture::Area) -> Result<()> {
     let energy = pendulum.energy_sum(path.start().state());
     let states: Vec<_> = moments(path).take(1201).collect();
     let exact: Points = states.iter().map(|s| (s.t, exact_tension(pendulum, energy, s.q[2]))).collect();
@@ -145,20 +140,14 @@ fn draw_tension(pendulum: &SphericalPendulum, path: &Path<'_>, area: &picture::A
     for s in states.iter().step_by(40) {
         multiplier.push((s.t, path.at(s.t)?.observable("tension")?));
     }
-    // Room for the legend above.
-    let ranges = [-0.2..6.2, 5.0..25.0];
-    let mut chart = picture::panel(
-        area,
-        "Tension: from the multiplier, and from the energy",
-        ["t in s", "tension in N"],
-        ranges,
-    )?;
-    picture::curve(&mut chart, "(2E − 3 m g z)/l, Milton (8.22)", GREY, &exact)?;
-    picture::dots(&mut chart, "−λ l", RED, &multiplier)?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    let mut chart =
+        Panel::new("Tension: from the multiplier, and from the energy", ["t in s", "tension in N"]);
+    chart.curve("(2E − 3 m g z)/l, Milton (8.22)", GREY, &exact);
+    chart.dots("−λ l", RED, &multiplier);
+    chart.draw(area)
 }
 
-fn draw_drift(pendulum: &SphericalPendulum, path: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_drift(pendulum: &SphericalPendulum, path: &Path<'_>, area: &picture::Area) -> Result<()> {
     let start = *path.start().state();
     let drift = |quantity: fn(&SphericalPendulum, &State<f64, 3>) -> f64| -> Points {
         let initial = quantity(pendulum, &start);
@@ -167,14 +156,8 @@ fn draw_drift(pendulum: &SphericalPendulum, path: &Path<'_>, area: &picture::Are
             .collect()
     };
     let (energy, l_z) = (drift(SphericalPendulum::energy_sum), drift(SphericalPendulum::l_z));
-    let ranges = picture::bounds(&[&energy, &l_z]);
-    let mut chart = picture::panel(
-        area,
-        "Conserved quantities over 100 s",
-        ["t in s", "relative drift in 1e-12"],
-        ranges,
-    )?;
-    picture::curve(&mut chart, "energy", BLUE, &energy)?;
-    picture::curve(&mut chart, "L_z", RED, &l_z)?;
-    picture::legend(&mut chart, SeriesLabelPosition::LowerLeft)
+    let mut chart = Panel::new("Conserved quantities over 100 s", ["t in s", "relative drift in 10⁻¹²"]);
+    chart.curve("energy", BLUE, &energy);
+    chart.curve("L_z", RED, &l_z);
+    chart.draw(area)
 }

@@ -12,7 +12,7 @@ use std::f64::consts::{PI, TAU};
 
 use lagrange_core::prelude::*;
 use pendulum::{Orbit, crossings};
-use picture::{BLUE, GREY, Points, RED, Result};
+use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
 
 #[derive(Lagrangian)]
@@ -143,8 +143,7 @@ fn checks(pendulum: &PolarPendulum, path: &Path<'_>) {
 }
 
 fn draw(pendulum: &PolarPendulum, path: &Path<'_>, file: &std::path::Path) -> Result<()> {
-    let root = SVGBackend::new(file, (1100, 950)).into_drawing_area();
-    root.fill(&WHITE)?;
+    let root = picture::sheet(file, (1100, 950))?;
     let panels = root.split_evenly((2, 2));
     let orbit = pendulum.orbit(path.start().state());
     draw_from_above(&orbit, path, &panels[0])?;
@@ -162,24 +161,23 @@ fn moments<'p>(orbit: &Orbit, path: &'p Path<'_>) -> impl Iterator<Item = (f64, 
     times.filter_map(|t| path.at(t).ok()).map(|sample| (sample.time(), sample.state().q.data.0[0]))
 }
 
-fn draw_from_above(orbit: &Orbit, path: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_from_above(orbit: &Orbit, path: &Path<'_>, area: &picture::Area) -> Result<()> {
     let place = |theta: f64, phi: f64| (theta.sin() * phi.cos(), theta.sin() * phi.sin());
     let bob: Points = moments(orbit, path).map(|(_, [theta, phi])| place(theta, phi)).collect();
     let circles = orbit.heights.map(|w| -> Points {
         let theta = (w - 1.0).acos();
         (0..=120).map(|k| place(theta, f64::from(k) * TAU / 120.0)).collect()
     });
-    let ranges = picture::to_scale([-1.0..1.0, -1.1..1.0], area.dim_in_pixel());
     let title = "From above: three ellipses between the turning circles";
-    let mut chart = picture::panel(area, title, ["x in l", "y in l"], ranges)?;
-    picture::curve(&mut chart, "turning circles", GREY, &circles[0])?;
-    chart.draw_series(LineSeries::new(circles[1].iter().copied(), GREY.stroke_width(2)))?;
-    picture::curve(&mut chart, "bob", BLUE, &bob)?;
-    picture::dots(&mut chart, "start", RED, &vec![bob[0]])?;
-    picture::legend(&mut chart, SeriesLabelPosition::LowerRight)
+    let mut chart = Panel::new(title, ["x in l", "y in l"]).equal_axes();
+    chart.curve("turning circles", GREY, &circles[0]);
+    chart.line(circles[1].iter().copied(), GREY.stroke_width(2));
+    chart.curve("bob", BLUE, &bob);
+    chart.dots("start", RED, &vec![bob[0]]);
+    chart.draw(area)
 }
 
-fn draw_cubic(pendulum: &PolarPendulum, path: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_cubic(pendulum: &PolarPendulum, path: &Path<'_>, area: &picture::Area) -> Result<()> {
     let start = *path.start().state();
     let cubic: Points = (0..=206)
         .map(|k| -1.02 + f64::from(k) * 0.01)
@@ -189,49 +187,38 @@ fn draw_cubic(pendulum: &PolarPendulum, path: &Path<'_>, area: &picture::Area<'_
     let integrated: Points = path.samples(60).map(|s| motion(*s.state())).collect();
     let heights = pendulum.orbit(&start).heights.map(|w| (w - 1.0, 0.0)).to_vec();
     let title = "u̇² = U(u): the bob moves where U is not negative";
-    let mut chart = picture::panel(area, title, ["u = z/l", "U in s⁻²"], [-1.1..1.1, -16.0..9.0])?;
-    picture::curve(&mut chart, "zero", GREY, &vec![(-1.15, 0.0), (1.15, 0.0)])?;
-    picture::curve(&mut chart, "U(u), Milton (8.26)", BLUE, &cubic)?;
-    picture::dots(&mut chart, "u̇² of the integrated motion", RED, &integrated)?;
-    picture::dots(&mut chart, "turning points u₁, u₂", GREY, &heights)?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperMiddle)
+    let mut chart = Panel::new(title, ["u = z/l", "U in s⁻²"]);
+    chart.curve("zero", GREY, &vec![(-1.15, 0.0), (1.15, 0.0)]);
+    chart.curve("U(u), Milton (8.26)", BLUE, &cubic);
+    chart.dots("u̇² of the integrated motion", RED, &integrated);
+    chart.dots("turning points u₁, u₂", GREY, &heights);
+    chart.draw(area)
 }
 
-fn draw_angle(orbit: &Orbit, path: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_angle(orbit: &Orbit, path: &Path<'_>, area: &picture::Area) -> Result<()> {
     let angle: Points = moments(orbit, path).map(|(t, [theta, _])| (t, theta.to_degrees())).collect();
     let at_turns = |part: f64, w: f64| -> Points {
         let angle = (w - 1.0).acos().to_degrees();
         (0..6).map(|k| ((f64::from(k) + part) * orbit.nutation(), angle)).collect()
     };
     let [low, high] = orbit.heights;
-    let mut chart = picture::panel(
-        area,
-        "Polar angle: turning points where the quadrature puts them",
-        ["t in s", "θ in degrees"],
-        [-0.1..6.05 * orbit.nutation(), 112.0..180.0],
-    )?;
-    picture::curve(&mut chart, "integrated", BLUE, &angle)?;
-    picture::dots(&mut chart, "u₂, and each nutation later", RED, &at_turns(0.0, high))?;
-    picture::dots(&mut chart, "u₁, half a nutation after it", GREY, &at_turns(0.5, low))?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    let mut chart =
+        Panel::new("Polar angle: turning points where the quadrature puts them", ["t in s", "θ in degrees"]);
+    chart.curve("integrated", BLUE, &angle);
+    chart.dots("u₂, and each nutation later", RED, &at_turns(0.0, high));
+    chart.dots("u₁, half a nutation after it", GREY, &at_turns(0.5, low));
+    chart.draw(area)
 }
 
-fn draw_precession(orbit: &Orbit, path: &Path<'_>, area: &picture::Area<'_>) -> Result<()> {
+fn draw_precession(orbit: &Orbit, path: &Path<'_>, area: &picture::Area) -> Result<()> {
     let scaled = |which: usize, all: &[[f64; 2]]| -> Points {
         all.iter().enumerate().map(|(k, deviation)| ((k + 1) as f64, deviation[which] * 1e12)).collect()
     };
     let all = deviations(orbit, &lower_turning_points(path)?);
     let (period, precession) = (scaled(0, &all), scaled(1, &all));
-    let [x, y] = picture::bounds(&[&period, &precession]);
-    // Room for the legend above.
-    let ranges = [x, y.start..y.end + 0.35 * (y.end - y.start)];
-    let mut chart = picture::panel(
-        area,
-        "Integrated motion less quadrature (absolute)",
-        ["nutation", "deviation × 10¹²"],
-        ranges,
-    )?;
-    picture::dots(&mut chart, "period of the nutation, in s", BLUE, &period)?;
-    picture::dots(&mut chart, "precession of an ellipse, in rad", RED, &precession)?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    let mut chart =
+        Panel::new("Integrated motion less quadrature (absolute)", ["nutation", "deviation × 10¹²"]);
+    chart.dots("period of the nutation, in s", BLUE, &period);
+    chart.dots("precession of an ellipse, in rad", RED, &precession);
+    chart.draw(area)
 }

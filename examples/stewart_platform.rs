@@ -15,7 +15,7 @@ use std::f64::consts::PI;
 use lagrange_core::Solution;
 use lagrange_core::nalgebra::{Matrix3, Quaternion, SMatrix, SVector, UnitQuaternion, Vector3, Vector4};
 use lagrange_core::prelude::*;
-use picture::{BLUE, GREY, Points, RED, Result};
+use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
 
 #[derive(Clone, Lagrangian)]
@@ -286,9 +286,8 @@ fn unbalanced(platform: &Platform, Moment { state: s, solution, .. }: &Moment) -
 }
 
 fn draw(platform: &Platform, record: &[Moment], file: &std::path::Path) -> Result<()> {
-    let root = SVGBackend::new(file, (1200, 900)).into_drawing_area();
-    root.fill(&WHITE)?;
-    let (poses, curves) = root.split_vertically(470);
+    let root = picture::sheet(file, (1200, 900))?;
+    let (poses, curves) = root.split_vertically(picture::px(470));
     for (area, t) in poses.split_evenly((1, 3)).iter().zip([0.0, 0.75, 2.0]) {
         draw_pose(platform, &record[(t / TICK).round() as usize], area)?;
     }
@@ -304,7 +303,7 @@ fn oblique(p: Vector3<f64>) -> (f64, f64) {
     (0.94 * p[1] - 0.34 * p[0], 0.94 * p[2] - 0.34 * (0.94 * p[0] + 0.34 * p[1]))
 }
 
-fn draw_pose(platform: &Platform, moment: &Moment, area: &picture::Area<'_>) -> Result<()> {
+fn draw_pose(platform: &Platform, moment: &Moment, area: &picture::Area) -> Result<()> {
     let legs = platform.legs(&moment.state);
     let closed = |points: &[Vector3<f64>]| -> Points {
         points.iter().chain(points.first()).map(|&p| oblique(p)).collect()
@@ -312,47 +311,45 @@ fn draw_pose(platform: &Platform, moment: &Moment, area: &picture::Area<'_>) -> 
     let corners: Vec<_> = legs.iter().zip(&platform.foot).map(|(leg, foot)| leg + foot).collect();
     let circle: Vec<_> = (0..100).map(|k| path(ROUND * f64::from(k) / 100.0, platform.g).r[0]).collect();
     let (base, plate, circle) = (closed(&platform.foot), closed(&corners), closed(&circle));
-    let ranges = picture::to_scale([-0.75..0.75, -0.3..1.25], area.dim_in_pixel());
+    let ranges = [-0.75..0.75, -0.3..1.25];
     let title = format!("t = {:.2} s", moment.state.t);
-    let mut chart = picture::panel(area, &title, ["", ""], ranges)?;
-    chart.draw_series([Polygon::new(base, GREY.mix(0.25))])?;
+    let mut chart = Panel::new(&title, ["", ""]).within(ranges).equal_axes();
+    chart.face(base, GREY.mix(0.25));
     for (foot, leg) in platform.foot.iter().zip(&legs) {
         let [thick, thin] = [2.0 * platform.half * leg.normalize(), *leg].map(|end| oblique(foot + end));
-        chart.draw_series(LineSeries::new([oblique(*foot), thin], GREY.stroke_width(2)))?;
-        chart.draw_series(LineSeries::new([oblique(*foot), thick], BLACK.stroke_width(5)))?;
+        chart.line([oblique(*foot), thin], GREY.stroke_width(2));
+        chart.line([oblique(*foot), thick], BLACK.stroke_width(5));
     }
-    chart.draw_series([Polygon::new(plate.clone(), BLUE.mix(0.35))])?;
-    chart.draw_series(LineSeries::new(plate, BLUE.stroke_width(2)))?;
-    picture::curve(&mut chart, "where its centre is to go", RED, &circle)?;
+    chart.face(plate.clone(), BLUE.mix(0.35));
+    chart.line(plate, BLUE.stroke_width(2));
+    chart.curve("where its centre is to go", RED, &circle);
     let centre = moment.state.q.fixed_rows::<3>(0).into_owned();
-    picture::dots(&mut chart, "its centre", RED, &vec![oblique(centre)])?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperLeft)
+    chart.dots("its centre", RED, &vec![oblique(centre)]);
+    chart.draw(area)
 }
 
-fn draw_forces(record: &[Moment], area: &picture::Area<'_>) -> Result<()> {
+fn draw_forces(record: &[Moment], area: &picture::Area) -> Result<()> {
     let of = |k: usize| -> Points { record.iter().map(|m| (m.state.t, m.push[k])).collect() };
     let curves: [Points; 6] = std::array::from_fn(of);
-    let ranges = picture::with_room_above(picture::bounds(&curves.each_ref()), 0.45);
-    let mut chart = picture::panel(area, "What the legs push by", ["t in s", "force in N"], ranges)?;
+    let mut chart = Panel::new("What the legs push by", ["t in s", "force in N"]);
     let light = |RGBColor(r, g, b): RGBColor| {
         let half = |x: u8| 255 - (255 - x) / 2;
         RGBColor(half(r), half(g), half(b))
     };
     let colors = [BLACK, RED, BLUE].into_iter().flat_map(|color| [color, light(color)]);
     for ((k, curve), color) in curves.iter().enumerate().zip(colors) {
-        picture::curve(&mut chart, &format!("leg {}", k + 1), color, curve)?;
+        chart.curve(&format!("leg {}", k + 1), color, curve);
     }
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    chart.draw(area)
 }
 
-fn draw_deviation(record: &[Moment], g: f64, area: &picture::Area<'_>) -> Result<()> {
+fn draw_deviation(record: &[Moment], g: f64, area: &picture::Area) -> Result<()> {
     let of = |k: usize, unit: f64| -> Points {
         record.iter().map(|m| (m.state.t, unit * deviation(m, g)[k])).collect()
     };
     let (apart, turned) = (of(0, 1e3), of(1, 180.0 / PI));
-    let ranges = picture::bounds(&[&apart, &turned]);
-    let mut chart = picture::panel(area, "How far it is from its path", ["t in s", ""], ranges)?;
-    picture::curve(&mut chart, "centre, in mm", BLACK, &apart)?;
-    picture::curve(&mut chart, "turned, in degrees", RED, &turned)?;
-    picture::legend(&mut chart, SeriesLabelPosition::UpperRight)
+    let mut chart = Panel::new("How far it is from its path", ["t in s", ""]);
+    chart.curve("centre, in mm", BLACK, &apart);
+    chart.curve("turned, in degrees", RED, &turned);
+    chart.draw(area)
 }

@@ -9,7 +9,7 @@ mod picture;
 use std::f64::consts::TAU;
 
 use lagrange_core::{Journey, prelude::*};
-use picture::{BLUE, GREY, Points, RED, Result};
+use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
 
 /// It rides on the belt.
@@ -82,8 +82,7 @@ fn ride() -> Result<Journey<f64>> {
 }
 
 fn draw(journey: &Journey<f64>, file: &std::path::Path) -> Result<()> {
-    let root = SVGBackend::new(file, (1100, 900)).into_drawing_area();
-    root.fill(&WHITE)?;
+    let root = picture::sheet(file, (1100, 900))?;
     let panels = root.split_evenly((2, 2));
     let [mut x, mut speed, mut friction, mut phase] = [const { Points::new() }; 4];
     for k in 0..=2000 {
@@ -96,34 +95,32 @@ fn draw(journey: &Journey<f64>, file: &std::path::Path) -> Result<()> {
     }
     draw_one(&panels[0], "Place of the block", ["t in s", "x in m"], ("x", BLUE, &x))?;
     let belt: Points = vec![(0.0, BELT), (12.0, BELT)];
-    let ranges = picture::bounds(&[&speed]);
-    let mut chart = picture::panel(&panels[1], "Its velocity", ["t in s", "ẋ in m/s"], ranges)?;
-    picture::curve(&mut chart, "belt", GREY, &belt)?;
-    picture::curve(&mut chart, "block", BLUE, &speed)?;
-    picture::legend(&mut chart, SeriesLabelPosition::LowerLeft)?;
+    let mut chart = Panel::new("Its velocity", ["t in s", "ẋ in m/s"]);
+    chart.curve("belt", GREY, &belt);
+    chart.curve("block", BLUE, &speed);
+    chart.draw(&panels[1])?;
     draw_one(&panels[2], "Friction: it gives at 2 N", ["t in s", "F in N"], ("friction", RED, &friction))?;
     let mut events = Points::new();
     for leg in journey.legs().take(10) {
         let end = leg.named_at(leg.end_time())?;
         events.push((end.coordinate("x")?, end.velocity("x")? / (K / M).sqrt()));
     }
-    let ranges = picture::to_scale(picture::bounds(&[&phase]), panels[3].dim_in_pixel());
     let title = "The limit cycle: slipping is an arc of a circle";
-    let mut chart = picture::panel(&panels[3], title, ["x in m", "ẋ/ω in m"], ranges)?;
-    picture::curve(&mut chart, "block", BLUE, &phase)?;
-    picture::dots(&mut chart, "it gives, it is caught", RED, &events)?;
-    picture::legend(&mut chart, SeriesLabelPosition::LowerLeft)?;
+    let mut chart = Panel::new(title, ["x in m", "ẋ/ω in m"]).equal_axes();
+    chart.curve("block", BLUE, &phase);
+    chart.dots("it gives, it is caught", RED, &events);
+    chart.draw(&panels[3])?;
     root.present()?;
     Ok(())
 }
 
 fn draw_one(
-    area: &picture::Area<'_>,
+    area: &picture::Area,
     title: &str,
     names: [&str; 2],
     (name, color, points): (&str, RGBColor, &Points),
 ) -> Result<()> {
-    let mut chart = picture::panel(area, title, names, picture::bounds(&[points]))?;
-    picture::curve(&mut chart, name, color, points)?;
-    picture::legend(&mut chart, SeriesLabelPosition::LowerLeft)
+    let mut chart = Panel::new(title, names);
+    chart.curve(name, color, points);
+    chart.draw(area)
 }

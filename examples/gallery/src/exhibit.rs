@@ -1,0 +1,90 @@
+//! What a system says of itself to be shown.
+
+use lagrange_core::nalgebra::SVector;
+use lagrange_core::prelude::*;
+
+use crate::scene::{Point, Scene, View};
+
+/// A slider: a parameter of a system or of its start.
+#[derive(Clone, Copy, Debug)]
+pub struct Knob {
+    /// What it is called in formulas, as the derive would have it: `theta_0`.
+    pub name: &'static str,
+    /// What it is.
+    pub meaning: &'static str,
+    /// Its unit, or nothing.
+    pub unit: &'static str,
+    /// From where to where it goes.
+    pub range: [f64; 2],
+    /// Where it is at first.
+    pub value: f64,
+}
+
+/// A slider: its name in formulas, what it is, its unit, from where to where it goes, and where it is at first.
+pub const fn knob(
+    name: &'static str,
+    meaning: &'static str,
+    unit: &'static str,
+    range: [f64; 2],
+    value: f64,
+) -> Knob {
+    Knob { name, meaning, unit, range, value }
+}
+
+/// A moment of the motion.
+#[derive(Clone, Copy, Debug)]
+pub struct Moment<const N: usize, const M: usize> {
+    /// Time, coordinates and velocities.
+    pub state: State<f64, N>,
+    /// The multipliers.
+    pub multipliers: SVector<f64, M>,
+    /// The constraint force on each coordinate.
+    pub force: SVector<f64, N>,
+}
+
+impl<const N: usize, const M: usize> Moment<N, M> {
+    /// The vector that starts at this coordinate.
+    pub fn place(&self, first: usize) -> Point {
+        self.state.q.fixed_rows::<3>(first).into()
+    }
+
+    /// The constraint force on that.
+    pub fn force_at(&self, first: usize) -> Point {
+        self.force.fixed_rows::<3>(first).into()
+    }
+
+    /// The vector of multipliers that starts here.
+    pub fn multiplier(&self, first: usize) -> Point {
+        self.multipliers.fixed_rows::<3>(first).into()
+    }
+}
+
+/// A system that is shown, with `K` sliders.
+///
+/// The derive has its equations and what it conserves; here is what can be set, where it starts, and how it is drawn.
+pub trait Exhibit<const N: usize, const M: usize, const K: usize>:
+    Lagrangian<N, M, Scalar = f64> + Sized + 'static
+{
+    /// What it is called.
+    const TITLE: &'static str;
+    /// What to look at.
+    const ABOUT: &'static str;
+    /// What can be set.
+    const KNOBS: &'static [Knob; K];
+    /// How much of its time passes in a second of watching.
+    const PACE: f64 = 1.0;
+
+    /// The system and its start, by the sliders. Of the start, what violates constraints is projected away.
+    fn set(knobs: [f64; K]) -> (Self, State<f64, N>);
+
+    /// From where it is seen.
+    fn view(&self, state: &State<f64, N>) -> View;
+
+    /// Draws it.
+    fn draw(&self, now: &Moment<N, M>, scene: &mut Scene);
+
+    /// The points that leave a trail.
+    fn trails(&self, _: &State<f64, N>) -> Vec<Point> {
+        Vec::new()
+    }
+}

@@ -1,0 +1,202 @@
+//! A system that runs, with what has been of its motion.
+
+use std::collections::VecDeque;
+
+use lagrange_core::nalgebra::SVector;
+use lagrange_core::{Method, prelude::*};
+
+use crate::exhibit::{Exhibit, Moment};
+use crate::scene::{Point, Scene, View};
+
+/// How many frames are kept: two minutes of watching.
+const KEPT: usize = 7200;
+/// Frames in a second of watching.
+const RATE: f64 = 60.0;
+/// How many frames a trail is long.
+const TRAIL: usize = 900;
+/// Energies and constraints come to at most so small a part of their size.
+const TOLERANCE: f64 = 1e-12;
+/// Of so many constraints the multipliers are plotted.
+const PLOTTED: usize = 6;
+
+/// A quantity that is plotted.
+#[derive(Clone, Debug)]
+pub(crate) struct Quantity {
+    pub(crate) name: &'static str,
+    pub(crate) kind: &'static str,
+}
+
+/// Any exhibit that runs.
+pub(crate) trait Running {
+    fn advance(&mut self, end: f64) -> Result<(), String>;
+    fn span(&self) -> [f64; 2];
+    fn view(&self, t: f64) -> View;
+    fn scene(&self, t: f64, with_forces: bool) -> Vec<f32>;
+    fn state(&self, t: f64) -> Vec<f64>;
+    fn quantities(&self) -> Vec<Quantity>;
+    fn times(&self, from: f64, to: f64) -> Vec<f64>;
+    fn series(&self, quantity: usize, from: f64, to: f64) -> Vec<f64>;
+}
+
+/// A system at its start, or why it cannot start.
+pub(crate) type Opened = Result<Box<dyn Running>, String>;
+
+/// What is kept of a frame.
+struct Frame<const N: usize> {
+    state: State<f64, N>,
+    values: Vec<f64>,
+    trails: Vec<Point>,
+}
+
+struct Live<E, const N: usize, const M: usize, const K: usize>
+where
+    E: Exhibit<N, M, K>,
+    Dop853: Method<E, N, M>,
+{
+    motion: Motion<E, Dop853, N, M>,
+    frames: VecDeque<Frame<N>>,
+    /// How many frames came before those that are kept.
+    forgotten: usize,
+}
+
+/// The exhibit with its sliders at these values, at its start.
+pub(crate) fn open<E, const N: usize, const M: usize, const K: usize>(knobs: &[f64]) -> Opened
+where
+    E: Exhibit<N, M, K>,
+    Dop853: Method<E, N, M>,
+{
+    let knobs = knobs.try_into().map_err(|_| format!("{} has {K} sliders", E::NAME))?;
+    let (system, start) = E::set(knobs);
+    let (start, _) = system.make_consistent(&start).map_err(|error| error.to_string())?;
+    let motion =
+        Motion::new(system, start, Dop853::with_tolerance(TOLERANCE)).map_err(|error| error.to_string())?;
+    let mut live = Live { motion, frames: VecDeque::new(), forgotten: 0 };
+    live.record();
+    Ok(Box::new(live))
+}
+
+impl<E, const N: usize, const M: usize, const K: usize> Live<E, N, M, K>
+where
+    E: Exhibit<N, M, K>,
+    Dop853: Method<E, N, M>,
+{
+    /// How far frames are apart.
+    const STEP: f64 = E::PACE / RATE;
+
+    fn record(&mut self) {
+        let (system, state) = (self.motion.system(), *self.motion.state());
+        let frame = Frame { state, values: self.values(&state), trails: system.trails(&state) };
+        self.frames.push_back(frame);
+        if self.frames.len() > KEPT {
+            self.frames.pop_front();
+            self.forgotten += 1;
+        }
+    }
+
+    /// What [`quantities`](Running::quantities) names.
+    fn values(&self, state: &State<f64, N>) -> Vec<f64> {
+        let system = self.motion.system();
+        let (energy, lagrangian) = (system.energy(state), system.lagrangian(state));
+        let mut values = vec![energy];
+        if E::FACTS.energy_is_t_plus_u.is_some() {
+            values.extend([f64::midpoint(energy, lagrangian), f64::midpoint(energy, -lagrangian)]);
+        }
+        values.extend((0..E::FACTS.conserved.len()).filter_map(|index| system.conserved(index, state)));
+        values.extend(self.moment(state).multipliers.iter().take(PLOTTED));
+        values
+    }
+
+    /// Forces are not a number where they cannot be solved for.
+    fn moment(&self, state: &State<f64, N>) -> Moment<N, M> {
+        let system = self.motion.system();
+        let multipliers =
+            system.solve(state).map_or(SVector::repeat(f64::NAN), |solution| solution.multipliers);
+        Moment { state: *state, multipliers, force: system.constraint_force(state, &multipliers) }
+    }
+
+    /// The last frame that is not later.
+    fn index(&self, t: f64) -> usize {
+        let index = (t / Self::STEP + 1e-6).floor().max(0.0) as usize;
+        index.saturating_sub(self.forgotten).min(self.frames.len() - 1)
+    }
+
+    /// Between two frames by the cubic through both, whose error is that of a picture.
+    fn at(&self, t: f64) -> State<f64, N> {
+        let index = self.index(t);
+        let before = self.frames[index].state;
+        let Some(after) = self.frames.get(index + 1) else {
+            return before;
+        };
+        let (after, h) = (after.state, after.state.t - before.t);
+        let s = ((t - before.t) / h).clamp(0.0, 1.0);
+        let rise = s * s * (3.0 - 2.0 * s);
+        let [leaving, coming] = [s * (1.0 - s) * (1.0 - s) * h, s * s * (s - 1.0) * h];
+        let q = before.q.lerp(&after.q, rise) + before.v * leaving + after.v * coming;
+        State::new(q, before.v.lerp(&after.v, s)).at_time(before.t + s * h)
+    }
+}
+
+impl<E, const N: usize, const M: usize, const K: usize> Running for Live<E, N, M, K>
+where
+    E: Exhibit<N, M, K>,
+    Dop853: Method<E, N, M>,
+{
+    fn advance(&mut self, end: f64) -> Result<(), String> {
+        loop {
+            let next = Self::STEP * (self.forgotten + self.frames.len()) as f64;
+            if next > end {
+                return Ok(());
+            }
+            self.motion.advance_to(next).map_err(|ending| ending.to_string())?;
+            self.record();
+        }
+    }
+
+    fn span(&self) -> [f64; 2] {
+        [self.frames[0].state.t, self.motion.state().t]
+    }
+
+    fn view(&self, t: f64) -> View {
+        self.motion.system().view(&self.at(t))
+    }
+
+    fn scene(&self, t: f64, with_forces: bool) -> Vec<f32> {
+        let (system, moment) = (self.motion.system(), self.moment(&self.at(t)));
+        let mut scene = Scene::new(&system.view(&moment.state), with_forces);
+        let last = self.index(t);
+        let trails = &self.frames[last].trails;
+        for k in 0..trails.len() {
+            let frames = self.frames.range(last.saturating_sub(TRAIL)..=last);
+            let mut trail: Vec<Point> = frames.map(|frame| frame.trails[k]).collect();
+            trail.extend(system.trails(&moment.state).get(k));
+            scene.trail(&trail);
+        }
+        system.draw(&moment, &mut scene);
+        scene.into_numbers()
+    }
+
+    fn state(&self, t: f64) -> Vec<f64> {
+        let State { q, v, .. } = self.at(t);
+        q.iter().chain(&v).copied().collect()
+    }
+
+    fn quantities(&self) -> Vec<Quantity> {
+        let named = |kind| move |name| Quantity { name, kind };
+        let mut quantities = vec![named("energy")("E")];
+        if E::FACTS.energy_is_t_plus_u.is_some() {
+            quantities.extend(["T", "U"].map(named("energy")));
+        }
+        quantities.extend(E::FACTS.conserved.iter().map(|conserved| named("conserved")(conserved.name)));
+        quantities.extend(E::CONSTRAINTS.into_iter().take(PLOTTED).map(named("multiplier")));
+        quantities
+    }
+
+    fn times(&self, from: f64, to: f64) -> Vec<f64> {
+        self.frames.range(self.index(from)..=self.index(to)).map(|frame| frame.state.t).collect()
+    }
+
+    fn series(&self, quantity: usize, from: f64, to: f64) -> Vec<f64> {
+        let value = |frame: &Frame<N>| frame.values.get(quantity).copied().unwrap_or(f64::NAN);
+        self.frames.range(self.index(from)..=self.index(to)).map(value).collect()
+    }
+}

@@ -1,0 +1,96 @@
+//! The systems that are shown, a file each.
+
+mod bead;
+mod carriage;
+mod cart_pole;
+mod chain;
+mod chaplygin_sleigh;
+mod double_pendulum;
+mod flipping_body;
+mod foucault_pendulum;
+mod heavy_top;
+mod henon_heiles;
+mod ions;
+mod polar_pendulum;
+mod race;
+mod robot_arm;
+mod rolling_ball;
+mod rolling_coin;
+mod rolling_cylinder;
+mod spherical_pendulum;
+mod stewart_platform;
+mod three_bodies;
+mod turntable;
+
+use lagrange_core::{Equations, Method, prelude::*};
+
+use crate::exhibit::{Exhibit, Knob};
+use crate::running::{self, Opened};
+
+/// A system that can be shown.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
+    /// Its name in links.
+    pub key: &'static str,
+    /// What it is called.
+    pub title: &'static str,
+    /// What to look at.
+    pub about: &'static str,
+    /// Its sliders.
+    pub knobs: &'static [Knob],
+    /// How much of its time passes in a second of watching.
+    pub pace: f64,
+    /// What the derive writes of it.
+    pub equations: Equations,
+    /// Whether the derive found that the energy is conserved.
+    pub conserves_energy: bool,
+    /// The names of its coordinates.
+    pub coordinates: &'static [&'static str],
+    pub(crate) open: fn(&[f64]) -> Opened,
+}
+
+/// The entry of an exhibit.
+const fn entry<E, const N: usize, const M: usize, const K: usize>(key: &'static str) -> Entry
+where
+    E: Exhibit<N, M, K>,
+    Dop853: Method<E, N, M>,
+{
+    Entry {
+        key,
+        title: E::TITLE,
+        about: E::ABOUT,
+        knobs: E::KNOBS,
+        pace: E::PACE,
+        equations: E::EQUATIONS,
+        conserves_energy: E::FACTS.energy_is_conserved.is_some(),
+        coordinates: &E::COORDINATES,
+        open: running::open::<E, N, M, K>,
+    }
+}
+
+/// All of them, from pendulums to machines.
+pub fn all() -> Vec<Entry> {
+    vec![
+        entry::<bead::Bead, _, _, _>("bead"),
+        entry::<double_pendulum::DoublePendulum, _, _, _>("double-pendulum"),
+        entry::<chain::Chain, _, _, _>("chain"),
+        entry::<spherical_pendulum::SphericalPendulum, _, _, _>("spherical-pendulum"),
+        entry::<polar_pendulum::PolarPendulum, _, _, _>("polar-pendulum"),
+        entry::<foucault_pendulum::FoucaultPendulum, _, _, _>("foucault-pendulum"),
+        entry::<race::Race, _, _, _>("race"),
+        entry::<rolling_cylinder::RollingCylinder, _, _, _>("rolling-cylinder"),
+        entry::<rolling_ball::RollingBall, _, _, _>("rolling-ball"),
+        entry::<rolling_coin::RollingCoin, _, _, _>("rolling-coin"),
+        entry::<chaplygin_sleigh::ChaplyginSleigh, _, _, _>("chaplygin-sleigh"),
+        entry::<carriage::Carriage, _, _, _>("carriage"),
+        entry::<turntable::Turntable, _, _, _>("turntable"),
+        entry::<ions::StirredIons, _, _, _>("ions"),
+        entry::<heavy_top::HeavyTop, _, _, _>("heavy-top"),
+        entry::<flipping_body::FlippingBody, _, _, _>("flipping-body"),
+        entry::<stewart_platform::StewartPlatform, _, _, _>("stewart-platform"),
+        entry::<robot_arm::RobotArm, _, _, _>("robot-arm"),
+        entry::<cart_pole::CartPole, _, _, _>("cart-pole"),
+        entry::<henon_heiles::HenonHeiles, _, _, _>("henon-heiles"),
+        entry::<three_bodies::ThreeBodies, _, _, _>("three-bodies"),
+    ]
+}
