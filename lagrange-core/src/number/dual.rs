@@ -134,11 +134,17 @@ impl<S: Scalar> Scalar for Dual<S> {
     }
 
     #[inline(always)]
-    fn sin_cos_of<const K: usize>(angles: [Self; K]) -> ([Self; K], [Self; K]) {
-        let (sines, cosines) = S::sin_cos_of(angles.map(|angle| angle.value));
+    fn sin_cos_of_small<const K: usize>(angles: [Self; K]) -> ([Self; K], [Self; K]) {
+        let (sines, cosines) = S::sin_cos_of_small(angles.map(|angle| angle.value));
         let sine = |k: usize| angles[k].chain(sines[k], cosines[k]);
         let cosine = |k: usize| angles[k].chain(cosines[k], -sines[k]);
         (core::array::from_fn(sine), core::array::from_fn(cosine))
+    }
+
+    #[inline(always)]
+    fn small_angles<const K: usize>(angles: [Self; K]) -> [Self; K] {
+        let small = S::small_angles(angles.map(|angle| angle.value));
+        core::array::from_fn(|k| Self { value: small[k], ..angles[k] })
     }
 
     #[inline(always)]

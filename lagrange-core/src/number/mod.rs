@@ -8,6 +8,7 @@ mod numeric;
 mod over;
 mod scalar;
 mod series;
+#[cfg(feature = "std")]
 mod sines;
 
 pub(crate) use array::entries;

@@ -1,5 +1,6 @@
 //! The numbers that emitted code computes with.
 
+#[cfg(feature = "std")]
 use core::any::Any;
 use core::fmt::{Debug, Display};
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -7,6 +8,7 @@ use simba::scalar::{RealField, SupersetOf};
 use simba::simd::SimdRealField;
 
 use super::over::Wide;
+#[cfg(feature = "std")]
 use super::sines;
 
 /// A number that equations of motion can be evaluated on: `f64`, `f32`, a SIMD lane type, a dual number.
@@ -29,10 +31,17 @@ pub trait Scalar:
     fn constant(x: f64) -> Self;
     /// Sine and cosine at once.
     fn sin_cos(self) -> (Self, Self);
-    /// Sines and cosines of several angles, which for `f64` is faster than of one after the other.
+    /// Sines and cosines of several angles at once, of [small ones](Self::small_angles): for `f64` they are computed side by side
+    /// where the processor has fused products and sums. Of larger angles they may be anything.
     #[inline(always)]
-    fn sin_cos_of<const K: usize>(angles: [Self; K]) -> ([Self; K], [Self; K]) {
+    fn sin_cos_of_small<const K: usize>(angles: [Self; K]) -> ([Self; K], [Self; K]) {
         one_by_one(angles)
+    }
+    /// Angles with the same sines and cosines, less full turns where they are large: `f64` beyond 10⁵, where that takes 2·10⁻¹⁶,
+    /// a millionth of the distance to the next such number.
+    #[inline(always)]
+    fn small_angles<const K: usize>(angles: [Self; K]) -> [Self; K] {
+        angles
     }
     /// Sine.
     #[inline(always)]
@@ -113,7 +122,7 @@ pub trait Scalar:
     }
 }
 
-#[inline(always)]
+#[inline]
 fn one_by_one<S: Scalar, const K: usize>(angles: [S; K]) -> ([S; K], [S; K]) {
     // Not by `map`, which the compiler leaves a function of its own for lanes.
     let (mut sines, mut cosines) = (angles, angles);
@@ -124,6 +133,7 @@ fn one_by_one<S: Scalar, const K: usize>(angles: [S; K]) -> ([S; K], [S; K]) {
 }
 
 /// A value as one of another type, if the types are the same; which they are is known to the compiler.
+#[cfg(feature = "std")]
 #[inline(always)]
 fn same<X: Copy + 'static, Y: Copy + 'static>(x: X) -> Option<Y> {
     (&x as &dyn Any).downcast_ref().copied()
@@ -153,10 +163,21 @@ impl<T: SimdRealField + SupersetOf<f64> + Copy + Debug + 'static> Scalar for T {
     }
 
     #[inline(always)]
-    fn sin_cos_of<const K: usize>(angles: [Self; K]) -> ([Self; K], [Self; K]) {
-        let numbers = same::<_, [f64; K]>(angles);
-        let found = numbers.and_then(sines::sin_cos).and_then(same::<([f64; K], [f64; K]), _>);
-        found.unwrap_or_else(|| one_by_one(angles))
+    fn sin_cos_of_small<const K: usize>(angles: [Self; K]) -> ([Self; K], [Self; K]) {
+        #[cfg(feature = "std")]
+        if let Some(found) = same::<_, [f64; K]>(angles).map(sines::sin_cos).and_then(same) {
+            return found;
+        }
+        one_by_one(angles)
+    }
+
+    #[inline(always)]
+    fn small_angles<const K: usize>(angles: [Self; K]) -> [Self; K] {
+        #[cfg(feature = "std")]
+        if let Some(small) = same::<_, [f64; K]>(angles).map(sines::small).and_then(same) {
+            return small;
+        }
+        angles
     }
 
     #[inline(always)]

@@ -1,9 +1,13 @@
-//! Sines and cosines of several angles at once, which a processor computes side by side.
+//! Sines and cosines of several angles at once, on SIMD lanes.
 //!
 //! Each angle loses the nearest multiple of π/2 in three steps (Cody and Waite, *Software Manual for the Elementary
 //! Functions*, 1980), so that some 150 bits of π/2 count, and polynomials give both functions of what is left, with its
 //! rounding (their coefficients, and the constants of the steps, are those of fdlibm, Sun Microsystems, 1993): less than a
-//! unit in the last place. Nothing branches, so the compiler makes vectors of it.
+//! unit in the last place. Their terms are put together in pairs (Estrin, *Proceedings of the Western Joint Computer
+//! Conference*, 1960), since a function that waits for its sines waits for the longest chain of operations.
+
+use super::lanes::Lanes;
+use super::scalar::Scalar;
 
 /// Beyond, the multiple of π/2 has too many digits for the first step to be exact.
 const LARGEST: f64 = 1e5;
@@ -39,70 +43,75 @@ const COSINE: [f64; 6] = [
     f64::from_bits(0xbda8_fae9_be88_38d4),
 ];
 
-/// As many angles as are taken at once.
-const WIDTH: usize = 4;
-/// Of fewer the standard library's are as fast, where the processor foresees their branches, as along a motion.
-const FEWEST: usize = 6;
-
-type Group = [f64; WIDTH];
-
-/// The sines and the cosines of all angles, where they are not few and none is too large.
+/// The angles less full turns where one is too large.
 #[inline(always)]
-pub(super) fn sin_cos<const K: usize>(angles: [f64; K]) -> Option<([f64; K], [f64; K])> {
-    if K < FEWEST {
-        return None;
-    }
-    let (mut sines, mut cosines) = ([0.0; K], [0.0; K]);
-    let mut is_small = true;
-    for ((angles, sines), cosines) in
-        angles.chunks(WIDTH).zip(sines.chunks_mut(WIDTH)).zip(cosines.chunks_mut(WIDTH))
-    {
-        let mut group = [0.0; WIDTH];
-        group[..angles.len()].copy_from_slice(angles);
-        // Comparisons with what is no number fail.
-        is_small &= group.iter().all(|x| x.abs() < LARGEST);
-        let (sine, cosine) = group_of(group);
-        sines.copy_from_slice(&sine[..angles.len()]);
-        cosines.copy_from_slice(&cosine[..angles.len()]);
-    }
-    is_small.then_some((sines, cosines))
+pub(super) fn small<const K: usize>(angles: [f64; K]) -> [f64; K] {
+    // Comparisons with what is no number fail.
+    let is_small = angles.iter().fold(true, |all, x| all & (x.abs() < LARGEST));
+    if is_small { angles } else { less_turns(angles) }
 }
 
-/// A function of its own: in the midst of an emitted one the compiler makes no vectors of it.
+#[cold]
 #[inline(never)]
-fn group_of(x: Group) -> (Group, Group) {
-    let shifted = x.map(|x| x * core::f64::consts::FRAC_2_PI + ROUNDER);
-    let quadrant = shifted.map(f64::to_bits);
-    let multiple = shifted.map(|shifted| shifted - ROUNDER);
-    let (mut sines, mut cosines) = ([0.0; WIDTH], [0.0; WIDTH]);
-    for i in 0..WIDTH {
-        let (rest, error) = reduced(x[i], multiple[i]);
-        let (sine, cosine) = (sine(rest, error), cosine(rest, error));
-        // In odd quadrants they change places; in the second and third the sine, in the first and second the cosine is
-        // that of an angle before, with the other sign.
-        let is_odd = 0_u64.wrapping_sub(quadrant[i] & 1);
-        let (s, c) = (sine.to_bits(), cosine.to_bits());
-        let swapped = (s ^ c) & is_odd;
-        let (s, c) = (s ^ swapped, c ^ swapped);
-        sines[i] = f64::from_bits(s ^ ((quadrant[i] & 2) << 62));
-        cosines[i] = f64::from_bits(c ^ (((quadrant[i] + 1) & 2) << 62));
+fn less_turns<const K: usize>(angles: [f64; K]) -> [f64; K] {
+    angles.map(|x| if x.abs() < LARGEST { x } else { x.sin().atan2(x.cos()) })
+}
+
+/// The sines and the cosines of small angles.
+#[inline(always)]
+pub(super) fn sin_cos<const K: usize>(angles: [f64; K]) -> ([f64; K], [f64; K]) {
+    let (mut sines, mut cosines) = ([0.0; K], [0.0; K]);
+    for first in (0..K).step_by(Lanes::COUNT) {
+        // One by one: as a slice that is copied they would go through memory, and be long in coming as a vector.
+        let angle = |lane: usize| if first + lane < K { angles[first + lane] } else { 0.0 };
+        let (sine, cosine) = side_by_side([angle(0), angle(1), angle(2), angle(3)].into());
+        let found = sine.to_array().into_iter().zip(cosine.to_array());
+        let places = sines.iter_mut().zip(&mut cosines).skip(first);
+        places.zip(found).for_each(|((sine, cosine), found)| (*sine, *cosine) = found);
     }
     (sines, cosines)
 }
 
+#[inline(always)]
+fn all(x: f64) -> Lanes {
+    Lanes::constant(x)
+}
+
+/// Of small angles.
+#[inline(always)]
+fn side_by_side(x: Lanes) -> (Lanes, Lanes) {
+    let n = rounded(x * all(core::f64::consts::FRAC_2_PI));
+    let (rest, error) = reduced(x, n);
+    let (sine, cosine) = (sine(rest, error), cosine(rest, error));
+    // In odd quadrants they change places; in the second and third the sine, in the first and second the cosine is that of an
+    // angle before, with the other sign.
+    let parity = rounded(n * all(0.5)).multiply_add(all(-2.0), n);
+    let is_odd = parity * parity - all(0.5);
+    let turns = rounded(n * all(0.25) - all(0.375));
+    let from_middle = turns.multiply_add(all(-4.0), n) - all(1.5);
+    let is_in_middle = all(1.0) - from_middle.abs();
+    let [s, c] = [cosine.select(is_odd, sine), sine.select(is_odd, cosine)];
+    ((-s).select(from_middle, s), (-c).select(is_in_middle, c))
+}
+
+/// To whole numbers, of two as near the even one.
+#[inline(always)]
+fn rounded(x: Lanes) -> Lanes {
+    (x + all(ROUNDER)) - all(ROUNDER)
+}
+
 /// x − n π/2 as a number and what it is rounded by.
 #[inline(always)]
-fn reduced(x: f64, n: f64) -> (f64, f64) {
-    let first = x - n * PARTS[0];
-    let (second, lost) = difference(first, n * PARTS[1]);
-    let (third, more) = difference(second, n * PARTS[2]);
-    let (rest, last) = difference(third, n * PARTS[3] - (lost + more));
-    (rest, last)
+fn reduced(x: Lanes, n: Lanes) -> (Lanes, Lanes) {
+    let part = |k: usize| n * all(PARTS[k]);
+    let (left, lost) = difference(x - part(0), part(1));
+    let (left, more) = difference(left, part(2));
+    difference(left, part(3) - (lost + more))
 }
 
 /// x − y, and what the rounding took from it (Knuth, *The Art of Computer Programming*, volume 2, 4.2.2).
 #[inline(always)]
-fn difference(x: f64, y: f64) -> (f64, f64) {
+fn difference(x: Lanes, y: Lanes) -> (Lanes, Lanes) {
     let difference = x - y;
     let part = x - difference;
     let rest = (x - (difference + part)) + (part - y);
@@ -110,28 +119,29 @@ fn difference(x: f64, y: f64) -> (f64, f64) {
 }
 
 #[inline(always)]
-fn sine(x: f64, error: f64) -> f64 {
+fn sine(x: Lanes, error: Lanes) -> Lanes {
     let z = x * x;
-    let cube = z * x;
-    let [first, rest @ .., last] = SINE;
-    let tail = rest.iter().rev().fold(last, |sum, coefficient| sum * z + coefficient);
-    x - ((z * (0.5 * error - cube * tail) - error) - cube * first)
+    let (square, cube) = (z * z, z * x);
+    // Not mapped: the compiler leaves the map of an array a function of its own.
+    let pair = |k: usize| z.multiply_add(all(SINE[k + 1]), all(SINE[k]));
+    let tail = square.multiply_add(square.multiply_add(all(SINE[5]), pair(3)), pair(1));
+    let correction = z * cube.subtract_product(tail, all(0.5) * error) - error;
+    x - cube.subtract_product(all(SINE[0]), correction)
 }
 
 #[inline(always)]
-fn cosine(x: f64, error: f64) -> f64 {
+fn cosine(x: Lanes, error: Lanes) -> Lanes {
     let z = x * x;
-    let half = 0.5 * z;
-    let [rest @ .., last] = COSINE;
-    let tail = rest.iter().rev().fold(last, |sum, coefficient| sum * z + coefficient);
-    let near = 1.0 - half;
-    near + (((1.0 - near) - half) + (z * z * tail - x * error))
+    let (square, half) = (z * z, all(0.5) * z);
+    let pair = |k: usize| z.multiply_add(all(COSINE[k + 1]), all(COSINE[k]));
+    let tail = square.multiply_add(square.multiply_add(pair(4), pair(2)), pair(0));
+    let near = all(1.0) - half;
+    near + (((all(1.0) - near) - half) + (square * tail - x * error))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::number::Scalar;
 
     /// How far two numbers are apart, in units of the last place.
     fn off(ours: f64, theirs: f64) -> f64 {
@@ -140,7 +150,7 @@ mod tests {
     }
 
     fn check(angles: [f64; 7]) {
-        let (sines, cosines) = sin_cos(angles).expect("small angles");
+        let (sines, cosines) = sin_cos(angles);
         for ((x, sine), cosine) in angles.into_iter().zip(sines).zip(cosines) {
             let (theirs, their_cosine) = x.sin_cos();
             // Two roundings of less than a unit each differ by one at most.
@@ -172,17 +182,24 @@ mod tests {
     }
 
     #[test]
-    fn what_is_too_large_or_no_number_is_left_to_others() {
-        for x in [1e5, -1e6, f64::INFINITY, f64::NAN] {
-            assert_eq!(sin_cos([0.1, x, 0.2, 0.3, 0.4, 0.5]), None);
-            let (sines, _) = f64::sin_cos_of([0.1, x, 0.2, 0.3, 0.4, 0.5]);
-            assert_eq!(sines[1].to_bits(), x.sin().to_bits());
+    fn large_angles_lose_full_turns_and_what_is_no_number_stays_so() {
+        for x in [1e5, -1e6, 123_456_789.123, -9e15, 1e300] {
+            let small = small([0.1, x, 0.2]);
+            assert!(small[1].abs() < 4.0 && [small[0], small[2]] == [0.1, 0.2], "{small:?}");
+            let (sines, cosines) = sin_cos(small);
+            let off = [sines[1] - x.sin(), cosines[1] - x.cos()].map(f64::abs);
+            assert!(off.into_iter().all(|off| off < 5e-16), "{x:e}: {off:?}");
         }
-        let (sines, cosines) = sin_cos([0.0, -0.0, 1e-300, 5e-324, 99_999.9, 1.0]).expect("small angles");
-        assert_eq!(
-            sines[..4].iter().map(|sine| sine.to_bits()).collect::<Vec<_>>(),
-            [0.0, -0.0, 1e-300, 5e-324].map(f64::to_bits)
-        );
-        assert_eq!(cosines[..4], [1.0; 4]);
+        for x in [f64::INFINITY, f64::NAN] {
+            let (sines, cosines) = sin_cos(small([x, 0.5]));
+            assert!(sines[0].is_nan() && cosines[0].is_nan() && off(sines[1], 0.5_f64.sin()) <= 1.0);
+        }
+    }
+
+    #[test]
+    fn small_numbers_and_signs_of_zero_are_kept() {
+        let (sines, cosines) = sin_cos([0.0, -0.0, 1e-300, 5e-324]);
+        assert_eq!(sines.map(f64::to_bits), [0.0, -0.0, 1e-300, 5e-324].map(f64::to_bits));
+        assert_eq!(cosines, [1.0; 4]);
     }
 }

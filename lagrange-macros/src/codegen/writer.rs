@@ -30,6 +30,11 @@ impl Style<'_> {
                 let (name, value) = (self.local(local), self.expression(value));
                 quote!(#word #name = #value;)
             }
+            Statement::Small(angles) => {
+                let (names, angles): (Vec<_>, Vec<_>) =
+                    angles.into_iter().map(|(local, angle)| (self.local(local), self.operand(angle))).unzip();
+                quote!(#word [#(#names),*] = __lagrange::Scalar::small_angles([#(#angles),*]);)
+            }
             Statement::Turns(turns) => {
                 let turns = self.turns(turns);
                 quote!(#word #turns;)
@@ -57,7 +62,9 @@ impl Style<'_> {
         let angles: Vec<TokenStream> = turns.into_iter().map(|turn| self.operand(turn.angle)).collect();
         match &angles[..] {
             [angle] => quote!((#(#sines)*, #(#cosines)*) = __lagrange::Scalar::sin_cos(#angle)),
-            _ => quote!(([#(#sines),*], [#(#cosines),*]) = __lagrange::Scalar::sin_cos_of([#(#angles),*])),
+            _ => {
+                quote!(([#(#sines),*], [#(#cosines),*]) = __lagrange::Scalar::sin_cos_of_small([#(#angles),*]))
+            }
         }
     }
 
@@ -133,6 +140,7 @@ impl Style<'_> {
         match local {
             Local::Definition(id) => self.definition_names[&id].clone(),
             Local::Operation(index) => format_ident!("r{index}", span = Span::mixed_site()),
+            Local::Angle(index) => format_ident!("angle{index}", span = Span::mixed_site()),
             Local::Result { call, output } => format_ident!("call{call}_{output}", span = Span::mixed_site()),
         }
     }

@@ -35,7 +35,7 @@ impl Circular {
                 let taken = self.arguments.entry(self.function.clone()).or_default();
                 match before[1].as_str() {
                     "sin" | "cos" | "sin_cos" if before[0] == ":" => taken.push(group.stream().to_string()),
-                    "sin_cos_of" => taken.extend(angles(group.stream())),
+                    "sin_cos_of_small" => taken.extend(angles(group.stream())),
                     _ => {}
                 }
                 self.read(group.stream());

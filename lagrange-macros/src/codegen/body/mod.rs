@@ -36,7 +36,9 @@ pub(super) struct Part {
 #[derive(Clone, Debug)]
 pub(super) enum Statement {
     Let(Local, Expression),
-    /// Sines and cosines, together.
+    /// Angles less full turns where they are large, of which there is no need to ask again.
+    Small(Vec<(Local, Expression)>),
+    /// Sines and cosines, together: of several, small angles.
     Turns(Vec<Turn>),
     /// A call of a function that the user supplies, and those of its results that are used.
     Call(Call<Expression>, Vec<(u32, Local)>),
@@ -66,6 +68,8 @@ pub(super) enum Local {
     Definition(Id),
     /// The operation that computes it.
     Operation(usize),
+    /// That operation or input, as a small angle.
+    Angle(usize),
     /// One result of a call.
     Result {
         call: u32,

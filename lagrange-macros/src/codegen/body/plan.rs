@@ -15,6 +15,10 @@ use crate::symbolic::{Function, Id};
 
 /// Single-use results are nested into what uses them to this depth.
 const NESTING: usize = 6;
+/// Sines and cosines of so many angles are computed side by side, on the lanes of a vector, where there are not fewer than that
+/// in all: of few a processor computes one after another as fast, as long as it foresees their branches.
+const ABREAST: usize = 4;
+const FEWEST: usize = 4;
 /// So many results, most of them zero, are not written out.
 const MANY: usize = 256;
 
@@ -65,10 +69,14 @@ struct Planner<'p> {
     fetched: BTreeSet<Register>,
     /// What is in a local and which a later part uses.
     kept: Vec<Register>,
-    /// For each part the angles in it that depend on no sine and on no other function.
-    plain: Vec<BTreeSet<Register>>,
+    /// For each part, the last first, the angles in it that depend on no sine and on no other function.
+    plain: Vec<Vec<Register>>,
     /// Those of this part whose turn has not come.
-    early: BTreeSet<Register>,
+    early: Vec<Register>,
+    /// The first of those that were taken last.
+    leader: Option<Register>,
+    /// Those that are at hand as small ones.
+    small: BTreeSet<Register>,
 }
 
 struct Value {
@@ -123,6 +131,8 @@ impl<'p> Planner<'p> {
             kept,
             plain,
             early,
+            leader: None,
+            small: BTreeSet::new(),
         }
     }
 
@@ -153,9 +163,9 @@ impl<'p> Planner<'p> {
     fn compute(&mut self, index: usize) {
         let register = Register::at(index);
         match self.schedule.operations[index] {
+            Operation::Function(Function::Sin | Function::Cos, x) => self.turn(x),
             _ if self.values[index].is_some() => {}
             Operation::Result { call, .. } => self.call(call),
-            Operation::Function(Function::Sin | Function::Cos, x) => self.turn(x),
             operation => {
                 let operands = self.schedule.operands(operation);
                 let depth = 1 + operands.map(|operand| self.depth(operand)).max().unwrap_or(0);
@@ -197,18 +207,59 @@ impl<'p> Planner<'p> {
         self.part.statements.push(Statement::Call(Call { function, derivatives, arguments }, results));
     }
 
-    /// The sine and the cosine of one argument are computed together, and with them those of all angles of this part that
-    /// are at hand before any: a processor takes several side by side.
+    /// The sine and the cosine of one argument are computed together, and with them those of the angles whose turn comes
+    /// next, if they are at hand: a processor takes several side by side. Not those of all: while pivots wait for one another
+    /// it has time for others, of which it is to know by then. So each group comes with the first of the group before.
     fn turn(&mut self, x: Register) {
-        let mut angles = std::mem::take(&mut self.early);
-        // An earlier part may have taken the cosine with a sine.
-        angles.retain(|&angle| !self.is_taken(angle));
-        if !angles.contains(&x) {
-            self.early = std::mem::replace(&mut angles, BTreeSet::from([x]));
+        if !self.is_taken(x) {
+            let angles = self.angles_with(x);
+            self.turn_all(&angles);
         }
+        if self.leader == Some(x) {
+            let angles = self.next_angles();
+            self.turn_all(&angles);
+        }
+    }
+
+    /// The angles whose turn comes with this one's.
+    fn angles_with(&mut self, x: Register) -> Vec<Register> {
+        match self.early.iter().position(|&angle| angle == x) {
+            Some(place) => {
+                self.early.drain(..place);
+                self.next_angles()
+            }
+            None => vec![x],
+        }
+    }
+
+    fn next_angles(&mut self) -> Vec<Register> {
+        // An earlier part may have taken the cosine with a sine.
+        let mut early = std::mem::take(&mut self.early);
+        early.retain(|&angle| !self.is_taken(angle));
+        if self.small.is_empty() {
+            self.make_small(&early);
+        }
+        self.early = early.split_off(early.len().min(ABREAST));
+        self.leader = early.first().copied();
+        early
+    }
+
+    /// All at once, before the first: each branch would keep the compiler from mixing what comes before with what comes after.
+    fn make_small(&mut self, angles: &[Register]) {
+        angles.iter().for_each(|&angle| self.compute_early(angle));
+        let small = |angle: &Register| (Local::Angle(angle.index()), self.value(*angle));
+        let small: Vec<_> = angles.iter().map(small).collect();
+        self.part.locals.extend(small.iter().map(|(local, _)| *local));
+        self.part.statements.push(Statement::Small(small));
+        self.small = angles.iter().copied().collect();
+    }
+
+    /// The sines and cosines of these angles.
+    fn turn_all(&mut self, angles: &[Register]) {
         angles.iter().for_each(|&angle| self.compute_early(angle));
         let turns: Vec<Turn> = angles.iter().map(|&angle| self.turn_of(angle)).collect();
         match &turns[..] {
+            [] => {}
             [
                 Turn { angle, sine: Some(only), cosine: None }
                 | Turn { angle, sine: None, cosine: Some(only) },
@@ -223,7 +274,7 @@ impl<'p> Planner<'p> {
                 self.part.statements.push(Statement::Turns(turns));
             }
         }
-        for &angle in &angles {
+        for &angle in angles {
             let both = [Function::Sin, Function::Cos].map(|function| self.used(function, angle));
             for register in both.into_iter().flatten() {
                 self.keep(register, self.local(register));
@@ -239,7 +290,9 @@ impl<'p> Planner<'p> {
     fn turn_of(&mut self, x: Register) -> Turn {
         let [sine, cosine] =
             [Function::Sin, Function::Cos].map(|f| self.used(f, x).map(|register| self.local(register)));
-        Turn { angle: self.value(x), sine, cosine }
+        let is_small = self.small.contains(&x);
+        let angle = if is_small { Expression::Local(Local::Angle(x.index())) } else { self.value(x) };
+        Turn { angle, sine, cosine }
     }
 
     /// An angle is computed before its turn has come, with what it is made of.
@@ -322,12 +375,14 @@ impl<'p> Planner<'p> {
         }
         self.index += 1;
         self.early = self.plain.pop().unwrap_or_default();
+        (self.leader, self.small) = Default::default();
         std::mem::take(&mut self.part)
     }
 }
 
-/// For each part, the last one first, the angles of its sines and cosines that are made of inputs by arithmetic alone.
-fn plain_angles(schedule: &Schedule, sequence: &[usize], cuts: &[Range<usize>]) -> Vec<BTreeSet<Register>> {
+/// For each part, the last first, the angles of its sines and cosines that are made of inputs by arithmetic alone, in their
+/// order; none where there are few.
+fn plain_angles(schedule: &Schedule, sequence: &[usize], cuts: &[Range<usize>]) -> Vec<Vec<Register>> {
     let mut is_plain = vec![false; schedule.operations.len()];
     for (index, operation) in schedule.operations.iter().enumerate() {
         let is_arithmetic = !matches!(
@@ -340,5 +395,11 @@ fn plain_angles(schedule: &Schedule, sequence: &[usize], cuts: &[Range<usize>]) 
         Operation::Function(Function::Sin | Function::Cos, x) if is_plain[x.index()] => Some(x),
         _ => None,
     };
-    cuts.iter().rev().map(|cut| sequence[cut.clone()].iter().filter_map(angle).collect()).collect()
+    let of_part = |cut: &Range<usize>| {
+        let mut known = BTreeSet::new();
+        let angles = sequence[cut.clone()].iter().filter_map(angle).filter(|&angle| known.insert(angle));
+        let angles: Vec<Register> = angles.collect();
+        if angles.len() < FEWEST { Vec::new() } else { angles }
+    };
+    cuts.iter().rev().map(of_part).collect()
 }

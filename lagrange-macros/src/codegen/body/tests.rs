@@ -124,18 +124,34 @@ fn what_an_earlier_part_has_taken_is_not_taken_again() {
 }
 
 #[test]
-fn angles_that_are_at_hand_are_taken_together() {
+fn angles_that_are_at_hand_are_taken_four_at_a_time() {
+    let mut graph = Graph::default();
+    let [x, y] = inputs(&mut graph);
+    let angles: Vec<Id> = (1..=6).map(|k| graph.sum([(x, k.into()), (y, 1.into())])).collect();
+    let sines: Vec<Id> = angles.iter().map(|&angle| graph.function(Function::Sin, angle)).collect();
+    let cosine = graph.function(Function::Cos, angles[0]);
+    let deeper = graph.function(Function::Sin, sines[5]);
+    let sum = sines.iter().fold(deeper, |sum, &sine| graph.add(sum, sine));
+    let body = checked(&graph, &[sum, cosine]);
+    // What is of a sine comes alone, as an expression.
+    assert_eq!(turns(&body), [4, 2], "{body:?}");
+    let small = statements(&body).iter().filter_map(|statement| match statement {
+        Statement::Small(angles) => Some(angles.len()),
+        _ => None,
+    });
+    assert_eq!(small.collect::<Vec<_>>(), [6], "{body:?}");
+}
+
+#[test]
+fn few_angles_are_taken_one_by_one() {
     let mut graph = Graph::default();
     let [x, y] = inputs(&mut graph);
     let both = graph.add(x, y);
     let [a, b, c] = [x, y, both].map(|angle| graph.function(Function::Sin, angle));
     let cosine = graph.function(Function::Cos, both);
-    let deeper = graph.function(Function::Sin, c);
-    let roots = [graph.mul(a, deeper), graph.mul(b, cosine), c];
+    let roots = [graph.mul(a, c), graph.mul(b, cosine), c];
     let body = checked(&graph, &roots);
-    assert_eq!(turns(&body), [3], "{body:?}");
-    // The sum, three sines and the one cosine that is used; what is of a sine comes alone.
-    assert_eq!(body.parts[0].locals.len(), 6, "{body:?}");
+    assert_eq!(turns(&body), [1], "{body:?}");
 }
 
 #[test]

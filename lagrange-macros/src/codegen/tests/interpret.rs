@@ -98,6 +98,9 @@ impl<I: Fn(Symbol) -> f64> Frame<'_, I> {
     ) {
         match statement {
             Statement::Let(local, value) => self.define(*local, self.value(value)),
+            Statement::Small(angles) => {
+                angles.iter().for_each(|(local, angle)| self.define(*local, self.value(angle)));
+            }
             Statement::Turns(turns) => {
                 for Turn { angle, sine, cosine } in turns {
                     let angle = self.value(angle);
