@@ -21,8 +21,7 @@ impl Page<'_> {
                 if terms.len() == 1 { terms.remove(0) } else { Formula::Sum(terms) }
             }
             Node::Product(_) => self.derived_term(id, Rational::one()),
-            Node::Function(Function::Ramp, x) => Formula::Call("max".to_owned(), all(&[*x, Id::ZERO])),
-            Node::Function(function, x) => Formula::Call(function.name().to_owned(), all(&[*x])),
+            Node::Function(name, x) => function(*name, self.derived(*x)),
             Node::External(external) => self.supplied(external, all(&external.arguments)),
             Node::Atan2(y, x) => Formula::Call("atan2".to_owned(), all(&[*y, *x])),
             Node::Power(base, exponent) => {
@@ -54,7 +53,7 @@ impl Page<'_> {
         Formula::product(coefficient, above, below)
     }
 
-    fn variable(&self, variable: Variable) -> Formula {
+    pub(super) fn variable(&self, variable: Variable) -> Formula {
         let coordinate = |i: usize, dots| Formula::labelled(&self.problem.coordinates[i].text, dots);
         match variable {
             Variable::Time => Formula::labelled("t", 0),
@@ -63,13 +62,22 @@ impl Page<'_> {
             Variable::Acceleration(i) => coordinate(i, 2),
             Variable::Multiplier(a) => Formula::Multiplier(self.problem.constraints[a].0.text.clone()),
             Variable::Parameter(k) => Formula::labelled(&self.problem.parameters.name(k), 0),
+            Variable::Momentum(i) => self.momentum(i, 0),
             // Emitted functions take it, and no equation has it.
             only_emitted => Formula::labelled(&format!("{only_emitted:?}"), 0),
         }
     }
 }
 
-fn power(base: Formula, exponent: Rational) -> Formula {
+/// f(x)
+pub(super) fn function(function: Function, x: Formula) -> Formula {
+    match function {
+        Function::Ramp => Formula::Call("max".to_owned(), vec![x, Formula::sum(Vec::new())]),
+        function => Formula::Call(function.name().to_owned(), vec![x]),
+    }
+}
+
+pub(super) fn power(base: Formula, exponent: Rational) -> Formula {
     if exponent.is_one() {
         return base;
     }

@@ -4,9 +4,12 @@ mod binding;
 mod derived;
 mod facts;
 mod formula;
+mod hamilton;
 mod kinds;
+mod latex;
 mod lines;
 mod notation;
+mod reading;
 mod supplied;
 mod symbols;
 #[cfg(test)]
@@ -19,6 +22,8 @@ use crate::symbolic::{Graph, Id};
 use crate::syntax::{Constraint, Declaration, Define, Expression, Frame, Power, Target, TargetIndex};
 use formula::Formula;
 use lines::{Equation, Line, Section};
+use reading::{Names, Reading};
+use rustc_hash::FxHashSet;
 use symbols::Notation;
 
 /// What is said of positions that three angles turn, one after another, and that are differentiated.
@@ -43,6 +48,9 @@ struct Page<'a> {
     derived: &'a Derived,
     /// How many each node takes.
     symbols: Vec<u64>,
+    /// The definitions that neither the time nor the state changes.
+    constants: FxHashSet<Id>,
+    readings: Vec<Reading<'a>>,
 }
 
 /// Writes the system down.
@@ -52,7 +60,16 @@ pub(crate) fn render(
     problem: &Problem,
     derived: &Derived,
 ) -> Rendered {
-    let page = Page { declaration, graph, problem, derived, symbols: lines::symbols(graph, problem) };
+    let constants = reading::constants(graph, problem);
+    let page = Page {
+        declaration,
+        graph,
+        problem,
+        derived,
+        symbols: lines::symbols(graph, problem),
+        readings: reading::readings(graph, problem, &constants, Names::Shortest),
+        constants,
+    };
     let total_derivatives = page.total_derivatives();
     let texts = total_derivatives.iter().map(|formula| Notation::Unicode.write(formula)).collect();
     let term = |formula| Line::of(Equation::Term(formula));
@@ -67,14 +84,22 @@ pub(crate) fn render(
             note: problem.frames_are_cheaper.then(|| IN_FRAMES.to_owned()),
             ..section("Equations of motion", page.motion())
         },
+        section("Constraint forces", page.constraint_forces()),
         section("Conserved", page.conserved()),
+        section("Momenta", page.momenta()),
+        section("Hamiltonian", page.hamiltonian()),
+        section("Hamilton's equations", page.canonical()),
         section(
             "Total time derivatives in the Lagrangian",
             total_derivatives.into_iter().map(term).collect(),
         ),
     ];
     let name = declaration.ident.to_string();
-    Rendered { text: lines::text(&name, &sections), latex: lines::latex(&sections), total_derivatives: texts }
+    Rendered {
+        text: lines::text(&name, &sections),
+        latex: latex::latex(name.trim_start_matches("r#"), &sections),
+        total_derivatives: texts,
+    }
 }
 
 impl Page<'_> {
@@ -159,7 +184,7 @@ impl Page<'_> {
             let right =
                 right.into_iter().flatten().copied().filter(|&part| part != Id::ZERO).collect::<Vec<_>>();
             let label = Notation::Unicode.write(&Formula::labelled(&self.problem.coordinates[i].text, 0));
-            Line { label: Some(label), ..Line::of(self.readable([&[inertia], &right]).into()) }
+            Line { label: Some(label), ..Line::of(self.row(inertia, &right)) }
         };
         inertia.iter().enumerate().map(row).collect()
     }

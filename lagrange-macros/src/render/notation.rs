@@ -50,21 +50,32 @@ impl Notation {
         if self == Self::Unicode { text } else { latex }
     }
 
-    fn at_least(self, formula: &Formula, least: Binding) -> String {
+    pub(super) fn at_least(self, formula: &Formula, least: Binding) -> String {
         let text = self.write(formula);
         if self.binding(formula) >= least { text } else { self.parentheses(&text) }
     }
 
     fn parentheses(self, inner: &str) -> String {
-        format!("{}{inner}{}", self.pick("(", r"\left("), self.pick(")", r"\right)"))
+        self.between("(", inner, ")")
     }
 
     fn brackets(self, inner: &str) -> String {
-        format!("{}{inner}{}", self.pick("[", r"\left["), self.pick("]", r"\right]"))
+        self.between("[", inner, "]")
     }
 
     fn bars(self, inner: &str) -> String {
-        format!("{}{inner}{}", self.pick("|", r"\left|"), self.pick("|", r"\right|"))
+        match self {
+            Self::Latex if !is_tall(inner) => format!(r"\lvert {inner} \rvert"),
+            _ => self.between("|", inner, "|"),
+        }
+    }
+
+    /// As high as what is inside.
+    fn between(self, open: &str, inner: &str, close: &str) -> String {
+        match self {
+            Self::Latex if is_tall(inner) => format!(r"\left{open} {inner} \right{close}"),
+            _ => format!("{open}{inner}{close}"),
+        }
     }
 
     fn list(self, items: &[Formula]) -> String {
@@ -124,7 +135,11 @@ impl Notation {
             text += match position {
                 0 => "",
                 _ if begins_with_digit => self.pick(" · ", r" \cdot "),
-                _ => self.pick(" ", r" \, "),
+                // Words would run into each other.
+                _ if factor.contains(r"\mathit") || text.ends_with('}') && text.contains(r"\mathit") => {
+                    r" \, "
+                }
+                _ => " ",
             };
             text += &factor;
         }
@@ -152,7 +167,7 @@ impl Notation {
         }
         let base = self.at_least(base, Binding::Atom);
         match (self, exponent) {
-            (Self::Latex, _) => format!("{base}^{{{}}}", self.write(exponent)),
+            (Self::Latex, _) => format!("{base}^{}", braced(&self.write(exponent))),
             (Self::Unicode, Formula::Number(value)) if value.is_integer() => {
                 format!("{base}{}", superscript(&value.to_string()))
             }
@@ -178,7 +193,7 @@ impl Notation {
     }
 
     fn superscript(self, digits: &str) -> String {
-        if self == Self::Latex { format!("^{{{digits}}}") } else { superscript(digits) }
+        if self == Self::Latex { format!("^{}", braced(digits)) } else { superscript(digits) }
     }
 
     fn call(self, name: &str, arguments: &[Formula]) -> String {
@@ -247,7 +262,7 @@ impl Notation {
     fn entry(self, whole: String, index: &Formula) -> String {
         match self {
             Self::Unicode => format!("{whole}[{}]", self.write(index)),
-            Self::Latex => format!("{whole}_{{{}}}", self.write(index)),
+            Self::Latex => format!("{whole}_{}", braced(&self.write(index))),
         }
     }
 
@@ -278,23 +293,21 @@ impl Notation {
 
     /// Greek by their names; dots above the last letter; indices below.
     fn name(self, base: &str, dots: usize, indices: &[Formula]) -> String {
-        let (base, tail) = with_tail(base);
-        let letter = self.letter(base);
-        let letter = match (self, dots) {
-            (_, 0) => letter,
-            (Self::Unicode, 1) => crate::syntax::normal_form(&format!("{letter}\u{307}")),
-            (Self::Unicode, _) => crate::syntax::normal_form(&format!("{letter}\u{308}")),
-            (Self::Latex, 1) => format!(r"\dot{{{letter}}}"),
-            (Self::Latex, _) => format!(r"\ddot{{{letter}}}"),
-        };
         let indices = indices.iter().map(|index| self.write(index));
         match self {
             Self::Latex => {
-                let below: Vec<String> =
-                    tail.map(|tail| self.letter(tail)).into_iter().chain(indices).collect();
-                self.with_below(letter, &below)
+                let (base, below) = letter_and_below(base);
+                let below = below.iter().map(|below| self.below(below)).chain(indices).collect::<Vec<_>>();
+                self.with_below(dotted(self.letter(base), dots), &below)
             }
             Self::Unicode => {
+                let (base, tail) = with_tail(base);
+                let letter = self.letter(base);
+                let letter = match dots {
+                    0 => letter,
+                    1 => crate::syntax::normal_form(&format!("{letter}\u{307}")),
+                    _ => crate::syntax::normal_form(&format!("{letter}\u{308}")),
+                };
                 let tail = tail.map(|tail| format!("_{tail}")).unwrap_or_default();
                 let indices: String = indices.map(|index| format!("[{index}]")).collect();
                 format!("{letter}{tail}{indices}")
@@ -303,7 +316,17 @@ impl Notation {
     }
 
     fn with_below(self, letter: String, below: &[String]) -> String {
-        if below.is_empty() { letter } else { format!("{letter}_{{{}}}", below.join(", ")) }
+        if below.is_empty() { letter } else { format!("{letter}_{}", braced(&below.join(", "))) }
+    }
+
+    /// What stands below a letter: words upright.
+    fn below(self, name: &str) -> String {
+        let is_word = name.chars().count() > 1 && !is_greek(name);
+        match self {
+            Self::Latex if is_word && name.chars().all(|sign| sign.is_ascii_digit()) => name.to_owned(),
+            Self::Latex if is_word => format!(r"\mathrm{{{}}}", name.replace('_', r"\,")),
+            _ => self.letter(name),
+        }
     }
 
     /// In LaTeX the member's letter, with all else below: the mass of `link[2]` is mₗᵢₙₖ,₂.
@@ -321,9 +344,10 @@ impl Notation {
     fn apart(self, formula: &Formula) -> Vec<String> {
         match formula {
             Formula::Name { base, indices, .. } => {
-                let (base, tail) = with_tail(base);
-                let names = std::iter::once(base).chain(tail).map(|name| self.letter(name));
-                names.chain(indices.iter().map(|index| self.write(index))).collect()
+                let (base, below) = letter_and_below(base);
+                let below = below.iter().map(|name| self.below(name));
+                let indices = indices.iter().map(|index| self.write(index));
+                std::iter::once(self.letter(base)).chain(below).chain(indices).collect()
             }
             Formula::Member(of, member) => [self.apart(of), self.apart(member)].concat(),
             other => vec![self.write(other)],
@@ -334,7 +358,13 @@ impl Notation {
         let greek = GREEK.iter().find(|(latin, greek)| *latin == name || *greek == name);
         match (self, greek) {
             (Self::Unicode, Some((_, greek))) => (*greek).to_owned(),
-            (Self::Latex, Some((latin, _))) => format!(r"\{latin}"),
+            (Self::Latex, Some((latin, _))) => match *latin {
+                // Their names in LaTeX are those of other shapes than the letters have in print.
+                "phi" => r"\varphi".to_owned(),
+                "varphi" => r"\phi".to_owned(),
+                "epsilon" => r"\varepsilon".to_owned(),
+                latin => format!(r"\{latin}"),
+            },
             (Self::Latex, None) if name.chars().count() > 1 => {
                 format!(r"\mathit{{{}}}", name.replace('_', r"\_"))
             }
@@ -345,7 +375,14 @@ impl Notation {
     fn subscript(self, base: &str, below: &str) -> String {
         match self {
             Self::Unicode => format!("{base}_{below}"),
-            Self::Latex => format!(r"{base}_{{\mathrm{{{}}}}}", below.replace('_', r"\_")),
+            Self::Latex => {
+                let Formula::Name { base: name, indices, .. } = Formula::labelled(below, 0) else {
+                    return format!("{base}_{}", braced(&self.below(below)));
+                };
+                let indices = indices.iter().map(|index| self.write(index));
+                let below: Vec<String> = std::iter::once(self.below(&name)).chain(indices).collect();
+                self.with_below(base.to_owned(), &below)
+            }
         }
     }
 }
@@ -356,4 +393,47 @@ fn with_tail(name: &str) -> (&str, Option<&str>) {
         Some((base, tail)) if !base.is_empty() && !tail.is_empty() => (base, Some(tail)),
         _ => (name, None),
     }
+}
+
+/// `theta` and `1` of `theta_1`, `m` and `1` of `m1`, `m`, `1` and `x` of `m1_x`.
+fn letter_and_below(name: &str) -> (&str, Vec<&str>) {
+    let (base, tail) = with_tail(name);
+    let letter = base.trim_end_matches(|sign: char| sign.is_ascii_digit());
+    let is_letter = letter.chars().count() == 1 || is_greek(letter);
+    let (letter, digits) = base.split_at(if is_letter { letter.len() } else { base.len() });
+    (letter, [digits].into_iter().filter(|digits| !digits.is_empty()).chain(tail).collect())
+}
+
+fn is_greek(name: &str) -> bool {
+    GREEK.iter().any(|(latin, greek)| *latin == name || *greek == name)
+}
+
+/// `\dot\theta`, `\ddot x`
+fn dotted(letter: String, dots: usize) -> String {
+    let accent = match dots {
+        0 => return letter,
+        1 => r"\dot",
+        _ => r"\ddot",
+    };
+    match letter.chars().count() {
+        1 => format!("{accent} {letter}"),
+        _ if is_command(&letter) => format!("{accent}{letter}"),
+        _ => format!("{accent}{{{letter}}}"),
+    }
+}
+
+/// As the argument of `^` and `_`: a single sign needs no braces.
+fn braced(text: &str) -> String {
+    if text.chars().count() == 1 || is_command(text) { text.to_owned() } else { format!("{{{text}}}") }
+}
+
+/// Whether it is a command without arguments, such as `\theta`.
+fn is_command(text: &str) -> bool {
+    text.strip_prefix('\\')
+        .is_some_and(|name| !name.is_empty() && name.chars().all(|c| c.is_ascii_alphabetic()))
+}
+
+/// Whether parentheses around it must be higher than a line.
+fn is_tall(inner: &str) -> bool {
+    [r"\frac", r"\sqrt", r"\sum", r"\left"].iter().any(|tall| inner.contains(tall))
 }

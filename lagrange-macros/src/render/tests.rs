@@ -1,5 +1,6 @@
 //! What is written means what was meant, and reads as the chapter prints it.
 
+mod everywhere;
 mod golden;
 mod reader;
 

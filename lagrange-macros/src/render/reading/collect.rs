@@ -1,0 +1,298 @@
+//! Polynomials as formulas: what many terms have in common is taken out of them where that is shorter.
+
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+
+use num_traits::{One, Signed};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::super::Page;
+use super::super::derived::{function, power};
+use super::super::formula::Formula;
+use super::atoms::Meaning;
+use super::expand::Expansion;
+use super::length::length;
+use super::polynomial::{Atom, Monomial, Polynomial, common};
+use crate::symbolic::{Id, Rational, Scaled};
+use crate::variables::Variable;
+
+/// Writes polynomials down.
+pub(super) struct Collector<'a, 'p> {
+    pub(super) page: &'a Page<'p>,
+    pub(super) expansion: &'a Expansion<'a>,
+    /// The definitions that neither the time nor the state changes.
+    pub(super) constants: &'a FxHashSet<Id>,
+    pub(super) written: RefCell<FxHashMap<Atom, Formula>>,
+}
+
+/// number · monomial · quotient, which are these terms of a sum.
+struct Group {
+    members: Vec<Monomial>,
+    number: Rational,
+    monomial: Monomial,
+    quotient: Polynomial,
+    /// How many signs it takes less than they do.
+    saving: isize,
+}
+
+impl Group {
+    /// Of two that save as much, the longer factor.
+    fn worth(&self) -> (isize, usize) {
+        (self.saving, self.monomial.factors().len())
+    }
+}
+
+/// The place of a term in a sum: multipliers last, minus signs behind plus signs, fast motion first.
+type Place = (bool, bool, Rational, Monomial);
+
+impl Collector<'_, '_> {
+    pub(super) fn sum(&self, polynomial: &Polynomial) -> Formula {
+        let mut parts: Vec<(Place, Formula)> = Vec::new();
+        let mut rest = polynomial.clone();
+        while let Some(group) = self.group(&rest) {
+            group.members.iter().for_each(|member| rest.remove(member));
+            let place = self.place(&group.members[0], group.number);
+            parts.push((place, self.product(group.number, &group.monomial, Some(&group.quotient))));
+        }
+        let terms =
+            rest.terms().map(|(monomial, &c)| (self.place(monomial, c), self.product(c, monomial, None)));
+        parts.extend(terms);
+        parts.sort_by(|(one, _), (two, _)| one.cmp(two));
+        Formula::sum(parts.into_iter().map(|(_, part)| part).collect())
+    }
+
+    fn place(&self, monomial: &Monomial, number: Rational) -> Place {
+        let degree = self.degree(monomial, Self::is_velocity);
+        let has_multiplier = monomial.factors().iter().any(|(atom, _)| self.is_multiplier(*atom));
+        (has_multiplier, number.is_negative() && !has_multiplier, -degree, monomial.clone())
+    }
+
+    pub(super) fn variable(&self, atom: Atom) -> Option<Variable> {
+        match self.expansion.atoms.meaning(atom) {
+            Meaning::Variable(variable) => Some(*variable),
+            _ => None,
+        }
+    }
+
+    fn is_velocity(&self, atom: Atom) -> bool {
+        matches!(self.variable(atom), Some(Variable::Velocity(_)))
+    }
+
+    fn is_multiplier(&self, atom: Atom) -> bool {
+        matches!(self.variable(atom), Some(Variable::Multiplier(_)))
+    }
+
+    pub(super) fn acceleration(&self, atom: Atom) -> Option<usize> {
+        match self.variable(atom) {
+            Some(Variable::Acceleration(i)) => Some(i),
+            _ => None,
+        }
+    }
+
+    /// Whether neither the time nor the state is in it.
+    pub(super) fn is_constant(&self, atom: Atom) -> bool {
+        let all = |polynomial: &Polynomial| self.are_constant(polynomial);
+        match self.expansion.atoms.meaning(atom) {
+            Meaning::Variable(variable) => matches!(variable, Variable::Parameter(_)),
+            Meaning::Pi | Meaning::Number(_) => true,
+            Meaning::Definition(id) => self.constants.contains(id),
+            Meaning::Function(_, x) | Meaning::Sum(x) => all(x),
+            Meaning::Atan2(x, y) | Meaning::Power(x, y) => all(x) && all(y),
+            Meaning::External(_, arguments) => arguments.iter().all(all),
+        }
+    }
+
+    fn are_constant(&self, polynomial: &Polynomial) -> bool {
+        polynomial
+            .terms()
+            .all(|(monomial, _)| monomial.factors().iter().all(|(atom, _)| self.is_constant(*atom)))
+    }
+
+    fn moving(&self, monomial: &Monomial) -> Monomial {
+        monomial.filtered(|atom| !self.is_constant(atom))
+    }
+
+    /// The terms that it saves most to write as one product.
+    fn group(&self, polynomial: &Polynomial) -> Option<Group> {
+        let monomials: Vec<&Monomial> = polynomial.terms().map(|(monomial, _)| monomial).collect();
+        if monomials.len() < 2 || monomials.len() > LONG {
+            return None;
+        }
+        let alike: BTreeSet<Monomial> = monomials.iter().map(|monomial| self.moving(monomial)).collect();
+        let with_equal = alike.iter().filter(|moving| !moving.is_one()).map(|moving| {
+            monomials.iter().copied().filter(|monomial| self.moving(monomial) == *moving).collect()
+        });
+        let pairs = monomials.iter().enumerate();
+        let shared: BTreeSet<Monomial> =
+            pairs.flat_map(|(i, one)| monomials[i + 1..].iter().map(|two| one.shared(two))).collect();
+        let with_shared = shared.iter().map(|shared| {
+            monomials.iter().copied().filter(|monomial| monomial.shared(shared) == *shared).collect()
+        });
+        let groups = with_equal.chain(with_shared).filter_map(|members| self.candidate(polynomial, members));
+        groups.reduce(|best, next| if next.worth() > best.worth() { next } else { best })
+    }
+
+    /// The members as a product, if that is worth it.
+    fn candidate(&self, polynomial: &Polynomial, members: Vec<&Monomial>) -> Option<Group> {
+        if members.len() < 2 {
+            return None;
+        }
+        let chosen: Polynomial =
+            members.iter().filter_map(|&m| Some((m.clone(), polynomial.coefficient(m)?))).collect();
+        let (number, monomial) = chosen.content();
+        let negative = chosen.terms().filter(|(_, c)| c.is_negative()).count();
+        let first = chosen.terms().next().is_some_and(|(_, c)| c.is_negative());
+        let is_negative = 2 * negative > members.len() || 2 * negative == members.len() && first;
+        let number = if is_negative { -number } else { number };
+        let quotient = chosen.scaled(&monomial.power(-Rational::one())?, number.recip())?;
+        let size = self.size(&monomial) + isize::from(!number.abs().is_one());
+        // Parentheses around what is constant are easier to read than others, and factors that move better not hidden.
+        let (parentheses, least) = match (self.are_constant(&quotient), self.moving(&monomial).is_one()) {
+            (true, false) => (1, 0),
+            (_, true) if monomial.is_one() => (2, 1),
+            (_, true) if self.are_differences(&quotient) => (1, 0),
+            (_, true) if self.are_alike(&quotient) => (2, 0),
+            (_, true) => (2, 1),
+            (false, false) => (2, 1),
+        };
+        let saving = (members.len() as isize - 1) * size - parentheses;
+        let members = members.into_iter().cloned().collect();
+        (saving >= least).then_some(Group { members, number, monomial, quotient, saving })
+    }
+
+    /// Whether its terms are of one degree in the velocities.
+    fn are_alike(&self, quotient: &Polynomial) -> bool {
+        let mut degrees = quotient.terms().map(|(monomial, _)| self.degree(monomial, Self::is_velocity));
+        let first = degrees.next();
+        degrees.all(|degree| Some(degree) == first)
+    }
+
+    /// Whether it is made of coordinates, or of their squares, without numbers before them: x₁ − x₂.
+    fn are_differences(&self, quotient: &Polynomial) -> bool {
+        let is_coordinate =
+            |collector: &Self, atom| matches!(collector.variable(atom), Some(Variable::Coordinate(_)));
+        let mut degrees = quotient.terms().map(|(monomial, c)| {
+            let is_it =
+                c.abs().is_one() && monomial.factors().iter().all(|(atom, _)| is_coordinate(self, *atom));
+            is_it.then(|| self.degree(monomial, is_coordinate))
+        });
+        let first = degrees.next().flatten();
+        first.is_some() && degrees.all(|degree| degree == first)
+    }
+
+    fn degree(&self, monomial: &Monomial, counts: impl Fn(&Self, Atom) -> bool) -> Rational {
+        monomial.factors().iter().filter(|(atom, _)| counts(self, *atom)).map(|(_, exponent)| exponent).sum()
+    }
+
+    fn size(&self, monomial: &Monomial) -> isize {
+        let sizes = monomial
+            .factors()
+            .iter()
+            .map(|&(atom, exponent)| length(&power(self.atom(atom), exponent.abs())));
+        sizes.sum::<usize>() as isize
+    }
+
+    /// number · monomial · quotient
+    pub(super) fn product(
+        &self,
+        number: Rational,
+        monomial: &Monomial,
+        quotient: Option<&Polynomial>,
+    ) -> Formula {
+        let mut factors: Vec<_> = monomial.factors().to_vec();
+        let tens = factors.iter().position(|&(atom, exponent)| self.is_ten(atom) && exponent.is_integer());
+        let exponent = tens.map_or(Rational::default(), |place| factors.remove(place).1);
+        let number = Scaled { fraction: number, exponent: *exponent.numer() as i32 };
+        factors.sort_by_key(|&(atom, _)| self.reading_order(atom));
+        let constants =
+            factors.iter().filter(|(atom, exponent)| self.is_constant(*atom) && exponent.is_positive());
+        let constants = constants.count();
+        let (mut above, mut below) = (Vec::new(), Vec::new());
+        for (atom, exponent) in factors {
+            let power = power(self.atom(atom), exponent.abs());
+            if exponent.is_negative() { below.push(power) } else { above.push(power) }
+        }
+        if let Some(quotient) = quotient {
+            let place = if self.are_constant(quotient) { constants } else { above.len() };
+            above.insert(place, self.sum(quotient));
+        }
+        Formula::product(number, above, below)
+    }
+
+    fn is_ten(&self, atom: Atom) -> bool {
+        *self.expansion.atoms.meaning(atom) == Meaning::Number(Rational::from_integer(10))
+    }
+
+    /// Parameters come first, then multipliers, definitions, coordinates, functions, velocities, accelerations.
+    fn reading_order(&self, atom: Atom) -> (u8, usize) {
+        let first = atom.0 as usize;
+        match self.expansion.atoms.meaning(atom) {
+            Meaning::Variable(Variable::Parameter(k)) => (1, *k),
+            Meaning::Variable(Variable::Multiplier(a)) => (2, *a),
+            Meaning::Variable(Variable::Time) => (4, 0),
+            Meaning::Variable(Variable::Coordinate(i)) => (5, *i),
+            Meaning::Variable(Variable::Velocity(i)) => (8, *i),
+            Meaning::Variable(Variable::Acceleration(i)) => (9, *i),
+            Meaning::Pi | Meaning::Number(_) => (0, first),
+            Meaning::Definition(id) => (3, id.index()),
+            Meaning::Function(..) => (6, first),
+            _ => (7, first),
+        }
+    }
+
+    pub(super) fn atom(&self, atom: Atom) -> Formula {
+        if let Some(known) = self.written.borrow().get(&atom) {
+            return known.clone();
+        }
+        let formula = self.new_atom(atom);
+        self.written.borrow_mut().insert(atom, formula.clone());
+        formula
+    }
+
+    fn new_atom(&self, atom: Atom) -> Formula {
+        let page = self.page;
+        match self.expansion.atoms.meaning(atom) {
+            Meaning::Variable(variable) => page.variable(*variable),
+            Meaning::Pi => Formula::Pi,
+            Meaning::Number(value) => Formula::number((*value).into()),
+            Meaning::Definition(id) => page.derived(*id),
+            Meaning::Function(name, x) => function(*name, self.sum(x)),
+            Meaning::Atan2(y, x) => Formula::Call("atan2".to_owned(), vec![self.sum(y), self.sum(x)]),
+            Meaning::Power(x, y) => Formula::Power(Box::new(self.sum(x)), Box::new(self.sum(y))),
+            Meaning::External(function, arguments) => {
+                page.supplied(function, arguments.iter().map(|x| self.sum(x)).collect())
+            }
+            Meaning::Sum(terms) => {
+                let collected = self.sum(terms);
+                // Squares of differences are shorter as they were.
+                let source = self.expansion.atoms.source(atom).filter(|&id| self.keeps_names_of(id));
+                let source = source.map(|id| page.derived(id));
+                source.filter(|source| length(source) < length(&collected)).unwrap_or(collected)
+            }
+        }
+    }
+
+    /// Whether all names in it are those that are kept.
+    fn keeps_names_of(&self, id: Id) -> bool {
+        let Page { graph, problem, .. } = self.page;
+        let mut pending = vec![id];
+        while let Some(id) = pending.pop() {
+            match (self.expansion.names.contains(&id), problem.names.contains_key(&id)) {
+                (true, _) => {}
+                (false, true) => return false,
+                (false, false) if self.page.symbols[id.index()] > super::READABLE => return false,
+                (false, false) => graph.operands(id, |operand| pending.push(operand)),
+            }
+        }
+        true
+    }
+}
+
+/// Of a sum of more terms than this nothing is taken out.
+const LONG: usize = 60;
+
+/// The common factor of all terms, as far as `may_go` lets it.
+pub(super) fn shared(polynomial: &Polynomial, may_go: impl Fn(Atom) -> bool) -> (Rational, Monomial) {
+    let (_, monomial) = polynomial.content();
+    (common(polynomial.terms().map(|(_, &c)| c)), monomial.filtered(may_go))
+}

@@ -1,0 +1,140 @@
+//! Equations as a person would print them. Nothing is computed with this form.
+//!
+//! An expression is multiplied out into a [polynomial](polynomial) in [atoms], whose like terms are collected and cancel exactly;
+//! sines and cosines are [put together](angles); a [row] is divided by what its terms have in common; and common factors are
+//! [taken out](collect) where that is shorter. All that is done once with the names of definitions and once with what they
+//! stand for, and the [shortest](length) form is taken, the one that is computed with among them.
+
+mod angles;
+mod atoms;
+mod collect;
+mod expand;
+mod length;
+mod polynomial;
+mod row;
+
+use std::cell::RefCell;
+
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::Page;
+use super::formula::Formula;
+use super::lines::Equation;
+use crate::resolve::Problem;
+use crate::symbolic::{Graph, Id, Rational};
+use crate::variables::Variable;
+use collect::Collector;
+use expand::Expansion;
+pub(super) use length::length;
+use polynomial::Polynomial;
+
+/// What takes more signs than this is not for reading.
+pub(super) const READABLE: u64 = 250;
+
+/// Of polynomials of more terms than this sines and cosines are not put together.
+const TERMS: usize = 200;
+
+/// The same expressions with some of the definitions by their names.
+pub(super) struct Reading<'a>(RefCell<Expansion<'a>>);
+
+/// With all definitions by their names, with those that are constant, and with none: as far as these differ.
+pub(super) fn readings<'a>(
+    graph: &'a Graph,
+    problem: &Problem,
+    constants: &FxHashSet<Id>,
+    names: Names,
+) -> Vec<Reading<'a>> {
+    let all: FxHashSet<Id> = problem.names.keys().copied().collect();
+    let none = FxHashSet::default();
+    let mut kept = match names {
+        Names::Shortest => vec![all, constants.clone(), none],
+        Names::Kept => vec![all],
+        Names::WrittenOut => vec![none],
+    };
+    kept.dedup();
+    kept.into_iter().map(|kept| Reading(RefCell::new(Expansion::new(graph, problem, kept)))).collect()
+}
+
+/// Whether definitions appear by their names.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Names {
+    /// By whichever is shorter.
+    Shortest,
+    Kept,
+    WrittenOut,
+}
+
+/// The definitions that neither the time nor the state changes.
+pub(super) fn constants(graph: &Graph, problem: &Problem) -> FxHashSet<Id> {
+    let mut is_constant = Vec::with_capacity(graph.len());
+    for id in graph.ids() {
+        let mut is = match graph.node(id) {
+            crate::symbolic::Node::Symbol(symbol) => matches!(Variable::of(*symbol), Variable::Parameter(_)),
+            _ => true,
+        };
+        graph.operands(id, |operand| is &= is_constant[operand.index()]);
+        is_constant.push(is);
+    }
+    problem.names.keys().copied().filter(|id| is_constant[id.index()]).collect()
+}
+
+impl Page<'_> {
+    /// Σ inertia = Σ forces
+    pub(super) fn row(&self, inertia: Id, forces: &[Id]) -> Equation {
+        let sides = |reading: &Reading| {
+            let all = self.polynomial(reading, &[(inertia, 1)], forces)?;
+            self.collected(reading, |collector| collector.row(&all))
+        };
+        let computed = self.computed([&[inertia], forces]);
+        let size = |[left, right]: &[Formula; 2]| length(left) + length(right);
+        let read = self.readings.iter().filter_map(sides).filter(|sides| size(sides) <= READABLE as usize);
+        shortest(read.chain(computed.clone()), size).ok_or(computed.err().unwrap_or_default()).into()
+    }
+
+    /// A node as it is read.
+    pub(super) fn expression(&self, id: Id) -> Result<Formula, u64> {
+        let formula = |reading: &Reading| {
+            let all = self.polynomial(reading, &[(id, 1)], &[])?;
+            self.collected(reading, |collector| Some(collector.sum(&all)))
+        };
+        let computed = self.computed([&[id]]).map(|[formula]| formula);
+        let read =
+            self.readings.iter().filter_map(formula).filter(|formula| length(formula) <= READABLE as usize);
+        // As it was written where that is as short.
+        shortest(computed.clone().into_iter().chain(read), length).ok_or(computed.err().unwrap_or_default())
+    }
+
+    fn polynomial(
+        &self,
+        Reading(expansion): &Reading,
+        plus: &[(Id, i128)],
+        minus: &[Id],
+    ) -> Option<Polynomial> {
+        let mut expansion = expansion.borrow_mut();
+        let parts = plus.iter().copied().chain(minus.iter().map(|&id| (id, -1)));
+        let mut sum = Polynomial::default();
+        for (id, sign) in parts {
+            sum.add(&expansion.of(id)?, Rational::from_integer(sign))?;
+        }
+        if sum.len() > TERMS {
+            return None;
+        }
+        let merged = expansion.atoms.merged(sum)?;
+        expansion.atoms.cancelled(merged)
+    }
+
+    fn collected<T>(
+        &self,
+        Reading(expansion): &Reading,
+        write: impl Fn(&Collector) -> Option<T>,
+    ) -> Option<T> {
+        let expansion = &expansion.borrow();
+        let written = RefCell::new(FxHashMap::default());
+        write(&Collector { page: self, expansion, constants: &self.constants, written })
+    }
+}
+
+/// The first of the shortest.
+fn shortest<T>(candidates: impl Iterator<Item = T>, length: impl Fn(&T) -> usize) -> Option<T> {
+    candidates.reduce(|best, next| if length(&next) < length(&best) { next } else { best })
+}

@@ -1,0 +1,394 @@
+//! What is printed is what is computed: on every system that any test, example or page of documentation derives, the printed
+//! equations are read off the text and compared with the graph at random states.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
+
+use super::reader::{Meanings, Value, read_with};
+use crate::diagnostics::Diagnostics;
+use crate::mechanics::{self, Derived, Quantity};
+use crate::render::formula::Formula;
+use crate::render::render;
+use crate::render::symbols::Notation;
+use crate::resolve::{self, Problem};
+use crate::symbolic::{Approximate, External, Function, Graph, Id, Sample, apply, superposition};
+use crate::syntax;
+use crate::variables::Variable;
+
+/// A system whose equations are checked.
+pub(super) struct System {
+    graph: Graph,
+    problem: Problem,
+    derived: Derived,
+    text: String,
+}
+
+impl System {
+    /// `None` where something is wrong with it.
+    fn new(tokens: TokenStream) -> Option<Self> {
+        let mut diagnostics = Diagnostics::default();
+        let declaration = syntax::declaration(syn::parse2(tokens).ok()?, &mut diagnostics);
+        diagnostics.is_empty().then_some(())?;
+        let (mut graph, problem) = resolve::problem(&declaration, &mut diagnostics)?;
+        let derived = mechanics::derive(&mut graph, &problem, &mut diagnostics)?;
+        eprintln!("{}", declaration.ident);
+        let text = render(&declaration, &graph, &problem, &derived).text;
+        Some(Self { graph, problem, derived, text })
+    }
+
+    fn sample(&self, draw: u64) -> Sample {
+        let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
+        let kinds = [Variable::Coordinate, Variable::Velocity, Variable::Acceleration];
+        let all = kinds.into_iter().flat_map(|kind| (0..n).map(kind));
+        let parameters = (0..self.problem.parameters.entries.len()).map(Variable::Parameter);
+        let all = all.chain(parameters).chain((0..m).map(Variable::Multiplier)).chain([Variable::Time]);
+        Sample::new(all.map(Variable::symbol), draw, |symbol, draw| self.problem.drawn(symbol, draw))
+    }
+
+    /// The same state with other accelerations and multipliers.
+    fn moved(&self, sample: &mut Sample, draw: u64) {
+        let solved = [(Variable::Acceleration as fn(usize) -> Variable, self.problem.coordinates.len())];
+        let solved = solved
+            .into_iter()
+            .chain([(Variable::Multiplier as fn(usize) -> Variable, self.problem.constraints.len())]);
+        let solved = solved.flat_map(|(kind, count)| (0..count).map(kind)).map(Variable::symbol);
+        sample.set(solved.map(|symbol| (symbol, self.problem.drawn(symbol, draw))).collect::<Vec<_>>());
+    }
+
+    /// The lines below a heading.
+    fn lines(&self, heading: &str) -> Vec<&str> {
+        let section = self.text.split("\n\n").find(|section| section.starts_with(heading));
+        let lines = section.into_iter().flat_map(|section| section.lines().skip(1));
+        lines.map(str::trim).filter(|line| line.contains(" = ") || line.contains("symbols)")).collect()
+    }
+}
+
+/// The names of a system at a state.
+struct State<'a> {
+    system: &'a System,
+    names: BTreeMap<String, Value>,
+    draw: u64,
+}
+
+impl<'a> State<'a> {
+    fn new(system: &'a System, sample: &mut Sample, draw: u64) -> Self {
+        let System { graph, problem, .. } = system;
+        let n = problem.coordinates.len();
+        let mut entries: Vec<(String, f64)> = Vec::new();
+        let mut put = |formula: Formula, value: f64| entries.push((Notation::Unicode.write(&formula), value));
+        let kinds: [fn(usize) -> Variable; 3] =
+            [Variable::Coordinate, Variable::Velocity, Variable::Acceleration];
+        for (dots, kind) in kinds.into_iter().enumerate() {
+            for i in 0..n {
+                put(Formula::labelled(&problem.coordinates[i].text, dots), value(sample, kind(i)));
+            }
+        }
+        for (a, (label, _)) in problem.constraints.iter().enumerate() {
+            put(Formula::Multiplier(label.text.clone()), value(sample, Variable::Multiplier(a)));
+        }
+        for k in 0..problem.parameters.entries.len() {
+            put(Formula::labelled(&problem.parameters.name(k), 0), value(sample, Variable::Parameter(k)));
+        }
+        put(Formula::labelled("t", 0), value(sample, Variable::Time));
+        put(Formula::Pi, std::f64::consts::PI);
+        let mut definitions: Vec<(&Id, &String)> = problem.names.iter().collect();
+        definitions.sort();
+        for (&id, name) in definitions {
+            put(Formula::labelled(name, 0), sample.values(graph, &[id])[0].value);
+        }
+        Self { system, names: with_vectors(entries), draw }
+    }
+
+    fn read(&self, text: &str) -> Value {
+        read_with(text, self)
+    }
+
+    fn external(&self, function: &str, derivatives: &[u32], arguments: &[f64]) -> f64 {
+        let functions = self.system.problem.functions.iter().enumerate();
+        let outputs = functions.flat_map(|(index, function)| {
+            let names =
+                if function.outputs == 1 { vec![function.name.clone()] } else { function.names.clone() };
+            names.into_iter().enumerate().map(move |(output, name)| (name, index, output))
+        });
+        let written = |name: &str| Notation::Unicode.write(&Formula::labelled(name, 0));
+        let found = outputs.into_iter().find(|(name, ..)| written(name) == function);
+        let (_, index, output) = found.unwrap_or_else(|| panic!("no function {function}"));
+        let external = External {
+            function: index as u32,
+            output: output as u32,
+            derivatives: derivatives.into(),
+            arguments: Box::default(),
+        };
+        let arguments: Vec<_> = arguments.iter().copied().map(Approximate::exact).collect();
+        superposition(&external, &arguments, self.draw).value
+    }
+}
+
+fn value(sample: &Sample, variable: Variable) -> f64 {
+    sample.get(variable.symbol()).value
+}
+
+/// With `r` of `r[0]`, `r[1]`, …
+fn with_vectors(mut entries: Vec<(String, f64)>) -> BTreeMap<String, Value> {
+    let mut all: BTreeMap<String, Value> = BTreeMap::new();
+    let mut vectors: BTreeMap<String, Value> = BTreeMap::new();
+    for (name, value) in entries.drain(..) {
+        let mut outer = name.as_str();
+        while let Some((rest, _)) = outer.rsplit_once('[').filter(|_| outer.ends_with(']')) {
+            vectors.entry(rest.to_owned()).or_default().push(value);
+            outer = rest;
+        }
+        all.insert(name, vec![value]);
+    }
+    vectors.append(&mut all);
+    vectors
+}
+
+impl Meanings for State<'_> {
+    fn name(&self, name: &str) -> Option<Value> {
+        self.names.get(name).cloned()
+    }
+
+    fn call(&self, function: &str, primes: usize, arguments: &[f64]) -> f64 {
+        match (Function::named(function), function, arguments) {
+            (Some(function), _, &[x]) => apply(function, &x),
+            (_, "max", [x, y]) => x.max(*y),
+            (_, "step", [x]) => {
+                if *x > 0.0 {
+                    1.0
+                } else {
+                    0.0
+                }
+            }
+            (_, "atan2", [y, x]) => y.atan2(*x),
+            _ => self.external(function, &vec![0; primes], arguments),
+        }
+    }
+
+    fn partial(&self, function: &str, by: &[String], arguments: Option<&[f64]>) -> f64 {
+        let name = function.split('[').next().expect("a name");
+        let functions = self.system.problem.functions.iter();
+        let written = |name: &str| Notation::Unicode.write(&Formula::labelled(name, 0));
+        let supplied =
+            functions.into_iter().find(|supplied| written(&supplied.name) == name).expect("a function");
+        let formals = supplied.formals.iter().flat_map(|(name, lengths)| resolve::entry_names(name, lengths));
+        let formals: Vec<String> = formals.map(|name| written(&name)).collect();
+        let place = |x: &String| formals.iter().position(|formal| formal == x).expect("an argument") as u32;
+        let own = || formals.iter().flat_map(|name| self.names[name].clone()).collect();
+        let arguments: Value = arguments.map_or_else(own, <[f64]>::to_vec);
+        self.external(function, &by.iter().map(place).collect::<Vec<_>>(), &arguments)
+    }
+}
+
+const STATES: u64 = 40;
+const WANTED: usize = 3;
+/// Beside the greatest of the values compared.
+const CLOSE: f64 = 1e-8;
+
+/// Each row is proportional to what is computed, in accelerations and multipliers: it may have been divided.
+fn check_motion(system: &System) {
+    let Derived { equations, inertia, .. } = &system.derived;
+    let rows = system.lines("Equations of motion");
+    assert_eq!(rows.len(), inertia.len(), "{}", system.text);
+    for (i, row) in rows.iter().enumerate().filter(|(_, row)| !row.contains("symbols)")) {
+        let (_, row) = row.split_once(": ").expect("a label");
+        let (left, right) = row.trim().split_once(" = ").expect("an equation");
+        let roots = [
+            inertia[i],
+            equations.forcing[i],
+            equations.constraint_force.get(i).copied().unwrap_or(Id::ZERO),
+        ];
+        let mut states = 0;
+        for draw in 0..STATES {
+            let mut sample = system.sample(draw);
+            let pairs: Vec<[f64; 2]> = (0..3)
+                .map(|other| {
+                    system.moved(&mut sample, 1000 * (other + 1) + draw);
+                    let state = State::new(system, &mut sample, draw);
+                    let [left, right] = [left, right].map(|side| state.read(side)[0]);
+                    let [inertia, forcing, force] =
+                        roots.map(|root| sample.values(&system.graph, &[root])[0].value);
+                    [left - right, inertia - forcing - force]
+                })
+                .collect();
+            if !pairs.iter().flatten().all(|x| x.is_finite()) {
+                continue;
+            }
+            let greatest = |k: usize| pairs.iter().map(|pair| pair[k].abs()).fold(0.0, f64::max);
+            assert!((greatest(0) > 0.0) == (greatest(1) > 0.0), "{row} in {}", system.text);
+            for pair in &pairs[1..] {
+                let difference = pairs[0][0] * pair[1] - pairs[0][1] * pair[0];
+                let close = difference.abs() <= CLOSE * greatest(0) * greatest(1);
+                assert!(close, "{row}: {pairs:?} in {}", system.text);
+            }
+            states += 1;
+            if states == WANTED {
+                break;
+            }
+        }
+        assert!(states > 0, "no state for {row} in {}", system.text);
+    }
+}
+
+/// Energies and momenta are what is computed.
+fn check_conserved(system: &System) {
+    let equations = &system.derived.equations;
+    let conserved = system.derived.facts.conserved.iter();
+    let roots = conserved.filter_map(|conserved| match conserved.quantity {
+        Quantity::Momentum(a) => Some(equations.momentum[a]),
+        Quantity::Energy => Some(equations.energy),
+        Quantity::Observable(..) => None,
+    });
+    let lines = system.lines("Conserved");
+    for (line, root) in lines.iter().zip(roots) {
+        if let Some((_, right)) = line.split_once(" = ") {
+            check_expression(system, right.split("   (").next().expect("a formula"), root);
+        }
+    }
+}
+
+fn check_expression(system: &System, text: &str, root: Id) {
+    let mut states = 0;
+    for draw in 0..STATES {
+        let mut sample = system.sample(draw);
+        let computed = sample.values(&system.graph, &[root])[0];
+        let read = State::new(system, &mut sample, draw).read(text)[0];
+        if !computed.value.is_finite() || !read.is_finite() {
+            continue;
+        }
+        let close = (read - computed.value).abs() <= 1e-9 * computed.value.abs() + 1e3 * computed.error;
+        assert!(close, "{text} is {read} and not {} in {}", computed.value, system.text);
+        states += 1;
+        if states == WANTED {
+            return;
+        }
+    }
+    assert!(states > 0, "no state for {text} in {}", system.text);
+}
+
+/// All structs that derive a Lagrangian in these tokens, and in the strings among them.
+fn structs(tokens: TokenStream, found: &mut Vec<TokenStream>) {
+    let mut item: Vec<TokenTree> = Vec::new();
+    let mut derives = false;
+    for token in tokens {
+        match &token {
+            TokenTree::Group(group) if group.delimiter() == Delimiter::Bracket && is_attribute(&item) => {
+                derives |= group.stream().to_string().contains("Lagrangian");
+            }
+            TokenTree::Group(group) => structs(group.stream(), found),
+            TokenTree::Literal(literal) => {
+                let text = syn::parse_str::<syn::LitStr>(&literal.to_string()).map(|literal| literal.value());
+                let text = text.unwrap_or_default();
+                if text.contains("#[coordinates") && !text.contains("{{") {
+                    found.extend(text.parse::<TokenStream>());
+                }
+            }
+            _ => {}
+        }
+        let ends = match &token {
+            TokenTree::Punct(punct) => punct.as_char() == ';',
+            TokenTree::Group(group) => group.delimiter() == Delimiter::Brace,
+            _ => false,
+        };
+        item.push(token);
+        if ends {
+            if derives && item.iter().any(|token| token.to_string() == "struct") {
+                found.push(item.drain(..).collect());
+            }
+            item.clear();
+            derives = false;
+        }
+    }
+}
+
+fn is_attribute(item: &[TokenTree]) -> bool {
+    matches!(item.last(), Some(TokenTree::Punct(punct)) if punct.as_char() == '#')
+}
+
+/// The code in a file, and the code in its comments.
+fn sources(text: &str) -> Vec<String> {
+    let mut sources = vec![text.to_owned()];
+    let comments = text.lines().map(str::trim).filter_map(|line| {
+        line.strip_prefix("///")
+            .or_else(|| line.strip_prefix("//!"))
+            .map(|line| line.strip_prefix(' ').unwrap_or(line))
+    });
+    let comments: Vec<&str> = comments.map(|line| line.strip_prefix("# ").unwrap_or(line)).collect();
+    sources.extend(
+        comments
+            .join("\n")
+            .split("```")
+            .skip(1)
+            .step_by(2)
+            .map(|block| block.split_once('\n').map_or(String::new(), |(_, code)| code.to_owned())),
+    );
+    sources
+}
+
+fn files(folder: &Path, found: &mut Vec<std::path::PathBuf>) {
+    let Ok(entries) = std::fs::read_dir(folder) else { return };
+    let mut paths: Vec<_> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    paths.sort();
+    for path in paths {
+        if path.is_dir() {
+            files(&path, found);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            found.push(path);
+        }
+    }
+}
+
+/// With the struct by itself: attributes before `struct`, without those of other macros.
+fn check_all(folders: &'static [&str], least: usize) {
+    // Some tests nest very deep.
+    let check = move || check_folders(folders, least);
+    let thread = std::thread::Builder::new().stack_size(1 << 28).spawn(check).expect("a thread");
+    thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+}
+
+fn check_folders(folders: &[&str], least: usize) {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let (mut paths, mut found) = (Vec::new(), Vec::new());
+    folders.iter().for_each(|folder| files(&root.join(folder), &mut paths));
+    for path in paths {
+        let text = std::fs::read_to_string(path).expect("a text");
+        for source in sources(&text) {
+            if let Ok(tokens) = source.parse() {
+                structs(tokens, &mut found);
+            }
+        }
+    }
+    let systems = found.into_iter().filter_map(System::new);
+    let checked = systems.inspect(|system| {
+        check_motion(system);
+        check_conserved(system);
+    });
+    let checked = checked.count();
+    assert!(checked >= least, "{checked} systems only");
+}
+
+#[test]
+fn what_the_tests_print_is_what_is_computed() {
+    check_all(&["tests"], 1);
+}
+
+#[test]
+fn what_the_examples_print_is_what_is_computed() {
+    check_all(
+        &[
+            "examples",
+            "lagrange-core/src",
+            "lagrange-core/examples",
+            "lagrange-core/benches",
+            "lagrange-core/tests",
+        ],
+        1,
+    );
+}
+
+#[test]
+fn what_the_pipeline_prints_is_what_is_computed() {
+    check_all(&["lagrange-macros/src"], 1);
+}
