@@ -87,7 +87,7 @@ pub(super) fn power(base: Formula, exponent: Rational) -> Formula {
     Formula::Power(Box::new(base), Box::new(Formula::Number(exponent)))
 }
 
-/// Parameters come first, then multipliers, definitions, coordinates, functions, velocities, accelerations.
+/// Parameters come first, then multipliers, definitions, coordinates, velocities, accelerations, functions.
 fn reading_order(factor: Id, graph: &Graph) -> (u8, u32) {
     match graph.node(factor) {
         Node::Symbol(symbol) => match Variable::of(*symbol) {
@@ -100,7 +100,7 @@ fn reading_order(factor: Id, graph: &Graph) -> (u8, u32) {
         },
         Node::Pi => (0, 0),
         Node::Defined(_) => (2, factor.index() as u32),
-        Node::Function(..) => (5, factor.index() as u32),
+        Node::Function(function, _) => (9 + *function as u8, factor.index() as u32),
         _ => (6, factor.index() as u32),
     }
 }

@@ -1,5 +1,7 @@
 //! The page as LaTeX: numbered equations, aligned, with labels, long ones broken before a sign.
 
+use unicode_normalization::UnicodeNormalization;
+
 use super::binding::Binding;
 use super::formula::Formula;
 use super::lines::{Equation, Line, Section};
@@ -105,7 +107,7 @@ fn pieces_in_product(formula: &Formula) -> Vec<String> {
 /// A product whose last factor is a sum may be broken there, and what is above of a long fraction stand beside it.
 fn factors(above: &[Formula], below: &[Formula]) -> Vec<String> {
     let whole = Formula::Product(above.to_vec(), below.to_vec());
-    let Some((Formula::Sum(terms), before)) = above.split_last() else {
+    let Some((Formula::Sum(terms), before)) = above.split_last().filter(|(last, _)| is_long(last)) else {
         return vec![Notation::Latex.write(&whole)];
     };
     let one = || vec![Formula::Number(1.into())];
@@ -117,6 +119,10 @@ fn factors(above: &[Formula], below: &[Formula]) -> Vec<String> {
     let mut inner = prefixed(&format!("{before} \\bigl("), pieces(&Formula::Sum(terms.clone())));
     inner.last_mut().into_iter().for_each(|last| *last += "\\bigr)");
     inner
+}
+
+fn is_long(formula: &Formula) -> bool {
+    width(&Notation::Latex.write(formula)) > LINE / 3.0
 }
 
 fn prefixed(prefix: &str, mut pieces: Vec<String>) -> Vec<String> {
@@ -131,11 +137,15 @@ fn label(line: &Line) -> String {
         (None, Equation::Known(left, _)) => Notation::Unicode.write(left),
         (None, _) => "term".to_owned(),
     };
-    let latin = name.chars().map(|sign| {
-        let greek = GREEK.iter().find(|(_, greek)| greek.chars().eq([sign]));
-        greek.map_or_else(|| sign.to_string(), |(latin, _)| (*latin).to_owned())
+    let latin = name.nfd().map(|sign| match sign {
+        '\u{307}' => "-dot".to_owned(),
+        '\u{308}' => "-ddot".to_owned(),
+        sign => {
+            let greek = GREEK.iter().find(|(_, greek)| greek.chars().eq([sign]));
+            greek.map_or_else(|| sign.to_string(), |(latin, _)| (*latin).to_owned())
+        }
     });
-    let text: String = latin.collect();
+    let text: String = latin.collect::<String>().nfkd().collect();
     let words = text.split(|sign: char| !sign.is_ascii_alphanumeric() && sign != '_');
     words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join("-")
 }

@@ -4,7 +4,7 @@ use num_traits::{One, Signed};
 
 use super::binding::{Binding, PREFIX, begins_with_function, exponent_at_name, is_number, is_prefixed};
 use super::formula::Formula;
-use super::symbols::{Notation, decimal, point, superscript, vulgar};
+use super::symbols::{Notation, decimal, point, subscript, superscript, vulgar};
 use crate::resolve::is_built_in;
 use crate::symbolic::{Rational, Scaled, finite_decimal};
 use crate::syntax::GREEK;
@@ -291,26 +291,18 @@ impl Notation {
         if fraction.is_one() { power } else { format!("{digits}{}{power}", self.pick("×", r" \times ")) }
     }
 
-    /// Greek by their names; dots above the last letter; indices below.
+    /// Greek by their names; dots above the letter; indices below.
     fn name(self, base: &str, dots: usize, indices: &[Formula]) -> String {
         let indices = indices.iter().map(|index| self.write(index));
+        let (letter, below) = letter_and_below(base);
+        let letter = self.dotted(self.letter(letter), dots);
+        let below = below.iter().map(|below| self.below(below));
         match self {
-            Self::Latex => {
-                let (base, below) = letter_and_below(base);
-                let below = below.iter().map(|below| self.below(below)).chain(indices).collect::<Vec<_>>();
-                self.with_below(dotted(self.letter(base), dots), &below)
-            }
+            Self::Latex => self.with_below(letter, &below.chain(indices).collect::<Vec<_>>()),
             Self::Unicode => {
-                let (base, tail) = with_tail(base);
-                let letter = self.letter(base);
-                let letter = match dots {
-                    0 => letter,
-                    1 => crate::syntax::normal_form(&format!("{letter}\u{307}")),
-                    _ => crate::syntax::normal_form(&format!("{letter}\u{308}")),
-                };
-                let tail = tail.map(|tail| format!("_{tail}")).unwrap_or_default();
+                let below: String = below.collect();
                 let indices: String = indices.map(|index| format!("[{index}]")).collect();
-                format!("{letter}{tail}{indices}")
+                format!("{letter}{below}{indices}")
             }
         }
     }
@@ -319,13 +311,31 @@ impl Notation {
         if below.is_empty() { letter } else { format!("{letter}_{}", braced(&below.join(", "))) }
     }
 
-    /// What stands below a letter: words upright.
+    /// What stands below a letter: digits, a Greek letter, or a word upright.
     fn below(self, name: &str) -> String {
-        let is_word = name.chars().count() > 1 && !is_greek(name);
+        let is_number = name.chars().all(|sign| sign.is_ascii_digit());
         match self {
-            Self::Latex if is_word && name.chars().all(|sign| sign.is_ascii_digit()) => name.to_owned(),
-            Self::Latex if is_word => format!(r"\mathrm{{{}}}", name.replace('_', r"\,")),
-            _ => self.letter(name),
+            Self::Unicode if is_number => subscript(name),
+            Self::Unicode => format!("_{}", self.letter(name)),
+            Self::Latex if is_number => name.to_owned(),
+            Self::Latex if name.chars().count() > 1 && !is_greek(name) => {
+                format!(r"\mathrm{{{}}}", name.replace('_', r"\,"))
+            }
+            Self::Latex => self.letter(name),
+        }
+    }
+
+    fn dotted(self, letter: String, dots: usize) -> String {
+        let [accent, command] = match dots {
+            0 => return letter,
+            1 => ["\u{307}", r"\dot"],
+            _ => ["\u{308}", r"\ddot"],
+        };
+        match self {
+            Self::Unicode => crate::syntax::normal_form(&format!("{letter}{accent}")),
+            Self::Latex if letter.chars().count() == 1 => format!("{command} {letter}"),
+            Self::Latex if is_command(&letter) => format!("{command}{letter}"),
+            Self::Latex => format!("{command}{{{letter}}}"),
         }
     }
 
@@ -406,20 +416,6 @@ fn letter_and_below(name: &str) -> (&str, Vec<&str>) {
 
 fn is_greek(name: &str) -> bool {
     GREEK.iter().any(|(latin, greek)| *latin == name || *greek == name)
-}
-
-/// `\dot\theta`, `\ddot x`
-fn dotted(letter: String, dots: usize) -> String {
-    let accent = match dots {
-        0 => return letter,
-        1 => r"\dot",
-        _ => r"\ddot",
-    };
-    match letter.chars().count() {
-        1 => format!("{accent} {letter}"),
-        _ if is_command(&letter) => format!("{accent}{letter}"),
-        _ => format!("{accent}{{{letter}}}"),
-    }
 }
 
 /// As the argument of `^` and `_`: a single sign needs no braces.

@@ -33,12 +33,14 @@ struct Group {
     quotient: Polynomial,
     /// How many signs it takes less than they do.
     saving: isize,
+    /// Of number and monomial.
+    size: isize,
 }
 
 impl Group {
     /// Of two that save as much, the longer factor.
-    fn worth(&self) -> (isize, usize) {
-        (self.saving, self.monomial.factors().len())
+    fn worth(&self) -> (isize, isize) {
+        (self.saving, self.size)
     }
 }
 
@@ -75,7 +77,7 @@ impl Collector<'_, '_> {
     }
 
     fn is_velocity(&self, atom: Atom) -> bool {
-        matches!(self.variable(atom), Some(Variable::Velocity(_)))
+        matches!(self.variable(atom), Some(Variable::Velocity(_) | Variable::Momentum(_)))
     }
 
     fn is_multiplier(&self, atom: Atom) -> bool {
@@ -140,9 +142,7 @@ impl Collector<'_, '_> {
         let chosen: Polynomial =
             members.iter().filter_map(|&m| Some((m.clone(), polynomial.coefficient(m)?))).collect();
         let (number, monomial) = chosen.content();
-        let negative = chosen.terms().filter(|(_, c)| c.is_negative()).count();
-        let first = chosen.terms().next().is_some_and(|(_, c)| c.is_negative());
-        let is_negative = 2 * negative > members.len() || 2 * negative == members.len() && first;
+        let is_negative = chosen.terms().all(|(_, c)| c.is_negative());
         let number = if is_negative { -number } else { number };
         let quotient = chosen.scaled(&monomial.power(-Rational::one())?, number.recip())?;
         let size = self.size(&monomial) + isize::from(!number.abs().is_one());
@@ -152,12 +152,12 @@ impl Collector<'_, '_> {
             (_, true) if monomial.is_one() => (2, 1),
             (_, true) if self.are_differences(&quotient) => (1, 0),
             (_, true) if self.are_alike(&quotient) => (2, 0),
-            (_, true) => (2, 1),
+            (_, true) => (3, 1),
             (false, false) => (2, 1),
         };
         let saving = (members.len() as isize - 1) * size - parentheses;
         let members = members.into_iter().cloned().collect();
-        (saving >= least).then_some(Group { members, number, monomial, quotient, saving })
+        (saving >= least).then_some(Group { members, number, monomial, quotient, saving, size })
     }
 
     /// Whether its terms are of one degree in the velocities.
@@ -223,7 +223,7 @@ impl Collector<'_, '_> {
         *self.expansion.atoms.meaning(atom) == Meaning::Number(Rational::from_integer(10))
     }
 
-    /// Parameters come first, then multipliers, definitions, coordinates, functions, velocities, accelerations.
+    /// Parameters come first, then multipliers, definitions, coordinates, velocities, accelerations, functions.
     fn reading_order(&self, atom: Atom) -> (u8, usize) {
         let first = atom.0 as usize;
         match self.expansion.atoms.meaning(atom) {
@@ -231,12 +231,12 @@ impl Collector<'_, '_> {
             Meaning::Variable(Variable::Multiplier(a)) => (2, *a),
             Meaning::Variable(Variable::Time) => (4, 0),
             Meaning::Variable(Variable::Coordinate(i)) => (5, *i),
-            Meaning::Variable(Variable::Velocity(i)) => (8, *i),
-            Meaning::Variable(Variable::Acceleration(i)) => (9, *i),
+            Meaning::Variable(Variable::Velocity(i) | Variable::Momentum(i)) => (7, *i),
+            Meaning::Variable(Variable::Acceleration(i)) => (8, *i),
             Meaning::Pi | Meaning::Number(_) => (0, first),
             Meaning::Definition(id) => (3, id.index()),
-            Meaning::Function(..) => (6, first),
-            _ => (7, first),
+            Meaning::Function(function, _) => (9 + *function as u8, first),
+            _ => (6, first),
         }
     }
 
@@ -289,7 +289,7 @@ impl Collector<'_, '_> {
 }
 
 /// Of a sum of more terms than this nothing is taken out.
-const LONG: usize = 60;
+const LONG: usize = 40;
 
 /// The common factor of all terms, as far as `may_go` lets it.
 pub(super) fn shared(polynomial: &Polynomial, may_go: impl Fn(Atom) -> bool) -> (Rational, Monomial) {

@@ -10,7 +10,7 @@ use crate::symbolic::{External, Graph, Id, Node, Rational};
 use crate::variables::Variable;
 
 /// How many polynomials of nodes are worked out in all, counted in terms: what is beyond stays as it is.
-const WORK: usize = 50_000;
+const WORK: usize = 10_000;
 
 /// Expressions as polynomials, of which definitions are parts by their names, or what these stand for.
 pub(super) struct Expansion<'a> {
@@ -28,7 +28,7 @@ impl<'a> Expansion<'a> {
             Self { graph, names, atoms: Atoms::default(), done: FxHashMap::default(), work: WORK };
         // The order in which signs are taken out: φ₁ − φ₂, and not the other way about.
         let n = problem.coordinates.len();
-        let kinds = [Variable::Coordinate, Variable::Velocity, Variable::Acceleration];
+        let kinds = [Variable::Coordinate, Variable::Velocity, Variable::Acceleration, Variable::Momentum];
         for variable in kinds.into_iter().flat_map(|kind| (0..n).map(kind)) {
             expansion.atoms.atom(Meaning::Variable(variable));
         }

@@ -32,7 +32,7 @@ use polynomial::Polynomial;
 pub(super) const READABLE: u64 = 250;
 
 /// Of polynomials of more terms than this sines and cosines are not put together.
-const TERMS: usize = 200;
+const TERMS: usize = 100;
 
 /// The same expressions with some of the definitions by their names.
 pub(super) struct Reading<'a>(RefCell<Expansion<'a>>);
@@ -93,15 +93,23 @@ impl Page<'_> {
 
     /// A node as it is read.
     pub(super) fn expression(&self, id: Id) -> Result<Formula, u64> {
-        let formula = |reading: &Reading| {
+        let computed = self.computed([&[id]]).map(|[formula]| formula);
+        shortest(self.read(id).chain(computed.clone()), length).ok_or(computed.err().unwrap_or_default())
+    }
+
+    /// A node as it was written, where that is as short.
+    pub(super) fn quantity(&self, id: Id) -> Result<Formula, u64> {
+        let computed = self.computed([&[id]]).map(|[formula]| formula);
+        shortest(computed.clone().into_iter().chain(self.read(id)), length)
+            .ok_or(computed.err().unwrap_or_default())
+    }
+
+    fn read(&self, id: Id) -> impl Iterator<Item = Formula> {
+        let formula = move |reading: &Reading| {
             let all = self.polynomial(reading, &[(id, 1)], &[])?;
             self.collected(reading, |collector| Some(collector.sum(&all)))
         };
-        let computed = self.computed([&[id]]).map(|[formula]| formula);
-        let read =
-            self.readings.iter().filter_map(formula).filter(|formula| length(formula) <= READABLE as usize);
-        // As it was written where that is as short.
-        shortest(computed.clone().into_iter().chain(read), length).ok_or(computed.err().unwrap_or_default())
+        self.readings.iter().filter_map(formula).filter(|formula| length(formula) <= READABLE as usize)
     }
 
     fn polynomial(

@@ -33,7 +33,6 @@ impl System {
         diagnostics.is_empty().then_some(())?;
         let (mut graph, problem) = resolve::problem(&declaration, &mut diagnostics)?;
         let derived = mechanics::derive(&mut graph, &problem, &mut diagnostics)?;
-        eprintln!("{}", declaration.ident);
         let text = render(&declaration, &graph, &problem, &derived).text;
         Some(Self { graph, problem, derived, text })
     }
@@ -90,6 +89,10 @@ impl<'a> State<'a> {
         }
         for k in 0..problem.parameters.entries.len() {
             put(Formula::labelled(&problem.parameters.name(k), 0), value(sample, Variable::Parameter(k)));
+        }
+        for i in 0..n {
+            let value = sample.values(graph, &[system.derived.equations.momentum[i]])[0].value;
+            put(Formula::labelled(&momentum(system, i), 0), value);
         }
         put(Formula::labelled("t", 0), value(sample, Variable::Time));
         put(Formula::Pi, std::f64::consts::PI);
@@ -232,33 +235,67 @@ fn check_motion(system: &System) {
     }
 }
 
-/// Energies and momenta are what is computed.
-fn check_conserved(system: &System) {
+/// Energies, momenta and constraint forces are what is computed.
+fn check_quantities(system: &System) {
     let equations = &system.derived.equations;
     let conserved = system.derived.facts.conserved.iter();
-    let roots = conserved.filter_map(|conserved| match conserved.quantity {
+    let conserved = conserved.filter_map(|conserved| match conserved.quantity {
         Quantity::Momentum(a) => Some(equations.momentum[a]),
         Quantity::Energy => Some(equations.energy),
         Quantity::Observable(..) => None,
     });
-    let lines = system.lines("Conserved");
-    for (line, root) in lines.iter().zip(roots) {
-        if let Some((_, right)) = line.split_once(" = ") {
-            check_expression(system, right.split("   (").next().expect("a formula"), root);
-        }
+    let forces = equations.constraint_force.iter().copied().filter(|&force| force != Id::ZERO);
+    check_lines(system, "Conserved\n", conserved);
+    check_lines(system, "Constraint forces\n", forces);
+    check_lines(system, "Momenta\n", equations.momentum.iter().copied());
+}
+
+fn check_lines(system: &System, heading: &str, roots: impl Iterator<Item = Id>) {
+    for (line, root) in system.lines(heading).iter().zip(roots) {
+        check_expression(system, line, |sample| sample.values(&system.graph, &[root])[0]);
     }
 }
 
-fn check_expression(system: &System, text: &str, root: Id) {
+/// With p = ∂L/∂q̇ of a state, H is its energy, ∂H/∂p its velocity and ṗ its forces.
+fn check_hamilton(system: &System) {
+    let equations = &system.derived.equations;
+    let n = system.problem.coordinates.len();
+    let names = (0..n).map(|i| momentum(system, i));
+    if names.into_iter().any(|name| system.problem.names.values().any(|known| *known == name)) {
+        return;
+    }
+    for line in system.lines("Hamiltonian\n") {
+        check_expression(system, line, |sample| sample.values(&system.graph, &[equations.energy])[0]);
+    }
+    for (k, line) in system.lines("Hamilton's equations\n").iter().enumerate() {
+        check_expression(system, line, |sample| match k.checked_sub(n) {
+            None => sample.get(Variable::Velocity(k).symbol()),
+            Some(i) => {
+                let force = equations.constraint_force.get(i).copied().unwrap_or(Id::ZERO);
+                let parts = sample.values(&system.graph, &[equations.momentum_rate[i], force]);
+                parts[0].plus(parts[1])
+            }
+        });
+    }
+}
+
+fn momentum(system: &System, i: usize) -> String {
+    format!("p_{}", system.problem.coordinates[i].text)
+}
+
+/// The right side of a line has the value that is computed, to the rounding of both.
+fn check_expression(system: &System, line: &str, computed: impl Fn(&mut Sample) -> Approximate) {
+    let Some((_, text)) = line.split_once(" = ") else { return };
+    let text = text.split("   (").next().expect("a formula");
     let mut states = 0;
     for draw in 0..STATES {
         let mut sample = system.sample(draw);
-        let computed = sample.values(&system.graph, &[root])[0];
+        let computed = computed(&mut sample);
         let read = State::new(system, &mut sample, draw).read(text)[0];
         if !computed.value.is_finite() || !read.is_finite() {
             continue;
         }
-        let close = (read - computed.value).abs() <= 1e-9 * computed.value.abs() + 1e3 * computed.error;
+        let close = (read - computed.value).abs() <= CLOSE * (1.0 + computed.value.abs());
         assert!(close, "{text} is {read} and not {} in {}", computed.value, system.text);
         states += 1;
         if states == WANTED {
@@ -363,7 +400,8 @@ fn check_folders(folders: &[&str], least: usize) {
     let systems = found.into_iter().filter_map(System::new);
     let checked = systems.inspect(|system| {
         check_motion(system);
-        check_conserved(system);
+        check_quantities(system);
+        check_hamilton(system);
     });
     let checked = checked.count();
     assert!(checked >= least, "{checked} systems only");
