@@ -16,6 +16,8 @@ pub(crate) struct Hamilton {
     pub(crate) velocities: Vec<Id>,
     /// ṗ = −∂H/∂q + Q + Fᵀλ
     pub(crate) rates: Vec<Id>,
+    /// Of M: H is the shorter for having them simplified.
+    pub(crate) entries: Vec<Id>,
 }
 
 /// Of more coordinates nobody would read it.
@@ -40,9 +42,14 @@ impl Hamilton {
                 graph.sub(momenta[i], rest)
             })
             .collect();
+        let mass: Vec<Vec<Id>> = equations
+            .mass
+            .iter()
+            .map(|row| row.iter().map(|&entry| graph.defined(entry)).collect())
+            .collect();
         let mut velocities = vec![Id::ZERO; n];
-        for block in blocks(&equations.mass) {
-            let inverse = inverse(graph, problem, &equations.mass, &block)?;
+        for block in blocks(&mass) {
+            let inverse = inverse(graph, problem, &mass, &block)?;
             let part: Vec<Id> = block.iter().map(|&i| moving[i]).collect();
             for (&i, row) in block.iter().zip(&inverse) {
                 velocities[i] = graph.dot(row, &part);
@@ -52,7 +59,8 @@ impl Hamilton {
         let potential = graph.without(problem.lagrangian, &at_rest);
         let hamiltonian = graph.sum([(twice, Rational::new(1, 2)), (potential, -Rational::from_integer(1))]);
         let rates = rates(graph, problem, equations, hamiltonian, &velocities);
-        graph.take_fault().is_none().then_some(Self { hamiltonian, velocities, rates })
+        let entries = mass.concat();
+        graph.take_fault().is_none().then_some(Self { hamiltonian, velocities, rates, entries })
     }
 }
 

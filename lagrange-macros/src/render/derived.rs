@@ -4,7 +4,7 @@ use num_traits::{One, Signed};
 
 use super::Page;
 use super::formula::Formula;
-use crate::symbolic::{Function, Graph, Id, Node, Rational, Scaled};
+use crate::symbolic::{Function, Id, Node, Rational, Scaled};
 use crate::variables::Variable;
 
 impl Page<'_> {
@@ -44,13 +44,31 @@ impl Page<'_> {
         let coefficient = Scaled { fraction: coefficient, exponent: graph.power_of_ten(factors) };
         let mut factors: Vec<_> = factors.to_vec();
         factors.retain(|&factor| !graph.is_power_of_ten(factor));
-        factors.sort_by_key(|&(factor, _)| reading_order(factor, graph));
+        factors.sort_by_key(|&(factor, _)| self.reading_order(factor));
         let (mut above, mut below) = (Vec::new(), Vec::new());
         for (factor, exponent) in factors {
             let power = power(self.derived(factor), exponent.abs());
             if exponent.is_negative() { below.push(power) } else { above.push(power) }
         }
         Formula::product(coefficient, above, below)
+    }
+
+    /// Parameters come first, then multipliers, definitions, coordinates, velocities, accelerations, functions.
+    fn reading_order(&self, factor: Id) -> (u8, u32) {
+        match self.graph.node(factor) {
+            Node::Symbol(symbol) => match Variable::of(*symbol) {
+                Variable::Parameter(k) => (0, self.ranks[k] as u32),
+                Variable::Multiplier(_) => (1, symbol.index),
+                Variable::Time => (3, 0),
+                Variable::Coordinate(_) => (4, symbol.index),
+                Variable::Velocity(_) => (7, symbol.index),
+                _ => (8, symbol.index),
+            },
+            Node::Pi => (0, 0),
+            Node::Defined(_) => (2, factor.index() as u32),
+            Node::Function(function, _) => (9 + *function as u8, factor.index() as u32),
+            _ => (6, factor.index() as u32),
+        }
     }
 
     pub(super) fn variable(&self, variable: Variable) -> Formula {
@@ -85,22 +103,4 @@ pub(super) fn power(base: Formula, exponent: Rational) -> Formula {
         return Formula::Root(Box::new(base));
     }
     Formula::Power(Box::new(base), Box::new(Formula::Number(exponent)))
-}
-
-/// Parameters come first, then multipliers, definitions, coordinates, velocities, accelerations, functions.
-fn reading_order(factor: Id, graph: &Graph) -> (u8, u32) {
-    match graph.node(factor) {
-        Node::Symbol(symbol) => match Variable::of(*symbol) {
-            Variable::Parameter(_) => (0, symbol.index),
-            Variable::Multiplier(_) => (1, symbol.index),
-            Variable::Time => (3, 0),
-            Variable::Coordinate(_) => (4, symbol.index),
-            Variable::Velocity(_) => (7, symbol.index),
-            _ => (8, symbol.index),
-        },
-        Node::Pi => (0, 0),
-        Node::Defined(_) => (2, factor.index() as u32),
-        Node::Function(function, _) => (9 + *function as u8, factor.index() as u32),
-        _ => (6, factor.index() as u32),
-    }
 }

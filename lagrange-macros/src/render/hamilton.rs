@@ -3,7 +3,12 @@
 use super::Page;
 use super::formula::Formula;
 use super::lines::{Equation, Line};
+use super::reading::length;
+use crate::mechanics::Hamilton;
 use crate::symbolic::Id;
+
+/// Longer ones, in the signs that they take, say nothing to a reader.
+const LONG: usize = 100;
 
 impl Page<'_> {
     /// p, with dots, of a coordinate.
@@ -20,13 +25,20 @@ impl Page<'_> {
 
     /// H(t, q, p)
     pub(super) fn hamiltonian(&self) -> Vec<Line> {
-        let hamilton = self.derived.hamilton.iter();
+        let hamilton = self.legible().into_iter();
         hamilton.map(|hamilton| self.known(Formula::labelled("H", 0), hamilton.hamiltonian)).collect()
+    }
+
+    /// Where H is short enough for a reader.
+    fn legible(&self) -> Option<&Hamilton> {
+        let hamilton = self.derived.hamilton.as_ref()?;
+        let read = self.expression(hamilton.hamiltonian).ok()?;
+        (length(&read) <= LONG).then_some(hamilton)
     }
 
     /// q̇ = ∂H/∂p, ṗ = −∂H/∂q + Q + Fᵀλ
     pub(super) fn canonical(&self) -> Vec<Line> {
-        let Some(hamilton) = &self.derived.hamilton else { return Vec::new() };
+        let Some(hamilton) = self.legible() else { return Vec::new() };
         let coordinates = self.problem.coordinates.iter().map(|label| Formula::labelled(&label.text, 1));
         let velocities = coordinates.zip(&hamilton.velocities).map(|(left, &right)| self.known(left, right));
         let rates = hamilton.rates.iter().enumerate();

@@ -2,14 +2,13 @@
 
 use unicode_normalization::UnicodeNormalization;
 
-use super::binding::Binding;
 use super::formula::Formula;
 use super::lines::{Equation, Line, Section};
 use super::symbols::Notation;
 use crate::syntax::GREEK;
 
 /// What fits between the margins of `article` beside the number of an equation, in points.
-const LINE: f64 = 310.0;
+pub(super) const LINE: f64 = 310.0;
 
 /// A left side wider than this stands on a line of its own.
 const LEFT: f64 = 110.0;
@@ -73,60 +72,22 @@ fn filled(pieces: &[String], first: &str, others: &str, room: f64) -> Vec<String
     lines
 }
 
-/// A formula in parts between which a line may end: its terms, and if it is too long for a line those of its factors.
+/// A formula in parts between which a line may end: before its signs and behind its commas, but for those in arguments of
+/// commands and between `\left` and `\right`.
 fn pieces(formula: &Formula) -> Vec<String> {
     let text = Notation::Latex.write(formula);
-    match formula {
-        Formula::Sum(terms) => {
-            let mut all = Vec::new();
-            for (position, term) in terms.iter().enumerate() {
-                let (is_negative, magnitude) = term.sign_and_magnitude();
-                let sign = match (position, is_negative) {
-                    (0, false) => "",
-                    (0, true) => "-",
-                    (_, false) => " + ",
-                    (_, true) => " - ",
-                };
-                all.extend(prefixed(sign, pieces_in_product(&magnitude)));
-            }
-            all
+    let (mut pieces, mut depth, mut start) = (Vec::new(), 0, 0);
+    for (place, sign) in text.char_indices() {
+        let rest = &text[place..];
+        depth += i32::from(sign == '{' || rest.starts_with(r"\left"))
+            - i32::from(sign == '}' || rest.starts_with(r"\right"));
+        let is_sign = rest.starts_with(" + ") || rest.starts_with(" - ");
+        if depth == 0 && place > start && (is_sign || rest.starts_with(' ') && text[..place].ends_with(',')) {
+            pieces.push(text[start..place].to_owned());
+            start = place;
         }
-        Formula::Negative(inner) => prefixed("-", pieces_in_product(inner)),
-        Formula::Product(above, below) if width(&text) > LINE / 2.0 => factors(above, below),
-        _ => vec![text],
     }
-}
-
-fn pieces_in_product(formula: &Formula) -> Vec<String> {
-    match formula {
-        Formula::Product(..) => pieces(formula),
-        other => vec![Notation::Latex.at_least(other, Binding::Product)],
-    }
-}
-
-/// A product whose last factor is a sum may be broken there, and what is above of a long fraction stand beside it.
-fn factors(above: &[Formula], below: &[Formula]) -> Vec<String> {
-    let whole = Formula::Product(above.to_vec(), below.to_vec());
-    let Some((Formula::Sum(terms), before)) = above.split_last().filter(|(last, _)| is_long(last)) else {
-        return vec![Notation::Latex.write(&whole)];
-    };
-    let one = || vec![Formula::Number(1.into())];
-    let before = match (before, below) {
-        (before, []) => Notation::Latex.write(&Formula::Product(before.to_vec(), Vec::new())),
-        ([], below) => Notation::Latex.write(&Formula::Product(one(), below.to_vec())),
-        (before, below) => Notation::Latex.write(&Formula::Product(before.to_vec(), below.to_vec())),
-    };
-    let mut inner = prefixed(&format!("{before} \\bigl("), pieces(&Formula::Sum(terms.clone())));
-    inner.last_mut().into_iter().for_each(|last| *last += "\\bigr)");
-    inner
-}
-
-fn is_long(formula: &Formula) -> bool {
-    width(&Notation::Latex.write(formula)) > LINE / 3.0
-}
-
-fn prefixed(prefix: &str, mut pieces: Vec<String>) -> Vec<String> {
-    pieces.first_mut().into_iter().for_each(|first| first.insert_str(0, prefix));
+    pieces.push(text[start..].to_owned());
     pieces
 }
 
@@ -158,7 +119,7 @@ fn unique(label: String, labels: &mut Vec<String>) -> String {
 }
 
 /// About how wide LaTeX sets this, in points at 10 point.
-fn width(latex: &str) -> f64 {
+pub(super) fn width(latex: &str) -> f64 {
     Measure { rest: latex }.all()
 }
 

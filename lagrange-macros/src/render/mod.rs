@@ -48,6 +48,8 @@ struct Page<'a> {
     derived: &'a Derived,
     /// How many each node takes.
     symbols: Vec<u64>,
+    /// Where each parameter stands among the fields.
+    ranks: Vec<usize>,
     /// The definitions that neither the time nor the state changes.
     constants: FxHashSet<Id>,
     readings: Vec<Reading<'a>>,
@@ -67,7 +69,8 @@ pub(crate) fn render(
         problem,
         derived,
         symbols: lines::symbols(graph, problem),
-        readings: reading::readings(graph, problem, &constants, Names::Shortest),
+        ranks: ranks(problem),
+        readings: reading::readings(graph, problem, derived, &constants, Names::Shortest),
         constants,
     };
     let total_derivatives = page.total_derivatives();
@@ -102,6 +105,13 @@ pub(crate) fn render(
     }
 }
 
+fn ranks(problem: &Problem) -> Vec<usize> {
+    let order = problem.parameters.by_field();
+    let mut ranks = vec![0; order.len()];
+    order.into_iter().enumerate().for_each(|(rank, parameter)| ranks[parameter] = rank);
+    ranks
+}
+
 impl Page<'_> {
     fn lagrangian(&self) -> Vec<Line> {
         let Declaration { lagrangian, frames, defines, dissipation, forces, powers, .. } = self.declaration;
@@ -113,8 +123,9 @@ impl Page<'_> {
         lines.extend(defines.iter().map(|define| line(self.defined(define), &define.body)));
         lines.extend(dissipation.as_ref().map(|function| line(name("D"), function)));
         lines.extend(forces.iter().map(|force| {
-            let coordinate = Notation::Unicode.write(&self.target(&force.target));
-            line(name(&format!("Q_{coordinate}")), &force.value)
+            let Target { name, indices } = &force.target;
+            let base = format!("Q_{}", name.text);
+            line(Formula::Name { base, dots: 0, indices: self.indices(indices) }, &force.value)
         }));
         lines.extend(powers.iter().map(|Power { indices, force, velocity }| {
             let factors = [force, velocity].map(|factor| self.written(factor)).to_vec();

@@ -4,6 +4,7 @@ use num_traits::{One, Signed};
 
 use super::binding::{Binding, PREFIX, begins_with_function, exponent_at_name, is_number, is_prefixed};
 use super::formula::Formula;
+use super::latex::{LINE, width};
 use super::symbols::{Notation, decimal, point, subscript, superscript, vulgar};
 use crate::resolve::is_built_in;
 use crate::symbolic::{Rational, Scaled, finite_decimal};
@@ -28,7 +29,10 @@ impl Notation {
             Formula::Power(base, exponent) => self.power(base, exponent, false),
             Formula::Root(inner) => match self {
                 Self::Unicode => format!("√{}", self.at_least(inner, Binding::Atom)),
-                Self::Latex => format!(r"\sqrt{{{}}}", self.write(inner)),
+                Self::Latex => match self.write(inner) {
+                    inner if width(&inner) < LINE / 2.0 => format!(r"\sqrt{{{inner}}}"),
+                    inner => format!("{}^{{1/2}}", self.parentheses(&inner)),
+                },
             },
             Formula::Call(name, arguments) => self.call(name, arguments),
             Formula::SumOver { index, from, to, body } => self.sum_over(index, from, to, body),
@@ -50,7 +54,7 @@ impl Notation {
         if self == Self::Unicode { text } else { latex }
     }
 
-    pub(super) fn at_least(self, formula: &Formula, least: Binding) -> String {
+    fn at_least(self, formula: &Formula, least: Binding) -> String {
         let text = self.write(formula);
         if self.binding(formula) >= least { text } else { self.parentheses(&text) }
     }
@@ -73,7 +77,11 @@ impl Notation {
     /// As high as what is inside.
     fn between(self, open: &str, inner: &str, close: &str) -> String {
         match self {
-            Self::Latex if is_tall(inner) => format!(r"\left{open} {inner} \right{close}"),
+            // Between these no line can end.
+            Self::Latex if is_tall(inner) && width(inner) < LINE / 2.0 => {
+                format!(r"\left{open} {inner} \right{close}")
+            }
+            Self::Latex if is_tall(inner) => format!(r"\bigl{open}{inner}\bigr{close}"),
             _ => format!("{open}{inner}{close}"),
         }
     }
@@ -102,9 +110,7 @@ impl Notation {
     fn product(self, above: &[Formula], below: &[Formula]) -> String {
         match self {
             _ if below.is_empty() => self.factors(above, false),
-            Self::Latex => {
-                format!(r"\frac{{{}}}{{{}}}", self.factors(above, false), self.factors(below, false))
-            }
+            Self::Latex => self.fraction(above, below),
             Self::Unicode => {
                 let below = match below {
                     // a/2/3 could be read in two ways.
@@ -115,6 +121,22 @@ impl Notation {
                 };
                 format!("{}/{below}", self.factors(above, true))
             }
+        }
+    }
+
+    /// Where it is too wide for a line, with sums beside it, or on one line that may be broken.
+    fn fraction(self, above: &[Formula], below: &[Formula]) -> String {
+        let [over, under] = [above, below].map(|factors| self.factors(factors, false));
+        let (sums, others): (Vec<Formula>, Vec<Formula>) =
+            above.iter().cloned().partition(|factor| matches!(factor, Formula::Sum(_)));
+        if width(&over).max(width(&under)) < LINE / 2.0 {
+            format!(r"\frac{{{over}}}{{{under}}}")
+        } else if width(&under) < LINE / 2.0 && !sums.is_empty() {
+            let one = vec![Formula::Number(Rational::one())];
+            let before = self.fraction(if others.is_empty() { &one } else { &others }, below);
+            format!("{before} {}", self.factors(&sums, true))
+        } else {
+            format!("{} / ({under})", self.factors(above, true))
         }
     }
 
@@ -314,9 +336,11 @@ impl Notation {
     /// What stands below a letter: digits, a Greek letter, or a word upright.
     fn below(self, name: &str) -> String {
         let is_number = name.chars().all(|sign| sign.is_ascii_digit());
+        let is_indexed = !letter_and_below(name).1.is_empty();
         match self {
             Self::Unicode if is_number => subscript(name),
-            Self::Unicode => format!("_{}", self.letter(name)),
+            Self::Unicode => format!("_{}", self.name(name, 0, &[])),
+            Self::Latex if !is_number && is_indexed => self.name(name, 0, &[]),
             Self::Latex if is_number => name.to_owned(),
             Self::Latex if name.chars().count() > 1 && !is_greek(name) => {
                 format!(r"\mathrm{{{}}}", name.replace('_', r"\,"))

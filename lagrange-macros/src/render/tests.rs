@@ -3,6 +3,8 @@
 mod everywhere;
 mod golden;
 mod reader;
+mod texts;
+mod typeset;
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;

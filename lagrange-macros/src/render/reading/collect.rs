@@ -145,19 +145,50 @@ impl Collector<'_, '_> {
         let is_negative = chosen.terms().all(|(_, c)| c.is_negative());
         let number = if is_negative { -number } else { number };
         let quotient = chosen.scaled(&monomial.power(-Rational::one())?, number.recip())?;
+        let (monomial, quotient) = self.over_common(monomial, quotient)?;
         let size = self.size(&monomial) + isize::from(!number.abs().is_one());
-        // Parentheses around what is constant are easier to read than others, and factors that move better not hidden.
-        let (parentheses, least) = match (self.are_constant(&quotient), self.moving(&monomial).is_one()) {
-            (true, false) => (1, 0),
-            (_, true) if monomial.is_one() => (2, 1),
-            (_, true) if self.are_differences(&quotient) => (1, 0),
-            (_, true) if self.are_alike(&quotient) => (2, 0),
-            (_, true) => (3, 1),
-            (false, false) => (2, 1),
-        };
+        let (parentheses, least) = self.parentheses(&monomial, &quotient);
         let saving = (members.len() as isize - 1) * size - parentheses;
         let members = members.into_iter().cloned().collect();
         (saving >= least).then_some(Group { members, number, monomial, quotient, saving, size })
+    }
+
+    /// Constants with one denominator: (a m + b)/m for a + b/m.
+    fn over_common(
+        &self,
+        mut monomial: Monomial,
+        mut quotient: Polynomial,
+    ) -> Option<(Monomial, Polynomial)> {
+        if !self.are_constant(&quotient) {
+            return Some((monomial, quotient));
+        }
+        let factors: Vec<(Atom, Rational)> =
+            quotient.terms().flat_map(|(monomial, _)| monomial.factors().to_vec()).collect();
+        let below: BTreeSet<Atom> =
+            factors.iter().filter(|(_, exponent)| exponent.is_negative()).map(|&(atom, _)| atom).collect();
+        for atom in below {
+            let least = quotient.terms().map(|(monomial, _)| monomial.exponent(atom)).min()?;
+            monomial = monomial.times(&Monomial::of(atom, least))?;
+            quotient = quotient.scaled(&Monomial::of(atom, -least), Rational::one())?;
+        }
+        Some((monomial, quotient))
+    }
+
+    /// What parentheses around a quotient cost, and how much must be saved: those around constants and differences are easier to
+    /// read than others, fractions in fractions harder, and factors that move are not to be hidden.
+    fn parentheses(&self, monomial: &Monomial, quotient: &Polynomial) -> (isize, isize) {
+        let has_fraction =
+            |(monomial, _): (&Monomial, _)| monomial.factors().iter().any(|(_, e)| e.is_negative());
+        match (self.are_constant(quotient), self.moving(monomial).is_one()) {
+            _ if monomial.is_one() => (2, 1),
+            (true, _) => (1, 0),
+            _ if quotient.len() == 2 && quotient.terms().any(has_fraction) => (5, 0),
+            (_, true) if self.are_differences(quotient) => (1, 0),
+            (_, true) if self.are_alike(quotient) => (2, 0),
+            (_, true) => (3, 1),
+            (_, false) if self.is_of_coordinates(quotient) => (2, 1),
+            (_, false) => (2, 3),
+        }
     }
 
     /// Whether its terms are of one degree in the velocities.
@@ -165,6 +196,13 @@ impl Collector<'_, '_> {
         let mut degrees = quotient.terms().map(|(monomial, _)| self.degree(monomial, Self::is_velocity));
         let first = degrees.next();
         degrees.all(|degree| Some(degree) == first)
+    }
+
+    /// Whether nothing but coordinates moves in it.
+    fn is_of_coordinates(&self, quotient: &Polynomial) -> bool {
+        let is_it =
+            |atom| matches!(self.variable(atom), Some(Variable::Coordinate(_))) || self.is_constant(atom);
+        quotient.terms().all(|(monomial, _)| monomial.factors().iter().all(|&(atom, _)| is_it(atom)))
     }
 
     /// Whether it is made of coordinates, or of their squares, without numbers before them: x₁ − x₂.
@@ -204,16 +242,16 @@ impl Collector<'_, '_> {
         let exponent = tens.map_or(Rational::default(), |place| factors.remove(place).1);
         let number = Scaled { fraction: number, exponent: *exponent.numer() as i32 };
         factors.sort_by_key(|&(atom, _)| self.reading_order(atom));
-        let constants =
-            factors.iter().filter(|(atom, exponent)| self.is_constant(*atom) && exponent.is_positive());
-        let constants = constants.count();
-        let (mut above, mut below) = (Vec::new(), Vec::new());
+        let (mut above, mut below, mut place) = (Vec::new(), Vec::new(), 0);
         for (atom, exponent) in factors {
             let power = power(self.atom(atom), exponent.abs());
-            if exponent.is_negative() { below.push(power) } else { above.push(power) }
+            let before = if exponent.is_negative() { &mut below } else { &mut above };
+            before.push(power);
+            // Before what moves fast, and before functions.
+            place = if self.reading_order(atom) < (MOVING, 0) { above.len() } else { place };
         }
         if let Some(quotient) = quotient {
-            let place = if self.are_constant(quotient) { constants } else { above.len() };
+            let place = if self.are_constant(quotient) { 0 } else { place };
             above.insert(place, self.sum(quotient));
         }
         Formula::product(number, above, below)
@@ -227,11 +265,11 @@ impl Collector<'_, '_> {
     fn reading_order(&self, atom: Atom) -> (u8, usize) {
         let first = atom.0 as usize;
         match self.expansion.atoms.meaning(atom) {
-            Meaning::Variable(Variable::Parameter(k)) => (1, *k),
+            Meaning::Variable(Variable::Parameter(k)) => (1, self.page.ranks[*k]),
             Meaning::Variable(Variable::Multiplier(a)) => (2, *a),
             Meaning::Variable(Variable::Time) => (4, 0),
             Meaning::Variable(Variable::Coordinate(i)) => (5, *i),
-            Meaning::Variable(Variable::Velocity(i) | Variable::Momentum(i)) => (7, *i),
+            Meaning::Variable(Variable::Velocity(i) | Variable::Momentum(i)) => (MOVING, *i),
             Meaning::Variable(Variable::Acceleration(i)) => (8, *i),
             Meaning::Pi | Meaning::Number(_) => (0, first),
             Meaning::Definition(id) => (3, id.index()),
@@ -287,6 +325,9 @@ impl Collector<'_, '_> {
         true
     }
 }
+
+/// The place of velocities among factors; after it come accelerations and functions.
+const MOVING: u8 = 7;
 
 /// Of a sum of more terms than this nothing is taken out.
 const LONG: usize = 40;

@@ -5,6 +5,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::atoms::{Atoms, Meaning};
 use super::polynomial::Polynomial;
+use crate::mechanics::Derived;
 use crate::resolve::Problem;
 use crate::symbolic::{External, Graph, Id, Node, Rational};
 use crate::variables::Variable;
@@ -18,18 +19,22 @@ pub(super) struct Expansion<'a> {
     /// The definitions that keep their names.
     pub(super) names: FxHashSet<Id>,
     pub(super) atoms: Atoms,
+    /// Definitions without a name whose sines and cosines are put together.
+    entries: FxHashSet<Id>,
     done: FxHashMap<Id, Option<Polynomial>>,
     work: usize,
 }
 
 impl<'a> Expansion<'a> {
-    pub(super) fn new(graph: &'a Graph, problem: &Problem, names: FxHashSet<Id>) -> Self {
-        let mut expansion =
-            Self { graph, names, atoms: Atoms::default(), done: FxHashMap::default(), work: WORK };
+    pub(super) fn new(graph: &'a Graph, problem: &Problem, derived: &Derived, names: FxHashSet<Id>) -> Self {
+        let entries = derived.hamilton.iter().flat_map(|hamilton| &hamilton.entries).copied().collect();
+        let (atoms, done) = (Atoms::default(), FxHashMap::default());
+        let mut expansion = Self { graph, names, atoms, entries, done, work: WORK };
         // The order in which signs are taken out: φ₁ − φ₂, and not the other way about.
         let n = problem.coordinates.len();
+        let parameters = problem.parameters.by_field().into_iter().map(Variable::Parameter);
         let kinds = [Variable::Coordinate, Variable::Velocity, Variable::Acceleration, Variable::Momentum];
-        for variable in kinds.into_iter().flat_map(|kind| (0..n).map(kind)) {
+        for variable in kinds.into_iter().flat_map(|kind| (0..n).map(kind)).chain(parameters) {
             expansion.atoms.atom(Meaning::Variable(variable));
         }
         expansion
@@ -84,6 +89,10 @@ impl<'a> Expansion<'a> {
             Node::Product(factors) => return self.product(factors),
             Node::Function(function, x) => return Some(self.atoms.function(*function, &self.known(*x)?)),
             Node::Defined(_) if self.names.contains(&id) => Meaning::Definition(id),
+            Node::Defined(inner) if self.entries.contains(&id) => {
+                let inner = self.known(*inner)?;
+                return self.atoms.merged(inner);
+            }
             Node::Defined(inner) => return self.known(*inner),
             Node::Pi => Meaning::Pi,
             Node::Symbol(symbol) => Meaning::Variable(Variable::of(*symbol)),

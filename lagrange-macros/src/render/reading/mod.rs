@@ -20,6 +20,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use super::Page;
 use super::formula::Formula;
 use super::lines::Equation;
+use crate::mechanics::Derived;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id, Rational};
 use crate::variables::Variable;
@@ -41,6 +42,7 @@ pub(super) struct Reading<'a>(RefCell<Expansion<'a>>);
 pub(super) fn readings<'a>(
     graph: &'a Graph,
     problem: &Problem,
+    derived: &Derived,
     constants: &FxHashSet<Id>,
     names: Names,
 ) -> Vec<Reading<'a>> {
@@ -52,7 +54,9 @@ pub(super) fn readings<'a>(
         Names::WrittenOut => vec![none],
     };
     kept.dedup();
-    kept.into_iter().map(|kept| Reading(RefCell::new(Expansion::new(graph, problem, kept)))).collect()
+    kept.into_iter()
+        .map(|kept| Reading(RefCell::new(Expansion::new(graph, problem, derived, kept))))
+        .collect()
 }
 
 /// Whether definitions appear by their names.

@@ -34,35 +34,20 @@ impl Collector<'_, '_> {
     /// Σ coefficient · q̈
     fn inertia(&self, left: &Polynomial) -> Option<Formula> {
         let coefficients = self.coefficients(left)?;
-        let terms = coefficients.iter().map(|(atom, coefficient)| {
-            let monomial = Monomial::of(*atom, Rational::one());
-            match coefficient.single() {
-                Some((factors, c)) => Some(self.product(c, &factors.times(&monomial)?, None)),
-                None => Some(self.coefficient(coefficient, &monomial)),
-            }
-        });
+        let terms = coefficients.iter().map(|(atom, coefficient)| self.accelerating(*atom, coefficient));
         let mut terms = terms.collect::<Option<Vec<_>>>()?;
         terms.sort_by_key(Formula::is_negative);
         Some(Formula::sum(terms))
     }
 
-    fn coefficient(&self, coefficient: &Polynomial, acceleration: &Monomial) -> Formula {
+    /// coefficient · q̈
+    fn accelerating(&self, atom: Atom, coefficient: &Polynomial) -> Option<Formula> {
+        let (number, monomial) = coefficient.content();
         let is_negative = coefficient.terms().all(|(_, c)| c.is_negative());
-        let (sign, coefficient) = match is_negative {
-            true => (-Rational::one(), coefficient.negated()),
-            false => (Rational::one(), coefficient.clone()),
-        };
-        match self.sum(&coefficient) {
-            // Taken out of all terms.
-            Formula::Product(mut above, below) => {
-                above.push(self.product(Rational::one(), acceleration, None));
-                Formula::Product(above, below).signed(sign.is_negative())
-            }
-            sum => {
-                let above = vec![sum, self.product(Rational::one(), acceleration, None)];
-                Formula::product(sign.into(), above, Vec::new())
-            }
-        }
+        let number = if is_negative { -number } else { number };
+        let quotient = coefficient.scaled(&monomial.power(-Rational::one())?, number.recip())?;
+        let monomial = monomial.times(&Monomial::of(atom, Rational::one()))?;
+        Some(self.product(number, &monomial, Some(&quotient).filter(|quotient| quotient.len() > 1)))
     }
 
     /// Of each acceleration that there is, in their order.
