@@ -6,7 +6,7 @@ use num_traits::{One, Signed, Zero};
 use super::symbols::decimal;
 use crate::symbolic::{Rational, Scaled, finite_decimal};
 
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub(super) enum Formula {
     Number(Rational),
     /// A number with a power of ten.

@@ -187,16 +187,40 @@ impl Page<'_> {
         self.declaration.constraints.iter().filter_map(line).collect()
     }
 
-    /// Σ_j M_ij q̈_j = h_i + Σ_α λ_α F_αi, a row for each coordinate.
+    /// Σ_j M_ij q̈_j = h_i + Σ_α λ_α F_αi, a row for each coordinate, or for a vector of coordinates.
     fn motion(&self) -> Vec<Line> {
         let Derived { equations, inertia, .. } = self.derived;
-        let row = |(i, &inertia): (usize, &Id)| {
+        let right = |i: usize| {
             let right = [Some(&equations.forcing[i]), equations.constraint_force.get(i)];
-            let right =
-                right.into_iter().flatten().copied().filter(|&part| part != Id::ZERO).collect::<Vec<_>>();
-            let label = Notation::Unicode.write(&Formula::labelled(&self.problem.coordinates[i].text, 0));
-            Line { label: Some(label), ..Line::of(self.row(inertia, &right)) }
+            right.into_iter().flatten().copied().filter(|&part| part != Id::ZERO).collect::<Vec<_>>()
         };
-        inertia.iter().enumerate().map(row).collect()
+        let mut rows: Vec<(Id, Vec<Id>)> =
+            inertia.iter().enumerate().map(|(i, &left)| (left, right(i))).collect();
+        let coordinates = &self.problem.coordinates;
+        let vectors = coordinates
+            .chunk_by(|one, other| vector(&one.text).is_some() && vector(&one.text) == vector(&other.text));
+        let lines = vectors.flat_map(|labels| {
+            let others = rows.split_off(labels.len());
+            let rows = std::mem::replace(&mut rows, others);
+            let line = |text: &str, equation| {
+                let label = Some(Notation::Unicode.write(&Formula::labelled(text, 0)));
+                Line { label, ..Line::of(equation) }
+            };
+            let whole = (labels.len() > 1).then(|| self.vector_row(&rows)).flatten();
+            match (whole, vector(&labels[0].text)) {
+                (Some([left, right]), Some(text)) => vec![line(text, Equation::Known(left, right))],
+                _ => labels
+                    .iter()
+                    .zip(&rows)
+                    .map(|(label, row)| line(&label.text, self.row(row.0, &row.1)))
+                    .collect(),
+            }
+        });
+        lines.collect()
     }
+}
+
+/// `r` of `r[0]`, `r[1]` of `r[1][0]`.
+fn vector(text: &str) -> Option<&str> {
+    text.strip_suffix(']')?.rsplit_once('[').map(|(vector, _)| vector)
 }

@@ -6,6 +6,7 @@ use indexmap::IndexSet;
 use num_traits::{One, Signed};
 use rustc_hash::{FxBuildHasher, FxHashMap};
 
+use super::super::formula::Formula;
 use super::polynomial::{Atom, Monomial, Polynomial};
 use crate::symbolic::{External, Function, Id, Parity, Rational, power, square_root};
 use crate::variables::Variable;
@@ -27,6 +28,8 @@ pub(super) enum Meaning {
     Sum(Polynomial),
     /// A function of which nothing is known, with its arguments.
     External(External, Vec<Polynomial>),
+    /// A vector, or a product of vectors, as it is written; and the variable that its first component is.
+    Vector(Formula, Option<Variable>),
 }
 
 #[derive(Default)]

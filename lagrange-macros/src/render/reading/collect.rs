@@ -72,6 +72,7 @@ impl Collector<'_, '_> {
     pub(super) fn variable(&self, atom: Atom) -> Option<Variable> {
         match self.expansion.atoms.meaning(atom) {
             Meaning::Variable(variable) => Some(*variable),
+            Meaning::Vector(_, variable) => *variable,
             _ => None,
         }
     }
@@ -101,6 +102,7 @@ impl Collector<'_, '_> {
             Meaning::Function(_, x) | Meaning::Sum(x) => all(x),
             Meaning::Atan2(x, y) | Meaning::Power(x, y) => all(x) && all(y),
             Meaning::External(_, arguments) => arguments.iter().all(all),
+            Meaning::Vector(_, of) => matches!(of, Some(Variable::Parameter(_))),
         }
     }
 
@@ -223,10 +225,8 @@ impl Collector<'_, '_> {
     }
 
     fn size(&self, monomial: &Monomial) -> isize {
-        let sizes = monomial
-            .factors()
-            .iter()
-            .map(|&(atom, exponent)| length(&power(self.atom(atom), exponent.abs())));
+        let sizes =
+            monomial.factors().iter().map(|&(atom, exponent)| length(&self.power(atom, exponent.abs())));
         sizes.sum::<usize>() as isize
     }
 
@@ -244,7 +244,7 @@ impl Collector<'_, '_> {
         factors.sort_by_key(|&(atom, _)| self.reading_order(atom));
         let (mut above, mut below, mut place) = (Vec::new(), Vec::new(), 0);
         for (atom, exponent) in factors {
-            let power = power(self.atom(atom), exponent.abs());
+            let power = self.power(atom, exponent.abs());
             let before = if exponent.is_negative() { &mut below } else { &mut above };
             before.push(power);
             // Before what moves fast, and before functions.
@@ -264,18 +264,31 @@ impl Collector<'_, '_> {
     /// Parameters come first, then multipliers, definitions, coordinates, velocities, accelerations, functions.
     fn reading_order(&self, atom: Atom) -> (u8, usize) {
         let first = atom.0 as usize;
-        match self.expansion.atoms.meaning(atom) {
-            Meaning::Variable(Variable::Parameter(k)) => (1, self.page.ranks[*k]),
-            Meaning::Variable(Variable::Multiplier(a)) => (2, *a),
-            Meaning::Variable(Variable::Time) => (4, 0),
-            Meaning::Variable(Variable::Coordinate(i)) => (5, *i),
-            Meaning::Variable(Variable::Velocity(i) | Variable::Momentum(i)) => (MOVING, *i),
-            Meaning::Variable(Variable::Acceleration(i)) => (8, *i),
-            Meaning::Pi | Meaning::Number(_) => (0, first),
-            Meaning::Definition(id) => (3, id.index()),
-            Meaning::Function(function, _) => (9 + *function as u8, first),
+        match (self.expansion.atoms.meaning(atom), self.variable(atom)) {
+            (Meaning::Variable(Variable::Parameter(k)), _) => (1, self.page.ranks[*k]),
+            (_, Some(Variable::Parameter(_))) => (1, first),
+            (_, Some(Variable::Multiplier(a))) => (2, a),
+            (_, Some(Variable::Time)) => (4, 0),
+            (_, Some(Variable::Coordinate(i))) => (5, i),
+            (_, Some(Variable::Velocity(i) | Variable::Momentum(i))) => (MOVING, i),
+            (_, Some(Variable::Acceleration(i))) => (8, i),
+            (Meaning::Pi | Meaning::Number(_), _) => (0, first),
+            (Meaning::Definition(id), _) => (3, id.index()),
+            (Meaning::Function(function, _), _) => (9 + *function as u8, first),
+            (Meaning::Vector(Formula::Call(name, _), _), _) if name == "dot" => (4, first),
+            (Meaning::Vector(..), _) => (u8::MAX, first),
             _ => (6, first),
         }
+    }
+
+    /// A power of an atom, its exponent positive; |r|³ is one of the sum of squares that |r|² is.
+    fn power(&self, atom: Atom, exponent: Rational) -> Formula {
+        if let Meaning::Sum(sum) = self.expansion.atoms.meaning(atom)
+            && let Some(norm) = self.squared_norm(sum)
+        {
+            return power(norm, exponent * Rational::from_integer(2));
+        }
+        power(self.atom(atom), exponent)
     }
 
     pub(super) fn atom(&self, atom: Atom) -> Formula {
@@ -300,6 +313,7 @@ impl Collector<'_, '_> {
             Meaning::External(function, arguments) => {
                 page.supplied(function, arguments.iter().map(|x| self.sum(x)).collect())
             }
+            Meaning::Vector(written, _) => written.clone(),
             Meaning::Sum(terms) => {
                 let collected = self.sum(terms);
                 // Squares of differences are shorter as they were.

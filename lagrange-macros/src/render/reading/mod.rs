@@ -12,9 +12,11 @@ mod expand;
 mod length;
 mod polynomial;
 mod row;
+mod vectors;
 
 use std::cell::RefCell;
 
+use num_traits::One;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::Page;
@@ -27,7 +29,8 @@ use crate::variables::Variable;
 use collect::Collector;
 use expand::Expansion;
 pub(super) use length::length;
-use polynomial::Polynomial;
+use polynomial::{Monomial, Polynomial};
+use vectors::VectorTerm;
 
 /// What takes more signs than this is not for reading.
 pub(super) const READABLE: u64 = 250;
@@ -93,6 +96,32 @@ impl Page<'_> {
         let size = |[left, right]: &[Formula; 2]| length(left) + length(right);
         let read = self.readings.iter().filter_map(sides).filter(|sides| size(sides) <= READABLE as usize);
         shortest(read.chain(computed.clone()), size).ok_or(computed.err().unwrap_or_default()).into()
+    }
+
+    /// The same of rows that are the components of one equation of vectors, where they are that.
+    pub(super) fn vector_row(&self, rows: &[(Id, Vec<Id>)]) -> Option<[Formula; 2]> {
+        let sides = |reading: &Reading| {
+            let all = self.vector(reading, rows)?;
+            self.collected(reading, |collector| collector.row(&all))
+        };
+        shortest(self.readings.iter().filter_map(sides), |[left, right]| length(left) + length(right))
+    }
+
+    /// The rows as one polynomial, of which each term has a vector.
+    fn vector(&self, reading: &Reading, rows: &[(Id, Vec<Id>)]) -> Option<Polynomial> {
+        let parts = rows.iter().map(|(inertia, forces)| self.polynomial(reading, &[(*inertia, 1)], forces));
+        let parts = parts.collect::<Option<Vec<_>>>()?;
+        let terms = self.collected(reading, |collector| collector.vector_terms(&parts))?;
+        let mut expansion = reading.0.borrow_mut();
+        let mut all = Polynomial::default();
+        for VectorTerm { coefficient, mut scalar, factors } in terms {
+            for factor in factors {
+                let atom = expansion.atoms.atom(factor);
+                scalar = scalar.times(&Monomial::of(atom, Rational::one()))?;
+            }
+            all.push(scalar, coefficient)?;
+        }
+        Some(all)
     }
 
     /// A node as it is read.

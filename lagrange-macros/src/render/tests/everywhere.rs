@@ -109,7 +109,8 @@ impl<'a> State<'a> {
         read_with(text, self)
     }
 
-    fn external(&self, function: &str, derivatives: &[u32], arguments: &[f64]) -> f64 {
+    /// All results of a function, or the one that is named.
+    fn external(&self, function: &str, derivatives: &[u32], arguments: &[f64]) -> Value {
         let functions = self.system.problem.functions.iter().enumerate();
         let outputs = functions.flat_map(|(index, function)| {
             let names =
@@ -117,16 +118,19 @@ impl<'a> State<'a> {
             names.into_iter().enumerate().map(move |(output, name)| (name, index, output))
         });
         let written = |name: &str| Notation::Unicode.write(&Formula::labelled(name, 0));
-        let found = outputs.into_iter().find(|(name, ..)| written(name) == function);
-        let (_, index, output) = found.unwrap_or_else(|| panic!("no function {function}"));
-        let external = External {
-            function: index as u32,
-            output: output as u32,
-            derivatives: derivatives.into(),
-            arguments: Box::default(),
-        };
+        let is_it = |name: &str| name == function || name.starts_with(&format!("{function}["));
+        let found = outputs.filter(|(name, ..)| is_it(&written(name)));
         let arguments: Vec<_> = arguments.iter().copied().map(Approximate::exact).collect();
-        superposition(&external, &arguments, self.draw).value
+        let values: Value = found
+            .map(|(_, index, output)| {
+                let (function, output) = (index as u32, output as u32);
+                let derivatives = derivatives.into();
+                let external = External { function, output, derivatives, arguments: Box::default() };
+                superposition(&external, &arguments, self.draw).value
+            })
+            .collect();
+        assert!(!values.is_empty(), "no function {function}");
+        values
     }
 }
 
@@ -155,34 +159,39 @@ impl Meanings for State<'_> {
         self.names.get(name).cloned()
     }
 
-    fn call(&self, function: &str, primes: usize, arguments: &[f64]) -> f64 {
-        match (Function::named(function), function, arguments) {
+    fn call(&self, function: &str, primes: usize, arguments: &[f64]) -> Value {
+        let number = match (Function::named(function), function, arguments) {
             (Some(function), _, &[x]) => apply(function, &x),
             (_, "max", [x, y]) => x.max(*y),
-            (_, "step", [x]) => {
-                if *x > 0.0 {
-                    1.0
-                } else {
-                    0.0
-                }
-            }
+            (_, "step", [x]) => f64::from(u8::from(*x > 0.0)),
             (_, "atan2", [y, x]) => y.atan2(*x),
-            _ => self.external(function, &vec![0; primes], arguments),
-        }
+            _ => return self.external(function, &vec![0; primes], arguments),
+        };
+        vec![number]
     }
 
-    fn partial(&self, function: &str, by: &[String], arguments: Option<&[f64]>) -> f64 {
+    fn partial(&self, function: &str, by: &[String], arguments: Option<&[f64]>) -> Value {
         let name = function.split('[').next().expect("a name");
-        let functions = self.system.problem.functions.iter();
         let written = |name: &str| Notation::Unicode.write(&Formula::labelled(name, 0));
-        let supplied =
-            functions.into_iter().find(|supplied| written(&supplied.name) == name).expect("a function");
+        let mut functions = self.system.problem.functions.iter();
+        let supplied = functions.find(|supplied| written(&supplied.name) == name).expect("a function");
         let formals = supplied.formals.iter().flat_map(|(name, lengths)| resolve::entry_names(name, lengths));
         let formals: Vec<String> = formals.map(|name| written(&name)).collect();
-        let place = |x: &String| formals.iter().position(|formal| formal == x).expect("an argument") as u32;
         let own = || formals.iter().flat_map(|name| self.names[name].clone()).collect();
         let arguments: Value = arguments.map_or_else(own, <[f64]>::to_vec);
-        self.external(function, &by.iter().map(place).collect::<Vec<_>>(), &arguments)
+        let places = |x: &String| {
+            let is_it = |formal: &&String| *formal == x || formal.starts_with(&format!("{x}["));
+            let found = formals.iter().enumerate().filter(|(_, formal)| is_it(formal));
+            found.map(|(place, _)| place as u32).collect::<Vec<u32>>()
+        };
+        match by {
+            [by] => {
+                places(by).iter().flat_map(|&place| self.external(function, &[place], &arguments)).collect()
+            }
+            several => {
+                self.external(function, &several.iter().flat_map(places).collect::<Vec<_>>(), &arguments)
+            }
+        }
     }
 }
 
@@ -191,49 +200,71 @@ const WANTED: usize = 3;
 /// Beside the greatest of the values compared.
 const CLOSE: f64 = 1e-8;
 
-/// Each row is proportional to what is computed, in accelerations and multipliers: it may have been divided.
+/// Each row, or vector of rows, is proportional to what is computed, in accelerations and multipliers: it may have been
+/// divided.
 fn check_motion(system: &System) {
-    let Derived { equations, inertia, .. } = &system.derived;
-    let rows = system.lines("Equations of motion");
-    assert_eq!(rows.len(), inertia.len(), "{}", system.text);
-    for (i, row) in rows.iter().enumerate().filter(|(_, row)| !row.contains("symbols)")) {
-        let (_, row) = row.split_once(": ").expect("a label");
-        let (left, right) = row.trim().split_once(" = ").expect("an equation");
-        let roots = [
-            inertia[i],
-            equations.forcing[i],
-            equations.constraint_force.get(i).copied().unwrap_or(Id::ZERO),
-        ];
-        let mut states = 0;
-        for draw in 0..STATES {
-            let mut sample = system.sample(draw);
-            let pairs: Vec<[f64; 2]> = (0..3)
-                .map(|other| {
-                    system.moved(&mut sample, 1000 * (other + 1) + draw);
-                    let state = State::new(system, &mut sample, draw);
-                    let [left, right] = [left, right].map(|side| state.read(side)[0]);
-                    let [inertia, forcing, force] =
-                        roots.map(|root| sample.values(&system.graph, &[root])[0].value);
-                    [left - right, inertia - forcing - force]
-                })
-                .collect();
-            if !pairs.iter().flatten().all(|x| x.is_finite()) {
-                continue;
-            }
-            let greatest = |k: usize| pairs.iter().map(|pair| pair[k].abs()).fold(0.0, f64::max);
-            assert!((greatest(0) > 0.0) == (greatest(1) > 0.0), "{row} in {}", system.text);
-            for pair in &pairs[1..] {
-                let difference = pairs[0][0] * pair[1] - pairs[0][1] * pair[0];
-                let close = difference.abs() <= CLOSE * greatest(0) * greatest(1);
-                assert!(close, "{row}: {pairs:?} in {}", system.text);
-            }
-            states += 1;
-            if states == WANTED {
-                break;
-            }
+    let mut first = 0;
+    for row in system.lines("Equations of motion\n") {
+        let (label, equation) = row.split_once(": ").expect("a label");
+        let labels = system.problem.coordinates[first..].iter();
+        let labels = labels.map(|label| Notation::Unicode.write(&Formula::labelled(&label.text, 0)));
+        let is_it = |known: &String| {
+            let index = known.strip_prefix(label).and_then(|rest| rest.strip_prefix('['));
+            *known == label || index.is_some_and(|index| index.matches(']').count() == 1)
+        };
+        let count = labels.take_while(is_it).count();
+        assert!(count > 0, "{row} has no coordinate in {}", system.text);
+        if let Some((left, right)) = equation.trim().split_once(" = ") {
+            check_rows(system, first..first + count, [left, right]);
         }
-        assert!(states > 0, "no state for {row} in {}", system.text);
+        first += count;
     }
+    assert_eq!(first, system.derived.inertia.len(), "{}", system.text);
+}
+
+fn check_rows(system: &System, rows: std::ops::Range<usize>, sides: [&str; 2]) {
+    let mut states = 0;
+    for draw in 0..STATES {
+        let mut sample = system.sample(draw);
+        let moved = (0..3).flat_map(|other| {
+            system.moved(&mut sample, 1000 * (other + 1) + draw);
+            let left_over = left_over(system, &mut sample, rows.clone());
+            let state = State::new(system, &mut sample, draw);
+            let [left, right] = sides.map(|side| state.read(side));
+            assert!(right.len() == left.len() || right == [0.0], "{sides:?}");
+            let right = right.into_iter().chain(std::iter::repeat(0.0));
+            let read: Vec<f64> = left.into_iter().zip(right).map(|(left, right)| left - right).collect();
+            assert_eq!(read.len(), rows.len(), "{sides:?} in {}", system.text);
+            read.into_iter().zip(left_over).map(|(read, computed)| [read, computed]).collect::<Vec<_>>()
+        });
+        let pairs: Vec<[f64; 2]> = moved.collect();
+        if !pairs.iter().flatten().all(|x| x.is_finite()) {
+            continue;
+        }
+        let greatest = |k: usize| pairs.iter().map(|pair| pair[k].abs()).fold(0.0, f64::max);
+        assert!((greatest(0) > 0.0) == (greatest(1) > 0.0), "{sides:?} in {}", system.text);
+        for pair in &pairs[1..] {
+            let difference = pairs[0][0] * pair[1] - pairs[0][1] * pair[0];
+            let close = difference.abs() <= CLOSE * greatest(0) * greatest(1);
+            assert!(close, "{sides:?}: {pairs:?} in {}", system.text);
+        }
+        states += 1;
+        if states == WANTED {
+            return;
+        }
+    }
+    assert!(states > 0, "no state for {sides:?} in {}", system.text);
+}
+
+/// M q̈ − h − Fᵀλ
+fn left_over(system: &System, sample: &mut Sample, rows: std::ops::Range<usize>) -> Vec<f64> {
+    let Derived { equations, inertia, .. } = &system.derived;
+    let row = |i: usize| {
+        let force = equations.constraint_force.get(i).copied().unwrap_or(Id::ZERO);
+        let parts = sample.values(&system.graph, &[inertia[i], equations.forcing[i], force]);
+        parts[0].value - parts[1].value - parts[2].value
+    };
+    rows.map(row).collect()
 }
 
 /// Energies, momenta and constraint forces are what is computed.

@@ -10,10 +10,10 @@ pub(super) trait Meanings {
     fn name(&self, name: &str) -> Option<Value>;
 
     /// f(…), f′(…), where the numbers of all arguments follow each other.
-    fn call(&self, function: &str, primes: usize, arguments: &[f64]) -> f64;
+    fn call(&self, function: &str, primes: usize, arguments: &[f64]) -> Value;
 
     /// ∂f/∂x∂y, at its own arguments if none are given.
-    fn partial(&self, function: &str, by: &[String], arguments: Option<&[f64]>) -> f64;
+    fn partial(&self, function: &str, by: &[String], arguments: Option<&[f64]>) -> Value;
 }
 
 /// The point where the formulas of these tests are evaluated.
@@ -24,11 +24,11 @@ impl Meanings for Point {
         POINT.iter().find(|(known, _)| *known == name).map(|(_, value)| vec![*value])
     }
 
-    fn call(&self, function: &str, _: usize, arguments: &[f64]) -> f64 {
-        apply(function, arguments)
+    fn call(&self, function: &str, _: usize, arguments: &[f64]) -> Value {
+        vec![apply(function, arguments)]
     }
 
-    fn partial(&self, function: &str, _: &[String], _: Option<&[f64]>) -> f64 {
+    fn partial(&self, function: &str, _: &[String], _: Option<&[f64]>) -> Value {
         panic!("no derivatives of {function} here")
     }
 }
@@ -224,7 +224,7 @@ impl Reader<'_> {
         match self.peek() {
             Some('∂') => {
                 let (function, by) = self.partial();
-                vec![self.meanings.partial(&function, &by, None)]
+                self.meanings.partial(&function, &by, None)
             }
             Some('[') => self.list(),
             Some(first) if first.is_ascii_digit() => vec![self.digits_or_fraction()],
@@ -262,7 +262,7 @@ impl Reader<'_> {
             return value;
         }
         let arguments = self.take("(").then(|| self.arguments());
-        vec![self.meanings.partial(&function, &by, arguments.as_deref())]
+        self.meanings.partial(&function, &by, arguments.as_deref())
     }
 
     /// All numbers up to the closing parenthesis.
@@ -368,7 +368,10 @@ impl Reader<'_> {
             self.arguments()
         };
         let value = self.meanings.call(&word, primes, &arguments);
-        vec![exponent.map_or(value, |exponent| value.powf(exponent))]
+        match exponent {
+            Some(exponent) => vec![number(value).powf(exponent)],
+            None => value,
+        }
     }
 }
 
