@@ -4,6 +4,7 @@ use num_traits::{One, Signed};
 
 use super::Page;
 use super::formula::Formula;
+use super::hamilton::momentum;
 use crate::symbolic::{Function, Id, Node, Rational, Scaled};
 use crate::variables::Variable;
 
@@ -80,7 +81,7 @@ impl Page<'_> {
             Variable::Acceleration(i) => coordinate(i, 2),
             Variable::Multiplier(a) => Formula::Multiplier(self.problem.constraints[a].0.text.clone()),
             Variable::Parameter(k) => Formula::labelled(&self.problem.parameters.name(k), 0),
-            Variable::Momentum(i) => self.momentum(i, 0),
+            Variable::Momentum(i) => momentum(&self.problem.coordinates[i].text, 0),
             // Emitted functions take it, and no equation has it.
             only_emitted => Formula::labelled(&format!("{only_emitted:?}"), 0),
         }

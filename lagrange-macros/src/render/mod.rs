@@ -17,7 +17,7 @@ mod tests;
 mod written;
 
 use crate::mechanics::Derived;
-use crate::resolve::Problem;
+use crate::resolve::{Label, Problem};
 use crate::symbolic::{Graph, Id};
 use crate::syntax::{Constraint, Declaration, Define, Expression, Frame, Power, Target, TargetIndex};
 use formula::Formula;
@@ -196,10 +196,7 @@ impl Page<'_> {
         };
         let mut rows: Vec<(Id, Vec<Id>)> =
             inertia.iter().enumerate().map(|(i, &left)| (left, right(i))).collect();
-        let coordinates = &self.problem.coordinates;
-        let vectors = coordinates
-            .chunk_by(|one, other| vector(&one.text).is_some() && vector(&one.text) == vector(&other.text));
-        let lines = vectors.flat_map(|labels| {
+        let lines = self.vectors().flat_map(|labels| {
             let others = rows.split_off(labels.len());
             let rows = std::mem::replace(&mut rows, others);
             let line = |text: &str, equation| {
@@ -217,6 +214,14 @@ impl Page<'_> {
             }
         });
         lines.collect()
+    }
+
+    /// The coordinates, with the components of each vector together.
+    fn vectors(&self) -> impl Iterator<Item = &[Label]> {
+        let are_together = |one: &Label, other: &Label| {
+            vector(&one.text).is_some() && vector(&one.text) == vector(&other.text)
+        };
+        self.problem.coordinates.chunk_by(are_together)
     }
 }
 

@@ -101,17 +101,27 @@ impl Page<'_> {
     /// The same of rows that are the components of one equation of vectors, where they are that.
     pub(super) fn vector_row(&self, rows: &[(Id, Vec<Id>)]) -> Option<[Formula; 2]> {
         let sides = |reading: &Reading| {
-            let all = self.vector(reading, rows)?;
+            let parts =
+                rows.iter().map(|(inertia, forces)| self.polynomial(reading, &[(*inertia, 1)], forces));
+            let all = self.vector(reading, &parts.collect::<Option<Vec<_>>>()?)?;
             self.collected(reading, |collector| collector.row(&all))
         };
         shortest(self.readings.iter().filter_map(sides), |[left, right]| length(left) + length(right))
     }
 
+    /// Nodes that are the components of one vector.
+    pub(super) fn vector_expression(&self, components: &[Id]) -> Option<Formula> {
+        let formula = |reading: &Reading| {
+            let parts = components.iter().map(|&id| self.polynomial(reading, &[(id, 1)], &[]));
+            let all = self.vector(reading, &parts.collect::<Option<Vec<_>>>()?)?;
+            self.collected(reading, |collector| Some(collector.sum(&all)))
+        };
+        shortest(self.readings.iter().filter_map(formula), length)
+    }
+
     /// The rows as one polynomial, of which each term has a vector.
-    fn vector(&self, reading: &Reading, rows: &[(Id, Vec<Id>)]) -> Option<Polynomial> {
-        let parts = rows.iter().map(|(inertia, forces)| self.polynomial(reading, &[(*inertia, 1)], forces));
-        let parts = parts.collect::<Option<Vec<_>>>()?;
-        let terms = self.collected(reading, |collector| collector.vector_terms(&parts))?;
+    fn vector(&self, reading: &Reading, rows: &[Polynomial]) -> Option<Polynomial> {
+        let terms = self.collected(reading, |collector| collector.vector_terms(rows))?;
         let mut expansion = reading.0.borrow_mut();
         let mut all = Polynomial::default();
         for VectorTerm { coefficient, mut scalar, factors } in terms {

@@ -276,16 +276,18 @@ fn check_quantities(system: &System) {
         Quantity::Energy => Some(equations.energy),
         Quantity::Observable(..) => None,
     });
-    let forces = equations.constraint_force.iter().copied().filter(|&force| force != Id::ZERO);
-    check_lines(system, "Conserved\n", conserved);
-    check_lines(system, "Constraint forces\n", forces);
-    check_lines(system, "Momenta\n", equations.momentum.iter().copied());
-}
-
-fn check_lines(system: &System, heading: &str, roots: impl Iterator<Item = Id>) {
-    for (line, root) in system.lines(heading).iter().zip(roots) {
-        check_expression(system, line, |sample| sample.values(&system.graph, &[root])[0]);
+    for (line, root) in system.lines("Conserved\n").iter().zip(conserved) {
+        check_line(system, line, |sample| vec![sample.values(&system.graph, &[root])[0].value]);
     }
+    let value = |sample: &mut Sample, root: Option<&Id>| {
+        root.map_or(0.0, |&root| sample.values(&system.graph, &[root])[0].value)
+    };
+    check_by_coordinate(system, &system.lines("Constraint forces\n"), ("R_", 0), |sample, i| {
+        value(sample, equations.constraint_force.get(i))
+    });
+    check_by_coordinate(system, &system.lines("Momenta\n"), ("p_", 0), |sample, i| {
+        value(sample, equations.momentum.get(i))
+    });
 }
 
 /// With p = ∂L/∂q̇ of a state, H is its energy, ∂H/∂p its velocity and ṗ its forces.
@@ -297,38 +299,62 @@ fn check_hamilton(system: &System) {
         return;
     }
     for line in system.lines("Hamiltonian\n") {
-        check_expression(system, line, |sample| sample.values(&system.graph, &[equations.energy])[0]);
+        check_line(system, line, |sample| vec![sample.values(&system.graph, &[equations.energy])[0].value]);
     }
-    for (k, line) in system.lines("Hamilton's equations\n").iter().enumerate() {
-        check_expression(system, line, |sample| match k.checked_sub(n) {
-            None => sample.get(Variable::Velocity(k).symbol()),
-            Some(i) => {
-                let force = equations.constraint_force.get(i).copied().unwrap_or(Id::ZERO);
-                let parts = sample.values(&system.graph, &[equations.momentum_rate[i], force]);
-                parts[0].plus(parts[1])
-            }
-        });
-    }
+    let lines = system.lines("Hamilton's equations\n");
+    check_by_coordinate(system, &lines, ("", 1), |sample, i| value(sample, Variable::Velocity(i)));
+    check_by_coordinate(system, &lines, ("p_", 1), |sample, i| {
+        let force = equations.constraint_force.get(i).copied().unwrap_or(Id::ZERO);
+        let parts = sample.values(&system.graph, &[equations.momentum_rate[i], force]);
+        parts[0].value + parts[1].value
+    });
 }
 
 fn momentum(system: &System, i: usize) -> String {
     format!("p_{}", system.problem.coordinates[i].text)
 }
 
+/// Lines whose left side is a name made of a coordinate's, or of that of a vector of coordinates; others are passed over.
+fn check_by_coordinate(
+    system: &System,
+    lines: &[&str],
+    (prefix, dots): (&str, usize),
+    computed: impl Fn(&mut Sample, usize) -> f64,
+) {
+    let coordinates = system.problem.coordinates.iter();
+    let names = coordinates.map(|label| Formula::labelled(&format!("{prefix}{}", label.text), dots));
+    let names: Vec<String> = names.map(|name| Notation::Unicode.write(&name)).collect();
+    for line in lines {
+        let left = line.split(" = ").next().expect("a side");
+        let is_it = |name: &String| {
+            let index = name.strip_prefix(left).and_then(|rest| rest.strip_prefix('['));
+            name == left || index.is_some_and(|index| index.matches(']').count() == 1)
+        };
+        let rows: Vec<usize> = (0..names.len()).filter(|&i| is_it(&names[i])).collect();
+        if !rows.is_empty() {
+            check_line(system, line, |sample| rows.iter().map(|&i| computed(sample, i)).collect());
+        }
+    }
+}
+
 /// The right side of a line has the value that is computed, to the rounding of both.
-fn check_expression(system: &System, line: &str, computed: impl Fn(&mut Sample) -> Approximate) {
+fn check_line(system: &System, line: &str, computed: impl Fn(&mut Sample) -> Value) {
     let Some((_, text)) = line.split_once(" = ") else { return };
     let text = text.split("   (").next().expect("a formula");
     let mut states = 0;
     for draw in 0..STATES {
         let mut sample = system.sample(draw);
         let computed = computed(&mut sample);
-        let read = State::new(system, &mut sample, draw).read(text)[0];
-        if !computed.value.is_finite() || !read.is_finite() {
+        let read = State::new(system, &mut sample, draw).read(text);
+        if !computed.iter().chain(&read).all(|x| x.is_finite()) {
             continue;
         }
-        let close = (read - computed.value).abs() <= CLOSE * (1.0 + computed.value.abs());
-        assert!(close, "{text} is {read} and not {} in {}", computed.value, system.text);
+        assert!(read.len() == computed.len() || read == [0.0], "{line} in {}", system.text);
+        let read = read.into_iter().chain(std::iter::repeat(0.0));
+        for (read, computed) in read.zip(computed) {
+            let close = (read - computed).abs() <= CLOSE * (1.0 + computed.abs());
+            assert!(close, "{line}: {read} is not {computed} in {}", system.text);
+        }
         states += 1;
         if states == WANTED {
             return;

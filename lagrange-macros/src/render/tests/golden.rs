@@ -48,41 +48,41 @@ fn sphere_down_an_incline() {
 
             Constraint forces
               R_x = λ_no_slip
-              R_phi = −a λ_no_slip
+              R_φ = −a λ_no_slip
 
             Conserved
               E = ½ m ẋ² + ½ inertia φ̇² − m g x sin α   (T + U)
 
             Momenta
               p_x = m ẋ
-              p_phi = inertia φ̇
+              p_φ = inertia φ̇
 
             Hamiltonian
-              H = ½ p_x²/m + ½ p_phi²/inertia − m g x sin α
+              H = p_x²/(2 m) + p_φ²/(2 inertia) − m g x sin α
 
             Hamilton's equations
               ẋ = p_x/m
-              φ̇ = p_phi/inertia
-              ṗ_x = λ_no_slip + m g sin α
-              ṗ_phi = −a λ_no_slip
+              φ̇ = p_φ/inertia
+              ṗ_x = m g sin α + λ_no_slip
+              ṗ_φ = −a λ_no_slip
         "#]],
         expect![[r#"
             \begin{align}
               L &= \tfrac{1}{2} m \dot x^2 + \tfrac{1}{2} \, \mathit{inertia} \, \dot\varphi^2 + m g x \sin \alpha \label{eq:RollingSphere-L} \\
               \mathit{inertia} &= \tfrac{2}{5} m a^2 \label{eq:RollingSphere-inertia} \\
               \dot x - a \dot\varphi &= 0 \label{eq:RollingSphere-no_slip} \\
-              m \ddot x &= m g \sin \alpha + \lambda_{\mathrm{no\,slip}} \label{eq:RollingSphere-x} \\
-              \mathit{inertia} \, \ddot\varphi &= -a \lambda_{\mathrm{no\,slip}} \label{eq:RollingSphere-phi} \\
-              R_x &= \lambda_{\mathrm{no\,slip}} \label{eq:RollingSphere-R_x} \\
-              R_\varphi &= -a \lambda_{\mathrm{no\,slip}} \label{eq:RollingSphere-R_phi} \\
+              m \ddot x &= m g \sin \alpha + \lambda_{\mathit{no}_{\mathrm{slip}}} \label{eq:RollingSphere-x} \\
+              \mathit{inertia} \, \ddot\varphi &= -a \, \lambda_{\mathit{no}_{\mathrm{slip}}} \label{eq:RollingSphere-phi} \\
+              R_x &= \lambda_{\mathit{no}_{\mathrm{slip}}} \label{eq:RollingSphere-R_x} \\
+              R_\varphi &= -a \, \lambda_{\mathit{no}_{\mathrm{slip}}} \label{eq:RollingSphere-R_phi} \\
               E &= \tfrac{1}{2} m \dot x^2 + \tfrac{1}{2} \, \mathit{inertia} \, \dot\varphi^2 - m g x \sin \alpha \label{eq:RollingSphere-E} \\
               p_x &= m \dot x \label{eq:RollingSphere-p_x} \\
               p_\varphi &= \mathit{inertia} \, \dot\varphi \label{eq:RollingSphere-p_phi} \\
-              H &= \frac{\tfrac{1}{2} p_x^2}{m} + \frac{\tfrac{1}{2} p_\varphi^2}{\mathit{inertia}} - m g x \sin \alpha \label{eq:RollingSphere-H} \\
-              \dot x &= \frac{p_x}{m} \label{eq:RollingSphere-} \\
-              \dot\varphi &= \frac{p_\varphi}{\mathit{inertia}} \label{eq:RollingSphere-phi-2} \\
-              \dot p_x &= \lambda_{\mathrm{no\,slip}} + m g \sin \alpha \label{eq:RollingSphere-_x} \\
-              \dot p_\varphi &= -a \lambda_{\mathrm{no\,slip}} \label{eq:RollingSphere-_phi}
+              H &= \frac{p_x^2}{2 m} + \frac{p_\varphi^2}{2 \, \mathit{inertia}} - m g x \sin \alpha \label{eq:RollingSphere-H} \\
+              \dot x &= \frac{p_x}{m} \label{eq:RollingSphere-x-dot} \\
+              \dot\varphi &= \frac{p_\varphi}{\mathit{inertia}} \label{eq:RollingSphere-phi-dot} \\
+              \dot p_x &= m g \sin \alpha + \lambda_{\mathit{no}_{\mathrm{slip}}} \label{eq:RollingSphere-p-dot_x} \\
+              \dot p_\varphi &= -a \, \lambda_{\mathit{no}_{\mathrm{slip}}} \label{eq:RollingSphere-p-dot_phi}
             \end{align}
         "#]],
     );
@@ -124,7 +124,7 @@ fn spherical_pendulum() {
               p_z = m ż
 
             Hamiltonian
-              H = m g z + ½ (p_z² + p_y² + p_x²)/m
+              H = (p_x² + p_y² + p_z²)/(2 m) + m g z
 
             Hamilton's equations
               ẋ = p_x/m
@@ -148,13 +148,13 @@ fn spherical_pendulum() {
               p_x &= m \dot x \label{eq:SphericalPendulum-p_x} \\
               p_y &= m \dot y \label{eq:SphericalPendulum-p_y} \\
               p_z &= m \dot z \label{eq:SphericalPendulum-p_z} \\
-              H &= m g z + \frac{\tfrac{1}{2} (p_z^2 + p_y^2 + p_x^2)}{m} \label{eq:SphericalPendulum-H} \\
-              \dot x &= \frac{p_x}{m} \label{eq:SphericalPendulum-} \\
-              \dot y &= \frac{p_y}{m} \label{eq:SphericalPendulum--2} \\
-              \dot z &= \frac{p_z}{m} \label{eq:SphericalPendulum--3} \\
-              \dot p_x &= \lambda_{\mathrm{string}} x \label{eq:SphericalPendulum-_x} \\
-              \dot p_y &= \lambda_{\mathrm{string}} y \label{eq:SphericalPendulum-_y} \\
-              \dot p_z &= \lambda_{\mathrm{string}} z - m g \label{eq:SphericalPendulum-_z}
+              H &= \frac{(p_x^2 + p_y^2 + p_z^2)}{2 m} + m g z \label{eq:SphericalPendulum-H} \\
+              \dot x &= \frac{p_x}{m} \label{eq:SphericalPendulum-x-dot} \\
+              \dot y &= \frac{p_y}{m} \label{eq:SphericalPendulum-y-dot} \\
+              \dot z &= \frac{p_z}{m} \label{eq:SphericalPendulum-z-dot} \\
+              \dot p_x &= \lambda_{\mathrm{string}} x \label{eq:SphericalPendulum-p-dot_x} \\
+              \dot p_y &= \lambda_{\mathrm{string}} y \label{eq:SphericalPendulum-p-dot_y} \\
+              \dot p_z &= \lambda_{\mathrm{string}} z - m g \label{eq:SphericalPendulum-p-dot_z}
             \end{align}
         "#]],
     );
@@ -174,40 +174,40 @@ fn spherical_pendulum_in_angles() {
               L = ½ m l² (θ̇² + sin²(θ) φ̇²) + m g l cos θ
 
             Equations of motion
-              θ: l θ̈ = l cos θ sin(θ) φ̇² − g sin θ
-              φ: sin(θ) φ̈ = −2 cos(θ) θ̇ φ̇
+              θ: l θ̈ = l φ̇² sin θ cos θ − g sin θ
+              φ: φ̈ sin θ = −2 θ̇ φ̇ cos θ
 
             Conserved
-              p_phi = m l² sin²(θ) φ̇
-              E = m l (½ l (θ̇² + sin²(θ) φ̇²) − g cos θ)   (T + U)
+              p_φ = m l² φ̇ sin² θ
+              E = ½ m l² (θ̇² + φ̇² sin² θ) − m g l cos θ   (T + U)
 
             Momenta
-              p_theta = m l² θ̇
-              p_phi = m l² sin²(θ) φ̇
+              p_θ = m l² θ̇
+              p_φ = m l² φ̇ sin² θ
 
             Hamiltonian
-              H = ½ (p_phi²/sin² θ + p_theta²)/(m l²) − m l g cos θ
+              H = p_θ²/(2 m l²) + p_φ²/(2 m l² sin² θ) − m g l cos θ
 
             Hamilton's equations
-              θ̇ = p_theta/(m l²)
-              φ̇ = p_phi/(m l² sin² θ)
-              ṗ_theta = cos(θ) p_phi²/(m l² sin³ θ) − m l g sin θ
-              ṗ_phi = 0
+              θ̇ = p_θ/(m l²)
+              φ̇ = p_φ/(m l² sin² θ)
+              ṗ_θ = p_φ² cos(θ)/(m l² sin³ θ) − m g l sin θ
+              ṗ_φ = 0
         "#]],
         expect![[r#"
             \begin{align}
               L &= \tfrac{1}{2} m l^2 (\dot\theta^2 + \sin^2(\theta) \dot\varphi^2) + m g l \cos \theta \label{eq:SphericalPendulum-L} \\
-              l \ddot\theta &= l \cos \theta \sin(\theta) \dot\varphi^2 - g \sin \theta \label{eq:SphericalPendulum-theta} \\
-              \sin(\theta) \ddot\varphi &= -2 \cos(\theta) \dot\theta \dot\varphi \label{eq:SphericalPendulum-phi} \\
-              p_\varphi &= m l^2 \sin^2(\theta) \dot\varphi \label{eq:SphericalPendulum-p_phi} \\
-              E &= m l \bigl(\tfrac{1}{2} l (\dot\theta^2 + \sin^2(\theta) \dot\varphi^2) - g \cos \theta\bigr) \label{eq:SphericalPendulum-E} \\
+              l \ddot\theta &= l \dot\varphi^2 \sin \theta \cos \theta - g \sin \theta \label{eq:SphericalPendulum-theta} \\
+              \ddot\varphi \sin \theta &= -2 \dot\theta \dot\varphi \cos \theta \label{eq:SphericalPendulum-phi} \\
+              p_\varphi &= m l^2 \dot\varphi \sin^2 \theta \label{eq:SphericalPendulum-p_phi} \\
+              E &= \tfrac{1}{2} m l^2 (\dot\theta^2 + \dot\varphi^2 \sin^2 \theta) - m g l \cos \theta \label{eq:SphericalPendulum-E} \\
               p_\theta &= m l^2 \dot\theta \label{eq:SphericalPendulum-p_theta} \\
-              p_\varphi &= m l^2 \sin^2(\theta) \dot\varphi \label{eq:SphericalPendulum-p_phi-2} \\
-              H &= \frac{\tfrac{1}{2} \left( \frac{p_\varphi^2}{\sin^2 \theta} + p_\theta^2 \right)}{m l^2} - m l g \cos \theta \label{eq:SphericalPendulum-H} \\
-              \dot\theta &= \frac{p_\theta}{m l^2} \label{eq:SphericalPendulum-theta-2} \\
-              \dot\varphi &= \frac{p_\varphi}{m l^2 \sin^2 \theta} \label{eq:SphericalPendulum-phi-2} \\
-              \dot p_\theta &= \frac{\cos(\theta) p_\varphi^2}{m l^2 \sin^3 \theta} - m l g \sin \theta \label{eq:SphericalPendulum-_theta} \\
-              \dot p_\varphi &= 0 \label{eq:SphericalPendulum-_phi}
+              p_\varphi &= m l^2 \dot\varphi \sin^2 \theta \label{eq:SphericalPendulum-p_phi-2} \\
+              H &= \frac{p_\theta^2}{2 m l^2} + \frac{p_\varphi^2}{2 m l^2 \sin^2 \theta} - m g l \cos \theta \label{eq:SphericalPendulum-H} \\
+              \dot\theta &= \frac{p_\theta}{m l^2} \label{eq:SphericalPendulum-theta-dot} \\
+              \dot\varphi &= \frac{p_\varphi}{m l^2 \sin^2 \theta} \label{eq:SphericalPendulum-phi-dot} \\
+              \dot p_\theta &= \frac{p_\varphi^2 \cos \theta}{m l^2 \sin^3 \theta} - m g l \sin \theta \label{eq:SphericalPendulum-p-dot_theta} \\
+              \dot p_\varphi &= 0 \label{eq:SphericalPendulum-p-dot_phi}
             \end{align}
         "#]],
     );
@@ -234,25 +234,17 @@ fn rotating_frame() {
               W = Ω(t)
 
             Equations of motion
-              r[0]: m r̈[0] = −m (2 W[1] ṙ[2] + W[0] W[1] r[1] + r[2] Ω[1]′(t) + W[0] W[2] r[2] + A[0](t) − 2 W[2] ṙ[1] − W[1]² r[0] − W[2]² r[0] − r[1] Ω[2]′(t)) − ∂U/∂r[0]
-              r[1]: m r̈[1] = −m (2 W[2] ṙ[0] + W[0] W[1] r[0] + r[0] Ω[2]′(t) + W[1] W[2] r[2] + A[1](t) − 2 W[0] ṙ[2] − W[2]² r[1] − W[0]² r[1] − r[2] Ω[0]′(t)) − ∂U/∂r[1]
-              r[2]: m r̈[2] = −m (2 W[0] ṙ[1] + W[0] W[2] r[0] + W[1] W[2] r[1] + r[1] Ω[0]′(t) + A[2](t) − 2 W[1] ṙ[0] − r[0] Ω[1]′(t) − W[1]² r[2] − W[0]² r[2]) − ∂U/∂r[2]
+              r: m r̈ = m (r×Ω′(t) − W×(W×r) − 2 (W×ṙ) − A(t)) − ∂U/∂r
 
             Momenta
-              p_r[0] = m (W[1] r[2] − W[2] r[1]) + m ṙ[0]
-              p_r[1] = m (W[2] r[0] − W[0] r[2]) + m ṙ[1]
-              p_r[2] = m (W[0] r[1] − W[1] r[0]) + m ṙ[2]
+              p_r = m ṙ − m (r×W)
 
             Hamiltonian
-              H = m (r[0] A[0](t) + r[1] A[1](t) + r[2] A[2](t)) + W[1] r[0] p_r[2] + W[2] r[1] p_r[0] + W[0] r[2] p_r[1] + ½ (p_r[2]² + p_r[1]² + p_r[0]²)/m + U(r) − W[2] r[0] p_r[1] − W[0] r[1] p_r[2] − W[1] r[2] p_r[0]
+              H = (p_r[0]² + p_r[1]² + p_r[2]²)/(2 m) + W[1] r[0] p_r[2] + W[2] r[1] p_r[0] + W[0] r[2] p_r[1] + m (r[0] A[0](t) + r[1] A[1](t) + r[2] A[2](t)) + U(r) − W[2] r[0] p_r[1] − W[0] r[1] p_r[2] − W[1] r[2] p_r[0]
 
             Hamilton's equations
-              ṙ[0] = W[2] r[1] + p_r[0]/m − W[1] r[2]
-              ṙ[1] = W[0] r[2] + p_r[1]/m − W[2] r[0]
-              ṙ[2] = W[1] r[0] + p_r[2]/m − W[0] r[1]
-              ṗ_r[0] = W[2] p_r[1] − m A[0](t) − ∂U/∂r[0] − W[1] p_r[2]
-              ṗ_r[1] = W[0] p_r[2] − m A[1](t) − ∂U/∂r[1] − W[2] p_r[0]
-              ṗ_r[2] = W[1] p_r[0] − m A[2](t) − ∂U/∂r[2] − W[0] p_r[1]
+              ṙ = p_r/m + r×W
+              ṗ_r = p_r×W − m A(t) − ∂U/∂r
         "#]],
         expect![[r#"
             \begin{align}
@@ -260,24 +252,13 @@ fn rotating_frame() {
                 &\quad - U(r) - m r \cdot A(t) \label{eq:RotatingFrame-L} \\
               v &= \dot r \label{eq:RotatingFrame-v} \\
               W &= \Omega(t) \label{eq:RotatingFrame-W} \\
-              m \ddot r_0 &= -m \bigl(2 W_1 \dot r_2 + W_0 W_1 r_1 + r_2 \Omega_1'(t) + W_0 W_2 r_2 + A_0(t) \nonumber \\
-                &\quad - 2 W_2 \dot r_1 - W_1^2 r_0 - W_2^2 r_0 - r_1 \Omega_2'(t)\bigr) - \frac{\partial U}{\partial r_0} \label{eq:RotatingFrame-r-0} \\
-              m \ddot r_1 &= -m \bigl(2 W_2 \dot r_0 + W_0 W_1 r_0 + r_0 \Omega_2'(t) + W_1 W_2 r_2 + A_1(t) \nonumber \\
-                &\quad - 2 W_0 \dot r_2 - W_2^2 r_1 - W_0^2 r_1 - r_2 \Omega_0'(t)\bigr) - \frac{\partial U}{\partial r_1} \label{eq:RotatingFrame-r-1} \\
-              m \ddot r_2 &= -m \bigl(2 W_0 \dot r_1 + W_0 W_2 r_0 + W_1 W_2 r_1 + r_1 \Omega_0'(t) + A_2(t) \nonumber \\
-                &\quad - 2 W_1 \dot r_0 - r_0 \Omega_1'(t) - W_1^2 r_2 - W_0^2 r_2\bigr) - \frac{\partial U}{\partial r_2} \label{eq:RotatingFrame-r-2} \\
-              p_{r, 0} &= m (W_1 r_2 - W_2 r_1) + m \dot r_0 \label{eq:RotatingFrame-p_r-0} \\
-              p_{r, 1} &= m (W_2 r_0 - W_0 r_2) + m \dot r_1 \label{eq:RotatingFrame-p_r-1} \\
-              p_{r, 2} &= m (W_0 r_1 - W_1 r_0) + m \dot r_2 \label{eq:RotatingFrame-p_r-2} \\
-              H &= m (r_0 A_0(t) + r_1 A_1(t) + r_2 A_2(t)) + W_1 r_0 p_{r, 2} + W_2 r_1 p_{r, 0} \nonumber \\
-                &\quad + W_0 r_2 p_{r, 1} + \frac{\tfrac{1}{2} (p_{r, 2}^2 + p_{r, 1}^2 + p_{r, 0}^2)}{m} + U(r) \nonumber \\
-                &\quad - W_2 r_0 p_{r, 1} - W_0 r_1 p_{r, 2} - W_1 r_2 p_{r, 0} \label{eq:RotatingFrame-H} \\
-              \dot r_0 &= W_2 r_1 + \frac{p_{r, 0}}{m} - W_1 r_2 \label{eq:RotatingFrame-0} \\
-              \dot r_1 &= W_0 r_2 + \frac{p_{r, 1}}{m} - W_2 r_0 \label{eq:RotatingFrame-1} \\
-              \dot r_2 &= W_1 r_0 + \frac{p_{r, 2}}{m} - W_0 r_1 \label{eq:RotatingFrame-2} \\
-              \dot p_{r, 0} &= W_2 p_{r, 1} - m A_0(t) - \frac{\partial U}{\partial r_0} - W_1 p_{r, 2} \label{eq:RotatingFrame-_r-0} \\
-              \dot p_{r, 1} &= W_0 p_{r, 2} - m A_1(t) - \frac{\partial U}{\partial r_1} - W_2 p_{r, 0} \label{eq:RotatingFrame-_r-1} \\
-              \dot p_{r, 2} &= W_1 p_{r, 0} - m A_2(t) - \frac{\partial U}{\partial r_2} - W_0 p_{r, 1} \label{eq:RotatingFrame-_r-2}
+              m \ddot r &= m (r \times \Omega'(t) - W \times (W \times r) - 2 (W \times \dot r) - A(t)) - \frac{\partial U}{\partial r} \label{eq:RotatingFrame-r} \\
+              p_r &= m \dot r - m (r \times W) \label{eq:RotatingFrame-p_r} \\
+              H &= \frac{(p_{r, 0}^2 + p_{r, 1}^2 + p_{r, 2}^2)}{2 m} + W_1 r_0 p_{r, 2} + W_2 r_1 p_{r, 0} + W_0 r_2 p_{r, 1} \nonumber \\
+                &\quad + m (r_0 A_0(t) + r_1 A_1(t) + r_2 A_2(t)) + U(r) - W_2 r_0 p_{r, 1} \nonumber \\
+                &\quad - W_0 r_1 p_{r, 2} - W_1 r_2 p_{r, 0} \label{eq:RotatingFrame-H} \\
+              \dot r &= \frac{p_r}{m} + r \times W \label{eq:RotatingFrame-r-dot} \\
+              \dot p_r &= p_r \times W - m A(t) - \frac{\partial U}{\partial r} \label{eq:RotatingFrame-p-dot_r}
             \end{align}
         "#]],
     );
@@ -308,10 +289,10 @@ fn functions_families_and_vectors() {
               meet: ([a[0], a[1], 0]×[b[0], b[1], 0])[2] = 0   (holonomic)
 
             Equations of motion
-              a[0]: ä[0] = −k ȧ[0] − 3 − pair′(√((a[0] − b[0])² + (a[1] − b[1])²)) (a[0] − b[0])/√((a[0] − b[0])² + (a[1] − b[1])²) − (∂f/∂r[0])(a, s) + λ_meet b[1]
-              a[1]: ä[1] = −k ȧ[1] − pair′(√((a[0] − b[0])² + (a[1] − b[1])²)) (a[1] − b[1])/√((a[0] − b[0])² + (a[1] − b[1])²) − (∂f/∂r[1])(a, s) − λ_meet b[0]
-              b[0]: b̈[0] = pair′(√((a[0] − b[0])² + (a[1] − b[1])²)) (a[0] − b[0])/√((a[0] − b[0])² + (a[1] − b[1])²) − 5/2 − λ_meet a[1]
-              b[1]: b̈[1] = pair′(√((a[0] − b[0])² + (a[1] − b[1])²)) (a[1] − b[1])/√((a[0] − b[0])² + (a[1] − b[1])²) + λ_meet a[0]
+              a[0]: ä[0] = pair′(|a − b|) (b[0] − a[0])/|a − b| − k ȧ[0] − 3 − (∂f/∂r[0])(a, s) + λ_meet b[1]
+              a[1]: ä[1] = pair′(|a − b|) (b[1] − a[1])/|a − b| − k ȧ[1] − (∂f/∂r[1])(a, s) − λ_meet b[0]
+              b[0]: b̈[0] = pair′(|a − b|) (a[0] − b[0])/|a − b| − 5/2 − λ_meet a[1]
+              b[1]: b̈[1] = pair′(|a − b|) (a[1] − b[1])/|a − b| + λ_meet a[0]
               s:    s̈ = −(∂f/∂s)(a, s) − (∂f/∂s)([s, 1], s) − (∂f/∂r[0])([s, 1], s)
 
             Constraint forces
@@ -321,79 +302,66 @@ fn functions_families_and_vectors() {
               R_b[1] = λ_meet a[0]
 
             Momenta
-              p_a[0] = ȧ[0]
-              p_a[1] = ȧ[1]
-              p_b[0] = ḃ[0]
-              p_b[1] = ḃ[1]
+              p_a = ȧ
+              p_b = ḃ
               p_s = ṡ
 
             Hamiltonian
-              H = a[0] + p[1][0] + p[2][0] + pair(√((a[0] − b[0])² + (a[1] − b[1])²)) + f(a, s) + f([s, 1], s) + ½ p_a[0]² + ½ p_a[1]² + ½ p_b[0]² + ½ p_b[1]² + ½ p_s²
+              H = ½ p_a[0]² + ½ p_a[1]² + ½ p_b[0]² + ½ p_b[1]² + ½ p_s² + a[0] + f([s, 1], s) + f(a, s) + pair(|a − b|) + p[2][0] + p[1][0]
 
             Hamilton's equations
-              ȧ[0] = p_a[0]
-              ȧ[1] = p_a[1]
-              ḃ[0] = p_b[0]
-              ḃ[1] = p_b[1]
+              ȧ = p_a
+              ḃ = p_b
               ṡ = p_s
-              ṗ_a[0] = λ_meet b[1] − 3 − (∂f/∂r[0])(a, s) − (a[0] − b[0]) pair′(√((a[0] − b[0])² + (a[1] − b[1])²))/√((a[0] − b[0])² + (a[1] − b[1])²) − k p_a[0]
-              ṗ_a[1] = −(∂f/∂r[1])(a, s) − (a[1] − b[1]) pair′(√((a[0] − b[0])² + (a[1] − b[1])²))/√((a[0] − b[0])² + (a[1] − b[1])²) − λ_meet b[0] − k p_a[1]
-              ṗ_b[0] = (a[0] − b[0]) pair′(√((a[0] − b[0])² + (a[1] − b[1])²))/√((a[0] − b[0])² + (a[1] − b[1])²) − 5/2 − λ_meet a[1]
-              ṗ_b[1] = (a[1] − b[1]) pair′(√((a[0] − b[0])² + (a[1] − b[1])²))/√((a[0] − b[0])² + (a[1] − b[1])²) + λ_meet a[0]
-              ṗ_s = −(∂f/∂r[0])([s, 1], s) − (∂f/∂s)([s, 1], s) − (∂f/∂s)(a, s)
+              ṗ_a[0] = pair′(|a − b|) (b[0] − a[0])/|a − b| − k p_a[0] − 3 − (∂f/∂r[0])(a, s) + λ_meet b[1]
+              ṗ_a[1] = pair′(|a − b|) (b[1] − a[1])/|a − b| − k p_a[1] − (∂f/∂r[1])(a, s) − λ_meet b[0]
+              ṗ_b[0] = pair′(|a − b|) (a[0] − b[0])/|a − b| − 5/2 − λ_meet a[1]
+              ṗ_b[1] = pair′(|a − b|) (a[1] − b[1])/|a − b| + λ_meet a[0]
+              ṗ_s = −(∂f/∂s)(a, s) − (∂f/∂s)([s, 1], s) − (∂f/∂r[0])([s, 1], s)
         "#]],
         expect![[r#"
             \begin{align}
-              L &= \tfrac{1}{2} \dot a \cdot \dot a + \tfrac{1}{2} \lvert \dot b \rvert^2 + \tfrac{1}{2} \dot s^2 \nonumber \\
-                &\quad - \mathit{pair}(\lvert a - b \rvert) - f(a, s) \nonumber \\
-                &\quad - f([s, 1], s) - \left( \sum_{i = 0}^{2} p_{i, 0} \right) \label{eq:Everything-L} \\
+              L &= \tfrac{1}{2} \dot a \cdot \dot a + \tfrac{1}{2} \lvert \dot b \rvert^2 + \tfrac{1}{2} \dot s^2 - \mathit{pair}(\lvert a \nonumber \\
+                &\quad - b \rvert) - f(a, s) - f([s, 1], s) \nonumber \\
+                &\quad - \left( \sum_{i = 0}^{2} p_{i, 0} \right) \label{eq:Everything-L} \\
               p_0 &= a \label{eq:Everything-p-0} \\
               p_{i = 1 \ldots 2} &= p_{i - 1} + \frac{b}{i} \label{eq:Everything-p-i-1-2} \\
               Q_a &= -k \dot a \label{eq:Everything-Q_a} \\
               ([a_0, a_1, 0] \times [b_0, b_1, 0])_2 &= 0 \label{eq:Everything-meet} \\
-              \ddot a_0 &= -k \dot a_0 - 3 \nonumber \\
-                &\quad - \frac{\mathit{pair}'\left( \sqrt{(a_0 - b_0)^2 + (a_1 - b_1)^2} \right)}{\sqrt{(a_0 - b_0)^2 + (a_1 - b_1)^2}} \bigl(a_0 \nonumber \\
-                &\quad - b_0\bigr) - \left( \frac{\partial f}{\partial r_0} \right)(a, s) + \lambda_{\mathrm{meet}} b_1 \label{eq:Everything-a-0} \\
-              \ddot a_1 &= -k \dot a_1 \nonumber \\
-                &\quad - \frac{\mathit{pair}'\left( \sqrt{(a_0 - b_0)^2 + (a_1 - b_1)^2} \right)}{\sqrt{(a_0 - b_0)^2 + (a_1 - b_1)^2}} \bigl(a_1 \nonumber \\
-                &\quad - b_1\bigr) - \left( \frac{\partial f}{\partial r_1} \right)(a, s) - \lambda_{\mathrm{meet}} b_0 \label{eq:Everything-a-1} \\
-              \ddot b_0 &= \frac{\mathit{pair}'\left( \sqrt{(a_0 - b_0)^2 + (a_1 - b_1)^2} \right)}{\sqrt{(a_0 - b_0)^2 + (a_1 - b_1)^2}} \bigl(a_0 \nonumber \\
-                &\quad - b_0\bigr) - \tfrac{5}{2} - \lambda_{\mathrm{meet}} a_1 \label{eq:Everything-b-0} \\
-              \ddot b_1 &= \frac{\mathit{pair}'\left( \sqrt{(a_0 - b_0)^2 + (a_1 - b_1)^2} \right)}{\sqrt{(a_0 - b_0)^2 + (a_1 - b_1)^2}} \bigl(a_1 \nonumber \\
-                &\quad - b_1\bigr) + \lambda_{\mathrm{meet}} a_0 \label{eq:Everything-b-1} \\
+              \ddot a_0 &= \frac{\mathit{pair}'(\lvert a - b \rvert) (b_0 - a_0)}{\lvert a - b \rvert} - k \dot a_0 \nonumber \\
+                &\quad - 3 - \left( \frac{\partial f}{\partial r_0} \right)(a, s) + \lambda_{\mathrm{meet}} b_1 \label{eq:Everything-a-0} \\
+              \ddot a_1 &= \frac{\mathit{pair}'(\lvert a - b \rvert) (b_1 - a_1)}{\lvert a - b \rvert} - k \dot a_1 \nonumber \\
+                &\quad - \left( \frac{\partial f}{\partial r_1} \right)(a, s) - \lambda_{\mathrm{meet}} b_0 \label{eq:Everything-a-1} \\
+              \ddot b_0 &= \frac{\mathit{pair}'(\lvert a - b \rvert) (a_0 - b_0)}{\lvert a - b \rvert} - \tfrac{5}{2} \nonumber \\
+                &\quad - \lambda_{\mathrm{meet}} a_1 \label{eq:Everything-b-0} \\
+              \ddot b_1 &= \frac{\mathit{pair}'(\lvert a - b \rvert) (a_1 - b_1)}{\lvert a - b \rvert} \nonumber \\
+                &\quad + \lambda_{\mathrm{meet}} a_0 \label{eq:Everything-b-1} \\
               \ddot s &= -\left( \frac{\partial f}{\partial s} \right)(a, s) - \left( \frac{\partial f}{\partial s} \right)([s, 1], s) \nonumber \\
                 &\quad - \left( \frac{\partial f}{\partial r_0} \right)([s, 1], s) \label{eq:Everything-s} \\
               R_{a, 0} &= \lambda_{\mathrm{meet}} b_1 \label{eq:Everything-R_a-0} \\
               R_{a, 1} &= -\lambda_{\mathrm{meet}} b_0 \label{eq:Everything-R_a-1} \\
               R_{b, 0} &= -\lambda_{\mathrm{meet}} a_1 \label{eq:Everything-R_b-0} \\
               R_{b, 1} &= \lambda_{\mathrm{meet}} a_0 \label{eq:Everything-R_b-1} \\
-              p_{a, 0} &= \dot a_0 \label{eq:Everything-p_a-0} \\
-              p_{a, 1} &= \dot a_1 \label{eq:Everything-p_a-1} \\
-              p_{b, 0} &= \dot b_0 \label{eq:Everything-p_b-0} \\
-              p_{b, 1} &= \dot b_1 \label{eq:Everything-p_b-1} \\
+              p_a &= \dot a \label{eq:Everything-p_a} \\
+              p_b &= \dot b \label{eq:Everything-p_b} \\
               p_s &= \dot s \label{eq:Everything-p_s} \\
-              H &= a_0 + p_{1, 0} + p_{2, 0} \nonumber \\
-                &\quad + \mathit{pair}\left( \sqrt{(a_0 - b_0)^2 + (a_1 - b_1)^2} \right) \nonumber \\
-                &\quad + f(a, s) + f([s, 1], s) + \tfrac{1}{2} p_{a, 0}^2 \nonumber \\
-                &\quad + \tfrac{1}{2} p_{a, 1}^2 + \tfrac{1}{2} p_{b, 0}^2 + \tfrac{1}{2} p_{b, 1}^2 \nonumber \\
-                &\quad + \tfrac{1}{2} p_s^2 \label{eq:Everything-H} \\
-              \dot a_0 &= p_{a, 0} \label{eq:Everything-0} \\
-              \dot a_1 &= p_{a, 1} \label{eq:Everything-1} \\
-              \dot b_0 &= p_{b, 0} \label{eq:Everything-0-2} \\
-              \dot b_1 &= p_{b, 1} \label{eq:Everything-1-2} \\
-              \dot s &= p_s \label{eq:Everything-} \\
-              \dot p_{a, 0} &= \lambda_{\mathrm{meet}} b_1 - 3 - \left( \frac{\partial f}{\partial r_0} \right)(a, s) \nonumber \\
-                &\quad - \frac{(a_0 - b_0) \, \mathit{pair}'\left( \sqrt{(a_0 - b_0)^2 + (a_1 - b_1)^2} \right)}{\sqrt{(a_0 - b_0)^2 + (a_1 - b_1)^2}} \nonumber \\
-                &\quad - k p_{a, 0} \label{eq:Everything-_a-0} \\
-              \dot p_{a, 1} &= -\left( \frac{\partial f}{\partial r_1} \right)(a, s) \nonumber \\
-                &\quad - \frac{(a_1 - b_1) \, \mathit{pair}'\left( \sqrt{(a_0 - b_0)^2 + (a_1 - b_1)^2} \right)}{\sqrt{(a_0 - b_0)^2 + (a_1 - b_1)^2}} \nonumber \\
-                &\quad - \lambda_{\mathrm{meet}} b_0 - k p_{a, 1} \label{eq:Everything-_a-1} \\
-              \dot p_{b, 0} &= \frac{(a_0 - b_0) \, \mathit{pair}'\left( \sqrt{(a_0 - b_0)^2 + (a_1 - b_1)^2} \right)}{\sqrt{(a_0 - b_0)^2 + (a_1 - b_1)^2}} \nonumber \\
-                &\quad - \tfrac{5}{2} - \lambda_{\mathrm{meet}} a_1 \label{eq:Everything-_b-0} \\
-              \dot p_{b, 1} &= \frac{(a_1 - b_1) \, \mathit{pair}'\left( \sqrt{(a_0 - b_0)^2 + (a_1 - b_1)^2} \right)}{\sqrt{(a_0 - b_0)^2 + (a_1 - b_1)^2}} \nonumber \\
-                &\quad + \lambda_{\mathrm{meet}} a_0 \label{eq:Everything-_b-1} \\
-              \dot p_s &= -\left( \frac{\partial f}{\partial r_0} \right)([s, 1], s) \nonumber \\
-                &\quad - \left( \frac{\partial f}{\partial s} \right)([s, 1], s) - \left( \frac{\partial f}{\partial s} \right)(a, s) \label{eq:Everything-_s}
+              H &= \tfrac{1}{2} p_{a, 0}^2 + \tfrac{1}{2} p_{a, 1}^2 + \tfrac{1}{2} p_{b, 0}^2 \nonumber \\
+                &\quad + \tfrac{1}{2} p_{b, 1}^2 + \tfrac{1}{2} p_s^2 + a_0 + f([s, 1], \nonumber \\
+                &\quad s) + f(a, s) + \mathit{pair}(\lvert a - b \rvert) + p_{2, 0} \nonumber \\
+                &\quad + p_{1, 0} \label{eq:Everything-H} \\
+              \dot a &= p_a \label{eq:Everything-a-dot} \\
+              \dot b &= p_b \label{eq:Everything-b-dot} \\
+              \dot s &= p_s \label{eq:Everything-s-dot} \\
+              \dot p_{a, 0} &= \frac{\mathit{pair}'(\lvert a - b \rvert) (b_0 - a_0)}{\lvert a - b \rvert} - k p_{a, 0} \nonumber \\
+                &\quad - 3 - \left( \frac{\partial f}{\partial r_0} \right)(a, s) + \lambda_{\mathrm{meet}} b_1 \label{eq:Everything-p-dot_a-0} \\
+              \dot p_{a, 1} &= \frac{\mathit{pair}'(\lvert a - b \rvert) (b_1 - a_1)}{\lvert a - b \rvert} - k p_{a, 1} \nonumber \\
+                &\quad - \left( \frac{\partial f}{\partial r_1} \right)(a, s) - \lambda_{\mathrm{meet}} b_0 \label{eq:Everything-p-dot_a-1} \\
+              \dot p_{b, 0} &= \frac{\mathit{pair}'(\lvert a - b \rvert) (a_0 - b_0)}{\lvert a - b \rvert} - \tfrac{5}{2} \nonumber \\
+                &\quad - \lambda_{\mathrm{meet}} a_1 \label{eq:Everything-p-dot_b-0} \\
+              \dot p_{b, 1} &= \frac{\mathit{pair}'(\lvert a - b \rvert) (a_1 - b_1)}{\lvert a - b \rvert} \nonumber \\
+                &\quad + \lambda_{\mathrm{meet}} a_0 \label{eq:Everything-p-dot_b-1} \\
+              \dot p_s &= -\left( \frac{\partial f}{\partial s} \right)(a, s) - \left( \frac{\partial f}{\partial s} \right)([s, 1], s) \nonumber \\
+                &\quad - \left( \frac{\partial f}{\partial r_0} \right)([s, 1], s) \label{eq:Everything-p-dot_s}
             \end{align}
         "#]],
     );
