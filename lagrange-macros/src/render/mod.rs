@@ -32,10 +32,11 @@ const IN_FRAMES: &str =
   by `#[frame(…)]`, and what they do by `position(…)`, `velocity(…)` and `kinetic(…)`, and the accelerations
   take fewer operations (see lagrange_core::language#frames).";
 
-/// The same system, written twice.
+/// The same system, written down.
 pub(crate) struct Rendered {
-    pub(crate) text: String,
-    pub(crate) latex: String,
+    /// With definitions by their names or written out as is shorter, always by their names, and always written out; each as text
+    /// and as LaTeX.
+    pub(crate) forms: [[String; 2]; 3],
     /// The total time derivatives in the Lagrangian, in the order of the facts.
     pub(crate) total_derivatives: Vec<String>,
 }
@@ -52,6 +53,7 @@ struct Page<'a> {
     ranks: Vec<usize>,
     /// The definitions that neither the time nor the state changes.
     constants: FxHashSet<Id>,
+    names: Names,
     readings: Vec<Reading<'a>>,
 }
 
@@ -63,46 +65,30 @@ pub(crate) fn render(
     derived: &Derived,
 ) -> Rendered {
     let constants = reading::constants(graph, problem);
-    let page = Page {
+    let mut page = Page {
         declaration,
         graph,
         problem,
         derived,
         symbols: lines::symbols(graph, problem),
         ranks: ranks(problem),
+        names: Names::Shortest,
         readings: reading::readings(graph, problem, derived, &constants, Names::Shortest),
         constants,
     };
-    let total_derivatives = page.total_derivatives();
-    let texts = total_derivatives.iter().map(|formula| Notation::Unicode.write(formula)).collect();
-    let term = |formula| Line::of(Equation::Term(formula));
-    let section = |heading, lines| Section { heading, lines, note: None };
-    let sections = [
-        section("Lagrangian", page.lagrangian()),
-        Section {
-            note: derived.equations.integrability.integrals.and_then(kinds::note),
-            ..section("Constraints", page.constraints())
-        },
-        Section {
-            note: problem.frames_are_cheaper.then(|| IN_FRAMES.to_owned()),
-            ..section("Equations of motion", page.motion())
-        },
-        section("Constraint forces", page.constraint_forces()),
-        section("Conserved", page.conserved()),
-        section("Momenta", page.momenta()),
-        section("Hamiltonian", page.hamiltonian()),
-        section("Hamilton's equations", page.canonical()),
-        section(
-            "Total time derivatives in the Lagrangian",
-            total_derivatives.into_iter().map(term).collect(),
-        ),
-    ];
-    let name = declaration.ident.to_string();
-    Rendered {
-        text: lines::text(&name, &sections),
-        latex: latex::latex(name.trim_start_matches("r#"), &sections),
-        total_derivatives: texts,
-    }
+    let shortest = page.forms();
+    let totals = page.total_derivatives();
+    let total_derivatives = totals.iter().map(|formula| Notation::Unicode.write(formula)).collect();
+    let others = [Names::Kept, Names::WrittenOut].map(|names| match problem.names.is_empty() {
+        true => shortest.clone(),
+        false => {
+            page.names = names;
+            page.readings = reading::readings(graph, problem, derived, &page.constants, names);
+            page.forms()
+        }
+    });
+    let [kept, written_out] = others;
+    Rendered { forms: [shortest, kept, written_out], total_derivatives }
 }
 
 fn ranks(problem: &Problem) -> Vec<usize> {
@@ -113,12 +99,48 @@ fn ranks(problem: &Problem) -> Vec<usize> {
 }
 
 impl Page<'_> {
+    /// As text and as LaTeX.
+    fn forms(&self) -> [String; 2] {
+        let Self { problem, derived, .. } = self;
+        let term = |formula| Line::of(Equation::Term(formula));
+        let section = |heading, lines| Section { heading, lines, note: None };
+        let sections = [
+            section("Lagrangian", self.lagrangian()),
+            Section {
+                note: derived.equations.integrability.integrals.and_then(kinds::note),
+                ..section("Constraints", self.constraints())
+            },
+            Section {
+                note: problem.frames_are_cheaper.then(|| IN_FRAMES.to_owned()),
+                ..section("Equations of motion", self.motion())
+            },
+            section("Constraint forces", self.constraint_forces()),
+            section("Conserved", self.conserved()),
+            section("Momenta", self.momenta()),
+            section("Hamiltonian", self.hamiltonian()),
+            section("Hamilton's equations", self.canonical()),
+            section(
+                "Total time derivatives in the Lagrangian",
+                self.total_derivatives().into_iter().map(term).collect(),
+            ),
+        ];
+        let name = self.declaration.ident.to_string();
+        [lines::text(&name, &sections), latex::latex(name.trim_start_matches("r#"), &sections)]
+    }
+
     fn lagrangian(&self) -> Vec<Line> {
         let Declaration { lagrangian, frames, defines, dissipation, forces, powers, .. } = self.declaration;
         let line = |left, right: &Expression| Line::of(Equation::Known(left, self.written(right)));
         let name = |text: &str| Formula::labelled(text, 0);
         let mut lines: Vec<Line> = Vec::new();
-        lines.extend(lagrangian.as_ref().map(|lagrangian| line(name("L"), lagrangian)));
+        let written_out = match self.names {
+            Names::WrittenOut => self.expression(self.problem.lagrangian).ok(),
+            _ => None,
+        };
+        lines.extend(lagrangian.as_ref().map(|lagrangian| match written_out {
+            Some(right) => Line::of(Equation::Known(name("L"), right)),
+            None => line(name("L"), lagrangian),
+        }));
         lines.extend(frames.iter().map(|frame| self.frame(frame)));
         lines.extend(defines.iter().map(|define| line(self.defined(define), &define.body)));
         lines.extend(dissipation.as_ref().map(|function| line(name("D"), function)));

@@ -191,6 +191,6 @@ fn indices_and_letters_suit_the_notation() {
         to: Box::new(to),
         body: name("x").into(),
     };
-    assert_written(sum(number(3, 1)), "Σ(i = 0 … 2) x", r"\sum_{i = 0}^2 x");
+    assert_written(sum(number(3, 1)), "Σ(i = 0 … 2) x", r"\sum_{i = 0}^{2} x");
     assert_written(sum(name("n")), "Σ(i = 0 … n − 1) x", r"\sum_{i = 0}^{n - 1} x");
 }

@@ -95,7 +95,22 @@ impl Page<'_> {
         let computed = self.computed([&[inertia], forces]);
         let size = |[left, right]: &[Formula; 2]| length(left) + length(right);
         let read = self.readings.iter().filter_map(sides).filter(|sides| size(sides) <= READABLE as usize);
-        shortest(read.chain(computed.clone()), size).ok_or(computed.err().unwrap_or_default()).into()
+        self.chosen(read, computed, size, false).into()
+    }
+
+    /// The shortest reading, or what is computed with where that is shorter: or as short, and it is asked for first.
+    fn chosen<T>(
+        &self,
+        read: impl Iterator<Item = T>,
+        computed: Result<T, u64>,
+        length: impl Fn(&T) -> usize,
+        is_first: bool,
+    ) -> Result<T, u64> {
+        let Some(read) = shortest(read, &length) else { return computed };
+        let most = length(&read) + usize::from(is_first);
+        // That has names.
+        let computed = computed.ok().filter(|_| self.names != Names::WrittenOut);
+        Ok(computed.filter(|computed| length(computed) < most).unwrap_or(read))
     }
 
     /// The same of rows that are the components of one equation of vectors, where they are that.
@@ -137,14 +152,13 @@ impl Page<'_> {
     /// A node as it is read.
     pub(super) fn expression(&self, id: Id) -> Result<Formula, u64> {
         let computed = self.computed([&[id]]).map(|[formula]| formula);
-        shortest(self.read(id).chain(computed.clone()), length).ok_or(computed.err().unwrap_or_default())
+        self.chosen(self.read(id), computed, length, false)
     }
 
     /// A node as it was written, where that is as short.
     pub(super) fn quantity(&self, id: Id) -> Result<Formula, u64> {
         let computed = self.computed([&[id]]).map(|[formula]| formula);
-        shortest(computed.clone().into_iter().chain(self.read(id)), length)
-            .ok_or(computed.err().unwrap_or_default())
+        self.chosen(self.read(id), computed, length, true)
     }
 
     fn read(&self, id: Id) -> impl Iterator<Item = Formula> {

@@ -62,13 +62,13 @@ const ENTRIES: &[Entry] = &[
         lines: &["p_x = (M + m) ẋ + m l θ̇ cos θ", "l θ̈ + ẍ cos θ + g sin θ = 0"],
     },
     Entry {
-        text: "Landau and Lifshitz, Mechanics, §5, problem 1: the coplanar double pendulum, by the T and U of its L",
+        text: "Landau and Lifshitz, Mechanics, §5, problem 1: the coplanar double pendulum",
         system: "#[coordinates(phi1, phi2)]
             #[define(x1 = l1*sin(phi1))] #[define(y1 = l1*cos(phi1))]
             #[define(x2 = x1 + l2*sin(phi2))] #[define(y2 = y1 + l2*cos(phi2))]
             #[lagrangian(m1/2*(der(x1)^2 + der(y1)^2) + m2/2*(der(x2)^2 + der(y2)^2) + m1*g*y1 + m2*g*y2)]
             struct S { m1: f64, m2: f64, l1: f64, l2: f64, g: f64 }",
-        lines: &["E = ½ (m₁ + m₂) l₁² φ̇₁² + ½ m₂ l₂² φ̇₂² + m₂ l₁ l₂ φ̇₁ φ̇₂ cos(φ₁ − φ₂) − (m₁ + m₂) g l₁ cos φ₁ − m₂ g l₂ cos φ₂"],
+        lines: &["L = ½ (m₁ + m₂) l₁² φ̇₁² + ½ m₂ l₂² φ̇₂² + m₂ l₁ l₂ φ̇₁ φ̇₂ cos(φ₁ − φ₂) + (m₁ + m₂) g l₁ cos φ₁ + m₂ g l₂ cos φ₂"],
     },
     Entry {
         text: "Weisstein, ScienceWorld, Double Pendulum, (13) and (19)",
@@ -237,7 +237,7 @@ const ENTRIES: &[Entry] = &[
 ];
 
 /// What may differ.
-const MISSED: usize = 1;
+const MISSED: usize = 0;
 
 /// Longer than the text's equation by this is not as a person writes.
 const LONGER: f64 = 1.5;
@@ -248,7 +248,8 @@ fn texts_print_the_same_equations() {
     for Entry { text, system, lines } in ENTRIES {
         let system =
             System::new(system.parse().expect("tokens")).unwrap_or_else(|| panic!("{text}: {system}"));
-        let printed: Vec<&str> = system.text.lines().map(str::trim).collect();
+        let printed: Vec<&str> =
+            system.forms.iter().flat_map(|[text, _]| text.lines()).map(str::trim).collect();
         let printed = printed.iter().map(|line| line.split("   (").next().unwrap_or_default());
         let printed: Vec<&str> =
             printed.map(|line| line.split_once(": ").map_or(line, |(_, line)| line.trim())).collect();
@@ -260,7 +261,7 @@ fn texts_print_the_same_equations() {
                     let [ours, theirs] = [equal, line].map(|line| line.chars().count() as f64);
                     assert!(ours <= LONGER * theirs, "{equal} for {line}");
                 }
-                None => missed.push(format!("{text}: {line}\n{}", system.text)),
+                None => missed.push(format!("{text}: {line}\n{}", system.forms[0][0])),
             }
         }
     }
