@@ -87,8 +87,8 @@ fn rates(
 /// The coordinates that entries beside the diagonal tie together.
 fn blocks(mass: &[Vec<Id>]) -> Vec<Vec<usize>> {
     let mut blocks: Vec<Vec<usize>> = Vec::new();
-    for i in 0..mass.len() {
-        let is_tied = |block: &Vec<usize>| block.iter().any(|&j| mass[i][j] != Id::ZERO);
+    for (i, row) in mass.iter().enumerate() {
+        let is_tied = |block: &Vec<usize>| block.iter().any(|&j| row[j] != Id::ZERO);
         let (tied, mut others): (Vec<_>, Vec<_>) = blocks.into_iter().partition(is_tied);
         let mut block = tied.concat();
         block.push(i);

@@ -8,6 +8,7 @@ mod hamilton;
 mod kinds;
 mod latex;
 mod lines;
+mod names;
 mod notation;
 mod reading;
 mod supplied;

@@ -3,6 +3,7 @@
 mod everywhere;
 mod golden;
 mod reader;
+mod systems;
 mod texts;
 mod typeset;
 

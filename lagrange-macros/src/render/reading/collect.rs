@@ -187,7 +187,7 @@ impl Collector<'_, '_> {
             _ if quotient.len() == 2 && quotient.terms().any(has_fraction) => (5, 0),
             (_, true) if self.are_differences(quotient) => (1, 0),
             (_, true) if self.are_alike(quotient) => (2, 0),
-            (_, true) => (3, 1),
+            (_, true) => (4, 1),
             (_, false) if self.is_of_coordinates(quotient) => (2, 1),
             (_, false) => (2, 3),
         }

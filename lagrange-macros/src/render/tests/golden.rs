@@ -384,3 +384,17 @@ fn positions_by_turns_are_told_of_frames() {
         by `#[frame(…)]`, and what they do by `position(…)`, `velocity(…)` and `kinetic(…)`, and the accelerations
         take fewer operations (see lagrange_core::language#frames)."#]].assert_eq(&note.join("\n"));
 }
+
+/// Products are multiplied out, sin² + cos² and what all terms have in common are gone.
+#[test]
+fn a_mass_on_a_wedge_by_cartesian_coordinates() {
+    let source = "#[coordinates(x)] #[define(px = x*cos(alpha))] #[define(py = -x*sin(alpha))]
+         #[lagrangian(m/2*(der(px)^2 + der(py)^2) - m*g*py)] #[force(x: -k*x)]
+         struct Wedge { m: f64, g: f64, alpha: f64, k: f64 }";
+    let [[text, _], [named, _], [written_out, _]] = rendered(source).forms;
+    assert!(text.contains("x: m ẍ = m g sin α − k x"), "{text}");
+    assert!(
+        named.contains("− k x") && written_out.contains("L = ½ m ẋ² + m g x sin α"),
+        "{named}{written_out}"
+    );
+}

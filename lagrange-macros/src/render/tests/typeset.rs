@@ -2,7 +2,7 @@
 
 use std::process::Command;
 
-use super::everywhere::of_all;
+use super::systems::of_all;
 
 /// As much of them as the tests of the crates derive, in one document.
 #[test]
