@@ -35,13 +35,33 @@ pub(super) enum Meaning {
 #[derive(Default)]
 pub(super) struct Atoms {
     meanings: IndexSet<Meaning, FxBuildHasher>,
+    /// How many names and numbers each takes written out.
+    sizes: Vec<u64>,
     /// The node that a sum was.
     sources: FxHashMap<Atom, Id>,
 }
 
 impl Atoms {
     pub(super) fn atom(&mut self, meaning: Meaning) -> Atom {
-        Atom(self.meanings.insert_full(meaning).0 as u32)
+        let (index, is_new) = self.meanings.insert_full(meaning);
+        if is_new {
+            let size = match &self.meanings[index] {
+                Meaning::Function(_, x) | Meaning::Sum(x) => self.size(x),
+                Meaning::Atan2(x, y) | Meaning::Power(x, y) => self.size(x).saturating_add(self.size(y)),
+                Meaning::External(_, arguments) => {
+                    arguments.iter().fold(0, |size: u64, x| size.saturating_add(self.size(x)))
+                }
+                _ => 0,
+            };
+            self.sizes.push(size.saturating_add(1));
+        }
+        Atom(index as u32)
+    }
+
+    /// How many names and numbers a polynomial takes written out: what is shared is written again.
+    pub(super) fn size(&self, polynomial: &Polynomial) -> u64 {
+        let atoms = polynomial.terms().flat_map(|(monomial, _)| monomial.factors());
+        atoms.fold(polynomial.len() as u64, |size, (atom, _)| size.saturating_add(self.sizes[atom.0 as usize]))
     }
 
     pub(super) fn meaning(&self, atom: Atom) -> &Meaning {

@@ -38,6 +38,9 @@ pub(super) const READABLE: u64 = 250;
 /// Of polynomials of more terms than this sines and cosines are not put together.
 const TERMS: usize = 100;
 
+/// Nor is a polynomial written down of more names and numbers, those in the arguments of functions counted.
+const SIZE: u64 = 2000;
+
 /// The same expressions with some of the definitions by their names.
 pub(super) struct Reading<'a>(RefCell<Expansion<'a>>);
 
@@ -185,7 +188,8 @@ impl Page<'_> {
             return None;
         }
         let merged = expansion.atoms.merged(sum)?;
-        expansion.atoms.cancelled(merged)
+        let read = expansion.atoms.cancelled(merged)?;
+        (expansion.atoms.size(&read) <= SIZE).then_some(read)
     }
 
     fn collected<T>(
