@@ -61,7 +61,8 @@ impl Atoms {
     /// How many names and numbers a polynomial takes written out: what is shared is written again.
     pub(super) fn size(&self, polynomial: &Polynomial) -> u64 {
         let atoms = polynomial.terms().flat_map(|(monomial, _)| monomial.factors());
-        atoms.fold(polynomial.len() as u64, |size, (atom, _)| size.saturating_add(self.sizes[atom.0 as usize]))
+        atoms
+            .fold(polynomial.len() as u64, |size, (atom, _)| size.saturating_add(self.sizes[atom.0 as usize]))
     }
 
     pub(super) fn meaning(&self, atom: Atom) -> &Meaning {
