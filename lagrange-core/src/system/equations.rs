@@ -67,6 +67,6 @@ pub const fn equations(forms: [[&'static str; 2]; 3]) -> Equations {
 
 impl Display for Equations {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.write_str(self.text)
+        f.write_str(self.text())
     }
 }
