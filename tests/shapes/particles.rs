@@ -127,9 +127,9 @@ fn entries_are_named_by_both_of_their_indices() {
 fn equations_are_written_with_both_indices() {
     let equations = Chain::equations();
     let text = equations.text();
-    assert!(text.contains("r̈[3]") && text.contains("rod[i = 0 … 2]"), "{text}");
+    assert!(text.contains("r̈[3][1]") && text.contains("rod[i = 0 … 2]"), "{text}");
     assert!(text.contains("Q_r[k = 2 … 3][1]"), "{text}");
-    assert!(equations.latex().contains(r"\ddot r_3"), "{}", equations.latex());
+    assert!(equations.latex().contains(r"\ddot r_{3, 1}"), "{}", equations.latex());
 }
 
 /// A potential of all entries: the field of two fixed centres on two particles.
