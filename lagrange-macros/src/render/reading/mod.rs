@@ -1,9 +1,9 @@
 //! Equations as a person would print them. Nothing is computed with this form.
 //!
-//! An expression is multiplied out into a [polynomial](polynomial) in [atoms], whose like terms are collected and cancel exactly;
+//! An expression is multiplied out into a [polynomial] in [atoms], whose like terms are collected and cancel exactly;
 //! sines and cosines are [put together](angles); a [row] is divided by what its terms have in common; and common factors are
 //! [taken out](collect) where that is shorter. All that is done once with the names of definitions and once with what they
-//! stand for, and the [shortest](length) form is taken, the one that is computed with among them.
+//! stand for, and the [shortest](mod@length) form is taken, the one that is computed with among them.
 
 mod angles;
 mod atoms;
