@@ -34,6 +34,8 @@ pub(crate) enum Variable {
     Order,
     /// … and 1 over it.
     OrderReciprocal,
+    /// What the Hamiltonian is a function of in the place of velocities.
+    Momentum(usize),
 }
 
 impl Variable {
@@ -56,6 +58,7 @@ impl Variable {
             Self::Sum(k) => (14, k),
             Self::Order => (15, 0),
             Self::OrderReciprocal => (16, 0),
+            Self::Momentum(i) => (17, i),
         };
         Symbol { family, index: index as u32 }
     }
@@ -98,7 +101,8 @@ impl Variable {
             13 => Self::MultiplierChange(index),
             14 => Self::Sum(index),
             15 => Self::Order,
-            _ => Self::OrderReciprocal,
+            16 => Self::OrderReciprocal,
+            _ => Self::Momentum(index),
         }
     }
 }

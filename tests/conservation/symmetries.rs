@@ -28,7 +28,7 @@ fn kepler() {
     assert_eq!(Kepler::FACTS.energy_is_conserved, Some(Evidence::Proved));
     assert_eq!(Kepler::FACTS.energy_is_t_plus_u, Some(Evidence::Proved));
     let text = Kepler::equations().text();
-    assert!(text.contains("Conserved\n  p_phi = m r² φ̇\n  E = ½ m (ṙ² + r² φ̇²) − k/r   (T + U)\n"), "{text}");
+    assert!(text.contains("Conserved\n  p_φ = m r² φ̇\n  E = ½ m (ṙ² + r² φ̇²) − k/r   (T + U)\n"), "{text}");
     let state = State::new([2.0, 0.3], [0.1, 0.7]);
     let planet = Kepler { m: 1.5, k: 2.0 };
     assert_eq!(planet.conserved(0, &state), Some(1.5 * 4.0 * 0.7));

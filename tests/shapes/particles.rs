@@ -129,7 +129,7 @@ fn equations_are_written_with_both_indices() {
     let text = equations.text();
     assert!(text.contains("r̈[3][1]") && text.contains("rod[i = 0 … 2]"), "{text}");
     assert!(text.contains("Q_r[k = 2 … 3][1]"), "{text}");
-    assert!(equations.latex().contains(r"\ddot{r}_{3, 1}"), "{}", equations.latex());
+    assert!(equations.latex().contains(r"\ddot r_{3, 1}"), "{}", equations.latex());
 }
 
 /// A potential of all entries: the field of two fixed centres on two particles.
@@ -170,5 +170,5 @@ fn functions_take_and_give_arrays_of_vectors() {
     let expected = [-3.0, -6.0 + 0.5, -9.0 - 4.0 + 1.0, -4.0 - 3.0 + 1.5, -5.0 + 2.0, -6.0 + 2.5];
     assert_eq!(pair.solve(&state).unwrap().accelerations, SVector::from(expected));
     let text = Pair::equations().text();
-    assert!(text.contains("∂U/∂r[1][2]") && text.contains("a[1][2](t)"), "{text}");
+    assert!(text.contains("∂U/∂r[1]") && text.contains("a[1](t)"), "{text}");
 }

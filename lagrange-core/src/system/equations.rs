@@ -2,7 +2,18 @@
 
 use core::fmt::{self, Display, Formatter};
 
-/// The Lagrangian, the constraints and the equations of motion of a system, as text and as LaTeX.
+/// A system and its equations as text and as LaTeX, in a form for reading.
+///
+/// The Lagrangian as written, the constraints with their kinds, the equations of motion, constraint forces, what is
+/// conserved, and where they are short the momenta, the Hamiltonian and Hamilton's equations. Expressions are multiplied out and
+/// collected, sines and cosines put together (sin² + cos², sums of angles), each row is divided by what its terms have in
+/// common, and components are put together into vectors where the rows are those of one. Definitions appear by their names or
+/// written out, as is shorter; [`named`](Self::named) and [`written_out`](Self::written_out) have it one way everywhere.
+/// A row with a factor divided away is the equation still; with a coordinate divided away it says more only where that
+/// vanishes. Nothing is computed with this form.
+///
+/// What would take more than 250 signs is not printed but counted, and expressions of more than 100 terms multiplied out are
+/// printed as they are computed.
 ///
 /// `Type::equations()` gives them for every type with `#[derive(Lagrangian)]`; they also stand in its
 /// documentation.
@@ -15,34 +26,47 @@ use core::fmt::{self, Display, Formatter};
 /// #[lagrangian(m/2 * l^2 * theta_dot^2 + m*g*l*cos(theta))]
 /// struct Pendulum { m: f64, l: f64, g: f64 }
 ///
-/// assert!(Pendulum::equations().text().contains("m l² θ̈ = −m l g sin θ"));
+/// assert!(Pendulum::equations().text().contains("l θ̈ = −g sin θ"));
 /// println!("{}", Pendulum::equations());
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Equations {
-    text: &'static str,
-    latex: &'static str,
+    forms: [[&'static str; 2]; 3],
+    form: usize,
 }
 
 impl Equations {
     /// In Unicode, a line for each equation.
     pub const fn text(&self) -> &'static str {
-        self.text
+        self.forms[self.form][0]
     }
 
-    /// An `align*` environment.
+    /// An `align` environment of the package `amsmath`, its lines no longer than those of `article`.
+    ///
+    /// Each equation has a label: `\eqref{eq:Pendulum-theta}` is the equation of motion of `theta`, `eq:Pendulum-L` the
+    /// Lagrangian.
     pub const fn latex(&self) -> &'static str {
-        self.latex
+        self.forms[self.form][1]
+    }
+
+    /// The same with definitions by their names wherever they occur.
+    pub const fn named(self) -> Self {
+        Self { form: 1, ..self }
+    }
+
+    /// The same with what definitions stand for, also in the Lagrangian.
+    pub const fn written_out(self) -> Self {
+        Self { form: 2, ..self }
     }
 }
 
-/// Of these forms.
-pub const fn equations(text: &'static str, latex: &'static str) -> Equations {
-    Equations { text, latex }
+/// Of these forms, each as text and as LaTeX.
+pub const fn equations(forms: [[&'static str; 2]; 3]) -> Equations {
+    Equations { forms, form: 0 }
 }
 
 impl Display for Equations {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.write_str(self.text)
+        f.write_str(self.text())
     }
 }

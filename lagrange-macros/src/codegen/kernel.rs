@@ -144,7 +144,10 @@ impl Style<'_> {
 /// Which argument an input is read from; parameters are in the system.
 fn source(symbol: Symbol) -> Argument {
     match Variable::of(symbol) {
-        Variable::Time | Variable::Coordinate(_) | Variable::Velocity(_) => Argument::State,
+        // No function takes momenta.
+        Variable::Time | Variable::Coordinate(_) | Variable::Velocity(_) | Variable::Momentum(_) => {
+            Argument::State
+        }
         Variable::Acceleration(_) | Variable::AccelerationChange(_) => Argument::Accelerations,
         Variable::Multiplier(_) | Variable::MultiplierChange(_) => Argument::Multipliers,
         Variable::Parameter(_) => Argument::System,

@@ -10,7 +10,6 @@ use super::{Emitter, Written, pack, runtime, too_long};
 use crate::contract::{Gives, LAGRANGIAN, Method, Quantity};
 use crate::diagnostics::Diagnostics;
 use crate::mechanics::ConstraintKind;
-use crate::render::Rendered;
 use crate::symbolic::Id;
 
 impl Emitter<'_> {
@@ -45,7 +44,7 @@ impl Emitter<'_> {
         let (equations, visit_parameters, visit_defects) =
             (self.equations(), self.visit_parameters(), self.visit_defects());
         let (pack, check_members) = (pack::pack(self.declaration, scalar), self.check_members());
-        let Rendered { text, .. } = self.rendered;
+        let [[text, _], ..] = &self.rendered.forms;
         let doc = format!("```text\n{text}```");
         quote! {
             const _: () = {
@@ -208,11 +207,11 @@ impl Emitter<'_> {
 
     fn equations(&self) -> TokenStream {
         let visibility = &self.declaration.visibility;
-        let Rendered { text, latex, .. } = self.rendered;
+        let forms = self.rendered.forms.iter().map(|[text, latex]| quote!([#text, #latex]));
         quote! {
             /// The system and its equations of motion, to be read.
             #visibility const fn equations() -> __lagrange::Equations {
-                __lagrange::generated::equations(#text, #latex)
+                __lagrange::generated::equations([#(#forms),*])
             }
         }
     }

@@ -12,6 +12,7 @@ mod evidence;
 mod facts;
 mod gauge;
 mod gauss;
+mod hamilton;
 mod integrability;
 mod linearization;
 mod moment;
@@ -31,6 +32,7 @@ pub(crate) use facts::Facts;
 pub(crate) use gauge::LinearPart;
 pub(crate) use gauss::Form;
 use gauss::shorter;
+pub(crate) use hamilton::Hamilton;
 #[cfg(test)]
 pub(crate) use integrability::Kinds;
 pub(crate) use integrability::{Classification, Integrability, Integrals};
@@ -45,6 +47,8 @@ pub(crate) struct Derived {
     pub(crate) inertia: Vec<Id>,
     /// What is read in place of an expression, where boundaries that nobody named make that longer.
     pub(crate) read: FxHashMap<Id, Id>,
+    /// `None` where nobody would read it
+    pub(crate) hamilton: Option<Hamilton>,
     /// `None` where exact arithmetic cannot write it
     pub(crate) linearization: Option<Linearization>,
 }
@@ -61,7 +65,8 @@ pub(crate) fn derive(graph: &mut Graph, problem: &Problem, diagnostics: &mut Dia
     diagnostics.stop_at_fault(problem.place, graph)?;
     diagnostics.is_empty().then_some(())?;
     let linearization = linearize(graph, problem, &equations);
-    Some(Derived { equations, facts, inertia, read, linearization })
+    let hamilton = Hamilton::derive(graph, problem, &equations);
+    Some(Derived { equations, facts, inertia, read, hamilton, linearization })
 }
 
 /// Frames have names for every step; a page is shorter without.

@@ -45,5 +45,5 @@ fn what_doubles_sixty_times_is_derived() {
 #[test]
 fn what_doubles_sixty_times_is_not_written_out() {
     let written = expansion(STEPS[0], USES[0]);
-    assert!(written.contains("− a60") && written.contains(" symbols)"), "{written}");
+    assert!(written.contains("− a₆₀") && written.contains(" symbols)"), "{written}");
 }

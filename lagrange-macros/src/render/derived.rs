@@ -4,7 +4,8 @@ use num_traits::{One, Signed};
 
 use super::Page;
 use super::formula::Formula;
-use crate::symbolic::{Function, Graph, Id, Node, Rational, Scaled};
+use super::hamilton::momentum;
+use crate::symbolic::{Function, Id, Node, Rational, Scaled};
 use crate::variables::Variable;
 
 impl Page<'_> {
@@ -21,8 +22,7 @@ impl Page<'_> {
                 if terms.len() == 1 { terms.remove(0) } else { Formula::Sum(terms) }
             }
             Node::Product(_) => self.derived_term(id, Rational::one()),
-            Node::Function(Function::Ramp, x) => Formula::Call("max".to_owned(), all(&[*x, Id::ZERO])),
-            Node::Function(function, x) => Formula::Call(function.name().to_owned(), all(&[*x])),
+            Node::Function(name, x) => function(*name, self.derived(*x)),
             Node::External(external) => self.supplied(external, all(&external.arguments)),
             Node::Atan2(y, x) => Formula::Call("atan2".to_owned(), all(&[*y, *x])),
             Node::Power(base, exponent) => {
@@ -45,7 +45,7 @@ impl Page<'_> {
         let coefficient = Scaled { fraction: coefficient, exponent: graph.power_of_ten(factors) };
         let mut factors: Vec<_> = factors.to_vec();
         factors.retain(|&factor| !graph.is_power_of_ten(factor));
-        factors.sort_by_key(|&(factor, _)| reading_order(factor, graph));
+        factors.sort_by_key(|&(factor, _)| self.reading_order(factor));
         let (mut above, mut below) = (Vec::new(), Vec::new());
         for (factor, exponent) in factors {
             let power = power(self.derived(factor), exponent.abs());
@@ -54,7 +54,25 @@ impl Page<'_> {
         Formula::product(coefficient, above, below)
     }
 
-    fn variable(&self, variable: Variable) -> Formula {
+    /// Parameters come first, then multipliers, definitions, coordinates, velocities, accelerations, functions.
+    fn reading_order(&self, factor: Id) -> (u8, u32) {
+        match self.graph.node(factor) {
+            Node::Symbol(symbol) => match Variable::of(*symbol) {
+                Variable::Parameter(k) => (0, self.ranks[k] as u32),
+                Variable::Multiplier(_) => (1, symbol.index),
+                Variable::Time => (3, 0),
+                Variable::Coordinate(_) => (4, symbol.index),
+                Variable::Velocity(_) => (7, symbol.index),
+                _ => (8, symbol.index),
+            },
+            Node::Pi => (0, 0),
+            Node::Defined(_) => (2, factor.index() as u32),
+            Node::Function(function, _) => (9 + *function as u8, factor.index() as u32),
+            _ => (6, factor.index() as u32),
+        }
+    }
+
+    pub(super) fn variable(&self, variable: Variable) -> Formula {
         let coordinate = |i: usize, dots| Formula::labelled(&self.problem.coordinates[i].text, dots);
         match variable {
             Variable::Time => Formula::labelled("t", 0),
@@ -63,13 +81,22 @@ impl Page<'_> {
             Variable::Acceleration(i) => coordinate(i, 2),
             Variable::Multiplier(a) => Formula::Multiplier(self.problem.constraints[a].0.text.clone()),
             Variable::Parameter(k) => Formula::labelled(&self.problem.parameters.name(k), 0),
+            Variable::Momentum(i) => momentum(&self.problem.coordinates[i].text, 0),
             // Emitted functions take it, and no equation has it.
             only_emitted => Formula::labelled(&format!("{only_emitted:?}"), 0),
         }
     }
 }
 
-fn power(base: Formula, exponent: Rational) -> Formula {
+/// f(x)
+pub(super) fn function(function: Function, x: Formula) -> Formula {
+    match function {
+        Function::Ramp => Formula::Call("max".to_owned(), vec![x, Formula::sum(Vec::new())]),
+        function => Formula::Call(function.name().to_owned(), vec![x]),
+    }
+}
+
+pub(super) fn power(base: Formula, exponent: Rational) -> Formula {
     if exponent.is_one() {
         return base;
     }
@@ -77,22 +104,4 @@ fn power(base: Formula, exponent: Rational) -> Formula {
         return Formula::Root(Box::new(base));
     }
     Formula::Power(Box::new(base), Box::new(Formula::Number(exponent)))
-}
-
-/// Parameters come first, then multipliers, definitions, coordinates, functions, velocities, accelerations.
-fn reading_order(factor: Id, graph: &Graph) -> (u8, u32) {
-    match graph.node(factor) {
-        Node::Symbol(symbol) => match Variable::of(*symbol) {
-            Variable::Parameter(_) => (0, symbol.index),
-            Variable::Multiplier(_) => (1, symbol.index),
-            Variable::Time => (3, 0),
-            Variable::Coordinate(_) => (4, symbol.index),
-            Variable::Velocity(_) => (7, symbol.index),
-            _ => (8, symbol.index),
-        },
-        Node::Pi => (0, 0),
-        Node::Defined(_) => (2, factor.index() as u32),
-        Node::Function(..) => (5, factor.index() as u32),
-        _ => (6, factor.index() as u32),
-    }
 }

@@ -19,7 +19,7 @@ impl Page<'_> {
 
     fn conserved_quantity(&self, Conserved { name, quantity, evidence }: &Conserved) -> Option<Line> {
         let named = |name: &str| Formula::labelled(name, 0);
-        let derived = |name, id| Equation::from(self.readable([&[id]]).map(|[right]| [named(name), right]));
+        let derived = |name, id| Equation::from(self.quantity(id).map(|right| [named(name), right]));
         let Derived { equations, facts, .. } = self.derived;
         let (equation, remark) = match *quantity {
             Quantity::Momentum(a) => (derived(name, equations.momentum[a]), held(*evidence)),

@@ -3,9 +3,10 @@
 
 use num_traits::{One, Signed, Zero};
 
+use super::symbols::decimal;
 use crate::symbolic::{Rational, Scaled, finite_decimal};
 
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub(super) enum Formula {
     Number(Rational),
     /// A number with a power of ten.
@@ -147,8 +148,13 @@ impl Formula {
     }
 
     /// number · above / below
-    pub(super) fn product(number: Scaled, mut above: Vec<Self>, below: Vec<Self>) -> Self {
-        let Scaled { fraction, exponent } = number;
+    pub(super) fn product(number: Scaled, mut above: Vec<Self>, mut below: Vec<Self>) -> Self {
+        let Scaled { mut fraction, exponent } = number;
+        // p²/(2 m), and not ½ p²/m.
+        if !below.is_empty() && !fraction.is_integer() && decimal(fraction).is_none() {
+            below.insert(0, Self::Number(Rational::from_integer(*fraction.denom())));
+            fraction = Rational::from_integer(*fraction.numer());
+        }
         if !fraction.abs().is_one() || exponent != 0 || above.is_empty() {
             above.insert(0, Self::number(Scaled { fraction: fraction.abs(), exponent }));
         }

@@ -29,8 +29,8 @@ impl Page<'_> {
             Integrability::Undecided => return "on the velocities".to_owned(),
         };
         let kind = qualified(kind, class.evidence);
-        match kinds.functions[row].map(|function| self.readable([&[function]])) {
-            Some(Ok([function])) => format!("{kind}: {} is constant", Notation::Unicode.write(&function)),
+        match kinds.functions[row].map(|function| self.expression(function)) {
+            Some(Ok(function)) => format!("{kind}: {} is constant", Notation::Unicode.write(&function)),
             _ => kind,
         }
     }

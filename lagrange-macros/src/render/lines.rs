@@ -2,12 +2,10 @@
 
 use super::Page;
 use super::formula::Formula;
+use super::reading::READABLE;
 use super::symbols::Notation;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};
-
-/// A row of more symbols than this is not for reading.
-const READABLE: u64 = 250;
 
 /// A heading and the lines below it: a label, an equation and a remark. The note says what concerns all lines.
 pub(super) struct Section {
@@ -46,8 +44,8 @@ impl From<Result<[Formula; 2], u64>> for Equation {
 }
 
 impl Page<'_> {
-    /// Sums of nodes as formulas, or how many symbols these would take together where that is too many.
-    pub(super) fn readable<const K: usize>(&self, sums: [&[Id]; K]) -> Result<[Formula; K], u64> {
+    /// Sums of nodes as they are computed, or how many symbols these would take together where that is too many.
+    pub(super) fn computed<const K: usize>(&self, sums: [&[Id]; K]) -> Result<[Formula; K], u64> {
         let read = |id: &Id| self.derived.read.get(id).copied().unwrap_or(*id);
         let symbols = sums
             .concat()
@@ -97,21 +95,4 @@ pub(super) fn text(name: &str, sections: &[Section]) -> String {
         text.extend(note.iter().map(|note| format!("  {note}\n")));
     }
     text
-}
-
-pub(super) fn latex(sections: &[Section]) -> String {
-    let mut latex = String::from("\\begin{align*}\n");
-    for line in sections.iter().flat_map(|section| &section.lines) {
-        let equation = match &line.equation {
-            Equation::Known(left, right) => {
-                format!("{} &= {}", Notation::Latex.write(left), Notation::Latex.write(right))
-            }
-            Equation::Term(formula) => {
-                format!(r"&{} = \text{{total time derivative}}", Notation::Latex.write(formula))
-            }
-            Equation::TooLong(size) => format!(r"&\text{{({size} symbols)}}"),
-        };
-        latex += &format!("  {equation} \\\\\n");
-    }
-    latex + "\\end{align*}\n"
 }

@@ -4,9 +4,13 @@ mod binding;
 mod derived;
 mod facts;
 mod formula;
+mod hamilton;
 mod kinds;
+mod latex;
 mod lines;
+mod names;
 mod notation;
+mod reading;
 mod supplied;
 mod symbols;
 #[cfg(test)]
@@ -14,11 +18,13 @@ mod tests;
 mod written;
 
 use crate::mechanics::Derived;
-use crate::resolve::Problem;
+use crate::resolve::{Label, Problem};
 use crate::symbolic::{Graph, Id};
 use crate::syntax::{Constraint, Declaration, Define, Expression, Frame, Power, Target, TargetIndex};
 use formula::Formula;
 use lines::{Equation, Line, Section};
+use reading::{Names, Reading};
+use rustc_hash::FxHashSet;
 use symbols::Notation;
 
 /// What is said of positions that three angles turn, one after another, and that are differentiated.
@@ -27,10 +33,11 @@ const IN_FRAMES: &str =
   by `#[frame(…)]`, and what they do by `position(…)`, `velocity(…)` and `kinetic(…)`, and the accelerations
   take fewer operations (see lagrange_core::language#frames).";
 
-/// The same system, written twice.
+/// The same system, written down.
 pub(crate) struct Rendered {
-    pub(crate) text: String,
-    pub(crate) latex: String,
+    /// With definitions by their names or written out as is shorter, always by their names, and always written out; each as text
+    /// and as LaTeX.
+    pub(crate) forms: [[String; 2]; 3],
     /// The total time derivatives in the Lagrangian, in the order of the facts.
     pub(crate) total_derivatives: Vec<String>,
 }
@@ -43,6 +50,12 @@ struct Page<'a> {
     derived: &'a Derived,
     /// How many each node takes.
     symbols: Vec<u64>,
+    /// Where each parameter stands among the fields.
+    ranks: Vec<usize>,
+    /// The definitions that neither the time nor the state changes.
+    constants: FxHashSet<Id>,
+    names: Names,
+    readings: Vec<Reading<'a>>,
 }
 
 /// Writes the system down.
@@ -52,44 +65,90 @@ pub(crate) fn render(
     problem: &Problem,
     derived: &Derived,
 ) -> Rendered {
-    let page = Page { declaration, graph, problem, derived, symbols: lines::symbols(graph, problem) };
-    let total_derivatives = page.total_derivatives();
-    let texts = total_derivatives.iter().map(|formula| Notation::Unicode.write(formula)).collect();
-    let term = |formula| Line::of(Equation::Term(formula));
-    let section = |heading, lines| Section { heading, lines, note: None };
-    let sections = [
-        section("Lagrangian", page.lagrangian()),
-        Section {
-            note: derived.equations.integrability.integrals.and_then(kinds::note),
-            ..section("Constraints", page.constraints())
-        },
-        Section {
-            note: problem.frames_are_cheaper.then(|| IN_FRAMES.to_owned()),
-            ..section("Equations of motion", page.motion())
-        },
-        section("Conserved", page.conserved()),
-        section(
-            "Total time derivatives in the Lagrangian",
-            total_derivatives.into_iter().map(term).collect(),
-        ),
-    ];
-    let name = declaration.ident.to_string();
-    Rendered { text: lines::text(&name, &sections), latex: lines::latex(&sections), total_derivatives: texts }
+    let constants = reading::constants(graph, problem);
+    let mut page = Page {
+        declaration,
+        graph,
+        problem,
+        derived,
+        symbols: lines::symbols(graph, problem),
+        ranks: ranks(problem),
+        names: Names::Shortest,
+        readings: reading::readings(graph, problem, derived, &constants, Names::Shortest),
+        constants,
+    };
+    let shortest = page.forms();
+    let totals = page.total_derivatives();
+    let total_derivatives = totals.iter().map(|formula| Notation::Unicode.write(formula)).collect();
+    let others = [Names::Kept, Names::WrittenOut].map(|names| match problem.names.is_empty() {
+        true => shortest.clone(),
+        false => {
+            page.names = names;
+            page.readings = reading::readings(graph, problem, derived, &page.constants, names);
+            page.forms()
+        }
+    });
+    let [kept, written_out] = others;
+    Rendered { forms: [shortest, kept, written_out], total_derivatives }
+}
+
+fn ranks(problem: &Problem) -> Vec<usize> {
+    let order = problem.parameters.by_field();
+    let mut ranks = vec![0; order.len()];
+    order.into_iter().enumerate().for_each(|(rank, parameter)| ranks[parameter] = rank);
+    ranks
 }
 
 impl Page<'_> {
+    /// As text and as LaTeX.
+    fn forms(&self) -> [String; 2] {
+        let Self { problem, derived, .. } = self;
+        let term = |formula| Line::of(Equation::Term(formula));
+        let section = |heading, lines| Section { heading, lines, note: None };
+        let sections = [
+            section("Lagrangian", self.lagrangian()),
+            Section {
+                note: derived.equations.integrability.integrals.and_then(kinds::note),
+                ..section("Constraints", self.constraints())
+            },
+            Section {
+                note: problem.frames_are_cheaper.then(|| IN_FRAMES.to_owned()),
+                ..section("Equations of motion", self.motion())
+            },
+            section("Constraint forces", self.constraint_forces()),
+            section("Conserved", self.conserved()),
+            section("Momenta", self.momenta()),
+            section("Hamiltonian", self.hamiltonian()),
+            section("Hamilton's equations", self.canonical()),
+            section(
+                "Total time derivatives in the Lagrangian",
+                self.total_derivatives().into_iter().map(term).collect(),
+            ),
+        ];
+        let name = self.declaration.ident.to_string();
+        [lines::text(&name, &sections), latex::latex(name.trim_start_matches("r#"), &sections)]
+    }
+
     fn lagrangian(&self) -> Vec<Line> {
         let Declaration { lagrangian, frames, defines, dissipation, forces, powers, .. } = self.declaration;
         let line = |left, right: &Expression| Line::of(Equation::Known(left, self.written(right)));
         let name = |text: &str| Formula::labelled(text, 0);
         let mut lines: Vec<Line> = Vec::new();
-        lines.extend(lagrangian.as_ref().map(|lagrangian| line(name("L"), lagrangian)));
+        let written_out = match self.names {
+            Names::WrittenOut => self.expression(self.problem.lagrangian).ok(),
+            _ => None,
+        };
+        lines.extend(lagrangian.as_ref().map(|lagrangian| match written_out {
+            Some(right) => Line::of(Equation::Known(name("L"), right)),
+            None => line(name("L"), lagrangian),
+        }));
         lines.extend(frames.iter().map(|frame| self.frame(frame)));
         lines.extend(defines.iter().map(|define| line(self.defined(define), &define.body)));
         lines.extend(dissipation.as_ref().map(|function| line(name("D"), function)));
         lines.extend(forces.iter().map(|force| {
-            let coordinate = Notation::Unicode.write(&self.target(&force.target));
-            line(name(&format!("Q_{coordinate}")), &force.value)
+            let Target { name, indices } = &force.target;
+            let base = format!("Q_{}", name.text);
+            line(Formula::Name { base, dots: 0, indices: self.indices(indices) }, &force.value)
         }));
         lines.extend(powers.iter().map(|Power { indices, force, velocity }| {
             let factors = [force, velocity].map(|factor| self.written(factor)).to_vec();
@@ -151,16 +210,45 @@ impl Page<'_> {
         self.declaration.constraints.iter().filter_map(line).collect()
     }
 
-    /// Σ_j M_ij q̈_j = h_i + Σ_α λ_α F_αi, a row for each coordinate.
+    /// Σ_j M_ij q̈_j = h_i + Σ_α λ_α F_αi, a row for each coordinate, or for a vector of coordinates.
     fn motion(&self) -> Vec<Line> {
         let Derived { equations, inertia, .. } = self.derived;
-        let row = |(i, &inertia): (usize, &Id)| {
+        let right = |i: usize| {
             let right = [Some(&equations.forcing[i]), equations.constraint_force.get(i)];
-            let right =
-                right.into_iter().flatten().copied().filter(|&part| part != Id::ZERO).collect::<Vec<_>>();
-            let label = Notation::Unicode.write(&Formula::labelled(&self.problem.coordinates[i].text, 0));
-            Line { label: Some(label), ..Line::of(self.readable([&[inertia], &right]).into()) }
+            right.into_iter().flatten().copied().filter(|&part| part != Id::ZERO).collect::<Vec<_>>()
         };
-        inertia.iter().enumerate().map(row).collect()
+        let mut rows: Vec<(Id, Vec<Id>)> =
+            inertia.iter().enumerate().map(|(i, &left)| (left, right(i))).collect();
+        let lines = self.vectors().flat_map(|labels| {
+            let others = rows.split_off(labels.len());
+            let rows = std::mem::replace(&mut rows, others);
+            let line = |text: &str, equation| {
+                let label = Some(Notation::Unicode.write(&Formula::labelled(text, 0)));
+                Line { label, ..Line::of(equation) }
+            };
+            let whole = (labels.len() > 1).then(|| self.vector_row(&rows)).flatten();
+            match (whole, vector(&labels[0].text)) {
+                (Some([left, right]), Some(text)) => vec![line(text, Equation::Known(left, right))],
+                _ => labels
+                    .iter()
+                    .zip(&rows)
+                    .map(|(label, row)| line(&label.text, self.row(row.0, &row.1)))
+                    .collect(),
+            }
+        });
+        lines.collect()
     }
+
+    /// The coordinates, with the components of each vector together.
+    fn vectors(&self) -> impl Iterator<Item = &[Label]> {
+        let are_together = |one: &Label, other: &Label| {
+            vector(&one.text).is_some() && vector(&one.text) == vector(&other.text)
+        };
+        self.problem.coordinates.chunk_by(are_together)
+    }
+}
+
+/// `r` of `r[0]`, `r[1]` of `r[1][0]`.
+fn vector(text: &str) -> Option<&str> {
+    text.strip_suffix(']')?.rsplit_once('[').map(|(vector, _)| vector)
 }

@@ -4,10 +4,10 @@ use num_traits::{One, Signed};
 
 use super::binding::{Binding, PREFIX, begins_with_function, exponent_at_name, is_number, is_prefixed};
 use super::formula::Formula;
+use super::latex::{LINE, width};
 use super::symbols::{Notation, decimal, point, superscript, vulgar};
 use crate::resolve::is_built_in;
 use crate::symbolic::{Rational, Scaled, finite_decimal};
-use crate::syntax::GREEK;
 
 impl Notation {
     pub(super) fn write(self, formula: &Formula) -> String {
@@ -28,7 +28,10 @@ impl Notation {
             Formula::Power(base, exponent) => self.power(base, exponent, false),
             Formula::Root(inner) => match self {
                 Self::Unicode => format!("√{}", self.at_least(inner, Binding::Atom)),
-                Self::Latex => format!(r"\sqrt{{{}}}", self.write(inner)),
+                Self::Latex => match self.write(inner) {
+                    inner if width(&inner) < LINE / 2.0 => format!(r"\sqrt{{{inner}}}"),
+                    inner => format!("{}^{{1/2}}", self.parentheses(&inner)),
+                },
             },
             Formula::Call(name, arguments) => self.call(name, arguments),
             Formula::SumOver { index, from, to, body } => self.sum_over(index, from, to, body),
@@ -56,15 +59,30 @@ impl Notation {
     }
 
     fn parentheses(self, inner: &str) -> String {
-        format!("{}{inner}{}", self.pick("(", r"\left("), self.pick(")", r"\right)"))
+        self.between("(", inner, ")")
     }
 
     fn brackets(self, inner: &str) -> String {
-        format!("{}{inner}{}", self.pick("[", r"\left["), self.pick("]", r"\right]"))
+        self.between("[", inner, "]")
     }
 
     fn bars(self, inner: &str) -> String {
-        format!("{}{inner}{}", self.pick("|", r"\left|"), self.pick("|", r"\right|"))
+        match self {
+            Self::Latex if !is_tall(inner) => format!(r"\lvert {inner} \rvert"),
+            _ => self.between("|", inner, "|"),
+        }
+    }
+
+    /// As high as what is inside.
+    fn between(self, open: &str, inner: &str, close: &str) -> String {
+        match self {
+            // Between these no line can end.
+            Self::Latex if is_tall(inner) && width(inner) < LINE / 2.0 => {
+                format!(r"\left{open} {inner} \right{close}")
+            }
+            Self::Latex if is_tall(inner) => format!(r"\bigl{open}{inner}\bigr{close}"),
+            _ => format!("{open}{inner}{close}"),
+        }
     }
 
     fn list(self, items: &[Formula]) -> String {
@@ -91,9 +109,7 @@ impl Notation {
     fn product(self, above: &[Formula], below: &[Formula]) -> String {
         match self {
             _ if below.is_empty() => self.factors(above, false),
-            Self::Latex => {
-                format!(r"\frac{{{}}}{{{}}}", self.factors(above, false), self.factors(below, false))
-            }
+            Self::Latex => self.fraction(above, below),
             Self::Unicode => {
                 let below = match below {
                     // a/2/3 could be read in two ways.
@@ -104,6 +120,22 @@ impl Notation {
                 };
                 format!("{}/{below}", self.factors(above, true))
             }
+        }
+    }
+
+    /// Where it is too wide for a line, with sums beside it, or on one line that may be broken.
+    fn fraction(self, above: &[Formula], below: &[Formula]) -> String {
+        let [over, under] = [above, below].map(|factors| self.factors(factors, false));
+        let (sums, others): (Vec<Formula>, Vec<Formula>) =
+            above.iter().cloned().partition(|factor| matches!(factor, Formula::Sum(_)));
+        if width(&over).max(width(&under)) < LINE / 2.0 {
+            format!(r"\frac{{{over}}}{{{under}}}")
+        } else if width(&under) < LINE / 2.0 && !sums.is_empty() {
+            let one = vec![Formula::Number(Rational::one())];
+            let before = self.fraction(if others.is_empty() { &one } else { &others }, below);
+            format!("{before} {}", self.factors(&sums, true))
+        } else {
+            format!("{} / ({under})", self.factors(above, true))
         }
     }
 
@@ -124,7 +156,11 @@ impl Notation {
             text += match position {
                 0 => "",
                 _ if begins_with_digit => self.pick(" · ", r" \cdot "),
-                _ => self.pick(" ", r" \, "),
+                // Words would run into each other.
+                _ if factor.contains(r"\mathit") || text.ends_with('}') && text.contains(r"\mathit") => {
+                    r" \, "
+                }
+                _ => " ",
             };
             text += &factor;
         }
@@ -152,7 +188,7 @@ impl Notation {
         }
         let base = self.at_least(base, Binding::Atom);
         match (self, exponent) {
-            (Self::Latex, _) => format!("{base}^{{{}}}", self.write(exponent)),
+            (Self::Latex, _) => format!("{base}^{}", braced(&self.write(exponent))),
             (Self::Unicode, Formula::Number(value)) if value.is_integer() => {
                 format!("{base}{}", superscript(&value.to_string()))
             }
@@ -178,7 +214,7 @@ impl Notation {
     }
 
     fn superscript(self, digits: &str) -> String {
-        if self == Self::Latex { format!("^{{{digits}}}") } else { superscript(digits) }
+        if self == Self::Latex { format!("^{}", braced(digits)) } else { superscript(digits) }
     }
 
     fn call(self, name: &str, arguments: &[Formula]) -> String {
@@ -247,7 +283,7 @@ impl Notation {
     fn entry(self, whole: String, index: &Formula) -> String {
         match self {
             Self::Unicode => format!("{whole}[{}]", self.write(index)),
-            Self::Latex => format!("{whole}_{{{}}}", self.write(index)),
+            Self::Latex => format!("{whole}_{}", braced(&self.write(index))),
         }
     }
 
@@ -275,85 +311,20 @@ impl Notation {
         let digits = finite_decimal(fraction).map_or_else(|| self.parentheses(&self.number(fraction)), point);
         if fraction.is_one() { power } else { format!("{digits}{}{power}", self.pick("×", r" \times ")) }
     }
-
-    /// Greek by their names; dots above the last letter; indices below.
-    fn name(self, base: &str, dots: usize, indices: &[Formula]) -> String {
-        let (base, tail) = with_tail(base);
-        let letter = self.letter(base);
-        let letter = match (self, dots) {
-            (_, 0) => letter,
-            (Self::Unicode, 1) => crate::syntax::normal_form(&format!("{letter}\u{307}")),
-            (Self::Unicode, _) => crate::syntax::normal_form(&format!("{letter}\u{308}")),
-            (Self::Latex, 1) => format!(r"\dot{{{letter}}}"),
-            (Self::Latex, _) => format!(r"\ddot{{{letter}}}"),
-        };
-        let indices = indices.iter().map(|index| self.write(index));
-        match self {
-            Self::Latex => {
-                let below: Vec<String> =
-                    tail.map(|tail| self.letter(tail)).into_iter().chain(indices).collect();
-                self.with_below(letter, &below)
-            }
-            Self::Unicode => {
-                let tail = tail.map(|tail| format!("_{tail}")).unwrap_or_default();
-                let indices: String = indices.map(|index| format!("[{index}]")).collect();
-                format!("{letter}{tail}{indices}")
-            }
-        }
-    }
-
-    fn with_below(self, letter: String, below: &[String]) -> String {
-        if below.is_empty() { letter } else { format!("{letter}_{{{}}}", below.join(", ")) }
-    }
-
-    /// In LaTeX the member's letter, with all else below: the mass of `link[2]` is mₗᵢₙₖ,₂.
-    fn member(self, of: &Formula, member: &Formula) -> String {
-        match self {
-            Self::Unicode => format!("{}.{}", self.write(of), self.write(member)),
-            Self::Latex => {
-                let [letter, below @ ..] = &self.apart(member)[..] else { return String::new() };
-                self.with_below(letter.clone(), &[self.apart(of), below.to_vec()].concat())
-            }
-        }
-    }
-
-    /// A name, and what stands below it.
-    fn apart(self, formula: &Formula) -> Vec<String> {
-        match formula {
-            Formula::Name { base, indices, .. } => {
-                let (base, tail) = with_tail(base);
-                let names = std::iter::once(base).chain(tail).map(|name| self.letter(name));
-                names.chain(indices.iter().map(|index| self.write(index))).collect()
-            }
-            Formula::Member(of, member) => [self.apart(of), self.apart(member)].concat(),
-            other => vec![self.write(other)],
-        }
-    }
-
-    fn letter(self, name: &str) -> String {
-        let greek = GREEK.iter().find(|(latin, greek)| *latin == name || *greek == name);
-        match (self, greek) {
-            (Self::Unicode, Some((_, greek))) => (*greek).to_owned(),
-            (Self::Latex, Some((latin, _))) => format!(r"\{latin}"),
-            (Self::Latex, None) if name.chars().count() > 1 => {
-                format!(r"\mathit{{{}}}", name.replace('_', r"\_"))
-            }
-            _ => name.to_owned(),
-        }
-    }
-
-    fn subscript(self, base: &str, below: &str) -> String {
-        match self {
-            Self::Unicode => format!("{base}_{below}"),
-            Self::Latex => format!(r"{base}_{{\mathrm{{{}}}}}", below.replace('_', r"\_")),
-        }
-    }
 }
 
-/// `theta` and `1` of `theta_1`.
-fn with_tail(name: &str) -> (&str, Option<&str>) {
-    match name.split_once('_') {
-        Some((base, tail)) if !base.is_empty() && !tail.is_empty() => (base, Some(tail)),
-        _ => (name, None),
-    }
+/// As the argument of `^` and `_`: a single sign needs no braces.
+pub(super) fn braced(text: &str) -> String {
+    if text.chars().count() == 1 || is_command(text) { text.to_owned() } else { format!("{{{text}}}") }
+}
+
+/// Whether it is a command without arguments, such as `\theta`.
+pub(super) fn is_command(text: &str) -> bool {
+    text.strip_prefix('\\')
+        .is_some_and(|name| !name.is_empty() && name.chars().all(|c| c.is_ascii_alphabetic()))
+}
+
+/// Whether parentheses around it must be higher than a line.
+fn is_tall(inner: &str) -> bool {
+    [r"\frac", r"\sqrt", r"\sum", r"\left"].iter().any(|tall| inner.contains(tall))
 }

@@ -57,3 +57,8 @@ pub(super) fn superscript(digits: &str) -> String {
         })
         .collect()
 }
+
+pub(super) fn subscript(digits: &str) -> String {
+    let digits = digits.chars().filter_map(|digit| digit.to_digit(10));
+    digits.map(|digit| ['₀', '₁', '₂', '₃', '₄', '₅', '₆', '₇', '₈', '₉'][digit as usize]).collect()
+}

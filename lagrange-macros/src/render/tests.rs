@@ -1,7 +1,11 @@
 //! What is written means what was meant, and reads as the chapter prints it.
 
+mod everywhere;
 mod golden;
 mod reader;
+mod systems;
+mod texts;
+mod typeset;
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -108,24 +112,20 @@ fn assert_written(formula: Formula, text: &str, latex: &str) {
 #[test]
 fn a_sine_ends_where_a_reader_ends_it() {
     let sine = || call("sin", [name("theta")]);
-    assert_written(
-        Formula::Product(vec![sine(), name("x")], vec![]),
-        "sin(θ) x",
-        r"\sin\left(\theta\right) \, x",
-    );
-    assert_written(Formula::Product(vec![name("x"), sine()], vec![]), "x sin θ", r"x \, \sin \theta");
+    assert_written(Formula::Product(vec![sine(), name("x")], vec![]), "sin(θ) x", r"\sin(\theta) x");
+    assert_written(Formula::Product(vec![name("x"), sine()], vec![]), "x sin θ", r"x \sin \theta");
     let squares = vec![power(sine(), number(2, 1)), call("cos", [name("x")])];
-    assert_written(Formula::Product(squares, vec![]), "sin² θ cos x", r"\sin^{2} \theta \, \cos x");
-    assert_written(power(sine(), number(-1, 1)), "(sin θ)⁻¹", r"\left(\sin \theta\right)^{-1}");
+    assert_written(Formula::Product(squares, vec![]), "sin² θ cos x", r"\sin^2 \theta \cos x");
+    assert_written(power(sine(), number(-1, 1)), "(sin θ)⁻¹", r"(\sin \theta)^{-1}");
     assert_written(Formula::Product(vec![sine()], vec![name("x")]), "sin(θ)/x", r"\frac{\sin \theta}{x}");
 }
 
 #[test]
 fn numbers_do_not_run_into_each_other() {
     let tower = power(number(2, 1), name("x"));
-    assert_written(Formula::Product(vec![number(3, 1), tower], vec![]), "3 · 2^x", r"3 \cdot 2^{x}");
-    assert_written(power(Formula::Root(name("x").into()), number(2, 1)), "(√x)²", r"\sqrt{x}^{2}");
-    assert_written(power(number(1, 2), name("x")), "(½)^x", r"\left(\tfrac{1}{2}\right)^{x}");
+    assert_written(Formula::Product(vec![number(3, 1), tower], vec![]), "3 · 2^x", r"3 \cdot 2^x");
+    assert_written(power(Formula::Root(name("x").into()), number(2, 1)), "(√x)²", r"\sqrt{x}^2");
+    assert_written(power(number(1, 2), name("x")), "(½)^x", r"(\tfrac{1}{2})^x");
 }
 
 #[test]
@@ -135,23 +135,23 @@ fn vectors_are_written_as_in_books() {
     assert_written(
         Formula::Product(vec![name("m"), call("dot", [v(), cross()])], vec![]),
         "m v·(Ω×r)",
-        r"m \, v \cdot \left(\Omega \times r\right)",
+        r"m v \cdot (\Omega \times r)",
     );
     let dots = vec![call("dot", [v(), v()]), call("dot", [r(), r()])];
-    assert_written(Formula::Product(dots, vec![]), "(v·v) r·r", r"\left(v \cdot v\right) \, r \cdot r");
+    assert_written(Formula::Product(dots, vec![]), "(v·v) r·r", r"(v \cdot v) r \cdot r");
     assert_written(
         Formula::Product(vec![name("x")], vec![call("dot", [v(), r()])]),
         "x/(v·r)",
         r"\frac{x}{v \cdot r}",
     );
-    assert_written(power(call("norm", [r()]), number(3, 1)), "|r|³", r"\left|r\right|^{3}");
+    assert_written(power(call("norm", [r()]), number(3, 1)), "|r|³", r"\lvert r \rvert^3");
     let entry = |whole: Formula| Formula::Entry(whole.into(), number(2, 1).into());
-    assert_written(entry(cross()), "(Ω×r)[2]", r"\left(\Omega \times r\right)_{2}");
-    assert_written(entry(call("Omega", [name("t")])), "Ω(t)[2]", r"\Omega\left(t\right)_{2}");
+    assert_written(entry(cross()), "(Ω×r)[2]", r"(\Omega \times r)_2");
+    assert_written(entry(call("Omega", [name("t")])), "Ω(t)[2]", r"\Omega(t)_2");
     assert_written(
         call("quat_rotate", [name("q"), v()]),
         "quat_rotate(q, v)",
-        r"\operatorname{quat\_rotate}\left(q, v\right)",
+        r"\operatorname{quat\_rotate}(q, v)",
     );
 }
 
@@ -159,23 +159,23 @@ fn vectors_are_written_as_in_books() {
 fn derivatives_of_unknown_functions_say_where_they_are_taken() {
     let derivative =
         |order| Formula::Derivative { function: name("Omega[0]").into(), order, argument: name("t").into() };
-    assert_written(derivative(1), "Ω[0]′(t)", r"\Omega_{0}'\left(t\right)");
-    assert_written(derivative(2), "Ω[0]″(t)".replace('″', "′′").as_str(), r"\Omega_{0}''\left(t\right)");
+    assert_written(derivative(1), "Ω[0]′(t)", r"\Omega_0'(t)");
+    assert_written(derivative(2), "Ω[0]″(t)".replace('″', "′′").as_str(), r"\Omega_0''(t)");
     let partial = |arguments| Formula::Partial {
         function: name("U").into(),
         by: vec![name("r[0]"), name("r[1]")],
         arguments,
     };
-    assert_written(partial(vec![]), "∂²U/∂r[0]∂r[1]", r"\frac{\partial^{2} U}{\partial r_{0}\partial r_{1}}");
+    assert_written(partial(vec![]), "∂²U/∂r[0]∂r[1]", r"\frac{\partial^2 U}{\partial r_0\partial r_1}");
     assert_written(
         partial(vec![Formula::Sum(vec![name("a"), name("b")])]),
         "(∂²U/∂r[0]∂r[1])(a + b)",
-        r"\left(\frac{\partial^{2} U}{\partial r_{0}\partial r_{1}}\right)\left(a + b\right)",
+        r"\left( \frac{\partial^2 U}{\partial r_0\partial r_1} \right)(a + b)",
     );
     assert_written(
         Formula::Product(vec![partial(vec![]), name("x")], vec![]),
         "(∂²U/∂r[0]∂r[1]) x",
-        r"\frac{\partial^{2} U}{\partial r_{0}\partial r_{1}} \, x",
+        r"\frac{\partial^2 U}{\partial r_0\partial r_1} x",
     );
 }
 
@@ -184,8 +184,8 @@ fn indices_and_letters_suit_the_notation() {
     let before = Formula::Sum(vec![name("i"), number(-1, 1)]);
     let element = Formula::Name { base: "vx".to_owned(), dots: 0, indices: vec![before] };
     assert_written(element, "vx[i − 1]", r"\mathit{vx}_{i - 1}");
-    assert_written(Formula::labelled("θ", 1), "θ\u{307}", r"\dot{\theta}");
-    assert_written(Formula::labelled("theta_1[2]", 2), "θ\u{308}_1[2]", r"\ddot{\theta}_{1, 2}");
+    assert_written(Formula::labelled("θ", 1), "θ\u{307}", r"\dot\theta");
+    assert_written(Formula::labelled("theta_1[2]", 2), "θ\u{308}₁[2]", r"\ddot\theta_{1, 2}");
     let sum = |to| Formula::SumOver {
         index: "i".to_owned(),
         from: number(0, 1).into(),

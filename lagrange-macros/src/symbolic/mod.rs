@@ -24,9 +24,12 @@ pub(crate) use elimination::{rank, solve};
 pub(crate) use evaluate::Approximate;
 pub(crate) use graph::{External, Fault, Function, Graph, Id, Node, Symbol};
 pub(crate) use random::{drawn, random};
-pub(crate) use rational::{Rational, to_f64};
+pub(crate) use rational::{Rational, plus, power, square_root, times, to_f64};
 pub(crate) use sample::Sample;
 pub(crate) use scaled::{Scaled, finite_decimal, parse_decimal};
+pub(crate) use simplify::Parity;
 #[cfg(test)]
 pub(crate) use tests::tree::apply;
+#[cfg(test)]
+pub(crate) use wave::superposition;
 pub(crate) use zero::Verdict;

@@ -13,7 +13,7 @@ pub(super) fn fits(x: &Rational) -> bool {
 }
 
 /// x + y; `None` where it does not fit.
-pub(super) fn plus(x: Rational, y: Rational) -> Option<Rational> {
+pub(crate) fn plus(x: Rational, y: Rational) -> Option<Rational> {
     let sum = match (x.is_integer(), y.is_integer()) {
         (true, true) => Rational::from_integer(x.numer().checked_add(y.numer())?),
         _ => x.checked_add(&y)?,
@@ -22,7 +22,7 @@ pub(super) fn plus(x: Rational, y: Rational) -> Option<Rational> {
 }
 
 /// x y; `None` where it does not fit.
-pub(super) fn times(x: Rational, y: Rational) -> Option<Rational> {
+pub(crate) fn times(x: Rational, y: Rational) -> Option<Rational> {
     let product = match (x.is_integer(), y.is_integer()) {
         (true, true) => Rational::from_integer(x.numer().checked_mul(y.numer())?),
         _ => x.checked_mul(&y)?,
@@ -31,7 +31,7 @@ pub(super) fn times(x: Rational, y: Rational) -> Option<Rational> {
 }
 
 /// `base` to an integer power; `None` where it does not fit, and for zero to a negative one.
-pub(super) fn power(base: Rational, exponent: i128) -> Option<Rational> {
+pub(crate) fn power(base: Rational, exponent: i128) -> Option<Rational> {
     if base.is_zero() && exponent != 0 {
         return (exponent > 0).then(Rational::zero);
     }
@@ -44,7 +44,7 @@ pub(super) fn power(base: Rational, exponent: i128) -> Option<Rational> {
 }
 
 /// The exact square root, if there is one.
-pub(super) fn square_root(x: Rational) -> Option<Rational> {
+pub(crate) fn square_root(x: Rational) -> Option<Rational> {
     let root = |n: i128| n.checked_isqrt().filter(|root| root * root == n);
     Some(Rational::new_raw(root(*x.numer())?, root(*x.denom())?))
 }

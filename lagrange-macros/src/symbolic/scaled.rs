@@ -8,7 +8,7 @@ use super::rational::{Rational, plus, power, times, to_f64};
 
 /// `fraction` · 10^`exponent`, within the range of `f64`. The exponent is 0 wherever the number is a fraction that fits;
 /// elsewhere the fraction is from 1 to 10 (but for fractions of very long numbers), so that equal numbers are equal.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(crate) struct Scaled {
     pub(crate) fraction: Rational,
     pub(crate) exponent: i32,

@@ -276,7 +276,7 @@ impl Graph {
         if let Some(value) = self.exact_value(function, x) {
             return value;
         }
-        let parity = parity(function);
+        let parity = function.parity();
         if parity != Parity::None && self.leads_negative(x) {
             let x = self.neg(x);
             let value = self.function(function, x);
@@ -330,19 +330,21 @@ impl Graph {
 /// Numbers in a product are from 10^−`RANGE` to 10^`RANGE`, well inside of the range of `f64`.
 const RANGE: f64 = 150.0;
 
+/// What a function makes of −x.
 #[derive(Clone, Copy, PartialEq)]
-enum Parity {
+pub(crate) enum Parity {
     Even,
     Odd,
     None,
 }
 
-fn parity(function: Function) -> Parity {
-    use Function as F;
-    match function {
-        F::Cos | F::Cosh | F::Abs => Parity::Even,
-        F::Sin | F::Tan | F::Asin | F::Atan | F::Sinh | F::Tanh => Parity::Odd,
-        F::Acos | F::Exp | F::Ln | F::Ramp | F::Step => Parity::None,
+impl Function {
+    pub(crate) fn parity(self) -> Parity {
+        match self {
+            Self::Cos | Self::Cosh | Self::Abs => Parity::Even,
+            Self::Sin | Self::Tan | Self::Asin | Self::Atan | Self::Sinh | Self::Tanh => Parity::Odd,
+            Self::Acos | Self::Exp | Self::Ln | Self::Ramp | Self::Step => Parity::None,
+        }
     }
 }
 

@@ -14,7 +14,7 @@ const WAVES: u64 = 6;
 
 /// The value of an unknown function, drawn at random, at arguments whose values are known:
 /// Σ_k a_k Π_j w_kj sin(w_k·x + φ_k + d π/2), where j runs over the d arguments differentiated by.
-pub(super) fn superposition(external: &External, arguments: &[Approximate], draw: u64) -> Approximate {
+pub(crate) fn superposition(external: &External, arguments: &[Approximate], draw: u64) -> Approximate {
     let quarters = external.derivatives.len() as f64 * FRAC_PI_2;
     (0..WAVES).fold(Approximate::exact(0.0), |sum, k| {
         let number = |kind: u64, argument: u64| {

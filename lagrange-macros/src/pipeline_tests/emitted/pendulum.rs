@@ -284,10 +284,20 @@ Lagrangian
   L = ½ m l² θ̇² + m g l cos θ
 
 Equations of motion
-  θ: m l² θ̈ = −m l g sin θ
+  θ: l θ̈ = −g sin θ
 
 Conserved
   E = ½ m l² θ̇² − m l g cos θ   (T + U)
+
+Momenta
+  p_θ = m l² θ̇
+
+Hamiltonian
+  H = p_θ²/(2 m l²) − m l g cos θ
+
+Hamilton's equations
+  θ̇ = p_θ/(m l²)
+  ṗ_θ = −m l g sin θ
 ```*/
     #[automatically_derived]
     #[allow(
@@ -301,10 +311,20 @@ Conserved
     impl Pendulum {
         /// The system and its equations of motion, to be read.
         const fn equations() -> __lagrange::Equations {
-            __lagrange::generated::equations(
-                "Pendulum\n\nLagrangian\n  L = ½ m l² θ\u{307}² + m g l cos θ\n\nEquations of motion\n  θ: m l² θ\u{308} = −m l g sin θ\n\nConserved\n  E = ½ m l² θ\u{307}² − m l g cos θ   (T + U)\n",
-                "\\begin{align*}\n  L &= \\tfrac{1}{2} \\, m \\, l^{2} \\, \\dot{\\theta}^{2} + m \\, g \\, l \\, \\cos \\theta \\\\\n  m \\, l^{2} \\, \\ddot{\\theta} &= -m \\, l \\, g \\, \\sin \\theta \\\\\n  E &= \\tfrac{1}{2} \\, m \\, l^{2} \\, \\dot{\\theta}^{2} - m \\, l \\, g \\, \\cos \\theta \\\\\n\\end{align*}\n",
-            )
+            __lagrange::generated::equations([
+                [
+                    "Pendulum\n\nLagrangian\n  L = ½ m l² θ\u{307}² + m g l cos θ\n\nEquations of motion\n  θ: l θ\u{308} = −g sin θ\n\nConserved\n  E = ½ m l² θ\u{307}² − m l g cos θ   (T + U)\n\nMomenta\n  p_θ = m l² θ\u{307}\n\nHamiltonian\n  H = p_θ²/(2 m l²) − m l g cos θ\n\nHamilton's equations\n  θ\u{307} = p_θ/(m l²)\n  ṗ_θ = −m l g sin θ\n",
+                    "\\begin{align}\n  L &= \\tfrac{1}{2} m l^2 \\dot\\theta^2 + m g l \\cos \\theta \\label{eq:Pendulum-L} \\\\\n  l \\ddot\\theta &= -g \\sin \\theta \\label{eq:Pendulum-theta} \\\\\n  E &= \\tfrac{1}{2} m l^2 \\dot\\theta^2 - m l g \\cos \\theta \\label{eq:Pendulum-E} \\\\\n  p_\\theta &= m l^2 \\dot\\theta \\label{eq:Pendulum-p_theta} \\\\\n  H &= \\frac{p_\\theta^2}{2 m l^2} - m l g \\cos \\theta \\label{eq:Pendulum-H} \\\\\n  \\dot\\theta &= \\frac{p_\\theta}{m l^2} \\label{eq:Pendulum-theta-dot} \\\\\n  \\dot p_\\theta &= -m l g \\sin \\theta \\label{eq:Pendulum-p-dot_theta}\n\\end{align}\n",
+                ],
+                [
+                    "Pendulum\n\nLagrangian\n  L = ½ m l² θ\u{307}² + m g l cos θ\n\nEquations of motion\n  θ: l θ\u{308} = −g sin θ\n\nConserved\n  E = ½ m l² θ\u{307}² − m l g cos θ   (T + U)\n\nMomenta\n  p_θ = m l² θ\u{307}\n\nHamiltonian\n  H = p_θ²/(2 m l²) − m l g cos θ\n\nHamilton's equations\n  θ\u{307} = p_θ/(m l²)\n  ṗ_θ = −m l g sin θ\n",
+                    "\\begin{align}\n  L &= \\tfrac{1}{2} m l^2 \\dot\\theta^2 + m g l \\cos \\theta \\label{eq:Pendulum-L} \\\\\n  l \\ddot\\theta &= -g \\sin \\theta \\label{eq:Pendulum-theta} \\\\\n  E &= \\tfrac{1}{2} m l^2 \\dot\\theta^2 - m l g \\cos \\theta \\label{eq:Pendulum-E} \\\\\n  p_\\theta &= m l^2 \\dot\\theta \\label{eq:Pendulum-p_theta} \\\\\n  H &= \\frac{p_\\theta^2}{2 m l^2} - m l g \\cos \\theta \\label{eq:Pendulum-H} \\\\\n  \\dot\\theta &= \\frac{p_\\theta}{m l^2} \\label{eq:Pendulum-theta-dot} \\\\\n  \\dot p_\\theta &= -m l g \\sin \\theta \\label{eq:Pendulum-p-dot_theta}\n\\end{align}\n",
+                ],
+                [
+                    "Pendulum\n\nLagrangian\n  L = ½ m l² θ\u{307}² + m g l cos θ\n\nEquations of motion\n  θ: l θ\u{308} = −g sin θ\n\nConserved\n  E = ½ m l² θ\u{307}² − m l g cos θ   (T + U)\n\nMomenta\n  p_θ = m l² θ\u{307}\n\nHamiltonian\n  H = p_θ²/(2 m l²) − m l g cos θ\n\nHamilton's equations\n  θ\u{307} = p_θ/(m l²)\n  ṗ_θ = −m l g sin θ\n",
+                    "\\begin{align}\n  L &= \\tfrac{1}{2} m l^2 \\dot\\theta^2 + m g l \\cos \\theta \\label{eq:Pendulum-L} \\\\\n  l \\ddot\\theta &= -g \\sin \\theta \\label{eq:Pendulum-theta} \\\\\n  E &= \\tfrac{1}{2} m l^2 \\dot\\theta^2 - m l g \\cos \\theta \\label{eq:Pendulum-E} \\\\\n  p_\\theta &= m l^2 \\dot\\theta \\label{eq:Pendulum-p_theta} \\\\\n  H &= \\frac{p_\\theta^2}{2 m l^2} - m l g \\cos \\theta \\label{eq:Pendulum-H} \\\\\n  \\dot\\theta &= \\frac{p_\\theta}{m l^2} \\label{eq:Pendulum-theta-dot} \\\\\n  \\dot p_\\theta &= -m l g \\sin \\theta \\label{eq:Pendulum-p-dot_theta}\n\\end{align}\n",
+                ],
+            ])
         }
     }
 };

@@ -2,9 +2,45 @@
 
 use super::POINT;
 
+/// A number, or a vector.
+pub(super) type Value = Vec<f64>;
+
+/// What the names in a text stand for.
+pub(super) trait Meanings {
+    fn name(&self, name: &str) -> Option<Value>;
+
+    /// f(…), f′(…), where the numbers of all arguments follow each other.
+    fn call(&self, function: &str, primes: usize, arguments: &[f64]) -> Value;
+
+    /// ∂f/∂x∂y, at its own arguments if none are given.
+    fn partial(&self, function: &str, by: &[String], arguments: Option<&[f64]>) -> Value;
+}
+
+/// The point where the formulas of these tests are evaluated.
+struct Point;
+
+impl Meanings for Point {
+    fn name(&self, name: &str) -> Option<Value> {
+        POINT.iter().find(|(known, _)| *known == name).map(|(_, value)| vec![*value])
+    }
+
+    fn call(&self, function: &str, _: usize, arguments: &[f64]) -> Value {
+        vec![apply(function, arguments)]
+    }
+
+    fn partial(&self, function: &str, _: &[String], _: Option<&[f64]>) -> Value {
+        panic!("no derivatives of {function} here")
+    }
+}
+
 /// The value of the text at [`POINT`].
 pub(super) fn read(text: &str) -> f64 {
-    let mut reader = Reader { text: text.chars().collect(), at: 0 };
+    number(read_with(text, &Point))
+}
+
+/// The value of the text.
+pub(super) fn read_with(text: &str, meanings: &dyn Meanings) -> Value {
+    let mut reader = Reader { text: text.chars().collect(), at: 0, meanings };
     let value = reader.sum();
     assert_eq!(reader.at, reader.text.len(), "«{text}» goes on after {}", reader.at);
     value
@@ -24,9 +60,40 @@ pub(super) fn apply(function: &str, arguments: &[f64]) -> f64 {
     }
 }
 
-struct Reader {
+#[track_caller]
+fn number(value: Value) -> f64 {
+    let [number] = value[..] else { panic!("a vector where a number is expected") };
+    number
+}
+
+fn plus(x: &Value, y: &Value, sign: f64) -> Value {
+    assert_eq!(x.len(), y.len(), "a sum of different shapes");
+    x.iter().zip(y).map(|(x, y)| x + sign * y).collect()
+}
+
+/// Of which one is a number.
+fn times(x: &Value, y: &Value) -> Value {
+    match (&x[..], &y[..]) {
+        ([x], y) => y.iter().map(|y| x * y).collect(),
+        (x, [y]) => x.iter().map(|x| x * y).collect(),
+        _ => panic!("vectors side by side"),
+    }
+}
+
+fn dot(x: &Value, y: &Value) -> Value {
+    assert_eq!(x.len(), y.len(), "a product of different shapes");
+    vec![x.iter().zip(y).map(|(x, y)| x * y).sum()]
+}
+
+fn cross(x: &Value, y: &Value) -> Value {
+    let ([a, b, c], [d, e, f]) = (&x[..], &y[..]) else { panic!("a cross product of other lengths") };
+    vec![b * f - c * e, c * d - a * f, a * e - b * d]
+}
+
+struct Reader<'a> {
     text: Vec<char>,
     at: usize,
+    meanings: &'a dyn Meanings,
 }
 
 const SUPERSCRIPTS: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹";
@@ -49,7 +116,11 @@ const FRACTIONS: [(char, f64); 15] = [
     ('⅞', 7.0 / 8.0),
 ];
 
-impl Reader {
+/// Functions that have the names of functions of mathematics.
+const KNOWN: [&str; 12] =
+    ["sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "ln", "abs"];
+
+impl Reader<'_> {
     fn take(&mut self, word: &str) -> bool {
         let found = self.text[self.at..].iter().copied().take(word.chars().count()).eq(word.chars());
         if found {
@@ -67,31 +138,36 @@ impl Reader {
         self.text.get(self.at).copied()
     }
 
-    fn sum(&mut self) -> f64 {
-        let mut total = if self.take("−") { -self.product() } else { self.product() };
+    fn sum(&mut self) -> Value {
+        let mut total = if self.take("−") { times(&vec![-1.0], &self.product()) } else { self.product() };
         loop {
             if self.take(" + ") {
-                total += self.product();
+                total = plus(&total, &self.product(), 1.0);
             } else if self.take(" − ") {
-                total -= self.product();
+                total = plus(&total, &self.product(), -1.0);
             } else {
                 return total;
             }
         }
     }
 
-    /// Factors side by side, a dot product as the last of them, or one fraction.
-    fn product(&mut self) -> f64 {
+    /// Factors side by side, a product of vectors as the last of them, or one fraction.
+    fn product(&mut self) -> Value {
         let mut value = self.power();
+        let mut before = vec![1.0];
         loop {
             if self.take(" · ") || (self.continues() && self.take(" ")) {
-                value *= self.power();
+                before = times(&before, &value);
+                value = self.power();
             } else if self.take("·") {
-                return value * self.power();
+                return times(&before, &dot(&value, &self.power()));
+            } else if self.take("×") {
+                return times(&before, &cross(&value, &self.power()));
             } else if self.take("/") {
-                return value / self.power();
+                let below = number(self.power());
+                return times(&times(&before, &value), &vec![below.recip()]);
             } else {
-                return value;
+                return times(&before, &value);
             }
         }
     }
@@ -101,13 +177,13 @@ impl Reader {
         self.peek() == Some(' ') && !matches!(self.text.get(self.at + 1), Some('+' | '−' | '·'))
     }
 
-    fn power(&mut self) -> f64 {
+    fn power(&mut self) -> Value {
         let base = self.atom();
         let value = match self.superscript() {
-            Some(exponent) => base.powf(exponent),
+            Some(exponent) => vec![number(base).powf(exponent)],
             None if self.take("^") => {
-                let exponent = self.atom();
-                base.powf(exponent)
+                let exponent = number(self.atom());
+                vec![number(base).powf(exponent)]
             }
             None => base,
         };
@@ -128,35 +204,96 @@ impl Reader {
         Some(if negative { -value } else { value })
     }
 
-    fn atom(&mut self) -> f64 {
+    fn atom(&mut self) -> Value {
         if self.take("(") {
+            if self.peek() == Some('∂') {
+                return self.partial_in_parentheses();
+            }
             let value = self.sum();
             self.expect(")");
             return value;
         }
         if self.take("√") {
-            return self.atom().sqrt();
+            return vec![number(self.atom()).sqrt()];
         }
         if self.take("|") {
             let value = self.sum();
             self.expect("|");
-            return value.abs();
+            return vec![value.iter().map(|x| x * x).sum::<f64>().sqrt()];
         }
         match self.peek() {
-            Some(first) if first.is_ascii_digit() => self.number(),
-            Some(first) if first.is_ascii_alphabetic() => self.word(),
+            Some('∂') => {
+                let (function, by) = self.partial();
+                self.meanings.partial(&function, &by, None)
+            }
+            Some('[') => self.list(),
+            Some(first) if first.is_ascii_digit() => vec![self.digits_or_fraction()],
+            Some(first) if first.is_alphabetic() => self.word(),
             Some(first) => {
                 self.at += 1;
-                FRACTIONS.into_iter().find(|(sign, _)| *sign == first).expect("a fraction").1
+                let known = FRACTIONS.into_iter().find(|(sign, _)| *sign == first);
+                vec![known.unwrap_or_else(|| panic!("«{first}» is no fraction")).1]
             }
             None => panic!("the text ends too early"),
         }
     }
 
-    /// `12`, `9.81`, `10/7`
-    fn number(&mut self) -> f64 {
+    /// `∂²f/∂x∂y` without a place: the function, and what it is differentiated by.
+    fn partial(&mut self) -> (String, Vec<String>) {
+        self.expect("∂");
+        self.superscript();
+        let function = self.name();
+        self.expect("/");
+        let mut by = Vec::new();
+        while self.take("∂") {
+            by.push(self.name());
+        }
+        (function, by)
+    }
+
+    /// `(∂f/∂x)(a, b)` after its first parenthesis, or a product that begins with a derivative.
+    fn partial_in_parentheses(&mut self) -> Value {
+        let start = self.at;
+        let (function, by) = self.partial();
+        if !self.take(")") {
+            self.at = start;
+            let value = self.sum();
+            self.expect(")");
+            return value;
+        }
+        let arguments = self.take("(").then(|| self.arguments());
+        self.meanings.partial(&function, &by, arguments.as_deref())
+    }
+
+    /// All numbers up to the closing parenthesis.
+    fn arguments(&mut self) -> Vec<f64> {
+        let mut arguments = self.sum();
+        while self.take(", ") {
+            arguments.extend(self.sum());
+        }
+        self.expect(")");
+        arguments
+    }
+
+    /// `[a, b, c]`
+    fn list(&mut self) -> Value {
+        self.expect("[");
+        let mut items = self.sum();
+        while self.take(", ") {
+            items.extend(self.sum());
+        }
+        self.expect("]");
+        items
+    }
+
+    /// `12`, `9.81`, `10/7`, `6.6×10⁻³⁴`
+    fn digits_or_fraction(&mut self) -> f64 {
         let above = self.digits();
         let digit_follows = self.text.get(self.at + 1).is_some_and(char::is_ascii_digit);
+        if digit_follows && self.take("×") {
+            let ten = self.digits();
+            return above * ten.powf(self.superscript().expect("an exponent"));
+        }
         if self.peek() == Some('/') && digit_follows {
             let before = self.at;
             self.at += 1;
@@ -179,34 +316,62 @@ impl Reader {
         digits.parse().expect("a number")
     }
 
+    /// A name with its indices and members.
+    fn name(&mut self) -> String {
+        let start = self.at;
+        let mut is_in_index = false;
+        while let Some(sign) = self.peek() {
+            let next = self.text.get(self.at + 1).copied().unwrap_or(' ');
+            let goes_on = match sign {
+                '[' => next.is_ascii_digit(),
+                ']' => is_in_index,
+                '.' => next.is_alphabetic(),
+                '\u{307}' | '\u{308}' | '_' => true,
+                sign => {
+                    sign.is_alphanumeric()
+                        && !SUPERSCRIPTS.contains(sign)
+                        && !FRACTIONS.iter().any(|(f, _)| *f == sign)
+                }
+            };
+            if !goes_on {
+                break;
+            }
+            is_in_index = is_in_index && sign != ']' || sign == '[';
+            self.at += 1;
+        }
+        self.text[start..self.at].iter().collect()
+    }
+
     /// A name, or a function with what it is taken of.
-    fn word(&mut self) -> f64 {
-        let rest = &self.text[self.at..];
-        let word: String = rest.iter().take_while(|c| c.is_ascii_alphanumeric()).collect();
-        self.at += word.len();
-        if let Some((_, value)) = POINT.iter().find(|(known, _)| *known == word) {
-            return *value;
+    fn word(&mut self) -> Value {
+        let word = self.name();
+        let is_called = matches!(self.peek(), Some('(' | '′'));
+        if let Some(value) = self.meanings.name(&word).filter(|_| !is_called) {
+            return value;
         }
         let exponent = self.superscript();
-        let mut arguments = Vec::new();
-        if self.take(" ") {
+        let mut primes = 0;
+        while self.take("′") {
+            primes += 1;
+        }
+        let arguments = if KNOWN.contains(&&*word) && self.take(" ") {
             // After a bare argument nothing may follow that could belong to it.
-            arguments.push(self.word());
+            let argument = self.word();
             let next: String = self.text[self.at..].iter().take(4).collect();
-            let free = ["", " + ", " − ", " sin", " exp", ")", "|", ", "];
+            let free = ["", " + ", " − ", " sin", " cos", " tan", " exp", ")", "|", ", ", "]"];
             let ends =
                 free.iter().any(|end| if end.is_empty() { next.is_empty() } else { next.starts_with(end) });
             assert!(ends, "«{word} …» before «{next}»");
+            argument
         } else {
-            self.expect("(");
-            arguments.push(self.sum());
-            while self.take(", ") {
-                arguments.push(self.sum());
-            }
-            self.expect(")");
+            assert!(self.take("("), "what is «{word}»?");
+            self.arguments()
+        };
+        let value = self.meanings.call(&word, primes, &arguments);
+        match exponent {
+            Some(exponent) => vec![number(value).powf(exponent)],
+            None => value,
         }
-        let value = apply(&word, &arguments);
-        exponent.map_or(value, |exponent| value.powf(exponent))
     }
 }
 

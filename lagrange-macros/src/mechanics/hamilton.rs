@@ -1,0 +1,142 @@
+//! The Hamiltonian and Hamilton's equations in symbols, to be read: they are computed with by the Legendre transform of
+//! numbers.
+
+use super::equations::Equations;
+use super::euler_lagrange::generalized_forces;
+use super::evidence::vanishes;
+use crate::resolve::Problem;
+use crate::symbolic::{Graph, Id, Rational};
+use crate::variables::{Variable, nodes, symbols};
+
+/// H(t, q, p) and its derivatives.
+#[derive(Debug)]
+pub(crate) struct Hamilton {
+    pub(crate) hamiltonian: Id,
+    /// q̇ = ∂H/∂p
+    pub(crate) velocities: Vec<Id>,
+    /// ṗ = −∂H/∂q + Q + Fᵀλ
+    pub(crate) rates: Vec<Id>,
+    /// Of M: H is the shorter for having them simplified.
+    pub(crate) entries: Vec<Id>,
+}
+
+/// Of more coordinates nobody would read it.
+const COORDINATES: usize = 8;
+
+/// M is inverted by Cramer's rule, block by block: a block of four has inverses of hundreds of terms.
+const BLOCK: usize = 3;
+
+impl Hamilton {
+    /// H = ½ (p − b)ᵀM⁻¹(p − b) − L₀, where p = M q̇ + b and L₀ is L at rest; `None` where that is too long, or M is singular
+    /// or depends on velocities.
+    pub(super) fn derive(graph: &mut Graph, problem: &Problem, equations: &Equations) -> Option<Self> {
+        let n = problem.coordinates.len();
+        if n > COORDINATES || !equations.momenta_are_linear {
+            return None;
+        }
+        let at_rest = nodes(graph, n, Variable::Velocity);
+        let momenta = nodes(graph, n, Variable::Momentum);
+        let moving: Vec<Id> = (0..n)
+            .map(|i| {
+                let rest = graph.without(equations.momentum[i], &at_rest);
+                graph.sub(momenta[i], rest)
+            })
+            .collect();
+        let mass: Vec<Vec<Id>> = equations
+            .mass
+            .iter()
+            .map(|row| row.iter().map(|&entry| graph.defined(entry)).collect())
+            .collect();
+        let mut velocities = vec![Id::ZERO; n];
+        for block in blocks(&mass) {
+            let inverse = inverse(graph, problem, &mass, &block)?;
+            let part: Vec<Id> = block.iter().map(|&i| moving[i]).collect();
+            for (&i, row) in block.iter().zip(&inverse) {
+                velocities[i] = graph.dot(row, &part);
+            }
+        }
+        let twice = graph.dot(&moving, &velocities);
+        let potential = graph.without(problem.lagrangian, &at_rest);
+        let hamiltonian = graph.sum([(twice, Rational::new(1, 2)), (potential, -Rational::from_integer(1))]);
+        let rates = rates(graph, problem, equations, hamiltonian, &velocities);
+        let entries = mass.concat();
+        graph.take_fault().is_none().then_some(Self { hamiltonian, velocities, rates, entries })
+    }
+}
+
+fn rates(
+    graph: &mut Graph,
+    problem: &Problem,
+    equations: &Equations,
+    hamiltonian: Id,
+    velocities: &[Id],
+) -> Vec<Id> {
+    let slopes = graph.gradient(hamiltonian, &symbols(velocities.len(), Variable::Coordinate));
+    let forces = generalized_forces(graph, problem);
+    let rate = |(i, (slope, force)): (usize, (Id, Id))| {
+        let force = graph.substituted(force, |symbol| match Variable::of(symbol) {
+            Variable::Velocity(i) => Some(velocities[i]),
+            _ => None,
+        });
+        let applied = graph.sub(force, slope);
+        graph.add(applied, equations.constraint_force.get(i).copied().unwrap_or(Id::ZERO))
+    };
+    slopes.into_iter().zip(forces).enumerate().map(rate).collect()
+}
+
+/// The coordinates that entries beside the diagonal tie together.
+fn blocks(mass: &[Vec<Id>]) -> Vec<Vec<usize>> {
+    let mut blocks: Vec<Vec<usize>> = Vec::new();
+    for (i, row) in mass.iter().enumerate() {
+        let is_tied = |block: &Vec<usize>| block.iter().any(|&j| row[j] != Id::ZERO);
+        let (tied, mut others): (Vec<_>, Vec<_>) = blocks.into_iter().partition(is_tied);
+        let mut block = tied.concat();
+        block.push(i);
+        others.push(block);
+        blocks = others;
+    }
+    blocks
+}
+
+/// The inverse of a block of M: adjugate over determinant.
+fn inverse(graph: &mut Graph, problem: &Problem, mass: &[Vec<Id>], block: &[usize]) -> Option<Vec<Vec<Id>>> {
+    if block.len() > BLOCK {
+        return None;
+    }
+    let matrix: Vec<Vec<Id>> = block.iter().map(|&i| block.iter().map(|&j| mass[i][j]).collect()).collect();
+    let whole = determinant(graph, &matrix);
+    if vanishes(graph, problem, whole).is_some() {
+        return None;
+    }
+    let indices = 0..block.len();
+    let rows = indices.clone().map(|i| {
+        let entries = indices.clone().map(|j| {
+            let minor = determinant(graph, &without(&matrix, j, i));
+            let cofactor = if (i + j) % 2 == 0 { minor } else { graph.neg(minor) };
+            graph.div(cofactor, whole)
+        });
+        entries.collect()
+    });
+    Some(rows.collect())
+}
+
+fn without(matrix: &[Vec<Id>], row: usize, column: usize) -> Vec<Vec<Id>> {
+    let kept = |of: usize| move |&(i, _): &(usize, &Id)| i != of;
+    let rows = matrix.iter().enumerate().filter(|&(i, _)| i != row);
+    rows.map(|(_, entries)| entries.iter().enumerate().filter(kept(column)).map(|(_, &id)| id).collect())
+        .collect()
+}
+
+/// By the entries of the first row.
+fn determinant(graph: &mut Graph, matrix: &[Vec<Id>]) -> Id {
+    let Some(first) = matrix.first() else { return Id::ONE };
+    let terms: Vec<(Id, Rational)> = first
+        .iter()
+        .enumerate()
+        .map(|(j, &entry)| {
+            let minor = determinant(graph, &without(matrix, 0, j));
+            (graph.mul(entry, minor), Rational::from_integer(if j % 2 == 0 { 1 } else { -1 }))
+        })
+        .collect();
+    graph.sum(terms)
+}

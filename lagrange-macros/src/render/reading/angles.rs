@@ -1,0 +1,142 @@
+//! Products of sines and cosines put together: sin² + cos², sums and differences of angles, double angles.
+
+use num_traits::{One, Signed};
+
+use super::atoms::{Atoms, Meaning};
+use super::polynomial::{Atom, Monomial, Polynomial};
+use crate::symbolic::{Function, Rational};
+
+/// A sine or cosine.
+struct Wave {
+    atom: Atom,
+    is_sine: bool,
+    /// The cosine of a sine, and the sine of a cosine.
+    other: Atom,
+    angle: Polynomial,
+    is_squared: bool,
+}
+
+/// Two terms, and the one that they are together.
+struct Merger {
+    parts: [Monomial; 2],
+    factors: Polynomial,
+}
+
+type Rule = fn(&mut Atoms, &Polynomial, &Monomial, Rational, [&Wave; 2]) -> Option<Merger>;
+
+/// The first that applies anywhere goes first, and each takes a term away.
+const RULES: [Rule; 3] = [pythagoras, complement, addition];
+
+impl Atoms {
+    /// The same with terms merged as far as that goes.
+    pub(super) fn merged(&mut self, polynomial: Polynomial) -> Option<Polynomial> {
+        let mut merged = polynomial;
+        while let Some(Merger { parts, factors }) = RULES.iter().find_map(|rule| self.merger(&merged, *rule))
+        {
+            let mut rest = merged;
+            parts.iter().for_each(|part| rest.remove(part));
+            rest.add(&factors, Rational::one())?;
+            merged = rest;
+        }
+        Some(merged)
+    }
+
+    fn merger(&mut self, polynomial: &Polynomial, rule: Rule) -> Option<Merger> {
+        for (monomial, &c) in polynomial.terms() {
+            let waves = self.waves(monomial);
+            for (i, first) in waves.iter().enumerate() {
+                for second in &waves[i..] {
+                    let found = rule(self, polynomial, monomial, c, [first, second]);
+                    if found.is_some() {
+                        return found;
+                    }
+                }
+            }
+        }
+        None
+    }
+
+    fn waves(&mut self, monomial: &Monomial) -> Vec<Wave> {
+        let mut waves = Vec::new();
+        for &(atom, exponent) in monomial.factors() {
+            let Meaning::Function(function @ (Function::Sin | Function::Cos), angle) = self.meaning(atom)
+            else {
+                continue;
+            };
+            if exponent >= Rational::one() {
+                let (is_sine, angle) = (*function == Function::Sin, angle.clone());
+                let other = if is_sine { Function::Cos } else { Function::Sin };
+                let other = self.atom(Meaning::Function(other, angle.clone()));
+                let is_squared = exponent >= Rational::from_integer(2);
+                waves.push(Wave { atom, is_sine, other, angle, is_squared });
+            }
+        }
+        waves
+    }
+}
+
+fn square(atom: Atom) -> Monomial {
+    Monomial::of(atom, Rational::from_integer(2))
+}
+
+/// c m sin² a + c m cos² a = c m
+fn pythagoras(
+    _: &mut Atoms,
+    all: &Polynomial,
+    one: &Monomial,
+    c: Rational,
+    [a, b]: [&Wave; 2],
+) -> Option<Merger> {
+    if a.atom != b.atom || !a.is_squared {
+        return None;
+    }
+    let rest = one.over(&square(a.atom))?;
+    let two = rest.times(&square(a.other))?;
+    let is_it = all.coefficient(&two) == Some(c);
+    is_it.then(|| Merger { parts: [one.clone(), two], factors: Polynomial::term(rest, c) })
+}
+
+/// c m − c m sin² a = c m cos² a
+fn complement(
+    _: &mut Atoms,
+    all: &Polynomial,
+    one: &Monomial,
+    c: Rational,
+    [a, b]: [&Wave; 2],
+) -> Option<Merger> {
+    if a.atom != b.atom || !a.is_squared {
+        return None;
+    }
+    let rest = one.over(&square(a.atom))?;
+    let is_it = all.coefficient(&rest) == Some(-c);
+    let factors = Polynomial::term(rest.times(&square(a.other))?, -c);
+    is_it.then(|| Merger { parts: [one.clone(), rest], factors })
+}
+
+/// cos a cos b ± sin a sin b = cos(a ∓ b), sin a cos b ± cos a sin b = sin(a ± b)
+fn addition(
+    atoms: &mut Atoms,
+    all: &Polynomial,
+    one: &Monomial,
+    c: Rational,
+    [a, b]: [&Wave; 2],
+) -> Option<Merger> {
+    let is_square = a.atom == b.atom;
+    if a.is_sine && b.is_sine || is_square && !a.is_squared || !is_square && a.atom == b.other {
+        return None;
+    }
+    let (a, b) = if b.is_sine { (b, a) } else { (a, b) };
+    let rest =
+        one.over(&Monomial::of(a.atom, Rational::one()))?.over(&Monomial::of(b.atom, Rational::one()))?;
+    let others = Monomial::of(a.other, Rational::one()).times(&Monomial::of(b.other, Rational::one()))?;
+    let two = rest.times(&others)?;
+    let ratio = all.coefficient(&two)? / c;
+    if !ratio.abs().is_one() {
+        return None;
+    }
+    let (function, sign) = if a.is_sine { (Function::Sin, ratio) } else { (Function::Cos, -ratio) };
+    let mut angle = a.angle.clone();
+    angle.add(&b.angle, sign)?;
+    let factors = atoms.function(function, &angle).scaled(&rest, c)?;
+    Some(Merger { parts: [one.clone(), two], factors })
+}

@@ -1,0 +1,201 @@
+//! What polynomials are made of: every atom, with what it stands for.
+
+use std::collections::BTreeSet;
+
+use indexmap::IndexSet;
+use num_traits::{One, Signed};
+use rustc_hash::{FxBuildHasher, FxHashMap};
+
+use super::super::formula::Formula;
+use super::polynomial::{Atom, Monomial, Polynomial};
+use crate::symbolic::{External, Function, Id, Parity, Rational, power, square_root};
+use crate::variables::Variable;
+
+/// What an atom stands for. Two that are written alike are one atom.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+pub(super) enum Meaning {
+    Variable(Variable),
+    Pi,
+    /// A number, of which a root is taken or that is too long for a coefficient.
+    Number(Rational),
+    /// A definition that keeps its name.
+    Definition(Id),
+    Function(Function, Polynomial),
+    Atan2(Polynomial, Polynomial),
+    /// A power whose exponent is no number.
+    Power(Polynomial, Polynomial),
+    /// A sum to a power that cannot be multiplied out.
+    Sum(Polynomial),
+    /// A function of which nothing is known, with its arguments.
+    External(External, Vec<Polynomial>),
+    /// A vector, or a product of vectors, as it is written; and the variable that its first component is.
+    Vector(Formula, Option<Variable>),
+}
+
+#[derive(Default)]
+pub(super) struct Atoms {
+    meanings: IndexSet<Meaning, FxBuildHasher>,
+    /// How many names and numbers each takes written out.
+    sizes: Vec<u64>,
+    /// The node that a sum was.
+    sources: FxHashMap<Atom, Id>,
+}
+
+impl Atoms {
+    pub(super) fn atom(&mut self, meaning: Meaning) -> Atom {
+        let (index, is_new) = self.meanings.insert_full(meaning);
+        if is_new {
+            let size = match &self.meanings[index] {
+                Meaning::Function(_, x) | Meaning::Sum(x) => self.size(x),
+                Meaning::Atan2(x, y) | Meaning::Power(x, y) => self.size(x).saturating_add(self.size(y)),
+                Meaning::External(_, arguments) => {
+                    arguments.iter().fold(0, |size: u64, x| size.saturating_add(self.size(x)))
+                }
+                _ => 0,
+            };
+            self.sizes.push(size.saturating_add(1));
+        }
+        Atom(index as u32)
+    }
+
+    /// How many names and numbers a polynomial takes written out: what is shared is written again.
+    pub(super) fn size(&self, polynomial: &Polynomial) -> u64 {
+        let atoms = polynomial.terms().flat_map(|(monomial, _)| monomial.factors());
+        atoms
+            .fold(polynomial.len() as u64, |size, (atom, _)| size.saturating_add(self.sizes[atom.0 as usize]))
+    }
+
+    pub(super) fn meaning(&self, atom: Atom) -> &Meaning {
+        &self.meanings[atom.0 as usize]
+    }
+
+    pub(super) fn source(&self, atom: Atom) -> Option<Id> {
+        self.sources.get(&atom).copied()
+    }
+
+    /// `function` of a polynomial, the sign taken out of odd and even functions.
+    pub(super) fn function(&mut self, function: Function, x: &Polynomial) -> Polynomial {
+        let parity = function.parity();
+        match function {
+            Function::Cos if x.is_zero() => return Polynomial::number(Rational::one()),
+            _ if parity == Parity::Odd && x.is_zero() => return Polynomial::default(),
+            _ => {}
+        }
+        let is_turned = parity != Parity::None && x.leads_negative();
+        let x = if is_turned { x.negated() } else { x.clone() };
+        let value = Polynomial::atom(self.atom(Meaning::Function(function, x)));
+        if is_turned && parity == Parity::Odd { value.negated() } else { value }
+    }
+
+    /// A power of what stands at `source`; `None` of zero, or where numbers get too long.
+    pub(super) fn power(&mut self, base: &Polynomial, exponent: Rational, source: Id) -> Option<Polynomial> {
+        if exponent.is_integer() && exponent.is_positive() {
+            return self.natural_power(base, exponent.to_integer());
+        }
+        let one = Rational::one();
+        match base.single() {
+            _ if base.is_zero() => return None,
+            Some((monomial, c)) if exponent.is_integer() => {
+                return Some(Polynomial::term(monomial.power(exponent)?, power(c, exponent.to_integer())?));
+            }
+            Some((monomial, c)) if monomial.is_one() => {
+                let number = self.atom(Meaning::Number(c));
+                return Some(Polynomial::term(Monomial::of(number, exponent), one));
+            }
+            Some((monomial, c))
+                if c.is_one() && matches!(monomial.factors(), [(_, inner)] if inner.is_one()) =>
+            {
+                return Some(Polynomial::term(monomial.power(exponent)?, one));
+            }
+            _ => {}
+        }
+        let merged = self.merged(base.clone())?;
+        if merged != *base {
+            return self.power(&merged, exponent, source);
+        }
+        let (number, monomial) = self.taken_out(base, exponent);
+        let rest = base.scaled(&monomial.power(-one)?, number.recip())?;
+        let sum = self.atom(Meaning::Sum(rest));
+        if number.is_one() && monomial.is_one() {
+            self.sources.entry(sum).or_insert(source);
+        }
+        let number = match exponent.is_integer() {
+            true => power(number, exponent.to_integer())?,
+            false => power(square_root(number)?, *exponent.numer())?,
+        };
+        Some(Polynomial::term(monomial.power(exponent)?.times(&Monomial::of(sum, exponent))?, number))
+    }
+
+    /// The factor of a sum that its power is taken of by itself: of roots a square, as what is not known to be
+    /// positive stays.
+    fn taken_out(&self, base: &Polynomial, exponent: Rational) -> (Rational, Monomial) {
+        let (number, monomial) = base.content();
+        if exponent.is_integer() {
+            return (if base.leads_negative() { -number } else { number }, monomial);
+        }
+        let is_square = *exponent.denom() == 2 && square_root(number).is_some();
+        (if is_square { number } else { Rational::one() }, Monomial::default())
+    }
+
+    pub(super) fn power_of_ten(&mut self, exponent: Rational) -> Polynomial {
+        let ten = self.atom(Meaning::Number(Rational::from_integer(10)));
+        Polynomial::term(Monomial::of(ten, exponent), Rational::one())
+    }
+
+    fn natural_power(&mut self, base: &Polynomial, exponent: i128) -> Option<Polynomial> {
+        let mut power = base.clone();
+        for _ in 1..exponent {
+            power = self.product(&power, base)?;
+        }
+        Some(power)
+    }
+
+    /// The product, where it has no more than [`LIMIT`] terms. Of sums in the result no power is natural.
+    pub(super) fn product(&mut self, x: &Polynomial, y: &Polynomial) -> Option<Polynomial> {
+        if x.len().saturating_mul(y.len()) > LIMIT {
+            return None;
+        }
+        let product = x.times(y)?;
+        let is_natural = |&(atom, exponent): &(Atom, Rational)| {
+            let is_sum = matches!(self.meaning(atom), Meaning::Sum(_));
+            is_sum && exponent.is_integer() && exponent.is_positive()
+        };
+        let found = product.terms().find_map(|(monomial, &c)| {
+            let factor = *monomial.factors().iter().find(|factor| is_natural(factor))?;
+            Some((monomial.clone(), c, factor))
+        });
+        let Some((monomial, c, (atom, exponent))) = found else { return Some(product) };
+        let Meaning::Sum(sum) = self.meaning(atom).clone() else { return None };
+        let mut rest = product;
+        rest.remove(&monomial);
+        let others = Polynomial::term(monomial.filtered(|other| other != atom), c);
+        let power = self.natural_power(&sum, exponent.to_integer())?;
+        rest.add(&self.product(&power, &others)?, Rational::one())?;
+        self.product(&rest, &Polynomial::number(Rational::one()))
+    }
+
+    /// Without sums that are divided by themselves: x²/(x² + y²) + y²/(x² + y²) = 1.
+    pub(super) fn cancelled(&mut self, polynomial: Polynomial) -> Option<Polynomial> {
+        let factors = polynomial.terms().flat_map(|(monomial, _)| monomial.factors().to_vec());
+        let divisors: BTreeSet<(Atom, Rational)> =
+            factors.filter(|(_, exponent)| exponent.is_negative()).collect();
+        for (atom, exponent) in divisors {
+            let Meaning::Sum(sum) = self.meaning(atom).clone() else { continue };
+            let members = polynomial.terms().filter(|(monomial, _)| monomial.exponent(atom) == exponent);
+            let members: Polynomial = members.map(|(monomial, &c)| (monomial.clone(), c)).collect();
+            let above = members.scaled(&Monomial::of(atom, -exponent), Rational::one())?;
+            if let Some(quotient) = self.merged(above)?.divided(&sum) {
+                let mut rest = polynomial;
+                rest.add(&members, -Rational::one())?;
+                let one = Polynomial::term(Monomial::of(atom, exponent), Rational::one());
+                let power = one.scaled(&Monomial::of(atom, Rational::one()), Rational::one())?;
+                rest.add(&self.product(&quotient, &power)?, Rational::one())?;
+                return self.cancelled(rest);
+            }
+        }
+        Some(polynomial)
+    }
+}
+
+/// The most terms that a product may take to multiply out.
+pub(super) const LIMIT: usize = 1000;

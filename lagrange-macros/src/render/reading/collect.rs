@@ -1,0 +1,353 @@
+//! Polynomials as formulas: what many terms have in common is taken out of them where that is shorter.
+
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+
+use num_traits::{One, Signed};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::super::Page;
+use super::super::derived::{function, power};
+use super::super::formula::Formula;
+use super::atoms::Meaning;
+use super::expand::Expansion;
+use super::length::length;
+use super::polynomial::{Atom, Monomial, Polynomial, common};
+use crate::symbolic::{Id, Rational, Scaled};
+use crate::variables::Variable;
+
+/// Writes polynomials down.
+pub(super) struct Collector<'a, 'p> {
+    pub(super) page: &'a Page<'p>,
+    pub(super) expansion: &'a Expansion<'a>,
+    /// The definitions that neither the time nor the state changes.
+    pub(super) constants: &'a FxHashSet<Id>,
+    pub(super) written: RefCell<FxHashMap<Atom, Formula>>,
+}
+
+/// number · monomial · quotient, which are these terms of a sum.
+struct Group {
+    members: Vec<Monomial>,
+    number: Rational,
+    monomial: Monomial,
+    quotient: Polynomial,
+    /// How many signs it takes less than they do.
+    saving: isize,
+    /// Of number and monomial.
+    size: isize,
+}
+
+impl Group {
+    /// Of two that save as much, the longer factor.
+    fn worth(&self) -> (isize, isize) {
+        (self.saving, self.size)
+    }
+}
+
+/// The place of a term in a sum: multipliers last, minus signs behind plus signs, fast motion first.
+type Place = (bool, bool, Rational, Monomial);
+
+impl Collector<'_, '_> {
+    pub(super) fn sum(&self, polynomial: &Polynomial) -> Formula {
+        let mut parts: Vec<(Place, Formula)> = Vec::new();
+        let mut rest = polynomial.clone();
+        while let Some(group) = self.group(&rest) {
+            group.members.iter().for_each(|member| rest.remove(member));
+            let place = self.place(&group.members[0], group.number);
+            parts.push((place, self.product(group.number, &group.monomial, Some(&group.quotient))));
+        }
+        let terms =
+            rest.terms().map(|(monomial, &c)| (self.place(monomial, c), self.product(c, monomial, None)));
+        parts.extend(terms);
+        parts.sort_by(|(one, _), (two, _)| one.cmp(two));
+        Formula::sum(parts.into_iter().map(|(_, part)| part).collect())
+    }
+
+    fn place(&self, monomial: &Monomial, number: Rational) -> Place {
+        let degree = self.degree(monomial, Self::is_velocity);
+        let has_multiplier = monomial.factors().iter().any(|(atom, _)| self.is_multiplier(*atom));
+        (has_multiplier, number.is_negative() && !has_multiplier, -degree, monomial.clone())
+    }
+
+    pub(super) fn variable(&self, atom: Atom) -> Option<Variable> {
+        match self.expansion.atoms.meaning(atom) {
+            Meaning::Variable(variable) => Some(*variable),
+            Meaning::Vector(_, variable) => *variable,
+            _ => None,
+        }
+    }
+
+    fn is_velocity(&self, atom: Atom) -> bool {
+        matches!(self.variable(atom), Some(Variable::Velocity(_) | Variable::Momentum(_)))
+    }
+
+    fn is_multiplier(&self, atom: Atom) -> bool {
+        matches!(self.variable(atom), Some(Variable::Multiplier(_)))
+    }
+
+    pub(super) fn acceleration(&self, atom: Atom) -> Option<usize> {
+        match self.variable(atom) {
+            Some(Variable::Acceleration(i)) => Some(i),
+            _ => None,
+        }
+    }
+
+    /// Whether neither the time nor the state is in it.
+    pub(super) fn is_constant(&self, atom: Atom) -> bool {
+        let all = |polynomial: &Polynomial| self.are_constant(polynomial);
+        match self.expansion.atoms.meaning(atom) {
+            Meaning::Variable(variable) => matches!(variable, Variable::Parameter(_)),
+            Meaning::Pi | Meaning::Number(_) => true,
+            Meaning::Definition(id) => self.constants.contains(id),
+            Meaning::Function(_, x) | Meaning::Sum(x) => all(x),
+            Meaning::Atan2(x, y) | Meaning::Power(x, y) => all(x) && all(y),
+            Meaning::External(_, arguments) => arguments.iter().all(all),
+            Meaning::Vector(_, of) => matches!(of, Some(Variable::Parameter(_))),
+        }
+    }
+
+    fn are_constant(&self, polynomial: &Polynomial) -> bool {
+        polynomial
+            .terms()
+            .all(|(monomial, _)| monomial.factors().iter().all(|(atom, _)| self.is_constant(*atom)))
+    }
+
+    fn moving(&self, monomial: &Monomial) -> Monomial {
+        monomial.filtered(|atom| !self.is_constant(atom))
+    }
+
+    /// The terms that it saves most to write as one product.
+    fn group(&self, polynomial: &Polynomial) -> Option<Group> {
+        let monomials: Vec<&Monomial> = polynomial.terms().map(|(monomial, _)| monomial).collect();
+        if monomials.len() < 2 || monomials.len() > LONG {
+            return None;
+        }
+        let alike: BTreeSet<Monomial> = monomials.iter().map(|monomial| self.moving(monomial)).collect();
+        let with_equal = alike.iter().filter(|moving| !moving.is_one()).map(|moving| {
+            monomials.iter().copied().filter(|monomial| self.moving(monomial) == *moving).collect()
+        });
+        let pairs = monomials.iter().enumerate();
+        let shared: BTreeSet<Monomial> =
+            pairs.flat_map(|(i, one)| monomials[i + 1..].iter().map(|two| one.shared(two))).collect();
+        let with_shared = shared.iter().map(|shared| {
+            monomials.iter().copied().filter(|monomial| monomial.shared(shared) == *shared).collect()
+        });
+        let groups = with_equal.chain(with_shared).filter_map(|members| self.candidate(polynomial, members));
+        groups.reduce(|best, next| if next.worth() > best.worth() { next } else { best })
+    }
+
+    /// The members as a product, if that is worth it.
+    fn candidate(&self, polynomial: &Polynomial, members: Vec<&Monomial>) -> Option<Group> {
+        if members.len() < 2 {
+            return None;
+        }
+        let chosen: Polynomial =
+            members.iter().filter_map(|&m| Some((m.clone(), polynomial.coefficient(m)?))).collect();
+        let (number, monomial) = chosen.content();
+        let is_negative = chosen.terms().all(|(_, c)| c.is_negative());
+        let number = if is_negative { -number } else { number };
+        let quotient = chosen.scaled(&monomial.power(-Rational::one())?, number.recip())?;
+        let (monomial, quotient) = self.over_common(monomial, quotient)?;
+        let size = self.size(&monomial) + isize::from(!number.abs().is_one());
+        let (parentheses, least) = self.parentheses(&monomial, &quotient);
+        let saving = (members.len() as isize - 1) * size - parentheses;
+        let members = members.into_iter().cloned().collect();
+        (saving >= least).then_some(Group { members, number, monomial, quotient, saving, size })
+    }
+
+    /// Constants with one denominator: (a m + b)/m for a + b/m.
+    fn over_common(
+        &self,
+        mut monomial: Monomial,
+        mut quotient: Polynomial,
+    ) -> Option<(Monomial, Polynomial)> {
+        if !self.are_constant(&quotient) {
+            return Some((monomial, quotient));
+        }
+        let factors: Vec<(Atom, Rational)> =
+            quotient.terms().flat_map(|(monomial, _)| monomial.factors().to_vec()).collect();
+        let below: BTreeSet<Atom> =
+            factors.iter().filter(|(_, exponent)| exponent.is_negative()).map(|&(atom, _)| atom).collect();
+        for atom in below {
+            let least = quotient.terms().map(|(monomial, _)| monomial.exponent(atom)).min()?;
+            monomial = monomial.times(&Monomial::of(atom, least))?;
+            quotient = quotient.scaled(&Monomial::of(atom, -least), Rational::one())?;
+        }
+        Some((monomial, quotient))
+    }
+
+    /// What parentheses around a quotient cost, and how much must be saved: those around constants and differences are easier to
+    /// read than others, fractions in fractions harder, and factors that move are not to be hidden.
+    fn parentheses(&self, monomial: &Monomial, quotient: &Polynomial) -> (isize, isize) {
+        let has_fraction =
+            |(monomial, _): (&Monomial, _)| monomial.factors().iter().any(|(_, e)| e.is_negative());
+        match (self.are_constant(quotient), self.moving(monomial).is_one()) {
+            _ if monomial.is_one() => (2, 1),
+            (true, _) => (1, 0),
+            _ if quotient.len() == 2 && quotient.terms().any(has_fraction) => (5, 0),
+            (_, true) if self.are_differences(quotient) => (1, 0),
+            (_, true) if self.are_alike(quotient) => (2, 0),
+            (_, true) => (4, 1),
+            (_, false) if self.is_of_coordinates(quotient) => (2, 1),
+            (_, false) => (2, 3),
+        }
+    }
+
+    /// Whether its terms are of one degree in the velocities.
+    fn are_alike(&self, quotient: &Polynomial) -> bool {
+        let mut degrees = quotient.terms().map(|(monomial, _)| self.degree(monomial, Self::is_velocity));
+        let first = degrees.next();
+        degrees.all(|degree| Some(degree) == first)
+    }
+
+    /// Whether nothing but coordinates moves in it.
+    fn is_of_coordinates(&self, quotient: &Polynomial) -> bool {
+        let is_it =
+            |atom| matches!(self.variable(atom), Some(Variable::Coordinate(_))) || self.is_constant(atom);
+        quotient.terms().all(|(monomial, _)| monomial.factors().iter().all(|&(atom, _)| is_it(atom)))
+    }
+
+    /// Whether it is made of coordinates, or of their squares, without numbers before them: x₁ − x₂.
+    fn are_differences(&self, quotient: &Polynomial) -> bool {
+        let is_coordinate =
+            |collector: &Self, atom| matches!(collector.variable(atom), Some(Variable::Coordinate(_)));
+        let mut degrees = quotient.terms().map(|(monomial, c)| {
+            let is_it =
+                c.abs().is_one() && monomial.factors().iter().all(|(atom, _)| is_coordinate(self, *atom));
+            is_it.then(|| self.degree(monomial, is_coordinate))
+        });
+        let first = degrees.next().flatten();
+        first.is_some() && degrees.all(|degree| degree == first)
+    }
+
+    fn degree(&self, monomial: &Monomial, counts: impl Fn(&Self, Atom) -> bool) -> Rational {
+        monomial.factors().iter().filter(|(atom, _)| counts(self, *atom)).map(|(_, exponent)| exponent).sum()
+    }
+
+    fn size(&self, monomial: &Monomial) -> isize {
+        let sizes =
+            monomial.factors().iter().map(|&(atom, exponent)| length(&self.power(atom, exponent.abs())));
+        sizes.sum::<usize>() as isize
+    }
+
+    /// number · monomial · quotient
+    pub(super) fn product(
+        &self,
+        number: Rational,
+        monomial: &Monomial,
+        quotient: Option<&Polynomial>,
+    ) -> Formula {
+        let mut factors: Vec<_> = monomial.factors().to_vec();
+        let tens = factors.iter().position(|&(atom, exponent)| self.is_ten(atom) && exponent.is_integer());
+        let exponent = tens.map_or(Rational::default(), |place| factors.remove(place).1);
+        let number = Scaled { fraction: number, exponent: *exponent.numer() as i32 };
+        factors.sort_by_key(|&(atom, _)| self.reading_order(atom));
+        let (mut above, mut below, mut place) = (Vec::new(), Vec::new(), 0);
+        for (atom, exponent) in factors {
+            let power = self.power(atom, exponent.abs());
+            let before = if exponent.is_negative() { &mut below } else { &mut above };
+            before.push(power);
+            // Before what moves fast, and before functions.
+            place = if self.reading_order(atom) < (MOVING, 0) { above.len() } else { place };
+        }
+        if let Some(quotient) = quotient {
+            let place = if self.are_constant(quotient) { 0 } else { place };
+            above.insert(place, self.sum(quotient));
+        }
+        Formula::product(number, above, below)
+    }
+
+    fn is_ten(&self, atom: Atom) -> bool {
+        *self.expansion.atoms.meaning(atom) == Meaning::Number(Rational::from_integer(10))
+    }
+
+    /// Parameters come first, then multipliers, definitions, coordinates, velocities, accelerations, functions.
+    fn reading_order(&self, atom: Atom) -> (u8, usize) {
+        let first = atom.0 as usize;
+        match (self.expansion.atoms.meaning(atom), self.variable(atom)) {
+            (Meaning::Variable(Variable::Parameter(k)), _) => (1, self.page.ranks[*k]),
+            (_, Some(Variable::Parameter(_))) => (1, first),
+            (_, Some(Variable::Multiplier(a))) => (2, a),
+            (_, Some(Variable::Time)) => (4, 0),
+            (_, Some(Variable::Coordinate(i))) => (5, i),
+            (_, Some(Variable::Velocity(i) | Variable::Momentum(i))) => (MOVING, i),
+            (_, Some(Variable::Acceleration(i))) => (8, i),
+            (Meaning::Pi | Meaning::Number(_), _) => (0, first),
+            (Meaning::Definition(id), _) => (3, id.index()),
+            (Meaning::Function(function, _), _) => (9 + *function as u8, first),
+            (Meaning::Vector(Formula::Call(name, _), _), _) if name == "dot" => (4, first),
+            (Meaning::Vector(..), _) => (u8::MAX, first),
+            _ => (6, first),
+        }
+    }
+
+    /// A power of an atom, its exponent positive; |r|³ is one of the sum of squares that |r|² is.
+    fn power(&self, atom: Atom, exponent: Rational) -> Formula {
+        if let Meaning::Sum(sum) = self.expansion.atoms.meaning(atom)
+            && let Some(norm) = self.squared_norm(sum)
+        {
+            return power(norm, exponent * Rational::from_integer(2));
+        }
+        power(self.atom(atom), exponent)
+    }
+
+    pub(super) fn atom(&self, atom: Atom) -> Formula {
+        if let Some(known) = self.written.borrow().get(&atom) {
+            return known.clone();
+        }
+        let formula = self.new_atom(atom);
+        self.written.borrow_mut().insert(atom, formula.clone());
+        formula
+    }
+
+    fn new_atom(&self, atom: Atom) -> Formula {
+        let page = self.page;
+        match self.expansion.atoms.meaning(atom) {
+            Meaning::Variable(variable) => page.variable(*variable),
+            Meaning::Pi => Formula::Pi,
+            Meaning::Number(value) => Formula::number((*value).into()),
+            Meaning::Definition(id) => page.derived(*id),
+            Meaning::Function(name, x) => function(*name, self.sum(x)),
+            Meaning::Atan2(y, x) => Formula::Call("atan2".to_owned(), vec![self.sum(y), self.sum(x)]),
+            Meaning::Power(x, y) => Formula::Power(Box::new(self.sum(x)), Box::new(self.sum(y))),
+            Meaning::External(function, arguments) => {
+                page.supplied(function, arguments.iter().map(|x| self.sum(x)).collect())
+            }
+            Meaning::Vector(written, _) => written.clone(),
+            Meaning::Sum(terms) => {
+                let collected = self.sum(terms);
+                // Squares of differences are shorter as they were.
+                let source = self.expansion.atoms.source(atom).filter(|&id| self.keeps_names_of(id));
+                let source = source.map(|id| page.derived(id));
+                source.filter(|source| length(source) < length(&collected)).unwrap_or(collected)
+            }
+        }
+    }
+
+    /// Whether all names in it are those that are kept.
+    fn keeps_names_of(&self, id: Id) -> bool {
+        let Page { graph, problem, .. } = self.page;
+        let mut pending = vec![id];
+        while let Some(id) = pending.pop() {
+            match (self.expansion.names.contains(&id), problem.names.contains_key(&id)) {
+                (true, _) => {}
+                (false, true) => return false,
+                (false, false) if self.page.symbols[id.index()] > super::READABLE => return false,
+                (false, false) => graph.operands(id, |operand| pending.push(operand)),
+            }
+        }
+        true
+    }
+}
+
+/// The place of velocities among factors; after it come accelerations and functions.
+const MOVING: u8 = 7;
+
+/// Of a sum of more terms than this nothing is taken out.
+const LONG: usize = 40;
+
+/// The common factor of all terms, as far as `may_go` lets it.
+pub(super) fn shared(polynomial: &Polynomial, may_go: impl Fn(Atom) -> bool) -> (Rational, Monomial) {
+    let (_, monomial) = polynomial.content();
+    (common(polynomial.terms().map(|(_, &c)| c)), monomial.filtered(may_go))
+}

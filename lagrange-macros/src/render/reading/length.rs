@@ -1,0 +1,32 @@
+//! How long a formula is to a reader.
+
+use super::super::formula::Formula;
+
+/// How many signs it takes: a name, a number or an operator is one, and so is an exponent or a pair of parentheses.
+pub(in super::super) fn length(formula: &Formula) -> usize {
+    let all = |parts: &[Formula]| parts.iter().map(length).sum::<usize>();
+    match formula {
+        Formula::Number(_) | Formula::Scaled(_) | Formula::Pi | Formula::Name { .. } => 1,
+        Formula::Multiplier(_) | Formula::Running { .. } | Formula::Member(..) => 1,
+        Formula::Entry(whole, _) => length(whole),
+        Formula::Negative(inner) => 1 + length(inner),
+        Formula::Sum(terms) => {
+            let terms = terms.iter().enumerate();
+            terms.map(|(i, term)| length(term) + usize::from(i > 0 && !term.is_negative())).sum()
+        }
+        Formula::Product(above, below) => {
+            let factors = above.iter().chain(below);
+            let parentheses = factors.filter(|factor| matches!(factor, Formula::Sum(_))).count();
+            all(above) + all(below) + parentheses + usize::from(!below.is_empty())
+        }
+        Formula::Power(base, exponent) => {
+            length(base) + length(exponent) + usize::from(matches!(**base, Formula::Sum(_)))
+        }
+        Formula::Root(inner) => 1 + length(inner),
+        Formula::Call(_, arguments) => 1 + all(arguments),
+        Formula::SumOver { body, .. } => 3 + length(body),
+        Formula::Vector(items) => 1 + all(items),
+        Formula::Derivative { argument, .. } => 2 + length(argument),
+        Formula::Partial { by, arguments, .. } => 1 + by.len() + all(arguments),
+    }
+}

@@ -1,0 +1,209 @@
+//! Equations as a person would print them. Nothing is computed with this form.
+//!
+//! An expression is multiplied out into a [polynomial] in [atoms], whose like terms are collected and cancel exactly;
+//! sines and cosines are [put together](angles); a [row] is divided by what its terms have in common; and common factors are
+//! [taken out](collect) where that is shorter. All that is done once with the names of definitions and once with what they
+//! stand for, and the [shortest](mod@length) form is taken, the one that is computed with among them.
+
+mod angles;
+mod atoms;
+mod collect;
+mod expand;
+mod length;
+mod polynomial;
+mod row;
+mod vectors;
+
+use std::cell::RefCell;
+
+use num_traits::One;
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::Page;
+use super::formula::Formula;
+use super::lines::Equation;
+use crate::mechanics::Derived;
+use crate::resolve::Problem;
+use crate::symbolic::{Graph, Id, Rational};
+use crate::variables::Variable;
+use collect::Collector;
+use expand::Expansion;
+pub(super) use length::length;
+use polynomial::{Monomial, Polynomial};
+use vectors::VectorTerm;
+
+/// What takes more signs than this is not for reading.
+pub(super) const READABLE: u64 = 250;
+
+/// Of polynomials of more terms than this sines and cosines are not put together.
+const TERMS: usize = 100;
+
+/// Nor is a polynomial written down of more names and numbers, those in the arguments of functions counted.
+const SIZE: u64 = 2000;
+
+/// The same expressions with some of the definitions by their names.
+pub(super) struct Reading<'a>(RefCell<Expansion<'a>>);
+
+/// With all definitions by their names, with those that are constant, and with none: as far as these differ.
+pub(super) fn readings<'a>(
+    graph: &'a Graph,
+    problem: &Problem,
+    derived: &Derived,
+    constants: &FxHashSet<Id>,
+    names: Names,
+) -> Vec<Reading<'a>> {
+    let all: FxHashSet<Id> = problem.names.keys().copied().collect();
+    let none = FxHashSet::default();
+    let mut kept = match names {
+        Names::Shortest => vec![all, constants.clone(), none],
+        Names::Kept => vec![all],
+        Names::WrittenOut => vec![none],
+    };
+    kept.dedup();
+    kept.into_iter()
+        .map(|kept| Reading(RefCell::new(Expansion::new(graph, problem, derived, kept))))
+        .collect()
+}
+
+/// Whether definitions appear by their names.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Names {
+    /// By whichever is shorter.
+    Shortest,
+    Kept,
+    WrittenOut,
+}
+
+/// The definitions that neither the time nor the state changes.
+pub(super) fn constants(graph: &Graph, problem: &Problem) -> FxHashSet<Id> {
+    let mut is_constant = Vec::with_capacity(graph.len());
+    for id in graph.ids() {
+        let mut is = match graph.node(id) {
+            crate::symbolic::Node::Symbol(symbol) => matches!(Variable::of(*symbol), Variable::Parameter(_)),
+            _ => true,
+        };
+        graph.operands(id, |operand| is &= is_constant[operand.index()]);
+        is_constant.push(is);
+    }
+    problem.names.keys().copied().filter(|id| is_constant[id.index()]).collect()
+}
+
+impl Page<'_> {
+    /// Σ inertia = Σ forces
+    pub(super) fn row(&self, inertia: Id, forces: &[Id]) -> Equation {
+        let sides = |reading: &Reading| {
+            let all = self.polynomial(reading, &[(inertia, 1)], forces)?;
+            self.collected(reading, |collector| collector.row(&all))
+        };
+        let computed = self.computed([&[inertia], forces]);
+        let size = |[left, right]: &[Formula; 2]| length(left) + length(right);
+        let read = self.readings.iter().filter_map(sides).filter(|sides| size(sides) <= READABLE as usize);
+        self.chosen(read, computed, size, false).into()
+    }
+
+    /// The shortest reading, or what is computed with where that is shorter: or as short, and it is asked for first.
+    fn chosen<T>(
+        &self,
+        read: impl Iterator<Item = T>,
+        computed: Result<T, u64>,
+        length: impl Fn(&T) -> usize,
+        is_first: bool,
+    ) -> Result<T, u64> {
+        let Some(read) = shortest(read, &length) else { return computed };
+        let most = length(&read) + usize::from(is_first);
+        // That has names.
+        let computed = computed.ok().filter(|_| self.names != Names::WrittenOut);
+        Ok(computed.filter(|computed| length(computed) < most).unwrap_or(read))
+    }
+
+    /// The same of rows that are the components of one equation of vectors, where they are that.
+    pub(super) fn vector_row(&self, rows: &[(Id, Vec<Id>)]) -> Option<[Formula; 2]> {
+        let sides = |reading: &Reading| {
+            let parts =
+                rows.iter().map(|(inertia, forces)| self.polynomial(reading, &[(*inertia, 1)], forces));
+            let all = self.vector(reading, &parts.collect::<Option<Vec<_>>>()?)?;
+            self.collected(reading, |collector| collector.row(&all))
+        };
+        shortest(self.readings.iter().filter_map(sides), |[left, right]| length(left) + length(right))
+    }
+
+    /// Nodes that are the components of one vector.
+    pub(super) fn vector_expression(&self, components: &[Id]) -> Option<Formula> {
+        let formula = |reading: &Reading| {
+            let parts = components.iter().map(|&id| self.polynomial(reading, &[(id, 1)], &[]));
+            let all = self.vector(reading, &parts.collect::<Option<Vec<_>>>()?)?;
+            self.collected(reading, |collector| Some(collector.sum(&all)))
+        };
+        shortest(self.readings.iter().filter_map(formula), length)
+    }
+
+    /// The rows as one polynomial, of which each term has a vector.
+    fn vector(&self, reading: &Reading, rows: &[Polynomial]) -> Option<Polynomial> {
+        let terms = self.collected(reading, |collector| collector.vector_terms(rows))?;
+        let mut expansion = reading.0.borrow_mut();
+        let mut all = Polynomial::default();
+        for VectorTerm { coefficient, mut scalar, factors } in terms {
+            for factor in factors {
+                let atom = expansion.atoms.atom(factor);
+                scalar = scalar.times(&Monomial::of(atom, Rational::one()))?;
+            }
+            all.push(scalar, coefficient)?;
+        }
+        Some(all)
+    }
+
+    /// A node as it is read.
+    pub(super) fn expression(&self, id: Id) -> Result<Formula, u64> {
+        let computed = self.computed([&[id]]).map(|[formula]| formula);
+        self.chosen(self.read(id), computed, length, false)
+    }
+
+    /// A node as it was written, where that is as short.
+    pub(super) fn quantity(&self, id: Id) -> Result<Formula, u64> {
+        let computed = self.computed([&[id]]).map(|[formula]| formula);
+        self.chosen(self.read(id), computed, length, true)
+    }
+
+    fn read(&self, id: Id) -> impl Iterator<Item = Formula> {
+        let formula = move |reading: &Reading| {
+            let all = self.polynomial(reading, &[(id, 1)], &[])?;
+            self.collected(reading, |collector| Some(collector.sum(&all)))
+        };
+        self.readings.iter().filter_map(formula).filter(|formula| length(formula) <= READABLE as usize)
+    }
+
+    fn polynomial(
+        &self,
+        Reading(expansion): &Reading,
+        plus: &[(Id, i128)],
+        minus: &[Id],
+    ) -> Option<Polynomial> {
+        let mut expansion = expansion.borrow_mut();
+        let parts = plus.iter().copied().chain(minus.iter().map(|&id| (id, -1)));
+        let mut sum = Polynomial::default();
+        for (id, sign) in parts {
+            sum.add(&expansion.of(id)?, Rational::from_integer(sign))?;
+        }
+        if sum.len() > TERMS {
+            return None;
+        }
+        let merged = expansion.atoms.merged(sum)?;
+        let read = expansion.atoms.cancelled(merged)?;
+        (expansion.atoms.size(&read) <= SIZE).then_some(read)
+    }
+
+    fn collected<T>(
+        &self,
+        Reading(expansion): &Reading,
+        write: impl Fn(&Collector) -> Option<T>,
+    ) -> Option<T> {
+        let expansion = &expansion.borrow();
+        let written = RefCell::new(FxHashMap::default());
+        write(&Collector { page: self, expansion, constants: &self.constants, written })
+    }
+}
+
+/// The first of the shortest.
+fn shortest<T>(candidates: impl Iterator<Item = T>, length: impl Fn(&T) -> usize) -> Option<T> {
+    candidates.reduce(|best, next| if length(&next) < length(&best) { next } else { best })
+}

@@ -1,0 +1,209 @@
+//! Polynomials with rational coefficients, their exponents rational too.
+
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+
+use num_traits::{One, Signed, Zero};
+
+use crate::symbolic::{Rational, plus, times};
+
+/// What is not taken apart: a name, or a function of something. What it is the [`Atoms`](super::atoms::Atoms) know.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub(super) struct Atom(pub(super) u32);
+
+/// Π atom ^ exponent, sorted by atom, no exponent zero.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
+pub(super) struct Monomial(Vec<(Atom, Rational)>);
+
+impl Monomial {
+    pub(super) fn of(atom: Atom, exponent: Rational) -> Self {
+        Self(vec![(atom, exponent)])
+    }
+
+    pub(super) fn factors(&self) -> &[(Atom, Rational)] {
+        &self.0
+    }
+
+    pub(super) fn is_one(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    pub(super) fn exponent(&self, atom: Atom) -> Rational {
+        let place = self.0.binary_search_by_key(&atom, |&(known, _)| known);
+        place.map_or(Rational::zero(), |place| self.0[place].1)
+    }
+
+    pub(super) fn times(&self, other: &Self) -> Option<Self> {
+        let mut factors = self.0.clone();
+        for &(atom, exponent) in &other.0 {
+            match factors.binary_search_by_key(&atom, |&(known, _)| known) {
+                Ok(place) => factors[place].1 = plus(factors[place].1, exponent)?,
+                Err(place) => factors.insert(place, (atom, exponent)),
+            }
+        }
+        factors.retain(|(_, exponent)| !exponent.is_zero());
+        Some(Self(factors))
+    }
+
+    pub(super) fn power(&self, exponent: Rational) -> Option<Self> {
+        let factors = self.0.iter().map(|&(atom, inner)| Some((atom, times(inner, exponent)?)));
+        factors.collect::<Option<_>>().map(Self)
+    }
+
+    pub(super) fn over(&self, other: &Self) -> Option<Self> {
+        self.times(&other.power(-Rational::one())?)
+    }
+
+    /// What is a factor of both: of each atom that is above, or below, in both, the lower power.
+    pub(super) fn shared(&self, other: &Self) -> Self {
+        let factors = self.0.iter().filter_map(|&(atom, one)| {
+            let two = other.exponent(atom);
+            let exponent = if one.abs() < two.abs() { one } else { two };
+            (one.is_positive() == two.is_positive() && !two.is_zero()).then_some((atom, exponent))
+        });
+        Self(factors.collect())
+    }
+
+    /// By the powers of one atom after the other: an order that products keep.
+    fn by_powers(&self, other: &Self) -> Ordering {
+        let atoms = self.0.iter().chain(&other.0).map(|&(atom, _)| atom);
+        let differ = |atom: &Atom| self.exponent(*atom) != other.exponent(*atom);
+        let first = atoms.filter(differ).min();
+        first.map_or(Ordering::Equal, |atom| self.exponent(atom).cmp(&other.exponent(atom)))
+    }
+
+    /// Those factors for which `keep` holds.
+    pub(super) fn filtered(&self, keep: impl Fn(Atom) -> bool) -> Self {
+        Self(self.0.iter().copied().filter(|&(atom, _)| keep(atom)).collect())
+    }
+}
+
+/// Σ coefficient · monomial, no coefficient zero.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
+pub(super) struct Polynomial(BTreeMap<Monomial, Rational>);
+
+impl Polynomial {
+    pub(super) fn number(value: Rational) -> Self {
+        Self::term(Monomial::default(), value)
+    }
+
+    pub(super) fn atom(atom: Atom) -> Self {
+        Self::term(Monomial::of(atom, Rational::one()), Rational::one())
+    }
+
+    pub(super) fn term(monomial: Monomial, coefficient: Rational) -> Self {
+        Self([(monomial, coefficient)].into_iter().filter(|(_, c)| !c.is_zero()).collect())
+    }
+
+    pub(super) fn terms(&self) -> impl ExactSizeIterator<Item = (&Monomial, &Rational)> {
+        self.0.iter()
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    pub(super) fn is_zero(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Its monomial and coefficient, if it has but one.
+    pub(super) fn single(&self) -> Option<(&Monomial, Rational)> {
+        self.0.iter().next().filter(|_| self.len() == 1).map(|(monomial, &c)| (monomial, c))
+    }
+
+    pub(super) fn coefficient(&self, monomial: &Monomial) -> Option<Rational> {
+        self.0.get(monomial).copied()
+    }
+
+    /// Adds a term.
+    pub(super) fn push(&mut self, monomial: Monomial, coefficient: Rational) -> Option<()> {
+        let sum = plus(self.coefficient(&monomial).unwrap_or_default(), coefficient)?;
+        if sum.is_zero() {
+            self.0.remove(&monomial)
+        } else {
+            self.0.insert(monomial, sum)
+        };
+        Some(())
+    }
+
+    pub(super) fn remove(&mut self, monomial: &Monomial) {
+        self.0.remove(monomial);
+    }
+
+    /// self + factor · other
+    pub(super) fn add(&mut self, other: &Self, factor: Rational) -> Option<()> {
+        other.0.iter().try_for_each(|(monomial, &c)| self.push(monomial.clone(), times(c, factor)?))
+    }
+
+    pub(super) fn negated(&self) -> Self {
+        Self(self.0.iter().map(|(monomial, &c)| (monomial.clone(), -c)).collect())
+    }
+
+    /// Times one term.
+    pub(super) fn scaled(&self, monomial: &Monomial, coefficient: Rational) -> Option<Self> {
+        let terms = self.0.iter().map(|(own, &c)| Some((own.times(monomial)?, times(c, coefficient)?)));
+        terms.collect::<Option<_>>().map(Self)
+    }
+
+    pub(super) fn times(&self, other: &Self) -> Option<Self> {
+        let mut product = Self::default();
+        for (monomial, &c) in &other.0 {
+            product.add(&self.scaled(monomial, c)?, Rational::one())?;
+        }
+        Some(product)
+    }
+
+    /// Whether its first term that is no number is negative: of p and −p one is.
+    pub(super) fn leads_negative(&self) -> bool {
+        let lead = self.0.iter().find(|(monomial, _)| !monomial.is_one()).or_else(|| self.0.iter().next());
+        lead.is_some_and(|(_, c)| c.is_negative())
+    }
+
+    /// What is a factor of all coefficients and of all monomials; positive.
+    pub(super) fn content(&self) -> (Rational, Monomial) {
+        let number = common(self.0.values().copied());
+        let mut monomials = self.0.keys();
+        let first = monomials.next().cloned().unwrap_or_default();
+        (number, monomials.fold(first, |shared, monomial| shared.shared(monomial)))
+    }
+
+    /// The term with the greatest monomial.
+    fn lead(&self) -> Option<(&Monomial, Rational)> {
+        let greatest = self.0.iter().max_by(|(one, _), (two, _)| one.by_powers(two));
+        greatest.map(|(monomial, &c)| (monomial, c))
+    }
+
+    /// The quotient, where the division leaves nothing: by the greatest monomials, one after the other.
+    pub(super) fn divided(&self, divisor: &Self) -> Option<Self> {
+        let (lead, by) = divisor.lead()?;
+        let (mut rest, mut quotient) = (self.clone(), Self::default());
+        for _ in 0..self.len() {
+            let Some((monomial, c)) = rest.lead() else { break };
+            let (monomial, c) = (monomial.over(lead)?, times(c, by.recip())?);
+            rest.add(&divisor.scaled(&monomial, c)?, -Rational::one())?;
+            quotient.push(monomial, c)?;
+        }
+        rest.is_zero().then_some(quotient)
+    }
+}
+
+impl FromIterator<(Monomial, Rational)> for Polynomial {
+    /// Of monomials that differ.
+    fn from_iter<I: IntoIterator<Item = (Monomial, Rational)>>(terms: I) -> Self {
+        Self(terms.into_iter().collect())
+    }
+}
+
+/// The positive number that all are multiples of without needing larger numbers than they have: 2 of 4 and 6, ½ of ½ and 3/2,
+/// 1 of ½ and 1.
+pub(super) fn common(coefficients: impl Iterator<Item = Rational>) -> Rational {
+    let (above, below) = coefficients
+        .fold((0, 0), |(above, below), c| (divisor(*c.numer(), above), divisor(*c.denom(), below)));
+    if above == 0 { Rational::one() } else { Rational::new(above, below) }
+}
+
+/// The greatest common divisor.
+fn divisor(x: i128, y: i128) -> i128 {
+    if y == 0 { x.abs() } else { divisor(y, x % y) }
+}

@@ -1,0 +1,249 @@
+//! Rows that are the components of one equation of vectors.
+
+use std::collections::BTreeMap;
+
+use num_traits::One;
+
+use super::super::formula::Formula;
+use super::atoms::Meaning;
+use super::collect::Collector;
+use super::polynomial::{Atom, Monomial, Polynomial};
+use crate::symbolic::Rational;
+use crate::variables::Variable;
+
+/// A vector as it is written, and the variable that its first component is.
+#[derive(Clone, PartialEq)]
+struct Vector {
+    written: Formula,
+    of: Option<Variable>,
+}
+
+/// Components that are multiplied: which of the vectors known, and which component; sorted.
+type Components = Vec<(usize, usize)>;
+
+/// For each scalar factor and each set of vectors multiplied, the products of their components in every row.
+type Groups = BTreeMap<(Monomial, Vec<usize>), Vec<BTreeMap<Components, Rational>>>;
+
+/// A term of an equation of vectors: coefficient, scalar factors, and what these multiply.
+pub(super) struct VectorTerm {
+    pub(super) coefficient: Rational,
+    pub(super) scalar: Monomial,
+    pub(super) factors: Vec<Meaning>,
+}
+
+impl Collector<'_, '_> {
+    /// The rows as one equation; `None` where they are not what scalars, dot products and cross products make of vectors.
+    pub(super) fn vector_terms(&self, rows: &[Polynomial]) -> Option<Vec<VectorTerm>> {
+        let mut known: Vec<Vector> = Vec::new();
+        let mut groups = Groups::new();
+        for (row, polynomial) in rows.iter().enumerate() {
+            for (monomial, &c) in polynomial.terms() {
+                let (scalar, components) = self.parted(monomial, &mut known);
+                let vectors = components.iter().map(|&(vector, _)| vector).collect();
+                let group =
+                    groups.entry((scalar, vectors)).or_insert_with(|| vec![BTreeMap::new(); rows.len()]);
+                group[row].insert(components, c);
+            }
+        }
+        let terms = groups.into_iter().map(|((scalar, vectors), products)| {
+            let found = in_vectors(&vectors, &products, &known)?;
+            Some(found.into_iter().map(move |(coefficient, factors)| VectorTerm {
+                coefficient,
+                scalar: scalar.clone(),
+                factors,
+            }))
+        });
+        Some(terms.collect::<Option<Vec<_>>>()?.into_iter().flatten().collect())
+    }
+
+    /// Scalar factors, and components of vectors.
+    fn parted(&self, monomial: &Monomial, known: &mut Vec<Vector>) -> (Monomial, Components) {
+        let mut components = Components::new();
+        let mut found = Vec::new();
+        for &(atom, exponent) in monomial.factors() {
+            let is_product = exponent.is_integer() && exponent >= Rational::one();
+            let Some((vector, place)) = self.component(atom).filter(|_| is_product) else { continue };
+            let index = known.iter().position(|known| *known == vector).unwrap_or(known.len());
+            if index == known.len() {
+                known.push(vector);
+            }
+            found.push(atom);
+            components.extend((0..exponent.to_integer()).map(|_| (index, place)));
+        }
+        components.sort_unstable();
+        (monomial.filtered(|atom| !found.contains(&atom)), components)
+    }
+
+    /// The vector that an atom is a component of, and which.
+    fn component(&self, atom: Atom) -> Option<(Vector, usize)> {
+        let (written, place) = component(&self.atom(atom))?;
+        let of = self.variable(atom).map(|variable| first(variable, place));
+        Some((Vector { written, of }, place))
+    }
+
+    /// |a|² or |a − b|², where a sum is that of components squared.
+    pub(super) fn squared_norm(&self, sum: &Polynomial) -> Option<Formula> {
+        let mut known: Vec<Vector> = Vec::new();
+        let mut products: BTreeMap<Components, Rational> = BTreeMap::new();
+        for (monomial, &c) in sum.terms() {
+            let (scalar, components) = self.parted(monomial, &mut known);
+            (scalar.is_one() && components.len() == 2).then_some(())?;
+            products.insert(components, c);
+        }
+        let n = products.keys().flatten().map(|&(_, place)| place + 1).max()?;
+        let is_whole =
+            |vector: &Vector| matches!(vector.of, Some(Variable::Coordinate(i)) if self.length_from(i) == n);
+        (n > 1 && known.iter().any(is_whole) && known.len() <= 2).then_some(())?;
+        let signs = [Rational::one(), -Rational::one()];
+        let expected = (0..n).flat_map(|k| {
+            let pairs = (0..known.len()).flat_map(move |i| (i..2).map(move |j| (i, j)));
+            pairs.filter(|&(_, j)| j < known.len()).map(move |(i, j)| {
+                let twice = if i == j { Rational::one() } else { Rational::from_integer(2) };
+                (vec![(i, k), (j, k)], twice * signs[i] * signs[j])
+            })
+        });
+        let difference = known.iter().enumerate().map(|(i, vector)| vector.written.clone().signed(i == 1));
+        let norm = Formula::Call("norm".to_owned(), vec![Formula::sum(difference.collect())]);
+        (expected.collect::<BTreeMap<_, _>>() == products).then_some(norm)
+    }
+
+    /// How many components the vector of coordinates has of which this is the first.
+    fn length_from(&self, first: usize) -> usize {
+        let labels = &self.page.problem.coordinates[first..];
+        let Some((base, _)) = labels[0].text.rsplit_once('[') else { return 1 };
+        labels
+            .iter()
+            .take_while(|label| label.text.rsplit_once('[').is_some_and(|(other, _)| other == base))
+            .count()
+    }
+}
+
+/// The vector, and which of its components a formula is.
+fn component(formula: &Formula) -> Option<(Formula, usize)> {
+    match formula {
+        Formula::Name { base, dots, indices } => {
+            let (last, others) = indices.split_last()?;
+            let Formula::Number(place) = last else { return None };
+            let whole = Formula::Name { base: base.clone(), dots: *dots, indices: others.to_vec() };
+            Some((whole, usize::try_from(place.to_integer()).ok()?))
+        }
+        Formula::Member(of, member) => {
+            let (member, place) = component(member)?;
+            Some((Formula::Member(of.clone(), Box::new(member)), place))
+        }
+        Formula::Call(name, arguments) => {
+            let (name, place) = name.strip_suffix(']')?.rsplit_once('[')?;
+            Some((Formula::Call(name.to_owned(), arguments.clone()), place.parse().ok()?))
+        }
+        Formula::Derivative { function, order, argument } => {
+            let (function, place) = component(function)?;
+            let (function, argument) = (Box::new(function), argument.clone());
+            Some((Formula::Derivative { function, order: *order, argument }, place))
+        }
+        Formula::Partial { function, by, arguments } => {
+            let [by] = &by[..] else { return None };
+            let (by, place) = component(by)?;
+            let (function, arguments) = (function.clone(), arguments.clone());
+            Some((Formula::Partial { function, by: vec![by], arguments }, place))
+        }
+        _ => None,
+    }
+}
+
+/// The variable of the first component, given one of another.
+fn first(variable: Variable, place: usize) -> Variable {
+    match variable {
+        Variable::Coordinate(i) => Variable::Coordinate(i - place),
+        Variable::Velocity(i) => Variable::Velocity(i - place),
+        Variable::Acceleration(i) => Variable::Acceleration(i - place),
+        Variable::Momentum(i) => Variable::Momentum(i - place),
+        // Only its kind counts.
+        Variable::Parameter(_) => Variable::Parameter(0),
+        other => other,
+    }
+}
+
+/// What products of components are, row by row: coefficients and vectors, with the dot products that multiply these.
+fn in_vectors(
+    vectors: &[usize],
+    rows: &[BTreeMap<Components, Rational>],
+    known: &[Vector],
+) -> Option<Vec<(Rational, Vec<Meaning>)>> {
+    // Accelerations stand by themselves on the left side.
+    let is_accelerated = vectors.iter().any(|&i| matches!(known[i].of, Some(Variable::Acceleration(_))));
+    (vectors.len() == 1 || !is_accelerated).then_some(())?;
+    let whole = |i: usize| Meaning::Vector(known[i].written.clone(), known[i].of);
+    let call = |name: &str, i: Formula, j: Formula| {
+        Meaning::Vector(Formula::Call(name.to_owned(), vec![i, j]), None)
+    };
+    let name = |i: usize| known[i].written.clone();
+    let at = |row: usize, components: &[(usize, usize)]| {
+        let mut components = components.to_vec();
+        components.sort_unstable();
+        rows[row].get(&components).copied().unwrap_or_default()
+    };
+    let candidates: Vec<(Rational, Vec<Meaning>, Product)> = match *vectors {
+        [v] => vec![(at(0, &[(v, 0)]), vec![whole(v)], Product::Along(v, vec![]))],
+        [v, w] if rows.len() == 3 => {
+            vec![(at(0, &[(v, 1), (w, 2)]), vec![call("cross", name(v), name(w))], Product::Across(v, w))]
+        }
+        [u, v, w] if rows.len() > 1 => {
+            let mut ways = vec![(u, v, w), (v, u, w), (w, u, v)];
+            ways.dedup_by_key(|way| way.0);
+            let along = ways.into_iter().map(|(a, b, c)| {
+                let coefficient = at(0, &[(a, 0), (b, 1), (c, 1)]);
+                (coefficient, vec![whole(a), call("dot", name(b), name(c))], Product::Along(a, vec![b, c]))
+            });
+            along.collect()
+        }
+        _ => return None,
+    };
+    let mut rest = rows.to_vec();
+    for (coefficient, _, product) in &candidates {
+        product.subtract(*coefficient, &mut rest);
+    }
+    rest.iter().all(|row| row.values().all(|c| *c == Rational::default())).then_some(())?;
+    // a (a·b) − b (a·a) = a×(a×b)
+    if let [(one, _, Product::Along(a, _)), (two, _, Product::Along(b, _))] = &candidates[..]
+        && rows.len() == 3
+        && *one == -*two
+    {
+        let (a, b, c) =
+            if vectors.iter().filter(|&v| v == a).count() == 2 { (*a, *b, *one) } else { (*b, *a, *two) };
+        let inner = Formula::Call("cross".to_owned(), vec![name(a), name(b)]);
+        return Some(vec![(c, vec![call("cross", name(a), inner)])]);
+    }
+    Some(candidates.into_iter().map(|(c, factors, _)| (c, factors)).collect())
+}
+
+/// A product of vectors that is one.
+enum Product {
+    /// a, or a (b·c)
+    Along(usize, Vec<usize>),
+    /// a×b
+    Across(usize, usize),
+}
+
+impl Product {
+    /// Takes a multiple of it from products of components.
+    fn subtract(&self, coefficient: Rational, rows: &mut [BTreeMap<Components, Rational>]) {
+        let n = rows.len();
+        for (k, row) in rows.iter_mut().enumerate() {
+            let mut take = |mut components: Components, c: Rational| {
+                components.sort_unstable();
+                *row.entry(components).or_default() -= c;
+            };
+            match self {
+                Self::Along(a, dotted) if dotted.is_empty() => take(vec![(*a, k)], coefficient),
+                Self::Along(a, dotted) => (0..n).for_each(|j| {
+                    let dotted = dotted.iter().map(|&vector| (vector, j));
+                    take([(*a, k)].into_iter().chain(dotted).collect(), coefficient);
+                }),
+                Self::Across(a, b) => {
+                    take(vec![(*a, (k + 1) % n), (*b, (k + 2) % n)], coefficient);
+                    take(vec![(*a, (k + 2) % n), (*b, (k + 1) % n)], -coefficient);
+                }
+            }
+        }
+    }
+}

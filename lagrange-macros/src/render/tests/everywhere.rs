@@ -1,0 +1,376 @@
+//! What is printed is what is computed: on every system that any test, example or page of documentation derives, the printed
+//! equations are read off the text and compared with the graph at random states.
+
+use std::collections::BTreeMap;
+
+use super::reader::{Meanings, Value, read_with};
+use super::systems::{System, of_all};
+use crate::mechanics::{Derived, Quantity};
+use crate::render::formula::Formula;
+use crate::render::symbols::Notation;
+use crate::resolve;
+use crate::symbolic::{Approximate, External, Function, Id, Sample, apply, superposition};
+use crate::variables::Variable;
+
+impl System {
+    fn sample(&self, draw: u64) -> Sample {
+        let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
+        let kinds = [Variable::Coordinate, Variable::Velocity, Variable::Acceleration];
+        let all = kinds.into_iter().flat_map(|kind| (0..n).map(kind));
+        let parameters = (0..self.problem.parameters.entries.len()).map(Variable::Parameter);
+        let all = all.chain(parameters).chain((0..m).map(Variable::Multiplier)).chain([Variable::Time]);
+        Sample::new(all.map(Variable::symbol), draw, |symbol, draw| self.problem.drawn(symbol, draw))
+    }
+
+    /// The same state with other accelerations and multipliers.
+    fn moved(&self, sample: &mut Sample, draw: u64) {
+        let solved = [(Variable::Acceleration as fn(usize) -> Variable, self.problem.coordinates.len())];
+        let solved = solved
+            .into_iter()
+            .chain([(Variable::Multiplier as fn(usize) -> Variable, self.problem.constraints.len())]);
+        let solved = solved.flat_map(|(kind, count)| (0..count).map(kind)).map(Variable::symbol);
+        sample.set(solved.map(|symbol| (symbol, self.problem.drawn(symbol, draw))).collect::<Vec<_>>());
+    }
+
+    /// The lines below a heading.
+    fn lines(&self, heading: &str) -> Vec<&str> {
+        let section = self.text.split("\n\n").find(|section| section.starts_with(heading));
+        let lines = section.into_iter().flat_map(|section| section.lines().skip(1));
+        lines.map(str::trim).filter(|line| line.contains(" = ") || line.contains("symbols)")).collect()
+    }
+}
+
+/// The names of a system at a state.
+struct State<'a> {
+    system: &'a System,
+    names: BTreeMap<String, Value>,
+    draw: u64,
+}
+
+impl<'a> State<'a> {
+    fn new(system: &'a System, sample: &mut Sample, draw: u64) -> Self {
+        let System { graph, problem, .. } = system;
+        let n = problem.coordinates.len();
+        let mut entries: Vec<(String, f64)> = Vec::new();
+        let mut put = |formula: Formula, value: f64| entries.push((Notation::Unicode.write(&formula), value));
+        let kinds: [fn(usize) -> Variable; 3] =
+            [Variable::Coordinate, Variable::Velocity, Variable::Acceleration];
+        for (dots, kind) in kinds.into_iter().enumerate() {
+            for i in 0..n {
+                put(Formula::labelled(&problem.coordinates[i].text, dots), value(sample, kind(i)));
+            }
+        }
+        for (a, (label, _)) in problem.constraints.iter().enumerate() {
+            put(Formula::Multiplier(label.text.clone()), value(sample, Variable::Multiplier(a)));
+        }
+        for k in 0..problem.parameters.entries.len() {
+            put(Formula::labelled(&problem.parameters.name(k), 0), value(sample, Variable::Parameter(k)));
+        }
+        for i in 0..n {
+            let value = sample.values(graph, &[system.derived.equations.momentum[i]])[0].value;
+            put(Formula::labelled(&momentum(system, i), 0), value);
+        }
+        put(Formula::labelled("t", 0), value(sample, Variable::Time));
+        put(Formula::Pi, std::f64::consts::PI);
+        let mut definitions: Vec<(&Id, &String)> = problem.names.iter().collect();
+        definitions.sort();
+        for (&id, name) in definitions {
+            put(Formula::labelled(name, 0), sample.values(graph, &[id])[0].value);
+        }
+        Self { system, names: with_vectors(entries), draw }
+    }
+
+    fn read(&self, text: &str) -> Value {
+        read_with(text, self)
+    }
+
+    /// All results of a function, or the one that is named.
+    fn external(&self, function: &str, derivatives: &[u32], arguments: &[f64]) -> Value {
+        let functions = self.system.problem.functions.iter().enumerate();
+        let outputs = functions.flat_map(|(index, function)| {
+            let names =
+                if function.outputs == 1 { vec![function.name.clone()] } else { function.names.clone() };
+            names.into_iter().enumerate().map(move |(output, name)| (name, index, output))
+        });
+        let written = |name: &str| Notation::Unicode.write(&Formula::labelled(name, 0));
+        let is_it = |name: &str| name == function || name.starts_with(&format!("{function}["));
+        let found = outputs.filter(|(name, ..)| is_it(&written(name)));
+        let arguments: Vec<_> = arguments.iter().copied().map(Approximate::exact).collect();
+        let values: Value = found
+            .map(|(_, index, output)| {
+                let (function, output) = (index as u32, output as u32);
+                let derivatives = derivatives.into();
+                let external = External { function, output, derivatives, arguments: Box::default() };
+                superposition(&external, &arguments, self.draw).value
+            })
+            .collect();
+        assert!(!values.is_empty(), "no function {function}");
+        values
+    }
+}
+
+fn value(sample: &Sample, variable: Variable) -> f64 {
+    sample.get(variable.symbol()).value
+}
+
+/// With `r` of `r[0]`, `r[1]`, …
+fn with_vectors(mut entries: Vec<(String, f64)>) -> BTreeMap<String, Value> {
+    let mut all: BTreeMap<String, Value> = BTreeMap::new();
+    let mut vectors: BTreeMap<String, Value> = BTreeMap::new();
+    for (name, value) in entries.drain(..) {
+        let mut outer = name.as_str();
+        while let Some((rest, _)) = outer.rsplit_once('[').filter(|_| outer.ends_with(']')) {
+            vectors.entry(rest.to_owned()).or_default().push(value);
+            outer = rest;
+        }
+        all.insert(name, vec![value]);
+    }
+    vectors.append(&mut all);
+    vectors
+}
+
+impl Meanings for State<'_> {
+    fn name(&self, name: &str) -> Option<Value> {
+        self.names.get(name).cloned()
+    }
+
+    fn call(&self, function: &str, primes: usize, arguments: &[f64]) -> Value {
+        let number = match (Function::named(function), function, arguments) {
+            (Some(function), _, &[x]) => apply(function, &x),
+            (_, "max", [x, y]) => x.max(*y),
+            (_, "step", [x]) => f64::from(u8::from(*x > 0.0)),
+            (_, "atan2", [y, x]) => y.atan2(*x),
+            _ => return self.external(function, &vec![0; primes], arguments),
+        };
+        vec![number]
+    }
+
+    fn partial(&self, function: &str, by: &[String], arguments: Option<&[f64]>) -> Value {
+        let name = function.split('[').next().expect("a name");
+        let written = |name: &str| Notation::Unicode.write(&Formula::labelled(name, 0));
+        let mut functions = self.system.problem.functions.iter();
+        let supplied = functions.find(|supplied| written(&supplied.name) == name).expect("a function");
+        let formals = supplied.formals.iter().flat_map(|(name, lengths)| resolve::entry_names(name, lengths));
+        let formals: Vec<String> = formals.map(|name| written(&name)).collect();
+        let own = || formals.iter().flat_map(|name| self.names[name].clone()).collect();
+        let arguments: Value = arguments.map_or_else(own, <[f64]>::to_vec);
+        let places = |x: &String| {
+            let is_it = |formal: &&String| *formal == x || formal.starts_with(&format!("{x}["));
+            let found = formals.iter().enumerate().filter(|(_, formal)| is_it(formal));
+            found.map(|(place, _)| place as u32).collect::<Vec<u32>>()
+        };
+        match by {
+            [by] => {
+                places(by).iter().flat_map(|&place| self.external(function, &[place], &arguments)).collect()
+            }
+            several => {
+                self.external(function, &several.iter().flat_map(places).collect::<Vec<_>>(), &arguments)
+            }
+        }
+    }
+}
+
+const STATES: u64 = 40;
+const WANTED: usize = 3;
+/// Beside the greatest of the values compared.
+const CLOSE: f64 = 1e-8;
+
+/// Each row, or vector of rows, is proportional to what is computed, in accelerations and multipliers: it may have been
+/// divided.
+fn check_motion(system: &System) {
+    let mut first = 0;
+    for row in system.lines("Equations of motion\n") {
+        let (label, equation) = row.split_once(": ").expect("a label");
+        let labels = system.problem.coordinates[first..].iter();
+        let labels = labels.map(|label| Notation::Unicode.write(&Formula::labelled(&label.text, 0)));
+        let is_it = |known: &String| {
+            let index = known.strip_prefix(label).and_then(|rest| rest.strip_prefix('['));
+            *known == label || index.is_some_and(|index| index.matches(']').count() == 1)
+        };
+        let count = labels.take_while(is_it).count();
+        assert!(count > 0, "{row} has no coordinate in {}", system.text);
+        if let Some((left, right)) = equation.trim().split_once(" = ") {
+            check_rows(system, first..first + count, [left, right]);
+        }
+        first += count;
+    }
+    assert_eq!(first, system.derived.inertia.len(), "{}", system.text);
+}
+
+fn check_rows(system: &System, rows: std::ops::Range<usize>, sides: [&str; 2]) {
+    let mut states = 0;
+    for draw in 0..STATES {
+        let mut sample = system.sample(draw);
+        let moved = (0..3).flat_map(|other| {
+            system.moved(&mut sample, 1000 * (other + 1) + draw);
+            let left_over = left_over(system, &mut sample, rows.clone());
+            let state = State::new(system, &mut sample, draw);
+            let [left, right] = sides.map(|side| state.read(side));
+            assert!(right.len() == left.len() || right == [0.0], "{sides:?}");
+            let right = right.into_iter().chain(std::iter::repeat(0.0));
+            let read: Vec<f64> = left.into_iter().zip(right).map(|(left, right)| left - right).collect();
+            assert_eq!(read.len(), rows.len(), "{sides:?} in {}", system.text);
+            read.into_iter().zip(left_over).map(|(read, computed)| [read, computed]).collect::<Vec<_>>()
+        });
+        let pairs: Vec<[f64; 2]> = moved.collect();
+        if !pairs.iter().flatten().all(|x| x.is_finite()) {
+            continue;
+        }
+        let greatest = |k: usize| pairs.iter().map(|pair| pair[k].abs()).fold(0.0, f64::max);
+        assert!((greatest(0) > 0.0) == (greatest(1) > 0.0), "{sides:?} in {}", system.text);
+        for pair in &pairs[1..] {
+            let difference = pairs[0][0] * pair[1] - pairs[0][1] * pair[0];
+            let close = difference.abs() <= CLOSE * greatest(0) * greatest(1);
+            assert!(close, "{sides:?}: {pairs:?} in {}", system.text);
+        }
+        states += 1;
+        if states == WANTED {
+            return;
+        }
+    }
+    assert!(states > 0, "no state for {sides:?} in {}", system.text);
+}
+
+/// M q̈ − h − Fᵀλ
+fn left_over(system: &System, sample: &mut Sample, rows: std::ops::Range<usize>) -> Vec<f64> {
+    let Derived { equations, inertia, .. } = &system.derived;
+    let row = |i: usize| {
+        let force = equations.constraint_force.get(i).copied().unwrap_or(Id::ZERO);
+        let parts = sample.values(&system.graph, &[inertia[i], equations.forcing[i], force]);
+        parts[0].value - parts[1].value - parts[2].value
+    };
+    rows.map(row).collect()
+}
+
+/// Energies, momenta and constraint forces are what is computed.
+fn check_quantities(system: &System) {
+    let equations = &system.derived.equations;
+    let conserved = system.derived.facts.conserved.iter();
+    let conserved = conserved.filter_map(|conserved| match conserved.quantity {
+        Quantity::Momentum(a) => Some(equations.momentum[a]),
+        Quantity::Energy => Some(equations.energy),
+        Quantity::Observable(..) => None,
+    });
+    for (line, root) in system.lines("Conserved\n").iter().zip(conserved) {
+        check_line(system, line, |sample| vec![sample.values(&system.graph, &[root])[0].value]);
+    }
+    let value = |sample: &mut Sample, root: Option<&Id>| {
+        root.map_or(0.0, |&root| sample.values(&system.graph, &[root])[0].value)
+    };
+    check_by_coordinate(system, &system.lines("Constraint forces\n"), ("R_", 0), |sample, i| {
+        value(sample, equations.constraint_force.get(i))
+    });
+    check_by_coordinate(system, &system.lines("Momenta\n"), ("p_", 0), |sample, i| {
+        value(sample, equations.momentum.get(i))
+    });
+}
+
+/// With p = ∂L/∂q̇ of a state, H is its energy, ∂H/∂p its velocity and ṗ its forces.
+fn check_hamilton(system: &System) {
+    let equations = &system.derived.equations;
+    let n = system.problem.coordinates.len();
+    let names = (0..n).map(|i| momentum(system, i));
+    if names.into_iter().any(|name| system.problem.names.values().any(|known| *known == name)) {
+        return;
+    }
+    for line in system.lines("Hamiltonian\n") {
+        check_line(system, line, |sample| vec![sample.values(&system.graph, &[equations.energy])[0].value]);
+    }
+    let lines = system.lines("Hamilton's equations\n");
+    check_by_coordinate(system, &lines, ("", 1), |sample, i| value(sample, Variable::Velocity(i)));
+    check_by_coordinate(system, &lines, ("p_", 1), |sample, i| {
+        let force = equations.constraint_force.get(i).copied().unwrap_or(Id::ZERO);
+        let parts = sample.values(&system.graph, &[equations.momentum_rate[i], force]);
+        parts[0].value + parts[1].value
+    });
+}
+
+fn momentum(system: &System, i: usize) -> String {
+    format!("p_{}", system.problem.coordinates[i].text)
+}
+
+/// Lines whose left side is a name made of a coordinate's, or of that of a vector of coordinates; others are passed over.
+fn check_by_coordinate(
+    system: &System,
+    lines: &[&str],
+    (prefix, dots): (&str, usize),
+    computed: impl Fn(&mut Sample, usize) -> f64,
+) {
+    let coordinates = system.problem.coordinates.iter();
+    let names = coordinates.map(|label| Formula::labelled(&format!("{prefix}{}", label.text), dots));
+    let names: Vec<String> = names.map(|name| Notation::Unicode.write(&name)).collect();
+    for line in lines {
+        let left = line.split(" = ").next().expect("a side");
+        let is_it = |name: &String| {
+            let index = name.strip_prefix(left).and_then(|rest| rest.strip_prefix('['));
+            name == left || index.is_some_and(|index| index.matches(']').count() == 1)
+        };
+        let rows: Vec<usize> = (0..names.len()).filter(|&i| is_it(&names[i])).collect();
+        if !rows.is_empty() {
+            check_line(system, line, |sample| rows.iter().map(|&i| computed(sample, i)).collect());
+        }
+    }
+}
+
+/// The right side of a line has the value that is computed, to the rounding of both.
+fn check_line(system: &System, line: &str, computed: impl Fn(&mut Sample) -> Value) {
+    let Some((_, text)) = line.split_once(" = ") else { return };
+    let text = text.split("   (").next().expect("a formula");
+    let mut states = 0;
+    for draw in 0..STATES {
+        let mut sample = system.sample(draw);
+        let computed = computed(&mut sample);
+        let read = State::new(system, &mut sample, draw).read(text);
+        if !computed.iter().chain(&read).all(|x| x.is_finite()) {
+            continue;
+        }
+        assert!(read.len() == computed.len() || read == [0.0], "{line} in {}", system.text);
+        let read = read.into_iter().chain(std::iter::repeat(0.0));
+        for (read, computed) in read.zip(computed) {
+            let close = (read - computed).abs() <= CLOSE * (1.0 + computed.abs());
+            assert!(close, "{line}: {read} is not {computed} in {}", system.text);
+        }
+        states += 1;
+        if states == WANTED {
+            return;
+        }
+    }
+    assert!(states > 0, "no state for {text} in {}", system.text);
+}
+
+/// There are at least so many: a search that finds none would check nothing.
+fn check_all(folders: &'static [&str], least: usize) {
+    let checked = of_all(folders, |mut system| {
+        for [text, _] in system.forms.clone() {
+            system.text = text;
+            check_motion(&system);
+            check_quantities(&system);
+            check_hamilton(&system);
+        }
+    });
+    assert!(checked.len() >= least, "{} systems only", checked.len());
+}
+
+#[test]
+fn what_the_tests_print_is_what_is_computed() {
+    check_all(&["tests"], 400);
+}
+
+#[test]
+fn what_the_examples_print_is_what_is_computed() {
+    check_all(
+        &[
+            "examples",
+            "lagrange-core/src",
+            "lagrange-core/examples",
+            "lagrange-core/benches",
+            "lagrange-core/tests",
+        ],
+        1,
+    );
+}
+
+#[test]
+fn what_the_pipeline_prints_is_what_is_computed() {
+    check_all(&["lagrange-macros/src"], 50);
+}

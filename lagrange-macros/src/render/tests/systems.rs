@@ -1,0 +1,132 @@
+//! The systems that any test, example or page of documentation derives.
+
+use std::path::Path;
+
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
+
+use crate::diagnostics::Diagnostics;
+use crate::mechanics::{self, Derived};
+use crate::render::{Rendered, render};
+use crate::resolve::{self, Problem};
+use crate::symbolic::Graph;
+use crate::syntax;
+
+/// A system whose equations are checked.
+pub(super) struct System {
+    pub(super) graph: Graph,
+    pub(super) problem: Problem,
+    pub(super) derived: Derived,
+    pub(super) text: String,
+    pub(super) forms: [[String; 2]; 3],
+}
+
+impl System {
+    /// `None` where something is wrong with it.
+    pub(super) fn new(tokens: TokenStream) -> Option<Self> {
+        let mut diagnostics = Diagnostics::default();
+        let declaration = syntax::declaration(syn::parse2(tokens).ok()?, &mut diagnostics);
+        diagnostics.is_empty().then_some(())?;
+        let (mut graph, problem) = resolve::problem(&declaration, &mut diagnostics)?;
+        let derived = mechanics::derive(&mut graph, &problem, &mut diagnostics)?;
+        let Rendered { forms, .. } = render(&declaration, &graph, &problem, &derived);
+        let text = forms[0][0].clone();
+        Some(Self { graph, problem, derived, text, forms })
+    }
+}
+
+/// All structs that derive a Lagrangian in these tokens, and in the strings among them.
+fn structs(tokens: TokenStream, found: &mut Vec<TokenStream>) {
+    let mut item: Vec<TokenTree> = Vec::new();
+    let mut derives = false;
+    for token in tokens {
+        match &token {
+            TokenTree::Group(group) if group.delimiter() == Delimiter::Bracket && is_attribute(&item) => {
+                derives |= group.stream().to_string().contains("Lagrangian");
+            }
+            TokenTree::Group(group) => structs(group.stream(), found),
+            TokenTree::Literal(literal) => {
+                let text = syn::parse_str::<syn::LitStr>(&literal.to_string()).map(|literal| literal.value());
+                let text = text.unwrap_or_default();
+                if text.contains("#[coordinates") && !text.contains("{{") {
+                    found.extend(text.parse::<TokenStream>());
+                }
+            }
+            _ => {}
+        }
+        let ends = match &token {
+            TokenTree::Punct(punct) => punct.as_char() == ';',
+            TokenTree::Group(group) => group.delimiter() == Delimiter::Brace,
+            _ => false,
+        };
+        item.push(token);
+        if ends {
+            if derives && item.iter().any(|token| token.to_string() == "struct") {
+                found.push(item.drain(..).collect());
+            }
+            item.clear();
+            derives = false;
+        }
+    }
+}
+
+fn is_attribute(item: &[TokenTree]) -> bool {
+    matches!(item.last(), Some(TokenTree::Punct(punct)) if punct.as_char() == '#')
+}
+
+/// The code in a file, and the code in its comments.
+fn sources(text: &str) -> Vec<String> {
+    let mut sources = vec![text.to_owned()];
+    let comments = text.lines().map(str::trim).filter_map(|line| {
+        line.strip_prefix("///")
+            .or_else(|| line.strip_prefix("//!"))
+            .map(|line| line.strip_prefix(' ').unwrap_or(line))
+    });
+    let comments: Vec<&str> = comments.map(|line| line.strip_prefix("# ").unwrap_or(line)).collect();
+    sources.extend(
+        comments
+            .join("\n")
+            .split("```")
+            .skip(1)
+            .step_by(2)
+            .map(|block| block.split_once('\n').map_or(String::new(), |(_, code)| code.to_owned())),
+    );
+    sources
+}
+
+fn files(folder: &Path, found: &mut Vec<std::path::PathBuf>) {
+    let Ok(entries) = std::fs::read_dir(folder) else { return };
+    let mut paths: Vec<_> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    paths.sort();
+    for path in paths {
+        if path.is_dir() {
+            files(&path, found);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            found.push(path);
+        }
+    }
+}
+
+/// What `ask` says of every system in these folders in which nothing is wrong.
+pub(super) fn of_all<T: Send + 'static>(folders: &'static [&str], ask: fn(System) -> T) -> Vec<T> {
+    // Some tests nest very deep.
+    let derive = move || {
+        let systems = tokens(folders).into_iter().filter_map(System::new);
+        systems.map(ask).collect()
+    };
+    let thread = std::thread::Builder::new().stack_size(1 << 28).spawn(derive).expect("a thread");
+    thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+}
+
+fn tokens(folders: &[&str]) -> Vec<TokenStream> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let (mut paths, mut found) = (Vec::new(), Vec::new());
+    folders.iter().for_each(|folder| files(&root.join(folder), &mut paths));
+    for path in paths {
+        let text = std::fs::read_to_string(path).expect("a text");
+        sources(&text)
+            .iter()
+            .filter_map(|source| source.parse().ok())
+            .for_each(|tokens| structs(tokens, &mut found));
+    }
+    found
+}

@@ -1,0 +1,42 @@
+//! LaTeX takes the equations of all systems, and no line is too long.
+
+use std::process::Command;
+
+use super::systems::of_all;
+
+/// As much of them as the tests of the crates derive, in one document.
+#[test]
+fn latex_sets_all_systems_without_an_overfull_line() {
+    if Command::new("pdflatex").arg("--version").output().is_err() {
+        eprintln!(
+            "NOTE: there is no pdflatex here: not set (Debian has it in texlive-latex-base, with texlive-latex-recommended)"
+        );
+        return;
+    }
+    let folder = std::env::temp_dir().join(format!("lagrange-typeset-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let mut document = String::from(
+        "\\documentclass{article}\n\\usepackage[utf8]{inputenc}\n\\usepackage{amsmath}\n\\allowdisplaybreaks\n\\hfuzz=0.1pt\n\\begin{document}\n",
+    );
+    let folders = &["tests", "examples", "lagrange-core/src", "lagrange-core/benches"];
+    let systems = of_all(folders, |system| system.forms.map(|[_, latex]| latex));
+    let systems: Vec<String> = systems.into_iter().flatten().collect();
+    for (number, latex) in systems.iter().enumerate() {
+        // Labels of systems that have one name would be equal.
+        let latex = latex.replace("\\label{eq:", &format!("\\label{{eq:{number}-"));
+        document += &format!("% {number}\n\\typeout{{system {number}}}\n{latex}\n\n");
+    }
+    document += "\\end{document}\n";
+    std::fs::write(folder.join("all.tex"), &document).expect("a file");
+    let run = Command::new("pdflatex")
+        .args(["-interaction=nonstopmode", "-halt-on-error", "all.tex"])
+        .current_dir(&folder)
+        .output()
+        .expect("pdflatex");
+    let log = String::from_utf8_lossy(&run.stdout).into_owned();
+    let overfull: Vec<&str> = log.lines().filter(|line| line.contains("Overfull")).collect();
+    let multiply = log.lines().filter(|line| line.contains("multiply defined")).count();
+    assert!(run.status.success(), "{}", &log[log.len().saturating_sub(3000)..]);
+    assert!(overfull.is_empty() && multiply == 0, "{} overfull: {overfull:#?}", overfull.len());
+    std::fs::remove_dir_all(&folder).expect("an empty folder");
+}
