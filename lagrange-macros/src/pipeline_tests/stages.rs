@@ -144,7 +144,7 @@ fn infix(graph: &Graph, problem: &Problem, id: Id) -> String {
 fn what_is_read() {
     let (declaration, _) = declaration(systems::SPHERE);
     let (graph, problem, derived) = derived(systems::SPHERE);
-    shows("what is read", &render::render(&declaration, &graph, &problem, &derived).text);
+    shows("what is read", &render::render(&declaration, &graph, &problem, &derived).forms[0][0]);
 }
 
 #[test]
