@@ -4,7 +4,7 @@ mod antiderivative;
 mod bounds;
 mod canonical;
 mod derivatives;
-mod double;
+pub(super) mod double;
 mod external;
 mod faults;
 mod rationals;
