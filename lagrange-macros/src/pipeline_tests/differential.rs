@@ -32,6 +32,8 @@ struct Tally {
     states: usize,
     /// States at which rounding may change anything.
     untold: usize,
+    /// Solutions that are said not to be right, where the general elimination takes over.
+    doubted: usize,
     /// Errors as parts of their bounds, and as parts of the largest entry.
     worst: f64,
     worst_relative: f64,
@@ -42,7 +44,8 @@ fn the_accelerations_are_those_of_the_lagrangian_as_it_is_written() {
     let mut tally = Tally::default();
     rounds("systems", 40, |random| checked(random, &mut tally));
     println!("{tally:?}");
-    assert!(tally.untold * 10 <= tally.states.max(10), "hardly anything is told");
+    let told = tally.states - tally.untold.max(tally.doubted);
+    assert!(tally.systems < 40 || 10 * told > 9 * tally.states, "too little is told");
 }
 
 fn checked(random: &mut Random, tally: &mut Tally) {
@@ -60,14 +63,11 @@ fn checked(random: &mut Random, tally: &mut Tally) {
         };
         let found = solutions(&graph, &equations, |symbol| input(time, &numbers, &problem, symbol));
         assert!(found.iter().any(Option::is_some), "left to loops:\n{source}");
-        for (form, solution) in found.iter().enumerate() {
-            if let Some((_, entries)) = solution.as_ref().and_then(|solution| solution.split_last()) {
-                compare(
-                    entries,
-                    &expected,
-                    tally,
-                    &format!("form {form} at t = {time}, {numbers:?}\n{source}"),
-                );
+        let what = format!("at t = {time}, {numbers:?}\n{source}");
+        for entries in found.iter().flatten() {
+            match entries.split_last() {
+                Some((pivot, entries)) if *pivot > 0.0 => compare(entries, &expected, tally, &what),
+                _ => tally.doubted += 1,
             }
         }
     }

@@ -40,16 +40,18 @@ impl Running {
 pub(super) struct Jet(Vec<Running>);
 
 impl Jet {
-    pub(super) fn exact(value: Double) -> Self {
-        Self(vec![Running::exact(value)])
+    /// What f64 holds.
+    pub(super) fn number(value: f64) -> Self {
+        Self(vec![Running::exact(Double::from(value))])
+    }
+
+    /// What f64 may round.
+    pub(super) fn rounded(value: Double) -> Self {
+        Self(vec![Running::rounded(value, 1.0, 0.0)])
     }
 
     pub(super) fn running(value: Running) -> Self {
         Self(vec![value])
-    }
-
-    pub(super) fn number(value: f64) -> Self {
-        Self::exact(Double::from(value))
     }
 
     /// The coefficient of all ε that there are, of so many.
@@ -110,7 +112,7 @@ impl Jet {
             let inherited = if x.errors == 0.0 { 0.0 } else { slope * x.errors };
             return Self(vec![Running::rounded(value, exponent.numer().abs() as f64 + 1.0, inherited)]);
         }
-        let factor = Self::exact(Double::from(exponent));
+        let factor = Self::rounded(Double::from(exponent));
         self.chain(|a| a.power(exponent), |a| factor.clone() * a.power(exponent - Rational::from_integer(1)))
     }
 

@@ -109,8 +109,9 @@ impl Term {
         let all = |terms: &[Self; 3]| terms.each_ref().map(of);
         let dot = |[a, b, c]: [Jet; 3], [x, y, z]: [Jet; 3]| a * x + b * y + c * z;
         match self {
-            Self::Number(_, n, d) => Jet::exact(Double::from(Rational::new(*n, *d))),
-            Self::Pi => Jet::exact(Double::PI),
+            Self::Number(_, n, 1) => Jet::number(*n as f64),
+            Self::Number(_, n, d) => Jet::rounded(Double::from(Rational::new(*n, *d))),
+            Self::Pi => Jet::rounded(Double::PI),
             Self::Time => here.time.clone(),
             Self::Index => Jet::number(here.index as f64),
             Self::Argument => here.argument.clone().expect("a function has an argument"),

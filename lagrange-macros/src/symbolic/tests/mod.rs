@@ -7,6 +7,7 @@ mod derivatives;
 pub(super) mod double;
 mod external;
 mod faults;
+mod fractions;
 mod rationals;
 mod sample;
 pub(super) mod tree;
