@@ -82,8 +82,9 @@ impl Draft {
             draft.lagrangian.push(negative(term));
         }
         draft.act(random);
-        for _ in 0..random.below(draft.count.min(3)) {
-            let constraint = draft.constraint(random);
+        let first = random.below(draft.count);
+        for k in 0..random.below(draft.count.min(3)) {
+            let constraint = draft.constraint((first + k) % draft.count, random);
             draft.constraints.push(constraint);
         }
         draft
@@ -106,7 +107,7 @@ impl Draft {
                 }
             }
             let mass = if random.once_in(3) { self.pen(random).positive(2) } else { Term::Parameter(0) };
-            terms.push(binary('/', binary('*', mass, power(speed, 2, 1)), Term::Number("2", 2, 1)));
+            terms.push(half(binary('*', mass, power(speed, 2, 1))));
         }
         let i = random.below(self.count);
         terms.extend(match random.below(6) {
@@ -139,9 +140,8 @@ impl Draft {
         }
     }
 
-    /// Of coordinates, or linear in velocities.
-    fn constraint(&self, random: &mut Random) -> (Term, bool) {
-        let i = random.below(self.count);
+    /// Of coordinates, or linear in velocities. Each has a coordinate of its own, so that none says what another one does.
+    fn constraint(&self, i: usize, random: &mut Random) -> (Term, bool) {
         let of_velocities = random.once_in(2);
         let own = if of_velocities { Term::Velocity(i) } else { Term::Coordinate(i) };
         let mut term = binary('*', Term::Parameter(random.below(self.parameters)), own);
@@ -175,6 +175,10 @@ fn binary(sign: char, x: Term, y: Term) -> Term {
 
 fn power(x: Term, numerator: i128, denominator: i128) -> Term {
     Term::Power(Box::new(x), numerator, denominator)
+}
+
+fn half(x: Term) -> Term {
+    binary('/', x, Term::Number("2", 2, 1))
 }
 
 fn negative(x: Term) -> Term {
@@ -259,7 +263,11 @@ impl Pen<'_> {
             11 => power(self.bounded(below), 3, 1),
             12..16 => self.bounded(depth),
             16..18 => self.positive(depth),
-            18 => function(Function::Ln, self.positive(below)),
+            18 => match self.random.below(3) {
+                0 => function(Function::Acos, half(self.bounded(below))),
+                1 => function(Function::Tan, half(self.bounded(below))),
+                _ => function(Function::Ln, self.positive(below)),
+            },
             19 => Term::Atan2(Box::new([self.term(below), self.positive(below)])),
             20 => Term::Dot(Box::new([self.vector(below), self.vector(below)])),
             21 => {
@@ -296,19 +304,17 @@ impl Pen<'_> {
         }
     }
 
-    /// Hardly larger than 1.
+    /// Between -1 and 1.
     fn bounded(&mut self, depth: usize) -> Term {
         let Some(below) = depth.checked_sub(1) else {
             return function(Function::Sin, self.atom());
         };
-        let half = |x| binary('/', x, Term::Number("2", 2, 1));
-        match self.random.below(9) {
+        match self.random.below(8) {
             0 | 1 => function(Function::Sin, self.term(below)),
             2 | 3 => function(Function::Cos, self.term(below)),
             4 => function(Function::Tanh, self.term(below)),
-            5 => function(Function::Atan, self.term(below)),
-            6 => function(Function::Asin, half(self.bounded(below))),
-            7 => function(Function::Acos, half(function(Function::Cos, self.term(below)))),
+            5 => half(function(Function::Atan, self.term(below))),
+            6 => half(function(Function::Asin, half(self.bounded(below)))),
             _ => {
                 let x = self.term(below);
                 binary('/', x.clone(), binary('+', Term::Number("1", 1, 1), power(x, 2, 1)))

@@ -134,10 +134,9 @@ impl Jet {
         Self(entries)
     }
 
-    /// By the sine, the cosine, the exponential function, the logarithm, the arc tangent and the root.
+    /// Most by the sine, the cosine, the exponential function, the logarithm, the arc tangent and the root.
     pub(super) fn apply(&self, function: Function) -> Self {
         let one = || Self::number(1.0);
-        let twice = |x: Self| x.clone() + x;
         let exponentials = || (self.apply(Function::Exp), (-self.clone()).apply(Function::Exp));
         let leg = || ((one() - self.clone()) * (one() + self.clone())).sqrt();
         match function {
@@ -152,7 +151,10 @@ impl Jet {
             Function::Acos => leg().atan2(self),
             Function::Sinh => (exponentials().0 - exponentials().1) / Self::number(2.0),
             Function::Cosh => (exponentials().0 + exponentials().1) / Self::number(2.0),
-            Function::Tanh => one() - Self::number(2.0) / (twice(self.clone()).apply(Function::Exp) + one()),
+            // That this is a difference costs digits where it is small, in what is emitted too.
+            Function::Tanh => self.of_functions(function, |x| {
+                Self::number(1.0) - x.apply(Function::Tanh).power(Rational::from_integer(2))
+            }),
             Function::Ramp | Function::Step => unreachable!("none is drawn"),
         }
     }
@@ -164,6 +166,7 @@ fn steepness(function: Function, x: f64) -> f64 {
         Function::Cos => x.sin(),
         Function::Exp => x.exp(),
         Function::Ln => 1.0 / x,
+        Function::Tanh => 1.0 - x.tanh().powi(2),
         _ => 1.0,
     }
 }
