@@ -20,6 +20,8 @@ mod render;
 mod resolve;
 #[cfg(test)]
 mod robustness;
+#[cfg(test)]
+mod rounds;
 mod symbolic;
 mod syntax;
 mod variables;

@@ -5,6 +5,7 @@ mod completion;
 mod consistency;
 mod counts;
 mod determinism;
+mod differential;
 mod doubling;
 mod elimination;
 mod emitted;

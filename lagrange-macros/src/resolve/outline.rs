@@ -136,6 +136,7 @@ impl Lowering<'_> {
             Kind::Number(_) | Kind::Name(_) | Kind::Index(..) | Kind::Member(..) | Kind::Power(..) => None,
         };
         let sum = self.graph.total(contents);
-        length.map_or(Value::Scalar(sum), |length| Value::vector(vec![sum; length]))
+        // No array is empty, as all that is made of them relies on.
+        length.map_or(Value::Scalar(sum), |length| Value::vector(vec![sum; length.max(1)]))
     }
 }

@@ -29,7 +29,7 @@ pub(crate) use sample::Sample;
 pub(crate) use scaled::{Scaled, finite_decimal, parse_decimal};
 pub(crate) use simplify::Parity;
 #[cfg(test)]
-pub(crate) use tests::tree::apply;
+pub(crate) use tests::{double::Double, tree::apply};
 #[cfg(test)]
 pub(crate) use wave::superposition;
 pub(crate) use zero::Verdict;

@@ -118,7 +118,12 @@ impl Scaled {
         match finite_decimal(fraction) {
             _ if exponent == 0 => to_f64(fraction),
             Some((digits, places)) => read(format!("{digits}e{}", i64::from(exponent) - i64::from(places))),
-            None => to_f64(fraction) * read(format!("1e{exponent}")),
+            // The power of ten alone may be beyond the range that the number is in.
+            None => {
+                let digits = format!("{:e}", to_f64(fraction));
+                let (digits, tens) = digits.split_once('e').unwrap_or((&digits, "0"));
+                read(format!("{digits}e{}", tens.parse::<i64>().unwrap_or(0) + i64::from(exponent)))
+            }
         }
     }
 }

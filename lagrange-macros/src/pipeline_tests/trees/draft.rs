@@ -4,32 +4,9 @@ use std::collections::BTreeMap;
 
 use super::algebra::{Matrix, Vector, product, transposed, turn_by, unit};
 use super::model::{Joint, Link, Load, Model, Motion, Tie};
-
-/// Numbers at random, the same in every run (Steele, Lea and Flood's SplitMix64).
-pub(super) struct Random(pub(super) u64);
+use crate::rounds::Random;
 
 impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    pub(super) fn below(&mut self, bound: usize) -> usize {
-        (self.next() % bound as u64) as usize
-    }
-
-    /// One of as many times.
-    pub(super) fn once_in(&mut self, times: usize) -> bool {
-        self.below(times) == 0
-    }
-
-    pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * (self.next() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
     pub(super) fn vector(&mut self) -> Vector {
         [0; 3].map(|_| self.between(-1.0, 1.0))
     }

@@ -1,10 +1,11 @@
 //! Trees of frames at random, with bodies, loads and ties.
 
 use super::algebra::{Matrix, UNIT, Vector, scaled, turn_by};
-use super::draft::{Draft, Frame, Random, inertia};
+use super::draft::{Draft, Frame, inertia};
 use super::joints::{AXES, KINDS};
 use super::loads::{loads, ties};
 use super::model::{Body, Joint, Load, Motion, Point};
+use crate::rounds::Random;
 
 /// The first trees are small, so that they are derived in little time.
 const SMALL: u64 = 60;

@@ -1,8 +1,9 @@
 //! Joints of every kind.
 
 use super::algebra::{UNIT, scaled};
-use super::draft::{Draft, Frame, Random, axis};
+use super::draft::{Draft, Frame, axis};
 use super::model::{Joint, Motion};
+use crate::rounds::Random;
 
 /// What a joint is, and how many coordinates it brings.
 pub(super) const KINDS: [(&str, usize, Draw); 15] = [

@@ -1,8 +1,9 @@
 //! What acts on a tree beside gravity: forces, springs, friction, a magnetic field, and constraints.
 
 use super::algebra::{difference, norm, times, transposed};
-use super::draft::{Draft, Frame, Random};
+use super::draft::{Draft, Frame};
 use super::model::{Load, Point, Tie};
+use crate::rounds::Random;
 
 /// What acts on some of the trees, and on one in how many.
 pub(super) const LOADS: [(&str, usize, Draw); 7] = [

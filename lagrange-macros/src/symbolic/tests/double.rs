@@ -7,7 +7,7 @@ use super::super::{Function, Graph, Id, Node, Rational, Symbol};
 
 /// The unevaluated sum of two f64.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Double {
+pub(crate) struct Double {
     high: f64,
     low: f64,
 }
@@ -82,8 +82,15 @@ impl From<Rational> for Double {
 }
 
 impl Double {
+    pub(crate) const PI: Self = PI;
+
+    /// The nearest `f64`.
+    pub(crate) fn to_f64(self) -> f64 {
+        self.high
+    }
+
     /// How far an f64 is from this.
-    pub(super) fn distance(self, other: f64) -> f64 {
+    pub(crate) fn distance(self, other: f64) -> f64 {
         let difference = self - Self::from(other);
         (difference.high + difference.low).abs()
     }
@@ -106,7 +113,7 @@ impl Double {
         if exponent < 0 { ONE / power } else { power }
     }
 
-    fn power(self, exponent: Rational) -> Self {
+    pub(crate) fn power(self, exponent: Rational) -> Self {
         match *exponent.denom() {
             1 => self.whole_power(*exponent.numer()),
             2 => self.sqrt().whole_power(*exponent.numer()),
@@ -158,13 +165,13 @@ impl Double {
         guess + rest - (rest * rest).times_power_of_two(-1)
     }
 
-    fn atan2(self, x: Self) -> Self {
+    pub(crate) fn atan2(self, x: Self) -> Self {
         let guess = Self::from(self.high.atan2(x.high));
         let (sine, cosine) = guess.sin_cos();
         guess + (self * cosine - x * sine) / (x * x + self * self).sqrt()
     }
 
-    fn apply(self, function: Function) -> Self {
+    pub(crate) fn apply(self, function: Function) -> Self {
         let leg = || ((ONE - self) * (ONE + self)).sqrt();
         let exponentials = || (self.exp(), (-self).exp());
         match function {

@@ -121,6 +121,16 @@ fn the_largest_fractions_have_values() {
     assert_eq!(to_f64(Rational::new(0, 1)).to_bits(), 0);
 }
 
+/// The power of ten is less than any number that f64 holds with all its digits, the number is not.
+#[test]
+fn what_is_in_range_is_exact_whatever_its_power_of_ten_is() {
+    let fraction = Rational::new(i128::MAX, 8_160_523_013_533_753_617_575_794_477_336);
+    let value = Scaled { fraction, exponent: -312 }.to_f64();
+    assert!((value / 2.084_929_889_644_327_4e-305 - 1.0).abs() < 2.0 * f64::EPSILON, "{value:e}");
+    let value = Scaled { fraction: Rational::new(1, 3 * 10_i128.pow(20)), exponent: 315 }.to_f64();
+    assert!((value / (1e295 / 3.0) - 1.0).abs() < 2.0 * f64::EPSILON, "{value:e}");
+}
+
 fn read(graph: &mut Graph, text: &str) -> Id {
     graph.scaled(parse_decimal(text).expect("a number"))
 }

@@ -1,0 +1,120 @@
+//! Systems at random: accelerations and multipliers as they would be emitted, against derivatives of the Lagrangian as it is
+//! written by nilpotent numbers of twice the precision, and Gauss's elimination.
+//!
+//! Neither differentiates symbolically nor simplifies what the other one does: they share the source, and the values of
+//! time, coordinates, velocities and parameters. `LAGRANGE_FUZZ_SECONDS` and `LAGRANGE_FUZZ_SEED` say how many systems, and which.
+
+mod draft;
+mod jet;
+mod language;
+mod oracle;
+
+use super::equations;
+use crate::codegen::solutions;
+use crate::resolve::Problem;
+use crate::rounds::{Random, rounds};
+use crate::symbolic::Symbol;
+use crate::variables::Variable;
+use draft::Draft;
+use language::Here;
+use oracle::Solution;
+
+/// The bound is that of one order of operations, from the top of the matrix down; what is emitted has others, and other expressions
+/// for the same entries. It may be so many times as inexact, which is a bit more than one digit.
+const ROOM: f64 = 16.0;
+
+/// A smaller pivot leaves less than two thirds of the digits: no number is emitted then, and the general elimination takes over.
+const TRUSTED: f64 = 6e-6;
+
+/// Of what is less exact than this nothing can be told.
+const TELLING: f64 = 1e-6;
+
+#[derive(Default, Debug)]
+struct Tally {
+    systems: usize,
+    states: usize,
+    /// States at which rounding may change anything.
+    untold: usize,
+    /// Solutions that are said not to be right, where the general elimination takes over.
+    doubted: usize,
+    /// Errors as parts of their bounds, and as parts of the largest entry.
+    worst: f64,
+    worst_relative: f64,
+}
+
+#[test]
+fn the_accelerations_are_those_of_the_lagrangian_as_it_is_written() {
+    let mut tally = Tally::default();
+    rounds("systems", 40, |random| checked(random, &mut tally));
+    println!("{tally:?}");
+    let told = tally.states - tally.untold.max(tally.doubted);
+    assert!(tally.systems < 40 || 10 * told > 9 * tally.states, "too little is told");
+}
+
+fn checked(random: &mut Random, tally: &mut Tally) {
+    let draft = Draft::new(random);
+    let source = draft.source();
+    let (graph, problem, equations) = equations(&source);
+    tally.systems += 1;
+    for _ in 0..3 {
+        let (time, numbers) = draft.numbers(random);
+        let here = Here::new(time, &numbers[0], &numbers[1], &numbers[2]);
+        tally.states += 1;
+        let Some(expected) = oracle::solve(&draft, &here).filter(is_telling) else {
+            tally.untold += 1;
+            continue;
+        };
+        let found = solutions(&graph, &equations, |symbol| input(time, &numbers, &problem, symbol));
+        assert!(found.iter().any(Option::is_some), "left to loops:\n{source}");
+        let what = format!("at t = {time}, {numbers:?}\n{source}");
+        for entries in found.iter().flatten() {
+            match entries.split_last() {
+                Some((pivot, entries)) if *pivot > TRUSTED => compare(entries, &expected, tally, &what),
+                _ => tally.doubted += 1,
+            }
+        }
+    }
+}
+
+/// Numbers, and such that rounding leaves something of them.
+fn is_telling(solution: &Solution) -> bool {
+    let largest = largest(solution);
+    largest.is_finite() && solution.bounds.iter().all(|bound| ROOM * bound <= TELLING * largest)
+}
+
+fn largest(solution: &Solution) -> f64 {
+    solution.values.iter().fold(1.0_f64, |largest, x| largest.max(x.to_f64().abs()))
+}
+
+fn compare(entries: &[f64], expected: &Solution, tally: &mut Tally, what: &str) {
+    assert_eq!(entries.len(), expected.values.len());
+    for (k, (&found, (value, bound))) in
+        entries.iter().zip(expected.values.iter().zip(&expected.bounds)).enumerate()
+    {
+        let off = value.distance(found);
+        assert!(
+            off <= ROOM * bound,
+            "entry {k} is {found:e}, not {:e}: {:.1} times the bound {bound:e}; {what}",
+            value.to_f64(),
+            off / bound
+        );
+        tally.worst = tally.worst.max(off / bound.max(f64::MIN_POSITIVE));
+        tally.worst_relative = tally.worst_relative.max(off / largest(expected));
+    }
+}
+
+fn input(
+    time: f64,
+    [coordinates, velocities, parameters]: &[Vec<f64>; 3],
+    problem: &Problem,
+    symbol: Symbol,
+) -> f64 {
+    match Variable::of(symbol) {
+        Variable::Time => time,
+        Variable::Coordinate(i) => coordinates[i],
+        Variable::Velocity(i) => velocities[i],
+        // Fields are in the order in which they are declared.
+        Variable::Parameter(k) => parameters[problem.parameters.entries[k].field],
+        other => panic!("the solution depends on {other:?}"),
+    }
+}

@@ -1,0 +1,147 @@
+//! Accelerations and multipliers by derivatives of the Lagrangian as it is written and Gauss's elimination, to twice the
+//! precision of f64; and how exact f64 can be expected to be.
+
+use super::draft::Draft;
+use super::jet::{Jet, Running};
+use super::language::{Here, Term};
+use crate::symbolic::Double;
+
+/// The accelerations, then the multipliers.
+pub(super) struct Solution {
+    pub(super) values: Vec<Double>,
+    /// How far off each may be in f64, where every rounding error is as large as it can be.
+    pub(super) bounds: Vec<f64>,
+}
+
+/// Solves K x = r, [M −Fᵀ; F 0] (q̈, λ) = (h, −γ), with
+/// M = ∂²L/∂q̇∂q̇, h = ∂L/∂q + Q − ∂D/∂q̇ − (∂/∂t + q̇·∂/∂q) ∂L/∂q̇. None where K is singular.
+pub(super) fn solve(draft: &Draft, here: &Here) -> Option<Solution> {
+    let (n, constraints) = (draft.count, &draft.constraints);
+    let slopes = constraints.iter().map(|(term, of_velocities)| slopes(draft, here, term, *of_velocities));
+    let slopes: Vec<Vec<Running>> = slopes.collect();
+    let masses = |i: usize| (0..n).map(move |j| lagrangian(draft, &here.by_velocity(i).by_velocity(j)));
+    let mut rows: Vec<Vec<Running>> =
+        (0..n).map(|i| masses(i).chain(slopes.iter().map(|row| negative(row[i]))).collect()).collect();
+    let mut right: Vec<Running> = (0..n).map(|i| forcing(draft, here, i)).collect();
+    for (mut row, (term, of_velocities)) in slopes.into_iter().zip(constraints) {
+        row.resize(n + constraints.len(), Jet::number(0.0).coefficient(0));
+        rows.push(row);
+        right.push(negative(bias(draft, here, term, *of_velocities)));
+    }
+    solution(&rows, &right)
+}
+
+/// A row of F.
+fn slopes(draft: &Draft, here: &Here, term: &Term, of_velocities: bool) -> Vec<Running> {
+    let moved = |i| if of_velocities { here.by_velocity(i) } else { here.by_coordinate(i) };
+    (0..draft.count).map(|i| term.value(draft, &moved(i)).coefficient(1)).collect()
+}
+
+fn negative(x: Running) -> Running {
+    Running { value: -x.value, ..x }
+}
+
+/// The derivative of L by every ε.
+fn lagrangian(draft: &Draft, here: &Here) -> Running {
+    let terms = draft.lagrangian.iter().map(|term| term.value(draft, here));
+    terms.fold(Jet::number(0.0), |sum, term| sum + term).coefficient(here.order)
+}
+
+fn forcing(draft: &Draft, here: &Here, i: usize) -> Running {
+    let now = |x: Running| Jet::running(x);
+    let (pull, drift) = (here.by_coordinate(i), here.later().by_velocity(i));
+    let mut sum = now(lagrangian(draft, &pull)) - now(lagrangian(draft, &drift));
+    for (_, force) in draft.forces.iter().filter(|(k, _)| *k == i) {
+        sum = sum + force.value(draft, here);
+    }
+    if let Some(dissipation) = &draft.dissipation {
+        sum = sum - now(dissipation.value(draft, &here.by_velocity(i)).coefficient(1));
+    }
+    sum.coefficient(0)
+}
+
+/// The second derivative along the motion, but for the accelerations.
+fn bias(draft: &Draft, here: &Here, term: &Term, of_velocities: bool) -> Running {
+    let later = if of_velocities { here.later() } else { here.later().later() };
+    term.value(draft, &later).coefficient(later.order)
+}
+
+/// |x − x̃| ≤ |K⁻¹| (δr + δK |x| + 3 N |L̂| |Û| |x|) u for a solution by elimination (Higham, *Accuracy and Stability of Numerical
+/// Algorithms*, 7.2 and theorem 9.4), with δ the errors of the entries, |L̂| |Û| those of an elimination from the top down.
+fn solution(matrix: &[Vec<Running>], right: &[Running]) -> Option<Solution> {
+    let size = right.len();
+    let unit = |i: usize, k: usize| Double::from(f64::from(u8::from(i == k)));
+    let rows = (0..size).map(|i| {
+        let entries = matrix[i].iter().map(|x| x.value);
+        entries.chain([right[i].value]).chain((0..size).map(move |k| unit(i, k))).collect()
+    });
+    let solved = eliminated(rows.collect())?;
+    let values: Vec<Double> = solved.iter().map(|row| row[size]).collect();
+    let sizes: Vec<f64> = values.iter().map(|x| x.to_f64().abs()).collect();
+    let growth = growth(matrix)?;
+    let errors: Vec<f64> = (0..size)
+        .map(|i| {
+            let of = |j: usize| (matrix[i][j].errors + 3.0 * size as f64 * growth[i][j]) * sizes[j];
+            right[i].errors + (0..size).map(of).sum::<f64>()
+        })
+        .collect();
+    let roundoff = f64::EPSILON / 2.0;
+    let bound = |row: &Vec<Double>| {
+        let parts = row[size + 1..].iter().zip(&errors);
+        roundoff * parts.map(|(inverse, error)| inverse.to_f64().abs() * error).sum::<f64>()
+    };
+    Some(Solution { bounds: solved.iter().map(bound).collect(), values })
+}
+
+/// Rows [I X] of [A B], X = A⁻¹ B, by Gauss and Jordan with partial pivoting.
+fn eliminated(mut rows: Vec<Vec<Double>>) -> Option<Vec<Vec<Double>>> {
+    for c in 0..rows.len() {
+        let size = |row: &Vec<Double>| row[c].to_f64().abs();
+        let pivot = (c..rows.len()).max_by(|&i, &j| size(&rows[i]).total_cmp(&size(&rows[j])))?;
+        (size(&rows[pivot]) > 0.0).then_some(())?;
+        rows.swap(c, pivot);
+        let scale = rows[c][c];
+        rows[c].iter_mut().for_each(|x| *x = *x / scale);
+        let top = rows[c].clone();
+        for (_, row) in rows.iter_mut().enumerate().filter(|&(i, _)| i != c) {
+            let factor = row[c];
+            row.iter_mut().zip(&top).for_each(|(x, &y)| *x = *x - factor * y);
+        }
+    }
+    Some(rows)
+}
+
+/// |L| |U| of the matrix, without pivoting.
+fn growth(matrix: &[Vec<Running>]) -> Option<Vec<Vec<f64>>> {
+    let mut rows: Vec<Vec<f64>> =
+        matrix.iter().map(|row| row.iter().map(|x| x.value.to_f64()).collect()).collect();
+    let size = rows.len();
+    let mut growth = vec![vec![0.0_f64; size]; size];
+    for c in 0..size {
+        let top = rows[c].clone();
+        (top[c] != 0.0).then_some(())?;
+        for i in c..size {
+            let factor = rows[i][c] / top[c];
+            for j in c..size {
+                growth[i][j] += (factor * top[j]).abs();
+                if i > c {
+                    rows[i][j] -= factor * top[j];
+                }
+            }
+        }
+    }
+    Some(growth)
+}
+
+#[test]
+fn the_bound_of_a_linear_system_is_that_of_its_condition() {
+    // Rows (1, 1), (1, 1 + d): the inverse is of the size 1/d, and an error in the sides as large as the round-off is
+    // as many times larger in the solution.
+    let jet = |x: f64| Running { errors: 1.0, ..Jet::number(x).coefficient(0) };
+    for d in [2.0_f64.powi(-7), 2.0_f64.powi(-14), 2.0_f64.powi(-20)] {
+        let matrix = [vec![jet(1.0), jet(1.0)], vec![jet(1.0), jet(1.0 + d)]];
+        let Solution { values, bounds } = solution(&matrix, &[jet(2.0), jet(2.0 + d)]).expect("a solution");
+        assert!(values.iter().all(|x| x.distance(1.0) < 1e-20), "{values:?}");
+        assert!(bounds.iter().all(|bound| (1.0..100.0).contains(&(bound * d / f64::EPSILON))), "{bounds:?}");
+    }
+}
