@@ -3,6 +3,8 @@
 //! Every number that a series is made of has its changes beside it, along one direction a lane, and so have its
 //! coefficients: it is differentiated, the length of the step held, by the rules by which it was made.
 
+mod general;
+
 use alloc::vec::Vec;
 use core::array::from_fn;
 use core::convert::Infallible;
@@ -10,7 +12,7 @@ use core::convert::Infallible;
 use nalgebra::{ComplexField, SVector};
 
 use super::control::{LAST, Last};
-use super::expansion::{Expansion, General};
+use super::expansion::Expansion;
 use super::{Memory, Taylor};
 use crate::ending::Ending;
 use crate::error::Error;
@@ -23,6 +25,7 @@ use crate::number::{Dual, Filled, Over, Real, Scalar, Wide, entries, exceeds, sm
 use crate::solution::flow::Phase;
 use crate::solution::solve::{first_row, least_pivot};
 use crate::system::{Lagrangian, Pack, RightHandSides, Solution, State, TaylorSeries};
+use general::DualGeneral;
 
 /// Numbers with their changes along as many directions as there are lanes.
 type Duals<L, const N: usize, const M: usize> = Dual<WideOf<L, N, M>>;
@@ -326,64 +329,4 @@ where
 /// Whether the elimination can be relied on in all lanes.
 fn is_sound<T: Real, W: Wide<T>, const N: usize, const M: usize>(solution: &Solution<Dual<W>, N, M>) -> bool {
     (0..W::COUNT).all(|lane| solution.pivot.value.lane(lane) > least_pivot())
-}
-
-/// The general factors of a state, and how the matrix changes with it.
-struct DualGeneral<T, W, const N: usize, const M: usize> {
-    general: General<T, N, M>,
-    /// δM and δF, row by row.
-    m: [[W; N]; N],
-    f: [[W; N]; M],
-}
-
-impl<T: Real<Wide = W>, W: Wide<T>, const N: usize, const M: usize> DualGeneral<T, W, N, M> {
-    #[cold]
-    fn at<L, S>(
-        system: &L,
-        over: &S,
-        (state, varied): (&State<T, N>, &State<Dual<W>, N>),
-        active: [bool; M],
-    ) -> Result<Self, Error>
-    where
-        L: Lagrangian<N, M, Scalar = T>,
-        S: Lagrangian<N, M, Scalar = Dual<W>>,
-    {
-        let (m, f) = (over.mass_matrix(varied), over.constraint_jacobian(varied));
-        let zero = W::constant(0.0);
-        let f = from_fn(|a| entries(|i| if active[a] { f[(a, i)].slope } else { zero }));
-        let m = from_fn(|i| entries(|j| m[(i, j)].slope));
-        Ok(Self { general: General::at(system, state, active)?, m, f })
-    }
-
-    /// M x − Fᵀλ = h and F x = −γ; differentiated, M δx − Fᵀδλ = δh − δM x + δFᵀλ and F δx = −δγ − δF x.
-    fn solve<L: Lagrangian<N, M, Scalar = T>>(
-        &self,
-        (h, gamma): &RightHandSides<Dual<W>, N, M>,
-    ) -> Result<Solution<Dual<W>, N, M>, Error> {
-        let values = (h.map(|x| x.value.lane(0)), gamma.map(|x| x.value.lane(0)));
-        let Solution { accelerations: x, multipliers, pivot, rank } = self.general.solve::<L>(&values)?;
-        let dual = |value: T| Dual { value: W::of(value), slope: W::constant(0.0) };
-        let mut all = Solution {
-            accelerations: x.map(dual),
-            multipliers: multipliers.map(dual),
-            pivot: dual(pivot),
-            rank,
-        };
-        for lane in 0..W::COUNT {
-            let (m, f) =
-                (|i: usize, j: usize| self.m[i][j].lane(lane), |a: usize, i: usize| self.f[a][i].lane(lane));
-            let h = SVector::from_fn(|i, _| {
-                let inertia = (0..N).fold(h[i].slope.lane(lane), |sum, j| sum - m(i, j) * x[j]);
-                (0..M).fold(inertia, |sum, a| sum + f(a, i) * multipliers[a])
-            });
-            let gamma = SVector::from_fn(|a, _| {
-                (0..N).fold(gamma[a].slope.lane(lane), |sum, i| sum + f(a, i) * x[i])
-            });
-            let change = self.general.solve::<L>(&(h, gamma))?;
-            let pairs = all.accelerations.iter_mut().zip(&change.accelerations);
-            let pairs = pairs.chain(all.multipliers.iter_mut().zip(&change.multipliers));
-            pairs.for_each(|(x, change)| x.slope.put(lane, *change));
-        }
-        Ok(all)
-    }
 }

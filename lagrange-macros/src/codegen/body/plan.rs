@@ -1,5 +1,7 @@
 //! From a schedule to a [`Body`], part by part.
 
+mod angles;
+
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -7,7 +9,7 @@ use rustc_hash::FxHashMap;
 
 use super::chunks::{self, Waiting};
 use super::order_of_evaluation::Order;
-use super::{Body, Expression, Local, Part, Place, Statement, Turn};
+use super::{Body, Expression, Local, Part, Place, Statement};
 use crate::codegen::operation::{Call, Operation, Register};
 use crate::codegen::passes::Program;
 use crate::codegen::schedule::Schedule;
@@ -15,10 +17,6 @@ use crate::symbolic::{Function, Id};
 
 /// Single-use results are nested into what uses them to this depth.
 const NESTING: usize = 6;
-/// Sines and cosines of so many angles are computed side by side, on the lanes of a vector, where there are not fewer than that
-/// in all: of few a processor computes one after another as fast, as long as it foresees their branches.
-const ABREAST: usize = 4;
-const FEWEST: usize = 4;
 /// So many results, most of them zero, are not written out.
 const MANY: usize = 256;
 
@@ -114,7 +112,7 @@ impl<'p> Planner<'p> {
         outputs.values_mut().for_each(|outputs| outputs.sort_unstable());
         let values = schedule.operations.iter().map(|_| None).collect();
         let (places, waiting, index, part, fetched, kept) = Default::default();
-        let mut plain = plain_angles(schedule, sequence, cuts);
+        let mut plain = angles::plain_angles(schedule, sequence, cuts);
         let early = plain.pop().unwrap_or_default();
         Self {
             schedule,
@@ -207,124 +205,6 @@ impl<'p> Planner<'p> {
         self.part.statements.push(Statement::Call(Call { function, derivatives, arguments }, results));
     }
 
-    /// The sine and the cosine of one argument are computed together, and with them those of the angles whose turn comes
-    /// next, if they are at hand: a processor takes several side by side. Not those of all: while pivots wait for one another
-    /// it has time for others, of which it is to know by then. So each group comes with the first of the group before.
-    fn turn(&mut self, x: Register) {
-        if !self.is_taken(x) {
-            let angles = self.angles_with(x);
-            self.turn_all(&angles);
-        }
-        if self.leader == Some(x) {
-            let angles = self.next_angles();
-            self.turn_all(&angles);
-        }
-    }
-
-    /// The angles whose turn comes with this one's.
-    fn angles_with(&mut self, x: Register) -> Vec<Register> {
-        match self.early.iter().position(|&angle| angle == x) {
-            Some(place) => {
-                self.early.drain(..place);
-                self.next_angles()
-            }
-            None => vec![x],
-        }
-    }
-
-    fn next_angles(&mut self) -> Vec<Register> {
-        // An earlier part may have taken the cosine with a sine.
-        let mut early = std::mem::take(&mut self.early);
-        early.retain(|&angle| !self.is_taken(angle));
-        if self.small.is_empty() {
-            self.make_small(&early);
-        }
-        self.early = early.split_off(early.len().min(ABREAST));
-        self.leader = early.first().copied();
-        early
-    }
-
-    /// All at once, before the first: each branch would keep the compiler from mixing what comes before with what comes after.
-    fn make_small(&mut self, angles: &[Register]) {
-        angles.iter().for_each(|&angle| self.compute_early(angle));
-        let small = |angle: &Register| (Local::Angle(angle.index()), self.value(*angle));
-        let small: Vec<_> = angles.iter().map(small).collect();
-        self.part.locals.extend(small.iter().map(|(local, _)| *local));
-        self.part.statements.push(Statement::Small(small));
-        self.small = angles.iter().copied().collect();
-    }
-
-    /// The sines and cosines of these angles.
-    fn turn_all(&mut self, angles: &[Register]) {
-        angles.iter().for_each(|&angle| self.compute_early(angle));
-        let turns: Vec<Turn> = angles.iter().map(|&angle| self.turn_of(angle)).collect();
-        match &turns[..] {
-            [] => {}
-            [
-                Turn { angle, sine: Some(only), cosine: None }
-                | Turn { angle, sine: None, cosine: Some(only) },
-            ] => {
-                let function = if turns[0].sine.is_some() { Function::Sin } else { Function::Cos };
-                let expression = Expression::Of(Box::new(Operation::Function(function, angle.clone())));
-                self.assign(*only, expression);
-            }
-            _ => {
-                let locals = turns.iter().flat_map(|turn| [turn.sine, turn.cosine]).flatten();
-                self.part.locals.extend(locals);
-                self.part.statements.push(Statement::Turns(turns));
-            }
-        }
-        for &angle in angles {
-            let both = [Function::Sin, Function::Cos].map(|function| self.used(function, angle));
-            for register in both.into_iter().flatten() {
-                self.keep(register, self.local(register));
-            }
-        }
-    }
-
-    fn is_taken(&self, angle: Register) -> bool {
-        let both = [Function::Sin, Function::Cos].into_iter().filter_map(|f| self.used(f, angle));
-        both.into_iter().any(|register| self.values[register.index()].is_some())
-    }
-
-    fn turn_of(&mut self, x: Register) -> Turn {
-        let [sine, cosine] =
-            [Function::Sin, Function::Cos].map(|f| self.used(f, x).map(|register| self.local(register)));
-        let is_small = self.small.contains(&x);
-        let angle = if is_small { Expression::Local(Local::Angle(x.index())) } else { self.value(x) };
-        Turn { angle, sine, cosine }
-    }
-
-    /// An angle is computed before its turn has come, with what it is made of.
-    fn compute_early(&mut self, angle: Register) {
-        let mut needed = BTreeSet::from([angle]);
-        let mut pending = vec![angle];
-        while let Some(register) = pending.pop() {
-            for operand in self.schedule.operations[register.index()].operands() {
-                if needed.insert(operand) {
-                    pending.push(operand);
-                }
-            }
-        }
-        for register in needed {
-            let is_at_hand = self.values[register.index()].is_some()
-                || matches!(
-                    self.schedule.operations[register.index()],
-                    Operation::Constant(_) | Operation::Input(_)
-                );
-            if !is_at_hand {
-                self.compute(register.index());
-            }
-        }
-    }
-
-    /// The sine or the cosine of this, if it is used.
-    fn used(&self, function: Function, x: Register) -> Option<Register> {
-        self.schedule
-            .find(Operation::Function(function, x))
-            .filter(|register| self.uses[register.index()] > 0)
-    }
-
     fn local(&self, register: Register) -> Local {
         match self.definitions.get(&register) {
             Some(&id) => Local::Definition(id),
@@ -378,28 +258,4 @@ impl<'p> Planner<'p> {
         (self.leader, self.small) = Default::default();
         std::mem::take(&mut self.part)
     }
-}
-
-/// For each part, the last first, the angles of its sines and cosines that are made of inputs by arithmetic alone, in their
-/// order; none where there are few.
-fn plain_angles(schedule: &Schedule, sequence: &[usize], cuts: &[Range<usize>]) -> Vec<Vec<Register>> {
-    let mut is_plain = vec![false; schedule.operations.len()];
-    for (index, operation) in schedule.operations.iter().enumerate() {
-        let is_arithmetic = !matches!(
-            operation,
-            Operation::Function(..) | Operation::Power(..) | Operation::Atan2(..) | Operation::Result { .. }
-        );
-        is_plain[index] = is_arithmetic && operation.operands().all(|operand| is_plain[operand.index()]);
-    }
-    let angle = |&index: &usize| match schedule.operations[index] {
-        Operation::Function(Function::Sin | Function::Cos, x) if is_plain[x.index()] => Some(x),
-        _ => None,
-    };
-    let of_part = |cut: &Range<usize>| {
-        let mut known = BTreeSet::new();
-        let angles = sequence[cut.clone()].iter().filter_map(angle).filter(|&angle| known.insert(angle));
-        let angles: Vec<Register> = angles.collect();
-        if angles.len() < FEWEST { Vec::new() } else { angles }
-    };
-    cuts.iter().rev().map(of_part).collect()
 }
