@@ -125,7 +125,11 @@ impl Notation {
 
     /// Where it is too wide for a line, with sums beside it, or on one line that may be broken.
     fn fraction(self, above: &[Formula], below: &[Formula]) -> String {
-        let [over, under] = [above, below].map(|factors| self.factors(factors, false));
+        let [over, under] = [above, below].map(|factors| match factors {
+            // The line holds it together.
+            [sum @ Formula::Sum(_)] => self.at_least(sum, Binding::Sum),
+            factors => self.factors(factors, false),
+        });
         let (sums, others): (Vec<Formula>, Vec<Formula>) =
             above.iter().cloned().partition(|factor| matches!(factor, Formula::Sum(_)));
         if width(&over).max(width(&under)) < LINE / 2.0 {

@@ -149,7 +149,7 @@ fn spherical_pendulum() {
               p_x &= m \dot x \label{eq:SphericalPendulum-p_x} \\
               p_y &= m \dot y \label{eq:SphericalPendulum-p_y} \\
               p_z &= m \dot z \label{eq:SphericalPendulum-p_z} \\
-              H &= \frac{(p_x^2 + p_y^2 + p_z^2)}{2 m} + m g z \label{eq:SphericalPendulum-H} \\
+              H &= \frac{p_x^2 + p_y^2 + p_z^2}{2 m} + m g z \label{eq:SphericalPendulum-H} \\
               \dot x &= \frac{p_x}{m} \label{eq:SphericalPendulum-x-dot} \\
               \dot y &= \frac{p_y}{m} \label{eq:SphericalPendulum-y-dot} \\
               \dot z &= \frac{p_z}{m} \label{eq:SphericalPendulum-z-dot} \\
@@ -255,7 +255,7 @@ fn rotating_frame() {
               W &= \Omega(t) \label{eq:RotatingFrame-W} \\
               m \ddot r &= m (r \times \Omega'(t) - W \times (W \times r) - 2 (W \times \dot r) - A(t)) - \frac{\partial U}{\partial r} \label{eq:RotatingFrame-r} \\
               p_r &= m \dot r - m (r \times W) \label{eq:RotatingFrame-p_r} \\
-              H &= \frac{(p_{r, 0}^2 + p_{r, 1}^2 + p_{r, 2}^2)}{2 m} + W_1 r_0 p_{r, 2} + W_2 r_1 p_{r, 0} + W_0 r_2 p_{r, 1} \nonumber \\
+              H &= \frac{p_{r, 0}^2 + p_{r, 1}^2 + p_{r, 2}^2}{2 m} + W_1 r_0 p_{r, 2} + W_2 r_1 p_{r, 0} + W_0 r_2 p_{r, 1} \nonumber \\
                 &\quad + m (r_0 A_0(t) + r_1 A_1(t) + r_2 A_2(t)) + U(r) - W_2 r_0 p_{r, 1} \nonumber \\
                 &\quad - W_0 r_1 p_{r, 2} - W_1 r_2 p_{r, 0} \label{eq:RotatingFrame-H} \\
               \dot r &= \frac{p_r}{m} + r \times W \label{eq:RotatingFrame-r-dot} \\
