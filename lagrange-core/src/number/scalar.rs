@@ -31,14 +31,14 @@ pub trait Scalar:
     fn constant(x: f64) -> Self;
     /// Sine and cosine at once.
     fn sin_cos(self) -> (Self, Self);
-    /// Sines and cosines of several angles at once, of [small ones](Self::small_angles): for `f64` they are computed side by side
-    /// where the processor has fused products and sums. Of larger angles they may be anything.
+    /// Sines and cosines of several angles at once, of [small ones](Self::small_angles): those of `f64` are computed side by
+    /// side. Of larger angles they may be anything.
     #[inline(always)]
     fn sin_cos_of_small<const K: usize>(angles: [Self; K]) -> ([Self; K], [Self; K]) {
         one_by_one(angles)
     }
-    /// Angles with the same sines and cosines, less full turns where they are large: `f64` beyond 10⁵, where that takes 2·10⁻¹⁶,
-    /// a millionth of the distance to the next such number.
+    /// Angles with the same sines and cosines, less full turns where they are large: `f64` from 10⁵ on, to 4·10⁻¹⁶, which is
+    /// less than a ten-thousandth of the distance from one such number to the next.
     #[inline(always)]
     fn small_angles<const K: usize>(angles: [Self; K]) -> [Self; K] {
         angles
