@@ -78,12 +78,7 @@ impl Controller {
     fn of(acrobot: &Acrobot) -> Result<Self> {
         let top = State::at_rest(TOP);
         let near = acrobot.linearize(&top, &["torque"])?;
-        println!(
-            "at the top: {:?}; ż = A z + B u for z = δ({})",
-            near.stability()?,
-            near.states().join(", ")
-        );
-        println!("A = {:.4}B = {:.4}", near.a, near.b);
+        println!("near the top, {:?}: {near}", near.stability()?);
         // exp of [A B; 0 0] for a tick, over which the torque is held.
         let mut held = DMatrix::zeros(5, 5);
         held.view_mut((0, 0), (4, 4)).copy_from(&near.a);

@@ -51,6 +51,27 @@ fn the_balance_system_is_that_of_the_textbook() {
     assert_eq!(hanging.b.shape(), (4, 0));
 }
 
+#[test]
+fn a_linear_system_prints_its_names_and_numbers() {
+    let near = BALANCE.linearize(&State::at_rest([0.7, 0.0]), &["force"]).unwrap();
+    let expected = "\
+ż = A z + B u
+
+A                  p      theta      p_dot  theta_dot
+p                  0          0     1.0000          0
+theta              0          0          0     1.0000
+p_dot              0     6.4000  -1.837e-3  -8.163e-5
+theta_dot          0     7.2000  -8.163e-4  -9.184e-5
+
+B             force
+p                 0
+theta             0
+p_dot        0.0184
+theta_dot  8.163e-3
+";
+    assert_eq!(near.to_string(), expected);
+}
+
 const BALANCE: Balance =
     Balance { cart: 10.0, m: 80.0, inertia: 100.0, l: 1.0, c: 0.1, gamma: 0.01, g: 9.8, force: 0.0 };
 

@@ -7,6 +7,7 @@ mod argument;
 #[cfg(feature = "alloc")]
 mod columns;
 mod direction;
+mod display;
 #[cfg(feature = "alloc")]
 mod dual_sample;
 #[cfg(feature = "alloc")]

@@ -68,13 +68,18 @@ pub(super) fn derive(
     diagnostics: &mut Diagnostics,
 ) -> Option<Constraints> {
     let mut constraints = Constraints::default();
-    for &(Label { place, .. }, expression) in &problem.constraints {
-        if let Some(message) = constraints.push(graph, problem, twists, expression) {
-            diagnostics.error(place, message);
+    for (label, expression) in &problem.constraints {
+        if let Some(message) = constraints.push(graph, problem, twists, *expression) {
+            diagnostics.error(label.place, named(label, message));
         }
-        diagnostics.stop_at_fault(place, graph);
+        diagnostics.stop_at_fault(label.place, graph);
     }
     diagnostics.is_empty().then_some(constraints)
+}
+
+/// Of several constraints that are written as one, the message says which it is.
+fn named(label: &Label, message: String) -> String {
+    if label.text.contains('[') { format!("`{}`: {message}", label.text) } else { message }
 }
 
 impl Constraints {
@@ -119,7 +124,7 @@ fn malformed(
 ) -> Option<String> {
     if jacobian.iter().all(|&entry| vanishes(graph, problem, entry).is_some()) {
         let message = match expression {
-            Id::ZERO => "both sides of this constraint are the same",
+            Id::ZERO => "both sides of this constraint are the same, whatever the motion: leave it out",
             _ => "this constraint depends on no coordinate and no velocity: nothing can be done to meet it",
         };
         return Some(message.to_owned());

@@ -16,14 +16,7 @@ impl Lowering<'_> {
         for force in &declaration.forces {
             let name = &force.target.name;
             let Some(Entity::Coordinate(index)) = self.scope.get(&name.text) else {
-                let coordinates = || self.coordinates.iter().map(|coordinate| coordinate.name.text.as_str());
-                let near = match self.scope.get(&name.text) {
-                    Some(Entity::Velocity(index)) => Some(self.coordinates[index].name.text.as_str()),
-                    _ => nearest(&name.text, coordinates()),
-                };
-                let advice = or_meant(near, "coordinate", coordinates());
-                let message = format!("a force acts on a coordinate, and `{}` is none{advice}", name.text);
-                self.diagnostics.error(name.place, message);
+                self.diagnostics.error(name.place, self.no_coordinate(&name.text));
                 continue;
             };
             let indices = &force.target.indices;
@@ -35,6 +28,24 @@ impl Lowering<'_> {
             }
         }
         forces
+    }
+
+    /// What a force acts on instead of a coordinate, and what is meant.
+    fn no_coordinate(&self, name: &str) -> String {
+        let coordinates = || self.coordinates.iter().map(|coordinate| coordinate.name.text.as_str());
+        let near = match self.scope.get(name) {
+            Some(Entity::Frame) => {
+                return format!(
+                    "a force acts on a coordinate, and `{name}` is a frame: what acts on a body is written `#[power(push, velocity({name}, point))]`, a torque `#[power(torque, angular_velocity({name}))]`"
+                );
+            }
+            Some(Entity::Velocity(index)) => Some(self.coordinates[index].name.text.as_str()),
+            _ => nearest(name, coordinates()),
+        };
+        format!(
+            "a force acts on a coordinate, and `{name}` is none{}",
+            or_meant(near, "coordinate", coordinates())
+        )
     }
 
     fn add_force(

@@ -9,6 +9,7 @@ use std::rc::Rc;
 
 use super::lower::Lowering;
 use super::scope::Entity;
+use super::unknown::{nearest, or_meant};
 use super::value::Axes;
 use crate::symbolic::Id;
 use crate::syntax::{Expression, Frame as Declared, Kind, Name};
@@ -147,10 +148,14 @@ impl Lowering<'_> {
                 Some(entity) => {
                     format!("a frame belongs here, and `{}` is {}: {example}", name.text, entity.describe())
                 }
-                None => match self.nearest_frame(&name.text) {
-                    Some(near) => format!("no frame is called `{}`: did you mean `{near}`?", name.text),
-                    None => format!("no frame is called `{}`: {example}", name.text),
-                },
+                None => {
+                    let names = self.frame_names();
+                    let meant = match nearest(&name.text, names.iter().copied()) {
+                        None if self.declared_frames.is_empty() => format!(": {example}"),
+                        near => or_meant(near, "frame", names.into_iter()),
+                    };
+                    format!("no frame is called `{}`{meant}", name.text)
+                }
             },
             _ => format!("a frame belongs here, by its name: {example}"),
         };
@@ -166,9 +171,12 @@ impl Lowering<'_> {
         self.report(name.place, message)
     }
 
-    fn nearest_frame(&self, name: &str) -> Option<String> {
-        let names = self.declared_frames.iter().map(|declared| declared.target.name.text.as_str());
-        super::unknown::nearest(name, names.chain([FIXED])).map(str::to_owned)
+    /// Of a family the name stands once.
+    fn frame_names(&self) -> Vec<&str> {
+        let declared = self.declared_frames.iter().map(|declared| declared.target.name.text.as_str());
+        let mut names: Vec<&str> = declared.chain([FIXED]).collect();
+        names.dedup();
+        names
     }
 
     /// A frame that is declared, but not before this, or not this element of it.
