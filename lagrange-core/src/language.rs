@@ -250,7 +250,7 @@
 //! | | |
 //! |---|---|
 //! | `position(frame, point)` | where a point is, from the origin of the fixed frame and along its axes; the point by its components in the frame, the frame's origin without |
-//! | `velocity(frame, point)` | its velocity relative to the fixed frame, along the axes of `frame`; if the point moves in the frame, with that |
+//! | `velocity(frame, point)` | its velocity relative to the fixed frame, along the axes of `frame`; if the point moves in the frame, with that. The material at a point that moves, where a wheel touches the ground, has the velocity `velocity(wheel) + cross(angular_velocity(wheel), point)` |
 //! | `angular_velocity(frame)` | relative to the fixed frame, along the axes of `frame` |
 //! | `jacobian(v)` | ∂v/∂q̇ of a velocity, linear or angular or any other, in observables: a row for each component and a column for each coordinate. What a force along v does, Jᵀ·force, is `#[power(force, v)]` |
 //! | `kinetic(frame, m, c, I)` | the kinetic energy of a rigid body: mass, centre of mass, inertia about the centre, all in the axes of `frame`; without `I` that of a point, without `c` of one at the origin |
