@@ -1,7 +1,7 @@
 //! What a motion that stores nothing allocates: nothing, however many steps it takes.
 
 use allocation_counter::measure;
-use lagrange_core::{Method, RungeKutta4, prelude::*, runge_kutta_step};
+use lagrange_core::{Method, prelude::*, runge_kutta_step};
 
 /// Two links, the second driven at the elbow.
 #[derive(Lagrangian, Clone, Copy)]

@@ -8,7 +8,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use lagrange_core::{Method, RungeKutta4, prelude::*, runge_kutta_step};
+use lagrange_core::{Method, prelude::*, runge_kutta_step};
 
 /// Two links with a motor at the elbow; the angles are those of the upper link and of the elbow.
 #[derive(Lagrangian, Clone, Copy)]

@@ -11,7 +11,7 @@ pub use crate::linearized::Linearized;
 pub use crate::motion::Simulate;
 #[cfg(feature = "alloc")]
 pub use crate::motion::Taylor;
-pub use crate::motion::{Dop853, Dopri5, Motion};
+pub use crate::motion::{Dop853, Dopri5, Motion, RungeKutta4};
 pub use crate::number::Scalar;
 pub use crate::system::State;
 #[cfg(feature = "alloc")]

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use lagrange_core::motion::Watched;
-use lagrange_core::{Crossing, Dop853, Ending, Event, Method, RungeKutta4, prelude::*};
+use lagrange_core::{Crossing, Ending, Event, Method, prelude::*};
 
 use crate::{Ball, Free, Spring};
 

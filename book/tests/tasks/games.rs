@@ -1,6 +1,6 @@
 //! For a game.
 
-use lagrange_core::{Ending, Journey, RungeKutta4, prelude::*};
+use lagrange_core::{Ending, Journey, prelude::*};
 
 type Result = std::result::Result<(), Box<dyn std::error::Error>>;
 

@@ -1,11 +1,13 @@
 //! A point of the phase space of coordinates and momenta, and its rate: Hamilton's equations.
 
+use core::fmt::{self, Display, Formatter};
+
 use nalgebra::SVector;
 
 use crate::error::Error;
 use crate::number::{Real, Scalar};
 use crate::solution::solve::solve_near;
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, State, write_state};
 
 /// The time `t`, the generalized coordinates `q` and the generalized momenta `p` = ∂L/∂q̇.
 ///
@@ -13,6 +15,7 @@ use crate::system::{Lagrangian, State};
 /// use lagrange_core::PhaseState;
 /// let state = PhaseState::new([0.1, 0.0], [0.0, 2.0]).at_time(1.0);
 /// assert_eq!((state.t, state.q[0], state.p[1]), (1.0, 0.1, 2.0));
+/// assert_eq!(PhaseState::new([1e-17], [2.0]).to_string(), "t = 0.0: q = (1e-17), p = (2.0)");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -42,6 +45,13 @@ impl<T: Scalar, const N: usize> PhaseState<T, N> {
     #[must_use]
     pub fn at_time(self, t: T) -> Self {
         Self { t, ..self }
+    }
+}
+
+/// `t = 1.0: q = (0.1, 0.0), p = (0.0, 2e-17)`, each number as the format says: `{state:.3}`.
+impl<T: Scalar, const N: usize> Display for PhaseState<T, N> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write_state(f, &self.t, [("q", self.q.as_slice()), ("p", self.p.as_slice())])
     }
 }
 

@@ -21,5 +21,6 @@ pub use facts::{Conserved, Facts, LinearPart, TotalDerivative};
 pub use integrability::{Classification, Extent, Integrability, Integrals};
 pub use lagrangian::{ConstraintKind, Lagrangian};
 pub use pack::{Pack, Packed, Shared};
+pub(crate) use state::write_state;
 pub use state::{Solution, State};
 pub use taylor_series::{RightHandSides, TaylorSeries};

@@ -1,6 +1,6 @@
 //! A point of the velocity phase space at a time, and what the equations of motion give there.
 
-use core::fmt::{self, Display, Formatter};
+use core::fmt::{self, Debug, Display, Formatter};
 
 use nalgebra::SVector;
 
@@ -14,7 +14,8 @@ use crate::number::Scalar;
 /// use lagrange_core::State;
 /// let state = State::new([0.1, 0.0], [0.0, 2.0]).at_time(1.0);
 /// assert_eq!((state.t, state.q[0], state.v[1]), (1.0, 0.1, 2.0));
-/// assert_eq!(format!("{state:.1}"), "t = 1.0: q = (0.1, 0.0), q̇ = (0.0, 2.0)");
+/// assert_eq!(state.to_string(), "t = 1.0: q = (0.1, 0.0), q̇ = (0.0, 2.0)");
+/// assert_eq!(format!("{state:.3}"), "t = 1.000: q = (0.100, 0.000), q̇ = (0.000, 2.000)");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -52,21 +53,26 @@ impl<T: Scalar, const N: usize> State<T, N> {
     }
 }
 
-/// `t = 1: q = (0.1, 0), q̇ = (0, 2)`, each number as the format says: `{state:.3}`.
-impl<T: Scalar + Display, const N: usize> Display for State<T, N> {
+/// `t = 1.0: q = (0.1, 0.0), q̇ = (0.0, 2e-17)`, each number as the format says: `{state:.3}`.
+impl<T: Scalar, const N: usize> Display for State<T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.write_str("t = ")?;
-        Display::fmt(&self.t, f)?;
-        for (name, entries) in [(": q", &self.q), (", q̇", &self.v)] {
-            write!(f, "{name} = ")?;
-            for (i, entry) in entries.iter().enumerate() {
-                f.write_str(if i == 0 { "(" } else { ", " })?;
-                Display::fmt(entry, f)?;
-            }
-            f.write_str(")")?;
-        }
-        Ok(())
+        write_state(f, &self.t, [("q", self.q.as_slice()), ("q̇", self.v.as_slice())])
     }
+}
+
+/// Numbers as `Debug` writes them: small and large ones, and round-off in the place of zero, by powers of ten.
+pub(crate) fn write_state<T: Scalar>(f: &mut Formatter<'_>, t: &T, parts: [(&str, &[T]); 2]) -> fmt::Result {
+    f.write_str("t = ")?;
+    Debug::fmt(t, f)?;
+    for ((name, entries), before) in parts.into_iter().zip([": ", ", "]) {
+        write!(f, "{before}{name} = ")?;
+        for (i, entry) in entries.iter().enumerate() {
+            f.write_str(if i == 0 { "(" } else { ", " })?;
+            Debug::fmt(entry, f)?;
+        }
+        f.write_str(")")?;
+    }
+    Ok(())
 }
 
 /// What the equations of motion give at a state: accelerations q̈ and multipliers λ, from
