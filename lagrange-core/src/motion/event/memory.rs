@@ -21,6 +21,8 @@ pub struct Memory<T> {
     pub(super) next: T,
     /// The same at the end of the step.
     end: T,
+    /// What is nearer to zero than this at two places may turn back beyond zero in between.
+    near: T,
     /// The function where the motion starts at a zero, as long as it has not been looked at elsewhere.
     start: Option<T>,
     /// What counts as zero as long as the motion has not left it.
@@ -57,6 +59,7 @@ impl<T: Real> Memory<T> {
             value: zero,
             next: zero,
             end: zero,
+            near: zero,
             start: None,
             noise: zero,
             due: None,
@@ -122,11 +125,24 @@ impl<T: Real> Memory<T> {
         let has_one_sign = values.iter().all(|x| *x > zero) || values.iter().all(|x| *x < zero);
         // The parabola turns back within the step only where it bends by half as much as it rises, and
         // comes nearer to zero than the least of the three by no more than an eighth of what it bends by.
-        match bend * T::constant(4.0) < rise || bend < least {
-            true if has_one_sign => 0,
-            true => 2,
-            false => FINE,
+        let turns_back = bend * T::constant(4.0) >= rise && bend >= least;
+        // In an eighth it goes down by a 128th of what it bends by, if that is the same everywhere.
+        self.near = if turns_back { bend / T::constant(16.0) } else { zero };
+        match turns_back {
+            true => FINE,
+            false if has_one_sign => 0,
+            false => 2,
         }
+    }
+
+    /// Whether the function, which has no other sign at the next place, may have it on the way there.
+    #[inline]
+    pub(super) fn may_turn_back(&self) -> bool {
+        let zero = T::constant(0.0);
+        let (value, next) = (self.value, self.next);
+        let has_one_sign = value >= zero && next >= zero || value <= zero && next <= zero;
+        let least = smaller(Scalar::abs(value), Scalar::abs(next));
+        has_one_sign && least < self.near && self.noise == zero
     }
 
     /// Goes on to the end of the step.

@@ -1,8 +1,10 @@
 //! Events: where a function of the motion crosses zero.
 
+mod locate;
 mod memory;
 mod narrow;
 mod search;
+mod turn;
 
 use core::borrow::Borrow;
 use core::fmt::{self, Debug, Formatter};
@@ -28,16 +30,19 @@ use crate::system::{Lagrangian, State};
 /// g is evaluated at both ends of each step and in the middle, on states by the continuous extension of the method, projected
 /// onto the constraints. Of these values a, b, c it is evaluated at every eighth of the step as well, unless they tell
 /// that it does not turn back near zero in between: that it bends by less than a quarter of what it rises or falls by,
-/// |a − 2b + c| < |c − a|/4, or by less than its distance from zero, the least of |a|, |b|, |c|. So the two zeros of a
-/// parabola are found where they are more than an eighth of a step apart, and a step on which g stays away from zero costs one
-/// evaluation of the continuous extension. [`pieces`](Self::pieces) divides every step evenly instead, as finely
+/// |a − 2b + c| < |c − a|/4, or by less than its distance from zero, the least of |a|, |b|, |c|. Where it comes near
+/// zero between two eighths and has the same sign at both, it is evaluated at the vertex of a parabola, too. So two zeros are found
+/// however close they are, as long as g is much like a parabola from one eighth to the next, and a step on which it stays away from
+/// zero costs one evaluation of the continuous extension. [`pieces`](Self::pieces) divides every step evenly instead, as finely
 /// as is asked for. What is left of a step after a crossing is looked at like a step. From one of these times to the next,
 ///
 /// - g crosses zero where it is not zero at the first, and zero or of the other sign at the second. So a zero belongs to
 ///   the piece that it ends: none is reported twice or lost where steps meet, one at the very end of the motion is
 ///   reported, and one at the start is not: the motion leaves it.
-/// - A touch that changes no sign is reported only where it is zero to the last bit at one of these times, once. Two
-///   crossings in one piece are none, so where g may wiggle within a step ask for more pieces or for shorter steps.
+/// - A touch that changes no sign is reported only where it is zero to the last bit at one of these times, once. In a motion that is
+///   computed a touch may well be two crossings, as far apart as the error lets g go beyond zero. Where g may
+///   wiggle within an eighth of a step ask for more pieces or for shorter steps. Two crossings in one of the pieces that are asked
+///   for are none.
 /// - Where a motion starts at a zero of g, or goes on from a crossing after its state or its system has been
 ///   changed, the first piece is halved towards the start, again and again: a ball may bounce and be
 ///   back long before the step is over. What g is within some 16 units of round-off of the time of the start counts as zero.
@@ -223,10 +228,6 @@ pub trait Watched<L: Lagrangian<N, M>, const N: usize, const M: usize>: sealed::
     #[doc(hidden)]
     fn memory(&mut self) -> &mut Memory<L::Scalar>;
 
-    /// Goes on to the place looked at last, and looks at this one: whether its function crosses zero in between.
-    #[doc(hidden)]
-    fn look(&mut self, system: &L, state: &State<L::Scalar, N>) -> Result<bool, Error>;
-
     /// Looks at the middle and at the end of a step: in how many pieces its function is to be looked at.
     #[doc(hidden)]
     fn plan(
@@ -262,11 +263,6 @@ impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Watched<L, N, M>
     }
 
     #[inline]
-    fn look(&mut self, system: &L, state: &State<L::Scalar, N>) -> Result<bool, Error> {
-        (**self).look(system, state)
-    }
-
-    #[inline]
     fn plan(
         &mut self,
         system: &L,
@@ -294,13 +290,6 @@ where
 
     fn memory(&mut self) -> &mut Memory<L::Scalar> {
         &mut self.memory
-    }
-
-    fn look(&mut self, system: &L, state: &State<L::Scalar, N>) -> Result<bool, Error> {
-        let value = self.value(system, state)?;
-        self.memory.go_on();
-        self.memory.look(value);
-        Ok(self.memory.crosses())
     }
 
     fn plan(

@@ -6,8 +6,8 @@ use core::marker::PhantomData;
 
 use nalgebra::ComplexField;
 
+use super::locate::{locate, turned};
 use super::memory::FINE;
-use super::narrow::{Probe, narrow};
 use super::{Crossing, Watched};
 use crate::ending::Ending;
 use crate::error::Error;
@@ -269,17 +269,52 @@ where
         F: Flow<L, N, M>,
         I: Interpolant<L::Scalar, N>,
     {
-        let to = stride.at(t)?;
-        let mut any_crosses = false;
-        for event in self.events.iter_mut() {
-            any_crosses |= event.look(stride.system, &to)?;
+        let mut to = stride.at(t)?;
+        self.events.iter_mut().for_each(|event| event.memory().go_on());
+        self.look_at(stride.system, &to)?;
+        if let Some(turn) = self.turn(stride, [from, &to])? {
+            to = turn;
+            self.look_at(stride.system, &to)?;
         }
-        if any_crosses {
-            self.go_to_first(stride, from, &to)?;
-        } else {
-            *from = to;
+        let any_crosses = self.events.iter_mut().any(|event| event.memory().crosses());
+        match any_crosses {
+            true => self.go_to_first(stride, from, &to)?,
+            false => *from = to,
         }
         Ok(any_crosses)
+    }
+
+    /// Takes note of all functions at the next place.
+    fn look_at(&mut self, system: &L, next: &State<L::Scalar, N>) -> Result<(), Error> {
+        self.events.iter_mut().try_for_each(|event| {
+            let value = event.value(system, next)?;
+            event.memory().look(value);
+            Ok(())
+        })
+    }
+
+    /// The first place between these two at which an event has turned back and is beyond zero.
+    fn turn<F, I>(
+        &mut self,
+        stride: &Stride<'_, L, F, I, N, M>,
+        between: [&State<L::Scalar, N>; 2],
+    ) -> Result<Option<State<L::Scalar, N>>, Error>
+    where
+        F: Flow<L, N, M>,
+        I: Interpolant<L::Scalar, N>,
+    {
+        let mut first: Option<State<L::Scalar, N>> = None;
+        for event in self.events.iter_mut() {
+            let memory = event.memory();
+            if memory.may_turn_back() {
+                let values = [memory.value, memory.next];
+                let place = turned(stride, event, between, values)?;
+                first = place
+                    .filter(|place| first.is_none_or(|first| stride.is_ahead(place.t, first.t)))
+                    .or(first);
+            }
+        }
+        Ok(first)
     }
 
     /// Goes to where the first event crosses. Its function is zero there or has the other sign, and so may others be.
@@ -298,7 +333,7 @@ where
             let memory = event.memory();
             if memory.crosses() {
                 let values = [memory.value, memory.next];
-                let place = locate(stride, event, [*from, *to], values)?;
+                let place = locate(stride, event, [from, to], values)?;
                 if first.0 == usize::MAX || stride.is_ahead(place.t, first.1.t) {
                     first = (index, place);
                 }
@@ -311,40 +346,4 @@ where
         }
         Ok(())
     }
-}
-
-/// The state where an event crosses zero between these two, at which its function is zero or of the sign at the second.
-fn locate<L, F, I, const N: usize, const M: usize>(
-    stride: &Stride<'_, L, F, I, N, M>,
-    event: &impl Watched<L, N, M>,
-    [a, b]: [State<L::Scalar, N>; 2],
-    values: [L::Scalar; 2],
-) -> Result<State<L::Scalar, N>, Error>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
-    I: Interpolant<L::Scalar, N>,
-{
-    let constant = L::Scalar::constant;
-    let ends = |[low, high]: [State<L::Scalar, N>; 2], [at_low, at_high]: [L::Scalar; 2]| {
-        [
-            Probe { x: constant(0.0), what: low, value: at_low },
-            Probe { x: constant(1.0), what: high, value: at_high },
-        ]
-    };
-    let probe = |state: State<L::Scalar, N>| Ok((state, event.value(stride.system, &state)?));
-    let length = b.t - a.t;
-    let round_off = constant(L::Scalar::EPSILON) * larger(Scalar::abs(a.t), Scalar::abs(b.t));
-    let resolution = round_off / Scalar::abs(length);
-    let [low, high] = narrow(ends([a, b], values), resolution, |x| probe(stride.at(a.t + x * length)?))?;
-    // No time is between those two, but there are states.
-    let between = |x: L::Scalar| State {
-        t: low.what.t + (high.what.t - low.what.t) * x,
-        q: low.what.q + (high.what.q - low.what.q) * x,
-        v: low.what.v + (high.what.v - low.what.v) * x,
-    };
-    let finest = constant(L::Scalar::EPSILON);
-    let [_, high] =
-        narrow(ends([low.what, high.what], [low.value, high.value]), finest, |x| probe(between(x)))?;
-    Ok(high.what)
 }

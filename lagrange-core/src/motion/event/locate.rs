@@ -1,0 +1,86 @@
+//! Places within a piece of a step: where an event crosses zero, and where it has turned back beyond.
+
+use super::Watched;
+use super::narrow::{Probe, narrow};
+use super::search::Stride;
+use super::turn::beyond;
+use crate::error::Error;
+use crate::motion::Interpolant;
+use crate::number::{Real, Scalar, larger};
+use crate::solution::flow::Flow;
+use crate::system::{Lagrangian, State};
+
+/// The state where an event crosses zero between these two, at which its function is zero or of the sign at the second.
+pub(super) fn locate<L, F, I, const N: usize, const M: usize>(
+    stride: &Stride<'_, L, F, I, N, M>,
+    event: &impl Watched<L, N, M>,
+    between: [&State<L::Scalar, N>; 2],
+    values: [L::Scalar; 2],
+) -> Result<State<L::Scalar, N>, Error>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: Flow<L, N, M>,
+    I: Interpolant<L::Scalar, N>,
+{
+    let constant = L::Scalar::constant;
+    let [a, b] = between;
+    let length = b.t - a.t;
+    let round_off = constant(L::Scalar::EPSILON) * larger(Scalar::abs(a.t), Scalar::abs(b.t));
+    let resolution = round_off / Scalar::abs(length);
+    let [low, high] = narrow(ends(between, values), resolution, |x| probe(stride, event, between, x))?;
+    // No time is between those two, but there are states.
+    let between = |x: L::Scalar| State {
+        t: low.what.t + (high.what.t - low.what.t) * x,
+        q: low.what.q + (high.what.q - low.what.q) * x,
+        v: low.what.v + (high.what.v - low.what.v) * x,
+    };
+    let finest = constant(L::Scalar::EPSILON);
+    let [_, high] = narrow(ends([&low.what, &high.what], [low.value, high.value]), finest, |x| {
+        let state = between(x);
+        Ok((state, event.value(stride.system, &state)?))
+    })?;
+    Ok(high.what)
+}
+
+/// A state between these two at which the function of an event has the other sign than at both, if it turns back there.
+pub(super) fn turned<L, F, I, const N: usize, const M: usize>(
+    stride: &Stride<'_, L, F, I, N, M>,
+    event: &impl Watched<L, N, M>,
+    between: [&State<L::Scalar, N>; 2],
+    values: [L::Scalar; 2],
+) -> Result<Option<State<L::Scalar, N>>, Error>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: Flow<L, N, M>,
+    I: Interpolant<L::Scalar, N>,
+{
+    let found = beyond(ends(between, values), |x| probe(stride, event, between, x))?;
+    Ok(found.map(|probe| probe.what))
+}
+
+/// Two states with what a function is there, as the places 0 and 1.
+fn ends<T: Real, const N: usize>(
+    [low, high]: [&State<T, N>; 2],
+    [at_low, at_high]: [T; 2],
+) -> [Probe<T, State<T, N>>; 2] {
+    [
+        Probe { x: T::constant(0.0), what: *low, value: at_low },
+        Probe { x: T::constant(1.0), what: *high, value: at_high },
+    ]
+}
+
+/// The state at this part of the time between two, and what the function of an event is there.
+fn probe<L, F, I, const N: usize, const M: usize>(
+    stride: &Stride<'_, L, F, I, N, M>,
+    event: &impl Watched<L, N, M>,
+    [a, b]: [&State<L::Scalar, N>; 2],
+    x: L::Scalar,
+) -> Result<(State<L::Scalar, N>, L::Scalar), Error>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: Flow<L, N, M>,
+    I: Interpolant<L::Scalar, N>,
+{
+    let state = stride.at(a.t + x * (b.t - a.t))?;
+    Ok((state, event.value(stride.system, &state)?))
+}
