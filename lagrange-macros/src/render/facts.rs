@@ -23,7 +23,7 @@ impl Page<'_> {
         let derived = |name, id| Equation::from(self.quantity(id).map(|right| [named(name), right]));
         let Derived { equations, facts, .. } = self.derived;
         let (equation, remark): (_, Vec<Part>) = match *quantity {
-            Quantity::Momentum(a) => (derived(name, equations.momentum[a]), held(*evidence)),
+            Quantity::Momentum(a) => (self.conserved_momentum(name, a)?, held(*evidence)),
             Quantity::Energy => (derived("E", equations.energy), remark_on_energy(*evidence, facts)),
             // A vector is written as such, once.
             Quantity::Observable(observable, 0) => {
@@ -35,6 +35,16 @@ impl Page<'_> {
             Quantity::Observable(..) => return None,
         };
         Some(Line { remark: Remark::of(remark), ..Line::of(equation) })
+    }
+
+    /// A vector of momenta that are all conserved is written as such, once.
+    fn conserved_momentum(&self, name: &str, a: usize) -> Option<Equation> {
+        let (rows, line) = self.all_momenta().into_iter().find(|(rows, _)| rows.contains(&a))?;
+        if self.are_conserved(&rows) {
+            return (rows.start == a).then_some(line.equation);
+        }
+        let momentum = self.momentum(self.derived.equations.momentum[a]);
+        Some(Equation::from(momentum.map(|right| [Formula::labelled(name, 0), right])))
     }
 
     /// The terms of the Lagrangian that are total time derivatives, as formulas.

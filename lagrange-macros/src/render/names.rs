@@ -18,16 +18,21 @@ impl Notation<'_> {
         indices.iter().map(|index| self.write(index)).collect()
     }
 
-    /// What stands below a letter: digits, a letter with what is below that, or words upright.
+    /// What stands below a letter: digits, a letter with what is below that, or words, upright side by side.
     fn below(self, name: &str) -> String {
-        let is_number = |part: &str| part.chars().all(|sign| sign.is_ascii_digit());
-        let are_words =
-            || name.split('_').all(|part| !is_letter(part) && letter_and_below(part).1.is_empty());
-        let part = match letter_and_below(name).1.is_empty() {
-            _ if is_number(name) => self.spelling.digits(name),
-            true if is_letter(name) => self.spelling.letter(name, false),
-            _ if are_words() => self.spelling.word(name),
-            _ => self.name(&Formula::Name { base: name.to_owned(), dots: 0, indices: Vec::new() }),
+        let (first, tail) = letter_and_below(name);
+        let part = match name.chars().all(|sign| sign.is_ascii_digit()) {
+            true => self.spelling.digits(name),
+            false if is_letter(first) && tail.is_empty() => self.spelling.letter(first, false),
+            false if is_letter(first) || self.spelling.is_flat() => {
+                self.name(&Formula::Name { base: name.to_owned(), dots: 0, indices: Vec::new() })
+            }
+            false if tail.is_empty() => self.spelling.word(first),
+            false => {
+                let tail = tail.into_iter().map(|part| self.below(part));
+                let words: Vec<String> = std::iter::once(self.spelling.word(first)).chain(tail).collect();
+                words.join(&self.spelling.sign("\u{2009}"))
+            }
         };
         self.spelling.below(part)
     }

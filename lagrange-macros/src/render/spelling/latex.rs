@@ -23,6 +23,7 @@ impl Spelling for Latex {
             "·" => r" \cdot ".to_owned(),
             "×" => r" \times ".to_owned(),
             " … " => r" \ldots ".to_owned(),
+            "\u{2009}" => r"\,".to_owned(),
             "λ" => r"\lambda".to_owned(),
             "π" => r"\pi".to_owned(),
             "d/dt " => r"\frac{d}{dt} ".to_owned(),
@@ -56,7 +57,7 @@ impl Spelling for Latex {
     }
 
     fn word(&self, word: &str) -> String {
-        format!(r"\mathrm{{{}}}", word.replace('_', r"\,"))
+        format!(r"\mathrm{{{word}}}")
     }
 
     fn function(&self, name: &str) -> String {

@@ -1,6 +1,6 @@
 //! MathML, as browsers show it without a script: the elements and attributes of MathML Core.
 
-use super::{Spelling, greek};
+use super::{Spelling, WIDE, greek};
 
 pub(in super::super) struct MathMl;
 
@@ -30,6 +30,7 @@ impl Spelling for MathMl {
         match (sign, sign.trim()) {
             ("λ" | "π", letter) => format!("<mi>{letter}</mi>"),
             ("−", _) => "<mo form=\"prefix\">−</mo>".to_owned(),
+            ("\u{2009}", _) => SPACE.to_owned(),
             ("d/dt ", _) => fraction("<mi>d</mi>", "<mrow><mi>d</mi><mi>t</mi></mrow>") + SPACE,
             (_, "+" | "−" | "=") => format!("<mo form=\"infix\">{}</mo>", sign.trim()),
             (_, sign) => format!("<mo>{sign}</mo>"),
@@ -47,11 +48,14 @@ impl Spelling for MathMl {
     fn letter(&self, name: &str, is_array: bool) -> String {
         let letters = greek(name).map_or(name, |(_, greek)| greek);
         let letters: String = if is_array { letters.chars().map(bold).collect() } else { letters.to_owned() };
-        format!("<mi>{}</mi>", letters.replace('_', " "))
+        // As in LaTeX, capitals stand upright.
+        let is_upright = letters.chars().all(|letter| ('Α'..='Ω').contains(&letter));
+        let variant = if is_upright { " mathvariant=\"normal\"" } else { "" };
+        format!("<mi{variant}>{}</mi>", letters.replace('_', "\u{a0}"))
     }
 
     fn word(&self, word: &str) -> String {
-        format!("<mtext>{}</mtext>", word.replace('_', "\u{a0}"))
+        format!("<mtext>{word}</mtext>")
     }
 
     fn function(&self, name: &str) -> String {
@@ -71,6 +75,11 @@ impl Spelling for MathMl {
     }
 
     fn power(&self, base: &str, exponent: &str) -> String {
+        // Above what stands below it, and not behind.
+        if let Some(parts) = whole(base).strip_prefix("<msub>").and_then(|rest| rest.strip_suffix("</msub>"))
+        {
+            return format!("<msubsup>{parts}{}</msubsup>", whole(exponent));
+        }
         format!("<msup>{}{}</msup>", whole(base), whole(exponent))
     }
 
@@ -88,13 +97,14 @@ impl Spelling for MathMl {
     }
 
     fn between(&self, [open, close]: [&str; 2], inner: &str, is_tall: bool) -> String {
+        // In a line that may end they stretch to what is beside them.
         let stretchy = if is_tall { "" } else { " stretchy=\"false\"" };
         let (open, close) = (
             format!("<mo form=\"prefix\"{stretchy}>{open}</mo>"),
             format!("<mo form=\"postfix\"{stretchy}>{close}</mo>"),
         );
-        // They stretch to all that they are in an element with; and between bars no line is to end.
-        let is_whole = is_tall || open.contains('|');
+        // Between bars no line is to end.
+        let is_whole = is_tall && self.width(inner) < WIDE || open.contains('|');
         if is_whole { format!("<mrow>{open}{inner}{close}</mrow>") } else { open + inner + &close }
     }
 
@@ -124,8 +134,9 @@ impl Spelling for MathMl {
     }
 
     fn beside(&self, before: &str, after: &str) -> &'static str {
-        let after =
-            ["<msup>", "<msub>", "<mrow>"].iter().fold(after, |rest, tag| rest.trim_start_matches(tag));
+        let after = ["<msup>", "<msubsup>", "<msub>", "<mrow>"]
+            .iter()
+            .fold(after, |rest, tag| rest.trim_start_matches(tag));
         let begins_with_word = after.strip_prefix("<mi>").is_some_and(is_word);
         let ends_with_word = before.rsplit_once("<mi>").is_some_and(|(_, last)| is_word(last));
         match after.starts_with("<mn>") {

@@ -72,18 +72,18 @@ fn sphere_down_an_incline() {
               L &= \tfrac{1}{2} m \dot x^2 + \tfrac{1}{2} \, \mathit{inertia} \, \dot\varphi^2 + m g x \sin \alpha \label{eq:RollingSphere-L} \\
               \mathit{inertia} &= \tfrac{2}{5} m a^2 \label{eq:RollingSphere-inertia} \\
               \dot x - a \dot\varphi &= 0 \quad \text{(integrable: }x - a \varphi\text{ is constant)} \label{eq:RollingSphere-no_slip} \\
-              m \ddot x &= m g \sin \alpha + \lambda_{\mathrm{no\,slip}} \label{eq:RollingSphere-x} \\
-              \mathit{inertia} \, \ddot\varphi &= -a \lambda_{\mathrm{no\,slip}} \label{eq:RollingSphere-phi} \\
-              R_x &= \lambda_{\mathrm{no\,slip}} \label{eq:RollingSphere-R_x} \\
-              R_\varphi &= -a \lambda_{\mathrm{no\,slip}} \label{eq:RollingSphere-R_phi} \\
+              m \ddot x &= m g \sin \alpha + \lambda_{\mathrm{no}\,\mathrm{slip}} \label{eq:RollingSphere-x} \\
+              \mathit{inertia} \, \ddot\varphi &= -a \lambda_{\mathrm{no}\,\mathrm{slip}} \label{eq:RollingSphere-phi} \\
+              R_x &= \lambda_{\mathrm{no}\,\mathrm{slip}} \label{eq:RollingSphere-R_x} \\
+              R_\varphi &= -a \lambda_{\mathrm{no}\,\mathrm{slip}} \label{eq:RollingSphere-R_phi} \\
               E &= \tfrac{1}{2} m \dot x^2 + \tfrac{1}{2} \, \mathit{inertia} \, \dot\varphi^2 - m g x \sin \alpha \quad \text{(}T + U\text{)} \label{eq:RollingSphere-E} \\
               p_x &= m \dot x \label{eq:RollingSphere-p_x} \\
               p_\varphi &= \mathit{inertia} \, \dot\varphi \label{eq:RollingSphere-p_phi} \\
               H &= \frac{p_x^2}{2 m} + \frac{p_\varphi^2}{2 \, \mathit{inertia}} - m g x \sin \alpha \label{eq:RollingSphere-H} \\
               \dot x &= \frac{p_x}{m} \label{eq:RollingSphere-x-dot} \\
               \dot\varphi &= \frac{p_\varphi}{\mathit{inertia}} \label{eq:RollingSphere-phi-dot} \\
-              \dot p_x &= m g \sin \alpha + \lambda_{\mathrm{no\,slip}} \label{eq:RollingSphere-p-dot_x} \\
-              \dot p_\varphi &= -a \lambda_{\mathrm{no\,slip}} \label{eq:RollingSphere-p-dot_phi}
+              \dot p_x &= m g \sin \alpha + \lambda_{\mathrm{no}\,\mathrm{slip}} \label{eq:RollingSphere-p-dot_x} \\
+              \dot p_\varphi &= -a \lambda_{\mathrm{no}\,\mathrm{slip}} \label{eq:RollingSphere-p-dot_phi}
             \end{align}
         "#]],
     );
@@ -184,7 +184,6 @@ fn spherical_pendulum_in_angles() {
 
             Momenta
               p_θ = m l² θ̇
-              p_φ = m l² φ̇ sin² θ
 
             Hamiltonian
               H = p_θ²/(2 m l²) + p_φ²/(2 m l² sin² θ) − m g l cos θ
@@ -203,7 +202,6 @@ fn spherical_pendulum_in_angles() {
               p_\varphi &= m l^2 \dot\varphi \sin^2 \theta \label{eq:SphericalPendulum-p_phi} \\
               E &= \tfrac{1}{2} m l^2 (\dot\theta^2 + \dot\varphi^2 \sin^2 \theta) - m g l \cos \theta \quad \text{(}T + U\text{)} \label{eq:SphericalPendulum-E} \\
               p_\theta &= m l^2 \dot\theta \label{eq:SphericalPendulum-p_theta} \\
-              p_\varphi &= m l^2 \dot\varphi \sin^2 \theta \label{eq:SphericalPendulum-p_phi-2} \\
               H &= \frac{p_\theta^2}{2 m l^2} + \frac{p_\varphi^2}{2 m l^2 \sin^2 \theta} - m g l \cos \theta \label{eq:SphericalPendulum-H} \\
               \dot\theta &= \frac{p_\theta}{m l^2} \label{eq:SphericalPendulum-theta-dot} \\
               \dot\varphi &= \frac{p_\varphi}{m l^2 \sin^2 \theta} \label{eq:SphericalPendulum-phi-dot} \\
@@ -241,7 +239,7 @@ fn rotating_frame() {
               p_r = m ṙ − m (r×W)
 
             Hamiltonian
-              H = (p_r[0]² + p_r[1]² + p_r[2]²)/(2 m) + W[1] r[0] p_r[2] + W[2] r[1] p_r[0] + W[0] r[2] p_r[1] + m (r[0] A[0](t) + r[1] A[1](t) + r[2] A[2](t)) + U(r) − W[2] r[0] p_r[1] − W[0] r[1] p_r[2] − W[1] r[2] p_r[0]
+              H = (p_r·p_r)/(2 m) + m r·A(t) + U(r) − W·(r×p_r)
 
             Hamilton's equations
               ṙ = p_r/m + r×W
@@ -255,9 +253,7 @@ fn rotating_frame() {
               \mathbf{W} &= \boldsymbol{\Omega}(t) \label{eq:RotatingFrame-W} \\
               m \ddot{\mathbf{r}} &= m (\mathbf{r} \times \boldsymbol{\Omega}'(t) - \mathbf{W} \times (\mathbf{W} \times \mathbf{r}) - 2 (\mathbf{W} \times \dot{\mathbf{r}}) - \mathbf{A}(t)) - \frac{\partial U}{\partial \mathbf{r}} \label{eq:RotatingFrame-r} \\
               \mathbf{p}_r &= m \dot{\mathbf{r}} - m (\mathbf{r} \times \mathbf{W}) \label{eq:RotatingFrame-p_r} \\
-              H &= \frac{p_{r, 0}^2 + p_{r, 1}^2 + p_{r, 2}^2}{2 m} + W_1 r_0 p_{r, 2} + W_2 r_1 p_{r, 0} + W_0 r_2 p_{r, 1} \nonumber \\
-                &\quad + m (r_0 A_0(t) + r_1 A_1(t) + r_2 A_2(t)) + U(\mathbf{r}) - W_2 r_0 p_{r, 1} \nonumber \\
-                &\quad - W_0 r_1 p_{r, 2} - W_1 r_2 p_{r, 0} \label{eq:RotatingFrame-H} \\
+              H &= \frac{\mathbf{p}_r \cdot \mathbf{p}_r}{2 m} + m \mathbf{r} \cdot \mathbf{A}(t) + U(\mathbf{r}) - \mathbf{W} \cdot (\mathbf{r} \times \mathbf{p}_r) \label{eq:RotatingFrame-H} \\
               \dot{\mathbf{r}} &= \frac{\mathbf{p}_r}{m} + \mathbf{r} \times \mathbf{W} \label{eq:RotatingFrame-r-dot} \\
               \dot{\mathbf{p}}_r &= \mathbf{p}_r \times \mathbf{W} - m \mathbf{A}(t) - \frac{\partial U}{\partial \mathbf{r}} \label{eq:RotatingFrame-p-dot_r}
             \end{align}
@@ -308,7 +304,7 @@ fn functions_families_and_vectors() {
               p_s = ṡ
 
             Hamiltonian
-              H = ½ p_a[0]² + ½ p_a[1]² + ½ p_b[0]² + ½ p_b[1]² + ½ p_s² + a[0] + f([s, 1], s) + f(a, s) + pair(|a − b|) + p[2][0] + p[1][0]
+              H = ½ p_s² + ½ p_a·p_a + ½ p_b·p_b + a[0] + f([s, 1], s) + f(a, s) + pair(|a − b|) + p[2][0] + p[1][0]
 
             Hamilton's equations
               ȧ = p_a
@@ -346,10 +342,9 @@ fn functions_families_and_vectors() {
               \mathbf{p}_a &= \dot{\mathbf{a}} \label{eq:Everything-p_a} \\
               \mathbf{p}_b &= \dot{\mathbf{b}} \label{eq:Everything-p_b} \\
               p_s &= \dot s \label{eq:Everything-p_s} \\
-              H &= \tfrac{1}{2} p_{a, 0}^2 + \tfrac{1}{2} p_{a, 1}^2 + \tfrac{1}{2} p_{b, 0}^2 \nonumber \\
-                &\quad + \tfrac{1}{2} p_{b, 1}^2 + \tfrac{1}{2} p_s^2 + a_0 + f([s, 1], \nonumber \\
-                &\quad s) + f(\mathbf{a}, s) + \mathit{pair}(\lvert \mathbf{a} - \mathbf{b} \rvert) + p_{2, 0} \nonumber \\
-                &\quad + p_{1, 0} \label{eq:Everything-H} \\
+              H &= \tfrac{1}{2} p_s^2 + \tfrac{1}{2} \mathbf{p}_a \cdot \mathbf{p}_a + \tfrac{1}{2} \mathbf{p}_b \cdot \mathbf{p}_b + a_0 \nonumber \\
+                &\quad + f([s, 1], s) + f(\mathbf{a}, s) \nonumber \\
+                &\quad + \mathit{pair}(\lvert \mathbf{a} - \mathbf{b} \rvert) + p_{2, 0} + p_{1, 0} \label{eq:Everything-H} \\
               \dot{\mathbf{a}} &= \mathbf{p}_a \label{eq:Everything-a-dot} \\
               \dot{\mathbf{b}} &= \mathbf{p}_b \label{eq:Everything-b-dot} \\
               \dot s &= p_s \label{eq:Everything-s-dot} \\

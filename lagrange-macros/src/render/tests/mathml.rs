@@ -14,7 +14,7 @@ enum Xml {
 }
 
 /// The elements of HTML and of MathML Core that are written.
-const ELEMENTS: [&str; 22] = [
+const ELEMENTS: [&str; 23] = [
     "div",
     "h5",
     "p",
@@ -31,6 +31,7 @@ const ELEMENTS: [&str; 22] = [
     "msqrt",
     "msub",
     "msup",
+    "msubsup",
     "mover",
     "munderover",
     "mtable",
@@ -40,7 +41,8 @@ const ELEMENTS: [&str; 22] = [
 ];
 
 /// How many elements these have in them.
-const PARTS: [(&str, usize); 5] = [("mfrac", 2), ("msub", 2), ("msup", 2), ("mover", 2), ("munderover", 3)];
+const PARTS: [(&str, usize); 6] =
+    [("mfrac", 2), ("msub", 2), ("msup", 2), ("msubsup", 3), ("mover", 2), ("munderover", 3)];
 
 /// All of a text, which must be well-formed.
 fn parsed(text: &str) -> Vec<Xml> {
@@ -122,7 +124,11 @@ impl Xml {
             }
             ("mfrac", [above, below]) => format!("(({})/({}))", above.said(), below.said()),
             ("msqrt", all) => format!("√({})", line(all.iter())),
-            ("msub", [base, below]) => format!("{}_{}", base.said(), below.said().replace(", ", "_")),
+            ("msub", [base, below]) => indexed(base, below),
+            ("msubsup", [base, below, above]) if above.text().starts_with('′') => {
+                indexed(base, below) + &above.text()
+            }
+            ("msubsup", [base, below, above]) => format!("({})^({})", indexed(base, below), above.said()),
             ("msup", [base, above]) if above.text().starts_with('′') => base.said() + &above.text(),
             ("msup", [base, above]) if is_function(base) => base.said() + &superscript(&above.text()),
             ("msup", [base, above]) => format!("({})^({})", base.said(), above.said()),
@@ -139,6 +145,10 @@ impl Xml {
             _ => "",
         }
     }
+}
+
+fn indexed(base: &Xml, below: &Xml) -> String {
+    format!("{}_{}", base.said(), below.said().replace(", ", "_"))
 }
 
 fn is_function(base: &Xml) -> bool {
