@@ -3,6 +3,8 @@
 use super::Page;
 use super::remark::{Part, Remark};
 use crate::mechanics::{Evidence, Integrability, Integrals};
+use crate::symbolic::Node;
+use crate::variables::Variable;
 
 impl Page<'_> {
     /// The remark behind a constraint that stands for `rows`: each kind among them, once.
@@ -25,13 +27,21 @@ impl Page<'_> {
             Integrability::Nonholonomic => "nonholonomic",
             Integrability::Undecided => return vec![Part::words("on the velocities")],
         };
-        let kind = qualified(kind, class.evidence);
+        let kind = if self.is_rheonomic(row) { format!("{kind}, rheonomic") } else { kind.to_owned() };
+        let kind = qualified(&kind, class.evidence);
         match kinds.functions[row].map(|function| self.expression(function)) {
             Some(Ok(function)) => {
                 vec![Part::words(kind + ": "), Part::Formula(function), Part::words(" is constant")]
             }
             _ => vec![Part::words(kind)],
         }
+    }
+
+    /// Whether the time occurs in it.
+    fn is_rheonomic(&self, row: usize) -> bool {
+        let nodes = self.graph.reachable(&[self.problem.constraints[row].1]);
+        let is_time = |node: &Node| *node == Node::Symbol(Variable::Time.symbol());
+        nodes.into_iter().any(|id| is_time(self.graph.node(id)))
     }
 }
 

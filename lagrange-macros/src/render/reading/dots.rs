@@ -9,7 +9,7 @@ use super::atoms::Meaning;
 use super::collect::Collector;
 use super::polynomial::{Monomial, Polynomial};
 use super::vectors::{Components, Vector, VectorTerm};
-use crate::symbolic::Rational;
+use crate::symbolic::{self, Rational};
 use crate::variables::Variable;
 
 /// Sums of products of components.
@@ -65,21 +65,22 @@ impl Collector<'_, '_> {
         let (sum, found) = match *vectors {
             [a, b] => {
                 let c = of(&[(a, 0), (b, 0)]);
-                (scaled(dotted(a, b, n), c), vec![(c, vec![dot(a, b)])])
+                (scaled(dotted(a, b, n), c)?, vec![(c, vec![dot(a, b)])])
             }
             [a, b, c] if n == 3 && a != b && b != c => {
-                let [a, b, c] = inner_first([a, b, c], known);
+                let [a, b, c] = moving_last([a, b, c], known);
                 let factor = of(&[(a, 0), (b, 1), (c, 2)]);
                 let product = meaning("dot", [name(a), cross(b, c)], vectors);
-                (scaled(mixed(a, b, c), factor), vec![(factor, vec![product])])
+                (scaled(mixed(a, b, c), factor)?, vec![(factor, vec![product])])
             }
             [a, other, b, last] if a == other && b == last && a != b => {
                 let squares = of(&[(a, 0), (a, 0), (b, 1), (b, 1)]);
-                let mixed = of(&[(a, 0), (a, 1), (b, 0), (b, 1)]) / Rational::from_integer(2);
-                let [square, both] =
-                    [(a, a, b, b), (a, b, a, b)].map(|(a, b, c, d)| times(dotted(a, b, n), &dotted(c, d, n)));
-                let sum = plus(scaled(square, squares), scaled(both, mixed));
-                let crossed = meaning("dot", [cross(a, b), cross(a, b)], vectors);
+                let mixed = symbolic::times(of(&[(a, 0), (a, 1), (b, 0), (b, 1)]), Rational::new(1, 2))?;
+                let [square, both] = [(a, a, b, b), (a, b, a, b)]
+                    .map(|(a, b, c, d)| times(&dotted(a, b, n), &dotted(c, d, n)));
+                let sum = plus(scaled(square?, squares)?, scaled(both?, mixed)?)?;
+                let [first, then] = moving_last([a, b], known);
+                let crossed = meaning("dot", [cross(first, then), cross(first, then)], vectors);
                 match n == 3 && squares == -mixed {
                     true => (sum, vec![(squares, vec![crossed])]),
                     false => (
@@ -94,8 +95,8 @@ impl Collector<'_, '_> {
     }
 }
 
-/// Ω·(r×p): what moves stands inside.
-fn inner_first(vectors: [usize; 3], known: &[Vector]) -> [usize; 3] {
+/// Ω·(r×p), Ω×r: what moves stands behind.
+fn moving_last<const N: usize>(vectors: [usize; N], known: &[Vector]) -> [usize; N] {
     let mut sorted = vectors;
     sorted.sort_by_key(|&i| match known[i].of {
         Some(Variable::Coordinate(_)) => 1,
@@ -125,19 +126,24 @@ fn mixed(a: usize, b: usize, c: usize) -> Products {
     cyclic.collect()
 }
 
-fn scaled(products: Products, by: Rational) -> Products {
-    products.into_iter().map(|(components, c)| (components, c * by)).collect()
+fn scaled(products: Products, by: Rational) -> Option<Products> {
+    products.into_iter().map(|(components, c)| Some((components, symbolic::times(c, by)?))).collect()
 }
 
-fn plus(mut one: Products, two: Products) -> Products {
-    two.into_iter().for_each(|(components, c)| *one.entry(components).or_default() += c);
+fn plus(mut one: Products, two: Products) -> Option<Products> {
+    for (components, c) in two {
+        let sum = one.entry(components).or_default();
+        *sum = symbolic::plus(*sum, c)?;
+    }
     one.retain(|_, c| !c.is_zero());
-    one
+    Some(one)
 }
 
-fn times(one: Products, two: &Products) -> Products {
-    let pairs = one.into_iter().flat_map(|one| two.iter().map(move |two| (one.clone(), two)));
-    pairs.fold(Products::new(), |sum, ((a, c), (b, d))| {
-        plus(sum, [(product(&[a, b.clone()].concat()), c * d)].into())
-    })
+fn times(one: &Products, two: &Products) -> Option<Products> {
+    let mut sum = Products::new();
+    for (components, &c) in one {
+        let row = two.iter().map(|(others, &d)| (product(&[&components[..], others].concat()), c * d));
+        sum = plus(sum, row.collect())?;
+    }
+    Some(sum)
 }

@@ -182,7 +182,7 @@ impl Page<'_> {
         formulas.filter(|formula| length(formula) <= READABLE as usize)
     }
 
-    /// A momentum, its velocities collected where that is as short.
+    /// A momentum as it was written, where that is as short, or else with its velocities collected.
     pub(super) fn momentum(&self, id: Id) -> Result<Formula, u64> {
         let collected = |reading: &Reading| {
             let all = self.polynomial(reading, &[(id, 1)], &[])?;
@@ -191,7 +191,7 @@ impl Page<'_> {
         let collected = self.readings.iter().filter_map(collected);
         let read = collected.filter(|formula| length(formula) <= READABLE as usize).chain(self.read(id));
         let computed = self.computed([&[id]]).map(|[formula]| formula);
-        self.chosen(read, computed, length, false)
+        self.chosen(read, computed, length, true)
     }
 
     fn polynomial(

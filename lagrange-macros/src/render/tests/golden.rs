@@ -393,3 +393,60 @@ fn a_mass_on_a_wedge_by_cartesian_coordinates() {
         "{named}{written_out}"
     );
 }
+
+/// The lines of a system between a heading and an empty line.
+fn lines(source: &str, heading: &str) -> String {
+    let [[text, ..], ..] = rendered(source).forms;
+    let (_, lines) = text.split_once(heading).unwrap_or_else(|| panic!("no {heading} in {text}"));
+    lines.split("\n\n").next().unwrap_or_default().trim().to_owned()
+}
+
+#[test]
+fn momenta_are_factored() {
+    let bead = "#[coordinates(x)] #[define(y = x^2/(2*a))] #[lagrangian(m/2*(x_dot^2 + der(y)^2) - m*g*y)]
+         struct Bead { m: f64, a: f64, g: f64 }";
+    assert_eq!(lines(bead, "Momenta\n"), "p_x = m (1 + x²/a²) ẋ");
+}
+
+#[test]
+fn a_momentum_that_is_conserved_is_written_once() {
+    let free = "#[coordinates(r: [3], s)] #[lagrangian(m/2*dot(r_dot, r_dot) + s_dot^2/2 - s^2)]
+         struct Free { m: f64 }";
+    assert_eq!(lines(free, "Conserved\n"), "p_r = m ṙ\n  E = ½ ṡ² + ½ m ṙ·ṙ + s²   (T + U)");
+    assert_eq!(lines(free, "Momenta\n"), "p_s = ṡ");
+    let falling = "#[coordinates(r: [3])] #[lagrangian(m/2*dot(r_dot, r_dot) - m*g*r[2])]
+         struct Falling { m: f64, g: f64 }";
+    assert!(lines(falling, "Conserved\n").starts_with("p_r[0] = m ṙ[0]\n  p_r[1] = m ṙ[1]"));
+    assert_eq!(lines(falling, "Momenta\n"), "p_r[2] = m ṙ[2]");
+}
+
+/// Ω·(r×p) in a frame that turns at a constant rate, and the energy with (Ω×r)².
+#[test]
+fn scalars_of_vectors_are_products_of_vectors() {
+    let turning = "#[coordinates(r: [3])] #[define(v = r_dot + cross(Omega, r))]
+         #[lagrangian(m/2*dot(v, v) + G*m/norm(r))] struct Turning { m: f64, G: f64, Omega: Vector3<f64> }";
+    assert_eq!(lines(turning, "Hamiltonian\n"), "H = (p_r·p_r)/(2 m) − Ω·(r×p_r) − m G/|r|");
+    assert_eq!(lines(turning, "Conserved\n"), "E = ½ m ṙ·ṙ − m G/|r| − ½ m (Ω×r)·(Ω×r)   (not T + U)");
+}
+
+#[test]
+fn halves_of_angles_are_put_together() {
+    let half = "#[coordinates(theta)] #[define(y = 2*l*sin(theta/2)^2)]
+         #[lagrangian(m*l^2/2*theta_dot^2 - m*g*y)] struct Half { m: f64, g: f64, l: f64 }";
+    assert_eq!(lines(half, "Equations of motion\n"), "θ: l θ̈ = −g sin θ");
+}
+
+/// The suspension of the pendulum is moved; the second constraint is one on velocities that cannot be integrated.
+#[test]
+fn constraints_say_their_kinds_in_every_form() {
+    let source = "#[coordinates(x, y, z)] #[lagrangian((x_dot^2 + y_dot^2 + z_dot^2)/2 - g*y)]
+         #[constraint(rod: (x - a*sin(omega*t))^2 + y^2 - l^2 = 0)] #[constraint(slide: z_dot - y*x_dot = 0)]
+         struct Moved { g: f64, a: f64, omega: f64, l: f64 }";
+    assert!(lines(source, "Constraints\n").contains("= 0   (holonomic, rheonomic)"));
+    let [[text, latex, html], ..] = rendered(source).forms;
+    for kind in ["holonomic, rheonomic", "nonholonomic"] {
+        assert!(text.contains(&format!("({kind})")) && html.contains(&format!("({kind})")), "{text}{html}");
+        let clauses = kind.replace(", ", ", }\\text{");
+        assert!(latex.contains(&format!("\\text{{({clauses})}}")), "{latex}");
+    }
+}
