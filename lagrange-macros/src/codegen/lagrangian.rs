@@ -209,11 +209,18 @@ impl Emitter<'_> {
         let [[text, ..], ..] = &self.rendered.forms;
         // Here in plain text, as editors and terminals show what is said of a function.
         let doc = format!(" The system and its equations of motion, to be read.\n\n```text\n{text}```");
-        let forms = self.rendered.forms.iter().map(|form| quote!([#(#form),*]));
+        let [first, others @ ..] = &self.rendered.forms;
+        let forms = match others.iter().all(|form| form == first) {
+            true => quote!([[#(#first),*]; 3]),
+            false => {
+                let forms = self.rendered.forms.iter().map(|form| quote!([#(#form),*]));
+                quote!([#(#forms),*])
+            }
+        };
         quote! {
             #[doc = #doc]
             #visibility const fn equations() -> __lagrange::Equations {
-                __lagrange::generated::equations([#(#forms),*])
+                __lagrange::generated::equations(#forms)
             }
         }
     }
