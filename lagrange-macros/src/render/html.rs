@@ -18,7 +18,8 @@ const ROWS: &str =
 const SHORT: &str = "text-align:right";
 const LONG: &str = "grid-column:1/-1;padding-left:2em;text-indent:-2em";
 const WRAPPED: &str = "padding-left:1em;text-indent:-1em";
-const REMARK: &str = "opacity:.75;margin-left:1em";
+// On a line of its own where it does not fit behind the equation.
+const REMARK: &str = "display:inline-block;text-indent:0;opacity:.75;margin-left:1em";
 
 /// One element, without an empty line in it: so it stands in the documentation that is written in Markdown.
 pub(super) fn html(notation: Notation, sections: &[Section]) -> String {
@@ -49,7 +50,11 @@ impl Rows<'_> {
                 (notation.pieces(left), right)
             }
             Equation::Term(formula) => (notation.pieces(formula), Vec::new()),
-            Equation::TooLong(size) => return format!("<div style=\"{LONG}\">… ({size} symbols)</div>\n"),
+            Equation::TooLong(size) => {
+                let label =
+                    line.label.as_ref().map_or(String::new(), |label| format!("<span>{label}: </span>"));
+                return format!("<div style=\"{LONG}\">{label}… ({size} symbols){remark}</div>\n");
+            }
         };
         if notation.spelling.width(&left.concat()) > LEFT || right.is_empty() {
             return format!("<div style=\"{LONG}\">{}{remark}</div>\n", formulas(&[left, right].concat()));
