@@ -128,12 +128,16 @@ impl Spelling for Latex {
         format!(r"\sum_{{{index} = {from}}}^{{{last}}} {body}")
     }
 
+    fn between_words(&self) -> &'static str {
+        r" \, "
+    }
+
     fn beside(&self, before: &str, after: &str) -> &'static str {
         // Words would run into each other.
         let has_word = |text: &str| text.contains(r"\mathit");
         match after.starts_with(|first: char| first.is_ascii_digit()) {
             true => r" \cdot ",
-            false if has_word(after) || before.ends_with('}') && has_word(before) => r" \, ",
+            false if has_word(after) || before.ends_with('}') && has_word(before) => self.between_words(),
             false => " ",
         }
     }

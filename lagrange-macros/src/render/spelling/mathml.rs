@@ -133,6 +133,10 @@ impl Spelling for MathMl {
         format!("<munderover><mo>∑</mo>{first}{last}</munderover>{body}")
     }
 
+    fn between_words(&self) -> &'static str {
+        TIMES_AND_SPACE
+    }
+
     fn beside(&self, before: &str, after: &str) -> &'static str {
         let after = ["<msup>", "<msubsup>", "<msub>", "<mrow>"]
             .iter()
@@ -141,7 +145,7 @@ impl Spelling for MathMl {
         let ends_with_word = before.rsplit_once("<mi>").is_some_and(|(_, last)| is_word(last));
         match after.starts_with("<mn>") {
             true => "<mo>·</mo>",
-            false if begins_with_word || ends_with_word => TIMES_AND_SPACE,
+            false if begins_with_word || ends_with_word => self.between_words(),
             false => TIMES,
         }
     }

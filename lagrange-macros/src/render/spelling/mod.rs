@@ -84,6 +84,11 @@ pub(super) trait Spelling: Sync {
     /// Σ from the first to the last.
     fn sum_over(&self, index: &str, from: &str, last: &str, body: &str) -> String;
 
+    /// What stands between factors that would run into each other: words.
+    fn between_words(&self) -> &'static str {
+        " "
+    }
+
     /// What stands between two factors.
     fn beside(&self, before: &str, after: &str) -> &'static str;
 }
