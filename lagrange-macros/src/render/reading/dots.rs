@@ -15,12 +15,14 @@ use crate::variables::Variable;
 /// Sums of products of components.
 type Products = BTreeMap<Components, Rational>;
 
+/// The components in a term, the whole of it, and its coefficient.
+type Member = (Components, Monomial, Rational);
+
 impl Collector<'_, '_> {
     /// The terms with products of vectors for sums over components; `None` where there are no such sums.
     pub(super) fn dotted_terms(&self, all: &Polynomial) -> Option<Vec<VectorTerm>> {
         let mut known: Vec<Vector> = Vec::new();
-        let mut groups: BTreeMap<(Monomial, Vec<usize>), Vec<(Components, Monomial, Rational)>> =
-            BTreeMap::new();
+        let mut groups: BTreeMap<(Monomial, Vec<usize>), Vec<Member>> = BTreeMap::new();
         for (monomial, &c) in all.terms() {
             let (scalar, components) = self.parted(monomial, &mut known);
             let vectors = components.iter().map(|&(vector, _)| vector).collect();
