@@ -22,11 +22,14 @@ pub(crate) fn check(book: &Path, page: &str, name: &str, text: &str) {
     }
 }
 
-/// The page with this text in the block of this name.
+/// The page with this text in the block of this name: one of code, or of HTML, which an empty line ends.
 fn with_block(page: &str, name: &str, text: &str) -> Option<String> {
-    let mark = format!("<!-- {name} -->\n```");
-    let opening = page.find(&mark)? + mark.len();
-    let start = opening + page[opening..].find('\n')? + 1;
-    let end = start + page[start..].find("```\n")?;
-    Some(format!("{}{}\n{}", &page[..start], text.trim_end(), &page[end..]))
+    let mark = format!("<!-- {name} -->\n");
+    let start = page.find(&mark)? + mark.len();
+    let block = &page[start..];
+    let [first, last] = match block.starts_with("```") {
+        true => [block.find('\n')? + 1, block.find("\n```\n")? + 1],
+        false => [0, block.find("\n\n")? + 1],
+    };
+    Some(format!("{}{}\n{}", &page[..start + first], text.trim_end(), &page[start + last..]))
 }

@@ -113,6 +113,19 @@ def obeys_sliders(tab, key):
     tab.tell("reset()")
 
 
+def shows_equations(tab):
+    """They are typeset by the browser, none is cut off, and long lists are folded."""
+    found = tab.tell("""(() => {
+        const sizes = [...document.querySelectorAll("#formulas math")].filter(one => one.checkVisibility()).map(one => one.getBoundingClientRect());
+        const { right } = element("formulas").getBoundingClientRect();
+        return [sizes.length, Math.min(...sizes.map(size => size.height)), Math.max(...sizes.map(size => size.right)) - right];
+    })()""")
+    count, height, beyond = found
+    check(count > 5 and height > 5, f"{count} formulas, the lowest {height} high")
+    check(beyond < 1, f"a formula is {beyond} wider than its place")
+    check(tab.tell("[...document.querySelectorAll('#formulas mfrac')].every(one => one.getBoundingClientRect().height > one.firstElementChild.getBoundingClientRect().height)"), "fractions are not set as such")
+
+
 def fits(tab, width):
     """Nothing stands out to the side."""
     wide = tab.tell("document.documentElement.scrollWidth")
@@ -126,6 +139,7 @@ def test_system(tab, url, key, pictures):
     tab.open(f"{url}#{key}", READY)
     check(tab.tell("page.card.key") == key, "another system is shown")
     fits(tab, 1280)
+    shows_equations(tab)
     loss = run_for_ten_seconds(tab)
     is_drawn(tab)
     obeys_sliders(tab, key)
@@ -137,6 +151,7 @@ def test_system(tab, url, key, pictures):
     tab.scheme("dark")
     tab.tell("new Promise(done => setTimeout(done, 300))")
     fits(tab, 390)
+    shows_equations(tab)
     if pictures:
         tab.picture(pictures / f"{key}-phone.png")
     check(not tab.complaints, "; ".join(tab.complaints))

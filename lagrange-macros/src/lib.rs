@@ -3,7 +3,7 @@
 //! A pipeline, each stage a folder with one way in:
 //!
 //! ```text
-//! tokens ─syntax→ Declaration ─resolve→ Problem ─mechanics→ Derived ─render→ text and LaTeX ─codegen→ tokens
+//! tokens ─syntax→ Declaration ─resolve→ Problem ─mechanics→ Derived ─render→ text, LaTeX, MathML ─codegen→ tokens
 //! ```
 //!
 //! `symbolic` is the ground floor: the expressions of all stages are nodes of one graph, which `resolve` begins,

@@ -1,37 +1,21 @@
-// The text that the derive writes, set as formulas: letters slanted, words and functions upright.
+// The equations, as the derive writes them for browsers.
 
-const WORD = /(\p{L}\p{M}*)((?:\p{L}\p{M}*|_[\p{L}\p{N}]+)*)((?:\[[^[\]]*\])*)|[&<>]/gu;
 /// Of more rows than that only the first are seen at once.
 const ROWS = 12;
 
-/// Indices, after an underscore or in brackets, stand below.
-function formula(text) {
-  return text.replace(WORD, (all, letter, rest, indices) => {
-    if (!letter) return escaped(all);
-    const isWord = rest && !rest.startsWith("_");
-    const below = [...(isWord ? [] : rest.split("_").slice(1)), ...[...indices.matchAll(/\[(.*?)\]/g)].map(([, index]) => index)];
-    return (isWord ? letter + rest : `<i>${letter}</i>`) + (below.length ? `<sub>${below.join(" ")}</sub>` : "");
-  });
+function showEquations(place, html) {
+  place.innerHTML = html;
+  place.querySelectorAll(".equations > div").forEach(fold);
 }
 
-/// A label, an equation and a remark, each of which may be missing but the equation.
-function row(line) {
-  const [, label, rest] = line.trim().match(/^(?:((?:[^:=([]|\[[^\]]*\])+):\s+)?(.*)$/u);
-  const [, equation, remark] = rest.match(/^(.*?)(?:\s{3}\((.*)\))?$/u);
-  const part = (kind, html) => (html ? `<span class="${kind}">${html}</span>` : "");
-  return `<div class="row">${part("label", label && formula(label))}${part("equation", formula(equation))}${part("remark", remark && escaped(remark))}</div>`;
-}
-
-/// A heading is a line that is not indented; the first line is the name of the system.
-function formulas(text) {
-  const sections = [];
-  for (const line of text.split("\n").slice(1).filter(line => line.trim())) {
-    if (line.startsWith(" ")) sections.at(-1).rows.push(row(line));
-    else sections.push({ heading: `<h4>${escaped(line)}</h4>`, rows: [] });
-  }
-  return sections.map(({ heading, rows }) => {
-    const [first, rest] = [rows.slice(0, ROWS), rows.slice(ROWS)];
-    const more = rest.length ? `<details><summary>${rest.length} more</summary>${rest.join("")}</details>` : "";
-    return heading + first.join("") + more;
-  }).join("");
+/// A left side and a right side are a row, and so is what takes the whole width.
+function fold(grid) {
+  const cells = [...grid.children];
+  const begins = cells.filter((cell, k) => cells[k - 1]?.style.textAlign !== "right");
+  if (begins.length <= ROWS) return;
+  const more = document.createElement("details");
+  const rest = grid.cloneNode();
+  rest.append(...cells.slice(cells.indexOf(begins[ROWS])));
+  more.append(Object.assign(document.createElement("summary"), { textContent: `${begins.length - ROWS} more` }), rest);
+  grid.after(more);
 }

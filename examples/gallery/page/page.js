@@ -25,8 +25,8 @@ async function unpacked() {
 /// Plain objects: what the systems say of themselves does not change.
 function known(card) {
   const knobs = card.knobs().map(({ name, meaning, unit, low, high, value }) => ({ name, meaning, unit, low, high, value }));
-  const { key, title, about, pace, text, latex, coordinates } = card;
-  return { key, title, about, pace, text, latex, coordinates, conservesEnergy: card.conserves_energy, knobs, open: values => card.open(values) };
+  const { key, title, about, pace, text, mathml, latex, coordinates } = card;
+  return { key, title, about, pace, text, mathml, latex, coordinates, conservesEnergy: card.conserves_energy, knobs, open: values => card.open(values) };
 }
 
 function choose({ card, values, at, speed, forces }) {
@@ -49,7 +49,7 @@ function describe() {
   element("title").textContent = card.title;
   element("about").textContent = card.about;
   element("scene").setAttribute("aria-label", `${card.title}, moving`);
-  element("formulas").innerHTML = formulas(card.text);
+  showEquations(element("formulas"), card.mathml);
   element("text").textContent = card.text;
   element("latex").textContent = card.latex;
   for (const link of element("systems").children) {

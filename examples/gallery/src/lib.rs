@@ -59,6 +59,12 @@ impl Card {
         self.0.equations.text().into()
     }
 
+    /// The same as HTML, its formulas in MathML.
+    #[wasm_bindgen(getter)]
+    pub fn mathml(&self) -> String {
+        self.0.equations.mathml().into()
+    }
+
     /// The same as LaTeX.
     #[wasm_bindgen(getter)]
     pub fn latex(&self) -> String {

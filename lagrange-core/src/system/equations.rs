@@ -2,7 +2,7 @@
 
 use core::fmt::{self, Display, Formatter};
 
-/// A system and its equations as text and as LaTeX, in a form for reading.
+/// A system and its equations as text, as LaTeX and as MathML, in a form for reading.
 ///
 /// The Lagrangian as written, the constraints with their kinds, the equations of motion, constraint forces, what is
 /// conserved, and where they are short the momenta, the Hamiltonian and Hamilton's equations. Expressions are multiplied out and
@@ -16,7 +16,8 @@ use core::fmt::{self, Display, Formatter};
 /// printed as they are computed.
 ///
 /// `Type::equations()` gives them for every type with `#[derive(Lagrangian)]`; they also stand in its
-/// documentation.
+/// documentation, typeset, and as plain text at `equations`, where editors show them. A method of the type's own needs another
+/// name: rustc calls two `equations` duplicate definitions (E0592).
 ///
 /// ```
 /// use lagrange_core::prelude::*;
@@ -31,7 +32,7 @@ use core::fmt::{self, Display, Formatter};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Equations {
-    forms: [[&'static str; 2]; 3],
+    forms: [[&'static str; 3]; 3],
     form: usize,
 }
 
@@ -49,6 +50,14 @@ impl Equations {
         self.forms[self.form][1]
     }
 
+    /// A piece of HTML with the equations in MathML, which browsers show without a script.
+    ///
+    /// One `div` of the class `equations`, that needs no style sheet: a heading and rows for each part. Long equations take as
+    /// many lines as the page is narrow. It is well-formed XML without an empty line, so it can stand in Markdown too.
+    pub const fn mathml(&self) -> &'static str {
+        self.forms[self.form][2]
+    }
+
     /// The same with definitions by their names wherever they occur.
     pub const fn named(self) -> Self {
         Self { form: 1, ..self }
@@ -60,8 +69,8 @@ impl Equations {
     }
 }
 
-/// Of these forms, each as text and as LaTeX.
-pub const fn equations(forms: [[&'static str; 2]; 3]) -> Equations {
+/// Of these forms, each as text, as LaTeX and as HTML with MathML.
+pub const fn equations(forms: [[&'static str; 3]; 3]) -> Equations {
     Equations { forms, form: 0 }
 }
 

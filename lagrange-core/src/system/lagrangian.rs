@@ -58,7 +58,7 @@ pub trait Lagrangian<const N: usize, const M: usize> {
     const FACTS: Facts;
 
     /// The system and its equations of motion, to be read; empty for one that is not derived.
-    const EQUATIONS: Equations = equations([["", ""]; 3]);
+    const EQUATIONS: Equations = equations([[""; 3]; 3]);
 
     /// Shows every parameter: each number that the expressions name, in the order of the fields. What a function of the user
     /// holds is not among them.

@@ -44,8 +44,7 @@ impl Emitter<'_> {
         let (equations, visit_parameters, visit_defects) =
             (self.equations(), self.visit_parameters(), self.visit_defects());
         let (pack, check_members) = (pack::pack(self.declaration, scalar), self.check_members());
-        let [[text, _], ..] = &self.rendered.forms;
-        let doc = format!("```text\n{text}```");
+        let [[_, _, doc], ..] = &self.rendered.forms;
         quote! {
             const _: () = {
                 // One name is imported, and none that a user would give.
@@ -207,11 +206,21 @@ impl Emitter<'_> {
 
     fn equations(&self) -> TokenStream {
         let visibility = &self.declaration.visibility;
-        let forms = self.rendered.forms.iter().map(|[text, latex]| quote!([#text, #latex]));
+        let [[text, ..], ..] = &self.rendered.forms;
+        // Here in plain text, as editors and terminals show what is said of a function.
+        let doc = format!(" The system and its equations of motion, to be read.\n\n```text\n{text}```");
+        let [first, others @ ..] = &self.rendered.forms;
+        let forms = match others.iter().all(|form| form == first) {
+            true => quote!([[#(#first),*]; 3]),
+            false => {
+                let forms = self.rendered.forms.iter().map(|form| quote!([#(#form),*]));
+                quote!([#(#forms),*])
+            }
+        };
         quote! {
-            /// The system and its equations of motion, to be read.
+            #[doc = #doc]
             #visibility const fn equations() -> __lagrange::Equations {
-                __lagrange::generated::equations([#(#forms),*])
+                __lagrange::generated::equations(#forms)
             }
         }
     }

@@ -83,7 +83,7 @@ pub(crate) fn stub(declaration: &Declaration, outline: &Outline) -> TokenStream 
             #[allow(unused_variables, dead_code, non_snake_case, clippy::all)]
             impl #own_generics #ident #type_generics #where_clause {
                 #visibility const fn equations() -> __lagrange::Equations {
-                    __lagrange::generated::equations([["", ""]; 3])
+                    __lagrange::generated::equations([[""; 3]; 3])
                 }
                 #(#observables)*
             }

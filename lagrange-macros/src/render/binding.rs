@@ -3,7 +3,7 @@
 use num_traits::{One, Signed};
 
 use super::formula::Formula;
-use super::symbols::Notation;
+use super::notation::Notation;
 use crate::symbolic::Rational;
 
 /// How tightly a formula holds together: what is looser than its surroundings needs parentheses.
@@ -15,7 +15,7 @@ pub(super) enum Binding {
     Atom,
 }
 
-impl Notation {
+impl Notation<'_> {
     /// How tightly a formula holds together.
     pub(super) fn binding(self, formula: &Formula) -> Binding {
         match formula {
@@ -28,16 +28,16 @@ impl Notation {
                 name if PREFIX.contains(&name) => Binding::Power,
                 _ => Binding::Atom,
             },
-            Formula::Partial { arguments, .. } if arguments.is_empty() => match self {
-                Self::Unicode => Binding::Product,
-                Self::Latex => Binding::Power,
+            Formula::Partial { arguments, .. } if arguments.is_empty() => match self.spelling.is_flat() {
+                true => Binding::Product,
+                false => Binding::Power,
             },
             Formula::Power(..) => Binding::Power,
-            Formula::Root(_) if self == Self::Unicode => Binding::Power,
+            Formula::Root(_) if self.spelling.is_flat() => Binding::Power,
             Formula::Number(value) if !value.denom().is_one() => Binding::Power,
             Formula::Scaled(_) => Binding::Power,
             // A further index would run into the first.
-            Formula::Entry(..) if self == Self::Latex => Binding::Power,
+            Formula::Entry(..) if !self.spelling.is_flat() => Binding::Power,
             _ => Binding::Atom,
         }
     }

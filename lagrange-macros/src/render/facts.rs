@@ -3,6 +3,7 @@
 use super::Page;
 use super::formula::Formula;
 use super::lines::{Equation, Line};
+use super::remark::{Part, Remark};
 use crate::mechanics::{Conserved, Derived, Evidence, Facts, Quantity};
 use crate::syntax::{Expression, Sign};
 
@@ -21,8 +22,8 @@ impl Page<'_> {
         let named = |name: &str| Formula::labelled(name, 0);
         let derived = |name, id| Equation::from(self.quantity(id).map(|right| [named(name), right]));
         let Derived { equations, facts, .. } = self.derived;
-        let (equation, remark) = match *quantity {
-            Quantity::Momentum(a) => (derived(name, equations.momentum[a]), held(*evidence)),
+        let (equation, remark): (_, Vec<Part>) = match *quantity {
+            Quantity::Momentum(a) => (self.conserved_momentum(name, a)?, held(*evidence)),
             Quantity::Energy => (derived("E", equations.energy), remark_on_energy(*evidence, facts)),
             // A vector is written as such, once.
             Quantity::Observable(observable, 0) => {
@@ -33,7 +34,17 @@ impl Page<'_> {
             }
             Quantity::Observable(..) => return None,
         };
-        Some(Line { remark: remark.to_owned(), ..Line::of(equation) })
+        Some(Line { remark: Remark::of(remark), ..Line::of(equation) })
+    }
+
+    /// A vector of momenta that are all conserved is written as such, once.
+    fn conserved_momentum(&self, name: &str, a: usize) -> Option<Equation> {
+        let (rows, line) = self.all_momenta().into_iter().find(|(rows, _)| rows.contains(&a))?;
+        if self.are_conserved(&rows) {
+            return (rows.start == a).then_some(line.equation);
+        }
+        let momentum = self.momentum(self.derived.equations.momentum[a]);
+        Some(Equation::from(momentum.map(|right| [Formula::labelled(name, 0), right])))
     }
 
     /// The terms of the Lagrangian that are total time derivatives, as formulas.
@@ -48,18 +59,21 @@ impl Page<'_> {
     }
 }
 
-fn remark_on_energy(evidence: Evidence, facts: &Facts) -> &'static str {
-    match (facts.energy_is_t_plus_u.is_some(), evidence) {
-        (true, Evidence::Proved) => "T + U",
-        (true, Evidence::Held(_)) => "T + U; conserved in all random motions tried",
-        (false, Evidence::Proved) => "not T + U",
-        (false, Evidence::Held(_)) => "not T + U; conserved in all random motions tried",
+fn remark_on_energy(evidence: Evidence, facts: &Facts) -> Vec<Part> {
+    let sum = ["T", "U"].map(|name| Formula::labelled(name, 0)).to_vec();
+    let mut remark = vec![Part::Formula(Formula::Sum(sum))];
+    if facts.energy_is_t_plus_u.is_none() {
+        remark.insert(0, Part::words("not "));
     }
+    if let Evidence::Held(_) = evidence {
+        remark.push(Part::words("; conserved in all random motions tried"));
+    }
+    remark
 }
 
-fn held(evidence: Evidence) -> &'static str {
+fn held(evidence: Evidence) -> Vec<Part> {
     match evidence {
-        Evidence::Proved => "",
-        Evidence::Held(_) => "in all random motions tried",
+        Evidence::Proved => Vec::new(),
+        Evidence::Held(_) => vec![Part::words("in all random motions tried")],
     }
 }

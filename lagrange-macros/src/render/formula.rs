@@ -3,7 +3,7 @@
 
 use num_traits::{One, Signed, Zero};
 
-use super::symbols::decimal;
+use super::digits::decimal;
 use crate::symbolic::{Rational, Scaled, finite_decimal};
 
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]

@@ -1,20 +1,33 @@
 //! The Hamiltonian side, as it is to be read.
 
+use std::ops::Range;
+
 use super::formula::Formula;
 use super::lines::{Equation, Line};
 use super::reading::length;
 use super::{Page, vector};
-use crate::mechanics::Hamilton;
+use crate::mechanics::{Conserved, Hamilton, Quantity};
 use crate::symbolic::Id;
 
 /// Longer ones, in the signs that they take, say nothing to a reader.
 const LONG: usize = 100;
 
 impl Page<'_> {
-    /// p = ∂L/∂q̇
+    /// p = ∂L/∂q̇ of those that are not among the conserved quantities already.
     pub(super) fn momenta(&self) -> Vec<Line> {
         let Some(_) = self.legible() else { return Vec::new() };
-        self.by_coordinate(&self.derived.equations.momentum, |text| momentum(text, 0))
+        let others = self.all_momenta().into_iter().filter(|(rows, _)| !self.are_conserved(rows));
+        others.map(|(_, line)| line).collect()
+    }
+
+    /// With the coordinates, one or those of a vector, that each is of.
+    pub(super) fn all_momenta(&self) -> Vec<(Range<usize>, Line)> {
+        self.by_vector(&self.derived.equations.momentum, Self::momentum, |text| momentum(text, 0))
+    }
+
+    pub(super) fn are_conserved(&self, rows: &Range<usize>) -> bool {
+        let is_it = |i| move |known: &Conserved| known.quantity == Quantity::Momentum(i);
+        rows.clone().all(|i| self.derived.facts.conserved.iter().any(is_it(i)))
     }
 
     /// H(t, q, p)
@@ -49,22 +62,33 @@ impl Page<'_> {
 
     /// An equation for each coordinate, or for each vector of coordinates whose equations are those of one.
     fn by_coordinate(&self, values: &[Id], left: impl Fn(&str) -> Formula) -> Vec<Line> {
-        let mut values = values.iter().copied();
-        let lines = self.vectors().flat_map(|labels| {
-            let values: Vec<Id> = values.by_ref().take(labels.len()).collect();
-            let whole = vector(&labels[0].text).filter(|_| values.len() > 1);
-            let whole =
-                whole.and_then(|text| Some(Equation::Known(left(text), self.vector_expression(&values)?)));
+        self.by_vector(values, Self::expression, left).into_iter().map(|(_, line)| line).collect()
+    }
+
+    fn by_vector(
+        &self,
+        values: &[Id],
+        read: impl Fn(&Self, Id) -> Result<Formula, u64>,
+        left: impl Fn(&str) -> Formula,
+    ) -> Vec<(Range<usize>, Line)> {
+        let mut lines = Vec::new();
+        let mut first = 0;
+        for labels in self.vectors() {
+            let rows = first..first + labels.len();
+            first = rows.end;
+            // Without constraints there are no forces of them.
+            let Some(parts) = values.get(rows.clone()) else { break };
+            let whole = vector(&labels[0].text).filter(|_| labels.len() > 1);
+            let whole = whole.and_then(|text| Some([left(text), self.vector_expression(parts)?]));
             match whole {
-                Some(equation) => vec![Line::of(equation)],
-                None => labels
-                    .iter()
-                    .zip(values)
-                    .map(|(label, value)| self.known(left(&label.text), value))
-                    .collect(),
+                Some([left, right]) => lines.push((rows, Line::of(Equation::Known(left, right)))),
+                None => lines.extend(rows.zip(labels).map(|(i, label)| {
+                    let sides = read(self, values[i]).map(|right| [left(&label.text), right]);
+                    (i..i + 1, Line::of(Equation::from(sides)))
+                })),
             }
-        });
-        lines.collect()
+        }
+        lines
     }
 
     fn known(&self, left: Formula, right: Id) -> Line {

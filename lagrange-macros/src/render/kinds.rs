@@ -1,23 +1,22 @@
 //! What kind of constraint it is, in words.
 
 use super::Page;
-use super::symbols::Notation;
+use super::remark::{Part, Remark};
 use crate::mechanics::{Evidence, Integrability, Integrals};
+use crate::symbolic::Node;
+use crate::variables::Variable;
 
 impl Page<'_> {
     /// The remark behind a constraint that stands for `rows`: each kind among them, once.
-    pub(super) fn kinds(&self, rows: impl Iterator<Item = usize>) -> String {
-        let mut remarks: Vec<String> = Vec::new();
+    pub(super) fn kinds(&self, rows: impl Iterator<Item = usize>) -> Remark {
+        let mut remark = Remark::default();
         for row in rows {
-            let remark = self.kind(row);
-            if !remarks.contains(&remark) {
-                remarks.push(remark);
-            }
+            remark.and(self.kind(row));
         }
-        remarks.join("; ")
+        remark
     }
 
-    fn kind(&self, row: usize) -> String {
+    fn kind(&self, row: usize) -> Vec<Part> {
         let kinds = &self.derived.equations.integrability;
         let class = kinds.classes[row];
         let kind = match class.integrability {
@@ -26,13 +25,23 @@ impl Page<'_> {
             Integrability::IntegratingFactor => "integrable with a factor",
             Integrability::Together => "integrable together with the others",
             Integrability::Nonholonomic => "nonholonomic",
-            Integrability::Undecided => return "on the velocities".to_owned(),
+            Integrability::Undecided => return vec![Part::words("on the velocities")],
         };
-        let kind = qualified(kind, class.evidence);
+        let kind = if self.is_rheonomic(row) { format!("{kind}, rheonomic") } else { kind.to_owned() };
+        let kind = qualified(&kind, class.evidence);
         match kinds.functions[row].map(|function| self.expression(function)) {
-            Some(Ok(function)) => format!("{kind}: {} is constant", Notation::Unicode.write(&function)),
-            _ => kind,
+            Some(Ok(function)) => {
+                vec![Part::words(kind + ": "), Part::Formula(function), Part::words(" is constant")]
+            }
+            _ => vec![Part::words(kind)],
         }
+    }
+
+    /// Whether the time occurs in it.
+    fn is_rheonomic(&self, row: usize) -> bool {
+        let nodes = self.graph.reachable(&[self.problem.constraints[row].1]);
+        let is_time = |node: &Node| *node == Node::Symbol(Variable::Time.symbol());
+        nodes.into_iter().any(|id| is_time(self.graph.node(id)))
     }
 }
 

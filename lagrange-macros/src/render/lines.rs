@@ -1,9 +1,10 @@
-//! Headings and lines, and how both texts are put together from them.
+//! Headings and lines, and the plain text that is put together from them.
 
 use super::Page;
 use super::formula::Formula;
+use super::notation::Notation;
 use super::reading::READABLE;
-use super::symbols::Notation;
+use super::remark::Remark;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};
 
@@ -17,12 +18,12 @@ pub(super) struct Section {
 pub(super) struct Line {
     pub(super) label: Option<String>,
     pub(super) equation: Equation,
-    pub(super) remark: String,
+    pub(super) remark: Remark,
 }
 
 impl Line {
     pub(super) fn of(equation: Equation) -> Self {
-        Self { label: None, equation, remark: String::new() }
+        Self { label: None, equation, remark: Remark::default() }
     }
 }
 
@@ -85,11 +86,12 @@ pub(super) fn text(name: &str, sections: &[Section]) -> String {
                 _ => String::new(),
             };
             let equation = match equation {
-                Equation::Known(left, right) => Notation::Unicode.equation(left, right),
-                Equation::Term(formula) => Notation::Unicode.write(formula),
+                Equation::Known(left, right) => Notation::UNICODE.equation(left, right),
+                Equation::Term(formula) => Notation::UNICODE.write(formula),
                 Equation::TooLong(size) => format!("… ({size} symbols)"),
             };
-            let remark = if remark.is_empty() { String::new() } else { format!("   ({remark})") };
+            let remark = remark.spelled(Notation::UNICODE, str::to_owned, |formula| formula);
+            let remark = if remark.is_empty() { String::new() } else { format!("   {remark}") };
             text += &format!("  {label}{equation}{remark}\n");
         }
         text.extend(note.iter().map(|note| format!("  {note}\n")));

@@ -1,18 +1,23 @@
-//! The system and its equations as text and as LaTeX. Nothing else writes any.
+//! The system and its equations as text, as LaTeX and as MathML. Nothing else writes any.
 
+mod arrays;
 mod binding;
 mod derived;
+mod digits;
 mod facts;
 mod formula;
 mod hamilton;
+mod html;
 mod kinds;
 mod latex;
 mod lines;
 mod names;
 mod notation;
+mod pieces;
 mod reading;
+mod remark;
+mod spelling;
 mod supplied;
-mod symbols;
 #[cfg(test)]
 mod tests;
 mod written;
@@ -21,11 +26,12 @@ use crate::mechanics::Derived;
 use crate::resolve::{Label, Problem};
 use crate::symbolic::{Graph, Id};
 use crate::syntax::{Constraint, Declaration, Define, Expression, Frame, Power, Target, TargetIndex};
+use arrays::Arrays;
 use formula::Formula;
 use lines::{Equation, Line, Section};
+use notation::Notation;
 use reading::{Names, Reading};
 use rustc_hash::FxHashSet;
-use symbols::Notation;
 
 /// What is said of positions that three angles turn, one after another, and that are differentiated.
 const IN_FRAMES: &str =
@@ -35,9 +41,9 @@ const IN_FRAMES: &str =
 
 /// The same system, written down.
 pub(crate) struct Rendered {
-    /// With definitions by their names or written out as is shorter, always by their names, and always written out; each as text
-    /// and as LaTeX.
-    pub(crate) forms: [[String; 2]; 3],
+    /// With definitions by their names or written out as is shorter, always by their names, and always written out; each as
+    /// text, as LaTeX and as HTML with MathML.
+    pub(crate) forms: [[String; 3]; 3],
     /// The total time derivatives in the Lagrangian, in the order of the facts.
     pub(crate) total_derivatives: Vec<String>,
 }
@@ -56,6 +62,7 @@ struct Page<'a> {
     constants: FxHashSet<Id>,
     names: Names,
     readings: Vec<Reading<'a>>,
+    arrays: Arrays,
 }
 
 /// Writes the system down.
@@ -76,10 +83,11 @@ pub(crate) fn render(
         names: Names::Shortest,
         readings: reading::readings(graph, problem, derived, &constants, Names::Shortest),
         constants,
+        arrays: Arrays::of(problem),
     };
     let shortest = page.forms();
     let totals = page.total_derivatives();
-    let total_derivatives = totals.iter().map(|formula| Notation::Unicode.write(formula)).collect();
+    let total_derivatives = totals.iter().map(|formula| Notation::UNICODE.write(formula)).collect();
     let others = [Names::Kept, Names::WrittenOut].map(|names| match problem.names.is_empty() {
         true => shortest.clone(),
         false => {
@@ -100,8 +108,8 @@ fn ranks(problem: &Problem) -> Vec<usize> {
 }
 
 impl Page<'_> {
-    /// As text and as LaTeX.
-    fn forms(&self) -> [String; 2] {
+    /// As text, as LaTeX and as HTML.
+    fn forms(&self) -> [String; 3] {
         let Self { problem, derived, .. } = self;
         let term = |formula| Line::of(Equation::Term(formula));
         let section = |heading, lines| Section { heading, lines, note: None };
@@ -126,7 +134,13 @@ impl Page<'_> {
             ),
         ];
         let name = self.declaration.ident.to_string();
-        [lines::text(&name, &sections), latex::latex(name.trim_start_matches("r#"), &sections)]
+        let [in_latex, in_mathml] =
+            [Notation::LATEX, Notation::MATHML].map(|notation| notation.with(&self.arrays));
+        [
+            lines::text(&name, &sections),
+            latex::latex(in_latex, name.trim_start_matches("r#"), &sections),
+            html::html(in_mathml, &sections),
+        ]
     }
 
     fn lagrangian(&self) -> Vec<Line> {
@@ -202,7 +216,7 @@ impl Page<'_> {
                 return None;
             }
             Some(Line {
-                label: Some(Notation::Unicode.write(&self.target(target))),
+                label: Some(Notation::UNICODE.write(&self.target(target))),
                 equation: Equation::Known(self.written(left), self.written(right)),
                 remark: self.kinds(rows.into_iter()),
             })
@@ -223,7 +237,7 @@ impl Page<'_> {
             let others = rows.split_off(labels.len());
             let rows = std::mem::replace(&mut rows, others);
             let line = |text: &str, equation| {
-                let label = Some(Notation::Unicode.write(&Formula::labelled(text, 0)));
+                let label = Some(Notation::UNICODE.write(&Formula::labelled(text, 0)));
                 Line { label, ..Line::of(equation) }
             };
             let whole = (labels.len() > 1).then(|| self.vector_row(&rows)).flatten();

@@ -1,44 +1,67 @@
-//! Two ways to write a [`Formula`] down: as text in Unicode, and as LaTeX.
+//! Ways to write a [`Formula`] down, by one set of rules: where signs and parentheses stand. How the parts look is a
+//! [`Spelling`]'s.
 
 use num_traits::{One, Signed};
 
+use super::arrays::Arrays;
 use super::binding::{Binding, PREFIX, begins_with_function, exponent_at_name, is_number, is_prefixed};
+use super::digits::{decimal, point};
 use super::formula::Formula;
-use super::latex::{LINE, width};
-use super::symbols::{Notation, decimal, point, superscript, vulgar};
+use super::spelling::{Latex, MathMl, Spelling, Unicode, WIDE};
 use crate::resolve::is_built_in;
 use crate::symbolic::{Rational, Scaled, finite_decimal};
 
-impl Notation {
+/// A way to write, in which the names of arrays are bold.
+#[derive(Clone, Copy)]
+pub(super) struct Notation<'a> {
+    pub(super) spelling: &'static dyn Spelling,
+    arrays: Option<&'a Arrays>,
+}
+
+impl Notation<'static> {
+    pub(super) const UNICODE: Self = Self { spelling: &Unicode, arrays: None };
+    pub(super) const LATEX: Self = Self { spelling: &Latex, arrays: None };
+    pub(super) const MATHML: Self = Self { spelling: &MathMl, arrays: None };
+}
+
+impl<'a> Notation<'a> {
+    /// The same, where these names stand for arrays.
+    pub(super) fn with(self, arrays: &'a Arrays) -> Self {
+        Self { arrays: Some(arrays), ..self }
+    }
+
+    pub(super) fn is_array(self, formula: &Formula) -> bool {
+        self.arrays.is_some_and(|arrays| arrays.contains(formula))
+    }
+
     pub(super) fn write(self, formula: &Formula) -> String {
+        let spelling = self.spelling;
         match formula {
             Formula::Number(value) => self.number(*value),
             Formula::Scaled(value) => self.scaled(*value),
-            Formula::Pi => self.pick("π", r"\pi").to_owned(),
-            Formula::Name { base, dots, indices } => self.name(base, *dots, indices),
+            Formula::Pi => spelling.sign("π"),
+            Formula::Name { .. } => self.name(formula),
             Formula::Member(of, member) => self.member(of, member),
-            Formula::Entry(whole, index) => self.entry(self.at_least(whole, Binding::Atom), index),
-            Formula::Running { index, from, to } => self.running(index.as_deref(), from, to),
-            Formula::Multiplier(constraint) => self.subscript(self.pick("λ", r"\lambda"), constraint),
-            Formula::Negative(inner) => {
-                format!("{}{}", self.pick("−", "-"), self.at_least(inner, Binding::Product))
+            Formula::Entry(whole, index) => {
+                spelling.indexed(self.at_least(whole, Binding::Atom), &[], &[self.write(index)])
             }
+            Formula::Running { index, from, to } => self.running(index.as_deref(), from, to),
+            Formula::Multiplier(constraint) => self.multiplier(constraint),
+            Formula::Negative(inner) => spelling.sign("−") + &self.at_least(inner, Binding::Product),
             Formula::Sum(terms) => self.sum(terms),
             Formula::Product(above, below) => self.product(above, below),
             Formula::Power(base, exponent) => self.power(base, exponent, false),
-            Formula::Root(inner) => match self {
-                Self::Unicode => format!("√{}", self.at_least(inner, Binding::Atom)),
-                Self::Latex => match self.write(inner) {
-                    inner if width(&inner) < LINE / 2.0 => format!(r"\sqrt{{{inner}}}"),
-                    inner => format!("{}^{{1/2}}", self.parentheses(&inner)),
-                },
+            Formula::Root(inner) if spelling.is_flat() => spelling.root(&self.at_least(inner, Binding::Atom)),
+            Formula::Root(inner) => match self.write(inner) {
+                inner if spelling.width(&inner) < WIDE => spelling.root(&inner),
+                inner => spelling.power(&self.parentheses(&inner), &self.slashed("1", "2")),
             },
             Formula::Call(name, arguments) => self.call(name, arguments),
             Formula::SumOver { index, from, to, body } => self.sum_over(index, from, to, body),
-            Formula::Vector(items) => self.brackets(&self.list(items)),
+            Formula::Vector(items) => self.vector(items),
             Formula::Derivative { function, order, argument } => {
-                let primes = self.pick("′", "'").repeat(*order);
-                format!("{}{primes}{}", self.write(function), self.parentheses(&self.write(argument)))
+                let function = spelling.primes(&self.write(function), *order);
+                spelling.applied(&function, &self.parentheses(&self.write(argument)), false)
             }
             Formula::Partial { function, by, arguments } => self.partial(function, by, arguments),
         }
@@ -46,11 +69,11 @@ impl Notation {
 
     /// left = right
     pub(super) fn equation(self, left: &Formula, right: &Formula) -> String {
-        format!("{} = {}", self.write(left), self.write(right))
+        self.write(left) + &self.spelling.sign(" = ") + &self.write(right)
     }
 
-    fn pick(self, text: &'static str, latex: &'static str) -> &'static str {
-        if self == Self::Unicode { text } else { latex }
+    fn slashed(self, above: &str, below: &str) -> String {
+        self.spelling.digits(above) + &self.spelling.sign("/") + &self.spelling.digits(below)
     }
 
     fn at_least(self, formula: &Formula, least: Binding) -> String {
@@ -59,68 +82,63 @@ impl Notation {
     }
 
     fn parentheses(self, inner: &str) -> String {
-        self.between("(", inner, ")")
-    }
-
-    fn brackets(self, inner: &str) -> String {
-        self.between("[", inner, "]")
-    }
-
-    fn bars(self, inner: &str) -> String {
-        match self {
-            Self::Latex if !is_tall(inner) => format!(r"\lvert {inner} \rvert"),
-            _ => self.between("|", inner, "|"),
-        }
+        self.between(["(", ")"], inner)
     }
 
     /// As high as what is inside.
-    fn between(self, open: &str, inner: &str, close: &str) -> String {
-        match self {
-            // Between these no line can end.
-            Self::Latex if is_tall(inner) && width(inner) < LINE / 2.0 => {
-                format!(r"\left{open} {inner} \right{close}")
-            }
-            Self::Latex if is_tall(inner) => format!(r"\bigl{open}{inner}\bigr{close}"),
-            _ => format!("{open}{inner}{close}"),
-        }
+    fn between(self, bounds: [&str; 2], inner: &str) -> String {
+        self.spelling.between(bounds, inner, self.spelling.is_tall(inner))
     }
 
     fn list(self, items: &[Formula]) -> String {
-        items.iter().map(|item| self.write(item)).collect::<Vec<_>>().join(", ")
+        items.iter().map(|item| self.write(item)).collect::<Vec<_>>().join(&self.spelling.sign(", "))
+    }
+
+    /// One whose items are vectors is a matrix.
+    fn vector(self, items: &[Formula]) -> String {
+        let row = |item: &Formula| match item {
+            Formula::Vector(row) => Some(row.iter().map(|entry| self.write(entry)).collect::<Vec<_>>()),
+            _ => None,
+        };
+        match items.iter().map(row).collect::<Option<Vec<_>>>() {
+            Some(rows) => self.spelling.matrix(&rows),
+            None => self.between(["[", "]"], &self.list(items)),
+        }
     }
 
     fn sum(self, terms: &[Formula]) -> String {
-        let minus = self.pick("−", "-");
         let mut text = String::new();
         for (position, term) in terms.iter().enumerate() {
             let (is_negative, magnitude) = term.sign_and_magnitude();
-            let part = self.at_least(&magnitude, Binding::Product);
-            text += match (position, is_negative) {
+            let sign = match (position, is_negative) {
                 (0, false) => "",
-                (0, true) => minus,
+                (0, true) => "−",
                 (_, false) => " + ",
-                (_, true) => self.pick(" − ", " - "),
+                (_, true) => " − ",
             };
-            text += &part;
+            text += &if sign.is_empty() { String::new() } else { self.spelling.sign(sign) };
+            text += &self.at_least(&magnitude, Binding::Product);
         }
         text
     }
 
     fn product(self, above: &[Formula], below: &[Formula]) -> String {
-        match self {
-            _ if below.is_empty() => self.factors(above, false),
-            Self::Latex => self.fraction(above, below),
-            Self::Unicode => {
-                let below = match below {
-                    // a/2/3 could be read in two ways.
-                    [Formula::Number(value)] if !value.is_integer() => self.parentheses(&self.number(*value)),
-                    [Formula::Scaled(value)] => self.parentheses(&self.scaled(*value)),
-                    [single] => self.at_least(single, Binding::Power),
-                    several => self.parentheses(&self.factors(several, false)),
-                };
-                format!("{}/{below}", self.factors(above, true))
-            }
+        match below {
+            [] => self.factors(above, false),
+            _ if self.spelling.is_flat() => self.on_a_line(above, below),
+            _ => self.fraction(above, below),
         }
+    }
+
+    fn on_a_line(self, above: &[Formula], below: &[Formula]) -> String {
+        let below = match below {
+            // a/2/3 could be read in two ways.
+            [number @ Formula::Number(value)] if !value.is_integer() => self.parentheses(&self.write(number)),
+            [number @ Formula::Scaled(_)] => self.parentheses(&self.write(number)),
+            [single] => self.at_least(single, Binding::Power),
+            several => self.parentheses(&self.factors(several, false)),
+        };
+        self.spelling.fraction(&self.factors(above, true), &below)
     }
 
     /// Where it is too wide for a line, with sums beside it, or on one line that may be broken.
@@ -132,14 +150,16 @@ impl Notation {
         });
         let (sums, others): (Vec<Formula>, Vec<Formula>) =
             above.iter().cloned().partition(|factor| matches!(factor, Formula::Sum(_)));
-        if width(&over).max(width(&under)) < LINE / 2.0 {
-            format!(r"\frac{{{over}}}{{{under}}}")
-        } else if width(&under) < LINE / 2.0 && !sums.is_empty() {
+        let is_narrow = |text: &str| self.spelling.width(text) < WIDE;
+        if is_narrow(&over) && is_narrow(&under) {
+            self.spelling.fraction(&over, &under)
+        } else if is_narrow(&under) && !sums.is_empty() {
             let one = vec![Formula::Number(Rational::one())];
             let before = self.fraction(if others.is_empty() { &one } else { &others }, below);
-            format!("{before} {}", self.factors(&sums, true))
+            let sums = self.factors(&sums, true);
+            format!("{before}{}{sums}", self.spelling.beside(&before, &sums))
         } else {
-            format!("{} / ({under})", self.factors(above, true))
+            self.factors(above, true) + &self.spelling.sign(" / ") + &self.parentheses(&under)
         }
     }
 
@@ -156,16 +176,7 @@ impl Notation {
                     self.factor(factor, next.map_or(is_followed, |next| !begins_with_function(next)))
                 }
             };
-            let begins_with_digit = factor.starts_with(|first: char| first.is_ascii_digit());
-            text += match position {
-                0 => "",
-                _ if begins_with_digit => self.pick(" · ", r" \cdot "),
-                // Words would run into each other.
-                _ if factor.contains(r"\mathit") || text.ends_with('}') && text.contains(r"\mathit") => {
-                    r" \, "
-                }
-                _ => " ",
-            };
+            text += if position == 0 { "" } else { self.spelling.beside(&text, &factor) };
             text += &factor;
         }
         text
@@ -175,10 +186,10 @@ impl Notation {
     fn factor(self, factor: &Formula, is_followed: bool) -> String {
         match factor {
             Formula::Call(name, arguments) if is_prefixed(factor) => {
-                self.prefix(name, "", &arguments[0], is_followed)
+                self.prefix(name, None, &arguments[0], is_followed)
             }
             Formula::Power(base, exponent) => self.power(base, exponent, is_followed),
-            Formula::Root(inner) if self == Self::Unicode && is_followed && is_number(inner) => {
+            Formula::Root(inner) if self.spelling.is_flat() && is_followed && is_number(inner) => {
                 self.parentheses(&self.write(factor))
             }
             _ => self.at_least(factor, Binding::Power),
@@ -187,148 +198,110 @@ impl Notation {
 
     fn power(self, base: &Formula, exponent: &Formula, is_followed: bool) -> String {
         if let (Formula::Call(name, arguments), Some(value)) = (base, exponent_at_name(base, exponent)) {
-            let exponent = self.superscript(&value.to_string());
-            return self.prefix(name, &exponent, &arguments[0], is_followed);
+            return self.prefix(name, Some(value), &arguments[0], is_followed);
         }
-        let base = self.at_least(base, Binding::Atom);
-        match (self, exponent) {
-            (Self::Latex, _) => format!("{base}^{}", braced(&self.write(exponent))),
-            (Self::Unicode, Formula::Number(value)) if value.is_integer() => {
-                format!("{base}{}", superscript(&value.to_string()))
-            }
-            (Self::Unicode, _) => format!("{base}^{}", self.at_least(exponent, Binding::Atom)),
-        }
+        let exponent = match exponent {
+            Formula::Number(value) if value.is_integer() => self.number(*value),
+            exponent if self.spelling.is_flat() => self.at_least(exponent, Binding::Atom),
+            exponent => self.write(exponent),
+        };
+        self.spelling.power(&self.at_least(base, Binding::Atom), &exponent)
     }
 
     /// ∂U/∂x, ∂²U/∂x∂y
     fn partial(self, function: &Formula, by: &[Formula], arguments: &[Formula]) -> String {
-        let function = self.write(function);
-        let order = if by.len() == 1 { String::new() } else { self.superscript(&by.len().to_string()) };
-        let partial = self.pick("∂", r"\partial ");
+        let spelling = self.spelling;
         let below: String =
-            by.iter().map(|x| format!("{partial}{}", self.at_least(x, Binding::Atom))).collect();
-        let derivative = match self {
-            Self::Unicode => format!("∂{order}{function}/{below}"),
-            Self::Latex => format!(r"\frac{{\partial{order} {function}}}{{{below}}}"),
-        };
+            by.iter().map(|x| spelling.differential(1, &self.at_least(x, Binding::Atom))).collect();
+        let derivative = spelling.fraction(&spelling.differential(by.len(), &self.write(function)), &below);
         if arguments.is_empty() {
             return derivative;
         }
-        format!("{}{}", self.parentheses(&derivative), self.parentheses(&self.list(arguments)))
-    }
-
-    fn superscript(self, digits: &str) -> String {
-        if self == Self::Latex { format!("^{}", braced(digits)) } else { superscript(digits) }
+        spelling.applied(&self.parentheses(&derivative), &self.parentheses(&self.list(arguments)), false)
     }
 
     fn call(self, name: &str, arguments: &[Formula]) -> String {
         match (name, arguments) {
-            ("abs" | "norm", [x]) => self.bars(&self.write(x)),
-            ("dot", [x, y]) => self.infix(x, self.pick("·", r" \cdot "), y),
-            ("cross", [x, y]) => self.infix(x, self.pick("×", r" \times "), y),
-            ("der", [x]) => {
-                format!("{}{}", self.pick("d/dt ", r"\frac{d}{dt} "), self.at_least(x, Binding::Power))
+            ("abs" | "norm", [x]) => self.between(["|", "|"], &self.write(x)),
+            ("dot", [x, y]) => self.infix(x, "·", y),
+            ("cross", [x, y]) => self.infix(x, "×", y),
+            ("der", [x]) => self.spelling.sign("d/dt ") + &self.at_least(x, Binding::Power),
+            (name, [x]) if PREFIX.contains(&name) => self.prefix(name, None, x, false),
+            _ => {
+                let arguments = self.parentheses(&self.list(arguments));
+                self.spelling.applied(&self.function(name), &arguments, false)
             }
-            (name, [x]) if PREFIX.contains(&name) => self.prefix(name, "", x, false),
-            _ => format!("{}{}", self.function(name), self.parentheses(&self.list(arguments))),
         }
     }
 
     /// The name of a function: upright if it has a fixed meaning.
     fn function(self, name: &str) -> String {
-        match self {
-            Self::Latex if is_built_in(name) => {
-                format!(r"\operatorname{{{}}}", name.replace('_', r"\_"))
-            }
-            _ => self.write(&Formula::labelled(name, 0)),
-        }
+        if is_built_in(name) { self.spelling.function(name) } else { self.write(&Formula::labelled(name, 0)) }
     }
 
     /// sin x, sin² x, sin(2 x)
-    fn prefix(self, name: &str, exponent: &str, x: &Formula, is_followed: bool) -> String {
-        let backslash = self.pick("", r"\");
-        match x {
-            Formula::Name { .. } | Formula::Pi if !is_followed => {
-                format!("{backslash}{name}{exponent} {}", self.write(x))
-            }
-            _ => format!("{backslash}{name}{exponent}{}", self.parentheses(&self.write(x))),
-        }
+    fn prefix(self, name: &str, exponent: Option<Rational>, x: &Formula, is_followed: bool) -> String {
+        let name = self.spelling.function(name);
+        let function = match exponent {
+            Some(exponent) => self.spelling.power(&name, &self.number(exponent)),
+            None => name,
+        };
+        let is_bare = !is_followed && matches!(x, Formula::Name { .. } | Formula::Pi);
+        let argument = self.write(x);
+        self.spelling.applied(
+            &function,
+            &if is_bare { argument } else { self.parentheses(&argument) },
+            is_bare,
+        )
     }
 
     fn infix(self, x: &Formula, operator: &str, y: &Formula) -> String {
-        format!("{}{operator}{}", self.factor(x, true), self.at_least(y, Binding::Power))
+        self.factor(x, true) + &self.spelling.sign(operator) + &self.at_least(y, Binding::Power)
     }
 
     fn sum_over(self, index: &str, from: &Formula, to: &Formula, body: &Formula) -> String {
+        let index = self.write(&Formula::labelled(index, 0));
         let body = self.at_least(body, Binding::Product);
-        match self {
-            Self::Unicode => format!("Σ({}) {body}", self.running(Some(index), from, to)),
-            Self::Latex => {
-                let (from, last) = (self.write(from), self.last(to));
-                format!(r"\sum_{{{index} = {from}}}^{{{last}}} {body}")
-            }
-        }
+        self.spelling.sum_over(&index, &self.write(from), &self.last(to), &body)
     }
 
     /// i = 0 … 2
     fn running(self, index: Option<&str>, from: &Formula, to: &Formula) -> String {
-        let index = index.map_or(String::new(), |index| format!("{index} = "));
-        format!("{index}{} {} {}", self.write(from), self.pick("…", r"\ldots"), self.last(to))
+        let index = index.map_or(String::new(), |index| {
+            self.write(&Formula::labelled(index, 0)) + &self.spelling.sign(" = ")
+        });
+        index + &self.write(from) + &self.spelling.sign(" … ") + &self.last(to)
     }
 
     /// The whole number before `end`.
     fn last(self, end: &Formula) -> String {
         match end {
             Formula::Number(value) => self.number(value - Rational::one()),
-            end => format!("{} {} 1", self.write(end), self.pick("−", "-")),
-        }
-    }
-
-    fn entry(self, whole: String, index: &Formula) -> String {
-        match self {
-            Self::Unicode => format!("{whole}[{}]", self.write(index)),
-            Self::Latex => format!("{whole}_{}", braced(&self.write(index))),
+            end => self.write(end) + &self.spelling.sign(" − ") + &self.spelling.digits("1"),
         }
     }
 
     fn number(self, value: Rational) -> String {
-        let sign = if value.is_negative() { self.pick("−", "-") } else { "" };
-        let (numerator, denominator) = (value.numer().abs(), *value.denom());
-        if denominator == 1 {
-            return format!("{sign}{numerator}");
-        }
-        if let Some(decimal) = decimal(value.abs()) {
-            return format!("{sign}{decimal}");
-        }
-        match self {
-            Self::Latex => format!(r"{sign}\tfrac{{{numerator}}}{{{denominator}}}"),
-            Self::Unicode => match vulgar(numerator, denominator) {
-                Some(fraction) => format!("{sign}{fraction}"),
-                None => format!("{sign}{numerator}/{denominator}"),
-            },
-        }
+        let sign = if value.is_negative() { self.spelling.sign("−") } else { String::new() };
+        let magnitude = match (value.denom(), decimal(value.abs())) {
+            (1, _) => self.spelling.digits(&value.numer().abs().to_string()),
+            (_, Some(decimal)) => self.spelling.digits(&decimal),
+            (denominator, None) => self.spelling.small_fraction(value.numer().abs(), *denominator),
+        };
+        sign + &magnitude
     }
 
     /// 6.62607015×10⁻³⁴
     fn scaled(self, Scaled { fraction, exponent }: Scaled) -> String {
-        let power = format!("10{}", self.superscript(&exponent.to_string()));
-        let digits = finite_decimal(fraction).map_or_else(|| self.parentheses(&self.number(fraction)), point);
-        if fraction.is_one() { power } else { format!("{digits}{}{power}", self.pick("×", r" \times ")) }
+        let exponent = self.number(Rational::from_integer(exponent.into()));
+        let power = self.spelling.power(&self.spelling.digits("10"), &exponent);
+        if fraction.is_one() {
+            return power;
+        }
+        let digits = match finite_decimal(fraction) {
+            Some(digits) => self.spelling.digits(&point(digits)),
+            None => self.parentheses(&self.number(fraction)),
+        };
+        digits + &self.spelling.sign("×") + &power
     }
-}
-
-/// As the argument of `^` and `_`: a single sign needs no braces.
-pub(super) fn braced(text: &str) -> String {
-    if text.chars().count() == 1 || is_command(text) { text.to_owned() } else { format!("{{{text}}}") }
-}
-
-/// Whether it is a command without arguments, such as `\theta`.
-pub(super) fn is_command(text: &str) -> bool {
-    text.strip_prefix('\\')
-        .is_some_and(|name| !name.is_empty() && name.chars().all(|c| c.is_ascii_alphabetic()))
-}
-
-/// Whether parentheses around it must be higher than a line.
-fn is_tall(inner: &str) -> bool {
-    [r"\frac", r"\sqrt", r"\sum", r"\left"].iter().any(|tall| inner.contains(tall))
 }

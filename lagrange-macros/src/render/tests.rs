@@ -2,6 +2,7 @@
 
 mod everywhere;
 mod golden;
+mod mathml;
 mod reader;
 mod systems;
 mod texts;
@@ -11,7 +12,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
 use super::formula::Formula;
-use super::symbols::Notation;
+use super::notation::Notation;
 use crate::symbolic::Rational;
 
 /// Where x, y and z are.
@@ -90,7 +91,7 @@ proptest! {
     /// A reader who knows the usual precedence, and takes nothing that is ambiguous, reads the same value.
     #[test]
     fn what_is_written_is_read_as_it_was_meant(formula in formulas()) {
-        let text = Notation::Unicode.write(&formula);
+        let text = Notation::UNICODE.write(&formula);
         let (read, meant) = (reader::read(&text), value(&formula));
         let close = (read - meant).abs() <= 1e-9 * meant.abs().max(1e-300);
         prop_assert!(close || !meant.is_finite() || meant == read, "{text}: {read}, meant {meant}");
@@ -98,14 +99,14 @@ proptest! {
 
     #[test]
     fn braces_and_delimiters_of_latex_are_balanced(formula in formulas()) {
-        reader::assert_balanced(&Notation::Latex.write(&formula));
+        reader::assert_balanced(&Notation::LATEX.write(&formula));
     }
 }
 
 #[track_caller]
 fn assert_written(formula: Formula, text: &str, latex: &str) {
-    assert_eq!(Notation::Unicode.write(&formula), text);
-    assert_eq!(Notation::Latex.write(&formula), latex);
+    assert_eq!(Notation::UNICODE.write(&formula), text);
+    assert_eq!(Notation::LATEX.write(&formula), latex);
     reader::assert_balanced(latex);
 }
 

@@ -117,13 +117,14 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
     let frames_are_cheaper = lowering.frames_are_cheaper();
     let coordinates = labels(declaration);
     let Lowering { graph, parameters, diagnostics, frames, .. } = lowering;
+    // Where shapes are wrong, it may be that a type is taken for a number.
+    let scalar = parameters.scalar(declaration, diagnostics);
     let (place, lagrangian) = (declaration.lagrangian.as_ref()?.place, lagrangian?);
     let dissipation = match dissipation {
         Some((value, place)) => Some((value?, place)),
         None => None,
     };
     diagnostics.is_empty().then_some(())?;
-    let scalar = parameters.scalar(declaration, diagnostics);
     let problem = Problem {
         scalar,
         coordinates,

@@ -220,7 +220,7 @@ impl Parameters {
                 None => {
                     let name = text(scalar);
                     if !is_scalar_name(&name, declaration) {
-                        diagnostics.error(field.place, not_a_scalar(&name));
+                        diagnostics.error(field.place, not_a_scalar(field, &name));
                     }
                     found = Some((scalar.clone(), index));
                 }
@@ -231,7 +231,7 @@ impl Parameters {
                         true => format!(
                             "one system computes in one number type: this is `{scalar}`, but others are `{known}`"
                         ),
-                        false => not_a_scalar(&scalar),
+                        false => not_a_scalar(field, &scalar),
                     };
                     diagnostics.error(field.place, message);
                 }
@@ -296,12 +296,13 @@ pub(super) fn is_scalar_name(name: &str, declaration: &Declaration) -> bool {
     is_float(name) || declaration.generics.type_params().any(|parameter| parameter.ident == last)
 }
 
-fn not_a_scalar(name: &str) -> String {
+fn not_a_scalar(field: &Field, name: &str) -> String {
     if is_no_number(name) {
         return format!("a field of type `{name}` cannot stand in an expression: make it `f64`");
     }
     format!(
-        "a field of type `{name}` cannot stand in an expression: write `f64`, `f32` or a type parameter, or name the number type with `#[lagrange(scalar = {name})]`, or the members of a struct with `#[parameter(name: {{m}})]`"
+        "`{field}` is taken for a number, but `{name}` is no number type that is known here: write `f64`, `f32` or a type parameter, or name the number type with `#[lagrange(scalar = {name})]`; if it stands for an array, write the array, or say its shape with `#[parameter({field}: [3])]`, or the members of a struct with `#[parameter({field}: {{m}})]`",
+        field = field.text()
     )
 }
 

@@ -277,7 +277,47 @@ const _: () = {
             visit(self.g);
         }
     }
-    /**```text
+    /**<div class="equations" style="overflow-x:auto">
+<h5>Lagrangian</h5>
+<div style="display:grid;grid-template-columns:auto minmax(0,1fr);gap:.5em .25em;align-items:baseline">
+<div style="text-align:right"><math displaystyle="true"><mi>L</mi></math></div><div style="padding-left:1em;text-indent:-1em"><math displaystyle="true"><mo form="infix">=</mo><mfrac displaystyle="false"><mn>1</mn><mn>2</mn></mfrac><mo>⁢</mo><mi>m</mi><mo>⁢</mo><msup><mi>l</mi><mn>2</mn></msup><mo>⁢</mo><msup><mover accent="true"><mi>θ</mi><mo>˙</mo></mover><mn>2</mn></msup></math><wbr/><math displaystyle="true"><mo form="infix">+</mo><mi>m</mi><mo>⁢</mo><mi>g</mi><mo>⁢</mo><mi>l</mi><mo>⁢</mo><mspace width=".17em"></mspace><mi>cos</mi><mo>⁡</mo><mspace width=".17em"></mspace><mi>θ</mi></math></div>
+</div>
+<h5>Equations of motion</h5>
+<div style="display:grid;grid-template-columns:auto minmax(0,1fr);gap:.5em .25em;align-items:baseline">
+<div style="text-align:right"><math displaystyle="true"><mi>l</mi><mo>⁢</mo><mover accent="true"><mi>θ</mi><mo>¨</mo></mover></math></div><div style="padding-left:1em;text-indent:-1em"><math displaystyle="true"><mo form="infix">=</mo><mo form="prefix">−</mo><mi>g</mi><mo>⁢</mo><mspace width=".17em"></mspace><mi>sin</mi><mo>⁡</mo><mspace width=".17em"></mspace><mi>θ</mi></math></div>
+</div>
+<h5>Conserved</h5>
+<div style="display:grid;grid-template-columns:auto minmax(0,1fr);gap:.5em .25em;align-items:baseline">
+<div style="text-align:right"><math displaystyle="true"><mi>E</mi></math></div><div style="padding-left:1em;text-indent:-1em"><math displaystyle="true"><mo form="infix">=</mo><mfrac displaystyle="false"><mn>1</mn><mn>2</mn></mfrac><mo>⁢</mo><mi>m</mi><mo>⁢</mo><msup><mi>l</mi><mn>2</mn></msup><mo>⁢</mo><msup><mover accent="true"><mi>θ</mi><mo>˙</mo></mover><mn>2</mn></msup></math><wbr/><math displaystyle="true"><mo form="infix">−</mo><mi>m</mi><mo>⁢</mo><mi>l</mi><mo>⁢</mo><mi>g</mi><mo>⁢</mo><mspace width=".17em"></mspace><mi>cos</mi><mo>⁡</mo><mspace width=".17em"></mspace><mi>θ</mi></math><span style="display:inline-block;text-indent:0;opacity:.75;margin-left:1em">(<math displaystyle="true"><mi>T</mi></math><wbr/><math displaystyle="true"><mo form="infix">+</mo><mi>U</mi></math>)</span></div>
+</div>
+<h5>Momenta</h5>
+<div style="display:grid;grid-template-columns:auto minmax(0,1fr);gap:.5em .25em;align-items:baseline">
+<div style="text-align:right"><math displaystyle="true"><msub><mi>p</mi><mi>θ</mi></msub></math></div><div style="padding-left:1em;text-indent:-1em"><math displaystyle="true"><mo form="infix">=</mo><mi>m</mi><mo>⁢</mo><msup><mi>l</mi><mn>2</mn></msup><mo>⁢</mo><mover accent="true"><mi>θ</mi><mo>˙</mo></mover></math></div>
+</div>
+<h5>Hamiltonian</h5>
+<div style="display:grid;grid-template-columns:auto minmax(0,1fr);gap:.5em .25em;align-items:baseline">
+<div style="text-align:right"><math displaystyle="true"><mi>H</mi></math></div><div style="padding-left:1em;text-indent:-1em"><math displaystyle="true"><mo form="infix">=</mo><mfrac><msubsup><mi>p</mi><mi>θ</mi><mn>2</mn></msubsup><mrow><mn>2</mn><mo>⁢</mo><mi>m</mi><mo>⁢</mo><msup><mi>l</mi><mn>2</mn></msup></mrow></mfrac></math><wbr/><math displaystyle="true"><mo form="infix">−</mo><mi>m</mi><mo>⁢</mo><mi>l</mi><mo>⁢</mo><mi>g</mi><mo>⁢</mo><mspace width=".17em"></mspace><mi>cos</mi><mo>⁡</mo><mspace width=".17em"></mspace><mi>θ</mi></math></div>
+</div>
+<h5>Hamilton's equations</h5>
+<div style="display:grid;grid-template-columns:auto minmax(0,1fr);gap:.5em .25em;align-items:baseline">
+<div style="text-align:right"><math displaystyle="true"><mover accent="true"><mi>θ</mi><mo>˙</mo></mover></math></div><div style="padding-left:1em;text-indent:-1em"><math displaystyle="true"><mo form="infix">=</mo><mfrac><msub><mi>p</mi><mi>θ</mi></msub><mrow><mi>m</mi><mo>⁢</mo><msup><mi>l</mi><mn>2</mn></msup></mrow></mfrac></math></div>
+<div style="text-align:right"><math displaystyle="true"><msub><mover accent="true"><mi>p</mi><mo>˙</mo></mover><mi>θ</mi></msub></math></div><div style="padding-left:1em;text-indent:-1em"><math displaystyle="true"><mo form="infix">=</mo><mo form="prefix">−</mo><mi>m</mi><mo>⁢</mo><mi>l</mi><mo>⁢</mo><mi>g</mi><mo>⁢</mo><mspace width=".17em"></mspace><mi>sin</mi><mo>⁡</mo><mspace width=".17em"></mspace><mi>θ</mi></math></div>
+</div>
+</div>
+*/
+    #[automatically_derived]
+    #[allow(
+        clippy::all,
+        clippy::pedantic,
+        clippy::nursery,
+        unused_parens,
+        dead_code,
+        non_snake_case
+    )]
+    impl Pendulum {
+        /** The system and its equations of motion, to be read.
+
+```text
 Pendulum
 
 Lagrangian
@@ -299,32 +339,14 @@ Hamilton's equations
   θ̇ = p_θ/(m l²)
   ṗ_θ = −m l g sin θ
 ```*/
-    #[automatically_derived]
-    #[allow(
-        clippy::all,
-        clippy::pedantic,
-        clippy::nursery,
-        unused_parens,
-        dead_code,
-        non_snake_case
-    )]
-    impl Pendulum {
-        /// The system and its equations of motion, to be read.
         const fn equations() -> __lagrange::Equations {
-            __lagrange::generated::equations([
-                [
+            __lagrange::generated::equations(
+                [[
                     "Pendulum\n\nLagrangian\n  L = ½ m l² θ\u{307}² + m g l cos θ\n\nEquations of motion\n  θ: l θ\u{308} = −g sin θ\n\nConserved\n  E = ½ m l² θ\u{307}² − m l g cos θ   (T + U)\n\nMomenta\n  p_θ = m l² θ\u{307}\n\nHamiltonian\n  H = p_θ²/(2 m l²) − m l g cos θ\n\nHamilton's equations\n  θ\u{307} = p_θ/(m l²)\n  ṗ_θ = −m l g sin θ\n",
-                    "\\begin{align}\n  L &= \\tfrac{1}{2} m l^2 \\dot\\theta^2 + m g l \\cos \\theta \\label{eq:Pendulum-L} \\\\\n  l \\ddot\\theta &= -g \\sin \\theta \\label{eq:Pendulum-theta} \\\\\n  E &= \\tfrac{1}{2} m l^2 \\dot\\theta^2 - m l g \\cos \\theta \\label{eq:Pendulum-E} \\\\\n  p_\\theta &= m l^2 \\dot\\theta \\label{eq:Pendulum-p_theta} \\\\\n  H &= \\frac{p_\\theta^2}{2 m l^2} - m l g \\cos \\theta \\label{eq:Pendulum-H} \\\\\n  \\dot\\theta &= \\frac{p_\\theta}{m l^2} \\label{eq:Pendulum-theta-dot} \\\\\n  \\dot p_\\theta &= -m l g \\sin \\theta \\label{eq:Pendulum-p-dot_theta}\n\\end{align}\n",
-                ],
-                [
-                    "Pendulum\n\nLagrangian\n  L = ½ m l² θ\u{307}² + m g l cos θ\n\nEquations of motion\n  θ: l θ\u{308} = −g sin θ\n\nConserved\n  E = ½ m l² θ\u{307}² − m l g cos θ   (T + U)\n\nMomenta\n  p_θ = m l² θ\u{307}\n\nHamiltonian\n  H = p_θ²/(2 m l²) − m l g cos θ\n\nHamilton's equations\n  θ\u{307} = p_θ/(m l²)\n  ṗ_θ = −m l g sin θ\n",
-                    "\\begin{align}\n  L &= \\tfrac{1}{2} m l^2 \\dot\\theta^2 + m g l \\cos \\theta \\label{eq:Pendulum-L} \\\\\n  l \\ddot\\theta &= -g \\sin \\theta \\label{eq:Pendulum-theta} \\\\\n  E &= \\tfrac{1}{2} m l^2 \\dot\\theta^2 - m l g \\cos \\theta \\label{eq:Pendulum-E} \\\\\n  p_\\theta &= m l^2 \\dot\\theta \\label{eq:Pendulum-p_theta} \\\\\n  H &= \\frac{p_\\theta^2}{2 m l^2} - m l g \\cos \\theta \\label{eq:Pendulum-H} \\\\\n  \\dot\\theta &= \\frac{p_\\theta}{m l^2} \\label{eq:Pendulum-theta-dot} \\\\\n  \\dot p_\\theta &= -m l g \\sin \\theta \\label{eq:Pendulum-p-dot_theta}\n\\end{align}\n",
-                ],
-                [
-                    "Pendulum\n\nLagrangian\n  L = ½ m l² θ\u{307}² + m g l cos θ\n\nEquations of motion\n  θ: l θ\u{308} = −g sin θ\n\nConserved\n  E = ½ m l² θ\u{307}² − m l g cos θ   (T + U)\n\nMomenta\n  p_θ = m l² θ\u{307}\n\nHamiltonian\n  H = p_θ²/(2 m l²) − m l g cos θ\n\nHamilton's equations\n  θ\u{307} = p_θ/(m l²)\n  ṗ_θ = −m l g sin θ\n",
-                    "\\begin{align}\n  L &= \\tfrac{1}{2} m l^2 \\dot\\theta^2 + m g l \\cos \\theta \\label{eq:Pendulum-L} \\\\\n  l \\ddot\\theta &= -g \\sin \\theta \\label{eq:Pendulum-theta} \\\\\n  E &= \\tfrac{1}{2} m l^2 \\dot\\theta^2 - m l g \\cos \\theta \\label{eq:Pendulum-E} \\\\\n  p_\\theta &= m l^2 \\dot\\theta \\label{eq:Pendulum-p_theta} \\\\\n  H &= \\frac{p_\\theta^2}{2 m l^2} - m l g \\cos \\theta \\label{eq:Pendulum-H} \\\\\n  \\dot\\theta &= \\frac{p_\\theta}{m l^2} \\label{eq:Pendulum-theta-dot} \\\\\n  \\dot p_\\theta &= -m l g \\sin \\theta \\label{eq:Pendulum-p-dot_theta}\n\\end{align}\n",
-                ],
-            ])
+                    "\\begin{align}\n  L &= \\tfrac{1}{2} m l^2 \\dot\\theta^2 + m g l \\cos \\theta \\label{eq:Pendulum-L} \\\\\n  l \\ddot\\theta &= -g \\sin \\theta \\label{eq:Pendulum-theta} \\\\\n  E &= \\tfrac{1}{2} m l^2 \\dot\\theta^2 - m l g \\cos \\theta \\quad \\text{(}T + U\\text{)} \\label{eq:Pendulum-E} \\\\\n  p_\\theta &= m l^2 \\dot\\theta \\label{eq:Pendulum-p_theta} \\\\\n  H &= \\frac{p_\\theta^2}{2 m l^2} - m l g \\cos \\theta \\label{eq:Pendulum-H} \\\\\n  \\dot\\theta &= \\frac{p_\\theta}{m l^2} \\label{eq:Pendulum-theta-dot} \\\\\n  \\dot p_\\theta &= -m l g \\sin \\theta \\label{eq:Pendulum-p-dot_theta}\n\\end{align}\n",
+                    "<div class=\"equations\" style=\"overflow-x:auto\">\n<h5>Lagrangian</h5>\n<div style=\"display:grid;grid-template-columns:auto minmax(0,1fr);gap:.5em .25em;align-items:baseline\">\n<div style=\"text-align:right\"><math displaystyle=\"true\"><mi>L</mi></math></div><div style=\"padding-left:1em;text-indent:-1em\"><math displaystyle=\"true\"><mo form=\"infix\">=</mo><mfrac displaystyle=\"false\"><mn>1</mn><mn>2</mn></mfrac><mo>\u{2062}</mo><mi>m</mi><mo>\u{2062}</mo><msup><mi>l</mi><mn>2</mn></msup><mo>\u{2062}</mo><msup><mover accent=\"true\"><mi>θ</mi><mo>˙</mo></mover><mn>2</mn></msup></math><wbr/><math displaystyle=\"true\"><mo form=\"infix\">+</mo><mi>m</mi><mo>\u{2062}</mo><mi>g</mi><mo>\u{2062}</mo><mi>l</mi><mo>\u{2062}</mo><mspace width=\".17em\"></mspace><mi>cos</mi><mo>\u{2061}</mo><mspace width=\".17em\"></mspace><mi>θ</mi></math></div>\n</div>\n<h5>Equations of motion</h5>\n<div style=\"display:grid;grid-template-columns:auto minmax(0,1fr);gap:.5em .25em;align-items:baseline\">\n<div style=\"text-align:right\"><math displaystyle=\"true\"><mi>l</mi><mo>\u{2062}</mo><mover accent=\"true\"><mi>θ</mi><mo>¨</mo></mover></math></div><div style=\"padding-left:1em;text-indent:-1em\"><math displaystyle=\"true\"><mo form=\"infix\">=</mo><mo form=\"prefix\">−</mo><mi>g</mi><mo>\u{2062}</mo><mspace width=\".17em\"></mspace><mi>sin</mi><mo>\u{2061}</mo><mspace width=\".17em\"></mspace><mi>θ</mi></math></div>\n</div>\n<h5>Conserved</h5>\n<div style=\"display:grid;grid-template-columns:auto minmax(0,1fr);gap:.5em .25em;align-items:baseline\">\n<div style=\"text-align:right\"><math displaystyle=\"true\"><mi>E</mi></math></div><div style=\"padding-left:1em;text-indent:-1em\"><math displaystyle=\"true\"><mo form=\"infix\">=</mo><mfrac displaystyle=\"false\"><mn>1</mn><mn>2</mn></mfrac><mo>\u{2062}</mo><mi>m</mi><mo>\u{2062}</mo><msup><mi>l</mi><mn>2</mn></msup><mo>\u{2062}</mo><msup><mover accent=\"true\"><mi>θ</mi><mo>˙</mo></mover><mn>2</mn></msup></math><wbr/><math displaystyle=\"true\"><mo form=\"infix\">−</mo><mi>m</mi><mo>\u{2062}</mo><mi>l</mi><mo>\u{2062}</mo><mi>g</mi><mo>\u{2062}</mo><mspace width=\".17em\"></mspace><mi>cos</mi><mo>\u{2061}</mo><mspace width=\".17em\"></mspace><mi>θ</mi></math><span style=\"display:inline-block;text-indent:0;opacity:.75;margin-left:1em\">(<math displaystyle=\"true\"><mi>T</mi></math><wbr/><math displaystyle=\"true\"><mo form=\"infix\">+</mo><mi>U</mi></math>)</span></div>\n</div>\n<h5>Momenta</h5>\n<div style=\"display:grid;grid-template-columns:auto minmax(0,1fr);gap:.5em .25em;align-items:baseline\">\n<div style=\"text-align:right\"><math displaystyle=\"true\"><msub><mi>p</mi><mi>θ</mi></msub></math></div><div style=\"padding-left:1em;text-indent:-1em\"><math displaystyle=\"true\"><mo form=\"infix\">=</mo><mi>m</mi><mo>\u{2062}</mo><msup><mi>l</mi><mn>2</mn></msup><mo>\u{2062}</mo><mover accent=\"true\"><mi>θ</mi><mo>˙</mo></mover></math></div>\n</div>\n<h5>Hamiltonian</h5>\n<div style=\"display:grid;grid-template-columns:auto minmax(0,1fr);gap:.5em .25em;align-items:baseline\">\n<div style=\"text-align:right\"><math displaystyle=\"true\"><mi>H</mi></math></div><div style=\"padding-left:1em;text-indent:-1em\"><math displaystyle=\"true\"><mo form=\"infix\">=</mo><mfrac><msubsup><mi>p</mi><mi>θ</mi><mn>2</mn></msubsup><mrow><mn>2</mn><mo>\u{2062}</mo><mi>m</mi><mo>\u{2062}</mo><msup><mi>l</mi><mn>2</mn></msup></mrow></mfrac></math><wbr/><math displaystyle=\"true\"><mo form=\"infix\">−</mo><mi>m</mi><mo>\u{2062}</mo><mi>l</mi><mo>\u{2062}</mo><mi>g</mi><mo>\u{2062}</mo><mspace width=\".17em\"></mspace><mi>cos</mi><mo>\u{2061}</mo><mspace width=\".17em\"></mspace><mi>θ</mi></math></div>\n</div>\n<h5>Hamilton's equations</h5>\n<div style=\"display:grid;grid-template-columns:auto minmax(0,1fr);gap:.5em .25em;align-items:baseline\">\n<div style=\"text-align:right\"><math displaystyle=\"true\"><mover accent=\"true\"><mi>θ</mi><mo>˙</mo></mover></math></div><div style=\"padding-left:1em;text-indent:-1em\"><math displaystyle=\"true\"><mo form=\"infix\">=</mo><mfrac><msub><mi>p</mi><mi>θ</mi></msub><mrow><mi>m</mi><mo>\u{2062}</mo><msup><mi>l</mi><mn>2</mn></msup></mrow></mfrac></math></div>\n<div style=\"text-align:right\"><math displaystyle=\"true\"><msub><mover accent=\"true\"><mi>p</mi><mo>˙</mo></mover><mi>θ</mi></msub></math></div><div style=\"padding-left:1em;text-indent:-1em\"><math displaystyle=\"true\"><mo form=\"infix\">=</mo><mo form=\"prefix\">−</mo><mi>m</mi><mo>\u{2062}</mo><mi>l</mi><mo>\u{2062}</mo><mi>g</mi><mo>\u{2062}</mo><mspace width=\".17em\"></mspace><mi>sin</mi><mo>\u{2061}</mo><mspace width=\".17em\"></mspace><mi>θ</mi></math></div>\n</div>\n</div>\n",
+                ]; 3],
+            )
         }
     }
 };

@@ -1,4 +1,4 @@
-//! Products of sines and cosines put together: sin² + cos², sums and differences of angles, double angles.
+//! Products of sines and cosines put together: sin² + cos², sums and differences of angles, double angles, halves of angles.
 
 use num_traits::{One, Signed};
 
@@ -16,16 +16,16 @@ struct Wave {
     is_squared: bool,
 }
 
-/// Two terms, and the one that they are together.
+/// Terms, and the one that they are together.
 struct Merger {
-    parts: [Monomial; 2],
+    parts: Vec<Monomial>,
     factors: Polynomial,
 }
 
 type Rule = fn(&mut Atoms, &Polynomial, &Monomial, Rational, [&Wave; 2]) -> Option<Merger>;
 
-/// The first that applies anywhere goes first, and each takes a term away.
-const RULES: [Rule; 3] = [pythagoras, complement, addition];
+/// The first that applies anywhere goes first, and each takes a term away, or fractions of angles.
+const RULES: [Rule; 4] = [pythagoras, complement, addition, halves];
 
 impl Atoms {
     /// The same with terms merged as far as that goes.
@@ -75,8 +75,13 @@ impl Atoms {
     }
 }
 
-fn square(atom: Atom) -> Monomial {
-    Monomial::of(atom, Rational::from_integer(2))
+/// What is left of a term without the square of a wave, and that with the square of the other.
+fn other_square(one: &Monomial, [a, b]: [&Wave; 2]) -> Option<[Monomial; 2]> {
+    let square = |atom| Monomial::of(atom, Rational::from_integer(2));
+    (a.atom == b.atom && a.is_squared).then_some(())?;
+    let rest = one.over(&square(a.atom))?;
+    let other = rest.times(&square(a.other))?;
+    Some([rest, other])
 }
 
 /// c m sin² a + c m cos² a = c m
@@ -85,15 +90,11 @@ fn pythagoras(
     all: &Polynomial,
     one: &Monomial,
     c: Rational,
-    [a, b]: [&Wave; 2],
+    waves: [&Wave; 2],
 ) -> Option<Merger> {
-    if a.atom != b.atom || !a.is_squared {
-        return None;
-    }
-    let rest = one.over(&square(a.atom))?;
-    let two = rest.times(&square(a.other))?;
-    let is_it = all.coefficient(&two) == Some(c);
-    is_it.then(|| Merger { parts: [one.clone(), two], factors: Polynomial::term(rest, c) })
+    let [rest, other] = other_square(one, waves)?;
+    let is_it = all.coefficient(&other) == Some(c);
+    is_it.then(|| Merger { parts: vec![one.clone(), other], factors: Polynomial::term(rest, c) })
 }
 
 /// c m − c m sin² a = c m cos² a
@@ -102,15 +103,30 @@ fn complement(
     all: &Polynomial,
     one: &Monomial,
     c: Rational,
+    waves: [&Wave; 2],
+) -> Option<Merger> {
+    let [rest, other] = other_square(one, waves)?;
+    let is_it = all.coefficient(&rest) == Some(-c);
+    is_it.then(|| Merger { parts: vec![one.clone(), rest], factors: Polynomial::term(other, -c) })
+}
+
+/// 2 sin(a/2) cos(a/2) = sin a
+fn halves(
+    atoms: &mut Atoms,
+    _: &Polynomial,
+    one: &Monomial,
+    c: Rational,
     [a, b]: [&Wave; 2],
 ) -> Option<Merger> {
-    if a.atom != b.atom || !a.is_squared {
-        return None;
-    }
-    let rest = one.over(&square(a.atom))?;
-    let is_it = all.coefficient(&rest) == Some(-c);
-    let factors = Polynomial::term(rest.times(&square(a.other))?, -c);
-    is_it.then(|| Merger { parts: [one.clone(), rest], factors })
+    let two = Rational::from_integer(2);
+    let are_halves = a.angle.terms().all(|(_, c)| c.denom() % 2 == 0);
+    let are_both = a.atom == b.other && one.exponent(a.atom) == one.exponent(b.atom);
+    (are_halves && are_both).then_some(())?;
+    let rest =
+        one.over(&Monomial::of(a.atom, Rational::one()))?.over(&Monomial::of(b.atom, Rational::one()))?;
+    let double = a.angle.scaled(&Monomial::default(), two)?;
+    let factors = atoms.function(Function::Sin, &double).scaled(&rest, c / two)?;
+    Some(Merger { parts: vec![one.clone()], factors })
 }
 
 /// cos a cos b ± sin a sin b = cos(a ∓ b), sin a cos b ± cos a sin b = sin(a ± b)
@@ -138,5 +154,5 @@ fn addition(
     let mut angle = a.angle.clone();
     angle.add(&b.angle, sign)?;
     let factors = atoms.function(function, &angle).scaled(&rest, c)?;
-    Some(Merger { parts: [one.clone(), two], factors })
+    Some(Merger { parts: vec![one.clone(), two], factors })
 }

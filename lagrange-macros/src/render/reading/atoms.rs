@@ -28,8 +28,8 @@ pub(super) enum Meaning {
     Sum(Polynomial),
     /// A function of which nothing is known, with its arguments.
     External(External, Vec<Polynomial>),
-    /// A vector, or a product of vectors, as it is written; and the variable that its first component is.
-    Vector(Formula, Option<Variable>),
+    /// A vector as it is written, and the variable that its first component is; or a product of vectors and those of them.
+    Vector(Formula, Vec<Variable>),
 }
 
 #[derive(Default)]

@@ -64,21 +64,22 @@ impl Collector<'_, '_> {
     }
 
     fn place(&self, monomial: &Monomial, number: Rational) -> Place {
-        let degree = self.degree(monomial, Self::is_velocity);
+        let degree = self.degree(monomial, is_velocity);
         let has_multiplier = monomial.factors().iter().any(|(atom, _)| self.is_multiplier(*atom));
         (has_multiplier, number.is_negative() && !has_multiplier, -degree, monomial.clone())
     }
 
-    pub(super) fn variable(&self, atom: Atom) -> Option<Variable> {
+    /// Those that it is made of, of a product of vectors all.
+    fn variables(&self, atom: Atom) -> &[Variable] {
         match self.expansion.atoms.meaning(atom) {
-            Meaning::Variable(variable) => Some(*variable),
-            Meaning::Vector(_, variable) => *variable,
-            _ => None,
+            Meaning::Variable(variable) => std::slice::from_ref(variable),
+            Meaning::Vector(_, variables) => variables,
+            _ => &[],
         }
     }
 
-    fn is_velocity(&self, atom: Atom) -> bool {
-        matches!(self.variable(atom), Some(Variable::Velocity(_) | Variable::Momentum(_)))
+    pub(super) fn variable(&self, atom: Atom) -> Option<Variable> {
+        if let [variable] = self.variables(atom) { Some(*variable) } else { None }
     }
 
     fn is_multiplier(&self, atom: Atom) -> bool {
@@ -88,6 +89,13 @@ impl Collector<'_, '_> {
     pub(super) fn acceleration(&self, atom: Atom) -> Option<usize> {
         match self.variable(atom) {
             Some(Variable::Acceleration(i)) => Some(i),
+            _ => None,
+        }
+    }
+
+    pub(super) fn velocity(&self, atom: Atom) -> Option<usize> {
+        match self.variable(atom) {
+            Some(Variable::Velocity(i)) => Some(i),
             _ => None,
         }
     }
@@ -102,7 +110,9 @@ impl Collector<'_, '_> {
             Meaning::Function(_, x) | Meaning::Sum(x) => all(x),
             Meaning::Atan2(x, y) | Meaning::Power(x, y) => all(x) && all(y),
             Meaning::External(_, arguments) => arguments.iter().all(all),
-            Meaning::Vector(_, of) => matches!(of, Some(Variable::Parameter(_))),
+            Meaning::Vector(_, of) => {
+                !of.is_empty() && of.iter().all(|variable| matches!(variable, Variable::Parameter(_)))
+            }
         }
     }
 
@@ -195,7 +205,7 @@ impl Collector<'_, '_> {
 
     /// Whether its terms are of one degree in the velocities.
     fn are_alike(&self, quotient: &Polynomial) -> bool {
-        let mut degrees = quotient.terms().map(|(monomial, _)| self.degree(monomial, Self::is_velocity));
+        let mut degrees = quotient.terms().map(|(monomial, _)| self.degree(monomial, is_velocity));
         let first = degrees.next();
         degrees.all(|degree| Some(degree) == first)
     }
@@ -209,19 +219,20 @@ impl Collector<'_, '_> {
 
     /// Whether it is made of coordinates, or of their squares, without numbers before them: x₁ − x₂.
     fn are_differences(&self, quotient: &Polynomial) -> bool {
-        let is_coordinate =
-            |collector: &Self, atom| matches!(collector.variable(atom), Some(Variable::Coordinate(_)));
+        let is_coordinate = |variable| matches!(variable, Variable::Coordinate(_));
         let mut degrees = quotient.terms().map(|(monomial, c)| {
-            let is_it =
-                c.abs().is_one() && monomial.factors().iter().all(|(atom, _)| is_coordinate(self, *atom));
+            let is_it = c.abs().is_one()
+                && monomial.factors().iter().all(|(atom, _)| self.variable(*atom).is_some_and(is_coordinate));
             is_it.then(|| self.degree(monomial, is_coordinate))
         });
         let first = degrees.next().flatten();
         first.is_some() && degrees.all(|degree| degree == first)
     }
 
-    fn degree(&self, monomial: &Monomial, counts: impl Fn(&Self, Atom) -> bool) -> Rational {
-        monomial.factors().iter().filter(|(atom, _)| counts(self, *atom)).map(|(_, exponent)| exponent).sum()
+    fn degree(&self, monomial: &Monomial, counts: impl Fn(Variable) -> bool) -> Rational {
+        let count = |atom| self.variables(atom).iter().filter(|variable| counts(**variable)).count();
+        let factors = monomial.factors().iter();
+        factors.map(|(atom, exponent)| exponent * Rational::from_integer(count(*atom) as i128)).sum()
     }
 
     fn size(&self, monomial: &Monomial) -> isize {
@@ -338,6 +349,10 @@ impl Collector<'_, '_> {
         }
         true
     }
+}
+
+fn is_velocity(variable: Variable) -> bool {
+    matches!(variable, Variable::Velocity(_) | Variable::Momentum(_))
 }
 
 /// The place of velocities among factors; after it come accelerations and functions.

@@ -8,6 +8,7 @@
 mod angles;
 mod atoms;
 mod collect;
+mod dots;
 mod expand;
 mod length;
 mod polynomial;
@@ -140,7 +141,11 @@ impl Page<'_> {
     /// The rows as one polynomial, of which each term has a vector.
     fn vector(&self, reading: &Reading, rows: &[Polynomial]) -> Option<Polynomial> {
         let terms = self.collected(reading, |collector| collector.vector_terms(rows))?;
-        let mut expansion = reading.0.borrow_mut();
+        Self::assembled(reading, terms)
+    }
+
+    fn assembled(Reading(expansion): &Reading, terms: Vec<VectorTerm>) -> Option<Polynomial> {
+        let mut expansion = expansion.borrow_mut();
         let mut all = Polynomial::default();
         for VectorTerm { coefficient, mut scalar, factors } in terms {
             for factor in factors {
@@ -164,12 +169,29 @@ impl Page<'_> {
         self.chosen(self.read(id), computed, length, true)
     }
 
+    /// By components, and by the products of vectors that it has.
     fn read(&self, id: Id) -> impl Iterator<Item = Formula> {
-        let formula = move |reading: &Reading| {
+        let formulas = move |reading: &Reading| {
             let all = self.polynomial(reading, &[(id, 1)], &[])?;
-            self.collected(reading, |collector| Some(collector.sum(&all)))
+            let terms = self.collected(reading, |collector| collector.dotted_terms(&all));
+            let dotted = terms.and_then(|terms| Self::assembled(reading, terms));
+            let sum = |all: Polynomial| self.collected(reading, |collector| Some(collector.sum(&all)));
+            Some([Some(all), dotted].into_iter().flatten().filter_map(sum).collect::<Vec<_>>())
         };
-        self.readings.iter().filter_map(formula).filter(|formula| length(formula) <= READABLE as usize)
+        let formulas = self.readings.iter().filter_map(formulas).flatten();
+        formulas.filter(|formula| length(formula) <= READABLE as usize)
+    }
+
+    /// A momentum as it was written, where that is as short, or else with its velocities collected.
+    pub(super) fn momentum(&self, id: Id) -> Result<Formula, u64> {
+        let collected = |reading: &Reading| {
+            let all = self.polynomial(reading, &[(id, 1)], &[])?;
+            self.collected(reading, |collector| collector.momentum(&all))
+        };
+        let collected = self.readings.iter().filter_map(collected);
+        let read = collected.filter(|formula| length(formula) <= READABLE as usize).chain(self.read(id));
+        let computed = self.computed([&[id]]).map(|[formula]| formula);
+        self.chosen(read, computed, length, true)
     }
 
     fn polynomial(

@@ -11,6 +11,9 @@ use super::polynomial::{Atom, Monomial, Polynomial};
 use crate::symbolic::Rational;
 use crate::variables::Variable;
 
+/// The index of an atom that is one of them.
+type Variables<C> = fn(&C, Atom) -> Option<usize>;
+
 impl Collector<'_, '_> {
     /// Left and right side of Σ = 0, where Σ has accelerations.
     pub(super) fn row(&self, all: &Polynomial) -> Option<[Formula; 2]> {
@@ -20,28 +23,41 @@ impl Collector<'_, '_> {
             let (side, c) = if self.is_inertia(monomial) { (&mut left, c) } else { (&mut right, -c) };
             side.push(monomial.clone(), c)?;
         }
-        Some([self.inertia(&left)?, self.sum(&right)])
+        Some([self.collected(&left, Self::acceleration)?, self.sum(&right)])
     }
 
     fn is_inertia(&self, monomial: &Monomial) -> bool {
-        self.accelerated(monomial).is_some()
+        self.moved(monomial, Self::acceleration).is_some()
     }
 
-    fn accelerated(&self, monomial: &Monomial) -> Option<Atom> {
-        monomial.factors().iter().map(|&(atom, _)| atom).find(|&atom| self.acceleration(atom).is_some())
+    /// Its first factor that is one of these variables.
+    fn moved(&self, monomial: &Monomial, variables: Variables<Self>) -> Option<Atom> {
+        monomial.factors().iter().map(|&(atom, _)| atom).find(|&atom| variables(self, atom).is_some())
     }
 
-    /// Σ coefficient · q̈
-    fn inertia(&self, left: &Polynomial) -> Option<Formula> {
-        let coefficients = self.coefficients(left)?;
-        let terms = coefficients.iter().map(|(atom, coefficient)| self.accelerating(*atom, coefficient));
+    /// What is linear in accelerations, or in velocities: Σ coefficient · q̈
+    pub(super) fn collected(&self, linear: &Polynomial, variables: Variables<Self>) -> Option<Formula> {
+        let coefficients = self.coefficients(linear, variables)?;
+        let terms = coefficients.iter().map(|(atom, coefficient)| self.multiplied(*atom, coefficient));
         let mut terms = terms.collect::<Option<Vec<_>>>()?;
         terms.sort_by_key(Formula::is_negative);
         Some(Formula::sum(terms))
     }
 
+    /// p = Σ coefficient · q̇ + b
+    pub(super) fn momentum(&self, all: &Polynomial) -> Option<Formula> {
+        let (mut moving, mut rest) = (Polynomial::default(), Polynomial::default());
+        for (monomial, &c) in all.terms() {
+            let is_moving = self.moved(monomial, Self::velocity).is_some();
+            (if is_moving { &mut moving } else { &mut rest }).push(monomial.clone(), c)?;
+        }
+        let parts = [self.collected(&moving, Self::velocity)?, self.sum(&rest)];
+        let zero = Formula::sum(Vec::new());
+        Some(Formula::sum(parts.into_iter().filter(|part| *part != zero).collect()))
+    }
+
     /// coefficient · q̈
-    fn accelerating(&self, atom: Atom, coefficient: &Polynomial) -> Option<Formula> {
+    fn multiplied(&self, atom: Atom, coefficient: &Polynomial) -> Option<Formula> {
         let (number, monomial) = coefficient.content();
         let is_negative = coefficient.terms().all(|(_, c)| c.is_negative());
         let number = if is_negative { -number } else { number };
@@ -50,25 +66,29 @@ impl Collector<'_, '_> {
         Some(self.product(number, &monomial, Some(&quotient).filter(|quotient| quotient.len() > 1)))
     }
 
-    /// Of each acceleration that there is, in their order.
-    fn coefficients(&self, left: &Polynomial) -> Option<Vec<(Atom, Polynomial)>> {
+    /// Of each of these variables that there is, in their order.
+    fn coefficients(
+        &self,
+        linear: &Polynomial,
+        variables: Variables<Self>,
+    ) -> Option<Vec<(Atom, Polynomial)>> {
         let mut coefficients: Vec<(Atom, Polynomial)> = Vec::new();
-        for (monomial, &c) in left.terms() {
-            let Some(atom) = self.accelerated(monomial) else { continue };
+        for (monomial, &c) in linear.terms() {
+            let Some(atom) = self.moved(monomial, variables) else { continue };
             let factors = monomial.over(&Monomial::of(atom, Rational::one()))?;
             match coefficients.iter_mut().find(|(known, _)| *known == atom) {
                 Some((_, sum)) => sum.push(factors, c)?,
                 None => coefficients.push((atom, Polynomial::term(factors, c))),
             }
         }
-        coefficients.sort_by_key(|(atom, _)| self.acceleration(*atom));
+        coefficients.sort_by_key(|(atom, _)| variables(self, *atom));
         Some(coefficients)
     }
 
     /// Without what is common to all terms. Where an acceleration is multiplied by it too, that may be a coordinate: nothing
     /// is lost but an identity where it vanishes.
     fn divided(&self, all: &Polynomial) -> Option<Polynomial> {
-        let coefficients = self.coefficients(all)?;
+        let coefficients = self.coefficients(all, Self::acceleration)?;
         let may_go = |atom| match self.variable(atom) {
             Some(
                 Variable::Time | Variable::Velocity(_) | Variable::Acceleration(_) | Variable::Multiplier(_),

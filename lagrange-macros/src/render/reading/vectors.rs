@@ -13,13 +13,13 @@ use crate::variables::Variable;
 
 /// A vector as it is written, and the variable that its first component is.
 #[derive(Clone, PartialEq)]
-struct Vector {
-    written: Formula,
-    of: Option<Variable>,
+pub(super) struct Vector {
+    pub(super) written: Formula,
+    pub(super) of: Option<Variable>,
 }
 
 /// Components that are multiplied: which of the vectors known, and which component; sorted.
-type Components = Vec<(usize, usize)>;
+pub(super) type Components = Vec<(usize, usize)>;
 
 /// For each scalar factor and each set of vectors multiplied, the products of their components in every row.
 type Groups = BTreeMap<(Monomial, Vec<usize>), Vec<BTreeMap<Components, Rational>>>;
@@ -57,7 +57,7 @@ impl Collector<'_, '_> {
     }
 
     /// Scalar factors, and components of vectors.
-    fn parted(&self, monomial: &Monomial, known: &mut Vec<Vector>) -> (Monomial, Components) {
+    pub(super) fn parted(&self, monomial: &Monomial, known: &mut Vec<Vector>) -> (Monomial, Components) {
         let mut components = Components::new();
         let mut found = Vec::new();
         for &(atom, exponent) in monomial.factors() {
@@ -91,9 +91,8 @@ impl Collector<'_, '_> {
             products.insert(components, c);
         }
         let n = products.keys().flatten().map(|&(_, place)| place + 1).max()?;
-        let is_whole =
-            |vector: &Vector| matches!(vector.of, Some(Variable::Coordinate(i)) if self.length_from(i) == n);
-        (n > 1 && known.iter().any(is_whole) && known.len() <= 2).then_some(())?;
+        let is_it = known.iter().any(|vector| self.has_length(vector, n)) && known.len() <= 2;
+        (n > 1 && is_it).then_some(())?;
         let signs = [Rational::one(), -Rational::one()];
         let expected = (0..n).flat_map(|k| {
             let pairs = (0..known.len()).flat_map(move |i| (i..2).map(move |j| (i, j)));
@@ -105,6 +104,16 @@ impl Collector<'_, '_> {
         let difference = known.iter().enumerate().map(|(i, vector)| vector.written.clone().signed(i == 1));
         let norm = Formula::Call("norm".to_owned(), vec![Formula::sum(difference.collect())]);
         (expected.collect::<BTreeMap<_, _>>() == products).then_some(norm)
+    }
+
+    /// Whether a vector of coordinates, velocities or momenta is known to have so many components.
+    pub(super) fn has_length(&self, vector: &Vector, n: usize) -> bool {
+        match vector.of {
+            Some(Variable::Coordinate(i) | Variable::Velocity(i) | Variable::Momentum(i)) => {
+                self.length_from(i) == n
+            }
+            _ => false,
+        }
     }
 
     /// How many components the vector of coordinates has of which this is the first.
@@ -172,9 +181,9 @@ fn in_vectors(
     // Accelerations stand by themselves on the left side.
     let is_accelerated = vectors.iter().any(|&i| matches!(known[i].of, Some(Variable::Acceleration(_))));
     (vectors.len() == 1 || !is_accelerated).then_some(())?;
-    let whole = |i: usize| Meaning::Vector(known[i].written.clone(), known[i].of);
+    let whole = |i: usize| Meaning::Vector(known[i].written.clone(), known[i].of.into_iter().collect());
     let call = |name: &str, i: Formula, j: Formula| {
-        Meaning::Vector(Formula::Call(name.to_owned(), vec![i, j]), None)
+        Meaning::Vector(Formula::Call(name.to_owned(), vec![i, j]), Vec::new())
     };
     let name = |i: usize| known[i].written.clone();
     let at = |row: usize, components: &[(usize, usize)]| {

@@ -3,12 +3,13 @@
 
 use std::collections::BTreeMap;
 
+use super::mathml;
 use super::reader::{Meanings, Value, read_with};
-use super::systems::{System, of_all};
-use crate::mechanics::{Derived, Quantity};
+use super::systems::{self, System, of_all};
+use crate::mechanics::Derived;
 use crate::render::formula::Formula;
-use crate::render::symbols::Notation;
-use crate::resolve;
+use crate::render::notation::Notation;
+use crate::resolve::{self, Supplied};
 use crate::symbolic::{Approximate, External, Function, Id, Sample, apply, superposition};
 use crate::variables::Variable;
 
@@ -51,8 +52,14 @@ impl<'a> State<'a> {
     fn new(system: &'a System, sample: &mut Sample, draw: u64) -> Self {
         let System { graph, problem, .. } = system;
         let n = problem.coordinates.len();
-        let mut entries: Vec<(String, f64)> = Vec::new();
-        let mut put = |formula: Formula, value: f64| entries.push((Notation::Unicode.write(&formula), value));
+        let mut names: BTreeMap<String, Value> = BTreeMap::new();
+        let mut vectors: BTreeMap<String, Value> = BTreeMap::new();
+        let mut put = |formula: Formula, value: f64| {
+            for outer in outer(&formula) {
+                vectors.entry(system.written(&outer)).or_default().push(value);
+            }
+            names.insert(system.written(&formula), vec![value]);
+        };
         let kinds: [fn(usize) -> Variable; 3] =
             [Variable::Coordinate, Variable::Velocity, Variable::Acceleration];
         for (dots, kind) in kinds.into_iter().enumerate() {
@@ -77,11 +84,20 @@ impl<'a> State<'a> {
         for (&id, name) in definitions {
             put(Formula::labelled(name, 0), sample.values(graph, &[id])[0].value);
         }
-        Self { system, names: with_vectors(entries), draw }
+        vectors.append(&mut names);
+        Self { system, names: vectors, draw }
     }
 
     fn read(&self, text: &str) -> Value {
         read_with(text, self)
+    }
+
+    /// Whether what is written like this is the entry, or an array that it is in.
+    fn is_in(&self, written: &str, entry: &str) -> bool {
+        let entry = Formula::labelled(entry, 0);
+        let mut all = outer(&entry);
+        all.push(entry);
+        all.iter().any(|formula| self.system.written(formula) == written)
     }
 
     /// All results of a function, or the one that is named.
@@ -92,9 +108,8 @@ impl<'a> State<'a> {
                 if function.outputs == 1 { vec![function.name.clone()] } else { function.names.clone() };
             names.into_iter().enumerate().map(move |(output, name)| (name, index, output))
         });
-        let written = |name: &str| Notation::Unicode.write(&Formula::labelled(name, 0));
-        let is_it = |name: &str| name == function || name.starts_with(&format!("{function}["));
-        let found = outputs.filter(|(name, ..)| is_it(&written(name)));
+        let is_it = |name: &str| self.is_in(function, name);
+        let found = outputs.filter(|(name, ..)| is_it(name));
         let arguments: Vec<_> = arguments.iter().copied().map(Approximate::exact).collect();
         let values: Value = found
             .map(|(_, index, output)| {
@@ -113,20 +128,23 @@ fn value(sample: &Sample, variable: Variable) -> f64 {
     sample.get(variable.symbol()).value
 }
 
-/// With `r` of `r[0]`, `r[1]`, …
-fn with_vectors(mut entries: Vec<(String, f64)>) -> BTreeMap<String, Value> {
-    let mut all: BTreeMap<String, Value> = BTreeMap::new();
-    let mut vectors: BTreeMap<String, Value> = BTreeMap::new();
-    for (name, value) in entries.drain(..) {
-        let mut outer = name.as_str();
-        while let Some((rest, _)) = outer.rsplit_once('[').filter(|_| outer.ends_with(']')) {
-            vectors.entry(rest.to_owned()).or_default().push(value);
-            outer = rest;
+/// The arrays that an entry is in: `r` of `r[0]`, and so on.
+fn outer(formula: &Formula) -> Vec<Formula> {
+    match formula {
+        Formula::Name { base, dots, indices } => {
+            let lengths = 0..indices.len();
+            let name = |length| Formula::Name {
+                base: base.clone(),
+                dots: *dots,
+                indices: indices[..length].to_vec(),
+            };
+            lengths.map(name).collect()
         }
-        all.insert(name, vec![value]);
+        Formula::Member(of, member) => {
+            outer(member).into_iter().map(|member| Formula::Member(of.clone(), Box::new(member))).collect()
+        }
+        _ => Vec::new(),
     }
-    vectors.append(&mut all);
-    vectors
 }
 
 impl Meanings for State<'_> {
@@ -146,17 +164,16 @@ impl Meanings for State<'_> {
     }
 
     fn partial(&self, function: &str, by: &[String], arguments: Option<&[f64]>) -> Value {
-        let name = function.split('[').next().expect("a name");
-        let written = |name: &str| Notation::Unicode.write(&Formula::labelled(name, 0));
         let mut functions = self.system.problem.functions.iter();
-        let supplied = functions.find(|supplied| written(&supplied.name) == name).expect("a function");
+        let is_it = |supplied: &&Supplied| supplied.names.iter().any(|name| self.is_in(function, name));
+        let supplied = functions.find(is_it).expect("a function");
         let formals = supplied.formals.iter().flat_map(|(name, lengths)| resolve::entry_names(name, lengths));
-        let formals: Vec<String> = formals.map(|name| written(&name)).collect();
-        let own = || formals.iter().flat_map(|name| self.names[name].clone()).collect();
+        let formals: Vec<String> = formals.collect();
+        let written = |name: &str| self.system.written(&Formula::labelled(name, 0));
+        let own = || formals.iter().flat_map(|name| self.names[&written(name)].clone()).collect();
         let arguments: Value = arguments.map_or_else(own, <[f64]>::to_vec);
         let places = |x: &String| {
-            let is_it = |formal: &&String| *formal == x || formal.starts_with(&format!("{x}["));
-            let found = formals.iter().enumerate().filter(|(_, formal)| is_it(formal));
+            let found = formals.iter().enumerate().filter(|(_, formal)| self.is_in(x, formal));
             found.map(|(place, _)| place as u32).collect::<Vec<u32>>()
         };
         match by {
@@ -182,7 +199,7 @@ fn check_motion(system: &System) {
     for row in system.lines("Equations of motion\n") {
         let (label, equation) = row.split_once(": ").expect("a label");
         let labels = system.problem.coordinates[first..].iter();
-        let labels = labels.map(|label| Notation::Unicode.write(&Formula::labelled(&label.text, 0)));
+        let labels = labels.map(|label| Notation::UNICODE.write(&Formula::labelled(&label.text, 0)));
         let is_it = |known: &String| {
             let index = known.strip_prefix(label).and_then(|rest| rest.strip_prefix('['));
             *known == label || index.is_some_and(|index| index.matches(']').count() == 1)
@@ -245,14 +262,9 @@ fn left_over(system: &System, sample: &mut Sample, rows: std::ops::Range<usize>)
 /// Energies, momenta and constraint forces are what is computed.
 fn check_quantities(system: &System) {
     let equations = &system.derived.equations;
-    let conserved = system.derived.facts.conserved.iter();
-    let conserved = conserved.filter_map(|conserved| match conserved.quantity {
-        Quantity::Momentum(a) => Some(equations.momentum[a]),
-        Quantity::Energy => Some(equations.energy),
-        Quantity::Observable(..) => None,
-    });
-    for (line, root) in system.lines("Conserved\n").iter().zip(conserved) {
-        check_line(system, line, |sample| vec![sample.values(&system.graph, &[root])[0].value]);
+    let conserved = system.lines("Conserved\n");
+    for line in conserved.iter().filter(|line| line.starts_with("E = ")) {
+        check_line(system, line, |sample| vec![sample.values(&system.graph, &[equations.energy])[0].value]);
     }
     let value = |sample: &mut Sample, root: Option<&Id>| {
         root.map_or(0.0, |&root| sample.values(&system.graph, &[root])[0].value)
@@ -260,9 +272,9 @@ fn check_quantities(system: &System) {
     check_by_coordinate(system, &system.lines("Constraint forces\n"), ("R_", 0), |sample, i| {
         value(sample, equations.constraint_force.get(i))
     });
-    check_by_coordinate(system, &system.lines("Momenta\n"), ("p_", 0), |sample, i| {
-        value(sample, equations.momentum.get(i))
-    });
+    for lines in [conserved, system.lines("Momenta\n")] {
+        check_by_coordinate(system, &lines, ("p_", 0), |sample, i| value(sample, equations.momentum.get(i)));
+    }
 }
 
 /// With p = ∂L/∂q̇ of a state, H is its energy, ∂H/∂p its velocity and ṗ its forces.
@@ -298,12 +310,12 @@ fn check_by_coordinate(
 ) {
     let coordinates = system.problem.coordinates.iter();
     let names = coordinates.map(|label| Formula::labelled(&format!("{prefix}{}", label.text), dots));
-    let names: Vec<String> = names.map(|name| Notation::Unicode.write(&name)).collect();
+    let names: Vec<Formula> = names.collect();
     for line in lines {
         let left = line.split(" = ").next().expect("a side");
-        let is_it = |name: &String| {
-            let index = name.strip_prefix(left).and_then(|rest| rest.strip_prefix('['));
-            name == left || index.is_some_and(|index| index.matches(']').count() == 1)
+        let is_it = |name: &Formula| {
+            let written = |formula: &Formula| system.written(formula) == left;
+            written(name) || outer(name).last().is_some_and(written)
         };
         let rows: Vec<usize> = (0..names.len()).filter(|&i| is_it(&names[i])).collect();
         if !rows.is_empty() {
@@ -341,11 +353,14 @@ fn check_line(system: &System, line: &str, computed: impl Fn(&mut Sample) -> Val
 /// There are at least so many: a search that finds none would check nothing.
 fn check_all(folders: &'static [&str], least: usize) {
     let checked = of_all(folders, |mut system| {
-        for [text, _] in system.forms.clone() {
-            system.text = text;
-            check_motion(&system);
-            check_quantities(&system);
-            check_hamilton(&system);
+        for [text, _, html] in system.forms.clone() {
+            let read = mathml::read(&text, &html);
+            for (text, written) in [(text, systems::in_unicode as _), (read, mathml::written as _)] {
+                (system.text, system.written) = (text, written);
+                check_motion(&system);
+                check_quantities(&system);
+                check_hamilton(&system);
+            }
         }
     });
     assert!(checked.len() >= least, "{} systems only", checked.len());

@@ -18,7 +18,7 @@ fn rendered(source: &str) -> Rendered {
 
 fn check(source: &str, text: Expect, latex: Expect) {
     let rendered = rendered(source);
-    let [[shortest, in_latex], ..] = rendered.forms;
+    let [[shortest, in_latex, _], ..] = rendered.forms;
     assert_balanced(&in_latex);
     text.assert_eq(&shortest);
     latex.assert_eq(&in_latex);
@@ -71,19 +71,19 @@ fn sphere_down_an_incline() {
             \begin{align}
               L &= \tfrac{1}{2} m \dot x^2 + \tfrac{1}{2} \, \mathit{inertia} \, \dot\varphi^2 + m g x \sin \alpha \label{eq:RollingSphere-L} \\
               \mathit{inertia} &= \tfrac{2}{5} m a^2 \label{eq:RollingSphere-inertia} \\
-              \dot x - a \dot\varphi &= 0 \label{eq:RollingSphere-no_slip} \\
-              m \ddot x &= m g \sin \alpha + \lambda_{\mathit{no}_{\mathrm{slip}}} \label{eq:RollingSphere-x} \\
-              \mathit{inertia} \, \ddot\varphi &= -a \, \lambda_{\mathit{no}_{\mathrm{slip}}} \label{eq:RollingSphere-phi} \\
-              R_x &= \lambda_{\mathit{no}_{\mathrm{slip}}} \label{eq:RollingSphere-R_x} \\
-              R_\varphi &= -a \, \lambda_{\mathit{no}_{\mathrm{slip}}} \label{eq:RollingSphere-R_phi} \\
-              E &= \tfrac{1}{2} m \dot x^2 + \tfrac{1}{2} \, \mathit{inertia} \, \dot\varphi^2 - m g x \sin \alpha \label{eq:RollingSphere-E} \\
+              \dot x - a \dot\varphi &= 0 \quad \text{(integrable: }x - a \varphi\text{ is constant)} \label{eq:RollingSphere-no_slip} \\
+              m \ddot x &= m g \sin \alpha + \lambda_{\mathrm{no}\,\mathrm{slip}} \label{eq:RollingSphere-x} \\
+              \mathit{inertia} \, \ddot\varphi &= -a \lambda_{\mathrm{no}\,\mathrm{slip}} \label{eq:RollingSphere-phi} \\
+              R_x &= \lambda_{\mathrm{no}\,\mathrm{slip}} \label{eq:RollingSphere-R_x} \\
+              R_\varphi &= -a \lambda_{\mathrm{no}\,\mathrm{slip}} \label{eq:RollingSphere-R_phi} \\
+              E &= \tfrac{1}{2} m \dot x^2 + \tfrac{1}{2} \, \mathit{inertia} \, \dot\varphi^2 - m g x \sin \alpha \quad \text{(}T + U\text{)} \label{eq:RollingSphere-E} \\
               p_x &= m \dot x \label{eq:RollingSphere-p_x} \\
               p_\varphi &= \mathit{inertia} \, \dot\varphi \label{eq:RollingSphere-p_phi} \\
               H &= \frac{p_x^2}{2 m} + \frac{p_\varphi^2}{2 \, \mathit{inertia}} - m g x \sin \alpha \label{eq:RollingSphere-H} \\
               \dot x &= \frac{p_x}{m} \label{eq:RollingSphere-x-dot} \\
               \dot\varphi &= \frac{p_\varphi}{\mathit{inertia}} \label{eq:RollingSphere-phi-dot} \\
-              \dot p_x &= m g \sin \alpha + \lambda_{\mathit{no}_{\mathrm{slip}}} \label{eq:RollingSphere-p-dot_x} \\
-              \dot p_\varphi &= -a \, \lambda_{\mathit{no}_{\mathrm{slip}}} \label{eq:RollingSphere-p-dot_phi}
+              \dot p_x &= m g \sin \alpha + \lambda_{\mathrm{no}\,\mathrm{slip}} \label{eq:RollingSphere-p-dot_x} \\
+              \dot p_\varphi &= -a \lambda_{\mathrm{no}\,\mathrm{slip}} \label{eq:RollingSphere-p-dot_phi}
             \end{align}
         "#]],
     );
@@ -138,14 +138,14 @@ fn spherical_pendulum() {
         expect![[r#"
             \begin{align}
               L &= \tfrac{1}{2} m (\dot x^2 + \dot y^2 + \dot z^2) - m g z \label{eq:SphericalPendulum-L} \\
-              \tfrac{1}{2} (x^2 + y^2 + z^2 - l^2) &= 0 \label{eq:SphericalPendulum-string} \\
+              \tfrac{1}{2} (x^2 + y^2 + z^2 - l^2) &= 0 \quad \text{(holonomic)} \label{eq:SphericalPendulum-string} \\
               m \ddot x &= \lambda_{\mathrm{string}} x \label{eq:SphericalPendulum-x} \\
               m \ddot y &= \lambda_{\mathrm{string}} y \label{eq:SphericalPendulum-y} \\
               m \ddot z &= -m g + \lambda_{\mathrm{string}} z \label{eq:SphericalPendulum-z} \\
               R_x &= \lambda_{\mathrm{string}} x \label{eq:SphericalPendulum-R_x} \\
               R_y &= \lambda_{\mathrm{string}} y \label{eq:SphericalPendulum-R_y} \\
               R_z &= \lambda_{\mathrm{string}} z \label{eq:SphericalPendulum-R_z} \\
-              E &= \tfrac{1}{2} m (\dot x^2 + \dot y^2 + \dot z^2) + m g z \label{eq:SphericalPendulum-E} \\
+              E &= \tfrac{1}{2} m (\dot x^2 + \dot y^2 + \dot z^2) + m g z \quad \text{(}T + U\text{)} \label{eq:SphericalPendulum-E} \\
               p_x &= m \dot x \label{eq:SphericalPendulum-p_x} \\
               p_y &= m \dot y \label{eq:SphericalPendulum-p_y} \\
               p_z &= m \dot z \label{eq:SphericalPendulum-p_z} \\
@@ -184,7 +184,6 @@ fn spherical_pendulum_in_angles() {
 
             Momenta
               p_θ = m l² θ̇
-              p_φ = m l² φ̇ sin² θ
 
             Hamiltonian
               H = p_θ²/(2 m l²) + p_φ²/(2 m l² sin² θ) − m g l cos θ
@@ -201,9 +200,8 @@ fn spherical_pendulum_in_angles() {
               l \ddot\theta &= l \dot\varphi^2 \sin \theta \cos \theta - g \sin \theta \label{eq:SphericalPendulum-theta} \\
               \ddot\varphi \sin \theta &= -2 \dot\theta \dot\varphi \cos \theta \label{eq:SphericalPendulum-phi} \\
               p_\varphi &= m l^2 \dot\varphi \sin^2 \theta \label{eq:SphericalPendulum-p_phi} \\
-              E &= \tfrac{1}{2} m l^2 (\dot\theta^2 + \dot\varphi^2 \sin^2 \theta) - m g l \cos \theta \label{eq:SphericalPendulum-E} \\
+              E &= \tfrac{1}{2} m l^2 (\dot\theta^2 + \dot\varphi^2 \sin^2 \theta) - m g l \cos \theta \quad \text{(}T + U\text{)} \label{eq:SphericalPendulum-E} \\
               p_\theta &= m l^2 \dot\theta \label{eq:SphericalPendulum-p_theta} \\
-              p_\varphi &= m l^2 \dot\varphi \sin^2 \theta \label{eq:SphericalPendulum-p_phi-2} \\
               H &= \frac{p_\theta^2}{2 m l^2} + \frac{p_\varphi^2}{2 m l^2 \sin^2 \theta} - m g l \cos \theta \label{eq:SphericalPendulum-H} \\
               \dot\theta &= \frac{p_\theta}{m l^2} \label{eq:SphericalPendulum-theta-dot} \\
               \dot\varphi &= \frac{p_\varphi}{m l^2 \sin^2 \theta} \label{eq:SphericalPendulum-phi-dot} \\
@@ -241,7 +239,7 @@ fn rotating_frame() {
               p_r = m ṙ − m (r×W)
 
             Hamiltonian
-              H = (p_r[0]² + p_r[1]² + p_r[2]²)/(2 m) + W[1] r[0] p_r[2] + W[2] r[1] p_r[0] + W[0] r[2] p_r[1] + m (r[0] A[0](t) + r[1] A[1](t) + r[2] A[2](t)) + U(r) − W[2] r[0] p_r[1] − W[0] r[1] p_r[2] − W[1] r[2] p_r[0]
+              H = (p_r·p_r)/(2 m) + m r·A(t) + U(r) − W·(r×p_r)
 
             Hamilton's equations
               ṙ = p_r/m + r×W
@@ -249,17 +247,15 @@ fn rotating_frame() {
         "#]],
         expect![[r#"
             \begin{align}
-              L &= \tfrac{1}{2} m v \cdot v + \tfrac{1}{2} m (W \times r) \cdot (W \times r) + m v \cdot (W \times r) \nonumber \\
-                &\quad - U(r) - m r \cdot A(t) \label{eq:RotatingFrame-L} \\
-              v &= \dot r \label{eq:RotatingFrame-v} \\
-              W &= \Omega(t) \label{eq:RotatingFrame-W} \\
-              m \ddot r &= m (r \times \Omega'(t) - W \times (W \times r) - 2 (W \times \dot r) - A(t)) - \frac{\partial U}{\partial r} \label{eq:RotatingFrame-r} \\
-              p_r &= m \dot r - m (r \times W) \label{eq:RotatingFrame-p_r} \\
-              H &= \frac{p_{r, 0}^2 + p_{r, 1}^2 + p_{r, 2}^2}{2 m} + W_1 r_0 p_{r, 2} + W_2 r_1 p_{r, 0} + W_0 r_2 p_{r, 1} \nonumber \\
-                &\quad + m (r_0 A_0(t) + r_1 A_1(t) + r_2 A_2(t)) + U(r) - W_2 r_0 p_{r, 1} \nonumber \\
-                &\quad - W_0 r_1 p_{r, 2} - W_1 r_2 p_{r, 0} \label{eq:RotatingFrame-H} \\
-              \dot r &= \frac{p_r}{m} + r \times W \label{eq:RotatingFrame-r-dot} \\
-              \dot p_r &= p_r \times W - m A(t) - \frac{\partial U}{\partial r} \label{eq:RotatingFrame-p-dot_r}
+              L &= \tfrac{1}{2} m \mathbf{v} \cdot \mathbf{v} + \tfrac{1}{2} m (\mathbf{W} \times \mathbf{r}) \cdot (\mathbf{W} \times \mathbf{r}) + m \mathbf{v} \cdot (\mathbf{W} \times \mathbf{r}) \nonumber \\
+                &\quad - U(\mathbf{r}) - m \mathbf{r} \cdot \mathbf{A}(t) \label{eq:RotatingFrame-L} \\
+              \mathbf{v} &= \dot{\mathbf{r}} \label{eq:RotatingFrame-v} \\
+              \mathbf{W} &= \boldsymbol{\Omega}(t) \label{eq:RotatingFrame-W} \\
+              m \ddot{\mathbf{r}} &= m (\mathbf{r} \times \boldsymbol{\Omega}'(t) - \mathbf{W} \times (\mathbf{W} \times \mathbf{r}) - 2 (\mathbf{W} \times \dot{\mathbf{r}}) - \mathbf{A}(t)) - \frac{\partial U}{\partial \mathbf{r}} \label{eq:RotatingFrame-r} \\
+              \mathbf{p}_r &= m \dot{\mathbf{r}} - m (\mathbf{r} \times \mathbf{W}) \label{eq:RotatingFrame-p_r} \\
+              H &= \frac{\mathbf{p}_r \cdot \mathbf{p}_r}{2 m} + m \mathbf{r} \cdot \mathbf{A}(t) + U(\mathbf{r}) - \mathbf{W} \cdot (\mathbf{r} \times \mathbf{p}_r) \label{eq:RotatingFrame-H} \\
+              \dot{\mathbf{r}} &= \frac{\mathbf{p}_r}{m} + \mathbf{r} \times \mathbf{W} \label{eq:RotatingFrame-r-dot} \\
+              \dot{\mathbf{p}}_r &= \mathbf{p}_r \times \mathbf{W} - m \mathbf{A}(t) - \frac{\partial U}{\partial \mathbf{r}} \label{eq:RotatingFrame-p-dot_r}
             \end{align}
         "#]],
     );
@@ -308,7 +304,7 @@ fn functions_families_and_vectors() {
               p_s = ṡ
 
             Hamiltonian
-              H = ½ p_a[0]² + ½ p_a[1]² + ½ p_b[0]² + ½ p_b[1]² + ½ p_s² + a[0] + f([s, 1], s) + f(a, s) + pair(|a − b|) + p[2][0] + p[1][0]
+              H = ½ p_s² + ½ p_a·p_a + ½ p_b·p_b + a[0] + f([s, 1], s) + f(a, s) + pair(|a − b|) + p[2][0] + p[1][0]
 
             Hamilton's equations
               ȧ = p_a
@@ -322,46 +318,45 @@ fn functions_families_and_vectors() {
         "#]],
         expect![[r#"
             \begin{align}
-              L &= \tfrac{1}{2} \dot a \cdot \dot a + \tfrac{1}{2} \lvert \dot b \rvert^2 + \tfrac{1}{2} \dot s^2 - \mathit{pair}(\lvert a \nonumber \\
-                &\quad - b \rvert) - f(a, s) - f([s, 1], s) \nonumber \\
-                &\quad - \left( \sum_{i = 0}^{2} p_{i, 0} \right) \label{eq:Everything-L} \\
-              p_0 &= a \label{eq:Everything-p-0} \\
-              p_{i = 1 \ldots 2} &= p_{i - 1} + \frac{b}{i} \label{eq:Everything-p-i-1-2} \\
-              Q_a &= -k \dot a \label{eq:Everything-Q_a} \\
-              ([a_0, a_1, 0] \times [b_0, b_1, 0])_2 &= 0 \label{eq:Everything-meet} \\
-              \ddot a_0 &= \frac{\mathit{pair}'(\lvert a - b \rvert) (b_0 - a_0)}{\lvert a - b \rvert} - k \dot a_0 \nonumber \\
-                &\quad - 3 - \left( \frac{\partial f}{\partial r_0} \right)(a, s) + \lambda_{\mathrm{meet}} b_1 \label{eq:Everything-a-0} \\
-              \ddot a_1 &= \frac{\mathit{pair}'(\lvert a - b \rvert) (b_1 - a_1)}{\lvert a - b \rvert} - k \dot a_1 \nonumber \\
-                &\quad - \left( \frac{\partial f}{\partial r_1} \right)(a, s) - \lambda_{\mathrm{meet}} b_0 \label{eq:Everything-a-1} \\
-              \ddot b_0 &= \frac{\mathit{pair}'(\lvert a - b \rvert) (a_0 - b_0)}{\lvert a - b \rvert} - \tfrac{5}{2} \nonumber \\
+              L &= \tfrac{1}{2} \dot{\mathbf{a}} \cdot \dot{\mathbf{a}} + \tfrac{1}{2} \lvert \dot{\mathbf{b}} \rvert^2 + \tfrac{1}{2} \dot s^2 \nonumber \\
+                &\quad - \mathit{pair}(\lvert \mathbf{a} - \mathbf{b} \rvert) - f(\mathbf{a}, s) - f([s, 1], \nonumber \\
+                &\quad s) - \left( \sum_{i = 0}^{2} p_{i, 0} \right) \label{eq:Everything-L} \\
+              \mathbf{p}_0 &= \mathbf{a} \label{eq:Everything-p-0} \\
+              \mathbf{p}_{i = 1 \ldots 2} &= \mathbf{p}_{i - 1} + \frac{\mathbf{b}}{i} \label{eq:Everything-p-i-1-2} \\
+              \mathbf{Q}_a &= -k \dot{\mathbf{a}} \label{eq:Everything-Q_a} \\
+              ([a_0, a_1, 0] \times [b_0, b_1, 0])_2 &= 0 \quad \text{(holonomic)} \label{eq:Everything-meet} \\
+              \ddot a_0 &= \frac{\mathit{pair}'(\lvert \mathbf{a} - \mathbf{b} \rvert) (b_0 - a_0)}{\lvert \mathbf{a} - \mathbf{b} \rvert} - k \dot a_0 \nonumber \\
+                &\quad - 3 - \left( \frac{\partial f}{\partial r_0} \right)(\mathbf{a}, s) + \lambda_{\mathrm{meet}} b_1 \label{eq:Everything-a-0} \\
+              \ddot a_1 &= \frac{\mathit{pair}'(\lvert \mathbf{a} - \mathbf{b} \rvert) (b_1 - a_1)}{\lvert \mathbf{a} - \mathbf{b} \rvert} - k \dot a_1 \nonumber \\
+                &\quad - \left( \frac{\partial f}{\partial r_1} \right)(\mathbf{a}, s) - \lambda_{\mathrm{meet}} b_0 \label{eq:Everything-a-1} \\
+              \ddot b_0 &= \frac{\mathit{pair}'(\lvert \mathbf{a} - \mathbf{b} \rvert) (a_0 - b_0)}{\lvert \mathbf{a} - \mathbf{b} \rvert} - \tfrac{5}{2} \nonumber \\
                 &\quad - \lambda_{\mathrm{meet}} a_1 \label{eq:Everything-b-0} \\
-              \ddot b_1 &= \frac{\mathit{pair}'(\lvert a - b \rvert) (a_1 - b_1)}{\lvert a - b \rvert} \nonumber \\
+              \ddot b_1 &= \frac{\mathit{pair}'(\lvert \mathbf{a} - \mathbf{b} \rvert) (a_1 - b_1)}{\lvert \mathbf{a} - \mathbf{b} \rvert} \nonumber \\
                 &\quad + \lambda_{\mathrm{meet}} a_0 \label{eq:Everything-b-1} \\
-              \ddot s &= -\left( \frac{\partial f}{\partial s} \right)(a, s) - \left( \frac{\partial f}{\partial s} \right)([s, 1], s) \nonumber \\
+              \ddot s &= -\left( \frac{\partial f}{\partial s} \right)(\mathbf{a}, s) - \left( \frac{\partial f}{\partial s} \right)([s, 1], s) \nonumber \\
                 &\quad - \left( \frac{\partial f}{\partial r_0} \right)([s, 1], s) \label{eq:Everything-s} \\
               R_{a, 0} &= \lambda_{\mathrm{meet}} b_1 \label{eq:Everything-R_a-0} \\
               R_{a, 1} &= -\lambda_{\mathrm{meet}} b_0 \label{eq:Everything-R_a-1} \\
               R_{b, 0} &= -\lambda_{\mathrm{meet}} a_1 \label{eq:Everything-R_b-0} \\
               R_{b, 1} &= \lambda_{\mathrm{meet}} a_0 \label{eq:Everything-R_b-1} \\
-              p_a &= \dot a \label{eq:Everything-p_a} \\
-              p_b &= \dot b \label{eq:Everything-p_b} \\
+              \mathbf{p}_a &= \dot{\mathbf{a}} \label{eq:Everything-p_a} \\
+              \mathbf{p}_b &= \dot{\mathbf{b}} \label{eq:Everything-p_b} \\
               p_s &= \dot s \label{eq:Everything-p_s} \\
-              H &= \tfrac{1}{2} p_{a, 0}^2 + \tfrac{1}{2} p_{a, 1}^2 + \tfrac{1}{2} p_{b, 0}^2 \nonumber \\
-                &\quad + \tfrac{1}{2} p_{b, 1}^2 + \tfrac{1}{2} p_s^2 + a_0 + f([s, 1], \nonumber \\
-                &\quad s) + f(a, s) + \mathit{pair}(\lvert a - b \rvert) + p_{2, 0} \nonumber \\
-                &\quad + p_{1, 0} \label{eq:Everything-H} \\
-              \dot a &= p_a \label{eq:Everything-a-dot} \\
-              \dot b &= p_b \label{eq:Everything-b-dot} \\
+              H &= \tfrac{1}{2} p_s^2 + \tfrac{1}{2} \mathbf{p}_a \cdot \mathbf{p}_a + \tfrac{1}{2} \mathbf{p}_b \cdot \mathbf{p}_b + a_0 \nonumber \\
+                &\quad + f([s, 1], s) + f(\mathbf{a}, s) \nonumber \\
+                &\quad + \mathit{pair}(\lvert \mathbf{a} - \mathbf{b} \rvert) + p_{2, 0} + p_{1, 0} \label{eq:Everything-H} \\
+              \dot{\mathbf{a}} &= \mathbf{p}_a \label{eq:Everything-a-dot} \\
+              \dot{\mathbf{b}} &= \mathbf{p}_b \label{eq:Everything-b-dot} \\
               \dot s &= p_s \label{eq:Everything-s-dot} \\
-              \dot p_{a, 0} &= \frac{\mathit{pair}'(\lvert a - b \rvert) (b_0 - a_0)}{\lvert a - b \rvert} - k p_{a, 0} \nonumber \\
-                &\quad - 3 - \left( \frac{\partial f}{\partial r_0} \right)(a, s) + \lambda_{\mathrm{meet}} b_1 \label{eq:Everything-p-dot_a-0} \\
-              \dot p_{a, 1} &= \frac{\mathit{pair}'(\lvert a - b \rvert) (b_1 - a_1)}{\lvert a - b \rvert} - k p_{a, 1} \nonumber \\
-                &\quad - \left( \frac{\partial f}{\partial r_1} \right)(a, s) - \lambda_{\mathrm{meet}} b_0 \label{eq:Everything-p-dot_a-1} \\
-              \dot p_{b, 0} &= \frac{\mathit{pair}'(\lvert a - b \rvert) (a_0 - b_0)}{\lvert a - b \rvert} - \tfrac{5}{2} \nonumber \\
+              \dot p_{a, 0} &= \frac{\mathit{pair}'(\lvert \mathbf{a} - \mathbf{b} \rvert) (b_0 - a_0)}{\lvert \mathbf{a} - \mathbf{b} \rvert} - k p_{a, 0} \nonumber \\
+                &\quad - 3 - \left( \frac{\partial f}{\partial r_0} \right)(\mathbf{a}, s) + \lambda_{\mathrm{meet}} b_1 \label{eq:Everything-p-dot_a-0} \\
+              \dot p_{a, 1} &= \frac{\mathit{pair}'(\lvert \mathbf{a} - \mathbf{b} \rvert) (b_1 - a_1)}{\lvert \mathbf{a} - \mathbf{b} \rvert} - k p_{a, 1} \nonumber \\
+                &\quad - \left( \frac{\partial f}{\partial r_1} \right)(\mathbf{a}, s) - \lambda_{\mathrm{meet}} b_0 \label{eq:Everything-p-dot_a-1} \\
+              \dot p_{b, 0} &= \frac{\mathit{pair}'(\lvert \mathbf{a} - \mathbf{b} \rvert) (a_0 - b_0)}{\lvert \mathbf{a} - \mathbf{b} \rvert} - \tfrac{5}{2} \nonumber \\
                 &\quad - \lambda_{\mathrm{meet}} a_1 \label{eq:Everything-p-dot_b-0} \\
-              \dot p_{b, 1} &= \frac{\mathit{pair}'(\lvert a - b \rvert) (a_1 - b_1)}{\lvert a - b \rvert} \nonumber \\
+              \dot p_{b, 1} &= \frac{\mathit{pair}'(\lvert \mathbf{a} - \mathbf{b} \rvert) (a_1 - b_1)}{\lvert \mathbf{a} - \mathbf{b} \rvert} \nonumber \\
                 &\quad + \lambda_{\mathrm{meet}} a_0 \label{eq:Everything-p-dot_b-1} \\
-              \dot p_s &= -\left( \frac{\partial f}{\partial s} \right)(a, s) - \left( \frac{\partial f}{\partial s} \right)([s, 1], s) \nonumber \\
+              \dot p_s &= -\left( \frac{\partial f}{\partial s} \right)(\mathbf{a}, s) - \left( \frac{\partial f}{\partial s} \right)([s, 1], s) \nonumber \\
                 &\quad - \left( \frac{\partial f}{\partial r_0} \right)([s, 1], s) \label{eq:Everything-p-dot_s}
             \end{align}
         "#]],
@@ -375,7 +370,7 @@ fn positions_by_turns_are_told_of_frames() {
          #[define(x = rot_z(a)*rot_y(b)*rot_x(c)*centre)]
          #[lagrangian(m/2*dot(der(x), der(x)) + J/2*(a_dot^2 + b_dot^2 + c_dot^2))]
          struct Turned { m: f64, J: f64, centre: Vector3<f64> }";
-    let [[text, _], ..] = rendered(source).forms;
+    let [[text, ..], ..] = rendered(source).forms;
     let (_, motion) = text.split_once("Equations of motion").expect("a heading");
     let (motion, _) = motion.split_once("\n\n").expect("a section after it");
     let note: Vec<&str> = motion.trim().lines().skip(3).map(str::trim).collect();
@@ -391,10 +386,66 @@ fn a_mass_on_a_wedge_by_cartesian_coordinates() {
     let source = "#[coordinates(x)] #[define(px = x*cos(alpha))] #[define(py = -x*sin(alpha))]
          #[lagrangian(m/2*(der(px)^2 + der(py)^2) - m*g*py)] #[force(x: -k*x)]
          struct Wedge { m: f64, g: f64, alpha: f64, k: f64 }";
-    let [[text, _], [named, _], [written_out, _]] = rendered(source).forms;
+    let [[text, ..], [named, ..], [written_out, ..]] = rendered(source).forms;
     assert!(text.contains("x: m ẍ = m g sin α − k x"), "{text}");
     assert!(
         named.contains("− k x") && written_out.contains("L = ½ m ẋ² + m g x sin α"),
         "{named}{written_out}"
     );
+}
+
+/// The lines of a system between a heading and an empty line.
+fn lines(source: &str, heading: &str) -> String {
+    let [[text, ..], ..] = rendered(source).forms;
+    let (_, lines) = text.split_once(heading).unwrap_or_else(|| panic!("no {heading} in {text}"));
+    lines.split("\n\n").next().unwrap_or_default().trim().to_owned()
+}
+
+#[test]
+fn momenta_are_factored() {
+    let bead = "#[coordinates(x)] #[define(y = x^2/(2*a))] #[lagrangian(m/2*(x_dot^2 + der(y)^2) - m*g*y)]
+         struct Bead { m: f64, a: f64, g: f64 }";
+    assert_eq!(lines(bead, "Momenta\n"), "p_x = m (1 + x²/a²) ẋ");
+}
+
+#[test]
+fn a_momentum_that_is_conserved_is_written_once() {
+    let free = "#[coordinates(r: [3], s)] #[lagrangian(m/2*dot(r_dot, r_dot) + s_dot^2/2 - s^2)]
+         struct Free { m: f64 }";
+    assert_eq!(lines(free, "Conserved\n"), "p_r = m ṙ\n  E = ½ ṡ² + ½ m ṙ·ṙ + s²   (T + U)");
+    assert_eq!(lines(free, "Momenta\n"), "p_s = ṡ");
+    let falling = "#[coordinates(r: [3])] #[lagrangian(m/2*dot(r_dot, r_dot) - m*g*r[2])]
+         struct Falling { m: f64, g: f64 }";
+    assert!(lines(falling, "Conserved\n").starts_with("p_r[0] = m ṙ[0]\n  p_r[1] = m ṙ[1]"));
+    assert_eq!(lines(falling, "Momenta\n"), "p_r = m ṙ");
+}
+
+/// Ω·(r×p) in a frame that turns at a constant rate, and the energy with (Ω×r)².
+#[test]
+fn scalars_of_vectors_are_products_of_vectors() {
+    let turning = "#[coordinates(r: [3])] #[define(v = r_dot + cross(Omega, r))]
+         #[lagrangian(m/2*dot(v, v) + G*m/norm(r))] struct Turning { m: f64, G: f64, Omega: Vector3<f64> }";
+    assert_eq!(lines(turning, "Hamiltonian\n"), "H = (p_r·p_r)/(2 m) − Ω·(r×p_r) − m G/|r|");
+    assert_eq!(lines(turning, "Conserved\n"), "E = ½ m ṙ·ṙ − m G/|r| − ½ m (Ω×r)·(Ω×r)   (not T + U)");
+}
+
+#[test]
+fn halves_of_angles_are_put_together() {
+    let half = "#[coordinates(theta)] #[define(y = 2*l*sin(theta/2)^2)]
+         #[lagrangian(m*l^2/2*theta_dot^2 - m*g*y)] struct Half { m: f64, g: f64, l: f64 }";
+    assert_eq!(lines(half, "Equations of motion\n"), "θ: l θ̈ = −g sin θ");
+}
+
+/// The suspension of the pendulum is moved; the second constraint is one on velocities that cannot be integrated.
+#[test]
+fn constraints_say_their_kinds_in_every_form() {
+    let source = "#[coordinates(x, y, z)] #[lagrangian((x_dot^2 + y_dot^2 + z_dot^2)/2 - g*y)]
+         #[constraint(rod: (x - a*sin(omega*t))^2 + y^2 - l^2 = 0)] #[constraint(slide: z_dot - y*x_dot = 0)]
+         struct Moved { g: f64, a: f64, omega: f64, l: f64 }";
+    let [[text, latex, html], ..] = rendered(source).forms;
+    for kind in ["(holonomic, rheonomic)", "(nonholonomic, as far as 8 points show)"] {
+        assert!(text.contains(kind) && html.contains(kind), "{text}{html}");
+        let clauses = kind.replace(", ", r", }\text{");
+        assert!(latex.contains(&format!(r"\text{{{clauses}}}")), "{latex}");
+    }
 }

@@ -6,6 +6,9 @@ use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
 use crate::diagnostics::Diagnostics;
 use crate::mechanics::{self, Derived};
+use crate::render::arrays::Arrays;
+use crate::render::formula::Formula;
+use crate::render::notation::Notation;
 use crate::render::{Rendered, render};
 use crate::resolve::{self, Problem};
 use crate::symbolic::Graph;
@@ -17,10 +20,21 @@ pub(super) struct System {
     pub(super) problem: Problem,
     pub(super) derived: Derived,
     pub(super) text: String,
-    pub(super) forms: [[String; 2]; 3],
+    pub(super) forms: [[String; 3]; 3],
+    /// How names are written in `text`.
+    pub(super) written: fn(&Arrays, &Formula) -> String,
+    pub(super) arrays: Arrays,
+}
+
+pub(super) fn in_unicode(_: &Arrays, formula: &Formula) -> String {
+    Notation::UNICODE.write(formula)
 }
 
 impl System {
+    pub(super) fn written(&self, formula: &Formula) -> String {
+        (self.written)(&self.arrays, formula)
+    }
+
     /// `None` where something is wrong with it.
     pub(super) fn new(tokens: TokenStream) -> Option<Self> {
         let mut diagnostics = Diagnostics::default();
@@ -30,7 +44,8 @@ impl System {
         let derived = mechanics::derive(&mut graph, &problem, &mut diagnostics)?;
         let Rendered { forms, .. } = render(&declaration, &graph, &problem, &derived);
         let text = forms[0][0].clone();
-        Some(Self { graph, problem, derived, text, forms })
+        let arrays = Arrays::of(&problem);
+        Some(Self { graph, problem, derived, text, forms, written: in_unicode, arrays })
     }
 }
 

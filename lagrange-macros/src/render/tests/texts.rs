@@ -2,7 +2,7 @@
 //!
 //! Both sides are compared together, as a set of terms whose factors have no order. An equation that a text prints divided by a
 //! factor, θ̈ = −(g/l) sin θ, is stated multiplied by it. Letters are those of the text, velocities in the place of their letters
-//! for them.
+//! for them. Works that are not open are cited by their chapters: editions number sections and equations differently.
 
 use super::systems::System;
 
@@ -29,7 +29,7 @@ const ENTRIES: &[Entry] = &[
         lines: &["m ẍ = λ_rod x", "m ÿ = λ_rod y", "m z̈ = −m g + λ_rod z", "E = ½ m (ẋ² + ẏ² + ż²) + m g z"],
     },
     Entry {
-        text: "Tong, Classical Dynamics, 2.5: the spherical pendulum",
+        text: "Tong, Classical Dynamics, 2.5.3: the spherical pendulum",
         system: "#[coordinates(theta, phi)]
             #[lagrangian(m*l^2/2*(theta_dot^2 + phi_dot^2*sin(theta)^2) + m*g*l*cos(theta))]
             struct S { m: f64, g: f64, l: f64 }",
@@ -62,7 +62,7 @@ const ENTRIES: &[Entry] = &[
         lines: &["p_x = (M + m) ẋ + m l θ̇ cos θ", "l θ̈ + ẍ cos θ + g sin θ = 0"],
     },
     Entry {
-        text: "Landau and Lifshitz, Mechanics, §5, problem 1: the coplanar double pendulum",
+        text: "Landau and Lifshitz, Mechanics, problems to §5, The Lagrangian for a system of particles: the coplanar double pendulum",
         system: "#[coordinates(phi1, phi2)]
             #[define(x1 = l1*sin(phi1))] #[define(y1 = l1*cos(phi1))]
             #[define(x2 = x1 + l2*sin(phi2))] #[define(y2 = y1 + l2*cos(phi2))]
@@ -71,7 +71,7 @@ const ENTRIES: &[Entry] = &[
         lines: &["L = ½ (m₁ + m₂) l₁² φ̇₁² + ½ m₂ l₂² φ̇₂² + m₂ l₁ l₂ φ̇₁ φ̇₂ cos(φ₁ − φ₂) + (m₁ + m₂) g l₁ cos φ₁ + m₂ g l₂ cos φ₂"],
     },
     Entry {
-        text: "Weisstein, ScienceWorld, Double Pendulum, (13) and (19)",
+        text: "Weisstein, ScienceWorld, Double Pendulum",
         system: "#[coordinates(theta1, theta2)]
             #[define(x1 = l1*sin(theta1))] #[define(y1 = -l1*cos(theta1))]
             #[define(x2 = x1 + l2*sin(theta2))] #[define(y2 = y1 - l2*cos(theta2))]
@@ -83,7 +83,7 @@ const ENTRIES: &[Entry] = &[
         ],
     },
     Entry {
-        text: "Morin, Introduction to Classical Mechanics, 6.1: a spring pendulum, (6.11) and (6.12)",
+        text: "Morin, Introduction to Classical Mechanics, chapter 6, The Lagrangian method: a spring pendulum",
         system: "#[coordinates(x, theta)]
             #[lagrangian(m/2*(x_dot^2 + (l + x)^2*theta_dot^2) + m*g*(l + x)*cos(theta) - k/2*x^2)]
             struct S { m: f64, l: f64, g: f64, k: f64 }",
@@ -117,39 +117,39 @@ const ENTRIES: &[Entry] = &[
         lines: &["ẍ + δ ẋ + α x + β x³ = γ cos(ω t)"],
     },
     Entry {
-        text: "Goldstein, Classical Mechanics, 3.2, (3.8) and (3.10) with f = −V′: a central force",
+        text: "Goldstein, Classical Mechanics, chapter 3, The central force problem, with f = −V′",
         system: "#[coordinates(r, theta)] #[function(V(r) = potential)]
             #[lagrangian(m/2*(r_dot^2 + r^2*theta_dot^2) - V(r))] struct S { m: f64, potential: Potential }",
         lines: &["m r̈ − m r θ̇² = −V′(r)", "p_θ = m r² θ̇"],
     },
     Entry {
-        text: "Goldstein, 1.6: Atwood's machine",
+        text: "Goldstein, chapter 1, Survey of the elementary principles: Atwood's machine",
         system: "#[coordinates(x)] #[lagrangian((M1 + M2)/2*x_dot^2 + M1*g*x + M2*g*(l - x))]
             struct S { M1: f64, M2: f64, g: f64, l: f64 }",
         lines: &["(M₁ + M₂) ẍ = (M₁ − M₂) g"],
     },
     Entry {
-        text: "Goldstein, 1.6: a bead on a rotating wire",
+        text: "Goldstein, chapter 1: a bead on a rotating wire",
         system: "#[coordinates(r)] #[define(x = r*cos(omega*t))] #[define(y = r*sin(omega*t))]
             #[lagrangian(m/2*(der(x)^2 + der(y)^2))] struct S { m: f64, omega: f64 }",
         lines: &["r̈ = r ω²"],
     },
     Entry {
-        text: "Goldstein, 2.4: a hoop rolls down an inclined plane",
+        text: "Goldstein, chapter 2, Variational principles and Lagrange's equations: a hoop rolls down an inclined plane",
         system: "#[coordinates(x, theta)]
             #[lagrangian(M/2*x_dot^2 + M*r^2/2*theta_dot^2 - M*g*(l - x)*sin(phi))]
             #[constraint(roll: r*theta_dot - x_dot = 0)] struct S { M: f64, r: f64, g: f64, l: f64, phi: f64 }",
         lines: &["M ẍ − M g sin φ + λ_roll = 0", "M r θ̈ − λ_roll = 0"],
     },
     Entry {
-        text: "Landau and Lifshitz, §40, problem 1: H in cylindrical coordinates",
+        text: "Landau and Lifshitz, problems to §40, Hamilton's equations: H in cylindrical coordinates",
         system: "#[coordinates(r, phi, z)] #[function(U(r, phi, z) = potential)]
             #[lagrangian(m/2*(r_dot^2 + r^2*phi_dot^2 + z_dot^2) - U(r, phi, z))]
             struct S { m: f64, potential: Potential }",
         lines: &["H = (p_r² + p_φ²/r² + p_z²)/(2 m) + U(r, φ, z)"],
     },
     Entry {
-        text: "Landau and Lifshitz, §40, problem 1: H in spherical coordinates",
+        text: "Landau and Lifshitz, problems to §40: H in spherical coordinates",
         system: "#[coordinates(r, theta, phi)] #[function(U(r, theta, phi) = potential)]
             #[lagrangian(m/2*(r_dot^2 + r^2*theta_dot^2 + r^2*sin(theta)^2*phi_dot^2) - U(r, theta, phi))]
             struct S { m: f64, potential: Potential }",
@@ -168,7 +168,7 @@ const ENTRIES: &[Entry] = &[
         lines: &["l θ̈ + g sin θ = 0"],
     },
     Entry {
-        text: "Goldstein, 2.5: a series circuit",
+        text: "Goldstein, chapter 2: a series circuit",
         system: "#[coordinates(q)] #[lagrangian(L0/2*q_dot^2 - q^2/(2*C))] #[force(q: V - R*q_dot)]
             struct S { L0: f64, C: f64, R: f64, V: f64 }",
         lines: &["L₀ q̈ + R q̇ + q/C = V"],
@@ -184,14 +184,14 @@ const ENTRIES: &[Entry] = &[
         ],
     },
     Entry {
-        text: "Strogatz, Nonlinear Dynamics and Chaos, (3.5.1): an overdamped bead on a rotating hoop",
+        text: "Strogatz, Nonlinear Dynamics and Chaos, 3.5: an overdamped bead on a rotating hoop",
         system: "#[coordinates(phi)]
             #[lagrangian(m*r^2/2*(phi_dot^2 + omega^2*sin(phi)^2) + m*g*r*cos(phi))] #[force(phi: -b*r*phi_dot)]
             struct S { m: f64, r: f64, omega: f64, g: f64, b: f64 }",
         lines: &["m r φ̈ = −b φ̇ − m g sin φ + m r ω² sin φ cos φ"],
     },
     Entry {
-        text: "Strogatz, (12.5.1): the forced double well",
+        text: "Strogatz, chapter 12, Strange attractors: the forced double well",
         system: "#[coordinates(x)] #[lagrangian(x_dot^2/2 + x^2/2 - x^4/4)] #[force(x: F*cos(omega*t) - delta*x_dot)]
             struct S { F: f64, omega: f64, delta: f64 }",
         lines: &["ẍ + δ ẋ − x + x³ = F cos(ω t)"],
@@ -204,14 +204,14 @@ const ENTRIES: &[Entry] = &[
         lines: &["ẍ = 3 n² x + 2 n ẏ", "ÿ = −2 n ẋ", "z̈ = −n² z"],
     },
     Entry {
-        text: "Murray and Dermott, Solar System Dynamics, (3.22)–(3.24): the restricted problem of three bodies",
+        text: "Murray and Dermott, Solar System Dynamics, chapter 3, The restricted three-body problem",
         system: "#[coordinates(x, y, z)] #[function(U(x, y, z) = potential)]
             #[lagrangian((x_dot^2 + y_dot^2 + z_dot^2)/2 + n*(x*y_dot - y*x_dot) + U(x, y, z))]
             struct S { n: f64, potential: Potential }",
         lines: &["ẍ − 2 n ẏ = ∂U/∂x", "ÿ + 2 n ẋ = ∂U/∂y", "z̈ = ∂U/∂z"],
     },
     Entry {
-        text: "Landau and Lifshitz, §23, problem 1: two oscillators coupled by α x y",
+        text: "Landau and Lifshitz, chapter V, Small oscillations: two oscillators coupled by α x y",
         system: "#[coordinates(x, y)]
             #[lagrangian((x_dot^2 + y_dot^2)/2 - omega0^2/2*(x^2 + y^2) + alpha*x*y)] struct S { omega0: f64, alpha: f64 }",
         lines: &["ẍ + ω₀² x = α y", "ÿ + ω₀² y = α x"],
@@ -223,7 +223,7 @@ const ENTRIES: &[Entry] = &[
         lines: &["m ẍ = F cos(ω t) − k x − c ẋ"],
     },
     Entry {
-        text: "Feynman, Lectures, volume II, 29-2: a charge in a uniform magnetic field along z",
+        text: "Feynman, Lectures, volume II, The motion of charges in electric and magnetic fields: a uniform field along z",
         system: "#[coordinates(x, y)] #[lagrangian(m/2*(x_dot^2 + y_dot^2) + q*B/2*(x*y_dot - y*x_dot))]
             struct S { m: f64, q: f64, B: f64 }",
         lines: &["m ẍ = q B ẏ", "m ÿ = −q B ẋ"],
@@ -240,7 +240,7 @@ fn texts_print_the_same_equations() {
         let system =
             System::new(system.parse().expect("tokens")).unwrap_or_else(|| panic!("{text}: {system}"));
         let printed: Vec<&str> =
-            system.forms.iter().flat_map(|[text, _]| text.lines()).map(str::trim).collect();
+            system.forms.iter().flat_map(|[text, ..]| text.lines()).map(str::trim).collect();
         let printed = printed.iter().map(|line| line.split("   (").next().unwrap_or_default());
         let printed: Vec<&str> =
             printed.map(|line| line.split_once(": ").map_or(line, |(_, line)| line.trim())).collect();

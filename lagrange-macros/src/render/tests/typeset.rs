@@ -19,7 +19,7 @@ fn latex_sets_all_systems_without_an_overfull_line() {
         "\\documentclass{article}\n\\usepackage[utf8]{inputenc}\n\\usepackage{amsmath}\n\\allowdisplaybreaks\n\\hfuzz=0.1pt\n\\begin{document}\n",
     );
     let folders = &["tests", "examples", "lagrange-core/src", "lagrange-core/benches"];
-    let systems = of_all(folders, |system| system.forms.map(|[_, latex]| latex));
+    let systems = of_all(folders, |system| system.forms.map(|[_, latex, _]| latex));
     let systems: Vec<String> = systems.into_iter().flatten().collect();
     for (number, latex) in systems.iter().enumerate() {
         // Labels of systems that have one name would be equal.

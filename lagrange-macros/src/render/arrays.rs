@@ -1,0 +1,44 @@
+//! Which names stand for arrays: vectors, matrices, and arrays of them.
+
+use rustc_hash::FxHashSet;
+
+use super::formula::Formula;
+use crate::resolve::Problem;
+
+/// Names of arrays, with empty brackets for each index: `r`, `p[]`, `link[].c`.
+pub(super) struct Arrays(FxHashSet<String>);
+
+impl Arrays {
+    pub(super) fn of(problem: &Problem) -> Self {
+        let mut arrays = Self(FxHashSet::default());
+        for label in &problem.coordinates {
+            ["", "p_", "R_", "Q_"].iter().for_each(|of| arrays.add(&format!("{of}{}", label.text)));
+        }
+        (0..problem.parameters.entries.len()).for_each(|k| arrays.add(&problem.parameters.name(k)));
+        problem.names.values().for_each(|name| arrays.add(name));
+        problem.functions.iter().flat_map(|function| &function.names).for_each(|name| arrays.add(name));
+        problem.observables.iter().flat_map(|observed| observed.names()).for_each(|name| arrays.add(&name));
+        arrays
+    }
+
+    /// All arrays that an entry is in.
+    fn add(&mut self, entry: &str) {
+        let mut key = key(&Formula::labelled(entry, 0)).unwrap_or_default();
+        while key.ends_with("[]") {
+            key.truncate(key.len() - 2);
+            self.0.insert(key.clone());
+        }
+    }
+
+    pub(super) fn contains(&self, formula: &Formula) -> bool {
+        key(formula).is_some_and(|key| self.0.contains(&key))
+    }
+}
+
+fn key(formula: &Formula) -> Option<String> {
+    match formula {
+        Formula::Name { base, indices, .. } => Some(base.clone() + &"[]".repeat(indices.len())),
+        Formula::Member(of, member) => Some(format!("{}.{}", key(of)?, key(member)?)),
+        _ => None,
+    }
+}

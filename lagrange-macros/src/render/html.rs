@@ -1,0 +1,86 @@
+//! The page as HTML, its formulas in MathML.
+//!
+//! Of MathML Core no line ends by itself. So every part of an equation that may begin a line is a formula of its own, and they
+//! stand side by side as words do: the equation then takes as many lines as the page needs. Short left sides stand below each
+//! other; long ones begin their line.
+
+use super::lines::{Equation, Line, Section};
+use super::notation::Notation;
+use super::remark::{Part, Remark};
+
+/// A left side wider than this begins its line, in points at 10 point.
+const LEFT: f64 = 60.0;
+
+// No style sheet is known where this stands.
+const PAGE: &str = "overflow-x:auto";
+const ROWS: &str =
+    "display:grid;grid-template-columns:auto minmax(0,1fr);gap:.5em .25em;align-items:baseline";
+const SHORT: &str = "text-align:right";
+const LONG: &str = "grid-column:1/-1;padding-left:2em;text-indent:-2em";
+const WRAPPED: &str = "padding-left:1em;text-indent:-1em";
+// On a line of its own where it does not fit behind the equation.
+const REMARK: &str = "display:inline-block;text-indent:0;opacity:.75;margin-left:1em";
+
+/// One element, without an empty line in it: so it stands in the documentation that is written in Markdown.
+pub(super) fn html(notation: Notation, sections: &[Section]) -> String {
+    let page = Rows { notation };
+    let sections = sections.iter().filter(|section| !section.lines.is_empty());
+    let sections: String = sections.map(|section| page.section(section)).collect();
+    format!("<div class=\"equations\" style=\"{PAGE}\">\n{sections}</div>\n")
+}
+
+struct Rows<'a> {
+    notation: Notation<'a>,
+}
+
+impl Rows<'_> {
+    fn section(&self, Section { heading, lines, note }: &Section) -> String {
+        let rows: String = lines.iter().map(|line| self.row(line)).collect();
+        let note = note.as_ref().map_or(String::new(), |note| format!("<p>{}</p>\n", text(note)));
+        format!("<h5>{heading}</h5>\n<div style=\"{ROWS}\">\n{rows}</div>\n{note}")
+    }
+
+    fn row(&self, line: &Line) -> String {
+        let notation = self.notation;
+        let remark = self.remark(line.label.as_deref(), &line.remark);
+        let (left, right) = match &line.equation {
+            Equation::Known(left, right) => {
+                let mut right = notation.pieces(right);
+                right[0].insert_str(0, &notation.spelling.sign(" = "));
+                (notation.pieces(left), right)
+            }
+            Equation::Term(formula) => (notation.pieces(formula), Vec::new()),
+            Equation::TooLong(size) => {
+                let label =
+                    line.label.as_ref().map_or(String::new(), |label| format!("<span>{label}: </span>"));
+                return format!("<div style=\"{LONG}\">{label}… ({size} symbols){remark}</div>\n");
+            }
+        };
+        if notation.spelling.width(&left.concat()) > LEFT || right.is_empty() {
+            return format!("<div style=\"{LONG}\">{}{remark}</div>\n", formulas(&[left, right].concat()));
+        }
+        let [left, right] = [left, right].map(|pieces| formulas(&pieces));
+        format!("<div style=\"{SHORT}\">{left}</div><div style=\"{WRAPPED}\">{right}{remark}</div>\n")
+    }
+
+    /// The name of a constraint, and what it is.
+    fn remark(&self, label: Option<&str>, remark: &Remark) -> String {
+        let part = |part| match part {
+            Part::Words(words) => text(&words),
+            Part::Formula(formula) => formulas(&self.notation.pieces(&formula)),
+        };
+        let said: String = remark.in_parentheses().into_iter().map(part).collect();
+        let name = label.map_or(String::new(), |label| text(label) + " ");
+        if said.is_empty() { said } else { format!("<span style=\"{REMARK}\">{name}{said}</span>") }
+    }
+}
+
+/// Side by side.
+fn formulas(pieces: &[String]) -> String {
+    let formulas = pieces.iter().map(|piece| format!("<math displaystyle=\"true\">{piece}</math>"));
+    formulas.collect::<Vec<_>>().join("<wbr/>")
+}
+
+fn text(plain: &str) -> String {
+    plain.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('\n', " ")
+}

@@ -1,0 +1,71 @@
+//! What is said of an equation beside it.
+
+use super::formula::Formula;
+use super::notation::Notation;
+
+/// Words with formulas between them.
+#[derive(Default)]
+pub(super) struct Remark(Vec<Vec<Part>>);
+
+#[derive(Clone, PartialEq)]
+pub(super) enum Part {
+    Words(String),
+    Formula(Formula),
+}
+
+impl Part {
+    pub(super) fn words(words: impl Into<String>) -> Self {
+        Self::Words(words.into())
+    }
+}
+
+impl Remark {
+    pub(super) fn of(parts: Vec<Part>) -> Self {
+        let mut remark = Self::default();
+        remark.and(parts);
+        remark
+    }
+
+    /// Says this too, unless it is said already.
+    pub(super) fn and(&mut self, parts: Vec<Part>) {
+        if !parts.is_empty() && !self.0.contains(&parts) {
+            self.0.push(parts);
+        }
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Its parts in a row, words with words.
+    fn parts(&self, bounds: [&str; 2]) -> Vec<Part> {
+        let mut all: Vec<Part> = Vec::new();
+        let [open, close] = bounds.map(Part::words);
+        for part in [vec![open], self.0.join(&Part::words("; ")), vec![close]].concat() {
+            match (all.last_mut(), part) {
+                (Some(Part::Words(before)), Part::Words(words)) => *before += &words,
+                (_, part) => all.push(part),
+            }
+        }
+        all
+    }
+
+    /// Nothing where nothing is said.
+    pub(super) fn in_parentheses(&self) -> Vec<Part> {
+        if self.is_empty() { Vec::new() } else { self.parts(["(", ")"]) }
+    }
+
+    /// The text, given what becomes of words and of formulas in it.
+    pub(super) fn spelled(
+        &self,
+        notation: Notation,
+        words: impl Fn(&str) -> String,
+        formula: impl Fn(String) -> String,
+    ) -> String {
+        let spelled = self.in_parentheses().into_iter().map(|part| match part {
+            Part::Words(text) => words(&text),
+            Part::Formula(inner) => formula(notation.write(&inner)),
+        });
+        spelled.collect()
+    }
+}

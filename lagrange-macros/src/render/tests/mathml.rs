@@ -1,0 +1,287 @@
+//! Reads MathML: as XML, and then as the line of text that it says.
+
+use unicode_normalization::UnicodeNormalization;
+
+use crate::render::arrays::Arrays;
+use crate::render::formula::Formula;
+use crate::render::notation::Notation;
+
+/// An element with what is in it, or text.
+#[derive(Debug)]
+enum Xml {
+    Element { name: String, attributes: String, inside: Vec<Self> },
+    Text(String),
+}
+
+/// The elements of HTML and of MathML Core that are written.
+const ELEMENTS: [&str; 23] = [
+    "div",
+    "h5",
+    "p",
+    "span",
+    "wbr",
+    "math",
+    "mi",
+    "mn",
+    "mo",
+    "mtext",
+    "mspace",
+    "mrow",
+    "mfrac",
+    "msqrt",
+    "msub",
+    "msup",
+    "msubsup",
+    "mover",
+    "munderover",
+    "mtable",
+    "mtr",
+    "mtd",
+    "root",
+];
+
+/// How many elements these have in them.
+const PARTS: [(&str, usize); 6] =
+    [("mfrac", 2), ("msub", 2), ("msup", 2), ("msubsup", 3), ("mover", 2), ("munderover", 3)];
+
+/// All of a text, which must be well-formed.
+fn parsed(text: &str) -> Vec<Xml> {
+    let mut open: Vec<(String, String, Vec<Xml>)> = vec![("root".into(), String::new(), Vec::new())];
+    let mut rest = text;
+    while let Some((before, tag)) = rest.split_once('<') {
+        assert!(!before.contains('>') && !before.contains('&'), "a sign that stands for itself: {before}");
+        let top = open.last_mut().expect("the root");
+        if !before.trim().is_empty() {
+            top.2.push(Xml::Text(before.to_owned()));
+        }
+        let (tag, after) = tag.split_once('>').expect("the end of a tag");
+        rest = after;
+        if let Some(name) = tag.strip_prefix('/') {
+            let (opened, attributes, inside) = open.pop().expect("one that is open");
+            assert_eq!(opened, name, "{text}");
+            let element = checked(opened, attributes, inside);
+            open.last_mut().expect("the root").2.push(element);
+        } else if let Some(name) = tag.strip_suffix('/') {
+            top.2.push(checked(name.to_owned(), String::new(), Vec::new()));
+        } else {
+            let (name, attributes) = tag.split_once(' ').unwrap_or((tag, ""));
+            assert_eq!(attributes.matches("=\"").count() * 2, attributes.matches('"').count(), "{tag}");
+            open.push((name.to_owned(), attributes.to_owned(), Vec::new()));
+        }
+    }
+    let (root, _, inside) = open.pop().expect("the root");
+    assert!(root == "root" && rest.trim().is_empty(), "{root} is not closed in {text}");
+    inside
+}
+
+fn checked(name: String, attributes: String, inside: Vec<Xml>) -> Xml {
+    assert!(ELEMENTS.contains(&&*name), "{name} is no element");
+    if let Some((_, count)) = PARTS.iter().find(|(known, _)| *known == name) {
+        assert_eq!(inside.len(), *count, "{name} of {inside:?}");
+    }
+    let is_leaf = ["mi", "mn", "mo", "mtext", "h5"].contains(&&*name);
+    assert!(!is_leaf || matches!(inside[..], [Xml::Text(_)]), "{name} of {inside:?}");
+    Xml::Element { name, attributes, inside }
+}
+
+impl Xml {
+    fn is(&self, wanted: &str) -> bool {
+        matches!(self, Self::Element { name, .. } if name == wanted)
+    }
+
+    fn has(&self, wanted: &str) -> bool {
+        matches!(self, Self::Element { attributes, .. } if attributes.contains(wanted))
+    }
+
+    fn inside(&self) -> &[Self] {
+        match self {
+            Self::Element { inside, .. } => inside,
+            Self::Text(_) => &[],
+        }
+    }
+
+    /// All its text.
+    fn text(&self) -> String {
+        match self {
+            Self::Text(text) => text.clone(),
+            Self::Element { inside, .. } => inside.iter().map(Self::text).collect(),
+        }
+    }
+
+    /// The text that it says, by itself.
+    fn said(&self) -> String {
+        let (Self::Element { name, inside, .. }, text) = (self, || self.text().nfkc().collect::<String>())
+        else {
+            return self.text();
+        };
+        match (&**name, &inside[..]) {
+            ("mi" | "mtext", _) => self.text().replace([' ', '\u{a0}'], "_"),
+            ("mn", _) => text(),
+            ("mo", _) => operator(self),
+            ("mrow", all) => line(all.iter()),
+            ("mfrac", [above, below]) if is_differential(above) => {
+                format!("{}/{}", differential(above), differential(below))
+            }
+            ("mfrac", [above, below]) => format!("(({})/({}))", above.said(), below.said()),
+            ("msqrt", all) => format!("√({})", line(all.iter())),
+            ("msub", [base, below]) => indexed(base, below),
+            ("msubsup", [base, below, above]) if above.text().starts_with('′') => {
+                indexed(base, below) + &above.text()
+            }
+            ("msubsup", [base, below, above]) => format!("({})^({})", indexed(base, below), above.said()),
+            ("msup", [base, above]) if above.text().starts_with('′') => base.said() + &above.text(),
+            ("msup", [base, above]) if is_function(base) => base.said() + &superscript(&above.text()),
+            ("msup", [base, above]) => format!("({})^({})", base.said(), above.said()),
+            ("mover", [base, dots]) if dots.text() == "˙" => base.said() + "\u{307}",
+            ("mover", [base, _]) => base.said() + "\u{308}",
+            _ => String::new(),
+        }
+    }
+
+    /// Of an operator.
+    fn sign(&self) -> &str {
+        match self.inside() {
+            [Self::Text(text)] if self.is("mo") => text,
+            _ => "",
+        }
+    }
+}
+
+fn indexed(base: &Xml, below: &Xml) -> String {
+    format!("{}_{}", base.said(), below.said().replace(", ", "_"))
+}
+
+fn is_function(base: &Xml) -> bool {
+    base.is("mi") && base.text().chars().count() > 1
+}
+
+fn superscript(digits: &str) -> String {
+    digits
+        .chars()
+        .map(|digit| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(digit as usize - '0' as usize).expect("a digit"))
+        .collect()
+}
+
+fn is_differential(above: &Xml) -> bool {
+    let first = above.inside().first().filter(|_| above.is("mrow"));
+    first.is_some_and(|first| !first.is("mfrac") && first.text().starts_with('∂'))
+}
+
+/// `∂²U`, `∂x∂y`
+fn differential(row: &Xml) -> String {
+    let part = |part: &Xml| match part.inside() {
+        [sign, order] if part.is("msup") && sign.text() == "∂" => {
+            format!("∂{}", superscript(&order.text()))
+        }
+        _ => part.said(),
+    };
+    row.inside().iter().map(part).collect()
+}
+
+fn operator(sign: &Xml) -> String {
+    match &*sign.text() {
+        "−" if sign.has("prefix") => "−".to_owned(),
+        infix @ ("+" | "−" | "=") => format!(" {infix} "),
+        "," => ", ".to_owned(),
+        "\u{2061}" => String::new(),
+        "\u{2062}" => " ".to_owned(),
+        other => other.to_owned(),
+    }
+}
+
+/// Side by side: a bare argument gets parentheses, and a dot before a number is no product of vectors.
+fn line<'a>(all: impl Iterator<Item = &'a Xml>) -> String {
+    let all: Vec<&Xml> = all.collect();
+    let mut text = String::new();
+    for (place, part) in all.iter().enumerate() {
+        let before = |back: usize| place.checked_sub(back).map(|place| all[place]);
+        let is_applied = before(2).is_some_and(|part| part.sign() == "\u{2061}");
+        let is_number = |part: &&Xml| part.is("mn") || part.is("msup") && part.inside()[0].is("mn");
+        let runs_on = before(1).is_some_and(|part| part.sign() == "\u{2062}");
+        assert!(!(is_number(part) && runs_on), "numbers run into each other: {text} {}", part.said());
+        text += &match part.sign() {
+            "×" | "·" if all.get(place + 1).is_some_and(is_number) => " · ".to_owned(),
+            _ if is_applied && before(1).is_some_and(|part| part.is("mspace")) => {
+                format!("({})", part.said())
+            }
+            _ => part.said(),
+        };
+    }
+    text
+}
+
+/// What a formula is in the lines that are read.
+pub(super) fn written(arrays: &Arrays, formula: &Formula) -> String {
+    line(parsed(&Notation::MATHML.with(arrays).write(formula)).iter())
+}
+
+/// A page of text with its equations as the HTML has them, whose letters and digits must be those of the text.
+pub(super) fn read(text: &str, html: &str) -> String {
+    assert!(!html.contains("\n\n"), "an empty line");
+    let page = parsed(html);
+    let mut rows = page[0].inside().iter().filter(|part| part.is("div")).flat_map(rows);
+    let lines = text.lines().map(|plain| match is_row(plain) {
+        true => rows.next().unwrap_or_else(|| panic!("{plain} is missing in {html}")).instead_of(plain),
+        false => plain.to_owned(),
+    });
+    let read = lines.collect::<Vec<_>>().join("\n");
+    assert!(rows.next().is_none(), "{html} has more than {text}");
+    read
+}
+
+/// And not a note.
+fn is_row(plain: &str) -> bool {
+    plain.starts_with("  ")
+        && !plain.contains('`')
+        && !plain.contains("velocity constraints, or")
+        && !plain.contains("take fewer operations")
+}
+
+struct Row {
+    equation: String,
+    symbols: String,
+}
+
+/// The rows of a part of the page.
+fn rows(part: &Xml) -> Vec<Row> {
+    let (mut rows, mut left) = (Vec::new(), Vec::new());
+    for cell in part.inside() {
+        left.push(cell);
+        if !cell.has("text-align:right") {
+            let cells = std::mem::take(&mut left);
+            let parts = || cells.iter().flat_map(|cell| cell.inside());
+            let formulas = parts().filter(|part| part.is("math")).flat_map(Xml::inside);
+            let symbols: String = parts().filter(|part| !part.is("span")).map(Xml::text).collect();
+            // Roots of what is too wide for a root are powers.
+            let symbols = symbols.replace("1/2", "");
+            rows.push(Row { equation: line(formulas), symbols });
+        }
+    }
+    rows
+}
+
+impl Row {
+    /// The line of text with this equation.
+    fn instead_of(&self, plain: &str) -> String {
+        let (label, said) = plain.split_once(": ").unwrap_or(("", plain));
+        let said = said.trim();
+        let (equation, remark) =
+            said.split_once("   (").map_or((said, ""), |(equation, _)| (equation, "   (…)"));
+        let [ours, theirs] = [&self.symbols, equation].map(symbols);
+        assert_eq!(ours, theirs, "{} for {plain}", self.equation);
+        if self.equation.is_empty() {
+            return plain.to_owned();
+        }
+        let label = if label.is_empty() { "  ".to_owned() } else { format!("{label}: ") };
+        format!("{label}{}{remark}", self.equation)
+    }
+}
+
+/// All that is no sign of how the formula is put together, sorted. A 1 may stand above a line by itself.
+fn symbols(text: &str) -> String {
+    let text = text.replace('∑', "Σ");
+    let is_symbol = |sign: &char| !sign.is_whitespace() && !"1()[]/_,.^√⁄…·\u{2061}\u{2062}".contains(*sign);
+    let mut symbols: Vec<char> = text.nfkd().filter(is_symbol).collect();
+    symbols.sort_unstable();
+    symbols.into_iter().collect()
+}
