@@ -113,8 +113,9 @@
 //! is shared is computed once, and a recursion along a chain costs as much as its length. That holds for the solved
 //! accelerations too: the rates of velocities that definitions name are unknowns beside the accelerations where that
 //! makes the equations sparse (the articulated-body algorithm). So name the velocities of a chain or a tree, or its places
-//! with `der(…)` in L, each from the one before; where bodies turn in space, declare their [frames](#frames) instead, which
-//! costs a fraction.
+//! with `der(…)` in L. Each from the one before, `x[i] = x[i-1] + …`, or as a sum, `x[i] = sum(j in 0..i+1, …)`, is the
+//! same: sums in L that have terms in common are written by what they share (but not where frames are declared). Where
+//! bodies turn in space, declare their [frames](#frames) instead, which costs a fraction.
 //!
 //! ```
 //! use lagrange_core::prelude::*;

@@ -233,3 +233,65 @@ impl ByHand<5, 0> for Chain {
 fn chain_of_five_links() {
     check::<Chain, _, _, _>();
 }
+
+/// Rods whose centres are sums over the rods before, last first, with drag on each and a push on the last.
+#[derive(Lagrangian)]
+#[coordinates(theta: [6])]
+#[define(before[i in 0..6] = [sum(j in 0..i, l[j]*sin(theta[j])), -sum(j in 0..i, l[j]*cos(theta[j]))])]
+#[define(r[k in 0..6] = before[5-k] + c[5-k]*[sin(theta[5-k]), -cos(theta[5-k])])]
+#[lagrangian(sum(i in 0..6, m[i]/2 * (dot(der(r[5-i]), der(r[5-i])) + l[i]^2/12 * theta_dot[i]^2) - m[i]*g*r[5-i][1]))]
+#[dissipation(sum(i in 0..6, drag/2 * dot(der(r[i]), der(r[i]))))]
+#[power([push, 0], der(r[0]))]
+pub(crate) struct Rods {
+    m: [f64; 6],
+    l: [f64; 6],
+    c: [f64; 6],
+    g: f64,
+    drag: f64,
+    push: f64,
+}
+
+impl Rods {
+    /// The square of the speed of each centre, and its height.
+    fn centres<D: Number>(&self, theta: &[D; 6], theta_dot: &[D; 6]) -> [(D, D); 6] {
+        std::array::from_fn(|i| {
+            let (mut vx, mut vy, mut y) = (D::zero(), D::zero(), D::zero());
+            for j in 0..=i {
+                let arm = if j == i { self.c[j] } else { self.l[j] };
+                vx += theta[j].cos() * theta_dot[j] * arm;
+                vy += theta[j].sin() * theta_dot[j] * arm;
+                y -= theta[j].cos() * arm;
+            }
+            (vx * vx + vy * vy, y)
+        })
+    }
+}
+
+impl ByHand<6, 0> for Rods {
+    fn random(random: &mut Random) -> Self {
+        let [m, l, c] = [(); 3].map(|()| random.array(Random::positive));
+        Self { m, l, c, g: random.positive(), drag: random.positive(), push: random.positive() }
+    }
+
+    fn l<D: Number>(&self, _: D, theta: &[D; 6], theta_dot: &[D; 6]) -> D {
+        let centres = self.centres(theta, theta_dot).into_iter().enumerate();
+        centres.fold(D::zero(), |total, (i, (square, y))| {
+            let turning = theta_dot[i] * theta_dot[i] * (self.l[i].powi(2) / 12.0);
+            total + (square + turning) * (self.m[i] / 2.0) - y * (self.m[i] * self.g)
+        })
+    }
+
+    fn dissipation<D: Number>(&self, _: D, theta: &[D; 6], theta_dot: &[D; 6]) -> D {
+        let squares = self.centres(theta, theta_dot).into_iter().map(|(square, _)| square);
+        squares.fold(D::zero(), |total, square| total + square * (self.drag / 2.0))
+    }
+
+    fn forces(&self, _: f64, theta: &[f64; 6], _: &[f64; 6]) -> [f64; 6] {
+        std::array::from_fn(|j| self.push * theta[j].cos() * if j == 5 { self.c[j] } else { self.l[j] })
+    }
+}
+
+#[test]
+fn rods_whose_centres_are_sums() {
+    check::<Rods, _, _, _>();
+}

@@ -180,6 +180,17 @@ impl<T: SimdRealField + SupersetOf<f64> + Copy + Debug + 'static> Scalar for T {
         angles
     }
 
+    // One instruction. Of many calls of `f64::min` the compiler makes one of vectors, which waits for all.
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        self.select(self.simd_lt(other), other)
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        self.select(self.simd_gt(other), other)
+    }
+
     #[inline(always)]
     fn by_order(self, other: Self, less: Self, equal: Self, greater: Self) -> Self {
         let ordered = equal.select(self.simd_eq(other), greater);
@@ -202,7 +213,7 @@ impl<T: SimdRealField + SupersetOf<f64> + Copy + Debug + 'static> Scalar for T {
         asin => simd_asin(), acos => simd_acos(), atan => simd_atan(), atan2 => simd_atan2(x),
         sinh => simd_sinh(), cosh => simd_cosh(), tanh => simd_tanh(),
         exp => simd_exp(), ln => simd_ln(), sqrt => simd_sqrt(), abs => simd_abs(),
-        powf => simd_powf(exponent), min => simd_min(other), max => simd_max(other),
+        powf => simd_powf(exponent),
     }
 }
 

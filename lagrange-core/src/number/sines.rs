@@ -43,12 +43,12 @@ const COSINE: [f64; 6] = [
     f64::from_bits(0xbda8_fae9_be88_38d4),
 ];
 
-/// The angles less full turns where one is too large.
+/// The angles, less full turns of those that are too large.
 #[inline(always)]
 pub(super) fn small<const K: usize>(angles: [f64; K]) -> [f64; K] {
-    // Comparisons with what is no number fail.
-    let is_small = angles.iter().fold(true, |all, x| all & (x.abs() < LARGEST));
-    if is_small { angles } else { less_turns(angles) }
+    // None is larger than the sum, which no vector is made of; and a comparison with what is no number fails.
+    let sum = angles.iter().fold(0.0, |sum, x| sum + x.abs());
+    if sum < LARGEST { angles } else { less_turns(angles) }
 }
 
 #[cold]

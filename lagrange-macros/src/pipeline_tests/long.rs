@@ -5,9 +5,10 @@ use proc_macro2::{TokenStream, TokenTree};
 use super::{systems, tokens};
 use crate::expand;
 
-/// A chain whose places are sums over all links before: nothing is shared.
+/// Squares of long sums that have no term in common.
 fn flat(n: usize) -> String {
-    let arm = |function: &str| format!("sum(j in 0..i+1, l[j]*{function}(theta[j])*theta_dot[j])^2");
+    let arm =
+        |function: &str| format!("sum(j in 0..i+1, (i + j + 1)*l[j]*{function}(theta[j])*theta_dot[j])^2");
     format!(
         "#[coordinates(theta: [{n}])]
          #[lagrangian(sum(i in 0..{n}, m[i]/2*({} + {})))]

@@ -13,6 +13,7 @@ mod in_turn;
 mod integrability;
 mod linearization;
 mod long;
+mod nested;
 mod sizes;
 mod stages;
 mod stub;

@@ -14,6 +14,7 @@ mod index;
 mod lower;
 mod matrix;
 mod members;
+pub(crate) mod nested;
 mod outline;
 mod parameters;
 mod property;
@@ -116,7 +117,7 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
     let names = lowering.names(declaration);
     let frames_are_cheaper = lowering.frames_are_cheaper();
     let coordinates = labels(declaration);
-    let Lowering { graph, parameters, diagnostics, frames, .. } = lowering;
+    let Lowering { mut graph, parameters, diagnostics, frames, .. } = lowering;
     // Where shapes are wrong, it may be that a type is taken for a number.
     let scalar = parameters.scalar(declaration, diagnostics);
     let (place, lagrangian) = (declaration.lagrangian.as_ref()?.place, lagrangian?);
@@ -125,7 +126,7 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
         None => None,
     };
     diagnostics.is_empty().then_some(())?;
-    let problem = Problem {
+    let mut problem = Problem {
         scalar,
         coordinates,
         lagrangian,
@@ -144,6 +145,7 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
         frames_are_cheaper,
         names,
     };
+    problem.nest_sums(&mut graph);
     diagnostics.is_empty().then_some((graph, problem))
 }
 

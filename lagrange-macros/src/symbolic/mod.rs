@@ -8,6 +8,7 @@ mod differentiate;
 mod elimination;
 mod evaluate;
 mod graph;
+mod nested;
 mod random;
 mod rational;
 mod rebuild;

@@ -57,7 +57,7 @@ impl Graph {
         new[&root]
     }
 
-    fn rebuilt(&mut self, node: &Node, new: impl Fn(Id) -> Id) -> Id {
+    pub(super) fn rebuilt(&mut self, node: &Node, new: impl Fn(Id) -> Id) -> Id {
         match *node {
             Node::Sum(ref terms) => {
                 let terms: Vec<_> = terms.iter().map(|&(term, c)| (new(term), c)).collect();

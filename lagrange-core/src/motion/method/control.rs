@@ -101,7 +101,7 @@ impl Tolerance {
     ) -> W {
         let largest = |half: usize| {
             let sizes = (0..N).map(|i| before[half][i].abs().max(after[half][i].abs()));
-            sizes.fold(W::constant(0.0), |most, size| most.max(size))
+            sizes.fold(W::constant(0.0), |most, size| size.max(most))
         };
         let own = self.scale(places[0], places[1]);
         let [relative, slack] = [self.relative, SLACK].map(W::constant);

@@ -3,7 +3,7 @@
 use core::cmp::Ordering;
 
 use num_dual::Dual3_64;
-use simba::simd::{SimdPartialOrd, SimdValue, WideF64x4};
+use simba::simd::{SimdValue, WideF64x4};
 
 use crate::number::{Dual, Scalar};
 
@@ -215,8 +215,8 @@ fn in_lanes_too_whatever_is_beside() {
             let wide = |a, b| Dual { value: WideF64x4::from([a, 1.0, b, 2.0]), slope: WideF64x4::splat(3.0) };
             let other = Dual { slope: WideF64x4::splat(-7.0), ..wide(y, x) };
             for (ours, inner, sign) in [
-                (wide(x, y).min(other), wide(x, y).value.simd_min(other.value), 1.0),
-                (wide(x, y).max(other), wide(x, y).value.simd_max(other.value), -1.0),
+                (wide(x, y).min(other), Scalar::min(wide(x, y).value, other.value), 1.0),
+                (wide(x, y).max(other), Scalar::max(wide(x, y).value, other.value), -1.0),
             ] {
                 for lane in 0..4 {
                     let pair = [wide(x, y), other].map(|dual| sign * dual.value.extract(lane));

@@ -81,10 +81,14 @@ impl Solver<'_> {
         all.pop()
     }
 
-    /// The least and the greatest of what the pivots were over what they are.
+    /// The least and the greatest of what the pivots were over what they are. One after the other, as the pivots come: pairs
+    /// of them would wait for each other, put side by side by the compiler.
     fn range(&mut self) -> Option<[Register; 2]> {
-        let least = self.in_pairs(self.growth.clone(), Operation::Minimum)?;
-        Some([least, self.in_pairs(self.growth.clone(), Operation::Maximum)?])
+        let mut last = |pair: fn(Register, Register) -> Operation| {
+            let all = self.growth.iter().copied();
+            all.reduce(|so_far, next| self.schedule.push(pair(so_far, next)))
+        };
+        Some([last(Operation::Minimum)?, last(Operation::Maximum)?])
     }
 
     /// The least of pivot/diagonal and diagonal/pivot.

@@ -8,6 +8,7 @@ pub(super) mod double;
 mod external;
 mod faults;
 mod fractions;
+mod nested;
 mod rationals;
 mod sample;
 pub(super) mod tree;

@@ -49,12 +49,23 @@ impl Planner<'_> {
         }
         self.early = early.split_off(early.len().min(ABREAST));
         self.leader = early.first().copied();
+        self.in_memory_order(&mut early);
         early
+    }
+
+    /// Coordinates come into a vector as they lie in the state.
+    fn in_memory_order(&self, angles: &mut [Register]) {
+        angles.sort_by_key(|angle| match self.schedule.operations[angle.index()] {
+            Operation::Input(symbol) => Some(symbol),
+            _ => None,
+        });
     }
 
     /// All at once, before the first: each branch would keep the compiler from mixing what comes before with what comes after.
     fn make_small(&mut self, angles: &[Register]) {
         angles.iter().for_each(|&angle| self.compute_early(angle));
+        let mut angles = angles.to_vec();
+        self.in_memory_order(&mut angles);
         let small = |angle: &Register| (Local::Angle(angle.index()), self.value(*angle));
         let small: Vec<_> = angles.iter().map(small).collect();
         self.part.locals.extend(small.iter().map(|(local, _)| *local));

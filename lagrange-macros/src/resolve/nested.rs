@@ -1,0 +1,38 @@
+//! Named sums by one another: `vx[i] = sum(j in 0..i+1, …)` is `vx[i-1]` and a term more, however it is spelled.
+
+use super::Problem;
+use crate::symbolic::{Graph, Id};
+
+impl Problem {
+    /// Writes the sums in L by what they have in common, in L and wherever else they are used. What frames are lowered to is
+    /// so already.
+    pub(super) fn nest_sums(&mut self, graph: &mut Graph) {
+        if self.frames.len() > 1 {
+            return;
+        }
+        let mut roots: Vec<Id> = self.names.keys().copied().collect();
+        self.visit(|id| roots.push(*id));
+        let Some((nested, new)) = graph.nested(self.lagrangian, &roots) else { return };
+        *graph = nested;
+        self.visit(|id| *id = new[id]);
+        // Of names of one value the first stays.
+        let mut names: Vec<(Id, String)> = self.names.drain().collect();
+        names.sort_unstable();
+        for (id, name) in names {
+            self.names.entry(new[&id]).or_insert(name);
+        }
+    }
+
+    /// Visits every expression.
+    fn visit(&mut self, mut visit: impl FnMut(&mut Id)) {
+        visit(&mut self.lagrangian);
+        self.terms.iter_mut().chain(&mut self.forces).for_each(&mut visit);
+        for (force, velocity) in &mut self.powers {
+            visit(force);
+            visit(velocity);
+        }
+        self.dissipation.iter_mut().for_each(|(function, _)| visit(function));
+        self.constraints.iter_mut().for_each(|(_, constraint)| visit(constraint));
+        self.observables.iter_mut().flat_map(|observed| &mut observed.values).for_each(visit);
+    }
+}
