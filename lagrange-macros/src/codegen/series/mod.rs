@@ -44,7 +44,7 @@ impl Series {
     pub(super) fn new(graph: &Graph, equations: &Equations) -> Option<Self> {
         let Equations { balance, constraint_acceleration, .. } = equations;
         let roots: Vec<Id> = balance.iter().chain(constraint_acceleration).copied().collect();
-        let Program { schedule, results, .. } = Program::of(graph, &roots);
+        let Program { schedule, results, .. } = Program::of(graph, &roots).without_zeros();
         let (mut recurrences, results) = Recurrences::of(&schedule, &results, balance.len())?;
         let mut rest: Vec<Register> =
             results.into_iter().map(|result| recurrences.newest(result, Stage::Before)).collect();
