@@ -109,12 +109,11 @@ macro_rules! forward {
                     sums: &Self::Sums,
                     order: &[Self::Scalar; 2],
                     direction: &Direction<Self::Scalar, N>
-                ) -> RightHandSides<Self::Scalar, N, M>;
+                ) -> (RightHandSides<Self::Scalar, N, M>, [Self::Sums; 2]);
                 fn series_factors(
                     slopes: &Self::SeriesSlopes,
-                    sums: &Self::Sums,
+                    terms: &[Self::Sums; 2],
                     order: &[Self::Scalar; 2],
-                    direction: &Direction<Self::Scalar, N>,
                     accelerations: &SVector<Self::Scalar, N>,
                     multipliers: &SVector<Self::Scalar, M>
                 ) -> [Self::Sums; 2];

@@ -51,22 +51,22 @@ pub trait TaylorSeries<const N: usize, const M: usize>: Lagrangian<N, M> {
     }
 
     /// What stands for h and γ where the coefficients of accelerations and multipliers are solved for, of an order that is
-    /// given with its reciprocal; `direction` has the coefficients of time, coordinates and velocities of that order.
+    /// given with its reciprocal; `direction` has the coefficients of time, coordinates and velocities of that order. Beside
+    /// that the terms of that order of the two factors of each sum, with zeros for these accelerations and multipliers.
     fn series_right_hand_sides(
         &self,
         slopes: &Self::SeriesSlopes,
         sums: &Self::Sums,
         order: &[Self::Scalar; 2],
         direction: &Direction<Self::Scalar, N>,
-    ) -> RightHandSides<Self::Scalar, N, M>;
+    ) -> (RightHandSides<Self::Scalar, N, M>, [Self::Sums; 2]);
 
-    /// The terms of that order of the two factors of each sum.
+    /// Those `terms` with what the accelerations and multipliers of that order add.
     fn series_factors(
         &self,
         slopes: &Self::SeriesSlopes,
-        sums: &Self::Sums,
+        terms: &[Self::Sums; 2],
         order: &[Self::Scalar; 2],
-        direction: &Direction<Self::Scalar, N>,
         accelerations: &SVector<Self::Scalar, N>,
         multipliers: &SVector<Self::Scalar, M>,
     ) -> [Self::Sums; 2];

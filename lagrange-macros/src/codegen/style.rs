@@ -57,6 +57,7 @@ impl<'a> Style<'a> {
                 "factor",
                 "slopes",
                 "sums",
+                "terms",
                 "order",
                 "forcing",
                 "bias",
@@ -102,6 +103,9 @@ impl<'a> Style<'a> {
         }
         for k in 0..sums {
             names.insert(Variable::Sum(k).symbol(), unique(format!("sum{k}")));
+        }
+        for k in 0..2 * sums {
+            names.insert(Variable::Term(k).symbol(), unique(format!("term{k}")));
         }
         names.insert(Variable::Order.symbol(), unique("k".to_owned()));
         names.insert(Variable::OrderReciprocal.symbol(), unique("reciprocal_k".to_owned()));
@@ -242,6 +246,10 @@ impl<'a> Style<'a> {
                 Variable::Sum(k) => {
                     let k = Literal::usize_unsuffixed(k);
                     quote!(sums[#k])
+                }
+                Variable::Term(k) => {
+                    let [side, k] = [k / self.sums, k % self.sums].map(Literal::usize_unsuffixed);
+                    quote!(terms[#side][#k])
                 }
                 Variable::Order => quote!(order[0]),
                 Variable::OrderReciprocal => quote!(order[1]),

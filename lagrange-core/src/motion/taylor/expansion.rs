@@ -118,10 +118,10 @@ impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
             if const { !L::ARGUMENTS.is_empty() } {
                 system.series_functions(order, &self.arguments, &mut self.sums);
             }
-            newest = solve(&system.series_right_hand_sides(&slopes, &self.sums, &numbers, &direction))?;
+            let (sides, terms) = system.series_right_hand_sides(&slopes, &self.sums, &numbers, &direction);
+            newest = solve(&sides)?;
             let Solution { accelerations, multipliers, .. } = &newest;
-            let factors =
-                system.series_factors(&slopes, &self.sums, &numbers, &direction, accelerations, multipliers);
+            let factors = system.series_factors(&slopes, &terms, &numbers, accelerations, multipliers);
             self.factors.put(order, &factors);
             for (argument, &[place, _]) in self.arguments.iter_mut().zip(L::ARGUMENTS) {
                 argument.extend(factors[0].as_ref()[place]);

@@ -9,9 +9,7 @@ use crate::codegen::schedule::Schedule;
 pub(super) fn left_out(old: &Schedule, results: &[Register]) -> (Schedule, Vec<Register>) {
     rebuilt(old, results, |new, index, places| {
         let carried = carried_over(new, old, old.operations[index], |_, operand| places.at(operand));
-        let is_zero = |x: Register| {
-            matches!(new.operations[x.index()], Operation::Constant(bits) if f64::from_bits(bits) == 0.0)
-        };
+        let is_zero = |x: Register| matches!(new.operations[x.index()], Operation::Constant(bits) if f64::from_bits(bits) == 0.0);
         match new.operations[carried.index()] {
             Operation::Multiply(x, y) if is_zero(x) || is_zero(y) => new.constant(0.0),
             Operation::Add(x, y) | Operation::Subtract(x, y) if is_zero(y) => x,

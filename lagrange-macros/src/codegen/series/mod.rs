@@ -25,9 +25,10 @@ const WIDTH: usize = 4;
 pub(super) struct Series {
     /// The numbers of order 0 that the others are made of.
     slopes: Program,
-    /// The right-hand sides that the coefficients of accelerations and multipliers are solved for.
+    /// The right-hand sides that the coefficients of accelerations and multipliers are solved for, and the newest terms of the
+    /// factors of each sum without these.
     right_hand_sides: Program,
-    /// The newest terms of the factors of each sum.
+    /// What these add to the newest terms.
     factors: Program,
     /// How many sums there are, those included that fill up the last group.
     pub(super) sums: usize,
@@ -47,13 +48,14 @@ impl Series {
         let Program { schedule, results, .. } = Program::of(graph, &roots).without_zeros();
         let (mut recurrences, results) = Recurrences::of(&schedule, &results, balance.len())?;
         let mut rest: Vec<Register> =
-            results.into_iter().map(|result| recurrences.newest(result, Stage::Before)).collect();
+            results.into_iter().map(|result| recurrences.newest(result, Stage::Known)).collect();
         for sum in &mut rest[..balance.len()] {
             *sum = recurrences.schedule.push(Operation::Negate(*sum));
         }
         let (calls, arguments) = recurrences.calls();
         let sums = recurrences.sums.len().next_multiple_of(WIDTH);
-        let factors = recurrences.factors(sums).concat();
+        let (known, factors) = recurrences.factors(sums);
+        rest.extend(known);
         let Recurrences { schedule, roots, .. } = recurrences;
         let kept: Vec<Register> = roots.iter().chain(&arguments).map(|&(_, value)| value).collect();
         let (slopes, [right_hand_sides, factors], kept) =
@@ -95,17 +97,24 @@ impl Emitter<'_> {
     pub(super) fn taylor_series(&self, series: &Series) -> TokenStream {
         let style = self.style.reading(series.slopes());
         let (n, m, sums) = (self.problem.coordinates.len(), self.problem.constraints.len(), series.sums);
-        let of_order = |method: &Method, program: &Program, shapes: [usize; 2]| {
-            let kernel = style.write(method.name, program, &shapes.map(Shape::Vector));
-            self.function(method, kernel, |results| match (method.quantity, results) {
-                (Quantity::SeriesFactors, _) => quote!([#(#results),*]),
-                _ => quote!((#(__lagrange::generated::vector(#results)),*)),
+        let of_order = |method: &Method, program: &Program, shapes: &[usize]| {
+            let kernel = style.write(
+                method.name,
+                program,
+                &shapes.iter().map(|&length| Shape::Vector(length)).collect::<Vec<_>>(),
+            );
+            self.function(method, kernel, |results| {
+                let (sides, factors) = results.split_at(results.len() - 2);
+                let sides =
+                    (!sides.is_empty()).then(|| quote!((#(__lagrange::generated::vector(#sides)),*),));
+                let factors = quote!([#(#factors),*]);
+                if sides.is_some() { quote!((#sides #factors)) } else { factors }
             })
         };
         let write = |method: &Method| match method.quantity {
             Quantity::SeriesSlopes => self.slopes(method, &series.slopes),
-            Quantity::SeriesRightHandSides => of_order(method, &series.right_hand_sides, [n, m]),
-            _ => of_order(method, &series.factors, [sums; 2]),
+            Quantity::SeriesRightHandSides => of_order(method, &series.right_hand_sides, &[n, m, sums, sums]),
+            _ => of_order(method, &series.factors, &[sums; 2]),
         };
         let Written { tokens, kernels } = TAYLOR_SERIES.iter().map(write).collect();
         let generics = self.generics_on_series(series);
