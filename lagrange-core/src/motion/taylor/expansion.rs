@@ -104,14 +104,14 @@ impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
         for (argument, &[_, slope]) in self.arguments.iter_mut().zip(L::ARGUMENTS) {
             *argument = PowerSeries::new(&[slopes.as_ref()[slope], T::constant(0.0)]);
         }
-        let (mut newest, mut ends) = (*solution, Ends::new());
+        let (mut newest, mut ends, mut sums) = (*solution, Ends::new(), S::filled(T::constant(0.0)));
         for order in 1..=highest {
             let numbers = [order as f64, 1.0 / order as f64].map(T::constant);
             let direction = self.advance(order, &newest, numbers[1]);
             if order == highest {
                 break;
             }
-            let mut sums = self.factors.add_up(order, &ends);
+            self.factors.add_up(order, &ends, &mut sums);
             if const { !L::ARGUMENTS.is_empty() } {
                 system.series_functions(order, &self.arguments, &mut sums);
             }

@@ -65,11 +65,12 @@ impl<T: Scalar, S: Filled<T>> Factors<T, S> {
 
     /// The sums of an order, of the factors of all orders before it, and of no other: there may be no numbers.
     #[inline(always)]
-    pub(super) fn add_up(&self, order: usize, ends: &Ends<S>) -> S {
+    pub(super) fn add_up(&self, order: usize, ends: &Ends<S>, sums: &mut S) {
         if few::are::<T, S>() {
-            return self.few.add_up(order, ends);
+            *sums = self.few.add_up(order, ends);
+            return;
         }
-        let (terms, mut sums) = (order - 1, S::filled(T::constant(0.0)));
+        let terms = order - 1;
         for (group, sums) in sums.as_mut().as_chunks_mut().0.iter_mut().enumerate() {
             let (left, right) = (group * self.orders, (group + 1) * self.orders - terms);
             let (left, right) = (&self.left[left..left + terms], &self.right[right..right + terms]);
@@ -79,7 +80,6 @@ impl<T: Scalar, S: Filled<T>> Factors<T, S> {
                 false => products::<T, 4>(left, right),
             };
         }
-        sums
     }
 }
 
