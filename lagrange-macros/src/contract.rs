@@ -104,7 +104,7 @@ pub(crate) enum Gives {
     Slopes,
     ParameterSlopes,
     SeriesSlopes,
-    /// In the places of h and γ, and the newest terms of the two factors of each sum as far as they are known then.
+    /// In the places of h and γ, and what is known by then of the newest coefficients.
     RightHandSides,
     /// The newest terms of the two factors of each sum.
     Factors,
@@ -217,6 +217,7 @@ pub(crate) const TAYLOR_SERIES: [Method; 3] = [
             Argument::SeriesSlopes,
             Argument::Terms,
             Argument::Order,
+            Direction,
             Argument::Accelerations,
             Multipliers,
         ],

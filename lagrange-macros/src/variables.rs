@@ -30,8 +30,7 @@ pub(crate) enum Variable {
     MultiplierChange(usize),
     /// A sum over products of Taylor coefficients before the newest.
     Sum(usize),
-    /// The newest term of a factor of a sum, as far as accelerations and multipliers of its order do not enter: those of the
-    /// left factors come first.
+    /// What of a newest Taylor coefficient is known before the accelerations and multipliers of its order.
     Term(usize),
     /// The order of the newest Taylor coefficients …
     Order,

@@ -98,6 +98,7 @@ macro_rules! forward {
         impl<L: TaylorSeries<N, M>, const N: usize, const M: usize> TaylorSeries<N, M> for $pointer {
             type SeriesSlopes = L::SeriesSlopes;
             type Sums = L::Sums;
+            type SeriesTerms = L::SeriesTerms;
             const ROOTS: &'static [[usize; 2]] = L::ROOTS;
             const ARGUMENTS: &'static [[usize; 2]] = L::ARGUMENTS;
 
@@ -120,11 +121,12 @@ macro_rules! forward {
                     sums: &Self::Sums,
                     order: &[Self::Scalar; 2],
                     direction: &Direction<Self::Scalar, N>
-                ) -> (RightHandSides<Self::Scalar, N, M>, [Self::Sums; 2]);
+                ) -> (RightHandSides<Self::Scalar, N, M>, Self::SeriesTerms);
                 fn series_factors(
                     slopes: &Self::SeriesSlopes,
-                    terms: &[Self::Sums; 2],
+                    terms: &Self::SeriesTerms,
                     order: &[Self::Scalar; 2],
+                    direction: &Direction<Self::Scalar, N>,
                     accelerations: &SVector<Self::Scalar, N>,
                     multipliers: &SVector<Self::Scalar, M>
                 ) -> [Self::Sums; 2];

@@ -138,8 +138,8 @@ impl Style<'_> {
                 quote!(sums: &[#scalar; #sums])
             }
             Argument::Terms => {
-                let (scalar, sums) = (self.types.scalar, self.sums);
-                quote!(terms: &[[#scalar; #sums]; 2])
+                let (scalar, terms) = (self.types.scalar, self.terms);
+                quote!(terms: &[#scalar; #terms])
             }
             _ => self.types.argument(argument),
         }

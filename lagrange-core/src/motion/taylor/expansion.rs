@@ -118,7 +118,8 @@ impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
             let (sides, terms) = system.series_right_hand_sides(&slopes, &sums, &numbers, &direction);
             newest = solve(&sides)?;
             let Solution { accelerations, multipliers, .. } = &newest;
-            let factors = system.series_factors(&slopes, &terms, &numbers, accelerations, multipliers);
+            let factors =
+                system.series_factors(&slopes, &terms, &numbers, &direction, accelerations, multipliers);
             self.factors.put(order, &factors, &mut ends);
             for (argument, &[place, _]) in self.arguments.iter_mut().zip(L::ARGUMENTS) {
                 argument.extend(factors[0].as_ref()[place]);

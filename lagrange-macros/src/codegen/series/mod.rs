@@ -25,13 +25,15 @@ const WIDTH: usize = 4;
 pub(super) struct Series {
     /// The numbers of order 0 that the others are made of.
     slopes: Program,
-    /// The right-hand sides that the coefficients of accelerations and multipliers are solved for, and the newest terms of the
-    /// factors of each sum without these.
+    /// The right-hand sides that the coefficients of accelerations and multipliers are solved for, and what is known by then of
+    /// the factors of the sums.
     right_hand_sides: Program,
-    /// What these add to the newest terms.
+    /// The newest terms of the factors of each sum.
     factors: Program,
     /// How many sums there are, those included that fill up the last group.
     pub(super) sums: usize,
+    /// How many numbers are known before the accelerations.
+    pub(super) terms: usize,
     /// For each root the place of a sum whose right factor it is, and of its value among the slopes.
     roots: Vec<[usize; 2]>,
     /// For each argument of a function that the user supplies the place of a sum whose left factor it is, and of its value among
@@ -55,7 +57,7 @@ impl Series {
         let (calls, arguments) = recurrences.calls();
         let sums = recurrences.sums.len().next_multiple_of(WIDTH);
         let (known, factors) = recurrences.factors(sums);
-        rest.extend(known);
+        rest.extend(&known);
         let Recurrences { schedule, roots, .. } = recurrences;
         let kept: Vec<Register> = roots.iter().chain(&arguments).map(|&(_, value)| value).collect();
         let (slopes, [right_hand_sides, factors], kept) =
@@ -70,6 +72,7 @@ impl Series {
             right_hand_sides: right_hand_sides.balanced().fused(),
             factors: factors.balanced().fused(),
             sums,
+            terms: known.len(),
             roots: roots?,
             arguments: arguments?,
             calls,
@@ -96,24 +99,25 @@ impl Emitter<'_> {
     /// The implementation of `TaylorSeries`.
     pub(super) fn taylor_series(&self, series: &Series) -> TokenStream {
         let style = self.style.reading(series.slopes());
-        let (n, m, sums) = (self.problem.coordinates.len(), self.problem.constraints.len(), series.sums);
+        let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
+        let Series { sums, terms, .. } = *series;
         let of_order = |method: &Method, program: &Program, shapes: &[usize]| {
             let kernel = style.write(
                 method.name,
                 program,
                 &shapes.iter().map(|&length| Shape::Vector(length)).collect::<Vec<_>>(),
             );
-            self.function(method, kernel, |results| {
-                let (sides, factors) = results.split_at(results.len() - 2);
-                let sides =
-                    (!sides.is_empty()).then(|| quote!((#(__lagrange::generated::vector(#sides)),*),));
-                let factors = quote!([#(#factors),*]);
-                if sides.is_some() { quote!((#sides #factors)) } else { factors }
+            self.function(method, kernel, |results| match results {
+                [forcing, bias, terms] => {
+                    let sides = [forcing, bias].map(|side| quote!(__lagrange::generated::vector(#side)));
+                    quote!(((#(#sides),*), #terms))
+                }
+                _ => quote!([#(#results),*]),
             })
         };
         let write = |method: &Method| match method.quantity {
             Quantity::SeriesSlopes => self.slopes(method, &series.slopes),
-            Quantity::SeriesRightHandSides => of_order(method, &series.right_hand_sides, &[n, m, sums, sums]),
+            Quantity::SeriesRightHandSides => of_order(method, &series.right_hand_sides, &[n, m, terms]),
             _ => of_order(method, &series.factors, &[sums; 2]),
         };
         let Written { tokens, kernels } = TAYLOR_SERIES.iter().map(write).collect();
@@ -135,6 +139,7 @@ impl Emitter<'_> {
                 impl #impl_generics __lagrange::TaylorSeries<#n, #m> for #ident #type_generics #where_clause {
                     type SeriesSlopes = [#scalar; #slopes];
                     type Sums = [#scalar; #sums];
+                    type SeriesTerms = [#scalar; #terms];
                     #roots
                     #arguments
                     #tokens

@@ -102,11 +102,11 @@ impl Recurrences {
         self.quantities[of.0].newest.and_then(|newest| newest[stage as usize])
     }
 
-    /// The newest terms of the factors of each sum, left ones first, filled up with zeros to so many of either: as far as they
-    /// are known before accelerations and multipliers of their order, and by these terms whole.
-    pub(super) fn factors(&mut self, count: usize) -> (Vec<Register>, Vec<Register>) {
-        let zero = self.schedule.constant(0.0);
-        let (mut known, mut whole) = (vec![zero; 2 * count], vec![zero; 2 * count]);
+    /// What has to be computed of the factors of the sums before the accelerations and multipliers of an order, and by this and
+    /// them the newest terms, those of left factors first, filled up with zeros to so many of either.
+    pub(super) fn factors(&mut self, count: usize) -> (IndexSet<Register>, Vec<Register>) {
+        let (mut known, zero) = (IndexSet::new(), self.schedule.constant(0.0));
+        let mut terms = vec![zero; 2 * count];
         for (place, sum) in self.sums.clone().into_iter().enumerate() {
             let (factors, is_weighted) = match sum {
                 Sum::Product(x, y) => ([Some(x), Some(y)], false),
@@ -114,18 +114,24 @@ impl Recurrences {
                 Sum::Argument(x) => ([Some(x), None], false),
                 Sum::Value(..) => ([None; 2], false),
             };
-            for (side, factor) in factors.into_iter().enumerate().filter_map(|(side, x)| Some((side, x?))) {
-                let place = side * count + place;
-                let [first, added] = STAGES.map(|stage| {
-                    let part = self.part(factor, stage);
-                    if is_weighted && side == 0 { self.times_order(part) } else { part }
-                });
-                known[place] = first.unwrap_or(zero);
-                let term = self.schedule.push(Operation::Input(Variable::Term(place).symbol()));
-                whole[place] = self.sum(first.map(|_| term), added).unwrap_or(zero);
-            }
+            let [left, right] = factors.map(|factor| factor.and_then(|factor| self.term(factor, &mut known)));
+            let left = if is_weighted { self.times_order(left) } else { left };
+            (terms[place], terms[count + place]) = (left.unwrap_or(zero), right.unwrap_or(zero));
         }
-        (known, whole)
+        (known, terms)
+    }
+
+    /// The newest coefficient, by what is known of it; what is given with its order is not computed.
+    fn term(&mut self, of: Quantity, known: &mut IndexSet<Register>) -> Option<Register> {
+        let first = self.part(of, Stage::Known).map(|part| match self.schedule.operations[part.index()] {
+            Operation::Input(symbol) if !matches!(Variable::of(symbol), Variable::Sum(_)) => part,
+            _ => {
+                let (place, _) = known.insert_full(part);
+                self.schedule.push(Operation::Input(Variable::Term(place).symbol()))
+            }
+        });
+        let added = self.part(of, Stage::Added);
+        self.sum(first, added)
     }
 
     fn operation(&mut self, operation: Operation<Quantity>) -> Option<Quantity> {
