@@ -42,7 +42,7 @@ impl<T: Scalar, S: Filled<T>> Factors<T, S> {
     /// The terms of an order.
     #[inline(always)]
     pub(super) fn put(&mut self, order: usize, newest: &[S; 2], ends: &mut Ends<S>) {
-        if few::are::<T, S>() {
+        if const { few::are::<T, S>() } {
             return self.few.put(order, newest, ends);
         }
         let [left, right] = newest;
@@ -57,7 +57,7 @@ impl<T: Scalar, S: Filled<T>> Factors<T, S> {
 
     /// The coefficients of the right factor of a sum, from order 1, of which there are so many.
     pub(super) fn right_factor(&self, place: usize, count: usize) -> impl Iterator<Item = T> + Clone {
-        (1..=count).map(move |order| match few::are::<T, S>() {
+        (1..=count).map(move |order| match const { few::are::<T, S>() } {
             true => self.few.right_factor(place, order),
             false => self.right[place / WIDTH * self.orders + self.orders - order].0[place % WIDTH],
         })
@@ -66,7 +66,7 @@ impl<T: Scalar, S: Filled<T>> Factors<T, S> {
     /// The sums of an order, of the factors of all orders before it, and of no other: there may be no numbers.
     #[inline(always)]
     pub(super) fn add_up(&self, order: usize, ends: &Ends<S>, sums: &mut S) {
-        if few::are::<T, S>() {
+        if const { few::are::<T, S>() } {
             *sums = self.few.add_up(order, ends);
             return;
         }
