@@ -53,7 +53,8 @@ where
     let upright = core::array::from_fn(|i| if i <= n { i as f64 } else { 1.0 });
     let start = State::new(upright, core::array::from_fn(|i| if i <= n { 1.0 } else { 0.0 }));
     let upright = State::new([core::f64::consts::FRAC_PI_2], [-1.0]);
-    let pendulum = Reduced { n: n as f64, g }.integrate(upright, END, Dop853::with_tolerance(1e-14))?;
+    let reduced = Reduced { n: n as f64, g };
+    let pendulum = reduced.integrate(upright, END, Dop853::with_tolerance(1e-14))?;
     let each = TOLERANCES.map(|tolerance| {
         let path = windows.integrate_towards(start, END, Taylor::with_tolerance(tolerance))?;
         let (time, end) = (path.ending().time(), *path.end().state());
