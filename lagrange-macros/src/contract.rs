@@ -60,6 +60,7 @@ pub(crate) enum Argument {
     ParameterSlopes,
     SeriesSlopes,
     Sums,
+    Terms,
     Order,
     Forcing,
     Bias,
@@ -81,6 +82,7 @@ impl Argument {
             Self::Factor => "factor",
             Self::Slopes | Self::ParameterSlopes | Self::SeriesSlopes => "slopes",
             Self::Sums => "sums",
+            Self::Terms => "terms",
             Self::Order => "order",
             Forcing => "forcing",
             Bias => "bias",
@@ -102,7 +104,7 @@ pub(crate) enum Gives {
     Slopes,
     ParameterSlopes,
     SeriesSlopes,
-    /// In the places of h and γ.
+    /// In the places of h and γ, and what is known by then of the newest coefficients.
     RightHandSides,
     /// The newest terms of the two factors of each sum.
     Factors,
@@ -213,7 +215,7 @@ pub(crate) const TAYLOR_SERIES: [Method; 3] = [
         &[
             System,
             Argument::SeriesSlopes,
-            Argument::Sums,
+            Argument::Terms,
             Argument::Order,
             Direction,
             Argument::Accelerations,

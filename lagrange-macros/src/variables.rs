@@ -30,6 +30,8 @@ pub(crate) enum Variable {
     MultiplierChange(usize),
     /// A sum over products of Taylor coefficients before the newest.
     Sum(usize),
+    /// What of a newest Taylor coefficient is known before the accelerations and multipliers of its order.
+    Term(usize),
     /// The order of the newest Taylor coefficients …
     Order,
     /// … and 1 over it.
@@ -59,6 +61,7 @@ impl Variable {
             Self::Order => (15, 0),
             Self::OrderReciprocal => (16, 0),
             Self::Momentum(i) => (17, i),
+            Self::Term(k) => (18, k),
         };
         Symbol { family, index: index as u32 }
     }
@@ -77,6 +80,7 @@ impl Variable {
                 | Self::AccelerationChange(_)
                 | Self::MultiplierChange(_)
                 | Self::Sum(_)
+                | Self::Term(_)
                 | Self::Order
                 | Self::OrderReciprocal
         )
@@ -102,7 +106,8 @@ impl Variable {
             14 => Self::Sum(index),
             15 => Self::Order,
             16 => Self::OrderReciprocal,
-            _ => Self::Momentum(index),
+            17 => Self::Momentum(index),
+            _ => Self::Term(index),
         }
     }
 }

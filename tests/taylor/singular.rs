@@ -42,17 +42,18 @@ struct Linkage {
 }
 
 const END: f64 = 10.0;
+const GRAVITIES: [f64; 8] = [9.5, 9.58, 9.66, 9.73, 9.81, 9.89, 9.97, 10.05];
 const TOLERANCES: [f64; 9] = [f64::EPSILON, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-6];
 
 /// How long each tolerance leads from upright, and how far from what the reduced pendulum does then.
-fn windows<L, const N: usize, const M: usize>(windows: &L, n: usize) -> Result<Vec<(f64, f64)>, Error>
+fn windows<L, const N: usize, const M: usize>(windows: &L, n: usize, g: f64) -> Result<Vec<(f64, f64)>, Error>
 where
     L: TaylorSeries<N, M, Scalar = f64>,
 {
     let upright = core::array::from_fn(|i| if i <= n { i as f64 } else { 1.0 });
     let start = State::new(upright, core::array::from_fn(|i| if i <= n { 1.0 } else { 0.0 }));
-    let reduced = Reduced { n: n as f64, g: 9.81 };
     let upright = State::new([core::f64::consts::FRAC_PI_2], [-1.0]);
+    let reduced = Reduced { n: n as f64, g };
     let pendulum = reduced.integrate(upright, END, Dop853::with_tolerance(1e-14))?;
     let each = TOLERANCES.map(|tolerance| {
         let path = windows.integrate_towards(start, END, Taylor::with_tolerance(tolerance))?;
@@ -60,26 +61,37 @@ where
         let (sine, cosine) = pendulum.at(time)?.state().q[0].sin_cos();
         let expected = |i: usize| if i <= n { i as f64 + cosine } else { sine };
         let off = (0..N).map(|i| (end.q[i] - expected(i)).abs()).fold(0.0, f64::max);
-        println!("{tolerance:e}: to {time}, {off:e} off, {} steps", path.statistics().accepted);
+        println!("{g}, {tolerance:e}: to {time}, {off:e} off, {} steps", path.statistics().accepted);
         Ok((time, off))
     });
     each.into_iter().collect()
 }
 
-fn assert_goes_on(found: &[(f64, f64)], at_least: usize) {
-    for ((_, off), tolerance) in found.iter().zip(TOLERANCES) {
-        let allowed = (1e3 * tolerance).max(1e-9);
-        assert!(*off < allowed, "{tolerance:e}: {off:e} off, and no word");
+/// None goes wrong without a word; so many of all tolerances with any gravity lead to the end, which below 10⁻¹¹ is up to how
+/// numbers are rounded, and all from 10⁻¹⁰ on but one.
+fn assert_goes_on(
+    at_least: usize,
+    motions: impl Fn(f64) -> Result<Vec<(f64, f64)>, Error>,
+) -> Result<(), Error> {
+    let (mut through, mut through_coarse) = (0, 0);
+    for g in GRAVITIES {
+        for ((time, off), tolerance) in motions(g)?.into_iter().zip(TOLERANCES) {
+            let allowed = (1e3 * tolerance).max(1e-9);
+            assert!(off < allowed, "{g}, {tolerance:e}: {off:e} off, and no word");
+            through += usize::from(time == END);
+            through_coarse += usize::from(time == END && tolerance > 1e-11);
+        }
     }
-    let through = found.iter().filter(|(time, _)| *time == END).count();
-    assert!(found[0].0 == END && through >= at_least, "{found:?}");
+    println!("{through} and {through_coarse}");
+    assert!(through >= at_least && through_coarse >= 3 * GRAVITIES.len() - 1, "{through}, {through_coarse}");
+    Ok(())
 }
 
 #[test]
 fn windows_are_stepped_across() -> Result<(), Error> {
-    assert_goes_on(&windows(&Window { g: 9.81 }, 1)?, 9);
-    assert_goes_on(&windows(&TwoWindows { g: 9.81 }, 2)?, 6);
-    Ok(())
+    let of = GRAVITIES.len() * TOLERANCES.len();
+    assert_goes_on(of * 2 / 3, |g| windows(&Window { g }, 1, g))?;
+    assert_goes_on(of / 2, |g| windows(&TwoWindows { g }, 2, g))
 }
 
 /// Here a whole row of the Jacobian vanishes, whatever the others are: below 1e-10 the motion ends there.

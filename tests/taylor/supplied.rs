@@ -49,6 +49,17 @@ fn functions_are_what_is_in_them() -> Result<(), Error> {
     Ok(())
 }
 
+/// Functions and kinks are those of the system, whoever holds it.
+#[test]
+fn a_motion_of_a_pointer_is_that_of_the_system() -> Result<(), Error> {
+    let supplied = Supplied { c: 0.7, pair: &Pair };
+    let start = supplied.make_consistent(&State::new([0.4, -0.2, 0.3], [0.5, 0.8, 0.1]))?.0;
+    assert_eq!(end(&&supplied, start, 2.0)?, end(&supplied, start, 2.0)?);
+    let (roof, start) = (Bouncing { roof: Roof }, State::at_rest([1.0]));
+    assert_eq!(end(&&roof, start, 5.0)?, end(&roof, start, 5.0)?);
+    Ok(())
+}
+
 /// −|x|, whose kink no derive can see.
 struct Roof;
 

@@ -11,7 +11,7 @@ use super::pack::Pack;
 use super::state::{Solution, State};
 use super::taylor_series::{RightHandSides, TaylorSeries};
 use crate::linearized::{Direction, ResidualChange, StateDerivatives};
-use crate::number::Over;
+use crate::number::{Over, PowerSeries};
 
 /// Forwards every method and constant, those that have a default too: it would hide what the system has.
 macro_rules! forward {
@@ -98,6 +98,18 @@ macro_rules! forward {
         impl<L: TaylorSeries<N, M>, const N: usize, const M: usize> TaylorSeries<N, M> for $pointer {
             type SeriesSlopes = L::SeriesSlopes;
             type Sums = L::Sums;
+            type SeriesTerms = L::SeriesTerms;
+            const ROOTS: &'static [[usize; 2]] = L::ROOTS;
+            const ARGUMENTS: &'static [[usize; 2]] = L::ARGUMENTS;
+
+            fn series_functions(
+                &self,
+                order: usize,
+                arguments: &[PowerSeries<Self::Scalar>],
+                sums: &mut Self::Sums,
+            ) {
+                L::series_functions(self, order, arguments, sums);
+            }
 
             forward! { @methods
                 fn series_slopes(
@@ -109,10 +121,10 @@ macro_rules! forward {
                     sums: &Self::Sums,
                     order: &[Self::Scalar; 2],
                     direction: &Direction<Self::Scalar, N>
-                ) -> RightHandSides<Self::Scalar, N, M>;
+                ) -> (RightHandSides<Self::Scalar, N, M>, Self::SeriesTerms);
                 fn series_factors(
                     slopes: &Self::SeriesSlopes,
-                    sums: &Self::Sums,
+                    terms: &Self::SeriesTerms,
                     order: &[Self::Scalar; 2],
                     direction: &Direction<Self::Scalar, N>,
                     accelerations: &SVector<Self::Scalar, N>,

@@ -29,6 +29,8 @@ pub trait TaylorSeries<const N: usize, const M: usize>: Lagrangian<N, M> {
     type SeriesSlopes: Copy + Debug + AsRef<[Self::Scalar]>;
     /// One number for each sum, and zeros up to a multiple of four.
     type Sums: Filled<Self::Scalar>;
+    /// What is known of the newest coefficients before the accelerations of their order.
+    type SeriesTerms: Copy + Debug;
 
     /// For each root of something that moves, √x or x²ᐟ⁵, the place of a sum whose right factor it is, and of its value among the
     /// slopes. The series of a root goes on below zero, the root does not: that of √x² is ±x.
@@ -51,20 +53,21 @@ pub trait TaylorSeries<const N: usize, const M: usize>: Lagrangian<N, M> {
     }
 
     /// What stands for h and γ where the coefficients of accelerations and multipliers are solved for, of an order that is
-    /// given with its reciprocal; `direction` has the coefficients of time, coordinates and velocities of that order.
+    /// given with its reciprocal; `direction` has the coefficients of time, coordinates and velocities of that order. Beside
+    /// that what is known by then of the factors of the sums.
     fn series_right_hand_sides(
         &self,
         slopes: &Self::SeriesSlopes,
         sums: &Self::Sums,
         order: &[Self::Scalar; 2],
         direction: &Direction<Self::Scalar, N>,
-    ) -> RightHandSides<Self::Scalar, N, M>;
+    ) -> (RightHandSides<Self::Scalar, N, M>, Self::SeriesTerms);
 
-    /// The terms of that order of the two factors of each sum.
+    /// The terms of that order of the two factors of each sum, by what was known of them and the accelerations and multipliers.
     fn series_factors(
         &self,
         slopes: &Self::SeriesSlopes,
-        sums: &Self::Sums,
+        terms: &Self::SeriesTerms,
         order: &[Self::Scalar; 2],
         direction: &Direction<Self::Scalar, N>,
         accelerations: &SVector<Self::Scalar, N>,

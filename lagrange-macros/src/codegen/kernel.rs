@@ -97,6 +97,7 @@ impl Style<'_> {
             Argument::Factor,
             Argument::Slopes,
             Argument::Sums,
+            Argument::Terms,
             Argument::Order,
             Argument::Forcing,
             Argument::Bias,
@@ -136,6 +137,10 @@ impl Style<'_> {
                 let (scalar, sums) = (self.types.scalar, self.sums);
                 quote!(sums: &[#scalar; #sums])
             }
+            Argument::Terms => {
+                let (scalar, terms) = (self.types.scalar, self.terms);
+                quote!(terms: &[#scalar; #terms])
+            }
             _ => self.types.argument(argument),
         }
     }
@@ -158,6 +163,7 @@ fn source(symbol: Symbol) -> Argument {
         Variable::ParameterChange(_) => Argument::Rates,
         Variable::Slope(_) => Argument::Slopes,
         Variable::Sum(_) => Argument::Sums,
+        Variable::Term(_) => Argument::Terms,
         Variable::Order | Variable::OrderReciprocal => Argument::Order,
     }
 }

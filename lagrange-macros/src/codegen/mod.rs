@@ -64,7 +64,7 @@ pub(crate) fn implementation(
     let series = Series::new(graph, &derived.equations);
     let slopes = changing.as_ref().map_or(0, Changing::slopes).max(series.as_ref().map_or(0, Series::slopes));
     let numbers = solving.as_ref().map(|solving| solving.factor.results.len());
-    let sums = series.as_ref().map_or(0, |series| series.sums);
+    let sums = series.as_ref().map_or([0; 2], |series| [series.sums, series.terms]);
     let style = Style::new(graph, problem, numbers, slopes, sums);
     let emitter = Emitter { declaration, problem, derived, rendered, solving, style };
     for (function, order) in emitter.orders(&[]).into_iter().filter(|(_, order)| *order > FUNCTION_ORDER) {

@@ -90,6 +90,7 @@ impl Types<'_> {
             Argument::ParameterSlopes => quote!(&Self::ParameterSlopes),
             Argument::SeriesSlopes => quote!(&Self::SeriesSlopes),
             Argument::Sums => quote!(&Self::Sums),
+            Argument::Terms => quote!(&Self::SeriesTerms),
             Argument::Order => quote!(&[#scalar; 2]),
             Argument::Forcing => quote!(&__lagrange::nalgebra::SVector<#scalar, #n>),
             Argument::Bias => quote!(&__lagrange::nalgebra::SVector<#scalar, #m>),
@@ -113,7 +114,7 @@ impl Types<'_> {
             Gives::SeriesSlopes => quote!(Self::SeriesSlopes),
             Gives::RightHandSides => {
                 let [forcing, bias] = [n, m].map(|length| self.vector(&length));
-                quote!((#forcing, #bias))
+                quote!(((#forcing, #bias), Self::SeriesTerms))
             }
             Gives::Factors => quote!([Self::Sums; 2]),
             Gives::ResidualChange => quote!(__lagrange::ResidualChange<#scalar, #n, #m>),

@@ -76,6 +76,7 @@ pub(crate) fn stub(declaration: &Declaration, outline: &Outline) -> TokenStream 
             impl #impl_generics __lagrange::TaylorSeries<#n, #m> for #ident #type_generics #where_clause {
                 type SeriesSlopes = [#scalar; 0];
                 type Sums = [#scalar; 0];
+                type SeriesTerms = [#scalar; 0];
                 #(#of_taylor_series)*
             }
 

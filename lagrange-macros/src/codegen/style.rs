@@ -27,6 +27,8 @@ pub(super) struct Style<'a> {
     slopes: usize,
     /// How many sums over Taylor coefficients they read.
     pub(super) sums: usize,
+    /// What of newest coefficients is known before the accelerations is so many numbers.
+    pub(super) terms: usize,
     /// Whether the scalar is `f64`, so that constants are plain literals.
     is_f64: bool,
     /// Names of the inputs and definitions, valid as identifiers and all different.
@@ -36,13 +38,13 @@ pub(super) struct Style<'a> {
 
 impl<'a> Style<'a> {
     /// `numbers` are those of the factor; where there are none the runtime has its own. Of the `slopes` there are at most
-    /// so many, of the `sums` over Taylor coefficients as many.
+    /// so many, of the `sums` over Taylor coefficients and of what is known of the newest as many.
     pub(super) fn new(
         graph: &'a Graph,
         problem: &'a Problem,
         numbers: Option<usize>,
         slopes: usize,
-        sums: usize,
+        [sums, terms]: [usize; 2],
     ) -> Self {
         let scalar = &problem.scalar;
         let is_f64 = quote!(#scalar).to_string() == "f64";
@@ -57,6 +59,7 @@ impl<'a> Style<'a> {
                 "factor",
                 "slopes",
                 "sums",
+                "terms",
                 "order",
                 "forcing",
                 "bias",
@@ -103,6 +106,9 @@ impl<'a> Style<'a> {
         for k in 0..sums {
             names.insert(Variable::Sum(k).symbol(), unique(format!("sum{k}")));
         }
+        for k in 0..terms {
+            names.insert(Variable::Term(k).symbol(), unique(format!("term{k}")));
+        }
         names.insert(Variable::Order.symbol(), unique("k".to_owned()));
         names.insert(Variable::OrderReciprocal.symbol(), unique("reciprocal_k".to_owned()));
         let (n, m) = (problem.coordinates.len(), problem.constraints.len());
@@ -116,7 +122,19 @@ impl<'a> Style<'a> {
             Some(numbers) => quote!([#scalar; #numbers]),
             None => quote!(__lagrange::generated::LoopFactor<#scalar, #n, #m>),
         };
-        Self { graph, problem, types, factor, narrow: None, slopes, sums, is_f64, names, definition_names }
+        Self {
+            graph,
+            problem,
+            types,
+            factor,
+            narrow: None,
+            slopes,
+            sums,
+            terms,
+            is_f64,
+            names,
+            definition_names,
+        }
     }
 
     /// For functions that compute with any numbers over those of the system, called `wide`, and read so many slopes.
@@ -242,6 +260,10 @@ impl<'a> Style<'a> {
                 Variable::Sum(k) => {
                     let k = Literal::usize_unsuffixed(k);
                     quote!(sums[#k])
+                }
+                Variable::Term(k) => {
+                    let k = Literal::usize_unsuffixed(k);
+                    quote!(terms[#k])
                 }
                 Variable::Order => quote!(order[0]),
                 Variable::OrderReciprocal => quote!(order[1]),

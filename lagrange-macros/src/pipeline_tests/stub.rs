@@ -64,7 +64,7 @@ fn promises(expansion: TokenStream) -> BTreeSet<String> {
         }
     }
     // How many numbers the factor has and how many slopes there are, a system knows that is derived.
-    let counted = [" Factor = ", "Slopes = ", " Sums = "];
+    let counted = [" Factor = ", "Slopes = ", " Sums = ", " SeriesTerms = "];
     promises.retain(|promise| !counted.iter().any(|name| promise.contains(name)));
     // What the trait gives to a system that has nothing to say of it.
     let provided = [

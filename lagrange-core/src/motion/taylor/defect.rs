@@ -25,6 +25,8 @@ pub(super) struct Tried<'a, S, T, const N: usize, const M: usize> {
     pub(super) end: &'a State<T, N>,
     pub(super) solved: &'a Solved<T, N, M>,
     pub(super) length: T,
+    /// Those of the series at the end.
+    pub(super) accelerations: [T; N],
 }
 
 impl<S: Filled<T>, T: Real, const N: usize, const M: usize> Tried<'_, S, T, N, M> {
@@ -34,9 +36,8 @@ impl<S: Filled<T>, T: Real, const N: usize, const M: usize> Tried<'_, S, T, N, M
         L: TaylorSeries<N, M, Scalar = T, Sums = S>,
     {
         let tolerance = method.tolerance::<T>();
-        let [_, _, accelerations] = self.series.change(self.length);
         let bound = method.defect_allowed::<T>();
-        let mut found = self.off(system, method, (self.end, self.solved), &accelerations, bound);
+        let mut found = self.off(system, method, (self.end, self.solved), &self.accelerations, bound);
         let at_roots =
             self.series.roots_below_zero::<L, M>(self.length).map(|length| (length, STRICT * tolerance));
         let within = parts::<L, N, M>().map(|part| (self.length * T::constant(part), bound));

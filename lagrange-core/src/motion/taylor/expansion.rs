@@ -4,7 +4,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::convert::Infallible;
 
-use super::sums::Factors;
+use super::sums::{Ends, Factors};
 use crate::error::Error;
 use crate::linearized::Direction;
 use crate::number::{Filled, PowerSeries, Real, Scalar, vector};
@@ -46,8 +46,7 @@ pub(super) struct Expansion<S, T, const N: usize> {
     pub(super) v: Vec<[T; N]>,
     /// Up to which order they are summed: all, or where those beyond are rounding.
     pub(super) summed: usize,
-    pub(super) factors: Factors<T>,
-    sums: S,
+    pub(super) factors: Factors<T, S>,
     /// The values of roots, in the order of [`TaylorSeries::ROOTS`].
     pub(super) roots: Vec<T>,
     /// The arguments of functions that the user supplies, in the order of [`TaylorSeries::ARGUMENTS`].
@@ -61,15 +60,13 @@ impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
         L: TaylorSeries<N, M, Scalar = T, Sums = S>,
     {
         let zero = T::constant(0.0);
-        let sums = S::filled(zero);
         Self {
             start: zero,
             unit: T::constant(1.0),
             q: vec![[zero; N]; order + 2],
             v: vec![[zero; N]; order + 1],
             summed: order,
-            factors: Factors::new(sums.as_ref().len(), order),
-            sums,
+            factors: Factors::new(order),
             roots: vec![zero; L::ROOTS.len()],
             arguments: vec![PowerSeries::constant(0.0); L::ARGUMENTS.len()],
         }
@@ -107,22 +104,23 @@ impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
         for (argument, &[_, slope]) in self.arguments.iter_mut().zip(L::ARGUMENTS) {
             *argument = PowerSeries::new(&[slopes.as_ref()[slope], T::constant(0.0)]);
         }
-        let mut newest = *solution;
+        let (mut newest, mut ends, mut sums) = (*solution, Ends::new(), S::filled(T::constant(0.0)));
         for order in 1..=highest {
             let numbers = [order as f64, 1.0 / order as f64].map(T::constant);
             let direction = self.advance(order, &newest, numbers[1]);
             if order == highest {
                 break;
             }
-            self.factors.add_up(order, &mut self.sums);
+            self.factors.add_up(order, &ends, &mut sums);
             if const { !L::ARGUMENTS.is_empty() } {
-                system.series_functions(order, &self.arguments, &mut self.sums);
+                system.series_functions(order, &self.arguments, &mut sums);
             }
-            newest = solve(&system.series_right_hand_sides(&slopes, &self.sums, &numbers, &direction))?;
+            let (sides, terms) = system.series_right_hand_sides(&slopes, &sums, &numbers, &direction);
+            newest = solve(&sides)?;
             let Solution { accelerations, multipliers, .. } = &newest;
             let factors =
-                system.series_factors(&slopes, &self.sums, &numbers, &direction, accelerations, multipliers);
-            self.factors.put(order, &factors);
+                system.series_factors(&slopes, &terms, &numbers, &direction, accelerations, multipliers);
+            self.factors.put(order, &factors, &mut ends);
             for (argument, &[place, _]) in self.arguments.iter_mut().zip(L::ARGUMENTS) {
                 argument.extend(factors[0].as_ref()[place]);
             }

@@ -341,7 +341,7 @@ impl Taylor {
         time: L::Scalar,
     ) -> Result<Attempt<L::Scalar, N>, Error> {
         let Memory { state, rest, series, .. } = memory;
-        let [dq, dv, _] = series.change(h);
+        let [dq, dv, accelerations] = series.change(h);
         let (q, rest_q) = compensated(&state.q.into(), &dq, &rest[0]);
         let (v, rest_v) = compensated(&state.v.into(), &dv, &rest[1]);
         let mut next = State { t: time, q: vector(q), v: vector(v) };
@@ -356,7 +356,7 @@ impl Taylor {
         if let Some(worst) = self.moved([(&q, &next.q.into()), (&v, &next.v.into())]) {
             return Ok(Attempt::Inaccurate(worst));
         }
-        let tried = Tried { series, start: state, end: &next, solved: &solved, length: h };
+        let tried = Tried { series, start: state, end: &next, solved: &solved, length: h, accelerations };
         if let Some(worst) = tried.inaccurate(system, self)? {
             return Ok(Attempt::Inaccurate(worst));
         }

@@ -1,10 +1,14 @@
 //! The sums of Taylor's recurrences: of products of coefficients, the orders of which add up to one order.
 
+mod few;
+
 use alloc::vec;
 use alloc::vec::Vec;
 use core::array::from_fn;
 
 use crate::number::{Filled, Scalar};
+pub(super) use few::Ends;
+use few::Few;
 
 /// So many sums are computed side by side, of a multiple of which the derive tells.
 const WIDTH: usize = 4;
@@ -16,24 +20,32 @@ struct Group<T>([T; WIDTH]);
 
 /// The factors of all sums so far, order by order.
 #[derive(Clone, Debug)]
-pub(super) struct Factors<T> {
+pub(super) struct Factors<T, S> {
     /// How many orders there is room for; the first is 1.
     orders: usize,
+    /// Where there are few of them, else by groups.
+    few: Few<S>,
     left: Vec<Group<T>>,
     /// From the highest order down, so that a sum runs through both in the same direction.
     right: Vec<Group<T>>,
 }
 
-impl<T: Scalar> Factors<T> {
-    /// Room for so many sums.
-    pub(super) fn new(sums: usize, orders: usize) -> Self {
-        let room = vec![Group([T::constant(0.0); WIDTH]); sums / WIDTH * orders];
-        Self { orders, left: room.clone(), right: room }
+impl<T: Scalar, S: Filled<T>> Factors<T, S> {
+    /// Room for so many orders.
+    pub(super) fn new(orders: usize) -> Self {
+        let sums = S::filled(T::constant(0.0)).as_ref().len();
+        let [rows, groups] = if few::are::<T, S>() { [orders, 0] } else { [0, sums / WIDTH * orders] };
+        let room = vec![Group([T::constant(0.0); WIDTH]); groups];
+        Self { orders, few: Few::new::<T>(rows), left: room.clone(), right: room }
     }
 
     /// The terms of an order.
     #[inline(always)]
-    pub(super) fn put<S: Filled<T>>(&mut self, order: usize, [left, right]: &[S; 2]) {
+    pub(super) fn put(&mut self, order: usize, newest: &[S; 2], ends: &mut Ends<S>) {
+        if const { few::are::<T, S>() } {
+            return self.few.put(order, newest, ends);
+        }
+        let [left, right] = newest;
         let places = [(&mut self.left, left, order - 1), (&mut self.right, right, self.orders - order)];
         for (all, newest, place) in places {
             // In steps, not in chunks: how many of these there are takes a division.
@@ -45,13 +57,19 @@ impl<T: Scalar> Factors<T> {
 
     /// The coefficients of the right factor of a sum, from order 1, of which there are so many.
     pub(super) fn right_factor(&self, place: usize, count: usize) -> impl Iterator<Item = T> + Clone {
-        let group = &self.right[place / WIDTH * self.orders..];
-        (1..=count).map(move |order| group[self.orders - order].0[place % WIDTH])
+        (1..=count).map(move |order| match const { few::are::<T, S>() } {
+            true => self.few.right_factor(place, order),
+            false => self.right[place / WIDTH * self.orders + self.orders - order].0[place % WIDTH],
+        })
     }
 
     /// The sums of an order, of the factors of all orders before it, and of no other: there may be no numbers.
     #[inline(always)]
-    pub(super) fn add_up<S: Filled<T>>(&self, order: usize, sums: &mut S) {
+    pub(super) fn add_up(&self, order: usize, ends: &Ends<S>, sums: &mut S) {
+        if const { few::are::<T, S>() } {
+            *sums = self.few.add_up(order, ends);
+            return;
+        }
         let terms = order - 1;
         for (group, sums) in sums.as_mut().as_chunks_mut().0.iter_mut().enumerate() {
             let (left, right) = (group * self.orders, (group + 1) * self.orders - terms);

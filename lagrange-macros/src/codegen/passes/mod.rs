@@ -10,6 +10,7 @@ mod signs;
 mod split;
 #[cfg(test)]
 mod tests;
+mod vanishing;
 
 use super::count::Count;
 use super::kernel::OPERATION_LIMIT;
@@ -93,6 +94,12 @@ impl Program {
     /// With long sums as trees, for functions that are waited for.
     pub(super) fn balanced(mut self) -> Self {
         (self.schedule, self.results) = balance::balanced(&self.schedule, &self.results);
+        self
+    }
+
+    /// Without what is multiplied by zero, for functions of a state of which is known that it is one.
+    pub(super) fn without_zeros(mut self) -> Self {
+        (self.schedule, self.results) = vanishing::left_out(&self.schedule, &self.results);
         self
     }
 

@@ -48,11 +48,11 @@ impl Recurrences {
         let made = [
             self.moving(s0, [x], |of, [x]| {
                 let end = of.times(c0, x);
-                of.sum(end, Some(with_c))
+                of.sum(end, of.known(with_c))
             }),
             self.moving(c0, [x], |of, [x]| {
                 let end = of.times(s0, x);
-                let sum = of.sum(end, Some(with_s));
+                let sum = of.sum(end, of.known(with_s));
                 if sine == Function::Sin { of.negative(sum) } else { sum }
             }),
         ];
@@ -76,7 +76,7 @@ impl Recurrences {
             let sum = of.weighted_sum(x, z);
             of.moving(z0, [x], |of, [x]| {
                 let end = of.times(z0, x);
-                of.sum(end, Some(sum))
+                of.sum(end, of.known(sum))
             })
         })
     }
@@ -95,12 +95,12 @@ impl Recurrences {
             let (with_d, of_square) = (of.weighted_sum(x, d), of.product_sum(z, z));
             let made = of.moving(z0, [x], |of, [x]| {
                 let end = of.times(slope, x);
-                of.sum(end, Some(with_d))
+                of.sum(end, of.known(with_d))
             });
             let twice = of.schedule.push(Operation::Add(z0, z0));
             let changed = of.moving(slope, [made], |of, [z]| {
                 let end = of.times(twice, z);
-                let square = of.sum(end, Some(of_square));
+                let square = of.sum(end, of.known(of_square));
                 if is_circular { square } else { of.negative(square) }
             });
             of.quantities[d.0] = of.quantities[changed.0];
@@ -117,7 +117,7 @@ impl Recurrences {
             let sum = of.weighted_sum(z, d);
             of.moving(z0, [x], |of, [x]| {
                 let x = if is_falling { of.negative(x) } else { x };
-                let rest = of.difference(x, Some(sum));
+                let rest = of.difference(x, of.known(sum));
                 of.times(over, rest)
             })
         })
@@ -142,6 +142,8 @@ impl Recurrences {
             of.moving(z0, [x, y], |of, [x, y]| {
                 let (right, left) = (of.times(x0, y), of.times(y0, x));
                 let ends = of.difference(right, left);
+                let [with_x, with_y, with_d] =
+                    [with_x, with_y, with_d].map(|sum| sum.and_then(|sum| of.known(sum)));
                 let inner = of.difference(with_x, with_y);
                 let both = of.sum(ends, inner);
                 let rest = of.difference(both, with_d);
@@ -177,8 +179,8 @@ impl Recurrences {
             let of_x = of.schedule.push(Operation::Multiply(e, of_x));
             of.moving(z0, [x], |of, [x]| {
                 let end = of.times(scale, x);
-                let grown = of.sum(end, Some(of_x));
-                let rest = of.difference(grown, Some(of_z));
+                let grown = of.sum(end, of.known(of_x));
+                let rest = of.difference(grown, of.known(of_z));
                 of.times(over, rest)
             })
         })

@@ -25,12 +25,15 @@ const WIDTH: usize = 4;
 pub(super) struct Series {
     /// The numbers of order 0 that the others are made of.
     slopes: Program,
-    /// The right-hand sides that the coefficients of accelerations and multipliers are solved for.
+    /// The right-hand sides that the coefficients of accelerations and multipliers are solved for, and what is known by then of
+    /// the factors of the sums.
     right_hand_sides: Program,
     /// The newest terms of the factors of each sum.
     factors: Program,
     /// How many sums there are, those included that fill up the last group.
     pub(super) sums: usize,
+    /// How many numbers are known before the accelerations.
+    pub(super) terms: usize,
     /// For each root the place of a sum whose right factor it is, and of its value among the slopes.
     roots: Vec<[usize; 2]>,
     /// For each argument of a function that the user supplies the place of a sum whose left factor it is, and of its value among
@@ -44,16 +47,17 @@ impl Series {
     pub(super) fn new(graph: &Graph, equations: &Equations) -> Option<Self> {
         let Equations { balance, constraint_acceleration, .. } = equations;
         let roots: Vec<Id> = balance.iter().chain(constraint_acceleration).copied().collect();
-        let Program { schedule, results, .. } = Program::of(graph, &roots);
+        let Program { schedule, results, .. } = Program::of(graph, &roots).without_zeros();
         let (mut recurrences, results) = Recurrences::of(&schedule, &results, balance.len())?;
         let mut rest: Vec<Register> =
-            results.into_iter().map(|result| recurrences.newest(result, Stage::Before)).collect();
+            results.into_iter().map(|result| recurrences.newest(result, Stage::Known)).collect();
         for sum in &mut rest[..balance.len()] {
             *sum = recurrences.schedule.push(Operation::Negate(*sum));
         }
         let (calls, arguments) = recurrences.calls();
         let sums = recurrences.sums.len().next_multiple_of(WIDTH);
-        let factors = recurrences.factors(sums).concat();
+        let (known, factors) = recurrences.factors(sums);
+        rest.extend(&known);
         let Recurrences { schedule, roots, .. } = recurrences;
         let kept: Vec<Register> = roots.iter().chain(&arguments).map(|&(_, value)| value).collect();
         let (slopes, [right_hand_sides, factors], kept) =
@@ -68,6 +72,7 @@ impl Series {
             right_hand_sides: right_hand_sides.balanced().fused(),
             factors: factors.balanced().fused(),
             sums,
+            terms: known.len(),
             roots: roots?,
             arguments: arguments?,
             calls,
@@ -94,18 +99,26 @@ impl Emitter<'_> {
     /// The implementation of `TaylorSeries`.
     pub(super) fn taylor_series(&self, series: &Series) -> TokenStream {
         let style = self.style.reading(series.slopes());
-        let (n, m, sums) = (self.problem.coordinates.len(), self.problem.constraints.len(), series.sums);
-        let of_order = |method: &Method, program: &Program, shapes: [usize; 2]| {
-            let kernel = style.write(method.name, program, &shapes.map(Shape::Vector));
-            self.function(method, kernel, |results| match (method.quantity, results) {
-                (Quantity::SeriesFactors, _) => quote!([#(#results),*]),
-                _ => quote!((#(__lagrange::generated::vector(#results)),*)),
+        let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
+        let Series { sums, terms, .. } = *series;
+        let of_order = |method: &Method, program: &Program, shapes: &[usize]| {
+            let kernel = style.write(
+                method.name,
+                program,
+                &shapes.iter().map(|&length| Shape::Vector(length)).collect::<Vec<_>>(),
+            );
+            self.function(method, kernel, |results| match results {
+                [forcing, bias, terms] => {
+                    let sides = [forcing, bias].map(|side| quote!(__lagrange::generated::vector(#side)));
+                    quote!(((#(#sides),*), #terms))
+                }
+                _ => quote!([#(#results),*]),
             })
         };
         let write = |method: &Method| match method.quantity {
             Quantity::SeriesSlopes => self.slopes(method, &series.slopes),
-            Quantity::SeriesRightHandSides => of_order(method, &series.right_hand_sides, [n, m]),
-            _ => of_order(method, &series.factors, [sums; 2]),
+            Quantity::SeriesRightHandSides => of_order(method, &series.right_hand_sides, &[n, m, terms]),
+            _ => of_order(method, &series.factors, &[sums; 2]),
         };
         let Written { tokens, kernels } = TAYLOR_SERIES.iter().map(write).collect();
         let generics = self.generics_on_series(series);
@@ -126,6 +139,7 @@ impl Emitter<'_> {
                 impl #impl_generics __lagrange::TaylorSeries<#n, #m> for #ident #type_generics #where_clause {
                     type SeriesSlopes = [#scalar; #slopes];
                     type Sums = [#scalar; #sums];
+                    type SeriesTerms = [#scalar; #terms];
                     #roots
                     #arguments
                     #tokens

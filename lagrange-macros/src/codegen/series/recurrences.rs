@@ -23,19 +23,21 @@ pub(super) struct Quantity(pub(super) usize);
 pub(super) struct Coefficients {
     /// That of order 0.
     first: Register,
-    /// The newest, in each [`Stage`]; a register that is not there is a zero. `None` for a constant of the motion.
+    /// The newest, in its [parts](Stage); a register that is not there is a zero. `None` for a constant of the motion.
     pub(super) newest: Option<[Option<Register>; 2]>,
 }
 
-/// How an order is computed twice: accelerations and multipliers of that order are what it is computed for.
-#[derive(Clone, Copy)]
+/// The parts of a newest coefficient: accelerations and multipliers of that order are what it is computed for.
+#[derive(Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Stage {
     /// With zeros in their place.
-    Before,
-    After,
+    #[default]
+    Known,
+    /// What they add.
+    Added,
 }
 
-pub(super) const STAGES: [Stage; 2] = [Stage::Before, Stage::After];
+pub(super) const STAGES: [Stage; 2] = [Stage::Known, Stage::Added];
 
 /// What a sum is taken of, with j from 1 to k − 1.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -54,6 +56,8 @@ pub(super) enum Sum {
 #[derive(Default)]
 pub(super) struct Recurrences {
     pub(super) schedule: Schedule,
+    /// Which part of the newest coefficients is being made.
+    stage: Stage,
     coordinates: usize,
     pub(super) quantities: Vec<Coefficients>,
     pub(super) sums: IndexSet<Sum>,
@@ -89,32 +93,45 @@ impl Recurrences {
         Some((recurrences, results.iter().map(|result| quantities[result]).collect()))
     }
 
-    /// The newest coefficient; a zero where there is none.
+    /// A part of the newest coefficient; a zero where there is none.
     pub(super) fn newest(&mut self, of: Quantity, stage: Stage) -> Register {
-        let newest = self.quantities[of.0].newest.and_then(|newest| newest[stage as usize]);
-        newest.unwrap_or_else(|| self.schedule.constant(0.0))
+        self.part(of, stage).unwrap_or_else(|| self.schedule.constant(0.0))
     }
 
-    /// The newest terms of the factors of each sum, filled up with zeros to so many.
-    pub(super) fn factors(&mut self, count: usize) -> [Vec<Register>; 2] {
-        let mut factors = [Vec::new(), Vec::new()];
-        let zero = self.schedule.constant(0.0);
-        for sum in self.sums.clone() {
-            let [left, right] = match sum {
-                Sum::Product(x, y) => [x, y].map(|factor| self.newest(factor, Stage::After)),
-                Sum::Weighted(x, y) => {
-                    let [left, right] = [x, y].map(|factor| self.newest(factor, Stage::After));
-                    let order = self.order();
-                    [self.schedule.push(Operation::Multiply(order, left)), right]
-                }
-                Sum::Argument(x) => [self.newest(x, Stage::After), zero],
-                Sum::Value(..) => [zero; 2],
+    pub(super) fn part(&self, of: Quantity, stage: Stage) -> Option<Register> {
+        self.quantities[of.0].newest.and_then(|newest| newest[stage as usize])
+    }
+
+    /// What has to be computed of the factors of the sums before the accelerations and multipliers of an order, and by this and
+    /// them the newest terms, those of left factors first, filled up with zeros to so many of either.
+    pub(super) fn factors(&mut self, count: usize) -> (IndexSet<Register>, Vec<Register>) {
+        let (mut known, zero) = (IndexSet::new(), self.schedule.constant(0.0));
+        let mut terms = vec![zero; 2 * count];
+        for (place, sum) in self.sums.clone().into_iter().enumerate() {
+            let (factors, is_weighted) = match sum {
+                Sum::Product(x, y) => ([Some(x), Some(y)], false),
+                Sum::Weighted(x, y) => ([Some(x), Some(y)], true),
+                Sum::Argument(x) => ([Some(x), None], false),
+                Sum::Value(..) => ([None; 2], false),
             };
-            factors[0].push(left);
-            factors[1].push(right);
+            let [left, right] = factors.map(|factor| factor.and_then(|factor| self.term(factor, &mut known)));
+            let left = if is_weighted { self.times_order(left) } else { left };
+            (terms[place], terms[count + place]) = (left.unwrap_or(zero), right.unwrap_or(zero));
         }
-        factors.iter_mut().for_each(|all| all.resize(count, zero));
-        factors
+        (known, terms)
+    }
+
+    /// The newest coefficient, by what is known of it; what is given with its order is not computed.
+    fn term(&mut self, of: Quantity, known: &mut IndexSet<Register>) -> Option<Register> {
+        let first = self.part(of, Stage::Known).map(|part| match self.schedule.operations[part.index()] {
+            Operation::Input(symbol) if !matches!(Variable::of(symbol), Variable::Sum(_)) => part,
+            _ => {
+                let (place, _) = known.insert_full(part);
+                self.schedule.push(Operation::Input(Variable::Term(place).symbol()))
+            }
+        });
+        let added = self.part(of, Stage::Added);
+        self.sum(first, added)
     }
 
     fn operation(&mut self, operation: Operation<Quantity>) -> Option<Quantity> {
@@ -158,7 +175,7 @@ impl Recurrences {
         };
         let first = self.schedule.push(Operation::Input(symbol));
         let newest = Some(self.schedule.push(Operation::Input(newest.symbol())));
-        self.add(first, Some([newest.filter(|_| !is_solved), newest]))
+        self.add(first, Some(if is_solved { [None, newest] } else { [newest, None] }))
     }
 
     pub(super) fn first(&self, of: Quantity) -> Register {
@@ -169,7 +186,7 @@ impl Recurrences {
         self.quantities[of.0].newest.is_none()
     }
 
-    /// An operation by order 0, and by the newest coefficients as `newest` makes it of those of `operands`, in each stage.
+    /// An operation by order 0, and by the newest coefficients as `newest` makes it of those of `operands`, part by part.
     pub(super) fn moving<const K: usize>(
         &mut self,
         first: Register,
@@ -177,11 +194,16 @@ impl Recurrences {
         mut newest: impl FnMut(&mut Self, [Option<Register>; K]) -> Option<Register>,
     ) -> Quantity {
         let both = STAGES.map(|stage| {
-            let of = |x: Quantity| self.quantities[x.0].newest.and_then(|newest| newest[stage as usize]);
-            let operands = operands.map(of);
+            self.stage = stage;
+            let operands = operands.map(|x| self.part(x, stage));
             newest(self, operands)
         });
         self.add(first, Some(both))
+    }
+
+    /// What does not depend on the newest coefficients, in the part to which it belongs.
+    pub(super) fn known(&self, x: Register) -> Option<Register> {
+        (self.stage == Stage::Known).then_some(x)
     }
 
     pub(super) fn linear<const K: usize>(
@@ -217,7 +239,7 @@ impl Recurrences {
                 self.moving(first, [x, y], |of, [x, y]| {
                     let (left, right) = (of.times(x0, y), of.times(y0, x));
                     let ends = of.sum(left, right);
-                    of.sum(ends, Some(sum))
+                    of.sum(ends, of.known(sum))
                 })
             }
         }
@@ -238,7 +260,7 @@ impl Recurrences {
             let sum = of.product_sum(z, y);
             of.moving(z0, [x, y], |of, [x, y]| {
                 let known = of.times(z0, y);
-                let known = of.sum(known, Some(sum));
+                let known = of.sum(known, of.known(sum));
                 let rest = of.difference(x, known);
                 of.times(over, rest)
             })
@@ -258,7 +280,7 @@ impl Recurrences {
             let sum = of.product_sum(z, z);
             of.watch(Sum::Product(z, z), z0);
             of.moving(z0, [x], |of, [x]| {
-                let rest = of.difference(x, Some(sum));
+                let rest = of.difference(x, of.known(sum));
                 of.times(over, rest)
             })
         })
@@ -299,8 +321,9 @@ impl Recurrences {
         self.schedule.push(Operation::Input(Variable::Sum(place).symbol()))
     }
 
-    fn order(&mut self) -> Register {
-        self.schedule.push(Operation::Input(Variable::Order.symbol()))
+    fn times_order(&mut self, x: Option<Register>) -> Option<Register> {
+        let order = self.schedule.push(Operation::Input(Variable::Order.symbol()));
+        self.times(order, x)
     }
 
     pub(super) fn reciprocal(&mut self, x: Register) -> Register {

@@ -6,7 +6,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::Series;
-use super::recurrences::{Quantity, Recurrences, STAGES, Sum};
+use super::recurrences::{Quantity, Recurrences, STAGES, Stage, Sum};
 use crate::codegen::Emitter;
 use crate::codegen::bounds::{FUNCTION_ORDER, call_of, orders_of};
 use crate::codegen::operation::{Call, Operation, Register};
@@ -42,10 +42,9 @@ impl Recurrences {
         let (place, _) = self.calls.insert_full(call);
         let sum = self.place(Sum::Value(place, output));
         let newest = STAGES.map(|stage| {
-            let mut all = Some(sum);
+            let mut all = (stage == Stage::Known).then_some(sum);
             for &(slope, x) in &slopes {
-                let newest = self.quantities[x.0].newest.and_then(|newest| newest[stage as usize]);
-                let change = self.times(slope, newest);
+                let change = self.times(slope, self.part(x, stage));
                 all = self.sum(all, change);
             }
             all

@@ -475,6 +475,7 @@ const _: () = {
     impl __lagrange::TaylorSeries<1usize, 0usize> for Pendulum {
         type SeriesSlopes = [f64; 3usize];
         type Sums = [f64; 4usize];
+        type SeriesTerms = [f64; 2usize];
         ///3 operations (+ − × ÷ √), 2 elementary functions.
         #[inline]
         #[allow(unused_variables)]
@@ -494,7 +495,7 @@ const _: () = {
             let (r4, r5) = __lagrange::Scalar::sin_cos(theta);
             [r5, r4, (-(m * (l * g)))]
         }
-        ///4 operations (+ − × ÷ √), 0 elementary functions. One product fused with a sum.
+        ///8 operations (+ − × ÷ √), 0 elementary functions. 2 products fused with sums. Reordered: at most 1 results wait for their last use, before 2.
         #[inline]
         #[allow(unused_variables)]
         fn series_right_hand_sides(
@@ -504,62 +505,57 @@ const _: () = {
             order: &[f64; 2],
             direction: &__lagrange::Direction<f64, 1usize>,
         ) -> (
-            __lagrange::nalgebra::SVector<f64, 1usize>,
-            __lagrange::nalgebra::SVector<f64, 0usize>,
+            (
+                __lagrange::nalgebra::SVector<f64, 1usize>,
+                __lagrange::nalgebra::SVector<f64, 0usize>,
+            ),
+            Self::SeriesTerms,
         ) {
             let d_theta = direction.q.data.0[0][0];
             let s0 = slopes[0];
+            let s1 = slopes[1];
             let s2 = slopes[2];
             let sum0 = sums[0];
-            let reciprocal_k = order[1];
-            (
-                __lagrange::generated::vector([
-                    ((__lagrange::Scalar::multiply_add(
-                        d_theta,
-                        s0,
-                        (sum0 * reciprocal_k),
-                    )) * s2),
-                ]),
-                __lagrange::generated::vector([]),
-            )
-        }
-        ///8 operations (+ − × ÷ √), 0 elementary functions. 2 products fused with sums. Reordered: at most 1 results wait for their last use, before 2.
-        #[inline]
-        #[allow(unused_variables)]
-        fn series_factors(
-            &self,
-            slopes: &Self::SeriesSlopes,
-            sums: &Self::Sums,
-            order: &[f64; 2],
-            direction: &__lagrange::Direction<f64, 1usize>,
-            accelerations: &__lagrange::nalgebra::SVector<f64, 1usize>,
-            multipliers: &__lagrange::nalgebra::SVector<f64, 0usize>,
-        ) -> [Self::Sums; 2] {
-            let d_theta = direction.q.data.0[0][0];
-            let s0 = slopes[0];
-            let s1 = slopes[1];
-            let sum0 = sums[0];
             let sum1 = sums[1];
-            let k = order[0];
             let reciprocal_k = order[1];
-            let r13 = d_theta * k;
-            [
-                [r13, r13, 0.0, 0.0],
+            let r8 = __lagrange::Scalar::multiply_add(
+                d_theta,
+                s0,
+                (sum0 * reciprocal_k),
+            );
+            (
+                (
+                    __lagrange::generated::vector([(r8 * s2)]),
+                    __lagrange::generated::vector([]),
+                ),
                 [
                     (-(__lagrange::Scalar::multiply_add(
                         d_theta,
                         s1,
                         (reciprocal_k * sum1),
                     ))),
-                    (__lagrange::Scalar::multiply_add(
-                        d_theta,
-                        s0,
-                        (sum0 * reciprocal_k),
-                    )),
-                    0.0,
-                    0.0,
+                    r8,
                 ],
-            ]
+            )
+        }
+        ///1 operation (+ − × ÷ √), 0 elementary functions.
+        #[inline]
+        #[allow(unused_variables)]
+        fn series_factors(
+            &self,
+            slopes: &Self::SeriesSlopes,
+            terms: &Self::SeriesTerms,
+            order: &[f64; 2],
+            direction: &__lagrange::Direction<f64, 1usize>,
+            accelerations: &__lagrange::nalgebra::SVector<f64, 1usize>,
+            multipliers: &__lagrange::nalgebra::SVector<f64, 0usize>,
+        ) -> [Self::Sums; 2] {
+            let d_theta = direction.q.data.0[0][0];
+            let k = order[0];
+            let term0 = terms[0];
+            let term1 = terms[1];
+            let r3 = d_theta * k;
+            [[r3, r3, 0.0, 0.0], [term0, term1, 0.0, 0.0]]
         }
     }
 };
