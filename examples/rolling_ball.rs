@@ -1,8 +1,8 @@
 //! A ball rolling on a floor, on a tilted plane and on a turntable: Milton (8.4)–(8.7).
 //!
 //! The constraint is that of the book, V − a Ω×n = 0, with the velocity of a turning plane on the right. It is
-//! not integrable. The orientation is a unit quaternion, whose length has no inertia: the mass matrix is singular,
-//! and only |q|² = 1 makes the equations solvable. The multiplier of the rolling constraint is the contact force.
+//! not integrable. The ball is a frame that is turned by a quaternion, which brings the constraint |q|² = 1: its length has no
+//! inertia, so that the mass matrix is singular. The multiplier of the rolling constraint is the contact force.
 //!
 //! Eliminating it gives V̇ = 2/7 w n×V + 5/7 g_∥, with w the rate of the turntable.
 
@@ -17,11 +17,11 @@ use plotters::prelude::*;
 
 #[derive(Lagrangian)]
 #[coordinates(r: [3], q: [4])]
-#[define(inertia = 2/5 * m * a^2)]
-#[define(Omega = quat_rate(q, q_dot))]
-#[lagrangian(m/2 * dot(r_dot, r_dot) + inertia/2 * dot(Omega, Omega) + m*dot(g, r))]
-#[constraint(rolling: r_dot - a*cross(Omega, n) = w*cross(n, r))]
-#[constraint(unit: (dot(q, q) - 1)/2 = 0)]
+#[frame(ball: translate(r), rotate(q))]
+#[define(inertia = 2/5 * m * a^2 * identity(3))]
+#[define(Omega = express(angular_velocity(ball), fixed))]
+#[lagrangian(kinetic(ball, m, [0, 0, 0], inertia) + m*dot(g, r))]
+#[constraint(rolling: express(velocity(ball), fixed) - a*cross(Omega, n) = vector(fixed, w*cross(n, r)))]
 #[observable(spin = Omega)]
 #[observable(contact = lambda(rolling))]
 struct Ball {

@@ -199,3 +199,53 @@ fn a_pendulum_on_the_turning_earth_has_the_equations_of_the_rotating_frame() {
     assert_close(ours.multipliers, theirs.multipliers, 1e-13);
     assert_relative_eq!(site.energy(&state), bob.energy(&state), max_relative = 1e-13);
 }
+
+/// Milton (8.4)–(8.7): a ball on a plane with the normal n that turns at the rate w.
+#[derive(Lagrangian)]
+#[coordinates(r: [3], q: [4])]
+#[define(inertia = 2/5 * m * a^2)]
+#[define(Omega = quat_rate(q, q_dot))]
+#[lagrangian(m/2 * dot(r_dot, r_dot) + inertia/2 * dot(Omega, Omega) + m*dot(g, r))]
+#[constraint(rolling: r_dot - a*cross(Omega, n) = w*cross(n, r))]
+#[constraint(unit: dot(q, q) = 1)]
+#[observable(spin = Omega)]
+struct Ball {
+    m: f64,
+    a: f64,
+    g: Vector3<f64>,
+    n: Vector3<f64>,
+    w: f64,
+}
+
+/// The same as a body.
+#[derive(Lagrangian)]
+#[coordinates(r: [3], q: [4])]
+#[frame(ball: translate(r), rotate(q))]
+#[define(inertia = 2/5 * m * a^2 * identity(3))]
+#[define(Omega = express(angular_velocity(ball), fixed))]
+#[lagrangian(kinetic(ball, m, [0, 0, 0], inertia) + m*dot(g, r))]
+#[constraint(rolling: express(velocity(ball), fixed) - a*cross(Omega, n) = vector(fixed, w*cross(n, r)))]
+#[observable(spin = Omega)]
+struct RollingBody {
+    m: f64,
+    a: f64,
+    g: Vector3<f64>,
+    n: Vector3<f64>,
+    w: f64,
+}
+
+#[test]
+fn a_body_that_rolls_has_the_equations_of_the_ball() {
+    let (m, a, g, w) = (0.5, 0.1, Vector3::new(0.3, 0.0, -9.81), 3.0);
+    let n = Vector3::new(0.1, 0.2, 0.9).normalize();
+    let (ball, body) = (Ball { m, a, g, n, w }, RollingBody { m, a, g, n, w });
+    let rough = State::new([0.5, 0.1, 0.2, 1.0, 0.2, 0.3, 0.4], [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7]);
+    let (state, _) = ball.make_consistent(&rough).unwrap();
+    let (ours, theirs) = (body.solve(&state).unwrap(), ball.solve(&state).unwrap());
+    assert_close(ours.accelerations, theirs.accelerations, 1e-12);
+    // The contact force; what keeps |q| = 1 has work to do where L depends on the length.
+    let rolling = |multipliers: SVector<f64, 4>| multipliers.fixed_rows::<3>(0).into_owned();
+    assert_close(rolling(ours.multipliers), rolling(theirs.multipliers), 1e-12);
+    assert_relative_eq!(body.spin(&state), ball.spin(&state), max_relative = 1e-12);
+    assert_relative_eq!(body.energy(&state), ball.energy(&state), max_relative = 1e-12);
+}
