@@ -82,7 +82,7 @@ impl Pen<'_> {
     /// By an index, which may be looked up in the table.
     fn indexed(&mut self) -> Term {
         let several = self.draft.blocks(|length| length > 1);
-        if several.is_empty() || self.random.once_in(2) {
+        if self.draft.table.is_empty() || self.random.once_in(2) {
             return Term::Index;
         }
         Term::Picked(self.random.one_of(&several))
