@@ -1,5 +1,5 @@
-//! Systems of all sizes at which rustc does something of its own with a loop of N or M rounds. `.ci/run` compiles them in
-//! release, with a limit on processor time; `.ci/full` compiles many more.
+//! Systems of all sizes at which rustc does something of its own with a loop of N or M rounds. `.ci/sizes`
+//! compiles them in release, with a limit on processor time, and many more.
 
 mod oscillators;
 

@@ -7,6 +7,7 @@ mod argument;
 #[cfg(feature = "alloc")]
 mod columns;
 mod direction;
+#[cfg(feature = "alloc")]
 mod display;
 #[cfg(feature = "alloc")]
 mod dual_sample;

@@ -47,7 +47,7 @@ use solving::Solving;
 pub(crate) use stub::stub;
 use style::Style;
 #[cfg(test)]
-pub(crate) use tests::{operations, solutions, solving, value};
+pub(crate) use tests::{operations, solutions, solutions_by, solving, value};
 
 /// The implementation of the traits, and a method for each observable; `None` where a function would be too long,
 /// which is then reported.

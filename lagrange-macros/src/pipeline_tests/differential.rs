@@ -8,14 +8,18 @@ mod draft;
 mod jet;
 mod language;
 mod oracle;
+mod pen;
+mod points;
+mod space;
 
 use super::equations;
-use crate::codegen::solutions;
+use crate::codegen::solutions_by;
 use crate::resolve::Problem;
 use crate::rounds::{Random, rounds};
 use crate::symbolic::Symbol;
 use crate::variables::Variable;
 use draft::Draft;
+use jet::Jet;
 use language::Here;
 use oracle::Solution;
 
@@ -64,7 +68,10 @@ fn checked(random: &mut Random, tally: &mut Tally) {
             tally.untold += 1;
             continue;
         };
-        let found = solutions(&graph, &equations, |symbol| input(time, &numbers, &problem, symbol));
+        let input = |symbol| input(time, &numbers, &draft, &problem, symbol);
+        let found = solutions_by(&graph, &equations, input, |function, by, arguments, output| {
+            supplied(&draft, function, by, arguments, output)
+        });
         assert!(found.iter().any(Option::is_some), "left to loops:\n{source}");
         let what = format!("at t = {time}, {numbers:?}\n{source}");
         for entries in found.iter().flatten() {
@@ -106,6 +113,7 @@ fn compare(entries: &[f64], expected: &Solution, tally: &mut Tally, what: &str) 
 fn input(
     time: f64,
     [coordinates, velocities, parameters]: &[Vec<f64>; 3],
+    draft: &Draft,
     problem: &Problem,
     symbol: Symbol,
 ) -> f64 {
@@ -113,8 +121,25 @@ fn input(
         Variable::Time => time,
         Variable::Coordinate(i) => coordinates[i],
         Variable::Velocity(i) => velocities[i],
-        // Fields are in the order in which they are declared.
-        Variable::Parameter(k) => parameters[problem.parameters.entries[k].field],
+        Variable::Parameter(k) => {
+            let name = problem.parameters.name(k);
+            parameters[draft.names.iter().position(|known| *known == name).expect("a number of a field")]
+        }
         other => panic!("the solution depends on {other:?}"),
     }
+}
+
+/// What a function that is not written in the language gives, or a derivative of it.
+fn supplied(draft: &Draft, function: u32, by: &[u32], arguments: &[f64], output: u32) -> f64 {
+    let mut arguments: Vec<Jet> = arguments.iter().copied().map(Jet::number).collect();
+    for (epsilon, &position) in (0..).zip(by) {
+        // Every argument takes part, so that none is shorter than the others.
+        for (k, argument) in arguments.iter_mut().enumerate() {
+            let rate = if k == position as usize { 1.0 } else { 0.0 };
+            *argument = argument.moved(&Jet::number(rate), epsilon);
+        }
+    }
+    let here = Here::new(0.0, &[], &[], &[]).with_arguments(arguments);
+    let value = draft.supplied[function as usize].results[output as usize].value(draft, &here);
+    value.coefficient(by.len() as u32).value.to_f64()
 }

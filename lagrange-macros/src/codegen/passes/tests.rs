@@ -4,6 +4,7 @@ use super::split::{Parts, split};
 use super::{Program, factors, fuse, guard, reciprocals, signs};
 use crate::codegen::operation::{Operation, Register};
 use crate::codegen::schedule::Schedule;
+use crate::rounds::Random;
 use crate::symbolic::{Function, Symbol};
 use crate::variables::Variable;
 
@@ -12,38 +13,29 @@ fn values(schedule: &Schedule, results: &[Register]) -> Vec<f64> {
     schedule.values(results, |symbol| 0.3 + 0.1 * f64::from(symbol.index))
 }
 
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, limit: usize) -> usize {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        ((self.0 >> 33) as usize) % limit
+/// Sums and products above all, of few inputs, so that they share factors.
+fn program(random: &mut Random) -> (Schedule, Vec<Register>) {
+    let mut schedule = Schedule::default();
+    let mut registers: Vec<Register> =
+        (0..4).map(|index| schedule.push(Operation::Input(Symbol { family: 1, index }))).collect();
+    registers.push(schedule.constant(-2.0));
+    for _ in 0..60 {
+        let (x, y) = (registers[random.below(registers.len())], registers[random.below(registers.len())]);
+        let operation = match random.below(16) {
+            0 => Operation::Negate(x),
+            1..=5 => Operation::Add(x, y),
+            6..=8 => Operation::Subtract(x, y),
+            9..=13 => Operation::Multiply(x, y),
+            14 => Operation::Divide(x, registers[random.below(4)]),
+            _ => Operation::Function(
+                if y < x { Function::Sin } else { Function::Cos },
+                registers[random.below(4)],
+            ),
+        };
+        registers.push(schedule.push(operation));
     }
-
-    /// Sums and products above all, of few inputs, so that they share factors.
-    fn program(&mut self) -> (Schedule, Vec<Register>) {
-        let mut schedule = Schedule::default();
-        let mut registers: Vec<Register> =
-            (0..4).map(|index| schedule.push(Operation::Input(Symbol { family: 1, index }))).collect();
-        registers.push(schedule.constant(-2.0));
-        for _ in 0..60 {
-            let (x, y) = (registers[self.below(registers.len())], registers[self.below(registers.len())]);
-            let operation = match self.below(16) {
-                0 => Operation::Negate(x),
-                1..=5 => Operation::Add(x, y),
-                6..=8 => Operation::Subtract(x, y),
-                9..=13 => Operation::Multiply(x, y),
-                14 => Operation::Divide(x, registers[self.below(4)]),
-                _ => Operation::Function(
-                    if y < x { Function::Sin } else { Function::Cos },
-                    registers[self.below(4)],
-                ),
-            };
-            registers.push(schedule.push(operation));
-        }
-        let results = (0..6).map(|_| registers[self.below(registers.len())]).collect();
-        (schedule, results)
-    }
+    let results = (0..6).map(|_| registers[random.below(registers.len())]).collect();
+    (schedule, results)
 }
 
 fn input(schedule: &mut Schedule, index: u32) -> Register {
@@ -54,7 +46,7 @@ fn input(schedule: &mut Schedule, index: u32) -> Register {
 fn signs_change_no_value() {
     let mut random = Random(1);
     for _ in 0..500 {
-        let (schedule, results) = random.program();
+        let (schedule, results) = program(&mut random);
         let (new, new_results) = signs::gathered(&schedule, &results);
         let (before, after) = (values(&schedule, &results), values(&new, &new_results));
         assert!(
@@ -69,7 +61,7 @@ fn signs_change_no_value() {
 fn no_pass_changes_a_result_beyond_rounding_nor_leaves_more_to_do() {
     let mut random = Random(2);
     for _ in 0..2000 {
-        let (schedule, results) = random.program();
+        let (schedule, results) = program(&mut random);
         for pass in [factors::taken_out, reciprocals::shared, fuse::fused] {
             let (new, new_results) = pass(&schedule, &results);
             let (before, after) = (values(&schedule, &results), values(&new, &new_results));

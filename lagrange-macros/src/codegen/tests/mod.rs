@@ -4,6 +4,7 @@ mod interpret;
 
 use super::body::Body;
 use super::count::Count;
+use super::operation::Call;
 use super::passes::Program;
 use super::solving::solve;
 use crate::mechanics::Equations;
@@ -33,9 +34,21 @@ pub(crate) fn solutions(
     equations: &Equations,
     input: impl Fn(Symbol) -> f64,
 ) -> Vec<Option<Vec<f64>>> {
+    solutions_by(graph, equations, input, |_, _, _, _| f64::NAN)
+}
+
+/// The same, with functions that the user supplies: which one, by what it is differentiated, the arguments, and which result.
+pub(crate) fn solutions_by(
+    graph: &Graph,
+    equations: &Equations,
+    input: impl Fn(Symbol) -> f64,
+    function: impl Fn(u32, &[u32], &[f64], u32) -> f64,
+) -> Vec<Option<Vec<f64>>> {
+    let function =
+        |call: &Call<f64>, output| function(call.function, &call.derivatives, &call.arguments, output);
     let values = |form| {
         let program = solve(graph, form, equations)?.fused();
-        Some(Body::new(&program, &Default::default()).values(program.results.len(), &input, |_, _| f64::NAN))
+        Some(Body::new(&program, &Default::default()).values(program.results.len(), &input, function))
     };
     equations.forms.iter().map(values).collect()
 }

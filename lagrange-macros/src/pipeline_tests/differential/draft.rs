@@ -1,6 +1,8 @@
 //! A system at random: every matrix M definite, every function where it is smooth.
 
-use super::language::{Names, Term};
+use super::language::Term;
+use super::pen::{Pen, binary, function, half, negative, number, power};
+use super::space::{Frame, Step, Vector};
 use crate::rounds::Random;
 use crate::symbolic::Function;
 
@@ -10,18 +12,39 @@ pub(super) struct Draft {
     /// Names and how many numbers they are of.
     coordinates: Vec<(String, usize)>,
     pub(super) count: usize,
-    parameters: usize,
+    /// The numbers of the fields, as expressions name them, and those among them that may stand alone.
+    pub(super) names: Vec<String>,
+    scalars: Vec<usize>,
+    /// Vectors and inertias, by their first numbers.
+    vectors: Vec<usize>,
+    inertias: Vec<usize>,
+    fields: Vec<String>,
     /// A value, or a function of one argument.
-    definitions: Vec<(Term, bool)>,
+    pub(super) definitions: Vec<(Term, bool)>,
+    pub(super) supplied: Vec<Supplied>,
+    pub(super) frames: Vec<Frame>,
+    /// What stands before the steps of a frame in its declaration, which may be that of a family.
+    placed: Vec<(String, usize)>,
+    /// Those that are written as they are.
+    attributes: Vec<String>,
+    /// Whole numbers below the length of the coordinate that is picked from.
+    pub(super) table: Vec<usize>,
     pub(super) lagrangian: Vec<Term>,
     pub(super) dissipation: Option<Term>,
     pub(super) forces: Vec<(usize, Term)>,
     /// Whether it constrains velocities.
     pub(super) constraints: Vec<(Term, bool)>,
+    /// So many of them, the last ones, come with quaternions.
+    implied: usize,
 }
 
-impl Names for Draft {
-    fn coordinate(&self, i: usize, suffix: &str) -> String {
+/// A function that is not written in the language, of s or of s and r.
+pub(super) struct Supplied {
+    pub(super) results: Vec<Term>,
+}
+
+impl Draft {
+    pub(super) fn coordinate(&self, i: usize, suffix: &str) -> String {
         let mut rest = i;
         for (name, length) in &self.coordinates {
             match length {
@@ -33,48 +56,72 @@ impl Names for Draft {
         unreachable!("there is no coordinate {i}")
     }
 
-    fn definition(&self, i: usize) -> &Term {
-        &self.definitions[i].0
+    /// A coordinate of several numbers as a whole, by the first.
+    pub(super) fn block(&self, first: usize, suffix: &str) -> String {
+        self.coordinate(first, suffix).trim_end_matches("[0]").to_owned()
     }
-}
 
-impl Draft {
+    /// A field or a member of several numbers as a whole, by the first.
+    pub(super) fn whole(&self, first: usize) -> String {
+        self.names[first].trim_end_matches("[0]").to_owned()
+    }
+
+    /// The first entries of coordinates of so many.
+    pub(super) fn blocks(&self, of: impl Fn(usize) -> bool) -> Vec<usize> {
+        let firsts = self.coordinates.iter().scan(0, |next, (_, length)| {
+            *next += length;
+            Some((*next - length, *length))
+        });
+        firsts.filter(|&(_, length)| of(length)).map(|(first, _)| first).collect()
+    }
+
     pub(super) fn source(&self) -> String {
         let coordinates = self.coordinates.iter().map(|(name, length)| match length {
             1 => name.clone(),
             _ => format!("{name}: [{length}]"),
         });
         let mut attributes = vec![format!("coordinates({})", coordinates.collect::<Vec<_>>().join(", "))];
+        attributes.extend(self.attributes.iter().cloned());
         for (k, (term, is_function)) in self.definitions.iter().enumerate() {
             let argument = if *is_function { "(s)" } else { "" };
             attributes.push(format!("define(d{k}{argument} = {})", term.text(self)));
         }
+        let steps = |k: &usize| self.frames[*k].steps.iter().map(|step| step.text(self)).collect::<Vec<_>>();
+        let placed = self.placed.iter();
+        attributes.extend(placed.map(|(head, k)| format!("frame({head}: {})", steps(k).join(", "))));
         let terms: Vec<String> = self.lagrangian.iter().map(|term| term.text(self)).collect();
         attributes.push(format!("lagrangian({})", terms.join(" + ")));
         attributes.extend(self.dissipation.iter().map(|term| format!("dissipation({})", term.text(self))));
         for (i, term) in &self.forces {
             attributes.push(format!("force({}: {})", self.coordinate(*i, ""), term.text(self)));
         }
-        for (k, (term, _)) in self.constraints.iter().enumerate() {
+        let written = self.constraints.iter().take(self.constraints.len() - self.implied);
+        for (k, (term, _)) in written.enumerate() {
             attributes.push(format!("constraint(c{k}: {} = 0)", term.text(self)));
         }
         let attributes: String = attributes.iter().map(|text| format!("#[{text}]\n")).collect();
-        let fields: Vec<String> = (0..self.parameters).map(|k| format!("p{k}: f64")).collect();
-        format!("{attributes}struct Random {{ {} }}", fields.join(", "))
+        format!("{attributes}struct Random {{ {} }}", self.fields.join(", "))
     }
 
     pub(super) fn new(random: &mut Random) -> Self {
-        let mut draft = Self { parameters: 2 + random.below(3), ..Self::default() };
-        for k in 0..1 + random.below(2) {
-            let length = 1 + random.below(3);
-            draft.coordinates.push((format!("q{k}"), length));
-            draft.count += length;
+        let mut draft = Self::default();
+        let is_moving = random.once_in(3);
+        for k in 0..1 + random.below(if is_moving { 1 } else { 2 }) {
+            draft.add_coordinate(format!("q{k}"), 1 + random.below(3));
+        }
+        draft.add_fields(random);
+        if is_moving {
+            draft.add_bodies(random);
         }
         for _ in 0..random.below(3) {
             let is_function = random.once_in(2);
-            let term =
-                Pen { draft: &draft, random, function: is_function, velocities: false, index: false }.term(2);
+            let mut pen = draft.pen(random);
+            pen.function = is_function;
+            let term = pen.term(2);
             draft.definitions.push((term, is_function));
+        }
+        if is_moving {
+            draft.place(random);
         }
         draft.lagrangian = draft.kinetic(random);
         for _ in 0..1 + random.below(2) {
@@ -83,15 +130,114 @@ impl Draft {
         }
         draft.act(random);
         let first = random.below(draft.count);
-        for k in 0..random.below(draft.count.min(3)) {
+        let turned = draft.turned();
+        for k in 0..random.below((draft.count - turned.len()).min(3)) {
             let constraint = draft.constraint((first + k) % draft.count, random);
             draft.constraints.push(constraint);
         }
+        draft.implied = turned.len();
+        draft.constraints.extend(turned.into_iter().map(|first| (unit(first), false)));
         draft
     }
 
+    fn add_coordinate(&mut self, name: String, length: usize) {
+        self.coordinates.push((name, length));
+        self.count += length;
+    }
+
+    /// Numbers, a vector, functions and a table.
+    fn add_fields(&mut self, random: &mut Random) {
+        for k in 0..2 + random.below(3) {
+            self.scalars.push(self.names.len());
+            self.names.push(format!("p{k}"));
+            self.fields.push(format!("p{k}: f64"));
+        }
+        if random.once_in(2) {
+            self.vectors.push(self.names.len());
+            self.names.extend((0..3).map(|k| format!("a[{k}]")));
+            self.fields.push("a: [f64; 3]".to_owned());
+        }
+        if random.once_in(2) {
+            self.supplied = supplied();
+            self.attributes.push("function(u0(s, r) = first)".to_owned());
+            self.attributes.push("function(u1(s): [3] = second)".to_owned());
+            self.fields.push("first: First, second: Second".to_owned());
+        }
+        if let Some(length) =
+            self.coordinates.iter().map(|(_, length)| *length).filter(|&length| length > 1).min()
+        {
+            self.table = (0..3).map(|_| random.below(length)).collect();
+            self.attributes.push(format!("define(pick = {:?})", self.table));
+        }
+    }
+
+    /// A quaternion to turn one by, and what two bodies are, in structs.
+    fn add_bodies(&mut self, random: &mut Random) {
+        if random.once_in(2) {
+            self.add_coordinate("turn".to_owned(), 4);
+        }
+        for body in 0..2 {
+            self.scalars.push(self.names.len());
+            self.names.push(format!("body[{body}].m"));
+            self.vectors.push(self.names.len());
+            self.names.extend((0..3).map(|k| format!("body[{body}].c[{k}]")));
+            self.inertias.push(self.names.len());
+            self.names.extend((0..9).map(|k| format!("body[{body}].I[{}][{}]", k / 3, k % 3)));
+        }
+        self.fields.push("body: [Body; 2]".to_owned());
+        self.attributes.push("parameter(body: [2] {m, c: [3], I: symmetric})".to_owned());
+    }
+
+    /// Two frames, or a tree of three.
+    fn place(&mut self, random: &mut Random) {
+        if random.once_in(2) {
+            for k in 0..1 + random.below(2) {
+                let parent = (k > 0 && !random.once_in(4)).then_some(0);
+                let head = if parent.is_some() { format!("f{k} in f0") } else { format!("f{k}") };
+                self.place_one(format!("f{k}"), parent, random);
+                self.placed.push((head, k));
+            }
+            return;
+        }
+        let parents = [0, 0, random.below(2)];
+        self.attributes.push(format!("define(parent = {parents:?})"));
+        self.place_one("part[0]".to_owned(), None, random);
+        self.placed.push(("part[0]".to_owned(), 0));
+        let mut pen = self.pen(random);
+        (pen.index, pen.placing) = (true, true);
+        let steps = vec![pen.step(), pen.step()];
+        for (index, parent) in parents.into_iter().enumerate().skip(1) {
+            let (name, steps) = (format!("part[{index}]"), steps.clone());
+            self.frames.push(Frame { name, parent: Some(parent), steps, index });
+        }
+        self.placed.push(("part[i in 1..3] in part[parent[i]]".to_owned(), 1));
+    }
+
+    fn place_one(&mut self, name: String, parent: Option<usize>, random: &mut Random) {
+        let mut pen = self.pen(random);
+        pen.placing = true;
+        let steps = (0..1 + pen.random.below(2)).map(|_| pen.step()).collect();
+        self.frames.push(Frame { name, parent, steps, index: 0 });
+    }
+
+    /// The quaternions that turn a frame.
+    fn turned(&self) -> Vec<usize> {
+        let steps = || self.frames.iter().flat_map(|frame| &frame.steps);
+        let is_turning =
+            |first: &usize| steps().any(|step| matches!(step, Step::Quaternion(i) if i == first));
+        self.blocks(|length| length == 4).into_iter().filter(is_turning).collect()
+    }
+
     fn pen<'d>(&'d self, random: &'d mut Random) -> Pen<'d> {
-        Pen { draft: self, random, function: false, velocities: false, index: false }
+        Pen { draft: self, random, function: false, velocities: false, index: false, placing: false }
+    }
+
+    pub(super) fn scalars(&self) -> &[usize] {
+        &self.scalars
+    }
+
+    pub(super) fn vectors(&self) -> &[usize] {
+        &self.vectors
     }
 
     /// Squares of the velocities, each with some of those before it, which makes M definite; and now and then what only adds
@@ -109,10 +255,26 @@ impl Draft {
             let mass = if random.once_in(3) { self.pen(random).positive(2) } else { Term::Parameter(0) };
             terms.push(half(binary('*', mass, power(speed, 2, 1))));
         }
+        for k in 0..self.frames.len() {
+            let (mut pen, body) = (self.pen(random), k % 2);
+            let (mass, centre) = (Term::Parameter(self.inertias[body] - 4), pen.vector(1));
+            terms.push(match pen.random.below(3) {
+                0 => continue,
+                1 => Term::Kinetic(k, Box::new((mass, centre)), self.inertias[body]),
+                _ => {
+                    let speed = Vector::Speed(k, Box::new(centre));
+                    binary('*', mass, Term::Dot(Box::new([speed.clone(), speed])))
+                }
+            });
+        }
         let i = random.below(self.count);
-        terms.extend(match random.below(6) {
+        terms.extend(match random.below(7) {
             0 => Some(power(Term::Der(Box::new(self.pen(random).bounded(2))), 2, 1)),
             1 => Some(Term::Der(Box::new(self.pen(random).term(2)))),
+            4 => {
+                let rate = Vector::Der(Box::new(self.pen(random).vector(2)));
+                Some(Term::Dot(Box::new([rate.clone(), rate])))
+            }
             2 => Some(binary('*', self.pen(random).bounded(2), Term::Velocity(i))),
             3 => Some(Term::Sqrt(Box::new(binary(
                 '+',
@@ -144,7 +306,7 @@ impl Draft {
     fn constraint(&self, i: usize, random: &mut Random) -> (Term, bool) {
         let of_velocities = random.once_in(2);
         let own = if of_velocities { Term::Velocity(i) } else { Term::Coordinate(i) };
-        let mut term = binary('*', Term::Parameter(random.below(self.parameters)), own);
+        let mut term = binary('*', Term::Parameter(random.one_of(&self.scalars)), own);
         for j in 0..self.count {
             if j != i && random.once_in(2) {
                 let factor = self.pen(random).bounded(1);
@@ -160,188 +322,32 @@ impl Draft {
     pub(super) fn numbers(&self, random: &mut Random) -> (f64, [Vec<f64>; 3]) {
         let mut several =
             |count, low, high| (0..count).map(|_| random.between(low, high)).collect::<Vec<_>>();
-        let numbers = [
+        let mut numbers = [
             several(self.count, -1.5, 1.5),
             several(self.count, -1.5, 1.5),
-            several(self.parameters, 0.5, 2.0),
+            several(self.names.len(), 0.5, 2.0),
         ];
+        for (first, (i, j)) in
+            self.inertias.iter().flat_map(|&first| [(0, 1), (0, 2), (1, 2)].map(|at| (first, at)))
+        {
+            let product = random.between(-0.2, 0.2);
+            (numbers[2][first + 3 * i + j], numbers[2][first + 3 * j + i]) = (product, product);
+        }
         (random.between(0.0, 2.0), numbers)
     }
 }
 
-fn binary(sign: char, x: Term, y: Term) -> Term {
-    Term::Binary(sign, Box::new([x, y]))
+/// q·q − 1
+fn unit(first: usize) -> Term {
+    let squares = (first..first + 4).map(|i| power(Term::Coordinate(i), 2, 1));
+    squares.fold(negative(number("1", 1, 1)), |sum, square| binary('+', sum, square))
 }
 
-fn power(x: Term, numerator: i128, denominator: i128) -> Term {
-    Term::Power(Box::new(x), numerator, denominator)
-}
-
-fn half(x: Term) -> Term {
-    binary('/', x, Term::Number("2", 2, 1))
-}
-
-fn negative(x: Term) -> Term {
-    Term::Negative(Box::new(x))
-}
-
-fn function(name: Function, x: Term) -> Term {
-    Term::Function(name, Box::new(x))
-}
-
-/// Writes terms of what there is.
-struct Pen<'d> {
-    draft: &'d Draft,
-    random: &'d mut Random,
-    /// Inside of a function.
-    function: bool,
-    velocities: bool,
-    /// Inside of a sum.
-    index: bool,
-}
-
-impl Pen<'_> {
-    fn number(&mut self) -> Term {
-        const NUMBERS: [(&str, i128, i128); 9] = [
-            ("1", 1, 1),
-            ("2", 2, 1),
-            ("3", 3, 1),
-            ("0.5", 1, 2),
-            ("9.81", 981, 100),
-            ("1_0.25", 41, 4),
-            ("2.5e-1", 1, 4),
-            ("2/3", 2, 3),
-            ("7/5", 7, 5),
-        ];
-        let (text, numerator, denominator) = self.random.one_of(&NUMBERS);
-        Term::Number(text, numerator, denominator)
-    }
-
-    fn atom(&mut self) -> Term {
-        let draft = self.draft;
-        match self.random.below(12) {
-            0..4 if self.function => Term::Argument,
-            0..3 if self.velocities => Term::Velocity(self.random.below(draft.count)),
-            0..2 if self.index => Term::Index,
-            0..7 => Term::Coordinate(self.random.below(draft.count)),
-            7 | 8 => Term::Parameter(self.random.below(draft.parameters)),
-            9 => Term::Time,
-            10 if !draft.definitions.is_empty() => self.defined(),
-            11 if self.random.once_in(4) => Term::Pi,
-            _ => self.number(),
-        }
-    }
-
-    fn defined(&mut self) -> Term {
-        let k = self.random.below(self.draft.definitions.len());
-        if self.draft.definitions[k].1 {
-            Term::Applied(k, Box::new(self.bounded(1)))
-        } else {
-            Term::Defined(k)
-        }
-    }
-
-    fn boxed(&mut self, depth: usize) -> Box<Term> {
-        Box::new(self.term(depth))
-    }
-
-    fn vector(&mut self, depth: usize) -> [Term; 3] {
-        std::array::from_fn(|_| self.term(depth))
-    }
-
-    /// Any smooth function.
-    fn term(&mut self, depth: usize) -> Term {
-        let Some(below) = depth.checked_sub(1) else { return self.atom() };
-        match self.random.below(24) {
-            0..8 => {
-                let sign = self.random.one_of(&['+', '-', '*', '*']);
-                binary(sign, self.term(below), self.term(below))
-            }
-            8 => binary('/', self.term(below), self.positive(below)),
-            9 => negative(self.term(below)),
-            10 => power(self.term(below), 2, 1),
-            11 => power(self.bounded(below), 3, 1),
-            12..16 => self.bounded(depth),
-            16..18 => self.positive(depth),
-            18 => match self.random.below(3) {
-                0 => function(Function::Acos, half(self.bounded(below))),
-                1 => function(Function::Tan, half(self.bounded(below))),
-                _ => function(Function::Ln, self.positive(below)),
-            },
-            19 => Term::Atan2(Box::new([self.term(below), self.positive(below)])),
-            20 => Term::Dot(Box::new([self.vector(below), self.vector(below)])),
-            21 => {
-                let vectors = Box::new([self.vector(below), self.vector(below)]);
-                Term::Cross(vectors, self.random.below(3))
-            }
-            22 if !self.index && !self.function => {
-                self.index = true;
-                let term = self.boxed(below);
-                self.index = false;
-                Term::Sum(2 + self.random.below(2), term)
-            }
-            _ => self.equal(below),
-        }
-    }
-
-    /// What a simplifier has something to do with, and may get wrong.
-    fn equal(&mut self, depth: usize) -> Term {
-        let (x, y) = (self.term(depth), self.atom());
-        let square = |name, x: &Term| power(function(name, x.clone()), 2, 1);
-        match self.random.below(9) {
-            0 => binary('+', square(Function::Sin, &x), square(Function::Cos, &x)),
-            1 => binary('-', square(Function::Cos, &x), square(Function::Sin, &x)),
-            2 => binary('-', power(binary('+', x.clone(), y.clone()), 2, 1), power(x, 2, 1)),
-            3 => binary('*', binary('-', x.clone(), y.clone()), binary('-', y, x)),
-            4 => function(Function::Sin, negative(x)),
-            5 => function(Function::Cos, binary('-', x, y)),
-            6 => power(negative(x), 3, 1),
-            7 => function(Function::Ln, function(Function::Exp, self.bounded(depth))),
-            _ => {
-                let base = self.positive(depth);
-                binary('*', power(base.clone(), 1, 3), power(base, -4, 3))
-            }
-        }
-    }
-
-    /// Between -1 and 1.
-    fn bounded(&mut self, depth: usize) -> Term {
-        let Some(below) = depth.checked_sub(1) else {
-            return function(Function::Sin, self.atom());
-        };
-        match self.random.below(8) {
-            0 | 1 => function(Function::Sin, self.term(below)),
-            2 | 3 => function(Function::Cos, self.term(below)),
-            4 => function(Function::Tanh, self.term(below)),
-            5 => half(function(Function::Atan, self.term(below))),
-            6 => half(function(Function::Asin, half(self.bounded(below)))),
-            _ => {
-                let x = self.term(below);
-                binary('/', x.clone(), binary('+', Term::Number("1", 1, 1), power(x, 2, 1)))
-            }
-        }
-    }
-
-    /// Well above 0.
-    fn positive(&mut self, depth: usize) -> Term {
-        let Some(below) = depth.checked_sub(1) else {
-            return Term::Parameter(self.random.below(self.draft.parameters));
-        };
-        let one = Term::Number("1", 1, 1);
-        match self.random.below(10) {
-            0 => binary('+', one, power(self.term(below), 2, 1)),
-            1 => binary('+', Term::Number("2", 2, 1), function(Function::Sin, self.term(below))),
-            2 => function(Function::Exp, self.bounded(below)),
-            3 => function(Function::Cosh, self.bounded(below)),
-            4 => Term::Sqrt(Box::new(binary('+', one, power(self.term(below), 2, 1)))),
-            5 => binary('+', function(Function::Abs, self.bounded(below)), Term::Number("0.5", 1, 2)),
-            6 => {
-                let [x, y, _] = self.vector(below);
-                Term::Norm(Box::new([x, y, Term::Parameter(0)]))
-            }
-            7 => Term::Exponential(Box::new([self.positive(below), self.bounded(below)])),
-            8 => power(self.positive(below), self.random.one_of(&[1, -1, 3]), self.random.one_of(&[1, 2, 3])),
-            _ => Term::Parameter(self.random.below(self.draft.parameters)),
-        }
-    }
+fn supplied() -> Vec<Supplied> {
+    let (s, r) = (Term::Argument(0), Term::Argument(1));
+    let of = |name, x: &Term| function(name, x.clone());
+    let times = |x: &Term, y: &Term| binary('*', x.clone(), y.clone());
+    let first = binary('+', times(&of(Function::Sin, &s), &r), half(of(Function::Cos, &times(&s, &r))));
+    let second = vec![of(Function::Sin, &s), times(&s, &of(Function::Cos, &s)), of(Function::Atan, &s)];
+    vec![Supplied { results: vec![first] }, Supplied { results: second }]
 }

@@ -206,10 +206,19 @@ impl Mul for Jet {
             let inherited = x.size() * y.errors + y.size() * x.errors;
             return Self(vec![Running::rounded(x.value * y.value, 1.0, inherited)]);
         }
-        let length = self.0.len().max(other.0.len());
-        let [(a, b), (c, d)] = [self, other].map(|jet| Self(jet.long(length)).halves());
-        let mut entries = (a.clone() * c.clone()).long(length / 2);
-        entries.extend((a * d + b * c).long(length / 2));
+        if self.0.len() < other.0.len() {
+            return other * self;
+        }
+        let length = self.0.len();
+        let (a, b) = self.halves();
+        let (rest, rates) = if other.0.len() < length {
+            (a * other.clone(), b * other)
+        } else {
+            let (c, d) = other.halves();
+            (a.clone() * c.clone(), a * d + b * c)
+        };
+        let mut entries = rest.long(length / 2);
+        entries.extend(rates.long(length / 2));
         Self(entries)
     }
 }

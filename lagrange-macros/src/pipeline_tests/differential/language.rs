@@ -1,6 +1,8 @@
 //! Expressions of the language: how they are written, and what they are worth.
 
+use super::draft::Draft;
 use super::jet::Jet;
+use super::space::{self, Vector};
 use crate::symbolic::{Double, Function, Rational};
 
 /// What is written at random.
@@ -12,13 +14,17 @@ pub(super) enum Term {
     /// The number of an index.
     Index,
     /// What a function is given.
-    Argument,
+    Argument(usize),
     Coordinate(usize),
     Velocity(usize),
     Parameter(usize),
+    /// An entry of the coordinate that begins there, by the table of whole numbers.
+    Picked(usize),
     /// A definition before this.
     Defined(usize),
     Applied(usize, Box<Self>),
+    /// A function that is not written in the language.
+    Supplied(usize, Box<[Self; 2]>),
     Negative(Box<Self>),
     Binary(char, Box<[Self; 2]>),
     /// To a fixed power.
@@ -28,53 +34,49 @@ pub(super) enum Term {
     Function(Function, Box<Self>),
     Sqrt(Box<Self>),
     Atan2(Box<[Self; 2]>),
-    Dot(Box<[[Self; 3]; 2]>),
-    Norm(Box<[Self; 3]>),
-    /// An entry of the cross product.
-    Cross(Box<[[Self; 3]; 2]>, usize),
+    Dot(Box<[Vector; 2]>),
+    Norm(Box<Vector>),
+    Component(Box<Vector>, usize),
+    /// Of a frame: mass, centre, and the first number of the inertia.
+    Kinetic(usize, Box<(Self, Vector)>, usize),
     Sum(usize, Box<Self>),
     Der(Box<Self>),
 }
 
 /// Where in the order of operations what is written stands: it takes parentheses where more is needed.
-const SUM: u8 = 1;
-const PRODUCT: u8 = 2;
+pub(super) const SUM: u8 = 1;
+pub(super) const PRODUCT: u8 = 2;
 const SIGN: u8 = 3;
 const POWER: u8 = 4;
-const ATOM: u8 = 5;
-
-/// What names there are, and what they stand for.
-pub(super) trait Names {
-    fn coordinate(&self, i: usize, suffix: &str) -> String;
-    fn definition(&self, i: usize) -> &Term;
-}
+pub(super) const ATOM: u8 = 5;
 
 impl Term {
-    pub(super) fn text(&self, names: &impl Names) -> String {
-        self.written(names).0
+    pub(super) fn text(&self, draft: &Draft) -> String {
+        self.written(draft).0
     }
 
-    fn written(&self, names: &impl Names) -> (String, u8) {
-        let at = |term: &Self, least: u8| {
-            let (text, place) = term.written(names);
-            if place < least { format!("({text})") } else { text }
-        };
-        let all = |terms: &[Self; 3]| {
-            let texts = terms.each_ref().map(|term| term.text(names));
-            format!("[{}]", texts.join(", "))
-        };
+    /// In parentheses, where it stands lower than that.
+    pub(super) fn at(&self, least: u8, draft: &Draft) -> String {
+        let (text, place) = self.written(draft);
+        if place < least { format!("({text})") } else { text }
+    }
+
+    fn written(&self, draft: &Draft) -> (String, u8) {
+        let at = |term: &Self, least: u8| term.at(least, draft);
         match self {
             Self::Number(text, ..) if text.contains('/') => ((*text).to_owned(), PRODUCT),
             Self::Number(text, ..) => ((*text).to_owned(), ATOM),
             Self::Pi => ("pi".to_owned(), ATOM),
             Self::Time => ("t".to_owned(), ATOM),
             Self::Index => ("i".to_owned(), ATOM),
-            Self::Argument => ("s".to_owned(), ATOM),
-            Self::Coordinate(i) => (names.coordinate(*i, ""), ATOM),
-            Self::Velocity(i) => (names.coordinate(*i, "_dot"), ATOM),
-            Self::Parameter(k) => (format!("p{k}"), ATOM),
+            Self::Argument(k) => (["s", "r"][*k].to_owned(), ATOM),
+            Self::Coordinate(i) => (draft.coordinate(*i, ""), ATOM),
+            Self::Velocity(i) => (draft.coordinate(*i, "_dot"), ATOM),
+            Self::Parameter(k) => (draft.names[*k].clone(), ATOM),
+            Self::Picked(i) => (format!("{}[pick[i]]", draft.block(*i, "")), ATOM),
             Self::Defined(k) => (format!("d{k}"), ATOM),
-            Self::Applied(k, x) => (format!("d{k}({})", x.text(names)), ATOM),
+            Self::Applied(k, x) => (format!("d{k}({})", x.text(draft)), ATOM),
+            Self::Supplied(k, x) => (format!("u{k}({}, {})", x[0].text(draft), x[1].text(draft)), ATOM),
             Self::Negative(x) => (format!("-{}", at(x, SIGN)), SIGN),
             Self::Binary(sign, terms) => {
                 let (place, right) = match sign {
@@ -88,39 +90,43 @@ impl Term {
             Self::Power(x, n, 1) => (format!("{}^{n}", at(x, ATOM)), POWER),
             Self::Power(x, n, d) => (format!("{}^({n}/{d})", at(x, ATOM)), POWER),
             Self::Exponential(terms) => (format!("{}^{}", at(&terms[0], ATOM), at(&terms[1], SIGN)), POWER),
-            Self::Function(function, x) => (format!("{}({})", function.name(), x.text(names)), ATOM),
-            Self::Sqrt(x) => (format!("sqrt({})", x.text(names)), ATOM),
+            Self::Function(function, x) => (format!("{}({})", function.name(), x.text(draft)), ATOM),
+            Self::Sqrt(x) => (format!("sqrt({})", x.text(draft)), ATOM),
             Self::Atan2(terms) => {
-                (format!("atan2({}, {})", terms[0].text(names), terms[1].text(names)), ATOM)
+                (format!("atan2({}, {})", terms[0].text(draft), terms[1].text(draft)), ATOM)
             }
-            Self::Dot(vectors) => (format!("dot({}, {})", all(&vectors[0]), all(&vectors[1])), ATOM),
-            Self::Norm(vector) => (format!("norm({})", all(vector)), ATOM),
-            Self::Cross(vectors, k) => {
-                (format!("cross({}, {})[{k}]", all(&vectors[0]), all(&vectors[1])), ATOM)
+            Self::Dot(v) => (format!("dot({}, {})", v[0].text(draft), v[1].text(draft)), ATOM),
+            Self::Norm(v) => (format!("norm({})", v.text(draft)), ATOM),
+            Self::Component(v, k) => (format!("{}[{k}]", v.atom(draft)), ATOM),
+            Self::Kinetic(k, of, inertia) => {
+                let (frame, inertia) = (&draft.frames[*k].name, draft.whole(*inertia));
+                (format!("kinetic({frame}, {}, {}, {inertia})", of.0.text(draft), of.1.text(draft)), ATOM)
             }
-            Self::Sum(count, x) => (format!("sum(i in 0..{count}, {})", x.text(names)), ATOM),
-            Self::Der(x) => (format!("der({})", x.text(names)), ATOM),
+            Self::Sum(count, x) => (format!("sum(i in 0..{count}, {})", x.text(draft)), ATOM),
+            Self::Der(x) => (format!("der({})", x.text(draft)), ATOM),
         }
     }
 
     /// The value where things are as they are `here`.
-    pub(super) fn value(&self, names: &impl Names, here: &Here) -> Jet {
-        let of = |term: &Self| term.value(names, here);
-        let all = |terms: &[Self; 3]| terms.each_ref().map(of);
-        let dot = |[a, b, c]: [Jet; 3], [x, y, z]: [Jet; 3]| a * x + b * y + c * z;
+    pub(super) fn value(&self, draft: &Draft, here: &Here) -> Jet {
+        let of = |term: &Self| term.value(draft, here);
+        let vector = |vector: &Vector| vector.value(draft, here);
         match self {
             Self::Number(_, n, 1) => Jet::number(*n as f64),
             Self::Number(_, n, d) => Jet::rounded(Double::from(Rational::new(*n, *d))),
             Self::Pi => Jet::rounded(Double::PI),
             Self::Time => here.time.clone(),
             Self::Index => Jet::number(here.index as f64),
-            Self::Argument => here.argument.clone().expect("a function has an argument"),
+            Self::Argument(k) => here.arguments[*k].clone(),
             Self::Coordinate(i) => here.coordinates[*i].clone(),
             Self::Velocity(i) => here.velocities[*i].clone(),
             Self::Parameter(k) => Jet::number(here.parameters[*k]),
-            Self::Defined(k) => names.definition(*k).value(names, &Here { argument: None, ..here.clone() }),
-            Self::Applied(k, x) => {
-                names.definition(*k).value(names, &Here { argument: Some(of(x)), ..here.clone() })
+            Self::Picked(i) => here.coordinates[i + draft.table[here.index]].clone(),
+            Self::Defined(k) => draft.definitions[*k].0.value(draft, &here.with_arguments(Vec::new())),
+            Self::Applied(k, x) => draft.definitions[*k].0.value(draft, &here.with_arguments(vec![of(x)])),
+            Self::Supplied(k, x) => {
+                let here = here.with_arguments(x.each_ref().map(of).to_vec());
+                draft.supplied[*k].results[0].value(draft, &here)
             }
             Self::Negative(x) => -of(x),
             Self::Binary(sign, terms) => {
@@ -139,16 +145,16 @@ impl Term {
             Self::Function(function, x) => of(x).apply(*function),
             Self::Sqrt(x) => of(x).sqrt(),
             Self::Atan2(terms) => of(&terms[0]).atan2(&of(&terms[1])),
-            Self::Dot(vectors) => dot(all(&vectors[0]), all(&vectors[1])),
-            Self::Norm(vector) => dot(all(vector), all(vector)).sqrt(),
-            Self::Cross(vectors, k) => {
-                let [a, b] = vectors.each_ref().map(all);
-                let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-                a[i].clone() * b[j].clone() - a[j].clone() * b[i].clone()
+            Self::Dot(v) => space::dot(&vector(&v[0]), &vector(&v[1])),
+            Self::Norm(v) => space::dot(&vector(v), &vector(v)).sqrt(),
+            Self::Component(v, k) => vector(v)[*k].clone(),
+            Self::Kinetic(k, parts, inertia) => {
+                space::kinetic(*k, &of(&parts.0), &parts.1, *inertia, draft, here)
             }
-            Self::Sum(count, x) => (0..*count)
-                .fold(Jet::number(0.0), |sum, index| sum + x.value(names, &Here { index, ..here.clone() })),
-            Self::Der(x) => x.value(names, &here.later()).rate(here.order),
+            Self::Sum(count, x) => {
+                (0..*count).fold(Jet::number(0.0), |sum, index| sum + x.value(draft, &here.at_index(index)))
+            }
+            Self::Der(x) => x.value(draft, &here.later()).rate(here.order),
         }
     }
 }
@@ -162,7 +168,7 @@ pub(super) struct Here {
     pub(super) parameters: Vec<f64>,
     pub(super) order: u32,
     index: usize,
-    argument: Option<Jet>,
+    arguments: Vec<Jet>,
 }
 
 impl Here {
@@ -175,8 +181,16 @@ impl Here {
             parameters: parameters.to_vec(),
             order: 0,
             index: 0,
-            argument: None,
+            arguments: Vec::new(),
         }
+    }
+
+    pub(super) fn with_arguments(&self, arguments: Vec<Jet>) -> Self {
+        Self { arguments, ..self.clone() }
+    }
+
+    pub(super) fn at_index(&self, index: usize) -> Self {
+        Self { index, ..self.clone() }
     }
 
     /// A new ε later, by these velocities, that do not change.
@@ -185,7 +199,6 @@ impl Here {
         later.time = self.time.moved(&Jet::number(1.0), self.order);
         let moved = self.coordinates.iter().zip(&self.velocities);
         later.coordinates = moved.map(|(q, v)| q.moved(v, self.order)).collect();
-        later.argument = self.argument.clone();
         later.order += 1;
         later
     }

@@ -19,9 +19,13 @@ pub(super) fn solve(draft: &Draft, here: &Here) -> Option<Solution> {
     let (n, constraints) = (draft.count, &draft.constraints);
     let slopes = constraints.iter().map(|(term, of_velocities)| slopes(draft, here, term, *of_velocities));
     let slopes: Vec<Vec<Running>> = slopes.collect();
-    let masses = |i: usize| (0..n).map(move |j| lagrangian(draft, &here.by_velocity(i).by_velocity(j)));
-    let mut rows: Vec<Vec<Running>> =
-        (0..n).map(|i| masses(i).chain(slopes.iter().map(|row| negative(row[i]))).collect()).collect();
+    let masses = |i: usize| (0..=i).map(move |j| lagrangian(draft, &here.by_velocity(i).by_velocity(j)));
+    let masses: Vec<Vec<Running>> = (0..n).map(|i| masses(i).collect()).collect();
+    let row = |i: usize| (0..n).map(|j| masses[i.max(j)][i.min(j)]).collect();
+    let mut rows: Vec<Vec<Running>> = (0..n).map(row).collect();
+    for (i, row) in rows.iter_mut().enumerate() {
+        row.extend(slopes.iter().map(|slopes| negative(slopes[i])));
+    }
     let mut right: Vec<Running> = (0..n).map(|i| forcing(draft, here, i)).collect();
     for (mut row, (term, of_velocities)) in slopes.into_iter().zip(constraints) {
         row.resize(n + constraints.len(), Jet::number(0.0).coefficient(0));
