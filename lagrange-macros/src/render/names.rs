@@ -11,7 +11,7 @@ impl Notation<'_> {
         let (letter, below) = letter_and_below(base);
         let letter = self.spelling.letter(letter, self.is_array(name));
         let below: Vec<String> = below.iter().map(|below| self.below(below)).collect();
-        self.spelling.indexed(self.spelling.dotted(letter, *dots), &below, &self.indices(indices))
+        self.spelling.symbol(letter, *dots, &below, &self.indices(indices))
     }
 
     fn indices(self, indices: &[Formula]) -> Vec<String> {

@@ -8,7 +8,7 @@ use super::binding::{Binding, PREFIX, begins_with_function, exponent_at_name, is
 use super::digits::{decimal, point};
 use super::formula::Formula;
 use super::spelling::{Latex, MathMl, Spelling, Unicode, WIDE};
-use crate::resolve::is_built_in;
+use crate::resolve::{is_built_in, is_of_frames, is_step};
 use crate::symbolic::{Rational, Scaled, finite_decimal};
 
 /// A way to write, in which the names of arrays are bold.
@@ -236,7 +236,10 @@ impl<'a> Notation<'a> {
 
     /// The name of a function: upright if it has a fixed meaning.
     fn function(self, name: &str) -> String {
-        if is_built_in(name) { self.spelling.function(name) } else { self.write(&Formula::labelled(name, 0)) }
+        match is_built_in(name) || is_of_frames(name) || is_step(name) {
+            true => self.spelling.function(name),
+            false => self.write(&Formula::labelled(name, 0)),
+        }
     }
 
     /// sin x, sin² x, sin(2 x)

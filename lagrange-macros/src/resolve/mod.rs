@@ -31,6 +31,7 @@ use crate::diagnostics::{Diagnostics, Place};
 use crate::symbolic::{Graph, Id};
 use crate::syntax::{Declaration, Layout};
 pub(crate) use frames::{Body, Frame, Step, Triple, columns, named, sum, symmetric};
+pub(crate) use frames::{is_of_frames, is_step};
 pub(crate) use function::Supplied;
 use lower::Lowering;
 pub(crate) use outline::{Observable, Outline, outline};

@@ -49,6 +49,11 @@ pub(super) trait Spelling: Sync {
     /// The name of a function of mathematics.
     fn function(&self, name: &str) -> String;
 
+    /// A letter with dots above, and below it what belongs to its name, and indices.
+    fn symbol(&self, letter: String, dots: usize, below: &[String], indices: &[String]) -> String {
+        self.indexed(self.dotted(letter, dots), below, indices)
+    }
+
     fn dotted(&self, letter: String, dots: usize) -> String;
 
     /// A letter with what belongs to its name below it, and indices.

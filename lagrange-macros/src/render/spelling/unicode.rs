@@ -46,6 +46,14 @@ impl Spelling for Unicode {
         name.to_owned()
     }
 
+    /// Above a word there is no room for dots: `pitch_dot`, as it is written in attributes.
+    fn symbol(&self, letter: String, dots: usize, below: &[String], indices: &[String]) -> String {
+        match letter.chars().count() {
+            1 => self.indexed(self.dotted(letter, dots), below, indices),
+            _ => self.indexed(letter + &below.concat() + ["", "_dot", "_ddot"][dots.min(2)], &[], indices),
+        }
+    }
+
     fn dotted(&self, letter: String, dots: usize) -> String {
         let accent = ["", "\u{307}", "\u{308}"][dots.min(2)];
         normal_form(&format!("{letter}{accent}"))

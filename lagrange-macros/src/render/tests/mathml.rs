@@ -132,8 +132,11 @@ impl Xml {
             ("msup", [base, above]) if above.text().starts_with('′') => base.said() + &above.text(),
             ("msup", [base, above]) if is_function(base) => base.said() + &superscript(&above.text()),
             ("msup", [base, above]) => format!("({})^({})", base.said(), above.said()),
-            ("mover", [base, dots]) if dots.text() == "˙" => base.said() + "\u{307}",
-            ("mover", [base, _]) => base.said() + "\u{308}",
+            ("mover", [base, dots]) => {
+                let [one, two] =
+                    if base.said().chars().count() == 1 { ["\u{307}", "\u{308}"] } else { ["_dot", "_ddot"] };
+                base.said() + if dots.text() == "˙" { one } else { two }
+            }
             _ => String::new(),
         }
     }
@@ -279,7 +282,7 @@ impl Row {
 
 /// All that is no sign of how the formula is put together, sorted. A 1 may stand above a line by itself.
 fn symbols(text: &str) -> String {
-    let text = text.replace('∑', "Σ");
+    let text = text.replace('∑', "Σ").replace("_ddot", "\u{308}").replace("_dot", "\u{307}");
     let is_symbol = |sign: &char| !sign.is_whitespace() && !"1()[]/_,.^√⁄…·\u{2061}\u{2062}".contains(*sign);
     let mut symbols: Vec<char> = text.nfkd().filter(is_symbol).collect();
     symbols.sort_unstable();

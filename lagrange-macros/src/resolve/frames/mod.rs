@@ -14,7 +14,8 @@ use super::value::Axes;
 use crate::symbolic::Id;
 use crate::syntax::{Expression, Frame as Declared, Kind, Name};
 pub(crate) use pose::{Frame, Step, Triple, columns, named, sum, symmetric};
-pub(super) use spatial::is_of_frames;
+pub(crate) use spatial::is_of_frames;
+pub(crate) use step::is_step;
 
 /// The name of the frame that all others lie in, in the end.
 pub(super) const FIXED: &str = "fixed";

@@ -14,7 +14,7 @@ use crate::variables::Variable;
 const CALLS: [&str; 7] =
     ["position", "velocity", "angular_velocity", "jacobian", "kinetic", "vector", "express"];
 
-pub(in super::super) fn is_of_frames(name: &str) -> bool {
+pub(crate) fn is_of_frames(name: &str) -> bool {
     CALLS.contains(&name)
 }
 

@@ -17,6 +17,10 @@ const NO_ROTATION: &str = "this matrix is no rotation, whose columns are of leng
 const STEPS: &str = "a frame comes from the one that it is in by `translate(v)`, `rotate_x(angle)`, `rotate_y(angle)`, `rotate_z(angle)`, `rotate(axis, angle)`, `rotate(q)` with a quaternion, `rotate(R)` with a matrix and `pose(P)` with an isometry";
 const NO_POSE: &str = "`pose` takes a field that is an `Isometry3`, or a member that is a `pose`: of other things `translate(v), rotate(R)`";
 
+pub(crate) fn is_step(name: &str) -> bool {
+    ["translate", "rotate", "rotate_x", "rotate_y", "rotate_z", "pose"].contains(&name)
+}
+
 impl Lowering<'_> {
     /// The frame that this step leads to from the last of several, of which those after `first` have no name.
     pub(super) fn step(&mut self, before: usize, first: usize, expression: &Expression) -> Option<usize> {
@@ -42,9 +46,8 @@ impl Lowering<'_> {
                 };
                 (self.translated(before, &translation)?, self.turned(&rotation)?)
             }
-            ("pose" | "translate" | "rotate_x" | "rotate_y" | "rotate_z" | "rotate", _) => {
-                return self
-                    .report(expression.place, format!("`{}` takes other arguments: {STEPS}", name.text));
+            (text, _) if is_step(text) => {
+                return self.report(expression.place, format!("`{text}` takes other arguments: {STEPS}"));
             }
             (text, _) => {
                 return self.report(name.place, format!("`{text}` is no step: {STEPS}"));
