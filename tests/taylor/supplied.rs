@@ -57,8 +57,17 @@ fn a_motion_of_a_pointer_is_that_of_the_system() -> Result<(), Error> {
     assert_eq!(end(&&supplied, start, 2.0)?, end(&supplied, start, 2.0)?);
     let (roof, start) = (Bouncing { roof: Roof }, State::at_rest([1.0]));
     assert_eq!(end(&&roof, start, 5.0)?, end(&roof, start, 5.0)?);
+    let seen = end(&Roofed, start, 5.0)?;
+    assert_eq!(end(&&Roofed, start, 5.0)?, seen);
+    assert!((seen.q[0] - end(&roof, start, 5.0)?.q[0]).abs() < 1e-9, "{seen}");
     Ok(())
 }
+
+/// The potential of [`Roof`], whose kink the derive sees.
+#[derive(Lagrangian)]
+#[coordinates(x)]
+#[lagrangian(x_dot^2/2 - sqrt(x^2))]
+struct Roofed;
 
 /// −|x|, whose kink no derive can see.
 struct Roof;
