@@ -2,6 +2,7 @@
 
 mod array;
 mod dual;
+mod four;
 #[cfg(feature = "std")]
 mod lanes;
 mod numeric;
@@ -14,6 +15,7 @@ mod sines;
 pub(crate) use array::entries;
 pub use array::{Filled, matrix, vector};
 pub use dual::Dual;
+pub(crate) use four::Four;
 #[cfg(feature = "std")]
 pub use lanes::Lanes;
 pub use numeric::only_where;

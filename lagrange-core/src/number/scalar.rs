@@ -135,7 +135,7 @@ fn one_by_one<S: Scalar, const K: usize>(angles: [S; K]) -> ([S; K], [S; K]) {
 /// A value as one of another type, if the types are the same; which they are is known to the compiler.
 #[cfg(feature = "std")]
 #[inline(always)]
-fn same<X: Copy + 'static, Y: Copy + 'static>(x: X) -> Option<Y> {
+pub(super) fn same<X: Copy + 'static, Y: Copy + 'static>(x: X) -> Option<Y> {
     (&x as &dyn Any).downcast_ref().copied()
 }
 

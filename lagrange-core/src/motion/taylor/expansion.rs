@@ -138,10 +138,11 @@ impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
         reciprocal: T,
     ) -> Direction<T, N> {
         let factor = self.unit * reciprocal;
-        self.q[order] = scaled(&self.v[order - 1], factor);
-        self.v[order] = scaled(&newest.accelerations.data.0[0], factor);
+        let q = scaled(&self.v[order - 1], factor);
+        let v = scaled(&newest.accelerations.data.0[0], factor);
+        (self.q[order], self.v[order]) = (q, v);
         let t = if order == 1 { self.unit } else { T::constant(0.0) };
-        Direction { t, q: vector(self.q[order]), v: vector(self.v[order]) }
+        Direction { t, q: vector(q), v: vector(v) }
     }
 
     /// What coefficients of coordinates and velocities are measured by: 1 over their sizes.

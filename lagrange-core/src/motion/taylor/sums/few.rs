@@ -6,10 +6,9 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
-use core::array::from_fn;
 
 use super::WIDTH;
-use crate::number::{Filled, ROOM, Scalar};
+use crate::number::{Filled, Four, ROOM, Scalar};
 
 /// So many sums are few.
 const FEW: usize = 32;
@@ -82,7 +81,11 @@ impl<S: Copy> Few<S> {
     where
         S: Filled<T>,
     {
-        let (mut sums, Ends { newest, first }) = (self.between(order), ends);
+        let (between, Ends { newest, first }) = (self.between(order), ends);
+        let mut sums = S::filled(T::constant(0.0));
+        for (sums, between) in sums.as_mut().as_chunks_mut().0.iter_mut().zip(between.as_ref()) {
+            *sums = between.to_array();
+        }
         for (i, sum) in sums.as_mut().iter_mut().enumerate() {
             let [[left, right], [first_left, first_right]] =
                 [newest, first].map(|ends| ends.each_ref().map(|end| end.as_ref()[i]));
@@ -91,13 +94,13 @@ impl<S: Copy> Few<S> {
         sums
     }
 
-    /// The sums without their ends.
+    /// The sums without their ends, by fours; the rest of the places is empty.
     #[inline(always)]
-    fn between<T: Scalar>(&self, order: usize) -> S
+    fn between<T: Scalar>(&self, order: usize) -> S::Of<Four<T>>
     where
         S: Filled<T>,
     {
-        let (none, orders) = (S::filled(T::constant(0.0)), self.right.len());
+        let (none, orders) = (S::Of::filled(Four::zero()), self.right.len());
         let Some(terms @ 1..) = order.checked_sub(3) else { return none };
         let (left, right) = (&self.left[1..], &self.right[orders - terms - 1..]);
         macro_rules! by_terms {
@@ -121,16 +124,16 @@ impl<S: Copy> Few<S> {
 fn products<T: Scalar, S: Filled<T>, const TERMS: usize>(
     left: &[Row<S>; TERMS],
     right: &[Row<S>; TERMS],
-) -> S {
-    let zero = T::constant(0.0);
-    let mut sums = S::filled(zero);
-    for (group, sums) in sums.as_mut().as_chunks_mut::<WIDTH>().0.iter_mut().enumerate() {
-        let mut parts = [[zero; WIDTH]; 2];
-        for (j, (x, y)) in left.iter().zip(right).enumerate() {
-            let [x, y] = [x, y].map(|row| &row.0.as_ref().as_chunks::<WIDTH>().0[group]);
-            parts[j % 2] = from_fn(|lane| x[lane].multiply_add(y[lane], parts[j % 2][lane]));
+) -> S::Of<Four<T>> {
+    let mut sums = S::Of::filled(Four::zero());
+    let groups = left[0].0.as_ref().len() / WIDTH;
+    for (group, sum) in sums.as_mut().iter_mut().enumerate().take(groups) {
+        let (mut even, mut odd) = (Four::zero(), Four::zero());
+        for (x, y) in left.iter().zip(right) {
+            let [x, y] = [x, y].map(|row| Four::from(row.0.as_ref().as_chunks::<WIDTH>().0[group]));
+            (even, odd) = (odd, x.multiply_add(y, even));
         }
-        *sums = from_fn(|lane| parts[0][lane] + parts[1][lane]);
+        *sum = even + odd;
     }
     sums
 }

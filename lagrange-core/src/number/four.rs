@@ -1,0 +1,78 @@
+//! Four numbers side by side.
+
+use core::array::from_fn;
+#[cfg(feature = "std")]
+use core::hint::black_box;
+use core::ops::Add;
+
+#[cfg(feature = "std")]
+use super::lanes::Lanes;
+use super::scalar::Scalar;
+#[cfg(feature = "std")]
+use super::scalar::same;
+
+/// Four numbers that are computed with at once, `f64` as one vector from first to last: of numbers one by one the compiler
+/// would make vectors of its own, across such fours, to suit how the results are used.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Four<T> {
+    /// If they are of another type; else zeros, which nothing is computed with in the end.
+    apart: [T; 4],
+    /// If they are `f64`; else zeros.
+    #[cfg(feature = "std")]
+    together: Lanes,
+}
+
+impl<T: Scalar> Four<T> {
+    #[inline(always)]
+    pub(crate) fn zero() -> Self {
+        Self {
+            apart: [T::constant(0.0); 4],
+            #[cfg(feature = "std")]
+            together: Lanes::constant(0.0),
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn to_array(self) -> [T; 4] {
+        // Not looked through: else the numbers, not the vector, are what comes out of branches and loops.
+        #[cfg(feature = "std")]
+        if let Some(numbers) = same(black_box(self.together).to_array()) {
+            return numbers;
+        }
+        self.apart
+    }
+
+    /// `self` · `y` + `z`, rounded as [`Scalar::multiply_add`] is.
+    #[inline(always)]
+    pub(crate) fn multiply_add(self, y: Self, z: Self) -> Self {
+        Self {
+            apart: from_fn(|lane| self.apart[lane].multiply_add(y.apart[lane], z.apart[lane])),
+            #[cfg(feature = "std")]
+            together: self.together.multiply_add(y.together, z.together),
+        }
+    }
+}
+
+impl<T: Scalar> From<[T; 4]> for Four<T> {
+    #[inline(always)]
+    fn from(numbers: [T; 4]) -> Self {
+        #[cfg(feature = "std")]
+        if let Some(numbers) = same::<_, [f64; 4]>(numbers) {
+            return Self { together: numbers.into(), ..Self::zero() };
+        }
+        Self { apart: numbers, ..Self::zero() }
+    }
+}
+
+impl<T: Scalar> Add for Four<T> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self {
+            apart: from_fn(|lane| self.apart[lane] + other.apart[lane]),
+            #[cfg(feature = "std")]
+            together: self.together + other.together,
+        }
+    }
+}
