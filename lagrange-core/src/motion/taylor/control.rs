@@ -51,15 +51,16 @@ impl Taylor {
     /// coefficients instead of two: where every fourth alone is not zero, two know nothing).
     pub(super) fn choose<T: Real>(&self, last: &Last<T>, before: T, clock: &Clock<T>) -> T {
         let Last { order, unit, sizes } = *last;
+        let zero = T::constant(0.0);
         let rate = |k: usize, size: T| log2_roughly(size.to_f64()) / k as f64;
         let rates = (order + 1 - LAST..).zip(sizes).map(|(k, size)| rate(k, size));
-        let rate = rates.fold(f64::NEG_INFINITY, f64::max);
-        let step = match rate > f64::NEG_INFINITY {
-            true => Scalar::abs(unit) * T::constant(exp(safety(order) - core::f64::consts::LN_2 * rate)),
+        let rate = rates.fold(f64::NEG_INFINITY, larger);
+        let step = match sizes.iter().any(|&size| size > zero) {
+            true => Scalar::abs(unit) * T::constant(exp2_roughly(safety(order) - rate)),
             false => clock.left(),
         };
-        let step = if before > T::constant(0.0) { smaller(step, T::constant(GROWTH) * before) } else { step };
-        let step = if step > T::constant(0.0) { clock.at_least(step) } else { clock.left() };
+        let step = if before > zero { smaller(step, T::constant(GROWTH) * before) } else { step };
+        let step = if step > zero { clock.at_least(step) } else { clock.left() };
         self.limited(step)
     }
 
@@ -90,19 +91,24 @@ fn ln(x: f64) -> f64 {
     <f64 as Scalar>::ln(x)
 }
 
-/// The logarithm of the part of the radius of convergence that is taken (Jorba and Zou, (3-12)).
+/// The logarithm to the base 2 of the part of the radius of convergence that is taken (Jorba and Zou, (3-12)).
 fn safety(order: usize) -> f64 {
-    -2.0 - 0.7 / (order as f64 - 1.0)
+    (-2.0 - 0.7 / (order as f64 - 1.0)) * core::f64::consts::LOG2_E
 }
 
-/// The logarithm to the base 2, at most 0.09 too small: divided by the order it is as good as any. That of zero is −∞.
+/// The logarithm to the base 2, at most 0.09 too small: divided by the order it is as good as any. That of zero is −1023.
+#[inline]
 pub(super) fn log2_roughly(x: f64) -> f64 {
-    const FRACTION: u64 = (1 << 52) - 1;
-    let bits = x.to_bits();
-    let exponent = (bits >> 52) as f64 - 1023.0;
-    if x > 0.0 { exponent + (bits & FRACTION) as f64 / (1_u64 << 52) as f64 } else { f64::NEG_INFINITY }
+    // Exponent and fraction as one number.
+    const UNIT: f64 = 1.0 / (1_u64 << 52) as f64;
+    x.to_bits() as i64 as f64 * UNIT - 1023.0
 }
 
-fn exp(x: f64) -> f64 {
-    <f64 as Scalar>::exp(x)
+/// 2ˣ, at most a three-hundredth off, and the smallest or largest power of two beyond these.
+#[inline]
+fn exp2_roughly(x: f64) -> f64 {
+    let biased = (x + 1023.0).clamp(1.0, 2046.0);
+    let exponent = biased as u64;
+    let fraction = biased - exponent as f64;
+    f64::from_bits(exponent << 52) * (1.0 + fraction * (0.66 + 0.34 * fraction))
 }

@@ -152,9 +152,9 @@ impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
 
     /// The largest coefficient of an order on these scales.
     pub(super) fn size(&self, order: usize, scales: &[[T; N]; 2]) -> T {
-        let parts = [&self.q[order], &self.v[order]].into_iter().zip(scales);
-        let parts = parts.flat_map(|(x, scales)| (0..N).map(|i| x[i].abs() * scales[i]));
-        parts.fold(T::constant(0.0), |most, part| most.max(part))
+        let [q, v] = [(&self.q[order], &scales[0]), (&self.v[order], &scales[1])]
+            .map(|(x, scales)| (0..N).fold(T::constant(0.0), |most, i| most.max(x[i].abs() * scales[i])));
+        q.max(v)
     }
 
     /// By how much coordinates and velocities change over a step of this length, and the accelerations at its end.

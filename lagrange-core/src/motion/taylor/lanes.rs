@@ -4,7 +4,6 @@
 
 use core::array::from_fn;
 use core::convert::Infallible;
-use core::iter::once;
 
 use super::control::Last;
 use super::defect::{part, parts};
@@ -148,7 +147,7 @@ where
     }
 
     fn settle(Abreast { here, next, .. }: &mut Self::Abreast, chosen: Lanes) {
-        here.numbers().zip(next.numbers()).for_each(|(here, next)| *here = next.select(chosen, *here));
+        *here = next.select(chosen, here);
     }
 
     fn within(Abreast { series, .. }: &Self::Abreast, lane: usize) -> impl Interpolant<f64, N> {
@@ -253,10 +252,19 @@ where
 }
 
 impl<const N: usize, const M: usize> Place<N, M> {
-    /// All that there is in each lane.
-    fn numbers(&mut self) -> impl Iterator<Item = &mut Lanes> {
-        let Self { y, rest, solution: Solution { accelerations, multipliers, pivot, .. } } = self;
-        let place = y.as_flattened_mut().iter_mut().chain(rest.as_flattened_mut());
-        place.chain(accelerations.iter_mut()).chain(multipliers.iter_mut()).chain(once(pivot))
+    /// `self` in the lanes that are chosen, `other` in the rest.
+    fn select(&self, chosen: Lanes, other: &Self) -> Self {
+        let select = |x: Lanes, y: Lanes| x.select(chosen, y);
+        let both = |x: &[[Lanes; N]; 2], y: &[[Lanes; N]; 2]| {
+            from_fn(|part| from_fn(|i| select(x[part][i], y[part][i])))
+        };
+        let (x, y) = (&self.solution, &other.solution);
+        let solution = Solution {
+            accelerations: x.accelerations.zip_map(&y.accelerations, select),
+            multipliers: x.multipliers.zip_map(&y.multipliers, select),
+            pivot: select(x.pivot, y.pivot),
+            rank: x.rank,
+        };
+        Self { y: both(&self.y, &other.y), rest: both(&self.rest, &other.rest), solution }
     }
 }
