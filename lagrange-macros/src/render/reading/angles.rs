@@ -148,7 +148,7 @@ fn addition(
         one.over(&Monomial::of(a.atom, Rational::one()))?.over(&Monomial::of(b.atom, Rational::one()))?;
     let others = Monomial::of(a.other, Rational::one()).times(&Monomial::of(b.other, Rational::one()))?;
     let two = rest.times(&others)?;
-    let ratio = all.coefficient(&two)? / c;
+    let ratio = symbolic::times(all.coefficient(&two)?, c.recip())?;
     if !ratio.abs().is_one() {
         return None;
     }
