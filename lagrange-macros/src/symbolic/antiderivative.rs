@@ -5,7 +5,7 @@ use rustc_hash::FxHashMap;
 
 use super::differentiate::Forward;
 use super::graph::{External, Function, Graph, Id, Node, Symbol};
-use super::rational::Rational;
+use super::rational::{Rational, plus};
 
 /// The greatest power of a sum that is multiplied out.
 const EXPANDED: i128 = 4;
@@ -86,12 +86,12 @@ impl Graph {
                 _ => {}
             }
         }
-        found.push(if exponent == -Rational::one() {
+        if exponent == -Rational::one() {
             let magnitude = self.function(Function::Abs, base);
-            self.function(Function::Ln, magnitude)
+            found.push(self.function(Function::Ln, magnitude));
         } else {
-            self.pow(base, exponent + Rational::one())
-        });
+            found.extend(plus(exponent, Rational::one()).map(|exponent| self.pow(base, exponent)));
+        }
         found
     }
 

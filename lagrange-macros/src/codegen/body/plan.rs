@@ -193,22 +193,21 @@ impl<'p> Planner<'p> {
         let Call { function, derivatives, arguments } = self.schedule.calls[call as usize].clone();
         let mut results = Vec::new();
         for output in self.outputs.remove(&call).unwrap_or_default() {
-            let local = Local::Result { call, output };
-            results.push((output, local));
-            self.schedule
-                .find(Operation::Result { call, output })
-                .into_iter()
-                .for_each(|register| self.keep(register, local));
+            let register = self.schedule.find(Operation::Result { call, output });
+            results.extend(register.map(|register| (output, self.local(register))));
+            register.into_iter().for_each(|register| self.keep(register, self.local(register)));
         }
         let arguments = arguments.iter().map(|&argument| self.value(argument)).collect();
         self.part.locals.extend(results.iter().map(|(_, local)| local));
         self.part.statements.push(Statement::Call(Call { function, derivatives, arguments }, results));
     }
 
+    /// In every part the same one.
     fn local(&self, register: Register) -> Local {
-        match self.definitions.get(&register) {
-            Some(&id) => Local::Definition(id),
-            None => Local::Operation(register.index()),
+        match (self.definitions.get(&register), self.schedule.operations[register.index()]) {
+            (Some(&id), _) => Local::Definition(id),
+            (None, Operation::Result { call, output }) => Local::Result { call, output },
+            (None, _) => Local::Operation(register.index()),
         }
     }
 

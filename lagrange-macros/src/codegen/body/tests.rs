@@ -103,18 +103,23 @@ fn sine_and_cosine_of_one_argument_come_together() {
     assert_eq!(body.parts[0].locals.len(), 3);
 }
 
+/// What takes so many operations with `factor`, one after another, that they are cut into parts, of which the first uses `first`.
+fn far(graph: &mut Graph, first: Id, factor: Id) -> Id {
+    (0..6_000).fold(first, |sum, k| {
+        let scaled = graph.sum([(factor, crate::symbolic::Rational::new(1, k + 2))]);
+        let term = graph.sum([(sum, 1.into()), (scaled, 1.into())]);
+        let product = graph.mul(term, factor);
+        graph.defined(product)
+    })
+}
+
 /// The sine is used in the first part of a long function, the cosine in the last, and another angle in both.
 #[test]
 fn what_an_earlier_part_has_taken_is_not_taken_again() {
     let mut graph = Graph::default();
     let [x, y] = inputs(&mut graph);
-    let mut sum = graph.function(Function::Sin, x);
-    for k in 0..6_000 {
-        let scaled = graph.sum([(y, crate::symbolic::Rational::new(1, k + 2))]);
-        let term = graph.sum([(sum, 1.into()), (scaled, 1.into())]);
-        sum = graph.mul(term, y);
-        sum = graph.defined(sum);
-    }
+    let first = graph.function(Function::Sin, x);
+    let sum = far(&mut graph, first, y);
     let cosine = graph.function(Function::Cos, x);
     let doubled = graph.add(y, y);
     let other = graph.function(Function::Sin, doubled);
@@ -176,6 +181,28 @@ fn the_results_of_a_call_that_are_used_come_together() {
     let mut calls: Vec<_> = calls.collect();
     calls.sort();
     assert_eq!(calls, [vec![0, 2], vec![2]]);
+}
+
+/// The first result of a call is used in the first part of a long function and in the last, the second, which has a name, in the
+/// last alone.
+#[test]
+fn results_of_a_call_wait_for_later_parts() {
+    let mut graph = Graph::default();
+    let [x, y] = inputs(&mut graph);
+    let [first, second] = [0, 1].map(|output| {
+        let (derivatives, arguments) = (Box::default(), [x, y].into());
+        graph.external(External { function: 0, output, derivatives, arguments })
+    });
+    let sum = far(&mut graph, first, y);
+    let second = graph.defined(second);
+    let last = graph.product([sum, first, second].map(|factor| (factor, 1.into())));
+    let body = checked(&graph, &[last]);
+    assert!(body.parts.len() > 1, "{} parts", body.parts.len());
+    let names = FxHashMap::from_iter([(second, "second".to_owned())]);
+    let named = Body::new(&Program::of(&graph, &[last]), &names);
+    assert_eq!(named.values(1, input, function), body.values(1, input, function));
+    let with_it = named.parts.iter().filter(|part| part.locals.contains(&Local::Definition(second)));
+    assert_eq!(with_it.count(), 2);
 }
 
 #[test]

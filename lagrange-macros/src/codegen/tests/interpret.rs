@@ -125,7 +125,9 @@ impl<I: Fn(Symbol) -> f64> Frame<'_, I> {
 
     fn value(&self, expression: &Expression) -> f64 {
         match expression {
-            Expression::Local(local) => self.locals[local],
+            Expression::Local(local) => {
+                *self.locals.get(local).unwrap_or_else(|| panic!("{local:?} has no value"))
+            }
             Expression::Waiting(place) => self.waiting[*place],
             Expression::Of(operation) => {
                 operation.as_ref().clone().with_operands(|operand| self.value(&operand)).value(&self.input)

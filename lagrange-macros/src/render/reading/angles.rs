@@ -4,7 +4,7 @@ use num_traits::{One, Signed};
 
 use super::atoms::{Atoms, Meaning};
 use super::polynomial::{Atom, Monomial, Polynomial};
-use crate::symbolic::{Function, Rational};
+use crate::symbolic::{self, Function, Rational};
 
 /// A sine or cosine.
 struct Wave {
@@ -110,7 +110,7 @@ fn complement(
     is_it.then(|| Merger { parts: vec![one.clone(), rest], factors: Polynomial::term(other, -c) })
 }
 
-/// 2 sin(a/2) cos(a/2) = sin a
+/// 2ⁿ sinⁿ(a/2) cosⁿ(a/2) = sinⁿ a
 fn halves(
     atoms: &mut Atoms,
     _: &Polynomial,
@@ -122,10 +122,12 @@ fn halves(
     let are_halves = a.angle.terms().all(|(_, c)| c.denom() % 2 == 0);
     let are_both = a.atom == b.other && one.exponent(a.atom) == one.exponent(b.atom);
     (are_halves && are_both).then_some(())?;
-    let rest =
-        one.over(&Monomial::of(a.atom, Rational::one()))?.over(&Monomial::of(b.atom, Rational::one()))?;
+    let times = one.exponent(a.atom).floor();
+    let rest = one.over(&Monomial::of(a.atom, times))?.over(&Monomial::of(b.atom, times))?;
     let double = a.angle.scaled(&Monomial::default(), two)?;
-    let factors = atoms.function(Function::Sin, &double).scaled(&rest, c / two)?;
+    let sine = atoms.function(Function::Sin, &double);
+    let half = symbolic::power(two, -times.to_integer())?;
+    let factors = atoms.natural_power(&sine, times.to_integer())?.scaled(&rest, symbolic::times(c, half)?)?;
     Some(Merger { parts: vec![one.clone()], factors })
 }
 
@@ -146,7 +148,7 @@ fn addition(
         one.over(&Monomial::of(a.atom, Rational::one()))?.over(&Monomial::of(b.atom, Rational::one()))?;
     let others = Monomial::of(a.other, Rational::one()).times(&Monomial::of(b.other, Rational::one()))?;
     let two = rest.times(&others)?;
-    let ratio = all.coefficient(&two)? / c;
+    let ratio = symbolic::times(all.coefficient(&two)?, c.recip())?;
     if !ratio.abs().is_one() {
         return None;
     }

@@ -39,6 +39,9 @@ pub(super) struct Atoms {
     sizes: Vec<u64>,
     /// The node that a sum was.
     sources: FxHashMap<Atom, Id>,
+    /// How many products were asked for.
+    #[cfg(test)]
+    products: usize,
 }
 
 impl Atoms {
@@ -142,16 +145,20 @@ impl Atoms {
         Polynomial::term(Monomial::of(ten, exponent), Rational::one())
     }
 
-    fn natural_power(&mut self, base: &Polynomial, exponent: i128) -> Option<Polynomial> {
-        let mut power = base.clone();
-        for _ in 1..exponent {
-            power = self.product(&power, base)?;
+    /// By squares, of which there are as few for any exponent as it has binary digits.
+    pub(super) fn natural_power(&mut self, base: &Polynomial, exponent: i128) -> Option<Polynomial> {
+        if exponent == 1 {
+            return Some(base.clone());
         }
-        Some(power)
+        let half = self.natural_power(base, exponent / 2)?;
+        let square = self.product(&half, &half)?;
+        if exponent % 2 == 0 { Some(square) } else { self.product(&square, base) }
     }
 
     /// The product, where it has no more than [`LIMIT`] terms. Of sums in the result no power is natural.
     pub(super) fn product(&mut self, x: &Polynomial, y: &Polynomial) -> Option<Polynomial> {
+        #[cfg(test)]
+        (self.products += 1);
         if x.len().saturating_mul(y.len()) > LIMIT {
             return None;
         }
@@ -199,3 +206,60 @@ impl Atoms {
 
 /// The most terms that a product may take to multiply out.
 pub(super) const LIMIT: usize = 1000;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn name(atoms: &mut Atoms, index: usize) -> Polynomial {
+        Polynomial::atom(atoms.atom(Meaning::Variable(Variable::Coordinate(index))))
+    }
+
+    /// A power of x, of zero, of 2 x and of x + y.
+    #[test]
+    fn powers_take_as_few_products_as_their_exponents_have_digits() {
+        for exponent in [1, 2, 7, 1_000, 1_000_000, i128::MAX] {
+            let mut atoms = Atoms::default();
+            let [x, y] = [0, 1].map(|index| name(&mut atoms, index));
+            let doubled = x.scaled(&Monomial::default(), Rational::from_integer(2)).expect("2 x");
+            let mut both = x.clone();
+            both.add(&y, Rational::one()).expect("x + y");
+            let mut power = |base: &Polynomial| {
+                atoms.products = 0;
+                let power = atoms.natural_power(base, exponent);
+                assert!(atoms.products <= 2 * exponent.ilog2() as usize, "{} products", atoms.products);
+                power
+            };
+            let of_x = Monomial::of(Atom(0), Rational::from_integer(exponent));
+            assert_eq!(power(&x), Some(Polynomial::term(of_x.clone(), Rational::one())));
+            assert_eq!(power(&Polynomial::default()), Some(Polynomial::default()));
+            let two = super::power(Rational::from_integer(2), exponent);
+            assert_eq!(power(&doubled), two.map(|number| Polynomial::term(of_x, number)));
+            let length = power(&both).map(|power| power.len() as i128);
+            assert_eq!(length, (exponent < 1_000).then(|| exponent + 1));
+        }
+    }
+
+    /// 2ⁿ sinⁿ(x/2) cosⁿ(x/2) is sinⁿ x where 2ⁿ is no longer than a coefficient may be, and else is left as it is.
+    #[test]
+    fn waves_of_half_an_angle_are_put_together_at_once() {
+        for (exponent, is_short) in [(1, true), (100, true), (1_000, false), (i128::MAX, false)] {
+            let mut atoms = Atoms::default();
+            let x = name(&mut atoms, 0);
+            let half = x.scaled(&Monomial::default(), Rational::new(1, 2)).expect("x/2");
+            let [sine, cosine] = [Function::Sin, Function::Cos].map(|function| {
+                let wave = atoms.atom(Meaning::Function(function, half.clone()));
+                Monomial::of(wave, Rational::from_integer(exponent))
+            });
+            let product = Polynomial::term(sine.times(&cosine).expect("a product"), Rational::one());
+            let merged = atoms.merged(product.clone()).expect("no long numbers");
+            let whole = Monomial::of(
+                atoms.atom(Meaning::Function(Function::Sin, x)),
+                Rational::from_integer(exponent),
+            );
+            let number = super::power(Rational::new(1, 2), exponent);
+            assert_eq!(number.is_some(), is_short);
+            assert_eq!(merged, number.map_or(product, |number| Polynomial::term(whole, number)));
+        }
+    }
+}

@@ -13,7 +13,7 @@ use super::atoms::Meaning;
 use super::expand::Expansion;
 use super::length::length;
 use super::polynomial::{Atom, Monomial, Polynomial, common};
-use crate::symbolic::{Id, Rational, Scaled};
+use crate::symbolic::{self, Id, Rational, Scaled};
 use crate::variables::Variable;
 
 /// Writes polynomials down.
@@ -45,7 +45,7 @@ impl Group {
 }
 
 /// The place of a term in a sum: multipliers last, minus signs behind plus signs, fast motion first.
-type Place = (bool, bool, Rational, Monomial);
+type Place = (bool, bool, Option<Rational>, Monomial);
 
 impl Collector<'_, '_> {
     pub(super) fn sum(&self, polynomial: &Polynomial) -> Formula {
@@ -64,9 +64,9 @@ impl Collector<'_, '_> {
     }
 
     fn place(&self, monomial: &Monomial, number: Rational) -> Place {
-        let degree = self.degree(monomial, is_velocity);
+        let speed = self.degree(monomial, is_velocity).map(|degree| -degree);
         let has_multiplier = monomial.factors().iter().any(|(atom, _)| self.is_multiplier(*atom));
-        (has_multiplier, number.is_negative() && !has_multiplier, -degree, monomial.clone())
+        (has_multiplier, number.is_negative() && !has_multiplier, speed, monomial.clone())
     }
 
     /// Those that it is made of, of a product of vectors all.
@@ -223,16 +223,18 @@ impl Collector<'_, '_> {
         let mut degrees = quotient.terms().map(|(monomial, c)| {
             let is_it = c.abs().is_one()
                 && monomial.factors().iter().all(|(atom, _)| self.variable(*atom).is_some_and(is_coordinate));
-            is_it.then(|| self.degree(monomial, is_coordinate))
+            is_it.then(|| self.degree(monomial, is_coordinate)).flatten()
         });
         let first = degrees.next().flatten();
         first.is_some() && degrees.all(|degree| degree == first)
     }
 
-    fn degree(&self, monomial: &Monomial, counts: impl Fn(Variable) -> bool) -> Rational {
+    /// `None` where exponents are too long.
+    fn degree(&self, monomial: &Monomial, counts: impl Fn(Variable) -> bool) -> Option<Rational> {
         let count = |atom| self.variables(atom).iter().filter(|variable| counts(**variable)).count();
-        let factors = monomial.factors().iter();
-        factors.map(|(atom, exponent)| exponent * Rational::from_integer(count(*atom) as i128)).sum()
+        monomial.factors().iter().try_fold(Rational::default(), |degree, &(atom, exponent)| {
+            symbolic::plus(degree, symbolic::times(exponent, Rational::from_integer(count(atom) as i128))?)
+        })
     }
 
     fn size(&self, monomial: &Monomial) -> isize {
@@ -296,8 +298,9 @@ impl Collector<'_, '_> {
     fn power(&self, atom: Atom, exponent: Rational) -> Formula {
         if let Meaning::Sum(sum) = self.expansion.atoms.meaning(atom)
             && let Some(norm) = self.squared_norm(sum)
+            && let Some(exponent) = symbolic::times(exponent, Rational::from_integer(2))
         {
-            return power(norm, exponent * Rational::from_integer(2));
+            return power(norm, exponent);
         }
         power(self.atom(atom), exponent)
     }
