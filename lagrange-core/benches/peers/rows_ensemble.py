@@ -68,7 +68,8 @@ def bars(section, tolerance, timings):
 def rows(options):
     section = Section(f"{PENDULUMS} double pendulums from rest to T = 10: microseconds a trajectory")
     section.text(
-        "One thread, native. One tolerance means other errors with other methods. Large swings are chaotic, so "
+        "One thread, native. Ours is derived from the Lagrangian of Landau and Lifshitz (*Mechanics*, § 5), heyoka is given accelerations "
+        "simplified by hand. One tolerance means other errors with other methods. Large swings are chaotic, so "
         "errors of the last states are given by quantiles, against heyoka in extended precision. Times are of the wall "
         "clock. A cell: least time · that of ours, Taylor on lanes divided by it, by minima (by medians)."
     )

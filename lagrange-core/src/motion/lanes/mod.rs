@@ -103,6 +103,7 @@ pub(crate) type Seats<'o, L, P, const N: usize, const M: usize> =
     [Option<Seat<'o, L, P, N, M>>; Lanes::COUNT];
 
 /// What lies in one lane.
+#[inline(always)]
 pub(crate) fn unpacked<const R: usize, const N: usize>(
     packed: &[[Lanes; N]; R],
     lane: usize,

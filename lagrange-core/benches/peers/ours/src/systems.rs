@@ -51,6 +51,17 @@ chain!(Chain10, 10);
 chain!(Chain20, 20);
 chain!(Chain50, 50);
 
+/// Two links, as Landau and Lifshitz state them (*Mechanics*, § 5, problem 1).
+#[derive(Lagrangian)]
+#[coordinates(a, b)]
+#[lagrangian((m[0] + m[1])/2*l[0]^2*a_dot^2 + m[1]/2*l[1]^2*b_dot^2 + m[1]*l[0]*l[1]*a_dot*b_dot*cos(a - b)
+    + (m[0] + m[1])*g*l[0]*cos(a) + m[1]*g*l[1]*cos(b))]
+pub struct Double {
+    pub m: [f64; 2],
+    pub l: [f64; 2],
+    pub g: f64,
+}
+
 /// A bob on a string.
 #[derive(Lagrangian)]
 #[coordinates(x, y, z)]

@@ -12,14 +12,10 @@ use lagrange_core::prelude::*;
 
 const END: f64 = 10.0;
 
-/// Two equal links.
+/// Two equal links, as Landau and Lifshitz state them (*Mechanics*, § 5, problem 1).
 #[derive(Lagrangian)]
-#[coordinates(theta: [2])]
-#[define(vx[0] = cos(theta[0])*theta_dot[0])]
-#[define(vx[1] = vx[0] + cos(theta[1])*theta_dot[1])]
-#[define(vy[0] = sin(theta[0])*theta_dot[0])]
-#[define(vy[1] = vy[0] + sin(theta[1])*theta_dot[1])]
-#[lagrangian(sum(i in 0..2, (vx[i]^2 + vy[i]^2)/2) + g*(2*cos(theta[0]) + cos(theta[1])))]
+#[coordinates(a, b)]
+#[lagrangian(a_dot^2 + b_dot^2/2 + a_dot*b_dot*cos(a - b) + g*(2*cos(a) + cos(b)))]
 struct DoublePendulum<T> {
     g: T,
 }

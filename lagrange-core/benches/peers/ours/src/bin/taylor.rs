@@ -1,6 +1,6 @@
 //! One motion, timed.
 //!
-//! `taylor SYSTEM METHOD END START ENDS`: SYSTEM is `planar-N` or `spherical`, METHOD `taylor` at the tolerance of round-off or
+//! `taylor SYSTEM METHOD END START ENDS`: SYSTEM is `planar-N`, `double` or `spherical`, METHOD `taylor` at the tolerance of round-off or
 //! `dop853` at 1e-13. START holds coordinates and velocities, `f64` in the machine's byte order. Each line on the standard input
 //! asks for one run, which answers with the seconds and steps it took as a line of JSON; at its end the last state is written
 //! to ENDS.
@@ -78,6 +78,7 @@ fn main() -> Outcome<()> {
         "planar-5" => task.run(&Planar5 { m: [1.0; 5], l: [1.0; 5], g: GRAVITY }),
         "planar-10" => task.run(&Planar10 { m: [1.0; 10], l: [1.0; 10], g: GRAVITY }),
         "planar-20" => task.run(&Planar20 { m: [1.0; 20], l: [1.0; 20], g: GRAVITY }),
+        "double" => task.run(&Double { m: [1.0; 2], l: [1.0; 2], g: GRAVITY }),
         "spherical" => task.run(&Spherical { m: 1.0, l: 1.0, g: GRAVITY }),
         other => Err(format!("there is no system {other}").into()),
     }
