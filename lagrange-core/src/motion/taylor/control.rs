@@ -47,18 +47,10 @@ impl Taylor {
         self.absolute / self.tolerance::<T>()
     }
 
-    /// The length of a step after which the last coefficients no longer matter (Jorba and Zou, 3.2.1, with five
-    /// coefficients instead of two: where every fourth alone is not zero, two know nothing).
-    pub(super) fn choose<T: Real>(&self, last: &Last<T>, before: T, clock: &Clock<T>) -> T {
-        let Last { order, unit, sizes } = *last;
+    /// The length of the next step, by what the last coefficients allow, the length of the one before and the time that is left.
+    pub(super) fn choose<T: Real>(&self, allowed: T, before: T, clock: &Clock<T>) -> T {
         let zero = T::constant(0.0);
-        let rate = |k: usize, size: T| log2_roughly(size.to_f64()) / k as f64;
-        let rates = (order + 1 - LAST..).zip(sizes).map(|(k, size)| rate(k, size));
-        let rate = rates.fold(f64::NEG_INFINITY, larger);
-        let step = match sizes.iter().any(|&size| size > zero) {
-            true => Scalar::abs(unit) * T::constant(exp2_roughly(safety(order) - rate)),
-            false => clock.left(),
-        };
+        let step = if allowed.is_finite() { allowed } else { clock.left() };
         let step = if before > zero { smaller(step, T::constant(GROWTH) * before) } else { step };
         let step = if step > zero { clock.at_least(step) } else { clock.left() };
         self.limited(step)
@@ -76,6 +68,20 @@ pub(super) struct Last<T> {
     pub(super) unit: T,
     /// As parts of what they belong to, the largest of each order.
     pub(super) sizes: [T; LAST],
+}
+
+impl<T: Real> Last<T> {
+    /// The length of a step after which they no longer matter (Jorba and Zou, 3.2.1, with five coefficients instead of two:
+    /// where every fourth alone is not zero, two know nothing). Infinite where all are zero.
+    #[inline]
+    pub(super) fn allowed(&self) -> T {
+        let Self { order, unit, sizes } = *self;
+        let rate = |k: usize, size: T| log2_roughly(size.to_f64()) / k as f64;
+        let rates = (order + 1 - LAST..).zip(sizes).map(|(k, size)| rate(k, size));
+        let rate = rates.fold(f64::NEG_INFINITY, larger);
+        let length = Scalar::abs(unit) * T::constant(exp2_roughly(safety(order) - rate));
+        if sizes.iter().any(|&size| size > T::constant(0.0)) { length } else { T::constant(f64::INFINITY) }
+    }
 }
 
 impl<T: Scalar> Last<T> {

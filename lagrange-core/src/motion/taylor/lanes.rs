@@ -126,9 +126,10 @@ where
         let times = seats.each_ref().map(|seat| seat.as_ref().map_or((0.0, 1.0), |seat| time(&seat.memory)));
         abreast.expand(times, &mut trust);
         let last = Last::of(&abreast.series, Lanes::constant(self.slack::<f64>()));
+        let allowed: [f64; Lanes::COUNT] = from_fn(|lane| last.lane(lane).allowed());
         // In a free lane time stands still.
         let plan = from_fn(|lane| {
-            seats[lane].as_ref().map_or(Plan::default(), |seat| self.plan(&last, lane, &seat.memory))
+            seats[lane].as_ref().map_or(Plan::default(), |seat| self.plan(allowed[lane], &seat.memory))
         });
         let keeps = abreast.advance(self, &plan, &mut trust);
         let trusted = trust.lanes();
@@ -156,16 +157,17 @@ where
     }
 }
 
+impl Last<Lanes> {
+    fn lane(&self, lane: usize) -> Last<f64> {
+        let of_lane = |x: Lanes| x.to_array()[lane];
+        Last { order: self.order, unit: of_lane(self.unit), sizes: self.sizes.map(of_lane) }
+    }
+}
+
 impl Taylor {
-    /// The step that the last coefficients of a lane ask for.
-    fn plan<U, const N: usize, const M: usize>(
-        &self,
-        last: &Last<Lanes>,
-        lane: usize,
-        memory: &Memory<U, f64, N, M>,
-    ) -> Plan {
-        let (unit, sizes) = (last.unit.to_array()[lane], last.sizes.map(|size| size.to_array()[lane]));
-        let planned = self.choose(&Last { order: last.order, unit, sizes }, memory.planned, &memory.clock);
+    /// The step in a lane whose last coefficients allow that length.
+    fn plan<U, const N: usize, const M: usize>(&self, allowed: f64, memory: &Memory<U, f64, N, M>) -> Plan {
+        let planned = self.choose(allowed, memory.planned, &memory.clock);
         let (h, end) = memory.clock.next(planned);
         Plan { planned, h, end }
     }

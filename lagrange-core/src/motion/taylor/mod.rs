@@ -322,7 +322,7 @@ impl Taylor {
         }
         let last = Last::of(series, L::Scalar::constant(self.slack::<L::Scalar>()));
         let before = *planned;
-        *planned = self.choose(&last, before, clock);
+        *planned = self.choose(last.allowed(), before, clock);
         let may_cross = solved.is_near_dependence(*planned, before);
         memory.crossing = if may_cross { self.cross(series, *planned) } else { None };
         if let Some(crossing) = memory.crossing {

@@ -90,7 +90,7 @@ where
             for lane in 0..block.lanes {
                 let (order, unit) = (varied.series.order(), memory.series.unit);
                 let last = Last { order, unit, sizes: sizes.map(|size| size.lane(lane)) };
-                let longest = self.choose(&last, memory.planned, &memory.clock);
+                let longest = self.choose(last.allowed(), memory.planned, &memory.clock);
                 memory.planned = smaller(memory.planned, longest);
             }
         }
