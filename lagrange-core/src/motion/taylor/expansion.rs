@@ -159,18 +159,12 @@ impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
 
     /// By how much coordinates and velocities change over a step of this length, and the accelerations at its end.
     pub(super) fn change(&self, length: T) -> [[T; N]; 3] {
-        let theta = length / self.unit;
-        let zero = [T::constant(0.0); N];
-        let sum = |coefficients: &[[T; N]]| {
-            let sum = coefficients.iter().rev().fold(zero, |sum, c| horner(&sum, theta, c));
-            scaled(&sum, theta)
-        };
-        let order = self.summed;
-        let rate = (1..=order).rev().fold(zero, |sum, k| {
-            let weighted = scaled(&self.v[k], T::constant(k as f64));
-            horner(&sum, theta, &weighted)
-        });
-        [sum(&self.q[1..order + 2]), sum(&self.v[1..=order]), scaled(&rate, T::constant(1.0) / self.unit)]
+        let (theta, order) = (length / self.unit, self.summed);
+        let change =
+            |coefficients: &[[T; N]]| scaled(&polynomial(coefficients.iter().copied(), theta), theta);
+        let rates = (1..=order).map(|k| scaled(&self.v[k], T::constant(k as f64)));
+        let rate = scaled(&polynomial(rates, theta), T::constant(1.0) / self.unit);
+        [change(&self.q[1..order + 2]), change(&self.v[1..=order]), rate]
     }
 }
 
@@ -208,6 +202,18 @@ fn unit_over<T: Scalar>(unit: T, order: usize) -> T {
 
 fn scaled<T: Scalar, const N: usize>(x: &[T; N], factor: T) -> [T; N] {
     core::array::from_fn(|i| factor * x[i])
+}
+
+/// c₀ + c₁ θ + c₂ θ² + …, even powers and odd ones side by side: one after the other, each waits for the one before.
+#[inline(always)]
+fn polynomial<T: Scalar, const N: usize>(
+    coefficients: impl DoubleEndedIterator<Item = [T; N]>,
+    theta: T,
+) -> [T; N] {
+    let (zero, square) = ([T::constant(0.0); N], theta * theta);
+    let (odd, even) =
+        coefficients.rev().fold((zero, zero), |(before, last), c| (last, horner(&before, square, &c)));
+    horner(&odd, theta, &even)
 }
 
 fn horner<T: Scalar, const N: usize>(sum: &[T; N], theta: T, coefficient: &[T; N]) -> [T; N] {
