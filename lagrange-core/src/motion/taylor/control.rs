@@ -73,12 +73,13 @@ pub(super) struct Last<T> {
 impl<T: Real> Last<T> {
     /// The length of a step after which they no longer matter (Jorba and Zou, 3.2.1, with five coefficients instead of two:
     /// where every fourth alone is not zero, two know nothing). Infinite where all are zero.
-    #[inline]
+    #[inline(always)]
     pub(super) fn allowed(&self) -> T {
         let Self { order, unit, sizes } = *self;
-        let rate = |k: usize, size: T| log2_roughly(size.to_f64()) / k as f64;
-        let rates = (order + 1 - LAST..).zip(sizes).map(|(k, size)| rate(k, size));
-        let rate = rates.fold(f64::NEG_INFINITY, larger);
+        let mut rate = f64::NEG_INFINITY;
+        for (k, size) in (order + 1 - LAST..).zip(sizes) {
+            rate = larger(rate, log2_roughly(size.to_f64()) / k as f64);
+        }
         let length = Scalar::abs(unit) * T::constant(exp2_roughly(safety(order) - rate));
         if sizes.iter().any(|&size| size > T::constant(0.0)) { length } else { T::constant(f64::INFINITY) }
     }
@@ -111,7 +112,7 @@ pub(super) fn log2_roughly(x: f64) -> f64 {
 }
 
 /// 2ˣ, at most a three-hundredth off, and the smallest or largest power of two beyond these.
-#[inline]
+#[inline(always)]
 fn exp2_roughly(x: f64) -> f64 {
     let biased = (x + 1023.0).clamp(1.0, 2046.0);
     let exponent = biased as u64;

@@ -200,6 +200,7 @@ fn unit_over<T: Scalar>(unit: T, order: usize) -> T {
     unit * T::constant(1.0 / order as f64)
 }
 
+#[inline(always)]
 fn scaled<T: Scalar, const N: usize>(x: &[T; N], factor: T) -> [T; N] {
     core::array::from_fn(|i| factor * x[i])
 }
@@ -211,11 +212,14 @@ fn polynomial<T: Scalar, const N: usize>(
     theta: T,
 ) -> [T; N] {
     let (zero, square) = ([T::constant(0.0); N], theta * theta);
-    let (odd, even) =
-        coefficients.rev().fold((zero, zero), |(before, last), c| (last, horner(&before, square, &c)));
+    let (mut odd, mut even) = (zero, zero);
+    for coefficient in coefficients.rev() {
+        (odd, even) = (even, horner(&odd, square, &coefficient));
+    }
     horner(&odd, theta, &even)
 }
 
+#[inline(always)]
 fn horner<T: Scalar, const N: usize>(sum: &[T; N], theta: T, coefficient: &[T; N]) -> [T; N] {
     core::array::from_fn(|i| sum[i].multiply_add(theta, coefficient[i]))
 }

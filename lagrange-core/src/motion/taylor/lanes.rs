@@ -126,7 +126,10 @@ where
         let times = seats.each_ref().map(|seat| seat.as_ref().map_or((0.0, 1.0), |seat| time(&seat.memory)));
         abreast.expand(times, &mut trust);
         let last = Last::of(&abreast.series, Lanes::constant(self.slack::<f64>()));
-        let allowed: [f64; Lanes::COUNT] = from_fn(|lane| last.lane(lane).allowed());
+        let mut allowed = [0.0; Lanes::COUNT];
+        for (lane, allowed) in allowed.iter_mut().enumerate() {
+            *allowed = last.lane(lane).allowed();
+        }
         // In a free lane time stands still.
         let plan = from_fn(|lane| {
             seats[lane].as_ref().map_or(Plan::default(), |seat| self.plan(allowed[lane], &seat.memory))
@@ -158,6 +161,7 @@ where
 }
 
 impl Last<Lanes> {
+    #[inline(always)]
     fn lane(&self, lane: usize) -> Last<f64> {
         let of_lane = |x: Lanes| x.to_array()[lane];
         Last { order: self.order, unit: of_lane(self.unit), sizes: self.sizes.map(of_lane) }
