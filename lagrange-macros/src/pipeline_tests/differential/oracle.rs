@@ -70,8 +70,9 @@ fn bias(draft: &Draft, here: &Here, term: &Term, of_velocities: bool) -> Running
     term.value(draft, &later).coefficient(later.order)
 }
 
-/// |x − x̃| ≤ |K⁻¹| (δr + δK |x| + 3 N |L̂| |Û| |x|) u for a solution by elimination (Higham, *Accuracy and Stability of Numerical
-/// Algorithms*, 7.2 and theorem 9.4), with δ the errors of the entries, |L̂| |Û| those of an elimination from the top down.
+/// |x − x̃| ≤ |K⁻¹| (δr + δK |x̃| + 3 N |L̂| |Û| |x̃|) u for a solution x̃ by elimination (Higham, *Accuracy and Stability of
+/// Numerical Algorithms*, 7.2 and theorem 9.4), with δ the errors of the entries, |L̂| |Û| those of an elimination from the top down.
+/// Of x̃ it is known that it is as near to x as that says of x: a multiplier that is zero is not zero after rounding.
 fn solution(matrix: &[Vec<Running>], right: &[Running]) -> Option<Solution> {
     let size = right.len();
     let unit = |i: usize, k: usize| Double::from(f64::from(u8::from(i == k)));
@@ -81,20 +82,21 @@ fn solution(matrix: &[Vec<Running>], right: &[Running]) -> Option<Solution> {
     });
     let solved = eliminated(rows.collect())?;
     let values: Vec<Double> = solved.iter().map(|row| row[size]).collect();
-    let sizes: Vec<f64> = values.iter().map(|x| x.to_f64().abs()).collect();
     let growth = growth(matrix)?;
-    let errors: Vec<f64> = (0..size)
-        .map(|i| {
+    let bounds = |sizes: &[f64]| -> Vec<f64> {
+        let error = |i: usize| {
             let of = |j: usize| (matrix[i][j].errors + 3.0 * size as f64 * growth[i][j]) * sizes[j];
             right[i].errors + (0..size).map(of).sum::<f64>()
-        })
-        .collect();
-    let roundoff = f64::EPSILON / 2.0;
-    let bound = |row: &Vec<Double>| {
-        let parts = row[size + 1..].iter().zip(&errors);
-        roundoff * parts.map(|(inverse, error)| inverse.to_f64().abs() * error).sum::<f64>()
+        };
+        let bound = |row: &Vec<Double>| {
+            let parts = row[size + 1..].iter().enumerate();
+            f64::EPSILON / 2.0 * parts.map(|(i, inverse)| inverse.to_f64().abs() * error(i)).sum::<f64>()
+        };
+        solved.iter().map(bound).collect()
     };
-    Some(Solution { bounds: solved.iter().map(bound).collect(), values })
+    let sizes: Vec<f64> = values.iter().map(|x| x.to_f64().abs()).collect();
+    let rounded: Vec<f64> = sizes.iter().zip(bounds(&sizes)).map(|(size, bound)| size + bound).collect();
+    Some(Solution { bounds: bounds(&rounded), values })
 }
 
 /// Rows [I X] of [A B], X = A⁻¹ B, by Gauss and Jordan with partial pivoting.
