@@ -64,7 +64,10 @@ impl Taylor {
         let [least, times] = ERROR;
         let error = log2_roughly(larger(least, times * self.tolerance::<T>()));
         let scales = series.scales(T::constant(self.slack::<T>()));
-        let reach = |k: usize| (error - log2_roughly(series.size(k, &scales).to_f64())) / k as f64;
+        let reach = |k: usize| match series.size(k, &scales).to_f64() {
+            0.0 => f64::INFINITY,
+            size => (error - log2_roughly(size)) / k as f64,
+        };
         let reach_of_sum = |order: usize| (order + 1 - LAST..=order).map(reach).fold(f64::INFINITY, f64::min);
         let (order, reach) = (LAST..series.order())
             .map(|order| (order, reach_of_sum(order)))
