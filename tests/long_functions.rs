@@ -173,3 +173,71 @@ mod cloud {
         agree(powers[1], cloud.second(&state, &solution), powers.amax());
     }
 }
+
+/// Links of an arm, of which most are computed in loops.
+mod arm {
+    use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+
+    use super::*;
+
+    const N: usize = 12;
+
+    struct Link {
+        m: f64,
+        c: [f64; 3],
+        inertia: Matrix3<f64>,
+        turn: UnitQuaternion<f64>,
+    }
+
+    #[derive(Lagrangian)]
+    #[coordinates(q: [12])]
+    #[parameter(link: [12] {m, c: [3], inertia: symmetric, turn: quaternion})]
+    #[frame(part[0]: rotate(link[0].turn), rotate_z(q[0]))]
+    #[frame(part[i in 1..12] in part[i-1]: translate(arm[i]), rotate(link[i].turn), rotate_z(q[i]))]
+    #[lagrangian(sum(i in 0..12, kinetic(part[i], link[i].m, link[i].c, link[i].inertia)
+        - link[i].m*g*position(part[i], link[i].c)[2]))]
+    #[force(q: tau)]
+    struct Arm {
+        link: [Link; 12],
+        arm: [Vector3<f64>; 12],
+        g: f64,
+        tau: [f64; 12],
+    }
+
+    fn arm() -> Arm {
+        let number = |i: usize, k: usize| (1.3 * i as f64 + 0.9 * k as f64).sin();
+        let link = |i| Link {
+            m: 1.5 + number(i, 0),
+            c: [1, 2, 3].map(|k| 0.2 * number(i, k)),
+            inertia: Matrix3::from_diagonal(&Vector3::from_fn(|k, _| 2.0 + 0.3 * number(i, 4 + k)))
+                .map_with_location(|r, c, x| if r == c { x } else { 0.2 * number(i, 7 + r + c) }),
+            turn: UnitQuaternion::from_euler_angles(number(i, 11), number(i, 12), number(i, 13)),
+        };
+        Arm {
+            link: std::array::from_fn(link),
+            arm: std::array::from_fn(|i| Vector3::from_fn(|k, _| 0.4 * number(i, 14 + k))),
+            g: 9.81,
+            tau: std::array::from_fn(|i| 3.0 * number(i, 17)),
+        }
+    }
+
+    fn state() -> State<f64, N> {
+        let number = |scale: f64| move |i: usize| (scale * i as f64).sin();
+        State::new(std::array::from_fn(number(1.7)), std::array::from_fn(number(0.6)))
+    }
+
+    /// By M and h, which are computed without the recursions by which the equations are solved, and by the balance of forces.
+    #[test]
+    fn what_is_computed_in_loops_solves_the_equations() {
+        let (arm, state) = (arm(), state());
+        let accelerations = arm.accelerations_unchecked(&state).accelerations;
+        let force = arm.forcing(&state);
+        let residual = (arm.mass_matrix(&state) * accelerations - force).amax();
+        assert!(residual < 1e-11 * force.amax(), "{residual:e}");
+        let balance = arm.inverse_dynamics(&state, &accelerations, &[].into()).amax();
+        assert!(balance < 1e-11 * force.amax(), "{balance:e}");
+        let factor = arm.factor(&state);
+        let solved = arm.solve_with(&factor, &force, &[].into()).accelerations;
+        assert!((solved - accelerations).amax() < 1e-11 * accelerations.amax());
+    }
+}

@@ -38,6 +38,8 @@ pub(crate) enum Variable {
     OrderReciprocal,
     /// What the Hamiltonian is a function of in the place of velocities.
     Momentum(usize),
+    /// What a round of a loop in emitted code is given.
+    Given(usize),
 }
 
 impl Variable {
@@ -62,6 +64,7 @@ impl Variable {
             Self::OrderReciprocal => (16, 0),
             Self::Momentum(i) => (17, i),
             Self::Term(k) => (18, k),
+            Self::Given(k) => (19, k),
         };
         Symbol { family, index: index as u32 }
     }
@@ -107,7 +110,8 @@ impl Variable {
             15 => Self::Order,
             16 => Self::OrderReciprocal,
             17 => Self::Momentum(index),
-            _ => Self::Term(index),
+            18 => Self::Term(index),
+            _ => Self::Given(index),
         }
     }
 }

@@ -71,7 +71,9 @@ impl Style<'_> {
         }
         let (zero, count) = (self.constant(0.0), parts.len());
         let parts = parts.into_iter().enumerate().map(|(k, part)| {
-            let doc = format!("Part {} of {count} of `{name}`.", k + 1);
+            let rounds =
+                part.rounds.as_ref().map_or_else(String::new, |rounds| format!(", {} rounds", rounds.count));
+            let doc = format!("Part {} of {count} of `{name}`{rounds}.", k + 1);
             self.part(&format_ident!("__{name}_{k}"), &doc, part, waiting, arrays)
         });
         let (calls, methods): (Vec<_>, Vec<_>) = parts.unzip();
@@ -87,7 +89,7 @@ impl Style<'_> {
         waiting: usize,
         arrays: &Arrays,
     ) -> (TokenStream, TokenStream) {
-        let is_read = |argument: &Argument| part.inputs.iter().any(|&symbol| source(symbol) == *argument);
+        let is_read = |argument: &Argument| part.reads().any(|symbol| source(symbol) == *argument);
         let read = [
             Argument::State,
             Argument::Accelerations,
@@ -155,7 +157,8 @@ fn source(symbol: Symbol) -> Argument {
         }
         Variable::Acceleration(_) | Variable::AccelerationChange(_) => Argument::Accelerations,
         Variable::Multiplier(_) | Variable::MultiplierChange(_) => Argument::Multipliers,
-        Variable::Parameter(_) => Argument::System,
+        // What rounds are given is named after itself.
+        Variable::Parameter(_) | Variable::Given(_) => Argument::System,
         Variable::Change(_) => Argument::Direction,
         Variable::Factor(_) => Argument::Factor,
         Variable::Forcing(_) => Argument::Forcing,

@@ -5,6 +5,7 @@ use proc_macro2::{Literal, Span, TokenStream};
 use quote::{quote, quote_spanned};
 
 use super::Emitter;
+use super::inputs::Varying;
 use super::style::Style;
 use crate::resolve::Entry;
 use crate::syntax::{Field, Inside, Property};
@@ -13,8 +14,9 @@ impl Emitter<'_> {
     /// Reads one number of each member, whether the system uses it or not.
     pub(super) fn check_members(&self) -> Option<TokenStream> {
         let fields = 0..self.problem.parameters.fields.len();
-        let reads = fields
-            .filter_map(|field| self.style.number_of_member(&quote!(system), Entry { field, number: 0 }));
+        let reads = fields.filter_map(|field| {
+            self.style.number_of_member(&quote!(system), Entry { field, number: 0 }, None)
+        });
         let reads: Vec<TokenStream> = reads.collect();
         let ident = &self.declaration.ident;
         let generics = super::bounds::bounded_generics(self.declaration, &self.problem.scalar);
@@ -33,14 +35,19 @@ impl Emitter<'_> {
 
 impl Style<'_> {
     /// A number of a member of `owner`, where this is one.
-    pub(super) fn number_of_member(&self, owner: &TokenStream, entry: Entry) -> Option<TokenStream> {
-        let Access { span, of, shape, number } = self.member(owner, entry)?;
+    pub(super) fn number_of_member(
+        &self,
+        owner: &TokenStream,
+        entry: Entry,
+        varying: Option<&Varying>,
+    ) -> Option<TokenStream> {
+        let Access { span, of, shape, number } = self.member(owner, entry, varying)?;
         let scalar = &self.problem.scalar;
         Some(quote_spanned!(span=> __lagrange::generated::Member::<#scalar, #shape>::number(&#of, #number)))
     }
 
     pub(super) fn set_number_of_member(&self, entry: Entry, value: &TokenStream) -> Option<TokenStream> {
-        let Access { span, of, shape, number } = self.member(&quote!(self), entry)?;
+        let Access { span, of, shape, number } = self.member(&quote!(self), entry, None)?;
         let scalar = &self.problem.scalar;
         Some(quote_spanned! {span=>
             if !__lagrange::generated::Member::<#scalar, #shape>::set(&mut #of, #number, #value) {
@@ -49,11 +56,11 @@ impl Style<'_> {
         })
     }
 
-    fn member(&self, owner: &TokenStream, entry: Entry) -> Option<Access> {
+    fn member(&self, owner: &TokenStream, entry: Entry, varying: Option<&Varying>) -> Option<Access> {
         let field = &self.problem.parameters.fields[entry.field];
         let (last, shape) = (field.members.last()?, field.shape.as_ref().ok()?);
         let span = Span::call_site().located_at(last.ident.span());
-        let indices = self.problem.parameters.indices(entry);
+        let indices = Varying::indices(varying, &self.problem.parameters.indices(entry));
         let inner = &shape.layout.lengths[last.after..];
         let number = Literal::usize_unsuffixed(entry.number % crate::syntax::numbers(inner));
         Some(Access {
@@ -89,7 +96,7 @@ struct Access {
 }
 
 /// `self.link[2].c`, with what is not in the user's words in their place.
-fn path(owner: &TokenStream, field: &Field, indices: &[usize], span: Span) -> TokenStream {
+fn path(owner: &TokenStream, field: &Field, indices: &[TokenStream], span: Span) -> TokenStream {
     let mut root = field.ident.clone();
     root.set_span(span);
     let owner: TokenStream = owner
@@ -103,7 +110,7 @@ fn path(owner: &TokenStream, field: &Field, indices: &[usize], span: Span) -> To
     let (mut place, mut from) = (quote_spanned!(span=> #owner.#root), 0);
     for member in &field.members {
         let (ident, after) = (&member.ident, member.after);
-        let arrays = indices[from..after].iter().map(|k| Literal::usize_unsuffixed(*k));
+        let arrays = &indices[from..after];
         place = quote_spanned!(span=> #place #([#arrays])*.#ident);
         from = after;
     }

@@ -1,6 +1,6 @@
-//! What all emitted functions of a system have in common: names, inputs, constants.
+//! What all emitted functions of a system have in common: names, types, constants.
 
-use std::collections::{BTreeSet, HashSet};
+use std::collections::HashSet;
 
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
@@ -8,9 +8,8 @@ use rustc_hash::FxHashMap;
 
 use super::signature::Types;
 use crate::mechanics::changes;
-use crate::resolve::{Entry, Problem};
+use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id, Symbol};
-use crate::syntax::{FieldShape, Inside};
 use crate::variables::Variable;
 
 /// What all functions of a system have in common.
@@ -22,7 +21,7 @@ pub(super) struct Style<'a> {
     /// The type of what holds the factor of the equations' matrix.
     pub(super) factor: TokenStream,
     /// The number type of the system, where functions compute with any over it.
-    narrow: Option<&'a syn::Type>,
+    pub(super) narrow: Option<&'a syn::Type>,
     /// How many slopes the functions read.
     slopes: usize,
     /// How many sums over Taylor coefficients they read.
@@ -66,6 +65,7 @@ impl<'a> Style<'a> {
                 "index",
                 "self",
                 "waiting",
+                "round",
             ]
             .map(String::from),
         );
@@ -159,138 +159,6 @@ impl<'a> Style<'a> {
         quote!([#number; #slopes])
     }
 
-    /// A number of the system, as functions compute with it.
-    fn widened(&self, number: &TokenStream) -> TokenStream {
-        let wide = self.types.scalar;
-        match self.narrow {
-            Some(_) => quote!(#wide::of(#number)),
-            None => number.clone(),
-        }
-    }
-
-    /// The value of a parameter, read from its field.
-    pub(super) fn parameter(&self, k: usize) -> TokenStream {
-        self.number(self.problem.parameters.entries[k])
-    }
-
-    /// A number of a field.
-    pub(super) fn number(&self, entry: Entry) -> TokenStream {
-        let of_member = self.number_of_member(&quote!(self), entry);
-        of_member.unwrap_or_else(|| self.place(entry))
-    }
-
-    /// The statement that gives a number of a field another value, in a function that returns whether it could.
-    pub(super) fn set_number(&self, entry: Entry, value: &TokenStream) -> TokenStream {
-        self.set_number_of_member(entry, value).unwrap_or_else(|| {
-            let place = self.place(entry);
-            quote!(#place = #value;)
-        })
-    }
-
-    /// Where a number of a field without members is.
-    fn place(&self, Entry { field, number }: Entry) -> TokenStream {
-        let field = &self.problem.parameters.fields[field];
-        let ident = &field.ident;
-        let Ok(FieldShape { layout, is_reference, .. }) = &field.shape else { return quote!(self.#ident) };
-        let indices = layout.indices(number);
-        let inside = match layout.inside {
-            Inside::Array => 0,
-            Inside::Matrix | Inside::Rotation => 2,
-            Inside::Quaternion | Inside::UnitQuaternion => 1,
-        };
-        let (arrays, inside) = indices.split_at(indices.len() - inside);
-        let literal = |k: &usize| Literal::usize_unsuffixed(*k);
-        let arrays: Vec<_> = arrays.iter().map(literal).collect();
-        let place = quote!(self.#ident #([#arrays])*);
-        match inside {
-            [k] => {
-                let k = literal(&((k + 3) % 4));
-                quote!(#place.coords[#k])
-            }
-            [i, j] => {
-                let (i, j) = (literal(i), literal(j));
-                quote!(#place[(#i, #j)])
-            }
-            _ if arrays.is_empty() && *is_reference => quote!(*#place),
-            _ => place,
-        }
-    }
-
-    /// Statements that bring the inputs in use into scope.
-    pub(super) fn inputs(&self, used: &BTreeSet<Symbol>) -> TokenStream {
-        let problem = self.problem;
-        let pattern = |count: usize, variable: fn(usize) -> Variable, array: TokenStream| {
-            let names: Vec<_> = (0..count)
-                .map(|i| match used.contains(&variable(i).symbol()) {
-                    true => {
-                        let name = &self.names[&variable(i).symbol()];
-                        quote!(#name)
-                    }
-                    false => quote!(_),
-                })
-                .collect();
-            let any = (0..count).any(|i| used.contains(&variable(i).symbol()));
-            any.then(|| quote! { let [#(#names),*] = #array; })
-        };
-        let (n, m) = (problem.coordinates.len(), problem.constraints.len());
-        let time = used.contains(&Variable::Time.symbol()).then(|| {
-            let name = &self.names[&Variable::Time.symbol()];
-            quote! { let #name = state.t; }
-        });
-        let coordinates = pattern(n, Variable::Coordinate, quote!(state.q.data.0[0]));
-        let velocities = pattern(n, Variable::Velocity, quote!(state.v.data.0[0]));
-        let accelerations = pattern(n, Variable::Acceleration, quote!(accelerations.data.0[0]));
-        let multipliers = pattern(m, Variable::Multiplier, quote!(multipliers.data.0[0]));
-        let newest = pattern(n, Variable::AccelerationChange, quote!(accelerations.data.0[0]));
-        let newest_multipliers = pattern(m, Variable::MultiplierChange, quote!(multipliers.data.0[0]));
-        let forcing = pattern(n, Variable::Forcing, quote!(forcing.data.0[0]));
-        let bias = pattern(m, Variable::Bias, quote!(bias.data.0[0]));
-        let others = used.iter().filter_map(|symbol| {
-            let value = match Variable::of(*symbol) {
-                Variable::Parameter(k) => self.parameter(k),
-                Variable::Change(i) => self.change(i),
-                Variable::Factor(k) => {
-                    let k = Literal::usize_unsuffixed(k);
-                    self.widened(&quote!(factor[#k]))
-                }
-                Variable::Slope(k) => {
-                    let k = Literal::usize_unsuffixed(k);
-                    self.widened(&quote!(slopes[#k]))
-                }
-                Variable::Sum(k) => {
-                    let k = Literal::usize_unsuffixed(k);
-                    quote!(sums[#k])
-                }
-                Variable::Term(k) => {
-                    let k = Literal::usize_unsuffixed(k);
-                    quote!(terms[#k])
-                }
-                Variable::Order => quote!(order[0]),
-                Variable::OrderReciprocal => quote!(order[1]),
-                Variable::ParameterChange(k) => {
-                    let place = Literal::usize_unsuffixed(k);
-                    quote!(rates.data.0[0][#place])
-                }
-                _ => return None,
-            };
-            let name = &self.names[symbol];
-            Some(quote! { let #name = #value; })
-        });
-        quote! {
-            #time #coordinates #velocities #accelerations #multipliers #newest #newest_multipliers #forcing #bias
-            #(#others)*
-        }
-    }
-
-    /// How fast the time, a coordinate or a velocity changes along `direction`.
-    fn change(&self, i: usize) -> TokenStream {
-        let n = self.problem.coordinates.len();
-        let index = Literal::usize_unsuffixed;
-        let Some(i) = i.checked_sub(1) else { return quote!(direction.t) };
-        let (part, i) = if i < n { (quote!(q), index(i)) } else { (quote!(v), index(i - n)) };
-        quote!(direction.#part.data.0[0][#i])
-    }
-
     pub(super) fn constant(&self, value: f64) -> TokenStream {
         // A negative literal would be a sign and a literal.
         let magnitude = Literal::f64_unsuffixed(value.abs());
@@ -312,11 +180,11 @@ fn split(text: &str) -> [String; 2] {
     }
 }
 
-/// Whether the writer gives such names to what it computes: `r12`, `call3_0`.
+/// Whether the writer gives such names to what it computes: `r12`, `angle4`, `given7`, `call3_0`.
 fn is_local(name: &str) -> bool {
     let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
     let call = name.strip_prefix("call").and_then(|rest| rest.split_once('_'));
-    name.strip_prefix('r').is_some_and(is_number)
+    ["r", "angle", "given"].iter().any(|start| name.strip_prefix(start).is_some_and(is_number))
         || call.is_some_and(|(call, output)| is_number(call) && is_number(output))
 }
 
@@ -329,4 +197,19 @@ fn identifier(text: &str, taken: &mut HashSet<String>) -> Ident {
         taken.insert(name.clone());
     }
     Ident::new(&name, Span::mixed_site())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_of_the_users_is_called_as_locals_are() {
+        for name in ["r12", "angle4", "given7", "call3_0"] {
+            assert_ne!(identifier(name, &mut HashSet::new()), name);
+        }
+        for name in ["r", "r_1", "angle", "angle_4", "call3"] {
+            assert_eq!(identifier(name, &mut HashSet::new()), name);
+        }
+    }
 }

@@ -1,11 +1,12 @@
 //! Bodies of functions in Rust.
 
-use proc_macro2::{Ident, Literal, Span, TokenStream};
+use proc_macro2::{Ident, Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
-use super::body::{Expression, Local, Part, Place, Statement, Turn};
+use super::body::{Expression, Local, Part, Place, Series, Statement, Turn};
 use super::bounds::call_of;
 use super::operation::{Call, Operation};
+use super::rounds::waiting;
 use super::shape::Arrays;
 use super::style::Style;
 
@@ -25,7 +26,7 @@ impl Style<'_> {
             quote! { let (#(#names,)*): (#(#types,)*); }
         });
         let word = is_short.then(|| quote!(let));
-        let statements = part.statements.into_iter().map(|statement| match statement {
+        let written = part.statements.into_iter().map(|statement| match statement {
             Statement::Let(local, value) => {
                 let (name, value) = (self.local(local), self.expression(value));
                 quote!(#word #name = #value;)
@@ -48,7 +49,14 @@ impl Style<'_> {
                 quote!(#place = #value;)
             }
         });
-        quote! { #inputs #(#declarations)* #(#statements)* }
+        let statements = quote! { #(#declarations)* #(#written)* };
+        match part.rounds {
+            None => quote! { #inputs #statements },
+            Some(rounds) => {
+                let rounds = self.rounds(&rounds, &statements);
+                quote! { #inputs #rounds }
+            }
+        }
     }
 
     /// `(r1, r2) = sin_cos(x)`, or of several.
@@ -75,7 +83,7 @@ impl Style<'_> {
                 let name = self.local(local);
                 quote!(#name)
             }
-            Expression::Waiting(place) => waiting(place),
+            Expression::Waiting(place) => waiting(Series::constant(place)),
             Expression::Of(operation) => self.operation(*operation),
         }
     }
@@ -94,7 +102,7 @@ impl Style<'_> {
         match operation.with_operands(|operand| self.operand(operand)) {
             Operation::Constant(bits) => self.constant(f64::from_bits(bits)),
             Operation::Input(symbol) => {
-                let name = &self.names[&symbol];
+                let name = self.input(symbol);
                 quote!(#name)
             }
             Operation::Negate(x) => quote!(-#x),
@@ -149,13 +157,8 @@ impl Style<'_> {
 fn stored(place: Place, arrays: &Arrays) -> TokenStream {
     match place {
         Place::Result(index) => arrays.place(index),
-        Place::Waiting(index) => waiting(index),
+        Place::Waiting(series) => waiting(series),
     }
-}
-
-fn waiting(place: usize) -> TokenStream {
-    let place = Literal::usize_unsuffixed(place);
-    quote!(waiting[#place])
 }
 
 fn scalar(name: &str, arguments: &[TokenStream]) -> TokenStream {

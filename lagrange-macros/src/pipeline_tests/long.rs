@@ -2,7 +2,7 @@
 
 use proc_macro2::{TokenStream, TokenTree};
 
-use super::{systems, tokens};
+use super::{bodies, systems, tokens};
 use crate::expand;
 
 /// Squares of long sums that have no term in common.
@@ -59,6 +59,19 @@ fn a_long_function_is_cut_into_parts_of_a_thousand_operations_or_more() {
     assert!(expansion.to_string().contains(&format!("In {} parts.", lengths.len())));
     let main = functions(expansion, "mass_matrix");
     assert_eq!(main.into_iter().map(operations).collect::<Vec<_>>(), [0]);
+}
+
+/// An arm of twice as many joints computes most of them in the same loops.
+#[test]
+fn what_the_joints_of_an_arm_have_in_common_is_emitted_once() {
+    let length = |joints: usize| {
+        let arm = bodies::ARM.replace("[6]", &format!("[{joints}]")).replace("..6", &format!("..{joints}"));
+        let expansion = expand(tokens(&arm.replace("; 6]", &format!("; {joints}]"))));
+        let parts = functions(expansion, "__accelerations_unchecked_").into_iter();
+        parts.map(|part| part.into_iter().count()).sum::<usize>()
+    };
+    let [short, long] = [16, 32].map(length);
+    assert!(long < short + short / 3, "{short} tokens for 16 joints, {long} for 32");
 }
 
 #[test]

@@ -199,6 +199,13 @@ impl Parameters {
         self.fields[field].shape.as_ref().map_or_else(|_| Vec::new(), |shape| shape.layout.indices(number))
     }
 
+    /// How many of these indices are those of arrays of what the field, or the member, holds.
+    pub(crate) fn arrays(&self, field: usize) -> usize {
+        let Field { members, shape, .. } = &self.fields[field];
+        let of_shape = || shape.as_ref().map_or(0, |shape| shape.layout.arrays());
+        members.last().map_or_else(of_shape, |member| member.after)
+    }
+
     /// The number type: what the fields in use are made of, else `f64`.
     pub(super) fn scalar(&self, declaration: &Declaration, diagnostics: &mut Diagnostics) -> syn::Type {
         let mut found: Option<(syn::Type, usize)> =

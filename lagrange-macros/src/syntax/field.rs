@@ -104,6 +104,16 @@ impl Layout {
         self.lengths.last().copied().unwrap_or(1)
     }
 
+    /// How many of the indices of a number are those of arrays, before those in a matrix or a quaternion.
+    pub(crate) fn arrays(&self) -> usize {
+        let inside = match self.inside {
+            Inside::Array => 0,
+            Inside::Matrix | Inside::Rotation => 2,
+            Inside::Quaternion | Inside::UnitQuaternion => 1,
+        };
+        self.lengths.len() - inside
+    }
+
     /// The indices of a number.
     pub(crate) fn indices(&self, mut number: usize) -> Vec<usize> {
         let index = |length: &usize| {

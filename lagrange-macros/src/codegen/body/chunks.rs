@@ -1,28 +1,53 @@
 //! Where a long function is cut into parts, and where results wait that one part computes and a later one uses.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use rustc_hash::FxHashMap;
 
 use super::order_of_evaluation::Order;
+use super::repeats::Repeat;
 use crate::codegen::operation::Register;
 
-/// Longer functions are cut: the time that LLVM takes grows faster than the length.
+/// Longer functions are cut: the time that LLVM takes grows faster than the length. In them repeats are looked for, too.
 const LONGEST: usize = 4_000;
 /// A part has at least as many operations, and at most twice as many.
 const SHORTEST: usize = 1_000;
 
-/// The parts of a function as ranges of the sequence, cut where fewest results wait.
-pub(super) fn cuts(order: &Order) -> Vec<Range<usize>> {
-    let length = order.sequence.len();
-    let (mut parts, mut start) = (Vec::new(), 0);
-    while length > LONGEST && length - start > 2 * SHORTEST {
-        let latest = (start + 2 * SHORTEST).min(length - SHORTEST);
+/// What becomes a part: operations of the sequence, which may be rounds of the same ones.
+pub(super) struct Segment {
+    pub(super) range: Range<usize>,
+    pub(super) repeat: Option<Repeat>,
+}
+
+pub(super) fn is_long(order: &Order) -> bool {
+    order.sequence.len() > LONGEST
+}
+
+/// The parts of a function. Before and after repeats there is room for what brings numbers to their places.
+pub(super) fn segments(order: &Order, repeats: Vec<Repeat>) -> Vec<Segment> {
+    let (mut segments, mut start) = (Vec::new(), 0);
+    let straight = |range| cuts(order, range).into_iter().map(|range| Segment { range, repeat: None });
+    for repeat in repeats {
+        segments.extend(straight(start..repeat.range.start));
+        start = repeat.range.end;
+        segments.push(Segment { range: repeat.range.clone(), repeat: Some(repeat) });
+    }
+    segments.extend(straight(start..order.sequence.len()));
+    segments
+}
+
+/// A range of the sequence in pieces, cut where fewest results wait.
+fn cuts(order: &Order, range: Range<usize>) -> Vec<Range<usize>> {
+    let Range { mut start, end: last } = range;
+    let (mut parts, is_long) = (Vec::new(), range.len() > LONGEST);
+    while is_long && last - start > 2 * SHORTEST {
+        let latest = (start + 2 * SHORTEST).min(last - SHORTEST);
         let end = (start + SHORTEST..=latest).min_by_key(|&end| order.waiting[end - 1]).unwrap_or(latest);
         parts.push(start..end);
         start = end;
     }
-    parts.push(start..length);
+    parts.push(start..last);
     parts
 }
 
@@ -30,7 +55,7 @@ pub(super) fn cuts(order: &Order) -> Vec<Range<usize>> {
 #[derive(Default)]
 pub(super) struct Waiting {
     places: FxHashMap<Register, usize>,
-    free: Vec<usize>,
+    free: BTreeSet<usize>,
     /// The length of the array.
     pub(super) length: usize,
 }
@@ -41,17 +66,39 @@ impl Waiting {
     }
 
     pub(super) fn add(&mut self, register: Register) -> usize {
-        let place = self.free.pop().unwrap_or_else(|| {
-            self.length += 1;
-            self.length - 1
-        });
+        let place = self.reserve(1);
         self.places.insert(register, place);
         place
     }
 
-    /// Its place can be another's.
-    pub(super) fn remove(&mut self, register: Register) {
-        self.free.extend(self.places.remove(&register));
+    /// Notes that the register is at this place, which is reserved.
+    pub(super) fn put(&mut self, register: Register, place: usize) {
+        self.places.insert(register, place);
+    }
+
+    /// The first of so many places in a row that are no other's.
+    pub(super) fn reserve(&mut self, count: usize) -> usize {
+        let is_free = |first: &usize| (*first..first + count).all(|place| self.free.contains(&place));
+        let first = self.free.iter().copied().find(is_free).unwrap_or(self.length);
+        (first..first + count).for_each(|place| _ = self.free.remove(&place));
+        self.length = self.length.max(first + count);
+        first
+    }
+
+    /// Those of the places at which no register is can be others'.
+    pub(super) fn release(&mut self, places: impl Iterator<Item = usize>) {
+        let occupied: BTreeSet<usize> = self.places.values().copied().collect();
+        self.free.extend(places.filter(|place| !occupied.contains(place)));
+    }
+
+    /// The places of registers for which nobody waits any more can be those of others.
+    pub(super) fn keep(&mut self, is_awaited: impl Fn(Register) -> bool) {
+        let free = &mut self.free;
+        self.places.retain(|&register, place| {
+            let is_awaited = is_awaited(register);
+            free.extend((!is_awaited).then_some(*place));
+            is_awaited
+        });
     }
 }
 
@@ -66,13 +113,13 @@ mod tests {
     #[test]
     fn parts_follow_on_one_another_and_none_is_short_or_long() {
         for length in [LONGEST + 1, 5_000, 9_999, 30_000] {
-            let parts = cuts(&order((0..length).map(|k| k * 7 % 13).collect()));
+            let parts = cuts(&order((0..length).map(|k| k * 7 % 13).collect()), 0..length);
             assert_eq!((parts[0].start, parts.last().map(|part| part.end)), (0, Some(length)));
             assert!(parts.windows(2).all(|pair| pair[0].end == pair[1].start));
             assert!(parts.iter().all(|part| (SHORTEST..=2 * SHORTEST).contains(&part.len())), "{parts:?}");
         }
         for length in [0, 1, LONGEST] {
-            let parts = cuts(&order(vec![0; length]));
+            let parts = cuts(&order(vec![0; length]), 0..length);
             assert!(parts.len() == 1 && parts[0] == (0..length), "{parts:?}");
         }
     }
@@ -81,7 +128,7 @@ mod tests {
     fn a_cut_is_where_fewest_results_wait() {
         let mut waiting = vec![5; LONGEST + 1];
         waiting[1_233] = 1;
-        assert_eq!(cuts(&order(waiting))[0], 0..1_234);
+        assert_eq!(cuts(&order(waiting), 0..LONGEST + 1)[0], 0..1_234);
     }
 
     #[test]
@@ -89,7 +136,7 @@ mod tests {
         let mut waiting = Waiting::default();
         let [first, second, third] = [0, 1, 2].map(Register::at);
         assert_eq!([waiting.add(first), waiting.add(second)], [0, 1]);
-        waiting.remove(first);
+        waiting.keep(|register| register != first);
         assert_eq!((waiting.place(first), waiting.add(third)), (None, 0));
         assert_eq!((waiting.place(second), waiting.length), (Some(1), 2));
     }

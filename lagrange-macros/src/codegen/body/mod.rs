@@ -4,6 +4,7 @@
 mod chunks;
 mod order_of_evaluation;
 mod plan;
+mod repeats;
 #[cfg(test)]
 mod tests;
 
@@ -31,6 +32,58 @@ pub(super) struct Part {
     /// What the statements give values to, each once.
     pub(super) locals: Vec<Local>,
     pub(super) statements: Vec<Statement>,
+    pub(super) rounds: Option<Rounds>,
+}
+
+impl Part {
+    /// All inputs that are read, once or round by round.
+    pub(super) fn reads(&self) -> impl Iterator<Item = Symbol> {
+        let given = self.rounds.iter().flat_map(|rounds| &rounds.given).filter_map(|given| match given {
+            Given::Inputs(symbols) => Some(symbols),
+            Given::Waiting(_) => None,
+        });
+        self.inputs.iter().chain(given.flatten()).copied()
+    }
+}
+
+/// Says that the statements are run over and over.
+#[derive(Clone, Debug)]
+pub(super) struct Rounds {
+    pub(super) count: usize,
+    /// What they read in each round.
+    pub(super) given: Vec<Given>,
+}
+
+#[derive(Clone, Debug)]
+pub(super) enum Given {
+    /// One after the other, round by round.
+    Inputs(Vec<Symbol>),
+    Waiting(Series),
+}
+
+/// Places in an array, round by round: in all the same one, or others as far apart.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Series {
+    pub(super) first: usize,
+    pub(super) step: isize,
+}
+
+impl Series {
+    pub(super) fn constant(place: usize) -> Self {
+        Self { first: place, step: 0 }
+    }
+
+    /// Through these places, if there is one.
+    pub(super) fn through(places: &[usize]) -> Option<Self> {
+        let [first, second, ..] = *places else { return None };
+        let series = Self { first, step: second as isize - first as isize };
+        let is_on_it = places.iter().enumerate().all(|(round, place)| series.at(round) == *place);
+        is_on_it.then_some(series)
+    }
+
+    pub(super) fn at(self, round: usize) -> usize {
+        self.first.wrapping_add_signed(self.step * round as isize)
+    }
 }
 
 #[derive(Clone, Debug)]
@@ -81,5 +134,5 @@ pub(super) enum Local {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Place {
     Result(usize),
-    Waiting(usize),
+    Waiting(Series),
 }

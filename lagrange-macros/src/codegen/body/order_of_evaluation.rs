@@ -8,6 +8,7 @@
 use crate::codegen::operation::{Operation, Register};
 use crate::codegen::passes::Program;
 use crate::codegen::schedule::Schedule;
+use crate::symbolic::Function;
 
 /// What is to be computed, operands first. Constants and inputs are at hand and have no place in it.
 pub(super) struct Order {
@@ -31,6 +32,26 @@ impl Order {
         let is_better = of_nested.iter().sum::<usize>() < of_derived.iter().sum();
         let (sequence, waiting) = if is_better { (nested, of_nested) } else { (derived, of_derived) };
         Self { sequence, waiting, peak_before }
+    }
+
+    /// With the sines and cosines of these angles first, and what the angles are made of: what is computed in loops is then
+    /// computed without them, and they can be taken side by side.
+    pub(super) fn with_sines_first(self, schedule: &Schedule, is_angle: impl Fn(Register) -> bool) -> Self {
+        let mut is_early = vec![false; schedule.operations.len()];
+        for (index, operation) in schedule.operations.iter().enumerate().rev() {
+            let is_turn =
+                matches!(operation, Operation::Function(Function::Sin | Function::Cos, x) if is_angle(*x));
+            is_early[index] |= is_turn;
+            if is_early[index] {
+                operation.operands().for_each(|operand| is_early[operand.index()] = true);
+            }
+        }
+        let (mut sequence, rest): (Vec<_>, Vec<_>) =
+            self.sequence.into_iter().partition(|&index| is_early[index]);
+        sequence.extend(rest);
+        let operands: Vec<Vec<usize>> = (0..is_early.len()).map(|index| operands(schedule, index)).collect();
+        let waiting = waiting(&operands, &sequence);
+        Self { sequence, waiting, ..self }
     }
 
     /// The most results that wait at once.
@@ -100,7 +121,7 @@ fn waiting(operands: &[Vec<usize>], sequence: &[usize]) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::symbolic::{Function, Symbol};
+    use crate::symbolic::Symbol;
 
     fn input(schedule: &mut Schedule, index: u32) -> Register {
         schedule.push(Operation::Input(Symbol { family: 0, index }))

@@ -1,19 +1,22 @@
 //! From a schedule to a [`Body`], part by part.
 
 mod angles;
+mod rounds;
 
 use std::collections::BTreeSet;
 use std::ops::Range;
 
 use rustc_hash::FxHashMap;
 
-use super::chunks::{self, Waiting};
+use super::chunks::{self, Segment, Waiting};
 use super::order_of_evaluation::Order;
-use super::{Body, Expression, Local, Part, Place, Statement};
+use super::repeats::{Repeat, repeats};
+use super::{Body, Expression, Local, Part, Place, Series, Statement};
 use crate::codegen::operation::{Call, Operation, Register};
 use crate::codegen::passes::Program;
 use crate::codegen::schedule::Schedule;
 use crate::symbolic::{Function, Id};
+use rounds::Layout;
 
 /// Single-use results are nested into what uses them to this depth.
 const NESTING: usize = 6;
@@ -25,26 +28,49 @@ impl Body {
     pub(in crate::codegen) fn new(program: &Program, names: &FxHashMap<Id, String>) -> Self {
         let Program { schedule, results, .. } = program;
         let order = Order::new(program);
-        let cuts = chunks::cuts(&order);
-        let mut planner = Planner::new(program, &order.sequence, &cuts, names);
+        let peaks = [order.peak_before, order.peak()];
+        let (order, segments) = segments(schedule, order);
+        let ranges: Vec<Range<usize>> = segments.iter().map(|segment| segment.range.clone()).collect();
+        let mut planner = Planner::new(program, &order.sequence, &ranges, names);
         let zero = schedule.find(Operation::Constant(0.0_f64.to_bits()));
         let stored = results.iter().copied().enumerate().filter(|(_, result)| Some(*result) != zero);
         let stored: Vec<(usize, Register)> = stored.collect();
         let is_sparse = results.len() >= MANY && stored.len() < results.len().div_ceil(2);
-        let in_locals = cuts.len() == 1 && !is_sparse;
+        let in_locals = segments.len() == 1 && !is_sparse;
         if !in_locals {
             planner.will_store(&stored);
         }
         let mut last = None;
-        let parts = cuts.iter().map(|cut| {
-            order.sequence[cut.clone()].iter().for_each(|&index| planner.compute(index));
+        let mut parts = Vec::new();
+        for (k, segment) in segments.iter().enumerate() {
+            let sequence = &order.sequence[segment.range.clone()];
+            if let Some(repeat) = &segment.repeat {
+                parts.push(planner.rounds(repeat, sequence));
+                continue;
+            }
+            sequence.iter().for_each(|&index| planner.compute(index));
             last = in_locals.then(|| results.iter().map(|&result| planner.value(result)).collect());
-            planner.end_part()
-        });
-        let parts = parts.collect();
-        let peaks = [order.peak_before, order.peak()];
+            let next = segments.get(k + 1).and_then(|next| next.repeat.as_ref());
+            parts.push(planner.end_part(next.map(|repeat| (repeat, &order.sequence[repeat.range.clone()]))));
+        }
+        parts.retain(|part| in_locals || !part.statements.is_empty());
         Self { parts, waiting: planner.waiting.length, results: last, peaks }
     }
+}
+
+/// What becomes a part each. Of a long function only what is not computed in loops is long.
+fn segments(schedule: &Schedule, order: Order) -> (Order, Vec<Segment>) {
+    if !chunks::is_long(&order) {
+        let segments = chunks::segments(&order, Vec::new());
+        return (order, segments);
+    }
+    let all = 0..order.sequence.len();
+    let angles = angles::plain_angles(schedule, &order.sequence, &[all]).concat();
+    let angles: BTreeSet<Register> = angles.into_iter().collect();
+    let order = order.with_sines_first(schedule, |register| angles.contains(&register));
+    let repeats = repeats(schedule, &order);
+    let segments = chunks::segments(&order, repeats);
+    (order, segments)
 }
 
 /// A body under construction.
@@ -67,6 +93,8 @@ struct Planner<'p> {
     fetched: BTreeSet<Register>,
     /// What is in a local and which a later part uses.
     kept: Vec<Register>,
+    /// Where the repeat that comes next finds and leaves what it computes with.
+    layout: Layout,
     /// For each part, the last first, the angles in it that depend on no sine and on no other function.
     plain: Vec<Vec<Register>>,
     /// Those of this part whose turn has not come.
@@ -111,7 +139,7 @@ impl<'p> Planner<'p> {
         }
         outputs.values_mut().for_each(|outputs| outputs.sort_unstable());
         let values = schedule.operations.iter().map(|_| None).collect();
-        let (places, waiting, index, part, fetched, kept) = Default::default();
+        let (places, waiting, index, part, fetched, kept, layout) = Default::default();
         let mut plain = angles::plain_angles(schedule, sequence, cuts);
         let early = plain.pop().unwrap_or_default();
         Self {
@@ -127,6 +155,7 @@ impl<'p> Planner<'p> {
             part,
             fetched,
             kept,
+            layout,
             plain,
             early,
             leader: None,
@@ -240,18 +269,26 @@ impl<'p> Planner<'p> {
         self.part.statements.push(Statement::Store(place, value));
     }
 
-    /// The part as it stands; the next one begins.
-    fn end_part(&mut self) -> Part {
-        for register in std::mem::take(&mut self.fetched) {
-            if self.reach[register.index()] == self.index {
-                self.waiting.remove(register);
-            }
-        }
+    /// Those of what no later part uses.
+    fn release_places(&mut self) {
+        let (reach, index) = (&self.reach, self.index);
+        self.waiting.keep(|register| reach[register.index()] > index);
+    }
+
+    /// The part as it stands; the next one begins, which may be a repeat of this sequence.
+    fn end_part(&mut self, next: Option<(&Repeat, &[usize])>) -> Part {
+        self.release_places();
         for register in std::mem::take(&mut self.kept) {
             let value = self.value(register);
-            let place = Place::Waiting(self.waiting.add(register));
+            let place = Place::Waiting(Series::constant(self.waiting.add(register)));
             self.part.statements.push(Statement::Store(place, value));
+            // It is at hand.
+            self.fetched.insert(register);
         }
+        if let Some((repeat, sequence)) = next {
+            self.layout = self.lay_out(repeat, sequence);
+        }
+        self.fetched.clear();
         self.index += 1;
         self.early = self.plain.pop().unwrap_or_default();
         (self.leader, self.small) = Default::default();

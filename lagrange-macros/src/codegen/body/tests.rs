@@ -251,7 +251,7 @@ fn parts_see_what_waits_for_them_and_places_are_taken_again() {
         assert!(body.parts.len() > 2 && body.results.is_none());
         let stored =
             body.parts.iter().flat_map(|part| &part.statements).filter_map(|statement| match statement {
-                Statement::Store(Place::Waiting(place), _) => Some(*place),
+                Statement::Store(Place::Waiting(series), _) => Some(series.first),
                 _ => None,
             });
         let stored: Vec<usize> = stored.collect();
@@ -262,6 +262,126 @@ fn parts_see_what_waits_for_them_and_places_are_taken_again() {
             "seed {seed}"
         );
     }
+}
+
+/// Numbers below a limit, at random.
+fn random(seed: u64) -> impl FnMut(usize) -> usize {
+    let mut state = seed;
+    move |limit| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        ((state >> 33) as usize) % limit
+    }
+}
+
+/// What one operand of a round is.
+#[derive(Clone, Copy)]
+enum Taken {
+    /// An operation of this round or, so many rounds back, of an earlier one.
+    Computed(usize, usize),
+    /// An input of each round, by its place; the second from the last round to the first.
+    Input(usize),
+    Reversed(usize),
+    /// One in no order.
+    Scattered(usize),
+    /// What the first part has computed, in no order.
+    Early(usize),
+    Shared,
+    Constant,
+    /// An operation of the round so many rounds back, but every eleventh time another.
+    Unsteady(usize, usize),
+}
+
+/// Rounds of the same operations at random, between others at random, and what each round computed used far later.
+fn with_rounds(seed: u64, rounds: usize, length: usize, is_steady: bool) -> Program {
+    let mut below = random(seed);
+    let mut schedule = Schedule::default();
+    let given = |schedule: &mut Schedule, k: usize| schedule.push(Operation::Input(symbol(k as u32)));
+    let early: Vec<Register> = (0..300)
+        .map(|k| {
+            let (x, y) = (given(&mut schedule, k), given(&mut schedule, k * 7 % 31));
+            let scaled = schedule.constant(0.5);
+            let product = schedule.push(Operation::Multiply(x, scaled));
+            schedule.push(Operation::Subtract(product, y))
+        })
+        .collect();
+    let template: Vec<(usize, [Taken; 2])> = (0..length)
+        .map(|k| {
+            let mut operand = |other: usize| match below(12) {
+                _ if other == 1 && k > 0 => Taken::Computed(k - 1, 0),
+                0..=2 if k > 90 && !is_steady => Taken::Unsteady(below(k - 80), below(2)),
+                0..=3 if k > 0 => Taken::Computed(below(k), 0),
+                4 | 5 => Taken::Computed(below(length), 1),
+                6 => Taken::Computed(below(length), 2),
+                7 => Taken::Input(below(5)),
+                8 => Taken::Reversed(below(5)),
+                9 => Taken::Scattered(below(5)),
+                10 => Taken::Early(below(5)),
+                11 => Taken::Constant,
+                _ => Taken::Shared,
+            };
+            let operands = [operand(0), operand(1)];
+            (below(3), operands)
+        })
+        .collect();
+    let mut computed: Vec<Vec<Register>> = Vec::new();
+    for round in 0..rounds {
+        let mut now: Vec<Register> = Vec::new();
+        for &(kind, operands) in &template {
+            let [x, y] = operands.map(|taken| match taken {
+                Taken::Computed(k, 0) => now[k],
+                Taken::Computed(k, back) if round >= back => computed[round - back][k],
+                Taken::Computed(k, _) => early[k % 290],
+                Taken::Input(k) => given(&mut schedule, 1_000 + 5 * round + k),
+                Taken::Reversed(k) => given(&mut schedule, 3_000 - 5 * round + k),
+                Taken::Scattered(k) => given(&mut schedule, 4_000 + round * round + k),
+                Taken::Early(k) => early[(round * round + 3 * k) % 290],
+                Taken::Constant => schedule.constant(0.25),
+                Taken::Unsteady(k, _) if round < 2 => early[k],
+                Taken::Unsteady(k, 0) if round % 11 == 5 => early[k],
+                Taken::Unsteady(k, 0) => now[k],
+                Taken::Unsteady(k, back) if round % 11 == 5 => computed[round - back - 1][k],
+                Taken::Unsteady(k, back) => computed[round - back][k],
+                Taken::Shared => early[299],
+            });
+            let halves = schedule.constant(0.5);
+            now.push(match kind {
+                0 => schedule.push(Operation::Subtract(x, y)),
+                1 => schedule.push(Operation::MultiplyAdd(x, halves, y)),
+                _ => schedule.push(Operation::SubtractProduct(y, halves, x)),
+            });
+        }
+        computed.push(now);
+    }
+    let all: Vec<Register> = computed.concat();
+    let mut results: Vec<Register> = computed.iter().rev().map(|now| now[length - 1]).collect();
+    let late = (0..1_500).fold(early[0], |sum, k| {
+        let other = if k % 3 == 0 { all[below(all.len())] } else { early[below(300)] };
+        let other = schedule.push(Operation::Subtract(other, sum));
+        schedule.push(Operation::Minimum(other, early[k % 300]))
+    });
+    results.push(late);
+    Program { schedule, results, counts: Vec::new() }
+}
+
+fn rounds(body: &Body) -> Vec<usize> {
+    body.parts.iter().filter_map(|part| Some(part.rounds.as_ref()?.count)).collect()
+}
+
+#[test]
+fn what_comes_again_and_again_is_computed_in_a_loop() {
+    let mut found = [0, 0];
+    for (seed, is_steady) in (1..=20).flat_map(|seed| [(seed, true), (seed, false)]) {
+        let program = with_rounds(seed, 40, 150, is_steady);
+        let body = Body::new(&program, &FxHashMap::default());
+        assert_eq!(
+            body.values(program.results.len(), input, function),
+            program.schedule.values(&program.results, input),
+            "seed {seed}, steady {is_steady}"
+        );
+        found[usize::from(is_steady)] += rounds(&body).iter().sum::<usize>();
+    }
+    // Of 40 rounds twenty times.
+    assert!(found[1] > 700 && found[0] > 100, "{found:?}");
 }
 
 #[test]

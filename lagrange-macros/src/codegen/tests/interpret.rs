@@ -2,10 +2,11 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::codegen::body::{Body, Expression, Local, Part, Place, Statement, Turn};
+use crate::codegen::body::{Body, Expression, Given, Local, Part, Place, Statement, Turn};
 use crate::codegen::operation::{Call, Operation, Register};
 use crate::codegen::schedule::Schedule;
 use crate::symbolic::{Symbol, apply};
+use crate::variables::Variable;
 
 impl Operation<f64> {
     /// What it comes to, of operands that are there already.
@@ -65,12 +66,19 @@ impl Body {
         function: impl Fn(&Call<f64>, u32) -> f64,
     ) -> Vec<f64> {
         let (mut waiting, mut results) = (vec![f64::NAN; self.waiting], vec![0.0; count]);
-        for part in &self.parts {
-            let input = |symbol| {
-                assert!(part.inputs.contains(&symbol), "{symbol:?} is not among the inputs");
-                input(symbol)
+        let rounds = |part: &Part| part.rounds.as_ref().map_or(1, |rounds| rounds.count);
+        for (part, round) in
+            self.parts.iter().flat_map(|part| (0..rounds(part)).map(move |round| (part, round)))
+        {
+            let given: Vec<f64> = part.given(round, &waiting, &input);
+            let input = |symbol: Symbol| match Variable::of(symbol) {
+                Variable::Given(k) => given[k],
+                _ => {
+                    assert!(part.inputs.contains(&symbol), "{symbol:?} is not among the inputs");
+                    input(symbol)
+                }
             };
-            let mut frame = Frame { part, input, waiting: &mut waiting, locals: FxHashMap::default() };
+            let mut frame = Frame { part, round, input, waiting: &mut waiting, locals: FxHashMap::default() };
             part.statements.iter().for_each(|statement| frame.run(statement, &function, &mut results));
             assert!(frame.locals.len() == part.locals.len(), "every local has a value");
             if let Some(values) = &self.results {
@@ -81,9 +89,20 @@ impl Body {
     }
 }
 
+impl Part {
+    fn given(&self, round: usize, waiting: &[f64], input: impl Fn(Symbol) -> f64) -> Vec<f64> {
+        let given = self.rounds.iter().flat_map(|rounds| &rounds.given).map(|given| match given {
+            Given::Inputs(symbols) => input(symbols[round]),
+            Given::Waiting(series) => waiting[series.at(round)],
+        });
+        given.collect()
+    }
+}
+
 /// What a part sees.
 struct Frame<'b, I> {
     part: &'b Part,
+    round: usize,
     input: I,
     waiting: &'b mut [f64],
     locals: FxHashMap<Local, f64>,
@@ -114,7 +133,9 @@ impl<I: Fn(Symbol) -> f64> Frame<'_, I> {
                 outputs.iter().for_each(|&(output, local)| self.define(local, function(&call, output)));
             }
             Statement::Store(Place::Result(index), value) => results[*index] = self.value(value),
-            Statement::Store(Place::Waiting(index), value) => self.waiting[*index] = self.value(value),
+            Statement::Store(Place::Waiting(series), value) => {
+                self.waiting[series.at(self.round)] = self.value(value);
+            }
         }
     }
 

@@ -1,0 +1,174 @@
+//! Repeats as loops: where their rounds find what they are given, and leave what others are.
+//!
+//! What a round leaves lies in one row of the array of what waits, in the row after that of the round before it, so that each
+//! round finds what an earlier one has left as many places ahead; before the first there are rows for what that is given.
+
+use std::ops::Range;
+
+use indexmap::IndexSet;
+use rustc_hash::FxHashMap;
+
+use super::{Planner, Value};
+use crate::codegen::body::repeats::{Computed, Repeat, Source};
+use crate::codegen::body::{Expression, Given, Part, Place, Rounds, Series};
+use crate::codegen::operation::{Operation, Register};
+use crate::codegen::passes::Program;
+use crate::symbolic::Symbol;
+use crate::variables::Variable;
+
+#[derive(Default)]
+pub(super) struct Layout {
+    /// The operations of a round that leave something, and where.
+    left: Vec<(usize, Series)>,
+    given: Vec<Given>,
+    /// What is free after the last round, unless something waits there.
+    reserved: Vec<Range<usize>>,
+}
+
+/// Places in rows, one row for each round.
+struct Rows {
+    first: usize,
+    length: usize,
+}
+
+impl Rows {
+    /// A place in each row, from this row on.
+    fn series(&self, row: usize, place: usize) -> Series {
+        Series { first: self.first + row * self.length + place, step: self.length as isize }
+    }
+}
+
+impl Planner<'_> {
+    /// Finds places for what a repeat is given and leaves, and brings there what is elsewhere.
+    pub(super) fn lay_out(&mut self, repeat: &Repeat, sequence: &[usize]) -> Layout {
+        // Results of the whole function are stored by the part after this one.
+        for &index in sequence.iter().filter(|&&index| self.places.contains_key(&Register::at(index))) {
+            self.reach[index] = self.reach[index].max(self.index + 2);
+        }
+        let known: Vec<Option<Given>> = repeat.given.iter().map(|source| self.as_they_are(source)).collect();
+        let left = self.left(repeat, sequence);
+        let ahead = left.iter().map(|left| left.before.len()).max().unwrap_or(0);
+        let is_elsewhere = |(source, known): (&Source, &Option<Given>)| {
+            matches!(source, Source::Outside(_)) && known.is_none()
+        };
+        let elsewhere = repeat.given.iter().zip(&known).filter(|&pair| is_elsewhere(pair)).count();
+        let mut layout = Layout::default();
+        let mut rows = |length: usize, count: usize, planner: &mut Self| {
+            let first = planner.waiting.reserve(length * count);
+            layout.reserved.push(first..first + length * count);
+            Rows { first, length }
+        };
+        let (left_rows, gathered) =
+            (rows(left.len(), ahead + repeat.rounds, self), rows(elsewhere, repeat.rounds, self));
+        for (place, Computed { before, .. }) in left.iter().enumerate() {
+            self.bring(before, left_rows.series(ahead - before.len(), place));
+        }
+        let mut places = 0..elsewhere;
+        for (source, known) in repeat.given.iter().zip(known) {
+            let given = match (source, known) {
+                (_, Some(given)) => given,
+                (Source::Round(computed), None) => {
+                    let place = left.get_index_of(computed).unwrap_or(0);
+                    Given::Waiting(left_rows.series(ahead - computed.before.len(), place))
+                }
+                (Source::Outside(registers), None) => {
+                    let series = gathered.series(0, places.next().unwrap_or(0));
+                    self.bring(registers, series);
+                    Given::Waiting(series)
+                }
+            };
+            layout.given.push(given);
+        }
+        layout.left = left
+            .iter()
+            .enumerate()
+            .map(|(place, left)| (left.offset, left_rows.series(ahead, place)))
+            .collect();
+        layout
+    }
+
+    /// What rounds leave: what later ones take, and what later parts use.
+    fn left(&self, repeat: &Repeat, sequence: &[usize]) -> IndexSet<Computed> {
+        let taken = repeat.given.iter().filter_map(|source| match source {
+            Source::Round(computed) => Some(computed.clone()),
+            Source::Outside(_) => None,
+        });
+        let mut left: IndexSet<Computed> = taken.collect();
+        let mut is_left = vec![false; repeat.length()];
+        left.iter().for_each(|left| is_left[left.offset] = true);
+        for (offset, is_left) in is_left.into_iter().enumerate() {
+            let mut all = sequence.iter().skip(offset).step_by(repeat.length());
+            if !is_left && all.any(|&index| self.reach[index] > self.index + 1) {
+                left.insert(Computed { offset, before: Vec::new() });
+            }
+        }
+        left
+    }
+
+    /// Where rounds find what was computed before them, if it lies in series.
+    fn as_they_are(&self, source: &Source) -> Option<Given> {
+        let Source::Outside(registers) = source else { return None };
+        let symbol = |register: &Register| match self.schedule.operations[register.index()] {
+            Operation::Input(symbol) => Some(symbol),
+            _ => None,
+        };
+        let inputs: Option<Vec<Symbol>> = registers.iter().map(symbol).collect();
+        let places: Option<Vec<usize>> =
+            registers.iter().map(|&register| self.waiting.place(register)).collect();
+        inputs.map(Given::Inputs).or_else(|| Series::through(&places?).map(Given::Waiting))
+    }
+
+    fn bring(&mut self, registers: &[Register], to: Series) {
+        for (round, &register) in registers.iter().enumerate() {
+            self.store(Place::Waiting(Series::constant(to.at(round))), register);
+        }
+    }
+
+    /// The repeat that was laid out, as a part.
+    pub(super) fn rounds(&mut self, repeat: &Repeat, sequence: &[usize]) -> Part {
+        let Layout { left, given, reserved } = std::mem::take(&mut self.layout);
+        let mut part = one_round(repeat, &left);
+        part.rounds = Some(Rounds { count: repeat.rounds, given });
+        for (offset, series) in left {
+            let all = sequence.iter().skip(offset).step_by(repeat.length());
+            all.enumerate().for_each(|(round, &index)| self.leave(Register::at(index), series.at(round)));
+        }
+        self.release_places();
+        self.waiting.release(reserved.into_iter().flatten());
+        self.index += 1;
+        self.early = self.plain.pop().unwrap_or_default();
+        for &index in sequence {
+            let register = Register::at(index);
+            self.places.remove(&register).into_iter().flatten().for_each(|place| self.store(place, register));
+        }
+        part
+    }
+
+    /// Notes where a round leaves this, if a later part uses it.
+    fn leave(&mut self, register: Register, place: usize) {
+        if self.reach[register.index()] > self.index && self.waiting.place(register).is_none() {
+            self.waiting.put(register, place);
+            let expression = Expression::Local(self.local(register));
+            self.values[register.index()] = Some(Value { expression, depth: 0 });
+        }
+    }
+}
+
+fn one_round(repeat: &Repeat, left: &[(usize, Series)]) -> Part {
+    let results: Vec<Register> = left.iter().map(|&(offset, _)| repeat.registers[offset]).collect();
+    let program = Program { schedule: repeat.schedule.clone(), results, counts: Vec::new() };
+    let is_computed =
+        |operation: &Operation| !matches!(operation, Operation::Constant(_) | Operation::Input(_));
+    let operations = program.schedule.operations.iter().enumerate();
+    let sequence: Vec<usize> =
+        operations.filter(|(_, operation)| is_computed(operation)).map(|(k, _)| k).collect();
+    let (names, all) = (FxHashMap::default(), 0..sequence.len());
+    let mut planner = Planner::new(&program, &sequence, std::slice::from_ref(&all), &names);
+    sequence.iter().for_each(|&index| planner.compute(index));
+    for (&result, (_, series)) in program.results.iter().zip(left) {
+        planner.store(Place::Waiting(*series), result);
+    }
+    let mut part = planner.end_part(None);
+    part.inputs.retain(|&symbol| !matches!(Variable::of(symbol), Variable::Given(_)));
+    part
+}

@@ -1,0 +1,184 @@
+//! Where emitted functions read their inputs: in fields, states and other arguments.
+
+use std::collections::BTreeSet;
+
+use proc_macro2::{Literal, TokenStream};
+use quote::{ToTokens, quote};
+
+use super::style::Style;
+use crate::resolve::Entry;
+use crate::symbolic::Symbol;
+use crate::syntax::FieldShape;
+use crate::variables::Variable;
+
+impl Style<'_> {
+    /// An input that is read there, as functions compute with it.
+    pub(super) fn widened(&self, symbol: Symbol, number: &TokenStream) -> TokenStream {
+        let (is_narrow, wide) =
+            (matches!(Variable::of(symbol), Variable::Factor(_) | Variable::Slope(_)), self.types.scalar);
+        match self.narrow {
+            Some(_) if is_narrow => quote!(#wide::of(#number)),
+            _ => number.clone(),
+        }
+    }
+
+    /// The value of a parameter, read from its field.
+    pub(super) fn parameter(&self, k: usize) -> TokenStream {
+        self.number(self.problem.parameters.entries[k])
+    }
+
+    /// A number of a field.
+    pub(super) fn number(&self, entry: Entry) -> TokenStream {
+        self.number_of_rounds(entry, None)
+    }
+
+    /// A number of a field, or in a loop the numbers, of which the first is this.
+    pub(super) fn number_of_rounds(&self, entry: Entry, varying: Option<&Varying>) -> TokenStream {
+        let of_member = self.number_of_member(&quote!(self), entry, varying);
+        of_member.unwrap_or_else(|| self.place(entry, varying))
+    }
+
+    /// The statement that gives a number of a field another value, in a function that returns whether it could.
+    pub(super) fn set_number(&self, entry: Entry, value: &TokenStream) -> TokenStream {
+        self.set_number_of_member(entry, value).unwrap_or_else(|| {
+            let place = self.place(entry, None);
+            quote!(#place = #value;)
+        })
+    }
+
+    /// Where a number of a field without members is.
+    fn place(&self, Entry { field, number }: Entry, varying: Option<&Varying>) -> TokenStream {
+        let field = &self.problem.parameters.fields[field];
+        let ident = &field.ident;
+        let Ok(FieldShape { layout, is_reference, .. }) = &field.shape else { return quote!(self.#ident) };
+        let indices = layout.indices(number);
+        let (arrays, inside) = indices.split_at(layout.arrays());
+        let literal = |k: &usize| Literal::usize_unsuffixed(*k);
+        let arrays = Varying::indices(varying, arrays);
+        let place = quote!(self.#ident #([#arrays])*);
+        match inside {
+            [k] => {
+                let k = literal(&((k + 3) % 4));
+                quote!(#place.coords[#k])
+            }
+            [i, j] => {
+                let (i, j) = (literal(i), literal(j));
+                quote!(#place[(#i, #j)])
+            }
+            _ if arrays.is_empty() && *is_reference => quote!(*#place),
+            _ => place,
+        }
+    }
+
+    /// Statements that bring the inputs in use into scope.
+    pub(super) fn inputs(&self, used: &BTreeSet<Symbol>) -> TokenStream {
+        let problem = self.problem;
+        let pattern = |count: usize, variable: fn(usize) -> Variable, array: TokenStream| {
+            let names: Vec<_> = (0..count)
+                .map(|i| match used.contains(&variable(i).symbol()) {
+                    true => {
+                        let name = &self.names[&variable(i).symbol()];
+                        quote!(#name)
+                    }
+                    false => quote!(_),
+                })
+                .collect();
+            let any = (0..count).any(|i| used.contains(&variable(i).symbol()));
+            any.then(|| quote! { let [#(#names),*] = #array; })
+        };
+        let (n, m) = (problem.coordinates.len(), problem.constraints.len());
+        let time = used.contains(&Variable::Time.symbol()).then(|| {
+            let name = &self.names[&Variable::Time.symbol()];
+            quote! { let #name = state.t; }
+        });
+        let coordinates = pattern(n, Variable::Coordinate, quote!(state.q.data.0[0]));
+        let velocities = pattern(n, Variable::Velocity, quote!(state.v.data.0[0]));
+        let accelerations = pattern(n, Variable::Acceleration, quote!(accelerations.data.0[0]));
+        let multipliers = pattern(m, Variable::Multiplier, quote!(multipliers.data.0[0]));
+        let newest = pattern(n, Variable::AccelerationChange, quote!(accelerations.data.0[0]));
+        let newest_multipliers = pattern(m, Variable::MultiplierChange, quote!(multipliers.data.0[0]));
+        let forcing = pattern(n, Variable::Forcing, quote!(forcing.data.0[0]));
+        let bias = pattern(m, Variable::Bias, quote!(bias.data.0[0]));
+        let is_whole = |variable| {
+            matches!(
+                variable,
+                Variable::Time
+                    | Variable::Coordinate(_)
+                    | Variable::Velocity(_)
+                    | Variable::Acceleration(_)
+                    | Variable::Multiplier(_)
+                    | Variable::AccelerationChange(_)
+                    | Variable::MultiplierChange(_)
+                    | Variable::Forcing(_)
+                    | Variable::Bias(_)
+            )
+        };
+        let others = used.iter().filter(|symbol| !is_whole(Variable::of(**symbol))).map(|symbol| {
+            let (name, value) = (&self.names[symbol], self.read(*symbol));
+            quote! { let #name = #value; }
+        });
+        quote! {
+            #time #coordinates #velocities #accelerations #multipliers #newest #newest_multipliers #forcing #bias
+            #(#others)*
+        }
+    }
+
+    /// An input, where it is.
+    pub(super) fn read(&self, symbol: Symbol) -> TokenStream {
+        match (Variable::of(symbol), self.array(symbol)) {
+            (_, Some((array, place))) => {
+                let place = Literal::usize_unsuffixed(place);
+                self.widened(symbol, &quote!(#array[#place]))
+            }
+            (Variable::Parameter(k), None) => self.parameter(k),
+            (Variable::Change(_), None) => quote!(direction.t),
+            _ => quote!(state.t),
+        }
+    }
+
+    /// The array that an input is in, and its place there.
+    pub(super) fn array(&self, symbol: Symbol) -> Option<(TokenStream, usize)> {
+        let n = self.problem.coordinates.len();
+        Some(match Variable::of(symbol) {
+            Variable::Coordinate(i) => (quote!(state.q.data.0[0]), i),
+            Variable::Velocity(i) => (quote!(state.v.data.0[0]), i),
+            Variable::Acceleration(i) | Variable::AccelerationChange(i) => {
+                (quote!(accelerations.data.0[0]), i)
+            }
+            Variable::Multiplier(a) | Variable::MultiplierChange(a) => (quote!(multipliers.data.0[0]), a),
+            Variable::Forcing(i) => (quote!(forcing.data.0[0]), i),
+            Variable::Bias(a) => (quote!(bias.data.0[0]), a),
+            Variable::Change(i @ 1..) if i <= n => (quote!(direction.q.data.0[0]), i - 1),
+            Variable::Change(i @ 1..) => (quote!(direction.v.data.0[0]), i - 1 - n),
+            Variable::ParameterChange(k) => (quote!(rates.data.0[0]), k),
+            Variable::Factor(k) => (quote!(factor), k),
+            Variable::Slope(k) => (quote!(slopes), k),
+            Variable::Sum(k) => (quote!(sums), k),
+            Variable::Term(k) => (quote!(terms), k),
+            Variable::Order => (quote!(order), 0),
+            Variable::OrderReciprocal => (quote!(order), 1),
+            Variable::Time
+            | Variable::Change(0)
+            | Variable::Parameter(_)
+            | Variable::Momentum(_)
+            | Variable::Given(_) => return None,
+        })
+    }
+}
+
+/// An index that is not the same in all rounds of a loop: which of the indices, and what it is.
+pub(super) struct Varying {
+    pub(super) place: usize,
+    pub(super) index: TokenStream,
+}
+
+impl Varying {
+    /// These indices, but for the one that varies.
+    pub(super) fn indices(varying: Option<&Self>, indices: &[usize]) -> Vec<TokenStream> {
+        let index = |(place, k): (usize, &usize)| match varying {
+            Some(varying) if varying.place == place => varying.index.clone(),
+            _ => Literal::usize_unsuffixed(*k).into_token_stream(),
+        };
+        indices.iter().enumerate().map(index).collect()
+    }
+}

@@ -1,0 +1,112 @@
+//! Loops in Rust: rounds of the same statements, of other numbers each.
+
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::{format_ident, quote};
+
+use super::body::{Given, Rounds, Series};
+use super::inputs::Varying;
+use super::style::Style;
+use crate::resolve::Entry;
+use crate::symbolic::Symbol;
+use crate::variables::Variable;
+
+impl Style<'_> {
+    pub(super) fn rounds(&self, Rounds { count, given }: &Rounds, statements: &TokenStream) -> TokenStream {
+        let (round, given) = (counter(), given.iter().enumerate());
+        let (before, within): (Vec<_>, Vec<_>) = given.map(|(k, given)| self.given(k, given)).unzip();
+        quote! {
+            #(#before)*
+            for #round in 0..#count {
+                #(#within)*
+                #statements
+            }
+        }
+    }
+
+    /// The statement before the loop and the one in it that give a number of a round its name.
+    fn given(&self, k: usize, given: &Given) -> (Option<TokenStream>, TokenStream) {
+        let (name, round) = (name(k), counter());
+        match given {
+            Given::Waiting(series) => {
+                let value = waiting(*series);
+                (None, quote!(let #name = #value;))
+            }
+            Given::Inputs(symbols) => match self.in_array(symbols) {
+                Some(value) => (None, quote!(let #name = #value;)),
+                None => {
+                    let values = symbols.iter().map(|&symbol| self.read(symbol));
+                    (Some(quote!(let #name = [#(#values),*];)), quote!(let #name = #name[#round];))
+                }
+            },
+        }
+    }
+
+    /// What an input is called where it is used.
+    pub(super) fn input(&self, symbol: Symbol) -> Ident {
+        match Variable::of(symbol) {
+            Variable::Given(k) => name(k),
+            _ => self.names[&symbol].clone(),
+        }
+    }
+
+    /// Inputs that lie in an array as far apart round by round.
+    fn in_array(&self, symbols: &[Symbol]) -> Option<TokenStream> {
+        let entries: Option<Vec<Entry>> = symbols.iter().map(|&symbol| self.entry(symbol)).collect();
+        if let Some(entries) = entries {
+            return self.in_field(&entries);
+        }
+        let arrays: Option<Vec<_>> = symbols.iter().map(|&symbol| self.array(symbol)).collect();
+        let (arrays, places): (Vec<_>, Vec<_>) = arrays?.into_iter().unzip();
+        let are_one = arrays.iter().all(|array| array.to_string() == arrays[0].to_string());
+        let (array, index) = (&arrays[0], index(Series::through(&places)?));
+        are_one.then(|| self.widened(symbols[0], &quote!(#array[#index])))
+    }
+
+    fn entry(&self, symbol: Symbol) -> Option<Entry> {
+        match Variable::of(symbol) {
+            Variable::Parameter(k) => Some(self.problem.parameters.entries[k]),
+            _ => None,
+        }
+    }
+
+    /// Numbers of one field that differ in one index.
+    fn in_field(&self, entries: &[Entry]) -> Option<TokenStream> {
+        let (first, parameters) = (entries[0], &self.problem.parameters);
+        if entries.iter().any(|entry| entry.field != first.field) {
+            return None;
+        }
+        let all: Vec<Vec<usize>> = entries.iter().map(|entry| parameters.indices(*entry)).collect();
+        let mut differing = (0..all[0].len()).filter(|&k| all.iter().any(|one| one[k] != all[0][k]));
+        let (place, None) = (differing.next()?, differing.next()) else { return None };
+        let places: Vec<usize> = all.iter().map(|one| one[place]).collect();
+        let index = index(Series::through(&places)?);
+        let is_outside = place < parameters.arrays(first.field);
+        is_outside.then(|| self.number_of_rounds(first, Some(&Varying { place, index })))
+    }
+}
+
+fn name(k: usize) -> Ident {
+    format_ident!("given{k}", span = Span::mixed_site())
+}
+
+fn counter() -> Ident {
+    Ident::new("round", Span::mixed_site())
+}
+
+/// What waits there, or in a loop what does in this round.
+pub(super) fn waiting(series: Series) -> TokenStream {
+    let index = index(series);
+    quote!(waiting[#index])
+}
+
+fn index(Series { first, step }: Series) -> TokenStream {
+    let (round, first, size) =
+        (counter(), Literal::usize_unsuffixed(first), Literal::usize_unsuffixed(step.unsigned_abs()));
+    match step {
+        0 => quote!(#first),
+        1 => quote!(#first + #round),
+        -1 => quote!(#first - #round),
+        _ if step > 0 => quote!(#first + #size * #round),
+        _ => quote!(#first - #size * #round),
+    }
+}
