@@ -29,7 +29,7 @@ the width of AVX-512, for which there are no lanes here.
 
 {ensemble}
 
-Compile times beyond an empty crate, all functions in use; functions of more than 4,000 operations are compiled in parts:
+Compile times beyond an empty crate, all functions in use; functions of more than 4,000 operations are compiled in parts, what they compute over and over in loops:
 
 {growth}
 """

@@ -25,16 +25,18 @@ pub(super) struct Layout {
     reserved: Vec<Range<usize>>,
 }
 
-/// Places in rows, one row for each round.
+/// Places in rows, one row for each round, after those for what rounds are given that no round has left.
 struct Rows {
     first: usize,
     length: usize,
+    ahead: usize,
 }
 
 impl Rows {
-    /// A place in each row, from this row on.
-    fn series(&self, row: usize, place: usize) -> Series {
-        Series { first: self.first + row * self.length + place, step: self.length as isize }
+    /// Where the rounds find what they left so many rounds back, or leave it.
+    fn series(&self, place: usize, back: usize) -> Series {
+        let first = self.first + (self.ahead - back) * self.length + place;
+        Series { first, step: self.length as isize }
     }
 }
 
@@ -45,46 +47,35 @@ impl Planner<'_> {
         for &index in sequence.iter().filter(|&&index| self.places.contains_key(&Register::at(index))) {
             self.reach[index] = self.reach[index].max(self.index + 2);
         }
-        let known: Vec<Option<Given>> = repeat.given.iter().map(|source| self.as_they_are(source)).collect();
         let left = self.left(repeat, sequence);
-        let ahead = left.iter().map(|left| left.before.len()).max().unwrap_or(0);
-        let is_elsewhere = |(source, known): (&Source, &Option<Given>)| {
-            matches!(source, Source::Outside(_)) && known.is_none()
-        };
-        let elsewhere = repeat.given.iter().zip(&known).filter(|&pair| is_elsewhere(pair)).count();
-        let mut layout = Layout::default();
-        let mut rows = |length: usize, count: usize, planner: &mut Self| {
-            let first = planner.waiting.reserve(length * count);
-            layout.reserved.push(first..first + length * count);
-            Rows { first, length }
-        };
-        let (left_rows, gathered) =
-            (rows(left.len(), ahead + repeat.rounds, self), rows(elsewhere, repeat.rounds, self));
+        let (length, ahead) = (left.len(), left.iter().map(|left| left.before.len()).max().unwrap_or(0));
+        let mut reserved = Vec::new();
+        let first = self.reserve(length * (ahead + repeat.rounds), &mut reserved);
+        let rows = Rows { first, length, ahead };
         for (place, Computed { before, .. }) in left.iter().enumerate() {
-            self.bring(before, left_rows.series(ahead - before.len(), place));
+            self.bring(before, rows.series(place, before.len()));
         }
-        let mut places = 0..elsewhere;
-        for (source, known) in repeat.given.iter().zip(known) {
-            let given = match (source, known) {
-                (_, Some(given)) => given,
-                (Source::Round(computed), None) => {
-                    let place = left.get_index_of(computed).unwrap_or(0);
-                    Given::Waiting(left_rows.series(ahead - computed.before.len(), place))
-                }
-                (Source::Outside(registers), None) => {
-                    let series = gathered.series(0, places.next().unwrap_or(0));
-                    self.bring(registers, series);
-                    Given::Waiting(series)
-                }
-            };
-            layout.given.push(given);
-        }
-        layout.left = left
-            .iter()
-            .enumerate()
-            .map(|(place, left)| (left.offset, left_rows.series(ahead, place)))
-            .collect();
-        layout
+        let given = repeat.given.iter().map(|source| match source {
+            Source::Round(computed) => {
+                let place = left.get_index_of(computed).unwrap_or(0);
+                Given::Waiting(rows.series(place, computed.before.len()))
+            }
+            Source::Outside(registers) => self.as_they_are(registers).unwrap_or_else(|| {
+                let series = Series { first: self.reserve(repeat.rounds, &mut reserved), step: 1 };
+                self.bring(registers, series);
+                Given::Waiting(series)
+            }),
+        });
+        let given = given.collect();
+        let left =
+            left.iter().enumerate().map(|(place, left)| (left.offset, rows.series(place, 0))).collect();
+        Layout { left, given, reserved }
+    }
+
+    fn reserve(&mut self, count: usize, reserved: &mut Vec<Range<usize>>) -> usize {
+        let first = self.waiting.reserve(count);
+        reserved.push(first..first + count);
+        first
     }
 
     /// What rounds leave: what later ones take, and what later parts use.
@@ -106,8 +97,7 @@ impl Planner<'_> {
     }
 
     /// Where rounds find what was computed before them, if it lies in series.
-    fn as_they_are(&self, source: &Source) -> Option<Given> {
-        let Source::Outside(registers) = source else { return None };
+    fn as_they_are(&self, registers: &[Register]) -> Option<Given> {
         let symbol = |register: &Register| match self.schedule.operations[register.index()] {
             Operation::Input(symbol) => Some(symbol),
             _ => None,
