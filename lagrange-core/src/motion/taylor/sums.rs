@@ -1,4 +1,7 @@
 //! The sums of Taylor's recurrences: of products of coefficients, the orders of which add up to one order.
+//!
+//! They take as long as their factors are read from memory. So two orders are summed at once, the later one as far as it is
+//! known: its left factors are those of the earlier one, its right factors those of the term before.
 
 mod few;
 
@@ -28,6 +31,8 @@ pub(super) struct Factors<T, S> {
     left: Vec<Group<T>>,
     /// From the highest order down, so that a sum runs through both in the same direction.
     right: Vec<Group<T>>,
+    /// The sums of the next order, without the terms in which the newest are that are still to come.
+    ahead: Vec<Group<T>>,
 }
 
 impl<T: Scalar, S: Filled<T>> Factors<T, S> {
@@ -35,8 +40,9 @@ impl<T: Scalar, S: Filled<T>> Factors<T, S> {
     pub(super) fn new(orders: usize) -> Self {
         let sums = S::filled(T::constant(0.0)).as_ref().len();
         let [rows, groups] = if few::are::<T, S>() { [orders, 0] } else { [0, sums / WIDTH * orders] };
-        let room = vec![Group([T::constant(0.0); WIDTH]); groups];
-        Self { orders, few: Few::new::<T>(rows), left: room.clone(), right: room }
+        let room = |groups| vec![Group([T::constant(0.0); WIDTH]); groups];
+        let (left, right, ahead) = (room(groups), room(groups), room(groups / orders));
+        Self { orders, few: Few::new::<T>(rows), left, right, ahead }
     }
 
     /// The terms of an order.
@@ -63,48 +69,74 @@ impl<T: Scalar, S: Filled<T>> Factors<T, S> {
         })
     }
 
-    /// The sums of an order, of the factors of all orders before it, and of no other: there may be no numbers.
+    /// The sums of an order, of the factors of all orders before it, and of no other: there may be no numbers. Orders come one
+    /// after the other.
     #[inline(always)]
-    pub(super) fn add_up(&self, order: usize, ends: &Ends<S>, sums: &mut S) {
+    pub(super) fn add_up(&mut self, order: usize, ends: &Ends<S>, sums: &mut S) {
         if const { few::are::<T, S>() } {
             *sums = self.few.add_up(order, ends);
             return;
         }
         let terms = order - 1;
-        for (group, sums) in sums.as_mut().as_chunks_mut().0.iter_mut().enumerate() {
+        let sums = sums.as_mut().as_chunks_mut().0.iter_mut();
+        for (group, (sums, ahead)) in sums.zip(&mut self.ahead).enumerate() {
             let (left, right) = (group * self.orders, (group + 1) * self.orders - terms);
             let (left, right) = (&self.left[left..left + terms], &self.right[right..right + terms]);
-            // Four numbers alone are one vector, four lanes are four: of these there are registers for two parts.
-            *sums = match const { size_of::<T>() > size_of::<f64>() } {
-                true => products::<T, 2>(left, right),
-                false => products::<T, 4>(left, right),
-            };
+            if order.is_multiple_of(2) {
+                // Four numbers alone are one vector, four lanes are four, for which there are registers once.
+                let [now, next] = match const { size_of::<T>() > size_of::<f64>() } {
+                    true => products::<T, 1>(left, right),
+                    false => products::<T, 2>(left, right),
+                };
+                (*sums, ahead.0) = (now, next);
+            } else if let ([first, .., last], [newest, .., oldest]) = (left, right) {
+                *sums = plus(&plus(&ahead.0, first, newest), last, oldest);
+            }
         }
     }
 }
 
-/// Σ x_j y_j in so many parts side by side: of one, each product waits for the one before. The newest come last, at both
-/// ends: meanwhile the others can be computed.
+/// Σ x_j y_j and Σ x_j+1 y_j in so many parts side by side: of one, each product waits for the one before. The newest come last,
+/// at both ends: meanwhile the others can be computed.
 #[inline(always)]
-fn products<T: Scalar, const PARTS: usize>(x: &[Group<T>], y: &[Group<T>]) -> [T; WIDTH] {
-    let mut parts = [[T::constant(0.0); WIDTH]; PARTS];
-    let add = |part: &mut [T; WIDTH], x: &Group<T>, y: &Group<T>| {
-        *part = from_fn(|lane| x.0[lane].multiply_add(y.0[lane], part[lane]));
+fn products<T: Scalar, const PARTS: usize>(x: &[Group<T>], y: &[Group<T>]) -> [[T; WIDTH]; 2] {
+    let none = [T::constant(0.0); WIDTH];
+    let (mut now, mut next) = ([none; PARTS], [none; PARTS]);
+    let ([first, x @ .., last], [newest, y @ .., oldest]) = (x, y) else {
+        let only = x.first().zip(y.first()).map_or(none, |(x, y)| plus(&none, x, y));
+        return [only, none];
     };
-    match (x, y) {
-        ([first, x @ .., last], [newest, y @ .., oldest]) => {
-            let ((x, rest), (y, rest_y)) = (x.as_chunks::<PARTS>(), y.as_chunks::<PARTS>());
-            for (x, y) in x.iter().zip(y) {
-                (0..PARTS).for_each(|k| add(&mut parts[k], &x[k], &y[k]));
-            }
-            parts.iter_mut().zip(rest.iter().zip(rest_y)).for_each(|(part, (x, y))| add(part, x, y));
-            add(&mut parts[PARTS - 2], first, newest);
-            add(&mut parts[PARTS - 1], last, oldest);
+    let mut before = Group(none);
+    let ((chunks, rest), (chunks_y, rest_y)) = (x.as_chunks::<PARTS>(), y.as_chunks::<PARTS>());
+    for (x, y) in chunks.iter().zip(chunks_y) {
+        for k in 0..PARTS {
+            now[k] = plus(&now[k], &x[k], &y[k]);
+            next[k] = plus(&next[k], &x[k], &before);
+            before = y[k];
         }
-        ([x], [y]) => add(&mut parts[0], x, y),
-        _ => {}
     }
-    // Neighbours first.
+    for (k, (x, y)) in rest.iter().zip(rest_y).enumerate() {
+        now[k] = plus(&now[k], x, y);
+        next[k] = plus(&next[k], x, &before);
+        before = *y;
+    }
+    let [mut now, mut next] = [now, next].map(sum);
+    next = match x {
+        [second, ..] => plus(&plus(&next, last, &before), second, newest),
+        [] => plus(&next, last, newest),
+    };
+    now = plus(&plus(&now, last, oldest), first, newest);
+    [now, next]
+}
+
+#[inline(always)]
+fn plus<T: Scalar>(sum: &[T; WIDTH], x: &Group<T>, y: &Group<T>) -> [T; WIDTH] {
+    from_fn(|lane| x.0[lane].multiply_add(y.0[lane], sum[lane]))
+}
+
+/// Neighbours first.
+#[inline(always)]
+fn sum<T: Scalar, const PARTS: usize>(mut parts: [[T; WIDTH]; PARTS]) -> [T; WIDTH] {
     let mut count = PARTS;
     while count > 1 {
         count /= 2;
