@@ -119,3 +119,36 @@ fn exp2_roughly(x: f64) -> f64 {
     let fraction = biased - exponent as f64;
     f64::from_bits(exponent << 52) * (1.0 + fraction * (0.66 + 0.34 * fraction))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn powers_and_logarithms_are_as_good_as_they_say() {
+        for k in -60_000..60_000 {
+            let x = f64::from(k) / 59.0;
+            let (power, exact) = (exp2_roughly(x), x.clamp(-1022.0, 1023.0).exp2());
+            assert!((power / exact - 1.0).abs() < 1.0 / 300.0, "{x}: {power:e} {exact:e}");
+            let short = exact.log2() - log2_roughly(exact);
+            assert!((-1e-12..0.09).contains(&short), "{exact:e}: {short}");
+        }
+        assert_eq!(log2_roughly(0.0), -1023.0);
+    }
+
+    /// x_k = r⁻ᵏ: each coefficient says that the radius of convergence is r.
+    #[test]
+    fn a_step_is_a_part_of_the_radius_of_convergence() {
+        for (radius, order) in [(0.01_f64, 5), (1.0, 12), (300.0, 24)] {
+            let last = |scale: f64| {
+                let sizes = from_fn(|k| scale * radius.powi(-((order + 1 - LAST + k) as i32)));
+                Last { order, unit: -2.0, sizes }
+            };
+            let length = last(1.0).allowed();
+            let part = length / (2.0 * radius) / safety(order).exp2();
+            assert!((part - 1.0).abs() < 0.03, "{part}");
+            assert!(last(1e3).allowed() < length);
+            assert_eq!(last(0.0).allowed(), f64::INFINITY);
+        }
+    }
+}
