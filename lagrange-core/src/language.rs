@@ -235,7 +235,8 @@
 //! each step in the axes that the steps before have reached. Without `in` it starts from the frame at rest, which is
 //! called `fixed`. A family, `link[i in 1..6] in link[i-1]`, is a chain; with a table of whole numbers,
 //! `#[define(parent = [0, 0, 1, 1])]` and `part[i in 1..4] in part[parent[i]]`, a tree; with two indices,
-//! `leg[i in 0..4, j in 1..3] in leg[i][j-1]`, several chains.
+//! `leg[i in 0..4, j in 1..3] in leg[i][j-1]`, several chains. Families may lie in each other's elements, as joints about two
+//! axes in turn do: `a[i in 1..6] in b[i-1]` and `b[i in 0..6] in a[i]`.
 //!
 //! | step | |
 //! |---|---|

@@ -9,6 +9,8 @@ use lagrange_core::prelude::*;
 #[frame(a: rotate_z(x))]
 #[frame(a: rotate_z(y))]
 #[frame(link[i in 0..3] in link[i+1]: rotate_z(x))]
+#[frame(loose[i in 0..2] in bound[i]: rotate_z(x))]
+#[frame(bound[i in 0..2] in loose[i]: rotate_z(y))]
 #[frame(b in x: rotate_z(x))]
 #[frame(c: rotate_z(r))]
 #[frame(d: translate(x))]

@@ -310,3 +310,33 @@ fn recursions_give_what_differentiation_gives() {
         }
     }
 }
+
+/// Joints about two axes in turn: two families that lie in each other's elements, in either order, and frame by frame.
+#[test]
+fn families_of_frames_may_lie_in_one_another() {
+    let system = |frames: [&str; 4]| {
+        let source = format!(
+            "#[coordinates(yaw: [3], pitch: [3])] #[parameter(inertia: symmetric)] #[frame(a[0]: rotate_z(yaw[0]))] {}
+             #[lagrangian(sum(i in 0..3, kinetic(a[i], m, c, inertia) + kinetic(b[i], m, c, inertia) - m*g*position(b[i], c)[2]))]
+             struct Snake {{ m: f64, g: f64, l: f64, c: Vector3<f64>, inertia: Matrix3<f64> }}",
+            frames.concat()
+        );
+        let (graph, _, equations) = equations(&source);
+        solutions(&graph, &equations, |symbol| {
+            0.3 + 0.1 * (7.0 * f64::from(symbol.family) + f64::from(symbol.index)).sin()
+        })
+    };
+    let a = "#[frame(a[i in 1..3] in b[i-1]: translate([l, 0, 0]), rotate_z(yaw[i]))]";
+    let b = "#[frame(b[i in 0..3] in a[i]: translate([l, 0, 0]), rotate_y(pitch[i]))]";
+    let one = |name: &str, i: usize| {
+        let family = if name == "a" { a } else { b };
+        let (of_three, from_one) = (format!("{name}[i in 0..3]"), format!("{name}[i in 1..3]"));
+        let family =
+            family.replace(&of_three, &format!("{name}[{i}]")).replace(&from_one, &format!("{name}[{i}]"));
+        family.replace("[i-1]", &format!("[{}]", i.wrapping_sub(1))).replace("[i]", &format!("[{i}]"))
+    };
+    let by_one = [one("b", 0), one("a", 1), one("b", 1) + &one("a", 2), one("b", 2)];
+    let expected = system(by_one.each_ref().map(String::as_str));
+    assert_eq!(system([a, b, "", ""]), expected);
+    assert_eq!(system([b, a, "", ""]), expected);
+}

@@ -7,6 +7,8 @@ mod step;
 use std::cmp::Ordering;
 use std::rc::Rc;
 
+use rustc_hash::FxHashSet;
+
 use super::lower::Lowering;
 use super::scope::Entity;
 use super::unknown::{nearest, or_meant};
@@ -31,6 +33,10 @@ pub(super) struct Frames {
     named: Vec<(Rc<str>, Option<Axes>)>,
     /// The one that is being declared.
     current: Option<Rc<str>>,
+    /// Those of which it is asked what they lie in, by their declarations: each lies in the next.
+    asked: Vec<(usize, Rc<str>)>,
+    /// Those that were declared before their turn, because others lie in them.
+    early: FxHashSet<Rc<str>>,
 }
 
 /// A rigid body, by what it is in the axes of its frame and about the frame's origin.
@@ -53,6 +59,8 @@ impl Default for Frames {
             squares: Vec::new(),
             named: Vec::new(),
             current: None,
+            asked: Vec::new(),
+            early: FxHashSet::default(),
         }
     }
 }
@@ -71,7 +79,8 @@ impl Lowering<'_> {
     /// The frames that are declared after as many definitions.
     pub(super) fn frames_after(&mut self, definitions: usize) {
         let frames = self.declared_frames;
-        for declared in frames.iter().filter(|declared| declared.definitions == definitions) {
+        let of_now = |declared: &&Declared| declared.definitions == definitions;
+        for (index, declared) in frames.iter().enumerate().filter(|(_, declared)| of_now(declared)) {
             if !matches!(self.scope.get(&declared.target.name.text), Some(Entity::Frame)) {
                 continue;
             }
@@ -79,7 +88,7 @@ impl Lowering<'_> {
             let mut elements = self.elements(indices).into_iter();
             // What is wrong with one of a family is wrong with those after it.
             let mut declare = |element: Vec<usize>| {
-                self.with_indices(indices, &element, |lowering| lowering.declare_frame(declared, &element))
+                self.with_indices(indices, &element, |lowering| lowering.declare_frame(index, &element))
             };
             if elements.any(|element| declare(element).is_none()) {
                 self.frames.named.extend(elements.map(|element| (name_of(declared, &element), None)));
@@ -87,9 +96,14 @@ impl Lowering<'_> {
         }
     }
 
-    fn declare_frame(&mut self, declared: &Declared, element: &[usize]) -> Option<()> {
+    fn declare_frame(&mut self, index: usize, element: &[usize]) -> Option<()> {
+        let declared = &self.declared_frames[index];
         let name = name_of(declared, element);
-        if self.frames.get(&name).is_some() {
+        if let Some(axes) = self.frames.get(&name) {
+            let known = axes.as_ref().map(|_| ());
+            if self.frames.early.remove(&name) {
+                return known;
+            }
             // Guessing reads all declarations twice.
             let message = || format!("the frame `{name}` is declared twice");
             return if self.is_guessing {
@@ -98,9 +112,14 @@ impl Lowering<'_> {
                 self.report(declared.target.name.place, message())
             };
         }
-        self.frames.current = Some(name.clone());
+        let outer = self.frames.current.replace(name.clone());
         let parent = match &declared.parent {
-            Some(parent) => self.frame(parent).map(|axes| axes.frame),
+            Some(parent) => {
+                self.frames.asked.push((index, name.clone()));
+                let axes = self.frame(parent);
+                self.frames.asked.pop();
+                axes.map(|axes| axes.frame)
+            }
             None => Some(0),
         };
         // Every step is read, so that all errors are found.
@@ -110,9 +129,33 @@ impl Lowering<'_> {
             before.and(lies)
         });
         let axes = lies.map(|frame| Axes { frame, name: name.clone() });
-        self.frames.current = None;
+        self.frames.current = outer;
         self.frames.named.push((name, axes));
         lies.map(|_| ())
+    }
+
+    /// Elements of families may lie in each other's, whichever is declared first: this one, if a frame lies in it and its turn
+    /// is to come.
+    fn declare_early(&mut self, name: &Name, text: &str, element: &[i128]) {
+        let Some(&(turn, _)) = self.frames.asked.first() else { return };
+        let is_asked = self.frames.asked.iter().any(|(_, asked)| **asked == *text);
+        let element: Option<Vec<usize>> = element.iter().map(|&k| usize::try_from(k).ok()).collect();
+        let Some(element) = element.filter(|element| !element.is_empty() && !is_asked) else { return };
+        let frames = self.declared_frames;
+        for (index, declared) in frames.iter().enumerate().skip(turn) {
+            let indices = &declared.target.indices;
+            let is_called_so = declared.target.name.text == name.text;
+            if is_called_so
+                && declared.definitions == frames[turn].definitions
+                && self.elements(indices).contains(&element)
+            {
+                let locals = std::mem::take(&mut self.locals);
+                self.with_indices(indices, &element, |lowering| lowering.declare_frame(index, &element));
+                self.locals = locals;
+                self.frames.early.insert(text.into());
+                return;
+            }
+        }
     }
 
     /// An expression that must name a frame.
@@ -126,8 +169,14 @@ impl Lowering<'_> {
             _ => return self.no_frame(expression),
         }
         let mut text = name.text.clone();
+        let mut element = Vec::new();
         for index in indices {
-            text += &format!("[{}]", self.integer(index)?);
+            let index = self.integer(index)?;
+            text += &format!("[{index}]");
+            element.push(index);
+        }
+        if self.frames.get(&text).is_none() {
+            self.declare_early(name, &text, &element);
         }
         match self.frames.get(&text) {
             Some(axes) => axes.clone(),
@@ -186,7 +235,15 @@ impl Lowering<'_> {
         let wanted = declared.map(|frame| frame.target.indices.len()).max().unwrap_or(0);
         let given = expression.element().map_or(0, |(_, indices)| indices.len());
         let is_itself = self.frames.current.as_deref() == Some(text);
+        let asked: Vec<&str> = self.frames.asked.iter().map(|(_, name)| &**name).collect();
+        let circle = asked.iter().position(|asked| *asked == text).map(|start| &asked[start..]);
         let message = match given.cmp(&wanted) {
+            _ if circle.is_some_and(|circle| circle.len() > 1) => {
+                format!(
+                    "`{text}` cannot lie in itself: {} in {text}",
+                    circle.unwrap_or_default().join(" in ")
+                )
+            }
             _ if is_itself => format!("`{text}` cannot lie in itself, nor be placed by itself"),
             Ordering::Less => {
                 let one = "[0]".repeat(wanted - given);
