@@ -11,6 +11,9 @@ use crate::symbolic::Symbol;
 use crate::syntax::FieldShape;
 use crate::variables::Variable;
 
+/// A variable of each coordinate or constraint, by its place.
+type Family = fn(usize) -> Variable;
+
 impl Style<'_> {
     /// An input that is read there, as functions compute with it.
     pub(super) fn widened(&self, symbol: Symbol, number: &TokenStream) -> TokenStream {
@@ -70,57 +73,45 @@ impl Style<'_> {
         }
     }
 
-    /// Statements that bring the inputs in use into scope.
+    /// Statements that bring the inputs in use into scope: some by the whole arrays that they are in, the others one by one.
     pub(super) fn inputs(&self, used: &BTreeSet<Symbol>) -> TokenStream {
-        let problem = self.problem;
-        let pattern = |count: usize, variable: fn(usize) -> Variable, array: TokenStream| {
-            let names: Vec<_> = (0..count)
-                .map(|i| match used.contains(&variable(i).symbol()) {
-                    true => {
-                        let name = &self.names[&variable(i).symbol()];
-                        quote!(#name)
-                    }
-                    false => quote!(_),
-                })
-                .collect();
-            let any = (0..count).any(|i| used.contains(&variable(i).symbol()));
-            any.then(|| quote! { let [#(#names),*] = #array; })
-        };
-        let (n, m) = (problem.coordinates.len(), problem.constraints.len());
-        let time = used.contains(&Variable::Time.symbol()).then(|| {
-            let name = &self.names[&Variable::Time.symbol()];
-            quote! { let #name = state.t; }
+        let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
+        let whole: [(usize, Family); 8] = [
+            (n, Variable::Coordinate),
+            (n, Variable::Velocity),
+            (n, Variable::Acceleration),
+            (m, Variable::Multiplier),
+            (n, Variable::AccelerationChange),
+            (m, Variable::MultiplierChange),
+            (n, Variable::Forcing),
+            (m, Variable::Bias),
+        ];
+        let whole =
+            whole.map(|(count, variable)| (0..count).map(|k| variable(k).symbol()).collect::<Vec<_>>());
+        let patterns = whole.iter().filter_map(|symbols| self.taken_apart(symbols, used));
+        let families: Vec<u8> = whole.iter().filter_map(|symbols| Some(symbols.first()?.family)).collect();
+        let one_by_one = |symbol: &&Symbol| !families.contains(&symbol.family);
+        let (time, others): (Vec<_>, Vec<_>) =
+            used.iter().filter(one_by_one).partition(|symbol| **symbol == Variable::Time.symbol());
+        let [time, others] = [time, others].map(|symbols| {
+            let lets = symbols.into_iter().map(|symbol| {
+                let (name, value) = (&self.names[symbol], self.read(*symbol));
+                quote! { let #name = #value; }
+            });
+            lets.collect::<TokenStream>()
         });
-        let coordinates = pattern(n, Variable::Coordinate, quote!(state.q.data.0[0]));
-        let velocities = pattern(n, Variable::Velocity, quote!(state.v.data.0[0]));
-        let accelerations = pattern(n, Variable::Acceleration, quote!(accelerations.data.0[0]));
-        let multipliers = pattern(m, Variable::Multiplier, quote!(multipliers.data.0[0]));
-        let newest = pattern(n, Variable::AccelerationChange, quote!(accelerations.data.0[0]));
-        let newest_multipliers = pattern(m, Variable::MultiplierChange, quote!(multipliers.data.0[0]));
-        let forcing = pattern(n, Variable::Forcing, quote!(forcing.data.0[0]));
-        let bias = pattern(m, Variable::Bias, quote!(bias.data.0[0]));
-        let is_whole = |variable| {
-            matches!(
-                variable,
-                Variable::Time
-                    | Variable::Coordinate(_)
-                    | Variable::Velocity(_)
-                    | Variable::Acceleration(_)
-                    | Variable::Multiplier(_)
-                    | Variable::AccelerationChange(_)
-                    | Variable::MultiplierChange(_)
-                    | Variable::Forcing(_)
-                    | Variable::Bias(_)
-            )
-        };
-        let others = used.iter().filter(|symbol| !is_whole(Variable::of(**symbol))).map(|symbol| {
-            let (name, value) = (&self.names[symbol], self.read(*symbol));
-            quote! { let #name = #value; }
+        quote! { #time #(#patterns)* #others }
+    }
+
+    /// The array of these symbols taken apart, if one of them is used.
+    fn taken_apart(&self, symbols: &[Symbol], used: &BTreeSet<Symbol>) -> Option<TokenStream> {
+        let (array, _) = self.array(*symbols.first()?)?;
+        let names = symbols.iter().map(|symbol| match used.contains(symbol) {
+            true => self.names[symbol].to_token_stream(),
+            false => quote!(_),
         });
-        quote! {
-            #time #coordinates #velocities #accelerations #multipliers #newest #newest_multipliers #forcing #bias
-            #(#others)*
-        }
+        let is_used = symbols.iter().any(|symbol| used.contains(symbol));
+        is_used.then(|| quote! { let [#(#names),*] = #array; })
     }
 
     /// An input, where it is.
