@@ -39,7 +39,8 @@ impl Motion {
         let mut along_motion = total_time_derivative(graph, self.momentum.len());
         let row = |(&momentum, &rate): (&Id, &Id)| {
             let inertia = along_motion.of(graph, momentum);
-            graph.sub(inertia, rate)
+            let balance = graph.sub(inertia, rate);
+            graph.combined(balance)
         };
         self.momentum.iter().zip(&self.momentum_rate).map(row).collect()
     }
@@ -68,7 +69,8 @@ fn forcing(graph: &mut Graph, momentum: &[Id], momentum_rate: &[Id]) -> Vec<Id> 
     let mut drift = drift(graph, momentum.len());
     let row = |(&momentum, &momentum_rate): (&Id, &Id)| {
         let rate = drift.of(graph, momentum);
-        graph.sub(momentum_rate, rate)
+        let forcing = graph.sub(momentum_rate, rate);
+        graph.combined(forcing)
     };
     momentum.iter().zip(momentum_rate).map(row).collect()
 }

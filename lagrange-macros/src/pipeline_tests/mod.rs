@@ -19,6 +19,7 @@ mod stages;
 mod stub;
 mod suggestions;
 mod systems;
+mod textbook;
 mod trees;
 
 use proc_macro2::TokenStream;

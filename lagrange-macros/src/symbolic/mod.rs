@@ -4,6 +4,7 @@
 //! walk in order of [`Id`] is a walk from the leaves up, and no algorithm needs recursion.
 
 mod antiderivative;
+mod combined;
 mod differentiate;
 mod elimination;
 mod evaluate;

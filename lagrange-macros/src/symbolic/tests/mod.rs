@@ -3,6 +3,7 @@
 mod antiderivative;
 mod bounds;
 mod canonical;
+mod combined;
 mod derivatives;
 pub(super) mod double;
 mod external;

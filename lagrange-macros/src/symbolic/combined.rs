@@ -1,0 +1,106 @@
+//! Products in a sum that differ in one factor, put together where the sum of these is no longer: (u + v) u s − u v s is u² s.
+//!
+//! dp/dt and ∂L/∂q of a Lagrangian with cos(q₁ − q₂) have such products of velocities in common, and what they leave is
+//! what a textbook writes.
+
+use num_traits::One;
+use rustc_hash::FxHashMap;
+
+use super::graph::{Graph, Id, Node};
+use super::rational::{Rational, plus};
+
+/// Sums of more terms stay as they are.
+const TERMS: usize = 1000;
+
+/// A product, and its coefficient in the sum.
+type Term = (Id, Rational);
+type Factors = Vec<(Id, Rational)>;
+
+/// The products of a sum, by what each is without one of its factors.
+#[derive(Default)]
+struct Products {
+    /// `None` for those that others have taken in.
+    terms: Vec<Option<Term>>,
+    /// The places of terms, and the factor that each has besides.
+    by_rest: FxHashMap<Factors, Vec<(usize, Id)>>,
+}
+
+impl Graph {
+    /// A sum with its products put together; as it is where none can be.
+    pub(crate) fn combined(&mut self, sum: Id) -> Id {
+        let fault = self.take_fault();
+        let combined = self.combine(sum).filter(|_| self.take_fault().is_none());
+        fault.map(|fault| self.fail(fault));
+        combined.unwrap_or(sum)
+    }
+
+    fn combine(&mut self, sum: Id) -> Option<Id> {
+        let Node::Sum(terms) = self.node(sum) else { return None };
+        let mut waiting: Vec<Term> = terms.iter().rev().copied().collect();
+        let (before, mut products) = (waiting.len(), Products::default());
+        while let Some(term) = waiting.pop().filter(|_| before <= TERMS) {
+            match products.taken_in(self, term) {
+                Some(both) => waiting.push(both),
+                None => products.put(self, term),
+            }
+        }
+        let left: Vec<Term> = products.terms.into_iter().flatten().collect();
+        (left.len() < before).then(|| self.sum(left))
+    }
+
+    /// Each factor of a product, and what is left without it.
+    fn rests(&self, product: Id) -> Vec<(Id, Factors)> {
+        let Node::Product(factors) = self.node(product) else { return Vec::new() };
+        let without = |k: usize| {
+            let (mut rest, (factor, exponent)) = (factors.to_vec(), factors[k]);
+            match exponent.is_one() {
+                true => drop(rest.remove(k)),
+                false => rest[k].1 = plus(exponent, -Rational::one())?,
+            }
+            Some((factor, rest))
+        };
+        let is_whole = |k: &usize| factors[*k].1.is_integer() && factors[*k].1 >= Rational::one();
+        (0..factors.len()).filter(is_whole).filter_map(without).collect()
+    }
+
+    /// c x + d y, where that is no longer than x and y are.
+    fn no_longer(&mut self, [x, y]: [Term; 2]) -> Option<Id> {
+        let longest = self.length(x.0).max(self.length(y.0));
+        let sum = if longest > 1 { self.sum([x, y]) } else { return None };
+        (self.take_fault().is_none() && self.length(sum) <= longest).then_some(sum)
+    }
+
+    /// Of how many terms a factor is the sum.
+    fn length(&self, factor: Id) -> usize {
+        match self.node(factor) {
+            Node::Sum(terms) => terms.len(),
+            _ => 1,
+        }
+    }
+}
+
+impl Products {
+    fn put(&mut self, graph: &Graph, term: Term) {
+        for (factor, rest) in graph.rests(term.0) {
+            self.by_rest.entry(rest).or_default().push((self.terms.len(), factor));
+        }
+        self.terms.push(Some(term));
+    }
+
+    /// The product in the place of this one and one of those before, which is taken out.
+    fn taken_in(&mut self, graph: &mut Graph, (product, coefficient): Term) -> Option<Term> {
+        for (factor, rest) in graph.rests(product) {
+            for &(place, other) in self.by_rest.get(&rest).into_iter().flatten() {
+                let Some((_, c)) = self.terms[place] else { continue };
+                let Some(both) = graph.no_longer([(factor, coefficient), (other, c)]) else { continue };
+                self.terms[place] = None;
+                let product = graph.product(rest.into_iter().chain([(both, Rational::one())]));
+                return Some(match graph.node(product) {
+                    Node::Sum(terms) if terms.len() == 1 => terms[0],
+                    _ => (product, Rational::one()),
+                });
+            }
+        }
+        None
+    }
+}
