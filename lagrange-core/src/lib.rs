@@ -190,9 +190,9 @@ pub use motion::{Crossing, Dop853, Dopri5, Event, Method, Motion, Progress, Rung
 pub use mpi;
 pub use nalgebra;
 pub use names::{Entry, Names, Row};
-#[cfg(feature = "std")]
-pub use number::Lanes;
 pub use number::{Dual, Filled, Over, PowerSeries, Real, Scalar, Wide};
+#[cfg(feature = "std")]
+pub use number::{FourLanes, Lanes, LanesOf};
 #[cfg(feature = "alloc")]
 pub use solution::Impact;
 pub use solution::{Adjustment, Consistent, Sample};

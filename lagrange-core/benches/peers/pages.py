@@ -24,8 +24,8 @@ dual numbers, which take the same derivatives at run time (num-dual {num_dual}, 
 
 {duals}
 
-{taylor}2,000 double pendulums from rest to t = 10. By Taylor's method errors are smaller than `Dop853`'s at the same tolerance; 8 is
-the width of AVX-512, for which there are no lanes here.
+{taylor}2,000 double pendulums from rest to t = 10. By Taylor's method errors are smaller than `Dop853`'s at the same tolerance. Where
+there is AVX-512, ours has eight lanes.
 
 {ensemble}
 

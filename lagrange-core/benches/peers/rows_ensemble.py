@@ -7,7 +7,7 @@ from statistics import median, quantiles
 from contest import Contestant, in_rotation
 from report import Bar, Section, bar, comparison
 from timing import Timing
-from workshop import HERE, NATIVE, PYTHON, SHOP, build_ours, progress
+from workshop import HERE, NATIVE, PYTHON, SHOP, build_ours, lanes, progress
 
 PENDULUMS, TOLERANCES = 2000, (1e-9, 1e-12, 1e-15)
 ROUNDS, QUICK_ROUNDS = 21, 3
@@ -60,7 +60,7 @@ def timing(contestant, error):
 
 def bars(section, tolerance, timings):
     """Against the batch as wide as our lanes."""
-    same = next(timing for timing in timings if timing.name == "heyoka, batch of 4")
+    same = next(timing for timing in timings if timing.name == f"heyoka, batch of {lanes(NATIVE)}")
     bar(section, f"time at {tolerance:g}", timings, same, 1.0)
     section.bars.append(Bar(f"median error at {tolerance:g}: {same.name}", timings[0].error / same.error, 1.0))
 

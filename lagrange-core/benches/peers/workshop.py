@@ -38,6 +38,11 @@ PLAIN = Flags("plain", ("-O3",), ())
 AVX2 = Flags("avx2", ("-O3", "-march=x86-64-v3"), ("-C", "target-cpu=x86-64-v3"))
 
 
+def lanes(flags):
+    """As many lanes as ours has with these flags."""
+    return 8 if 'target_feature="avx512f"' in run("rustc", "--print", "cfg", *flags.rustc) else 4
+
+
 def progress(text):
     print(text, file=sys.stderr, flush=True)
 

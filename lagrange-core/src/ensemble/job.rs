@@ -306,7 +306,7 @@ fn check_run_of<T: Real, const N: usize>(member: &Member<T, N>, expected: &Finge
 }
 
 impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Job<'_, L, f64, N, M> {
-    /// Integrates members four at a time until there are none left.
+    /// Integrates members as many at a time as there are lanes until there are none left.
     pub(super) fn on_lanes<P: LaneMethod<L, N, M>, const IS_WATCHED: bool>(&self, method: &P) {
         let mut next = self.next_seat::<P, IS_WATCHED>(method);
         while let Some(first) = next.take() {

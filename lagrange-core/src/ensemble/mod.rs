@@ -1,6 +1,6 @@
 //! Many motions of one kind of system: other starts, other parameters.
 //!
-//! [`Ensemble::integrate_on_lanes`] integrates four members at once on SIMD lanes, [`Ensemble::integrate`] one after
+//! [`Ensemble::integrate_on_lanes`] integrates four members at once on SIMD lanes (with AVX-512 eight), [`Ensemble::integrate`] one after
 //! the other, and both with the feature `rayon` on all threads of rayon's current pool. What a member gives is bit
 //! for bit the same whatever its neighbours, the number of threads and the part of the ensemble that is run. A member
 //! that fails says why, and spoils no other. What lies within the motions can be kept of each: [samples](Ensemble::samples_at) at
@@ -235,11 +235,11 @@ impl<L, const N: usize, const M: usize, const IS_WATCHED: bool> Ensemble<'_, L, 
 where
     L: Lagrangian<N, M, Scalar = f64>,
 {
-    /// The motions to the time `end`, four at once on the [`Lanes`] of each thread, by the method named: `Dop853`, `Dopri5`,
+    /// The motions to the time `end`, as many at once on each thread as there are [`Lanes`], by the method named: `Dop853`, `Dopri5`,
     /// [`Taylor`](crate::Taylor) or another [`LaneMethod`].
     ///
     /// Each lane has its own time, step and error, and is given the next member when its motion has ended. Compile
-    /// with `RUSTFLAGS="-C target-cpu=native"`, so that the lanes are AVX2's. The numbers differ from those of
+    /// with `RUSTFLAGS="-C target-cpu=native"`, so that the lanes are those of AVX2 or AVX-512. The numbers differ from those of
     /// [`integrate`](Self::integrate) by rounding, as far as the motion carries that. A limit on wall time counts
     /// the time that a lane spends with the others. Where members differ in a field that lanes [share](Pack), order
     /// them so that equal ones follow each other: one that does not fit waits until the lanes beside are empty.

@@ -124,7 +124,7 @@ impl<L, const N: usize, const M: usize, const IS_WATCHED: bool> OnRanks<'_, L, f
 where
     L: Lagrangian<N, M, Scalar = f64>,
 {
-    /// The motions to the time `end`, four at once on the [`Lanes`] of each thread, as by [`Ensemble::integrate_on_lanes`]: at
+    /// The motions to the time `end`, as many at once on each thread as there are [`Lanes`], as by [`Ensemble::integrate_on_lanes`]: at
     /// rank 0 the outcome of all, elsewhere none.
     ///
     /// # Errors

@@ -17,7 +17,7 @@ where
     ///
     /// They lie on the continuous extension of the method, projected onto the constraints. Steps are as long as without, and
     /// the end has the same bits; but where the extension cannot be had a step is tried once more, shorter. On lanes the
-    /// extension costs about half of a step in which one of the four has a sample. A member that ends early has the samples up to there.
+    /// extension costs about half of a step in which one of the lanes has a sample. A member that ends early has the samples up to there.
     ///
     /// ```
     /// # use lagrange_core::prelude::*;

@@ -6,7 +6,7 @@ use core::hint::black_box;
 use core::ops::Add;
 
 #[cfg(feature = "std")]
-use super::lanes::Lanes;
+use super::quad::Quad;
 use super::scalar::Scalar;
 #[cfg(feature = "std")]
 use super::scalar::same;
@@ -19,7 +19,7 @@ pub(crate) struct Four<T> {
     apart: [T; 4],
     /// If they are `f64`; else zeros.
     #[cfg(feature = "std")]
-    together: Lanes,
+    together: Quad,
 }
 
 impl<T: Scalar> Four<T> {
@@ -28,7 +28,7 @@ impl<T: Scalar> Four<T> {
         Self {
             apart: [T::constant(0.0); 4],
             #[cfg(feature = "std")]
-            together: Lanes::constant(0.0),
+            together: Quad::constant(0.0),
         }
     }
 
@@ -36,7 +36,7 @@ impl<T: Scalar> Four<T> {
     pub(crate) fn to_array(self) -> [T; 4] {
         // Not looked through: else the numbers, not the vector, are what comes out of branches and loops.
         #[cfg(feature = "std")]
-        if let Some(numbers) = same(black_box(self.together).to_array()) {
+        if let Some(numbers) = same::<[f64; 4], _>(black_box(self.together).into()) {
             return numbers;
         }
         self.apart
@@ -48,7 +48,7 @@ impl<T: Scalar> Four<T> {
         Self {
             apart: from_fn(|lane| self.apart[lane].multiply_add(y.apart[lane], z.apart[lane])),
             #[cfg(feature = "std")]
-            together: self.together.multiply_add(y.together, z.together),
+            together: Scalar::multiply_add(self.together, y.together, z.together),
         }
     }
 }

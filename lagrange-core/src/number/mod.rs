@@ -2,11 +2,15 @@
 
 mod array;
 mod dual;
+#[cfg(all(feature = "std", target_feature = "avx512f"))]
+mod eight;
 mod four;
 #[cfg(feature = "std")]
 mod lanes;
 mod numeric;
 mod over;
+#[cfg(feature = "std")]
+mod quad;
 mod scalar;
 mod series;
 #[cfg(feature = "std")]
@@ -17,7 +21,7 @@ pub use array::{Filled, matrix, vector};
 pub use dual::Dual;
 pub(crate) use four::Four;
 #[cfg(feature = "std")]
-pub use lanes::Lanes;
+pub use lanes::{FourLanes, Lanes, LanesOf};
 pub use numeric::only_where;
 pub(crate) use numeric::{
     beyond_round_off, exceeds, is_within, larger, largest, norm, power_of_epsilon, power_of_two, smaller, sum,

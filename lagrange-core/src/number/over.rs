@@ -1,7 +1,7 @@
 //! Several numbers at once, computed with by the numbers of one system.
 
 #[cfg(feature = "std")]
-use super::lanes::Lanes;
+use super::lanes::{FourLanes, LanesOf, Vector};
 use super::scalar::Scalar;
 
 /// Numbers that can be computed with by those of type `T`, each of which counts for all of them: `Lanes`
@@ -34,7 +34,7 @@ pub trait Wide<T>: Over<T> {
 }
 
 #[cfg(feature = "std")]
-impl Over<f64> for Lanes {
+impl<V: Vector> Over<f64> for LanesOf<V> {
     #[inline(always)]
     fn of(x: f64) -> Self {
         Self::constant(x)
@@ -42,7 +42,7 @@ impl Over<f64> for Lanes {
 }
 
 #[cfg(feature = "std")]
-impl Wide<f64> for Lanes {
+impl Wide<f64> for FourLanes {
     const COUNT: usize = Self::COUNT;
 
     #[inline(always)]

@@ -234,7 +234,7 @@ impl Real for f64 {
     const EPSILON: Self = Self::EPSILON;
 
     #[cfg(feature = "std")]
-    type Wide = super::lanes::Lanes;
+    type Wide = super::lanes::FourLanes;
     #[cfg(not(feature = "std"))]
     type Wide = Self;
 

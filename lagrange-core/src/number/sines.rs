@@ -6,7 +6,8 @@
 //! unit in the last place. Their terms are put together in pairs (Estrin, *Proceedings of the Western Joint Computer
 //! Conference*, 1960), since a function that waits for its sines waits for the longest chain of operations.
 
-use super::lanes::Lanes;
+use super::lanes::Vector;
+use super::quad::Quad;
 use super::scalar::Scalar;
 
 /// Beyond, the multiple of π/2 has too many digits for the first step to be exact.
@@ -61,11 +62,11 @@ fn less_turns<const K: usize>(angles: [f64; K]) -> [f64; K] {
 #[inline(always)]
 pub(super) fn sin_cos<const K: usize>(angles: [f64; K]) -> ([f64; K], [f64; K]) {
     let (mut sines, mut cosines) = ([0.0; K], [0.0; K]);
-    for first in (0..K).step_by(Lanes::COUNT) {
+    for first in (0..K).step_by(4) {
         // One by one: as a slice that is copied they would go through memory, and be long in coming as a vector.
         let angle = |lane: usize| if first + lane < K { angles[first + lane] } else { 0.0 };
         let (sine, cosine) = side_by_side([angle(0), angle(1), angle(2), angle(3)].into());
-        let found = sine.to_array().into_iter().zip(cosine.to_array());
+        let found = <[f64; 4]>::from(sine).into_iter().zip(<[f64; 4]>::from(cosine));
         let places = sines.iter_mut().zip(&mut cosines).skip(first);
         places.zip(found).for_each(|((sine, cosine), found)| (*sine, *cosine) = found);
     }
@@ -73,13 +74,13 @@ pub(super) fn sin_cos<const K: usize>(angles: [f64; K]) -> ([f64; K], [f64; K]) 
 }
 
 #[inline(always)]
-fn all(x: f64) -> Lanes {
-    Lanes::constant(x)
+fn all(x: f64) -> Quad {
+    Scalar::constant(x)
 }
 
 /// Of small angles.
 #[inline(always)]
-fn side_by_side(x: Lanes) -> (Lanes, Lanes) {
+fn side_by_side(x: Quad) -> (Quad, Quad) {
     let n = rounded(x * all(core::f64::consts::FRAC_2_PI));
     let (rest, error) = reduced(x, n);
     let (sine, cosine) = (sine(rest, error), cosine(rest, error));
@@ -96,13 +97,13 @@ fn side_by_side(x: Lanes) -> (Lanes, Lanes) {
 
 /// To whole numbers, of two as near the even one.
 #[inline(always)]
-fn rounded(x: Lanes) -> Lanes {
+fn rounded(x: Quad) -> Quad {
     (x + all(ROUNDER)) - all(ROUNDER)
 }
 
 /// x − n π/2 as a number and what it is rounded by.
 #[inline(always)]
-fn reduced(x: Lanes, n: Lanes) -> (Lanes, Lanes) {
+fn reduced(x: Quad, n: Quad) -> (Quad, Quad) {
     let part = |k: usize| n * all(PARTS[k]);
     let (left, lost) = difference(x - part(0), part(1));
     let (left, more) = difference(left, part(2));
@@ -111,7 +112,7 @@ fn reduced(x: Lanes, n: Lanes) -> (Lanes, Lanes) {
 
 /// x − y, and what the rounding took from it (Knuth, *The Art of Computer Programming*, volume 2, 4.2.2).
 #[inline(always)]
-fn difference(x: Lanes, y: Lanes) -> (Lanes, Lanes) {
+fn difference(x: Quad, y: Quad) -> (Quad, Quad) {
     let difference = x - y;
     let part = x - difference;
     let rest = (x - (difference + part)) + (part - y);
@@ -119,7 +120,7 @@ fn difference(x: Lanes, y: Lanes) -> (Lanes, Lanes) {
 }
 
 #[inline(always)]
-fn sine(x: Lanes, error: Lanes) -> Lanes {
+fn sine(x: Quad, error: Quad) -> Quad {
     let z = x * x;
     let (square, cube) = (z * z, z * x);
     // Not mapped: the compiler leaves the map of an array a function of its own.
@@ -130,7 +131,7 @@ fn sine(x: Lanes, error: Lanes) -> Lanes {
 }
 
 #[inline(always)]
-fn cosine(x: Lanes, error: Lanes) -> Lanes {
+fn cosine(x: Quad, error: Quad) -> Quad {
     let z = x * x;
     let (square, half) = (z * z, all(0.5) * z);
     let pair = |k: usize| z.multiply_add(all(COSINE[k + 1]), all(COSINE[k]));

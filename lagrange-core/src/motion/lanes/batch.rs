@@ -30,7 +30,9 @@ where
     /// With a first motion, and the other lanes free.
     pub(crate) fn new(method: &'o P, seat: Seat<'o, L, P, N, M>) -> Self {
         let abreast = method.abreast(&seat.system, &seat.memory);
-        Self { method, abreast, seats: [Some(seat.begin(method)), None, None, None] }
+        let mut seats = [const { None }; Lanes::COUNT];
+        seats[0] = Some(seat.begin(method));
+        Self { method, abreast, seats }
     }
 
     pub(crate) fn has_free_lane(&self) -> bool {

@@ -20,7 +20,7 @@ use crate::solution::flow::Phase;
 use crate::statistics::Statistics;
 use crate::system::Lagrangian;
 
-/// A method that integrates four members of an ensemble at once: [`Dop853`](crate::Dop853), [`Dopri5`](crate::Dopri5) and every
+/// A method that integrates several members of an ensemble at once: [`Dop853`](crate::Dop853), [`Dopri5`](crate::Dopri5) and every
 /// other [`Pair`](crate::motion::Pair), and [`Taylor`](crate::Taylor) where the system has a Taylor series.
 ///
 /// [`Ensemble::integrate_on_lanes`](crate::Ensemble::integrate_on_lanes) takes it. What it consists of belongs to this crate.
@@ -33,7 +33,7 @@ pub trait LaneMethod<L, const N: usize, const M: usize>: Method<L, N, M> + Sized
 where
     L: Lagrangian<N, M, Scalar = f64>,
 {
-    /// Four systems with their states, and what a step of them takes.
+    /// Systems with their states, and what a step of them takes.
     #[doc(hidden)]
     type Abreast;
 

@@ -15,7 +15,7 @@ use crate::solution::near;
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, Pack, Packed, State};
 
-/// Four motions, and what a step of them takes.
+/// Motions side by side, and what a step of them takes.
 #[derive(Debug)]
 pub struct Abreast<S, P: Pair, const N: usize, const M: usize> {
     system: S,

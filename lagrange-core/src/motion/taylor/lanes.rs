@@ -19,7 +19,7 @@ use crate::solution::near;
 use crate::statistics::Statistics;
 use crate::system::{Pack, Packed, RightHandSides, Solution, State, TaylorSeries};
 
-/// Four motions, and what a step of them takes.
+/// Motions side by side, and what a step of them takes.
 #[derive(Debug)]
 pub struct Abreast<S, U, const N: usize, const M: usize> {
     system: S,

@@ -56,7 +56,7 @@ pub use polynomial::TaylorPolynomial;
 /// A system with `abs`, `min`, `max` or `clamp` in its equations has no [`TaylorSeries`], nor one with a function that is not known over
 /// every scalar, and the compiler says so. A [`Function`](crate::Function) is evaluated on a [`PowerSeries`](crate::PowerSeries) at every order; of
 /// kinks inside of it each step is aware at its quarters only, to 10⁻¹⁰ of the velocities. Parameters may change between steps. Nothing is allocated in a step.
-/// In an ensemble four members are expanded at once on SIMD lanes, each with its own step: `Ensemble::integrate_on_lanes`.
+/// In an ensemble four members, or eight with AVX-512, are expanded at once on SIMD lanes, each with its own step: `Ensemble::integrate_on_lanes`.
 /// Derivatives of a motion come from the recurrences over dual numbers, to the same error:
 /// [`integrate_sensitivities`](crate::Linearized::integrate_sensitivities).
 ///

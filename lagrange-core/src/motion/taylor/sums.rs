@@ -83,7 +83,7 @@ impl<T: Scalar, S: Filled<T>> Factors<T, S> {
             let (left, right) = (group * self.orders, (group + 1) * self.orders - terms);
             let (left, right) = (&self.left[left..left + terms], &self.right[right..right + terms]);
             if order.is_multiple_of(2) {
-                // Four numbers alone are one vector, four lanes are four, for which there are registers once.
+                // Four numbers alone are one vector, four times lanes are four, for which there are registers once.
                 let [now, next] = match const { size_of::<T>() > size_of::<f64>() } {
                     true => products::<T, 1>(left, right),
                     false => products::<T, 2>(left, right),

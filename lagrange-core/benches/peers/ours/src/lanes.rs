@@ -1,7 +1,7 @@
-//! Eight double pendulums, each number an array of eight: one after another, and four a time on SIMD lanes.
+//! Eight double pendulums, each number an array of eight: one after another, and on SIMD lanes.
 
+use lagrange_core::Lanes;
 use lagrange_core::prelude::*;
-use simba::simd::WideF64x4;
 
 /// The double pendulum, for any number type.
 #[derive(Lagrangian)]
@@ -23,7 +23,7 @@ struct DoublePendulum<T> {
 const SYSTEMS: usize = 8;
 
 /// Numbers of one or of several systems, taken from arrays of eight.
-trait Lanes: Scalar {
+trait Numbers: Scalar {
     const WIDTH: usize;
 
     /// # Safety
@@ -35,7 +35,7 @@ trait Lanes: Scalar {
     unsafe fn store(self, target: *mut f64);
 }
 
-impl Lanes for f64 {
+impl Numbers for f64 {
     const WIDTH: usize = 1;
 
     #[inline(always)]
@@ -49,22 +49,22 @@ impl Lanes for f64 {
     }
 }
 
-impl Lanes for WideF64x4 {
-    const WIDTH: usize = 4;
+impl Numbers for Lanes {
+    const WIDTH: usize = Self::COUNT;
 
     #[inline(always)]
     unsafe fn load(source: *const f64) -> Self {
-        Self::from(unsafe { *source.cast::<[f64; 4]>() })
+        Self::from(unsafe { *source.cast::<[f64; Self::COUNT]>() })
     }
 
     #[inline(always)]
     unsafe fn store(self, target: *mut f64) {
-        unsafe { *target.cast::<[f64; 4]>() = self.0.to_array() }
+        unsafe { *target.cast::<[f64; Self::COUNT]>() = self.to_array() }
     }
 }
 
 #[inline(always)]
-unsafe fn evaluate<T: Lanes>(q: *const f64, v: *const f64, p: *const f64, a: *mut f64) {
+unsafe fn evaluate<T: Numbers>(q: *const f64, v: *const f64, p: *const f64, a: *mut f64) {
     for first in (0..SYSTEMS).step_by(T::WIDTH) {
         let read = |from: *const f64, entry: usize| unsafe { T::load(from.add(SYSTEMS * entry + first)) };
         let (m, l, g) = ([read(p, 0), read(p, 1)], [read(p, 2), read(p, 3)], read(p, 4));
@@ -87,5 +87,5 @@ pub unsafe extern "C" fn lanes_scalar(q: *const f64, v: *const f64, p: *const f6
 /// `q`, `v` and `a` point to 2 · 8 numbers, `p` to 5 · 8.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn lanes_wide(q: *const f64, v: *const f64, p: *const f64, a: *mut f64, _: *mut f64) {
-    unsafe { evaluate::<WideF64x4>(q, v, p, a) }
+    unsafe { evaluate::<Lanes>(q, v, p, a) }
 }

@@ -1,7 +1,7 @@
 //! What else is asked of an arm than its accelerations, behind the same signature: matrices are left in `a` by columns.
 
 use lagrange_core::{
-    Direction, Lanes, StateDerivatives,
+    Direction, FourLanes, StateDerivatives,
     nalgebra::{Matrix3, Rotation3, SMatrix, SVector, Vector3},
     prelude::*,
 };
@@ -90,13 +90,13 @@ pub unsafe extern "C" fn arm_derivatives_6(
         let (state, arm) = (State::new(*q, *v), &*p);
         let solution = arm.accelerations_unchecked(&state);
         let (factor, slopes) = (arm.factor(&state), arm.residual_slopes(&state, &solution));
-        for block in (0..18).step_by(Lanes::COUNT) {
-            let lanes = block..(block + Lanes::COUNT).min(18);
-            let one_at = |k: usize| -> Lanes {
-                Lanes::from(core::array::from_fn(|lane| f64::from(u8::from(block + lane == k))))
+        for block in (0..18).step_by(FourLanes::COUNT) {
+            let lanes = block..(block + FourLanes::COUNT).min(18);
+            let one_at = |k: usize| -> FourLanes {
+                FourLanes::from(core::array::from_fn(|lane| f64::from(u8::from(block + lane == k))))
             };
-            let unit = |first: usize| SVector::<Lanes, 6>::from_fn(|i, _| one_at(first + i));
-            let direction = Direction { t: Lanes::constant(0.0), q: unit(0), v: unit(6) };
+            let unit = |first: usize| SVector::<FourLanes, 6>::from_fn(|i, _| one_at(first + i));
+            let direction = Direction { t: FourLanes::constant(0.0), q: unit(0), v: unit(6) };
             let change = arm.residual_change_with(&slopes, &direction);
             let forces = unit(12).zip_map(&change.motion, |force, motion| force - motion);
             let response = arm.solve_with(&factor, &forces, &change.acceleration).accelerations;

@@ -1,0 +1,15 @@
+//! Vectors of four numbers, which `simba` makes of those of `wide`.
+
+use simba::simd::{SimdPartialOrd, SimdValue, WideF64x4};
+
+use super::lanes::Vector;
+
+/// Four `f64`.
+pub(super) type Quad = WideF64x4;
+
+impl Vector for Quad {
+    #[inline(always)]
+    fn select(self, chosen: Self, other: Self) -> Self {
+        SimdValue::select(self, chosen.simd_gt(Self::splat(0.0)), other)
+    }
+}
