@@ -1,7 +1,7 @@
 //! Chains of 2, 5, 10 and 20 links that fall from the horizontal, by Taylor's method and by Dop853.
 //!
 //! The Lagrangian names the velocities of the links one from the other, so that a step costs as much as the chain is long. The
-//! matrix of the equations is factored once a step; each of 20 orders of the series is one back-substitution.
+//! matrix of the equations is factored once a step; each order of the series is one back-substitution.
 
 mod picture;
 

@@ -192,7 +192,7 @@ pub use nalgebra;
 pub use names::{Entry, Names, Row};
 pub use number::{Dual, Filled, Over, PowerSeries, Real, Scalar, Wide};
 #[cfg(feature = "std")]
-pub use number::{FourLanes, Lanes, LanesOf};
+pub use number::{FourLanes, Lanes};
 #[cfg(feature = "alloc")]
 pub use solution::Impact;
 pub use solution::{Adjustment, Consistent, Sample};

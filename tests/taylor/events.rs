@@ -78,11 +78,11 @@ fn backwards_they_are_the_same() -> Result<()> {
 #[lagrangian(x_dot^2/2 - x^2/2)]
 struct Spring;
 
-/// −cos t is at a level near 1 twice about each odd multiple of π, within one of the steps, which are about 0.93 long. An eighth
-/// of that apart they are two without being asked for, and closer if a step is looked at in more pieces.
+/// −cos t is at a level near 1 twice about each odd multiple of π, within one of the steps, which are about 2.5 long.
+/// They are two without being asked for, and in pieces that are shorter than what is between them.
 #[test]
 fn two_zeros_within_a_step_are_two() -> Result<()> {
-    for (apart, pieces) in [(0.5, None), (0.2, None), (0.13, None), (0.02, Some(64))] {
+    for (apart, pieces) in [(0.5, None), (0.13, None), (0.02, None), (0.02, Some(128))] {
         let level = (apart / 2.0_f64).cos();
         let event = Spring.event("level", move |sample| sample.state().q[0] - level);
         let mut event = if let Some(pieces) = pieces { event.pieces(pieces) } else { event };
@@ -93,8 +93,8 @@ fn two_zeros_within_a_step_are_two() -> Result<()> {
             let turn = PI * f64::from(k / 2 * 2 + 1);
             let expected = if k % 2 == 0 { turn - apart / 2.0 } else { turn + apart / 2.0 };
             let off = crossing.state.t - expected;
-            // The level is rounded, and the slope there is sin(apart/2).
-            assert!(off.abs() * apart < 1e-14 && crossing.rising == (k % 2 == 0), "{apart}, {k}: {off:e}");
+            // The slope there is sin(apart/2). The terms of a step add up to e^2.5 = 12, of which 24 steps round each.
+            assert!(off.abs() * apart < 2e-14 && crossing.rising == (k % 2 == 0), "{apart}, {k}: {off:e}");
         }
     }
     Ok(())
@@ -140,7 +140,9 @@ fn zeros_lie_on_the_constraint() -> Result<()> {
     for (crossing, k) in path.crossings().iter().zip(1..) {
         let State { t, q, .. } = crossing.state;
         let off = [t - PI * f64::from(k), q[2], q.norm_squared() - 1.0, q[0].abs() - 1.0].map(f64::abs);
-        assert!(off[0] < 1e-12 && off[1..].iter().all(|off| *off < 5e-16), "{off:?}");
+        // Within a step the state is the sum of a series whose terms add up to e^2.5 = 12, and a speed that is off by a
+        // round-off of as much for each of 80 steps is off by 10⁻¹³ at the end: it makes 2·10⁻¹¹ of 200.
+        assert!(off[0] < 5e-12 && off[1..].iter().all(|off| *off < 8.0 * f64::EPSILON), "{off:?}");
     }
     Ok(())
 }

@@ -10,7 +10,7 @@ use super::scalar::Scalar;
 
 /// Eight `f64`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Eight(f64x8);
+pub(super) struct Eight(f64x8);
 
 impl Vector for Eight {
     #[inline(always)]

@@ -3,33 +3,18 @@
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 #[cfg(target_feature = "avx512f")]
-use super::eight::Eight;
+use super::eight::Eight as Widest;
+use super::over::Over;
 use super::quad::Quad;
+#[cfg(not(target_feature = "avx512f"))]
+use super::quad::Quad as Widest;
 use super::scalar::Scalar;
 
-/// `f64` side by side in the lanes of a vector, on which the equations of as many systems are evaluated at once.
-///
-/// No lane depends on another: what comes out of a lane is bit for bit what comes out with anything else beside it.
-/// Sines and cosines are within 3·10⁻¹⁶ of those of the standard library, and NaN for angles of 10⁸ and more: there
-/// vectors lose digits, and an [`Ensemble`](crate::Ensemble) takes the step of that member alone.
-///
-/// The vectors are those of the crate `wide`, which uses AVX2 and FMA, or AVX-512, where the compiler is told that they
-/// exist: `RUSTFLAGS="-C target-cpu=native"` or `"-C target-feature=+avx2,+fma"`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LanesOf<V>(V);
-
-/// As many lanes as are best for systems: four, or eight with AVX-512.
-#[cfg(not(target_feature = "avx512f"))]
-pub type Lanes = LanesOf<Quad>;
-/// As many lanes as are best for systems: four, or eight with AVX-512.
-#[cfg(target_feature = "avx512f")]
-pub type Lanes = LanesOf<Eight>;
-
-/// As many lanes as are best for directions of one system, which seldom has many.
-pub type FourLanes = LanesOf<Quad>;
-
 /// A vector of `f64`.
-pub trait Vector: Scalar {
+pub(super) trait Vector: Scalar {
+    /// How many there are.
+    const COUNT: usize = size_of::<Self>() / size_of::<f64>();
+
     /// `self` where `chosen` is positive, `other` elsewhere.
     #[must_use]
     fn select(self, chosen: Self, other: Self) -> Self;
@@ -39,42 +24,78 @@ pub trait Vector: Scalar {
 const LARGEST_ANGLE: f64 = 1e8;
 
 macro_rules! lanes {
-    ($vector:ty, $count:literal) => {
-        impl LanesOf<$vector> {
+    ($(#[$attribute:meta])* $lanes:ident of $vector:ty) => {
+        $(#[$attribute])*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct $lanes($vector);
+
+        impl $lanes {
             /// How many there are.
-            pub const COUNT: usize = $count;
+            pub const COUNT: usize = <$vector>::COUNT;
 
             /// The numbers in all lanes.
             #[inline(always)]
-            pub fn to_array(self) -> [f64; $count] {
+            pub fn to_array(self) -> [f64; Self::COUNT] {
                 self.0.into()
+            }
+
+            /// `self` where `chosen` is positive, `other` elsewhere.
+            #[inline(always)]
+            pub(crate) fn select(self, chosen: Self, other: Self) -> Self {
+                Self(self.0.select(chosen.0, other.0))
             }
         }
 
-        impl From<[f64; $count]> for LanesOf<$vector> {
+        impl From<[f64; $lanes::COUNT]> for $lanes {
             #[inline(always)]
-            fn from(all: [f64; $count]) -> Self {
+            fn from(all: [f64; $lanes::COUNT]) -> Self {
                 Self(all.into())
+            }
+        }
+
+        operators!($lanes: Add add, Sub sub, Mul mul, Div div);
+
+        impl Neg for $lanes {
+            type Output = Self;
+
+            #[inline(always)]
+            fn neg(self) -> Self {
+                Self(-self.0)
+            }
+        }
+
+        impl Over<f64> for $lanes {
+            #[inline(always)]
+            fn of(x: f64) -> Self {
+                Self::constant(x)
+            }
+        }
+
+        impl Scalar for $lanes {
+            #[inline(always)]
+            fn constant(x: f64) -> Self {
+                Self(<$vector>::constant(x))
+            }
+
+            #[inline(always)]
+            fn sin_cos(self) -> (Self, Self) {
+                let (sin, cos) = Scalar::sin_cos(self.0);
+                let (left, nan) = (Self::constant(LARGEST_ANGLE) - self.abs(), Self::constant(f64::NAN));
+                (Self(sin).select(left, nan), Self(cos).select(left, nan))
+            }
+
+            lane_by_lane! {
+                tan(), asin(), acos(), atan(), atan2(x), sinh(), cosh(), tanh(), exp(), ln(), sqrt(), abs(),
+                powf(exponent), min(other), max(other), by_order(other, less, equal, greater),
+                multiply_add(y, z), subtract_product(y, z),
             }
         }
     };
 }
 
-lanes!(Quad, 4);
-#[cfg(target_feature = "avx512f")]
-lanes!(Eight, 8);
-
-impl<V: Vector> LanesOf<V> {
-    /// `self` where `chosen` is positive, `other` elsewhere.
-    #[inline(always)]
-    pub(crate) fn select(self, chosen: Self, other: Self) -> Self {
-        Self(self.0.select(chosen.0, other.0))
-    }
-}
-
 macro_rules! operators {
-    ($($operator:ident $method:ident),*) => {
-        $(impl<V: $operator<Output = V>> $operator for LanesOf<V> {
+    ($lanes:ident: $($operator:ident $method:ident),*) => {
+        $(impl $operator for $lanes {
             type Output = Self;
 
             #[inline(always)]
@@ -83,17 +104,6 @@ macro_rules! operators {
             }
         })*
     };
-}
-
-operators!(Add add, Sub sub, Mul mul, Div div);
-
-impl<V: Neg<Output = V>> Neg for LanesOf<V> {
-    type Output = Self;
-
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Self(-self.0)
-    }
 }
 
 macro_rules! lane_by_lane {
@@ -105,24 +115,21 @@ macro_rules! lane_by_lane {
     };
 }
 
-impl<V: Vector> Scalar for LanesOf<V> {
-    #[inline(always)]
-    fn constant(x: f64) -> Self {
-        Self(V::constant(x))
-    }
+lanes! {
+    /// `f64` side by side, four or, with AVX-512, eight, on which the equations of as many systems are evaluated at once.
+    ///
+    /// No lane depends on another: what comes out of a lane is bit for bit what comes out with anything else beside it.
+    /// Sines and cosines are within 3·10⁻¹⁶ of those of the standard library, and NaN for angles of 10⁸ and more: there
+    /// vectors lose digits, and an [`Ensemble`](crate::Ensemble) takes the step of that member alone.
+    ///
+    /// The vectors are those of the crate `wide`, which uses AVX2 and FMA, or AVX-512, where the compiler is told that they
+    /// exist: `RUSTFLAGS="-C target-cpu=native"` or `"-C target-feature=+avx2,+fma"`.
+    Lanes of Widest
+}
 
-    #[inline(always)]
-    fn sin_cos(self) -> (Self, Self) {
-        let (sin, cos) = self.0.sin_cos();
-        let (left, nan) = (Self::constant(LARGEST_ANGLE) - self.abs(), Self::constant(f64::NAN));
-        (Self(sin).select(left, nan), Self(cos).select(left, nan))
-    }
-
-    lane_by_lane! {
-        tan(), asin(), acos(), atan(), atan2(x), sinh(), cosh(), tanh(), exp(), ln(), sqrt(), abs(),
-        powf(exponent), min(other), max(other), by_order(other, less, equal, greater),
-        multiply_add(y, z), subtract_product(y, z),
-    }
+lanes! {
+    /// Four [`Lanes`] whatever the CPU, for the directions of one system's derivatives, which are seldom many.
+    FourLanes of Quad
 }
 
 #[cfg(test)]

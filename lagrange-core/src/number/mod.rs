@@ -21,7 +21,7 @@ pub use array::{Filled, matrix, vector};
 pub use dual::Dual;
 pub(crate) use four::Four;
 #[cfg(feature = "std")]
-pub use lanes::{FourLanes, Lanes, LanesOf};
+pub use lanes::{FourLanes, Lanes};
 pub use numeric::only_where;
 pub(crate) use numeric::{
     beyond_round_off, exceeds, is_within, larger, largest, norm, power_of_epsilon, power_of_two, smaller, sum,

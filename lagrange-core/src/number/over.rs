@@ -1,7 +1,7 @@
 //! Several numbers at once, computed with by the numbers of one system.
 
 #[cfg(feature = "std")]
-use super::lanes::{FourLanes, LanesOf, Vector};
+use super::lanes::FourLanes;
 use super::scalar::Scalar;
 
 /// Numbers that can be computed with by those of type `T`, each of which counts for all of them: `Lanes`
@@ -31,14 +31,6 @@ pub trait Wide<T>: Over<T> {
 
     /// One of them.
     fn lane(&self, lane: usize) -> T;
-}
-
-#[cfg(feature = "std")]
-impl<V: Vector> Over<f64> for LanesOf<V> {
-    #[inline(always)]
-    fn of(x: f64) -> Self {
-        Self::constant(x)
-    }
 }
 
 #[cfg(feature = "std")]

@@ -6,7 +6,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use super::scalar::Scalar;
 
 /// So many coefficients are there room for.
-pub(crate) const ROOM: usize = 22;
+pub(crate) const ROOM: usize = 31;
 
 /// A power series up to some order, x₀ + x₁ τ + x₂ τ² + …: what the functions that a system is given are evaluated on where its
 /// motion is expanded by [`Taylor`](crate::Taylor).
@@ -29,7 +29,7 @@ pub struct PowerSeries<S> {
 }
 
 impl<S: Scalar> PowerSeries<S> {
-    /// Of these coefficients, from order 0; of more than 22 the first.
+    /// Of these coefficients, from order 0; of more than 31 the first.
     pub fn new(coefficients: &[S]) -> Self {
         let count = coefficients.len().min(ROOM);
         let mut all = [S::constant(0.0); ROOM];

@@ -107,7 +107,7 @@ impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
         let (mut newest, mut ends, mut sums) = (*solution, Ends::new(), S::filled(T::constant(0.0)));
         for order in 1..=highest {
             let numbers = [order as f64, 1.0 / order as f64].map(T::constant);
-            let direction = self.advance(order, &newest, numbers[1]);
+            let direction = self.advance(order, &newest);
             if order == highest {
                 break;
             }
@@ -131,13 +131,8 @@ impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
 
     /// The coefficients of this order, by the accelerations of the order before.
     #[inline(always)]
-    fn advance<const M: usize>(
-        &mut self,
-        order: usize,
-        newest: &Solution<T, N, M>,
-        reciprocal: T,
-    ) -> Direction<T, N> {
-        let factor = self.unit * reciprocal;
+    fn advance<const M: usize>(&mut self, order: usize, newest: &Solution<T, N, M>) -> Direction<T, N> {
+        let factor = unit_over(self.unit, order);
         let q = scaled(&self.v[order - 1], factor);
         let v = scaled(&newest.accelerations.data.0[0], factor);
         (self.q[order], self.v[order]) = (q, v);
@@ -196,8 +191,9 @@ impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
     }
 }
 
+/// Divided: 1/k is rounded, to the same side in every step, by which energy drifted.
 fn unit_over<T: Scalar>(unit: T, order: usize) -> T {
-    unit * T::constant(1.0 / order as f64)
+    unit / T::constant(order as f64)
 }
 
 #[inline(always)]

@@ -40,7 +40,7 @@ pub use polynomial::TaylorPolynomial;
 /// and multipliers of all orders are solved for with the one matrix that the equations have at the start of the step, so that
 /// constraints cost nothing extra, and a chain as much as its length.
 ///
-/// The order follows from the tolerance, 12 for 10⁻⁹ and 20 for round-off; the length of a step from the last five
+/// The order follows from the tolerance, 18 for 10⁻⁹ and 29 for round-off; the length of a step from the last five
 /// coefficients, zeros passed over: from a symmetric start every fourth alone may be there. It is at most ten times that of the step
 /// before, and refused where the accelerations of the series at its end are not those of the equations. Rounding errors of the
 /// states are carried along (compensated sums); each state is projected onto the constraints. Between its ends a step is the

@@ -114,8 +114,8 @@ impl<S: Copy> Few<S> {
                 }
             };
         }
-        const { assert!(ROOM == 22, "the highest order, 20, has sums of order 19") }
-        by_terms!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16)
+        const { assert!(ROOM == 31, "the highest order, 29, has sums of order 28") }
+        by_terms!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25)
     }
 }
 
