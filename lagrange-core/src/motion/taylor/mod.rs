@@ -36,7 +36,7 @@ pub use polynomial::TaylorPolynomial;
 /// Taylor's method: each step is a power series of the motion about its start, whose coefficients come from recurrences
 /// that the derive has found (Jorba and Zou, *Experimental Mathematics* 14 (2005) 99–117).
 ///
-/// For smooth motions at tolerances below about 10⁻¹⁰, down to round-off, which is the default. The coefficients of accelerations
+/// For smooth motions with errors below about 10⁻⁹, down to round-off, which is the default. The coefficients of accelerations
 /// and multipliers of all orders are solved for with the one matrix that the equations have at the start of the step, so that
 /// constraints cost nothing extra, and a chain as much as its length.
 ///
