@@ -44,8 +44,9 @@ impl Graph {
                 None => products.put(self, term),
             }
         }
-        let left: Vec<Term> = products.terms.into_iter().flatten().collect();
-        (left.len() < before).then(|| self.sum(left))
+        let combined = self.sum(products.terms.into_iter().flatten());
+        // What a product comes to may be a sum.
+        (self.length(combined) < before).then_some(combined)
     }
 
     /// Each factor of a product, and what is left without it.

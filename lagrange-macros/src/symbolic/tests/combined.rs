@@ -86,6 +86,12 @@ fn what_would_be_longer_stays() {
         let sum = graph.total(products);
         assert_eq!(graph.combined(sum), sum);
     }
+    // One product, but a sum of three terms: (u + v + w) (s + t)/s − (u + v + w) t/s.
+    let (uvw, over) = (graph.add(uv, w), graph.div(Id::ONE, s));
+    let rest = graph.mul(uvw, over);
+    let [more, less] = [st, t].map(|factor| graph.mul(rest, factor));
+    let sum = graph.sub(more, less);
+    assert_eq!((terms(&graph, sum), graph.combined(sum)), (2, sum));
 }
 
 #[test]
