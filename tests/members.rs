@@ -387,5 +387,5 @@ fn structs_lie_on_lanes() {
     let mut packed: Bobs<Lanes> = bobs(1.0, 2.0).pack();
     assert!(bobs(3.0, 4.0).place(&mut packed, 2));
     let solution = packed.accelerations_unchecked(&State::at_rest([Lanes::constant(0.0)]));
-    assert_eq!(solution.accelerations[0].to_array(), [0.5, 0.5, 0.75, 0.5]);
+    assert_eq!(solution.accelerations[0].to_array()[..4], [0.5, 0.5, 0.75, 0.5]);
 }
