@@ -34,8 +34,10 @@ pub(crate) enum Variable {
     Term(usize),
     /// The order of the newest Taylor coefficients …
     Order,
-    /// … and 1 over it.
+    /// … 1 over it …
     OrderReciprocal,
+    /// … and 1 over the next.
+    NextReciprocal,
     /// What the Hamiltonian is a function of in the place of velocities.
     Momentum(usize),
     /// What a round of a loop in emitted code is given.
@@ -65,6 +67,7 @@ impl Variable {
             Self::Momentum(i) => (17, i),
             Self::Term(k) => (18, k),
             Self::Given(k) => (19, k),
+            Self::NextReciprocal => (20, 0),
         };
         Symbol { family, index: index as u32 }
     }
@@ -86,6 +89,7 @@ impl Variable {
                 | Self::Term(_)
                 | Self::Order
                 | Self::OrderReciprocal
+                | Self::NextReciprocal
         )
     }
 
@@ -111,7 +115,8 @@ impl Variable {
             16 => Self::OrderReciprocal,
             17 => Self::Momentum(index),
             18 => Self::Term(index),
-            _ => Self::Given(index),
+            19 => Self::Given(index),
+            _ => Self::NextReciprocal,
         }
     }
 }

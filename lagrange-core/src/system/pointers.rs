@@ -119,13 +119,13 @@ macro_rules! forward {
                 fn series_right_hand_sides(
                     slopes: &Self::SeriesSlopes,
                     sums: &Self::Sums,
-                    order: &[Self::Scalar; 2],
+                    order: &[Self::Scalar; 3],
                     direction: &Direction<Self::Scalar, N>
                 ) -> (RightHandSides<Self::Scalar, N, M>, Self::SeriesTerms);
                 fn series_factors(
                     slopes: &Self::SeriesSlopes,
                     terms: &Self::SeriesTerms,
-                    order: &[Self::Scalar; 2],
+                    order: &[Self::Scalar; 3],
                     direction: &Direction<Self::Scalar, N>,
                     accelerations: &SVector<Self::Scalar, N>,
                     multipliers: &SVector<Self::Scalar, M>

@@ -53,13 +53,13 @@ pub trait TaylorSeries<const N: usize, const M: usize>: Lagrangian<N, M> {
     }
 
     /// What stands for h and γ where the coefficients of accelerations and multipliers are solved for, of an order that is
-    /// given with its reciprocal; `direction` has the coefficients of time, coordinates and velocities of that order. Beside
+    /// given with its reciprocal and that of the next; `direction` has the coefficients of time, coordinates and velocities of that order. Beside
     /// that what is known by then of the factors of the sums.
     fn series_right_hand_sides(
         &self,
         slopes: &Self::SeriesSlopes,
         sums: &Self::Sums,
-        order: &[Self::Scalar; 2],
+        order: &[Self::Scalar; 3],
         direction: &Direction<Self::Scalar, N>,
     ) -> (RightHandSides<Self::Scalar, N, M>, Self::SeriesTerms);
 
@@ -68,7 +68,7 @@ pub trait TaylorSeries<const N: usize, const M: usize>: Lagrangian<N, M> {
         &self,
         slopes: &Self::SeriesSlopes,
         terms: &Self::SeriesTerms,
-        order: &[Self::Scalar; 2],
+        order: &[Self::Scalar; 3],
         direction: &Direction<Self::Scalar, N>,
         accelerations: &SVector<Self::Scalar, N>,
         multipliers: &SVector<Self::Scalar, M>,

@@ -167,7 +167,7 @@ fn source(symbol: Symbol) -> Argument {
         Variable::Slope(_) => Argument::Slopes,
         Variable::Sum(_) => Argument::Sums,
         Variable::Term(_) => Argument::Terms,
-        Variable::Order | Variable::OrderReciprocal => Argument::Order,
+        Variable::Order | Variable::OrderReciprocal | Variable::NextReciprocal => Argument::Order,
     }
 }
 

@@ -106,7 +106,8 @@ impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
         }
         let (mut newest, mut ends, mut sums) = (*solution, Ends::new(), S::filled(T::constant(0.0)));
         for order in 1..=highest {
-            let numbers = [order as f64, 1.0 / order as f64].map(T::constant);
+            let (this, next) = (order as f64, (order + 1) as f64);
+            let numbers = [this, 1.0 / this, 1.0 / next].map(T::constant);
             let direction = self.advance(order, &newest);
             if order == highest {
                 break;

@@ -38,7 +38,8 @@ pub use polynomial::TaylorPolynomial;
 ///
 /// For smooth motions with errors below about 10⁻⁹, down to round-off, which is the default. The coefficients of accelerations
 /// and multipliers of all orders are solved for with the one matrix that the equations have at the start of the step, so that
-/// constraints cost nothing extra, and a chain as much as its length.
+/// constraints cost nothing extra, and a chain as much as its length. Constraints of second degree take the fewest sums: state a rod by
+/// the square of its length.
 ///
 /// The order follows from the tolerance, 18 for 10⁻⁹ and 29 for round-off; the length of a step from the last five
 /// coefficients, zeros passed over: from a symmetric start every fourth alone may be there. It is at most ten times that of the step

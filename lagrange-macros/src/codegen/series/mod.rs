@@ -2,20 +2,21 @@
 
 mod functions;
 mod recurrences;
+mod sides;
 mod supplied;
 
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::kernel::OPERATION_LIMIT;
-use super::operation::{Operation, Register};
+use super::operation::Register;
 use super::passes::Program;
 use super::shape::Shape;
 use super::{Emitter, Written, runtime};
 use crate::contract::{Method, Quantity, TAYLOR_SERIES};
 use crate::mechanics::Equations;
-use crate::symbolic::{Graph, Id};
-use recurrences::{Recurrences, Stage};
+use crate::symbolic::Graph;
+use recurrences::Recurrences;
 use supplied::CallOnSeries;
 
 /// The runtime computes so many sums side by side.
@@ -43,17 +44,10 @@ pub(super) struct Series {
 }
 
 impl Series {
-    /// Of dp/dt − ∂L/∂q − Q − Fᵀλ and F q̈ + γ; `None` where something in them has no Taylor series, or is too long.
+    /// `None` where something in the equations of motion has no Taylor series, or is too long.
     pub(super) fn new(graph: &Graph, equations: &Equations) -> Option<Self> {
-        let Equations { balance, constraint_acceleration, .. } = equations;
-        let roots: Vec<Id> = balance.iter().chain(constraint_acceleration).copied().collect();
-        let Program { schedule, results, .. } = Program::of(graph, &roots).without_zeros();
-        let (mut recurrences, results) = Recurrences::of(&schedule, &results, balance.len())?;
-        let mut rest: Vec<Register> =
-            results.into_iter().map(|result| recurrences.newest(result, Stage::Known)).collect();
-        for sum in &mut rest[..balance.len()] {
-            *sum = recurrences.schedule.push(Operation::Negate(*sum));
-        }
+        let mut recurrences = Recurrences::new(equations.balance.len());
+        let mut rest = recurrences.right_hand_sides(graph, equations)?;
         let (calls, arguments) = recurrences.calls();
         let sums = recurrences.sums.len().next_multiple_of(WIDTH);
         let (known, factors) = recurrences.factors(sums);

@@ -46,6 +46,8 @@ pub(super) enum Sum {
     Product(Quantity, Quantity),
     /// Σ j x_j y_{k−j}
     Weighted(Quantity, Quantity),
+    /// Σ x_j y_{k−j}/((j + 1)(k − j + 1)), of the means that these have had since order 0
+    Mean(Quantity, Quantity),
     /// No sum, but a place where an argument of a function that the user supplies is kept.
     Argument(Quantity),
     /// What such a function adds, by the place among the calls and that of the result.
@@ -59,6 +61,8 @@ pub(super) struct Recurrences {
     /// Which part of the newest coefficients is being made.
     stage: Stage,
     coordinates: usize,
+    /// Whether means are multiplied: see [`quadratic_constraints`](Self::quadratic_constraints).
+    pub(super) of_means: bool,
     pub(super) quantities: Vec<Coefficients>,
     pub(super) sums: IndexSet<Sum>,
     /// Values of roots, each with the place of a sum whose right factor it is.
@@ -70,13 +74,13 @@ pub(super) struct Recurrences {
 }
 
 impl Recurrences {
-    /// Of `results`, with so many coordinates; `None` where an operation has no Taylor series, or none that is known.
-    pub(super) fn of(
-        source: &Schedule,
-        results: &[Register],
-        coordinates: usize,
-    ) -> Option<(Self, Vec<Quantity>)> {
-        let mut recurrences = Self { coordinates, ..Self::default() };
+    /// Of a system with so many coordinates.
+    pub(super) fn new(coordinates: usize) -> Self {
+        Self { coordinates, ..Self::default() }
+    }
+
+    /// Adds `results`; `None` where an operation has no Taylor series, or none that is known.
+    pub(super) fn add_up(&mut self, source: &Schedule, results: &[Register]) -> Option<Vec<Quantity>> {
         let (uses, mut quantities) = (source.uses(results), FxHashMap::default());
         for (index, &operation) in source.operations.iter().enumerate().filter(|(index, _)| uses[*index] > 0)
         {
@@ -84,13 +88,13 @@ impl Recurrences {
                 Operation::Result { call, output } => {
                     let Call { function, derivatives, arguments } = source.calls[call as usize].clone();
                     let arguments = arguments.iter().map(|argument| quantities[argument]).collect();
-                    recurrences.result(Call { function, derivatives, arguments }, output)?
+                    self.result(Call { function, derivatives, arguments }, output)?
                 }
-                _ => recurrences.operation(operation.with_operands(|x| quantities[&x]))?,
+                _ => self.operation(operation.with_operands(|x| quantities[&x]))?,
             };
             quantities.insert(Register::at(index), quantity);
         }
-        Some((recurrences, results.iter().map(|result| quantities[result]).collect()))
+        Some(results.iter().map(|result| quantities[result]).collect())
     }
 
     /// A part of the newest coefficient; a zero where there is none.
@@ -108,14 +112,17 @@ impl Recurrences {
         let (mut known, zero) = (IndexSet::new(), self.schedule.constant(0.0));
         let mut terms = vec![zero; 2 * count];
         for (place, sum) in self.sums.clone().into_iter().enumerate() {
-            let (factors, is_weighted) = match sum {
-                Sum::Product(x, y) => ([Some(x), Some(y)], false),
-                Sum::Weighted(x, y) => ([Some(x), Some(y)], true),
-                Sum::Argument(x) => ([Some(x), None], false),
-                Sum::Value(..) => ([None; 2], false),
+            let factors = match sum {
+                Sum::Product(x, y) | Sum::Weighted(x, y) | Sum::Mean(x, y) => [Some(x), Some(y)],
+                Sum::Argument(x) => [Some(x), None],
+                Sum::Value(..) => [None; 2],
             };
             let [left, right] = factors.map(|factor| factor.and_then(|factor| self.term(factor, &mut known)));
-            let left = if is_weighted { self.times_order(left) } else { left };
+            let [left, right] = match sum {
+                Sum::Weighted(..) => [self.times_input(Variable::Order, left), right],
+                Sum::Mean(..) => [left, right].map(|x| self.times_input(Variable::NextReciprocal, x)),
+                _ => [left, right],
+            };
             (terms[place], terms[count + place]) = (left.unwrap_or(zero), right.unwrap_or(zero));
         }
         (known, terms)
@@ -235,7 +242,7 @@ impl Recurrences {
             [true, false] => self.moving(first, [y], |of, [y]| of.times(x0, y)),
             [false, true] => self.moving(first, [x], |of, [x]| of.times(y0, x)),
             [false, false] => {
-                let sum = self.product_sum(x, y);
+                let sum = if self.of_means { self.mean_sum(x, y) } else { self.product_sum(x, y) };
                 self.moving(first, [x, y], |of, [x, y]| {
                     let (left, right) = (of.times(x0, y), of.times(y0, x));
                     let ends = of.sum(left, right);
@@ -321,9 +328,9 @@ impl Recurrences {
         self.schedule.push(Operation::Input(Variable::Sum(place).symbol()))
     }
 
-    fn times_order(&mut self, x: Option<Register>) -> Option<Register> {
-        let order = self.schedule.push(Operation::Input(Variable::Order.symbol()));
-        self.times(order, x)
+    fn times_input(&mut self, input: Variable, x: Option<Register>) -> Option<Register> {
+        let input = self.schedule.push(Operation::Input(input.symbol()));
+        self.times(input, x)
     }
 
     pub(super) fn reciprocal(&mut self, x: Register) -> Register {

@@ -502,7 +502,7 @@ const _: () = {
             &self,
             slopes: &Self::SeriesSlopes,
             sums: &Self::Sums,
-            order: &[f64; 2],
+            order: &[f64; 3],
             direction: &__lagrange::Direction<f64, 1usize>,
         ) -> (
             (
@@ -545,7 +545,7 @@ const _: () = {
             &self,
             slopes: &Self::SeriesSlopes,
             terms: &Self::SeriesTerms,
-            order: &[f64; 2],
+            order: &[f64; 3],
             direction: &__lagrange::Direction<f64, 1usize>,
             accelerations: &__lagrange::nalgebra::SVector<f64, 1usize>,
             multipliers: &__lagrange::nalgebra::SVector<f64, 0usize>,
