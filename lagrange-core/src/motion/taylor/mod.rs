@@ -44,7 +44,8 @@ pub use polynomial::TaylorPolynomial;
 /// The order follows from the tolerance, 18 for 10⁻⁹ and 29 for round-off; the length of a step from the last five
 /// coefficients, zeros passed over: from a symmetric start every fourth alone may be there. It is at most ten times that of the step
 /// before, and refused where the accelerations of the series at its end are not those of the equations. Rounding errors of the
-/// states are carried along (compensated sums); each state is projected onto the constraints. Between its ends a step is the
+/// states are carried along (compensated sums), and what they leave of the constraints' equations is solved for once more; each state is
+/// projected onto the constraints. Between its ends a step is the
 /// series itself.
 ///
 /// Where constraints become dependent at one pose alone, a step leads across it, summed up to the orders that are not yet rounding
