@@ -1,6 +1,7 @@
 //! The recurrences of elementary functions, from the differential equations that they solve.
 
-use super::recurrences::{Quantity, Recurrences, Sum};
+use super::recurrences::{Quantity, Recurrences};
+use super::sums::Sum;
 use crate::codegen::operation::{Operation, Register};
 use crate::symbolic::Function;
 

@@ -3,6 +3,7 @@
 mod functions;
 mod recurrences;
 mod sides;
+mod sums;
 mod supplied;
 
 use proc_macro2::TokenStream;

@@ -9,6 +9,7 @@
 use indexmap::IndexSet;
 use rustc_hash::FxHashMap;
 
+use super::sums::Sum;
 use crate::codegen::operation::{Call, Operation, Register};
 use crate::codegen::schedule::Schedule;
 use crate::symbolic::{Function, Symbol};
@@ -39,21 +40,6 @@ pub(super) enum Stage {
 
 pub(super) const STAGES: [Stage; 2] = [Stage::Known, Stage::Added];
 
-/// What a sum is taken of, with j from 1 to k − 1.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(super) enum Sum {
-    /// Σ x_j y_{k−j}
-    Product(Quantity, Quantity),
-    /// Σ j x_j y_{k−j}
-    Weighted(Quantity, Quantity),
-    /// Σ x_j y_{k−j}/((j + 1)(k − j + 1)), of the means that these have had since order 0
-    Mean(Quantity, Quantity),
-    /// No sum, but a place where an argument of a function that the user supplies is kept.
-    Argument(Quantity),
-    /// What such a function adds, by the place among the calls and that of the result.
-    Value(usize, u32),
-}
-
 /// The schedule of an order, with that of order 0 in it.
 #[derive(Default)]
 pub(super) struct Recurrences {
@@ -61,7 +47,7 @@ pub(super) struct Recurrences {
     /// Which part of the newest coefficients is being made.
     stage: Stage,
     coordinates: usize,
-    /// Whether means are multiplied: see [`quadratic_constraints`](Self::quadratic_constraints).
+    /// Whether velocities stand for their means since order 0, of which they are k + 1 times the newest coefficients.
     pub(super) of_means: bool,
     pub(super) quantities: Vec<Coefficients>,
     pub(super) sums: IndexSet<Sum>,
@@ -104,41 +90,6 @@ impl Recurrences {
 
     pub(super) fn part(&self, of: Quantity, stage: Stage) -> Option<Register> {
         self.quantities[of.0].newest.and_then(|newest| newest[stage as usize])
-    }
-
-    /// What has to be computed of the factors of the sums before the accelerations and multipliers of an order, and by this and
-    /// them the newest terms, those of left factors first, filled up with zeros to so many of either.
-    pub(super) fn factors(&mut self, count: usize) -> (IndexSet<Register>, Vec<Register>) {
-        let (mut known, zero) = (IndexSet::new(), self.schedule.constant(0.0));
-        let mut terms = vec![zero; 2 * count];
-        for (place, sum) in self.sums.clone().into_iter().enumerate() {
-            let factors = match sum {
-                Sum::Product(x, y) | Sum::Weighted(x, y) | Sum::Mean(x, y) => [Some(x), Some(y)],
-                Sum::Argument(x) => [Some(x), None],
-                Sum::Value(..) => [None; 2],
-            };
-            let [left, right] = factors.map(|factor| factor.and_then(|factor| self.term(factor, &mut known)));
-            let [left, right] = match sum {
-                Sum::Weighted(..) => [self.times_input(Variable::Order, left), right],
-                Sum::Mean(..) => [left, right].map(|x| self.times_input(Variable::NextReciprocal, x)),
-                _ => [left, right],
-            };
-            (terms[place], terms[count + place]) = (left.unwrap_or(zero), right.unwrap_or(zero));
-        }
-        (known, terms)
-    }
-
-    /// The newest coefficient, by what is known of it; what is given with its order is not computed.
-    fn term(&mut self, of: Quantity, known: &mut IndexSet<Register>) -> Option<Register> {
-        let first = self.part(of, Stage::Known).map(|part| match self.schedule.operations[part.index()] {
-            Operation::Input(symbol) if !matches!(Variable::of(symbol), Variable::Sum(_)) => part,
-            _ => {
-                let (place, _) = known.insert_full(part);
-                self.schedule.push(Operation::Input(Variable::Term(place).symbol()))
-            }
-        });
-        let added = self.part(of, Stage::Added);
-        self.sum(first, added)
     }
 
     fn operation(&mut self, operation: Operation<Quantity>) -> Option<Quantity> {
@@ -242,7 +193,7 @@ impl Recurrences {
             [true, false] => self.moving(first, [y], |of, [y]| of.times(x0, y)),
             [false, true] => self.moving(first, [x], |of, [x]| of.times(y0, x)),
             [false, false] => {
-                let sum = if self.of_means { self.mean_sum(x, y) } else { self.product_sum(x, y) };
+                let sum = self.product_sum(x, y);
                 self.moving(first, [x, y], |of, [x, y]| {
                     let (left, right) = (of.times(x0, y), of.times(y0, x));
                     let ends = of.sum(left, right);
@@ -293,12 +244,6 @@ impl Recurrences {
         })
     }
 
-    /// Notes a root, whose series goes on below zero as it does not: that of √x² is ±x.
-    pub(super) fn watch(&mut self, sum: Sum, first: Register) {
-        let (place, _) = self.sums.insert_full(sum);
-        self.roots.push((place, first));
-    }
-
     /// A quantity by a recurrence that it occurs in itself: known by its place before it is by its coefficients.
     pub(super) fn defined(
         &mut self,
@@ -309,28 +254,6 @@ impl Recurrences {
         let made = recurrence(self, quantity);
         self.quantities[quantity.0] = self.quantities[made.0];
         quantity
-    }
-
-    pub(super) fn product_sum(&mut self, x: Quantity, y: Quantity) -> Register {
-        self.place(Sum::Product(x.min(y), x.max(y)))
-    }
-
-    /// Σ j x_j y_{k−j}/k
-    pub(super) fn weighted_sum(&mut self, x: Quantity, y: Quantity) -> Register {
-        let sum = self.place(Sum::Weighted(x, y));
-        let reciprocal = self.schedule.push(Operation::Input(Variable::OrderReciprocal.symbol()));
-        self.schedule.push(Operation::Multiply(sum, reciprocal))
-    }
-
-    /// A sum, as the runtime gives it.
-    pub(super) fn place(&mut self, sum: Sum) -> Register {
-        let (place, _) = self.sums.insert_full(sum);
-        self.schedule.push(Operation::Input(Variable::Sum(place).symbol()))
-    }
-
-    fn times_input(&mut self, input: Variable, x: Option<Register>) -> Option<Register> {
-        let input = self.schedule.push(Operation::Input(input.symbol()));
-        self.times(input, x)
     }
 
     pub(super) fn reciprocal(&mut self, x: Register) -> Register {

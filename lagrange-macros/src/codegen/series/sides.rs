@@ -7,7 +7,7 @@
 //! a function of velocities alone. So d²Φ/dt² has the coefficients F₀ q̈_k + (k + 1) (k + 2)/2 γ(v̄)_k, where those of v̄ are
 //! v_k/(k + 1): one sum for each square in Φ, where F q̈ + γ has two.
 
-use super::recurrences::{Quantity, Recurrences, Stage, Sum};
+use super::recurrences::{Recurrences, Stage};
 use crate::codegen::operation::{Operation, Register};
 use crate::codegen::passes::Program;
 use crate::codegen::schedule::Schedule;
@@ -43,7 +43,7 @@ impl Recurrences {
         Some(rows.into_iter().map(|row| self.newest(row, Stage::Known)).collect())
     }
 
-    /// (k + 1) (k + 2)/2 γ(v̄)_k: the rows, as [products of means](Self::mean_sum), are (k + 1) γ(v̄)_k.
+    /// (k + 1) (k + 2)/2 γ(v̄)_k; the rows are k + 1 times γ(v̄)_k.
     fn ahead(&mut self, graph: &Graph, bias: &[Id]) -> Option<Vec<Register>> {
         self.of_means = true;
         let rows = self.rows(graph, bias)?;
@@ -53,20 +53,14 @@ impl Recurrences {
         Some(rows.into_iter().map(|row| self.schedule.push(Operation::Multiply(factor, row))).collect())
     }
 
-    /// Of means the newest coefficients are meant (k + 1) times, which is what velocities have.
-    pub(super) fn mean_sum(&mut self, x: Quantity, y: Quantity) -> Register {
-        let [next, sum] = [self.order_plus(1.0), self.place(Sum::Mean(x.min(y), x.max(y)))];
-        self.schedule.push(Operation::Multiply(next, sum))
-    }
-
-    fn order_plus(&mut self, more: f64) -> Register {
+    pub(super) fn order_plus(&mut self, more: f64) -> Register {
         let [order, more] = [Operation::Input(Variable::Order.symbol()), Operation::Constant(more.to_bits())]
             .map(|x| self.schedule.push(x));
         self.schedule.push(Operation::Add(order, more))
     }
 }
 
-/// Whether this γ is made of velocities alone, and of degree two in them: then Φ is so in coordinates and time.
+/// Whether this γ is made of velocities alone, and of second degree in them at most: then Φ is so in coordinates and time.
 fn is_quadratic(graph: &Graph, bias: Id) -> bool {
     let schedule = Schedule::new(graph, &[bias]);
     let mut degrees: Vec<Option<u32>> = Vec::with_capacity(schedule.operations.len());

@@ -6,7 +6,8 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::Series;
-use super::recurrences::{Quantity, Recurrences, STAGES, Stage, Sum};
+use super::recurrences::{Quantity, Recurrences, STAGES, Stage};
+use super::sums::Sum;
 use crate::codegen::Emitter;
 use crate::codegen::bounds::{FUNCTION_ORDER, call_of, orders_of};
 use crate::codegen::operation::{Call, Operation, Register};
