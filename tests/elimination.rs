@@ -1,7 +1,7 @@
 //! The elimination that is emitted: its residuals, its signs and its limits.
 
 use lagrange_core::prelude::*;
-use lagrange_core::{Lanes, Scalar};
+use lagrange_core::{FourLanes, Scalar};
 
 /// Twenty rods in a row, in Cartesian coordinates.
 #[derive(Lagrangian)]
@@ -235,11 +235,11 @@ fn what_the_elimination_cannot_vouch_for_is_no_number() {
     assert!(spoilt.accelerations.iter().chain(&spoilt.multipliers).all(|x| x.is_nan()), "{spoilt:?}");
 
     let lanes = Coupled {
-        a: Lanes::constant(1.0),
-        b: Lanes::constant(1.0),
-        c: Lanes::from([0.5, 1.0, f64::NAN, -0.9]),
+        a: FourLanes::constant(1.0),
+        b: FourLanes::constant(1.0),
+        c: FourLanes::from([0.5, 1.0, f64::NAN, -0.9]),
     };
-    let state = State::at_rest([Lanes::constant(0.0); 2]);
+    let state = State::at_rest([FourLanes::constant(0.0); 2]);
     for x in &lanes.accelerations_unchecked(&state).accelerations {
         assert_eq!(x.to_array().map(f64::is_finite), [true, false, false, true]);
     }

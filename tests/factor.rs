@@ -3,7 +3,7 @@
 use std::cell::Cell;
 
 use lagrange_core::prelude::*;
-use lagrange_core::{ConstraintKind, Facts, Hamiltonian, Lagrangian, Lanes, Over, Scalar, Solution};
+use lagrange_core::{ConstraintKind, Facts, FourLanes, Hamiltonian, Lagrangian, Over, Scalar, Solution};
 use nalgebra::{SMatrix, SVector};
 use num_dual::Dual64;
 
@@ -139,15 +139,16 @@ fn every_scalar_is_solved() {
     let solve = |state: &State<f64, 12>| rods.solve_with(&rods.factor(state), &h, &gamma);
     let solved = states.each_ref().map(solve);
 
-    let lane = |x: [f64; 4]| Lanes::from(x);
+    let lane = |x: [f64; 4]| FourLanes::from(x);
     let packed = State {
         t: lane(states.map(|state| state.t)),
         q: SVector::from_fn(|i, _| lane(states.map(|state| state.q[i]))),
         v: SVector::from_fn(|i, _| lane(states.map(|state| state.v[i]))),
     };
-    let wide = Rods { m: Lanes::constant(1.3), l: Lanes::constant(0.7), g: Lanes::constant(9.81) };
+    let wide =
+        Rods { m: FourLanes::constant(1.3), l: FourLanes::constant(0.7), g: FourLanes::constant(9.81) };
     let of_lanes =
-        wide.solve_with(&wide.factor(&packed), &h.map(Lanes::constant), &gamma.map(Lanes::constant));
+        wide.solve_with(&wide.factor(&packed), &h.map(FourLanes::constant), &gamma.map(FourLanes::constant));
     for i in 0..12 {
         let lanes = of_lanes.accelerations[i].to_array();
         for (lane, solved) in lanes.iter().zip(&solved) {

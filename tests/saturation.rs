@@ -2,7 +2,7 @@
 
 use approx::assert_relative_eq;
 use lagrange_core::prelude::*;
-use lagrange_core::{Dual, Lanes};
+use lagrange_core::{Dual, FourLanes};
 
 /// A mass held by a motor of limited force, on a string that only pulls.
 #[derive(Lagrangian)]
@@ -74,9 +74,9 @@ fn the_slope_is_that_of_the_side() {
 
 #[test]
 fn lanes_and_dual_numbers_keep_to_it() {
-    let wide = |x: f64| Lanes::constant(x);
+    let wide = |x: f64| FourLanes::constant(x);
     let system = Held { m: wide(2.0), k: wide(10.0), c: wide(0.5), limit: wide(3.0), slack: wide(0.25) };
-    let x = Lanes::from([5.0, -5.0, 0.1, 0.0]);
+    let x = FourLanes::from([5.0, -5.0, 0.1, 0.0]);
     let state = State::new([x, wide(0.0)], [wide(0.0); 2]);
     let solution = system.accelerations_unchecked(&state);
     assert_eq!(solution.accelerations[0].to_array(), [-1.5, 1.5, -0.5, 0.0]);

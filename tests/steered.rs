@@ -367,16 +367,16 @@ fn the_classical_method_keeps_to_constraints_and_drifts_without_projection() {
 
 #[test]
 fn the_classical_method_runs_on_lanes_and_carries_derivatives() {
-    let omegas = [0.5, 1.0, 1.5, 2.0];
+    let lanes: [f64; Lanes::COUNT] = std::array::from_fn(|lane| (lane + 1) as f64);
+    // Each lane has a step of its own.
+    let (omegas, steps) = (lanes.map(|k| 0.5 * k), lanes.map(|k| 0.01 * k));
     let mut lanes = Spring { omega: omegas[0] }.pack();
     for (lane, omega) in omegas.into_iter().enumerate() {
         assert!(Spring { omega }.place(&mut lanes, lane));
     }
-    let one = |x: f64| Lanes::from([x; 4]);
+    let one = Lanes::constant;
     let mut state = State { t: one(0.0), q: [one(1.0)].into(), v: [one(0.0)].into() };
     let mut alone = omegas.map(|_| State::at_rest([1.0]));
-    // Each lane has a step of its own.
-    let steps = [0.01, 0.02, 0.03, 0.04];
     // ∂x/∂ω at ω = 1, through the steps.
     let spring = Spring { omega: Dual { value: 1.0_f64, slope: 1.0 } };
     let mut dual = State::at_rest([Dual::constant(1.0)]);
@@ -418,11 +418,11 @@ fn the_classical_method_solves_in_general_where_it_can() {
 fn the_classical_method_is_not_a_number_where_nobody_can_vouch() {
     let mut lanes = Cart { m: 1.0, u: 0.0, c: 0.0 }.pack();
     assert!(Cart { m: 0.0, u: 0.0, c: 0.0 }.place(&mut lanes, 2));
-    let one = |x: f64| Lanes::from([x; 4]);
+    let one = Lanes::constant;
     let state = State { t: one(0.0), q: [one(1.0)].into(), v: [one(1.0)].into() };
     let next = runge_kutta_step(&lanes, &state, one(0.1));
     let (q, v) = (next.q[0].to_array(), next.v[0].to_array());
-    for lane in 0..4 {
+    for lane in 0..Lanes::COUNT {
         assert_eq!((q[lane].is_nan(), v[lane].is_nan()), (lane == 2, lane == 2));
     }
     let massless = Cart { m: 0.0_f64, u: 1.0, c: 0.0 };

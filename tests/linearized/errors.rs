@@ -1,6 +1,6 @@
 //! What is wrong is said, with the names at fault.
 
-use lagrange_core::{Direction, Entry, Lanes, Row, StateDerivatives};
+use lagrange_core::{Direction, Entry, FourLanes, Row, StateDerivatives};
 use lagrange_core::{Stability, prelude::*};
 
 /// A pendulum on a rod whose length is said again to be an input.
@@ -122,8 +122,8 @@ fn a_derivative_that_is_not_finite_is_named() {
     // What was not asked for does no harm, nor what lies in another lane.
     assert_eq!(Root.jacobian_by(&at_the_root, &["y", "y_dot"]).unwrap().accelerations.as_slice(), [0.0; 4]);
     let slopes = Root.residual_slopes(&at_the_root, &Root.solve(&at_the_root).unwrap());
-    let mut both = Direction::<Lanes, 2>::zero();
-    (both.q[0], both.q[1]) = (Lanes::from([1.0, 0.0, 1.0, 0.0]), Lanes::from([0.0, 1.0, 1.0, 0.0]));
+    let mut both = Direction::<FourLanes, 2>::zero();
+    (both.q[0], both.q[1]) = (FourLanes::from([1.0, 0.0, 1.0, 0.0]), FourLanes::from([0.0, 1.0, 1.0, 0.0]));
     let change = Root.residual_change_with(&slopes, &both).motion[1].to_array();
     assert_eq!(change.map(f64::is_finite), [false, true, false, true]);
     let off = State::at_rest([f64::NAN, 1.0]);

@@ -28,7 +28,7 @@ use crate::number::{Dual, Scalar, Wide};
 /// let mut packed: Spring<Lanes> = Spring { m: 1.0, k: 4.0 }.pack();
 /// assert!(Spring { m: 2.0, k: 3.0 }.place(&mut packed, 3));
 /// let accelerations = packed.accelerations_unchecked(&State::at_rest([Lanes::constant(2.0)])).accelerations;
-/// assert_eq!(accelerations[0].to_array(), [-8.0, -8.0, -8.0, -3.0]);
+/// assert_eq!(accelerations[0].to_array()[2..4], [-8.0, -3.0]);
 /// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` cannot be computed with other numbers, which SIMD lanes and derivatives of Taylor series take",
