@@ -52,7 +52,7 @@ const CALLS: [(&str, &str); 29] = [
         "the total time derivative is `der(x)`, a velocity `x_dot`",
     ),
     ("Rational Fraction frac", "fractions are exact as they are: write `1/2`"),
-    ("Vector vec", "a vector is written `[a, b, c]`"),
+    ("Vector vec vector vec2 vec3 Vec2 Vec3 Vector2 Vector3", "a vector is written `[a, b, c]`"),
     ("Matrix mat matrix", "a matrix is written by its rows, `[[a, b], [c, d]]`"),
     ("eye Identity unit_matrix", "the matrix that changes nothing is `identity(3)`"),
     ("transp Transpose tr", "the transpose is `transpose(A)`, the sum of the diagonal `trace(A)`"),
