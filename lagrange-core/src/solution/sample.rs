@@ -2,9 +2,10 @@
 
 #[cfg(feature = "alloc")]
 use alloc::vec::Vec;
-use core::fmt::{self, Debug, Formatter};
+use core::fmt::{self, Debug, Display, Formatter};
 
 use crate::error::Error;
+use crate::names::Entry;
 use crate::number::Real;
 use crate::solution::solve::solve;
 #[cfg(feature = "alloc")]
@@ -142,6 +143,22 @@ impl<S: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<S
 #[cfg(feature = "alloc")]
 fn coordinate<L: Lagrangian<N, M>, const N: usize, const M: usize>(name: &str) -> Result<usize, Error> {
     index::<L, N, M>(&L::COORDINATES, "coordinate", name)
+}
+
+/// `t = 1.0: theta = 0.1, theta_dot = -2e-17`, each number as the format says: `{sample:.3}`.
+impl<S: Lagrangian<N, M>, const N: usize, const M: usize> Display for Sample<S, N, M> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let State { t, q, v } = &self.state;
+        write!(f, "{} = ", Entry::Time)?;
+        Debug::fmt(t, f)?;
+        let names =
+            S::COORDINATES.map(Entry::Coordinate).into_iter().chain(S::COORDINATES.map(Entry::Velocity));
+        for (i, (name, number)) in names.zip(q.iter().chain(v)).enumerate() {
+            write!(f, "{} {name} = ", if i == 0 { ':' } else { ',' })?;
+            Debug::fmt(number, f)?;
+        }
+        Ok(())
+    }
 }
 
 impl<S: Lagrangian<N, M>, const N: usize, const M: usize> Debug for Sample<S, N, M> {

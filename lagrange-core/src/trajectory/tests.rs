@@ -19,6 +19,15 @@ fn a_state_is_set_up_by_names() {
 }
 
 #[test]
+fn a_sample_is_written_with_its_names() {
+    let system = free::<4>(|_| [0.0; 4]);
+    let sample = system.sample(State::new([0.5, 2e-17, -1.0, 2.0], [1.0, 0.0, 0.25, 3.0]).at_time(1.5));
+    let expected = "t = 1.5: x = 0.5, y = 2e-17, z = -1.0, w[0] = 2.0, x_dot = 1.0, y_dot = 0.0, z_dot = 0.25, w_dot[0] = 3.0";
+    assert_eq!(sample.to_string(), expected);
+    assert!(format!("{sample:.3}").starts_with("t = 1.500: x = 0.500"));
+}
+
+#[test]
 fn unknown_names_and_times_are_refused() {
     let system = oscillator();
     let path = system.integrate(State::new([1.0], [0.0]), 1.0, Dop853::default()).unwrap();
