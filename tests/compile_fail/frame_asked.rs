@@ -16,6 +16,7 @@ use lagrange_core::prelude::*;
 #[define(s9 = velocity(a, [1, 0]))]
 #[define(s13 = kinetic(a, m, [1, 0, 0], 3))]
 #[define(s14 = kinetic(a))]
+#[define(s15 = kinetic(a, m, skew([1, 2, 3])))]
 #[define(s16 = express(velocity(a), 3))]
 #[define(s18 = der(x, a))]
 #[define(s20 = velocity(fxied))]

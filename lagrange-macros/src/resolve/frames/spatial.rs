@@ -95,7 +95,11 @@ impl Lowering<'_> {
     /// A vector of three as one in these axes, if it is in no others.
     fn along(&mut self, axes: Axes, value: &Value, place: Place) -> Option<Value> {
         let Some(components) = self.components(value) else {
-            return self.report(place, format!("a vector of 3 belongs here, but this is {}", value.shape()));
+            let inertia = value.as_map_of_space().is_some();
+            let hint =
+                if inertia { ": an inertia comes after the centre, `kinetic(body, m, c, I)`" } else { "" };
+            let message = format!("a vector of 3 belongs here, but this is {}{hint}", value.shape());
+            return self.report(place, message);
         };
         match value.axes() {
             Some(other) if *other != axes => {
