@@ -69,7 +69,9 @@ impl<T: Scalar> From<[T; 4]> for Four<T> {
         if let Some(numbers) = same::<_, [f64; 4]>(numbers) {
             return Self { together: numbers.into(), ..Self::zero() };
         }
-        Self { apart: numbers, ..Self::zero() }
+        let mut four = Self::zero();
+        four.apart = numbers;
+        four
     }
 }
 

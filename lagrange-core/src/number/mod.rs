@@ -4,6 +4,7 @@ mod array;
 mod dual;
 #[cfg(all(feature = "std", target_feature = "avx512f"))]
 mod eight;
+#[cfg(feature = "alloc")]
 mod four;
 #[cfg(feature = "std")]
 mod lanes;
@@ -19,6 +20,7 @@ mod sines;
 pub(crate) use array::entries;
 pub use array::{Filled, matrix, vector};
 pub use dual::Dual;
+#[cfg(feature = "alloc")]
 pub(crate) use four::Four;
 #[cfg(feature = "std")]
 pub use lanes::{FourLanes, Lanes};

@@ -5,12 +5,12 @@ use core::cmp::Ordering;
 use super::scalar::{Real, Scalar};
 
 /// The larger of the two; where one is NaN, `a`.
-pub(crate) fn larger<T: Real>(a: T, b: T) -> T {
+pub(crate) fn larger<T: PartialOrd>(a: T, b: T) -> T {
     if b > a { b } else { a }
 }
 
 /// The smaller of the two; where one is NaN, `a`.
-pub(crate) fn smaller<T: Real>(a: T, b: T) -> T {
+pub(crate) fn smaller<T: PartialOrd>(a: T, b: T) -> T {
     if b < a { b } else { a }
 }
 

@@ -33,7 +33,7 @@ impl Taylor {
 
     /// The order with which the first term that is left out, by the length of a [step](STEP), is that part of the tolerance.
     pub(super) fn order<T: Real>(&self) -> usize {
-        let order = (LEFT_OUT - ln(self.tolerance::<T>())) / STEP;
+        let order = (LEFT_OUT - Scalar::ln(T::constant(self.tolerance::<T>())).to_f64()) / STEP;
         (larger(order, LAST as f64) as usize).min(ROOM - 2)
     }
 
@@ -104,10 +104,6 @@ impl<T: Scalar> Last<T> {
         let sizes = from_fn(|i| series.size(order + 1 - LAST + i, &scales));
         Self { order, unit: series.unit, sizes }
     }
-}
-
-fn ln(x: f64) -> f64 {
-    <f64 as Scalar>::ln(x)
 }
 
 /// The logarithm to the base 2 of the part of the radius of convergence that is taken (Jorba and Zou, (3-12)).

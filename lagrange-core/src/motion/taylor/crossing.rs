@@ -72,9 +72,8 @@ impl Taylor {
         let (order, reach) = (LAST..series.order())
             .map(|order| (order, reach_of_sum(order)))
             .fold((0, f64::NEG_INFINITY), |best, one| if one.1 > best.1 { one } else { best });
-        let length = |reach: f64| {
-            Scalar::abs(series.unit) * T::constant(<f64 as Scalar>::exp(core::f64::consts::LN_2 * reach))
-        };
+        let length =
+            |reach: f64| Scalar::abs(series.unit) * Scalar::exp(T::constant(core::f64::consts::LN_2 * reach));
         let [by_all, length] = [reach_of_sum(series.order()), reach].map(length);
         let is_rounding = length > by_all * T::constant(ROUNDING) && length.is_finite();
         let is_worth_it = is_rounding && length > planned * T::constant(WORTH);
