@@ -57,7 +57,7 @@ fn evaluate<L: Lagrangian<2, 0>>(system: &L, states: &[State<L::Scalar, 2>]) {
     }
 }
 
-/// Eight evaluations, one after the other and as twice four.
+/// Eight evaluations, one after the other and on lanes.
 fn accelerations() {
     const REPEATS: usize = 20_000;
     let numbers = random(32);
@@ -65,13 +65,14 @@ fn accelerations() {
         let at = |entry: usize| numbers[4 * k + entry];
         State::new([at(0), at(1)], [at(2), at(3)])
     });
-    let four = |half: usize| {
+    let side_by_side = |states: &[State<f64, 2>]| {
         let entry = |pick: &dyn Fn(&State<f64, 2>) -> f64| {
-            Lanes::from(std::array::from_fn(|lane| pick(&states[4 * half + lane])))
+            Lanes::from(std::array::from_fn(|lane| pick(&states[lane])))
         };
         State::new([entry(&|s| s.q[0]), entry(&|s| s.q[1])], [entry(&|s| s.v[0]), entry(&|s| s.v[1])])
     };
-    let (packed, packed_states) = (PENDULUM.pack(), [four(0), four(1)]);
+    let packed_states: Vec<_> = states.chunks_exact(Lanes::COUNT).map(side_by_side).collect();
+    let packed = PENDULUM.pack();
     let [scalar, lanes] = in_turn(
         200,
         || (0..REPEATS).for_each(|_| evaluate(&PENDULUM, &states)),
