@@ -8,30 +8,25 @@ mod expansion;
 mod lanes;
 mod polynomial;
 mod roots;
+mod step;
 mod sums;
 mod variations;
 
-use core::array::from_fn;
 use core::fmt;
-
-use nalgebra::ComplexField;
 
 use super::method::clock::Clock;
 use super::method::{Limits, Method, Step, check_settings};
 use crate::ending::Ending;
 use crate::error::Error;
 use crate::names::Entry;
-use crate::number::{Filled, Real, Scalar, vector};
-use crate::solution::consistent::{BOTH, project_by};
-use crate::solution::near::ONCE;
-use crate::solution::solve::{first_row, name};
+use crate::number::{Real, Scalar, vector};
+use crate::solution::solve::name;
 use crate::statistics::Statistics;
 use crate::system::{State, TaylorSeries};
-use control::Last;
 use crossing::Crossing;
-use defect::Tried;
 use expansion::{Expansion, Solved};
 pub use polynomial::TaylorPolynomial;
+use step::Attempt;
 
 /// Taylor's method: each step is a power series of the motion about its start, whose coefficients come from recurrences
 /// that the derive has found (Jorba and Zou, *Experimental Mathematics* 14 (2005) 99–117).
@@ -44,22 +39,22 @@ pub use polynomial::TaylorPolynomial;
 /// The order follows from the tolerance, 18 for 10⁻⁹ and 29 for round-off; the length of a step from the last five
 /// coefficients, zeros passed over: from a symmetric start every fourth alone may be there. It is at most ten times that of the step
 /// before, and refused where the accelerations of the series at its end are not those of the equations. Rounding errors of the
-/// states are carried along (compensated sums), and what they leave of the constraints' equations is solved for once more; each state is
-/// projected onto the constraints. Between its ends a step is the
-/// series itself.
+/// states are carried along (compensated sums); accelerations on constraints are refined once, by the residual of the constraints'
+/// equations; each state is projected onto the constraints. Between its ends a step is the series itself.
 ///
-/// Where constraints become dependent at one pose alone, a step leads across it, summed up to the orders that are not yet rounding
-/// errors, to about 10⁻¹²; where none does, the motion ends before the pose.
+/// Where constraints become dependent at one pose alone, a step leads across it by a series that is cut off before the orders that
+/// consist of rounding errors, to about 10⁻¹² as a rule; where none does, the motion ends before the pose.
 ///
-/// A root that comes down to zero has a kink there, as √x² has, which its series does not know. Steps close in on it until one
-/// across it makes no difference, some thirty before and after; where the kink is a jump of a force, which no step is short
-/// enough for, the motion ends with that time.
+/// A root that comes down to zero has a kink there, as √x² has, which its series does not know. Steps shrink towards it, about
+/// thirty on each side, until a step across it changes nothing. Where a force jumps there, no step is short enough, and the motion
+/// ends at that time.
 ///
 /// A system with `abs`, `min`, `max` or `clamp` in its equations has no [`TaylorSeries`], nor one with a function that is not known over
-/// every scalar, and the compiler says so. A [`Function`](crate::Function) is evaluated on a [`PowerSeries`](crate::PowerSeries) at every order; of
-/// kinks inside of it each step is aware at its quarters only, to 10⁻¹⁰ of the velocities. Parameters may change between steps. Nothing is allocated in a step.
+/// every scalar or whose third derivatives the equations take, and the compiler says so. A [`Function`](crate::Function) is evaluated on a [`PowerSeries`](crate::PowerSeries) at every order; of
+/// kinks inside of it each step is aware at its quarters and its end only, to 10⁻¹⁰ of the velocities or 10⁴ tolerances, whichever is
+/// more. Parameters may change between steps. Nothing is allocated in a step.
 /// In an ensemble four members, or eight with AVX-512, are expanded at once on SIMD lanes, each with its own step: `Ensemble::integrate_on_lanes`.
-/// Derivatives of a motion come from the recurrences over dual numbers, to the same error:
+/// Derivatives of a motion come from the recurrences over dual numbers, to ten times the tolerance:
 /// [`integrate_sensitivities`](crate::Linearized::integrate_sensitivities).
 ///
 /// ```
@@ -264,129 +259,4 @@ where
         (memory.solved, memory.rest, memory.is_expanded) = (solved, rest, true);
         self.can_be_shorter(memory, h)
     }
-}
-
-impl<S: Filled<T>, T: Real, const N: usize, const M: usize> Memory<S, T, N, M> {
-    /// Plans another step after one of this length was refused.
-    fn shorten(&mut self, h: T) {
-        let next = self.crossing.take().map(Crossing::longer);
-        self.planned = match next {
-            Some(Ok(crossing)) => {
-                self.crossing = Some(crossing);
-                crossing.length
-            }
-            Some(Err(planned)) => {
-                self.series.summed = self.series.order();
-                planned
-            }
-            None => Scalar::abs(h) * T::constant(0.5),
-        };
-    }
-}
-
-/// What became of a step.
-enum Attempt<T, const N: usize> {
-    Reached(State<T, N>),
-    /// The velocity of this coordinate is off the most.
-    Inaccurate(usize),
-}
-
-impl Taylor {
-    /// Plans another step after one of this length was refused, if a time is that near.
-    fn can_be_shorter<S: Filled<T>, T: Real, const N: usize, const M: usize>(
-        &self,
-        memory: &mut Memory<S, T, N, M>,
-        h: T,
-    ) -> bool {
-        memory.shorten(h);
-        memory.planned = self.limited(memory.planned);
-        memory.clock.advances_by(memory.planned)
-    }
-
-    /// Expands the motion about the state, and chooses the length of the step, unless that is done.
-    fn expand<L: TaylorSeries<N, M, Scalar: Real>, const N: usize, const M: usize>(
-        &self,
-        system: &L,
-        memory: &mut Memory<L::Sums, L::Scalar, N, M>,
-        statistics: &mut Statistics,
-    ) -> Result<(), Error> {
-        if memory.is_expanded {
-            return Ok(());
-        }
-        let Memory { clock, state, solved, series, planned, .. } = memory;
-        let unit = clock.directed(self.unit(*planned, state, solved));
-        series.about(system, state, solved, unit)?;
-        statistics.evaluations += series.order();
-        let row =
-            |i: usize| series.v[series.order()][i].is_finite() && series.q[series.order()][i].is_finite();
-        if let Some(row) = first_row::<L, N, M>(|i| !row(i), |_| false) {
-            return Err(Error::EquationsNotFinite { row, time: state.t.to_f64() });
-        }
-        let last = Last::of(series, L::Scalar::constant(self.slack::<L::Scalar>()));
-        let before = *planned;
-        *planned = self.choose(last.allowed(), before, clock);
-        let may_cross = solved.is_near_dependence(*planned, before);
-        memory.crossing = if may_cross { self.cross(series, *planned) } else { None };
-        if let Some(crossing) = memory.crossing {
-            *planned = self.limited(crossing.length);
-        }
-        memory.is_expanded = true;
-        Ok(())
-    }
-
-    /// One step of this length.
-    fn attempt<L: TaylorSeries<N, M, Scalar: Real>, const N: usize, const M: usize>(
-        &self,
-        system: &L,
-        memory: &mut Memory<L::Sums, L::Scalar, N, M>,
-        h: L::Scalar,
-        time: L::Scalar,
-    ) -> Result<Attempt<L::Scalar, N>, Error> {
-        let Memory { state, rest, series, .. } = memory;
-        let [dq, dv, accelerations] = series.change(h);
-        let (q, rest_q) = compensated(&state.q.into(), &dq, &rest[0]);
-        let (v, rest_v) = compensated(&state.v.into(), &dv, &rest[1]);
-        let mut next = State { t: time, q: vector(q), v: vector(v) };
-        if let Some(row) = first_row::<L, N, M>(|i| !(q[i].is_finite() && v[i].is_finite()), |_| false) {
-            return Err(Error::EquationsNotFinite { row, time: state.t.to_f64() });
-        }
-        project_by(ONCE, system, &BOTH, &mut next)?;
-        let solved = Solved::at(system, &next)?;
-        if memory.solved.avoids(&solved) {
-            return Ok(Attempt::Inaccurate(0));
-        }
-        if let Some(worst) = self.moved([(&q, &next.q.into()), (&v, &next.v.into())]) {
-            return Ok(Attempt::Inaccurate(worst));
-        }
-        let tried = Tried { series, start: state, end: &next, solved: &solved, length: h, accelerations };
-        if let Some(worst) = tried.inaccurate(system, self)? {
-            return Ok(Attempt::Inaccurate(worst));
-        }
-        let rest = [(q, next.q, rest_q), (v, next.v, rest_v)]
-            .map(|(sum, projected, rest)| left(&sum, &projected.into(), &rest));
-        memory.before = Some(Before {
-            solved: core::mem::replace(&mut memory.solved, solved),
-            rest: core::mem::replace(&mut memory.rest, rest),
-        });
-        (memory.state, memory.is_expanded) = (next, false);
-        memory.clock.now = time;
-        Ok(Attempt::Reached(next))
-    }
-}
-
-/// The sum, and what rounding has left of it (Knuth, *The Art of Computer Programming*, 4.2.2, theorem B).
-fn compensated<T: Scalar, const N: usize>(x: &[T; N], change: &[T; N], rest: &[T; N]) -> ([T; N], [T; N]) {
-    let change: [T; N] = from_fn(|i| change[i] + rest[i]);
-    let sum: [T; N] = from_fn(|i| x[i] + change[i]);
-    let rest = from_fn(|i| {
-        let added = sum[i] - x[i];
-        (x[i] - (sum[i] - added)) + (change[i] - added)
-    });
-    (sum, rest)
-}
-
-/// Of a sum that was projected nothing is left.
-fn left<T: Scalar, const N: usize>(sum: &[T; N], projected: &[T; N], rest: &[T; N]) -> [T; N] {
-    let zero = T::constant(0.0);
-    from_fn(|i| projected[i].by_order(sum[i], zero, rest[i], zero))
 }

@@ -1,0 +1,147 @@
+//! One step: where the series about its start leads, and what becomes of it.
+
+use core::array::from_fn;
+
+use nalgebra::ComplexField;
+
+use super::control::Last;
+use super::crossing::Crossing;
+use super::defect::Tried;
+use super::expansion::Solved;
+use super::{Before, Memory, Taylor};
+use crate::error::Error;
+use crate::number::{Filled, Real, Scalar, vector};
+use crate::solution::consistent::{BOTH, project_by};
+use crate::solution::near::ONCE;
+use crate::solution::solve::first_row;
+use crate::statistics::Statistics;
+use crate::system::{State, TaylorSeries};
+
+impl<S: Filled<T>, T: Real, const N: usize, const M: usize> Memory<S, T, N, M> {
+    /// Plans another step after one of this length was refused.
+    fn shorten(&mut self, h: T) {
+        let next = self.crossing.take().map(Crossing::longer);
+        self.planned = match next {
+            Some(Ok(crossing)) => {
+                self.crossing = Some(crossing);
+                crossing.length
+            }
+            Some(Err(planned)) => {
+                self.series.summed = self.series.order();
+                planned
+            }
+            None => Scalar::abs(h) * T::constant(0.5),
+        };
+    }
+}
+
+/// What became of a step.
+pub(super) enum Attempt<T, const N: usize> {
+    Reached(State<T, N>),
+    /// The velocity of this coordinate is off the most.
+    Inaccurate(usize),
+}
+
+impl Taylor {
+    /// Plans another step after one of this length was refused, if a time is that near.
+    pub(super) fn can_be_shorter<S: Filled<T>, T: Real, const N: usize, const M: usize>(
+        &self,
+        memory: &mut Memory<S, T, N, M>,
+        h: T,
+    ) -> bool {
+        memory.shorten(h);
+        memory.planned = self.limited(memory.planned);
+        memory.clock.advances_by(memory.planned)
+    }
+
+    /// Expands the motion about the state, and chooses the length of the step, unless that is done.
+    pub(super) fn expand<L: TaylorSeries<N, M, Scalar: Real>, const N: usize, const M: usize>(
+        &self,
+        system: &L,
+        memory: &mut Memory<L::Sums, L::Scalar, N, M>,
+        statistics: &mut Statistics,
+    ) -> Result<(), Error> {
+        if memory.is_expanded {
+            return Ok(());
+        }
+        let Memory { clock, state, solved, series, planned, .. } = memory;
+        let unit = clock.directed(self.unit(*planned, state, solved));
+        series.about(system, state, solved, unit)?;
+        statistics.evaluations += series.order();
+        let row =
+            |i: usize| series.v[series.order()][i].is_finite() && series.q[series.order()][i].is_finite();
+        if let Some(row) = first_row::<L, N, M>(|i| !row(i), |_| false) {
+            return Err(Error::EquationsNotFinite { row, time: state.t.to_f64() });
+        }
+        let last = Last::of(series, L::Scalar::constant(self.slack::<L::Scalar>()));
+        let before = *planned;
+        *planned = self.choose(last.allowed(), before, clock);
+        let may_cross = solved.is_near_dependence(*planned, before);
+        memory.crossing = if may_cross { self.cross(series, *planned) } else { None };
+        if let Some(crossing) = memory.crossing {
+            *planned = self.limited(crossing.length);
+        }
+        memory.is_expanded = true;
+        Ok(())
+    }
+
+    /// One step of this length.
+    pub(super) fn attempt<L: TaylorSeries<N, M, Scalar: Real>, const N: usize, const M: usize>(
+        &self,
+        system: &L,
+        memory: &mut Memory<L::Sums, L::Scalar, N, M>,
+        h: L::Scalar,
+        time: L::Scalar,
+    ) -> Result<Attempt<L::Scalar, N>, Error> {
+        let Memory { state, rest, series, .. } = memory;
+        let [dq, dv, accelerations] = series.change(h);
+        let (q, rest_q) = compensated(&state.q.into(), &dq, &rest[0]);
+        let (v, rest_v) = compensated(&state.v.into(), &dv, &rest[1]);
+        let mut next = State { t: time, q: vector(q), v: vector(v) };
+        if let Some(row) = first_row::<L, N, M>(|i| !(q[i].is_finite() && v[i].is_finite()), |_| false) {
+            return Err(Error::EquationsNotFinite { row, time: state.t.to_f64() });
+        }
+        project_by(ONCE, system, &BOTH, &mut next)?;
+        let solved = Solved::at(system, &next)?;
+        if memory.solved.avoids(&solved) {
+            return Ok(Attempt::Inaccurate(0));
+        }
+        if let Some(worst) = self.moved([(&q, &next.q.into()), (&v, &next.v.into())]) {
+            return Ok(Attempt::Inaccurate(worst));
+        }
+        let tried = Tried { series, start: state, end: &next, solved: &solved, length: h, accelerations };
+        if let Some(worst) = tried.inaccurate(system, self)? {
+            return Ok(Attempt::Inaccurate(worst));
+        }
+        let rest = [(q, next.q, rest_q), (v, next.v, rest_v)]
+            .map(|(sum, projected, rest)| left(&sum, &projected.into(), &rest));
+        memory.before = Some(Before {
+            solved: core::mem::replace(&mut memory.solved, solved),
+            rest: core::mem::replace(&mut memory.rest, rest),
+        });
+        (memory.state, memory.is_expanded) = (next, false);
+        memory.clock.now = time;
+        Ok(Attempt::Reached(next))
+    }
+}
+
+/// The sum, and what rounding has left of it (Knuth, *The Art of Computer Programming*, 4.2.2, theorem B).
+pub(super) fn compensated<T: Scalar, const N: usize>(
+    x: &[T; N],
+    change: &[T; N],
+    rest: &[T; N],
+) -> ([T; N], [T; N]) {
+    let change: [T; N] = from_fn(|i| change[i] + rest[i]);
+    let sum: [T; N] = from_fn(|i| x[i] + change[i]);
+    let rest = from_fn(|i| {
+        let added = sum[i] - x[i];
+        (x[i] - (sum[i] - added)) + (change[i] - added)
+    });
+    (sum, rest)
+}
+
+/// Of a sum that was projected nothing is left.
+pub(super) fn left<T: Scalar, const N: usize>(sum: &[T; N], projected: &[T; N], rest: &[T; N]) -> [T; N] {
+    let zero = T::constant(0.0);
+    from_fn(|i| projected[i].by_order(sum[i], zero, rest[i], zero))
+}
