@@ -1,6 +1,6 @@
 //! What an error costs by each method: eight systems, their motions known from elsewhere.
 //!
-//! Each is integrated with tolerances of 10⁻³ … 10⁻¹⁵. Of an error, the cost is that of the cheapest run that is at least as exact.
+//! Each is integrated with tolerances of 10⁻³ … 10⁻¹⁵ and of round-off. Of an error, the cost is that of the cheapest run that is at least as exact.
 
 mod picture;
 

@@ -3,8 +3,8 @@
 //! # What is there
 //!
 //! Without the feature `alloc` there are the equations, [`Simulate::solve`](crate::Simulate::solve), consistent states, the
-//! methods, [`Motion`](crate::Motion) and [`runge_kutta_step`](crate::runge_kutta_step); what stores steps (trajectories,
-//! ensembles) is not. In `Cargo.toml`:
+//! methods except `Taylor`, [`Motion`](crate::Motion) and [`runge_kutta_step`](crate::runge_kutta_step); what stores steps
+//! (trajectories, ensembles) is not. In `Cargo.toml`:
 //!
 //! ```toml
 //! [dependencies]

@@ -344,8 +344,9 @@
 //! gradient and second derivatives, and is put into [`ByHand`](crate::ByHand). A [`Table`](crate::Table) is the
 //! smooth curve through measured points. Where the equations need a third derivative, which neither has, that is
 //! an error at the field's type while compiling. [`Linearized`](crate::Linearized) takes one derivative more than the
-//! equations: where that is the third, it is missing for these forms, and the rest of the system is there. Numbers inside
-//! of a function are no parameters of the system: none can be differentiated by or sought.
+//! equations: where that is the third, it is missing for these forms, and the rest of the system is there.
+//! [`Taylor`](crate::Taylor) takes a `Function` alone. Numbers inside of a function are no parameters of the system: none
+//! can be differentiated by or sought.
 //!
 //! ```
 //! use lagrange_core::{ByHand, prelude::*};

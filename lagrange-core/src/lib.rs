@@ -125,8 +125,8 @@ println!("{}", path.csv(50).energy());
 //!
 //! # Features
 //!
-//! `std` (default), without it there are no ensembles; `alloc`, without it there are no trajectories, but motions
-//! step by step; `libm`, elementary functions where there is no `std`; `rayon`, ensembles on all threads; `mpi`, ensembles on many machines; `parquet`, tables of
+//! `std` (default), without it there are no ensembles; `alloc`, without it there are no trajectories and no Taylor
+//! series, but motions step by step; `libm`, elementary functions where there is no `std`; `rayon`, ensembles on all threads; `mpi`, ensembles on many machines; `parquet`, tables of
 //! ensembles as files of Parquet; `serde`, states,
 //! solutions, records of trajectories and endings can be written, and those without names read.
 #![cfg_attr(not(feature = "std"), no_std)]

@@ -17,7 +17,7 @@ where
     ///
     /// They lie on the continuous extension of the method, projected onto the constraints. Steps are as long as without, and
     /// the end has the same bits; but where the extension cannot be had a step is tried once more, shorter. On lanes the
-    /// extension costs about half of a step in which one of the lanes has a sample. A member that ends early has the samples up to there.
+    /// extension of a pair costs about half of a step in which one of the lanes has a sample; Taylor's method has it already. A member that ends early has the samples up to there.
     ///
     /// ```
     /// # use lagrange_core::prelude::*;
@@ -77,7 +77,7 @@ where
     /// ```
     ///
     /// An event whose function cannot be had where a member starts is its error; later on it ends the member, which keeps what
-    /// was found. Each step is looked into, which on lanes costs about half of it, and the functions.
+    /// was found. Each step is looked into, which on lanes costs about half of it, by Taylor's method nothing, and the functions.
     pub fn event<G>(self, event: Event<L, G, N, M>) -> Ensemble<'a, L, T, N, M, true>
     where
         G: EventFunction<L, N, M> + Send + Sync + 'a,

@@ -5,9 +5,9 @@
 //! - [`Dop853`], a pair of order 8, for errors of 10⁻⁵ … 10⁻⁹: the first choice. 12 evaluations of the accelerations a step; for
 //!   ensembles on lanes and motion in (q, p) too. Rounding stops it at some 10⁻¹³.
 //! - [`Taylor`], the series of the motion itself, for errors below 10⁻⁹ down to round-off: one factorisation a step and, for each
-//!   order, 13 for 10⁻⁶ and 29 for round-off, one to two evaluations. Its time depends little on the tolerance, and what is
-//!   conserved stays; for ensembles on lanes too. Not for equations with `abs`, `min`, `max`, `clamp` or functions by hand or of
-//!   tables, nor for (q, p).
+//!   order, 13 for 10⁻⁶ and 29 for round-off, one to two evaluations. Its time grows less with the digits asked for than that of the
+//!   others, and what is conserved stays; for ensembles on lanes too. Not for equations with `abs`, `min`, `max`, `clamp`,
+//!   [`ByHand`](crate::ByHand) or [`Table`](crate::Table), nor for (q, p).
 //! - [`Dopri5`], a pair of order 5, for errors of 10⁻³ and forces that are not smooth. 6 evaluations a step, of which it needs many
 //!   below 10⁻⁷.
 //! - [`RungeKutta4`], of order 4, where each step is to take as long as any other: control in real time. 4 evaluations; it does not know

@@ -23,8 +23,8 @@ use crate::system::{Lagrangian, State};
 /// again (zero-order hold); that costs one evaluation of the equations, or none where all steps are of one size, and the
 /// length of the steps is kept. Every time asked for is reached exactly, so that inputs change there and nowhere else; it may lie in the past.
 ///
-/// Nothing is stored and nothing allocated: a motion takes as much memory after 10⁹ steps as after one, and works without
-/// the feature `alloc`. It owns its system, which may be a reference.
+/// Nothing is stored and no step allocates: a motion takes as much memory after 10⁹ steps as after one. Except by `Taylor`, which
+/// makes room for its series when it begins, it works without the feature `alloc`. It owns its system, which may be a reference.
 ///
 /// ```
 /// use lagrange_core::prelude::*;

@@ -22,7 +22,7 @@ pub type RightHandSides<T, const N: usize, const M: usize> = (SVector<T, N>, SVe
 #[diagnostic::on_unimplemented(
     message = "the Taylor series of the motion of `{Self}` is not known",
     label = "no `TaylorSeries`",
-    note = "`#[derive(Lagrangian)]` gives it to every system but those with `abs`, `min`, `max` or `clamp` in the equations of motion: use `Dop853` there"
+    note = "`#[derive(Lagrangian)]` gives it to every system but those whose equations of motion have `abs`, `min`, `max` or `clamp`, take third derivatives of a function of yours, or have a series of more than 50,000 operations: use `Dop853` there"
 )]
 pub trait TaylorSeries<const N: usize, const M: usize>: Lagrangian<N, M> {
     /// What an order is made of beside coefficients: plain numbers.

@@ -188,7 +188,7 @@ impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
                 return Ok(());
             }
         }
-        // Where the factor cannot vouch for numbers they are none.
+        // Where the factor is not reliable it gives NaN.
         let general = General::at(system, state, *active)?;
         self.orders(system, state, solution, unit, |sides| general.solve::<L>(sides))
     }

@@ -69,8 +69,8 @@ impl<T: Scalar, S: Filled<T>> Factors<T, S> {
         })
     }
 
-    /// The sums of an order, of the factors of all orders before it, and of no other: there may be no numbers. Orders come one
-    /// after the other.
+    /// The sums of an order, of the factors of all orders before it. Those of later orders are not read: they may hold NaN.
+    /// Orders come one after the other.
     #[inline(always)]
     pub(super) fn add_up(&mut self, order: usize, ends: &Ends<S>, sums: &mut S) {
         if const { few::are::<T, S>() } {
@@ -83,7 +83,7 @@ impl<T: Scalar, S: Filled<T>> Factors<T, S> {
             let (left, right) = (group * self.orders, (group + 1) * self.orders - terms);
             let (left, right) = (&self.left[left..left + terms], &self.right[right..right + terms]);
             if order.is_multiple_of(2) {
-                // Four numbers alone are one vector, four times lanes are four, for which there are registers once.
+                // A group of numbers is one vector, one of lanes four of them: registers suffice for one set of partial sums.
                 let [now, next] = match const { size_of::<T>() > size_of::<f64>() } {
                     true => products::<T, 1>(left, right),
                     false => products::<T, 2>(left, right),
