@@ -1,6 +1,6 @@
 //! What only generated code calls. It changes as the derive does, without notice.
 
-pub use crate::number::{matrix, only_where, vector};
+pub use crate::number::{matrix, only_where, sin_cos_of_small, vector};
 pub use crate::solution::eliminate::{LoopFactor, doubt, eliminate};
 pub use crate::system::defect::{Defect, asymmetry, distortion};
 pub use crate::system::equations::equations;

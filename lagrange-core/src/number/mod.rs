@@ -24,10 +24,10 @@ pub use dual::Dual;
 pub(crate) use four::Four;
 #[cfg(feature = "std")]
 pub use lanes::{FourLanes, Lanes};
-pub use numeric::only_where;
 pub(crate) use numeric::{
     beyond_round_off, exceeds, is_within, larger, largest, norm, power_of_epsilon, power_of_two, smaller, sum,
 };
+pub use numeric::{only_where, sin_cos_of_small};
 pub use over::{Over, Wide};
 pub use scalar::{Real, Scalar};
 pub use series::PowerSeries;

@@ -4,6 +4,12 @@ use core::cmp::Ordering;
 
 use super::scalar::{Real, Scalar};
 
+/// [`Scalar::sin_cos_of_small`] as a function of its own, for where there would be much of its code in line.
+#[inline(never)]
+pub fn sin_cos_of_small<S: Scalar, const K: usize>(angles: [S; K]) -> ([S; K], [S; K]) {
+    S::sin_cos_of_small(angles)
+}
+
 /// The larger of the two; where one is NaN, `a`.
 pub(crate) fn larger<T: PartialOrd>(a: T, b: T) -> T {
     if b > a { b } else { a }

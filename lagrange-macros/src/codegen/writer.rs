@@ -14,6 +14,10 @@ use super::style::Style;
 /// then assigned: one `let` each overflows rustc's stack near 3,000 in a build with debug information.
 const BATCH: usize = 256;
 
+/// From so many angles on, sines and cosines of several at once are called for, not computed in line: that is half of the code of
+/// ten links and takes half the time to compile, and a sixth less time to run.
+const MANY_ANGLES: usize = 8;
+
 impl Style<'_> {
     /// All statements, with the declarations of what they read and of what they assign to.
     pub(super) fn statements(&self, part: Part, arrays: &Arrays) -> TokenStream {
@@ -26,6 +30,7 @@ impl Style<'_> {
             quote! { let (#(#names,)*): (#(#types,)*); }
         });
         let word = is_short.then(|| quote!(let));
+        let together = together(&part.statements);
         let written = part.statements.into_iter().map(|statement| match statement {
             Statement::Let(local, value) => {
                 let (name, value) = (self.local(local), self.expression(value));
@@ -37,7 +42,7 @@ impl Style<'_> {
                 quote!(#word [#(#names),*] = __lagrange::Scalar::small_angles([#(#angles),*]);)
             }
             Statement::Turns(turns) => {
-                let turns = self.turns(turns);
+                let turns = self.turns(turns, &together);
                 quote!(#word #turns;)
             }
             Statement::Call(call, results) => {
@@ -60,7 +65,7 @@ impl Style<'_> {
     }
 
     /// `(r1, r2) = sin_cos(x)`, or of several.
-    fn turns(&self, turns: Vec<Turn>) -> TokenStream {
+    fn turns(&self, turns: Vec<Turn>, together: &TokenStream) -> TokenStream {
         let name = |local: Option<Local>| match local {
             Some(local) => self.local(local).into_token_stream(),
             None => quote!(_),
@@ -70,9 +75,7 @@ impl Style<'_> {
         let angles: Vec<TokenStream> = turns.into_iter().map(|turn| self.operand(turn.angle)).collect();
         match &angles[..] {
             [angle] => quote!((#(#sines)*, #(#cosines)*) = __lagrange::Scalar::sin_cos(#angle)),
-            _ => {
-                quote!(([#(#sines),*], [#(#cosines),*]) = __lagrange::Scalar::sin_cos_of_small([#(#angles),*]))
-            }
+            _ => quote!(([#(#sines),*], [#(#cosines),*]) = #together([#(#angles),*])),
         }
     }
 
@@ -151,6 +154,16 @@ impl Style<'_> {
             Local::Angle(index) => format_ident!("angle{index}", span = Span::mixed_site()),
             Local::Result { call, output } => format_ident!("call{call}_{output}", span = Span::mixed_site()),
         }
+    }
+}
+
+/// What computes the sines and cosines of several angles at once.
+fn together(statements: &[Statement]) -> TokenStream {
+    let angles =
+        |statement: &Statement| if let Statement::Turns(turns) = statement { turns.len() } else { 0 };
+    match statements.iter().map(angles).sum() {
+        0..MANY_ANGLES => quote!(__lagrange::Scalar::sin_cos_of_small),
+        _ => quote!(__lagrange::generated::sin_cos_of_small),
     }
 }
 

@@ -52,6 +52,15 @@ fn angles(argument: TokenStream) -> Vec<String> {
 }
 
 #[test]
+fn sines_of_many_angles_are_called_for() {
+    let paths = |links| {
+        let emitted = expand(tokens(&systems::chain(links))).to_string();
+        ["Scalar", "generated"].map(|path| emitted.contains(&format!("{path} :: sin_cos_of_small")))
+    };
+    assert_eq!((paths(7), paths(8)), ([true, false], [false, true]));
+}
+
+#[test]
 fn the_sine_and_the_cosine_of_an_angle_are_computed_once() {
     let mut circular = Circular::default();
     circular.read(expand(tokens(&systems::chain(12))));
