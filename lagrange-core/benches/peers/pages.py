@@ -11,7 +11,8 @@ Against the tools that people use, built, checked and timed in turn by `python3 
 {fastest}
 
 What one writes by hand is C for this one system.
-"""
+
+{taylor}"""
 
 COSTS = """\
 Against the tools that people use, in one run of `python3 lagrange-core/benches/peers/run.py`, which builds, checks and
@@ -24,7 +25,8 @@ dual numbers, which take the same derivatives at run time (num-dual {num_dual}, 
 
 {duals}
 
-{taylor}2,000 double pendulums from rest to t = 10. By Taylor's method errors are smaller than `Dop853`'s at the same tolerance. Where
+{taylor}
+2,000 double pendulums from rest to t = 10. By Taylor's method errors are smaller than `Dop853`'s at the same tolerance. Where
 there is AVX-512, ours has eight lanes.
 
 {ensemble}
@@ -40,12 +42,11 @@ Single motions by Taylor's method to round-off. heyoka is given the first two si
 ours computes, and derives the others from the Lagrangian. `Dop853` is at 10⁻¹³:
 
 {table}
-
 """
 
 
 def of_readme(about, sections):
-    return README.format(about=where(about), fastest=fastest(sections))
+    return README.format(about=where(about), fastest=fastest(sections), taylor=taylor(sections))
 
 
 def of_costs(about, sections):

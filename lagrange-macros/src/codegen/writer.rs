@@ -15,7 +15,7 @@ use super::style::Style;
 const BATCH: usize = 256;
 
 /// From so many angles on, sines and cosines of several at once are called for, not computed in line: that is half of the code of
-/// ten links and takes half the time to compile, and a sixth less time to run.
+/// ten links and takes half the time to compile. 8 to 20 links then take 2 to 20 % less time to run, too, robots 2 % more or less.
 const MANY_ANGLES: usize = 8;
 
 impl Style<'_> {
