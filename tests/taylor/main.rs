@@ -9,6 +9,7 @@ mod references;
 mod singular;
 mod supplied;
 mod systems;
+mod units;
 
 use lagrange_core::{Method, TaylorSeries, prelude::*};
 

@@ -222,6 +222,9 @@ pub trait Real: Scalar + RealField + PartialOrd + Display {
     /// The distance from 1 to the next larger number.
     const EPSILON: f64;
 
+    /// The smallest positive number with all of its digits.
+    const SMALLEST: f64;
+
     /// As many as are best computed with at once.
     type Wide: Wide<Self>;
 
@@ -232,6 +235,7 @@ pub trait Real: Scalar + RealField + PartialOrd + Display {
 #[cfg(any(feature = "std", feature = "libm"))]
 impl Real for f64 {
     const EPSILON: Self = Self::EPSILON;
+    const SMALLEST: Self = Self::MIN_POSITIVE;
 
     #[cfg(feature = "std")]
     type Wide = super::lanes::FourLanes;
@@ -247,6 +251,7 @@ impl Real for f64 {
 #[cfg(any(feature = "std", feature = "libm"))]
 impl Real for f32 {
     const EPSILON: f64 = Self::EPSILON as f64;
+    const SMALLEST: f64 = Self::MIN_POSITIVE as f64;
 
     type Wide = Self;
 

@@ -102,7 +102,7 @@ impl<S: Scalar> PowerSeries<S> {
     /// d z′ = x′
     fn integral(&self, value: S, d: &Self) -> Self {
         let (x, d) = (&self.coefficients, &d.coefficients);
-        self.defined(|z, k| if k == 0 { value } else { (x[k] - weighted(z, d, k, 1..=k - 1)) / d[0] })
+        self.defined(|z, k| if k == 0 { value } else { quotient(x[k] - weighted(z, d, k, 1..=k - 1), d[0]) })
     }
 
     /// √(1 − x²), of factors that do not cancel.
@@ -122,9 +122,14 @@ impl<S: Scalar> PowerSeries<S> {
                 let factor = e * S::constant(j as f64) - S::constant((k - j) as f64);
                 factor * x[j] * z[k - j]
             };
-            (1..=k).map(term).fold(S::constant(0.0), Add::add) / (x[0] * S::constant(k as f64))
+            quotient((1..=k).map(term).fold(S::constant(0.0), Add::add), x[0] * S::constant(k as f64))
         })
     }
+}
+
+/// What is at rest stays there, also where its slope is infinite: the root of zero.
+fn quotient<S: Scalar>(x: S, d: S) -> S {
+    if x == S::constant(0.0) { x } else { x / d }
 }
 
 /// Σ x_j y_{k−j}
@@ -233,7 +238,7 @@ impl<S: Scalar> Scalar for PowerSeries<S> {
                 return y[0].atan2(x[0]);
             }
             let turn = weighted(y, x, k, 1..=k) - weighted(x, y, k, 1..=k);
-            (turn - weighted(z, d, k, 1..=k - 1)) / d[0]
+            quotient(turn - weighted(z, d, k, 1..=k - 1), d[0])
         })
     }
 
@@ -268,7 +273,7 @@ impl<S: Scalar> Scalar for PowerSeries<S> {
         let x = &self.coefficients;
         self.defined(|z, k| match k {
             0 => x[0].sqrt(),
-            _ => (x[k] - convolved(z, z, k, 1..=k - 1)) / (z[0] + z[0]),
+            _ => quotient(x[k] - convolved(z, z, k, 1..=k - 1), z[0] + z[0]),
         })
     }
 

@@ -121,7 +121,7 @@ pub(super) fn log2_roughly(x: f64) -> f64 {
 
 /// 2ˣ, at most a three-hundredth off, and the smallest or largest power of two beyond these.
 #[inline(always)]
-fn exp2_roughly(x: f64) -> f64 {
+pub(super) fn exp2_roughly(x: f64) -> f64 {
     let biased = (x + 1023.0).clamp(1.0, 2046.0);
     let exponent = biased as u64;
     let fraction = biased - exponent as f64;

@@ -11,7 +11,7 @@ use crate::system::{State, TaylorSeries};
 /// At the end of a step accelerations may differ by so many times the tolerance, and by this part of the velocities.
 const DEFECT: [f64; 2] = [1e4, 1e-10];
 /// Where a root is below zero in the series they may differ by so many times the tolerance alone: nothing is left to
-/// what the step after makes good.
+/// what the step after makes good. So they may where the last coefficients are zero, and do not tell whether all beyond are.
 const STRICT: f64 = 64.0;
 /// A step with functions that the user supplies is looked at after each of so many parts.
 const PARTS: usize = 4;
@@ -36,7 +36,7 @@ impl<S: Filled<T>, T: Real, const N: usize, const M: usize> Tried<'_, S, T, N, M
         L: TaylorSeries<N, M, Scalar = T, Sums = S>,
     {
         let tolerance = method.tolerance::<T>();
-        let bound = method.defect_allowed::<T>();
+        let bound = if self.series.ends() { STRICT * tolerance } else { method.defect_allowed::<T>() };
         let mut found = self.off(system, method, (self.end, self.solved), &self.accelerations, bound);
         let at_roots =
             self.series.roots_below_zero::<L, M>(self.length).map(|length| (length, STRICT * tolerance));

@@ -5,13 +5,23 @@ use alloc::vec::Vec;
 use core::convert::Infallible;
 use core::ops::Add;
 
+use super::control::{LAST, Last, exp2_roughly, log2_roughly};
 use super::sums::{Ends, Factors};
 use crate::error::Error;
 use crate::linearized::Direction;
-use crate::number::{Filled, PowerSeries, Real, Scalar, vector};
+use crate::number::{Filled, PowerSeries, Real, Scalar, larger, vector};
 use crate::solution::kkt::{self, KktSystem, Rank};
 use crate::solution::solve::{fault, is_trustworthy, not_finite, solve_near};
 use crate::system::{Lagrangian, RightHandSides, Solution, State, TaylorSeries};
+
+/// Another unit of time is tried so many times at most.
+const UNITS: usize = 40;
+/// Coefficients may have become too small to be numbers where each order is by so much, as powers of two, larger than it would be
+/// if they had just done so at the last.
+const MARGIN: f64 = 8.0;
+/// Where coefficients are too large, the next unit is smaller by at least so many powers of two: the order after the highest that
+/// is a number may be larger by far.
+const LEAST: f64 = 2.0;
 
 /// Accelerations and multipliers at a state, and on which constraints they rest.
 #[derive(Clone, Debug)]
@@ -167,14 +177,14 @@ impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
 }
 
 impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
-    /// Expands the motion about a state, by the solution of the equations there.
+    /// Expands the motion about a state, by the solution of the equations there, and gives what the last coefficients say.
     pub(super) fn about<L, const M: usize>(
         &mut self,
         system: &L,
         state: &State<T, N>,
         solved: &Solved<T, N, M>,
-        unit: T,
-    ) -> Result<(), Error>
+        [unit, slack]: [T; 2],
+    ) -> Result<Last<T>, Error>
     where
         L: TaylorSeries<N, M, Scalar = T, Sums = S>,
     {
@@ -184,13 +194,73 @@ impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
             let solve =
                 |(forcing, bias): &RightHandSides<T, N, M>| Ok(system.solve_with(&factor, forcing, bias));
             let Ok::<(), Infallible>(()) = self.orders(system, state, solution, unit, solve);
-            if self.last().into_iter().flatten().all(|x| x.is_finite()) {
-                return Ok(());
+            let last = Last::of(self, slack);
+            if self.better_unit(&last, slack).is_none() {
+                return Ok(last);
             }
         }
-        // Where the factor is not reliable it gives NaN.
+        // Where the factor is not reliable it gives NaN. Other units are rare enough for the general one.
         let general = General::at(system, state, *active)?;
-        self.orders(system, state, solution, unit, |sides| general.solve::<L>(sides))
+        let expand = |series: &mut Self, unit| {
+            series.orders(system, state, solution, unit, |sides| general.solve::<L>(sides))
+        };
+        self.in_units(unit, slack, expand)
+    }
+
+    /// Expands in this unit of time, or in others as long as they are better.
+    #[cold]
+    fn in_units(
+        &mut self,
+        mut unit: T,
+        slack: T,
+        expand: impl Fn(&mut Self, T) -> Result<(), Error>,
+    ) -> Result<Last<T>, Error> {
+        for _ in 0..UNITS {
+            expand(self, unit)?;
+            let last = Last::of(self, slack);
+            match self.better_unit(&last, slack) {
+                None => return Ok(last),
+                Some(better) => unit = better,
+            }
+        }
+        Ok(Last::of(self, slack))
+    }
+
+    /// A unit in which the coefficients are numbers, where in this one the last are too large or too small to be.
+    #[inline(always)]
+    fn better_unit(&self, last: &Last<T>, slack: T) -> Option<T> {
+        let sum = last.sizes.iter().fold(T::constant(0.0), |sum, size| sum + *size);
+        let are_numbers = sum.is_finite() && self.is_finite(self.order());
+        if are_numbers && sum > T::constant(0.0) {
+            None
+        } else {
+            self.unit_by_the_highest(!are_numbers, slack)
+        }
+    }
+
+    /// That in which the highest order that is a number counts as much as the state. None where all beyond are zero, as those of
+    /// a polynomial, and not because they are too small.
+    #[cold]
+    fn unit_by_the_highest(&self, are_large: bool, slack: T) -> Option<T> {
+        let (scales, order) = (self.scales(slack), self.order());
+        let is_number =
+            |&(k, size): &(usize, T)| self.is_finite(k) && size.is_finite() && size > T::constant(0.0);
+        let (k, size) = (1..=order).rev().map(|k| (k, self.size(k, &scales))).find(is_number)?;
+        let rate = log2_roughly(size.to_f64()) / k as f64;
+        let rate = if are_large { larger(rate, LEAST) } else { rate };
+        let are_small = rate < log2_roughly(T::SMALLEST) / order as f64 + MARGIN;
+        (are_large || are_small).then(|| self.unit * T::constant(exp2_roughly(-rate)))
+    }
+
+    fn is_finite(&self, order: usize) -> bool {
+        [&self.q[order + 1], &self.v[order]].into_iter().flatten().all(|x| x.is_finite())
+    }
+
+    /// Whether all of the last coefficients are zero.
+    pub(super) fn ends(&self) -> bool {
+        let (first, zero) = (self.order() + 1 - LAST, T::constant(0.0));
+        let last = [&self.v[first..], &self.q[first..=self.order()]];
+        last.into_iter().flatten().flatten().all(|x| *x == zero)
     }
 }
 

@@ -140,7 +140,9 @@ where
         from_fn(|lane| {
             let seat = seats[lane].as_mut()?;
             let Memory { clock, solved, is_expanded, planned, .. } = &mut seat.memory;
-            let can_go = !*is_expanded && solved.solution.multipliers_are_unique();
+            // Where the last coefficients are zero it takes a closer look.
+            let can_go =
+                !*is_expanded && solved.solution.multipliers_are_unique() && allowed[lane].is_finite();
             if !(can_go && trusted[lane] && keeps[lane] && clock.is_ahead(plan[lane].end)) {
                 return None;
             }

@@ -47,7 +47,7 @@ use step::Attempt;
 ///
 /// A root that comes down to zero has a kink there, as √x² has, which its series does not know. Steps shrink towards it, about
 /// thirty on each side, until a step across it changes nothing. Where a force jumps there, no step is short enough, and the motion
-/// ends at that time.
+/// ends at that time. A power whose exponent is a parameter cannot be expanded where its base is zero.
 ///
 /// A system with `abs`, `min`, `max` or `clamp` in its equations has no [`TaylorSeries`], nor one with a function that is not known over
 /// every scalar or whose third derivatives the equations take, and the compiler says so. A [`Function`](crate::Function) is evaluated on a [`PowerSeries`](crate::PowerSeries) at every order; of

@@ -4,7 +4,6 @@ use core::array::from_fn;
 
 use nalgebra::ComplexField;
 
-use super::control::Last;
 use super::crossing::Crossing;
 use super::defect::Tried;
 use super::expansion::Solved;
@@ -66,14 +65,14 @@ impl Taylor {
         }
         let Memory { clock, state, solved, series, planned, .. } = memory;
         let unit = clock.directed(self.unit(*planned, state, solved));
-        series.about(system, state, solved, unit)?;
+        let slack = L::Scalar::constant(self.slack::<L::Scalar>());
+        let last = series.about(system, state, solved, [unit, slack])?;
         statistics.evaluations += series.order();
         let row =
             |i: usize| series.v[series.order()][i].is_finite() && series.q[series.order()][i].is_finite();
         if let Some(row) = first_row::<L, N, M>(|i| !row(i), |_| false) {
             return Err(Error::EquationsNotFinite { row, time: state.t.to_f64() });
         }
-        let last = Last::of(series, L::Scalar::constant(self.slack::<L::Scalar>()));
         let before = *planned;
         *planned = self.choose(last.allowed(), before, clock);
         let may_cross = solved.is_near_dependence(*planned, before);

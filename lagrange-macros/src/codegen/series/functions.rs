@@ -171,7 +171,9 @@ impl Recurrences {
         }
         let over = self.reciprocal(x0);
         let scale = self.schedule.push(Operation::Multiply(e, z0));
-        let is_root = matches!(self.schedule.operations[e.index()], Operation::Constant(e) if f64::from_bits(e).fract() != 0.0);
+        // What is no number yet may be one half.
+        let is_whole = |e: &Operation<Register>| matches!(e, Operation::Constant(e) if f64::from_bits(*e).fract() == 0.0);
+        let is_root = !is_whole(&self.schedule.operations[e.index()]);
         self.defined(z0, |of, z| {
             let [of_x, of_z] = [of.weighted_sum(x, z), of.weighted_sum(z, x)];
             if is_root {
