@@ -195,7 +195,7 @@ impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
                 |(forcing, bias): &RightHandSides<T, N, M>| Ok(system.solve_with(&factor, forcing, bias));
             let Ok::<(), Infallible>(()) = self.orders(system, state, solution, unit, solve);
             let last = Last::of(self, slack);
-            if self.better_unit(&last, slack).is_none() {
+            if self.is_finite(self.order()) && self.better_unit(&last, slack).is_none() {
                 return Ok(last);
             }
         }
