@@ -14,6 +14,8 @@ mod dual_sample;
 #[cfg(feature = "alloc")]
 mod equilibrium;
 #[cfg(feature = "alloc")]
+mod francis;
+#[cfg(feature = "alloc")]
 mod inverse;
 mod jacobian;
 #[cfg(feature = "alloc")]
