@@ -255,7 +255,7 @@
 //! | `velocity(frame, point)` | its velocity relative to the fixed frame, along the axes of `frame`; if the point moves in the frame, with that. The material at a point that moves, where a wheel touches the ground, has the velocity `velocity(wheel) + cross(angular_velocity(wheel), point)` |
 //! | `angular_velocity(frame)` | relative to the fixed frame, along the axes of `frame` |
 //! | `jacobian(v)` | ∂v/∂q̇ of a velocity, linear or angular or any other, in observables: a row for each component and a column for each coordinate. What a force along v does, Jᵀ·force, is `#[power(force, v)]` |
-//! | `kinetic(frame, m, c, I)` | the kinetic energy of a rigid body: mass, centre of mass, inertia about the centre, all in the axes of `frame`; without `I` that of a point, without `c` of one at the origin |
+//! | `kinetic(frame, m, c, I)` | the kinetic energy of a rigid body: mass, centre of mass, inertia about the centre, all in the axes of `frame`; without `I` that of a point, without `c` of one at the origin. Each of them may depend on time, coordinates and supplied functions, `m` and `I` also on velocities; the equations then have ṁ u, İ ω, ∂m/∂q u²/2 and ω·∂I/∂q ω/2 |
 //! | `express(v, frame)` | a vector along the axes of another frame |
 //! | `vector(frame, [a, b, c])` | the vector with these components along the axes of `frame` |
 //! | `der(v)`, `der(v, frame)` | the rate of change of a vector as seen from the fixed frame, or from another: (dv/dt)_B = dv/dt − ω_B × v |

@@ -5,6 +5,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod bicycle;
+mod growing;
 mod moving;
 mod poses;
 mod powers;

@@ -187,7 +187,7 @@ fn rotations_that_double_come_to_an_end() {
 }
 
 /// Systems with every kind of step, and with all that L may contain beside bodies.
-const SYSTEMS: [&str; 18] = [
+const SYSTEMS: [&str; 19] = [
     ARM,
     DENAVIT,
     QUADRUPED,
@@ -256,6 +256,13 @@ const SYSTEMS: [&str; 18] = [
      #[define(r = vector(b, [p, 1, q]))]
      #[lagrangian(kinetic(b, m, c0, I) + dot(der(r), der(r)) + dot(der(r, c), express(der(r, fixed), b))/3 + dot(express(der(r, a), c), velocity(c, [1, 1, x])))]
      struct Seen { m: f64, c0: Vector3<f64>, I: Matrix3<f64> }",
+    // Masses, centres and inertias that vary: with coordinates, time, velocities, places, by functions and definitions.
+    "#[coordinates(x, p, q)] #[function(burnt(t, x))]
+     #[frame(a: rotate_y(p), translate([0, x, l]))] #[frame(b in a: rotate_x(q))]
+     #[define(fuel = m*(2 + sin(x*t)))] #[define(J(s) = (1 + s^2)*I)]
+     #[lagrangian(kinetic(a, fuel, c, J(x)) + kinetic(b, m*exp(-t) + position(a, c)[2]^2, c, I)
+        + kinetic(b, burnt(t, x), [x, t, 1], J(p)) + kinetic(a, m, c, J(q_dot)) - fuel*g*position(a, c)[2])]
+     struct Burning<F> { m: f64, g: f64, l: f64, c: Vector3<f64>, I: Matrix3<f64>, burnt: F }",
     // Quaternions, one in the other.
     "#[coordinates(r: [3], p: [4], q: [4])]
      #[frame(a: translate(r), rotate(p))] #[frame(b in a: translate([l, 0, 0]), rotate(q))]

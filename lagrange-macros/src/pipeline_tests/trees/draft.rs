@@ -198,8 +198,40 @@ impl Draft {
         }
     }
 
-    /// A field for an inertia. What is not symmetric about it has no effect.
-    pub(super) fn inertia(&mut self, random: &mut Random) -> (String, Matrix) {
+    /// A positive number about 1 to multiply a mass or an inertia with. One in four varies, with time or a coordinate.
+    pub(super) fn growth(&mut self, random: &mut Random) -> (Option<String>, Motion) {
+        if !random.once_in(4) {
+            return (None, Motion::fixed(1.0));
+        }
+        let [a, c] = [random.between(-0.5, 0.5), random.between(0.2, 1.0)];
+        let wave = format!("{}*sin({}*t)", self.number_field(a), self.number_field(2.0 * c));
+        let mut growth = Motion { constant: 1.0, waves: vec![[a, 2.0 * c, 0.0]], ..Motion::default() };
+        let scalars = &self.scalars;
+        if scalars.is_empty() || random.once_in(3) {
+            self.count("mass or inertia that varies with time");
+            return (Some(format!("(1 + {wave})")), growth);
+        }
+        let i = scalars[random.below(scalars.len())];
+        self.count("mass or inertia that varies with a coordinate");
+        growth.products.push((c, i, i));
+        (Some(format!("(1 + {wave} + {}*c{i}^2)", self.number_field(c))), growth)
+    }
+
+    /// A mass, which may vary.
+    pub(super) fn mass(&mut self, random: &mut Random) -> (String, Motion) {
+        let mass = random.between(0.5, 2.0);
+        let (field, (text, growth)) = (self.number_field(mass), self.growth(random));
+        (text.map_or(field.clone(), |text| format!("{field}*{text}")), growth.times(mass))
+    }
+
+    /// A field for an inertia, with what it is multiplied by. What is not symmetric about it has no effect.
+    pub(super) fn inertia(&mut self, random: &mut Random) -> (String, Matrix, Motion) {
+        let (name, own) = self.inertia_at_rest(random);
+        let (text, growth) = self.growth(random);
+        (text.map_or(name.clone(), |text| format!("{text}*{name}")), own, growth)
+    }
+
+    fn inertia_at_rest(&mut self, random: &mut Random) -> (String, Matrix) {
         let own = inertia(random);
         let mut entries = own.concat();
         match random.below(3) {

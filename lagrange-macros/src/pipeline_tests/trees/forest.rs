@@ -4,7 +4,7 @@ use super::algebra::{Matrix, UNIT, Vector, scaled, turn_by};
 use super::draft::{Draft, Frame, inertia};
 use super::joints::{AXES, KINDS};
 use super::loads::{loads, ties};
-use super::model::{Body, Joint, Load, Motion, Point};
+use super::model::{Body, Joint, Motion, Point};
 use crate::rounds::Random;
 
 /// The first trees are small, so that they are derived in little time.
@@ -112,12 +112,9 @@ fn family(draft: &mut Draft, random: &mut Random, gravity: &Gravity, frames: &mu
         draft.step(&mut frame, String::new(), joints);
         let at = vector(&centres, i);
         let rows: Matrix = std::array::from_fn(|j| vector(&[inertias[i][3 * j..3 * j + 3].to_vec()], 0));
-        add_body(
-            draft,
-            gravity,
-            true,
-            Body { mass: masses[i][0], centre: Point { link: frame.link, at }, inertia: rows },
-        );
+        let (mass, growth) = (Motion::fixed(masses[i][0]), Motion::fixed(1.0));
+        let (centre, gravity) = (Point { link: frame.link, at }, gravity.acceleration());
+        draft.model.bodies.push(Body { mass, centre, inertia: rows, growth, gravity });
         frames.push(Frame { name: format!("link[{i}]"), ..frame.clone() });
     }
 }
@@ -185,11 +182,11 @@ fn bodies(draft: &mut Draft, random: &mut Random, gravity: &Gravity, frame: &mut
     }
     if random.once_in(6) {
         draft.count("point mass beside a body");
-        let (mass, at) = (random.between(0.5, 2.0), random.vector());
-        let (m, c) = (draft.number_field(mass), draft.vector_field(at));
+        let ((m, mass), at) = (draft.mass(random), random.vector());
+        let c = draft.vector_field(at);
         draft.term(format!("kinetic({}, {m}, {c})", frame.name));
-        let centre = Point { link: frame.link, at };
-        add_body(draft, gravity, false, Body { mass, centre, inertia: [[0.0; 3]; 3] });
+        let (centre, inertia, growth) = (Point { link: frame.link, at }, [[0.0; 3]; 3], Motion::default());
+        draft.model.bodies.push(Body { mass, centre, inertia, growth, gravity: [0.0; 3] });
     }
     if random.once_in(8) {
         slider(draft, random, gravity, frame);
@@ -199,9 +196,9 @@ fn bodies(draft: &mut Draft, random: &mut Random, gravity: &Gravity, frame: &mut
 /// A body with a centre that moves in the frame, beside others.
 fn slider(draft: &mut Draft, random: &mut Random, gravity: &Gravity, frame: &Frame) {
     draft.count("body with a centre that moves");
-    let (mass, at) = (random.between(0.5, 2.0), random.vector());
-    let (m, c) = (draft.number_field(mass), draft.vector_field(at));
-    let (i, inertia) = draft.inertia(random);
+    let ((m, mass), at) = (draft.mass(random), random.vector());
+    let c = draft.vector_field(at);
+    let (i, inertia, growth) = draft.inertia(random);
     let (name, coordinate) = draft.coordinate(random, 1);
     let (f, c) = (&frame.name, format!("[{name}, {c}[1], {c}[2]]"));
     draft.term(format!("kinetic({f}, {m}, {c}, {i})"));
@@ -212,13 +209,13 @@ fn slider(draft: &mut Draft, random: &mut Random, gravity: &Gravity, frame: &Fra
     let mut slider = frame.clone();
     draft.step(&mut slider, String::new(), [joint]);
     let centre = Point { link: slider.link, at: [0.0; 3] };
-    add_body(draft, gravity, true, Body { mass, centre, inertia });
+    draft.model.bodies.push(Body { mass, centre, inertia, growth, gravity: gravity.acceleration() });
 }
 
 fn body(draft: &mut Draft, random: &mut Random, gravity: &Gravity, frame: &Frame) {
-    let (mass, at) = (random.between(0.5, 2.0), random.vector());
-    let (m, c) = (draft.number_field(mass), draft.vector_field(at));
-    let (i, inertia) = draft.inertia(random);
+    let ((m, mass), at) = (draft.mass(random), random.vector());
+    let c = draft.vector_field(at);
+    let (i, inertia, growth) = draft.inertia(random);
     let (f, mut times) = (&frame.name, 1.0);
     match random.below(8) {
         0 => {
@@ -236,18 +233,12 @@ fn body(draft: &mut Draft, random: &mut Random, gravity: &Gravity, frame: &Frame
             draft.term(format!("kinetic({f}, {m}, {c}, {i})"));
         }
     }
-    let is_heavy = !random.once_in(8);
-    if is_heavy && let Some(term) = gravity.term(&m, f, &c) {
+    let none = Gravity::None;
+    let gravity = if random.once_in(8) { &none } else { gravity };
+    if let Some(term) = gravity.term(&m, f, &c) {
         draft.term(format!("{times}*{term}"));
     }
-    let inertia = inertia.map(|row| scaled(times, row));
+    let (mass, growth, gravity) = (mass.times(times), growth.times(times), gravity.acceleration());
     let centre = Point { link: frame.link, at };
-    add_body(draft, gravity, is_heavy, Body { mass: times * mass, centre, inertia });
-}
-
-fn add_body(draft: &mut Draft, gravity: &Gravity, is_heavy: bool, body: Body) {
-    if is_heavy {
-        draft.load(Load::Given(body.centre, scaled(body.mass, gravity.acceleration())));
-    }
-    draft.model.bodies.push(body);
+    draft.model.bodies.push(Body { mass, centre, inertia, growth, gravity });
 }

@@ -48,12 +48,15 @@ pub(super) struct Motion {
     pub(super) waves: Vec<[f64; 3]>,
 }
 
-/// In the axes of its link, the inertia about the centre.
+/// In the axes of its link, the inertia about the centre: a matrix that rests, times a number.
 #[derive(Clone, Debug)]
 pub(super) struct Body {
-    pub(super) mass: f64,
+    pub(super) mass: Motion,
     pub(super) centre: Point,
     pub(super) inertia: Matrix,
+    pub(super) growth: Motion,
+    /// The acceleration of gravity, along the fixed axes.
+    pub(super) gravity: Vector,
 }
 
 /// At rest in a link.

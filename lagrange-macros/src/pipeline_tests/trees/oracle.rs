@@ -8,7 +8,7 @@
 use super::algebra::{
     Matrix, UNIT, Vector, cross, difference, dot, norm, product, scaled, skew, solved, sum, times, transposed,
 };
-use super::model::{Body, Joint, Link, Load, Model, Motion, Point, Pose, Tie};
+use super::model::{Body, Jet, Joint, Link, Load, Model, Motion, Point, Pose, Tie};
 
 /// Accelerations, and multipliers in the order of the ties.
 pub(super) struct Solution {
@@ -143,23 +143,47 @@ impl<'m> System<'m> {
         }
     }
 
-    /// m a of its centre and d/dt of its angular momentum, about the link's origin.
-    fn body(&mut self, Body { mass, centre, inertia }: &Body) {
+    /// m a of its centre and d/dt of its angular momentum where m and I are held, about the link's origin.
+    fn body(&mut self, body: &Body) {
+        let &Body { centre, inertia, .. } = body;
         let (link, pose) = (centre.link, self.poses[centre.link]);
+        let [mass, growth] = [&body.mass, &body.growth].map(|motion| motion.jet(self.model));
         let arm = times(pose.axes, centre.at);
-        let own = product(product(pose.axes, *inertia), transposed(pose.axes));
+        let per_growth = product(product(pose.axes, inertia), transposed(pose.axes));
+        let own = per_growth.map(|line| scaled(growth.value, line));
+        self.growing(body, per_growth, [&mass, &growth]);
+        let mass = mass.value;
         let [force, torque] = [at(link, Force), at(link, Torque)];
         // −m (a + ω̇ × c), and c × the same
         let (across, weight) = (skew(arm), |m: Matrix, c: f64| m.map(|line| scaled(c, line)));
         self.add_block(force, (link, Acceleration), weight(UNIT, -mass));
-        self.add_block(force, (link, Turning), weight(across, *mass));
+        self.add_block(force, (link, Turning), weight(across, mass));
         self.add_block(torque, (link, Acceleration), weight(across, -mass));
-        self.add_block(torque, (link, Turning), weight(product(across, across), *mass));
+        self.add_block(torque, (link, Turning), weight(product(across, across), mass));
         self.add_block(torque, (link, Turning), weight(own, -1.0));
-        let centripetal = scaled(*mass, cross(pose.turning, cross(pose.turning, arm)));
+        let centripetal = scaled(mass, cross(pose.turning, cross(pose.turning, arm)));
         self.add_right(force, centripetal);
         let gyroscopic = cross(pose.turning, times(own, pose.turning));
         self.add_right(torque, sum([cross(arm, centripetal), gyroscopic]));
+        self.push(centre, scaled(mass, body.gravity));
+    }
+
+    /// ṁ u and İ ω, and the slopes of m (u²/2 + g·r) and ω·Iω/2 by the coordinates that m and I depend on.
+    fn growing(&mut self, body: &Body, per_growth: Matrix, [mass, growth]: [&Jet; 2]) {
+        let (place, velocity) = self.place(body.centre);
+        let turning = self.poses[body.centre.link].turning;
+        let spin = times(per_growth, turning);
+        self.push(body.centre, scaled(-mass.rate, velocity));
+        if body.centre.link > 0 {
+            self.add_right(at(body.centre.link, Torque), scaled(growth.rate, spin));
+        }
+        let per_mass = dot(velocity, velocity) / 2.0 + dot(body.gravity, place);
+        for (jet, energy) in [(mass, per_mass), (growth, dot(turning, spin) / 2.0)] {
+            for &(i, slope) in &jet.slopes {
+                let row = self.coordinate(i);
+                self.right[row] += slope * energy;
+            }
+        }
     }
 
     fn load(&mut self, load: &Load) {

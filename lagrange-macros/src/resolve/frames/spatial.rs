@@ -110,22 +110,22 @@ impl Lowering<'_> {
         }
     }
 
-    /// ½ m u² + ½ ω·Iω, u the velocity of the centre. Of a body whose centre rests in the frame it is written by the
-    /// twist alone: ½ m v² + v·(ω × h) + ½ ω·Jω, with h = m c and J = I + m (c² 1 − c cᵀ) about the origin.
+    /// ½ m u² + ½ ω·Iω, u the velocity of the centre. Where m, c and I are parameters it is written by the twist alone:
+    /// ½ m v² + v·(ω × h) + ½ ω·Jω, with h = m c and J = I + m (c² 1 − c cᵀ) about the origin.
     fn kinetic(&mut self, frame: &Expression, mass: &Expression, more: &[Expression]) -> Option<Value> {
         let (centre, inertia) = (&more[..more.len().min(1)], more.get(1));
         let (point, mass) = (self.point(frame, centre), self.scalar(mass));
         let inertia = inertia.map(|inertia| self.inertia(inertia).ok_or(())).transpose();
         let ((axes, centre), mass, inertia) = (point?, mass?, inertia.ok()?);
         let inertia = inertia.unwrap_or([[Id::ZERO; 3]; 3]);
-        let rate = self.rate_of(&Value::vector(centre), frame.place)?;
-        let rate = self.components(&rate)?;
-        let body = self.body(axes.frame, mass, centre, inertia);
-        if rate == [Id::ZERO; 3] {
+        if self.is_rigid(mass, centre, inertia) {
+            let body = self.body(axes.frame, mass, centre, inertia);
             let energy = Value::Scalar(body.energy);
             self.frames.bodies.push(body);
             return Some(energy);
         }
+        let rate = self.rate_of(&Value::vector(centre), frame.place)?;
+        let rate = self.components(&rate)?;
         let frame = &self.frames.all[axes.frame];
         let (angular_velocity, velocity) =
             (frame.angular_velocity, frame.velocity_of(centre, rate, &mut self.graph));
@@ -134,6 +134,12 @@ impl Lowering<'_> {
         let turning = self.quadratic(angular_velocity, inertia);
         let half = Rational::new(1, 2);
         Some(Value::Scalar(self.graph.sum([(moving, half), (turning, half)])))
+    }
+
+    /// Newton's and Euler's equations of a rigid body have no term in ṁ, ċ or İ, nor in their slopes by coordinates.
+    fn is_rigid(&self, mass: Id, centre: Triple, inertia: [Triple; 3]) -> bool {
+        let parts: Vec<Id> = [mass].into_iter().chain(centre).chain(inertia.into_iter().flatten()).collect();
+        self.graph.symbols(&parts).all(|symbol| matches!(Variable::of(symbol), Variable::Parameter(_)))
     }
 
     fn body(&mut self, frame: usize, mass: Id, centre: Triple, inertia: [Triple; 3]) -> Body {
