@@ -7,7 +7,7 @@ use crate::differences::{STEPS, TOLERANCE, difference};
 use crate::events::{Flying, method};
 
 /// Columns of derivatives beside columns of differences, each by its own largest.
-fn check(what: &str, found: &DMatrix<f64>, of: impl Fn(usize, f64) -> DMatrix<f64>) {
+pub(crate) fn check(what: &str, found: &DMatrix<f64>, of: impl Fn(usize, f64) -> DMatrix<f64>) {
     for (j, column) in found.column_iter().enumerate() {
         let errors = STEPS.map(|step| {
             let expected = difference(step, |change| DVector::from_column_slice(of(j, change).as_slice()));
@@ -20,7 +20,7 @@ fn check(what: &str, found: &DMatrix<f64>, of: impl Fn(usize, f64) -> DMatrix<f6
 }
 
 /// Time, coordinates and velocities, one below the other.
-fn block<const N: usize>(at: &Sensitivity<f64, N>) -> DMatrix<f64> {
+pub(crate) fn block<const N: usize>(at: &Sensitivity<f64, N>) -> DMatrix<f64> {
     DMatrix::from_fn(1 + 2 * N, at.t.len(), |i, j| match i {
         0 => at.t[j],
         i if i <= N => at.q[(i - 1, j)],
@@ -28,12 +28,12 @@ fn block<const N: usize>(at: &Sensitivity<f64, N>) -> DMatrix<f64> {
     })
 }
 
-fn values<const N: usize>(state: &State<f64, N>) -> DMatrix<f64> {
+pub(crate) fn values<const N: usize>(state: &State<f64, N>) -> DMatrix<f64> {
     DMatrix::from_iterator(1 + 2 * N, 1, [state.t].iter().chain(&state.q).chain(&state.v).copied())
 }
 
 /// One below the other.
-fn stack([above, below]: [DMatrix<f64>; 2]) -> DMatrix<f64> {
+pub(crate) fn stack([above, below]: [DMatrix<f64>; 2]) -> DMatrix<f64> {
     let rows = above.nrows();
     DMatrix::from_fn(
         2 * rows,

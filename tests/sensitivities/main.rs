@@ -8,6 +8,9 @@ mod event_differences;
 mod event_errors;
 mod events;
 mod lyapunov;
+mod mixed;
+#[path = "../derivatives/random.rs"]
+mod random;
 mod steps;
 
 use std::f64::consts::PI;

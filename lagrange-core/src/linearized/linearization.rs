@@ -14,7 +14,7 @@ use crate::number::{Real, Scalar, Wide, larger, largest, norm, power_of_epsilon,
 use crate::solution::consistent;
 use crate::solution::kkt::{Rank, Rows};
 use crate::system::lookup;
-use crate::system::{ConstraintKind, Solution, State};
+use crate::system::{Solution, State};
 
 /// The linear system ż = A z + B u near a state, u the change of the inputs.
 ///
@@ -144,7 +144,8 @@ where
     pub(super) fn space(&self) -> Result<DMatrix<L::Scalar>, Error> {
         let zero = vector([L::Scalar::constant(0.0); N]);
         let mut changes: Vec<[SVector<L::Scalar, N>; 2]> = Vec::new();
-        for q in self.holonomic_rows().null_space() {
+        let holonomic = Rows::of(&self.matrices().m, &self.holonomic_rows(), Rank::off_constraints());
+        for q in holonomic.null_space() {
             // Another place turns the constraints: the velocity must follow.
             let entry = lookup::entry::<L, N, M>(q.icamax());
             let turned = self.residual_change(&Direction { q, ..Direction::zero() }, entry)?;
@@ -163,17 +164,6 @@ where
             true => Ok(DMatrix::zeros(2 * N, 0)),
             false => Ok(DMatrix::from_columns(&columns).qr().q()),
         }
-    }
-
-    /// The rows of the holonomic constraints alone.
-    fn holonomic_rows(&self) -> Rows<L::Scalar, N, M> {
-        let mut f = self.matrices().f;
-        for (row, kind) in f.iter_mut().zip(L::CONSTRAINT_KINDS) {
-            if kind == ConstraintKind::Velocity {
-                *row = [L::Scalar::constant(0.0); N];
-            }
-        }
-        Rows::of(&self.matrices().m, &f, Rank::off_constraints())
     }
 
     /// An input that shifts a constraint has no state, or no acceleration, on it beside the one given.

@@ -1,5 +1,7 @@
 //! How accelerations and multipliers change along a direction: K δ(q̈, λ) = −∂R, with one factorization for all.
 
+#[cfg(feature = "alloc")]
+use core::array::from_fn;
 use core::cell::OnceCell;
 use core::ops::Range;
 
@@ -13,6 +15,8 @@ use crate::names::Entry;
 use crate::number::{Over, Real, Scalar, Wide};
 use crate::solution::kkt::{Factors, Rank};
 use crate::solution::solve::{fault, first_row, is_trustworthy, least_pivot, solve};
+#[cfg(feature = "alloc")]
+use crate::system::ConstraintKind;
 use crate::system::{Lagrangian, Solution, State};
 
 /// The equations of motion at a state, solved, factorized and differentiated.
@@ -72,6 +76,16 @@ where
                 f,
                 factors,
             }
+        })
+    }
+
+    /// The rows of F of holonomic constraints, zeros for the others.
+    #[cfg(feature = "alloc")]
+    pub(super) fn holonomic_rows(&self) -> [[L::Scalar; N]; M] {
+        let f = &self.matrices().f;
+        from_fn(|a| match L::CONSTRAINT_KINDS[a] {
+            ConstraintKind::Holonomic => f[a],
+            ConstraintKind::Velocity => [L::Scalar::constant(0.0); N],
         })
     }
 

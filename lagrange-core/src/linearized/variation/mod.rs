@@ -4,7 +4,9 @@
 //! (internal differentiation: Bock, *Numerical treatment of inverse problems in chemical reaction kinetics*, 1981; Hairer,
 //! Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.6, "Sensitivity analysis"). What a step ends in is
 //! projected onto the tangent space, which is the derivative of the projection of the state where that lies on the
-//! constraints: δq += x with M x = Fᵀμ, F x = −δΦ, then δq̇ by δ(F q̇ + b).
+//! constraints: δq += x with M x = Fᵀμ, F x = −δΦ, then δq̇ by δ(F q̇ + b). Steps end next to the constraints, and their
+//! projection keeps δq to the velocity constraints too, which changes it by no more than the error of a step; at the
+//! start, which parameters may shift, F is that of the holonomic constraints alone, as for the state.
 
 mod differentiable;
 mod stages;
@@ -18,8 +20,11 @@ use super::tangent::{Tangent, WideOf};
 use super::{Direction, Linearized, ResidualChange, StateDerivatives};
 use crate::error::Error;
 use crate::names::Entry;
-use crate::number::{Real, Scalar, Wide, vector};
+use crate::number::{Real, Scalar, Wide, entries, vector};
+use crate::solution::consistent::factors_of_nearest;
 use crate::solution::flow::Phase;
+use crate::solution::kkt::{Factors, Fault, Rank};
+use crate::solution::solve::fault;
 
 pub use differentiable::DifferentiableMethod;
 
@@ -66,7 +71,7 @@ where
             blocks[j / lanes].y_mut().iter_mut().zip(entries).for_each(|(wide, x)| wide.put(j % lanes, *x));
         }
         let mut variations = Self { arguments, blocks };
-        variations.arrive(tangent)?;
+        variations.set_out(tangent)?;
         Ok(variations)
     }
 
@@ -139,7 +144,25 @@ where
         &self.blocks[index].y
     }
 
-    /// Onto the tangent space of a state.
+    /// Onto the tangent space of the start, as the start itself was moved: its coordinates by the holonomic constraints alone.
+    fn set_out(&mut self, tangent: &Tangent<'_, L, N, M>) -> Result<(), Error> {
+        if const { M > 0 } {
+            let nearest =
+                factors_of_nearest(&tangent.matrices().m, &tangent.holonomic_rows(), Rank::off_constraints());
+            let by_parameters = self.parameter_slopes(tangent);
+            for (k, block) in self.blocks.iter_mut().enumerate() {
+                let names = lane_names::<L, N, M>(&self.arguments, k);
+                let position = block.changes(tangent, &by_parameters, &block.y).position;
+                block
+                    .move_by(&nearest, &position)
+                    .map_err(|found| fault::<L, N, M>(&found, tangent.state.t.to_f64()))?;
+                block.y = block.half_projected(1, tangent, &by_parameters, block.y, &names)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Onto the tangent space of a state next to which a step has ended.
     pub(crate) fn arrive(&mut self, tangent: &Tangent<'_, L, N, M>) -> Result<(), Error> {
         if const { M > 0 } {
             let by_parameters = self.parameter_slopes(tangent);
@@ -212,6 +235,24 @@ impl<W: Scalar, const N: usize, const P: usize> Block<W, N, P> {
         self.y.as_flattened_mut()
     }
 
+    /// Adds to δq what makes up for these changes of Φ, lane by lane.
+    fn move_by<T: Real<Wide = W>, const M: usize>(
+        &mut self,
+        nearest: &Factors<T, N, M>,
+        position: &SVector<W, M>,
+    ) -> Result<(), Fault<T, N>>
+    where
+        W: Wide<T>,
+    {
+        for lane in 0..self.lanes {
+            let demanded = entries(|a| position[a].lane(lane));
+            let least = nearest.solve(&[T::constant(0.0); N], &demanded)?.accelerations;
+            let moved = self.y[0].iter_mut().zip(&least);
+            moved.for_each(|(x, least)| x.put(lane, x.lane(lane) + *least));
+        }
+        Ok(())
+    }
+
     /// How the residual changes with these variations.
     #[inline]
     fn changes<L, const M: usize>(
@@ -256,16 +297,29 @@ impl<W: Scalar, const N: usize, const P: usize> Block<W, N, P> {
         L: Linearized<N, M, P, Scalar: Real<Wide = W>>,
     {
         for half in 0..2 {
-            let changes = self.changes(tangent, by_parameters, &y);
-            let left = if half == 0 { changes.position } else { changes.rate };
-            let demands = ResidualChange {
-                motion: changes.motion.map(|_| W::constant(0.0)),
-                acceleration: left,
-                ..changes
-            };
-            let correction = tangent.responses(self.lanes, &demands, names)?.accelerations;
-            y[half].iter_mut().zip(&correction).for_each(|(x, correction)| *x = *x + *correction);
+            y = self.half_projected(half, tangent, by_parameters, y, names)?;
         }
+        Ok(y)
+    }
+
+    /// The nearest δq, or the nearest δq̇, by the rows of all constraints.
+    fn half_projected<L, const M: usize>(
+        &self,
+        half: usize,
+        tangent: &Tangent<'_, L, N, M>,
+        by_parameters: &Option<L::ParameterSlopes>,
+        mut y: Phase<W, N>,
+        names: &impl Fn(usize) -> Entry,
+    ) -> Result<Phase<W, N>, Error>
+    where
+        L: Linearized<N, M, P, Scalar: Real<Wide = W>>,
+    {
+        let changes = self.changes(tangent, by_parameters, &y);
+        let left = if half == 0 { changes.position } else { changes.rate };
+        let motion = changes.motion.map(|_| W::constant(0.0));
+        let demands = ResidualChange { motion, acceleration: left, ..changes };
+        let correction = tangent.responses(self.lanes, &demands, names)?.accelerations;
+        y[half].iter_mut().zip(&correction).for_each(|(x, correction)| *x = *x + *correction);
         Ok(y)
     }
 }

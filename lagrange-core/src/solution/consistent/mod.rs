@@ -17,7 +17,7 @@ use crate::number::{
     vector,
 };
 use crate::solution::eliminate::eliminate;
-use crate::solution::kkt::{self, KktSystem, Rank};
+use crate::solution::kkt::{Factors, Rank};
 use crate::solution::near;
 use crate::solution::newton::{self, Left, Search, halvings};
 use crate::solution::solve::{is_trustworthy, name};
@@ -325,12 +325,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Projecti
         if is_trustworthy(&fast) {
             return Some(fast.accelerations);
         }
-        let general = |m| {
-            let equations = KktSystem { m, h, f, gamma: residual.value };
-            kkt::solve(&equations, rank).ok().map(|(solution, _)| solution.accelerations)
-        };
-        // Without the velocity constraints a massless coordinate may have no metric: take the plain one.
-        let step = general(m).or_else(|| general(diagonal(&m)))?;
+        let step = factors_of_nearest(&m, &f, rank).solve(&h, &residual.value).ok()?.accelerations;
         let moving: SVector<_, N> = vector(entries(|i| if self.held[i] { zero } else { step[i] }));
         moving.iter().all(|x| x.is_finite()).then_some(moving)
     }
@@ -386,6 +381,18 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Search f
         let held = (0..N).filter(|&i| self.held[i]).map(|i| L::COORDINATES[i]).collect();
         Error::HeldTooMuch { constraint, rate: self.level == Level::Velocity, residual: left, held, time }
     }
+}
+
+/// Factors of the least x with F x + γ = 0, in the metric of the mass matrix. Where F leaves a direction without mass,
+/// as holonomic constraints alone do where a massless coordinate is tied by a velocity constraint, the masses on the
+/// diagonal are the metric.
+pub(crate) fn factors_of_nearest<T: Real, const N: usize, const M: usize>(
+    m: &[[T; N]; N],
+    f: &[[T; N]; M],
+    rank: Rank<T>,
+) -> Factors<T, N, M> {
+    let factors = Factors::of(m, f, rank);
+    if factors.are_regular() { factors } else { Factors::of(&diagonal(m), f, rank) }
 }
 
 /// The masses on the diagonal, 1 where there is none.

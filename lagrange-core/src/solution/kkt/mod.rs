@@ -109,6 +109,11 @@ impl<T: Real, const N: usize, const M: usize> Factors<T, N, M> {
         Self { rows, m, along, pivot, wide, must_agree: rank.must_agree }
     }
 
+    /// Whether every direction that F leaves free has a mass.
+    pub(crate) fn are_regular(&self) -> bool {
+        self.along.rank == N - self.rows.split.rank
+    }
+
     /// M q̈ − Fᵀλ = h, F q̈ + γ = 0.
     pub(crate) fn solve(&self, h: &[T; N], gamma: &[T; M]) -> Result<Solution<T, N, M>, Fault<T, N>> {
         let Rows { units, split } = &self.rows;
@@ -139,7 +144,7 @@ impl<T: Real, const N: usize, const M: usize> Factors<T, N, M> {
     fn free_accelerations(&self, h: &[T; N], fixed: &[T; N]) -> Result<[T; N], Fault<T, N>> {
         let zero = T::constant(0.0);
         let (rank, size) = (self.rows.split.rank, N - self.rows.split.rank);
-        if self.along.rank < size {
+        if !self.are_regular() {
             return Err(Fault::Singular(undetermined(&self.rows.split, &self.along, size)));
         }
         let force = entries(|i| if i < size { h[rank + i] - dot(&self.m[rank + i], fixed) } else { zero });
