@@ -82,11 +82,11 @@ fn identify() -> Result<()> {
     println!("\nit lands 0.8 m aside the third time: e by Newton's method");
     let (mut restitution, aside) = (0.5, 0.8);
     for _ in 0..5 {
-        let mut lands = BALL.differentiable_event("lands", |sample| sample.coordinate("y")).falling();
+        let mut lands =
+            BALL.differentiable_event("lands", |sample| sample.coordinate("y")).falling().terminal();
         let start = State::new([0.0, HEIGHT], [0.5, 0.0]);
         let mut at = BALL.sensitivity(&start, &[])?.with(&["e"])?;
         for landing in 1..=3 {
-            lands = lands.terminal_at(landing);
             let method = Dop853::with_tolerance(1e-12);
             let flight = BALL.integrate_sensitivities_until(&at, 100.0, method, &mut [&mut lands])?;
             at = flight.end()?.clone();

@@ -42,12 +42,10 @@ fn ride() -> Journey<f64> {
     let (mut journey, mut state) = (Journey::new(), State::new([0.0], [STICKING.belt]));
     for event in 0..49 {
         if event % 2 == 0 {
-            gives = gives.terminal_at(event / 2 + 1);
             let leg = STICKING.integrate_until(state, 1e3, method, &mut [&mut gives]).expect("a start");
             state = *leg.end().state();
             journey.push(leg.into_owned()).expect("no gap");
         } else {
-            catches = catches.terminal_at(event / 2 + 1);
             let leg = SLIPPING.integrate_until(state, 1e3, method, &mut [&mut catches]).expect("a start");
             state = State { v: [STICKING.belt].into(), ..*leg.end().state() };
             journey.push(leg.into_owned()).expect("no gap");

@@ -71,7 +71,7 @@ where
     let (mut course, mut companion) = Course::from(system, &run.state, start, method)?;
     let mut watched: Vec<_> =
         events.iter_mut().map(|event| &mut **event as &mut dyn Watched<L, N, M>).collect();
-    let mut search = Search::from(&mut watched, system, &run.state, true)?;
+    let mut search = Search::begin(&mut watched, system, &run.state)?;
     let limits = Watchdog::new(method.limits(), &run.statistics);
     let mut stopped = search.record_due(&run.state, &mut path.crossings);
     let ending = loop {

@@ -155,7 +155,7 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
         orders.quantities.iter().try_for_each(|(_, value)| value(&sample).map(drop))?;
         let mut events: Vec<_> =
             orders.events.iter().map(|event| event.anew(|function| &**function)).collect();
-        let Search { grid, .. } = Search::from(&mut events, system, start, true)?;
+        let Search { grid, .. } = Search::begin(&mut events, system, start)?;
         let samples = Vec::with_capacity(times.len());
         let values = Vec::with_capacity(times.len() * orders.quantities.len());
         let goal = if orders.controller.is_some() { start.t } else { end };

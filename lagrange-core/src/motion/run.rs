@@ -175,7 +175,7 @@ where
     let (mut run, adjustment) = Run::begin(system, &state, method)?;
     let start = run.state.t.to_f64();
     let mut path = Path::from(run.state);
-    let mut search = Search::from(events, system, &run.state, true)?;
+    let mut search = Search::begin(events, system, &run.state)?;
     let limits = Watchdog::new(method.limits(), &run.statistics);
     let mut stopped = search.record_due(&run.state, &mut path.crossings);
     let ending = loop {

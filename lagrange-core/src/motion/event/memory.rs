@@ -2,6 +2,7 @@
 
 use super::Direction;
 use crate::ending::Ending;
+use crate::motion::run::is_between;
 use crate::number::{Real, Scalar, larger, smaller};
 
 /// What an event is about, and what is known of it from step to step.
@@ -13,7 +14,7 @@ pub struct Memory<T> {
     pub(super) pieces: Option<usize>,
     /// The crossing at which a run ends.
     pub(super) terminal: Option<usize>,
-    /// How many there were.
+    /// How many there were in this run, or in this motion where it is steered.
     pub(super) count: usize,
     /// The function where the search is; zero where the motion starts at a zero, and has not left it.
     pub(super) value: T,
@@ -72,15 +73,20 @@ impl<T: Real> Memory<T> {
     }
 
     /// What it is about, before the first crossing.
-    #[cfg(feature = "std")]
     pub(super) fn anew(&self) -> Self {
         let Self { name, direction, pieces, terminal, .. } = *self;
         Self { direction, pieces, terminal, ..Self::new(name) }
     }
 
     /// Takes note of the function where a search begins; whether that seems to be at a zero, where no step led there.
+    /// A motion that does not go on from the last crossing is another one, of which nothing is known.
     pub(super) fn begin(&mut self, value: T, t: T, is_new: bool) -> bool {
         let zero = T::constant(0.0);
+        let goes_on =
+            self.begun.zip(self.last.or(Some(t))).is_some_and(|(begun, last)| is_between(begun, last, t));
+        if is_new && !goes_on {
+            *self = self.anew();
+        }
         self.begun = self.begun.or(Some(t));
         let is_at_zero = is_new && (value == zero || self.last == Some(t));
         self.start = is_at_zero.then_some(value);
@@ -143,6 +149,12 @@ impl<T: Real> Memory<T> {
         let has_one_sign = value >= zero && next >= zero || value <= zero && next <= zero;
         let least = smaller(Scalar::abs(value), Scalar::abs(next));
         has_one_sign && least < self.near && self.noise == zero
+    }
+
+    /// Counts the crossings of a run from 1.
+    #[cfg(feature = "alloc")]
+    pub(super) fn begin_run(&mut self) {
+        self.count = 0;
     }
 
     /// Goes on to the end of the step.

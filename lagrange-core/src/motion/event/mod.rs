@@ -59,8 +59,13 @@ use crate::system::{Lagrangian, State};
 ///
 /// [`Ending::EventsAccumulate`](crate::Ending::EventsAccumulate) ends a motion where, twice in a row, a crossing follows the
 /// one before of the same event within 1.5·10⁻⁸ (2⁻²⁶) of the longest interval between two of them, or up to the first, or
-/// within 64 units of round-off of the time. So an event belongs to one motion, or to the legs of one: what it
-/// remembers is of no use to another.
+/// within 64 units of round-off of the time.
+///
+/// # One event in several motions
+///
+/// Each run counts the crossings from 1, also where it is one leg of a motion. What tells that crossings accumulate is kept from
+/// leg to leg, and forgotten where a run starts before the last crossing. A [`Motion`](crate::Motion) that is steered counts on until
+/// another one starts.
 pub struct Event<L: Lagrangian<N, M>, G, const N: usize, const M: usize> {
     function: G,
     memory: Memory<L::Scalar>,
@@ -92,7 +97,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, G, const N: usize, const M: usize> Event
         self.terminal_at(1)
     }
 
-    /// Ends a run at crossing number `count`, counted from 1 since the event was made.
+    /// Ends a run at crossing number `count`, counted from 1 in each run.
     #[must_use]
     pub fn terminal_at(mut self, count: usize) -> Self {
         self.memory.terminal = Some(count);
@@ -121,7 +126,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, G, const N: usize, const M: usize> Event
         Event { function: function(self.function), memory: self.memory, system: PhantomData }
     }
 
-    /// How many crossings there were so far.
+    /// How many crossings there were so far, in the run that was searched last.
     pub fn count(&self) -> usize {
         self.memory.count
     }

@@ -81,6 +81,13 @@ where
     W: Watched<L, N, M>,
     L: Lagrangian<N, M, Scalar: Real>,
 {
+    /// From the start of a run on.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn begin(events: &'e mut [W], system: &L, state: &State<L::Scalar, N>) -> Result<Self, Error> {
+        events.iter_mut().for_each(|event| event.memory().begin_run());
+        Self::from(events, system, state, true)
+    }
+
     /// From here on. `is_new` tells that no step led here.
     pub(crate) fn from(
         events: &'e mut [W],
