@@ -234,6 +234,13 @@ pub enum Error {
         /// In what the runs differ.
         differs: &'static str,
     },
+    /// Rows to resume from, where code that no fingerprint sees decides about them and the run has no
+    /// [tag](crate::Ensemble::tag).
+    #[cfg(feature = "std")]
+    Untagged {
+        /// The code: an event, a controller, ….
+        code: String,
+    },
     /// What went wrong with a member in another process, which told it in words.
     #[cfg(feature = "std")]
     Elsewhere {
@@ -425,6 +432,11 @@ impl Display for Error {
             Self::OtherRun { member, differs } => write!(
                 f,
                 "member {member} of the table to resume from is of another run: {differs}; resume with what made the table, or begin a new one"
+            ),
+            #[cfg(feature = "std")]
+            Self::Untagged { code } => write!(
+                f,
+                "{code} may have been another when the rows to resume from were made, and nothing in them tells: name it in both runs by `.tag(\"…\")` on the ensemble, and anew whenever it changes; `.tag(\"\")` takes over rows of a run without a tag"
             ),
             #[cfg(feature = "std")]
             Self::Elsewhere { said } => f.write_str(said),

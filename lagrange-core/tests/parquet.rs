@@ -31,7 +31,7 @@ type Members = Ensemble<'static, Oscillators<f64>, f64, 2, 0, true>;
 /// Some meet the limit on steps, and some are ended early: by the observer, by an event.
 fn members() -> Members {
     let back = member(0).0.event("back", |sample| sample.state().v[0] + 5.0).terminal();
-    Ensemble::from_fn(COUNT, member).event(back).observe(|index, state| {
+    Ensemble::from_fn(COUNT, member).event(back).tag("back").observe(|index, state| {
         match index % 5 == 1 && state.t > 1.0 {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
@@ -217,7 +217,7 @@ fn tables_of_other_runs_are_refused() {
     let directory = Directory::new("other");
     let outcome = whole();
     write_parts(&directory, &outcome, 2);
-    let settings = "the method, one of its settings or the end is another";
+    let settings = "the method, one of its settings, an event, the tag or the end is another";
     // By the ensemble.
     let resumed = || members().resume_from(table(&directory).read().unwrap()).unwrap();
     let others = [
@@ -271,6 +271,61 @@ fn tables_of_other_systems_and_starts_are_refused() {
     let mut shifted = ParquetTable::open(&directory.0, |index| member(index + 1)).unwrap();
     let differs = "the start or the parameters of the member are others";
     assert_eq!(shifted.push(&outcome.members()[4]).unwrap_err(), Error::OtherRun { member: 4, differs });
+}
+
+/// The same but for the sign of a spring.
+mod soft {
+    use lagrange_core::prelude::*;
+
+    #[derive(Lagrangian, Clone, Copy)]
+    #[coordinates(a, b)]
+    #[lagrangian(m[0]/2*a_dot^2 + m[1]/2*b_dot^2 - k/2*(a - b)^2 + k/4*a^4)]
+    pub(super) struct Oscillators<T> {
+        pub(super) m: [T; 2],
+        pub(super) k: T,
+    }
+}
+
+#[test]
+fn tables_of_other_equations_are_refused() {
+    let directory = Directory::new("equations");
+    write_parts(&directory, &whole(), 1);
+    let soft = |index: usize| {
+        let (Oscillators { m, k }, start) = member(index);
+        (soft::Oscillators { m, k }, start)
+    };
+    let mut other = ParquetTable::open(&directory.0, soft).unwrap();
+    refused(other.read(), "the system or its equations are others");
+    refused(other.clean(), "the system or its equations are others");
+}
+
+/// A second program writes without reading: nothing of it gets in, and the first goes on.
+#[test]
+fn rows_of_other_parameters_do_not_get_into_a_directory() {
+    let directory = Directory::new("parameters");
+    let outcome = whole();
+    write_parts(&directory, &outcome, 2);
+    let stiff = |index: usize| {
+        let (mut system, start) = member(index);
+        system.k *= 2.0;
+        (system, start)
+    };
+    let run =
+        Ensemble::from_fn(COUNT, stiff).event(member(0).0.event("back", |s| s.state().v[0] + 5.0).terminal());
+    let others = run.tag("back").integrate_on_lanes(TO, method()).unwrap();
+    // Also where no member is in both.
+    for first in [0, 25] {
+        let mut table = ParquetTable::open(&directory.0, stiff).unwrap();
+        others.members()[first..].iter().for_each(|member| table.push(member).unwrap());
+        refused(table.flush(), "the start or the parameters of the member are others");
+        drop(table);
+        assert_eq!(directory.files().len(), 2);
+        assert_eq!(table_of(&directory), expected(&outcome));
+    }
+}
+
+fn table_of(directory: &Directory) -> MemberTable<f64, 2> {
+    table(directory).read().unwrap()
 }
 
 #[test]

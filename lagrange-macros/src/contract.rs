@@ -226,9 +226,11 @@ pub(crate) const TAYLOR_SERIES: [Method; 3] = [
 ];
 
 /// The constants of these traits.
-const CONSTANTS: [&str; 13] = [
+const CONSTANTS: [&str; 15] = [
     "ARGUMENTS",
     "NAME",
+    "DIGEST",
+    "SUPPLIED",
     "COORDINATES",
     "CONSTRAINTS",
     "CONSTRAINT_KINDS",

@@ -282,7 +282,7 @@ fn members_begin_anew_and_wrong_functions_are_told() {
 fn members_ended_by_an_event_are_taken_over_from_a_table() {
     let name = "\"up\", again";
     let upper = || member(0).0.event(name, |s| s.coordinate("a")).terminal_at(2);
-    let run = || ensemble().event(upper());
+    let run = || ensemble().event(upper()).tag("up");
     let whole = run().integrate_on_lanes(2.0, Dop853::default()).unwrap();
     let ended = MemberEnding::Event(name.into());
     let table = MemberTable::read::<DoublePendulum<f64>, 0>(&whole.csv().to_string()).unwrap();

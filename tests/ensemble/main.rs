@@ -9,6 +9,7 @@ mod members;
 mod parts;
 mod samples;
 mod taylor;
+mod unseen;
 
 use lagrange_core::prelude::*;
 

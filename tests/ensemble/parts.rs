@@ -231,7 +231,7 @@ fn members_integrated_to_another_time_are_refused_where_they_belong_to_the_part(
         let resumed = ensemble().resume(&table).unwrap().shard(part, 3);
         resumed.integrate_on_lanes(END + 1.0, Dop853::default())
     };
-    let differs = "the method, one of its settings or the end is another";
+    let differs = "the method, one of its settings, an event, the tag or the end is another";
     assert_eq!(later(1).unwrap_err(), Error::OtherRun { member: 4, differs });
     assert!(later(0).is_ok());
 }
@@ -248,7 +248,7 @@ fn rows_of_another_run_are_refused_by_name() {
         Err(Error::OtherRun { member, differs }) => (member, differs),
         other => panic!("{other:?}"),
     };
-    const RUN: &str = "the method, one of its settings or the end is another";
+    const RUN: &str = "the method, one of its settings, an event, the tag or the end is another";
     let method = Dop853::default();
     let others =
         [method.relative(1e-10), method.absolute(1e-10), method.max_step(0.1), method.first_step(0.01)];
@@ -284,7 +284,7 @@ fn rows_of_another_run_are_refused_by_name() {
     }
     assert_eq!(
         resumed(ensemble()).integrate(END, method).unwrap_err().to_string(),
-        "member 0 of the table to resume from is of another run: the method, one of its settings or the end is another; resume with what made the table, or begin a new one"
+        "member 0 of the table to resume from is of another run: the method, one of its settings, an event, the tag or the end is another; resume with what made the table, or begin a new one"
     );
 }
 
@@ -295,6 +295,10 @@ fn rows_given_twice_count_once() {
     assert_eq!(twice.integrate_on_lanes(END, Dop853::default()).unwrap(), whole());
 }
 
+/// The first row, which follows the header.
+const OTHER_SYSTEM: Error =
+    Error::Resume { line: 2, column: 2, reason: "the system or its equations are others" };
+
 /// In single precision it is another system.
 #[test]
 fn rows_of_another_number_type_are_refused() {
@@ -304,8 +308,7 @@ fn rows_of_another_number_type_are_refused() {
         (system, State { t: t as f32, q: q.map(|x| x as f32), v: v.map(|x| x as f32) })
     });
     let table = single.integrate(END as f32, Dop853::default()).unwrap().csv().to_string();
-    let error = ensemble().resume(&table).unwrap().integrate(END, Dop853::default()).unwrap_err();
-    assert_eq!(error, Error::OtherRun { member: 0, differs: "the system or its equations are others" });
+    assert_eq!(ensemble().resume(&table).unwrap_err(), OTHER_SYSTEM);
 }
 
 /// Functions that are given to it may differ, which no equation tells.
@@ -322,9 +325,8 @@ fn rows_of_a_system_of_another_name_are_refused() {
 
     let start = State::new([0.0], [1.0]);
     let free = Ensemble::from_fn(2, |_| (Free, start)).integrate(END, Dop853::default()).unwrap();
-    let loose = Ensemble::from_fn(2, |_| (Loose, start)).resume(&free.csv().to_string()).unwrap();
-    let error = loose.integrate(END, Dop853::default()).unwrap_err();
-    assert_eq!(error, Error::OtherRun { member: 0, differs: "the system or its equations are others" });
+    let loose = Ensemble::from_fn(2, |_| (Loose, start)).resume(&free.csv().to_string());
+    assert_eq!(loose.unwrap_err(), OTHER_SYSTEM);
 }
 
 /// The same struct but for the sign of the weight.
@@ -353,13 +355,13 @@ fn rows_of_other_equations_are_refused() {
         })
     };
     let reason = "the system or its equations are others";
-    let resumed = other().resume(&whole().csv().to_string()).unwrap();
-    let error = resumed.integrate_on_lanes(END, Dop853::default()).unwrap_err();
-    assert_eq!(error, Error::OtherRun { member: 0, differs: reason });
+    let table = whole().csv().to_string();
+    assert_eq!(other().resume(&table).unwrap_err(), OTHER_SYSTEM);
+    assert_eq!(MemberTable::read::<upward::DoublePendulum<f64>, 0>(&table).unwrap_err(), OTHER_SYSTEM);
     let outcome = other().integrate_on_lanes(END, Dop853::default()).unwrap();
     assert_eq!(whole().merge(outcome).unwrap_err(), Error::Merge { reason });
     let coarse = ensemble().integrate_on_lanes(END, Dop853::with_tolerance(1e-8)).unwrap();
-    let reason = "the method, one of its settings or the end is another";
+    let reason = "the method, one of its settings, an event, the tag or the end is another";
     assert_eq!(whole().merge(coarse.clone()).unwrap_err(), Error::Merge { reason });
     // Two runs in one table: the first row of the second is refused.
     let mixed = whole().csv().to_string() + &coarse.csv().to_string();

@@ -2,21 +2,24 @@
 
 use core::fmt::{self, Write};
 
-use crate::motion::{Method, Orders};
+use super::job::Plan;
+use crate::motion::Method;
 use crate::number::Real;
 use crate::system::{Lagrangian, State};
 
 /// Whose row it is: three hashes, each the 32-bit FNV-1a of Fowler, Noll and Vo, the same on every machine.
 ///
-/// Rows whose hashes differ are of different runs. Another run passes for this one by chance once in 4·10⁹ times, and what a
-/// function of the user holds is not seen. Limits on steps and time do not count: they may be raised for the members that
-/// met them.
+/// Rows whose hashes differ are of different runs. Another run passes for this one by chance once in 4·10⁹ times. Code and
+/// what it holds cannot be seen: events, a controller, an observer, functions supplied to the system, equations written by hand.
+/// A run with one of them is told from another by its [tag](super::Ensemble::tag) alone, and none is resumed without. Limits
+/// on steps and time do not count: they may be raised for the members that met them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Fingerprint {
-    /// Of the system's equations as text, which begins with its name, its coordinates and constraints, and its number type.
+    /// Of the system: its declaration ([`Lagrangian::DIGEST`]), its name, coordinates and constraints, and its number type.
     pub system: u32,
-    /// Of the method and its settings, whether it was on lanes, the end, and the times and quantities of samples.
+    /// Of the method and its settings, whether it was on lanes, the end, the times and quantities of samples, the events by name,
+    /// direction, pieces and terminal count, the interval of the controller, and the [tag](super::Ensemble::tag).
     pub run: u32,
     /// Of the time, coordinates, velocities and parameters that the member starts with, bit for bit.
     pub start: u32,
@@ -28,26 +31,37 @@ impl Fingerprint {
         method: &P,
         end: L::Scalar,
         is_on_lanes: bool,
-        orders: &Orders<'_, L, N, M>,
+        plan: &Plan<'_, L, L::Scalar, N, M>,
     ) -> Self
     where
         L: Lagrangian<N, M, Scalar: Real>,
         P: Method<L, N, M>,
     {
-        let mut system = Hash::new();
-        let text = L::EQUATIONS.text();
-        [text].iter().chain(&L::COORDINATES).chain(&L::CONSTRAINTS).for_each(|text| system.text(text));
-        system.number(L::Scalar::EPSILON);
         let mut run = Hash::new();
         if method.identify(&mut run).is_err() {
             run.text("not written to its end");
         }
         run.text(if is_on_lanes { " on lanes" } else { "" });
         run.number(end.to_f64());
-        if orders.identify(&mut run).is_err() {
+        if plan.orders.identify(&mut run).is_err() {
             run.text("not written to its end");
         }
-        Self { system: system.0, run: run.0, start: 0 }
+        if let Some(tag) = plan.tag.as_deref().filter(|tag| !tag.is_empty()) {
+            run.text(tag);
+        }
+        Self { system: Self::of_system::<L, N, M>(), run: run.0, start: 0 }
+    }
+
+    /// What all members of all runs of a system have in common.
+    pub(super) fn of_system<L, const N: usize, const M: usize>() -> u32
+    where
+        L: Lagrangian<N, M, Scalar: Real>,
+    {
+        let mut system = Hash::new();
+        [L::NAME].iter().chain(&L::COORDINATES).chain(&L::CONSTRAINTS).for_each(|text| system.text(text));
+        system.bytes(&L::DIGEST.to_le_bytes());
+        system.number(L::Scalar::EPSILON);
+        system.0
     }
 
     /// With what one member starts from.
@@ -70,8 +84,8 @@ impl Fingerprint {
     pub(super) fn difference(&self, other: &Self) -> Option<(usize, &'static str)> {
         let Self { system, run, start } = *other;
         let differences = [
-            (2, "the system or its equations are others", self.system != system),
-            (3, "the method, one of its settings or the end is another", self.run != run),
+            (2, OTHER_SYSTEM, self.system != system),
+            (3, "the method, one of its settings, an event, the tag or the end is another", self.run != run),
             (4, "the start or the parameters of the member are others", self.start != start),
         ];
         differences.into_iter().find_map(|(column, what, differs)| differs.then_some((column, what)))
@@ -82,6 +96,8 @@ impl Fingerprint {
         Self { start: 0, ..self }
     }
 }
+
+pub(super) const OTHER_SYSTEM: &str = "the system or its equations are others";
 
 /// FNV-1a of what was written so far.
 pub(super) struct Hash(u32);

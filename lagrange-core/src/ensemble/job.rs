@@ -30,6 +30,31 @@ pub(super) struct Plan<'a, L: Lagrangian<N, M, Scalar = T>, T, const N: usize, c
     pub(super) observer: Option<Observer<'a, T, N>>,
     pub(super) watch: Option<Watch<'a, T, N>>,
     pub(super) orders: Orders<'a, L, N, M>,
+    /// What the user calls the code that no fingerprint sees.
+    pub(super) tag: Option<String>,
+}
+
+impl<L, T: Real, const N: usize, const M: usize> Plan<'_, L, T, N, M>
+where
+    L: Lagrangian<N, M, Scalar = T>,
+{
+    /// Whose rows are taken over, the user has to say, where code decides that no fingerprint sees.
+    fn check_tag(&self) -> Result<(), Error> {
+        match self.unseen() {
+            Some(code) if self.tag.is_none() && !self.done.is_empty() => Err(Error::Untagged { code }),
+            _ => Ok(()),
+        }
+    }
+
+    /// The first piece of code of which the last states of members may depend.
+    fn unseen(&self) -> Option<String> {
+        let of_system = match L::SUPPLIED.first() {
+            Some(name) => Some(format!("the function `{name}` of the system")),
+            None => (L::DIGEST == 0).then(|| "the equations, written by hand,".into()),
+        };
+        let observer = self.observer.as_ref().map(|_| "the observer".into());
+        of_system.or_else(|| self.orders.unseen()).or(observer)
+    }
 }
 
 type Make<'a, L, T, const N: usize> = Box<dyn Fn(usize) -> (L, State<T, N>) + Send + Sync + 'a>;
@@ -126,7 +151,8 @@ where
     L: Lagrangian<N, M, Scalar = T>,
 {
     pub(super) fn new(plan: Plan<'a, L, T, N, M>, end: T, run: Fingerprint) -> Result<Self, Error> {
-        let Plan { count, make, shard, shards, list, done, observer, watch, orders } = plan;
+        plan.check_tag()?;
+        let Plan { count, make, shard, shards, list, done, observer, watch, orders, tag: _ } = plan;
         orders.check()?;
         let part = Part::new(count, shard, shards, list)?;
         let events = orders.events();

@@ -80,9 +80,9 @@ where
     /// thread, and from several at once.
     pub fn from_fn(count: usize, member: impl Fn(usize) -> (L, State<T, N>) + Send + Sync + 'a) -> Self {
         let make = Box::new(member);
-        let (list, done, observer, watch) = (None, Vec::new(), None, None);
+        let (list, done, observer, watch, tag) = (None, Vec::new(), None, None, None);
         let orders = Orders::default();
-        Self { plan: Plan { count, make, shard: 0, shards: 1, list, done, observer, watch, orders } }
+        Self { plan: Plan { count, make, shard: 0, shards: 1, list, done, observer, watch, orders, tag } }
     }
 
     /// These members.
@@ -152,18 +152,47 @@ where
         self
     }
 
+    /// Names the code that this run is made with: closures for [events](Self::event), a
+    /// [controller](Self::controlled), an [observer](Self::observe), functions [supplied](crate::Function) to the system,
+    /// equations written by hand. No [`Fingerprint`] sees code or what it holds, so a run with any of these takes over rows
+    /// of a run with the same tag alone. Give another tag whenever they change: put numbers in them into it,
+    /// `format!("gain {gain}")`. Without a tag such a run can be integrated, and not [resumed](Self::resume). The empty tag is
+    /// that of a run without one.
+    ///
+    /// ```
+    /// # use lagrange_core::prelude::*;
+    /// # #[derive(Lagrangian)]
+    /// # #[coordinates(x)]
+    /// # #[lagrangian(x_dot^2/2 - k/2 * x^2)]
+    /// # struct Spring<T> { k: T }
+    /// let springs = |level: f64| {
+    ///     let rises = Spring { k: 0.0 }.event("rises", move |sample| sample.state().q[0] - level).terminal();
+    ///     let springs = Ensemble::from_fn(9, |n| (Spring { k: n as f64 }, State::at_rest([1.0])));
+    ///     springs.event(rises).tag(format!("level {level}"))
+    /// };
+    /// let table = springs(0.5).integrate(9.0, Dop853::default())?.csv().to_string();
+    /// assert!(springs(0.5).resume(&table)?.integrate(9.0, Dop853::default()).is_ok());
+    /// let other = springs(0.25).resume(&table)?.integrate(9.0, Dop853::default());
+    /// assert!(matches!(other, Err(Error::OtherRun { .. })));
+    /// # Ok::<(), Error>(())
+    /// ```
+    pub fn tag(mut self, tag: impl Into<String>) -> Self {
+        self.plan.tag = Some(tag.into());
+        self
+    }
+
     /// The motions to the time `end`, one after the other on each thread, by the method named.
     ///
     /// # Errors
     /// What is wrong with the whole: [`Error::Setting`], [`Error::EndNotFinite`], [`Error::Shard`],
-    /// [`Error::NoSuchMember`], [`Error::OtherRun`], [`Error::SampleTime`]. What is wrong with a member is in
+    /// [`Error::NoSuchMember`], [`Error::OtherRun`], [`Error::Untagged`], [`Error::SampleTime`]. What is wrong with a member is in
     /// the outcome.
     pub fn integrate<P>(self, end: T, method: P) -> Result<Outcome<T, N>, Error>
     where
         P: Method<L, N, M> + Sync,
     {
         method.check()?;
-        let run = Fingerprint::of_run(&method, end, false, &self.plan.orders);
+        let run = Fingerprint::of_run(&method, end, false, &self.plan);
         self.run(end, run, |job| job.one_by_one::<P, IS_WATCHED>(&method))
     }
 
@@ -175,7 +204,8 @@ where
     /// wall time. Rows of another part are ignored, and so are lines that were not written to their end, also where
     /// another row was appended to one. A row says by its [`Fingerprint`] which run it is of: to be taken over, it must have
     /// been computed from the same start and parameters, of the same equations, with the same method and settings (limits
-    /// may differ) to the same end, on lanes or not. To see that, all members of the table are made once more.
+    /// may differ) to the same end, on lanes or not, and under the same [tag](Self::tag). To see that, all members of the table
+    /// are made once more.
     ///
     /// ```
     /// # use lagrange_core::prelude::*;
@@ -193,13 +223,15 @@ where
     /// ```
     ///
     /// # Errors
-    /// [`Error::Resume`] for what is no row of such a system, and where rows are of different runs. For members of
-    /// another run, to another end or of another start [`integrate`](Self::integrate) gives [`Error::OtherRun`].
+    /// [`Error::Resume`] for what is no row of this system, and where rows are of different runs. For members of
+    /// another run, to another end or of another start [`integrate`](Self::integrate) gives [`Error::OtherRun`], and
+    /// [`Error::Untagged`] where code decides about the members that no fingerprint sees, and there is no [tag](Self::tag).
     pub fn resume(self, table: &str) -> Result<Self, Error>
     where
         T: core::str::FromStr,
     {
-        let table = MemberTable::of(table, L::COORDINATES, self.plan.count)?;
+        let system = Fingerprint::of_system::<L, N, M>();
+        let table = MemberTable::of(table, L::COORDINATES, system, self.plan.count)?;
         self.resume_from(table)
     }
 
@@ -252,7 +284,7 @@ where
         P: LaneMethod<L, N, M> + Sync,
     {
         method.check()?;
-        let run = Fingerprint::of_run(&method, end, true, &self.plan.orders);
+        let run = Fingerprint::of_run(&method, end, true, &self.plan);
         self.run(end, run, |job| job.on_lanes::<P, IS_WATCHED>(&method))
     }
 }

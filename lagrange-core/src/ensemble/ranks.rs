@@ -87,7 +87,7 @@ where
     where
         P: Method<L, N, M> + Sync,
     {
-        let run = Fingerprint::of_run(&method, end, false, &self.ensemble.plan.orders);
+        let run = Fingerprint::of_run(&method, end, false, &self.ensemble.plan);
         self.run(method.check(), end, run, |job| job.one_by_one::<P, IS_WATCHED>(&method))
     }
 
@@ -134,7 +134,7 @@ where
         L: Pack<Lanes, Packed: Lagrangian<N, M, Scalar = Lanes>>,
         P: LaneMethod<L, N, M> + Sync,
     {
-        let run = Fingerprint::of_run(&method, end, true, &self.ensemble.plan.orders);
+        let run = Fingerprint::of_run(&method, end, true, &self.ensemble.plan);
         self.run(method.check(), end, run, |job| job.on_lanes::<P, IS_WATCHED>(&method))
     }
 }
@@ -189,7 +189,7 @@ where
             return Err(Error::Ranks { rank, reason: "something is wrong that is told there" });
         }
         if theirs != &all[..mine.len()] {
-            let reason = "system, method, settings, end, members or part are others than on rank 0";
+            let reason = "system, method, settings, tag, end, members or part are others than on rank 0";
             return Err(Error::Ranks { rank, reason });
         }
     }

@@ -150,27 +150,28 @@ impl<T: Real, const N: usize> MemberTable<T, N> {
     /// The rows of a table of systems `L`.
     ///
     /// # Errors
-    /// [`Error::Resume`] for what is no row of such a system, and where rows are of different runs.
+    /// [`Error::Resume`] for what is no row of this system, equations and all, and where rows are of different runs.
     pub fn read<L, const M: usize>(table: &str) -> Result<Self, Error>
     where
         L: Lagrangian<N, M, Scalar = T>,
         T: FromStr,
     {
-        Self::of(table, L::COORDINATES, usize::MAX)
+        Self::of(table, L::COORDINATES, Fingerprint::of_system::<L, N, M>(), usize::MAX)
     }
 
-    /// Of an ensemble of so many members.
-    pub(super) fn of(table: &str, names: [&'static str; N], count: usize) -> Result<Self, Error>
+    /// Of an ensemble of so many members of a system with these coordinates and this [hash](Fingerprint::system).
+    pub(super) fn of(table: &str, names: [&'static str; N], system: u32, count: usize) -> Result<Self, Error>
     where
         T: FromStr,
     {
         let wrong = |line, column, reason| Error::Resume { line, column, reason };
-        Self::gather(names, read(table, &names, count)?, wrong)
+        Self::gather(names, system, read(table, &names, count)?, wrong)
     }
 
     /// Of rows with their places, all of one run. `wrong` says that a column of the row in a place is of another.
     pub(super) fn gather<X>(
         names: [&'static str; N],
+        system: u32,
         rows: impl IntoIterator<Item = (X, MemberRow<T, N>)>,
         wrong: impl Fn(X, usize, &'static str) -> Error,
     ) -> Result<Self, Error> {
@@ -179,7 +180,7 @@ impl<T: Real, const N: usize> MemberTable<T, N> {
         for (place, row) in rows {
             let common = row.fingerprint.without_start();
             let known = kept.get_mut(&row.index);
-            let run = first.get_or_insert(common).difference(&common);
+            let run = first.get_or_insert(Fingerprint { system, ..common }).difference(&common);
             let start = known.as_ref().and_then(|known| known.fingerprint.difference(&row.fingerprint));
             if let Some((column, reason)) = run.or(start) {
                 return Err(wrong(place, column, reason));

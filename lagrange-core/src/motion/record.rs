@@ -103,6 +103,12 @@ impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Orde
         }
     }
 
+    /// The first function by which the end of a motion may change, in words. A quantity can only make a member fail.
+    pub(crate) fn unseen(&self) -> Option<String> {
+        let event = self.events.first().map(|event| format!("the event `{}`", event.name()));
+        event.or_else(|| self.controller.as_ref().map(|_| "the controller".into()))
+    }
+
     /// Writes what tells these orders from others; what their functions hold is not seen.
     pub(crate) fn identify(&self, to: &mut dyn Write) -> fmt::Result {
         self.times.iter().try_for_each(|t| write!(to, " at {:?}", t.to_f64()))?;

@@ -54,6 +54,11 @@ pub trait Lagrangian<const N: usize, const M: usize> {
     /// Names of the observables.
     const OBSERVABLES: &'static [&'static str];
 
+    /// Hash of the struct and of the attributes that its motion follows from; 0 of a system that is not derived.
+    const DIGEST: u32 = 0;
+    /// Names of the functions that are supplied (`#[function(…)]`).
+    const SUPPLIED: &'static [&'static str] = &[];
+
     /// What the derive found out: conserved quantities, cyclic coordinates, what the energy is.
     const FACTS: Facts;
 

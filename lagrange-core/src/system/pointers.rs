@@ -28,6 +28,8 @@ macro_rules! forward {
             const INTEGRALS: Option<Integrals> = L::INTEGRALS;
             const MOMENTA_ARE_LINEAR: bool = L::MOMENTA_ARE_LINEAR;
             const OBSERVABLES: &'static [&'static str] = L::OBSERVABLES;
+            const DIGEST: u32 = L::DIGEST;
+            const SUPPLIED: &'static [&'static str] = L::SUPPLIED;
             const FACTS: Facts = L::FACTS;
             const EQUATIONS: Equations = L::EQUATIONS;
 

@@ -31,6 +31,8 @@ impl Emitter<'_> {
             ConstraintKind::Holonomic => quote!(__lagrange::ConstraintKind::Holonomic),
             ConstraintKind::Velocity => quote!(__lagrange::ConstraintKind::Velocity),
         });
+        let digest = self.declaration.digest;
+        let supplied = self.supplied();
         let are_linear = self.derived.equations.momenta_are_linear;
         let (integrability, facts) = (self.integrability(), self.facts());
         let observables = self.observable_names();
@@ -62,6 +64,8 @@ impl Emitter<'_> {
                     #integrability
                     const MOMENTA_ARE_LINEAR: bool = #are_linear;
                     const OBSERVABLES: &'static [&'static str] = &[#(#observables),*];
+                    const DIGEST: u32 = #digest;
+                    #supplied
                     #facts
                     const EQUATIONS: __lagrange::Equations = Self::equations();
                     #methods
@@ -191,6 +195,12 @@ impl Emitter<'_> {
         if !of_motion.is_empty() {
             diagnostics.error(self.problem.place, too_long(&of_motion.join("; ")));
         }
+    }
+
+    /// The names of the functions that the user supplies, where there are any.
+    fn supplied(&self) -> Option<TokenStream> {
+        let names = self.problem.functions.iter().map(|function| &function.name);
+        (names.len() > 0).then(|| quote!(const SUPPLIED: &'static [&'static str] = &[#(#names),*];))
     }
 
     fn visit_parameters(&self) -> TokenStream {

@@ -73,6 +73,8 @@ fn promises(expansion: TokenStream) -> BTreeSet<String> {
         "INTEGRALS",
         "MOMENTA_ARE_LINEAR",
         "EQUATIONS",
+        "DIGEST",
+        "SUPPLIED",
         "ARGUMENTS",
         "ROOTS",
         "series_functions",

@@ -4,6 +4,7 @@ use syn::{Attribute, Data, DeriveInput, Fields, MacroDelimiter, Meta, Result};
 
 use super::cursor::Cursor;
 use super::declaration::{Declaration, Options};
+use super::digest::digest;
 use super::field::Field;
 use super::forms::{
     FORMS, constraint, coordinates, define, force, form, function, observable, only, options, power,
@@ -15,6 +16,7 @@ use crate::diagnostics::{Diagnostics, Place};
 /// Reads the struct. What could be read is returned even where something was wrong.
 pub(crate) fn declaration(input: DeriveInput, diagnostics: &mut Diagnostics) -> Declaration {
     let fields = fields(&input, diagnostics);
+    let digest = digest(&input.ident, &fields, input.attrs.iter().filter(|attribute| moves(attribute)));
     let mut declaration = Declaration {
         ident: input.ident,
         visibility: input.vis,
@@ -33,6 +35,7 @@ pub(crate) fn declaration(input: DeriveInput, diagnostics: &mut Diagnostics) -> 
         observables: Vec::new(),
         parameters: Vec::new(),
         options: Options::default(),
+        digest,
     };
     let mut seen = Vec::new();
     for attribute in &input.attrs {
@@ -82,6 +85,11 @@ fn fields(input: &DeriveInput, diagnostics: &mut Diagnostics) -> Vec<Field> {
 /// The word of an attribute that is ours.
 fn own(attribute: &Attribute) -> Option<&'static str> {
     FORMS.into_iter().map(|(word, _)| word).find(|word| attribute.path().is_ident(word))
+}
+
+/// Whether the motion follows from an attribute.
+fn moves(attribute: &Attribute) -> bool {
+    own(attribute).is_some_and(|word| !matches!(word, "observable" | "conserved"))
 }
 
 /// Attributes that say one thing are given once.

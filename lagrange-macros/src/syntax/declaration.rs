@@ -28,6 +28,8 @@ pub(crate) struct Declaration {
     pub(crate) observables: Vec<Named>,
     pub(crate) parameters: Vec<Parameter>,
     pub(crate) options: Options,
+    /// Hash of what the motion follows from.
+    pub(crate) digest: u32,
 }
 
 /// `#[coordinates(x, r: [3], corners: [4, 3])]`, one entry.

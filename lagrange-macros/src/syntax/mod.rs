@@ -3,6 +3,7 @@
 mod attribute;
 mod cursor;
 mod declaration;
+mod digest;
 mod expression;
 mod field;
 mod forms;

@@ -179,8 +179,8 @@ fn write_column<W: Write + Send>(
 pub(super) enum Fault {
     /// It was cut off, or the disk is full, or the like.
     Damaged(String),
-    /// It is whole, and of something else.
-    Other(&'static str),
+    /// It cannot be opened, or is whole and of something else.
+    Other(String),
 }
 
 impl From<ParquetError> for Fault {
@@ -196,14 +196,10 @@ impl From<std::io::Error> for Fault {
 }
 
 /// The run that a file is of. `columns` says which there must be.
-pub(super) fn run_of(file: File, columns: &[Column]) -> Result<Fingerprint, Fault> {
-    run(&SerializedFileReader::new(file)?, columns)
-}
-
 fn run(reader: &SerializedFileReader<File>, columns: &[Column]) -> Result<Fingerprint, Fault> {
     let head = reader.metadata().file_metadata();
     if head.schema() != &*schema(columns)? {
-        return Err(Fault::Other("its columns are others"));
+        return Err(Fault::Other("its columns are others".into()));
     }
     let number = |key: &str| {
         let entry = head.key_value_metadata()?.iter().find(|entry| entry.key == key)?;
@@ -211,7 +207,7 @@ fn run(reader: &SerializedFileReader<File>, columns: &[Column]) -> Result<Finger
     };
     match (number(SYSTEM), number(RUN)) {
         (Some(system), Some(run)) => Ok(Fingerprint { system, run, start: 0 }),
-        _ => Err(Fault::Other("it does not say of which run it is")),
+        _ => Err(Fault::Other("it does not say of which run it is".into())),
     }
 }
 

@@ -130,14 +130,15 @@ where
     /// Writes the rows that wait into a file.
     ///
     /// # Errors
-    /// [`Error::Parquet`], where that cannot be done, or the directory holds files of another run or of another system. The rows
-    /// go on waiting: make room and flush again.
+    /// [`Error::Parquet`], where that cannot be done, or the directory holds files of another run or of another system, or rows of
+    /// members with another start or other parameters; members are made up to the last that waits, to see that. The rows go on
+    /// waiting: make room and flush again.
     pub fn flush(&mut self) -> Result<(), Error> {
-        let Some(first) = self.waiting.first() else { return Ok(()) };
+        if self.waiting.is_empty() {
+            return Ok(());
+        }
         if !self.is_compared {
-            for path in self.files()? {
-                self.check_run(&path, &first.fingerprint)?;
-            }
+            self.files()?.iter().try_for_each(|path| self.compare(path))?;
             self.is_compared = true;
         }
         self.write(&self.waiting)?;
@@ -149,20 +150,20 @@ where
     /// that were cut off are passed over: [`damaged`](Self::damaged) names them.
     ///
     /// # Errors
-    /// [`Error::Parquet`] for files of other systems, for files of several runs, and where the directory cannot be read.
+    /// [`Error::Parquet`] for files of another system, by its columns or by its equations, for files of several runs, and where the directory cannot be read.
     pub fn read(&mut self) -> Result<MemberTable<T, N>, Error> {
         self.damaged.clear();
         let mut found = Vec::new();
         for path in self.files()? {
-            let file = File::open(&path).map_err(|error| wrong(&path, error))?;
-            match file::read(file, columns::<L, T, N, M, P>(&[], &[])).and_then(|read| rows::<T, N, P>(&read))
-            {
+            match self.rows_in(&path) {
                 Ok(read) => found.extend(read.into_iter().map(|row| (path.clone(), row))),
                 Err(Fault::Damaged(reason)) => self.damaged.push(wrong(&path, reason)),
                 Err(Fault::Other(reason)) => return Err(wrong(&path, reason)),
             }
         }
-        MemberTable::gather(L::COORDINATES, found, |path, _, reason| wrong(&path, reason))
+        MemberTable::gather(L::COORDINATES, Fingerprint::of_system::<L, N, M>(), found, |path, _, reason| {
+            wrong(&path, reason)
+        })
     }
 
     /// What is wrong with each file that was passed over when the table was [read](Self::read) last.
@@ -200,17 +201,35 @@ where
         Ok(paths)
     }
 
-    fn check_run(&self, path: &Path, expected: &Fingerprint) -> Result<(), Error> {
-        let file = File::open(path).map_err(|error| wrong(path, error))?;
-        match file::run_of(file, &columns::<L, T, N, M, P>(&[], &[])) {
-            // Damaged, and no row of it is read.
-            Err(Fault::Damaged(_)) => Ok(()),
-            Err(Fault::Other(reason)) => Err(wrong(path, reason)),
-            Ok(run) => match expected.without_start().difference(&run) {
-                Some((_, reason)) => Err(wrong(path, reason)),
-                None => Ok(()),
-            },
+    fn rows_in(&self, path: &Path) -> Result<Vec<MemberRow<T, N>>, Fault> {
+        let file = File::open(path).map_err(|error| Fault::Other(error.to_string()))?;
+        rows::<T, N, P>(&file::read(file, columns::<L, T, N, M, P>(&[], &[]))?)
+    }
+
+    /// Checks that the rows in a file are of the run of those that wait, and of members that start as they are made here.
+    fn compare(&self, path: &Path) -> Result<(), Error> {
+        let rows = match self.rows_in(path) {
+            Ok(rows) => rows,
+            // No row of it is read.
+            Err(Fault::Damaged(_)) => return Ok(()),
+            Err(Fault::Other(reason)) => return Err(wrong(path, reason)),
+        };
+        // There may be more members in the file than can be made.
+        let last = self.waiting.iter().map(|row| row.index).max();
+        let run = self.waiting[0].fingerprint;
+        for row in rows {
+            let expected = match Some(row.index) <= last {
+                true => {
+                    let (system, start) = (self.member)(row.index);
+                    run.with_start(&system, &start)
+                }
+                false => Fingerprint { start: row.fingerprint.start, ..run },
+            };
+            if let Some((_, reason)) = expected.difference(&row.fingerprint) {
+                return Err(wrong(path, reason));
+            }
         }
+        Ok(())
     }
 
     /// A file of these rows, there when it is whole.
@@ -248,6 +267,8 @@ fn is_file(name: &str) -> bool {
 fn name<T, const N: usize>(rows: &[MemberRow<T, N>]) -> String {
     let mut hash = Hash::new();
     for row in rows {
+        let Fingerprint { system, run, start } = row.fingerprint;
+        [system, run, start].iter().for_each(|part| hash.bytes(&part.to_le_bytes()));
         hash.bytes(&row.index.to_le_bytes());
         hash.text(&row.ending.to_string());
     }

@@ -61,7 +61,7 @@ where
 pub(super) fn rows<T: Real, const N: usize, const P: usize>(
     (columns, has_end, run): &(Vec<Column>, Vec<bool>, Fingerprint),
 ) -> Result<Vec<MemberRow<T, N>>, Fault> {
-    let [members, starts, endings] = &columns[..3] else { return Err(Fault::Other("it has no rows")) };
+    let [members, starts, endings] = &columns[..3] else { return Err(Fault::Other("it has no rows".into())) };
     let end = &columns[3 + 2 * N + 1 + P..];
     let mut ends = 0..;
     let row = |k: usize| -> Option<MemberRow<T, N>> {

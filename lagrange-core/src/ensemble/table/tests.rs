@@ -36,7 +36,7 @@ fn table() -> String {
 }
 
 fn resume(table: &str) -> Result<Vec<Member<f64, 1>>, Error> {
-    let rows = MemberTable::of(table, NAMES, COUNT)?.into_rows().filter(|row| !row.has_failed());
+    let rows = MemberTable::of(table, NAMES, MINE.system, COUNT)?.into_rows().filter(|row| !row.has_failed());
     Ok(rows.map(|row| row.into_member(&[])).collect())
 }
 
@@ -187,7 +187,7 @@ fn a_failure_that_ran_into_the_next_row_of_its_member_is_no_row() {
 
 /// All rows, of members that failed too.
 fn all(table: &str) -> Vec<MemberRow<f64, 1>> {
-    MemberTable::of(table, NAMES, COUNT).expect("a table").rows().to_vec()
+    MemberTable::of(table, NAMES, MINE.system, COUNT).expect("a table").rows().to_vec()
 }
 
 /// As it comes from another process.

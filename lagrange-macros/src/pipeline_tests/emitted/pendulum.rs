@@ -17,6 +17,7 @@ const _: () = {
         });
         const MOMENTA_ARE_LINEAR: bool = true;
         const OBSERVABLES: &'static [&'static str] = &[];
+        const DIGEST: u32 = 3945749694u32;
         const FACTS: __lagrange::Facts = __lagrange::Facts {
             cyclic: &[],
             conserved: &[
