@@ -325,7 +325,7 @@ fn rows_of_other_parameters_do_not_get_into_a_directory() {
 }
 
 fn table_of(directory: &Directory) -> MemberTable<f64, 2> {
-    table(directory).read().unwrap()
+    table(directory).read().expect("the table can be read")
 }
 
 #[test]
