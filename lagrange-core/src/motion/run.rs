@@ -239,7 +239,7 @@ fn check_start<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize
 ) -> Result<Consistent<L::Scalar, N>, Error> {
     solve(system, state)?;
     consistent::check(system, state)?;
-    consistent::make_consistent(system, state, &[[false; N]; 2])
+    consistent::settle(system, state)
 }
 
 /// An end that can be reached.

@@ -138,7 +138,7 @@ where
     pub fn set_state(&mut self, state: State<L::Scalar, N>) -> Result<(), Error> {
         check_finite(&self.system, &state)?;
         consistent::check(&self.system, &state)?;
-        let (state, _) = consistent::make_consistent(&self.system, &state, &[[false; N]; 2])?;
+        let (state, _) = consistent::settle(&self.system, &state)?;
         self.go_on_from(state);
         Ok(())
     }

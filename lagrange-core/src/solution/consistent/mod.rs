@@ -2,8 +2,10 @@
 //!
 //! Newton's iteration with corrections δ that are least in the metric of the mass matrix: M δ − Fᵀμ = 0,
 //! F δ = −residual, the system of the dynamics with other right-hand sides (Hairer, Lubich and Wanner,
-//! *Geometric Numerical Integration*, IV.4).
+//! *Geometric Numerical Integration*, IV.4). Each correction is the least, their sum is not where constraints curve: from
+//! as far off as round-off that makes no difference, and from farther the [nearest] point is then sought.
 
+mod nearest;
 #[cfg(test)]
 mod tests;
 
@@ -62,12 +64,30 @@ pub(crate) fn make_consistent<L: Lagrangian<N, M, Scalar: Real>, const N: usize,
     held: &[[bool; N]; 2],
 ) -> Result<Consistent<L::Scalar, N>, Error> {
     let mut consistent = *state;
-    if const { M == 0 } {
-        return Ok((consistent, Adjustment { q: SVector::zeros(), v: SVector::zeros() }));
+    if const { M > 0 } {
+        project_holding(system, Level::Position, &held[0], &mut consistent)?;
+        nearest::approach(system, state, &held[0], &mut consistent);
+        project_holding(system, Level::Velocity, &held[1], &mut consistent)?;
     }
-    for (level, held) in BOTH.into_iter().zip(held) {
-        project_holding(system, level, held, &mut consistent)?;
-    }
+    adjusted(system, state, consistent)
+}
+
+/// A state that satisfies the constraints to √ε, moved onto them to round-off.
+pub(crate) fn settle<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+) -> Result<Consistent<L::Scalar, N>, Error> {
+    let mut settled = *state;
+    project_in_general(system, &BOTH, &mut settled)?;
+    adjusted(system, state, settled)
+}
+
+/// With how far it is from the state given.
+fn adjusted<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+    consistent: State<L::Scalar, N>,
+) -> Result<Consistent<L::Scalar, N>, Error> {
     check(system, &consistent).map_err(|error| match error {
         Error::Inconsistent { constraint, residual, time, .. } => {
             Error::NotProjected { constraint, residual, iterations: 0, time }
@@ -191,6 +211,17 @@ impl Level {
         }
     }
 
+    /// The rows of the constraints that act on it, zeros for the others.
+    fn jacobian<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+        self,
+        system: &L,
+        state: &State<L::Scalar, N>,
+    ) -> [[L::Scalar; N]; M] {
+        let (zero, jacobian) = (L::Scalar::constant(0.0), system.constraint_jacobian(state));
+        let is_active = |a: usize| self.is_active(L::CONSTRAINT_KINDS[a]);
+        from_fn(|a| entries(|i| if is_active(a) { jacobian[(a, i)] } else { zero }))
+    }
+
     /// The size of the terms that it is the sum of.
     pub(super) fn magnitude<L: Lagrangian<N, M>, const N: usize, const M: usize>(
         self,
@@ -230,8 +261,7 @@ impl<T: Real, const N: usize, const M: usize> Residual<T, N, M> {
     fn of<L: Lagrangian<N, M, Scalar = T>>(system: &L, level: Level, state: &State<T, N>) -> Self {
         let zero = T::constant(0.0);
         let active = L::CONSTRAINT_KINDS.map(|kind| level.is_active(kind));
-        let jacobian = system.constraint_jacobian(state);
-        let jacobian = from_fn(|a| entries(|i| if active[a] { jacobian[(a, i)] } else { zero }));
+        let jacobian = level.jacobian(system, state);
         let value = level.residual(system, state);
         let x = *level.unknowns(&mut { *state });
         Self {
@@ -316,10 +346,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Projecti
         let h = [zero; N];
         let mut m: [[L::Scalar; N]; N] = self.system.mass_matrix(state).into();
         let mut f = residual.jacobian;
-        for i in (0..N).filter(|&i| self.held[i]) {
-            m.iter_mut().chain(&mut f).for_each(|row| row[i] = zero);
-            m[i] = entries(|j| L::Scalar::constant(if i == j { 1.0 } else { 0.0 }));
-        }
+        hold(self.held, &mut m, &mut f);
         // Where it serves, it keeps more digits of small constraints beside large ones.
         let fast = eliminate(m, h, f, residual.value);
         if is_trustworthy(&fast) {
@@ -393,6 +420,16 @@ pub(crate) fn factors_of_nearest<T: Real, const N: usize, const M: usize>(
 ) -> Factors<T, N, M> {
     let factors = Factors::of(m, f, rank);
     if factors.are_regular() { factors } else { Factors::of(&diagonal(m), f, rank) }
+}
+
+/// Leaves what is held out of the equations: no constraint sees it, and it has a mass of its own.
+fn hold<T: Real, const N: usize>(held: &[bool; N], m: &mut [[T; N]], f: &mut [[T; N]]) {
+    for i in (0..N).filter(|&i| held[i]) {
+        m.iter_mut().chain(&mut *f).for_each(|row| row[i] = T::constant(0.0));
+        if let Some(row) = m.get_mut(i) {
+            *row = entries(|j| T::constant(if i == j { 1.0 } else { 0.0 }));
+        }
+    }
 }
 
 /// The masses on the diagonal, 1 where there is none.

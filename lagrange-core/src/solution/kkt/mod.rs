@@ -114,6 +114,17 @@ impl<T: Real, const N: usize, const M: usize> Factors<T, N, M> {
         self.along.rank == N - self.rows.split.rank
     }
 
+    /// Whether no direction that F leaves free has a negative mass.
+    pub(crate) fn is_semidefinite(&self) -> bool {
+        self.along.negative().is_none()
+    }
+
+    /// A direction that F leaves free, of negative mass.
+    pub(crate) fn downhill(&self) -> Option<SVector<T, N>> {
+        let (rank, y) = (self.rows.split.rank, self.along.negative()?);
+        Some(self.rows.out_of_basis(entries(|i| if i < rank { T::constant(0.0) } else { y[i - rank] })))
+    }
+
     /// M q̈ − Fᵀλ = h, F q̈ + γ = 0.
     pub(crate) fn solve(&self, h: &[T; N], gamma: &[T; M]) -> Result<Solution<T, N, M>, Fault<T, N>> {
         let Rows { units, split } = &self.rows;

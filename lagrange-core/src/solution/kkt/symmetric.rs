@@ -132,6 +132,19 @@ impl<T: Real, const N: usize> Symmetric<T, N> {
         self.back_substitute(x)
     }
 
+    /// A vector x with xᵀ A x < 0, if there is one. A 2×2 block of D, whose entry off the diagonal is the largest, has one.
+    pub(super) fn negative(&self) -> Option<[T; N]> {
+        let (zero, one) = (T::constant(0.0), T::constant(1.0));
+        let starts = (0..self.rank).filter(|&k| self.block_start(k) == k);
+        let k = { starts }.find(|&k| self.pair[k] || self.a[k][k] < zero)?;
+        let mut x = [zero; N];
+        x[k] = one;
+        if self.pair[k] {
+            x[k + 1] = if self.a[k + 1][k] > zero { -one } else { one };
+        }
+        Some(self.back_substitute(x))
+    }
+
     /// Pᵀ L⁻ᵀ x.
     fn back_substitute(&self, mut x: [T; N]) -> [T; N] {
         let mut y = [T::constant(0.0); N];

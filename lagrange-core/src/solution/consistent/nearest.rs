@@ -1,0 +1,203 @@
+//! The point of the holonomic constraints that is nearest to one given: M(q₀)(q − q₀) = Fᵀμ with Φ(q) = 0.
+//!
+//! From a point on the constraints Newton steps along them shorten the distance, each followed by a projection back onto
+//! them (Absil, Mahony and Sepulchre, *Optimization Algorithms on Matrix Manifolds*, 6.2). Its Hessian is that of the
+//! Lagrange function, M − Σ μ ∇²Φ, on their tangent space; where that is not positive the step goes along a direction in which the
+//! distance curves down, so that no maximum and no saddle is taken for the nearest point.
+
+#[cfg(test)]
+mod tests;
+
+use nalgebra::SVector;
+
+use super::{Level, diagonal, hold, project_holding};
+use crate::number::{Real, Scalar, entries, is_within, larger, vector};
+use crate::solution::kkt::{Factors, Rank};
+use crate::solution::newton::halvings;
+use crate::system::{Lagrangian, State};
+
+/// Newton's method takes five or so; directions that curve down and flat minima take more.
+const STEPS: usize = 50;
+
+/// Moves coordinates on the holonomic constraints to where no small move along them brings them nearer to those given.
+pub(super) fn approach<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+    system: &L,
+    given: &State<L::Scalar, N>,
+    held: &[bool; N],
+    state: &mut State<L::Scalar, N>,
+) {
+    if state.q == given.q {
+        return;
+    }
+    let metric = metric(system, given, held, state);
+    let nearest = Nearest { system, given, held, metric };
+    let Some(mut place) = nearest.place(*state) else { return };
+    for _ in 0..STEPS {
+        let Some(next) = nearest.nearer(&place) else { break };
+        place = next;
+    }
+    *state = place.state;
+}
+
+/// The mass matrix at the coordinates given, or minus it, where that is positive; else the masses on its diagonal.
+fn metric<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+    system: &L,
+    given: &State<L::Scalar, N>,
+    held: &[bool; N],
+    state: &State<L::Scalar, N>,
+) -> [[L::Scalar; N]; N] {
+    let (mut f, none) = (Level::Position.jacobian(system, state), [[L::Scalar::constant(0.0); N]; M]);
+    let mut m: [[L::Scalar; N]; N] = system.mass_matrix(given).into();
+    if m.iter().enumerate().all(|(i, row)| row[i] <= L::Scalar::constant(0.0)) {
+        m.as_flattened_mut().iter_mut().for_each(|x| *x = -*x);
+    }
+    hold(held, &mut m, &mut f);
+    let is_metric = Factors::of(&m, &none, Rank::off_constraints()).is_semidefinite()
+        && Factors::of(&m, &f, Rank::off_constraints()).are_regular();
+    if is_metric { m } else { diagonal(&m) }
+}
+
+struct Nearest<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
+    system: &'a L,
+    given: &'a State<L::Scalar, N>,
+    /// Entries that stay as they are.
+    held: &'a [bool; N],
+    metric: [[L::Scalar; N]; N],
+}
+
+/// A point on the constraints.
+struct Place<T, const N: usize, const M: usize> {
+    state: State<T, N>,
+    f: [[T; N]; M],
+    /// M (q₀ − q)
+    pull: [T; N],
+    /// The square of the distance.
+    square: T,
+    /// The part of q₀ − q along the constraints, zero at the nearest point, and μ.
+    slip: SVector<T, N>,
+    multipliers: SVector<T, M>,
+    /// The largest entry of the slip as a part of the coordinates that it is the difference of, and of the distance.
+    slip_part: T,
+}
+
+impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<'_, L, N, M> {
+    fn place(&self, state: State<L::Scalar, N>) -> Option<Place<L::Scalar, N, M>> {
+        let (Self { system, given, metric, .. }, zero) = (self, L::Scalar::constant(0.0));
+        let mut f = Level::Position.jacobian(*system, &state);
+        hold(self.held, &mut [], &mut f);
+        let way = given.q - state.q;
+        let pull = entries(|i| dot(&metric[i], way.as_slice()));
+        let found = Factors::of(metric, &f, Rank::off_constraints()).solve(&pull, &[zero; M]).ok()?;
+        let square = dot(&pull, way.as_slice());
+        // Of each difference, and of what its projection mixes, a part ε is round-off.
+        let part = |i: usize| {
+            let terms = Scalar::abs(state.q[i]) + Scalar::abs(given.q[i]);
+            let slip = Scalar::abs(found.accelerations[i]);
+            if slip > zero { slip / (terms + Scalar::sqrt(square / metric[i][i])) } else { zero }
+        };
+        Some(Place {
+            state,
+            f,
+            pull,
+            square,
+            slip: found.accelerations,
+            multipliers: found.multipliers,
+            slip_part: (0..N).fold(zero, |most, i| larger(most, part(i))),
+        })
+    }
+
+    /// A place that is nearer, or whose slip is smaller where round-off hides which is nearer.
+    fn nearer(&self, place: &Place<L::Scalar, N, M>) -> Option<Place<L::Scalar, N, M>> {
+        let half = L::Scalar::constant(0.5);
+        let hidden = L::Scalar::constant(64.0 * L::Scalar::EPSILON) * place.square;
+        let is_nearer = |next: &Place<_, N, M>| {
+            let change = next.square - place.square;
+            change < -hidden || change <= hidden && next.slip_part < half * place.slip_part
+        };
+        let parts = |step: SVector<L::Scalar, N>| halvings::<L::Scalar>(12).map(move |part| step * part);
+        let steps = self.steps(place).into_iter().flatten();
+        steps.flat_map(parts).filter_map(|step| self.moved(place, &step)).find(is_nearer)
+    }
+
+    /// Back on the constraints after a step.
+    fn moved(
+        &self,
+        place: &Place<L::Scalar, N, M>,
+        step: &SVector<L::Scalar, N>,
+    ) -> Option<Place<L::Scalar, N, M>> {
+        let mut state = place.state;
+        for i in (0..N).filter(|&i| !self.held[i]) {
+            state.q[i] += step[i];
+        }
+        project_holding(self.system, Level::Position, self.held, &mut state).ok()?;
+        self.place(state)
+    }
+
+    /// Newton's step, none at a minimum; where the distance curves down, a step along that direction as long as the point given
+    /// is away; then the slip.
+    fn steps(&self, place: &Place<L::Scalar, N, M>) -> [Option<SVector<L::Scalar, N>>; 2] {
+        let factors = Factors::of(&self.hessian(place), &place.f, Rank::off_constraints());
+        let first = match factors.downhill() {
+            None if is_within(place.slip_part, L::Scalar::constant(16.0 * L::Scalar::EPSILON)) => {
+                return [None; 2];
+            }
+            None => {
+                let newton = factors.solve(&place.pull, &[L::Scalar::constant(0.0); M]);
+                newton.ok().map(|found| found.accelerations)
+            }
+            Some(down) => Some(self.as_long_as_the_way(place, down)),
+        };
+        [first, Some(place.slip)]
+    }
+
+    /// A step in this direction, or the opposite one, towards the point given.
+    fn as_long_as_the_way(
+        &self,
+        place: &Place<L::Scalar, N, M>,
+        down: SVector<L::Scalar, N>,
+    ) -> SVector<L::Scalar, N> {
+        let down = down.as_slice();
+        let length = dot(down, &entries::<_, N>(|i| dot(&self.metric[i], down)));
+        let scale = Scalar::sqrt(place.square / length);
+        let scale = if dot(&place.pull, down) < L::Scalar::constant(0.0) { -scale } else { scale };
+        vector(entries(|i| down[i] * scale))
+    }
+
+    /// M − Σ μ ∇²Φ. The second derivatives are those of γ by the velocities, of which it is a polynomial of second degree.
+    fn hessian(&self, place: &Place<L::Scalar, N, M>) -> [[L::Scalar; N]; N] {
+        let (zero, half) = (L::Scalar::constant(0.0), L::Scalar::constant(0.5));
+        // In units in which masses are 1.
+        let unit: [_; N] = entries(|i| {
+            let mass = self.metric[i][i];
+            if mass > zero { L::Scalar::constant(1.0) / Scalar::sqrt(mass) } else { L::Scalar::constant(1.0) }
+        });
+        let bias = |changes: &[(usize, L::Scalar)]| {
+            let mut state = State { v: vector([zero; N]), ..place.state };
+            changes.iter().for_each(|&(i, sign)| state.v[i] += sign * unit[i]);
+            let bias = self.system.constraint_bias(&state);
+            (0..M)
+                .filter(|&a| Level::Position.is_active(L::CONSTRAINT_KINDS[a]))
+                .fold(zero, |sum, a| sum + place.multipliers[a] * bias[a])
+        };
+        let one = L::Scalar::constant(1.0);
+        let (at_rest, along): (_, [_; N]) = (bias(&[]), entries(|i| bias(&[(i, one)])));
+        let mut hessian = self.metric;
+        for i in 0..N {
+            for j in 0..=i {
+                let second = if i == j {
+                    half * (along[i] + bias(&[(i, -one)])) - at_rest
+                } else {
+                    half * (bias(&[(i, one), (j, one)]) - along[i] - along[j] + at_rest)
+                };
+                hessian[i][j] -= second / (unit[i] * unit[j]);
+                hessian[j][i] = hessian[i][j];
+            }
+        }
+        hold(self.held, &mut hessian, &mut []);
+        hessian
+    }
+}
+
+fn dot<T: Real>(x: &[T], y: &[T]) -> T {
+    x.iter().zip(y).fold(T::constant(0.0), |sum, (x, y)| sum + *x * *y)
+}
