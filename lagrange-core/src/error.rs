@@ -28,7 +28,7 @@ pub enum Error {
         name: &'static str,
         /// What it should be: `symmetric`, `a rotation`.
         wanted: &'static str,
-        /// How far it is from that, as a part of its size.
+        /// How far it is from that, as a part of its size; not a number where an entry is not finite.
         defect: f64,
     },
     /// The equations of motion evaluate to infinity or not a number.
@@ -322,6 +322,9 @@ impl Display for Error {
         match self {
             Self::StateNotFinite { entry, value } => {
                 write!(f, "`{entry}` is {value} in the state given: every entry must be finite")
+            }
+            Self::ParameterNotAsSaid { name, wanted, defect } if !defect.is_finite() => {
+                write!(f, "the parameter `{name}` is not {wanted}: one of its entries is not finite")
             }
             Self::ParameterNotAsSaid { name, wanted, defect } => {
                 write!(f, "the parameter `{name}` is not {wanted}: it is off by {defect:.1e} of its size")

@@ -315,3 +315,39 @@ fn what_cannot_move_comes_back() {
     let near = Fixed.linearize(&State::at_rest([1.0]), &[]).unwrap();
     assert_eq!((near.a.shape(), near.stability()), ((0, 0), Ok(Stability::AsymptoticallyStable)));
 }
+
+/// A cyclic coordinate, and a rotation of which one entry counts.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y)]
+#[parameter(r: rotation)]
+#[lagrangian(x_dot^2/2 + y_dot^2/2 - r[0][1]*y)]
+struct Sliding {
+    r: [[f64; 2]; 2],
+}
+
+#[test]
+fn a_number_that_the_equations_do_not_use_must_be_finite_too() {
+    let says = |system: &Sliding, state: &State<f64, 2>, text: &str| {
+        let found = [
+            message(system.solve(state)),
+            message(system.check_consistent(state)),
+            message(system.state_jacobian(state)),
+            message(system.jacobian(state)),
+            message(system.jacobian_by(state, &["y"])),
+            message(system.inputs_for(state, &[1.0, 0.0].into(), &["x", "y"])),
+            message(system.linearize(state, &[])),
+        ];
+        found.iter().for_each(|found| assert_eq!(found, text));
+    };
+    let turned = Sliding { r: [[0.6, 0.8], [-0.8, 0.6]] };
+    for x in [f64::NAN, f64::INFINITY] {
+        let text = format!("`x` is {x} in the state given: every entry must be finite");
+        says(&turned, &State::at_rest([x, 0.0]), &text);
+        let broken = Sliding { r: [[x, 0.8], [-0.8, 0.6]] };
+        says(
+            &broken,
+            &State::at_rest([0.0; 2]),
+            "the parameter `r` is not a rotation: one of its entries is not finite",
+        );
+    }
+}

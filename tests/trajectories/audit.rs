@@ -47,7 +47,7 @@ fn knows_nothing(sample: &Sample<&Bead, 2, 1>) {
         sample.solution().map(|solution| solution.pivot),
     ];
     for error in errors {
-        assert!(matches!(error, Err(Error::EquationsNotFinite { .. })), "{error:?}");
+        assert!(matches!(error, Err(Error::StateNotFinite { .. })), "{error:?}");
     }
     assert!(sample.conserved("p_y").is_ok_and(f64::is_nan));
 }

@@ -12,6 +12,7 @@ use crate::names::Row;
 use crate::number::{Real, Scalar, larger, power_of_epsilon, vector};
 use crate::solution::kkt::Units;
 use crate::solution::solve::first_row;
+use crate::system::finite::check_finite;
 use crate::system::{Solution, State};
 
 /// What gives a system the accelerations asked for.
@@ -45,6 +46,7 @@ pub(super) fn inputs_for<L, const N: usize, const M: usize, const P: usize>(
 where
     L: Linearized<N, M, P, Scalar: Real> + Clone,
 {
+    check_finite(system, state)?;
     let inputs = Argument::actuators::<L, N, M, P>(names)?;
     let mut balance = Balance::new(system.clone(), state, accelerations, inputs)?;
     for _ in 0..STEPS {

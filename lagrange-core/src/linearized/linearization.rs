@@ -13,6 +13,7 @@ use crate::names::Entry;
 use crate::number::{Real, Scalar, Wide, larger, largest, norm, power_of_epsilon, vector};
 use crate::solution::consistent;
 use crate::solution::kkt::{Rank, Rows};
+use crate::system::finite::check_finite;
 use crate::system::lookup;
 use crate::system::{Solution, State};
 
@@ -66,6 +67,7 @@ where
     L: Linearized<N, M, P, Scalar: Real>,
 {
     let parameters = lookup::indices::<L, N, M>(&L::PARAMETERS, "parameter", names)?;
+    check_finite(system, state)?;
     consistent::check(system, state)?;
     let tangent = Tangent::at(system, state)?;
     let by_inputs = tangent.change_by(&parameters)?;

@@ -32,6 +32,7 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     /// [`Solution::multipliers_are_unique`] tells the latter.
     ///
     /// # Errors
+    /// [`Error::StateNotFinite`] and [`Error::ParameterNotAsSaid`], also of what the equations do not use;
     /// [`Error::EquationsNotFinite`], [`Error::Singular`] where nothing determines some acceleration, and
     /// [`Error::Contradictory`] where dependent constraints demand different accelerations; each names the
     /// coordinates or the constraint.
@@ -42,15 +43,20 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     /// Whether the state satisfies the constraints, to √ε of the size of their terms (1.5·10⁻⁸ for `f64`).
     ///
     /// # Errors
-    /// [`Error::Inconsistent`], with the first constraint that it violates.
+    /// [`Error::StateNotFinite`] and [`Error::ParameterNotAsSaid`]; [`Error::Inconsistent`], with the first constraint that it
+    /// violates.
     fn check_consistent(&self, state: &State<Self::Scalar, N>) -> Result<(), Error> {
+        check_finite(self, state)?;
         consistent::check(self, state)
     }
 
     /// The nearest state on the constraints, and how far it is from the one given.
     ///
-    /// First the coordinates move onto Φ = 0 of the holonomic constraints, then the velocities onto
-    /// F q̇ + b = 0 of all; near is meant in the metric of the mass matrix.
+    /// First the coordinates move onto Φ = 0 of the holonomic constraints, then the velocities onto F q̇ + b = 0 of all. Near
+    /// is meant in the metric of the mass matrix, of the state given for coordinates, M(q₀)(q − q₀) = Fᵀμ, and of the
+    /// coordinates found for velocities; where it is not positive, of the masses on its diagonal. No small move along the
+    /// constraints leads nearer. Where they curve more sharply than the distance, as they do seen from near the centre of an
+    /// ellipse, some point farther along may be nearer still.
     ///
     /// ```
     /// # use lagrange_core::prelude::*;

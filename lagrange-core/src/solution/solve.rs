@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::names::{Names, Row};
 use crate::number::{Real, Scalar, larger, power_of_epsilon};
 use crate::solution::kkt::{self, Fault, KktSystem, Rank, Solved};
-use crate::system::defect::check_parameters;
+use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, Solution, State};
 
 /// See [`Simulate::solve`](crate::Simulate::solve).
@@ -15,7 +15,7 @@ pub(crate) fn solve<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: 
     system: &L,
     state: &State<L::Scalar, N>,
 ) -> Result<Solution<L::Scalar, N, M>, Error> {
-    check_parameters(system)?;
+    check_finite(system, state)?;
     solve_near(system, state, None, |solution, _| *solution)
 }
 
