@@ -82,6 +82,15 @@ fn sphere_8_4() {
     assert_eq!(kinds, [Integrability::Holonomic, Integrability::Nonholonomic, Integrability::Nonholonomic]);
     // Where |q| = 1 points are computed: a verdict of points.
     assert_eq!(Ball::CONSTRAINT_CLASSES[1].evidence, Evidence::Held(8));
+    let said = [Ball::CONSTRAINT_CLASSES[0], Ball::CONSTRAINT_CLASSES[1], Classification::UNDECIDED];
+    assert_eq!(
+        said.map(|class| class.to_string()),
+        [
+            "holonomic (proved)",
+            "nonholonomic (as far as 8 random points show)",
+            "whether it can be integrated is not decided (no random point was found at which it could be judged)",
+        ]
+    );
     assert_eq!(Turntable::CONSTRAINT_CLASSES, Ball::CONSTRAINT_CLASSES);
     for integrals in [Ball::INTEGRALS, Turntable::INTEGRALS] {
         let integrals = integrals.expect("a decision");

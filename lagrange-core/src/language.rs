@@ -341,7 +341,8 @@
 //! ```
 //!
 //! For `f64` alone there are two further forms. A [`HandWritten`](crate::HandWritten) function gives its value,
-//! gradient and second derivatives, and is put into [`ByHand`](crate::ByHand). A [`Table`](crate::Table) is the
+//! gradient and second derivatives, and is put into [`ByHand`](crate::ByHand);
+//! [`check_derivatives`](crate::function::check_derivatives) compares them with differences. A [`Table`](crate::Table) is the
 //! smooth curve through measured points. Where the equations need a third derivative, which neither has, that is
 //! an error at the field's type while compiling. [`Linearized`](crate::Linearized) takes one derivative more than the
 //! equations: where that is the third, it is missing for these forms, and the rest of the system is there.

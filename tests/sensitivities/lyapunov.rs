@@ -143,3 +143,20 @@ fn stands_still<D: DifferentiableMethod<Hill<f64>, 1, 0, 1> + Copy>(method: D, t
         assert!((found / exact - 1.0).abs() < tolerance, "{found} for {exact} at {t}");
     }
 }
+
+/// Rates by the time, of the same linear equation, whichever way it is followed.
+#[test]
+fn exponents_descend_backwards_too() {
+    let root = (1.0_f64 / 16.0 + 1.0).sqrt();
+    for end in [200.0, -200.0] {
+        let spectrum = Hill { k: 1.0 }.lyapunov_spectrum(State::at_rest([0.0]), end, method()).unwrap();
+        let expected = [root - 0.25, -root - 0.25];
+        let all = [&spectrum.exponents].into_iter().chain(spectrum.running.iter().map(|(_, means)| means));
+        for means in all {
+            for (found, expected) in means.iter().zip(expected) {
+                assert!((found - expected).abs() < 1e-5, "{means:?} for {expected:?}");
+            }
+        }
+        assert!(spectrum.errors.iter().all(|error| *error < 1e-6), "{:?}", spectrum.errors);
+    }
+}

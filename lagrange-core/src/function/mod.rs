@@ -4,11 +4,13 @@
 //! order is a trait of its own here, so that a form that does not go far enough is a compile-time error that says so.
 //! Whoever implements [`Function`] has them all.
 
+mod check;
 #[cfg(feature = "alloc")]
 mod table;
 #[cfg(test)]
 mod tests;
 
+pub use check::{WrongDerivative, check_derivatives};
 #[cfg(feature = "alloc")]
 pub use table::Table;
 
@@ -130,7 +132,8 @@ impl<F: Function<I, O>, S: Scalar, const I: usize, const O: usize> Third<S, I, O
     }
 }
 
-/// A function of `f64` with its gradient and Hessian written by hand; [`ByHand`] makes it usable in a system.
+/// A function of `f64` with its gradient and Hessian written by hand; [`ByHand`] makes it usable in a system, and
+/// [`check_derivatives`] compares them with differences.
 pub trait HandWritten<const I: usize, const O: usize> {
     /// The values at `x`.
     fn value(&self, x: [f64; I]) -> [f64; O];

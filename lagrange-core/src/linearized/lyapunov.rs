@@ -1,6 +1,7 @@
 //! Lyapunov exponents: how fast variations of a motion grow, in the long run.
 
 use alloc::{boxed::Box, vec, vec::Vec};
+use core::cmp::Ordering;
 
 use nalgebra::DMatrix;
 
@@ -18,11 +19,12 @@ use crate::system::lookup::entry;
 /// The Lyapunov exponents of a motion, and how far they can be relied on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LyapunovSpectrum<T> {
-    /// The exponents, rates per unit of time, the largest first (as far as they differ by more than their errors).
+    /// The exponents, the largest first: the mean rates d(ln |δ|)/dt. Along a motion that goes backwards they are rates
+    /// by the time as well, not by the way back: what grows on that way has a negative one.
     pub exponents: Vec<T>,
     /// One standard error of each, from how the means over parts of the motion scatter.
     pub errors: Vec<T>,
-    /// How the estimates settle: at the end of each part, the time and the means until then.
+    /// How the estimates settle: at the end of each part, the time and the means until then, in the order of the exponents.
     pub running: Vec<(T, Vec<T>)>,
 }
 
@@ -83,16 +85,19 @@ impl<T: Real> LyapunovSpectrum<T> {
             sums.iter_mut().zip(means).for_each(|(sum, mean)| *sum += *mean);
             (*time, sums.iter().map(|sum| *sum / T::constant(f64::from(count))).collect::<Vec<_>>())
         });
-        let running: Vec<(T, Vec<T>)> = running.collect();
-        let exponents = running.last().map_or(Vec::new(), |(_, means)| means.clone());
+        let mut running: Vec<(T, Vec<T>)> = running.collect();
+        let means = running.last().map_or(Vec::new(), |(_, means)| means.clone());
         let count = T::constant(parts.len() as f64);
         let error = |j: usize| {
-            let squares = parts
-                .iter()
-                .fold(zero, |sum, (_, means)| sum + (means[j] - exponents[j]) * (means[j] - exponents[j]));
+            let off = |part: &(T, Vec<T>)| part.1[j] - means[j];
+            let squares = parts.iter().fold(zero, |sum, part| sum + off(part) * off(part));
             Scalar::sqrt(squares / (count * (count - T::constant(1.0))))
         };
-        let errors = (0..exponents.len()).map(error).collect();
-        Self { exponents, errors, running }
+        let mut order: Vec<usize> = (0..means.len()).collect();
+        order.sort_by(|&j, &k| means[k].partial_cmp(&means[j]).unwrap_or(Ordering::Equal));
+        let sorted = |all: &[T]| order.iter().map(|&j| all[j]).collect::<Vec<T>>();
+        running.iter_mut().for_each(|(_, means)| *means = sorted(means));
+        let errors = order.iter().map(|&j| error(j)).collect();
+        Self { exponents: sorted(&means), errors, running }
     }
 }

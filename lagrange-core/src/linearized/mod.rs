@@ -268,7 +268,8 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     /// are as short as the motion and the variations need. The
     /// first 21st of the time lets them turn to where they grow, and does not count; the others are looked at one by one, and
     /// tell how far the means can be relied on. Of the limit for infinite times an exponent of zero is off by about
-    /// ln t/t. Lengths are those of (q, q̇) in the units of the system, which make no difference in the limit. Nothing is stored.
+    /// ln t/t. They come in descending order; backwards in time they are rates d(ln |δ|)/dt too, so that what grows on the way
+    /// back has a negative one. Lengths are those of (q, q̇) in the units of the system, which make no difference in the limit. Nothing is stored.
     /// Methods are those of [`integrate_sensitivities`](Self::integrate_sensitivities).
     ///
     /// ```

@@ -1,5 +1,7 @@
 //! What kind of constraint it is: whether it restricts positions, or only velocities.
 
+use core::fmt::{self, Display, Formatter};
+
 use super::evidence::Evidence;
 
 /// Whether a constraint can be integrated to one that holds no velocities.
@@ -32,6 +34,19 @@ impl Integrability {
     }
 }
 
+impl Display for Integrability {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Holonomic => "holonomic",
+            Self::Exact => "integrable",
+            Self::IntegratingFactor => "integrable with a factor",
+            Self::Together => "integrable together with the others",
+            Self::Nonholonomic => "nonholonomic",
+            Self::Undecided => "whether it can be integrated is not decided",
+        })
+    }
+}
+
 /// The kind of one constraint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Classification {
@@ -39,6 +54,13 @@ pub struct Classification {
     pub integrability: Integrability,
     /// How sure it is.
     pub evidence: Evidence,
+}
+
+/// The verdict and its evidence, as in `nonholonomic (as far as 8 random points show)`.
+impl Display for Classification {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{} ({})", self.integrability, self.evidence)
+    }
 }
 
 impl Classification {

@@ -25,7 +25,9 @@ impl Page<'_> {
             Integrability::IntegratingFactor => "integrable with a factor",
             Integrability::Together => "integrable together with the others",
             Integrability::Nonholonomic => "nonholonomic",
-            Integrability::Undecided => return vec![Part::words("on the velocities")],
+            Integrability::Undecided => {
+                return vec![Part::words("on the velocities; whether it can be integrated is not decided")];
+            }
         };
         let kind = if self.is_rheonomic(row) { format!("{kind}, rheonomic") } else { kind.to_owned() };
         let kind = qualified(&kind, class.evidence);
