@@ -241,3 +241,153 @@ mod arm {
         assert!((solved - accelerations).amax() < 1e-11 * accelerations.amax());
     }
 }
+
+/// Links of two kinds, in turn A, A, B: loops leave the sine of an angle whose cosine is taken elsewhere.
+mod unlike_links {
+    use std::array::from_fn;
+
+    use lagrange_core::Partials;
+    use nalgebra::{Matrix3, Vector3};
+    use num_dual::{Dual2_64, DualNum};
+
+    use super::*;
+
+    const N: usize = 15;
+
+    #[derive(Clone, Lagrangian)]
+    #[coordinates(q: [15])]
+    #[frame(part[0]: translate([0, 0, l[0]]), rotate_x(bend[0]*sin(q[0])), rotate_z(q[0]/2))]
+    #[frame(part[1] in part[0]: translate([0, 0, l[1]]), rotate_x(bend[1]*sin(q[1])), rotate_z(q[1]/2))]
+    #[frame(part[2] in part[1]: translate(arm[2]), rotate(axis[2], q[2]))]
+    #[frame(part[3] in part[2]: translate([0, 0, l[3]]), rotate_x(bend[3]*sin(q[3])), rotate_z(q[3]/2))]
+    #[frame(part[4] in part[3]: translate([0, 0, l[4]]), rotate_x(bend[4]*sin(q[4])), rotate_z(q[4]/2))]
+    #[frame(part[5] in part[4]: translate(arm[5]), rotate(axis[5], q[5]))]
+    #[frame(part[6] in part[5]: translate([0, 0, l[6]]), rotate_x(bend[6]*sin(q[6])), rotate_z(q[6]/2))]
+    #[frame(part[7] in part[6]: translate([0, 0, l[7]]), rotate_x(bend[7]*sin(q[7])), rotate_z(q[7]/2))]
+    #[frame(part[8] in part[7]: translate(arm[8]), rotate(axis[8], q[8]))]
+    #[frame(part[9] in part[8]: translate([0, 0, l[9]]), rotate_x(bend[9]*sin(q[9])), rotate_z(q[9]/2))]
+    #[frame(part[10] in part[9]: translate([0, 0, l[10]]), rotate_x(bend[10]*sin(q[10])), rotate_z(q[10]/2))]
+    #[frame(part[11] in part[10]: translate(arm[11]), rotate(axis[11], q[11]))]
+    #[frame(part[12] in part[11]: translate([0, 0, l[12]]), rotate_x(bend[12]*sin(q[12])), rotate_z(q[12]/2))]
+    #[frame(part[13] in part[12]: translate([0, 0, l[13]]), rotate_x(bend[13]*sin(q[13])), rotate_z(q[13]/2))]
+    #[frame(part[14] in part[13]: translate(arm[14]), rotate(axis[14], q[14]))]
+    #[lagrangian(sum(i in 0..15, kinetic(part[i], m[i], c[i], J[i])))]
+    #[allow(non_snake_case)]
+    struct Chain {
+        l: [f64; 15],
+        bend: [f64; 15],
+        arm: [Vector3<f64>; 15],
+        axis: [Vector3<f64>; 15],
+        m: [f64; 15],
+        c: [Vector3<f64>; 15],
+        J: [Matrix3<f64>; 15],
+    }
+
+    fn chain() -> Chain {
+        let number = |i: usize, k: usize| (1.3 * i as f64 + 0.9 * k as f64).sin();
+        let vector = |k: usize| move |i: usize| Vector3::from_fn(|row, _| number(i, k + row));
+        Chain {
+            l: from_fn(|i| 0.5 + 0.2 * number(i, 0)),
+            bend: from_fn(|i| 0.8 + 0.3 * number(i, 1)),
+            arm: from_fn(vector(2)),
+            axis: from_fn(|i| vector(5)(i) + Vector3::new(0.0, 0.0, 1.5)),
+            m: from_fn(|i| 1.5 + number(i, 8)),
+            c: from_fn(vector(9)),
+            J: from_fn(|i| {
+                Matrix3::from_fn(|j, k| {
+                    if j == k { 2.0 + 0.3 * number(i, 12 + j) } else { 0.2 * number(i, 15 + j + k) }
+                })
+            }),
+        }
+    }
+
+    fn state() -> State<f64, N> {
+        State::new(from_fn(|i| (1.7 * i as f64).sin()), from_fn(|i| (0.6 * i as f64).sin()))
+    }
+
+    /// The rotation by an angle about an axis (Rodrigues).
+    fn about<D: DualNum<Primitive = f64> + Copy>(axis: Vector3<f64>, angle: D) -> Matrix3<D> {
+        let [x, y, z] = (axis / axis.norm()).into();
+        let cross = Matrix3::new(0.0, -z, y, z, 0.0, -x, -y, x, 0.0);
+        let [first, second] = [cross, cross * cross].map(|m| m.map(D::from));
+        Matrix3::from_diagonal_element(D::one()) + first * angle.sin() + second * (D::one() - angle.cos())
+    }
+
+    /// The rotation of every part, and where its centre of mass is.
+    fn poses<D: DualNum<Primitive = f64> + Copy>(chain: &Chain, q: [D; N]) -> [(Matrix3<D>, Vector3<D>); N] {
+        let (mut turn, mut place) =
+            (Matrix3::from_diagonal_element(D::one()), Vector3::from_element(D::zero()));
+        from_fn(|i| {
+            let (arm, step) = match i % 3 {
+                2 => (chain.arm[i], about(chain.axis[i], q[i])),
+                _ => {
+                    let bent = about(Vector3::x(), q[i].sin() * chain.bend[i]);
+                    (Vector3::new(0.0, 0.0, chain.l[i]), bent * about(Vector3::z(), q[i] / 2.0))
+                }
+            };
+            place += turn * arm.map(D::from);
+            turn *= step;
+            (turn, place + turn * chain.c[i].map(D::from))
+        })
+    }
+
+    /// The forces of inertia by d'Alembert's principle: Σ m p̈·∂p/∂qᵢ + tr(R̈ E (∂R/∂qᵢ)ᵀ) over the parts, where
+    /// E = ½ tr(I) 1 − I.
+    fn inertia(chain: &Chain, q: [f64; N], v: [f64; N], accelerations: [f64; N]) -> [f64; N] {
+        let moving = poses(chain, from_fn(|i| Dual2_64::new(q[i], v[i], accelerations[i])));
+        from_fn(|i| {
+            let varied = poses(chain, from_fn(|k| Dual64::new(q[k], f64::from(u8::from(k == i)))));
+            let part = |k: usize| {
+                let (turn, place) = (moving[k].0.map(|x| x.v2), moving[k].1.map(|x| x.v2));
+                let symmetric = (chain.J[k] + chain.J[k].transpose()) / 2.0;
+                let of_density = Matrix3::from_diagonal_element(symmetric.trace() / 2.0) - symmetric;
+                chain.m[k] * place.dot(&varied[k].1.map(|x| x.eps))
+                    + (turn * of_density * varied[k].0.map(|x| x.eps).transpose()).trace()
+            };
+            (0..N).map(part).sum()
+        })
+    }
+
+    #[test]
+    fn the_accelerations_are_those_of_free_motion() {
+        let (chain, state) = (chain(), state());
+        let accelerations = chain.accelerations_unchecked(&state).accelerations;
+        let scale = SVector::from(inertia(&chain, state.q.into(), state.v.into(), [0.0; N])).amax();
+        let off = SVector::from(inertia(&chain, state.q.into(), state.v.into(), accelerations.into())).amax();
+        assert!(off < 1e-11 * scale, "{off:e} of {scale:e}");
+        let needed = chain.inverse_dynamics(&state, &[1.0; N].into(), &[].into());
+        let expected = SVector::from(inertia(&chain, state.q.into(), state.v.into(), [1.0; N]));
+        assert!((needed - expected).amax() < 1e-12 * expected.amax());
+    }
+
+    /// M δq̈ + δ(forces of inertia) = 0 where coordinates, velocities and all parameters change at once, by differences of
+    /// fourth order.
+    #[test]
+    fn the_derivatives_are_those_of_the_forces_of_inertia() {
+        let (system, state) = (chain(), state());
+        let accelerations = system.accelerations_unchecked(&state).accelerations;
+        let (jacobian, mass) = (system.jacobian(&state).unwrap(), system.mass_matrix(&state));
+        for direction in 0..3 {
+            let along = |k: usize| (0.37 * (direction + 2) as f64 * (k + 1) as f64).sin();
+            let (dq, dv) = (SVector::from_fn(|i, _| along(i)), SVector::from_fn(|i, _| along(N + i)));
+            let dp = system.parameters().map_with_location(|k, _, _| along(2 * N + k));
+            let forces = |h: f64| {
+                let mut moved = system.clone();
+                for (k, p) in (system.parameters() + dp * h).iter().enumerate() {
+                    moved.set_parameter(k, *p);
+                }
+                SVector::from(inertia(
+                    &moved,
+                    (state.q + dq * h).into(),
+                    (state.v + dv * h).into(),
+                    accelerations.into(),
+                ))
+            };
+            let difference = |h: f64| (forces(h) - forces(-h)) / (2.0 * h);
+            let slope = (difference(1e-3) * 4.0 - difference(2e-3)) / 3.0;
+            let Partials { q, v, parameters, .. } = &jacobian.accelerations;
+            let off = (mass * (q * dq + v * dv + parameters * dp) + slope).amax();
+            assert!(off < 1e-8 * slope.amax(), "{off:e} of {:e}", slope.amax());
+        }
+    }
+}

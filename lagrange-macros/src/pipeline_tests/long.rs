@@ -1,5 +1,7 @@
 //! Long functions are cut into parts, and too long ones are refused.
 
+use std::collections::BTreeSet;
+
 use proc_macro2::{TokenStream, TokenTree};
 
 use super::{bodies, systems, tokens};
@@ -105,4 +107,88 @@ fn too_long_functions_are_refused_with_their_counts() {
         refusal.contains("more than the 50000 that one function may have")
             && refusal.contains("#[define(…)]")
     );
+}
+
+/// A chain of links of two kinds in this turn, all lengths, axes, centres and inertias of which are fields.
+fn unlike_links(kinds: &[bool]) -> String {
+    let n = kinds.len();
+    let frames = kinds.iter().enumerate().map(|(i, is_bent)| {
+        let inside = if i == 0 { String::new() } else { format!(" in b{}", i - 1) };
+        let steps = match is_bent {
+            true => format!("translate([0, 0, l[{i}]]), rotate_x(al[{i}]*sin(q[{i}])), rotate_z(q[{i}]/2)"),
+            false => format!("translate(d[{i}]), rotate(ax[{i}], q[{i}])"),
+        };
+        format!("#[frame(b{i}{inside}: {steps})]")
+    });
+    let energies: Vec<String> = (0..n).map(|i| format!("kinetic(b{i}, m[{i}], c[{i}], J[{i}])")).collect();
+    format!(
+        "#[coordinates(q: [{n}])] {} #[lagrangian({})]
+         struct Chain {{
+             l: [f64; {n}], al: [f64; {n}], d: [Vector3<f64>; {n}], ax: [Vector3<f64>; {n}],
+             m: [f64; {n}], c: [Vector3<f64>; {n}], J: [Matrix3<f64>; {n}],
+         }}",
+        frames.collect::<String>(),
+        energies.join(" + ")
+    )
+}
+
+/// Locals of the generator, `r12`, `angle3` or `call4_0`, that a body uses and does not declare.
+fn undeclared(tokens: TokenStream, declared: &mut BTreeSet<String>, found: &mut BTreeSet<String>) {
+    let mut is_pattern = false;
+    for token in tokens {
+        match token {
+            TokenTree::Ident(word) if word == "let" => is_pattern = true,
+            TokenTree::Punct(sign) if "=:;".contains(sign.as_char()) => is_pattern = false,
+            TokenTree::Ident(word) if is_local(&word.to_string()) => {
+                let word = word.to_string();
+                if is_pattern {
+                    declared.insert(word);
+                } else if !declared.contains(&word) {
+                    found.insert(word);
+                }
+            }
+            TokenTree::Group(group) if is_pattern => {
+                let names = group.stream().into_iter().flat_map(|token| match token {
+                    TokenTree::Group(group) => group.stream().into_iter().collect(),
+                    token => vec![token],
+                });
+                declared.extend(names.map(|token| token.to_string()).filter(|word| is_local(word)));
+            }
+            TokenTree::Group(group) => undeclared(group.stream(), declared, found),
+            _ => {}
+        }
+    }
+}
+
+fn is_local(word: &str) -> bool {
+    let number = ["angle", "call", "r"].iter().find_map(|start| word.strip_prefix(start));
+    number.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
+}
+
+fn assert_parts_see_their_own_locals(system: &str) {
+    for body in functions(expand(tokens(system)), "") {
+        let mut found = BTreeSet::new();
+        undeclared(body, &mut BTreeSet::new(), &mut found);
+        assert!(found.is_empty(), "{found:?} in {system}");
+    }
+}
+
+/// Two of three links alike, so that loops leave the sine of an angle whose cosine is taken elsewhere. `LAGRANGE_CHAINS` says how
+/// many random chains of 15 to 32 links follow.
+#[test]
+fn parts_of_a_chain_of_unlike_links_see_their_own_locals_alone() {
+    assert_parts_see_their_own_locals(&unlike_links(&std::array::from_fn::<_, 15, _>(|i| i % 3 < 2)));
+    let count = std::env::var("LAGRANGE_CHAINS").ok().and_then(|n| n.parse().ok()).unwrap_or(0);
+    let mut state = 1_u64;
+    for _ in 0..count {
+        let mut random = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            state >> 33
+        };
+        let links = 15 + random() as usize % 18;
+        let period = 1 + random() as usize % 5;
+        let turn: Vec<bool> = (0..period).map(|_| random() % 2 == 0).collect();
+        let kinds: Vec<bool> = (0..links).map(|i| turn[i % period] != (random() % 8 == 0)).collect();
+        assert_parts_see_their_own_locals(&unlike_links(&kinds));
+    }
 }

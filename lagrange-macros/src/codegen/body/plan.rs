@@ -163,18 +163,20 @@ impl<'p> Planner<'p> {
         }
     }
 
-    /// What stands for a result, here.
+    /// What stands for a result, here: what is neither in a local of this part nor waits is computed.
     fn value(&mut self, register: Register) -> Expression {
         let operation = self.schedule.operations[register.index()];
         if let Operation::Input(symbol) = operation {
             self.part.inputs.insert(symbol);
         }
-        self.fetch(register);
-        match &self.values[register.index()] {
-            Some(value) => value.expression.clone(),
-            // A constant or an input.
-            None => Expression::Of(Box::new(operation.with_operands(|operand| self.value(operand)))),
+        if matches!(operation, Operation::Constant(_) | Operation::Input(_)) {
+            return Expression::Of(Box::new(operation.with_operands(|operand| self.value(operand))));
         }
+        if self.values[register.index()].is_none() {
+            self.compute(register.index());
+        }
+        self.fetch(register);
+        self.values[register.index()].as_ref().expect("what was computed has a value").expression.clone()
     }
 
     /// Brings what an earlier part computed into a local.
@@ -221,10 +223,13 @@ impl<'p> Planner<'p> {
     fn call(&mut self, call: u32) {
         let Call { function, derivatives, arguments } = self.schedule.calls[call as usize].clone();
         let mut results = Vec::new();
-        for output in self.outputs.remove(&call).unwrap_or_default() {
+        for output in self.outputs.get(&call).cloned().unwrap_or_default() {
             let register = self.schedule.find(Operation::Result { call, output });
-            results.extend(register.map(|register| (output, self.local(register))));
-            register.into_iter().for_each(|register| self.keep(register, self.local(register)));
+            let Some(register) = register.filter(|register| self.values[register.index()].is_none()) else {
+                continue;
+            };
+            results.push((output, self.local(register)));
+            self.keep(register, self.local(register));
         }
         let arguments = arguments.iter().map(|&argument| self.value(argument)).collect();
         self.part.locals.extend(results.iter().map(|(_, local)| local));
@@ -275,6 +280,15 @@ impl<'p> Planner<'p> {
         self.waiting.keep(|register| reach[register.index()] > index);
     }
 
+    /// Forgets what does not wait: no later part sees the locals of this one.
+    fn forget_locals(&mut self) {
+        for (index, value) in self.values.iter_mut().enumerate().filter(|(_, value)| value.is_some()) {
+            if self.waiting.place(Register::at(index)).is_none() {
+                *value = None;
+            }
+        }
+    }
+
     /// The part as it stands; the next one begins, which may be a repeat of this sequence.
     fn end_part(&mut self, next: Option<(&Repeat, &[usize])>) -> Part {
         self.release_places();
@@ -289,6 +303,7 @@ impl<'p> Planner<'p> {
             self.layout = self.lay_out(repeat, sequence);
         }
         self.fetched.clear();
+        self.forget_locals();
         self.index += 1;
         self.early = self.plain.pop().unwrap_or_default();
         (self.leader, self.small) = Default::default();

@@ -94,21 +94,23 @@ impl Planner<'_> {
             }
         }
         for &angle in angles {
-            let both = [Function::Sin, Function::Cos].map(|function| self.used(function, angle));
+            let both = [Function::Sin, Function::Cos].map(|function| self.missing(function, angle));
             for register in both.into_iter().flatten() {
                 self.keep(register, self.local(register));
             }
         }
     }
 
+    /// Whether both its sine and its cosine are at hand, as far as they are used. Where a loop has left one alone, the other is
+    /// still to come.
     fn is_taken(&self, angle: Register) -> bool {
         let both = [Function::Sin, Function::Cos].into_iter().filter_map(|f| self.used(f, angle));
-        both.into_iter().any(|register| self.values[register.index()].is_some())
+        both.into_iter().all(|register| self.values[register.index()].is_some())
     }
 
     fn turn_of(&mut self, x: Register) -> Turn {
         let [sine, cosine] =
-            [Function::Sin, Function::Cos].map(|f| self.used(f, x).map(|register| self.local(register)));
+            [Function::Sin, Function::Cos].map(|f| self.missing(f, x).map(|register| self.local(register)));
         let is_small = self.small.contains(&x);
         let angle = if is_small { Expression::Local(Local::Angle(x.index())) } else { self.value(x) };
         Turn { angle, sine, cosine }
@@ -135,6 +137,11 @@ impl Planner<'_> {
                 self.compute(register.index());
             }
         }
+    }
+
+    /// The sine or the cosine of this, if it is used and not at hand.
+    fn missing(&self, function: Function, x: Register) -> Option<Register> {
+        self.used(function, x).filter(|register| self.values[register.index()].is_none())
     }
 
     /// The sine or the cosine of this, if it is used.

@@ -125,6 +125,7 @@ impl Planner<'_> {
         }
         self.release_places();
         self.waiting.release(reserved.into_iter().flatten());
+        self.forget_locals();
         self.index += 1;
         self.early = self.plain.pop().unwrap_or_default();
         for &index in sequence {
