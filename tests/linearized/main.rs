@@ -10,6 +10,7 @@ mod errors;
 mod inverse;
 mod large_fields;
 mod numbers;
+mod ranks;
 mod steady;
 
 use lagrange_core::nalgebra::{Complex, DMatrix};

@@ -2,11 +2,12 @@
 
 use alloc::{format, string::String, vec::Vec};
 
-use nalgebra::{ComplexField, DMatrix, DVector, SVD, SVector};
+use nalgebra::{ComplexField, DMatrix, DVector, SVector};
 
 use super::Linearized;
 use super::argument::Argument;
 use super::direction::unit;
+use super::singular::Singular;
 use crate::error::Error;
 use crate::names::Row;
 use crate::number::{Real, Scalar, larger, power_of_epsilon, vector};
@@ -159,21 +160,18 @@ where
             if length > zero { length } else { one }
         });
         (0..columns).for_each(|j| jacobian.column_mut(j).unscale_mut(lengths[j]));
-        let mut square = DMatrix::from_element(jacobian.nrows().max(columns), columns, zero);
-        square.view_mut((0, 0), jacobian.shape()).copy_from(&jacobian);
-        let factors = SVD::try_new(square, true, true, L::Scalar::constant(L::Scalar::EPSILON), 0)
-            .ok_or(Error::EigenvaluesNotFound)?;
-        let (Some(u), Some(v)) = (&factors.u, &factors.v_t) else { return Err(Error::EigenvaluesNotFound) };
+        let factors = Singular::of(&jacobian).ok_or(Error::EigenvaluesNotFound)?;
         let least = power_of_epsilon::<L::Scalar>(2.0 / 3.0);
         let mut step = DVector::from_element(columns, zero);
         let mut free = DVector::from_element(columns, zero);
-        for (k, &sigma) in factors.singular_values.iter().enumerate() {
+        for (k, &sigma) in factors.values.iter().enumerate() {
+            let direction = |j: usize| factors.direction(k, j);
             if sigma <= least {
-                free.iter_mut().zip(v.row(k).iter()).for_each(|(x, v)| *x = larger(*x, Scalar::abs(*v)));
+                (0..columns).for_each(|j| free[j] = larger(free[j], Scalar::abs(direction(j))));
                 continue;
             }
-            let length = (0..N + M).fold(zero, |sum, i| sum + u[(i, k)] * residual[i]) / sigma;
-            (0..columns).for_each(|j| step[j] -= v[(k, j)] * length / lengths[j]);
+            let length = factors.along(k, residual.iter().copied()) / (sigma * sigma);
+            (0..columns).for_each(|j| step[j] -= direction(j) * length / lengths[j]);
         }
         let is_free = |j: &usize| free[*j] > power_of_epsilon::<L::Scalar>(0.5);
         let undetermined: Vec<usize> = (0..self.inputs.len()).filter(is_free).collect();

@@ -27,6 +27,8 @@ mod sensitivities;
 #[cfg(feature = "alloc")]
 mod sensitivity;
 #[cfg(feature = "alloc")]
+mod singular;
+#[cfg(feature = "alloc")]
 mod spectrum;
 mod state_derivatives;
 mod tangent;
@@ -337,8 +339,8 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     /// # Errors
     /// [`Error::NotRealizable`] where no values of the inputs give these accelerations, or they violate a constraint;
     /// [`Error::InputsNotUnique`]; [`Error::ParameterFixed`], [`Error::UnknownName`] and [`Error::RepeatedName`];
-    /// [`Error::EquationsNotFinite`] and [`Error::DerivativeNotFinite`]; [`Error::EigenvaluesNotFound`] where the
-    /// singular values do not converge.
+    /// [`Error::EquationsNotFinite`] and [`Error::DerivativeNotFinite`]; [`Error::EigenvaluesNotFound`] where an
+    /// entry of the matrix of a step is not finite.
     #[cfg(feature = "alloc")]
     fn inputs_for(
         &self,
@@ -439,7 +441,7 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     /// [`Error::NotSteady`], with the coordinate that should not move;
     /// [`Error::UnknownName`], [`Error::RepeatedName`] and [`Error::ParameterFixed`];
     /// [`Error::StateNotFinite`], [`Error::EquationsNotFinite`] and [`Error::DerivativeNotFinite`];
-    /// [`Error::EigenvaluesNotFound`] where the singular values of a step do not converge.
+    /// [`Error::EigenvaluesNotFound`] where an entry of the matrix of a step is not finite.
     #[cfg(feature = "alloc")]
     fn equilibrium(
         &self,

@@ -33,16 +33,15 @@ where
         })
     }
 
-    /// Its derivatives by the unknowns and by the multipliers, at least as many rows as columns.
+    /// Its derivatives by the unknowns and by the multipliers.
     pub(super) fn jacobian(&self, unknowns: &[Argument]) -> DMatrix<L::Scalar> {
-        let columns = unknowns.len() + M;
-        let mut jacobian = DMatrix::zeros((N + 3 * M).max(columns), columns);
+        let mut jacobian = DMatrix::zeros(N + 3 * M, unknowns.len() + M);
         let multipliers = self.multipliers;
         let zero = vector([L::Scalar::constant(0.0); N]);
         let still = Solution { accelerations: zero, multipliers, pivot: L::Scalar::constant(1.0), rank: M };
         for (j, &unknown) in unknowns.iter().enumerate() {
             let change = unknown.residual_change(&self.system, &self.state, &still);
-            jacobian.view_mut((0, j), (N + 3 * M, 1)).copy_from(&stacked(&change));
+            jacobian.set_column(j, &stacked(&change));
         }
         let f = self.system.constraint_jacobian(&self.state);
         jacobian.view_mut((0, unknowns.len()), (N, M)).copy_from(&-f.transpose());

@@ -5,13 +5,14 @@
 use alloc::{format, string::String, vec::Vec};
 use core::iter::successors;
 
-use nalgebra::{ComplexField, DMatrix, DVector, Dyn, SVD};
+use nalgebra::{ComplexField, DMatrix, DVector};
 
 use super::point::{Point, row};
 use super::weights::weights;
 use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::linearized::argument::Argument;
+use crate::linearized::singular::Singular;
 use crate::number::{Real, Scalar, is_within, larger, power_of_epsilon, smaller, vector};
 use crate::solution::consistent::{Level, project};
 use crate::solution::newton::{Left, Search};
@@ -76,20 +77,17 @@ where
     /// δ = −Σ_k v_k σ_k (u_k·R)/(σ_k² + μ), over the singular values that are not zero.
     fn damped(
         &self,
-        factors: &SVD<L::Scalar, Dyn, Dyn>,
+        factors: &Singular<L::Scalar>,
         residual: &DVector<L::Scalar>,
         damping: L::Scalar,
     ) -> DVector<L::Scalar> {
-        let zero = L::Scalar::constant(0.0);
         let mut step = DVector::zeros(self.scale.len());
-        let (Some(u), Some(v)) = (&factors.u, &factors.v_t) else { return step };
-        let least = factors.singular_values.max() * L::Scalar::constant(L::Scalar::EPSILON);
-        for (k, &sigma) in factors.singular_values.iter().enumerate().filter(|(_, sigma)| **sigma > least) {
-            let rows = residual.iter().zip(&self.weights).enumerate();
-            let along = rows.fold(zero, |sum, (i, (r, w))| sum + u[(i, k)] * *r * *w);
-            let length = -sigma * along / (sigma * sigma + damping);
+        let least = factors.norm() * L::Scalar::constant(L::Scalar::EPSILON);
+        for (k, &sigma) in factors.values.iter().enumerate().filter(|(_, sigma)| **sigma > least) {
+            let rows = residual.iter().zip(&self.weights).map(|(r, w)| *r * *w);
+            let length = -factors.along(k, rows) / (sigma * sigma + damping);
             for j in 0..step.len() {
-                step[j] += v[(k, j)] * length * self.unit(j);
+                step[j] += factors.direction(k, j) * length * self.unit(j);
             }
         }
         step
@@ -140,14 +138,13 @@ where
     /// Whether what is left may be round-off: it is small, of the terms of each row and of those where the unknowns
     /// are about 1; and what no step could take away is round-off of the terms here or at the guess. The second
     /// tells forces that cannot balance, however small their unit makes them.
-    fn is_negligible(&self, factors: &SVD<L::Scalar, Dyn, Dyn>, trial: &Trial<L, N, M, P>) -> bool {
+    fn is_negligible(&self, factors: &Singular<L::Scalar>, trial: &Trial<L, N, M, P>) -> bool {
         let part = L::Scalar::constant(16.0 * L::Scalar::EPSILON);
         let floor = power_of_epsilon(0.75);
         let small = self.terms(trial, |_, x| part * x + floor);
         let round_off = self.terms(trial, |j, x| part * (x + self.unit(j)));
         let residual = &trial.residual;
-        let moved = &trial.jacobian * self.damped(factors, residual, L::Scalar::constant(0.0));
-        let stays = residual + moved.rows(0, residual.len());
+        let stays = residual + &trial.jacobian * self.damped(factors, residual, L::Scalar::constant(0.0));
         (0..residual.len()).all(|i| {
             is_within(Scalar::abs(residual[i]), small[i]) && is_within(Scalar::abs(stays[i]), round_off[i])
         })
@@ -181,10 +178,10 @@ where
     pub(super) fn undetermined(&mut self, found: &Trial<L, N, M, P>) -> Result<Vec<String>, Error> {
         let zero = L::Scalar::constant(0.0);
         let factors = self.linearize(found)?;
-        let Some(v) = &factors.v_t else { return Ok(Vec::new()) };
-        let least = factors.singular_values.max() * power_of_epsilon(2.0 / 3.0);
-        let free: Vec<usize> = (0..v.nrows()).filter(|&k| factors.singular_values[k] <= least).collect();
-        let share = |j: usize| free.iter().fold(zero, |most, &k| larger(most, Scalar::abs(v[(k, j)])));
+        let least = factors.norm() * power_of_epsilon(2.0 / 3.0);
+        let free: Vec<usize> = (0..factors.values.len()).filter(|&k| factors.values[k] <= least).collect();
+        let share =
+            |j: usize| free.iter().fold(zero, |most, &k| larger(most, Scalar::abs(factors.direction(k, j))));
         let shares: Vec<_> = (0..self.unknowns.len()).map(share).collect();
         let names =
             self.unknowns.iter().zip(shares).filter(|(_, share)| *share > power_of_epsilon(1.0 / 3.0));
@@ -198,7 +195,7 @@ where
 {
     type Scalar = L::Scalar;
     type Trial = Trial<L, N, M, P>;
-    type Linear = SVD<L::Scalar, Dyn, Dyn>;
+    type Linear = Singular<L::Scalar>;
 
     const STEPS: usize = 200;
 
@@ -213,9 +210,7 @@ where
             self.scale[j] = larger(self.scale[j], column.norm());
             column.scale_mut(self.unit(j));
         }
-        let size = scaled.nrows();
-        let epsilon = L::Scalar::constant(L::Scalar::EPSILON);
-        SVD::try_new(scaled, true, true, epsilon, 1000 * size).ok_or(Error::EigenvaluesNotFound)
+        Singular::of(&scaled).ok_or(Error::EigenvaluesNotFound)
     }
 
     fn left(&self, near: &Self::Linear, trial: &Self::Trial) -> Left<L::Scalar> {

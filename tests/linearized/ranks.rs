@@ -1,0 +1,96 @@
+//! Matrices of every rank: constraints that depend on one another, and equilibria in families, drawn at random.
+
+use lagrange_core::nalgebra::{DMatrix, DVector};
+use lagrange_core::prelude::*;
+
+/// Uniform between −1 and 1 (Marsaglia's xorshift).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    /// Four rows in six directions, of which `rank` are independent.
+    fn rows(&mut self, rank: usize) -> [[f64; 6]; 4] {
+        let [left, right] = [(4, rank), (rank, 6)].map(|(m, n)| DMatrix::from_fn(m, n, |_, _| self.next()));
+        let product = left * right;
+        std::array::from_fn(|a| std::array::from_fn(|i| product[(a, i)]))
+    }
+}
+
+/// 200 of each; `LAGRANGE_MATRICES` says how many otherwise.
+fn count() -> usize {
+    std::env::var("LAGRANGE_MATRICES").ok().and_then(|count| count.parse().ok()).unwrap_or(200)
+}
+
+/// A point that velocity constraints lead.
+#[derive(Clone, Lagrangian)]
+#[coordinates(q: [6])]
+#[lagrangian(dot(q_dot, q_dot)/2 + dot(h, q))]
+#[constraint(led: c*q_dot = [0, 0, 0, 0])]
+struct Led {
+    c: [[f64; 6]; 4],
+    h: [f64; 6],
+}
+
+/// As many forces as the constraints leave free hold it at rest: h + Fᵀλ + τ = 0.
+#[test]
+fn forces_are_found_beside_constraints_that_depend_on_one_another() {
+    let (mut random, mut worst) = (Random(0x9E37_79B9_7F4A_7C15), 0.0_f64);
+    for _ in 0..count() {
+        let rank = 1 + (random.next().abs() * 4.0) as usize % 4;
+        let led = Led { c: random.rows(rank), h: [0; 6].map(|_| random.next()) };
+        let names = &["q[0]", "q[1]", "q[2]", "q[3]", "q[4]"][..6 - rank];
+        let found = led.inputs_for(&State::at_rest([0.0; 6]), &[0.0; 6].into(), names).unwrap();
+        let mut left = DVector::from_fn(6, |i, _| {
+            led.h[i] + (0..4).map(|a| led.c[a][i] * found.multipliers[a]).sum::<f64>()
+        });
+        found.inputs.iter().enumerate().for_each(|(i, force)| left[i] += force);
+        let size = found.inputs.amax().max(1.0);
+        assert!(left.amax() < 1e-13 * size, "rank {rank}: {left} of {size:e}, {:?}", led.c);
+        worst = worst.max(left.amax() / size);
+    }
+    println!("{} systems: forces are off by up to {worst:.1e}", count());
+}
+
+/// Springs between a point and four hyperplanes.
+#[derive(Clone, Lagrangian)]
+#[coordinates(q: [6])]
+#[define(way = c*q - b)]
+#[lagrangian(dot(q_dot, q_dot)/2 - dot(way, way)/2)]
+struct Hung {
+    c: [[f64; 6]; 4],
+    b: [f64; 4],
+}
+
+/// The springs' planes meet in a family of equilibria.
+#[test]
+fn one_of_a_family_of_equilibria_is_found_at_once() {
+    let (mut random, mut most) = (Random(7), 0);
+    for _ in 0..count() {
+        let rank = 1 + (random.next().abs() * 4.0) as usize % 4;
+        let (c, q) = (random.rows(rank), [0; 6].map(|_| random.next()));
+        let b = c.map(|row| row.iter().zip(&q).map(|(x, y)| x * y).sum());
+        let hung = Hung { c, b };
+        let found = hung.equilibrium(&State::at_rest([0; 6].map(|_| random.next())), &[]).unwrap();
+        let force = hung.forcing(&found.state).amax();
+        assert!(force < 1e-13, "rank {rank}: {force:e}, {c:?}");
+        most = most.max(found.iterations);
+    }
+    println!("{} systems: up to {most} steps", count());
+    assert!(most <= 12, "{most}");
+}
+
+#[test]
+fn nothing_to_find_is_found() {
+    let free = Hung { c: [[0.0; 6]; 4], b: [0.0; 4] };
+    let found = free.inputs_for(&State::at_rest([0.0; 6]), &[0.0; 6].into(), &[]).unwrap();
+    assert!(found.inputs.is_empty());
+    let asked = [0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
+    let error = free.inputs_for(&State::at_rest([0.0; 6]), &asked.into(), &[]).unwrap_err();
+    assert!(error.to_string().contains("`q[1]`"), "{error}");
+}
