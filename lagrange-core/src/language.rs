@@ -243,7 +243,7 @@
 //! | `translate(v)` | the origin moves by a vector |
 //! | `rotate_x(angle)`, `rotate_y`, `rotate_z` | about an axis of its own, by the right-hand rule |
 //! | `rotate(axis, angle)` | about any axis, of whatever length |
-//! | `rotate(q)` | by a quaternion (w, x, y, z), of whatever length but zero; where it is a coordinate, the constraint `dot(q, q) = 1` comes with it, named like it, as the last; so it does for each `rotate(q[i])` of a coordinate `q: [3, 4]`, named `q[i]` |
+//! | `rotate(q)` | by a quaternion (w, x, y, z), of whatever length but zero; where it is a coordinate, the constraint `dot(q, q) = 1` comes with it, named like it, after those that you state; so it does for each `rotate(q[i])` of a coordinate `q: [3, 4]`, named `q[i]`. Those of several coordinates come in the order in which the frames, as declared, first turn by them |
 //! | `rotate(R)` | by a rotation matrix, which turns vectors from the new axes into the old: a `Rotation3`, a `Matrix3` with `#[parameter(R: rotation)]`, a product of rotations, which is taken turn by turn |
 //! | `pose(place)` | `translate(place.translation), rotate(place.rotation)`: by an `Isometry3`, which takes a point r of the new frame to R r + t in the old |
 //!

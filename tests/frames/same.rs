@@ -139,9 +139,9 @@ struct Written {
     inertia: Matrix3<f64>,
 }
 
-/// It comes last where it is not.
+/// It comes last where it is not; several in the order of the frames, not of the coordinates.
 #[derive(Lagrangian)]
-#[coordinates(r: [3], q: [4], p: [4])]
+#[coordinates(r: [3], p: [4], q: [4])]
 #[frame(body: translate(r), rotate(q))]
 #[frame(wheel in body: rotate(p))]
 #[lagrangian(kinetic(body, m, [0, 0, 0], inertia) + kinetic(wheel, m, [0, 0, 0], inertia))]
