@@ -1,12 +1,12 @@
-//! Tables of any points at all: refused, or a function that is the natural spline through them.
+//! Tables of any points at all: refused, or a function that is the natural spline through them, cubic or quintic.
 //!
 //! `LAGRANGE_FUZZ_SECONDS` and `LAGRANGE_FUZZ_SEED` say how many, and which.
 
 #[path = "../lagrange-macros/src/rounds.rs"]
 mod rounds;
 
-use lagrange_core::function::{First, Second, Value};
-use lagrange_core::{Error, Table};
+use lagrange_core::function::{First, Second, Third, Value};
+use lagrange_core::{Error, SmoothTable, Table};
 use rounds::{Random, rounds};
 
 /// Anything that f64 holds: also no numbers, infinities, zeros of either sign, and what is next to another.
@@ -55,6 +55,10 @@ fn jet(table: &Table, x: f64) -> [f64; 3] {
     [table.value([x])[0], table.first([x], [0])[0], table.second([x], [0, 0])[0]]
 }
 
+fn smooth_jet(table: &SmoothTable, x: f64) -> [f64; 4] {
+    [table.value([x])[0], table.first([x], [0])[0], table.second([x], [0; 2])[0], table.third([x], [0; 3])[0]]
+}
+
 /// What is said to be refused is, and nothing else is but for overflow.
 #[test]
 fn any_points_are_a_table_or_an_error() {
@@ -69,6 +73,16 @@ fn any_points_are_a_table_or_an_error() {
                     assert!(jet(&table, x).into_iter().all(f64::is_finite), "{x:e} in {points:?}");
                 }
                 let _ = jet(&table, f64::from_bits(random.next()));
+            }
+            Err(error) => assert!(matches!(error, Error::Table), "{error:?}"),
+        }
+        match SmoothTable::new(&points) {
+            Ok(table) => {
+                assert!(points.len() >= 3 && increases && is_finite, "{points:?}");
+                for &(x, _) in &points {
+                    assert!(smooth_jet(&table, x).into_iter().all(f64::is_finite), "{x:e} in {points:?}");
+                }
+                let _ = smooth_jet(&table, f64::from_bits(random.next()));
             }
             Err(error) => assert!(matches!(error, Error::Table), "{error:?}"),
         }
@@ -134,4 +148,49 @@ fn piece(table: &Table, pair: &[(f64, f64)], ends: &[[f64; 3]], steepest: f64, p
             jet[2]
         );
     }
+}
+
+/// What defines it: it takes the heights, third and fourth derivatives meet, both zero at the ends; between two points it is the
+/// quintic of its values, slopes and bends there.
+#[test]
+fn ordinary_points_are_a_smooth_natural_spline() {
+    rounds("smooth splines", 5_000, |random| {
+        let points = ordinary(random);
+        let Some(table) = (points.len() > 2).then(|| SmoothTable::new(&points).expect("a table")) else {
+            return;
+        };
+        let ends: Vec<[[f64; 4]; 2]> = points.windows(2).map(|pair| quintic(&table, pair)).collect();
+        for (i, (x, y)) in points.iter().enumerate() {
+            assert_eq!(table.value([*x])[0], *y, "{points:?}");
+            let zero = [0.0; 4];
+            let left = if i > 0 { ends[i - 1][1] } else { zero };
+            let right = if i < ends.len() { ends[i][0] } else { zero };
+            // Round-off of the largest of the terms, times what the widths beside one another differ by.
+            for order in 0..2 {
+                let scale = left[2 + order].max(right[2 + order]);
+                let off = (left[order] - right[order]).abs() / scale;
+                assert!(off < 1e-9, "{off:e}, derivative {} at {x} of {points:?}", 3 + order);
+            }
+        }
+    });
+}
+
+/// Third and fourth derivatives at both ends of a piece by values, slopes and bends there, and the sizes of their terms.
+fn quintic(table: &SmoothTable, pair: &[(f64, f64)]) -> [[f64; 4]; 2] {
+    let h = pair[1].0 - pair[0].0;
+    let [[y, s, b, _], [z, t, c, _]] = [0, 1].map(|i| smooth_jet(table, pair[i].0));
+    let third = [
+        [60.0 * (z - y), -36.0 * s * h, -24.0 * t * h, -9.0 * b * h * h, 3.0 * c * h * h],
+        [60.0 * (z - y), -24.0 * s * h, -36.0 * t * h, -3.0 * b * h * h, 9.0 * c * h * h],
+    ];
+    let fourth = [
+        [-360.0 * (z - y), 192.0 * s * h, 168.0 * t * h, 36.0 * b * h * h, -24.0 * c * h * h],
+        [360.0 * (z - y), -168.0 * s * h, -192.0 * t * h, -24.0 * b * h * h, 36.0 * c * h * h],
+    ];
+    [0, 1].map(|end| {
+        let [third, fourth] = [(third[end], h.powi(3)), (fourth[end], h.powi(4))].map(|(terms, unit)| {
+            [terms.iter().sum::<f64>() / unit, terms.iter().map(|x| x.abs()).sum::<f64>() / unit]
+        });
+        [third[0], fourth[0], third[1], fourth[1]]
+    })
 }

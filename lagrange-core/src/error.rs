@@ -338,7 +338,10 @@ impl Display for Error {
                 "the derivative of the equations of motion by `{entry}` is not finite at t = {time}; row of {row}: check whether the state is at a pole, or at a point where the equations have a kink"
             ),
             Self::Table => {
-                write!(f, "a table needs at least two points, finite, with x increasing from one to the next")
+                write!(
+                    f,
+                    "a table needs at least two points (a smooth one three), finite, with x increasing from one to the next"
+                )
             }
             Self::Setting { name, value } => {
                 write!(f, "the {name} is {value}: it must be positive and finite")

@@ -343,9 +343,10 @@
 //! For `f64` alone there are two further forms. A [`HandWritten`](crate::HandWritten) function gives its value,
 //! gradient and second derivatives, and is put into [`ByHand`](crate::ByHand);
 //! [`check_derivatives`](crate::function::check_derivatives) compares them with differences. A [`Table`](crate::Table) is the
-//! smooth curve through measured points. Where the equations need a third derivative, which neither has, that is
+//! curve through measured points with two continuous derivatives, a [`SmoothTable`](crate::SmoothTable) the one with four, along
+//! which motions keep their digits. Where the equations need a third derivative, which a `SmoothTable` alone has of these, that is
 //! an error at the field's type while compiling. [`Linearized`](crate::Linearized) takes one derivative more than the
-//! equations: where that is the third, it is missing for these forms, and the rest of the system is there.
+//! equations: where that is the third, it is missing for the other forms, and the rest of the system is there.
 //! [`Taylor`](crate::Taylor) takes a `Function` alone. Numbers inside of a function are no parameters of the system: none
 //! can be differentiated by or sought.
 //!

@@ -169,9 +169,9 @@ pub use ensemble::{
     Arrival, Ensemble, EnsembleProgress, Fingerprint, Member, MemberEnding, MemberRow, MemberTable, Outcome,
 };
 pub use error::Error;
-#[cfg(feature = "alloc")]
-pub use function::Table;
 pub use function::{ByHand, Function, HandWritten};
+#[cfg(feature = "alloc")]
+pub use function::{SmoothTable, Table};
 pub use hamiltonian::{Hamiltonian, HamiltonianFlow, PhaseRate, PhaseState};
 pub use lagrange_macros::Lagrangian;
 #[cfg(feature = "alloc")]

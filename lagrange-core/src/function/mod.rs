@@ -12,7 +12,7 @@ mod tests;
 
 pub use check::{WrongDerivative, check_derivatives};
 #[cfg(feature = "alloc")]
-pub use table::Table;
+pub use table::{SmoothTable, Table};
 
 use crate::number::{Dual, Scalar};
 
@@ -87,7 +87,7 @@ pub trait Second<S, const I: usize, const O: usize>: First<S, I, O> {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not known to be a function over `{S}` of {I} number(s) with {O} result(s) and third derivatives",
     label = "the equations need its third derivatives",
-    note = "implement `lagrange_core::Function<{I}, {O}>` for it, from which all derivatives follow; `ByHand` and `Table` know no third"
+    note = "implement `lagrange_core::Function<{I}, {O}>` for it, from which all derivatives follow; over `f64` a `SmoothTable` knows the third, `ByHand` and `Table` know none"
 )]
 pub trait Third<S, const I: usize, const O: usize>: Second<S, I, O> {
     /// ∂³/∂x_i ∂x_j ∂x_k at `x`.

@@ -1,5 +1,9 @@
 //! Tabulated functions of one variable.
 
+mod smooth;
+
+pub use smooth::SmoothTable;
+
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
@@ -10,7 +14,9 @@ use crate::function::{First, Second, Value};
 /// zero at both ends (Stoer and Bulirsch, *Introduction to Numerical Analysis*, 2.5.2). Beyond the ends it goes on
 /// as the straight line that it ends with.
 ///
-/// As a field named in `#[function(…)]` it serves systems over `f64`.
+/// As a field named in `#[function(…)]` it serves systems over `f64`. Its third derivative jumps at the points, which costs digits and
+/// steps: twenty oscillations in a Morse potential of 320 points, by `Dop853` at the tolerance 10⁻¹², change the energy by 37,000
+/// tolerances in 6,600 steps, those in a [`SmoothTable`] of the same points by 7 in 900.
 ///
 /// ```
 /// use lagrange_core::Table;
@@ -39,8 +45,7 @@ impl Table {
     /// [`Error::Table`] for fewer points, for numbers that are not finite or lead to such, and where `x` does not
     /// increase.
     pub fn new(points: &[(f64, f64)]) -> Result<Self, Error> {
-        let increasing = points.windows(2).all(|pair| pair[0].0 < pair[1].0);
-        if points.len() < 2 || !increasing {
+        if points.len() < 2 || !are_increasing(points) {
             return Err(Error::Table);
         }
         let knots = points.iter().zip(bends(points)).map(|(&(x, y), bend)| Knot { x, y, bend });
@@ -64,6 +69,10 @@ impl Table {
         let bend = if x == inside { w * a.bend + u * b.bend } else { 0.0 };
         [value + slope * (x - inside), slope, bend]
     }
+}
+
+fn are_increasing(points: &[(f64, f64)]) -> bool {
+    points.windows(2).all(|pair| pair[0].0 < pair[1].0)
 }
 
 /// The second derivatives at the points, from the tridiagonal system for a continuous slope (Thomas's algorithm).
