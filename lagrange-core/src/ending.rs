@@ -2,7 +2,7 @@
 
 #[cfg(feature = "std")]
 use alloc::string::String;
-use core::fmt::{self, Display, Formatter};
+use core::fmt::{self, Debug, Display, Formatter};
 
 use crate::error::Error;
 use crate::names::{Entry, Row};
@@ -12,7 +12,7 @@ use crate::names::{Entry, Row};
 /// With the feature `serde` it is written, `{"ending": "StepTooSmall", "time": 1.5, "entry": "x_dot"}`, and not read:
 /// its names are those of a system that is compiled in.
 #[non_exhaustive]
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(tag = "ending"))]
 pub enum Ending {
     /// The end asked for was reached.
@@ -235,6 +235,13 @@ impl Display for Ending {
             Self::Elsewhere { said, .. } => f.write_str(said),
             Self::Cancelled { time } => write!(f, "cancelled at t = {time}"),
         }
+    }
+}
+
+/// The sentence of its `Display`: `main` prints an ending that it returns as an error by this.
+impl Debug for Ending {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        Display::fmt(self, f)
     }
 }
 

@@ -1,6 +1,6 @@
 //! What can go wrong, each with the name of the entry at fault and what to do about it.
 
-use core::fmt::{self, Display, Formatter};
+use core::fmt::{self, Debug, Display, Formatter};
 
 #[cfg(feature = "alloc")]
 use alloc::{boxed::Box, string::String, vec::Vec};
@@ -13,7 +13,7 @@ use crate::names::{Entry, Names, Row};
 ///
 /// Times and residuals are given as `f64` whatever the scalar of the system is.
 #[non_exhaustive]
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub enum Error {
     /// An entry of the state given is infinite or not a number.
     StateNotFinite {
@@ -480,4 +480,29 @@ impl Display for Error {
     }
 }
 
+/// The sentence of its `Display`: `main` prints an error that it returns by this. What tells errors apart are its fields.
+impl Debug for Error {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        Display::fmt(self, f)
+    }
+}
+
 impl core::error::Error for Error {}
+
+#[cfg(all(test, feature = "alloc"))]
+mod tests {
+    use super::*;
+    use alloc::{format, string::ToString};
+
+    /// `main` prints an error by `Debug`, and so does a result that is unwrapped.
+    #[test]
+    fn errors_and_endings_are_debugged_as_sentences() {
+        let apart = Error::LegApart { start: 0.5, end: 1.0, expected: 0.25 };
+        let ending = Ending::TimeTooCoarse { time: 2.0, step: 1e-17 };
+        assert_eq!(
+            format!("{apart:?}"),
+            "the leg from t = 0.5 to 1 does not go on from t = 0.25, where the journey has come to: start it there, and lead it the same way in time"
+        );
+        assert_eq!([format!("{apart:?}"), format!("{ending:#?}")], [apart.to_string(), ending.to_string()]);
+    }
+}
