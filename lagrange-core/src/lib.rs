@@ -128,7 +128,8 @@ println!("{}", path.csv(50).energy());
 //! `std` (default), without it there are no ensembles; `alloc`, without it there are no trajectories and no Taylor
 //! series, but motions step by step; `libm`, elementary functions where there is no `std`; `rayon`, ensembles on all threads; `mpi`, ensembles on many machines; `parquet`, tables of
 //! ensembles as files of Parquet; `serde`, states,
-//! solutions, records of trajectories and endings can be written, and those without names read.
+//! solutions, records of trajectories and endings can be written, and those without names read; from JSON to the last bit only with
+//! `serde_json = { version = "1", features = ["float_roundtrip"] }`.
 #![cfg_attr(not(feature = "std"), no_std)]
 // docs.rs shows which feature an item needs.
 #![cfg_attr(docsrs, feature(doc_cfg))]
@@ -198,8 +199,8 @@ pub use solution::Impact;
 pub use solution::{Adjustment, Consistent, Sample};
 pub use statistics::Statistics;
 pub use system::{
-    Classification, Conserved, ConstraintKind, Equations, Evidence, Extent, Facts, Integrability, Integrals,
-    Lagrangian, LinearPart, Pack, Packed, RightHandSides, Shared, Solution, State, TaylorSeries,
+    Classification, Conserved, ConstraintKind, Entries, Equations, Evidence, Extent, Facts, Integrability,
+    Integrals, Lagrangian, LinearPart, Pack, Packed, RightHandSides, Shared, Solution, State, TaylorSeries,
     TotalDerivative,
 };
 #[cfg(feature = "alloc")]

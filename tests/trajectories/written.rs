@@ -75,8 +75,14 @@ fn unknown_numbers_come_back_unknown() {
     let read: Records<f64> = from_str(&text).unwrap();
     assert!(read.rows[0][0] == 1.0 && read.rows[0][1].is_nan());
     // A state is no table: what is no number there is an error.
-    let state = json!({ "t": 0.0, "q": [null, 1.0], "v": [0.0, 0.0] });
-    assert!(from_value::<State<f64, 2>>(state).is_err());
+    let text = to_string(&State::new([f64::NAN, 1.0], [f64::INFINITY, 0.0])).unwrap();
+    assert_eq!(text, r#"{"t":0.0,"q":[null,1.0],"v":[null,0.0]}"#);
+    assert_eq!(
+        from_str::<State<f64, 2>>(&text).unwrap_err().to_string(),
+        "a number was NaN or infinite when it was written, for which JSON has `null` alone: invalid type: null, expected f64 at line 1 column 18"
+    );
+    let phase = to_string(&PhaseState::new([1.0], [1.0]).at_time(f64::NAN)).unwrap();
+    assert!(from_str::<PhaseState<f64, 1>>(&phase).unwrap_err().to_string().contains("NaN or infinite"));
     let shorter = json!({ "t": 0.0, "q": [1.0], "v": [0.0] });
     assert!(from_value::<State<f64, 2>>(shorter).is_err());
 }

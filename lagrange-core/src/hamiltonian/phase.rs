@@ -7,7 +7,7 @@ use nalgebra::SVector;
 use crate::error::Error;
 use crate::number::{Real, Scalar};
 use crate::solution::solve::solve_near;
-use crate::system::{Lagrangian, State, write_state};
+use crate::system::{Entries, Lagrangian, State, write_state};
 
 /// The time `t`, the generalized coordinates `q` and the generalized momenta `p` = ∂L/∂q̇.
 ///
@@ -28,17 +28,20 @@ use crate::system::{Lagrangian, State, write_state};
 )]
 pub struct PhaseState<T, const N: usize> {
     /// Time.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::system::read::number"))]
     pub t: T,
     /// Generalized coordinates.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::system::read::numbers"))]
     pub q: SVector<T, N>,
     /// Generalized momenta.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::system::read::numbers"))]
     pub p: SVector<T, N>,
 }
 
 impl<T: Scalar, const N: usize> PhaseState<T, N> {
     /// Coordinates and momenta at `t = 0`.
-    pub fn new(q: impl Into<SVector<T, N>>, p: impl Into<SVector<T, N>>) -> Self {
-        Self { t: T::constant(0.0), q: q.into(), p: p.into() }
+    pub fn new(q: impl Entries<T, N>, p: impl Entries<T, N>) -> Self {
+        Self { t: T::constant(0.0), q: q.into_vector(), p: p.into_vector() }
     }
 
     /// The same coordinates and momenta at the time `t`.
@@ -67,10 +70,13 @@ impl<T: Scalar, const N: usize> Display for PhaseState<T, N> {
 )]
 pub struct PhaseRate<T, const N: usize, const M: usize> {
     /// q̇ = ∂H/∂p.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::system::read::numbers"))]
     pub q: SVector<T, N>,
     /// ṗ = ∂L/∂q + Q + Fᵀλ.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::system::read::numbers"))]
     pub p: SVector<T, N>,
     /// Lagrange multipliers λ, in the order written.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::system::read::numbers"))]
     pub multipliers: SVector<T, M>,
 }
 

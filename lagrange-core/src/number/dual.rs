@@ -121,6 +121,7 @@ impl<S: Scalar> Div<S> for Dual<S> {
     }
 }
 
+#[diagnostic::do_not_recommend]
 impl<S: Scalar> Scalar for Dual<S> {
     #[inline(always)]
     fn constant(x: f64) -> Self {

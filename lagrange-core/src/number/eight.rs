@@ -67,6 +67,7 @@ macro_rules! one_by_one {
 }
 
 /// As those of four numbers are made by `simba`.
+#[diagnostic::do_not_recommend]
 impl Scalar for Eight {
     #[inline(always)]
     fn constant(x: f64) -> Self {

@@ -71,6 +71,7 @@ macro_rules! lanes {
             }
         }
 
+        #[diagnostic::do_not_recommend]
         impl Scalar for $lanes {
             #[inline(always)]
             fn constant(x: f64) -> Self {

@@ -16,6 +16,11 @@ use super::sines;
 /// Emitted code reaches all mathematics through this trait. It is implemented for every type with
 /// [`simba`'s `SimdRealField`](SimdRealField): the floating-point types, the lane types of `simba`
 /// (`WideF64x4`, …) and the dual numbers of `num-dual`.
+#[diagnostic::on_unimplemented(
+    message = "equations of motion are not evaluated on `{Self}`",
+    label = "not a real number such as `f64`",
+    note = "write whole numbers with a point: `1.0` for `1`; numbers of one's own implement `Scalar`"
+)]
 pub trait Scalar:
     Copy
     + PartialEq
@@ -151,6 +156,7 @@ macro_rules! through_simba {
     };
 }
 
+#[diagnostic::do_not_recommend]
 impl<T: SimdRealField + SupersetOf<f64> + Copy + Debug + 'static> Scalar for T {
     #[inline(always)]
     fn constant(x: f64) -> Self {

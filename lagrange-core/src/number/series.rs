@@ -197,6 +197,7 @@ impl<S: Scalar> Neg for PowerSeries<S> {
     }
 }
 
+#[diagnostic::do_not_recommend]
 impl<S: Scalar> Scalar for PowerSeries<S> {
     #[inline]
     fn constant(x: f64) -> Self {

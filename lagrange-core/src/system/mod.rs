@@ -1,6 +1,7 @@
 //! What a system is: the contract that generated code implements, its state, and what is known about it.
 
 pub(crate) mod defect;
+mod entries;
 pub(crate) mod equations;
 mod evidence;
 mod facts;
@@ -12,9 +13,12 @@ pub(crate) mod lookup;
 pub(crate) mod member;
 mod pack;
 mod pointers;
+#[cfg(feature = "serde")]
+pub(crate) mod read;
 mod state;
 mod taylor_series;
 
+pub use entries::Entries;
 pub use equations::Equations;
 pub use evidence::Evidence;
 pub use facts::{Conserved, Facts, LinearPart, TotalDerivative};

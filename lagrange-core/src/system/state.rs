@@ -4,6 +4,7 @@ use core::fmt::{self, Debug, Display, Formatter};
 
 use nalgebra::SVector;
 
+use super::entries::Entries;
 use crate::number::Scalar;
 
 /// The time `t`, the generalized coordinates `q` and the generalized velocities `v` = q̇.
@@ -17,6 +18,11 @@ use crate::number::Scalar;
 /// assert_eq!(state.to_string(), "t = 1.0: q = (0.1, 0.0), q̇ = (0.0, 2.0)");
 /// assert_eq!(format!("{state:.3}"), "t = 1.000: q = (0.100, 0.000), q̇ = (0.000, 2.000)");
 /// ```
+///
+/// With the feature `serde` it is written and read: `{"t": 0.0, "q": [0.1], "v": [0.0]}`. JSON has no NaN and no infinities:
+/// `serde_json` writes them as `null`, which is an error where a state is read. It reads a number back to the last bit with its
+/// feature `float_roundtrip` alone (`serde_json = { version = "1", features = ["float_roundtrip"] }`), otherwise to
+/// the bit beside it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -28,21 +34,24 @@ use crate::number::Scalar;
 )]
 pub struct State<T, const N: usize> {
     /// Time.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::read::number"))]
     pub t: T,
     /// Generalized coordinates.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::read::numbers"))]
     pub q: SVector<T, N>,
     /// Generalized velocities.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::read::numbers"))]
     pub v: SVector<T, N>,
 }
 
 impl<T: Scalar, const N: usize> State<T, N> {
     /// Coordinates and velocities at `t = 0`.
-    pub fn new(q: impl Into<SVector<T, N>>, v: impl Into<SVector<T, N>>) -> Self {
-        Self { t: T::constant(0.0), q: q.into(), v: v.into() }
+    pub fn new(q: impl Entries<T, N>, v: impl Entries<T, N>) -> Self {
+        Self { t: T::constant(0.0), q: q.into_vector(), v: v.into_vector() }
     }
 
     /// Coordinates at rest at `t = 0`.
-    pub fn at_rest(q: impl Into<SVector<T, N>>) -> Self {
+    pub fn at_rest(q: impl Entries<T, N>) -> Self {
         Self::new(q, [T::constant(0.0); N])
     }
 
@@ -94,12 +103,15 @@ pub(crate) fn write_state<T: Scalar>(f: &mut Formatter<'_>, t: &T, parts: [(&str
 )]
 pub struct Solution<T, const N: usize, const M: usize> {
     /// Generalized accelerations q̈.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::read::numbers"))]
     pub accelerations: SVector<T, N>,
     /// Lagrange multipliers λ, one a scalar constraint, in the order written.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::read::numbers"))]
     pub multipliers: SVector<T, M>,
     /// The smallest pivot of the elimination, as a fraction of the diagonal entry it came from: 1 is
     /// perfect, 0 singular, NaN or negative a system that this elimination cannot solve, or of which the numbers are so
     /// large or small that their products are none, or have lost digits.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::read::number"))]
     pub pivot: T,
     /// How many of the `M` constraints are independent here. Where it is less than `M` the multipliers
     /// are not unique; those given are the ones of least Euclidean norm.

@@ -1,0 +1,21 @@
+//! What the numbers of a state are given as.
+
+use nalgebra::SVector;
+
+/// The coordinates, velocities or momenta of a state: an array, or what else becomes a vector of `nalgebra`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not {N} numbers of the type `{T}`",
+    label = "not {N} numbers `{T}`",
+    note = "write an array with an entry for each coordinate, and whole numbers with a point: `[1.0, 0.0]`"
+)]
+pub trait Entries<T, const N: usize> {
+    /// As a vector.
+    fn into_vector(self) -> SVector<T, N>;
+}
+
+#[diagnostic::do_not_recommend]
+impl<T, V: Into<SVector<T, N>>, const N: usize> Entries<T, N> for V {
+    fn into_vector(self) -> SVector<T, N> {
+        self.into()
+    }
+}

@@ -1,0 +1,34 @@
+//! Numbers read by serde, with a word about what JSON cannot write.
+
+use core::fmt::Display;
+
+use alloc::string::ToString;
+use nalgebra::SVector;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer};
+
+pub(crate) fn number<'de, D, T>(from: D) -> Result<T, D::Error>
+where
+    D: Deserializer<'de>,
+    T: Deserialize<'de>,
+{
+    T::deserialize(from).map_err(explained)
+}
+
+pub(crate) fn numbers<'de, D, T, const N: usize>(from: D) -> Result<SVector<T, N>, D::Error>
+where
+    D: Deserializer<'de>,
+    T: nalgebra::Scalar + Deserialize<'de>,
+{
+    SVector::deserialize(from).map_err(explained)
+}
+
+/// The place stays at the end of the message, where formats look for it.
+fn explained<E: Error + Display>(error: E) -> E {
+    match error.to_string() {
+        said if said.contains("null") => E::custom(format_args!(
+            "a number was NaN or infinite when it was written, for which JSON has `null` alone: {said}"
+        )),
+        _ => error,
+    }
+}
