@@ -26,8 +26,11 @@ fn programs_that_are_files_are_shown_as_they_are() {
             "interchange.md",
             "interchange",
             &[
+                "solvers/Cargo.toml",
                 "solvers/tests/ode_solvers.rs",
                 "solvers/tests/diffsol.rs",
+                "python/Cargo.toml",
+                "python/pyproject.toml",
                 "python/src/lib.rs",
                 "python/swing.py",
             ],

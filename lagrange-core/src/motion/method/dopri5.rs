@@ -7,7 +7,8 @@ use super::{Adaptive, Combination, Pair};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DormandPrince54;
 
-/// Dormand and Prince's method of order 5(4): cheap steps, for moderate tolerances (10⁻⁴ to 10⁻⁷).
+/// Dormand and Prince's method of order 5(4): cheap steps, for errors of 10⁻³ and forces that are not smooth. Below 10⁻⁷ they
+/// get many.
 pub type Dopri5 = Adaptive<DormandPrince54>;
 
 impl Pair for DormandPrince54 {
