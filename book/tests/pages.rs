@@ -83,14 +83,16 @@ fn every_link_leads_somewhere() {
     assert!(broken.is_empty(), "{broken:#?}");
 }
 
-/// The targets of `[text](target)` outside of code.
+/// The targets of `[text](target)` and `<img src="target"` outside of code.
 fn links(text: &str) -> impl Iterator<Item = String> {
     let mut is_code = false;
     let mut found = Vec::new();
     for line in text.lines() {
         is_code ^= line.starts_with("```");
         let prose: String = line.split('`').step_by(2).collect::<Vec<_>>().join("·");
-        let targets = prose.split("](").skip(1).filter_map(|rest| rest.split_once(')'));
+        let targets = [("](", ')'), ("<img src=\"", '"')]
+            .into_iter()
+            .flat_map(|(begin, end)| prose.split(begin).skip(1).filter_map(move |rest| rest.split_once(end)));
         found.extend(targets.filter(|_| !is_code).map(|(target, _)| target.to_owned()));
     }
     found.into_iter()

@@ -5,14 +5,29 @@ import re
 TOOLS = ("CasADi", "wrenfold", "heyoka", "SymPy", "Pinocchio")
 ROBOTS = ("arm of 6 joints", "quadruped", "arm of 20 joints", "humanoid")
 
+# What the README shows of the tables in the book.
+README_ROWS = (
+    "accelerations, 5 planar links in angles",
+    "accelerations, 20 planar links in angles",
+    "accelerations and multipliers, 20 rods in the plane",
+    "accelerations, arm of 6 joints",
+    "accelerations, humanoid",
+    "accelerations of 8 double pendulums, AVX2 lanes",
+)
+README_MOTIONS = ("spherical pendulum, by hand", "10 planar links")
+
 README = """\
-Against the tools that people use, built, checked and timed in turn by `python3 lagrange-core/benches/peers/run.py`. {about}
+Beside the tools that people use, built, checked and timed by `python3 lagrange-core/benches/peers/run.py`;
+[the book has more](book/src/costs.md#beside-other-tools). {about}
 
 {fastest}
 
 What one writes by hand is C for this one system.
+Single motions by Taylor's method to round-off, and the error at the end; heyoka has the pendulum simplified by hand, and derives the links
+from the Lagrangian:
 
-{taylor}"""
+{taylor}
+"""
 
 COSTS = """\
 Against the tools that people use, in one run of `python3 lagrange-core/benches/peers/run.py`, which builds, checks and
@@ -37,6 +52,9 @@ Compile times beyond an empty crate, all functions in use; functions of more tha
 """
 
 
+NANOSECONDS = ["nanoseconds", "ours", "the fastest tool", "by hand, O(n)"]
+MOTIONS = ["µs for the whole motion, error at its end", "`Taylor`", "error", "heyoka", "error", "`Dop853`", "error"]
+
 TAYLOR = """\
 Single motions by Taylor's method to round-off. heyoka is given the first two simplified by hand, without the multiplier that
 ours computes, and derives the others from the Lagrangian. `Dop853` is at 10⁻¹³:
@@ -46,7 +64,9 @@ ours computes, and derives the others from the Lagrangian. `Dop853` is at 10⁻�
 
 
 def of_readme(about, sections):
-    return README.format(about=where(about), fastest=fastest(sections), taylor=taylor(sections))
+    fast = table(NANOSECONDS, [row for row in fastest(sections) if row[0] in README_ROWS])
+    motions = [row[:5] for row in taylor(sections) if row[0] in README_MOTIONS]
+    return README.format(about=where(about), fastest=fast, taylor=table(MOTIONS[:5], motions))
 
 
 def of_costs(about, sections):
@@ -54,10 +74,10 @@ def of_costs(about, sections):
     return COSTS.format(
         about=where(about),
         num_dual=about["num-dual"],
-        fastest=fastest(sections),
+        fastest=table(NANOSECONDS, fastest(sections)),
         duals=duals(sections["duals"]),
         ensemble=ensemble(sections["ensemble"]),
-        taylor=taylor(sections),
+        taylor=TAYLOR.format(table=table(MOTIONS, taylor(sections))) if "taylor" in sections else "",
         growth=growth(sections["growth"]),
     )
 
@@ -109,6 +129,8 @@ def fastest_tool(section, caption, column):
 
 
 def fastest(sections):
+    """Rows of single evaluations."""
+
     def row(what, section, caption, column, hand):
         ours = time(section, caption, column, next(iter(section.names(caption)), "ours"))
         return [what, ours, fastest_tool(section, caption, column), hand and time(section, caption, column, hand)]
@@ -116,7 +138,7 @@ def fastest(sections):
     planar, chain, spherical, lanes = (sections[name] for name in ("planar", "chain", "spherical", "lanes"))
     independent, thomas = "native: independent evaluations", "by hand, Schur + Thomas"
     least = "least time of a sample · ours divided by it, by minima (by medians)"
-    rows = [
+    return [
         *(
             row(f"accelerations, {n} planar links in angles", planar, independent, f"n = {n}", "by hand, O(n)")
             for n in (2, 5, 10, 20)
@@ -133,7 +155,6 @@ def fastest(sections):
         ),
         row("accelerations of 8 double pendulums, AVX2 lanes", lanes, least.replace("ours", "ours on lanes"), "avx2", ""),
     ]
-    return table(["nanoseconds", "ours", "the fastest tool", "by hand, O(n)"], rows)
 
 
 def duals(section):
@@ -148,9 +169,9 @@ def duals(section):
 
 
 def taylor(sections):
-    """Single motions, where they were measured."""
+    """Rows of single motions, where they were measured."""
     if "taylor" not in sections:
-        return ""
+        return []
     section, times = sections["taylor"], "least times"
     quality = "steps × time a step / error of the last state"
 
@@ -162,11 +183,9 @@ def taylor(sections):
         return cells(column, min(had, key=lambda name: float(cells(column, name)[0])))
 
     columns = section.captioned(times).head[1:]
-    rows = [
+    return [
         [column, *cells(column, "ours, Taylor"), *best(column), *cells(column, "ours, Dop853")] for column in columns
     ]
-    head = ["µs for the whole motion, error at its end", "`Taylor`", "error", "heyoka", "error", "`Dop853`", "error"]
-    return TAYLOR.format(table=table(head, rows))
 
 
 def ensemble(section):
