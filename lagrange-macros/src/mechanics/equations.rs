@@ -4,7 +4,7 @@ use super::constraints::ConstraintKind;
 use super::gauss::Form;
 use super::integrability::Kinds;
 use super::twists::Twists;
-use super::{consistency, constraints, determinacy, euler_lagrange, integrability};
+use super::{consistency, constraints, determinacy, dissipation, euler_lagrange, integrability};
 use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};
@@ -57,8 +57,8 @@ impl Equations {
     ) -> Option<Self> {
         let twists = Twists::of(graph, problem);
         let motion = euler_lagrange::derive(graph, problem, twists.as_ref());
-        reject_idle_dissipation(graph, problem, diagnostics);
         diagnostics.stop_at_fault(problem.place, graph)?;
+        dissipation::check(graph, problem, diagnostics);
         let constraints = constraints::derive(graph, problem, twists.as_ref(), diagnostics)?;
         consistency::check(graph, problem, &constraints, diagnostics)?;
         determinacy::check(problem, &motion, &constraints, diagnostics)?;
@@ -103,14 +103,5 @@ impl Equations {
             .chain(self.integrability.functions.iter().flatten())
             .copied()
             .collect()
-    }
-}
-
-/// −∂D/∂q̇ is nothing where D has no velocity in it.
-fn reject_idle_dissipation(graph: &Graph, problem: &Problem, diagnostics: &mut Diagnostics) {
-    if let Some((function, place)) = problem.dissipation
-        && !has_velocity(graph, &[function])
-    {
-        diagnostics.error(place, "no velocity occurs in this dissipation function, so it does nothing");
     }
 }

@@ -6,6 +6,7 @@ mod consistency;
 mod constraints;
 mod degree;
 mod determinacy;
+mod dissipation;
 mod equations;
 mod euler_lagrange;
 mod evidence;

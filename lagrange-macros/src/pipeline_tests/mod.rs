@@ -6,6 +6,7 @@ mod consistency;
 mod counts;
 mod determinism;
 mod differential;
+mod dissipation;
 mod doubling;
 mod elimination;
 mod emitted;

@@ -1,0 +1,103 @@
+//! What Rayleigh's dissipation function is for: to take the power q̇·∂D/∂q̇ from the motion.
+
+use num_traits::Signed;
+
+use super::degree::by_degree;
+use crate::diagnostics::Diagnostics;
+use crate::resolve::Problem;
+use crate::symbolic::{Function, Graph, Id, Node, Rational};
+use crate::variables::{Variable, has_velocity, nodes};
+
+/// Reports a dissipation function that certainly takes no power: free of velocities, odd in them, or with a power that is
+/// nowhere positive as long as no parameter is negative. What takes power at some velocities alone is accepted, as the drag
+/// of a moving belt does.
+pub(super) fn check(graph: &mut Graph, problem: &Problem, diagnostics: &mut Diagnostics) {
+    let Some((function, place)) = problem.dissipation else { return };
+    if !has_velocity(graph, &[function]) {
+        return diagnostics
+            .error(place, "no velocity occurs in this dissipation function, so it does nothing");
+    }
+    let power = by_degree(graph, problem, function);
+    if graph.take_fault().is_some() {
+        return;
+    }
+    let fault = if is_odd(graph, problem, power) {
+        "is odd in the velocities: it gives the reversed motion as much power as it takes from the motion"
+    } else if sign(graph, power) == Sign::Negative {
+        "drives the motion: the power q̇·∂D/∂q̇ that it takes is negative, where parameters are positive"
+    } else {
+        return;
+    };
+    let advice = "write `c/2*x_dot^2` for the force `-c*x_dot`, and other forces as `#[force(x: …)]`";
+    diagnostics.error(place, format!("this dissipation function {fault}; {advice}"));
+}
+
+/// Whether it changes its sign with all velocities, by its canonical form.
+fn is_odd(graph: &mut Graph, problem: &Problem, power: Id) -> bool {
+    let velocities = nodes(graph, problem.coordinates.len(), Variable::Velocity);
+    let reversed: Vec<Id> = velocities.into_iter().map(|velocity| graph.neg(velocity)).collect();
+    let plain = graph.looked_through(power);
+    let reverse = graph.substituted(power, |symbol| match Variable::of(symbol) {
+        Variable::Velocity(i) => Some(reversed[i]),
+        _ => None,
+    });
+    let sum = graph.add(plain, reverse);
+    graph.take_fault().is_none() && plain != Id::ZERO && sum == Id::ZERO
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Sign {
+    /// Or zero.
+    Positive,
+    /// Or zero.
+    Negative,
+    Unknown,
+}
+
+impl Sign {
+    fn times(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Unknown, _) | (_, Self::Unknown) => Self::Unknown,
+            _ if self == other => Self::Positive,
+            _ => Self::Negative,
+        }
+    }
+
+    fn of(number: Rational) -> Self {
+        if number.is_negative() { Self::Negative } else { Self::Positive }
+    }
+
+    fn power(self, exponent: Rational) -> Self {
+        // Roots are those of positive numbers.
+        let is_odd = exponent.is_integer() && exponent.numer() % 2 != 0;
+        if is_odd { self } else { Self::Positive }
+    }
+}
+
+/// The sign that an expression has wherever no parameter is negative.
+fn sign(graph: &Graph, root: Id) -> Sign {
+    let mut signs = vec![Sign::Unknown; root.index() + 1];
+    for id in graph.reachable(&[root]) {
+        let of = |id: Id| signs[id.index()];
+        signs[id.index()] = match graph.node(id) {
+            Node::Number(number) => Sign::of(*number),
+            Node::Pi | Node::Function(Function::Abs | Function::Exp | Function::Cosh, _) => Sign::Positive,
+            Node::Symbol(symbol) if matches!(Variable::of(*symbol), Variable::Parameter(_)) => Sign::Positive,
+            Node::Sum(terms) => {
+                let first = of(terms[0].0).times(Sign::of(terms[0].1));
+                let agrees = |&(term, number): &(Id, Rational)| of(term).times(Sign::of(number)) == first;
+                if terms.iter().all(agrees) { first } else { Sign::Unknown }
+            }
+            Node::Product(factors) => factors
+                .iter()
+                .fold(Sign::Positive, |sign, &(factor, exponent)| sign.times(of(factor).power(exponent))),
+            Node::Defined(inner) => of(*inner),
+            Node::Power(base, _) => match of(*base) {
+                Sign::Positive => Sign::Positive,
+                _ => Sign::Unknown,
+            },
+            _ => Sign::Unknown,
+        };
+    }
+    signs[root.index()]
+}
