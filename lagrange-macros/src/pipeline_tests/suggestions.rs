@@ -33,6 +33,9 @@ fn slips_of_the_fingers() {
         ("snin(theta)", "sin"),
         ("tahn(theta)", "tanh"),
         ("PI", "pi"),
+        ("thta_dot^2", "theta_dot"),
+        ("theta_dott^2", "theta_dot"),
+        ("Theta_dot^2", "theta_dot"),
     ] {
         assert_said(term, &format!("did you mean `{meant}`?"));
     }
@@ -70,6 +73,8 @@ fn other_names_for_the_same() {
         ("r_2", "the elements of `r` are `r[0]` to `r[2]`"),
         ("r1_dot", "the elements of `r` are `r_dot[0]` to `r_dot[2]`"),
         ("r_dot_1", "the elements of `r` are `r_dot[0]` to `r_dot[2]`"),
+        ("y_dot^2", "it would be the velocity of `y`: add `y` to the `#[coordinates(…)]`"),
+        ("psi_ddot", "it would be the acceleration of `psi`: add `psi`"),
     ] {
         assert_said(term, advice);
     }
@@ -99,9 +104,10 @@ fn functions_of_other_tools() {
 /// A wrong guess is worse than none.
 #[test]
 fn no_guesses() {
-    for term in
-        ["m2", "k3", "load2", "omega", "U(theta)", "alpha", "psi", "W", "x", "tau", "delta", "v1", "energy"]
-    {
+    for term in [
+        "m2", "k3", "load2", "omega", "U(theta)", "alpha", "psi", "W", "x", "tau", "delta", "v1", "energy",
+        "s_dot", "psi_dot", "psi_ddot", "l_max",
+    ] {
         let found = said(term);
         assert!(!found.contains("did you mean") && !found.contains("elements of"), "{term}: {found:.300}");
     }

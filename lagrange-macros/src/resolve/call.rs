@@ -56,13 +56,13 @@ impl Lowering<'_> {
             "min" | "max" => {
                 let [x, y] = self.arguments(name, arguments, place)?;
                 let (x, y) = (self.scalar(x), self.scalar(y));
-                return Some(Value::Scalar(self.extreme(&name.text, x?, y?)));
+                return Some(Value::Scalar(self.extreme(&name.text, [x?, y?], place)));
             }
             "clamp" => {
                 let [x, low, high] = self.arguments(name, arguments, place)?;
                 let (x, low, high) = (self.scalar(x), self.scalar(low), self.scalar(high));
-                let above = self.extreme("max", x?, low?);
-                return Some(Value::Scalar(self.extreme("min", above, high?)));
+                let above = self.extreme("max", [x?, low?], place);
+                return Some(Value::Scalar(self.extreme("min", [above, high?], place)));
             }
             "transpose" | "trace" | "identity" | "skew" => {
                 let [x] = self.arguments(name, arguments, place)?;
@@ -116,10 +116,11 @@ impl Lowering<'_> {
     }
 
     /// max(x, y) = y + max(x − y, 0), and min(x, y) = y − max(y − x, 0).
-    fn extreme(&mut self, name: &str, x: Id, y: Id) -> Id {
+    fn extreme(&mut self, name: &str, [x, y]: [Id; 2], place: Place) -> Id {
         let graph = &mut self.graph;
         let (more, less) = if name == "max" { (x, y) } else { (y, x) };
         let difference = graph.sub(more, less);
+        self.kinks.insert(difference, place);
         let beyond = graph.function(Function::Ramp, difference);
         if name == "max" { graph.add(y, beyond) } else { graph.sub(y, beyond) }
     }

@@ -1,6 +1,7 @@
 //! Expressions into the graph: names bound, shapes checked.
 
 use num_traits::Zero;
+use rustc_hash::FxHashMap;
 
 use super::access::Access;
 use super::define::Progress;
@@ -67,6 +68,8 @@ pub(super) struct Lowering<'a> {
     pub(super) turns: Turns,
     /// Vectors and matrices of which rates were asked.
     pub(super) differentiated: Vec<Id>,
+    /// Where `min`, `max` or `clamp` was written last, by the argument of the function that it is made of.
+    pub(super) kinks: FxHashMap<Id, Place>,
     /// By the index of the first `define` of the name.
     pub(super) definitions: Vec<Definition>,
     pub(super) progress: Progress,
@@ -119,6 +122,7 @@ impl<'a> Lowering<'a> {
             frames: Frames::default(),
             turns: Turns::default(),
             differentiated: Vec::new(),
+            kinks: FxHashMap::default(),
             definitions: defines.iter().map(|_| Definition::Pending).collect(),
             progress: Progress::default(),
             multipliers: Vec::new(),

@@ -31,7 +31,8 @@ impl Lowering<'_> {
 
     /// What is differentiated to get the equations has slopes everywhere.
     pub(super) fn reject_kink(&mut self, what: &str, value: Id, place: Place) {
-        if self.graph.has_kink(value) {
+        if let Some(argument) = self.graph.kink(value) {
+            let place = self.kinks.get(&argument).copied().unwrap_or(place);
             let message = format!(
                 "`min`, `max` and `clamp` have no place in {what}, whose slopes must be smooth: they limit forces and observables"
             );

@@ -103,7 +103,8 @@ impl Scope {
             .or_else(|| is_function(text))
             .or_else(|| self.element(text))
             .or_else(|| self.velocity(text))
-            .or_else(|| self.synonym(text).or_else(|| nearest(text, candidates)).map(did_you_mean));
+            .or_else(|| self.synonym(text).or_else(|| nearest(text, candidates)).map(did_you_mean))
+            .or_else(|| rate_of_none(text));
         let advice = advice.unwrap_or_else(|| "make it a field, a coordinate or a `#[define(…)]`".to_owned());
         name.place.error(format!("nothing is called `{text}`: {advice}"))
     }
@@ -222,6 +223,14 @@ fn is_function(text: &str) -> Option<String> {
     Some(format!("functions are written `{function}(x)`"))
 }
 
+/// `y_dot` where nothing is called `y`.
+fn rate_of_none(text: &str) -> Option<String> {
+    let rates = [("_dot", "velocity"), ("_ddot", "acceleration")];
+    let (base, rate) = rates.iter().find_map(|(suffix, rate)| Some((text.strip_suffix(suffix)?, rate)))?;
+    (!base.is_empty())
+        .then(|| format!("it would be the {rate} of `{base}`: add `{base}` to the `#[coordinates(…)]`"))
+}
+
 /// `m` of `m2` and of `m_2`.
 fn without_number(text: &str) -> &str {
     let name = text.trim_end_matches(|c: char| c.is_ascii_digit());
@@ -236,27 +245,38 @@ fn latin(text: &str) -> String {
 
 /// The candidate that differs by the least, if it differs by little; in capital letters least of all.
 pub(super) fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    let allowed = match name.chars().count() {
-        0..=2 => 0,
-        3..=5 => 2,
-        6..=8 => 4,
-        _ => 6,
-    };
     let near = candidates.filter(|candidate| *candidate != name && !are_apart(name, candidate));
     near.map(|candidate| (distance(name, candidate), candidate))
-        .filter(|(distance, _)| *distance <= allowed)
+        .filter(|(distance, _)| *distance <= allowed(name))
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, candidate)| candidate)
 }
 
-/// `m1` is not a slip for `m2`, nor `psi` for `phi`.
+/// How far from a name what was meant by it may be.
+fn allowed(name: &str) -> usize {
+    match name.chars().count() {
+        0..=2 => 0,
+        3..=5 => 2,
+        6..=8 => 4,
+        _ => 6,
+    }
+}
+
+/// `m1` is not a slip for `m2`, nor `psi` for `phi`, nor `y_dot` for `x_dot`.
 fn are_apart(name: &str, other: &str) -> bool {
     let digits = |text: &str| text.chars().filter(char::is_ascii_digit).collect::<String>();
-    let is_letter = |text: &str| GREEK.iter().any(|(latin, _)| latin.eq_ignore_ascii_case(text));
     let numbers = [digits(name), digits(other)];
     let have_numbers = numbers.iter().all(|number| !number.is_empty());
-    let are_letters = is_letter(name) && is_letter(other) && !name.eq_ignore_ascii_case(other);
-    have_numbers && numbers[0] != numbers[1] || are_letters
+    let words = || name.split('_').zip(other.split('_'));
+    let are_as_many = name.matches('_').count() == other.matches('_').count();
+    have_numbers && numbers[0] != numbers[1]
+        || are_as_many && words().any(|(word, other)| are_other_words(word, other))
+}
+
+fn are_other_words(word: &str, other: &str) -> bool {
+    let is_letter = |text: &str| GREEK.iter().any(|(latin, _)| latin.eq_ignore_ascii_case(text));
+    is_letter(word) && is_letter(other) && !word.eq_ignore_ascii_case(other)
+        || distance(word, other) > allowed(word)
 }
 
 /// Twice the number of slips between two names. Letters in another order, `tetha`, are less than one.

@@ -287,10 +287,12 @@ impl Graph {
         found
     }
 
-    /// Whether `root` contains what is made of [`Function::Ramp`].
-    pub(crate) fn has_kink(&self, root: Id) -> bool {
-        let is_kink = |id: &Id| matches!(self.node(*id), Node::Function(Function::Ramp | Function::Step, _));
-        self.reachable(&[root]).iter().any(is_kink)
+    /// The first argument of [`Function::Ramp`] in `root`, also where its slope alone is there.
+    pub(crate) fn kink(&self, root: Id) -> Option<Id> {
+        self.reachable(&[root]).into_iter().find_map(|id| match self.node(id) {
+            Node::Function(Function::Ramp | Function::Step, argument) => Some(*argument),
+            _ => None,
+        })
     }
 
     /// Whether a function of which nothing is known is in one of `roots`.

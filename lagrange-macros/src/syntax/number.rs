@@ -60,6 +60,7 @@ fn number_length(text: &str) -> usize {
 }
 
 fn suffix_message(digits: &str, suffix: &str) -> String {
+    let digits = digits.trim_end_matches('_');
     if ["f64", "f32", "i8", "i16", "i32", "i64", "u8", "u16", "u32", "u64", "usize", "isize"]
         .contains(&suffix)
     {
