@@ -20,8 +20,8 @@ pub enum Ending {
         /// The end.
         time: f64,
     },
-    /// The tolerance demands steps too short to advance the time: a singularity of the motion, or a tolerance
-    /// below the round-off.
+    /// The tolerance demands steps too short to advance the time: a singularity of the motion, a tolerance
+    /// below the round-off, or a time that is counted from far away.
     StepTooSmall {
         /// The last time reached.
         time: f64,
@@ -84,9 +84,8 @@ pub enum Ending {
         time: f64,
         /// Steps tried.
         steps: usize,
-        /// Where the problem looks stiff, the rate at which its fastest motion grows or dies: steps are short because the
-        /// method would not be stable with longer ones, not because the accuracy asks for it.
-        stiffness: Option<f64>,
+        /// How it would go on.
+        pace: Pace,
     },
     /// The limit on time by the clock on the wall.
     WallTimeLimit {
@@ -136,6 +135,46 @@ pub enum Ending {
         /// The last time reached.
         time: f64,
     },
+}
+
+/// How long the steps are where the limit on them is reached, and what keeps them short, as far as the method can tell.
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Pace {
+    /// The length of the next step, where the method chooses it.
+    pub step: Option<f64>,
+    /// Where the problem looks stiff, the rate at which its fastest motion grows or dies: steps are short because the
+    /// method would not be stable with longer ones, not because the accuracy asks for it.
+    pub stiffness: Option<f64>,
+    /// Where the time is too coarse for the tolerance, how far its numbers lie apart: from one to the next the rates change by
+    /// what costs a step half of its tolerance or more, because the time is counted from far away.
+    pub time_apart: Option<f64>,
+}
+
+/// Why the limit on steps was reached, as the end of a sentence.
+impl Display for Pace {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        if let Some(apart) = self.time_apart {
+            return write!(
+                f,
+                ": the numbers that times are made of lie {apart:.1e} apart there, and forces change more from one to the next than the tolerance allows; count the time from nearby, or allow a larger error"
+            );
+        }
+        if let Some(rate) = self.stiffness {
+            return write!(
+                f,
+                ": the problem looks stiff, something in it grows or dies at a rate of {rate:.1e}, which keeps steps short whatever the tolerance; put a constraint in the place of a stiff spring, leave out a mass that friction governs, or raise the limit with `max_steps`"
+            );
+        }
+        match self.step {
+            None => f.write_str("; raise it with `max_steps`"),
+            Some(step) => write!(
+                f,
+                ", where the next is {step:.1e} long; raise it with `max_steps`, unless steps only shrink: then the motion falls into a singularity, or forces jump, as friction by `abs` does where it sticks (smooth it, as by `tanh`)"
+            ),
+        }
+    }
 }
 
 impl Ending {
@@ -191,14 +230,17 @@ impl Display for Ending {
             Self::Complete { time } => write!(f, "reached the end at t = {time}"),
             Self::StepTooSmall { time, entry } => write!(
                 f,
-                "stopped at t = {time}: the error of `{entry}` demands a step too small to advance the time; the motion is singular nearby, or the tolerance is below the round-off"
+                "stopped at t = {time}: the error of `{entry}` demands a step too small to advance the time; the motion is singular nearby, the tolerance is below the round-off, or the time is counted from far away"
             ),
             Self::TimeTooCoarse { time, step } => write!(
                 f,
                 "stopped at t = {time}: a step of {step:e} does not advance the time; allow longer ones, or count the time from nearby"
             ),
-            Self::Singular { time, error }
-            | Self::Contradictory { time, error }
+            Self::Singular { time, error } => write!(
+                f,
+                "stopped at t = {time}: {error}; if it has mass elsewhere, the motion has come to a pole of the coordinates, as polar ones have at r = 0: choose others"
+            ),
+            Self::Contradictory { time, error }
             | Self::Unsolved { time, error }
             | Self::OffConstraints { time, error } => write!(f, "stopped at t = {time}: {error}"),
             Self::NotFinite { time, row } => write!(
@@ -208,13 +250,9 @@ impl Display for Ending {
             Self::MethodFailed { time, reason } => {
                 write!(f, "stopped at t = {time} by the method: {reason}")
             }
-            Self::StepLimit { time, steps, stiffness: None } => {
-                write!(f, "stopped at t = {time} after {steps} steps, the limit; raise it with `max_steps`")
+            Self::StepLimit { time, steps, pace } => {
+                write!(f, "stopped at t = {time} after {steps} steps, the limit{pace}")
             }
-            Self::StepLimit { time, steps, stiffness: Some(rate) } => write!(
-                f,
-                "stopped at t = {time} after {steps} steps, the limit: the problem looks stiff, something in it grows or dies at a rate of {rate:.1e}, which keeps steps short whatever the tolerance; put a constraint in the place of a stiff spring, leave out a mass that friction governs, or raise the limit with `max_steps`"
-            ),
             Self::WallTimeLimit { time } => {
                 write!(f, "stopped at t = {time} by the limit on wall time; raise it with `wall_time`")
             }

@@ -164,7 +164,7 @@ mod system;
 #[cfg(feature = "alloc")]
 mod trajectory;
 
-pub use ending::Ending;
+pub use ending::{Ending, Pace};
 #[cfg(feature = "std")]
 pub use ensemble::{
     Arrival, Ensemble, EnsembleProgress, Fingerprint, Member, MemberEnding, MemberRow, MemberTable, Outcome,

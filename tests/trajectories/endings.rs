@@ -42,14 +42,16 @@ fn a_motion_that_stops_early_is_an_error() {
     let Error::Unfinished(ending) = &error else { panic!("{error}") };
     let path = spring.integrate_towards(START, 1e6, limited(500)).unwrap();
     assert_eq!(**ending, *path.ending());
+    assert!(matches!(**ending, Ending::StepLimit { steps: 500, pace, time }
+            if time == path.end().time() && pace.stiffness.or(pace.time_apart).is_none()));
+    let (said, time) = (error.to_string(), ending.time());
     assert!(
-        matches!(**ending, Ending::StepLimit { steps: 500, stiffness: None, time } if time == path.end().time())
+        said.starts_with(&format!("stopped at t = {time} after 500 steps, the limit, where the next is ")),
+        "{said}"
     );
-    let time = ending.time();
-    assert_eq!(
-        error.to_string(),
-        format!("stopped at t = {time} after 500 steps, the limit; raise it with `max_steps`")
-    );
+    assert!(said.contains("e-1 long; raise it with `max_steps`, unless steps only shrink"), "{said}");
+    let fixed = spring.integrate(START, 1e6, Dop853::default().fixed_step(0.125).max_steps(8)).unwrap_err();
+    assert_eq!(fixed.to_string(), "stopped at t = 1 after 8 steps, the limit; raise it with `max_steps`");
     // What is kept is the motion: x'' + x = sin t.
     for sample in path.samples(50) {
         let t = sample.time();
@@ -69,7 +71,9 @@ fn the_error_tells_time_coordinate_and_cause() {
     );
     assert!(
         said.contains("the error of `x_dot`")
-            && said.contains("singular nearby, or the tolerance is below the round-off"),
+            && said.contains(
+                "singular nearby, the tolerance is below the round-off, or the time is counted from far away"
+            ),
         "{said}"
     );
     let phase = BlowUp.phase_state(&START);
@@ -123,7 +127,7 @@ fn the_caller_cancels_without_an_error() {
 fn stiffness(spring: &Spring, method: impl Method<Spring, 1, 0>) -> Option<f64> {
     let path = spring.integrate_towards(START, 1e9, method).expect("a start");
     match *path.ending() {
-        Ending::StepLimit { stiffness, .. } => stiffness,
+        Ending::StepLimit { pace, .. } => pace.stiffness,
         ref other => panic!("{other}"),
     }
 }
@@ -181,12 +185,93 @@ fn members_of_an_ensemble_say_the_same() {
     for (k, (a, b)) in on_lanes.members().iter().zip(one_by_one.members()).enumerate() {
         let (system, start) = member(k);
         let alone = system.integrate_towards(start, 1e9, method).unwrap();
-        let Ending::StepLimit { stiffness, .. } = *alone.ending() else { panic!("{}", alone.ending()) };
+        let Ending::StepLimit { pace, .. } = *alone.ending() else { panic!("{}", alone.ending()) };
+        let stiffness = pace.stiffness;
         assert!(stiffness.is_some() || k < 3, "c = 1e{k}");
         for member in [a, b] {
             let arrival = member.arrival().unwrap();
-            let Ending::StepLimit { stiffness: found, .. } = arrival.ending else { panic!("{member}") };
-            assert_eq!(found.map(|rate| format!("{rate:.1e}")), stiffness.map(|rate| format!("{rate:.1e}")));
+            let Ending::StepLimit { pace, .. } = arrival.ending else { panic!("{member}") };
+            assert_eq!(
+                pace.stiffness.map(|rate| format!("{rate:.1e}")),
+                stiffness.map(|rate| format!("{rate:.1e}"))
+            );
         }
+    }
+}
+
+/// A spring and a force that begins at the time `s`.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x)]
+#[lagrangian(x_dot^2/2 - x^2/2 + x*cos(t - s))]
+struct Forced {
+    s: f64,
+}
+
+fn forced<P: Method<Forced, 1, 0>>(s: f64, method: P) -> (usize, Ending) {
+    let system = Forced { s };
+    let path = system.integrate_towards(State::at_rest([1.0]).at_time(s), s + 3.0, method).unwrap();
+    (path.statistics().accepted + path.statistics().rejected, path.ending().clone())
+}
+
+/// The same motion, counted from near and from far. Where that takes three times the steps, the time is to blame; and only where
+/// the force, whose rate is at most 1, changes the velocity within one rounding of the time by half the tolerance.
+#[test]
+fn a_time_too_coarse_for_the_tolerance_is_said() {
+    fn check<P: Method<Forced, 1, 0>>(tolerance: f64, method: impl Fn(usize) -> P, blamed: &mut usize) {
+        let (near, _) = forced(0.0, method(1000));
+        for s in [0.0, 1e3, 1e6, 1e8, 1.7e9, 1e11] {
+            let (steps, ending) = forced(s, method(1000));
+            let (_, early) = forced(s, method(if steps < 1000 { 3 * steps / 4 } else { 1000 }));
+            let Ending::StepLimit { pace, .. } = early else { panic!("{early}") };
+            match pace.time_apart {
+                None => assert!(steps < 3 * near, "{steps} for {near} at {s:e}: {ending}"),
+                Some(apart) => {
+                    *blamed += 1;
+                    // A mean over coordinate and velocity.
+                    let lost = apart * pace.step.unwrap() / tolerance / 2.0_f64.sqrt();
+                    assert!(lost >= 0.5, "{lost} at {s:e}, {steps} for {near}");
+                    assert_eq!(apart, (s + 1.0).next_up() - (s + 1.0));
+                    let said = early.to_string();
+                    assert!(said.contains("count the time from nearby, or allow a larger error"), "{said}");
+                }
+            }
+        }
+    }
+    let mut blamed = 0;
+    for tolerance in [1e-6, 1e-9, 1e-11, 1e-12, 1e-13] {
+        check(tolerance, |steps| Dop853::with_tolerance(tolerance).max_steps(steps), &mut blamed);
+        check(tolerance, |steps| Dopri5::with_tolerance(tolerance).max_steps(steps), &mut blamed);
+    }
+    assert!(blamed >= 5, "{blamed}");
+}
+
+/// Friction that sticks, and a spiral into the centre: raising the limit does not help.
+#[test]
+fn steps_that_only_shrink_are_not_asked_for_more() {
+    #[derive(Clone, Lagrangian)]
+    #[coordinates(x)]
+    #[lagrangian(x_dot^2/2 - x^2/2)]
+    #[dissipation(mu*abs(x_dot))]
+    struct Dry {
+        mu: f64,
+    }
+    #[derive(Clone, Lagrangian)]
+    #[coordinates(x, y)]
+    #[lagrangian((x_dot^2 + y_dot^2)/2 + 1/sqrt(x^2 + y^2))]
+    #[dissipation(c/2*(x_dot^2 + y_dot^2))]
+    struct Spiral {
+        c: f64,
+    }
+    let dry = Dry { mu: 0.3 }.integrate(State::new([1.0], [-0.1]), 20.0, limited(2000)).unwrap_err();
+    let start = State::new([1.0, 0.0], [0.0, 1.0]);
+    let spiral = Spiral { c: 0.2 }.integrate(start, 30.0, limited(5000)).unwrap_err();
+    let series = Spiral { c: 0.2 }.integrate(start, 30.0, Taylor::default().max_steps(2000)).unwrap_err();
+    for said in [dry.to_string(), spiral.to_string(), series.to_string()] {
+        assert!(
+            said.contains(
+                "unless steps only shrink: then the motion falls into a singularity, or forces jump"
+            ),
+            "{said}"
+        );
     }
 }

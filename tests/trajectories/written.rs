@@ -93,7 +93,9 @@ fn endings_are_written_with_their_names() {
     assert_eq!(to_value(path.ending()).unwrap(), json!({ "ending": "Complete", "time": 3.0 }));
     let short = BOB.integrate_towards(start(), 3.0, Dop853::default().max_steps(3)).unwrap();
     let time = short.ending().time();
-    let limit = json!({ "ending": "StepLimit", "time": time, "steps": 3, "stiffness": null });
+    let Ending::StepLimit { pace, .. } = *short.ending() else { panic!("{}", short.ending()) };
+    let pace = json!({ "step": pace.step.unwrap(), "stiffness": null, "time_apart": null });
+    let limit = json!({ "ending": "StepLimit", "time": time, "steps": 3, "pace": pace });
     assert_eq!(to_value(short.ending()).unwrap(), limit);
 
     /// x = 1/(1 − t)².

@@ -6,7 +6,7 @@ use core::ops::ControlFlow;
 #[cfg(feature = "alloc")]
 use super::event::{Search, Watched};
 use super::method::{Limits, Method, Step};
-use crate::ending::Ending;
+use crate::ending::{Ending, Pace};
 use crate::error::Error;
 use crate::number::Real;
 use crate::solution::Adjustment;
@@ -77,8 +77,8 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
     {
         let now = self.state.t;
         loop {
-            let stiffness = || method.stiffness(system, &self.memory, end);
-            if let Some(ending) = limits.exceeded(&self.statistics, now.to_f64(), stiffness) {
+            let pace = || method.pace(system, &self.memory, end);
+            if let Some(ending) = limits.exceeded(&self.statistics, now.to_f64(), pace) {
                 return Err(ending);
             }
             match method.step(system, &mut self.memory, end, &mut self.statistics) {
@@ -271,11 +271,11 @@ impl Watchdog {
         &self,
         statistics: &Statistics,
         time: f64,
-        stiffness: impl FnOnce() -> Option<f64>,
+        pace: impl FnOnce() -> Pace,
     ) -> Option<Ending> {
         let steps = statistics.accepted + statistics.rejected - self.before;
         if steps >= self.limits.max_steps {
-            return Some(Ending::StepLimit { time, steps, stiffness: stiffness() });
+            return Some(Ending::StepLimit { time, steps, pace: pace() });
         }
         #[cfg(feature = "std")]
         if let Some((limit, started)) = self.limits.wall_time.zip(self.started)

@@ -126,11 +126,11 @@ where
         if P::is_at_end(memory) {
             return Some(Ending::Complete { time });
         }
-        let stiffness = || {
+        let pace = || {
             unload(memory);
-            method.stiffness(system, memory, *end)
+            method.pace(system, memory, *end)
         };
-        failure.clone().or_else(|| limits.exceeded(statistics, time, stiffness))
+        failure.clone().or_else(|| limits.exceeded(statistics, time, pace))
     }
 
     /// The step from where the memory is, by the scalar method, with what lies within where that is asked for: where there is

@@ -51,6 +51,9 @@ impl<P> Adaptive<P> {
     }
 
     /// The error allowed as a fraction of each entry. Below 16 round-off units of the scalar it counts as those.
+    ///
+    /// It covers what an entry cannot hold: a coordinate of 10³⁰⁰ with a velocity of 1 stays where it is to the last bit, and
+    /// the motion is complete. Count coordinates from nearby where small changes matter.
     pub fn relative(self, tolerance: f64) -> Self {
         Self { relative: tolerance, ..self }
     }

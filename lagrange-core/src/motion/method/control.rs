@@ -112,6 +112,11 @@ impl Tolerance {
         estimate::<P, W, N>(slopes, W::of(h), &scale)
     }
 
+    /// What a step of this length makes of rates, as a part of the error allowed at a place.
+    pub(crate) fn part<T: Real, const N: usize>(self, h: T, rates: &Phase<T, N>, place: &Phase<T, N>) -> T {
+        norm(h, rates, &self.scale(place, place))
+    }
+
     /// The entry with the largest error.
     pub(crate) fn worst<P: Pair, T: Real, const N: usize>(
         self,

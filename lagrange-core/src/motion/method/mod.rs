@@ -20,7 +20,7 @@ pub use runge_kutta::{RungeKutta4, runge_kutta_step};
 
 use core::fmt;
 
-use crate::ending::Ending;
+use crate::ending::{Ending, Pace};
 use crate::error::Error;
 use crate::number::Real;
 use crate::solution::flow::{Flow, LagrangianFlow};
@@ -118,11 +118,10 @@ where
         false
     }
 
-    /// The rate at which the fastest motion near the state grows or dies, where the stability of the method rather than the
-    /// accuracy asked for keeps the steps short by it: a sign of a stiff problem. Asked when the limit on steps is reached.
+    /// How long the next step is, and what keeps it short. Asked when the limit on steps is reached.
     #[allow(unused_variables)]
-    fn stiffness(&self, system: &L, memory: &Self::Memory, end: L::Scalar) -> Option<f64> {
-        None
+    fn pace(&self, system: &L, memory: &Self::Memory, end: L::Scalar) -> Pace {
+        Pace::default()
     }
 }
 

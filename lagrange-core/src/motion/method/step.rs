@@ -12,7 +12,7 @@ use super::pair::{
     Combination, Pair, SLOPES, Slopes, advance, advance_from, check, error_needs_last, is_carried, last,
 };
 use super::{Adaptive, Limits, Method, Step};
-use crate::ending::Ending;
+use crate::ending::{Ending, Pace};
 use crate::error::Error;
 use crate::names::{Entry, Row};
 use crate::number::{Real, Scalar, entries, vector};
@@ -236,9 +236,14 @@ where
         self.can_try_again(memory)
     }
 
-    fn stiffness(&self, system: &L, memory: &Self::Memory, end: L::Scalar) -> Option<f64> {
+    fn pace(&self, system: &L, memory: &Self::Memory, end: L::Scalar) -> Pace {
         // No step is chosen by its error where all are of one size.
-        self.fixed_step.is_none().then(|| self.find_stiffness::<L, F, N, M>(system, memory, end)).flatten()
+        if self.fixed_step.is_some() {
+            return Pace::default();
+        }
+        let step = Some(memory.control.step.to_f64());
+        let stiffness = self.find_stiffness::<L, F, N, M>(system, memory, end);
+        Pace { step, stiffness, time_apart: self.find_coarseness::<L, F, N, M>(system, memory) }
     }
 }
 
@@ -334,6 +339,31 @@ impl<P: Pair> Adaptive<P> {
             return Err(Refusal::Inaccurate(error, tolerance.worst::<P, T, N>(slopes, before, after)));
         }
         Ok(error)
+    }
+
+    /// How far the numbers near the time lie apart, where the rates change from one to the next by so much that a step loses half
+    /// its tolerance: each stage is evaluated at a rounded time. Where it costs steps, this part is from 1 on.
+    #[cold]
+    fn find_coarseness<
+        L: Lagrangian<N, M, Scalar: Real>,
+        F: Flow<L, N, M>,
+        const N: usize,
+        const M: usize,
+    >(
+        &self,
+        system: &L,
+        memory: &Memory<L::Scalar, N, M>,
+    ) -> Option<f64> {
+        let Memory { clock, control, y, slope: here, active, .. } = memory;
+        // From 0.75 to 1.5 of the way to the next number, and so that one.
+        let next = clock.now + L::Scalar::constant(0.75 * L::Scalar::EPSILON) * Scalar::abs(clock.now);
+        let point = PhasePoint { t: next, y: *y, velocity: here[0] };
+        let mut there = *here;
+        let (active, mut statistics) = (memory.has_slope.then_some(active)?, Statistics::default());
+        slope::<L, F, N, M>(system, &point, Some(active), &mut there, &mut statistics).ok()?;
+        let change = from_fn(|half| entries(|i| there[half][i] - here[half][i]));
+        let lost = self.tolerance::<L::Scalar>().part(control.step, &change, y);
+        (lost >= L::Scalar::constant(0.5)).then(|| (next - clock.now).to_f64())
     }
 
     fn estimate_step<L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize>(

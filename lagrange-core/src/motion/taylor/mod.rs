@@ -16,7 +16,7 @@ use core::fmt;
 
 use super::method::clock::Clock;
 use super::method::{Limits, Method, Step, check_settings};
-use crate::ending::Ending;
+use crate::ending::{Ending, Pace};
 use crate::error::Error;
 use crate::names::Entry;
 use crate::number::{Real, Scalar, vector};
@@ -258,5 +258,9 @@ where
         memory.state = State { t: start, q: vector(memory.series.q[0]), v: vector(memory.series.v[0]) };
         (memory.solved, memory.rest, memory.is_expanded) = (solved, rest, true);
         self.can_be_shorter(memory, h)
+    }
+
+    fn pace(&self, _: &L, memory: &Self::Memory, _: L::Scalar) -> Pace {
+        Pace { step: Some(memory.planned.to_f64()), ..Pace::default() }
     }
 }
