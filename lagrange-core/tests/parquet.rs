@@ -1,7 +1,7 @@
 //! Tables of Parquet: what is written is read, what was cut off is done again, what is of another run is refused.
 
 use std::fs::{copy, create_dir_all, read, read_dir, remove_dir_all, write};
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -17,6 +17,7 @@ struct Oscillators<T> {
 }
 
 const COUNT: usize = 40;
+const ALL: Range<usize> = 0..COUNT;
 const TO: f64 = 3.0;
 
 /// The parameters of one are not finite.
@@ -30,6 +31,10 @@ type Members = Ensemble<'static, Oscillators<f64>, f64, 2, 0, true>;
 
 /// Some meet the limit on steps, and some are ended early: by the observer, by an event.
 fn members() -> Members {
+    members_by(member)
+}
+
+fn members_by(member: fn(usize) -> (Oscillators<f64>, State<f64, 2>)) -> Members {
     let back = member(0).0.event("back", |sample| sample.state().v[0] + 5.0).terminal();
     Ensemble::from_fn(COUNT, member).event(back).tag("back").observe(|index, state| {
         match index % 5 == 1 && state.t > 1.0 {
@@ -90,9 +95,9 @@ fn table(directory: &Directory) -> ParquetTable<'static, Oscillators<f64>, f64, 
 }
 
 /// A file of each of these parts.
-fn write_parts(directory: &Directory, outcome: &Outcome<f64, 2>, parts: usize) {
+fn write_parts(directory: &Directory, outcome: &Outcome<f64, 2>, members: Range<usize>, parts: usize) {
     let mut table = table(directory);
-    for part in outcome.members().chunks(outcome.members().len().div_ceil(parts)) {
+    for part in outcome.members()[members.clone()].chunks(members.len().div_ceil(parts)) {
         part.iter().for_each(|member| table.push(member).expect("a row"));
         table.flush().expect("a file");
     }
@@ -111,7 +116,7 @@ fn refused<X>(result: Result<X, Error>, why: &str) {
 fn what_is_written_is_read() {
     let directory = Directory::new("read");
     let outcome = whole();
-    write_parts(&directory, &outcome, 3);
+    write_parts(&directory, &outcome, ALL, 3);
     assert_eq!(table(&directory).read().unwrap(), expected(&outcome));
     assert!(table(&directory).damaged().is_empty());
     // None of what failed is taken over.
@@ -174,7 +179,7 @@ fn a_run_that_was_stopped_goes_on_from_the_files() {
 fn a_file_that_was_cut_off_loses_its_rows_alone() {
     let directory = Directory::new("cut");
     let outcome = whole();
-    write_parts(&directory, &outcome, 4);
+    write_parts(&directory, &outcome, ALL, 4);
     let cut = directory.files()[1].clone();
     let bytes = read(&cut).unwrap();
     for length in (0..bytes.len()).step_by(31).chain(bytes.len() - 9..bytes.len()) {
@@ -197,7 +202,7 @@ fn one_call_cleans() {
     let outcome = members().integrate_on_lanes(TO, Dop853::default()).unwrap();
     let limited = whole();
     assert_eq!(outcome.failures().count(), 1);
-    write_parts(&directory, &limited, 2);
+    write_parts(&directory, &limited, ALL, 2);
     let files = directory.files();
     copy(&files[0], directory.0.join("copied.parquet")).unwrap();
     write(directory.0.join("cut.parquet"), &read(&files[1]).unwrap()[..999]).unwrap();
@@ -216,7 +221,7 @@ fn one_call_cleans() {
 fn tables_of_other_runs_are_refused() {
     let directory = Directory::new("other");
     let outcome = whole();
-    write_parts(&directory, &outcome, 2);
+    write_parts(&directory, &outcome, ALL, 2);
     let settings = "the method, one of its settings, an event, the tag or the end is another";
     // By the ensemble.
     let resumed = || members().resume_from(table(&directory).read().unwrap()).unwrap();
@@ -243,7 +248,7 @@ fn tables_of_other_runs_are_refused() {
     assert_eq!(directory.files().len(), 2);
     // Put into it by hand.
     let beside = Directory::new("beside");
-    write_parts(&beside, &coarse, 1);
+    write_parts(&beside, &coarse, ALL, 1);
     copy(&beside.files()[0], directory.0.join("zzz.parquet")).unwrap();
     refused(table(&directory).read(), settings);
     refused(table(&directory).clean(), settings);
@@ -260,7 +265,7 @@ fn tables_of_other_systems_and_starts_are_refused() {
     }
     let directory = Directory::new("systems");
     let outcome = whole();
-    write_parts(&directory, &outcome, 1);
+    write_parts(&directory, &outcome, ALL, 1);
     let free = |_: usize| (Free { m: 1.0 }, State::at_rest([0.0; 2]));
     let mut other = ParquetTable::open(&directory.0, free).unwrap();
     refused(other.read(), "its columns are others");
@@ -289,7 +294,7 @@ mod soft {
 #[test]
 fn tables_of_other_equations_are_refused() {
     let directory = Directory::new("equations");
-    write_parts(&directory, &whole(), 1);
+    write_parts(&directory, &whole(), ALL, 1);
     let soft = |index: usize| {
         let (Oscillators { m, k }, start) = member(index);
         (soft::Oscillators { m, k }, start)
@@ -302,26 +307,55 @@ fn tables_of_other_equations_are_refused() {
 /// A second program writes without reading: nothing of it gets in, and the first goes on.
 #[test]
 fn rows_of_other_parameters_do_not_get_into_a_directory() {
-    let directory = Directory::new("parameters");
     let outcome = whole();
-    write_parts(&directory, &outcome, 2);
     let stiff = |index: usize| {
         let (mut system, start) = member(index);
         system.k *= 2.0;
         (system, start)
     };
-    let run =
-        Ensemble::from_fn(COUNT, stiff).event(member(0).0.event("back", |s| s.state().v[0] + 5.0).terminal());
-    let others = run.tag("back").integrate_on_lanes(TO, method()).unwrap();
-    // Also where no member is in both.
-    for first in [0, 25] {
+    let others = members_by(stiff).integrate_on_lanes(TO, method()).unwrap();
+    // Members that are in both, before and behind those of the first.
+    for [there, pushed] in [[0..40, 0..40], [0..40, 25..40], [0..10, 25..40], [25..40, 0..10]] {
+        let directory = Directory::new("parameters");
+        write_parts(&directory, &outcome, there.clone(), 2);
+        let before = table_of(&directory);
         let mut table = ParquetTable::open(&directory.0, stiff).unwrap();
-        others.members()[first..].iter().for_each(|member| table.push(member).unwrap());
-        refused(table.flush(), "the start or the parameters of the member are others");
+        others.members()[pushed].iter().for_each(|member| table.push(member).unwrap());
+        let reason = "the start or the parameters of the member are others";
+        refused(table.flush(), reason);
+        refused(table.read(), reason);
         drop(table);
         assert_eq!(directory.files().len(), 2);
-        assert_eq!(table_of(&directory), expected(&outcome));
+        assert_eq!(table_of(&directory), before);
+        assert_eq!(before.rows().len(), there.len());
     }
+}
+
+/// Where member 0 is the same, rows are compared as soon as their members have been made.
+#[test]
+fn rows_are_compared_when_members_come_as_far() {
+    let directory = Directory::new("later");
+    write_parts(&directory, &whole(), 25..40, 1);
+    let late = |index: usize| {
+        let (mut system, start) = member(index);
+        system.k *= if index > 20 { 2.0 } else { 1.0 };
+        (system, start)
+    };
+    let others = members_by(late).integrate_on_lanes(TO, method()).unwrap();
+    let mut table = ParquetTable::open(&directory.0, late).unwrap();
+    others.members()[..10].iter().for_each(|member| table.push(member).unwrap());
+    table.flush().unwrap();
+    others.members()[20..30].iter().for_each(|member| table.push(member).unwrap());
+    refused(table.flush(), "the start or the parameters of the member are others");
+    drop(table);
+    // What was the same is taken over.
+    assert_eq!(table_of(&directory).rows().len(), 25);
+    assert_eq!(
+        expected(
+            &members().resume_from(table_of(&directory)).unwrap().integrate_on_lanes(TO, method()).unwrap()
+        ),
+        expected(&whole())
+    );
 }
 
 fn table_of(directory: &Directory) -> MemberTable<f64, 2> {
@@ -343,7 +377,7 @@ fn a_directory_that_cannot_be_is_an_error() {
 fn a_full_disk_is_an_error_and_the_rows_wait() {
     let outcome = whole();
     let elsewhere = Directory::new("elsewhere");
-    write_parts(&elsewhere, &outcome, 1);
+    write_parts(&elsewhere, &outcome, ALL, 1);
     let name = elsewhere.files()[0].with_extension("unfinished");
     let directory = Directory::new("full");
     let full = directory.0.join(name.file_name().unwrap());

@@ -86,7 +86,7 @@ impl Fingerprint {
         let differences = [
             (2, OTHER_SYSTEM, self.system != system),
             (3, "the method, one of its settings, an event, the tag or the end is another", self.run != run),
-            (4, "the start or the parameters of the member are others", self.start != start),
+            (4, OTHER_START, self.start != start),
         ];
         differences.into_iter().find_map(|(column, what, differs)| differs.then_some((column, what)))
     }
@@ -98,6 +98,7 @@ impl Fingerprint {
 }
 
 pub(super) const OTHER_SYSTEM: &str = "the system or its equations are others";
+pub(super) const OTHER_START: &str = "the start or the parameters of the member are others";
 
 /// FNV-1a of what was written so far.
 pub(super) struct Hash(u32);

@@ -134,23 +134,26 @@ fn leaf(column: &Column) -> Result<TypePtr> {
     leaf.build().map(Arc::new)
 }
 
-/// What the file says of itself: [`Fingerprint::system`], [`Fingerprint::run`], and what a reader may want to see.
+/// What the file says of itself: [`Fingerprint::system`], [`Fingerprint::run`], [`Fingerprint::start`] of member 0, and what a
+/// reader may want to see.
 const SYSTEM: &str = "lagrange.fingerprint.system";
 const RUN: &str = "lagrange.fingerprint.run";
+const FIRST: &str = "lagrange.fingerprint.first";
 const NAME: &str = "lagrange.system";
 const EQUATIONS: &str = "lagrange.equations";
 
-/// Writes a file of these columns; where a member has a motion, `has_end` says so.
+/// Writes a file of these columns; where a member has a motion, `has_end` says so. `first` is the fingerprint of member 0.
 pub(super) fn write(
     to: impl Write + Send,
     columns: &[Column],
     has_end: &[bool],
-    run: Fingerprint,
+    first: Fingerprint,
     [name, equations]: [&str; 2],
 ) -> Result<()> {
     let head = [
-        (SYSTEM, run.system.to_string()),
-        (RUN, run.run.to_string()),
+        (SYSTEM, first.system.to_string()),
+        (RUN, first.run.to_string()),
+        (FIRST, first.start.to_string()),
         (NAME, name.into()),
         (EQUATIONS, equations.into()),
     ];
@@ -195,8 +198,8 @@ impl From<std::io::Error> for Fault {
     }
 }
 
-/// The run that a file is of. `columns` says which there must be.
-fn run(reader: &SerializedFileReader<File>, columns: &[Column]) -> Result<Fingerprint, Fault> {
+/// The fingerprint of member 0 in the run that a file is of. `columns` says which there must be.
+fn first(reader: &SerializedFileReader<File>, columns: &[Column]) -> Result<Fingerprint, Fault> {
     let head = reader.metadata().file_metadata();
     if head.schema() != &*schema(columns)? {
         return Err(Fault::Other("its columns are others".into()));
@@ -205,26 +208,26 @@ fn run(reader: &SerializedFileReader<File>, columns: &[Column]) -> Result<Finger
         let entry = head.key_value_metadata()?.iter().find(|entry| entry.key == key)?;
         entry.value.as_ref()?.parse().ok()
     };
-    match (number(SYSTEM), number(RUN)) {
-        (Some(system), Some(run)) => Ok(Fingerprint { system, run, start: 0 }),
+    match (number(SYSTEM), number(RUN), number(FIRST)) {
+        (Some(system), Some(run), Some(start)) => Ok(Fingerprint { system, run, start }),
         _ => Err(Fault::Other("it does not say of which run it is".into())),
     }
 }
 
-/// What stands in the file: its columns, which rows have an end, and of which run it is. `columns` says which there must be, and
+/// What stands in the file: its columns, which rows have an end, and the fingerprint of member 0. `columns` says which there must be, and
 /// is without rows.
 pub(super) fn read(
     file: File,
     mut columns: Vec<Column>,
 ) -> Result<(Vec<Column>, Vec<bool>, Fingerprint), Fault> {
     let reader = SerializedFileReader::new(file)?;
-    let run = run(&reader, &columns)?;
+    let first = first(&reader, &columns)?;
     let mut levels = Vec::new();
     for group in 0..reader.num_row_groups() {
         read_group(&*reader.get_row_group(group)?, &mut columns, &mut levels)?;
     }
     let has_end = levels.into_iter().map(|level: i16| level > 0).collect();
-    Ok((columns, has_end, run))
+    Ok((columns, has_end, first))
 }
 
 fn read_group(from: &dyn RowGroupReader, columns: &mut [Column], levels: &mut Vec<i16>) -> Result<()> {

@@ -7,6 +7,7 @@
 mod file;
 mod rows;
 
+use core::cell::OnceCell;
 use core::fmt::{self, Debug, Formatter};
 use core::time::Duration;
 use std::fs::{File, create_dir_all, read_dir, remove_file, rename};
@@ -15,7 +16,7 @@ use std::time::Instant;
 
 use self::file::Fault;
 use self::rows::{columns, rows};
-use super::fingerprint::{Fingerprint, Hash};
+use super::fingerprint::{Fingerprint, Hash, OTHER_START};
 use super::outcome::Member;
 use super::table::{MemberRow, MemberTable};
 use crate::error::Error;
@@ -71,8 +72,10 @@ where
     /// Rows that are in no file yet, and since when there are any.
     waiting: Vec<MemberRow<T, N>>,
     since: Instant,
-    /// Whether the files in the directory are known to be of the run of the rows.
-    is_compared: bool,
+    /// The members below this one are known to start in the files of the directory as they are made here.
+    compared: usize,
+    /// [`Fingerprint::start`] of member 0, once it was made.
+    first: OnceCell<u32>,
     damaged: Vec<Error>,
 }
 
@@ -98,7 +101,8 @@ where
             interval: Duration::from_secs(10),
             waiting: Vec::new(),
             since: Instant::now(),
-            is_compared: false,
+            compared: 0,
+            first: OnceCell::new(),
             damaged: Vec::new(),
         })
     }
@@ -131,15 +135,16 @@ where
     ///
     /// # Errors
     /// [`Error::Parquet`], where that cannot be done, or the directory holds files of another run or of another system, or rows of
-    /// members with another start or other parameters; members are made up to the last that waits, to see that. The rows go on
-    /// waiting: make room and flush again.
+    /// members with another start or other parameters. To see that, members are made up to the last that waits; of those beyond
+    /// it nothing is known yet, but that their member 0 was the same. The rows go on waiting: make room and flush again.
     pub fn flush(&mut self) -> Result<(), Error> {
         if self.waiting.is_empty() {
             return Ok(());
         }
-        if !self.is_compared {
-            self.files()?.iter().try_for_each(|path| self.compare(path))?;
-            self.is_compared = true;
+        let end = 1 + self.waiting.iter().map(|row| row.index).max().unwrap_or(0);
+        if end > self.compared {
+            self.files()?.iter().try_for_each(|path| self.compare(path, end))?;
+            self.compared = end;
         }
         self.write(&self.waiting)?;
         self.waiting.clear();
@@ -150,7 +155,8 @@ where
     /// that were cut off are passed over: [`damaged`](Self::damaged) names them.
     ///
     /// # Errors
-    /// [`Error::Parquet`] for files of another system, by its columns or by its equations, for files of several runs, and where the directory cannot be read.
+    /// [`Error::Parquet`] for files of another system, by its columns or by its equations, or with another member 0, for files of
+    /// several runs, and where the directory cannot be read.
     pub fn read(&mut self) -> Result<MemberTable<T, N>, Error> {
         self.damaged.clear();
         let mut found = Vec::new();
@@ -201,29 +207,42 @@ where
         Ok(paths)
     }
 
+    /// The rows of a file, whose member 0 must be the one that is made here.
     fn rows_in(&self, path: &Path) -> Result<Vec<MemberRow<T, N>>, Fault> {
         let file = File::open(path).map_err(|error| Fault::Other(error.to_string()))?;
-        rows::<T, N, P>(&file::read(file, columns::<L, T, N, M, P>(&[], &[]))?)
+        let read = file::read(file, columns::<L, T, N, M, P>(&[], &[]))?;
+        let (.., first) = &read;
+        if first.system == Fingerprint::of_system::<L, N, M>() && first.start != self.first() {
+            return Err(Fault::Other(OTHER_START.into()));
+        }
+        rows::<T, N, P>(&read)
     }
 
-    /// Checks that the rows in a file are of the run of those that wait, and of members that start as they are made here.
-    fn compare(&self, path: &Path) -> Result<(), Error> {
+    /// [`Fingerprint::start`] of member 0, which every run of an ensemble can make.
+    fn first(&self) -> u32 {
+        *self.first.get_or_init(|| {
+            let (system, start) = (self.member)(0);
+            Fingerprint { system: 0, run: 0, start: 0 }.with_start(&system, &start).start
+        })
+    }
+
+    /// Checks that the rows in a file are of the run of those that wait, and those below `end` of members that start as they
+    /// are made here.
+    fn compare(&self, path: &Path, end: usize) -> Result<(), Error> {
         let rows = match self.rows_in(path) {
             Ok(rows) => rows,
             // No row of it is read.
             Err(Fault::Damaged(_)) => return Ok(()),
             Err(Fault::Other(reason)) => return Err(wrong(path, reason)),
         };
-        // There may be more members in the file than can be made.
-        let last = self.waiting.iter().map(|row| row.index).max();
         let run = self.waiting[0].fingerprint;
         for row in rows {
-            let expected = match Some(row.index) <= last {
-                true => {
-                    let (system, start) = (self.member)(row.index);
-                    run.with_start(&system, &start)
-                }
-                false => Fingerprint { start: row.fingerprint.start, ..run },
+            // There may be more members in the file than can be made.
+            let expected = if row.index < end {
+                let (system, start) = (self.member)(row.index);
+                run.with_start(&system, &start)
+            } else {
+                Fingerprint { start: row.fingerprint.start, ..run }
             };
             if let Some((_, reason)) = expected.difference(&row.fingerprint) {
                 return Err(wrong(path, reason));
@@ -237,11 +256,11 @@ where
         let made: Vec<_> = rows.iter().map(|row| (self.member)(row.index)).collect();
         let columns = columns(rows, &made);
         let has_end: Vec<bool> = rows.iter().map(|row| row.state.is_some()).collect();
-        let run = rows[0].fingerprint;
+        let first = Fingerprint { start: self.first(), ..rows[0].fingerprint };
         let path = self.directory.join(name(rows));
         let unfinished = path.with_extension(&UNFINISHED[1..]);
         let written = File::create(&unfinished).map_err(Fault::from).and_then(|file| {
-            file::write(&file, &columns, &has_end, run, [L::NAME, L::EQUATIONS.text()])?;
+            file::write(&file, &columns, &has_end, first, [L::NAME, L::EQUATIONS.text()])?;
             file.sync_all()?;
             Ok(rename(&unfinished, &path)?)
         });

@@ -59,7 +59,7 @@ where
 
 /// The rows that such columns are of.
 pub(super) fn rows<T: Real, const N: usize, const P: usize>(
-    (columns, has_end, run): &(Vec<Column>, Vec<bool>, Fingerprint),
+    (columns, has_end, first): &(Vec<Column>, Vec<bool>, Fingerprint),
 ) -> Result<Vec<MemberRow<T, N>>, Fault> {
     let [members, starts, endings] = &columns[..3] else { return Err(Fault::Other("it has no rows".into())) };
     let end = &columns[3 + 2 * N + 1 + P..];
@@ -81,7 +81,7 @@ pub(super) fn rows<T: Real, const N: usize, const P: usize>(
         };
         Some(MemberRow {
             index: members.values.integer(k)?.try_into().ok()?,
-            fingerprint: Fingerprint { start: starts.values.integer(k)?.try_into().ok()?, ..*run },
+            fingerprint: Fingerprint { start: starts.values.integer(k)?.try_into().ok()?, ..*first },
             state,
             statistics,
             ending: endings.values.text(k)?.into(),
