@@ -2,22 +2,25 @@
 //!
 //! From a point on the constraints Newton steps along them shorten the distance, each followed by a projection back onto
 //! them (Absil, Mahony and Sepulchre, *Optimization Algorithms on Matrix Manifolds*, 6.2). Its Hessian is that of the
-//! Lagrange function, M − Σ μ ∇²Φ, on their tangent space; where that is not positive the step goes along a direction in which the
-//! distance curves down, so that no maximum and no saddle is taken for the nearest point.
+//! Lagrange function, M − Σ μ ∇²Φ, on their tangent space; where that is not positive, multiples of M are added, and next to a
+//! maximum or a saddle the step goes along a direction in which the distance curves down: neither is taken for the nearest point.
 
 #[cfg(test)]
 mod tests;
 
+use core::array::from_fn;
+use core::iter::successors;
+
 use nalgebra::SVector;
 
 use super::{Level, diagonal, hold, project_holding};
-use crate::number::{Real, Scalar, entries, is_within, larger, vector};
+use crate::number::{Real, Scalar, entries, is_within, larger, power_of_epsilon, vector};
 use crate::solution::kkt::{Factors, Rank};
 use crate::solution::newton::halvings;
 use crate::system::{Lagrangian, State};
 
-/// Newton's method takes five or so; directions that curve down and flat minima take more.
-const STEPS: usize = 50;
+/// Newton's method takes five or so; far away and where minima are flat it takes more, 31 for a chain of 50 rods.
+const STEPS: usize = 100;
 
 /// Moves coordinates on the holonomic constraints to where no small move along them brings them nearer to those given.
 pub(super) fn approach<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
@@ -133,21 +136,44 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
         self.place(state)
     }
 
-    /// Newton's step, none at a minimum; where the distance curves down, a step along that direction as long as the point given
-    /// is away; then the slip.
+    /// Newton's step, none at a minimum. Where the distance curves down, a damped one, or next to a saddle one along a direction
+    /// that leads down, as long as the point given is away; then the slip.
     fn steps(&self, place: &Place<L::Scalar, N, M>) -> [Option<SVector<L::Scalar, N>>; 2] {
-        let factors = Factors::of(&self.hessian(place), &place.f, Rank::off_constraints());
+        let hessian = self.hessian(place);
+        let factors = Factors::of(&hessian, &place.f, Rank::off_constraints());
         let first = match factors.downhill() {
             None if is_within(place.slip_part, L::Scalar::constant(16.0 * L::Scalar::EPSILON)) => {
                 return [None; 2];
             }
-            None => {
-                let newton = factors.solve(&place.pull, &[L::Scalar::constant(0.0); M]);
-                newton.ok().map(|found| found.accelerations)
+            None => Self::newton(&factors, place),
+            Some(down) if place.slip_part < power_of_epsilon(0.25) => {
+                Some(self.as_long_as_the_way(place, down))
             }
-            Some(down) => Some(self.as_long_as_the_way(place, down)),
+            Some(_) => self.damped(place, &hessian),
         };
         [first, Some(place.slip)]
+    }
+
+    fn newton(
+        factors: &Factors<L::Scalar, N, M>,
+        place: &Place<L::Scalar, N, M>,
+    ) -> Option<SVector<L::Scalar, N>> {
+        let found = factors.solve(&place.pull, &[L::Scalar::constant(0.0); M]);
+        found.ok().map(|found| found.accelerations)
+    }
+
+    /// Newton's step with the least of a few multiples of the metric added to the Hessian that make it positive.
+    fn damped(
+        &self,
+        place: &Place<L::Scalar, N, M>,
+        hessian: &[[L::Scalar; N]; N],
+    ) -> Option<SVector<L::Scalar, N>> {
+        let multiples = successors(Some(0.25), |multiple| Some(4.0 * multiple)).take(10);
+        multiples.map(L::Scalar::constant).find_map(|multiple| {
+            let sum = from_fn(|i| entries(|j| hessian[i][j] + multiple * self.metric[i][j]));
+            let factors = Factors::of(&sum, &place.f, Rank::off_constraints());
+            if factors.is_semidefinite() { Self::newton(&factors, place) } else { None }
+        })
     }
 
     /// A step in this direction, or the opposite one, towards the point given.
@@ -163,38 +189,37 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
         vector(entries(|i| down[i] * scale))
     }
 
-    /// M − Σ μ ∇²Φ. The second derivatives are those of γ by the velocities, of which it is a polynomial of second degree.
+    /// M − Σ μ ∇²Φ, from central differences of Fᵀμ over a part ε^(1/3) of the distance. As |Fᵀμ| is M times the distance, they are
+    /// off by a part ε^(2/3) of M: a step of Newton's method leaves as little of the slip.
     fn hessian(&self, place: &Place<L::Scalar, N, M>) -> [[L::Scalar; N]; N] {
         let (zero, half) = (L::Scalar::constant(0.0), L::Scalar::constant(0.5));
-        // In units in which masses are 1.
-        let unit: [_; N] = entries(|i| {
-            let mass = self.metric[i][i];
-            if mass > zero { L::Scalar::constant(1.0) / Scalar::sqrt(mass) } else { L::Scalar::constant(1.0) }
-        });
-        let bias = |changes: &[(usize, L::Scalar)]| {
-            let mut state = State { v: vector([zero; N]), ..place.state };
-            changes.iter().for_each(|&(i, sign)| state.v[i] += sign * unit[i]);
-            let bias = self.system.constraint_bias(&state);
-            (0..M)
-                .filter(|&a| Level::Position.is_active(L::CONSTRAINT_KINDS[a]))
-                .fold(zero, |sum, a| sum + place.multipliers[a] * bias[a])
-        };
-        let one = L::Scalar::constant(1.0);
-        let (at_rest, along): (_, [_; N]) = (bias(&[]), entries(|i| bias(&[(i, one)])));
+        let is_active = |a: usize| Level::Position.is_active(L::CONSTRAINT_KINDS[a]);
+        let multipliers = vector(entries(|a| if is_active(a) { place.multipliers[a] } else { zero }));
         let mut hessian = self.metric;
-        for i in 0..N {
-            for j in 0..=i {
-                let second = if i == j {
-                    half * (along[i] + bias(&[(i, -one)])) - at_rest
-                } else {
-                    half * (bias(&[(i, one), (j, one)]) - along[i] - along[j] + at_rest)
-                };
-                hessian[i][j] -= second / (unit[i] * unit[j]);
-                hessian[j][i] = hessian[i][j];
+        for j in 0..N {
+            let step = self.difference(place, j);
+            let force = |step: L::Scalar| {
+                let mut state = place.state;
+                state.q[j] += step;
+                self.system.constraint_force(&state, &multipliers)
+            };
+            let change = (force(step) - force(-step)) * (half * half / step);
+            for i in 0..N {
+                hessian[i][j] -= change[i];
+                hessian[j][i] -= change[i];
             }
         }
         hold(self.held, &mut hessian, &mut []);
         hessian
+    }
+
+    /// The length of a difference in coordinate `j`: a small part of the distance, and many round-offs of the coordinate.
+    fn difference(&self, place: &Place<L::Scalar, N, M>, j: usize) -> L::Scalar {
+        let (zero, part) = (L::Scalar::constant(0.0), power_of_epsilon(1.0 / 3.0));
+        let mass = self.metric[j][j];
+        let distance = if mass > zero { Scalar::sqrt(place.square / mass) } else { zero };
+        let step = part * (distance + part * Scalar::abs(place.state.q[j]));
+        if step > zero { step } else { part }
     }
 }
 

@@ -125,3 +125,23 @@ fn a_quaternion_is_made_one_of_length_1() {
     let expected: Vec<f64> = given.q.iter().map(|x| x / given.q.norm()).collect();
     assert!(state.q.iter().zip(expected).all(|(x, y)| (x - y).abs() < 1e-15), "{state}");
 }
+
+/// A chain of 16 rods that is given far off them: at first the distance curves down along most directions.
+#[test]
+fn a_chain_is_nearest_too() {
+    #[derive(Lagrangian)]
+    #[coordinates(r: [16, 2])]
+    #[lagrangian(sum(i in 0..16, dot(r_dot[i], r_dot[i])/2 - r[i][1]))]
+    #[constraint(first: dot(r[0], r[0]) = 1)]
+    #[constraint(rod[i in 1..16]: dot(r[i] - r[i-1], r[i] - r[i-1]) = 1)]
+    struct Chain;
+    let along = |k: usize| if k.is_multiple_of(2) { 0.9 * (k / 2 + 1) as f64 } else { 0.0 };
+    let given = State::at_rest(std::array::from_fn(|k| 0.2 * (0.31 * k as f64).sin() + along(k)));
+    let (state, moved) = Chain.make_consistent(&given).unwrap();
+    let normals = Chain.constraint_jacobian(&state).transpose();
+    let normals = DMatrix::from_fn(32, 16, |i, a| normals[(i, a)]);
+    let pull = DVector::from_column_slice(moved.q.as_slice());
+    let multipliers = normals.clone().svd(true, true).solve(&pull, 0.0).unwrap();
+    let off = (&pull - normals * multipliers).amax();
+    assert!(off < 1e-14, "{off:e}");
+}
