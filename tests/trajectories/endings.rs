@@ -209,7 +209,7 @@ struct Forced {
 
 fn forced<P: Method<Forced, 1, 0>>(s: f64, method: P) -> (usize, Ending) {
     let system = Forced { s };
-    let path = system.integrate_towards(State::at_rest([1.0]).at_time(s), s + 3.0, method).unwrap();
+    let path = system.integrate_towards(State::at_rest([1.0]).at_time(s), s + 3.0, method).expect("a start");
     (path.statistics().accepted + path.statistics().rejected, path.ending().clone())
 }
 
