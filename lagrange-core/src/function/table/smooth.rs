@@ -139,7 +139,7 @@ fn slopes_and_bends(points: &[(f64, f64)]) -> Option<Vec<Vector2<f64>>> {
             (Some(above), Some(left)) => (here - before * above, right_side - before * left),
             _ => (here, right_side),
         };
-        let inverse = pivot.try_inverse()?;
+        let inverse = inverse(&pivot)?;
         above.push(inverse * after);
         found.push(inverse * left);
     }
@@ -148,6 +148,12 @@ fn slopes_and_bends(points: &[(f64, f64)]) -> Option<Vec<Vector2<f64>>> {
         found[i] -= above[i] * next;
     }
     Some(found)
+}
+
+/// Without roots and absolute values, which a build without `std` and `libm` lacks.
+fn inverse(a: &Matrix2<f64>) -> Option<Matrix2<f64>> {
+    let determinant = a.m11 * a.m22 - a.m12 * a.m21;
+    (determinant != 0.0).then(|| Matrix2::new(a.m22, -a.m12, -a.m21, a.m11) / determinant)
 }
 
 impl Value<f64, 1, 1> for SmoothTable {
