@@ -107,7 +107,7 @@ pub enum Ending {
         /// The name of the event.
         event: &'static str,
     },
-    /// The function of an event is infinite or not a number.
+    /// The function of an event is not a number.
     EventNotFinite {
         /// The last time reached.
         time: f64,
@@ -263,7 +263,7 @@ impl Display for Ending {
             ),
             Self::EventNotFinite { time, event } => write!(
                 f,
-                "stopped at t = {time}: the function of the event `{event}` is infinite or not a number soon after; make it finite wherever the motion may lead"
+                "stopped at t = {time}: the function of the event `{event}` is not a number soon after; make it one wherever the motion may lead"
             ),
             #[cfg(feature = "std")]
             Self::ControllerFailed { time, said } => {

@@ -292,7 +292,7 @@ pub enum Error {
         /// When it should start.
         expected: f64,
     },
-    /// The function of an event is infinite or not a number.
+    /// The function of an event is not a number.
     EventNotFinite {
         /// The name of the event.
         event: &'static str,
@@ -467,7 +467,7 @@ impl Display for Error {
             ),
             Self::EventNotFinite { event, time } => write!(
                 f,
-                "the function of the event `{event}` is infinite or not a number at t = {time}: make it finite wherever the motion may lead"
+                "the function of the event `{event}` is not a number at t = {time}: make it one wherever the motion may lead"
             ),
             Self::Grazing { event, time } => write!(
                 f,

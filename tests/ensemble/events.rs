@@ -113,8 +113,8 @@ fn about(sample: &Sample<&Spring<f64>, 1, 0>, event: f64) -> f64 {
         (4, 0 | 2) => 2.5 + level - t,
         // All but touches zero at 2π, 4π, …, by more than the error of the motion.
         (5, 2) => 1.0 + 1e-9 - q[0],
-        // No number from some time on.
-        (6, 2) => (4.0 + level - t).sqrt(),
+        // No number from some time on, and no zero before.
+        (6, 2) => 1.0 + (4.0 + level - t).sqrt(),
         _ => 1.0,
     }
 }

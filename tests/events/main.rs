@@ -1,5 +1,6 @@
 //! Where functions of a motion cross zero.
 
+mod adversary;
 mod impacts;
 mod journeys;
 mod rule;

@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 
 use nalgebra::ComplexField;
 
-use super::event::{Crossing, Event, EventFunction, EventValue, Grid, Search, Stride};
+use super::event::{Crossing, Event, EventFunction, EventValue, Search, Stride};
 use super::method::{Interpolant, Method};
 use super::run::{Run, Watchdog, is_between, resume};
 use crate::ending::Ending;
@@ -126,7 +126,8 @@ pub(crate) struct Record<'o, L: Lagrangian<N, M>, const N: usize, const M: usize
     pub(crate) values: Vec<L::Scalar>,
     pub(crate) crossings: Vec<Crossing<L::Scalar, N>>,
     events: Vec<Event<L, &'o Value<'o, L, N, M>, N, M>>,
-    grid: Grid<L::Scalar>,
+    /// How many pieces every step is looked at in, at least.
+    pieces: usize,
     start: L::Scalar,
     end: L::Scalar,
     /// Where the motion goes to next: the end, or where the controller is to be called before.
@@ -161,13 +162,23 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
         orders.quantities.iter().try_for_each(|(_, value)| value(&sample).map(drop))?;
         let mut events: Vec<_> =
             orders.events.iter().map(|event| event.anew(|function| &**function)).collect();
-        let Search { grid, .. } = Search::begin(&mut events, system, start)?;
+        let Search { pieces, .. } = Search::begin(&mut events, system, start)?;
         let samples = Vec::with_capacity(times.len());
         let values = Vec::with_capacity(times.len() * orders.quantities.len());
         let goal = if orders.controller.is_some() { start.t } else { end };
         let (start_time, crossings) = (start.t, Vec::new());
-        let mut record =
-            Self { orders, samples, values, crossings, events, grid, start: start_time, end, goal, calls: 0 };
+        let mut record = Self {
+            orders,
+            samples,
+            values,
+            crossings,
+            events,
+            pieces,
+            start: start_time,
+            end,
+            goal,
+            calls: 0,
+        };
         while record.next_time().is_some_and(|t| t == start.t) {
             record.push(system, *start)?;
         }
@@ -211,7 +222,7 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
     {
         let (mut at, mut stopped) = (*stride.before, None);
         if !self.events.is_empty() {
-            let mut search = Search { events: &mut self.events, grid: self.grid };
+            let mut search = Search { events: &mut self.events, pieces: self.pieces, system: PhantomData };
             if let Some((state, ending)) = search.record(stride, &mut self.crossings) {
                 (*end, stopped) = (state, Some(ending));
             }
@@ -253,8 +264,7 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
         if self.goal == state.t {
             return Err(Ending::TimeTooCoarse { time, step: interval.to_f64() });
         }
-        let search = Search::from(&mut self.events, system, state, true);
-        self.grid = search.map_err(|error| Ending::of(error, time))?.grid;
+        Search::from(&mut self.events, system, state, true).map_err(|error| Ending::of(error, time))?;
         Ok(())
     }
 

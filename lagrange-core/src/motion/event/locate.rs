@@ -1,9 +1,8 @@
-//! Places within a piece of a step: where an event crosses zero, and where it has turned back beyond.
+//! Where an event crosses zero within an interval.
 
 use super::Watched;
 use super::narrow::{Probe, narrow};
 use super::search::Stride;
-use super::turn::beyond;
 use crate::error::Error;
 use crate::motion::Interpolant;
 use crate::number::{Real, Scalar, larger};
@@ -40,22 +39,6 @@ where
         Ok((state, event.value(stride.system, &state)?))
     })?;
     Ok(high.what)
-}
-
-/// A state between these two at which the function of an event has the other sign than at both, if it turns back there.
-pub(super) fn turned<L, F, I, const N: usize, const M: usize>(
-    stride: &Stride<'_, L, F, I, N, M>,
-    event: &impl Watched<L, N, M>,
-    between: [&State<L::Scalar, N>; 2],
-    values: [L::Scalar; 2],
-) -> Result<Option<State<L::Scalar, N>>, Error>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
-    I: Interpolant<L::Scalar, N>,
-{
-    let found = beyond(ends(between, values), |x| probe(stride, event, between, x))?;
-    Ok(found.map(|probe| probe.what))
 }
 
 /// Two states with what a function is there, as the places 0 and 1.

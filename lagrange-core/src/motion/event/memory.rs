@@ -1,6 +1,7 @@
 //! What an event is about, and what is known of it from step to step.
 
 use super::Direction;
+use super::chebyshev::{COARSEST, FINEST, Samples, Shape};
 use crate::ending::Ending;
 use crate::motion::run::is_between;
 use crate::number::{Real, Scalar, larger, smaller};
@@ -10,43 +11,87 @@ use crate::number::{Real, Scalar, larger, smaller};
 pub struct Memory<T> {
     pub(super) name: &'static str,
     pub(super) direction: Direction,
-    /// How many pieces a step is looked at in, if that has been asked for.
-    pub(super) pieces: Option<usize>,
+    /// How many pieces a step is looked at in, at least.
+    pub(super) pieces: usize,
     /// The crossing at which a run ends.
     pub(super) terminal: Option<usize>,
     /// How many there were in this run, or in this motion where it is steered.
     pub(super) count: usize,
-    /// The function where the search is; zero where the motion starts at a zero, and has not left it.
+    /// The function on the side where the search is; zero where the motion starts at a zero, and has not left it.
     pub(super) value: T,
-    /// The same at the place looked at last, where the search goes on from unless something crosses before.
+    /// The same at the end of the interval, where the search goes on from unless something crosses before.
     pub(super) next: T,
-    /// The same at the end of the step.
-    end: T,
-    /// What is nearer to zero than this at two places may turn back beyond zero in between.
-    near: T,
-    /// The function where the motion starts at a zero, as long as it has not been looked at elsewhere.
-    start: Option<T>,
-    /// What counts as zero as long as the motion has not left it.
-    noise: T,
+    /// The function on the interval, from its start.
+    pub(super) samples: Samples<T>,
+    /// What is to be known of the function on the interval.
+    pub(super) view: View,
+    /// What the function may be where the motion starts at a zero, beside its noise, as long as it has not left that.
+    pub(super) start: Option<T>,
+    /// What counts as no change of side at the end of the interval.
+    pub(super) noise: T,
+    /// The degree that the function has taken for each unit of time.
+    density: Option<T>,
+    /// The same by the interval looked at last.
+    needed: Option<T>,
+    /// The width of the interval looked at last if the function was far from zero there, and for how many more one sample inside will do.
+    far: Option<(T, usize)>,
     /// Crossed together with another event that was reported first: whether it rose.
     pub(super) due: Option<bool>,
     /// When the search began.
     begun: Option<T>,
+    /// How far the motion has been searched.
+    until: Option<T>,
     /// The time of the last crossing.
     last: Option<T>,
-    /// What the function was there.
+    /// The size of the function there.
     left: T,
+    /// Whether the state or the system have been set since.
+    is_new: bool,
     /// The longest interval between two, or up to the first.
     longest: T,
-    /// How many intervals in a row were short.
+    /// How many intervals in a row were short, those between starts counted three times.
     short: usize,
 }
 
-/// Where a function may turn back within a step it is looked at in so many pieces.
-pub(super) const FINE: usize = 8;
+/// An interval that is looked at.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Interval<T> {
+    /// How long it is.
+    pub(super) width: T,
+    /// The round-off of the time, in halves of the width.
+    pub(super) jitter: T,
+    /// The highest degree to look at it with.
+    pub(super) finest: usize,
+    /// Whether it is as good as the step.
+    pub(super) is_wide: bool,
+}
+
+/// What is to be known of a function on an interval.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum View {
+    /// That it crosses zero once at most.
+    Plain,
+    /// That it may cross more often.
+    Bent,
+    /// That this degree is to be looked at.
+    Open,
+    /// The same, and that it may be all noise.
+    Rough,
+}
+
+/// The degree with which a motion is looked at first, when nothing is known of the function.
+const FIRST: usize = 16;
+
+/// A function is far from zero that is so many times as large as what it moves by on an interval, by at least five samples; and
+/// stays so as long as three samples say half as much, for so many intervals that are at most twice as long.
+const FAR: (f64, usize) = (16.0, 3);
 
 /// An interval is short that is this part of the longest: √ε of `f64`, 2⁻²⁶.
 const SHORT: f64 = 1.0 / 67_108_864.0;
+
+/// Crossings accumulate after so many short intervals in a row, or half of it where each begins at a new start: functions
+/// have a few zeros close together, but no motion is changed again and again without a reason.
+const ACCUMULATED: usize = 6;
 
 impl<T: Real> Memory<T> {
     pub(super) fn new(name: &'static str) -> Self {
@@ -54,19 +99,24 @@ impl<T: Real> Memory<T> {
         Self {
             name,
             direction: Direction::Both,
-            pieces: None,
+            pieces: 1,
             terminal: None,
             count: 0,
             value: zero,
             next: zero,
-            end: zero,
-            near: zero,
+            samples: [zero; FINEST + 1],
+            view: View::Open,
             start: None,
             noise: zero,
+            density: None,
+            needed: None,
+            far: None,
             due: None,
             begun: None,
+            until: None,
             last: None,
             left: zero,
+            is_new: true,
             longest: zero,
             short: 0,
         }
@@ -78,102 +128,154 @@ impl<T: Real> Memory<T> {
         Self { direction, pieces, terminal, ..Self::new(name) }
     }
 
-    /// Takes note of the function where a search begins; whether that seems to be at a zero, where no step led there.
-    /// A motion that does not go on from the last crossing is another one, of which nothing is known.
-    pub(super) fn begin(&mut self, value: T, t: T, is_new: bool) -> bool {
-        let zero = T::constant(0.0);
-        let goes_on =
-            self.begun.zip(self.last.or(Some(t))).is_some_and(|(begun, last)| is_between(begun, last, t));
-        if is_new && !goes_on {
-            *self = self.anew();
-        }
-        self.begun = self.begun.or(Some(t));
-        let is_at_zero = is_new && (value == zero || self.last == Some(t));
-        self.start = is_at_zero.then_some(value);
-        (self.value, self.noise) = (if is_at_zero { zero } else { value }, zero);
-        self.next = self.value;
-        is_at_zero
-    }
-
-    /// Goes on to the place looked at last.
-    #[inline]
-    pub(super) fn go_on(&mut self) {
-        self.value = self.next;
-        if self.value != T::constant(0.0) {
-            self.noise = T::constant(0.0);
-        }
-    }
-
-    /// Takes note of the function at the next place. From a start at a zero it is zero until it leaves the noise there:
-    /// four times what it has changed by at the first place, and twice what was left of it at the crossing.
-    #[inline]
-    pub(super) fn look(&mut self, value: T) {
-        let zero = T::constant(0.0);
-        if let Some(start) = self.start.take() {
-            self.noise =
-                Scalar::abs(value - start) * T::constant(4.0) + Scalar::abs(self.left) * T::constant(2.0);
-            self.value = if Scalar::abs(start) <= self.noise { zero } else { start };
-        }
-        let is_noise = self.value == zero && Scalar::abs(value) <= self.noise;
-        self.next = if is_noise { zero } else { value };
-    }
-
-    /// Takes note of the function at the end of a step, and says in how many pieces the step is to be looked at: none where
-    /// it keeps away from zero, as far as the parabola through its values at the start, in the middle and at the end tells.
-    #[inline]
-    pub(super) fn plan(&mut self, middle: T, end: T) -> usize {
-        self.go_on();
-        self.end = end;
-        let (start, zero) = (self.value, T::constant(0.0));
-        let [rise, bend] = [end - start, (start - middle) + (end - middle)].map(Scalar::abs);
-        let least = smaller(smaller(Scalar::abs(start), Scalar::abs(middle)), Scalar::abs(end));
-        let values = [start, middle, end];
-        let has_one_sign = values.iter().all(|x| *x > zero) || values.iter().all(|x| *x < zero);
-        // The parabola turns back within the step only where it bends by half as much as it rises, and
-        // comes nearer to zero than the least of the three by no more than an eighth of what it bends by.
-        let turns_back = bend * T::constant(4.0) >= rise && bend >= least;
-        // In an eighth it goes down by a 128th of what it bends by, if that is the same everywhere.
-        self.near = if turns_back { bend / T::constant(16.0) } else { zero };
-        match turns_back {
-            true => FINE,
-            false if has_one_sign => 0,
-            false => 2,
-        }
-    }
-
-    /// Whether the function, which has no other sign at the next place, may have it on the way there.
-    #[inline]
-    pub(super) fn may_turn_back(&self) -> bool {
-        let zero = T::constant(0.0);
-        let (value, next) = (self.value, self.next);
-        let has_one_sign = value >= zero && next >= zero || value <= zero && next <= zero;
-        let least = smaller(Scalar::abs(value), Scalar::abs(next));
-        has_one_sign && least < self.near && self.noise == zero
-    }
-
     /// Counts the crossings of a run from 1.
     #[cfg(feature = "alloc")]
     pub(super) fn begin_run(&mut self) {
         self.count = 0;
     }
 
-    /// Goes on to the end of the step.
+    /// Takes note of the function where a search begins. A start, where no step led to, is at a zero where the function is no
+    /// more than its noise, or than what was left of it if it crossed just then. A motion that does not go on from the last
+    /// crossing is another one, of which nothing is known.
+    pub(super) fn begin(&mut self, value: T, t: T, start: Option<T>) {
+        let last = self.last.or(Some(t));
+        let is_another = !self.begun.zip(last).is_some_and(|(begun, last)| is_between(begun, last, t));
+        if start.is_some() && is_another {
+            *self = self.anew();
+        }
+        let goes_on = start.is_none() && self.until == Some(t);
+        self.is_new = start.is_some();
+        self.begun = self.begun.or(Some(t));
+        self.until = Some(t);
+        self.samples[0] = value;
+        if !goes_on {
+            self.far = None;
+            let noise = start.unwrap_or(T::constant(0.0));
+            // Where it jumps or has a pole it is not near zero, however much of it is left.
+            let left = smaller(self.left + self.left, noise * T::constant(16.0));
+            let left = if self.last == Some(t) { left } else { T::constant(0.0) };
+            let is_at_zero = start.is_some() && Scalar::abs(value) <= noise + left;
+            self.start = is_at_zero.then_some(left);
+            self.value = if is_at_zero { T::constant(0.0) } else { value };
+        }
+    }
+
+    /// Before an interval is looked at.
     #[inline]
-    pub(super) fn skip_step(&mut self) {
-        self.next = self.end;
+    pub(super) fn open(&mut self) {
+        (self.view, self.noise) = (View::Open, T::constant(0.0));
+        if let Some(needed) = self.needed.take() {
+            let before = self.density.map_or(needed, |density| density * T::constant(0.5));
+            self.density = Some(larger(needed, before));
+        }
+    }
+
+    /// Looks at the samples of this degree.
+    #[inline]
+    pub(super) fn judge(&mut self, degree: usize, interval: &Interval<T>) {
+        if degree == COARSEST {
+            self.view = if self.stays_far(interval) { View::Plain } else { View::Open };
+            return;
+        }
+        if T::constant(degree as f64) < self.least(interval) {
+            self.view = View::Open;
+            return;
+        }
+        let shape = Shape::of(&self.samples, degree);
+        self.view = match () {
+            () if shape.is_plain(interval.jitter) => View::Plain,
+            () if shape.is_rough() => View::Rough,
+            () if shape.is_bent() => View::Bent,
+            () => View::Open,
+        };
+        if interval.is_wide {
+            self.far = shape.is_far(FAR.0).then_some((interval.width, FAR.1));
+            self.learn(&shape, interval);
+        }
+    }
+
+    /// Whether a function that was far from zero is so by three samples.
+    #[inline]
+    fn stays_far(&mut self, interval: &Interval<T>) -> bool {
+        let Some((width, count)) = self.far else { return false };
+        let may_stay = count > 0 && interval.width <= width + width;
+        self.far = may_stay.then_some((width, count.saturating_sub(1)));
+        may_stay && Shape::of(&self.samples, COARSEST).is_far(FAR.0 / 2.0)
+    }
+
+    /// The least degree that tells anything on this interval: half of what the last steps have taken.
+    #[inline]
+    fn least(&self, interval: &Interval<T>) -> T {
+        match self.density {
+            None => T::constant(FIRST as f64),
+            Some(density) => density * interval.width * T::constant(0.5),
+        }
+    }
+
+    /// Takes note of the degree that the function takes. Of one that is far away beside what it moves by that is of no
+    /// interest.
+    #[inline]
+    fn learn(&mut self, shape: &Shape<T>, interval: &Interval<T>) {
+        let order = match self.view {
+            View::Open | View::Rough => 2.0 * FINEST as f64,
+            _ if shape.swing * T::constant(1024.0) < shape.most => 1.0,
+            _ => shape.order as f64,
+        };
+        self.needed = Some(T::constant(order) / interval.width);
+    }
+
+    /// Whether no degree tells enough on this interval.
+    pub(super) fn is_too_wide(&self, interval: &Interval<T>) -> bool {
+        interval.is_wide && self.density.is_some() && self.least(interval) > T::constant(FINEST as f64)
+    }
+
+    /// Looks at samples that may be all noise, given how much of it there is.
+    pub(super) fn judge_noise(&mut self, degree: usize, noise: T) {
+        let shape = Shape::of(&self.samples, degree);
+        let part = noise * T::constant(0.25);
+        self.view = match () {
+            () if shape.most <= noise => View::Plain,
+            () if shape.is_beyond(part) => View::Plain,
+            () if shape.tail <= part => View::Bent,
+            () => View::Open,
+        };
+        if shape.most <= noise {
+            (self.noise, self.needed) = (noise, None);
+        }
+    }
+
+    /// Takes note of the function at the end of the interval: it is on the side where it was unless it is beyond the noise.
+    #[inline]
+    pub(super) fn look(&mut self, value: T) {
+        let is_noise =
+            Scalar::abs(value) < self.noise || self.start.is_some() && Scalar::abs(value) <= self.noise;
+        self.next = if is_noise { self.value } else { value };
+        self.samples[FINEST] = value;
+    }
+
+    /// Goes on to the end of the interval, at this time.
+    #[inline]
+    pub(super) fn go_on(&mut self, t: T) {
+        (self.value, self.samples[0], self.until) = (self.next, self.samples[FINEST], Some(t));
+        if self.value != T::constant(0.0) {
+            self.start = None;
+        }
     }
 
     /// Goes on to a place where some event crosses: this one if it `has_crossed`, whatever its function says when it is asked
     /// again, or if it says so.
-    pub(super) fn arrive(&mut self, value: T, has_crossed: bool) {
+    pub(super) fn arrive(&mut self, value: T, t: T, has_crossed: bool) {
+        if has_crossed {
+            self.noise = T::constant(0.0);
+        }
         self.look(value);
         if has_crossed || self.crosses() {
-            (self.due, self.left) = (Some(self.value < T::constant(0.0)), self.next);
+            (self.due, self.left) = (Some(self.value < T::constant(0.0)), Scalar::abs(value));
         }
-        self.go_on();
+        self.go_on(t);
     }
 
-    /// Whether the function crosses zero on the way to the next place, the way that the event is about.
+    /// Whether the function crosses zero on the way to the end of the interval, the way that the event is about.
     #[inline]
     pub(super) fn crosses(&self) -> bool {
         let zero = T::constant(0.0);
@@ -193,13 +295,14 @@ impl<T: Real> Memory<T> {
             let interval = Scalar::abs(t - last);
             let least =
                 larger(self.longest * T::constant(SHORT), Scalar::abs(t) * T::constant(64.0 * T::EPSILON));
-            self.short = if interval <= least { self.short + 1 } else { 0 };
+            let weight = if self.is_new { ACCUMULATED / 2 } else { 1 };
+            self.short = if interval <= least { self.short + weight } else { 0 };
             self.longest = larger(self.longest, interval);
         }
-        self.last = Some(t);
-        match self.short {
-            0 | 1 => Ok(()),
-            _ => Err(Ending::EventsAccumulate { time: t.to_f64(), event: self.name }),
+        (self.last, self.is_new) = (Some(t), false);
+        match self.short < ACCUMULATED {
+            true => Ok(()),
+            false => Err(Ending::EventsAccumulate { time: t.to_f64(), event: self.name }),
         }
     }
 

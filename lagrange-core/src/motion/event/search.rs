@@ -4,10 +4,11 @@
 use alloc::vec::Vec;
 use core::marker::PhantomData;
 
-use nalgebra::ComplexField;
-
-use super::locate::{locate, turned};
-use super::memory::FINE;
+use super::chebyshev::{COARSEST, FINEST, part, places};
+use super::halves::{Halves, LEVELS};
+use super::locate::locate;
+use super::memory::{Interval, View};
+use super::noise::noise;
 use super::{Crossing, Watched};
 use crate::ending::Ending;
 use crate::error::Error;
@@ -46,6 +47,17 @@ where
         self.after.t - self.before.t
     }
 
+    /// The interval from one time to another, if it can be divided.
+    fn interval(&self, from: L::Scalar, to: L::Scalar) -> Option<Interval<L::Scalar>> {
+        let constant = L::Scalar::constant;
+        let (width, length) = (Scalar::abs(to - from), Scalar::abs(self.length()));
+        let round_off = constant(L::Scalar::EPSILON) * larger(Scalar::abs(from), Scalar::abs(to));
+        let is_wide = width * constant(8.0) >= length;
+        let finest = if width * constant(64.0) >= length { FINEST } else { 8 };
+        let jitter = constant(2.0) * round_off / width;
+        (width > constant(8.0) * round_off).then_some(Interval { width, jitter, finest, is_wide })
+    }
+
     /// The end of this piece of what is left of the step from there.
     fn mark(&self, from: L::Scalar, piece: usize, of: usize) -> L::Scalar {
         let part = L::Scalar::constant(piece as f64 / of as f64);
@@ -59,21 +71,25 @@ where
     }
 }
 
+/// Where a look at an interval leads.
+enum Look {
+    /// To its end.
+    Passed,
+    /// To a crossing.
+    Crossed,
+    /// To its first half.
+    Halve,
+}
+
+/// So many intervals are looked at on the way to one crossing; after that, no interval is halved.
+const MOST_INTERVALS: usize = 4096;
+
 /// The events `W` that a motion is searched for.
 pub(crate) struct Search<'e, W, L: Lagrangian<N, M>, const N: usize, const M: usize> {
     pub(crate) events: &'e mut [W],
-    pub(crate) grid: Grid<L::Scalar>,
-}
-
-/// Where steps are looked at.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Grid<T> {
-    /// Where the motion starts at a zero: pieces are short near there.
-    start: Option<T>,
-    /// How many pieces every step is looked at in, none where no event asks for any.
-    pieces: usize,
-    /// Whether some event leaves it to what its function does.
-    is_free: bool,
+    /// How many pieces every step is looked at in, at least.
+    pub(crate) pieces: usize,
+    pub(crate) system: PhantomData<fn(&L)>,
 }
 
 impl<'e, W, L, const N: usize, const M: usize> Search<'e, W, L, N, M>
@@ -95,17 +111,15 @@ where
         state: &State<L::Scalar, N>,
         is_new: bool,
     ) -> Result<Self, Error> {
-        let (mut start, mut pieces, mut is_free) = (None, 0, false);
+        let mut pieces = 1;
         for event in events.iter_mut() {
             let value = event.value(system, state)?;
+            let start = if is_new { Some(noise(event, system, state)?) } else { None };
             let memory = event.memory();
-            if memory.begin(value, state.t, is_new) {
-                start = Some(state.t);
-            }
-            pieces = pieces.max(memory.pieces.unwrap_or(0));
-            is_free |= memory.pieces.is_none();
+            memory.begin(value, state.t, start);
+            pieces = pieces.max(memory.pieces);
         }
-        Ok(Self { events, grid: Grid { start, pieces, is_free } })
+        Ok(Self { events, pieces, system: PhantomData })
     }
 
     /// The first crossing after `from`, which moves there, or to the end of the step where there is none.
@@ -121,43 +135,30 @@ where
         F: Flow<L, N, M>,
         I: Interpolant<L::Scalar, N>,
     {
-        let (start, pieces) = (from.t, self.plan(stride, from.t));
-        if pieces == 0 {
-            *from = *stride.after;
-        }
-        for piece in 1..=pieces {
-            let mark = stride.mark(start, piece, pieces);
-            while stride.is_ahead(from.t, mark) {
-                let t = self.near_start(stride, from.t).filter(|t| stride.is_ahead(*t, mark)).unwrap_or(mark);
-                match self.look(stride, from, t) {
-                    Ok(false) => {}
-                    Ok(true) => return self.due(from),
-                    Err(error) => return Err(Ending::of(error, from.t.to_f64())),
+        let (start, mut intervals) = (from.t, 0);
+        for piece in 1..=self.pieces {
+            let mut halves = Halves::of([from.t, stride.mark(start, piece, self.pieces)]);
+            while stride.is_ahead(from.t, stride.after.t) {
+                let end = halves.end();
+                if stride.is_ahead(from.t, end) {
+                    intervals += 1;
+                    let may_halve = intervals < MOST_INTERVALS && halves.level < LEVELS;
+                    match self.look(stride, from, end, may_halve) {
+                        Ok(Look::Passed) => {}
+                        Ok(Look::Crossed) => return self.due(from),
+                        Ok(Look::Halve) => {
+                            halves.halve();
+                            continue;
+                        }
+                        Err(error) => return Err(Ending::of(error, from.t.to_f64())),
+                    }
+                }
+                if !halves.advance() {
+                    break;
                 }
             }
         }
         Ok(None)
-    }
-
-    /// In how many pieces to look at what is left of a step: none where every function keeps away from zero, and is known at
-    /// the end of the step then.
-    #[inline]
-    fn plan<F, I>(&mut self, stride: &Stride<'_, L, F, I, N, M>, from: L::Scalar) -> usize
-    where
-        F: Flow<L, N, M>,
-        I: Interpolant<L::Scalar, N>,
-    {
-        if !self.grid.is_free || from == stride.after.t {
-            return self.grid.pieces;
-        }
-        // What cannot be evaluated there may have crossed before.
-        let Ok(middle) = stride.at(stride.mark(from, 1, 2)) else { return FINE };
-        let plans = self.events.iter_mut().map(|event| event.plan(stride.system, &middle, stride.after));
-        let pieces = plans.fold(self.grid.pieces, |most, pieces| most.max(pieces.unwrap_or(FINE)));
-        if pieces == 0 {
-            self.events.iter_mut().for_each(|event| event.memory().skip_step());
-        }
-        pieces
     }
 
     /// Reports a crossing at `state` that has not been reported yet.
@@ -250,78 +251,104 @@ where
         is_terminal.then(|| Ending::Event { time: state.t.to_f64(), event })
     }
 
-    /// Where to look next near a start at a zero: twice as far from there as the last time.
-    fn near_start<F, I>(&self, stride: &Stride<'_, L, F, I, N, M>, t: L::Scalar) -> Option<L::Scalar>
-    where
-        F: Flow<L, N, M>,
-        I: Interpolant<L::Scalar, N>,
-    {
-        let (start, length) = (self.grid.start?, stride.length());
-        let epsilon = L::Scalar::constant(L::Scalar::EPSILON);
-        let size = larger(Scalar::abs(start), epsilon * Scalar::abs(length));
-        let least = L::Scalar::constant(16.0) * epsilon * size;
-        let distance = larger(Scalar::abs(t - start) * L::Scalar::constant(2.0), least);
-        Some(start + distance * length.signum())
-    }
-
-    /// Goes on to `t`, or to where an event crosses before; whether one does.
+    /// Goes on to `t`, or to where an event crosses before, unless some function may cross twice on the way and the interval
+    /// can be halved.
     #[inline]
     fn look<F, I>(
         &mut self,
         stride: &Stride<'_, L, F, I, N, M>,
         from: &mut State<L::Scalar, N>,
         t: L::Scalar,
+        may_halve: bool,
+    ) -> Result<Look, Error>
+    where
+        F: Flow<L, N, M>,
+        I: Interpolant<L::Scalar, N>,
+    {
+        let interval = if may_halve { stride.interval(from.t, t) } else { None };
+        self.events.iter_mut().for_each(|event| event.memory().open());
+        let reached = stride.at(t).and_then(|to| self.sample(stride.system, &to, FINEST).map(|()| to));
+        if let Some(interval) = &interval {
+            // What cannot be evaluated may have crossed before.
+            if reached.is_err() || !self.is_plain(stride, [from.t, t], interval).unwrap_or(false) {
+                return Ok(Look::Halve);
+            }
+        }
+        let to = reached?;
+        self.look_at(stride.system, &to)?;
+        let any_crosses = self.events.iter_mut().any(|event| event.memory().crosses());
+        match any_crosses {
+            true => self.go_to_first(stride, from, &to)?,
+            false => {
+                *from = to;
+                self.events.iter_mut().for_each(|event| event.memory().go_on(t));
+            }
+        }
+        Ok(if any_crosses { Look::Crossed } else { Look::Passed })
+    }
+
+    /// Takes samples of all functions that are not known well enough.
+    #[inline]
+    fn sample(&mut self, system: &L, state: &State<L::Scalar, N>, place: usize) -> Result<(), Error> {
+        self.events.iter_mut().try_for_each(|event| {
+            if event.memory().view == View::Plain {
+                return Ok(());
+            }
+            let value = event.value(system, state)?;
+            event.memory().samples[place] = value;
+            Ok(())
+        })
+    }
+
+    /// Whether each function crosses zero at most once between these times, by samples of as high a degree as that takes.
+    #[inline]
+    fn is_plain<F, I>(
+        &mut self,
+        stride: &Stride<'_, L, F, I, N, M>,
+        [from, to]: [L::Scalar; 2],
+        interval: &Interval<L::Scalar>,
     ) -> Result<bool, Error>
     where
         F: Flow<L, N, M>,
         I: Interpolant<L::Scalar, N>,
     {
-        let mut to = stride.at(t)?;
-        self.events.iter_mut().for_each(|event| event.memory().go_on());
-        self.look_at(stride.system, &to)?;
-        if let Some(turn) = self.turn(stride, [from, &to])? {
-            to = turn;
-            self.look_at(stride.system, &to)?;
+        if self.events.iter_mut().any(|event| event.memory().is_too_wide(interval)) {
+            return Ok(false);
         }
-        let any_crosses = self.events.iter_mut().any(|event| event.memory().crosses());
-        match any_crosses {
-            true => self.go_to_first(stride, from, &to)?,
-            false => *from = to,
+        let mut degree = COARSEST;
+        while degree <= interval.finest {
+            for place in places(degree) {
+                let state = stride.at(from + (to - from) * L::Scalar::constant(part(place)))?;
+                self.sample(stride.system, &state, place)?;
+            }
+            let mut is_plain = true;
+            for event in self.events.iter_mut() {
+                match judge(event, stride, (from + to) * L::Scalar::constant(0.5), interval, degree)? {
+                    View::Plain => {}
+                    View::Bent => return Ok(false),
+                    _ => is_plain = false,
+                }
+            }
+            if is_plain {
+                return Ok(true);
+            }
+            degree *= 2;
         }
-        Ok(any_crosses)
+        Ok(false)
     }
 
-    /// Takes note of all functions at the next place.
-    fn look_at(&mut self, system: &L, next: &State<L::Scalar, N>) -> Result<(), Error> {
+    /// Takes note of all functions at the end of an interval.
+    fn look_at(&mut self, system: &L, end: &State<L::Scalar, N>) -> Result<(), Error> {
         self.events.iter_mut().try_for_each(|event| {
-            let value = event.value(system, next)?;
-            event.memory().look(value);
+            if let Some(left) = event.memory().start {
+                let noise = noise(event, system, end)? + left;
+                let memory = event.memory();
+                memory.noise = larger(memory.noise, noise);
+            }
+            let memory = event.memory();
+            memory.look(memory.samples[FINEST]);
             Ok(())
         })
-    }
-
-    /// The first place between these two at which an event has turned back and is beyond zero.
-    fn turn<F, I>(
-        &mut self,
-        stride: &Stride<'_, L, F, I, N, M>,
-        between: [&State<L::Scalar, N>; 2],
-    ) -> Result<Option<State<L::Scalar, N>>, Error>
-    where
-        F: Flow<L, N, M>,
-        I: Interpolant<L::Scalar, N>,
-    {
-        let mut first: Option<State<L::Scalar, N>> = None;
-        for event in self.events.iter_mut() {
-            let memory = event.memory();
-            if memory.may_turn_back() {
-                let values = [memory.value, memory.next];
-                let place = turned(stride, event, between, values)?;
-                first = place
-                    .filter(|place| first.is_none_or(|first| stride.is_ahead(place.t, first.t)))
-                    .or(first);
-            }
-        }
-        Ok(first)
     }
 
     /// Goes to where the first event crosses. Its function is zero there or has the other sign, and so may others be.
@@ -349,8 +376,33 @@ where
         *from = first.1;
         for (index, event) in self.events.iter_mut().enumerate() {
             let value = event.value(stride.system, from)?;
-            event.memory().arrive(value, index == first.0);
+            event.memory().arrive(value, from.t, index == first.0);
         }
         Ok(())
     }
+}
+
+/// What the samples of this degree tell of an event's function; where they may be all noise, the middle says how much of it there is.
+#[inline]
+fn judge<L, F, I, const N: usize, const M: usize>(
+    event: &mut impl Watched<L, N, M>,
+    stride: &Stride<'_, L, F, I, N, M>,
+    middle: L::Scalar,
+    interval: &Interval<L::Scalar>,
+    degree: usize,
+) -> Result<View, Error>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: Flow<L, N, M>,
+    I: Interpolant<L::Scalar, N>,
+{
+    let memory = event.memory();
+    if memory.view != View::Plain {
+        memory.judge(degree, interval);
+        if let View::Rough = memory.view {
+            let noise = noise(event, stride.system, &stride.at(middle)?)?;
+            event.memory().judge_noise(degree, noise);
+        }
+    }
+    Ok(event.memory().view)
 }

@@ -1,0 +1,243 @@
+//! A function on an interval as a sum of Chebyshev polynomials, Σ cₖ Tₖ: how far it is from zero, and whether it turns back.
+//!
+//! The coefficients of degree n come from the values at the n + 1 extreme points of Tₙ (Clenshaw and Curtis). Those of degree n
+//! are among those of 2n, so that a finer look takes no value twice.
+
+use core::array::from_fn;
+
+use crate::number::{Real, Scalar, larger};
+
+/// The highest degree, and the number of intervals between the places that serve all degrees.
+pub(super) const FINEST: usize = 32;
+
+/// The lowest degree: it tells of a function alone whether that is far from zero.
+pub(super) const COARSEST: usize = 2;
+
+/// The lowest degree that tells whether coefficients fall.
+const TELLING: usize = 4;
+
+/// Values of a function at the extreme points of the polynomial of the highest degree, from the start of the interval to its
+/// end; those that a lower degree does not need may be anything.
+pub(super) type Samples<T> = [T; FINEST + 1];
+
+/// cos(kπ/32)
+const COSINES: [f64; FINEST / 2 + 1] = [
+    1.0,
+    0.995_184_726_672_196_9,
+    0.980_785_280_403_230_4,
+    0.956_940_335_732_208_8,
+    0.923_879_532_511_286_7,
+    0.881_921_264_348_355,
+    0.831_469_612_302_545_2,
+    0.773_010_453_362_737,
+    core::f64::consts::FRAC_1_SQRT_2,
+    0.634_393_284_163_645_5,
+    0.555_570_233_019_602_3,
+    0.471_396_736_825_997_8,
+    0.382_683_432_365_089_84,
+    0.290_284_677_254_462_3,
+    0.195_090_322_016_128_33,
+    0.098_017_140_329_560_77,
+    0.0,
+];
+
+/// The same for all k up to a full turn.
+const TURN: [f64; 2 * FINEST] = {
+    let (mut turn, mut k) = ([0.0; 2 * FINEST], 0);
+    while k < 2 * FINEST {
+        let angle = if k > FINEST { 2 * FINEST - k } else { k };
+        turn[k] = if angle > FINEST / 2 { -COSINES[FINEST - angle] } else { COSINES[angle] };
+        k += 1;
+    }
+    turn
+};
+
+/// Which part of the interval is before this place.
+pub(super) fn part(place: usize) -> f64 {
+    0.5 - 0.5 * TURN[place]
+}
+
+/// The places of this degree that half of it does not have; all but the ends for the lowest.
+pub(super) fn places(degree: usize) -> impl Iterator<Item = usize> {
+    let apart = FINEST / degree;
+    let stride = if degree == COARSEST { apart } else { 2 * apart };
+    (apart..FINEST).step_by(stride)
+}
+
+/// What the coefficients of one degree tell of a function. Lengths on the interval are counted in halves of it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shape<T> {
+    degree: usize,
+    /// |c₀|
+    mean: T,
+    /// Σ |cₖ| from k = 1 on.
+    pub(super) swing: T,
+    /// The largest of the last coefficients, of both parities.
+    pub(super) tail: T,
+    /// |d₀| of the derivative Σ dₖ Tₖ.
+    slope: T,
+    /// Σ |dₖ| from k = 1 on.
+    bend: T,
+    /// The largest value.
+    pub(super) most: T,
+    /// The highest degree that adds more than a 256th of the swing.
+    pub(super) order: usize,
+}
+
+impl<T: Real> Shape<T> {
+    pub(super) fn of(samples: &Samples<T>, degree: usize) -> Self {
+        // The loops of the lowest degrees have a length that the compiler knows.
+        match degree {
+            COARSEST => Self::of_degree::<COARSEST>(samples),
+            TELLING => Self::of_degree::<TELLING>(samples),
+            8 => Self::of_degree::<8>(samples),
+            16 => Self::of_degree::<16>(samples),
+            _ => Self::of_degree::<FINEST>(samples),
+        }
+    }
+
+    #[inline(always)]
+    fn of_degree<const DEGREE: usize>(samples: &Samples<T>) -> Self {
+        let (zero, half) = (T::constant(0.0), T::constant(0.5));
+        // From the first order on.
+        let c: [T; DEGREE] = from_fn(|k| coefficient::<T, DEGREE>(samples, k + 1));
+        // d of order k − 1 is that of order k + 1 and 2k c of order k.
+        let (mut slope, mut bend, mut d) = (zero, zero, [zero; 2]);
+        for k in (1..=DEGREE).rev() {
+            let lower = d[1] + T::constant(2.0 * k as f64) * c[k - 1];
+            d = [lower, d[0]];
+            match k {
+                1 => slope = Scalar::abs(lower) * half,
+                _ => bend += Scalar::abs(lower),
+            }
+        }
+        let sizes = c.map(Scalar::abs);
+        let swing = sizes.iter().fold(zero, |sum, c| sum + *c);
+        let last = if DEGREE > TELLING { 3 } else { 2 };
+        let tail = sizes[DEGREE - last..].iter().fold(zero, |most, c| larger(most, *c));
+        let values = samples.iter().step_by(FINEST / DEGREE);
+        let most = values.fold(zero, |most, value| larger(most, Scalar::abs(*value)));
+        let least = swing * T::constant(1.0 / 256.0);
+        let order = sizes.iter().rposition(|size| *size > least).map_or(0, |k| k + 1);
+        let mean = Scalar::abs(coefficient::<T, DEGREE>(samples, 0));
+        Self { degree: DEGREE, mean, swing, tail, slope, bend, most, order }
+    }
+
+    /// What the rounding of the values, and that of the places by this part of half of the interval, may be.
+    fn rounding(&self, jitter: T) -> T {
+        T::constant(4.0 * T::EPSILON) * self.most + (self.slope + self.bend) * jitter
+    }
+
+    /// Whether the function keeps away from zero or, by the slope, does not turn back, or is zero.
+    ///
+    /// A function differs from the polynomial by no more than twice the sum of the coefficients that are left out, for those
+    /// that are there hold them too. From the last one on they fall at least like k⁻² by what is taken for granted, and so add up to
+    /// n times it; those of the slope like k⁻⁴, to n³ times. Where the last ones are rounding they tell of no others.
+    pub(super) fn is_plain(&self, jitter: T) -> bool {
+        let (n, rounding) = (self.degree as f64, self.rounding(jitter));
+        let [rest, rest_of_slope] = match self.tail > rounding {
+            true => [2.0 * n, 2.0 * n * n * n].map(|factor| T::constant(factor) * self.tail),
+            false => [4.0, 4.0 * n * n].map(|factor| T::constant(factor) * rounding),
+        };
+        // As long as they do not fall there may be anything between two places.
+        let is_away = self.mean > self.swing + rest;
+        let falls = self.tail <= rounding || !self.has_level_end();
+        falls && (is_away || self.slope > self.bend + rest_of_slope) || self.most == T::constant(0.0)
+    }
+
+    /// Whether the function is so many times as large as what it moves by.
+    pub(super) fn is_far(&self, times: f64) -> bool {
+        self.mean > self.swing * T::constant(times)
+    }
+
+    /// Whether the polynomial alone comes near zero and turns back, and is known well: a finer look would say the same.
+    pub(super) fn is_bent(&self) -> bool {
+        let is_known = T::constant(2.0 * self.degree as f64) * self.tail <= self.swing;
+        is_known && self.mean <= self.swing && self.slope <= self.bend
+    }
+
+    /// Whether the coefficients do not fall, so that a finer look is of use, or noise all that is left.
+    pub(super) fn is_rough(&self) -> bool {
+        self.degree > TELLING && self.has_level_end()
+    }
+
+    /// Whether the last coefficients are a 16th of the sum of all or more.
+    fn has_level_end(&self) -> bool {
+        T::constant(16.0) * self.tail >= self.swing
+    }
+
+    /// Whether the function keeps away from zero, by more than it moves and this noise.
+    pub(super) fn is_beyond(&self, noise: T) -> bool {
+        self.tail <= noise && self.mean > self.swing + noise
+    }
+}
+
+/// The coefficient of Tₖ, of the polynomial of this degree through the values.
+#[inline(always)]
+fn coefficient<T: Real, const DEGREE: usize>(samples: &Samples<T>, k: usize) -> T {
+    let (half, apart) = (T::constant(0.5), FINEST / DEGREE);
+    let mut sum = (samples[0] + samples[FINEST] * T::constant(TURN[k % 2 * FINEST])) * half;
+    for j in 1..DEGREE {
+        sum += samples[j * apart] * T::constant(TURN[j * k * apart % (2 * FINEST)]);
+    }
+    let part = if k == 0 || k == DEGREE { 1.0 } else { 2.0 };
+    sum * T::constant(part / DEGREE as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of f on −1 … 1, where the first place is 1.
+    fn shape(degree: usize, f: impl Fn(f64) -> f64) -> Shape<f64> {
+        let mut samples = [f64::NAN; FINEST + 1];
+        for place in (0..=FINEST).step_by(FINEST / degree) {
+            samples[place] = f(1.0 - 2.0 * part(place));
+        }
+        Shape::of(&samples, degree)
+    }
+
+    #[test]
+    fn cosines_are_cosines() {
+        for (k, cosine) in TURN.into_iter().enumerate() {
+            assert!((cosine - (core::f64::consts::PI * k as f64 / 32.0).cos()).abs() < 2e-15, "{k}");
+        }
+    }
+
+    #[test]
+    fn every_degree_adds_the_places_between_those_of_the_last() {
+        let mut all: std::vec::Vec<usize> =
+            [COARSEST, TELLING, 8, 16, 32].into_iter().flat_map(places).collect();
+        all.sort_unstable();
+        assert_eq!(all, (1..FINEST).collect::<std::vec::Vec<_>>());
+    }
+
+    /// 3 T₀ − 2 T₁ + T₃/4 and its slope, −2 + 3/4 + 3/2 T₂.
+    #[test]
+    fn coefficients_are_those_of_the_polynomial() {
+        for degree in [TELLING, 8, 16, 32] {
+            let found = shape(degree, |x| 3.0 - 2.0 * x + 0.25 * (4.0 * x.powi(3) - 3.0 * x));
+            let sizes = [found.mean, found.swing, found.slope, found.bend];
+            for (size, expected) in sizes.into_iter().zip([3.0, 2.25, 1.25, 1.5]) {
+                assert!((size - expected).abs() < 1e-12, "{degree}: {found:?}");
+            }
+            assert!(found.order == 3 && (4.75..4.76).contains(&found.most));
+            assert!(degree == 4 || found.tail < 1e-15 && found.is_plain(0.0));
+        }
+    }
+
+    /// 1/(1 + a²x²) is less than 1 at all places but one, and known where the places are as dense as it is wide.
+    #[test]
+    fn what_is_not_resolved_is_not_plain() {
+        for (a, from) in [(0.5, 4), (2.0, 16), (5.0, 32), (25.0, 64)] {
+            for degree in [4, 8, 16, 32] {
+                // Between −0.2 and 0.8: with zeros.
+                let found = shape(degree, |x| 1.0 / (1.0 + (a * (x - 0.3)).powi(2)) - 0.2);
+                assert!(a == 0.5 || !found.is_plain(0.0), "{a}, {degree}: {found:?}");
+                // Far from zero, it is said only where the coefficients fall.
+                let found = shape(degree, |x| 1.0 / (1.0 + (a * (x - 0.3)).powi(2)) + 1.0);
+                assert!(degree < from || found.is_plain(0.0), "{a}, {degree}: {found:?}");
+            }
+        }
+    }
+}
