@@ -10,11 +10,8 @@ use crate::number::{Real, Scalar, larger};
 /// The highest degree, and the number of intervals between the places that serve all degrees.
 pub(super) const FINEST: usize = 32;
 
-/// The lowest degree: it tells of a function alone whether that is far from zero.
-pub(super) const COARSEST: usize = 2;
-
-/// The lowest degree that tells whether coefficients fall.
-const TELLING: usize = 4;
+/// The lowest degree that tells anything of a function.
+pub(super) const COARSEST: usize = 4;
 
 /// Values of a function at the extreme points of the polynomial of the highest degree, from the start of the interval to its
 /// end; those that a lower degree does not need may be anything.
@@ -89,7 +86,6 @@ impl<T: Real> Shape<T> {
         // The loops of the lowest degrees have a length that the compiler knows.
         match degree {
             COARSEST => Self::of_degree::<COARSEST>(samples),
-            TELLING => Self::of_degree::<TELLING>(samples),
             8 => Self::of_degree::<8>(samples),
             16 => Self::of_degree::<16>(samples),
             _ => Self::of_degree::<FINEST>(samples),
@@ -113,7 +109,7 @@ impl<T: Real> Shape<T> {
         }
         let sizes = c.map(Scalar::abs);
         let swing = sizes.iter().fold(zero, |sum, c| sum + *c);
-        let last = if DEGREE > TELLING { 3 } else { 2 };
+        let last = if DEGREE > COARSEST { 3 } else { 2 };
         let tail = sizes[DEGREE - last..].iter().fold(zero, |most, c| larger(most, *c));
         let values = samples.iter().step_by(FINEST / DEGREE);
         let most = values.fold(zero, |most, value| larger(most, Scalar::abs(*value)));
@@ -145,11 +141,6 @@ impl<T: Real> Shape<T> {
         falls && (is_away || self.slope > self.bend + rest_of_slope) || self.most == T::constant(0.0)
     }
 
-    /// Whether the function is so many times as large as what it moves by.
-    pub(super) fn is_far(&self, times: f64) -> bool {
-        self.mean > self.swing * T::constant(times)
-    }
-
     /// Whether the polynomial alone comes near zero and turns back, and is known well: a finer look would say the same.
     pub(super) fn is_bent(&self) -> bool {
         let is_known = T::constant(2.0 * self.degree as f64) * self.tail <= self.swing;
@@ -158,7 +149,7 @@ impl<T: Real> Shape<T> {
 
     /// Whether the coefficients do not fall, so that a finer look is of use, or noise all that is left.
     pub(super) fn is_rough(&self) -> bool {
-        self.degree > TELLING && self.has_level_end()
+        self.degree > COARSEST && self.has_level_end()
     }
 
     /// Whether the last coefficients are a 16th of the sum of all or more.
@@ -206,8 +197,7 @@ mod tests {
 
     #[test]
     fn every_degree_adds_the_places_between_those_of_the_last() {
-        let mut all: std::vec::Vec<usize> =
-            [COARSEST, TELLING, 8, 16, 32].into_iter().flat_map(places).collect();
+        let mut all: std::vec::Vec<usize> = [COARSEST, 8, 16, 32].into_iter().flat_map(places).collect();
         all.sort_unstable();
         assert_eq!(all, (1..FINEST).collect::<std::vec::Vec<_>>());
     }
@@ -215,7 +205,7 @@ mod tests {
     /// 3 T₀ − 2 T₁ + T₃/4 and its slope, −2 + 3/4 + 3/2 T₂.
     #[test]
     fn coefficients_are_those_of_the_polynomial() {
-        for degree in [TELLING, 8, 16, 32] {
+        for degree in [COARSEST, 8, 16, 32] {
             let found = shape(degree, |x| 3.0 - 2.0 * x + 0.25 * (4.0 * x.powi(3) - 3.0 * x));
             let sizes = [found.mean, found.swing, found.slope, found.bend];
             for (size, expected) in sizes.into_iter().zip([3.0, 2.25, 1.25, 1.5]) {

@@ -1,7 +1,7 @@
 //! What an event is about, and what is known of it from step to step.
 
 use super::Direction;
-use super::chebyshev::{COARSEST, FINEST, Samples, Shape};
+use super::chebyshev::{FINEST, Samples, Shape};
 use crate::ending::Ending;
 use crate::motion::run::is_between;
 use crate::number::{Real, Scalar, larger, smaller};
@@ -25,7 +25,8 @@ pub struct Memory<T> {
     pub(super) samples: Samples<T>,
     /// What is to be known of the function on the interval.
     pub(super) view: View,
-    /// What the function may be where the motion starts at a zero, beside its noise, as long as it has not left that.
+    /// What the function may be where the motion starts at a zero or has just crossed one, beside its noise, as long as it has not
+    /// left that.
     pub(super) start: Option<T>,
     /// What counts as no change of side at the end of the interval.
     pub(super) noise: T,
@@ -33,8 +34,6 @@ pub struct Memory<T> {
     density: Option<T>,
     /// The same by the interval looked at last.
     needed: Option<T>,
-    /// The width of the interval looked at last if the function was far from zero there, and for how many more one sample inside will do.
-    far: Option<(T, usize)>,
     /// Crossed together with another event that was reported first: whether it rose.
     pub(super) due: Option<bool>,
     /// When the search began.
@@ -82,10 +81,6 @@ pub(super) enum View {
 /// The degree with which a motion is looked at first, when nothing is known of the function.
 const FIRST: usize = 16;
 
-/// A function is far from zero that is so many times as large as what it moves by on an interval, by at least five samples; and
-/// stays so as long as three samples say half as much, for so many intervals that are at most twice as long.
-const FAR: (f64, usize) = (16.0, 3);
-
 /// An interval is short that is this part of the longest: √ε of `f64`, 2⁻²⁶.
 const SHORT: f64 = 1.0 / 67_108_864.0;
 
@@ -110,7 +105,6 @@ impl<T: Real> Memory<T> {
             noise: zero,
             density: None,
             needed: None,
-            far: None,
             due: None,
             begun: None,
             until: None,
@@ -149,7 +143,6 @@ impl<T: Real> Memory<T> {
         self.until = Some(t);
         self.samples[0] = value;
         if !goes_on {
-            self.far = None;
             let noise = start.unwrap_or(T::constant(0.0));
             // Where it jumps or has a pole it is not near zero, however much of it is left.
             let left = smaller(self.left + self.left, noise * T::constant(16.0));
@@ -173,10 +166,6 @@ impl<T: Real> Memory<T> {
     /// Looks at the samples of this degree.
     #[inline]
     pub(super) fn judge(&mut self, degree: usize, interval: &Interval<T>) {
-        if degree == COARSEST {
-            self.view = if self.stays_far(interval) { View::Plain } else { View::Open };
-            return;
-        }
         if T::constant(degree as f64) < self.least(interval) {
             self.view = View::Open;
             return;
@@ -189,18 +178,8 @@ impl<T: Real> Memory<T> {
             () => View::Open,
         };
         if interval.is_wide {
-            self.far = shape.is_far(FAR.0).then_some((interval.width, FAR.1));
             self.learn(&shape, interval);
         }
-    }
-
-    /// Whether a function that was far from zero is so by three samples.
-    #[inline]
-    fn stays_far(&mut self, interval: &Interval<T>) -> bool {
-        let Some((width, count)) = self.far else { return false };
-        let may_stay = count > 0 && interval.width <= width + width;
-        self.far = may_stay.then_some((width, count.saturating_sub(1)));
-        may_stay && Shape::of(&self.samples, COARSEST).is_far(FAR.0 / 2.0)
     }
 
     /// The least degree that tells anything on this interval: half of what the last steps have taken.
@@ -256,10 +235,10 @@ impl<T: Real> Memory<T> {
     /// Goes on to the end of the interval, at this time.
     #[inline]
     pub(super) fn go_on(&mut self, t: T) {
-        (self.value, self.samples[0], self.until) = (self.next, self.samples[FINEST], Some(t));
-        if self.value != T::constant(0.0) {
+        if Scalar::abs(self.samples[FINEST]) > self.noise {
             self.start = None;
         }
+        (self.value, self.samples[0], self.until) = (self.next, self.samples[FINEST], Some(t));
     }
 
     /// Goes on to a place where some event crosses: this one if it `has_crossed`, whatever its function says when it is asked
@@ -273,6 +252,10 @@ impl<T: Real> Memory<T> {
             (self.due, self.left) = (Some(self.value < T::constant(0.0)), Scalar::abs(value));
         }
         self.go_on(t);
+        if has_crossed {
+            // It is on the side that it has come to until it is beyond its round-off.
+            self.start = Some(T::constant(0.0));
+        }
     }
 
     /// Whether the function crosses zero on the way to the end of the interval, the way that the event is about.

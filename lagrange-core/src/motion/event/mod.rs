@@ -27,13 +27,12 @@ use crate::system::{Lagrangian, State};
 ///
 /// # What is found
 ///
-/// On each step g is taken as a sum of Chebyshev polynomials, Σ cₖ Tₖ, from its values at 3, 5, 9, 17 or 33 times, on states by the
+/// On each step g is taken as a sum of Chebyshev polynomials, Σ cₖ Tₖ, from its values at 5, 9, 17 or 33 times, on states by the
 /// continuous extension of the method, projected onto the constraints (the points of Clenshaw and Curtis, of which those of
 /// each degree are among those of the next). A step is done where |c₀| is larger than all others together and what is left out, so that
 /// g keeps away from zero, or where the same holds for the derivative, so that g crosses once at most; else the
 /// degree is doubled, and then the step halved. The coefficients tell that only
-/// where the last ones have fallen to a 16th of all. On three steps of four three values do where g was, on the last one, 16 times as large
-/// as what it moved by, and is eight times. What is left out is bounded by 2n times the largest of the last coefficients of degree n,
+/// where the last ones have fallen to a 16th of all. What is left out is bounded by 2n times the largest of the last coefficients of degree n,
 /// 2n³ times in the derivative. So **every crossing is found, once, of a function whose coefficients from the last ones looked at on fall
 /// at least like k⁻²** (k⁻⁴ in the derivative), as those of an analytic one do once they are resolved, however close to each other its
 /// zeros are, down to its round-off. What no value shows nobody can see: a dip far from zero elsewhere and narrower than the
