@@ -243,6 +243,28 @@ fn starts_on_a_zero() {
     });
 }
 
+/// Dips 1 − a exp(−(t/w)²) of a function that is flat elsewhere, two zeros each, from w = 0.15 steps on.
+#[test]
+fn dips() {
+    campaign("dips", cases(100), |random| {
+        let (step, direction) = (random.between(0.1, 10.0), if random.below(2) == 0 { 1.0 } else { -1.0 });
+        let [width, depth] =
+            [0.15 * 27_f64.powf(random.between(0.0, 1.0)), 10_f64.powf(random.between(-6.0, 0.5))];
+        let (middle, half) = (direction * random.between(15.0, 25.0), width * depth.ln_1p().sqrt());
+        let g = |sample: &Sample<&Free, 1, 0>| {
+            1.0 - (1.0 + depth) * (-((sample.time() / step - middle) / width).powi(2)).exp()
+        };
+        let mut event = Free.event("dip", g);
+        let (start, method) = (State::new([0.0], [1.0]), RungeKutta4::with_step(step));
+        let path =
+            Free.integrate_until(start, 40.0 * direction * step, method, &mut [&mut event]).expect("a start");
+        let found: Vec<_> = path.crossings().iter().map(|at| (at.state.t / step, at.rising)).collect();
+        // With the zeros at ±h the slope there is 2h/w², by which the round-off of the function moves them.
+        let zeros = [middle - direction * half, middle + direction * half];
+        fault(&found, &zeros, false, 1e-14 * (width * width / half + middle.abs()))
+    });
+}
+
 /// A free particle in a plane.
 #[derive(Lagrangian, Clone, Copy)]
 #[coordinates(x, y)]
