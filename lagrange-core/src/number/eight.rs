@@ -109,6 +109,12 @@ impl Scalar for Eight {
     }
 
     #[inline(always)]
+    fn only_where_not_zero(self, value: Self) -> Self {
+        let zero = f64x8::splat(0.0);
+        Self((self.0.simd_lt(zero) | self.0.simd_gt(zero)).select(value.0, self.0))
+    }
+
+    #[inline(always)]
     fn multiply_add(self, y: Self, z: Self) -> Self {
         Self(self.0.mul_add(y.0, z.0))
     }

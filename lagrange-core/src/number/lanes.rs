@@ -85,6 +85,12 @@ macro_rules! lanes {
                 (Self(sin).select(left, nan), Self(cos).select(left, nan))
             }
 
+            // Called: LLVM takes a time that grows with the cube of how many of its selections are in one function.
+            #[inline(never)]
+            fn only_where_not_zero(self, value: Self) -> Self {
+                Self(self.0.only_where_not_zero(value.0))
+            }
+
             lane_by_lane! {
                 tan(), asin(), acos(), atan(), atan2(x), sinh(), cosh(), tanh(), exp(), ln(), sqrt(), abs(),
                 powf(exponent), min(other), max(other), by_order(other, less, equal, greater),

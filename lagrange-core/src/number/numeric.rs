@@ -55,7 +55,7 @@ pub(crate) fn power_of_epsilon<T: Real>(exponent: f64) -> T {
 /// `value`, or zero where `activity` is zero, lane by lane.
 #[inline]
 pub fn only_where<T: Scalar>(activity: T, value: T) -> T {
-    activity.by_order(T::constant(0.0), value, activity, value)
+    activity.only_where_not_zero(value)
 }
 
 /// A power of two not far below `x` ≥ 0, by which to divide before numbers of its size are multiplied; 1 for zero.

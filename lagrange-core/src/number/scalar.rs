@@ -114,6 +114,13 @@ pub trait Scalar:
         let (zero, product) = (Self::constant(0.0), self * y);
         self.by_order(zero, product, zero, product)
     }
+    /// `value`, zero where `self` is zero and NaN where it is: of one comparison with zero, for functions that have hundreds.
+    #[doc(hidden)]
+    #[inline(always)]
+    #[must_use]
+    fn only_where_not_zero(self, value: Self) -> Self {
+        self.by_order(Self::constant(0.0), value, self, value)
+    }
     /// `self` · `y` + `z`: rounded once where the target has an instruction for it (always on aarch64, on x86 with the
     /// target feature `fma`), else twice.
     #[inline(always)]
@@ -202,6 +209,13 @@ impl<T: SimdRealField + SupersetOf<f64> + Copy + Debug + 'static> Scalar for T {
         let ordered = equal.select(self.simd_eq(other), greater);
         let ordered = less.select(self.simd_lt(other), ordered);
         ordered.select(self.simd_eq(self) & other.simd_eq(other), Self::constant(f64::NAN))
+    }
+
+    #[inline(always)]
+    fn only_where_not_zero(self, value: Self) -> Self {
+        let zero = Self::constant(0.0);
+        // What is not a number is neither below nor above.
+        value.select(self.simd_lt(zero) | self.simd_gt(zero), self)
     }
 
     #[inline(always)]

@@ -1,6 +1,6 @@
 use super::LARGEST_ANGLE;
 use crate::number::scalar::FUSED;
-use crate::number::{Lanes, Scalar};
+use crate::number::{FourLanes, Lanes, Scalar, only_where};
 
 type Function = (&'static str, fn(Lanes) -> Lanes, fn(f64) -> f64);
 
@@ -132,5 +132,20 @@ fn sines_are_accurate_up_to_the_largest_angle() {
         let (sin, cos) = Lanes::constant(angle).sin_cos();
         let off = (sin.to_array()[3] - angle.sin()).abs().max((cos.to_array()[3] - angle.cos()).abs());
         assert!(off < 3e-16, "off by {off:e} at {angle}");
+    }
+}
+
+/// Zero where the activity is, whatever the value is there; no number where it is none.
+#[test]
+fn values_are_there_only_where_something_changes() {
+    let activity = [0.0, -0.0, f64::NAN, -1e-300, f64::INFINITY];
+    for (k, value) in [f64::NAN, f64::INFINITY, 3.0, 3.0, 3.0].into_iter().enumerate() {
+        let expected = if k < 2 { 0.0 } else { [f64::NAN, 3.0, 3.0][k - 2] };
+        let in_lanes = only_where(Lanes::constant(activity[k]), Lanes::constant(value)).to_array();
+        let in_four = only_where(FourLanes::constant(activity[k]), FourLanes::constant(value)).to_array();
+        let all = in_lanes.into_iter().chain(in_four).chain([only_where(activity[k], value)]);
+        all.for_each(|found| {
+            assert!(found == expected || found.is_nan() && expected.is_nan(), "{k}: {found}")
+        });
     }
 }
