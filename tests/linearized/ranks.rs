@@ -46,11 +46,12 @@ fn forces_are_found_beside_constraints_that_depend_on_one_another() {
         let led = Led { c: random.rows(rank), h: [0; 6].map(|_| random.next()) };
         let names = &["q[0]", "q[1]", "q[2]", "q[3]", "q[4]"][..6 - rank];
         let found = led.inputs_for(&State::at_rest([0.0; 6]), &[0.0; 6].into(), names).unwrap();
-        let mut left = DVector::from_fn(6, |i, _| {
-            led.h[i] + (0..4).map(|a| led.c[a][i] * found.multipliers[a]).sum::<f64>()
-        });
-        found.inputs.iter().enumerate().for_each(|(i, force)| left[i] += force);
-        let size = found.inputs.amax().max(1.0);
+        let terms = |i: usize| {
+            let by_constraints = (0..4).map(move |a| led.c[a][i] * found.multipliers[a]);
+            by_constraints.chain([led.h[i], found.inputs.get(i).copied().unwrap_or(0.0)])
+        };
+        let left = DVector::from_fn(6, |i, _| terms(i).sum::<f64>());
+        let size = (0..6).map(|i| terms(i).map(f64::abs).sum::<f64>()).fold(1.0, f64::max);
         assert!(left.amax() < 1e-13 * size, "rank {rank}: {left} of {size:e}, {:?}", led.c);
         worst = worst.max(left.amax() / size);
     }
