@@ -145,7 +145,7 @@ fn values_are_there_only_where_something_changes() {
         let in_four = only_where(FourLanes::constant(activity[k]), FourLanes::constant(value)).to_array();
         let all = in_lanes.into_iter().chain(in_four).chain([only_where(activity[k], value)]);
         all.for_each(|found| {
-            assert!(found == expected || found.is_nan() && expected.is_nan(), "{k}: {found}")
+            assert!(found == expected || found.is_nan() && expected.is_nan(), "{k}: {found}");
         });
     }
 }
