@@ -1,6 +1,6 @@
 //! Derivatives of motions where holonomic and velocity constraints meet, beside Richardson's extrapolation of differences.
 //!
-//! Systems are families whose coefficients, starts and times are drawn at random: 8 of each, of which 4 arguments each;
+//! Systems are families whose coefficients, starts and times are drawn at random: 4 of each, of which 4 arguments each;
 //! `LAGRANGE_MIXED` says how many of each otherwise, and then every argument counts.
 
 use lagrange_core::nalgebra::DVector;
@@ -232,7 +232,7 @@ fn campaign<S, const N: usize, const M: usize, const P: usize>(
 {
     let count = std::env::var("LAGRANGE_MIXED").ok().and_then(|count| count.parse().ok());
     let (mut random, mut worst, mut done, mut unclear) = (Random(seed), 0.0_f64, 0, 0);
-    while done < count.unwrap_or(8) {
+    while done < count.unwrap_or(4) {
         let (system, start) = draw(&mut random);
         let end = start.t + random.within(0.5..1.5);
         let all: Vec<usize> = (0..2 * N + P).collect();
