@@ -24,7 +24,7 @@
 //!
 //! | written | meaning |
 //! |---|---|
-//! | `2/5`, `9.81`, `1_000`, `6.62607015e-34` | exact numbers of up to 38 digits, in the range of `f64`; no suffixes, no hexadecimal |
+//! | `2/5`, `9.81`, `1_000`, `6.62607015e-34` | exact numbers, in the range of `f64`; what comes to more than 38 digits, as a product of three numbers of 16 does, is rounded once, to the nearest `f64`, and sums of such numbers that cancel within their rounding are zero; no suffixes, no hexadecimal |
 //! | `t`, `pi` | time, π |
 //! | `x`, `x_dot` or `ẋ` | a coordinate and its velocity; `x_ddot` or `ẍ` in observables only |
 //! | `+ - * / ^` | the usual precedence; `-x^2` is `-(x^2)`, `^` groups to the right |

@@ -92,9 +92,7 @@ impl Diagnostics {
 
 pub(crate) fn fault_message(fault: Fault) -> &'static str {
     match fault {
-        Fault::Overflow => {
-            "a number comes to more than about 38 digits, or beyond 1e308 or 1e-308, here: make one of the constants a field"
-        }
+        Fault::Overflow => "a number comes to beyond 1e308 or 1e-308 here: make one of the constants a field",
         Fault::DivisionByZero => "this divides by zero",
         Fault::TooLarge => "the expression grows beyond a million nodes here",
     }

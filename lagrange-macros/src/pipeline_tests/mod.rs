@@ -13,6 +13,7 @@ mod emitted;
 mod in_turn;
 mod integrability;
 mod linearization;
+mod literals;
 mod long;
 mod nested;
 mod sizes;

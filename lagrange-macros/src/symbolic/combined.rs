@@ -64,11 +64,13 @@ impl Graph {
         (0..factors.len()).filter(is_whole).filter_map(without).collect()
     }
 
-    /// c x + d y, where that is no longer than x and y are.
+    /// c x + d y, where that is exact and no longer than x and y are.
     fn no_longer(&mut self, [x, y]: [Term; 2]) -> Option<Id> {
         let longest = self.length(x.0).max(self.length(y.0));
+        let roundings = self.roundings.len();
         let sum = if longest > 1 { self.sum([x, y]) } else { return None };
-        (self.take_fault().is_none() && self.length(sum) <= longest).then_some(sum)
+        let is_exact = self.roundings.len() == roundings;
+        (self.take_fault().is_none() && is_exact && self.length(sum) <= longest).then_some(sum)
     }
 
     /// Of how many terms a factor is the sum.

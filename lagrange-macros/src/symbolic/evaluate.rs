@@ -80,6 +80,12 @@ impl From<Rational> for Approximate {
 }
 
 impl Graph {
+    /// The value of a number, with the error that it was rounded with.
+    fn number_value(&self, value: Rational) -> Approximate {
+        let Approximate { value: nearest, error } = value.into();
+        Approximate { value: nearest, error: error + self.roundings.error(value.into()) * nearest.abs() }
+    }
+
     /// The value of a node whose operands have the values that `at` gives. Where the error has no bound, because the
     /// exact argument of some function may lie beyond a pole or a cut, it is infinite or NaN.
     pub(super) fn value_of(
@@ -90,10 +96,12 @@ impl Graph {
         external: impl Fn(&External, &[Approximate]) -> Approximate,
     ) -> Approximate {
         match self.node(id) {
-            Node::Number(value) => (*value).into(),
+            Node::Number(value) => self.number_value(*value),
             Node::Pi => Approximate::rounded(std::f64::consts::PI, 0.0),
             Node::Symbol(name) => symbol(*name),
-            Node::Sum(terms) => Approximate::dot(terms.iter().map(|&(term, c)| (at(term), c.into()))),
+            Node::Sum(terms) => {
+                Approximate::dot(terms.iter().map(|&(term, c)| (at(term), self.number_value(c))))
+            }
             Node::Product(factors) => {
                 let one = Approximate::exact(1.0);
                 factors.iter().fold(one, |product, &(factor, e)| product.times(power(at(factor), e)))

@@ -5,6 +5,7 @@ use num_traits::{One, Zero};
 use rustc_hash::FxBuildHasher;
 
 use super::rational::{self, Rational};
+use super::rounded::Roundings;
 use super::scaled::Scaled;
 
 /// A node of one [`Graph`].
@@ -119,7 +120,7 @@ pub(crate) struct External {
 /// What exact arithmetic could not do. The first one stays until it is [taken](Graph::take_fault).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Fault {
-    /// A number of too many digits, or beyond the range of `f64`.
+    /// A number beyond the range of `f64`, or an exponent of too many digits.
     Overflow,
     /// Division by what is identically zero.
     DivisionByZero,
@@ -133,12 +134,15 @@ pub(crate) struct Graph {
     nodes: IndexSet<Node, FxBuildHasher>,
     /// The number 10, once a power of it stands in a product.
     pub(super) ten: Option<Id>,
+    /// Errors of the numbers that had more digits than fit.
+    pub(super) roundings: Roundings,
     fault: Option<Fault>,
 }
 
 impl Default for Graph {
     fn default() -> Self {
-        let mut graph = Self { nodes: IndexSet::default(), ten: None, fault: None };
+        let mut graph =
+            Self { nodes: IndexSet::default(), ten: None, roundings: Roundings::default(), fault: None };
         graph.number(Rational::zero());
         graph.number(Rational::one());
         graph

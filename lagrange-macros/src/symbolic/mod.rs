@@ -13,12 +13,14 @@ mod nested;
 mod random;
 mod rational;
 mod rebuild;
+mod rounded;
 mod sample;
 mod scaled;
 mod simplify;
 #[cfg(test)]
 mod tests;
 mod wave;
+mod wide;
 mod zero;
 
 pub(crate) use differentiate::Forward;

@@ -3,6 +3,8 @@
 use num_rational::Ratio;
 use num_traits::{CheckedAdd, CheckedMul, One, Signed, Zero};
 
+use super::wide;
+
 /// A fraction of two `i128`, in lowest terms, its denominator positive.
 pub(crate) type Rational = Ratio<i128>;
 
@@ -56,16 +58,5 @@ pub(crate) fn to_f64(x: Rational) -> f64 {
     if numerator <= exact && denominator <= exact {
         return *x.numer() as f64 / *x.denom() as f64;
     }
-    // Long division in binary, until there are more digits than a mantissa has. Then all that is left can
-    // only break a tie, for which one more digit is enough.
-    let (mut quotient, mut rest) = (numerator / denominator, numerator % denominator);
-    let mut digits = 0;
-    while quotient >> 64 == 0 {
-        rest *= 2;
-        quotient = 2 * quotient + u128::from(rest >= denominator);
-        rest %= denominator;
-        digits += 1;
-    }
-    let magnitude = (quotient | u128::from(rest != 0)) as f64 * 2.0_f64.powi(-digits);
-    if *x.numer() < 0 { -magnitude } else { magnitude }
+    wide::nearest(x)
 }

@@ -19,6 +19,7 @@ impl Graph {
 
     /// The expressions `roots` of `source` in this graph, without the boundaries of definitions.
     pub(crate) fn copied(&mut self, source: &Self, roots: &[Id]) -> Vec<Id> {
+        self.roundings.extend(&source.roundings);
         let mut new: FxHashMap<Id, Id> = FxHashMap::default();
         for id in source.reachable(roots) {
             let copy = self.rebuilt(source.node(id), |operand| new[&operand]);

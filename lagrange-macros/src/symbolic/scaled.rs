@@ -1,10 +1,13 @@
 //! Numbers of any size: fractions, times a power of ten where 128 bits are not enough.
+//!
+//! They are exact for as long as their digits fit. What has more is rounded once, to the nearest `f64`.
 
 use std::cmp::Ordering;
 
 use num_traits::Zero;
 
 use super::rational::{Rational, plus, power, times, to_f64};
+use super::wide;
 
 /// `fraction` · 10^`exponent`, within the range of `f64`. The exponent is 0 wherever the number is a fraction that fits;
 /// elsewhere the fraction is from 1 to 10 (but for fractions of very long numbers), so that equal numbers are equal.
@@ -78,6 +81,27 @@ impl Scaled {
         Self::new(plus(low.fraction, raised)?, low.exponent)
     }
 
+    /// The product rounded to the nearest `f64`, before powers of ten; `None` beyond the range of that.
+    pub(super) fn times_rounded(self, other: Self) -> Option<Self> {
+        let product = Self::rounded(wide::product(self.fraction, other.fraction))?;
+        Self::new(product.fraction, product.exponent.checked_add(self.exponent)?.checked_add(other.exponent)?)
+    }
+
+    /// The sum rounded to the nearest `f64`, before a power of ten; `None` for numbers of different powers of ten, which are
+    /// two terms: neither loses more than one of its digits.
+    pub(super) fn plus_rounded(self, other: Self) -> Option<Self> {
+        let apart = (self.apart()?, other.apart()?);
+        (apart.0.exponent == apart.1.exponent).then_some(())?;
+        let (x, y) = if self.exponent == other.exponent { (self, other) } else { apart };
+        let sum = Self::rounded(wide::sum(x.fraction, y.fraction))?;
+        Self::new(sum.fraction, sum.exponent.checked_add(x.exponent)?)
+    }
+
+    /// The shortest decimal that is read as this `f64`.
+    fn rounded(value: f64) -> Option<Self> {
+        parse_exactly(&format!("{value:e}"))
+    }
+
     /// The power; `None` where its digits do not fit.
     pub(crate) fn power(self, exponent: i128) -> Option<Self> {
         if self.exponent == 0
@@ -147,13 +171,18 @@ pub(crate) fn finite_decimal(value: Rational) -> Option<(i128, u32)> {
     Some((digits.to_integer(), places))
 }
 
-/// The value of a decimal literal such as `1_000`, `9.81` or `6.62607015e-34`; `None` where its digits do not fit or it
-/// is beyond the range of `f64`.
+/// The value of a decimal literal such as `1_000`, `9.81` or `6.62607015e-34`, rounded to the nearest `f64` where its digits
+/// do not fit; `None` beyond the range of `f64`.
 pub(crate) fn parse_decimal(text: &str) -> Option<Scaled> {
     let text = text.replace('_', "");
+    parse_exactly(&text)
+        .or_else(|| Scaled::rounded(text.parse().ok().filter(|value: &f64| value.is_normal())?))
+}
+
+fn parse_exactly(text: &str) -> Option<Scaled> {
     let (mantissa, exponent) = match text.split_once(['e', 'E']) {
         Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>().ok()?),
-        None => (text.as_str(), 0),
+        None => (text, 0),
     };
     let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
     let fraction = fraction.trim_end_matches('0');

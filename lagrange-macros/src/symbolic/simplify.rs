@@ -5,6 +5,7 @@ use num_traits::{One, Signed, Zero};
 
 use super::graph::{External, Fault, Function, Graph, Id, Node};
 use super::rational::{self, Rational, plus, times, to_f64};
+use super::rounded;
 use super::scaled::Scaled;
 
 impl Graph {
@@ -98,15 +99,15 @@ impl Graph {
         }
     }
 
-    fn push_term(&self, flat: &mut Vec<(Id, Scaled)>, term: Id, coefficient: Scaled) -> Option<()> {
+    fn push_term(&mut self, flat: &mut Vec<(Id, Scaled)>, term: Id, coefficient: Scaled) -> Option<()> {
+        let first = flat.len();
         match self.node(term) {
-            Node::Number(value) => flat.push((Id::ONE, coefficient.times((*value).into())?)),
-            Node::Sum(terms) => {
-                for (inner, c) in terms {
-                    flat.push((*inner, coefficient.times((*c).into())?));
-                }
-            }
-            _ => flat.push((term, coefficient)),
+            Node::Number(value) => flat.push((Id::ONE, (*value).into())),
+            Node::Sum(terms) => flat.extend(terms.iter().map(|&(inner, c)| (inner, c.into()))),
+            _ => flat.push((term, Rational::one().into())),
+        }
+        for (_, c) in &mut flat[first..] {
+            *c = self.times(coefficient, *c)?;
         }
         Some(())
     }
@@ -122,10 +123,15 @@ impl Graph {
         let mut merged: Vec<(Id, Scaled)> = Vec::with_capacity(flat.len());
         for (term, value) in flat {
             let start = merged.iter().rposition(|&(known, _)| known != term).map_or(0, |before| before + 1);
-            let like = &mut merged[start..];
-            if like.iter_mut().find_map(|(_, sum)| sum.plus(value).map(|total| *sum = total)).is_none() {
-                merged.push((term, value));
+            let mut total = value;
+            // What it comes to with one of them may add to the next.
+            while let Some((place, sum)) =
+                (start..merged.len()).find_map(|place| Some((place, self.plus(merged[place].1, total)?)))
+            {
+                merged.remove(place);
+                total = sum;
             }
+            merged.push((term, total));
         }
         merged.retain(|(_, value)| !value.fraction.is_zero());
         let mut terms = Vec::with_capacity(merged.len());
@@ -235,10 +241,16 @@ impl Graph {
             return Err(Fault::DivisionByZero);
         }
         match self.node(factor) {
-            Node::Number(value) => match folded(*coefficient, *value, exponent) {
-                Some(folded) => *coefficient = folded,
-                None => flat.push((factor, exponent)),
-            },
+            Node::Number(value) => {
+                let value = *value;
+                match number_power(value, exponent).and_then(|power| {
+                    self.note_power(power, value, exponent);
+                    self.times(*coefficient, power)
+                }) {
+                    Some(product) => *coefficient = product,
+                    None => flat.push((factor, exponent)),
+                }
+            }
             Node::Sum(terms) if exponent.is_integer() && !common_coefficient(terms).is_one() => {
                 let common = common_coefficient(terms);
                 flat.push((self.number(common), exponent));
@@ -263,7 +275,9 @@ impl Graph {
     /// Whether [`push_factor`](Self::push_factor) would leave `factor ^ exponent` as it is.
     fn is_irreducible(&self, coefficient: Scaled, factor: Id, exponent: Rational) -> bool {
         match self.node(factor) {
-            Node::Number(value) => folded(coefficient, *value, exponent).is_none(),
+            Node::Number(value) => {
+                number_power(*value, exponent).and_then(|power| rounded::times(coefficient, power)).is_none()
+            }
             Node::Sum(terms) => !exponent.is_integer() || common_coefficient(terms).is_one(),
             Node::Product(_) => !exponent.is_integer(),
             Node::Function(Function::Abs, _) => !is_even(exponent),
@@ -361,15 +375,14 @@ fn common_coefficient(terms: &[(Id, Rational)]) -> Rational {
     if alike { first } else { first.signum() }
 }
 
-/// coefficient · value ^ exponent where that is rational and its digits fit; a number of more stays a factor.
-fn folded(coefficient: Scaled, value: Rational, exponent: Rational) -> Option<Scaled> {
-    let power = match *exponent.denom() {
-        1 => Scaled::from(value).power(*exponent.numer())?,
-        _ if value.is_zero() || value.is_one() => value.into(),
-        2 => Scaled::from(rational::square_root(value)?).power(*exponent.numer())?,
-        _ => return None,
-    };
-    coefficient.times(power)
+/// value ^ exponent where that is rational and its digits fit; a number of more stays a factor.
+fn number_power(value: Rational, exponent: Rational) -> Option<Scaled> {
+    match *exponent.denom() {
+        1 => Scaled::from(value).power(*exponent.numer()),
+        _ if value.is_zero() || value.is_one() => Some(value.into()),
+        2 => Scaled::from(rational::square_root(value)?).power(*exponent.numer()),
+        _ => None,
+    }
 }
 
 /// Sorts by node and adds what stands at the same one; entries that add to zero go.

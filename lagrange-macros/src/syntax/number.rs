@@ -32,12 +32,7 @@ pub(super) fn suffix(literal: &str) -> &str {
 fn refusal(digits: &str) -> &'static str {
     match digits.replace('_', "").parse::<f64>() {
         Ok(value) if value.is_infinite() => "this number is beyond the largest `f64`, about 1.8e308",
-        Ok(value) if !value.is_normal() => {
-            "this number is closer to zero than an `f64` can be exactly, about 2.2e-308"
-        }
-        _ => {
-            "this number has more digits than fit exact arithmetic (about 38): write fewer, or make it a field"
-        }
+        _ => "this number is closer to zero than an `f64` can be exactly, about 2.2e-308",
     }
 }
 

@@ -11,6 +11,7 @@ mod faults;
 mod fractions;
 mod nested;
 mod rationals;
+mod rounded;
 mod sample;
 pub(super) mod tree;
 mod values;
