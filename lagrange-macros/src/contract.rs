@@ -226,7 +226,7 @@ pub(crate) const TAYLOR_SERIES: [Method; 3] = [
 ];
 
 /// The constants of these traits.
-const CONSTANTS: [&str; 15] = [
+const CONSTANTS: [&str; 16] = [
     "ARGUMENTS",
     "NAME",
     "DIGEST",
@@ -242,6 +242,7 @@ const CONSTANTS: [&str; 15] = [
     "EQUATIONS",
     "PARAMETERS",
     "ROOTS",
+    "STEEP",
 ];
 
 /// What every system has beside: methods of `Lagrangian` that it can do without, of `Simulate`, `Hamiltonian`,

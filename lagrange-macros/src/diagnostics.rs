@@ -92,7 +92,9 @@ impl Diagnostics {
 
 pub(crate) fn fault_message(fault: Fault) -> &'static str {
     match fault {
-        Fault::Overflow => "a number here is beyond the range of f64 (1e-308 to 1e308): make one of the constants a field",
+        Fault::Overflow => {
+            "a number here is beyond the range of f64 (1e-308 to 1e308): make one of the constants a field"
+        }
         Fault::DivisionByZero => "this divides by zero",
         Fault::TooLarge => "the expression grows beyond a million nodes here",
     }

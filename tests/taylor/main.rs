@@ -6,6 +6,7 @@ mod control;
 mod events;
 mod functions;
 mod references;
+mod short_ranged;
 mod singular;
 mod supplied;
 mod systems;

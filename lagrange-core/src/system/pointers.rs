@@ -103,6 +103,7 @@ macro_rules! forward {
             type SeriesTerms = L::SeriesTerms;
             const ROOTS: &'static [[usize; 2]] = L::ROOTS;
             const ARGUMENTS: &'static [[usize; 2]] = L::ARGUMENTS;
+            const STEEP: &'static [[usize; 3]] = L::STEEP;
 
             fn series_functions(
                 &self,

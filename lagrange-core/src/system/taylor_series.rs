@@ -38,6 +38,10 @@ pub trait TaylorSeries<const N: usize, const M: usize>: Lagrangian<N, M> {
     /// For each argument of a function that the user supplies, the place of a sum whose left factor it is, and of its value among
     /// the slopes.
     const ARGUMENTS: &'static [[usize; 2]] = &[];
+    /// For each argument of exp, tanh, sinh and cosh and each base of a power of 16 or more, the place of a sum whose left factor it is, of
+    /// its value among the slopes, and the exponent of the power or zero: such functions may be too small for a series at the
+    /// start of a step, and large within.
+    const STEEP: &'static [[usize; 3]] = &[];
 
     /// The numbers that all orders are made of.
     fn series_slopes(

@@ -77,6 +77,7 @@ fn promises(expansion: TokenStream) -> BTreeSet<String> {
         "SUPPLIED",
         "ARGUMENTS",
         "ROOTS",
+        "STEEP",
         "series_functions",
         "visit_parameters",
     ];

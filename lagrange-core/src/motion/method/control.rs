@@ -52,6 +52,9 @@ impl<T: Real> Control<T> {
     }
 }
 
+/// A first step is at most so many times the first guess.
+pub(crate) const FIRST: f64 = 100.0;
+
 /// The part of the predicted step that is taken, so that few are refused.
 const SAFETY: f64 = 0.9;
 
@@ -70,8 +73,8 @@ pub(crate) type Place = (usize, usize);
 /// The error allowed in each entry: `absolute + relative · |x|`.
 #[derive(Clone, Copy)]
 pub(crate) struct Tolerance {
-    relative: f64,
-    absolute: f64,
+    pub(crate) relative: f64,
+    pub(crate) absolute: f64,
 }
 
 impl Tolerance {
@@ -115,6 +118,20 @@ impl Tolerance {
     /// What a step of this length makes of rates, as a part of the error allowed at a place.
     pub(crate) fn part<T: Real, const N: usize>(self, h: T, rates: &Phase<T, N>, place: &Phase<T, N>) -> T {
         norm(h, rates, &self.scale(place, place))
+    }
+
+    /// A first guess at the first step: one that moves the state by a hundredth of its size.
+    pub(crate) fn guess_step<T: Real, const N: usize>(
+        self,
+        y: &Phase<T, N>,
+        slope: &Phase<T, N>,
+        span: T,
+    ) -> T {
+        let (scale, one) = (self.scale(y, y), T::constant(1.0));
+        let (size, speed) = (norm(one, y, &scale), norm(one, slope, &scale));
+        let least = T::constant(1e-5);
+        let usable = size > least && speed > least && speed.is_finite();
+        smaller(if usable { T::constant(0.01) * size / speed } else { span * T::constant(1e-6) }, span)
     }
 
     /// The entry with the largest error.
@@ -225,21 +242,6 @@ impl<P: Pair> Adaptive<P> {
         self.max_step.map_or(step, |longest| smaller(step, T::constant(longest)))
     }
 
-    /// A first guess at the first step: one that moves the state by a hundredth of its size.
-    pub(crate) fn guess_step<T: Real, const N: usize>(
-        &self,
-        y: &Phase<T, N>,
-        slope: &Phase<T, N>,
-        span: T,
-    ) -> T {
-        let scale = self.tolerance::<T>().scale(y, y);
-        let one = T::constant(1.0);
-        let (size, speed) = (norm(one, y, &scale), norm(one, slope, &scale));
-        let least = T::constant(1e-5);
-        let usable = size > least && speed > least && speed.is_finite();
-        smaller(if usable { T::constant(0.01) * size / speed } else { span * T::constant(1e-6) }, span)
-    }
-
     /// The first step from that guess and the slopes before and after it: the error of a step of Euler's method of
     /// this size would be a hundredth.
     pub(crate) fn first_step_from<T: Real, const N: usize>(
@@ -258,7 +260,7 @@ impl<P: Pair> Adaptive<P> {
         } else {
             guess
         };
-        smaller(step, guess * T::constant(100.0))
+        smaller(step, guess * T::constant(FIRST))
     }
 }
 

@@ -373,7 +373,7 @@ impl<P: Pair> Adaptive<P> {
         statistics: &mut Statistics,
     ) -> L::Scalar {
         let Memory { clock, y, slope: first, active, .. } = memory;
-        let guess = self.guess_step(y, first, clock.left());
+        let guess = self.tolerance::<L::Scalar>().guess_step(y, first, clock.left());
         let h = clock.directed(guess);
         let euler = from_fn(|half| entries(|i| y[half][i] + h * first[half][i]));
         let point = PhasePoint { t: clock.now + h, y: euler, velocity: first[0] };

@@ -5,6 +5,7 @@ use core::array::from_fn;
 use super::Taylor;
 use super::expansion::{Expansion, Solved};
 use crate::motion::method::clock::Clock;
+use crate::motion::method::control::{FIRST, Tolerance};
 use crate::number::{Filled, ROOM, Real, Scalar, larger, smaller};
 use crate::system::State;
 
@@ -22,8 +23,6 @@ const LEFT_OUT: f64 = 5.0;
 
 /// So many coefficients tell how long a step is to be.
 pub(super) const LAST: usize = 5;
-/// A step may be so many times as long as the one before.
-const GROWTH: f64 = 10.0;
 
 impl Taylor {
     /// The tolerance, as far as the numbers go.
@@ -37,21 +36,18 @@ impl Taylor {
         (larger(order, LAST as f64) as usize).min(ROOM - 2)
     }
 
-    /// A unit of time about as long as a step.
-    pub(super) fn unit<T: Real, const N: usize, const M: usize>(
+    /// The longest first step, as of embedded pairs (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.4):
+    /// it moves the state by its size at most.
+    pub(super) fn first<T: Real, const N: usize, const M: usize>(
         &self,
-        planned: T,
         state: &State<T, N>,
         solved: &Solved<T, N, M>,
+        span: T,
     ) -> T {
-        let (zero, one) = (T::constant(0.0), T::constant(1.0));
-        if planned > zero {
-            return planned;
-        }
-        // As long as the velocities take to change by their size, or by 1.
-        let size = |x: &[T]| x.iter().fold(zero, |most, x| larger(most, Scalar::abs(*x)));
-        let unit = (one + size(state.v.as_slice())) / size(solved.solution.accelerations.as_slice());
-        if unit.is_finite() && unit > zero { unit } else { one }
+        let tolerance = Tolerance { relative: self.tolerance::<T>(), absolute: self.absolute };
+        let y = [state.q.into(), state.v.into()];
+        let slope = [state.v.into(), solved.solution.accelerations.into()];
+        self.limited(smaller(T::constant(FIRST) * tolerance.guess_step(&y, &slope, span), span))
     }
 
     /// What of the absolute tolerance each entry has beside its size.
@@ -59,12 +55,17 @@ impl Taylor {
         self.absolute / self.tolerance::<T>()
     }
 
-    /// The length of the next step, by what the last coefficients allow, the length of the one before and the time that is left.
-    pub(super) fn choose<T: Real>(&self, allowed: T, before: T, clock: &Clock<T>) -> T {
-        let zero = T::constant(0.0);
-        let step = if allowed.is_finite() { allowed } else { clock.left() };
-        let step = if before > zero { smaller(step, T::constant(GROWTH) * before) } else { step };
-        let step = if step > zero { clock.at_least(step) } else { clock.left() };
+    /// A unit of time about as long as a step: a power of two, by which numbers are multiplied and divided without rounding.
+    pub(super) fn unit<T: Real>(planned: T) -> T {
+        // An integer is a power of two in both.
+        T::constant(exp2_roughly(log2_roughly(planned.to_f64()).floor()))
+    }
+
+    /// The length of the next step, by what the last coefficients allow, the longest that the step before allows, and the time
+    /// that is left.
+    pub(super) fn choose<T: Real>(&self, allowed: T, longest: T, clock: &Clock<T>) -> T {
+        let step = smaller(if allowed.is_finite() { allowed } else { clock.left() }, longest);
+        let step = if step > T::constant(0.0) { clock.at_least(step) } else { clock.left() };
         self.limited(step)
     }
 

@@ -37,7 +37,12 @@ impl<T: Real, const N: usize, const M: usize> Solved<T, N, M> {
 
     /// Whether a pose may be near at which the constraints become dependent: they almost are, or steps become so much shorter.
     pub(super) fn is_near_dependence(&self, planned: T, before: T) -> bool {
-        M > 0 && (self.independence() < T::constant(NEAR) || planned < before * T::constant(COLLAPSE))
+        self.is_hardly_independent() || M > 0 && planned < before * T::constant(COLLAPSE)
+    }
+
+    /// Whether the constraints are so dependent that rounding errors of accelerations are many.
+    pub(super) fn is_hardly_independent(&self) -> bool {
+        M > 0 && self.independence() < T::constant(NEAR)
     }
 
     /// Whether it is so near that products of two small numbers lose too many digits.

@@ -6,6 +6,7 @@ use core::convert::Infallible;
 use core::ops::Add;
 
 use super::control::{LAST, Last, exp2_roughly, log2_roughly};
+use super::sampling::is_linear;
 use super::sums::{Ends, Factors};
 use crate::error::Error;
 use crate::linearized::Direction;
@@ -60,6 +61,8 @@ pub(super) struct Expansion<S, T, const N: usize> {
     pub(super) factors: Factors<T, S>,
     /// The values of roots, in the order of [`TaylorSeries::ROOTS`].
     pub(super) roots: Vec<T>,
+    /// The values of arguments, in the order of [`TaylorSeries::STEEP`].
+    pub(super) steep: Vec<T>,
     /// The arguments of functions that the user supplies, in the order of [`TaylorSeries::ARGUMENTS`].
     arguments: Vec<PowerSeries<T>>,
 }
@@ -79,6 +82,7 @@ impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
             summed: order,
             factors: Factors::new(order),
             roots: vec![zero; L::ROOTS.len()],
+            steep: vec![zero; L::STEEP.len()],
             arguments: vec![PowerSeries::constant(0.0); L::ARGUMENTS.len()],
         }
     }
@@ -112,6 +116,9 @@ impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
         let (slopes, highest) = (system.series_slopes(state, solution), self.order());
         for (root, &[_, slope]) in self.roots.iter_mut().zip(L::ROOTS) {
             *root = slopes.as_ref()[slope];
+        }
+        for (value, &[_, slope, _]) in self.steep.iter_mut().zip(L::STEEP) {
+            *value = slopes.as_ref()[slope];
         }
         for (argument, &[_, slope]) in self.arguments.iter_mut().zip(L::ARGUMENTS) {
             *argument = PowerSeries::new(&[slopes.as_ref()[slope], T::constant(0.0)]);
@@ -195,7 +202,7 @@ impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
                 |(forcing, bias): &RightHandSides<T, N, M>| Ok(system.solve_with(&factor, forcing, bias));
             let Ok::<(), Infallible>(()) = self.orders(system, state, solution, unit, solve);
             let last = Last::of(self, slack);
-            if self.is_finite(self.order()) && self.better_unit(&last, slack).is_none() {
+            if self.is_finite(self.order()) && self.better_unit::<L, M>(&last, slack).is_none() {
                 return Ok(last);
             }
         }
@@ -204,21 +211,24 @@ impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
         let expand = |series: &mut Self, unit| {
             series.orders(system, state, solution, unit, |sides| general.solve::<L>(sides))
         };
-        self.in_units(unit, slack, expand)
+        self.in_units::<L, M>(unit, slack, expand)
     }
 
     /// Expands in this unit of time, or in others as long as they are better.
     #[cold]
-    fn in_units(
+    fn in_units<L, const M: usize>(
         &mut self,
         mut unit: T,
         slack: T,
         expand: impl Fn(&mut Self, T) -> Result<(), Error>,
-    ) -> Result<Last<T>, Error> {
+    ) -> Result<Last<T>, Error>
+    where
+        L: TaylorSeries<N, M>,
+    {
         for _ in 0..UNITS {
             expand(self, unit)?;
             let last = Last::of(self, slack);
-            match self.better_unit(&last, slack) {
+            match self.better_unit::<L, M>(&last, slack) {
                 None => return Ok(last),
                 Some(better) => unit = better,
             }
@@ -228,10 +238,11 @@ impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
 
     /// A unit in which the coefficients are numbers, where in this one the last are too large or too small to be.
     #[inline(always)]
-    fn better_unit(&self, last: &Last<T>, slack: T) -> Option<T> {
+    fn better_unit<L: TaylorSeries<N, M>, const M: usize>(&self, last: &Last<T>, slack: T) -> Option<T> {
         let sum = last.sizes.iter().fold(T::constant(0.0), |sum, size| sum + *size);
         let are_numbers = sum.is_finite() && self.is_finite(self.order());
-        if are_numbers && sum > T::constant(0.0) {
+        // Coefficients that are too small in a unit as long as the last step do not count in one ten times as long.
+        if are_numbers && (sum > T::constant(0.0) || !is_linear::<L, N, M>()) {
             None
         } else {
             self.unit_by_the_highest(!are_numbers, slack)

@@ -6,8 +6,9 @@ use core::array::from_fn;
 use core::convert::Infallible;
 
 use super::control::Last;
-use super::defect::{part, parts};
+use super::defect::part;
 use super::expansion::Expansion;
+use super::sampling::{Sampling, few, parts, samples_of_steep};
 use super::step::{compensated, left};
 use super::{Memory, Taylor, TaylorPolynomial};
 use crate::error::Error;
@@ -63,7 +64,7 @@ where
     }
 
     fn prepare(&self, _: &L, memory: &mut Self::Memory, end: f64, _: &mut Statistics) -> Result<(), Error> {
-        memory.clock.aim(end);
+        self.aim(memory, end);
         Ok(())
     }
 
@@ -119,11 +120,8 @@ where
         seats: &mut Seats<'_, L, Self, N, M>,
     ) -> [Option<Fate>; Lanes::COUNT] {
         let mut trust = Trust::new();
-        let time = |memory: &Self::Memory| {
-            let Memory { clock, state, solved, planned, .. } = memory;
-            // The state that the memory holds is that of the lane before the first step, and asked for then alone.
-            (clock.now, clock.directed(self.unit(*planned, state, solved)))
-        };
+        let time =
+            |Memory { clock, planned, .. }: &Self::Memory| (clock.now, clock.directed(Self::unit(*planned)));
         let times = seats.each_ref().map(|seat| seat.as_ref().map_or((0.0, 1.0), |seat| time(&seat.memory)));
         abreast.expand(times, &mut trust);
         let last = Last::of(&abreast.series, Lanes::constant(self.slack::<f64>()));
@@ -133,21 +131,27 @@ where
         }
         // In a free lane time stands still.
         let plan = from_fn(|lane| {
-            seats[lane].as_ref().map_or(Plan::default(), |seat| self.plan(allowed[lane], &seat.memory))
+            seats[lane]
+                .as_ref()
+                .map_or(Plan::default(), |seat| self.plan::<L, N, M>(allowed[lane], &seat.memory))
         });
-        let keeps = abreast.advance(self, &plan, &mut trust);
+        let keeps = abreast.advance(self, &plan, self.defect_allowed::<L, N, M>(), &mut trust);
         let trusted = trust.lanes();
         from_fn(|lane| {
             let seat = seats[lane].as_mut()?;
-            let Memory { clock, solved, is_expanded, planned, .. } = &mut seat.memory;
-            // Where the last coefficients are zero it takes a closer look.
-            let can_go =
-                !*is_expanded && solved.solution.multipliers_are_unique() && allowed[lane].is_finite();
+            let Memory { clock, solved, is_expanded, planned, sampling, .. } = &mut seat.memory;
+            let (length, few) = (plan[lane].h.abs(), few::<L, N, M>());
+            // Where the last coefficients are zero, or a step is much longer than the one before, it takes a closer look.
+            let can_go = !*is_expanded
+                && solved.solution.multipliers_are_unique()
+                && allowed[lane].is_finite()
+                && sampling.count::<L, N, M>(length) == few;
             if !(can_go && trusted[lane] && keeps[lane] && clock.is_ahead(plan[lane].end)) {
                 return None;
             }
             (*planned, clock.now) = (plan[lane].planned, plan[lane].end);
-            seat.statistics.evaluations += last.order + 1;
+            *sampling = Sampling::after(length, few);
+            seat.statistics.evaluations += last.order + 1 + few;
             seat.statistics.accepted += 1;
             Some(Fate::Accepted)
         })
@@ -173,8 +177,16 @@ impl Last<Lanes> {
 
 impl Taylor {
     /// The step in a lane whose last coefficients allow that length.
-    fn plan<U, const N: usize, const M: usize>(&self, allowed: f64, memory: &Memory<U, f64, N, M>) -> Plan {
-        let planned = self.choose(allowed, memory.planned, &memory.clock);
+    fn plan<L, const N: usize, const M: usize>(
+        &self,
+        allowed: f64,
+        memory: &Memory<L::Sums, f64, N, M>,
+    ) -> Plan
+    where
+        L: TaylorSeries<N, M, Scalar = f64>,
+    {
+        let longest = memory.sampling.longest::<L, N, M>(memory.planned);
+        let planned = self.choose(allowed, longest, &memory.clock);
         let (h, end) = memory.clock.next(planned);
         Plan { planned, h, end }
     }
@@ -203,6 +215,7 @@ where
         &mut self,
         method: &Taylor,
         plan: &[Plan; Lanes::COUNT],
+        defect_allowed: f64,
         trust: &mut Trust,
     ) -> [bool; Lanes::COUNT] {
         let (h, t) = (plan.map(|plan| plan.h).into(), plan.map(|plan| plan.end).into());
@@ -224,29 +237,40 @@ where
             parts.fold(Lanes::constant(0.0), |worst, part| worst.max(part))
         };
         let mut worst = off(&accelerations, &solution);
-        for (accelerations, solution) in self.within_functions(h) {
+        for (accelerations, solution) in self.samples(h) {
             trust.numbers(&accelerations);
             trust.solution(&solution);
             worst = worst.max(off(&accelerations, &solution));
         }
-        let worst = worst.to_array();
-        let (doubt, bound) = (doubt.to_array(), method.defect_allowed::<f64>());
+        let [doubt, worst] = [doubt, worst].map(Lanes::to_array);
         let y = [state.q.into(), state.v.into()];
         let rest = [left(&q, &y[0], &rest_q), left(&v, &y[1], &rest_v)];
         self.next = Place { y, rest, solution };
-        let keeps_roots = self.keeps_roots(h);
-        from_fn(|lane| doubt[lane] == 0.0 && worst[lane] <= bound && keeps_roots[lane])
+        let (keeps_roots, is_steep) = (self.keeps_roots(h), self.is_steep(h));
+        from_fn(|lane| {
+            !is_steep[lane] && doubt[lane] == 0.0 && worst[lane] <= defect_allowed && keeps_roots[lane]
+        })
     }
 
-    /// What the series and the equations give where the scalar method looks for kinks inside of functions that the user supplies.
-    fn within_functions(&self, h: Lanes) -> impl Iterator<Item = ([Lanes; N], Solution<Lanes, N, M>)> {
-        let (parts, y, start) = (parts::<S, N, M>(), &self.here.y, self.series.start);
+    /// What the series and the equations give at the samples within a step.
+    fn samples(&self, h: Lanes) -> impl Iterator<Item = ([Lanes; N], Solution<Lanes, N, M>)> {
+        let (parts, y, start) = (parts(few::<S, N, M>()), &self.here.y, self.series.start);
         parts.map(move |part| {
             let length = h * Lanes::constant(part);
             let [dq, dv, accelerations] = self.series.change(length);
             let [q, v] = [(&y[0], dq), (&y[1], dv)].map(|(x, change)| vector(from_fn(|i| x[i] + change[i])));
             let there = State { t: start + length, q, v };
             (accelerations, self.system.accelerations_unchecked(&there))
+        })
+    }
+
+    /// In which lanes steep functions ask for samples.
+    fn is_steep(&self, h: Lanes) -> [bool; Lanes::COUNT] {
+        self.series.steep::<S, M>(h).fold([false; Lanes::COUNT], |is_steep, (numbers, exponent)| {
+            let [value, change] = numbers.map(Lanes::to_array);
+            from_fn(|lane| {
+                is_steep[lane] || samples_of_steep([value[lane], change[lane]], exponent) > few::<S, N, M>()
+            })
         })
     }
 

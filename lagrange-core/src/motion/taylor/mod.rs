@@ -8,6 +8,7 @@ mod expansion;
 mod lanes;
 mod polynomial;
 mod roots;
+mod sampling;
 mod step;
 mod sums;
 mod variations;
@@ -26,6 +27,7 @@ use crate::system::{State, TaylorSeries};
 use crossing::Crossing;
 use expansion::{Expansion, Solved};
 pub use polynomial::TaylorPolynomial;
+use sampling::Sampling;
 use step::Attempt;
 
 /// Taylor's method: each step is a power series of the motion about its start, whose coefficients come from recurrences
@@ -38,9 +40,19 @@ use step::Attempt;
 ///
 /// The order follows from the tolerance, 18 for 10⁻⁹ and 29 for round-off; the length of a step from the last five
 /// coefficients, zeros passed over: from a symmetric start every fourth alone may be there. It is at most ten times that of the step
-/// before, and refused where the accelerations of the series at its end are not those of the equations. Rounding errors of the
+/// before; the first step moves the state by its size at most. A step is refused where the accelerations of the series at its end are
+/// not those of the equations, to the tolerance. Rounding errors of the
 /// states are carried along (compensated sums); accelerations on constraints are refined once, by the residual of the constraints'
 /// equations; each state is projected onto the constraints. Between its ends a step is the series itself.
+///
+/// A force may vanish to round-off where a step begins and be strong within: a wall by `tanh`, a pulse in time by `exp`, a high power
+/// of a sine. The series does not know such a force. So the equations are also sampled within a step, at up to 128 times, wherever the
+/// argument of `exp`, `tanh`, `sinh` or `cosh` or the base of a power of 16 or more goes far, and wherever a step gets more than
+/// twice as long while its series has few terms. Guaranteed is that a force wider than the distance between two samples is seen, and a
+/// Gaussian pulse whose standard deviation is a tenth of that distance. All other steps are compared with the equations at
+/// their ends, where a pulse of an eighth of a step shows. Narrower forces can be missed, as by every method that evaluates at
+/// points, and so can those inside of a [`Function`](crate::Function), of which only its values are known:
+/// [`max_step`](Self::max_step) says how wide the narrowest is.
 ///
 /// Where constraints become dependent at one pose alone, a step leads across it by a series that is cut off before the orders that
 /// consist of rounding errors, to about 10⁻¹² as a rule; where none does, the motion ends before the pose.
@@ -51,7 +63,7 @@ use step::Attempt;
 ///
 /// A system with `abs`, `min`, `max` or `clamp` in its equations has no [`TaylorSeries`], nor one with a function that is not known over
 /// every scalar or whose third derivatives the equations take, and the compiler says so. A [`Function`](crate::Function) is evaluated on a [`PowerSeries`](crate::PowerSeries) at every order; of
-/// kinks inside of it each step is aware at its quarters and its end only, to 10⁻¹⁰ of the velocities or 10⁴ tolerances, whichever is
+/// kinks inside of it each step is aware at its end and three times within, to 10⁻¹⁰ of the velocities or 10⁴ tolerances, whichever is
 /// more. Parameters may change between steps. Nothing is allocated in a step.
 /// In an ensemble four members, or eight with AVX-512, are expanded at once on SIMD lanes, each with its own step: `Ensemble::integrate_on_lanes`.
 /// Derivatives of a motion come from the recurrences over dual numbers, to ten times the tolerance:
@@ -134,8 +146,9 @@ pub struct Memory<S, T, const N: usize, const M: usize> {
     /// About the state, or about where the last step started.
     series: Expansion<S, T, N>,
     is_expanded: bool,
-    /// The length of the next step; zero before the first.
+    /// The length of the next step; zero before the motion begins.
     planned: T,
+    sampling: Sampling<T>,
     /// Where the step is summed by fewer orders.
     crossing: Option<Crossing<T>>,
     /// What was known where the step taken last starts.
@@ -147,6 +160,7 @@ pub struct Memory<S, T, const N: usize, const M: usize> {
 struct Before<T, const N: usize, const M: usize> {
     solved: Solved<T, N, M>,
     rest: [[T; N]; 2],
+    sampling: Sampling<T>,
 }
 
 impl<L, const N: usize, const M: usize> Method<L, N, M> for Taylor
@@ -190,6 +204,7 @@ where
             series: Expansion::new::<L, M>(self.order::<L::Scalar>()),
             is_expanded: false,
             planned: zero,
+            sampling: Sampling { step: zero, distance: zero },
             crossing: None,
             before: None,
         })
@@ -218,7 +233,7 @@ where
         end: L::Scalar,
         statistics: &mut Statistics,
     ) -> Step<L::Scalar, N> {
-        memory.clock.aim(end);
+        self.aim(memory, end);
         let now = memory.clock.now.to_f64();
         if let Err(error) = self.expand(system, memory, statistics) {
             return Step::Failed(Ending::of(error, now));
@@ -228,7 +243,7 @@ where
             return Step::Failed(Ending::TimeTooCoarse { time: now, step: memory.planned.to_f64() });
         }
         statistics.evaluations += 1;
-        let ending = match self.attempt(system, memory, h, time) {
+        let ending = match self.attempt(system, memory, (h, time), statistics) {
             Ok(Attempt::Reached(next)) => {
                 statistics.multipliers_are_unique &= memory.solved.solution.multipliers_are_unique();
                 return Step::Accepted(next);
@@ -252,11 +267,11 @@ where
     }
 
     fn take_back(&self, memory: &mut Self::Memory) -> bool {
-        let Some(Before { solved, rest }) = memory.before.take() else { return false };
+        let Some(Before { solved, rest, sampling }) = memory.before.take() else { return false };
         let (start, h) = (memory.series.start, memory.clock.now - memory.series.start);
         memory.clock.now = start;
         memory.state = State { t: start, q: vector(memory.series.q[0]), v: vector(memory.series.v[0]) };
-        (memory.solved, memory.rest, memory.is_expanded) = (solved, rest, true);
+        (memory.solved, memory.rest, memory.sampling, memory.is_expanded) = (solved, rest, sampling, true);
         self.can_be_shorter(memory, h)
     }
 

@@ -8,16 +8,20 @@ use crate::system::TaylorSeries;
 const PARTS: usize = 8;
 const THIRDS: usize = 40;
 
-/// The series of a root, in powers of (t − t₀)/unit.
-pub(super) struct Root<I, T> {
+/// The series of what is watched, a root or the argument of a steep function, in powers of (t − t₀)/unit.
+pub(super) struct Watched<I, T> {
     value: T,
     /// From order 1.
     coefficients: I,
 }
 
-impl<T: Scalar, I: Iterator<Item = T> + Clone> Root<I, T> {
-    /// Its value, and by how much it changes at most in a step of this length. Mostly that tells that it does not vanish: the
-    /// point where a root ends is seven steps away.
+impl<T: Scalar, I: Iterator<Item = T> + Clone> Watched<I, T> {
+    pub(super) fn new(value: T, coefficients: I) -> Self {
+        Self { value, coefficients }
+    }
+
+    /// Its value, and by how much it changes at most in a step of this length. Mostly that tells that a root does not vanish: the
+    /// point where it ends is seven steps away.
     pub(super) fn value_and_change(&self, length: T) -> [T; 2] {
         let zero = T::constant(0.0);
         let sum = |(sum, power): (T, T), c: T| (sum + (c * power).abs(), power * length);
@@ -25,7 +29,7 @@ impl<T: Scalar, I: Iterator<Item = T> + Clone> Root<I, T> {
     }
 }
 
-impl<T: Real, I: Iterator<Item = T> + Clone> Root<I, T> {
+impl<T: Real, I: Iterator<Item = T> + Clone> Watched<I, T> {
     /// Where in a step of this length the series is least, if it comes below zero.
     fn vanishes(&self, length: T) -> Option<T> {
         let [value, change] = self.value_and_change(length);
@@ -61,13 +65,15 @@ impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
     /// The roots, in powers of the unit of time.
     pub(super) fn series_of_roots<L, const M: usize>(
         &self,
-    ) -> impl Iterator<Item = Root<impl Iterator<Item = T> + Clone, T>>
+    ) -> impl Iterator<Item = Watched<impl Iterator<Item = T> + Clone, T>>
     where
         L: TaylorSeries<N, M, Scalar = T, Sums = S>,
     {
         let coefficients = |place| self.factors.right_factor(place, self.order() - 1);
-        let root =
-            move |(&[place, _], &value): (&[usize; 2], &T)| Root { value, coefficients: coefficients(place) };
+        let root = move |(&[place, _], &value): (&[usize; 2], &T)| Watched {
+            value,
+            coefficients: coefficients(place),
+        };
         L::ROOTS.iter().zip(&self.roots).map(root)
     }
 }

@@ -7,6 +7,7 @@ use nalgebra::ComplexField;
 use super::crossing::Crossing;
 use super::defect::Tried;
 use super::expansion::Solved;
+use super::sampling::{Sampling, few, samples_of_steep};
 use super::{Before, Memory, Taylor};
 use crate::error::Error;
 use crate::number::{Filled, Real, Scalar, vector};
@@ -53,6 +54,19 @@ impl Taylor {
         memory.clock.advances_by(memory.planned)
     }
 
+    /// Turns to the end of the motion; before the first step, plans the longest that it may be.
+    pub(super) fn aim<S, T: Real, const N: usize, const M: usize>(
+        &self,
+        memory: &mut Memory<S, T, N, M>,
+        end: T,
+    ) {
+        memory.clock.aim(end);
+        if memory.planned == T::constant(0.0) {
+            memory.planned = self.first(&memory.state, &memory.solved, memory.clock.left());
+            memory.sampling = Sampling::of_first(memory.planned);
+        }
+    }
+
     /// Expands the motion about the state, and chooses the length of the step, unless that is done.
     pub(super) fn expand<L: TaylorSeries<N, M, Scalar: Real>, const N: usize, const M: usize>(
         &self,
@@ -63,8 +77,8 @@ impl Taylor {
         if memory.is_expanded {
             return Ok(());
         }
-        let Memory { clock, state, solved, series, planned, .. } = memory;
-        let unit = clock.directed(self.unit(*planned, state, solved));
+        let Memory { clock, state, solved, series, planned, sampling, .. } = memory;
+        let unit = clock.directed(Self::unit(*planned));
         let slack = L::Scalar::constant(self.slack::<L::Scalar>());
         let last = series.about(system, state, solved, [unit, slack])?;
         statistics.evaluations += series.order();
@@ -73,8 +87,8 @@ impl Taylor {
         if let Some(row) = first_row::<L, N, M>(|i| !row(i), |_| false) {
             return Err(Error::EquationsNotFinite { row, time: state.t.to_f64() });
         }
-        let before = *planned;
-        *planned = self.choose(last.allowed(), before, clock);
+        let before = if sampling.step > L::Scalar::constant(0.0) { *planned } else { sampling.step };
+        *planned = self.choose(last.allowed(), sampling.longest::<L, N, M>(*planned), clock);
         let may_cross = solved.is_near_dependence(*planned, before);
         memory.crossing = if may_cross { self.cross(series, *planned) } else { None };
         if let Some(crossing) = memory.crossing {
@@ -84,14 +98,15 @@ impl Taylor {
         Ok(())
     }
 
-    /// One step of this length.
+    /// One step of this length, to this time.
     pub(super) fn attempt<L: TaylorSeries<N, M, Scalar: Real>, const N: usize, const M: usize>(
         &self,
         system: &L,
         memory: &mut Memory<L::Sums, L::Scalar, N, M>,
-        h: L::Scalar,
-        time: L::Scalar,
+        (h, time): (L::Scalar, L::Scalar),
+        statistics: &mut Statistics,
     ) -> Result<Attempt<L::Scalar, N>, Error> {
+        let count = self.samples::<L, N, M>(memory, h);
         let Memory { state, rest, series, .. } = memory;
         let [dq, dv, accelerations] = series.change(h);
         let (q, rest_q) = compensated(&state.q.into(), &dq, &rest[0]);
@@ -108,8 +123,18 @@ impl Taylor {
         if let Some(worst) = self.moved([(&q, &next.q.into()), (&v, &next.v.into())]) {
             return Ok(Attempt::Inaccurate(worst));
         }
-        let tried = Tried { series, start: state, end: &next, solved: &solved, length: h, accelerations };
-        if let Some(worst) = tried.inaccurate(system, self)? {
+        let tried = Tried {
+            series,
+            start: state,
+            end: &next,
+            solved: &solved,
+            length: h,
+            accelerations,
+            count,
+            is_near_dependence: memory.crossing.is_some()
+                || [&memory.solved, &solved].iter().any(|solved| solved.is_hardly_independent()),
+        };
+        if let Some(worst) = tried.inaccurate(system, self, statistics)? {
             return Ok(Attempt::Inaccurate(worst));
         }
         let rest = [(q, next.q, rest_q), (v, next.v, rest_v)]
@@ -117,10 +142,30 @@ impl Taylor {
         memory.before = Some(Before {
             solved: core::mem::replace(&mut memory.solved, solved),
             rest: core::mem::replace(&mut memory.rest, rest),
+            sampling: core::mem::replace(&mut memory.sampling, Sampling::after(Scalar::abs(h), count)),
         });
         (memory.state, memory.is_expanded) = (next, false);
         memory.clock.now = time;
         Ok(Attempt::Reached(next))
+    }
+
+    /// Number of samples within a step of this length. Across a pose where constraints are dependent the step's ends tell.
+    fn samples<L: TaylorSeries<N, M, Scalar: Real>, const N: usize, const M: usize>(
+        &self,
+        memory: &Memory<L::Sums, L::Scalar, N, M>,
+        h: L::Scalar,
+    ) -> usize {
+        let Memory { sampling, series, crossing, .. } = memory;
+        let (few, count) = (few::<L, N, M>(), sampling.count::<L, N, M>(Scalar::abs(h)));
+        let measures = [self.tolerance::<L::Scalar>(), self.slack::<L::Scalar>()];
+        if crossing.is_some() {
+            return few;
+        }
+        let steep = series
+            .steep::<L, M>(h)
+            .map(|([value, change], exponent)| samples_of_steep([value.to_f64(), change.to_f64()], exponent));
+        let least = steep.fold(few, usize::max);
+        if count > least && !series.knows_surroundings(h, measures) { count } else { least }
     }
 }
 

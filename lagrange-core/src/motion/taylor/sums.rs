@@ -69,6 +69,14 @@ impl<T: Scalar, S: Filled<T>> Factors<T, S> {
         })
     }
 
+    /// The coefficients of the left factor of a sum, from order 1, of which there are so many.
+    pub(super) fn left_factor(&self, place: usize, count: usize) -> impl Iterator<Item = T> + Clone {
+        (1..=count).map(move |order| match const { few::are::<T, S>() } {
+            true => self.few.left_factor(place, order),
+            false => self.left[place / WIDTH * self.orders + order - 1].0[place % WIDTH],
+        })
+    }
+
     /// The sums of an order, of the factors of all orders before it. Those of later orders are not read: they may hold NaN.
     /// Orders come one after the other.
     #[inline(always)]

@@ -79,7 +79,7 @@ where
         companion: &mut Self::Companion,
     ) -> Result<(), Ending> {
         let (memory, time) = (&mut run.memory, run.state.t.to_f64());
-        memory.clock.aim(end);
+        self.aim(memory, end);
         let of = |error| Ending::of(error, time);
         self.expand(system, memory, &mut run.statistics).map_err(of)?;
         for (k, (varied, block)) in companion.iter_mut().zip(&variations.blocks).enumerate() {
@@ -180,7 +180,7 @@ impl Taylor {
         let tangent = Tangent::of(system, &memory.state, memory.solved.solution);
         variations.arrive(&tangent)?;
         let length = WideOf::<L, N, M>::of(Scalar::abs(memory.clock.now - memory.series.start));
-        let bound = L::Scalar::constant(self.defect_allowed::<L::Scalar>());
+        let bound = L::Scalar::constant(self.jump_allowed::<L::Scalar>());
         let mut worst = None;
         let look = |k: usize, [_, slope]: Phase<WideOf<L, N, M>, N>| {
             let block = &variations.blocks[k];

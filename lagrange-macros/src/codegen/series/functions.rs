@@ -42,6 +42,9 @@ impl Recurrences {
         if let Some(&known) = self.turns.get(&(sine, x)) {
             return known;
         }
+        if sine == Function::Sinh {
+            self.note_steep(x, 0);
+        }
         let x0 = self.first(x);
         let [s0, c0] = [sine, cosine].map(|function| self.schedule.push(Operation::Function(function, x0)));
         let [s, c] = [s0, c0].map(|first| self.add(first, Some([None; 2])));
@@ -73,6 +76,7 @@ impl Recurrences {
 
     /// Of z′ = z x′: z_k = z₀ x_k + Σ j x_j z_{k−j}/k
     fn grown(&mut self, z0: Register, x: Quantity) -> Quantity {
+        self.note_steep(x, 0);
         self.defined(z0, |of, z| {
             let sum = of.weighted_sum(x, z);
             of.moving(z0, [x], |of, [x]| {
@@ -89,6 +93,9 @@ impl Recurrences {
         let one = self.schedule.constant(1.0);
         let square = self.schedule.push(Operation::Multiply(z0, z0));
         let is_circular = function == Function::Tan;
+        if !is_circular {
+            self.note_steep(x, 0);
+        }
         let slope = if is_circular { Operation::Add(one, square) } else { Operation::Subtract(one, square) };
         let slope = self.schedule.push(slope);
         self.defined(z0, |of, z| {

@@ -3,6 +3,7 @@
 mod functions;
 mod recurrences;
 mod sides;
+mod steep;
 mod sums;
 mod supplied;
 
@@ -41,6 +42,9 @@ pub(super) struct Series {
     /// For each argument of a function that the user supplies the place of a sum whose left factor it is, and of its value among
     /// the slopes.
     arguments: Vec<[usize; 2]>,
+    /// For each argument of a function that may be too small for a series the place of a sum whose left factor it is, of its value
+    /// among the slopes, and the exponent of a power or zero.
+    steep: Vec<[usize; 3]>,
     calls: Vec<CallOnSeries>,
 }
 
@@ -50,11 +54,13 @@ impl Series {
         let mut recurrences = Recurrences::new(equations.balance.len());
         let mut rest = recurrences.right_hand_sides(graph, equations)?;
         let (calls, arguments) = recurrences.calls();
+        let steep = recurrences.steep();
         let sums = recurrences.sums.len().next_multiple_of(WIDTH);
         let (known, factors) = recurrences.factors(sums);
         rest.extend(&known);
         let Recurrences { schedule, roots, .. } = recurrences;
-        let kept: Vec<Register> = roots.iter().chain(&arguments).map(|&(_, value)| value).collect();
+        let values = roots.iter().chain(&arguments).map(|&(_, value)| value);
+        let kept: Vec<Register> = values.chain(steep.iter().map(|&(_, value)| value)).collect();
         let (slopes, [right_hand_sides, factors], kept) =
             Program::of_orders(schedule, [rest, factors], &kept);
         let mut kept = kept.into_iter();
@@ -62,6 +68,11 @@ impl Series {
             all.into_iter().zip(&mut kept).map(|((place, _), slope)| Some([place, slope?])).collect()
         };
         let (roots, arguments): (Option<_>, Option<_>) = (with_slopes(roots), with_slopes(arguments));
+        let steep: Option<_> = steep
+            .into_iter()
+            .zip(kept)
+            .map(|(([place, exponent], _), slope)| Some([place, slope?, exponent]))
+            .collect();
         let series = Self {
             slopes,
             right_hand_sides: right_hand_sides.balanced().fused(),
@@ -70,6 +81,7 @@ impl Series {
             terms: known.len(),
             roots: roots?,
             arguments: arguments?,
+            steep: steep?,
             calls,
         };
         let is_short = |program: &Program| program.count().total() <= OPERATION_LIMIT;
@@ -83,11 +95,11 @@ impl Series {
     }
 }
 
-/// A constant of pairs of places, where there are any.
-fn places((name, pairs): (&str, &Vec<[usize; 2]>)) -> Option<TokenStream> {
+/// A constant of rows of places, where there are any.
+fn places<const K: usize>(name: &str, all: &[[usize; K]]) -> Option<TokenStream> {
     let name = format_ident!("{name}");
-    let [sums, slopes] = [0, 1].map(|i| pairs.iter().map(move |pair| pair[i]));
-    (!pairs.is_empty()).then(|| quote!(const #name: &'static [[usize; 2]] = &[#([#sums, #slopes]),*];))
+    let rows = all.iter().map(|row| quote!([#(#row),*]));
+    (!all.is_empty()).then(|| quote!(const #name: &'static [[usize; #K]] = &[#(#rows),*];))
 }
 
 impl Emitter<'_> {
@@ -123,7 +135,9 @@ impl Emitter<'_> {
         let (runtime, ident, scalar) =
             (runtime(self.declaration), &self.declaration.ident, style.types.scalar);
         let ([n, m, _], slopes) = (style.types.dimensions(), series.slopes());
-        let [roots, arguments] = [("ROOTS", &series.roots), ("ARGUMENTS", &series.arguments)].map(places);
+        let [roots, arguments] = [("ROOTS", &series.roots), ("ARGUMENTS", &series.arguments)]
+            .map(|(name, pairs)| places(name, pairs));
+        let steep = places("STEEP", &series.steep);
         let functions = self.series_functions(series);
         quote! {
             const _: () = {
@@ -137,6 +151,7 @@ impl Emitter<'_> {
                     type SeriesTerms = [#scalar; #terms];
                     #roots
                     #arguments
+                    #steep
                     #tokens
                     #functions
                 }

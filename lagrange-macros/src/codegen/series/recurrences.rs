@@ -6,7 +6,7 @@
 //! proposition 2.1). The sums are all alike and left to the runtime. What remains of an order is a linear function of the
 //! newest coefficients, made of numbers of order 0.
 
-use indexmap::IndexSet;
+use indexmap::{IndexMap, IndexSet};
 use rustc_hash::FxHashMap;
 
 use super::sums::Sum;
@@ -53,6 +53,10 @@ pub(super) struct Recurrences {
     pub(super) sums: IndexSet<Sum>,
     /// Values of roots, each with the place of a sum whose right factor it is.
     pub(super) roots: Vec<(usize, Register)>,
+    /// Arguments of functions that may be too small for a series, and bases of high powers with their exponents.
+    pub(super) steep: IndexMap<Quantity, u32>,
+    /// Bases and exponents of whole powers.
+    pub(super) powers: FxHashMap<Quantity, (Quantity, u32)>,
     /// Calls of functions that the user supplies.
     pub(super) calls: IndexSet<Call<Quantity>>,
     /// Sine and cosine of an angle.
@@ -194,11 +198,13 @@ impl Recurrences {
             [false, true] => self.moving(first, [x], |of, [x]| of.times(y0, x)),
             [false, false] => {
                 let sum = self.product_sum(x, y);
-                self.moving(first, [x, y], |of, [x, y]| {
+                let product = self.moving(first, [x, y], |of, [x, y]| {
                     let (left, right) = (of.times(x0, y), of.times(y0, x));
                     let ends = of.sum(left, right);
                     of.sum(ends, of.known(sum))
-                })
+                });
+                self.note_power([x, y], product);
+                product
             }
         }
     }

@@ -84,12 +84,17 @@ impl Recurrences {
         if let Operation::Constant(bits) = self.schedule.operations[first.index()] {
             return Argument::Constant(bits);
         }
-        let (place, _) = self.sums.insert_full(Sum::Argument(x));
+        let place = self.argument_place(x);
         let known = kept.iter().position(|&(known, _)| known == place);
         Argument::Kept(known.unwrap_or_else(|| {
             kept.push((place, first));
             kept.len() - 1
         }))
+    }
+
+    /// A place among the sums where a series is kept.
+    pub(super) fn argument_place(&mut self, x: Quantity) -> usize {
+        self.sums.insert_full(Sum::Argument(x)).0
     }
 }
 

@@ -69,6 +69,13 @@ impl<S: Copy> Few<S> {
         ends.newest = *newest;
     }
 
+    pub(super) fn left_factor<T: Copy>(&self, place: usize, order: usize) -> T
+    where
+        S: Filled<T>,
+    {
+        self.left[order - 1].0.as_ref()[place]
+    }
+
     pub(super) fn right_factor<T: Copy>(&self, place: usize, order: usize) -> T
     where
         S: Filled<T>,

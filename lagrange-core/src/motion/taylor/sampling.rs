@@ -1,0 +1,136 @@
+//! The times within a step at which a series is held against the equations.
+//!
+//! A force that vanishes to round-off at the start of a step is not in the series of its motion, however strong it is farther on:
+//! a Gaussian pulse, a step of the potential by tanh. Samples of the equations find it. They lie at most [twice](WIDER) as
+//! far apart as those of the step before, or there are [`MOST`] of them; where the terms of the series fade as those of a
+//! step of its length do, the series knows its surroundings, and few samples will do.
+
+use super::expansion::Expansion;
+use super::roots::Watched;
+use crate::number::{Filled, Real, Scalar, smaller};
+use crate::system::TaylorSeries;
+
+/// Largest number of samples within a step. Each costs an evaluation of the equations, a thirtieth of a step or so.
+const MOST: usize = 128;
+/// Growth of the distance between samples from step to step.
+const WIDER: f64 = 2.0;
+/// Growth of the length from step to step.
+const GROWTH: f64 = 10.0;
+/// The first sample, in distances between samples: no simple fraction, so that a periodic force is not met at its zeros alone.
+const SHIFT: f64 = 0.927;
+/// Samples within every step with functions that the user supplies: they may have kinks.
+const AT_KINKS: usize = 3;
+/// Where the argument of a steep function, or the logarithm of a power, changes by more, a series of few orders may not have the
+/// function: by 8 an exponential grows three thousand times.
+const STEEP: f64 = 8.0;
+/// There a sample lies in each change by that, from which a peak is seen to 10⁻⁴ of it at least. Beyond this distance from zero a
+/// function is too small to matter, or does not change: e⁻¹⁰⁰ is 10⁻⁴⁴.
+const FAR: f64 = 100.0;
+/// So many coefficients tell whether a series knows its surroundings.
+const MIDDLE: usize = 5;
+
+/// How far the last step went, and how far its samples lay apart.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sampling<T> {
+    /// Length of the last step, zero before the first.
+    pub(super) step: T,
+    pub(super) distance: T,
+}
+
+impl<T: Real> Sampling<T> {
+    /// Before a first step that is at most so long.
+    pub(super) fn of_first(longest: T) -> Self {
+        Self { step: T::constant(0.0), distance: longest / T::constant(WIDER * MOST as f64) }
+    }
+
+    /// After a step of this length, with so many samples within.
+    pub(super) fn after(length: T, count: usize) -> Self {
+        Self { step: length, distance: length / T::constant((count + 1) as f64) }
+    }
+
+    /// Longest next step, where the first was to be at most `first`.
+    pub(super) fn longest<L, const N: usize, const M: usize>(&self, first: T) -> T
+    where
+        L: TaylorSeries<N, M>,
+    {
+        match (is_linear::<L, N, M>(), self.step > T::constant(0.0)) {
+            (true, _) => T::constant(f64::INFINITY),
+            (false, true) => T::constant(GROWTH) * self.step,
+            (false, false) => first,
+        }
+    }
+
+    /// Number of samples in a step of this length whose series may not know its surroundings.
+    pub(super) fn count<L, const N: usize, const M: usize>(&self, length: T) -> usize
+    where
+        L: TaylorSeries<N, M>,
+    {
+        let few = few::<L, N, M>();
+        if is_linear::<L, N, M>() {
+            return few;
+        }
+        let distances = length / (T::constant(WIDER) * self.distance);
+        (smaller(distances, T::constant(MOST as f64)).to_f64() as usize).max(few)
+    }
+}
+
+impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
+    /// Values of the arguments of steep functions, by how much they change at most in a step of this length, and their exponents.
+    pub(super) fn steep<L, const M: usize>(&self, length: T) -> impl Iterator<Item = ([T; 2], usize)>
+    where
+        L: TaylorSeries<N, M, Scalar = T, Sums = S>,
+    {
+        let theta = length / self.unit;
+        let steep = move |(&[place, _, exponent], &value): (&[usize; 3], &T)| {
+            let watched = Watched::new(value, self.factors.left_factor(place, self.order() - 1));
+            (watched.value_and_change(theta), exponent)
+        };
+        L::STEEP.iter().zip(&self.steep).map(steep)
+    }
+}
+
+/// Number of samples that a function asks for whose argument has this value, and changes by so much in a step: e^x and tanh x,
+/// or x^exponent.
+pub(super) fn samples_of_steep([value, change]: [f64; 2], exponent: usize) -> usize {
+    let (value, change) = (value.abs(), change.abs());
+    let is_far = exponent == 0 && value - change > FAR;
+    let logarithm = if exponent == 0 { change } else { exponent as f64 * change / value };
+    match logarithm <= STEEP || is_far {
+        true => 0,
+        // Not a number where base and change are zero.
+        false => smaller(logarithm / STEEP, MOST as f64) as usize,
+    }
+}
+
+impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
+    /// Whether terms of middle orders matter in a step of this length, as they do in one that the last terms limit.
+    #[cold]
+    pub(super) fn knows_surroundings(&self, length: T, [tolerance, slack]: [f64; 2]) -> bool {
+        let (scales, theta) = (self.scales(T::constant(slack)), Scalar::abs(length / self.unit));
+        let first = (self.order() / 4).max(1);
+        let powers = (0..first + MIDDLE).scan(T::constant(1.0), |power, _| {
+            let this = *power;
+            *power = this * theta;
+            Some(this)
+        });
+        let mut terms =
+            powers.enumerate().skip(first).map(|(order, power)| self.size(order, &scales) * power);
+        terms.any(|term| term >= T::constant(tolerance))
+    }
+}
+
+/// Number of samples within a step whose series knows its surroundings: its ends will do.
+pub(super) const fn few<L: TaylorSeries<N, M>, const N: usize, const M: usize>() -> usize {
+    if L::ARGUMENTS.is_empty() { 0 } else { AT_KINKS }
+}
+
+/// Whether the equations are linear with constant coefficients, so that the start of a motion tells the whole of it: no products
+/// of series.
+pub(super) const fn is_linear<L: TaylorSeries<N, M>, const N: usize, const M: usize>() -> bool {
+    size_of::<L::Sums>() == 0 && L::ARGUMENTS.is_empty()
+}
+
+/// Where the samples of a step lie, as parts of it.
+pub(super) fn parts(count: usize) -> impl Iterator<Item = f64> {
+    (0..count).map(move |k| (k as f64 + SHIFT) / (count + 1) as f64)
+}
