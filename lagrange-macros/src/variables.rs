@@ -36,8 +36,10 @@ pub(crate) enum Variable {
     Order,
     /// … 1 over it …
     OrderReciprocal,
-    /// … and 1 over the next.
-    NextReciprocal,
+    /// … a multiple of all orders over the next …
+    NextWeight,
+    /// … and 1 over the square of that multiple.
+    WeightsReciprocal,
     /// What the Hamiltonian is a function of in the place of velocities.
     Momentum(usize),
     /// What a round of a loop in emitted code is given.
@@ -67,7 +69,8 @@ impl Variable {
             Self::Momentum(i) => (17, i),
             Self::Term(k) => (18, k),
             Self::Given(k) => (19, k),
-            Self::NextReciprocal => (20, 0),
+            Self::NextWeight => (20, 0),
+            Self::WeightsReciprocal => (21, 0),
         };
         Symbol { family, index: index as u32 }
     }
@@ -89,7 +92,8 @@ impl Variable {
                 | Self::Term(_)
                 | Self::Order
                 | Self::OrderReciprocal
-                | Self::NextReciprocal
+                | Self::NextWeight
+                | Self::WeightsReciprocal
         )
     }
 
@@ -116,7 +120,8 @@ impl Variable {
             17 => Self::Momentum(index),
             18 => Self::Term(index),
             19 => Self::Given(index),
-            _ => Self::NextReciprocal,
+            20 => Self::NextWeight,
+            _ => Self::WeightsReciprocal,
         }
     }
 }

@@ -3,6 +3,7 @@
 mod classics;
 mod constrained;
 mod control;
+mod drift;
 mod events;
 mod functions;
 mod references;

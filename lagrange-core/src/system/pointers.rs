@@ -122,13 +122,13 @@ macro_rules! forward {
                 fn series_right_hand_sides(
                     slopes: &Self::SeriesSlopes,
                     sums: &Self::Sums,
-                    order: &[Self::Scalar; 3],
+                    order: &[Self::Scalar; 4],
                     direction: &Direction<Self::Scalar, N>
                 ) -> (RightHandSides<Self::Scalar, N, M>, Self::SeriesTerms);
                 fn series_factors(
                     slopes: &Self::SeriesSlopes,
                     terms: &Self::SeriesTerms,
-                    order: &[Self::Scalar; 3],
+                    order: &[Self::Scalar; 4],
                     direction: &Direction<Self::Scalar, N>,
                     accelerations: &SVector<Self::Scalar, N>,
                     multipliers: &SVector<Self::Scalar, M>

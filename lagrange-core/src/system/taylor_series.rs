@@ -56,14 +56,14 @@ pub trait TaylorSeries<const N: usize, const M: usize>: Lagrangian<N, M> {
         let _ = (order, arguments, sums);
     }
 
-    /// What stands for h and γ where the coefficients of accelerations and multipliers are solved for, of an order that is
-    /// given with its reciprocal and that of the next; `direction` has the coefficients of time, coordinates and velocities of that order. Beside
+    /// What stands for h and γ where the coefficients of accelerations and multipliers are solved for, of an order k that is
+    /// given as k, 1/k, c/(k + 1) and 1/c², where c is a multiple of all orders; `direction` has the coefficients of time, coordinates and velocities of that order. Beside
     /// that what is known by then of the factors of the sums.
     fn series_right_hand_sides(
         &self,
         slopes: &Self::SeriesSlopes,
         sums: &Self::Sums,
-        order: &[Self::Scalar; 3],
+        order: &[Self::Scalar; 4],
         direction: &Direction<Self::Scalar, N>,
     ) -> (RightHandSides<Self::Scalar, N, M>, Self::SeriesTerms);
 
@@ -72,7 +72,7 @@ pub trait TaylorSeries<const N: usize, const M: usize>: Lagrangian<N, M> {
         &self,
         slopes: &Self::SeriesSlopes,
         terms: &Self::SeriesTerms,
-        order: &[Self::Scalar; 3],
+        order: &[Self::Scalar; 4],
         direction: &Direction<Self::Scalar, N>,
         accelerations: &SVector<Self::Scalar, N>,
         multipliers: &SVector<Self::Scalar, M>,

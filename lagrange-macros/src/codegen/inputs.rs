@@ -148,7 +148,8 @@ impl Style<'_> {
             Variable::Term(k) => (quote!(terms), k),
             Variable::Order => (quote!(order), 0),
             Variable::OrderReciprocal => (quote!(order), 1),
-            Variable::NextReciprocal => (quote!(order), 2),
+            Variable::NextWeight => (quote!(order), 2),
+            Variable::WeightsReciprocal => (quote!(order), 3),
             Variable::Time
             | Variable::Change(0)
             | Variable::Parameter(_)

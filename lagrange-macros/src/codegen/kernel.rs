@@ -167,7 +167,9 @@ fn source(symbol: Symbol) -> Argument {
         Variable::Slope(_) => Argument::Slopes,
         Variable::Sum(_) => Argument::Sums,
         Variable::Term(_) => Argument::Terms,
-        Variable::Order | Variable::OrderReciprocal | Variable::NextReciprocal => Argument::Order,
+        Variable::Order | Variable::OrderReciprocal | Variable::NextWeight | Variable::WeightsReciprocal => {
+            Argument::Order
+        }
     }
 }
 

@@ -91,7 +91,7 @@ impl Types<'_> {
             Argument::SeriesSlopes => quote!(&Self::SeriesSlopes),
             Argument::Sums => quote!(&Self::Sums),
             Argument::Terms => quote!(&Self::SeriesTerms),
-            Argument::Order => quote!(&[#scalar; 3]),
+            Argument::Order => quote!(&[#scalar; 4]),
             Argument::Forcing => quote!(&__lagrange::nalgebra::SVector<#scalar, #n>),
             Argument::Bias => quote!(&__lagrange::nalgebra::SVector<#scalar, #m>),
             Argument::Index => quote!(usize),

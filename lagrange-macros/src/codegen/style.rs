@@ -111,7 +111,8 @@ impl<'a> Style<'a> {
         }
         names.insert(Variable::Order.symbol(), unique("k".to_owned()));
         names.insert(Variable::OrderReciprocal.symbol(), unique("reciprocal_k".to_owned()));
-        names.insert(Variable::NextReciprocal.symbol(), unique("reciprocal_next".to_owned()));
+        names.insert(Variable::NextWeight.symbol(), unique("weight_next".to_owned()));
+        names.insert(Variable::WeightsReciprocal.symbol(), unique("reciprocal_weights".to_owned()));
         let (n, m) = (problem.coordinates.len(), problem.constraints.len());
         let types = Types {
             scalar,

@@ -70,7 +70,12 @@ impl Recurrences {
             let [left, right] = factors.map(|factor| factor.and_then(|factor| self.term(factor, &mut known)));
             let [left, right] = match sum {
                 Sum::Weighted(..) => [self.times_input(Variable::Order, left), right],
-                Sum::Mean(..) => [left, right].map(|x| self.times_input(Variable::NextReciprocal, x)),
+                // Weights are exact, and what takes them out of the sum is so nearly: 1/(k + 1) is rounded to the same side in
+                // every step, by which constraints were missed and energy drifted.
+                Sum::Mean(..) => {
+                    let [left, right] = [left, right].map(|x| self.times_input(Variable::NextWeight, x));
+                    [left, self.times_input(Variable::WeightsReciprocal, right)]
+                }
                 _ => [left, right],
             };
             (terms[place], terms[count + place]) = (left.unwrap_or(zero), right.unwrap_or(zero));

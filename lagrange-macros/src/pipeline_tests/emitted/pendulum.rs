@@ -503,7 +503,7 @@ const _: () = {
             &self,
             slopes: &Self::SeriesSlopes,
             sums: &Self::Sums,
-            order: &[f64; 3],
+            order: &[f64; 4],
             direction: &__lagrange::Direction<f64, 1usize>,
         ) -> (
             (
@@ -546,7 +546,7 @@ const _: () = {
             &self,
             slopes: &Self::SeriesSlopes,
             terms: &Self::SeriesTerms,
-            order: &[f64; 3],
+            order: &[f64; 4],
             direction: &__lagrange::Direction<f64, 1usize>,
             accelerations: &__lagrange::nalgebra::SVector<f64, 1usize>,
             multipliers: &__lagrange::nalgebra::SVector<f64, 0usize>,
