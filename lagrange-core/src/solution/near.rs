@@ -5,10 +5,12 @@
 //! *Geometric Numerical Integration*, IV.4), and those of the coordinates follow the constraints on velocities too.
 //! Lanes go together, and what becomes of one depends on no other.
 
+use core::array::from_fn;
+
 use nalgebra::SVector;
 
 use super::consistent::Level;
-use crate::number::{Real, Scalar, sum};
+use crate::number::{Real, Scalar, sum, vector};
 use crate::system::{Lagrangian, State};
 
 /// When a correction is made, and how many at most.
@@ -26,15 +28,19 @@ pub(crate) const TO_ROUND_OFF: Corrections = Corrections { beyond: 4.0, most: 3 
 #[cfg(feature = "alloc")]
 pub(crate) const ONCE: Corrections = Corrections { beyond: 0.0, most: 1 };
 
-/// The state on the constraints of these levels, and a doubt: zero where it is there to round-off, lane by lane, in the
-/// precision of `R`.
+/// The state on the constraints of these levels, with what rounding leaves of it, and a doubt: zero where it is there to
+/// round-off, lane by lane, in the precision of `R`.
+///
+/// `rest` is what rounding has left of coordinates and velocities before, and is rounded with the corrections: most of these are
+/// less than a unit of round-off, and alone they are rounded to one side more often than to the other.
 #[inline]
 pub(crate) fn project<L, R, const N: usize, const M: usize>(
     system: &L,
     levels: &[Level],
     corrections: Corrections,
     mut state: State<L::Scalar, N>,
-) -> (State<L::Scalar, N>, L::Scalar)
+    mut rest: [[L::Scalar; N]; 2],
+) -> (State<L::Scalar, N>, [[L::Scalar; N]; 2], L::Scalar)
 where
     L: Lagrangian<N, M>,
     R: Real,
@@ -54,13 +60,39 @@ where
             // Where the factor cannot be vouched for, that is no number, nor is what is left then.
             let correction = system.solve_with(&factor, &SVector::from_element(zero), &residual);
             // A lane that is there stays as it is, be the others where they are.
-            let unknowns = level.unknowns(&mut state);
-            let moved = |x: L::Scalar, change| left.by_order(zero, x, x, x + change);
-            *unknowns = unknowns.zip_map(&correction.accelerations, moved);
+            let (unknowns, rest) = (level.unknowns(&mut state), &mut rest[level as usize]);
+            let x = (*unknowns).into();
+            let (moved, left_over) = compensated(&x, &correction.accelerations.into(), rest);
+            let chosen = |x: L::Scalar, moved| left.by_order(zero, x, x, moved);
+            *unknowns = vector(from_fn(|i| chosen(x[i], moved[i])));
+            *rest = from_fn(|i| chosen(rest[i], left_over[i]));
         };
         doubt = doubt + excess(&residual, &size, 16.0 * R::EPSILON);
     }
-    (state, doubt)
+    (state, rest, doubt)
+}
+
+/// The sum, and what rounding has left of it (Knuth, *The Art of Computer Programming*, 4.2.2, theorem B). What has been left
+/// before is added last: the change may be as large as the sum, and would round it off.
+#[inline(always)]
+pub(crate) fn compensated<T: Scalar, const N: usize>(
+    x: &[T; N],
+    change: &[T; N],
+    rest: &[T; N],
+) -> ([T; N], [T; N]) {
+    let sums: [[T; 2]; N] = from_fn(|i| {
+        let [sum, left] = exact_sum(x[i], change[i]);
+        exact_sum(sum, left + rest[i])
+    });
+    (sums.map(|[sum, _]| sum), sums.map(|[_, rest]| rest))
+}
+
+/// A sum as two numbers.
+#[inline(always)]
+fn exact_sum<T: Scalar>(x: T, y: T) -> [T; 2] {
+    let sum = x + y;
+    let added = sum - x;
+    [sum, (x - (sum - added)) + (y - added)]
 }
 
 /// How many of these are more than this part of their size; no number where one is none.

@@ -207,7 +207,9 @@ where
         L: Lagrangian<N, M, Scalar = f64>,
     {
         let state = State { t: self.end.into(), q: vector(next[0]), v: vector(next[1]) };
-        let (near, doubt) = near::project::<_, f64, N, M>(&self.system, &BOTH, near::TO_ROUND_OFF, state);
+        let none = [[Lanes::constant(0.0); N]; 2];
+        let (near, _, doubt) =
+            near::project::<_, f64, N, M>(&self.system, &BOTH, near::TO_ROUND_OFF, state, none);
         let is_there = doubt.to_array().map(|doubt| doubt == 0.0);
         let chosen = Lanes::from(is_there.map(|is_there| if is_there { 1.0 } else { 0.0 }));
         let before = *next;

@@ -9,7 +9,6 @@ use super::control::Last;
 use super::defect::part;
 use super::expansion::Expansion;
 use super::sampling::{Sampling, few, parts, samples_of_steep};
-use super::step::{compensated, left};
 use super::{Memory, Taylor, TaylorPolynomial};
 use crate::error::Error;
 use crate::motion::Interpolant;
@@ -17,7 +16,7 @@ use crate::motion::lanes::{Fate, LaneMethod, Seats, Trust, unpacked};
 use crate::number::{Filled, Lanes, Scalar, vector};
 use crate::solution::consistent::BOTH;
 use crate::solution::flow::Phase;
-use crate::solution::near;
+use crate::solution::near::{self, compensated};
 use crate::statistics::Statistics;
 use crate::system::{Pack, Packed, RightHandSides, Solution, State, TaylorSeries};
 
@@ -223,9 +222,11 @@ where
         let [dq, dv, accelerations] = self.series.change(h);
         let (q, rest_q) = compensated(&y[0], &dq, &rest[0]);
         let (v, rest_v) = compensated(&y[1], &dv, &rest[1]);
-        let (mut state, mut doubt) = (State { t, q: vector(q), v: vector(v) }, Lanes::constant(0.0));
+        let (mut state, mut rest, mut doubt) =
+            (State { t, q: vector(q), v: vector(v) }, [rest_q, rest_v], Lanes::constant(0.0));
         if M > 0 {
-            (state, doubt) = near::project::<_, f64, N, M>(&self.system, &BOTH, near::ONCE, state);
+            (state, rest, doubt) =
+                near::project::<_, f64, N, M>(&self.system, &BOTH, near::ONCE, state, rest);
         }
         let solution = self.system.accelerations_unchecked(&state);
         trust.solution(&solution);
@@ -244,7 +245,6 @@ where
         }
         let [doubt, worst] = [doubt, worst].map(Lanes::to_array);
         let y = [state.q.into(), state.v.into()];
-        let rest = [left(&q, &y[0], &rest_q), left(&v, &y[1], &rest_v)];
         self.next = Place { y, rest, solution };
         let (keeps_roots, is_steep) = (self.keeps_roots(h), self.is_steep(h));
         from_fn(|lane| {

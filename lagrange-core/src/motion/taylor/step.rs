@@ -1,7 +1,5 @@
 //! One step: where the series about its start leads, and what becomes of it.
 
-use core::array::from_fn;
-
 use nalgebra::ComplexField;
 
 use super::crossing::Crossing;
@@ -12,7 +10,7 @@ use super::{Before, Memory, Taylor};
 use crate::error::Error;
 use crate::number::{Filled, Real, Scalar, vector};
 use crate::solution::consistent::{BOTH, project_by};
-use crate::solution::near::ONCE;
+use crate::solution::near::{ONCE, compensated};
 use crate::solution::solve::first_row;
 use crate::statistics::Statistics;
 use crate::system::{State, TaylorSeries};
@@ -115,7 +113,8 @@ impl Taylor {
         if let Some(row) = first_row::<L, N, M>(|i| !(q[i].is_finite() && v[i].is_finite()), |_| false) {
             return Err(Error::EquationsNotFinite { row, time: state.t.to_f64() });
         }
-        project_by(ONCE, system, &BOTH, &mut next)?;
+        let mut rest = [rest_q, rest_v];
+        project_by(ONCE, system, &BOTH, &mut next, &mut rest)?;
         let solved = Solved::at(system, &next)?;
         if memory.solved.avoids(&solved) {
             return Ok(Attempt::Inaccurate(0));
@@ -137,8 +136,6 @@ impl Taylor {
         if let Some(worst) = tried.inaccurate(system, self, statistics)? {
             return Ok(Attempt::Inaccurate(worst));
         }
-        let rest = [(q, next.q, rest_q), (v, next.v, rest_v)]
-            .map(|(sum, projected, rest)| left(&sum, &projected.into(), &rest));
         memory.before = Some(Before {
             solved: core::mem::replace(&mut memory.solved, solved),
             rest: core::mem::replace(&mut memory.rest, rest),
@@ -167,25 +164,4 @@ impl Taylor {
         let least = steep.fold(few, usize::max);
         if count > least && !series.knows_surroundings(h, measures) { count } else { least }
     }
-}
-
-/// The sum, and what rounding has left of it (Knuth, *The Art of Computer Programming*, 4.2.2, theorem B).
-pub(super) fn compensated<T: Scalar, const N: usize>(
-    x: &[T; N],
-    change: &[T; N],
-    rest: &[T; N],
-) -> ([T; N], [T; N]) {
-    let change: [T; N] = from_fn(|i| change[i] + rest[i]);
-    let sum: [T; N] = from_fn(|i| x[i] + change[i]);
-    let rest = from_fn(|i| {
-        let added = sum[i] - x[i];
-        (x[i] - (sum[i] - added)) + (change[i] - added)
-    });
-    (sum, rest)
-}
-
-/// Of a sum that was projected nothing is left.
-pub(super) fn left<T: Scalar, const N: usize>(sum: &[T; N], projected: &[T; N], rest: &[T; N]) -> [T; N] {
-    let zero = T::constant(0.0);
-    from_fn(|i| projected[i].by_order(sum[i], zero, rest[i], zero))
 }

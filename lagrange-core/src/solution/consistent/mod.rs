@@ -103,26 +103,33 @@ pub(crate) fn project<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M
     levels: &[Level],
     state: &mut State<L::Scalar, N>,
 ) -> Result<(), Error> {
-    project_by(near::TO_ROUND_OFF, system, levels, state)
+    project_by(near::TO_ROUND_OFF, system, levels, state, &mut none())
 }
 
-/// The same by these corrections, as long as the state is that near.
+/// Nothing is left by rounding of coordinates and velocities.
+fn none<T: Scalar, const N: usize>() -> [[T; N]; 2] {
+    [[T::constant(0.0); N]; 2]
+}
+
+/// The same by these corrections, as long as the state is that near, with what rounding leaves of coordinates and velocities.
 #[inline]
 pub(crate) fn project_by<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     corrections: near::Corrections,
     system: &L,
     levels: &[Level],
     state: &mut State<L::Scalar, N>,
+    rest: &mut [[L::Scalar; N]; 2],
 ) -> Result<(), Error> {
     // Of a constant, nothing is compiled of what can never be reached.
     if const { M == 0 } || !levels.iter().any(|level| level.concerns::<L, N, M>()) {
         return Ok(());
     }
-    let (near, doubt) = near::project::<L, L::Scalar, N, M>(system, levels, corrections, *state);
+    let (near, left, doubt) = near::project::<L, L::Scalar, N, M>(system, levels, corrections, *state, *rest);
     if doubt == L::Scalar::constant(0.0) {
-        *state = near;
+        (*state, *rest) = (near, left);
         return Ok(());
     }
+    *rest = none();
     project_in_general(system, levels, state)
 }
 
