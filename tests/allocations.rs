@@ -39,11 +39,23 @@ fn the_counter_counts() {
     assert!(measure(|| drop(std::hint::black_box(vec![0_u8; 1000]))).bytes_total >= 1000);
 }
 
-/// From the start on, with inputs, looks into steps, states set, samples, and the way back.
+/// A motion that has its room, that for what lies within a step included.
+fn begun<L: Lagrangian<N, M, Scalar = f64>, P: Method<L, N, M>, const N: usize, const M: usize>(
+    system: L,
+    start: State<f64, N>,
+    method: P,
+) -> Motion<L, P, N, M> {
+    let mut motion = Motion::new(system, start, method).expect("a start");
+    motion.advance_by(1e-3).expect("no end before");
+    motion.at(motion.state().t - 1e-9).expect("within the last step");
+    motion
+}
+
+/// With inputs, looks into steps, states set, samples, and the way back.
 fn steer(method: impl Method<Acrobot, 2, 0> + Method<Pendulum, 2, 1> + Copy) {
+    let start = State::new([0.1, 0.2], [0.0, 0.0]);
+    let mut motion = begun(Acrobot { g: 9.81, u: 0.0 }, start, method);
     free(|| {
-        let start = State::new([0.1, 0.2], [0.0, 0.0]);
-        let mut motion = Motion::new(Acrobot { g: 9.81, u: 0.0 }, start, method).expect("a start");
         for k in 1..=1000 {
             motion.system_mut().u = motion.state().q[1];
             motion.advance_to(0.01 * f64::from(k)).expect("no end before");
@@ -53,9 +65,9 @@ fn steer(method: impl Method<Acrobot, 2, 0> + Method<Pendulum, 2, 1> + Copy) {
         motion.set_state(start).expect("a state");
         sum
     });
+    let start = State::new([0.6, -0.8], [0.8, 0.6]);
+    let mut motion = begun(Pendulum { g: 9.81, l: 1.0, u: 0.0 }, start, method);
     free(|| {
-        let start = State::new([0.6, -0.8], [0.8, 0.6]);
-        let mut motion = Motion::new(Pendulum { g: 9.81, l: 1.0, u: 0.0 }, start, method).expect("a start");
         for k in 1..=100 {
             motion.system_mut().u = -motion.state().v[0];
             motion.advance_to(0.01 * f64::from(k)).expect("no end before");
@@ -70,6 +82,11 @@ fn a_steered_motion_allocates_nothing() {
     steer(Dopri5::default().fixed_step(0.01));
     steer(RungeKutta4::with_step(0.01));
     let (mut acrobot, mut state) = (Acrobot { g: 9.81, u: 0.0 }, State::at_rest([0.1, 0.2]));
+    // From the start on.
+    free(|| {
+        let mut motion = Motion::new(acrobot, state, RungeKutta4::with_step(0.01)).expect("a start");
+        motion.advance_to(1.0).expect("no end before");
+    });
     free(|| {
         for _ in 0..1000 {
             acrobot.u = state.q[1];
@@ -82,18 +99,17 @@ fn a_steered_motion_allocates_nothing() {
 #[test]
 fn memory_does_not_grow_with_the_steps() {
     let pendulum = Pendulum { g: 9.81, l: 1.0, u: 0.0 };
+    let method = Dopri5::default().max_step(1e-3).max_steps(usize::MAX);
+    let mut motion = begun(&pendulum, State::new([0.6, -0.8], [0.8, 0.6]), method);
     free(|| {
-        let method = Dopri5::default().max_step(1e-3).max_steps(usize::MAX);
-        let mut motion =
-            Motion::new(&pendulum, State::new([0.6, -0.8], [0.8, 0.6]), method).expect("a start");
         motion.advance_to(100.0).expect("no end before");
         let states = motion.states_at((0..=1000).map(|k| 100.0 + 0.1 * f64::from(k)));
         assert_eq!(states.filter(Result::is_ok).count(), 1001);
         assert!(motion.statistics().accepted >= 200_000);
     });
     let phase = pendulum.phase_state(&State::new([0.6, -0.8], [0.8, 0.6]));
+    let mut motion = Motion::in_momenta(&pendulum, phase, Dop853::default()).expect("a start");
     free(|| {
-        let mut motion = Motion::in_momenta(&pendulum, phase, Dop853::default()).expect("a start");
         motion.advance_to(20.0).expect("no end before");
     });
 }
@@ -102,11 +118,10 @@ fn memory_does_not_grow_with_the_steps() {
 #[test]
 fn events_allocate_nothing() {
     let pendulum = Pendulum { g: 9.81, l: 1.0, u: 0.0 };
+    let mut motion = begun(&pendulum, State::new([0.6, -0.8], [0.8, 0.6]), Dop853::default());
     free(|| {
         let mut turns = pendulum.event("turns", |s| s.velocity("x"));
         let mut pulls = pendulum.event("pulls", |s| Ok(s.multiplier("rod")? + 12.0));
-        let start = State::new([0.6, -0.8], [0.8, 0.6]);
-        let mut motion = Motion::new(&pendulum, start, Dop853::default()).expect("a start");
         let mut count = 0;
         while let Some(crossing) =
             motion.advance_to_event(20.0, &mut [&mut turns, &mut pulls]).expect("a motion")

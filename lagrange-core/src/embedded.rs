@@ -17,7 +17,8 @@
 //! decision. What nobody can vouch for is NaN; look at it once a step. A [`Motion`](crate::Motion) with
 //! [`RungeKutta4`](crate::RungeKutta4) does the same, projected onto the constraints and with errors by name;
 //! with [`Dopri5`](crate::Dopri5) and a tolerance it takes as many steps as that demands, at most
-//! [`max_steps`](crate::motion::Adaptive::max_steps) an advance. None of them allocates.
+//! [`max_steps`](crate::motion::Adaptive::max_steps) an advance. Without the feature `alloc`
+//! none of them allocates, and with it no step does.
 //!
 //! A motion holds its method's working arrays: some 20 times 2N numbers for `Dopri5` and `Dop853`, 1.6 kB for ten coordinates in
 //! `f32`, three states for `RungeKutta4`. The step by itself needs the stack for four slopes.

@@ -158,6 +158,7 @@ pub mod motion;
 mod names;
 mod number;
 pub mod prelude;
+mod room;
 mod solution;
 mod statistics;
 mod system;

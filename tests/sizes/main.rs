@@ -2,6 +2,7 @@
 //! compiles them in release, with a limit on processor time, and many more.
 
 mod oscillators;
+mod stack;
 
 oscillators!(free_31, f64, 31);
 oscillators!(free_32, f64, 32);

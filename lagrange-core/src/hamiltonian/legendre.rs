@@ -23,13 +23,12 @@ pub(crate) fn invert<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M:
     guess: &[L::Scalar; N],
     active: Option<&[bool; M]>,
 ) -> Result<State<L::Scalar, N>, Error> {
-    let mut inversion = Inversion { system, phase, active: active.copied().unwrap_or([true; M]) };
+    let inversion = Inversion { system, phase, active: active.copied().unwrap_or([true; M]) };
     let state = State { t: phase.t, q: phase.q, v: vector(*guess) };
-    if let Some(state) = inversion.at_once(state) {
-        return Ok(state);
+    match inversion.at_once(state) {
+        Some(state) => Ok(state),
+        None => inversion.by_steps(state),
     }
-    let start = inversion.trial(state, [L::Scalar::constant(0.0); M]);
-    newton::find(&mut inversion, start).map(|(found, _)| found.state)
 }
 
 struct Inversion<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
@@ -109,6 +108,13 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Inversio
             }
         }
         Some(state)
+    }
+
+    /// By as many of Newton's steps as it takes. A function of its own, for its matrices are large.
+    #[inline(never)]
+    fn by_steps(mut self, state: State<L::Scalar, N>) -> Result<State<L::Scalar, N>, Error> {
+        let start = self.trial(state, [L::Scalar::constant(0.0); M]);
+        newton::find(&mut self, start).map(|(found, _)| found.state)
     }
 
     fn trial(&self, state: State<L::Scalar, N>, multipliers: [L::Scalar; M]) -> Trial<L::Scalar, N, M> {

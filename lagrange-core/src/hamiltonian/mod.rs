@@ -138,8 +138,8 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
         method: P,
         watch: impl FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<Trajectory<&Self, N, M, HamiltonianFlow>, Error> {
-        run::drive::<_, _, _, N, M, false>(self, self.legendre(&phase)?, end, &method, &mut [], watch)?
-            .finished()
+        run::drive::<_, _, _, N, M, false>(self, self.legendre(&phase)?, end, &method, &mut [], watch)
+            .and_then(Trajectory::finished)
     }
 
     /// The motion by Hamilton's equations as far as it gets on the way to `end`; [`Trajectory::ending`] tells why it gets no

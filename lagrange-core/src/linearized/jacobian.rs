@@ -41,7 +41,10 @@ pub(super) fn state_jacobian<L, const N: usize, const M: usize>(
 where
     L: StateDerivatives<N, M, Scalar: Real>,
 {
-    by_state(&Tangent::at(system, state)?)
+    let tangent = Tangent::at(system, state)?;
+    let mut jacobian = Jacobian::of(tangent.solution);
+    jacobian.set_by_state(&tangent)?;
+    Ok(jacobian)
 }
 
 /// See [`Linearized::jacobian`].
@@ -53,7 +56,8 @@ where
     L: Linearized<N, M, P, Scalar: Real>,
 {
     let tangent = Tangent::at(system, state)?;
-    let mut jacobian = by_state(&tangent)?;
+    let mut jacobian = Jacobian::of(tangent.solution);
+    jacobian.set_by_state(&tangent)?;
     let Jacobian { accelerations, multipliers, .. } = &mut jacobian;
     tangent.by_parameters(
         P,
@@ -66,20 +70,22 @@ where
     Ok(jacobian)
 }
 
-/// The derivatives by the time and the state, and zero by parameters.
-fn by_state<L, const N: usize, const M: usize, const P: usize>(
-    tangent: &Tangent<'_, L, N, M>,
-) -> Result<Jacobian<L::Scalar, N, M, P>, Error>
-where
-    L: StateDerivatives<N, M, Scalar: Real>,
-{
-    let mut accelerations = Partials::zero();
-    let mut multipliers = Partials::zero();
-    tangent.along_each(1 + 2 * N, put_argument, name_of::<L, N, M>, |k, change| {
-        accelerations.set(k, &change.accelerations);
-        multipliers.set(k, &change.multipliers);
-    })?;
-    Ok(Jacobian { solution: tangent.solution, accelerations, multipliers })
+impl<T: Real, const N: usize, const M: usize, const P: usize> Jacobian<T, N, M, P> {
+    /// Of what nothing changes.
+    fn of(solution: Solution<T, N, M>) -> Self {
+        Self { solution, accelerations: Partials::zero(), multipliers: Partials::zero() }
+    }
+
+    /// Sets the derivatives by the time and the state, where they stay: matrices are large.
+    fn set_by_state<L>(&mut self, tangent: &Tangent<'_, L, N, M>) -> Result<(), Error>
+    where
+        L: StateDerivatives<N, M, Scalar = T>,
+    {
+        tangent.along_each(1 + 2 * N, put_argument, name_of::<L, N, M>, |k, change| {
+            self.accelerations.set(k, &change.accelerations);
+            self.multipliers.set(k, &change.multipliers);
+        })
+    }
 }
 
 /// Lets argument `k` alone, of the time, the coordinates and the velocities, change in a lane.

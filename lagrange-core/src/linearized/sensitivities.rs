@@ -87,15 +87,15 @@ where
         }
         let along = |run: &mut Run<_, _, N>| {
             method.follow(system, run, variations, &mut companion)?;
-            method.interpolate(system, run, variations, &mut companion, &mut course.coefficients)
+            let (within, coefficients) = (path.interpolants(), &mut course.coefficients);
+            method.interpolate(system, run, variations, &mut companion, within, coefficients)
         };
-        let interpolant =
-            match run.step_with::<L, LagrangianFlow, _, _, M>(system, method, end, &limits, along) {
-                Ok(interpolant) => interpolant,
-                Err(ending) => break ending,
-            };
+        if let Err(ending) = run.step_with::<L, LagrangianFlow, _, _, M>(system, method, end, &limits, along)
+        {
+            break ending;
+        }
         course.push(run.before.t, run.state.t);
-        path.push(run.state, interpolant);
+        path.push(run.state);
         stopped = search.record_in::<LagrangianFlow, _>(&mut path, system, [&run.before, &run.state]);
     };
     let event = path.crossings.last().map(|crossing| crossing.index);

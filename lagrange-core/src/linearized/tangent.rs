@@ -13,6 +13,7 @@ use super::{Direction, Linearized, ResidualChange, StateDerivatives};
 use crate::error::Error;
 use crate::names::Entry;
 use crate::number::{Over, Real, Scalar, Wide};
+use crate::room::Room;
 use crate::solution::kkt::{Factors, Rank};
 use crate::solution::solve::{fault, first_row, is_trustworthy, least_pivot, solve};
 #[cfg(feature = "alloc")]
@@ -35,12 +36,37 @@ pub(crate) type WideOf<L, const N: usize, const M: usize> = <<L as Lagrangian<N,
 /// What the emitted factor does not tell, or cannot vouch for.
 pub(crate) struct Matrices<T, const N: usize, const M: usize> {
     /// The mass matrix, row by row.
-    #[cfg(feature = "alloc")]
-    pub(super) m: [[T; N]; N],
+    pub(super) m: Room<[[T; N]; N]>,
     /// The constraint Jacobian, row by row.
-    #[cfg(feature = "alloc")]
-    pub(super) f: [[T; N]; M],
-    pub(super) factors: Factors<T, N, M>,
+    pub(super) f: Room<[[T; N]; M]>,
+    pub(super) factors: Room<Factors<T, N, M>>,
+}
+
+// Functions of their own, so that no more than one of the matrices is on the stack.
+
+#[inline(never)]
+fn mass_rows<L: Lagrangian<N, M>, const N: usize, const M: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+) -> Room<[[L::Scalar; N]; N]> {
+    Room::of(system.mass_matrix(state).into())
+}
+
+#[inline(never)]
+fn constraint_rows<L: Lagrangian<N, M>, const N: usize, const M: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+) -> Room<[[L::Scalar; N]; M]> {
+    Room::of(system.constraint_jacobian(state).transpose().into())
+}
+
+impl<T: Real, const N: usize, const M: usize> Matrices<T, N, M> {
+    fn at<L: Lagrangian<N, M, Scalar = T>>(system: &L, state: &State<T, N>) -> Self {
+        let (m, f) = (mass_rows(system, state), constraint_rows(system, state));
+        // A change that leaves the constraints may make dependent ones disagree: those left out do not count.
+        let factors = Room::of(Factors::of(&m, &f, Rank::off_constraints()));
+        Self { m, f, factors }
+    }
 }
 
 impl<'a, L, const N: usize, const M: usize> Tangent<'a, L, N, M>
@@ -64,19 +90,7 @@ where
 
     /// Made where they are asked for.
     pub(super) fn matrices(&self) -> &Matrices<L::Scalar, N, M> {
-        self.matrices.get_or_init(|| {
-            let m = self.system.mass_matrix(self.state).into();
-            let f = self.system.constraint_jacobian(self.state).transpose().into();
-            // A change that leaves the constraints may make dependent ones disagree: those left out do not count.
-            let factors = Factors::of(&m, &f, Rank::off_constraints());
-            Matrices {
-                #[cfg(feature = "alloc")]
-                m,
-                #[cfg(feature = "alloc")]
-                f,
-                factors,
-            }
-        })
+        self.matrices.get_or_init(|| Matrices::at(self.system, self.state))
     }
 
     /// The rows of F of holonomic constraints, zeros for the others.

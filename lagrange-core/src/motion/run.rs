@@ -1,6 +1,8 @@
 //! The loop from the first step to the ending, the same for every method.
 
 #[cfg(feature = "alloc")]
+use alloc::vec::Vec;
+#[cfg(feature = "alloc")]
 use core::ops::ControlFlow;
 
 #[cfg(feature = "alloc")]
@@ -55,10 +57,11 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
         P: Method<L, N, M, F, Memory = X>,
     {
         method.check()?;
-        let (state, adjustment) = check_start(system, state)?;
+        let started = check_start(system, state);
+        let &(state, adjustment) = started.as_ref().map_err(Error::clone)?;
         let mut statistics = Statistics::default();
-        let memory = method.begin(system, &state, &mut statistics)?;
-        Ok((Self { memory, state, before: state, statistics }, adjustment))
+        let begun = method.begin(system, &state, &mut statistics);
+        begun.map(|memory| (Self { memory, state, before: state, statistics }, adjustment))
     }
 
     /// One accepted step towards the end.
@@ -105,22 +108,34 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
         method: &P,
         end: T,
         limits: &Watchdog,
-    ) -> Result<P::Interpolant, Ending>
+        within: &mut Within<P::Interpolant>,
+    ) -> Result<(), Ending>
     where
         L: Lagrangian<N, M, Scalar = T>,
         F: Flow<L, N, M>,
         P: Method<L, N, M, F, Memory = X>,
     {
-        self.step_with::<L, F, P, _, M>(
-            system,
-            method,
-            end,
-            limits,
-            |Self { memory, statistics, before, .. }| {
-                let interpolant = method.interpolant(system, memory, statistics);
-                interpolant.map_err(|error| Ending::of(error, before.t.to_f64()))
-            },
-        )
+        self.step_with::<L, F, P, _, M>(system, method, end, limits, |run| {
+            run.look_within::<L, F, P, M>(system, method, within)
+        })
+    }
+
+    /// Puts what lies within the last step there.
+    #[inline(always)]
+    pub(crate) fn look_within<L, F, P, const M: usize>(
+        &mut self,
+        system: &L,
+        method: &P,
+        within: &mut Within<P::Interpolant>,
+    ) -> Result<(), Ending>
+    where
+        L: Lagrangian<N, M, Scalar = T>,
+        F: Flow<L, N, M>,
+        P: Method<L, N, M, F, Memory = X>,
+    {
+        let Self { memory, statistics, before, .. } = self;
+        let found = put_interpolant(system, method, memory, statistics, within);
+        found.map_err(|error| Ending::of(error, before.t.to_f64()))
     }
 
     /// One accepted step with what goes along; where that fails the step is taken back, and a shorter one tried.
@@ -154,6 +169,43 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
     }
 }
 
+/// What lies within steps; without the feature `alloc` within one.
+#[cfg(feature = "alloc")]
+pub(crate) type Within<I> = Vec<I>;
+#[cfg(not(feature = "alloc"))]
+pub(crate) type Within<I> = Option<I>;
+
+/// Forgets it, and keeps the room.
+#[inline]
+pub(super) fn clear<I>(within: &mut Within<I>) {
+    #[cfg(feature = "alloc")]
+    within.clear();
+    #[cfg(not(feature = "alloc"))]
+    {
+        *within = None;
+    }
+}
+
+/// Puts what lies within the step accepted last there, behind others or, without the feature `alloc`, in their place.
+#[inline(always)]
+pub(super) fn put_interpolant<L, F, P, const N: usize, const M: usize>(
+    system: &L,
+    method: &P,
+    memory: &mut P::Memory,
+    statistics: &mut Statistics,
+    within: &mut Within<P::Interpolant>,
+) -> Result<(), Error>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: Flow<L, N, M>,
+    P: Method<L, N, M, F>,
+{
+    #[cfg(feature = "alloc")]
+    return method.push_interpolant(system, memory, statistics, within);
+    #[cfg(not(feature = "alloc"))]
+    return method.interpolant(system, memory, statistics).map(|interpolant| *within = Some(interpolant));
+}
+
 /// See [`Simulate::integrate_with`](crate::Simulate::integrate_with) and
 /// [`integrate_until`](crate::Simulate::integrate_until). Where there are no events, and `IS_WATCHED` is false, nothing of
 /// their search is compiled.
@@ -172,7 +224,9 @@ where
     P: Method<L, N, M, F>,
 {
     check_end(end)?;
-    let (mut run, adjustment) = Run::begin(system, &state, method)?;
+    // Not moved to where it is used: unless that is optimized away, there would be several of it.
+    let mut begun = Run::begin(system, &state, method);
+    let (run, adjustment) = begun.as_mut().map_err(|error| error.clone())?;
     let start = run.state.t.to_f64();
     let mut path = Path::from(run.state);
     let mut search = Search::begin(events, system, &run.state)?;
@@ -186,11 +240,11 @@ where
         if run.state.t == end {
             break Ending::Complete { time };
         }
-        let interpolant = match run.step_with_interpolant(system, method, end, &limits) {
-            Ok(interpolant) => interpolant,
-            Err(ending) => break ending,
-        };
-        path.push(run.state, interpolant);
+        let within = path.interpolants();
+        if let Err(ending) = run.step_with_interpolant::<L, F, P, M>(system, method, end, &limits, within) {
+            break ending;
+        }
+        path.push(run.state);
         if const { IS_WATCHED } {
             stopped = search.record_in::<F, _>(&mut path, system, [&run.before, &run.state]);
         }
@@ -199,7 +253,7 @@ where
             break Ending::Cancelled { time };
         }
     };
-    Ok(Trajectory::new(system, path.finish(), ending, run.statistics, adjustment))
+    Ok(Trajectory::new(system, path.finish(), ending, run.statistics, *adjustment))
 }
 
 /// Tells the method of a system that has been changed, or of another state.

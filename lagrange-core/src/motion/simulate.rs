@@ -232,7 +232,8 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
         watch: impl FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<Trajectory<&Self, N, M>, Error> {
         check_finite(self, &state)?;
-        run::drive::<_, _, _, N, M, false>(self, state, end, &method, &mut [], watch)?.finished()
+        run::drive::<_, _, _, N, M, false>(self, state, end, &method, &mut [], watch)
+            .and_then(Trajectory::finished)
     }
 
     /// The motion as far as it gets on the way to `end`; [`Trajectory::ending`] tells why it gets no farther.

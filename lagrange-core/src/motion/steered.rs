@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 
 use super::Method;
 use super::event::{Crossing, Search, Stride, Watched};
-use super::run::{Run, Watchdog, is_between, resume};
+use super::run::{self, Run, Watchdog, Within, is_between, resume};
 use crate::ending::Ending;
 use crate::error::Error;
 use crate::hamiltonian::{Hamiltonian, HamiltonianFlow, PhaseState};
@@ -23,8 +23,9 @@ use crate::system::{Lagrangian, State};
 /// again (zero-order hold); that costs one evaluation of the equations, or none where all steps are of one size, and the
 /// length of the steps is kept. Every time asked for is reached exactly, so that inputs change there and nowhere else; it may lie in the past.
 ///
-/// Nothing is stored and no step allocates: a motion takes as much memory after 10⁹ steps as after one. Except by `Taylor`, which
-/// makes room for its series when it begins, it works without the feature `alloc`. It owns its system, which may be a reference.
+/// Nothing is stored and no step allocates: a motion takes as much memory after 10⁹ steps as after one. Its method makes the room
+/// that it needs when the motion begins, and that for what lies within a step is made when a step is looked into first.
+/// Except by `Taylor`, it works without the feature `alloc`, and has all of that room in itself. It owns its system, which may be a reference.
 ///
 /// ```
 /// use lagrange_core::prelude::*;
@@ -61,7 +62,7 @@ where
     /// Where the motion has stopped within the last step, at an event.
     stop: Option<State<L::Scalar, N>>,
     /// What lies within the last step, once it has been asked for.
-    interpolant: Option<P::Interpolant>,
+    within: Within<P::Interpolant>,
     /// Whether there is a last step, by the system and to the state as they are.
     has_step: bool,
     /// Whether the method knows of the system and of the state as they are.
@@ -106,7 +107,8 @@ where
 {
     fn begin(system: L, state: &State<L::Scalar, N>, method: P) -> Result<Self, Error> {
         let (run, _) = Run::begin(&system, state, &method)?;
-        Ok(Self { system, method, run, stop: None, interpolant: None, has_step: false, is_current: true })
+        let within = Within::default();
+        Ok(Self { system, method, run, stop: None, within, has_step: false, is_current: true })
     }
 
     /// Where the motion is.
@@ -150,7 +152,8 @@ where
     }
 
     fn forget_step(&mut self) {
-        (self.stop, self.interpolant) = (None, None);
+        self.stop = None;
+        run::clear(&mut self.within);
         (self.has_step, self.is_current) = (false, false);
     }
 
@@ -249,13 +252,13 @@ where
         events: &mut [&mut dyn Watched<L, N, M>],
         at: &mut State<L::Scalar, N>,
     ) -> Result<Option<Crossing<L::Scalar, N>>, Ending> {
-        let Self { system, method, run, interpolant, has_step, is_current, .. } = self;
+        let Self { system, method, run, within, has_step, is_current, .. } = self;
         let limits = Watchdog::new(method.limits(), &run.statistics);
         let mut search =
             Search::from(events, system, at, !*has_step).map_err(|error| Ending::of(error, at.t.to_f64()))?;
         let mut found = search.due(at)?;
         loop {
-            if let (None, Some(interpolant)) = (found, &interpolant) {
+            if let (None, Some(interpolant)) = (&found, within.iter().next()) {
                 let (before, after) = (&run.before, &run.state);
                 let stride = Stride { system, before, after, interpolant, flow: PhantomData::<F> };
                 found = search.next(&stride, at)?;
@@ -263,10 +266,10 @@ where
             if found.is_some() || run.state.t == end {
                 return Ok(found);
             }
-            *interpolant = None;
-            let stepped = run.step_with_interpolant(system, method, end, &limits);
+            run::clear(within);
+            let stepped = run.step_with_interpolant::<L, F, P, M>(system, method, end, &limits, within);
             (*has_step, *is_current) = (stepped.is_ok(), stepped.is_ok());
-            *interpolant = Some(stepped?);
+            stepped?;
         }
     }
 
@@ -298,13 +301,12 @@ where
         if t == before.t {
             return Ok(before);
         }
-        let Run { memory, statistics, .. } = &mut self.run;
-        let interpolant = match self.interpolant.take() {
-            Some(interpolant) => interpolant,
-            None => self.method.interpolant(&self.system, memory, statistics)?,
-        };
-        let point = self.interpolant.insert(interpolant).at(t);
-        F::project(&self.system, &point)
+        let Self { system, method, run: Run { memory, statistics, .. }, within, .. } = self;
+        if within.iter().next().is_none() {
+            run::put_interpolant::<L, F, P, N, M>(system, method, memory, statistics, within)?;
+        }
+        let point = within.iter().next().map(|interpolant| interpolant.at(t));
+        point.map_or(Ok(state), |point| F::project(system, &point))
     }
 
     /// The states at these times, each computed when the iterator is asked for it; the motion is then at the last of them.
@@ -372,7 +374,7 @@ where
 
     #[inline]
     fn step(&mut self, end: L::Scalar, limits: &Watchdog) -> Result<(), Ending> {
-        self.interpolant = None;
+        run::clear(&mut self.within);
         let stepped = self.run.step(&self.system, &self.method, end, limits);
         // What the method has of a step that is none is forgotten.
         (self.has_step, self.is_current) = (stepped.is_ok(), stepped.is_ok());

@@ -37,10 +37,16 @@ impl<T: Real, const N: usize, I: Interpolant<T, N> + Send + Sync + 'static> Path
         Self { start, last: start, crossings: Vec::new(), times: Vec::new(), interpolants: Vec::new() }
     }
 
+    /// Where the interpolant of the next step is put, before the step is [pushed](Self::push).
     #[inline(always)]
-    pub(crate) fn push(&mut self, state: State<T, N>, interpolant: I) {
+    pub(crate) fn interpolants(&mut self) -> &mut Vec<I> {
+        &mut self.interpolants
+    }
+
+    /// A step to this state, whose interpolant is there.
+    #[inline(always)]
+    pub(crate) fn push(&mut self, state: State<T, N>) {
         self.times.push(self.last.t);
-        self.interpolants.push(interpolant);
         self.last = state;
     }
 
@@ -53,7 +59,7 @@ impl<T: Real, const N: usize, I: Interpolant<T, N> + Send + Sync + 'static> Path
     pub(crate) fn cut(&mut self, end: State<T, N>) {
         if self.times.last() == Some(&end.t) {
             self.times.pop();
-            self.interpolants.pop();
+            self.interpolants.truncate(self.times.len());
         }
         self.last = end;
     }

@@ -73,8 +73,8 @@ where
         companion: &mut Self::Companion,
     ) -> Result<(), Ending>;
 
-    /// What lies within the step followed last: of the motion, and of the variations as coefficients, which are added,
-    /// as many for each block and step. The error is why the step is to be taken back.
+    /// Adds what lies within the step followed last: of the motion, and of the variations as coefficients, as many for each block
+    /// and step. The error is why the step is to be taken back.
     #[doc(hidden)]
     fn interpolate(
         &self,
@@ -82,8 +82,9 @@ where
         run: &mut Run<Self::Memory, L::Scalar, N>,
         variations: &mut Variations<L, N, M, P>,
         companion: &mut Self::Companion,
+        within: &mut Vec<Self::Interpolant>,
         coefficients: &mut Vec<Phase<WideOf<L, N, M>, N>>,
-    ) -> Result<Self::Interpolant, Ending>;
+    ) -> Result<(), Ending>;
 
     /// The variations of a block after this part of a step, by its coefficients.
     #[doc(hidden)]

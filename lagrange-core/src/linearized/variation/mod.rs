@@ -21,6 +21,7 @@ use super::{Direction, Linearized, ResidualChange, StateDerivatives};
 use crate::error::Error;
 use crate::names::Entry;
 use crate::number::{Real, Scalar, Wide, entries, vector};
+use crate::room::Room;
 use crate::solution::consistent::factors_of_nearest;
 use crate::solution::flow::Phase;
 use crate::solution::kkt::{Factors, Fault, Rank};
@@ -147,8 +148,11 @@ where
     /// Onto the tangent space of the start, as the start itself was moved: its coordinates by the holonomic constraints alone.
     fn set_out(&mut self, tangent: &Tangent<'_, L, N, M>) -> Result<(), Error> {
         if const { M > 0 } {
-            let nearest =
-                factors_of_nearest(&tangent.matrices().m, &tangent.holonomic_rows(), Rank::off_constraints());
+            let nearest = Room::of(factors_of_nearest(
+                &tangent.matrices().m,
+                &tangent.holonomic_rows(),
+                Rank::off_constraints(),
+            ));
             let by_parameters = self.parameter_slopes(tangent);
             for (k, block) in self.blocks.iter_mut().enumerate() {
                 let names = lane_names::<L, N, M>(&self.arguments, k);

@@ -10,11 +10,12 @@ use crate::ending::Ending;
 use crate::error::Error;
 use crate::linearized::tangent::{Tangent, WideOf};
 use crate::motion::method::interpolant::{evaluate, hermite};
-use crate::motion::method::pair::{SLOPES, Slopes, advance, last};
+use crate::motion::method::pair::{Slopes, advance, last};
 use crate::motion::method::step::Memory;
 use crate::motion::run::Run;
-use crate::motion::{Adaptive, Combination, Method, Pair};
+use crate::motion::{Adaptive, Combination, Pair};
 use crate::number::{Over, Real, Scalar, Wide, exceeds, vector};
+use crate::room::Room;
 use crate::solution::flow::{LagrangianFlow, Phase};
 use crate::solution::solve::solve_near;
 use crate::system::{Solution, State};
@@ -25,7 +26,7 @@ pub struct Stages<W, const N: usize> {
     /// Where the step taken last starts.
     start: Phase<W, N>,
     /// Of that step; the first that of its start.
-    slopes: Slopes<W, N>,
+    slopes: Room<Slopes<W, N>>,
     /// Where it ends.
     slope: Phase<W, N>,
 }
@@ -44,7 +45,7 @@ where
         variations: &Variations<L, N, M, P>,
     ) -> Result<Self::Companion, Error> {
         let zero = [[WideOf::<L, N, M>::constant(0.0); N]; 2];
-        let none = Stages { start: zero, slopes: [zero; SLOPES], slope: zero };
+        let none = Stages { start: zero, slopes: Room::filled(zero), slope: zero };
         let mut all = vec![none; variations.blocks.len()];
         let tangent = Tangent::at(system, start)?;
         variations.slopes_at(&tangent, |_, block| block.y, |k, slope| all[k].slope = slope)?;
@@ -86,22 +87,27 @@ where
         run: &mut Run<Self::Memory, L::Scalar, N>,
         variations: &mut Variations<L, N, M, P>,
         all: &mut Self::Companion,
+        within: &mut Vec<Self::Interpolant>,
         coefficients: &mut Vec<Phase<WideOf<L, N, M>, N>>,
-    ) -> Result<Self::Interpolant, Ending> {
-        let Run { memory, statistics, before, .. } = run;
-        let interpolant = Method::<L, N, M>::interpolant(self, system, memory, statistics);
+    ) -> Result<(), Ending> {
+        let known = within.len();
         let more = (last::<Q>() + 1, Q::INTERPOLATION_STAGES);
-        let within = interpolant.and_then(|within| {
-            stages::<Q, L, N, M, P>(system, memory, variations, all, more).map(|()| within)
+        let found = run.look_within::<L, LagrangianFlow, Self, M>(system, self, within).and_then(|()| {
+            let found = stages::<Q, L, N, M, P>(system, &run.memory, variations, all, more);
+            found.map_err(|error| Ending::of(error, run.before.t.to_f64()))
         });
-        let within = within.map_err(|error| Ending::of(error, before.t.to_f64()));
-        let within = within.inspect_err(|_| step_back(variations, all))?;
+        if let Err(ending) = found {
+            within.truncate(known);
+            step_back(variations, all);
+            return Err(ending);
+        }
+        let memory = &run.memory;
         if let Some((_, h, _)) = memory.last_step() {
             let h = WideOf::<L, N, M>::of(h);
             let steps = variations.blocks.iter().zip(all);
             steps.for_each(|(block, stages)| stages.push_coefficients::<Q>(h, &block.y, coefficients));
         }
-        Ok(within)
+        Ok(())
     }
 
     fn between(

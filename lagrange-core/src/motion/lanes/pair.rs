@@ -5,10 +5,11 @@ use core::array::from_fn;
 use super::{Fate, LaneMethod, Seats, Trust, unpacked};
 use crate::error::Error;
 use crate::motion::method::interpolant::{evaluate, hermite};
-use crate::motion::method::pair::{Combination, SLOPES, Slopes, advance, check, last};
+use crate::motion::method::pair::{Combination, Slopes, advance, check, last};
 use crate::motion::method::step::Memory;
 use crate::motion::{Adaptive, Interpolant, Pair};
 use crate::number::{Lanes, Scalar, vector};
+use crate::room::Room;
 use crate::solution::consistent::BOTH;
 use crate::solution::flow::{Flow, LagrangianFlow, Phase, PhasePoint};
 use crate::solution::near;
@@ -21,7 +22,7 @@ pub struct Abreast<S, P: Pair, const N: usize, const M: usize> {
     system: S,
     y: Phase<Lanes, N>,
     /// The first is that of `y`.
-    slopes: Slopes<Lanes, N>,
+    slopes: Room<Slopes<Lanes, N>>,
     /// When the step tried starts, how long it is, and when it ends.
     now: [f64; Lanes::COUNT],
     h: [f64; Lanes::COUNT],
@@ -71,7 +72,7 @@ where
 
     fn abreast(&self, system: &L, memory: &Memory<f64, N, M>) -> Self::Abreast {
         let zero = [[Lanes::constant(0.0); N]; 2];
-        let mut slopes = [zero; SLOPES];
+        let mut slopes = Room::<Slopes<Lanes, N>>::filled(zero);
         slopes[0] = Packed::splat(&memory.slope);
         let (system, y) = (system.pack(), Packed::splat(&memory.y));
         let [now, h, end] = [[0.0; Lanes::COUNT]; 3];

@@ -30,6 +30,21 @@ impl<T: Real, C> Polynomial<T, C> {
     }
 }
 
+#[cfg(feature = "alloc")]
+impl<T, C> Polynomial<T, C> {
+    /// The coefficients, to be written where they stay.
+    pub(super) fn coefficients_mut<X>(&mut self) -> &mut [X]
+    where
+        C: AsMut<[X]>,
+    {
+        self.coefficients.as_mut()
+    }
+}
+
+/// An interpolant of so many bytes is written where it stays: the stack has no room for copies of it.
+#[cfg(feature = "alloc")]
+pub(in crate::motion) const LARGE: usize = 1 << 14;
+
 /// The place and its rates at one end of a step.
 pub type Node<T, const N: usize> = (Phase<T, N>, Phase<T, N>);
 

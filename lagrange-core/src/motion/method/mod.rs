@@ -18,6 +18,8 @@ pub use interpolant::{Interpolant, Node, Polynomial};
 pub use pair::{Combination, Pair};
 pub use runge_kutta::{RungeKutta4, runge_kutta_step};
 
+#[cfg(feature = "alloc")]
+use alloc::vec::Vec;
 use core::fmt;
 
 use crate::ending::{Ending, Pace};
@@ -110,6 +112,23 @@ where
         memory: &mut Self::Memory,
         statistics: &mut Statistics,
     ) -> Result<Self::Interpolant, Error>;
+
+    /// Puts what lies within the step accepted last behind others, where it is to stay: a large one need not be on the stack. Where
+    /// that is an error there is no more of them than before.
+    ///
+    /// # Errors
+    /// As [`interpolant`](Self::interpolant).
+    #[cfg(feature = "alloc")]
+    fn push_interpolant(
+        &self,
+        system: &L,
+        memory: &mut Self::Memory,
+        statistics: &mut Statistics,
+        to: &mut Vec<Self::Interpolant>,
+    ) -> Result<(), Error> {
+        to.push(self.interpolant(system, memory, statistics)?);
+        Ok(())
+    }
 
     /// Takes the last step back, because its interpolant is wanted and there is none; the next attempt is shorter. False
     /// where that cannot be: the motion then ends before the step.

@@ -1,5 +1,7 @@
 //! One step of an embedded Runge–Kutta pair, projected onto the constraints.
 
+#[cfg(feature = "alloc")]
+use alloc::vec::Vec;
 use core::array::from_fn;
 use core::fmt;
 
@@ -7,15 +9,18 @@ use nalgebra::ComplexField;
 
 use super::clock::Clock;
 use super::control::{Control, Place};
+#[cfg(feature = "alloc")]
+use super::interpolant::LARGE;
 use super::interpolant::{Polynomial, hermite};
 use super::pair::{
-    Combination, Pair, SLOPES, Slopes, advance, advance_from, check, error_needs_last, is_carried, last,
+    Combination, Pair, Slopes, advance, advance_from, check, error_needs_last, is_carried, last,
 };
 use super::{Adaptive, Limits, Method, Step};
 use crate::ending::{Ending, Pace};
 use crate::error::Error;
 use crate::names::{Entry, Row};
 use crate::number::{Real, Scalar, entries, vector};
+use crate::room::Room;
 use crate::solution::flow::{Basis, Flow, Phase, PhasePoint};
 use crate::solution::solve::name;
 use crate::statistics::Statistics;
@@ -37,7 +42,7 @@ pub struct Memory<T, const N: usize, const M: usize> {
     /// Which constraints they rest on: as many as are independent at `y`.
     pub(crate) active: [bool; M],
     /// Of the step tried last, the first that of its start.
-    pub(super) slopes: Slopes<T, N>,
+    pub(super) slopes: Room<Slopes<T, N>>,
     /// The step that led here.
     pub(super) taken: Option<Taken<T, N, M>>,
 }
@@ -148,7 +153,7 @@ where
             has_slope: false,
             slope: zero,
             active: [true; M],
-            slopes: [zero; SLOPES],
+            slopes: Room::filled(zero),
             taken: None,
         };
         Method::<L, N, M, F>::resume(self, system, &mut memory, start, statistics)?;
@@ -208,24 +213,32 @@ where
         memory: &mut Self::Memory,
         statistics: &mut Statistics,
     ) -> Result<Self::Interpolant, Error> {
-        memory.ensure_slope::<L, F>(system, statistics)?;
-        memory.slopes[last::<P>()] = memory.slope;
-        let now = memory.clock.now.to_f64();
-        let no_step = Error::OutsideTrajectory { time: now, start: now, end: now };
-        let Taken { from, h, .. } = memory.taken.as_ref().ok_or(no_step)?;
-        let more = (last::<P>() + 1, P::INTERPOLATION_STAGES);
-        stages::<P, L, F, N, M>(system, from, *h, &mut memory.slopes, more, statistics)?;
-        let slopes = &memory.slopes;
-        let (start, end) = ((&from.y, &slopes[0]), (&memory.y, &slopes[last::<P>()]));
-        let zero = [[L::Scalar::constant(0.0); N]; 2];
+        let (start, length) = look_within::<P, L, F, N, M>(system, memory, statistics)?;
         // Written where they stay: the one copy is that into the trajectory.
-        let mut coefficients = P::coefficients(zero);
-        let (cubic, beyond) = coefficients.as_mut().split_at_mut(4);
-        hermite(*h, start, end, cubic);
-        for (coefficient, row) in beyond.iter_mut().zip(P::INTERPOLATION) {
-            advance(&zero, *h, slopes, row, coefficient);
+        let mut coefficients = P::coefficients([[L::Scalar::constant(0.0); N]; 2]);
+        interpolate::<P, _, N, M>(memory, coefficients.as_mut());
+        Ok(Polynomial::new(start, length, coefficients))
+    }
+
+    #[cfg(feature = "alloc")]
+    #[inline(always)]
+    fn push_interpolant(
+        &self,
+        system: &L,
+        memory: &mut Self::Memory,
+        statistics: &mut Statistics,
+        to: &mut Vec<Self::Interpolant>,
+    ) -> Result<(), Error> {
+        if const { size_of::<Self::Interpolant>() < LARGE } {
+            to.push(Method::<L, N, M, F>::interpolant(self, system, memory, statistics)?);
+            return Ok(());
         }
-        Ok(Polynomial::new(from.t, *h, coefficients))
+        let (start, length) = look_within::<P, L, F, N, M>(system, memory, statistics)?;
+        to.push(Polynomial::new(start, length, P::coefficients([[L::Scalar::constant(0.0); N]; 2])));
+        if let Some(last) = to.last_mut() {
+            interpolate::<P, _, N, M>(memory, last.coefficients_mut());
+        }
+        Ok(())
     }
 
     fn take_back(&self, memory: &mut Self::Memory) -> bool {
@@ -303,7 +316,7 @@ impl<P: Pair> Adaptive<P> {
         if IS_FIXED {
             memory.ensure_slope::<L, F>(system, statistics)?;
         }
-        let (from, slopes) = (memory.origin(), &mut memory.slopes);
+        let (from, slopes) = (memory.origin(), &mut *memory.slopes);
         slopes[0] = memory.slope;
         stages::<P, L, F, N, M>(system, &from, h, slopes, (1, P::STAGES), statistics)?;
         let mut next = PhasePoint { t: time, y: from.y, velocity: slopes[0][0] };
@@ -382,6 +395,44 @@ impl<P: Pair> Adaptive<P> {
             Ok(_) => self.first_step_from(guess, y, first, &second),
             Err(_) => guess,
         }
+    }
+}
+
+/// Evaluates all slopes that the interpolant of the step taken last is made of, and gives when it starts and how long it is.
+#[inline(always)]
+fn look_within<P, L, F, const N: usize, const M: usize>(
+    system: &L,
+    memory: &mut Memory<L::Scalar, N, M>,
+    statistics: &mut Statistics,
+) -> Result<(L::Scalar, L::Scalar), Error>
+where
+    P: Pair,
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: Flow<L, N, M>,
+{
+    memory.ensure_slope::<L, F>(system, statistics)?;
+    memory.slopes[last::<P>()] = memory.slope;
+    let now = memory.clock.now.to_f64();
+    let no_step = Error::OutsideTrajectory { time: now, start: now, end: now };
+    let Taken { from, h, .. } = memory.taken.as_ref().ok_or(no_step)?;
+    let more = (last::<P>() + 1, P::INTERPOLATION_STAGES);
+    stages::<P, L, F, N, M>(system, from, *h, &mut memory.slopes, more, statistics)?;
+    Ok((from.t, *h))
+}
+
+/// Puts what lies within the step taken last, by its slopes, into these coefficients.
+#[inline(always)]
+fn interpolate<P: Pair, T: Real, const N: usize, const M: usize>(
+    memory: &Memory<T, N, M>,
+    coefficients: &mut [Phase<T, N>],
+) {
+    let (slopes, zero) = (&*memory.slopes, [[T::constant(0.0); N]; 2]);
+    let Some(Taken { from, h, .. }) = &memory.taken else { return };
+    let (start, end) = ((&from.y, &slopes[0]), (&memory.y, &slopes[last::<P>()]));
+    let (cubic, beyond) = coefficients.split_at_mut(4);
+    hermite(*h, start, end, cubic);
+    for (coefficient, row) in beyond.iter_mut().zip(P::INTERPOLATION) {
+        advance(&zero, *h, slopes, row, coefficient);
     }
 }
 

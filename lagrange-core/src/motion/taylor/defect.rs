@@ -32,7 +32,7 @@ pub(super) struct Tried<'a, S, T, const N: usize, const M: usize> {
     pub(super) solved: &'a Solved<T, N, M>,
     pub(super) length: T,
     /// Those of the series at the end.
-    pub(super) accelerations: [T; N],
+    pub(super) accelerations: &'a [T; N],
     /// Number of samples within.
     pub(super) count: usize,
     /// Whether at its start or its end accelerations have the rounding errors of constraints that are hardly independent.
@@ -56,7 +56,7 @@ impl<S: Filled<T>, T: Real, const N: usize, const M: usize> Tried<'_, S, T, N, M
             false => method.defect_allowed::<L, N, M>(),
         };
         let bound = if self.series.ends() { STRICT * tolerance } else { allowed };
-        if let Some(found) = self.off(system, method, (self.end, self.solved), &self.accelerations, bound) {
+        if let Some(found) = self.off(system, method, (self.end, self.solved), self.accelerations, bound) {
             return Ok(Some(found));
         }
         let at_roots =

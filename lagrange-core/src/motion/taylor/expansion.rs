@@ -198,7 +198,7 @@ impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
     where
         L: TaylorSeries<N, M, Scalar = T, Sums = S>,
     {
-        let Solved { solution, active } = solved;
+        let solution = &solved.solution;
         if solved.is_by_elimination() {
             let factor = system.factor(state);
             let solve =
@@ -209,7 +209,23 @@ impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
                 return Ok(last);
             }
         }
-        // Where the factor is not reliable it gives NaN. Other units are rare enough for the general one.
+        self.about_in_general(system, state, solved, [unit, slack])
+    }
+
+    /// The same by the general factors: where that of the elimination is not reliable, which then gives NaN, and in other units,
+    /// which are rare enough for them. A function of its own, for the matrices are large.
+    #[cold]
+    #[inline(never)]
+    fn about_in_general<L, const M: usize>(
+        &mut self,
+        system: &L,
+        state: &State<T, N>,
+        Solved { solution, active }: &Solved<T, N, M>,
+        [unit, slack]: [T; 2],
+    ) -> Result<Last<T>, Error>
+    where
+        L: TaylorSeries<N, M, Scalar = T, Sums = S>,
+    {
         let general = General::at(system, state, *active)?;
         let expand = |series: &mut Self, unit| {
             series.orders(system, state, solution, unit, |sides| general.solve::<L>(sides))

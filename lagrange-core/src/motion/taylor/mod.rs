@@ -13,9 +13,11 @@ mod step;
 mod sums;
 mod variations;
 
+use alloc::vec::Vec;
 use core::fmt;
 
 use super::method::clock::Clock;
+use super::method::interpolant::LARGE;
 use super::method::{Limits, Method, Step, check_settings};
 use crate::ending::{Ending, Pace};
 use crate::error::Error;
@@ -264,6 +266,25 @@ where
     ) -> Result<Self::Interpolant, Error> {
         let Expansion { start, unit, q, summed, .. } = &memory.series;
         Ok(TaylorPolynomial::new(*start, *unit, q[..summed + 2].iter().copied()))
+    }
+
+    fn push_interpolant(
+        &self,
+        system: &L,
+        memory: &mut Self::Memory,
+        statistics: &mut Statistics,
+        to: &mut Vec<Self::Interpolant>,
+    ) -> Result<(), Error> {
+        if const { size_of::<Self::Interpolant>() < LARGE } {
+            to.push(self.interpolant(system, memory, statistics)?);
+            return Ok(());
+        }
+        let Expansion { start, unit, q, summed, .. } = &memory.series;
+        to.push(TaylorPolynomial::empty(*start, *unit));
+        if let Some(last) = to.last_mut() {
+            last.set(q[..summed + 2].iter().copied());
+        }
+        Ok(())
     }
 
     fn take_back(&self, memory: &mut Self::Memory) -> bool {

@@ -16,10 +16,20 @@ pub struct TaylorPolynomial<T, const N: usize> {
 impl<T: Real, const N: usize> TaylorPolynomial<T, N> {
     /// Of the coefficients of powers of (t − start)/unit, of which there are at most [`ROOM`].
     pub(super) fn new(start: T, unit: T, coefficients: impl ExactSizeIterator<Item = [T; N]>) -> Self {
-        let mut all = [[T::constant(0.0); N]; ROOM];
-        let count = coefficients.len();
-        all.iter_mut().zip(coefficients).for_each(|(place, coefficient)| *place = coefficient);
-        Self { start, unit, count: count.min(ROOM), coefficients: all }
+        let mut polynomial = Self::empty(start, unit);
+        polynomial.set(coefficients);
+        polynomial
+    }
+
+    /// Zero.
+    pub(super) fn empty(start: T, unit: T) -> Self {
+        Self { start, unit, count: 0, coefficients: [[T::constant(0.0); N]; ROOM] }
+    }
+
+    /// Sets the coefficients.
+    pub(super) fn set(&mut self, coefficients: impl ExactSizeIterator<Item = [T; N]>) {
+        self.count = coefficients.len().min(ROOM);
+        self.coefficients.iter_mut().zip(coefficients).for_each(|(place, coefficient)| *place = coefficient);
     }
 }
 

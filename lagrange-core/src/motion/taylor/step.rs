@@ -16,6 +16,16 @@ use crate::statistics::Statistics;
 use crate::system::{State, TaylorSeries};
 
 impl<S: Filled<T>, T: Real, const N: usize, const M: usize> Memory<S, T, N, M> {
+    /// Where a step of this length leads.
+    #[inline]
+    fn sum(&self, h: T) -> Sum<T, N> {
+        let Self { state, rest, series, .. } = self;
+        let [dq, dv, accelerations] = series.change(h);
+        let (q, rest_q) = compensated(&state.q.data.0[0], &dq, &rest[0]);
+        let (v, rest_v) = compensated(&state.v.data.0[0], &dv, &rest[1]);
+        Sum { phase: [q, v], rest: [rest_q, rest_v], accelerations }
+    }
+
     /// Plans another step after one of this length was refused.
     fn shorten(&mut self, h: T) {
         let next = self.crossing.take().map(Crossing::longer);
@@ -105,21 +115,19 @@ impl Taylor {
         statistics: &mut Statistics,
     ) -> Result<Attempt<L::Scalar, N>, Error> {
         let count = self.samples::<L, N, M>(memory, h);
-        let Memory { state, rest, series, .. } = memory;
-        let [dq, dv, accelerations] = series.change(h);
-        let (q, rest_q) = compensated(&state.q.into(), &dq, &rest[0]);
-        let (v, rest_v) = compensated(&state.v.into(), &dv, &rest[1]);
-        let mut next = State { t: time, q: vector(q), v: vector(v) };
+        let Sum { phase: [q, v], rest, accelerations } = &mut memory.sum(h);
+        let Memory { state, series, .. } = memory;
+        let mut next = State { t: time, q: vector(*q), v: vector(*v) };
         if let Some(row) = first_row::<L, N, M>(|i| !(q[i].is_finite() && v[i].is_finite()), |_| false) {
             return Err(Error::EquationsNotFinite { row, time: state.t.to_f64() });
         }
-        let mut rest = [rest_q, rest_v];
-        project_by(ONCE, system, &BOTH, &mut next, &mut rest)?;
+        project_by(ONCE, system, &BOTH, &mut next, rest)?;
         let solved = Solved::at(system, &next)?;
         if memory.solved.avoids(&solved) {
             return Ok(Attempt::Inaccurate(0));
         }
-        if let Some(worst) = self.moved([(&q, &next.q.into()), (&v, &next.v.into())]) {
+        let projected = [&next.q.data.0[0], &next.v.data.0[0]];
+        if let Some(worst) = self.moved([(q, projected[0]), (v, projected[1])]) {
             return Ok(Attempt::Inaccurate(worst));
         }
         let tried = Tried {
@@ -138,7 +146,7 @@ impl Taylor {
         }
         memory.before = Some(Before {
             solved: core::mem::replace(&mut memory.solved, solved),
-            rest: core::mem::replace(&mut memory.rest, rest),
+            rest: core::mem::replace(&mut memory.rest, *rest),
             sampling: core::mem::replace(&mut memory.sampling, Sampling::after(Scalar::abs(h), count)),
         });
         (memory.state, memory.is_expanded) = (next, false);
@@ -164,4 +172,13 @@ impl Taylor {
         let least = steep.fold(few, usize::max);
         if count > least && !series.knows_surroundings(h, measures) { count } else { least }
     }
+}
+
+/// Where a step leads before it is projected.
+struct Sum<T, const N: usize> {
+    phase: [[T; N]; 2],
+    /// What rounding has left of it.
+    rest: [[T; N]; 2],
+    /// Those of the series there.
+    accelerations: [T; N],
 }

@@ -17,12 +17,11 @@ use super::{Memory, Taylor};
 use crate::ending::Ending;
 use crate::error::Error;
 use crate::linearized::{Block, DifferentiableMethod, Linearized, Tangent, Variations, WideOf};
-use crate::motion::Method;
 use crate::motion::method::control::SLACK;
 use crate::motion::run::Run;
 use crate::names::Entry;
 use crate::number::{Dual, Filled, Over, Real, Scalar, Wide, entries, exceeds, smaller, vector};
-use crate::solution::flow::Phase;
+use crate::solution::flow::{LagrangianFlow, Phase};
 use crate::solution::solve::{first_row, least_pivot};
 use crate::system::{Lagrangian, Pack, RightHandSides, Solution, State, TaylorSeries};
 use general::DualGeneral;
@@ -126,14 +125,14 @@ where
         run: &mut Run<Self::Memory, L::Scalar, N>,
         _: &mut Variations<L, N, M, P>,
         companion: &mut Self::Companion,
+        within: &mut Vec<Self::Interpolant>,
         coefficients: &mut Vec<Phase<WideOf<L, N, M>, N>>,
-    ) -> Result<Self::Interpolant, Ending> {
-        let Run { memory, statistics, before, .. } = run;
-        let within = Method::<L, N, M>::interpolant(self, system, memory, statistics);
-        let within = within.map_err(|error| Ending::of(error, before.t.to_f64()))?;
+    ) -> Result<(), Ending> {
+        run.look_within::<L, LagrangianFlow, Self, M>(system, self, within)?;
+        let memory = &run.memory;
         let theta = (memory.clock.now - memory.series.start) / memory.series.unit;
         companion.iter().for_each(|varied| varied.push_coefficients(theta, coefficients));
-        Ok(within)
+        Ok(())
     }
 
     fn between(
@@ -252,12 +251,30 @@ where
             };
             let Ok::<(), Infallible>(()) = self.series.orders(&self.system, &state, &solution, unit, solve);
         } else {
-            let general = DualGeneral::at(system, &self.system, (at, &state), memory.solved.active)?;
-            let sides = (self.system.forcing(&state), self.system.constraint_bias(&state));
-            let (solution, solve) = (general.solve::<L>(&sides)?, |sides: &_| general.solve::<L>(sides));
-            self.series.orders(&self.system, &state, &solution, unit, solve)?;
+            self.expand_in_general(system, (at, &state), unit, memory.solved.active)?;
         }
         self.check::<L, M>(block.lanes, at.t, entry)
+    }
+
+    /// The same by the general factors. A function of its own, for the matrices are large.
+    #[cold]
+    #[inline(never)]
+    fn expand_in_general<L, const M: usize>(
+        &mut self,
+        system: &L,
+        (at, state): (&State<L::Scalar, N>, &State<Dual<W>, N>),
+        unit: Dual<W>,
+        active: [bool; M],
+    ) -> Result<(), Error>
+    where
+        L: Lagrangian<N, M, Scalar: Real<Wide = W>>,
+        S: TaylorSeries<N, M, Scalar = Dual<W>, Sums = U>,
+        W: Wide<L::Scalar>,
+    {
+        let general = DualGeneral::at(system, &self.system, (at, state), active)?;
+        let sides = (self.system.forcing(state), self.system.constraint_bias(state));
+        let (solution, solve) = (general.solve::<L>(&sides)?, |sides: &_| general.solve::<L>(sides));
+        self.series.orders(&self.system, state, &solution, unit, solve)
     }
 
     /// The changes of all coefficients must be numbers.

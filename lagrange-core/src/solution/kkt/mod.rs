@@ -104,7 +104,9 @@ impl<T: Real, const N: usize, const M: usize> Factors<T, N, M> {
             }
         }
         to_range_basis(&rows.split, &mut m);
-        let (along, pivot) = along_constraints(&m, rows.split.rank);
+        let largest = m.iter().fold(T::constant(0.0), |most, row| larger(most, largest(row)));
+        let along = along_constraints(&m, rows.split.rank, largest);
+        let pivot = if rows.split.rank < N { along.smallest / largest } else { T::constant(1.0) };
         let wide = (rows.split.rank < M).then(|| least_norm(&rows));
         Self { rows, m, along, pivot, wide, must_agree: rank.must_agree }
     }
@@ -251,18 +253,14 @@ fn to_range_basis<T: Real, const N: usize, const M: usize>(split: &Qr<T, N, M>, 
     }
 }
 
-/// ZᵀMZ factorized, from QᵀMQ, and the smallest pivot.
-fn along_constraints<T: Real, const N: usize>(m: &[[T; N]; N], rank: usize) -> (Symmetric<T, N>, T) {
-    let zero = T::constant(0.0);
+/// ZᵀMZ factorized, from QᵀMQ, whose largest entry is given.
+fn along_constraints<T: Real, const N: usize>(m: &[[T; N]; N], rank: usize, largest: T) -> Symmetric<T, N> {
     let size = N - rank;
-    let largest = m.iter().fold(zero, |most, row| larger(most, largest(row)));
-    let mut along = [[zero; N]; N];
+    let mut along = [[T::constant(0.0); N]; N];
     for i in 0..size {
         along[i][..size].copy_from_slice(&m[rank + i][rank..]);
     }
-    let factors = Symmetric::of(along, size, power_of_epsilon::<T>(0.75) * largest);
-    let pivot = if size > 0 { factors.smallest / largest } else { T::constant(1.0) };
-    (factors, pivot)
+    Symmetric::of(along, size, power_of_epsilon::<T>(0.75) * largest)
 }
 
 /// How much each coordinate takes part in the motions that nothing determines.
