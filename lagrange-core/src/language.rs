@@ -477,8 +477,9 @@
 //!
 //! # What is conserved
 //!
-//! The derive finds cyclic coordinates and their momenta, whether the energy E = p·q̇ − L is conserved and whether it
-//! is T + U, and terms of L that are total time derivatives; constraints and forces are taken into account. All of it
+//! The derive finds cyclic coordinates and their momenta, whether the energy E = p·q̇ − L is conserved and what it
+//! consists of ([`EnergyForm`](crate::EnergyForm): T + U only where that is certain), and terms of L that are total
+//! time derivatives; constraints and forces are taken into account. All of it
 //! is in [`FACTS`](crate::Lagrangian::FACTS), with how sure it is: proved by the form of the expressions, or seen to
 //! hold at random states that satisfy the constraints.
 //!

@@ -200,9 +200,9 @@ pub use solution::Impact;
 pub use solution::{Adjustment, Consistent, Sample};
 pub use statistics::Statistics;
 pub use system::{
-    Classification, Conserved, ConstraintKind, Entries, Equations, Evidence, Extent, Facts, Integrability,
-    Integrals, Lagrangian, LinearPart, Pack, Packed, RightHandSides, Shared, Solution, State, TaylorSeries,
-    TotalDerivative,
+    Classification, Conserved, ConstraintKind, EnergyForm, Entries, Equations, Evidence, Excerpt, Extent,
+    Facts, Integrability, Integrals, Lagrangian, LinearPart, Pack, Packed, RightHandSides, Shared, Solution,
+    State, TaylorSeries, TotalDerivative,
 };
 #[cfg(feature = "alloc")]
 pub use trajectory::{Csv, Deviation, Drift, Journey, Leg, Named, Records, Trajectory};

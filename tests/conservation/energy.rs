@@ -1,7 +1,7 @@
 //! E = p·q̇ − L, Milton (8.17), of Lagrangians of every degree in the velocities.
 
 use approx::assert_relative_eq;
-use lagrange_core::LinearPart;
+use lagrange_core::{EnergyForm, LinearPart};
 use lagrange_core::{Evidence, prelude::*};
 
 #[derive(Lagrangian)]
@@ -54,7 +54,7 @@ fn energy_8_17() {
 #[test]
 fn what_is_no_sum_of_t_and_u_is_told() {
     for facts in [Mixed::FACTS, Relativistic::FACTS] {
-        assert_eq!((facts.energy_is_t_plus_u, facts.linear_part), (None, LinearPart::Open));
+        assert_eq!((facts.energy_form, facts.linear_part), (EnergyForm::General, LinearPart::Open));
     }
     assert_eq!(Mixed::FACTS.energy_is_conserved, None);
     assert_eq!(Relativistic::FACTS.energy_is_conserved, Some(Evidence::Proved));

@@ -2,7 +2,7 @@
 
 use approx::assert_relative_eq;
 use lagrange_core::prelude::*;
-use lagrange_core::{Facts, LinearPart};
+use lagrange_core::{EnergyForm, Facts, LinearPart};
 
 macro_rules! pendulum {
     ($name:ident $(, $added:expr)?) => {
@@ -123,7 +123,7 @@ impl Function<1, 3> for Ramp {
 fn moving_frame_8_36() {
     assert_eq!(totals(MovingFrame::FACTS).len(), 1, "m/2 V(t)²");
     assert!(matches!(MovingFrame::FACTS.linear_part, LinearPart::Closed(_)));
-    assert_eq!(MovingFrame::FACTS.energy_is_t_plus_u, None);
+    assert_eq!(MovingFrame::FACTS.energy_form, EnergyForm::Quadratic);
     let frame = MovingFrame { m: 2.0, velocity: Ramp };
     let solution = frame.solve(&State::new([0.0; 3], [0.1; 3]).at_time(0.5)).unwrap();
     assert_relative_eq!(solution.accelerations[2], -3.0 * 0.25, max_relative = 1e-14);

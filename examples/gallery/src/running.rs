@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use lagrange_core::nalgebra::SVector;
-use lagrange_core::{Method, prelude::*};
+use lagrange_core::{EnergyForm, Method, prelude::*};
 
 use crate::exhibit::{Exhibit, Moment};
 use crate::scene::{Point, Scene, View};
@@ -98,7 +98,7 @@ where
         let system = self.motion.system();
         let (energy, lagrangian) = (system.energy(state), system.lagrangian(state));
         let mut values = vec![energy];
-        if E::FACTS.energy_is_t_plus_u.is_some() {
+        if matches!(E::FACTS.energy_form, EnergyForm::Sum(_) | EnergyForm::Even(_)) {
             values.extend([f64::midpoint(energy, lagrangian), f64::midpoint(energy, -lagrangian)]);
         }
         values.extend((0..E::FACTS.conserved.len()).filter_map(|index| system.conserved(index, state)));
@@ -183,7 +183,7 @@ where
     fn quantities(&self) -> Vec<Quantity> {
         let named = |kind| move |name| Quantity { name, kind };
         let mut quantities = vec![named("energy")("E")];
-        if E::FACTS.energy_is_t_plus_u.is_some() {
+        if matches!(E::FACTS.energy_form, EnergyForm::Sum(_) | EnergyForm::Even(_)) {
             quantities.extend(["T", "U"].map(named("energy")));
         }
         quantities.extend(E::FACTS.conserved.iter().map(|conserved| named("conserved")(conserved.name)));

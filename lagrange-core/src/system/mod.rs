@@ -19,9 +19,9 @@ mod state;
 mod taylor_series;
 
 pub use entries::Entries;
-pub use equations::Equations;
+pub use equations::{Equations, Excerpt};
 pub use evidence::Evidence;
-pub use facts::{Conserved, Facts, LinearPart, TotalDerivative};
+pub use facts::{Conserved, EnergyForm, Facts, LinearPart, TotalDerivative};
 pub use integrability::{Classification, Extent, Integrability, Integrals};
 pub use lagrangian::{ConstraintKind, Lagrangian};
 pub use pack::{Pack, Packed, Shared};

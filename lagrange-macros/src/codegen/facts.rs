@@ -7,7 +7,7 @@ use super::observables::{entry_of, method_name};
 use super::shape::Shape;
 use super::{Emitter, Written};
 use crate::contract::Method;
-use crate::mechanics::{Evidence, LinearPart, Quantity};
+use crate::mechanics::{EnergyForm, Evidence, LinearPart, Quantity};
 use crate::resolve::Observed;
 
 impl Emitter<'_> {
@@ -20,7 +20,7 @@ impl Emitter<'_> {
         });
         let energy = facts.conserved.iter().find(|conserved| conserved.quantity == Quantity::Energy);
         let energy_is_conserved = optional(energy.map(|energy| energy.evidence));
-        let energy_is_t_plus_u = optional(facts.energy_is_t_plus_u);
+        let energy_form = energy_form(facts.energy_form);
         let totals =
             self.rendered.total_derivatives.iter().zip(&facts.total_derivatives).map(|(terms, total)| {
                 let evidence = evidence(total.evidence);
@@ -39,7 +39,7 @@ impl Emitter<'_> {
                 cyclic: &[#(#cyclic),*],
                 conserved: &[#(#conserved),*],
                 energy_is_conserved: #energy_is_conserved,
-                energy_is_t_plus_u: #energy_is_t_plus_u,
+                energy_form: #energy_form,
                 total_derivatives: &[#(#totals),*],
                 linear_part: __lagrange::LinearPart::#linear_part,
             };
@@ -83,6 +83,23 @@ pub(super) fn evidence(evidence: Evidence) -> TokenStream {
         Evidence::Proved => quote!(__lagrange::Evidence::Proved),
         Evidence::Held(states) => quote!(__lagrange::Evidence::Held(#states)),
     }
+}
+
+fn energy_form(form: EnergyForm) -> TokenStream {
+    let form = match form {
+        EnergyForm::Sum(found) => {
+            let evidence = evidence(found);
+            quote!(Sum(#evidence))
+        }
+        EnergyForm::Even(found) => {
+            let evidence = evidence(found);
+            quote!(Even(#evidence))
+        }
+        EnergyForm::Moving => quote!(Moving),
+        EnergyForm::Quadratic => quote!(Quadratic),
+        EnergyForm::General => quote!(General),
+    };
+    quote!(__lagrange::EnergyForm::#form)
 }
 
 fn optional(found: Option<Evidence>) -> TokenStream {

@@ -36,6 +36,17 @@ pub(crate) struct Conserved {
     pub(crate) evidence: Evidence,
 }
 
+/// A part of the rate at which the energy changes.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum EnergyChange {
+    /// −∂L/∂t
+    Time,
+    /// Q·q̇
+    Forces,
+    /// −λ·b, with b the part of the constraints F q̇ + b that moves with time
+    Constraints,
+}
+
 /// What the trial of a quantity on random motions gave.
 enum Trial {
     Held(u32),
@@ -56,18 +67,24 @@ pub(super) fn found(graph: &mut Graph, moments: &mut Moments, quantity: Id) -> O
     }
 }
 
-/// dE/dt = −∂L/∂t + Q·q̇ − Σ_α λ_α b_α
-pub(super) fn of_energy(graph: &mut Graph, moments: &mut Moments) -> Option<Conserved> {
+/// The energy, or the parts of its rate that do not vanish by themselves where they are not seen to cancel.
+pub(super) fn of_energy(graph: &mut Graph, moments: &mut Moments) -> Result<Conserved, Vec<EnergyChange>> {
     let &mut Moments { problem, equations, .. } = moments;
-    let rate = energy_rate(graph, problem, equations);
+    let changes = energy_changes(graph, problem, equations);
+    let rate = graph.total(changes.map(|(_, part)| part));
     let evidence = match vanishes(graph, problem, rate) {
         None if !problem.constraints.is_empty() => found(graph, moments, equations.energy),
         symbolic => symbolic,
     };
-    evidence.map(|evidence| Conserved { name: "energy".to_owned(), quantity: Quantity::Energy, evidence })
+    let conserved = |evidence| Conserved { name: "energy".to_owned(), quantity: Quantity::Energy, evidence };
+    evidence.map(conserved).ok_or_else(|| {
+        let remain = changes.into_iter().filter(|&(_, part)| vanishes(graph, problem, part).is_none());
+        remain.map(|(change, _)| change).collect()
+    })
 }
 
-fn energy_rate(graph: &mut Graph, problem: &Problem, equations: &Equations) -> Id {
+/// dE/dt = −∂L/∂t + Q·q̇ − Σ_α λ_α b_α
+fn energy_changes(graph: &mut Graph, problem: &Problem, equations: &Equations) -> [(EnergyChange, Id); 3] {
     let mut along_time = Forward::along([(Variable::Time.symbol(), Id::ONE)]);
     let explicit = along_time.of(graph, problem.lagrangian);
     let velocities = nodes(graph, problem.coordinates.len(), Variable::Velocity);
@@ -84,8 +101,11 @@ fn energy_rate(graph: &mut Graph, problem: &Problem, equations: &Equations) -> I
     let inhomogeneous: Vec<Id> = inhomogeneous.collect();
     let multipliers = nodes(graph, inhomogeneous.len(), Variable::Multiplier);
     let work = graph.dot(&multipliers, &inhomogeneous);
-    let gain = graph.sub(power, explicit);
-    graph.sub(gain, work)
+    [
+        (EnergyChange::Time, graph.neg(explicit)),
+        (EnergyChange::Forces, power),
+        (EnergyChange::Constraints, graph.neg(work)),
+    ]
 }
 
 /// Those that the user says are conserved; where one is not, or cannot be tried, that is reported.

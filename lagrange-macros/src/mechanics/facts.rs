@@ -1,17 +1,15 @@
 //! What can be said of a system before it moves.
 
-use num_traits::Zero;
-
 use super::conservation;
-use super::conservation::{Conserved, Quantity, found};
-use super::degree::{self, Part, by_degree};
+use super::conservation::{Conserved, EnergyChange, Quantity, found};
+use super::energy_form::{self, EnergyForm};
 use super::equations::Equations;
-use super::evidence::{Evidence, vanishes};
+use super::evidence::vanishes;
 use super::gauge::{self, LinearPart, TotalDerivative};
 use super::moment::Moments;
 use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
-use crate::symbolic::{Graph, Id, Rational};
+use crate::symbolic::{Graph, Id};
 
 /// Statements about the system as a whole. What is not among them is false or could not be decided.
 #[derive(Debug)]
@@ -19,7 +17,9 @@ pub(crate) struct Facts {
     /// Coordinates that occur in neither L nor forces nor constraint forces, but by their velocities.
     pub(crate) cyclic: Vec<usize>,
     pub(crate) conserved: Vec<Conserved>,
-    pub(crate) energy_is_t_plus_u: Option<Evidence>,
+    pub(crate) energy_form: EnergyForm,
+    /// What dE/dt may consist of, where E is not known to be conserved.
+    pub(crate) energy_changes: Vec<EnergyChange>,
     pub(crate) total_derivatives: Vec<TotalDerivative>,
     pub(crate) linear_part: LinearPart,
 }
@@ -34,17 +34,23 @@ impl Facts {
     ) -> Self {
         let mut moments = Moments::new(problem, equations);
         let (cyclic, mut conserved) = momenta(graph, &mut moments);
-        conserved.extend(conservation::of_energy(graph, &mut moments));
+        let energy_changes = match conservation::of_energy(graph, &mut moments) {
+            Ok(energy) => {
+                conserved.push(energy);
+                Vec::new()
+            }
+            Err(changes) => changes,
+        };
         let said = conservation::of_observables(graph, &mut moments, diagnostics);
         conserved.retain(|found| said.iter().all(|said| said.name != found.name));
         conserved.extend(said);
-        let energy_is_t_plus_u = energy_is_t_plus_u(graph, problem, equations);
-        let linear_part = match energy_is_t_plus_u {
+        let (energy_form, even) = energy_form::find(graph, problem, equations);
+        let linear_part = match even {
             Some(_) => LinearPart::Absent,
             None => gauge::linear_part(graph, problem, equations),
         };
         let total_derivatives = gauge::total_derivatives(graph, problem);
-        Self { cyclic, conserved, energy_is_t_plus_u, total_derivatives, linear_part }
+        Self { cyclic, conserved, energy_form, energy_changes, total_derivatives, linear_part }
     }
 }
 
@@ -68,18 +74,4 @@ fn momenta(graph: &mut Graph, moments: &mut Moments) -> (Vec<usize>, Vec<Conserv
         conserved.extend(evidence.map(|evidence| Conserved { name, quantity, evidence }));
     }
     (cyclic, conserved)
-}
-
-/// With L = L₀ + L₁ + L₂ by degree in the velocities: E = L₂ − L₀, which is T + U if L₁ = 0. With
-/// D = Σ q̇ ∂/∂q̇ that is D(E) = D(L).
-fn energy_is_t_plus_u(graph: &mut Graph, problem: &Problem, equations: &Equations) -> Option<Evidence> {
-    let two = Rational::from_integer(2);
-    let is_even = |part: &Part| part.degree.is_zero() || part.degree == two;
-    if degree::parts(graph, problem.lagrangian).is_some_and(|parts| parts.iter().all(is_even)) {
-        return Some(Evidence::Proved);
-    }
-    let rate = by_degree(graph, problem, equations.energy);
-    let vis_viva = graph.add(equations.energy, problem.lagrangian);
-    let difference = graph.sub(rate, vis_viva);
-    vanishes(graph, problem, difference)
 }

@@ -5,7 +5,7 @@ use super::equations::Equations;
 use super::euler_lagrange::generalized_forces;
 use super::evidence::vanishes;
 use crate::resolve::Problem;
-use crate::symbolic::{Graph, Id, Rational};
+use crate::symbolic::{Approximate, Graph, Id, Rational, Sample, rank};
 use crate::variables::{Variable, nodes, symbols};
 
 /// H(t, q, p) and its derivatives.
@@ -20,6 +20,16 @@ pub(crate) struct Hamilton {
     pub(crate) entries: Vec<Id>,
 }
 
+/// Why H is not written in symbols.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum NoHamiltonian {
+    /// The momenta are not linear in the velocities.
+    NotQuadratic,
+    /// M has no inverse, as with quaternions and massless coordinates.
+    Singular,
+    Long,
+}
+
 /// Of more coordinates nobody would read it.
 const COORDINATES: usize = 8;
 
@@ -27,12 +37,18 @@ const COORDINATES: usize = 8;
 const BLOCK: usize = 3;
 
 impl Hamilton {
-    /// H = ½ (p − b)ᵀM⁻¹(p − b) − L₀, where p = M q̇ + b and L₀ is L at rest; `None` where that is too long, or M is singular
-    /// or depends on velocities.
-    pub(super) fn derive(graph: &mut Graph, problem: &Problem, equations: &Equations) -> Option<Self> {
+    /// H = ½ (p − b)ᵀM⁻¹(p − b) − L₀, where p = M q̇ + b and L₀ is L at rest; or why that is not written.
+    pub(super) fn derive(
+        graph: &mut Graph,
+        problem: &Problem,
+        equations: &Equations,
+    ) -> Result<Self, NoHamiltonian> {
         let n = problem.coordinates.len();
-        if n > COORDINATES || !equations.momenta_are_linear {
-            return None;
+        if !equations.momenta_are_linear {
+            return Err(NoHamiltonian::NotQuadratic);
+        }
+        if n > COORDINATES {
+            return Err(NoHamiltonian::Long);
         }
         let at_rest = nodes(graph, n, Variable::Velocity);
         let momenta = nodes(graph, n, Variable::Momentum);
@@ -60,7 +76,8 @@ impl Hamilton {
         let hamiltonian = graph.sum([(twice, Rational::new(1, 2)), (potential, -Rational::from_integer(1))]);
         let rates = rates(graph, problem, equations, hamiltonian, &velocities);
         let entries = mass.concat();
-        graph.take_fault().is_none().then_some(Self { hamiltonian, velocities, rates, entries })
+        let is_exact = graph.take_fault().is_none();
+        is_exact.then_some(Self { hamiltonian, velocities, rates, entries }).ok_or(NoHamiltonian::Long)
     }
 }
 
@@ -99,14 +116,20 @@ fn blocks(mass: &[Vec<Id>]) -> Vec<Vec<usize>> {
 }
 
 /// The inverse of a block of M: adjugate over determinant.
-fn inverse(graph: &mut Graph, problem: &Problem, mass: &[Vec<Id>], block: &[usize]) -> Option<Vec<Vec<Id>>> {
-    if block.len() > BLOCK {
-        return None;
-    }
+fn inverse(
+    graph: &mut Graph,
+    problem: &Problem,
+    mass: &[Vec<Id>],
+    block: &[usize],
+) -> Result<Vec<Vec<Id>>, NoHamiltonian> {
     let matrix: Vec<Vec<Id>> = block.iter().map(|&i| block.iter().map(|&j| mass[i][j]).collect()).collect();
+    if block.len() > BLOCK {
+        let is_singular = is_singular(graph, problem, &matrix);
+        return Err(if is_singular { NoHamiltonian::Singular } else { NoHamiltonian::Long });
+    }
     let whole = determinant(graph, &matrix);
     if vanishes(graph, problem, whole).is_some() {
-        return None;
+        return Err(NoHamiltonian::Singular);
     }
     let indices = 0..block.len();
     let rows = indices.clone().map(|i| {
@@ -117,7 +140,24 @@ fn inverse(graph: &mut Graph, problem: &Problem, mass: &[Vec<Id>], block: &[usiz
         });
         entries.collect()
     });
-    Some(rows.collect())
+    Ok(rows.collect())
+}
+
+/// Whether a matrix is seen to be regular at none of a few random points.
+fn is_singular(graph: &Graph, problem: &Problem, matrix: &[Vec<Id>]) -> bool {
+    const DRAWS: u64 = 16;
+    const POINTS: usize = 3;
+    let entries = matrix.concat();
+    let values = (0..DRAWS).filter_map(|draw| {
+        let drawn = |symbol, draw| problem.drawn(symbol, draw);
+        let values = Sample::new(graph.symbols(&entries), draw, drawn).values(graph, &entries);
+        values.iter().all(|entry| entry.value.is_finite()).then_some(values)
+    });
+    let values: Vec<_> = values.take(POINTS).collect();
+    let is_regular = |values: &Vec<Approximate>| {
+        rank(values.chunks(matrix.len()).map(<[_]>::to_vec).collect()) == matrix.len()
+    };
+    !values.is_empty() && !values.iter().any(is_regular)
 }
 
 fn without(matrix: &[Vec<Id>], row: usize, column: usize) -> Vec<Vec<Id>> {

@@ -7,6 +7,7 @@ mod constraints;
 mod degree;
 mod determinacy;
 mod dissipation;
+mod energy_form;
 mod equations;
 mod euler_lagrange;
 mod evidence;
@@ -25,15 +26,16 @@ use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};
 use crate::variables::{Variable, nodes};
-pub(crate) use conservation::{Conserved, Quantity};
+pub(crate) use conservation::{Conserved, EnergyChange, Quantity};
 pub(crate) use constraints::ConstraintKind;
+pub(crate) use energy_form::EnergyForm;
 pub(crate) use equations::Equations;
 pub(crate) use evidence::Evidence;
 pub(crate) use facts::Facts;
 pub(crate) use gauge::LinearPart;
 pub(crate) use gauss::Form;
 use gauss::shorter;
-pub(crate) use hamilton::Hamilton;
+pub(crate) use hamilton::{Hamilton, NoHamiltonian};
 #[cfg(test)]
 pub(crate) use integrability::Kinds;
 pub(crate) use integrability::{Classification, Integrability, Integrals};
@@ -44,12 +46,14 @@ pub(crate) use linearization::{Changes, Linearization, changes};
 pub(crate) struct Derived {
     pub(crate) equations: Equations,
     pub(crate) facts: Facts,
+    /// U of an [`EnergyForm::Even`], if that is the potential energy; `None` where L cannot be written for a system at rest
+    pub(crate) potential: Option<Id>,
     /// M q̈, as it is read
     pub(crate) inertia: Vec<Id>,
     /// What is read in place of an expression, where boundaries that nobody named make that longer.
     pub(crate) read: FxHashMap<Id, Id>,
-    /// `None` where nobody would read it
-    pub(crate) hamilton: Option<Hamilton>,
+    /// In symbols, or why not
+    pub(crate) hamilton: Result<Hamilton, NoHamiltonian>,
     /// `None` where exact arithmetic cannot write it
     pub(crate) linearization: Option<Linearization>,
 }
@@ -61,13 +65,16 @@ pub(crate) fn derive(graph: &mut Graph, problem: &Problem, diagnostics: &mut Dia
     let facts = Facts::find(graph, problem, &equations, diagnostics);
     let accelerations = nodes(graph, equations.mass.len(), Variable::Acceleration);
     let inertia: Vec<Id> = equations.mass.iter().map(|row| graph.dot(row, &accelerations)).collect();
-    let read =
+    let mut read =
         if problem.frames.len() > 1 { read(graph, &equations, &inertia) } else { FxHashMap::default() };
     diagnostics.stop_at_fault(problem.place, graph)?;
     diagnostics.is_empty().then_some(())?;
     let linearization = linearize(graph, problem, &equations);
+    let potential = energy_form::potential(graph, problem, facts.energy_form);
+    let of_frames = potential.filter(|_| problem.frames.len() > 1);
+    read.extend(of_frames.map(|id| (id, shorter(graph, id))));
     let hamilton = Hamilton::derive(graph, problem, &equations);
-    Some(Derived { equations, facts, inertia, read, hamilton, linearization })
+    Some(Derived { equations, facts, potential, inertia, read, hamilton, linearization })
 }
 
 /// Frames have names for every step; a page is shorter without.

@@ -4,7 +4,7 @@ use super::Page;
 use super::formula::Formula;
 use super::lines::{Equation, Line};
 use super::remark::{Part, Remark};
-use crate::mechanics::{Conserved, Derived, Evidence, Facts, Quantity};
+use crate::mechanics::{Conserved, Evidence, Quantity};
 use crate::syntax::{Expression, Sign};
 
 impl Page<'_> {
@@ -19,32 +19,29 @@ impl Page<'_> {
     }
 
     fn conserved_quantity(&self, Conserved { name, quantity, evidence }: &Conserved) -> Option<Line> {
-        let named = |name: &str| Formula::labelled(name, 0);
-        let derived = |name, id| Equation::from(self.quantity(id).map(|right| [named(name), right]));
-        let Derived { equations, facts, .. } = self.derived;
-        let (equation, remark): (_, Vec<Part>) = match *quantity {
-            Quantity::Momentum(a) => (self.conserved_momentum(name, a)?, held(*evidence)),
-            Quantity::Energy => (derived("E", equations.energy), remark_on_energy(*evidence, facts)),
+        let line = match *quantity {
+            Quantity::Momentum(a) => self.conserved_momentum(name, a)?,
+            Quantity::Energy => return Some(self.conserved_energy(*evidence)),
             // A vector is written as such, once.
             Quantity::Observable(observable, 0) => {
                 let name = &*self.problem.observables[observable].label.text;
                 let mut said = self.declaration.observables.iter().filter(|known| known.is_conserved);
                 let said = said.find(|known| known.target.name.text == name)?;
-                (Equation::Known(self.target(&said.target), self.written(&said.value)), held(*evidence))
+                Line::of(Equation::Known(self.target(&said.target), self.written(&said.value)))
             }
             Quantity::Observable(..) => return None,
         };
-        Some(Line { remark: Remark::of(remark), ..Line::of(equation) })
+        Some(Line { remark: Remark::of(held(*evidence)), ..line })
     }
 
     /// A vector of momenta that are all conserved is written as such, once.
-    fn conserved_momentum(&self, name: &str, a: usize) -> Option<Equation> {
+    fn conserved_momentum(&self, name: &str, a: usize) -> Option<Line> {
         let (rows, line) = self.all_momenta().into_iter().find(|(rows, _)| rows.contains(&a))?;
         if self.are_conserved(&rows) {
-            return (rows.start == a).then_some(line.equation);
+            return (rows.start == a).then_some(line);
         }
         let momentum = self.momentum(self.derived.equations.momentum[a]);
-        Some(Equation::from(momentum.map(|right| [Formula::labelled(name, 0), right])))
+        Some(Line::known(Formula::labelled(name, 0), momentum))
     }
 
     /// The terms of the Lagrangian that are total time derivatives, as formulas.
@@ -57,18 +54,6 @@ impl Page<'_> {
         let totals = self.derived.facts.total_derivatives.iter();
         totals.map(|total| Formula::sum(total.terms.iter().map(term).collect())).collect()
     }
-}
-
-fn remark_on_energy(evidence: Evidence, facts: &Facts) -> Vec<Part> {
-    let sum = ["T", "U"].map(|name| Formula::labelled(name, 0)).to_vec();
-    let mut remark = vec![Part::Formula(Formula::Sum(sum))];
-    if facts.energy_is_t_plus_u.is_none() {
-        remark.insert(0, Part::words("not "));
-    }
-    if let Evidence::Held(_) = evidence {
-        remark.push(Part::words("; conserved in all random motions tried"));
-    }
-    remark
 }
 
 fn held(evidence: Evidence) -> Vec<Part> {

@@ -6,18 +6,31 @@ use super::formula::Formula;
 use super::lines::{Equation, Line};
 use super::reading::length;
 use super::{Page, vector};
-use crate::mechanics::{Conserved, Hamilton, Quantity};
+use crate::mechanics::{Conserved, Hamilton, NoHamiltonian, Quantity};
 use crate::symbolic::Id;
 
 /// Longer ones, in the signs that they take, say nothing to a reader.
 const LONG: usize = 100;
 
+/// Momenta of more coordinates are not read to see whether they are short.
+const MANY: usize = 8;
+
 impl Page<'_> {
     /// p = ∂L/∂q̇ of those that are not among the conserved quantities already.
     pub(super) fn momenta(&self) -> Vec<Line> {
-        let Some(_) = self.legible() else { return Vec::new() };
+        let has_hamiltonian = self.legible().is_ok();
+        if !has_hamiltonian && self.derived.equations.momentum.len() > MANY {
+            return Vec::new();
+        }
         let others = self.all_momenta().into_iter().filter(|(rows, _)| !self.are_conserved(rows));
-        others.map(|(_, line)| line).collect()
+        let others: Vec<Line> = others.map(|(_, line)| line).collect();
+        let size = |line: &Line| match &line.equation {
+            Equation::Known(_, right) => Some(length(right)),
+            _ => None,
+        };
+        let size: Option<usize> = others.iter().map(size).sum();
+        let is_short = has_hamiltonian || size.is_some_and(|size| size <= LONG);
+        if is_short { others } else { Vec::new() }
     }
 
     /// With the coordinates, one or those of a vector, that each is of.
@@ -33,19 +46,36 @@ impl Page<'_> {
     /// H(t, q, p)
     pub(super) fn hamiltonian(&self) -> Vec<Line> {
         let hamilton = self.legible().into_iter();
-        hamilton.map(|hamilton| self.known(Formula::labelled("H", 0), hamilton.hamiltonian)).collect()
+        let line = |hamilton: &Hamilton| {
+            Line::known(Formula::labelled("H", 0), self.expression(hamilton.hamiltonian))
+        };
+        hamilton.map(line).collect()
+    }
+
+    /// What is said in place of an H that is not written.
+    pub(super) fn why_no_hamiltonian(&self) -> Option<String> {
+        let why = match self.legible().err()? {
+            NoHamiltonian::NotQuadratic => "L is not quadratic in the velocities",
+            NoHamiltonian::Singular => {
+                "the mass matrix is singular, and constraints decide on the velocities"
+            }
+            NoHamiltonian::Long => "it is too long to be read",
+        };
+        Some(format!("not written out, as {why}: `hamiltonian` computes it"))
     }
 
     /// Where H is short enough for a reader.
-    fn legible(&self) -> Option<&Hamilton> {
-        let hamilton = self.derived.hamilton.as_ref()?;
-        let read = self.expression(hamilton.hamiltonian).ok()?;
-        (length(&read) <= LONG).then_some(hamilton)
+    fn legible(&self) -> Result<&Hamilton, NoHamiltonian> {
+        let hamilton = self.derived.hamilton.as_ref().map_err(|why| *why)?;
+        match self.expression(hamilton.hamiltonian) {
+            Ok(read) if length(&read) <= LONG => Ok(hamilton),
+            _ => Err(NoHamiltonian::Long),
+        }
     }
 
     /// q̇ = ∂H/∂p, ṗ = −∂H/∂q + Q + Fᵀλ
     pub(super) fn canonical(&self) -> Vec<Line> {
-        let Some(hamilton) = self.legible() else { return Vec::new() };
+        let Ok(hamilton) = self.legible() else { return Vec::new() };
         let velocities = self.by_coordinate(&hamilton.velocities, |text| Formula::labelled(text, 1));
         let rates = self.by_coordinate(&hamilton.rates, |text| momentum(text, 1));
         velocities.into_iter().chain(rates).collect()
@@ -82,17 +112,13 @@ impl Page<'_> {
             let whole = whole.and_then(|text| Some([left(text), self.vector_expression(parts)?]));
             match whole {
                 Some([left, right]) => lines.push((rows, Line::of(Equation::Known(left, right)))),
-                None => lines.extend(rows.zip(labels).map(|(i, label)| {
-                    let sides = read(self, values[i]).map(|right| [left(&label.text), right]);
-                    (i..i + 1, Line::of(Equation::from(sides)))
-                })),
+                None => lines.extend(
+                    rows.zip(labels)
+                        .map(|(i, label)| (i..i + 1, Line::known(left(&label.text), read(self, values[i])))),
+                ),
             }
         }
         lines
-    }
-
-    fn known(&self, left: Formula, right: Id) -> Line {
-        Line::of(Equation::from(self.expression(right).map(|right| [left, right])))
     }
 }
 

@@ -24,7 +24,7 @@ const REMARK: &str = "display:inline-block;text-indent:0;opacity:.75;margin-left
 /// One element, without an empty line in it: so it stands in the documentation that is written in Markdown.
 pub(super) fn html(notation: Notation, sections: &[Section]) -> String {
     let page = Rows { notation };
-    let sections = sections.iter().filter(|section| !section.lines.is_empty());
+    let sections = sections.iter().filter(|section| !section.is_empty());
     let sections: String = sections.map(|section| page.section(section)).collect();
     format!("<div class=\"equations\" style=\"{PAGE}\">\n{sections}</div>\n")
 }
@@ -36,8 +36,12 @@ struct Rows<'a> {
 impl Rows<'_> {
     fn section(&self, Section { heading, lines, note }: &Section) -> String {
         let rows: String = lines.iter().map(|line| self.row(line)).collect();
+        let rows = match lines.is_empty() {
+            true => String::new(),
+            false => format!("<div style=\"{ROWS}\">\n{rows}</div>\n"),
+        };
         let note = note.as_ref().map_or(String::new(), |note| format!("<p>{}</p>\n", text(note)));
-        format!("<h5>{heading}</h5>\n<div style=\"{ROWS}\">\n{rows}</div>\n{note}")
+        format!("<h5>{heading}</h5>\n{rows}{note}")
     }
 
     fn row(&self, line: &Line) -> String {

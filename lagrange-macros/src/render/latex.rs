@@ -1,4 +1,4 @@
-//! The page as LaTeX: numbered equations, aligned, with labels and remarks, long ones broken before a sign.
+//! The page as LaTeX: numbered equations below headings, aligned, with labels and remarks, long ones broken before a sign.
 
 use unicode_normalization::UnicodeNormalization;
 
@@ -15,20 +15,20 @@ const LINE: f64 = 310.0;
 /// A left side wider than this stands on a line of its own.
 const LEFT: f64 = 110.0;
 
-/// An `align` environment; `\eqref{eq:Pendulum-theta}` is the equation of `theta`.
+/// A remark narrower than this stands on one line, in points: half of it.
+const REMARK: f64 = 150.0;
+
+/// What begins a heading. The paragraph is not parted from the equations below it: the penalty before a display is infinite.
+const HEADING: &str = r"\par\medskip\noindent\textbf";
+
+/// A heading and an `align` environment for each section; `\eqref{eq:Pendulum-theta}` is the equation of `theta`. Pages may end
+/// between equations. `Equations` of lagrange-core takes it apart again.
 pub(super) fn latex(notation: Notation, name: &str, sections: &[Section]) -> String {
     let page = Lines { notation };
-    let lines: Vec<&Line> = sections.iter().flat_map(|section| &section.lines).collect();
-    let sides: Vec<[Vec<String>; 2]> = lines.iter().map(|line| page.sides(line)).collect();
-    let lefts = sides.iter().map(|[left, _]| page.width(&left.concat())).filter(|&left| left <= LEFT);
-    let column = lefts.fold(0.0, f64::max);
     let mut labels = Vec::new();
-    let equations = lines.iter().zip(&sides).map(|(line, [left, right])| {
-        let label = format!("\\label{{eq:{name}-{}}}", unique(label(line), &mut labels));
-        page.equation(left, right, column).join(" \\nonumber \\\\\n    ") + " " + &label
-    });
-    let equations: Vec<String> = equations.collect();
-    format!("\\begin{{align}}\n  {}\n\\end{{align}}\n", equations.join(" \\\\\n  "))
+    let sections = sections.iter().filter(|section| !section.is_empty());
+    let sections: String = sections.map(|section| page.section(section, name, &mut labels)).collect();
+    format!("\\begingroup\\allowdisplaybreaks\n{sections}\\endgroup\n")
 }
 
 struct Lines<'a> {
@@ -36,6 +36,28 @@ struct Lines<'a> {
 }
 
 impl Lines<'_> {
+    fn section(
+        &self,
+        Section { heading, lines, note }: &Section,
+        name: &str,
+        labels: &mut Vec<String>,
+    ) -> String {
+        let sides: Vec<[Vec<String>; 2]> = lines.iter().map(|line| self.sides(line)).collect();
+        let lefts = sides.iter().map(|[left, _]| self.width(&left.concat())).filter(|&left| left <= LEFT);
+        let column = lefts.fold(0.0, f64::max);
+        let equations = lines.iter().zip(&sides).map(|(line, [left, right])| {
+            let label = format!("\\label{{eq:{name}-{}}}", unique(label(line), labels));
+            self.equation(left, right, column).join(" \\nonumber \\\\*\n    ") + " " + &label
+        });
+        let equations = equations.collect::<Vec<_>>().join(" \\\\\n  ");
+        let equations = match lines.is_empty() {
+            true => String::new(),
+            false => format!("\\begin{{align}}\n  {equations}\n\\end{{align}}\n"),
+        };
+        let note = note.as_ref().map_or(String::new(), |note| format!("\\par\\noindent {}\n", prose(note)));
+        format!("{HEADING}{{{heading}}}\n{equations}{note}")
+    }
+
     fn width(&self, text: &str) -> f64 {
         self.notation.spelling.width(text)
     }
@@ -49,12 +71,18 @@ impl Lines<'_> {
                 let all = [notation.pieces(formula), vec![r" = \text{total time derivative}".to_owned()]];
                 [vec![], all.concat()]
             }
-            Equation::TooLong(size) => [vec![], vec![format!(r"\text{{({size} symbols)}}")]],
+            Equation::TooLong(size) => {
+                let name = match &line.label {
+                    Some(name) if name.is_ascii() => name.clone(),
+                    _ => label(line),
+                };
+                [vec![], vec![format!(r"\text{{{}: ({size} symbols)}}", prose(&name))]]
+            }
         };
         [left, [right, self.remark(&line.remark)].concat()]
     }
 
-    /// Lines may end in it behind punctuation, and in long formulas.
+    /// Lines may end in a long one behind punctuation, and in long formulas.
     fn remark(&self, remark: &Remark) -> Vec<String> {
         let (mut pieces, mut is_new): (Vec<String>, bool) = (Vec::new(), true);
         for part in remark.in_parentheses() {
@@ -72,6 +100,10 @@ impl Lines<'_> {
                 }
             }
             is_new = ends;
+        }
+        let whole = pieces.concat();
+        if !pieces.is_empty() && self.width(&whole) <= REMARK {
+            pieces = vec![whole];
         }
         pieces.first_mut().into_iter().for_each(|first| first.insert_str(0, r" \quad "));
         pieces
@@ -119,6 +151,21 @@ impl Lines<'_> {
         }
         lines
     }
+}
+
+/// A sentence as plain words, its code in the letters of code.
+fn prose(plain: &str) -> String {
+    let escaped = |sign: char| match sign {
+        '#' | '_' | '&' | '%' | '{' | '}' => format!("\\{sign}"),
+        '…' => "\\dots{}".to_owned(),
+        '\n' => " ".to_owned(),
+        sign => sign.to_string(),
+    };
+    let parts = plain.split('`').enumerate().map(|(place, part)| {
+        let part: String = part.chars().map(escaped).collect();
+        if place % 2 == 1 { format!("\\texttt{{{part}}}") } else { part }
+    });
+    parts.collect()
 }
 
 /// Words between which a line may end: behind punctuation.

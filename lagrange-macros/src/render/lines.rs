@@ -21,9 +21,26 @@ pub(super) struct Line {
     pub(super) remark: Remark,
 }
 
+impl Section {
+    pub(super) fn is_empty(&self) -> bool {
+        self.lines.is_empty() && self.note.is_none()
+    }
+}
+
 impl Line {
     pub(super) fn of(equation: Equation) -> Self {
         Self { label: None, equation, remark: Remark::default() }
+    }
+
+    /// left = right, or its left side as the label of what is not written out.
+    pub(super) fn known(left: Formula, right: Result<Formula, u64>) -> Self {
+        match right {
+            Ok(right) => Self::of(Equation::Known(left, right)),
+            Err(size) => {
+                let label = Some(Notation::UNICODE.write(&left));
+                Self { label, ..Self::of(Equation::TooLong(size)) }
+            }
+        }
     }
 }
 
@@ -73,7 +90,7 @@ pub(super) fn symbols(graph: &Graph, problem: &Problem) -> Vec<u64> {
 
 pub(super) fn text(name: &str, sections: &[Section]) -> String {
     let mut text = format!("{name}\n");
-    for Section { heading, lines, note } in sections.iter().filter(|section| !section.lines.is_empty()) {
+    for Section { heading, lines, note } in sections.iter().filter(|section| !section.is_empty()) {
         text += &format!("\n{heading}\n");
         let width =
             lines.iter().filter_map(|line| line.label.as_ref()).map(|label| label.chars().count()).max();

@@ -4,6 +4,7 @@ mod arrays;
 mod binding;
 mod derived;
 mod digits;
+mod energy;
 mod facts;
 mod formula;
 mod hamilton;
@@ -125,8 +126,9 @@ impl Page<'_> {
             },
             section("Constraint forces", self.constraint_forces()),
             section("Conserved", self.conserved()),
+            section("Energy", self.changing_energy()),
             section("Momenta", self.momenta()),
-            section("Hamiltonian", self.hamiltonian()),
+            Section { note: self.why_no_hamiltonian(), ..section("Hamiltonian", self.hamiltonian()) },
             section("Hamilton's equations", self.canonical()),
             section(
                 "Total time derivatives in the Lagrangian",

@@ -1,6 +1,7 @@
 //! What is written means what was meant, and reads as the chapter prints it.
 
 mod everywhere;
+mod excerpts;
 mod golden;
 mod mathml;
 mod reader;

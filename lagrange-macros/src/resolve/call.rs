@@ -28,7 +28,9 @@ impl Lowering<'_> {
                 };
                 let value = self.lower(x)?;
                 self.note_differentiated(&value);
-                return self.rate_seen_from(&value, seen_from, place);
+                let rate = self.rate_seen_from(&value, seen_from, place)?;
+                self.rates.push(rate.flat());
+                return Some(rate);
             }
             "sqrt" => {
                 let [x] = self.arguments(name, arguments, place)?;

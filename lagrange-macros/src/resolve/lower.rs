@@ -68,6 +68,8 @@ pub(super) struct Lowering<'a> {
     pub(super) turns: Turns,
     /// Vectors and matrices of which rates were asked.
     pub(super) differentiated: Vec<Id>,
+    /// What `der` gave, and the velocities in frames, by components.
+    pub(super) rates: Vec<Vec<Id>>,
     /// Where `min`, `max` or `clamp` was written last, by the argument of the function that it is made of.
     pub(super) kinks: FxHashMap<Id, Place>,
     /// By the index of the first `define` of the name.
@@ -122,6 +124,7 @@ impl<'a> Lowering<'a> {
             frames: Frames::default(),
             turns: Turns::default(),
             differentiated: Vec::new(),
+            rates: Vec::new(),
             kinks: FxHashMap::default(),
             definitions: defines.iter().map(|_| Definition::Pending).collect(),
             progress: Progress::default(),

@@ -65,6 +65,8 @@ pub(crate) struct Problem {
     /// Each after the one that it comes from; the first is at rest.
     pub(crate) frames: Vec<Frame>,
     pub(crate) bodies: Vec<Body>,
+    /// Total time derivatives as written, and velocities in frames, by components.
+    pub(crate) rates: Vec<Vec<Id>>,
     /// Whether it could be stated in frames, and would cost less.
     pub(crate) frames_are_cheaper: bool,
     /// Names of nodes that are definitions.
@@ -118,7 +120,9 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
     let names = lowering.names(declaration);
     let frames_are_cheaper = lowering.frames_are_cheaper();
     let coordinates = labels(declaration);
-    let Lowering { mut graph, parameters, diagnostics, frames, .. } = lowering;
+    let Lowering { mut graph, parameters, diagnostics, frames, mut rates, .. } = lowering;
+    rates.sort_unstable();
+    rates.dedup();
     // Where shapes are wrong, it may be that a type is taken for a number.
     let scalar = parameters.scalar(declaration, diagnostics);
     let (place, lagrangian) = (declaration.lagrangian.as_ref()?.place, lagrangian?);
@@ -143,6 +147,7 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
         functions,
         frames: frames.all,
         bodies: frames.bodies,
+        rates,
         frames_are_cheaper,
         names,
     };

@@ -53,6 +53,15 @@ enum Part {
 /// For each velocity what belongs to it, as a sum.
 struct Parts(Vec<Vec<(Id, Rational)>>);
 
+/// The kinetic energies of the bodies that are terms of L, and L without them; `None` where there is none.
+pub(super) fn kinetic_energies(graph: &mut Graph, problem: &Problem) -> Option<(Vec<Id>, Id)> {
+    if problem.bodies.is_empty() {
+        return None;
+    }
+    let (bodies, others) = bodies::apart(graph, problem);
+    (!bodies.is_empty()).then(|| (bodies.iter().map(|body| body.energy).collect(), others))
+}
+
 impl<'p> Twists<'p> {
     /// `None` where no frame moves.
     pub(super) fn of(graph: &mut Graph, problem: &'p Problem) -> Option<Self> {

@@ -263,7 +263,8 @@ fn left_over(system: &System, sample: &mut Sample, rows: std::ops::Range<usize>)
 fn check_quantities(system: &System) {
     let equations = &system.derived.equations;
     let conserved = system.lines("Conserved\n");
-    for line in conserved.iter().filter(|line| line.starts_with("E = ")) {
+    let energy = system.lines("Energy\n");
+    for line in conserved.iter().chain(&energy).filter(|line| line.starts_with("E = ")) {
         check_line(system, line, |sample| vec![sample.values(&system.graph, &[equations.energy])[0].value]);
     }
     let value = |sample: &mut Sample, root: Option<&Id>| {

@@ -11,7 +11,8 @@ fn rendered(source: &str) -> Rendered {
     let mut diagnostics = Diagnostics::default();
     let input = syn::parse_str(source).expect("a struct");
     let declaration = syntax::declaration(input, &mut diagnostics);
-    let (mut graph, problem) = resolve::problem(&declaration, &mut diagnostics).expect("no errors");
+    let (mut graph, problem) =
+        resolve::problem(&declaration, &mut diagnostics).unwrap_or_else(|| panic!("errors in {source}"));
     let derived = mechanics::derive(&mut graph, &problem, &mut diagnostics).expect("no errors");
     render(&declaration, &graph, &problem, &derived)
 }
@@ -52,7 +53,7 @@ fn sphere_down_an_incline() {
               R_φ = −a λ_no_slip
 
             Conserved
-              E = ½ m ẋ² + ½ inertia φ̇² − m g x sin α   (T + U)
+              E = ½ m ẋ² + ½ inertia φ̇² − m g x sin α   (T + U if U is −m g x sin α)
 
             Momenta
               p_x = m ẋ
@@ -68,23 +69,48 @@ fn sphere_down_an_incline() {
               ṗ_φ = −a λ_no_slip
         "#]],
         expect![[r#"
+            \begingroup\allowdisplaybreaks
+            \par\medskip\noindent\textbf{Lagrangian}
             \begin{align}
               L &= \tfrac{1}{2} m \dot x^2 + \tfrac{1}{2} \, \mathit{inertia} \, \dot\varphi^2 + m g x \sin \alpha \label{eq:RollingSphere-L} \\
-              \mathit{inertia} &= \tfrac{2}{5} m a^2 \label{eq:RollingSphere-inertia} \\
-              \dot x - a \dot\varphi &= 0 \quad \text{(integrable: }x - a \varphi\text{ is constant)} \label{eq:RollingSphere-no_slip} \\
+              \mathit{inertia} &= \tfrac{2}{5} m a^2 \label{eq:RollingSphere-inertia}
+            \end{align}
+            \par\medskip\noindent\textbf{Constraints}
+            \begin{align}
+              \dot x - a \dot\varphi &= 0 \quad \text{(integrable: }x - a \varphi\text{ is constant)} \label{eq:RollingSphere-no_slip}
+            \end{align}
+            \par\medskip\noindent\textbf{Equations of motion}
+            \begin{align}
               m \ddot x &= m g \sin \alpha + \lambda_{\mathrm{no}\,\mathrm{slip}} \label{eq:RollingSphere-x} \\
-              \mathit{inertia} \, \ddot\varphi &= -a \lambda_{\mathrm{no}\,\mathrm{slip}} \label{eq:RollingSphere-phi} \\
+              \mathit{inertia} \, \ddot\varphi &= -a \lambda_{\mathrm{no}\,\mathrm{slip}} \label{eq:RollingSphere-phi}
+            \end{align}
+            \par\medskip\noindent\textbf{Constraint forces}
+            \begin{align}
               R_x &= \lambda_{\mathrm{no}\,\mathrm{slip}} \label{eq:RollingSphere-R_x} \\
-              R_\varphi &= -a \lambda_{\mathrm{no}\,\mathrm{slip}} \label{eq:RollingSphere-R_phi} \\
-              E &= \tfrac{1}{2} m \dot x^2 + \tfrac{1}{2} \, \mathit{inertia} \, \dot\varphi^2 - m g x \sin \alpha \quad \text{(}T + U\text{)} \label{eq:RollingSphere-E} \\
+              R_\varphi &= -a \lambda_{\mathrm{no}\,\mathrm{slip}} \label{eq:RollingSphere-R_phi}
+            \end{align}
+            \par\medskip\noindent\textbf{Conserved}
+            \begin{align}
+              E &= \tfrac{1}{2} m \dot x^2 + \tfrac{1}{2} \, \mathit{inertia} \, \dot\varphi^2 - m g x \sin \alpha \nonumber \\*
+                &\quad \quad \text{(}T + U\text{ if }U\text{ is }-m g x \sin \alpha\text{)} \label{eq:RollingSphere-E}
+            \end{align}
+            \par\medskip\noindent\textbf{Momenta}
+            \begin{align}
               p_x &= m \dot x \label{eq:RollingSphere-p_x} \\
-              p_\varphi &= \mathit{inertia} \, \dot\varphi \label{eq:RollingSphere-p_phi} \\
-              H &= \frac{p_x^2}{2 m} + \frac{p_\varphi^2}{2 \, \mathit{inertia}} - m g x \sin \alpha \label{eq:RollingSphere-H} \\
+              p_\varphi &= \mathit{inertia} \, \dot\varphi \label{eq:RollingSphere-p_phi}
+            \end{align}
+            \par\medskip\noindent\textbf{Hamiltonian}
+            \begin{align}
+              H &= \frac{p_x^2}{2 m} + \frac{p_\varphi^2}{2 \, \mathit{inertia}} - m g x \sin \alpha \label{eq:RollingSphere-H}
+            \end{align}
+            \par\medskip\noindent\textbf{Hamilton's equations}
+            \begin{align}
               \dot x &= \frac{p_x}{m} \label{eq:RollingSphere-x-dot} \\
               \dot\varphi &= \frac{p_\varphi}{\mathit{inertia}} \label{eq:RollingSphere-phi-dot} \\
               \dot p_x &= m g \sin \alpha + \lambda_{\mathrm{no}\,\mathrm{slip}} \label{eq:RollingSphere-p-dot_x} \\
               \dot p_\varphi &= -a \lambda_{\mathrm{no}\,\mathrm{slip}} \label{eq:RollingSphere-p-dot_phi}
             \end{align}
+            \endgroup
         "#]],
     );
 }
@@ -117,7 +143,7 @@ fn spherical_pendulum() {
               R_z = λ_string z
 
             Conserved
-              E = ½ m (ẋ² + ẏ² + ż²) + m g z   (T + U)
+              E = ½ m (ẋ² + ẏ² + ż²) + m g z   (T + U if U is m g z)
 
             Momenta
               p_x = m ẋ
@@ -136,20 +162,43 @@ fn spherical_pendulum() {
               ṗ_z = λ_string z − m g
         "#]],
         expect![[r#"
+            \begingroup\allowdisplaybreaks
+            \par\medskip\noindent\textbf{Lagrangian}
             \begin{align}
-              L &= \tfrac{1}{2} m (\dot x^2 + \dot y^2 + \dot z^2) - m g z \label{eq:SphericalPendulum-L} \\
-              \tfrac{1}{2} (x^2 + y^2 + z^2 - l^2) &= 0 \quad \text{(holonomic)} \label{eq:SphericalPendulum-string} \\
+              L &= \tfrac{1}{2} m (\dot x^2 + \dot y^2 + \dot z^2) - m g z \label{eq:SphericalPendulum-L}
+            \end{align}
+            \par\medskip\noindent\textbf{Constraints}
+            \begin{align}
+              \tfrac{1}{2} (x^2 + y^2 + z^2 - l^2) &= 0 \quad \text{(holonomic)} \label{eq:SphericalPendulum-string}
+            \end{align}
+            \par\medskip\noindent\textbf{Equations of motion}
+            \begin{align}
               m \ddot x &= \lambda_{\mathrm{string}} x \label{eq:SphericalPendulum-x} \\
               m \ddot y &= \lambda_{\mathrm{string}} y \label{eq:SphericalPendulum-y} \\
-              m \ddot z &= -m g + \lambda_{\mathrm{string}} z \label{eq:SphericalPendulum-z} \\
+              m \ddot z &= -m g + \lambda_{\mathrm{string}} z \label{eq:SphericalPendulum-z}
+            \end{align}
+            \par\medskip\noindent\textbf{Constraint forces}
+            \begin{align}
               R_x &= \lambda_{\mathrm{string}} x \label{eq:SphericalPendulum-R_x} \\
               R_y &= \lambda_{\mathrm{string}} y \label{eq:SphericalPendulum-R_y} \\
-              R_z &= \lambda_{\mathrm{string}} z \label{eq:SphericalPendulum-R_z} \\
-              E &= \tfrac{1}{2} m (\dot x^2 + \dot y^2 + \dot z^2) + m g z \quad \text{(}T + U\text{)} \label{eq:SphericalPendulum-E} \\
+              R_z &= \lambda_{\mathrm{string}} z \label{eq:SphericalPendulum-R_z}
+            \end{align}
+            \par\medskip\noindent\textbf{Conserved}
+            \begin{align}
+              E &= \tfrac{1}{2} m (\dot x^2 + \dot y^2 + \dot z^2) + m g z \quad \text{(}T + U\text{ if }U\text{ is }m g z\text{)} \label{eq:SphericalPendulum-E}
+            \end{align}
+            \par\medskip\noindent\textbf{Momenta}
+            \begin{align}
               p_x &= m \dot x \label{eq:SphericalPendulum-p_x} \\
               p_y &= m \dot y \label{eq:SphericalPendulum-p_y} \\
-              p_z &= m \dot z \label{eq:SphericalPendulum-p_z} \\
-              H &= \frac{p_x^2 + p_y^2 + p_z^2}{2 m} + m g z \label{eq:SphericalPendulum-H} \\
+              p_z &= m \dot z \label{eq:SphericalPendulum-p_z}
+            \end{align}
+            \par\medskip\noindent\textbf{Hamiltonian}
+            \begin{align}
+              H &= \frac{p_x^2 + p_y^2 + p_z^2}{2 m} + m g z \label{eq:SphericalPendulum-H}
+            \end{align}
+            \par\medskip\noindent\textbf{Hamilton's equations}
+            \begin{align}
               \dot x &= \frac{p_x}{m} \label{eq:SphericalPendulum-x-dot} \\
               \dot y &= \frac{p_y}{m} \label{eq:SphericalPendulum-y-dot} \\
               \dot z &= \frac{p_z}{m} \label{eq:SphericalPendulum-z-dot} \\
@@ -157,6 +206,7 @@ fn spherical_pendulum() {
               \dot p_y &= \lambda_{\mathrm{string}} y \label{eq:SphericalPendulum-p-dot_y} \\
               \dot p_z &= \lambda_{\mathrm{string}} z - m g \label{eq:SphericalPendulum-p-dot_z}
             \end{align}
+            \endgroup
         "#]],
     );
 }
@@ -180,7 +230,7 @@ fn spherical_pendulum_in_angles() {
 
             Conserved
               p_φ = m l² φ̇ sin² θ
-              E = ½ m l² (θ̇² + φ̇² sin² θ) − m g l cos θ   (T + U)
+              E = ½ m l² (θ̇² + φ̇² sin² θ) − m g l cos θ   (T + U if U is −m g l cos θ)
 
             Momenta
               p_θ = m l² θ̇
@@ -195,19 +245,38 @@ fn spherical_pendulum_in_angles() {
               ṗ_φ = 0
         "#]],
         expect![[r#"
+            \begingroup\allowdisplaybreaks
+            \par\medskip\noindent\textbf{Lagrangian}
             \begin{align}
-              L &= \tfrac{1}{2} m l^2 (\dot\theta^2 + \sin^2(\theta) \dot\varphi^2) + m g l \cos \theta \label{eq:SphericalPendulum-L} \\
+              L &= \tfrac{1}{2} m l^2 (\dot\theta^2 + \sin^2(\theta) \dot\varphi^2) + m g l \cos \theta \label{eq:SphericalPendulum-L}
+            \end{align}
+            \par\medskip\noindent\textbf{Equations of motion}
+            \begin{align}
               l \ddot\theta &= l \dot\varphi^2 \sin \theta \cos \theta - g \sin \theta \label{eq:SphericalPendulum-theta} \\
-              \ddot\varphi \sin \theta &= -2 \dot\theta \dot\varphi \cos \theta \label{eq:SphericalPendulum-phi} \\
+              \ddot\varphi \sin \theta &= -2 \dot\theta \dot\varphi \cos \theta \label{eq:SphericalPendulum-phi}
+            \end{align}
+            \par\medskip\noindent\textbf{Conserved}
+            \begin{align}
               p_\varphi &= m l^2 \dot\varphi \sin^2 \theta \label{eq:SphericalPendulum-p_phi} \\
-              E &= \tfrac{1}{2} m l^2 (\dot\theta^2 + \dot\varphi^2 \sin^2 \theta) - m g l \cos \theta \quad \text{(}T + U\text{)} \label{eq:SphericalPendulum-E} \\
-              p_\theta &= m l^2 \dot\theta \label{eq:SphericalPendulum-p_theta} \\
-              H &= \frac{p_\theta^2}{2 m l^2} + \frac{p_\varphi^2}{2 m l^2 \sin^2 \theta} - m g l \cos \theta \label{eq:SphericalPendulum-H} \\
+              E &= \tfrac{1}{2} m l^2 (\dot\theta^2 + \dot\varphi^2 \sin^2 \theta) - m g l \cos \theta \nonumber \\*
+                &\quad \quad \text{(}T + U\text{ if }U\text{ is }-m g l \cos \theta\text{)} \label{eq:SphericalPendulum-E}
+            \end{align}
+            \par\medskip\noindent\textbf{Momenta}
+            \begin{align}
+              p_\theta &= m l^2 \dot\theta \label{eq:SphericalPendulum-p_theta}
+            \end{align}
+            \par\medskip\noindent\textbf{Hamiltonian}
+            \begin{align}
+              H &= \frac{p_\theta^2}{2 m l^2} + \frac{p_\varphi^2}{2 m l^2 \sin^2 \theta} - m g l \cos \theta \label{eq:SphericalPendulum-H}
+            \end{align}
+            \par\medskip\noindent\textbf{Hamilton's equations}
+            \begin{align}
               \dot\theta &= \frac{p_\theta}{m l^2} \label{eq:SphericalPendulum-theta-dot} \\
               \dot\varphi &= \frac{p_\varphi}{m l^2 \sin^2 \theta} \label{eq:SphericalPendulum-phi-dot} \\
               \dot p_\theta &= \frac{p_\varphi^2 \cos \theta}{m l^2 \sin^3 \theta} - m g l \sin \theta \label{eq:SphericalPendulum-p-dot_theta} \\
               \dot p_\varphi &= 0 \label{eq:SphericalPendulum-p-dot_phi}
             \end{align}
+            \endgroup
         "#]],
     );
 }
@@ -235,6 +304,9 @@ fn rotating_frame() {
             Equations of motion
               r: m r̈ = m (r×Ω′(t) − W×(W×r) − 2 (W×ṙ) − A(t)) − ∂U/∂r
 
+            Energy
+              E = ½ m ṙ·ṙ + m r·A(t) + U(r) − ½ m (W×r)·(W×r)   (L₂ − L₀ by degree in the velocities; d/dt E is −∂L/∂t)
+
             Momenta
               p_r = m ṙ − m (r×W)
 
@@ -246,17 +318,37 @@ fn rotating_frame() {
               ṗ_r = p_r×W − m A(t) − ∂U/∂r
         "#]],
         expect![[r#"
+            \begingroup\allowdisplaybreaks
+            \par\medskip\noindent\textbf{Lagrangian}
             \begin{align}
-              L &= \tfrac{1}{2} m \mathbf{v} \cdot \mathbf{v} + \tfrac{1}{2} m (\mathbf{W} \times \mathbf{r}) \cdot (\mathbf{W} \times \mathbf{r}) + m \mathbf{v} \cdot (\mathbf{W} \times \mathbf{r}) \nonumber \\
+              L &= \tfrac{1}{2} m \mathbf{v} \cdot \mathbf{v} + \tfrac{1}{2} m (\mathbf{W} \times \mathbf{r}) \cdot (\mathbf{W} \times \mathbf{r}) + m \mathbf{v} \cdot (\mathbf{W} \times \mathbf{r}) \nonumber \\*
                 &\quad - U(\mathbf{r}) - m \mathbf{r} \cdot \mathbf{A}(t) \label{eq:RotatingFrame-L} \\
               \mathbf{v} &= \dot{\mathbf{r}} \label{eq:RotatingFrame-v} \\
-              \mathbf{W} &= \boldsymbol{\Omega}(t) \label{eq:RotatingFrame-W} \\
-              m \ddot{\mathbf{r}} &= m (\mathbf{r} \times \boldsymbol{\Omega}'(t) - \mathbf{W} \times (\mathbf{W} \times \mathbf{r}) - 2 (\mathbf{W} \times \dot{\mathbf{r}}) - \mathbf{A}(t)) - \frac{\partial U}{\partial \mathbf{r}} \label{eq:RotatingFrame-r} \\
-              \mathbf{p}_r &= m \dot{\mathbf{r}} - m (\mathbf{r} \times \mathbf{W}) \label{eq:RotatingFrame-p_r} \\
-              H &= \frac{\mathbf{p}_r \cdot \mathbf{p}_r}{2 m} + m \mathbf{r} \cdot \mathbf{A}(t) + U(\mathbf{r}) - \mathbf{W} \cdot (\mathbf{r} \times \mathbf{p}_r) \label{eq:RotatingFrame-H} \\
+              \mathbf{W} &= \boldsymbol{\Omega}(t) \label{eq:RotatingFrame-W}
+            \end{align}
+            \par\medskip\noindent\textbf{Equations of motion}
+            \begin{align}
+              m \ddot{\mathbf{r}} &= m (\mathbf{r} \times \boldsymbol{\Omega}'(t) - \mathbf{W} \times (\mathbf{W} \times \mathbf{r}) - 2 (\mathbf{W} \times \dot{\mathbf{r}}) - \mathbf{A}(t)) - \frac{\partial U}{\partial \mathbf{r}} \label{eq:RotatingFrame-r}
+            \end{align}
+            \par\medskip\noindent\textbf{Energy}
+            \begin{align}
+              E &= \tfrac{1}{2} m \dot{\mathbf{r}} \cdot \dot{\mathbf{r}} + m \mathbf{r} \cdot \mathbf{A}(t) + U(\mathbf{r}) - \tfrac{1}{2} m (\mathbf{W} \times \mathbf{r}) \cdot (\mathbf{W} \times \mathbf{r}) \nonumber \\*
+                &\quad \quad \text{(}L_2 - L_0\text{ by degree in the velocities; }\frac{d}{dt} E\text{ is }-\frac{\partial L}{\partial t}\text{)} \label{eq:RotatingFrame-E}
+            \end{align}
+            \par\medskip\noindent\textbf{Momenta}
+            \begin{align}
+              \mathbf{p}_r &= m \dot{\mathbf{r}} - m (\mathbf{r} \times \mathbf{W}) \label{eq:RotatingFrame-p_r}
+            \end{align}
+            \par\medskip\noindent\textbf{Hamiltonian}
+            \begin{align}
+              H &= \frac{\mathbf{p}_r \cdot \mathbf{p}_r}{2 m} + m \mathbf{r} \cdot \mathbf{A}(t) + U(\mathbf{r}) - \mathbf{W} \cdot (\mathbf{r} \times \mathbf{p}_r) \label{eq:RotatingFrame-H}
+            \end{align}
+            \par\medskip\noindent\textbf{Hamilton's equations}
+            \begin{align}
               \dot{\mathbf{r}} &= \frac{\mathbf{p}_r}{m} + \mathbf{r} \times \mathbf{W} \label{eq:RotatingFrame-r-dot} \\
               \dot{\mathbf{p}}_r &= \mathbf{p}_r \times \mathbf{W} - m \mathbf{A}(t) - \frac{\partial U}{\partial \mathbf{r}} \label{eq:RotatingFrame-p-dot_r}
             \end{align}
+            \endgroup
         "#]],
     );
 }
@@ -298,6 +390,9 @@ fn functions_families_and_vectors() {
               R_b[0] = −λ_meet a[1]
               R_b[1] = λ_meet a[0]
 
+            Energy
+              E = ½ ṡ² + ½ ȧ·ȧ + ½ ḃ·ḃ + a[0] + f([s, 1], s) + f(a, s) + pair(|a − b|) + p[2][0] + p[1][0]   (T + U if U is a[0] + f([s, 1], s) + f(a, s) + pair(|a − b|) + p[2][0] + p[1][0]; d/dt E is Q·q̇)
+
             Momenta
               p_a = ȧ
               p_b = ḃ
@@ -317,48 +412,67 @@ fn functions_families_and_vectors() {
               ṗ_s = −(∂f/∂s)(a, s) − (∂f/∂s)([s, 1], s) − (∂f/∂r[0])([s, 1], s)
         "#]],
         expect![[r#"
+            \begingroup\allowdisplaybreaks
+            \par\medskip\noindent\textbf{Lagrangian}
             \begin{align}
-              L &= \tfrac{1}{2} \dot{\mathbf{a}} \cdot \dot{\mathbf{a}} + \tfrac{1}{2} \lvert \dot{\mathbf{b}} \rvert^2 + \tfrac{1}{2} \dot s^2 \nonumber \\
-                &\quad - \mathit{pair}(\lvert \mathbf{a} - \mathbf{b} \rvert) - f(\mathbf{a}, s) - f([s, 1], \nonumber \\
-                &\quad s) - \left( \sum_{i = 0}^{2} p_{i, 0} \right) \label{eq:Everything-L} \\
+              L &= \tfrac{1}{2} \dot{\mathbf{a}} \cdot \dot{\mathbf{a}} + \tfrac{1}{2} \lvert \dot{\mathbf{b}} \rvert^2 + \tfrac{1}{2} \dot s^2 - \mathit{pair}(\lvert \mathbf{a} - \mathbf{b} \rvert) - f(\mathbf{a}, s) \nonumber \\*
+                &\quad - f([s, 1], s) - \left( \sum_{i = 0}^{2} p_{i, 0} \right) \label{eq:Everything-L} \\
               \mathbf{p}_0 &= \mathbf{a} \label{eq:Everything-p-0} \\
               \mathbf{p}_{i = 1 \ldots 2} &= \mathbf{p}_{i - 1} + \frac{\mathbf{b}}{i} \label{eq:Everything-p-i-1-2} \\
-              \mathbf{Q}_a &= -k \dot{\mathbf{a}} \label{eq:Everything-Q_a} \\
-              ([a_0, a_1, 0] \times [b_0, b_1, 0])_2 &= 0 \quad \text{(holonomic)} \label{eq:Everything-meet} \\
-              \ddot a_0 &= \frac{\mathit{pair}'(\lvert \mathbf{a} - \mathbf{b} \rvert) (b_0 - a_0)}{\lvert \mathbf{a} - \mathbf{b} \rvert} - k \dot a_0 \nonumber \\
-                &\quad - 3 - \left( \frac{\partial f}{\partial r_0} \right)(\mathbf{a}, s) + \lambda_{\mathrm{meet}} b_1 \label{eq:Everything-a-0} \\
-              \ddot a_1 &= \frac{\mathit{pair}'(\lvert \mathbf{a} - \mathbf{b} \rvert) (b_1 - a_1)}{\lvert \mathbf{a} - \mathbf{b} \rvert} - k \dot a_1 \nonumber \\
-                &\quad - \left( \frac{\partial f}{\partial r_1} \right)(\mathbf{a}, s) - \lambda_{\mathrm{meet}} b_0 \label{eq:Everything-a-1} \\
-              \ddot b_0 &= \frac{\mathit{pair}'(\lvert \mathbf{a} - \mathbf{b} \rvert) (a_0 - b_0)}{\lvert \mathbf{a} - \mathbf{b} \rvert} - \tfrac{5}{2} \nonumber \\
-                &\quad - \lambda_{\mathrm{meet}} a_1 \label{eq:Everything-b-0} \\
-              \ddot b_1 &= \frac{\mathit{pair}'(\lvert \mathbf{a} - \mathbf{b} \rvert) (a_1 - b_1)}{\lvert \mathbf{a} - \mathbf{b} \rvert} \nonumber \\
-                &\quad + \lambda_{\mathrm{meet}} a_0 \label{eq:Everything-b-1} \\
-              \ddot s &= -\left( \frac{\partial f}{\partial s} \right)(\mathbf{a}, s) - \left( \frac{\partial f}{\partial s} \right)([s, 1], s) \nonumber \\
-                &\quad - \left( \frac{\partial f}{\partial r_0} \right)([s, 1], s) \label{eq:Everything-s} \\
+              \mathbf{Q}_a &= -k \dot{\mathbf{a}} \label{eq:Everything-Q_a}
+            \end{align}
+            \par\medskip\noindent\textbf{Constraints}
+            \begin{align}
+              ([a_0, a_1, 0] \times [b_0, b_1, 0])_2 &= 0 \quad \text{(holonomic)} \label{eq:Everything-meet}
+            \end{align}
+            \par\medskip\noindent\textbf{Equations of motion}
+            \begin{align}
+              \ddot a_0 &= \frac{\mathit{pair}'(\lvert \mathbf{a} - \mathbf{b} \rvert) (b_0 - a_0)}{\lvert \mathbf{a} - \mathbf{b} \rvert} - k \dot a_0 - 3 - \left( \frac{\partial f}{\partial r_0} \right)(\mathbf{a}, s) \nonumber \\*
+                &\quad + \lambda_{\mathrm{meet}} b_1 \label{eq:Everything-a-0} \\
+              \ddot a_1 &= \frac{\mathit{pair}'(\lvert \mathbf{a} - \mathbf{b} \rvert) (b_1 - a_1)}{\lvert \mathbf{a} - \mathbf{b} \rvert} - k \dot a_1 - \left( \frac{\partial f}{\partial r_1} \right)(\mathbf{a}, s) \nonumber \\*
+                &\quad - \lambda_{\mathrm{meet}} b_0 \label{eq:Everything-a-1} \\
+              \ddot b_0 &= \frac{\mathit{pair}'(\lvert \mathbf{a} - \mathbf{b} \rvert) (a_0 - b_0)}{\lvert \mathbf{a} - \mathbf{b} \rvert} - \tfrac{5}{2} - \lambda_{\mathrm{meet}} a_1 \label{eq:Everything-b-0} \\
+              \ddot b_1 &= \frac{\mathit{pair}'(\lvert \mathbf{a} - \mathbf{b} \rvert) (a_1 - b_1)}{\lvert \mathbf{a} - \mathbf{b} \rvert} + \lambda_{\mathrm{meet}} a_0 \label{eq:Everything-b-1} \\
+              \ddot s &= -\left( \frac{\partial f}{\partial s} \right)(\mathbf{a}, s) - \left( \frac{\partial f}{\partial s} \right)([s, 1], s) - \left( \frac{\partial f}{\partial r_0} \right)([s, 1], s) \label{eq:Everything-s}
+            \end{align}
+            \par\medskip\noindent\textbf{Constraint forces}
+            \begin{align}
               R_{a, 0} &= \lambda_{\mathrm{meet}} b_1 \label{eq:Everything-R_a-0} \\
               R_{a, 1} &= -\lambda_{\mathrm{meet}} b_0 \label{eq:Everything-R_a-1} \\
               R_{b, 0} &= -\lambda_{\mathrm{meet}} a_1 \label{eq:Everything-R_b-0} \\
-              R_{b, 1} &= \lambda_{\mathrm{meet}} a_0 \label{eq:Everything-R_b-1} \\
+              R_{b, 1} &= \lambda_{\mathrm{meet}} a_0 \label{eq:Everything-R_b-1}
+            \end{align}
+            \par\medskip\noindent\textbf{Energy}
+            \begin{align}
+              E &= \tfrac{1}{2} \dot s^2 + \tfrac{1}{2} \dot{\mathbf{a}} \cdot \dot{\mathbf{a}} + \tfrac{1}{2} \dot{\mathbf{b}} \cdot \dot{\mathbf{b}} + a_0 + f([s, 1], s) + f(\mathbf{a}, s) \nonumber \\*
+                &\quad + \mathit{pair}(\lvert \mathbf{a} - \mathbf{b} \rvert) + p_{2, 0} + p_{1, 0} \quad \text{(}T + U\text{ if }U\text{ is }a_0 + f([s, 1], s) \nonumber \\*
+                &\quad + f(\mathbf{a}, s) + \mathit{pair}(\lvert \mathbf{a} - \mathbf{b} \rvert) + p_{2, 0} + p_{1, 0}\text{; }\frac{d}{dt} E\text{ is }Q \cdot \dot q\text{)} \label{eq:Everything-E}
+            \end{align}
+            \par\medskip\noindent\textbf{Momenta}
+            \begin{align}
               \mathbf{p}_a &= \dot{\mathbf{a}} \label{eq:Everything-p_a} \\
               \mathbf{p}_b &= \dot{\mathbf{b}} \label{eq:Everything-p_b} \\
-              p_s &= \dot s \label{eq:Everything-p_s} \\
-              H &= \tfrac{1}{2} p_s^2 + \tfrac{1}{2} \mathbf{p}_a \cdot \mathbf{p}_a + \tfrac{1}{2} \mathbf{p}_b \cdot \mathbf{p}_b + a_0 \nonumber \\
-                &\quad + f([s, 1], s) + f(\mathbf{a}, s) \nonumber \\
-                &\quad + \mathit{pair}(\lvert \mathbf{a} - \mathbf{b} \rvert) + p_{2, 0} + p_{1, 0} \label{eq:Everything-H} \\
+              p_s &= \dot s \label{eq:Everything-p_s}
+            \end{align}
+            \par\medskip\noindent\textbf{Hamiltonian}
+            \begin{align}
+              H &= \tfrac{1}{2} p_s^2 + \tfrac{1}{2} \mathbf{p}_a \cdot \mathbf{p}_a + \tfrac{1}{2} \mathbf{p}_b \cdot \mathbf{p}_b + a_0 + f([s, 1], s) + f(\mathbf{a}, s) \nonumber \\*
+                &\quad + \mathit{pair}(\lvert \mathbf{a} - \mathbf{b} \rvert) + p_{2, 0} + p_{1, 0} \label{eq:Everything-H}
+            \end{align}
+            \par\medskip\noindent\textbf{Hamilton's equations}
+            \begin{align}
               \dot{\mathbf{a}} &= \mathbf{p}_a \label{eq:Everything-a-dot} \\
               \dot{\mathbf{b}} &= \mathbf{p}_b \label{eq:Everything-b-dot} \\
               \dot s &= p_s \label{eq:Everything-s-dot} \\
-              \dot p_{a, 0} &= \frac{\mathit{pair}'(\lvert \mathbf{a} - \mathbf{b} \rvert) (b_0 - a_0)}{\lvert \mathbf{a} - \mathbf{b} \rvert} - k p_{a, 0} \nonumber \\
-                &\quad - 3 - \left( \frac{\partial f}{\partial r_0} \right)(\mathbf{a}, s) + \lambda_{\mathrm{meet}} b_1 \label{eq:Everything-p-dot_a-0} \\
-              \dot p_{a, 1} &= \frac{\mathit{pair}'(\lvert \mathbf{a} - \mathbf{b} \rvert) (b_1 - a_1)}{\lvert \mathbf{a} - \mathbf{b} \rvert} - k p_{a, 1} \nonumber \\
-                &\quad - \left( \frac{\partial f}{\partial r_1} \right)(\mathbf{a}, s) - \lambda_{\mathrm{meet}} b_0 \label{eq:Everything-p-dot_a-1} \\
-              \dot p_{b, 0} &= \frac{\mathit{pair}'(\lvert \mathbf{a} - \mathbf{b} \rvert) (a_0 - b_0)}{\lvert \mathbf{a} - \mathbf{b} \rvert} - \tfrac{5}{2} \nonumber \\
-                &\quad - \lambda_{\mathrm{meet}} a_1 \label{eq:Everything-p-dot_b-0} \\
-              \dot p_{b, 1} &= \frac{\mathit{pair}'(\lvert \mathbf{a} - \mathbf{b} \rvert) (a_1 - b_1)}{\lvert \mathbf{a} - \mathbf{b} \rvert} \nonumber \\
-                &\quad + \lambda_{\mathrm{meet}} a_0 \label{eq:Everything-p-dot_b-1} \\
-              \dot p_s &= -\left( \frac{\partial f}{\partial s} \right)(\mathbf{a}, s) - \left( \frac{\partial f}{\partial s} \right)([s, 1], s) \nonumber \\
-                &\quad - \left( \frac{\partial f}{\partial r_0} \right)([s, 1], s) \label{eq:Everything-p-dot_s}
+              \dot p_{a, 0} &= \frac{\mathit{pair}'(\lvert \mathbf{a} - \mathbf{b} \rvert) (b_0 - a_0)}{\lvert \mathbf{a} - \mathbf{b} \rvert} - k p_{a, 0} - 3 - \left( \frac{\partial f}{\partial r_0} \right)(\mathbf{a}, \nonumber \\*
+                &\quad s) + \lambda_{\mathrm{meet}} b_1 \label{eq:Everything-p-dot_a-0} \\
+              \dot p_{a, 1} &= \frac{\mathit{pair}'(\lvert \mathbf{a} - \mathbf{b} \rvert) (b_1 - a_1)}{\lvert \mathbf{a} - \mathbf{b} \rvert} - k p_{a, 1} - \left( \frac{\partial f}{\partial r_1} \right)(\mathbf{a}, s) \nonumber \\*
+                &\quad - \lambda_{\mathrm{meet}} b_0 \label{eq:Everything-p-dot_a-1} \\
+              \dot p_{b, 0} &= \frac{\mathit{pair}'(\lvert \mathbf{a} - \mathbf{b} \rvert) (a_0 - b_0)}{\lvert \mathbf{a} - \mathbf{b} \rvert} - \tfrac{5}{2} - \lambda_{\mathrm{meet}} a_1 \label{eq:Everything-p-dot_b-0} \\
+              \dot p_{b, 1} &= \frac{\mathit{pair}'(\lvert \mathbf{a} - \mathbf{b} \rvert) (a_1 - b_1)}{\lvert \mathbf{a} - \mathbf{b} \rvert} + \lambda_{\mathrm{meet}} a_0 \label{eq:Everything-p-dot_b-1} \\
+              \dot p_s &= -\left( \frac{\partial f}{\partial s} \right)(\mathbf{a}, s) - \left( \frac{\partial f}{\partial s} \right)([s, 1], s) - \left( \frac{\partial f}{\partial r_0} \right)([s, 1], s) \label{eq:Everything-p-dot_s}
             \end{align}
+            \endgroup
         "#]],
     );
 }
@@ -412,7 +526,7 @@ fn momenta_are_factored() {
 fn a_momentum_that_is_conserved_is_written_once() {
     let free = "#[coordinates(r: [3], s)] #[lagrangian(m/2*dot(r_dot, r_dot) + s_dot^2/2 - s^2)]
          struct Free { m: f64 }";
-    assert_eq!(lines(free, "Conserved\n"), "p_r = m ṙ\n  E = ½ ṡ² + ½ m ṙ·ṙ + s²   (T + U)");
+    assert_eq!(lines(free, "Conserved\n"), "p_r = m ṙ\n  E = ½ ṡ² + ½ m ṙ·ṙ + s²   (T + U if U is s²)");
     assert_eq!(lines(free, "Momenta\n"), "p_s = ṡ");
     let falling = "#[coordinates(r: [3])] #[lagrangian(m/2*dot(r_dot, r_dot) - m*g*r[2])]
          struct Falling { m: f64, g: f64 }";
@@ -426,7 +540,10 @@ fn scalars_of_vectors_are_products_of_vectors() {
     let turning = "#[coordinates(r: [3])] #[define(v = r_dot + cross(Omega, r))]
          #[lagrangian(m/2*dot(v, v) + G*m/norm(r))] struct Turning { m: f64, G: f64, Omega: Vector3<f64> }";
     assert_eq!(lines(turning, "Hamiltonian\n"), "H = (p_r·p_r)/(2 m) − Ω·(r×p_r) − m G/|r|");
-    assert_eq!(lines(turning, "Conserved\n"), "E = ½ m ṙ·ṙ − m G/|r| − ½ m (Ω×r)·(Ω×r)   (not T + U)");
+    assert_eq!(
+        lines(turning, "Conserved\n"),
+        "E = ½ m ṙ·ṙ − m G/|r| − ½ m (Ω×r)·(Ω×r)   (L₂ − L₀ by degree in the velocities)"
+    );
 }
 
 #[test]
@@ -448,4 +565,144 @@ fn constraints_say_their_kinds_in_every_form() {
         let clauses = kind.replace(", ", r", }\text{");
         assert!(latex.contains(&format!(r"\text{{{clauses}}}")), "{latex}");
     }
+}
+
+/// Goldstein, Poole and Safko, *Classical Mechanics*, 2.7: E is T + U where coordinates do not move with time. From
+/// L alone that cannot be told, and it is told only where it is certain.
+#[test]
+fn the_energy_is_called_t_plus_u_where_that_is_certain() {
+    let cases = [
+        (
+            "pendulum",
+            "#[coordinates(theta)] #[lagrangian(m/2*l^2*theta_dot^2 + m*g*l*cos(theta))]
+             struct S { m: f64, l: f64, g: f64 }",
+            "Conserved\n",
+            "E = ½ m l² θ̇² − m l g cos θ   (T + U if U is −m l g cos θ)",
+        ),
+        (
+            "free",
+            "#[coordinates(x)] #[lagrangian(m/2*x_dot^2)] #[force(x: -k*x)] struct S { m: f64, k: f64 }",
+            "Energy\n",
+            "E = ½ m ẋ²   (T if U is 0; d/dt E is Q·q̇)",
+        ),
+        // Its U is 0: E is not T + U, and nothing says so.
+        (
+            "bead on a wire that is turned",
+            "#[coordinates(r)] #[lagrangian(m/2*(r_dot^2 + w^2*r^2))] struct S { m: f64, w: f64 }",
+            "Conserved\n",
+            "E = ½ m ṙ² − ½ m w² r²   (T + U if U is −½ m w² r²)",
+        ),
+        (
+            "hoop that is turned, in space",
+            "#[coordinates(theta)] #[define(x = a*sin(theta)*cos(w*t))] #[define(y = a*sin(theta)*sin(w*t))]
+             #[define(z = -a*cos(theta))] #[lagrangian(m/2*(der(x)^2 + der(y)^2 + der(z)^2) - m*g*z)]
+             struct S { m: f64, a: f64, w: f64, g: f64 }",
+            "Conserved\n",
+            "(not T + U: positions move with time; conserved in all random motions tried)",
+        ),
+        (
+            "rotating frame by hand",
+            "#[coordinates(x, y)] #[lagrangian(m/2*((x_dot - w*y)^2 + (y_dot + w*x)^2))]
+             struct S { m: f64, w: f64 }",
+            "Conserved\n",
+            "E = ½ m (ẋ² + ẏ²) − ½ m w² (x² + y²)   (L₂ − L₀ by degree in the velocities)",
+        ),
+        (
+            "charge",
+            "#[coordinates(x, y)] #[lagrangian(m/2*(x_dot^2 + y_dot^2) + q*B*x*y_dot - q*V*x)]
+             struct S { m: f64, q: f64, B: f64, V: f64 }",
+            "Conserved\n",
+            "E = ½ m (ẋ² + ẏ²) + q V x   (L₂ − L₀ by degree in the velocities)",
+        ),
+        (
+            "pendulum whose pivot is moved",
+            "#[coordinates(theta)] #[define(x = a*cos(w*t) + l*sin(theta))] #[define(y = -l*cos(theta))]
+             #[lagrangian(m/2*(der(x)^2 + der(y)^2) - m*g*y)]
+             struct S { m: f64, l: f64, a: f64, w: f64, g: f64 }",
+            "Energy\n",
+            "not T + U: positions move with time; d/dt E is −∂L/∂t)",
+        ),
+        (
+            "body on a frame that is turned",
+            "#[coordinates(r)] #[frame(arm: rotate_z(w*t))] #[frame(bead in arm: translate([r, 0, 0]))]
+             #[lagrangian(kinetic(bead, m) - k/2*r^2)] struct S { m: f64, k: f64, w: f64 }",
+            "Conserved\n",
+            "(not T + U: positions move with time)",
+        ),
+        (
+            "velocity in a frame that is turned",
+            "#[coordinates(r)] #[frame(arm: rotate_z(w*t))] #[define(v = velocity(arm, [r, 0, 0]))]
+             #[lagrangian(m/2*dot(v, v) - k/2*r^2)] struct S { m: f64, k: f64, w: f64 }",
+            "Conserved\n",
+            "(not T + U: positions move with time)",
+        ),
+        (
+            "body on a frame that turns freely",
+            "#[coordinates(a, r)] #[frame(arm: rotate_z(a))] #[frame(bead in arm: translate([r, 0, 0]))]
+             #[lagrangian(kinetic(bead, m) - k/2*r^2)] struct S { m: f64, k: f64 }",
+            "Conserved\n",
+            "E = ½ k r² + ½ m (ṙ² + r² ȧ²)   (T + U)",
+        ),
+        // A gauge term moves nothing.
+        (
+            "total derivative",
+            "#[coordinates(x)] #[lagrangian(m/2*x_dot^2 - k/2*x^2 + c*der(x*t))]
+             struct S { m: f64, k: f64, c: f64 }",
+            "Energy\n",
+            "(L₂ − L₀ by degree in the velocities; d/dt E is −∂L/∂t)",
+        ),
+        (
+            "relativistic",
+            "#[coordinates(x)] #[lagrangian(-m*c^2*sqrt(1 - x_dot^2/c^2) - k/2*x^2)]
+             struct S { m: f64, c: f64, k: f64 }",
+            "Conserved\n",
+            "(p·q̇ − L)",
+        ),
+        (
+            "constraint that is moved",
+            "#[coordinates(x, y)] #[lagrangian(m/2*(x_dot^2 + y_dot^2))]
+             #[constraint(rod: (x - a*sin(w*t))^2 + y^2 = l^2)] struct S { m: f64, a: f64, w: f64, l: f64 }",
+            "Energy\n",
+            "(T if U is 0; d/dt E is −λ·b)",
+        ),
+    ];
+    let missed = cases.into_iter().filter_map(|(what, source, heading, line)| {
+        let printed = lines(source, heading);
+        (!printed.contains(line)).then(|| format!("{what}: {printed}"))
+    });
+    let missed: Vec<String> = missed.collect();
+    assert!(missed.is_empty(), "{}", missed.join("\n"));
+}
+
+#[test]
+fn a_hamiltonian_that_is_not_written_says_why() {
+    let cases = [
+        (
+            "#[coordinates(x)] #[lagrangian(x_dot^4 - x^2)] struct S {}",
+            "L is not quadratic in the velocities",
+        ),
+        (
+            "#[coordinates(q: [4])] #[define(w = quat_rate_body(q, q_dot))]
+             #[lagrangian(i/2*w[0]^2 + j/2*w[1]^2 + k/2*w[2]^2)] #[constraint(unit: dot(q, q) = 1)]
+             struct S { i: f64, j: f64, k: f64 }",
+            "the mass matrix is singular, and constraints decide on the velocities",
+        ),
+        (
+            "#[coordinates(x: [9])] #[lagrangian(dot(x_dot, x_dot)/2 - x[0]*x[1])] struct S {}",
+            "it is too long to be read",
+        ),
+    ];
+    for (source, why) in cases {
+        let note = format!("not written out, as {why}: `hamiltonian` computes it");
+        assert_eq!(lines(source, "Hamiltonian\n"), note);
+        let [[_, latex, html], ..] = rendered(source).forms;
+        assert!(html.contains(&format!("<h5>Hamiltonian</h5>\n<p>{note}</p>")), "{html}");
+        assert!(
+            latex.contains(&note.replace('`', "").replace("hamiltonian", r"\texttt{hamiltonian}")),
+            "{latex}"
+        );
+    }
+    let relativistic = "#[coordinates(x)] #[lagrangian(-m*c^2*sqrt(1 - x_dot^2/c^2) - k/2*x^2)]
+         struct S { m: f64, c: f64, k: f64 }";
+    assert_eq!(lines(relativistic, "Momenta\n"), "p_x = m ẋ/√(1 − ẋ²/c²)");
 }

@@ -37,6 +37,7 @@ impl Lowering<'_> {
                 let rate = self.rate_of(&Value::vector(r), place)?;
                 let rate = self.components(&rate)?;
                 let velocity = self.frames.all[axes.frame].velocity_of(r, rate, &mut self.graph);
+                self.rates.push(velocity.to_vec());
                 Some(Value::Spatial(axes, velocity))
             }
             ("jacobian", [velocity]) => self.jacobian(velocity, place),
@@ -129,6 +130,7 @@ impl Lowering<'_> {
         let frame = &self.frames.all[axes.frame];
         let (angular_velocity, velocity) =
             (frame.angular_velocity, frame.velocity_of(centre, rate, &mut self.graph));
+        self.rates.extend([angular_velocity.to_vec(), velocity.to_vec()]);
         let square = self.graph.dot(&velocity, &velocity);
         let moving = self.graph.mul(mass, square);
         let turning = self.quadratic(angular_velocity, inertia);
