@@ -61,7 +61,7 @@ impl Page<'_> {
             EnergyForm::Sum(_) => vec![t_plus_u()],
             EnergyForm::Even(_) => self.if_potential(t_plus_u()),
             EnergyForm::Moving => {
-                vec![Part::words("not "), t_plus_u(), Part::words(": positions move with time")]
+                vec![Part::words("not "), t_plus_u(), Part::words(", as positions move with time")]
             }
             EnergyForm::Quadratic => {
                 let parts = sum([name("L_2"), name("L_0").negated()]);

@@ -598,7 +598,7 @@ fn the_energy_is_called_t_plus_u_where_that_is_certain() {
              #[define(z = -a*cos(theta))] #[lagrangian(m/2*(der(x)^2 + der(y)^2 + der(z)^2) - m*g*z)]
              struct S { m: f64, a: f64, w: f64, g: f64 }",
             "Conserved\n",
-            "(not T + U: positions move with time; conserved in all random motions tried)",
+            "(not T + U, as positions move with time; conserved in all random motions tried)",
         ),
         (
             "rotating frame by hand",
@@ -620,21 +620,21 @@ fn the_energy_is_called_t_plus_u_where_that_is_certain() {
              #[lagrangian(m/2*(der(x)^2 + der(y)^2) - m*g*y)]
              struct S { m: f64, l: f64, a: f64, w: f64, g: f64 }",
             "Energy\n",
-            "not T + U: positions move with time; d/dt E is −∂L/∂t)",
+            "not T + U, as positions move with time; d/dt E is −∂L/∂t)",
         ),
         (
             "body on a frame that is turned",
             "#[coordinates(r)] #[frame(arm: rotate_z(w*t))] #[frame(bead in arm: translate([r, 0, 0]))]
              #[lagrangian(kinetic(bead, m) - k/2*r^2)] struct S { m: f64, k: f64, w: f64 }",
             "Conserved\n",
-            "(not T + U: positions move with time)",
+            "(not T + U, as positions move with time)",
         ),
         (
             "velocity in a frame that is turned",
             "#[coordinates(r)] #[frame(arm: rotate_z(w*t))] #[define(v = velocity(arm, [r, 0, 0]))]
              #[lagrangian(m/2*dot(v, v) - k/2*r^2)] struct S { m: f64, k: f64, w: f64 }",
             "Conserved\n",
-            "(not T + U: positions move with time)",
+            "(not T + U, as positions move with time)",
         ),
         (
             "body on a frame that turns freely",
