@@ -328,6 +328,14 @@ impl Expression {
         }
     }
 
+    /// An entry of a vector that is written out.
+    pub(crate) fn entry(&self, index: usize) -> Option<&Self> {
+        match &self.kind {
+            Kind::Vector(entries) => entries.get(index),
+            _ => None,
+        }
+    }
+
     /// Calls `visit` with every name that the expression uses.
     pub(crate) fn names(&self, visit: &mut impl FnMut(&Name)) {
         if let Kind::Name(name) | Kind::Call(name, _) = &self.kind {

@@ -6,7 +6,7 @@ use super::super::value::{Axes, Shape, Value, cross};
 use super::pose::{sum, symmetric};
 use super::{Body, Triple};
 use crate::diagnostics::Place;
-use crate::symbolic::{Id, Rational};
+use crate::symbolic::{Id, Rational, Symbol, Verdict, to_f64};
 use crate::syntax::{Expression, Name};
 use crate::variables::Variable;
 
@@ -182,7 +182,52 @@ impl Lowering<'_> {
     fn inertia(&mut self, expression: &Expression) -> Option<[Triple; 3]> {
         let value = self.lower(expression)?;
         let wrong = || format!("an inertia is a 3 by 3 matrix, but this is {}", value.shape());
-        value.as_map_of_space().or_else(|| self.report(expression.place, wrong()))
+        let rows = value.as_map_of_space().or_else(|| self.report(expression.place, wrong()))?;
+        self.reject_unsymmetric(rows, expression)?;
+        Some(rows)
+    }
+
+    /// Reports entries across the diagonal that differ whatever the parameters are.
+    fn reject_unsymmetric(&mut self, rows: [Triple; 3], at: &Expression) -> Option<()> {
+        let mut pairs = [(0, 1), (0, 2), (1, 2)].into_iter();
+        let Some((i, j)) = pairs.find(|&(i, j)| self.surely_differ(rows[i][j], rows[j][i])) else {
+            return Some(());
+        };
+        let numbers = [rows[i][j], rows[j][i]].map(|entry| self.graph.as_number(entry));
+        let values = match numbers {
+            [Some(x), Some(y)] => format!(", {} and {}", to_f64(x), to_f64(y)),
+            _ => String::new(),
+        };
+        let message = format!(
+            "an inertia is symmetric, but its entries [{i}][{j}] and [{j}][{i}] differ{values}: write the same in both"
+        );
+        match [(i, j), (j, i)].map(|(row, column)| at.entry(row).and_then(|row| row.entry(column))) {
+            [Some(first), Some(second)] => {
+                self.diagnostics.push(second.place.error_beside(
+                    message,
+                    first.place,
+                    "the other one is here",
+                ));
+                None
+            }
+            _ => self.report(at.place, message),
+        }
+    }
+
+    /// Whether two expressions, or their slopes by what moves, differ by something without parameters that is not zero.
+    fn surely_differ(&mut self, x: Id, y: Id) -> bool {
+        let difference = self.graph.sub(x, y);
+        let is_parameter = |symbol| matches!(Variable::of(symbol), Variable::Parameter(_));
+        let moving: Vec<Symbol> =
+            self.graph.symbols(&[difference]).filter(|&symbol| !is_parameter(symbol)).collect();
+        let mut candidates = self.graph.gradient(difference, &moving);
+        candidates.push(difference);
+        candidates.into_iter().any(|candidate| {
+            let is_known =
+                !self.graph.has_external(&[candidate]) && !self.graph.symbols(&[candidate]).any(is_parameter);
+            let drawn = |symbol, draw| self.parameters.value_of(symbol, draw);
+            is_known && self.graph.is_zero(candidate, drawn) == Verdict::NonZero
+        })
     }
 
     fn quadratic(&mut self, vector: Triple, matrix: [Triple; 3]) -> Id {
