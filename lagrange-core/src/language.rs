@@ -393,8 +393,13 @@
 //! and velocities; with them it must be linear in them, and it is enforced on the velocities. Each scalar equation
 //! has one multiplier, and the constraint force on coordinate a is Σ_α λ_α F_αa, with F = ∂Φ/∂q or the coefficients
 //! of q̇. A vector equation is one constraint a component, `c[0]`, `c[1]`, …; a family is written
-//! `rod[i in 0..3]: …` or, with two indices, `rod[i in 0..3, j in 0..i]: …`. Constraints that contradict each other, `y = 0` and `y = 1`, and one that says the same as another
-//! are errors while compiling where that is certain; other dependent constraints are for the numbers to tell.
+//! `rod[i in 0..3]: …` or, with two indices, `rod[i in 0..3, j in 0..i]: …`.
+//!
+//! A constraint that contradicts others, `y = 0` and `y = 1`, or follows from them is an error while compiling where that is
+//! certain: its row of F is a combination of the others' rows at every state and for all parameters. So are `x_dot = a*phi_dot`
+//! beside `x = a*phi`, the sum of two others, and `x_dot = v*cos(th)` beside the two components of the velocity along
+//! and across `th`. Rows that are dependent only on the constraints, as in some closed linkages, at some poses or for some
+//! parameters are for the numbers to tell: the motion is right, and multipliers are those of least norm.
 //!
 //! ```
 //! use lagrange_core::prelude::*;

@@ -95,12 +95,14 @@ fn two_bodies() {
 #[derive(Lagrangian)]
 #[coordinates(x, y, z)]
 #[lagrangian(m/2 * (x_dot^2 + y_dot^2 + z_dot^2))]
-#[constraint(sphere: x^2 + y^2 + z^2 = l^2)]
-#[constraint(also: x*x_dot + y*y_dot + z*z_dot = 0)]
+#[constraint(sphere: a*(x^2 + y^2 + z^2 - l^2) = 0)]
+#[constraint(also: b*(x*x_dot + y*y_dot + z*z_dot) = 0)]
 #[conserved(rotation = cross([x, y, z], [x_dot, y_dot, z_dot]))]
 struct Redundant {
     m: f64,
     l: f64,
+    a: f64,
+    b: f64,
 }
 
 #[test]

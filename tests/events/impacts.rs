@@ -74,13 +74,15 @@ fn singular_and_dependent_systems_have_impacts() {
     #[derive(Lagrangian)]
     #[coordinates(x, z)]
     #[lagrangian(m/2 * x_dot^2)]
-    #[constraint(lever: z - 2*x = 0)]
-    #[constraint(again: z^2/2 - 2*x^2 = 0)]
-    #[constraint(stop: z - 1 = 0)]
+    #[constraint(lever: c[0]*(z - 2*x) = 0)]
+    #[constraint(again: c[1]*(z^2/2 - 2*x^2) = 0)]
+    #[constraint(stop: c[2]*(z - 1) = 0)]
     struct Lever {
         m: f64,
+        /// Were one of them zero, the other constraints would be needed.
+        c: [f64; 3],
     }
-    let lever = Lever { m: 4.0 };
+    let lever = Lever { m: 4.0, c: [1.0; 3] };
     let impact = lever.impact(&State::new([0.5, 1.0], [1.0, 2.0]), "stop", 0.5).unwrap();
     assert!((impact.state.v[0] + 0.5).abs() < 1e-14 && (impact.state.v[1] + 1.0).abs() < 1e-14);
     // 4 (−0.5 − 1) = −2 Λ_lever − 2 Λ_again, 0 = Λ_lever + Λ_again + Λ_stop.

@@ -202,14 +202,16 @@ fn singular_and_dependent_systems_have_derivatives_of_impacts() {
     #[derive(Lagrangian)]
     #[coordinates(x, z)]
     #[lagrangian(m/2 * x_dot^2)]
-    #[constraint(lever: z - r*x = 0)]
-    #[constraint(again: z^2/2 - r^2*x^2/2 = 0)]
-    #[constraint(stop: z - 1 = 0)]
+    #[constraint(lever: c[0]*(z - r*x) = 0)]
+    #[constraint(again: c[1]*(z^2/2 - r^2*x^2/2) = 0)]
+    #[constraint(stop: c[2]*(z - 1) = 0)]
     struct Lever {
         m: f64,
         r: f64,
+        /// Were one of them zero, the other constraints would be needed.
+        c: [f64; 3],
     }
-    let (lever, e) = (Lever { m: 4.0, r: 2.0 }, 0.5);
+    let (lever, e) = (Lever { m: 4.0, r: 2.0, c: [1.0; 3] }, 0.5);
     let before = lever.sensitivity(&State::new([0.5, 1.0], [1.0, 2.0]), &["m"]).unwrap().with(&["e", "by"]);
     let mut before = before.unwrap();
     // Faster on the constraints.

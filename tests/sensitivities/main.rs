@@ -210,19 +210,21 @@ fn kepler_ellipse() {
     check_each(&Kepler { mu: 1.0 }, State::new([1.0, 0.0], [0.0, 1.2]), 4.0);
 }
 
-/// Two constraints of which one follows from the other.
+/// Two constraints of which one follows from the other where neither factor is zero.
 #[derive(Clone, Lagrangian)]
 #[coordinates(x, y)]
 #[lagrangian((x_dot^2 + y_dot^2)/2 - 9.81*y)]
-#[constraint(rod: x^2 + y^2 = l^2)]
-#[constraint(again: x*x_dot + y*y_dot = 0)]
+#[constraint(rod: a*(x^2 + y^2 - l^2) = 0)]
+#[constraint(again: b*(x*x_dot + y*y_dot) = 0)]
 struct Twice<T> {
     l: T,
+    a: T,
+    b: T,
 }
 
 #[test]
 fn dependent_constraints() {
-    check_each(&Twice { l: 1.3 }, State::new([0.5, -1.2], [1.2, 0.5]), 1.5);
+    check_each(&Twice { l: 1.3, a: 1.0, b: 1.0 }, State::new([0.5, -1.2], [1.2, 0.5]), 1.5);
 }
 
 /// A slider, its crank turned by a spring.

@@ -57,18 +57,21 @@ fn constraints_hold_between_the_steps() -> Result<(), Box<dyn core::error::Error
 #[derive(Lagrangian)]
 #[coordinates(x, y, z)]
 #[lagrangian((x_dot^2 + y_dot^2 + z_dot^2)/2 - g*y)]
-#[constraint(sphere: (x^2 + y^2 + z^2 - 1)/2 = 0)]
+#[constraint(sphere: a*(x^2 + y^2 + z^2 - 1)/2 = 0)]
 #[constraint(plane: z = 0)]
-#[constraint(cylinder: x^2 + y^2 = 1)]
+#[constraint(cylinder: b*(x^2 + y^2) = b)]
 struct Thrice {
     g: f64,
+    /// Were one of them zero, the constraint with the other would be needed.
+    a: f64,
+    b: f64,
 }
 
 /// Any two make a circle. A bob that is let go at the height of its suspension is held by 3 g y along it: of that the
 /// sphere's row r and the cylinder's 2 r have the least multipliers in the ratio of 1 to 2.
 #[test]
 fn a_constraint_too_many_shares_its_force() -> Result<(), Error> {
-    let system = Thrice { g: 9.81 };
+    let system = Thrice { g: 9.81, a: 1.0, b: 1.0 };
     let path = system.integrate(State::at_rest([1.0, 0.0, 0.0]), 10.0, Taylor::default())?;
     assert!(!path.multipliers_are_unique());
     for sample in path.steps().chain(path.samples(500)) {

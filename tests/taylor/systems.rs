@@ -92,18 +92,20 @@ fn a_chain_keeps_its_energy() -> Result<(), Error> {
 #[derive(Lagrangian)]
 #[coordinates(x, y, z)]
 #[lagrangian(m*(x_dot^2 + y_dot^2 + z_dot^2)/2 - m*g*z)]
-#[constraint(track: y = sin(x))]
-#[constraint(plane: z = y)]
-#[constraint(both: z = sin(x))]
+#[constraint(track: k[0]*(y - sin(x)) = 0)]
+#[constraint(plane: k[1]*(z - y) = 0)]
+#[constraint(both: k[2]*(z - sin(x)) = 0)]
 struct Twice {
     m: f64,
     g: f64,
+    /// Were one of them zero, the other constraints would be needed.
+    k: [f64; 3],
 }
 
 /// Three constraints of which any two are enough.
 #[test]
 fn a_constraint_too_many() -> Result<(), Error> {
-    let system = Twice { m: 1.0, g: 9.81 };
+    let system = Twice { m: 1.0, g: 9.81, k: [1.0; 3] };
     let (x, v) = (0.6_f64, 0.4);
     let start = State::new([x, x.sin(), x.sin()], [v, v * x.cos(), v * x.cos()]);
     assert!(difference(&system, start, 3.0)? < 1e-11);

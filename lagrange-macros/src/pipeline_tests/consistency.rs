@@ -1,7 +1,11 @@
 //! Constraints that cannot all hold, or that say the same.
 
-use super::tokens;
+use super::{declaration, tokens};
+use crate::diagnostics::Diagnostics;
 use crate::expand;
+use crate::mechanics;
+use crate::resolve;
+use crate::rounds::{Random, rounds};
 
 /// The errors for a system with these constraints, called a, b, c, ….
 fn said(constraints: &[&str]) -> Vec<String> {
@@ -16,7 +20,10 @@ fn said(constraints: &[&str]) -> Vec<String> {
          {attributes}
          struct System<F> {{ m: f64, h: f64, k: f64, f: F }}"
     );
-    let emitted = expand(tokens(&source)).to_string();
+    messages(&expand(tokens(&source)).to_string())
+}
+
+fn messages(emitted: &str) -> Vec<String> {
     emitted
         .split("compile_error ! {")
         .skip(1)
@@ -33,7 +40,8 @@ fn numbers_contradict_each_other() {
         (&["x + y = 1", "x - y = 0", "x = 3"], "`c` contradicts `a`, `b`: together they say -5/2 = 0"),
         (&["x_dot = 0", "z = 0", "x_dot = 1"], "`c` contradicts `a`: together they say -1 = 0"),
         // From the rates: y' = 0 and y' = 1.
-        (&["y = 2", "y_dot = 1"], "`a` contradicts `b`: together they say"),
+        (&["y = 2", "y_dot = 1"], "`b` contradicts `a`: together they say -1 = 0"),
+        (&["x = sin(h)^2 + cos(h)^2", "x = 2"], "`b` contradicts `a`: together they say -1 = 0"),
         (&["x*(y + z) = sqrt(2)", "x*(y + z) = 1"], "`b` contradicts `a`: together they leave an equation"),
     ] {
         let found = said(constraints);
@@ -79,21 +87,193 @@ fn repeated_ones_are_found_under_factors() {
     }
 }
 
-/// Constraints that depend on one another may be given: the numbers at run time tell.
+/// What `a`, `b`, … say beside others, as a function of which constraints are given.
 #[test]
-fn what_may_hold_is_let_through() {
+fn what_follows_from_others_is_one_too_many() {
+    let too = "`b` follows from `a`, which holds for velocities, too: leave `b` out";
+    for (constraints, wanted) in [
+        (&["x - h*y = 0", "x_dot - h*y_dot = 0"][..], too),
+        (&["x = 0", "x_dot = 0"], too),
+        (&["x = h", "x_dot = 0"], too),
+        (&["x = h*t", "2*x_dot = 2*h"], too),
+        (&["x^2 + y^2 = h^2", "x*x_dot + y*y_dot = 0"], too),
+        (&["sqrt(x^2 + y^2) = h", "x*x_dot + y*y_dot = 0"], too),
+        (&["x^2 + y^2 = h^2", "(x*x_dot + y*y_dot)/sqrt(x^2 + y^2) = 0"], too),
+        (&["x = sin(y)", "x_dot*cos(y) - y_dot*(1 - sin(y)^2) = 0"], too),
+        (&["x*y = f(t)", "x*y_dot + y*x_dot = der(f(t))"], too),
+        (&["(x - y)^2 + z^2 = h", "x*(x_dot - y_dot) + z*z_dot = y*(x_dot - y_dot)"], too),
+        // The holonomic one stays, wherever it stands.
+        (
+            &["x_dot - h*y_dot = 0", "x - h*y = 0"],
+            "`a` follows from `b`, which holds for velocities, too: leave `a` out",
+        ),
+        (
+            &["x = h*y", "y = k*z", "x_dot = h*k*z_dot"],
+            "`c` follows from `a`, `b`, which hold for velocities, too: leave `c` out",
+        ),
+        (&["x + y = 1", "x - y = 0", "2*x = 1"], "`c` follows from `a`, `b`: leave `c` out"),
+        (&["x^2 + y^2 = 1", "x^2 + z^2 = 1", "y^2 - z^2 = 0"], "`c` follows from `a`, `b`: leave `c` out"),
+        (
+            &["x_dot = y*z_dot", "y_dot = x*z_dot", "x_dot + y_dot = (x + y)*z_dot"],
+            "`c` follows from `a`, `b`: leave `c` out",
+        ),
+        (
+            &["x_dot*cos(z) + y_dot*sin(z) = h", "y_dot*cos(z) - x_dot*sin(z) = 0", "x_dot = h*cos(z)"],
+            "`c` follows from `a`, `b`: leave `c` out",
+        ),
+        (&["x_dot = y*z_dot", "sin(y)*x_dot = sin(y)*y*z_dot"], "`b` follows from `a`: leave `b` out"),
+        (&["sin(y)*x_dot = sin(y)*y*z_dot", "x_dot = y*z_dot"], "`a` follows from `b`: leave `a` out"),
+        (&["h*x_dot = h*y_dot", "x_dot = y_dot"], "`a` follows from `b`: leave `a` out"),
+        (
+            &["x*x_dot + y*y_dot = 1", "(x*x_dot + y*y_dot)/sqrt(x^2 + y^2) = 1/sqrt(x^2 + y^2)"],
+            "`b` follows from `a`: leave `b` out",
+        ),
+        (&["x = 0", "h*x = 1"], "`b` contradicts `a`, or follows from it: leave `b` out"),
+        (
+            &["x^2 + y^2 + z^2 = 1", "z = 0", "x^2 + y^2 = 1"],
+            "`c` contradicts `a`, `b`, or follows from them: leave `c` out",
+        ),
+        (
+            &["x + y = h", "x - y = 0", "2*x = k"],
+            "`c` contradicts `a`, `b`, or says the same: together they leave an equation in `h`, `k` without a coordinate. Leave one of them out",
+        ),
+        (
+            &["x + y = f(t)", "x - y = 0", "x = 0"],
+            "`c` contradicts `a`, `b`, or says the same: together they leave an equation in `f` without a coordinate. Leave one of them out",
+        ),
+        (&["x = sin(h)^2 + cos(h)^2", "x = 1"], "`b` says the same as `a`: leave one of them out"),
+        (&["(x + y)^2 = h", "x^2 + 2*x*y + y^2 = h"], "`b` says the same as `a`: leave one of them out"),
+    ] {
+        let found = said(constraints);
+        assert_eq!(found.first().map(String::as_str), Some(wanted), "{constraints:?}");
+    }
+}
+
+/// Constraints that depend on one another at some states or for some parameters only: the numbers at run time tell.
+#[test]
+fn what_may_be_needed_is_let_through() {
     for constraints in [
-        &["x + y = 1", "x - y = 0", "2*x = 1"][..],
-        &["x + y = h", "x - y = 0", "2*x = k"],
-        &["x = 0", "x_dot = 0"],
-        &["x = h", "x_dot = 0"],
-        &["x*y = 0", "x*z = 0", "y*z = 0"],
-        &["x = 0", "h*x = 1"],
-        &["x^2 + y^2 = 1", "x^2 + z^2 = 1", "y^2 - z^2 = 0"],
-        &["x = sin(h)^2 + cos(h)^2", "x = 1"],
+        &["x*y = 0", "x*z = 0", "y*z = 0"][..],
         &["x = f(t)", "y = f(t)"],
-        &["x + y = f(t)", "x - y = 0", "x = 0"],
+        &["h*x = 0", "k*x = 0"],
+        &["x = y", "x_dot = h*y_dot"],
+        // On the constraints alone, the last one is what the others say.
+        &["x^2 + y^2 = h^2", "(2 + x)*(x^2 + y^2 - h^2) = 0"],
+        &["x^2 + y^2 = h^2", "x*x_dot + y*y_dot = (x^2 + y^2 - h^2)*x_dot"],
+        &["x = 0", "y_dot = 0", "x*y_dot + (y + x)*x_dot = x*z_dot"],
+        // Each of three may be needed where the others' coefficients are zero.
+        &["y*x_dot = x*y_dot", "z*x_dot = x*z_dot", "z*y_dot = y*z_dot"],
+        // At rest both hold, and y = 0 with them.
+        &["x_dot = 0", "x_dot = y"],
+        &["x_dot = h", "x_dot*sin(z)^2 = 1 - h*cos(z)^2"],
+        &["x*x_dot + y*y_dot = 1", "(x*x_dot + y*y_dot)/sqrt(x^2 + y^2) = 1"],
     ] {
         assert_eq!(said(constraints), [""; 0], "{constraints:?}");
     }
+}
+
+const N: usize = 6;
+
+/// What is wrong with constraints on `N` coordinates q, without the code that would be emitted.
+fn wrong(constraints: &[String]) -> Vec<String> {
+    let attributes: String = (0..)
+        .zip(constraints)
+        .map(|(number, equation)| format!("#[constraint(c{number}: {equation} = 0)]\n"))
+        .collect();
+    let source = format!(
+        "#[coordinates(q: [{N}])] #[lagrangian(m/2*dot(q_dot, q_dot))] {attributes}
+         struct System {{ m: f64, h: f64, k: f64 }}"
+    );
+    let (declaration, mut diagnostics): (_, Diagnostics) = declaration(&source);
+    let (mut graph, problem) = resolve::problem(&declaration, &mut diagnostics).expect("a problem");
+    match mechanics::derive(&mut graph, &problem, &mut diagnostics) {
+        Some(_) => Vec::new(),
+        None => messages(&diagnostics.into_tokens().to_string()),
+    }
+}
+
+/// Σ c_k f_k(q_k), whose gradients are as independent as the c are; a velocity constraint where it is a rate.
+struct Sums {
+    functions: Vec<String>,
+}
+
+impl Sums {
+    fn draw(random: &mut Random) -> Self {
+        let forms = [
+            "q[#]",
+            "sin(q[#])",
+            "(q[#]^3 + 2*q[#])",
+            "exp(h*q[#])",
+            "q[#]*cos(q[*])",
+            "sqrt(2 + q[#]^2)*q[#]",
+        ];
+        let mut function = |k: usize| {
+            let form = random.one_of(&forms);
+            form.replace('#', &k.to_string())
+                .replace('*', "@")
+                .replace("[@]", &format!("[{}]", (k + 1) % N))
+                .replace('@', "*")
+        };
+        Self { functions: (0..N).map(&mut function).collect() }
+    }
+
+    fn of(&self, coefficients: &[i64], is_rate: bool) -> String {
+        let terms = coefficients.iter().zip(&self.functions).filter(|(c, _)| **c != 0);
+        let sum = terms.map(|(c, function)| format!("({c})*{function}")).collect::<Vec<_>>().join(" + ");
+        if is_rate { format!("der({sum})") } else { sum }
+    }
+}
+
+/// Whether rows of small whole numbers are independent, by elimination without fractions.
+fn independent(rows: &[Vec<i64>]) -> bool {
+    let mut rows: Vec<Vec<i128>> = rows.iter().map(|row| row.iter().map(|&c| c.into()).collect()).collect();
+    for step in 0..rows.len() {
+        let Some(column) = rows[step].iter().position(|&c| c != 0) else { return false };
+        let pivot = rows[step].clone();
+        for row in &mut rows[step + 1..] {
+            let factor = row[column];
+            row.iter_mut().zip(&pivot).for_each(|(c, &above)| *c = *c * pivot[column] - factor * above);
+        }
+    }
+    true
+}
+
+#[test]
+fn random_constraints_that_are_independent_are_let_through_and_combinations_are_not() {
+    rounds("combinations of constraints", 60, |random| {
+        let sums = Sums::draw(random);
+        let count = 1 + random.below(4);
+        let rows = loop {
+            let row = |random: &mut Random| (0..N).map(|_| random.below(5) as i64 - 2).collect();
+            let rows: Vec<Vec<i64>> = (0..count).map(|_| row(random)).collect();
+            if independent(&rows) {
+                break rows;
+            }
+        };
+        let rates: Vec<bool> = rows.iter().map(|_| random.once_in(2)).collect();
+        let mut constraints: Vec<String> =
+            rows.iter().zip(&rates).map(|(row, &is_rate)| sums.of(row, is_rate)).collect();
+        assert_eq!(wrong(&constraints), [""; 0], "{constraints:?}");
+        let factors: Vec<i64> = rows.iter().map(|_| random.below(7) as i64 - 3).collect();
+        let combined = |i: usize| rows.iter().zip(&factors).map(|(row, c)| c * row[i]).sum();
+        let combined: Vec<i64> = (0..N).map(combined).collect();
+        let mut used: Vec<usize> = (0..count).filter(|&k| factors[k] != 0).collect();
+        if used.is_empty() {
+            return;
+        }
+        // A rate of few may be multiplied by what depends on the position.
+        let is_rate = random.once_in(2);
+        let factor = if is_rate && used.len() <= 2 {
+            random.one_of(&["1", "(2 + q[0]^2)", "sin(q[1] + q[2])", "k"])
+        } else {
+            "1"
+        };
+        constraints.push(format!("{factor}*({})", sums.of(&combined, is_rate)));
+        used.push(count);
+        let found = wrong(&constraints);
+        let first = found.first().unwrap_or_else(|| panic!("nothing is wrong with {constraints:?}"));
+        for used in used {
+            assert!(first.contains(&format!("`c{used}`")), "{first}: {constraints:?}");
+        }
+    });
 }

@@ -249,19 +249,21 @@ fn a_moving_surface_makes_nothing_integrable() {
     check("x, y, z", "z = b*t; x_dot - z*y_dot = 0", &[Holonomic, Nonholonomic], (0, 1));
 }
 
-/// A velocity constraint that the holonomic one implies, and one that is the sum of the others.
+/// A velocity constraint that the holonomic one implies, and one that is the sum of the others, each with a factor
+/// without which the others would be needed.
 #[test]
 fn dependent_constraints_are_not_counted() {
-    let implied = "x^2 + y^2 = a^2; x*x_dot + y*y_dot = 0";
+    let implied = "w*(x^2 + y^2 - a^2) = 0; b*(x*x_dot + y*y_dot) = 0";
     check("x, y", implied, &[Holonomic, Exact], (0, 0));
-    let sum = "z_dot - y*x_dot = 0; u_dot - a*w*x_dot = 0; z_dot + u_dot - (y + a*w)*x_dot = 0";
+    let sum = "a*(z_dot - y*x_dot) = 0; b*(u_dot - a*w*x_dot) = 0; \
+               w*(z_dot + u_dot - (y + a*w)*x_dot) = 0";
     check("x, y, z, u", sum, &[Nonholonomic, Exact, Nonholonomic], (1, 2));
 }
 
-/// No motion meets all three, unless a = 0, so nothing can be said of the set.
+/// No motion meets all three, unless a factor is 0, so nothing can be said of the set.
 #[test]
 fn contradictory_constraints_are_not_decided() {
-    let kinds = kinds("x, y", "x_dot - y_dot = 0; y_dot = 0; x_dot = a");
+    let kinds = kinds("x, y", "b*(x_dot - y_dot) = 0; w*y_dot = 0; a*x_dot = 1");
     assert_eq!(kinds.integrals, None);
 }
 

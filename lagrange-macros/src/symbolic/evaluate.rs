@@ -26,7 +26,7 @@ impl Approximate {
     }
 
     /// Whether it is zero and nothing else.
-    pub(super) fn is_zero(self) -> bool {
+    pub(crate) fn is_zero(self) -> bool {
         self.value == 0.0 && self.error == 0.0
     }
 

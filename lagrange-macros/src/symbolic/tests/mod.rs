@@ -10,6 +10,7 @@ mod external;
 mod faults;
 mod fractions;
 mod nested;
+mod polynomial;
 mod rationals;
 mod rounded;
 mod sample;

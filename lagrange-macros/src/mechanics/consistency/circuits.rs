@@ -1,0 +1,83 @@
+//! Which rows of F may be combinations of others, by their values at a random point.
+//!
+//! A rank is at most what it is at a general point: rows that are independent at one point, on the constraints or off
+//! them, are no combinations of each other with functions as coefficients.
+
+use std::collections::BTreeMap;
+
+use crate::mechanics::constraints::Constraints;
+use crate::resolve::Problem;
+use crate::symbolic::{Approximate, Graph, Id, Sample, Symbol};
+
+/// Random points that are tried for independent rows, and the draws made to find points with values.
+const POINTS: usize = 3;
+const DRAWS: u64 = 64;
+
+/// A row that depends on earlier ones at a point, and last the row itself.
+pub(super) type Circuit = Vec<usize>;
+
+type Row = BTreeMap<usize, Approximate>;
+
+/// The rows of F, in this order, that depend on earlier ones at each of a few points: those of the point where they are
+/// the fewest.
+pub(super) fn find(
+    graph: &Graph,
+    problem: &Problem,
+    constraints: &Constraints,
+    order: &[usize],
+) -> Vec<Circuit> {
+    let entries: Vec<Id> = order.iter().flat_map(|&row| constraints.jacobian[row].iter().copied()).collect();
+    let symbols: Vec<Symbol> = graph.symbols(&entries).collect();
+    let mut fewest: Option<Vec<Circuit>> = None;
+    let mut points = 0;
+    for draw in 0..DRAWS {
+        let mut sample =
+            Sample::new(symbols.iter().copied(), draw, |symbol, draw| problem.drawn(symbol, draw));
+        let values = sample.values(graph, &entries);
+        if values.iter().any(|value| !value.value.is_finite() || !value.error.is_finite()) {
+            continue;
+        }
+        let circuits = at_point(values.chunks(problem.coordinates.len()), order);
+        if fewest.as_ref().is_none_or(|known| circuits.len() < known.len()) {
+            fewest = Some(circuits);
+        }
+        points += 1;
+        if points == POINTS || fewest.as_ref().is_some_and(Vec::is_empty) {
+            break;
+        }
+    }
+    fewest.unwrap_or_default()
+}
+
+/// Eliminates row by row. Behind the coordinates each row has a column of its own, which tells what it is made of.
+fn at_point<'a>(rows: impl Iterator<Item = &'a [Approximate]>, order: &[usize]) -> Vec<Circuit> {
+    let mut pivots: Vec<(usize, Row)> = Vec::new();
+    let mut circuits = Vec::new();
+    for (number, values) in rows.enumerate() {
+        let width = values.len();
+        let entries = values.iter().copied().enumerate().filter(|(_, value)| !value.is_zero());
+        let mut row: Row = entries.chain([(width + number, Approximate::exact(1.0))]).collect();
+        for (column, pivot) in &pivots {
+            if let Some(entry) = row.remove(column) {
+                subtract(&mut row, entry.over(pivot[column]), pivot, *column);
+            }
+        }
+        let surely = row.iter().filter(|(_, value)| value.excludes_zero());
+        let largest = surely.clone().filter(|&(&column, _)| column < width);
+        match largest.max_by(|x, y| x.1.value.abs().total_cmp(&y.1.value.abs())).map(|(&column, _)| column) {
+            Some(column) => pivots.push((column, row)),
+            None => {
+                let parts = surely.filter(|&(&column, _)| column >= width);
+                circuits.push(parts.map(|(column, _)| order[column - width]).collect());
+            }
+        }
+    }
+    circuits
+}
+
+fn subtract(row: &mut Row, factor: Approximate, pivot: &Row, eliminated: usize) {
+    for (&column, &value) in pivot.iter().filter(|(column, _)| **column != eliminated) {
+        let entry = row.entry(column).or_insert(Approximate::exact(0.0));
+        *entry = entry.minus(factor.times(value));
+    }
+}
