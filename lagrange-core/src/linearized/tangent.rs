@@ -36,8 +36,10 @@ pub(crate) type WideOf<L, const N: usize, const M: usize> = <<L as Lagrangian<N,
 /// What the emitted factor does not tell, or cannot vouch for.
 pub(crate) struct Matrices<T, const N: usize, const M: usize> {
     /// The mass matrix, row by row.
+    #[cfg_attr(not(feature = "alloc"), allow(dead_code, reason = "what reads it allocates"))]
     pub(super) m: Room<[[T; N]; N]>,
     /// The constraint Jacobian, row by row.
+    #[cfg_attr(not(feature = "alloc"), allow(dead_code, reason = "what reads it allocates"))]
     pub(super) f: Room<[[T; N]; M]>,
     pub(super) factors: Room<Factors<T, N, M>>,
 }
