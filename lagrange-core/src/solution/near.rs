@@ -28,19 +28,19 @@ pub(crate) const TO_ROUND_OFF: Corrections = Corrections { beyond: 4.0, most: 3 
 #[cfg(feature = "alloc")]
 pub(crate) const ONCE: Corrections = Corrections { beyond: 0.0, most: 1 };
 
-/// The state on the constraints of these levels, with what rounding leaves of it, and a doubt: zero where it is there to
-/// round-off, lane by lane, in the precision of `R`.
+/// The state on the constraints of these levels, and a doubt: zero where it is there to round-off, lane by lane, in the
+/// precision of `R`.
 ///
-/// `rest` is what rounding has left of coordinates and velocities before, and is rounded with the corrections: most of these are
-/// less than a unit of round-off, and alone they are rounded to one side more often than to the other.
+/// `rest` is what rounding leaves of coordinates and velocities, before and after. It is rounded with the corrections: most of
+/// these are less than a unit of round-off, and alone they are rounded to one side more often than to the other.
 #[inline]
 pub(crate) fn project<L, R, const N: usize, const M: usize>(
     system: &L,
     levels: &[Level],
     corrections: Corrections,
     mut state: State<L::Scalar, N>,
-    mut rest: [[L::Scalar; N]; 2],
-) -> (State<L::Scalar, N>, [[L::Scalar; N]; 2], L::Scalar)
+    rest: &mut [[L::Scalar; N]; 2],
+) -> (State<L::Scalar, N>, L::Scalar)
 where
     L: Lagrangian<N, M>,
     R: Real,
@@ -69,7 +69,7 @@ where
         };
         doubt = doubt + excess(&residual, &size, 16.0 * R::EPSILON);
     }
-    (state, rest, doubt)
+    (state, doubt)
 }
 
 /// The sum, and what rounding has left of it (Knuth, *The Art of Computer Programming*, 4.2.2, theorem B). What has been left

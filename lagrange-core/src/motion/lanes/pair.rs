@@ -208,9 +208,9 @@ where
         L: Lagrangian<N, M, Scalar = f64>,
     {
         let state = State { t: self.end.into(), q: vector(next[0]), v: vector(next[1]) };
-        let none = [[Lanes::constant(0.0); N]; 2];
-        let (near, _, doubt) =
-            near::project::<_, f64, N, M>(&self.system, &BOTH, near::TO_ROUND_OFF, state, none);
+        let rest = &mut [[Lanes::constant(0.0); N]; 2];
+        let (near, doubt) =
+            near::project::<_, f64, N, M>(&self.system, &BOTH, near::TO_ROUND_OFF, state, rest);
         let is_there = doubt.to_array().map(|doubt| doubt == 0.0);
         let chosen = Lanes::from(is_there.map(|is_there| if is_there { 1.0 } else { 0.0 }));
         let before = *next;

@@ -222,11 +222,10 @@ where
         let [dq, dv, accelerations] = self.series.change(h);
         let (q, rest_q) = compensated(&y[0], &dq, &rest[0]);
         let (v, rest_v) = compensated(&y[1], &dv, &rest[1]);
-        let (mut state, mut rest, mut doubt) =
-            (State { t, q: vector(q), v: vector(v) }, [rest_q, rest_v], Lanes::constant(0.0));
+        let (mut state, mut doubt) = (State { t, q: vector(q), v: vector(v) }, Lanes::constant(0.0));
+        let mut rest = [rest_q, rest_v];
         if M > 0 {
-            (state, rest, doubt) =
-                near::project::<_, f64, N, M>(&self.system, &BOTH, near::ONCE, state, rest);
+            (state, doubt) = near::project::<_, f64, N, M>(&self.system, &BOTH, near::ONCE, state, &mut rest);
         }
         let solution = self.system.accelerations_unchecked(&state);
         trust.solution(&solution);

@@ -124,9 +124,9 @@ pub(crate) fn project_by<L: Lagrangian<N, M, Scalar: Real>, const N: usize, cons
     if const { M == 0 } || !levels.iter().any(|level| level.concerns::<L, N, M>()) {
         return Ok(());
     }
-    let (near, left, doubt) = near::project::<L, L::Scalar, N, M>(system, levels, corrections, *state, *rest);
+    let (near, doubt) = near::project::<L, L::Scalar, N, M>(system, levels, corrections, *state, rest);
     if doubt == L::Scalar::constant(0.0) {
-        (*state, *rest) = (near, left);
+        *state = near;
         return Ok(());
     }
     *rest = none();
