@@ -55,12 +55,6 @@ impl Taylor {
         self.absolute / self.tolerance::<T>()
     }
 
-    /// A unit of time about as long as a step: a power of two, by which numbers are multiplied and divided without rounding.
-    pub(super) fn unit<T: Real>(planned: T) -> T {
-        // An integer is a power of two in both.
-        T::constant(exp2_roughly(log2_roughly(planned.to_f64()).floor()))
-    }
-
     /// The length of the next step, by what the last coefficients allow, the longest that the step before allows, and the time
     /// that is left.
     pub(super) fn choose<T: Real>(&self, allowed: T, longest: T, clock: &Clock<T>) -> T {

@@ -119,8 +119,7 @@ where
         seats: &mut Seats<'_, L, Self, N, M>,
     ) -> [Option<Fate>; Lanes::COUNT] {
         let mut trust = Trust::new();
-        let time =
-            |Memory { clock, planned, .. }: &Self::Memory| (clock.now, clock.directed(Self::unit(*planned)));
+        let time = |Memory { clock, planned, .. }: &Self::Memory| (clock.now, clock.directed(*planned));
         let times = seats.each_ref().map(|seat| seat.as_ref().map_or((0.0, 1.0), |seat| time(&seat.memory)));
         abreast.expand(times, &mut trust);
         let last = Last::of(&abreast.series, Lanes::constant(self.slack::<f64>()));
