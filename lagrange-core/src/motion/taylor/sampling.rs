@@ -16,17 +16,17 @@ const MOST: usize = 128;
 const WIDER: f64 = 2.0;
 /// Growth of the length from step to step.
 const GROWTH: f64 = 10.0;
-/// The first sample, in distances between samples: no simple fraction, so that a periodic force is not met at its zeros alone.
+/// Position of the first sample, in units of the distance between samples. No simple fraction, so that samples do not all fall on the
+/// zeros of a periodic force.
 const SHIFT: f64 = 0.927;
 /// Samples within every step with functions that the user supplies: they may have kinks.
 const AT_KINKS: usize = 3;
-/// Where the argument of a steep function, or the logarithm of a power, changes by more, a series of few orders may not have the
-/// function: by 8 an exponential grows three thousand times.
+/// Change of the argument of a steep function, or of the logarithm of a power, beyond which its series may miss the function: over 8
+/// an exponential grows three thousand times. One sample is taken for each such change.
 const STEEP: f64 = 8.0;
-/// There a sample lies in each change by that, from which a peak is seen to 10⁻⁴ of it at least. Beyond this distance from zero a
-/// function is too small to matter, or does not change: e⁻¹⁰⁰ is 10⁻⁴⁴.
+/// Distance of an argument from zero beyond which a steep function is too small to matter, as e⁻¹⁰⁰ = 10⁻⁴⁴, or constant, as tanh.
 const FAR: f64 = 100.0;
-/// So many coefficients tell whether a series knows its surroundings.
+/// Number of middle orders whose terms tell whether a series knows its surroundings.
 const MIDDLE: usize = 5;
 
 /// How far the last step went, and how far its samples lay apart.
