@@ -17,7 +17,6 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use super::method::clock::Clock;
-use super::method::interpolant::LARGE;
 use super::method::{Limits, Method, Step, check_settings};
 use crate::ending::{Ending, Pace};
 use crate::error::Error;
@@ -270,15 +269,11 @@ where
 
     fn push_interpolant(
         &self,
-        system: &L,
+        _: &L,
         memory: &mut Self::Memory,
-        statistics: &mut Statistics,
+        _: &mut Statistics,
         to: &mut Vec<Self::Interpolant>,
     ) -> Result<(), Error> {
-        if const { size_of::<Self::Interpolant>() < LARGE } {
-            to.push(self.interpolant(system, memory, statistics)?);
-            return Ok(());
-        }
         let Expansion { start, unit, q, summed, .. } = &memory.series;
         to.push(TaylorPolynomial::empty(*start, *unit));
         if let Some(last) = to.last_mut() {
