@@ -5,28 +5,46 @@
 //! *Geometric Numerical Integration*, IV.4), and those of the coordinates follow the constraints on velocities too.
 //! Lanes go together, and what becomes of one depends on no other.
 
+#[cfg(test)]
+mod tests;
+
 use core::array::from_fn;
 
 use nalgebra::SVector;
 
 use super::consistent::Level;
 use crate::number::{Real, Scalar, sum, vector};
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, Solution, State};
 
-/// When a correction is made, and how many at most.
+/// When corrections are made, and what becomes of velocities as coordinates are corrected.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Corrections {
-    /// Where more is left than this part of the terms' size, in units of round-off.
-    beyond: f64,
-    most: usize,
+pub(crate) enum Corrections<T> {
+    /// Where more is left than four units of round-off, at most three. From as far off as the error of a step one leads
+    /// there, as a rule.
+    ToRoundOff,
+    /// One after this step, whatever is left: what is small enough to be let pass is so for many steps in a row, and always
+    /// the same, by which energy grows or dies. Velocities follow the coordinates.
+    #[cfg_attr(not(feature = "alloc"), expect(dead_code, reason = "of a method that allocates"))]
+    OnceAfter(T),
 }
 
-/// From as far off as the error of a step one correction leads to round-off, as a rule.
-pub(crate) const TO_ROUND_OFF: Corrections = Corrections { beyond: 4.0, most: 3 };
-/// One whatever is left. What is small enough to be let pass is so for many steps in a row, and always the same: energy then
-/// grows or dies as time goes on.
-#[cfg(feature = "alloc")]
-pub(crate) const ONCE: Corrections = Corrections { beyond: 0.0, most: 1 };
+impl<T: Scalar> Corrections<T> {
+    fn most(self) -> usize {
+        match self {
+            Self::ToRoundOff => 3,
+            Self::OnceAfter(_) => 1,
+        }
+    }
+
+    /// Whether one is to be made, lane by lane: zero where not.
+    #[inline(always)]
+    fn wanted<const M: usize>(self, residual: &SVector<T, M>, size: &SVector<T, M>, epsilon: f64) -> T {
+        match self {
+            Self::ToRoundOff => excess(residual, size, 4.0 * epsilon),
+            Self::OnceAfter(_) => T::constant(1.0),
+        }
+    }
+}
 
 /// The state on the constraints of these levels, and a doubt: zero where it is there to round-off, lane by lane, in the
 /// precision of `R`.
@@ -37,7 +55,7 @@ pub(crate) const ONCE: Corrections = Corrections { beyond: 0.0, most: 1 };
 pub(crate) fn project<L, R, const N: usize, const M: usize>(
     system: &L,
     levels: &[Level],
-    corrections: Corrections,
+    corrections: Corrections<L::Scalar>,
     mut state: State<L::Scalar, N>,
     rest: &mut [[L::Scalar; N]; 2],
 ) -> (State<L::Scalar, N>, L::Scalar)
@@ -47,29 +65,74 @@ where
 {
     let zero = L::Scalar::constant(0.0);
     let (factor, mut doubt) = (system.factor(&state), zero);
+    let mut follow = vector([zero; N]);
     for &level in levels.iter().filter(|level| level.concerns::<L, N, M>()) {
         let size = level.magnitude(system, &state);
-        let mut rounds = 0..corrections.most;
+        let mut rounds = 0..corrections.most();
         // Evaluated in one place: it is inlined.
         let residual = loop {
             let residual = level.residual(system, &state);
-            let left = excess(&residual, &size, corrections.beyond * R::EPSILON);
-            if left == zero || rounds.next().is_none() {
+            let wanted = corrections.wanted(&residual, &size, R::EPSILON);
+            if wanted == zero || rounds.next().is_none() {
                 break residual;
             }
             // Where the factor cannot be vouched for, that is no number, nor is what is left then.
-            let correction = system.solve_with(&factor, &SVector::from_element(zero), &residual);
+            let correction = system.solve_with(&factor, &follow, &residual);
+            if let (Level::Position, Corrections::OnceAfter(step)) = (level, corrections) {
+                follow = following::<L, R, N, M>(system, &state, &correction, step);
+            }
             // A lane that is there stays as it is, be the others where they are.
             let (unknowns, rest) = (level.unknowns(&mut state), &mut rest[level as usize]);
-            let x = (*unknowns).into();
-            let (moved, left_over) = compensated(&x, &correction.accelerations.into(), rest);
-            let chosen = |x: L::Scalar, moved| left.by_order(zero, x, x, moved);
-            *unknowns = vector(from_fn(|i| chosen(x[i], moved[i])));
-            *rest = from_fn(|i| chosen(rest[i], left_over[i]));
+            let x: [_; N] = (*unknowns).into();
+            let moved: [_; N] = from_fn(|i| exact_sum(x[i], correction.accelerations[i] + rest[i]));
+            let chosen = |x: L::Scalar, moved| wanted.by_order(zero, x, x, moved);
+            *unknowns = vector(from_fn(|i| chosen(x[i], moved[i][0])));
+            *rest = from_fn(|i| chosen(rest[i], moved[i][1]));
         };
         doubt = doubt + excess(&residual, &size, 16.0 * R::EPSILON);
     }
     (state, doubt)
+}
+
+/// The impulse by which velocities follow a correction w = M⁻¹Fᵀμ of the coordinates: Ṁw − Ḟᵀμ + (∂h/∂q̇) w.
+///
+/// With it coordinates and momenta go along the Hamiltonian vector fields of μᵀΦ̇ and of the constraints, which are across
+/// every motion on the constraints (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, VII.1): a
+/// correction that is made to the same side step by step, as of a body that keeps its distance, leaves its angular momentum
+/// and energy as they were. Velocities that stay as they are would lose or gain with each.
+///
+/// Differences over a part of the step give it to a thousandth of itself. Where they would be rounding, in steps of less than
+/// 6·10⁻¹¹ of the coordinates' size, and after corrections of more than 1,024 units of round-off, as next to dependent
+/// constraints, velocities do not follow: they change by no more than such corrections and these differences can be off.
+#[inline(always)]
+fn following<L, R, const N: usize, const M: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+    correction: &Solution<L::Scalar, N, M>,
+    step: L::Scalar,
+) -> SVector<L::Scalar, N>
+where
+    L: Lagrangian<N, M>,
+    R: Real,
+{
+    let number = L::Scalar::constant;
+    let size = |x: &SVector<L::Scalar, N>| x.iter().fold(number(0.0), |most, x| most.max(x.abs()));
+    let (State { t, q, v }, part) = (state, step * number(1.0 / 1024.0));
+    // A unit of round-off as a 64th, so that little is rounded off: all of this is linear in the correction.
+    let scale = 1.0 / (64.0 * R::EPSILON);
+    let w = correction.accelerations.map(|w| w * number(scale));
+    let multipliers = correction.multipliers.map(|mu| mu * number(scale));
+    let there = State { t: *t + part, q: q.zip_map(v, |q, v| q + v * part), v: *v };
+    let slower = State { v: v.zip_map(&w, |v, w| v - w * part), ..there };
+    let nothing = (there, vector([number(0.0); N]), vector([number(0.0); M]));
+    let [with, without] =
+        [(slower, w, multipliers), nothing].map(|(state, a, l)| system.inverse_dynamics(&state, &a, &l));
+    let (coordinates, way) = (size(q), part.abs() * size(v));
+    let (small, resolved) = ((coordinates + way) * number(16.0), coordinates * number(256.0 * R::EPSILON));
+    let back = number(1.0 / scale) / part;
+    let back = size(&w).by_order(small, back, back, number(0.0));
+    let back = way.by_order(resolved, number(0.0), number(0.0), back);
+    with.zip_map(&without, |with, without| (with - without) * back)
 }
 
 /// The sum, and what rounding has left of it (Knuth, *The Art of Computer Programming*, 4.2.2, theorem B). What has been left

@@ -12,7 +12,7 @@ use crate::number::{Lanes, Scalar, vector};
 use crate::room::Room;
 use crate::solution::consistent::BOTH;
 use crate::solution::flow::{Flow, LagrangianFlow, Phase, PhasePoint};
-use crate::solution::near;
+use crate::solution::near::{self, Corrections};
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, Pack, Packed, State};
 
@@ -210,7 +210,7 @@ where
         let state = State { t: self.end.into(), q: vector(next[0]), v: vector(next[1]) };
         let rest = &mut [[Lanes::constant(0.0); N]; 2];
         let (near, doubt) =
-            near::project::<_, f64, N, M>(&self.system, &BOTH, near::TO_ROUND_OFF, state, rest);
+            near::project::<_, f64, N, M>(&self.system, &BOTH, Corrections::ToRoundOff, state, rest);
         let is_there = doubt.to_array().map(|doubt| doubt == 0.0);
         let chosen = Lanes::from(is_there.map(|is_there| if is_there { 1.0 } else { 0.0 }));
         let before = *next;

@@ -3,7 +3,6 @@
 use alloc::vec;
 use alloc::vec::Vec;
 use core::convert::Infallible;
-use core::ops::Add;
 
 use super::control::{LAST, Last, exp2_roughly, log2_roughly};
 use super::sampling::is_linear;
@@ -113,7 +112,6 @@ impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
     where
         L: TaylorSeries<N, M, Scalar = T, Sums = S>,
     {
-        let solution = &refined(system, state, solution, &solve)?;
         (self.start, self.unit, self.summed) = (state.t, unit, self.order());
         (self.q[0], self.v[0]) = (state.q.into(), state.v.into());
         let (slopes, highest) = (system.series_slopes(state, solution), self.order());
@@ -292,32 +290,6 @@ impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
         let last = [&self.v[first..], &self.q[first..=self.order()]];
         last.into_iter().flatten().flatten().all(|x| *x == zero)
     }
-}
-
-/// Accelerations and multipliers that are solved for once more, by what is left of the constraints' equations (iterative
-/// refinement: Higham, *Accuracy and Stability of Numerical Algorithms*, chapter 12). The factor of a body that keeps its
-/// distance is rounded alike in many steps in a row, by which energy drifted.
-#[inline(always)]
-fn refined<L: Lagrangian<N, M>, E, const N: usize, const M: usize>(
-    system: &L,
-    state: &State<L::Scalar, N>,
-    solution: &Solution<L::Scalar, N, M>,
-    solve: impl Fn(&RightHandSides<L::Scalar, N, M>) -> Result<Solution<L::Scalar, N, M>, E>,
-) -> Result<Solution<L::Scalar, N, M>, E> {
-    if const { M == 0 } {
-        return Ok(*solution);
-    }
-    let none = vector([L::Scalar::constant(0.0); N]);
-    // F q̇ + b is linear in q̇: F q̈ without F, which is all zeros but a few.
-    let [rate, at_rest] =
-        [solution.accelerations, none].map(|v| system.constraint_rate(&State { v, ..*state }));
-    let left = rate.zip_zip_map(&at_rest, &system.constraint_bias(state), |rate, b, bias| rate - b + bias);
-    let Solution { accelerations, multipliers, .. } = solve(&(none, left))?;
-    Ok(Solution {
-        accelerations: solution.accelerations.zip_map(&accelerations, Add::add),
-        multipliers: solution.multipliers.zip_map(&multipliers, Add::add),
-        ..*solution
-    })
 }
 
 /// Divided: 1/k is rounded, to the same side in every step, by which energy drifted.

@@ -16,7 +16,7 @@ use crate::motion::lanes::{Fate, LaneMethod, Seats, Trust, unpacked};
 use crate::number::{Filled, Lanes, Scalar, vector};
 use crate::solution::consistent::BOTH;
 use crate::solution::flow::Phase;
-use crate::solution::near::{self, compensated};
+use crate::solution::near::{self, Corrections, compensated};
 use crate::statistics::Statistics;
 use crate::system::{Pack, Packed, RightHandSides, Solution, State, TaylorSeries};
 
@@ -224,7 +224,9 @@ where
         let (mut state, mut doubt) = (State { t, q: vector(q), v: vector(v) }, Lanes::constant(0.0));
         let mut rest = [rest_q, rest_v];
         if M > 0 {
-            (state, doubt) = near::project::<_, f64, N, M>(&self.system, &BOTH, near::ONCE, state, &mut rest);
+            let corrections = Corrections::OnceAfter(h);
+            (state, doubt) =
+                near::project::<_, f64, N, M>(&self.system, &BOTH, corrections, state, &mut rest);
         }
         let solution = self.system.accelerations_unchecked(&state);
         trust.solution(&solution);

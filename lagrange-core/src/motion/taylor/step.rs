@@ -10,7 +10,7 @@ use super::{Before, Memory, Taylor};
 use crate::error::Error;
 use crate::number::{Filled, Real, Scalar, vector};
 use crate::solution::consistent::{BOTH, project_by};
-use crate::solution::near::{ONCE, compensated};
+use crate::solution::near::{Corrections, compensated};
 use crate::solution::solve::first_row;
 use crate::statistics::Statistics;
 use crate::system::{State, TaylorSeries};
@@ -122,7 +122,7 @@ impl Taylor {
         if let Some(row) = first_row::<L, N, M>(|i| !(q[i].is_finite() && v[i].is_finite()), |_| false) {
             return Err(Error::EquationsNotFinite { row, time: state.t.to_f64() });
         }
-        project_by(ONCE, system, &BOTH, &mut next, rest)?;
+        project_by(Corrections::OnceAfter(h), system, &BOTH, &mut next, rest)?;
         let solved = Solved::at(system, &next)?;
         if memory.solved.avoids(&solved) {
             return Ok(Attempt::Inaccurate(0));

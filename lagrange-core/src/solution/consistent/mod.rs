@@ -20,7 +20,7 @@ use crate::number::{
 };
 use crate::solution::eliminate::eliminate;
 use crate::solution::kkt::{Factors, Rank};
-use crate::solution::near;
+use crate::solution::near::{self, Corrections};
 use crate::solution::newton::{self, Left, Search, halvings};
 use crate::solution::solve::{is_trustworthy, name};
 use crate::system::{ConstraintKind, Lagrangian, State};
@@ -103,7 +103,7 @@ pub(crate) fn project<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M
     levels: &[Level],
     state: &mut State<L::Scalar, N>,
 ) -> Result<(), Error> {
-    project_by(near::TO_ROUND_OFF, system, levels, state, &mut none())
+    project_by(Corrections::ToRoundOff, system, levels, state, &mut none())
 }
 
 /// Nothing is left by rounding of coordinates and velocities.
@@ -114,7 +114,7 @@ fn none<T: Scalar, const N: usize>() -> [[T; N]; 2] {
 /// The same by these corrections, as long as the state is that near, with what rounding leaves of coordinates and velocities.
 #[inline]
 pub(crate) fn project_by<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
-    corrections: near::Corrections,
+    corrections: Corrections<L::Scalar>,
     system: &L,
     levels: &[Level],
     state: &mut State<L::Scalar, N>,

@@ -1,0 +1,117 @@
+use super::{Corrections, project};
+use crate::prelude::*;
+use crate::solution::consistent::BOTH;
+
+/// In a magnetic field, about a centre, on a circle that grows.
+#[derive(Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian(m/2*(x_dot^2 + y_dot^2) + b/2*(x*y_dot - y*x_dot) - k*(x^2 + y^2)^2)]
+#[constraint(circle: x^2 + y^2 = (l + u*t)^2)]
+struct Cartesian {
+    m: f64,
+    b: f64,
+    k: f64,
+    l: f64,
+    u: f64,
+}
+
+/// The same in coordinates of which the mass matrix varies.
+#[derive(Lagrangian)]
+#[coordinates(r, phi)]
+#[lagrangian(m/2*(r_dot^2 + r^2*phi_dot^2) + b/2*r^2*phi_dot - k*r^4)]
+#[constraint(circle: r = l + u*t)]
+struct Polar {
+    m: f64,
+    b: f64,
+    k: f64,
+    l: f64,
+    u: f64,
+}
+
+/// Two coupled masses on spheroids about one axis, which all turns about.
+#[derive(Lagrangian)]
+#[coordinates(x, y, z, s, w)]
+#[lagrangian(m/2*(x_dot^2 + y_dot^2 + z_dot^2) + s_dot^2/2 + s^2*w_dot^2/2 - g*z - k/2*(z - s)^2)]
+#[constraint(spheroid: x^2 + y^2 + e*z^2 = 1)]
+#[constraint(pulley: s + z/4 = 2)]
+struct Coupled {
+    m: f64,
+    g: f64,
+    k: f64,
+    e: f64,
+}
+
+/// A number from −1 to 1 (SplitMix64).
+fn random(seed: &mut u64) -> f64 {
+    *seed = seed.wrapping_add(0x9E37_79B9_7F4A_7C15);
+    let x = (*seed ^ (*seed >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    let x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    ((x ^ (x >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+}
+
+/// By how much a momentum changes as random states that are a few hundred units of round-off from the constraints are
+/// moved onto them, with velocities that follow and with velocities that do not: the sums over all.
+fn changes<L, const N: usize, const M: usize>(
+    system: impl Fn(&mut u64) -> L,
+    momentum: impl Fn(&L, &State<f64, N>) -> f64,
+) -> [f64; 2]
+where
+    L: Lagrangian<N, M, Scalar = f64>,
+{
+    let mut sums = [0.0; 2];
+    let cases = std::env::var("LAGRANGE_MOMENTA").ok().and_then(|n| n.parse().ok()).unwrap_or(4000);
+    for case in 0..cases {
+        let seed = &mut (1000 * case);
+        let system = system(seed);
+        let from =
+            State::new([(); N].map(|()| 1.0 + 0.7 * random(seed)), [(); N].map(|()| 2.0 * random(seed)));
+        let (on, _) =
+            system.make_consistent(&State { t: 0.3 * random(seed), ..from }).expect("near the constraints");
+        let off = State {
+            q: on.q.map(|q| q + 1e-13 * random(seed)),
+            v: on.v.map(|v| v + 1e-15 * random(seed)),
+            ..on
+        };
+        let step = 0.1 + 0.09 * random(seed);
+        let corrections = [Corrections::OnceAfter(step), Corrections::ToRoundOff];
+        for (sum, corrections) in sums.iter_mut().zip(corrections) {
+            let (near, doubt) = project::<_, f64, N, M>(&system, &BOTH, corrections, off, &mut [[0.0; N]; 2]);
+            assert_eq!(doubt, 0.0, "case {case}");
+            *sum += (momentum(&system, &near) - momentum(&system, &off)).abs();
+        }
+    }
+    sums.map(|sum| sum / cases as f64)
+}
+
+/// A momentum that symmetry conserves is kept by a correction along Hamiltonian vector fields.
+#[test]
+fn momenta_are_kept_where_velocities_follow_the_coordinates() {
+    let cartesian = changes(
+        |s| Cartesian {
+            m: 1.5 + random(s),
+            b: random(s),
+            k: random(s),
+            l: 1.5 + 0.5 * random(s),
+            u: random(s),
+        },
+        |system, state| {
+            let p = system.momentum(state);
+            state.q[0] * p[1] - state.q[1] * p[0]
+        },
+    );
+    let polar = changes(
+        |s| Polar { m: 1.5 + random(s), b: random(s), k: random(s), l: 1.5 + 0.5 * random(s), u: random(s) },
+        |system, state| system.momentum(state)[1],
+    );
+    let coupled = changes(
+        |s| Coupled { m: 1.5 + random(s), g: 2.0 * random(s), k: random(s), e: 1.0 + 0.5 * random(s) },
+        |system, state| {
+            let p = system.momentum(state);
+            state.q[0] * p[1] - state.q[1] * p[0] + p[4]
+        },
+    );
+    for [follows, stays] in [cartesian, polar, coupled] {
+        std::println!("{follows:.1e} {stays:.1e}");
+        assert!(follows < 5e-16 && stays > 2e-14, "{follows:e}, {stays:e}");
+    }
+}
