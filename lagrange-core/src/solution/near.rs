@@ -135,24 +135,9 @@ where
     with.zip_map(&without, |with, without| (with - without) * back)
 }
 
-/// The sum, and what rounding has left of it (Knuth, *The Art of Computer Programming*, 4.2.2, theorem B). What has been left
-/// before is added last: the change may be as large as the sum, and would round it off.
+/// A sum as two numbers: itself, and what rounding has left of it (Knuth, *The Art of Computer Programming*, 4.2.2, theorem B).
 #[inline(always)]
-pub(crate) fn compensated<T: Scalar, const N: usize>(
-    x: &[T; N],
-    change: &[T; N],
-    rest: &[T; N],
-) -> ([T; N], [T; N]) {
-    let sums: [[T; 2]; N] = from_fn(|i| {
-        let [sum, left] = exact_sum(x[i], change[i]);
-        exact_sum(sum, left + rest[i])
-    });
-    (sums.map(|[sum, _]| sum), sums.map(|[_, rest]| rest))
-}
-
-/// A sum as two numbers.
-#[inline(always)]
-fn exact_sum<T: Scalar>(x: T, y: T) -> [T; 2] {
+pub(crate) fn exact_sum<T: Scalar>(x: T, y: T) -> [T; 2] {
     let sum = x + y;
     let added = sum - x;
     [sum, (x - (sum - added)) + (y - added)]

@@ -9,6 +9,7 @@ use super::control::Last;
 use super::defect::part;
 use super::expansion::Expansion;
 use super::sampling::{Sampling, few, parts, samples_of_steep};
+use super::step::compensated;
 use super::{Memory, Taylor, TaylorPolynomial};
 use crate::error::Error;
 use crate::motion::Interpolant;
@@ -16,7 +17,7 @@ use crate::motion::lanes::{Fate, LaneMethod, Seats, Trust, unpacked};
 use crate::number::{Filled, Lanes, Scalar, vector};
 use crate::solution::consistent::BOTH;
 use crate::solution::flow::Phase;
-use crate::solution::near::{self, Corrections, compensated};
+use crate::solution::near::{self, Corrections};
 use crate::statistics::Statistics;
 use crate::system::{Pack, Packed, RightHandSides, Solution, State, TaylorSeries};
 

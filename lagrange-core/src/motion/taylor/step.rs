@@ -1,5 +1,7 @@
 //! One step: where the series about its start leads, and what becomes of it.
 
+use core::array::from_fn;
+
 use nalgebra::ComplexField;
 
 use super::crossing::Crossing;
@@ -10,7 +12,7 @@ use super::{Before, Memory, Taylor};
 use crate::error::Error;
 use crate::number::{Filled, Real, Scalar, vector};
 use crate::solution::consistent::{BOTH, project_by};
-use crate::solution::near::{Corrections, compensated};
+use crate::solution::near::{Corrections, exact_sum};
 use crate::solution::solve::first_row;
 use crate::statistics::Statistics;
 use crate::system::{State, TaylorSeries};
@@ -182,4 +184,18 @@ struct Sum<T, const N: usize> {
     rest: [[T; N]; 2],
     /// Those of the series there.
     accelerations: [T; N],
+}
+
+/// The sum, and what rounding has left of it. What has been left before is added last: the change may be as large as the sum, and would round it off.
+#[inline(always)]
+pub(super) fn compensated<T: Scalar, const N: usize>(
+    x: &[T; N],
+    change: &[T; N],
+    rest: &[T; N],
+) -> ([T; N], [T; N]) {
+    let sums: [[T; 2]; N] = from_fn(|i| {
+        let [sum, left] = exact_sum(x[i], change[i]);
+        exact_sum(sum, left + rest[i])
+    });
+    (sums.map(|[sum, _]| sum), sums.map(|[_, rest]| rest))
 }
