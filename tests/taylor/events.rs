@@ -142,7 +142,8 @@ fn zeros_lie_on_the_constraint() -> Result<()> {
         let off = [t - PI * f64::from(k), q[2], q.norm_squared() - 1.0, q[0].abs() - 1.0].map(f64::abs);
         // Within a step the state is the sum of a series whose terms add up to e^2.5 = 12, and a speed that is off by a
         // round-off of as much for each of 80 steps is off by 10⁻¹³ at the end: it makes 2·10⁻¹¹ of 200.
-        assert!(off[0] < 5e-12 && off[1..].iter().all(|off| *off < 8.0 * f64::EPSILON), "{off:?}");
+        // What is left of the rod's equation by four units of round-off or less, twice that of the square, stays.
+        assert!(off[0] < 5e-12 && off[1..].iter().all(|off| *off <= 8.0 * f64::EPSILON), "{off:?}");
     }
     Ok(())
 }
