@@ -54,11 +54,12 @@ pub(super) fn part(place: usize) -> f64 {
     0.5 - 0.5 * TURN[place]
 }
 
-/// The places of this degree that half of it does not have; all but the ends for the lowest.
+/// The places of this degree, a power of two, that half of it does not have; all but the ends for the lowest.
+#[inline(always)]
 pub(super) fn places(degree: usize) -> impl Iterator<Item = usize> {
-    let apart = FINEST / degree;
+    let apart = FINEST >> degree.trailing_zeros();
     let stride = if degree == COARSEST { apart } else { 2 * apart };
-    (apart..FINEST).step_by(stride)
+    (1..).map(move |k| apart + (k - 1) * stride).take_while(|place| *place < FINEST)
 }
 
 /// What the coefficients of one degree tell of a function. Lengths on the interval are counted in halves of it.
@@ -82,6 +83,7 @@ pub(super) struct Shape<T> {
 }
 
 impl<T: Real> Shape<T> {
+    #[inline(always)]
     pub(super) fn of(samples: &Samples<T>, degree: usize) -> Self {
         // The loops of the lowest degrees have a length that the compiler knows.
         match degree {

@@ -153,22 +153,33 @@ impl<T: Real> Memory<T> {
         }
     }
 
-    /// Before an interval is looked at.
+    /// Before an interval is looked at, in one go where it is none; whether no degree tells enough on it.
     #[inline]
-    pub(super) fn open(&mut self) {
+    pub(super) fn open(&mut self, interval: Option<&Interval<T>>) -> bool {
         (self.view, self.noise) = (View::Open, T::constant(0.0));
         if let Some(needed) = self.needed.take() {
             let before = self.density.map_or(needed, |density| density * T::constant(0.5));
             self.density = Some(larger(needed, before));
         }
+        let is_too_wide = |interval: &Interval<T>| self.least(interval) > T::constant(FINEST as f64);
+        interval.is_some_and(|interval| interval.is_wide && self.density.is_some() && is_too_wide(interval))
     }
 
-    /// Looks at the samples of this degree.
+    /// Whether its function is known well enough on this interval.
     #[inline]
-    pub(super) fn judge(&mut self, degree: usize, interval: &Interval<T>) {
+    pub(super) fn is_known(&self) -> bool {
+        self.view == View::Plain
+    }
+
+    /// Looks at the samples of this degree, unless it is known.
+    #[inline]
+    pub(super) fn judge(&mut self, degree: usize, interval: &Interval<T>) -> View {
+        if self.is_known() {
+            return View::Plain;
+        }
         if T::constant(degree as f64) < self.least(interval) {
             self.view = View::Open;
-            return;
+            return View::Open;
         }
         let shape = Shape::of(&self.samples, degree);
         self.view = match () {
@@ -180,6 +191,7 @@ impl<T: Real> Memory<T> {
         if interval.is_wide {
             self.learn(&shape, interval);
         }
+        self.view
     }
 
     /// The least degree that tells anything on this interval: half of what the last steps have taken.
@@ -203,13 +215,8 @@ impl<T: Real> Memory<T> {
         self.needed = Some(T::constant(order) / interval.width);
     }
 
-    /// Whether no degree tells enough on this interval.
-    pub(super) fn is_too_wide(&self, interval: &Interval<T>) -> bool {
-        interval.is_wide && self.density.is_some() && self.least(interval) > T::constant(FINEST as f64)
-    }
-
     /// Looks at samples that may be all noise, given how much of it there is.
-    pub(super) fn judge_noise(&mut self, degree: usize, noise: T) {
+    pub(super) fn judge_noise(&mut self, degree: usize, noise: T) -> View {
         let shape = Shape::of(&self.samples, degree);
         let part = noise * T::constant(0.25);
         self.view = match () {
@@ -221,6 +228,7 @@ impl<T: Real> Memory<T> {
         if shape.most <= noise {
             (self.noise, self.needed) = (noise, None);
         }
+        self.view
     }
 
     /// Takes note of the function at the end of the interval: it is on the side where it was unless it is beyond the noise.

@@ -234,6 +234,10 @@ pub trait Watched<L: Lagrangian<N, M>, const N: usize, const M: usize>: sealed::
     /// What it is about, and what is known of it.
     #[doc(hidden)]
     fn memory(&mut self) -> &mut Memory<L::Scalar>;
+
+    /// Takes a sample of its function, unless it is known well enough.
+    #[doc(hidden)]
+    fn sample(&mut self, system: &L, state: &State<L::Scalar, N>, place: usize) -> Result<(), Error>;
 }
 
 mod sealed {
@@ -259,6 +263,11 @@ impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Watched<L, N, M>
     fn memory(&mut self) -> &mut Memory<L::Scalar> {
         (**self).memory()
     }
+
+    #[inline]
+    fn sample(&mut self, system: &L, state: &State<L::Scalar, N>, place: usize) -> Result<(), Error> {
+        (**self).sample(system, state, place)
+    }
 }
 
 impl<L, K, G, const N: usize, const M: usize> Watched<L, N, M> for Event<K, G, N, M>
@@ -277,8 +286,17 @@ where
         }
     }
 
+    #[inline]
     fn memory(&mut self) -> &mut Memory<L::Scalar> {
         &mut self.memory
+    }
+
+    #[inline]
+    fn sample(&mut self, system: &L, state: &State<L::Scalar, N>, place: usize) -> Result<(), Error> {
+        if !self.memory.is_known() {
+            self.memory.samples[place] = Watched::<L, N, M>::value(self, system, state)?;
+        }
+        Ok(())
     }
 }
 

@@ -16,6 +16,8 @@ const SAFETY: f64 = 16.0;
 ///
 /// Of the sum of what each entry does by itself, eight random choices of signs miss a half with a chance of less than 1 in 250
 /// (they would have to be all on the other side of the median of its size), the factor 16 covers the rest.
+#[cold]
+#[inline(never)]
 pub(super) fn noise<L, const N: usize, const M: usize>(
     event: &impl Watched<L, N, M>,
     system: &L,

@@ -266,21 +266,34 @@ where
         I: Interpolant<L::Scalar, N>,
     {
         let interval = if may_halve { stride.interval(from.t, t) } else { None };
-        self.events.iter_mut().for_each(|event| event.memory().open());
-        let reached = stride.at(t).and_then(|to| self.sample(stride.system, &to, FINEST).map(|()| to));
+        let mut are_too_wide = false;
+        for event in self.events.iter_mut() {
+            are_too_wide |= event.memory().open(interval.as_ref());
+        }
+        let within;
+        let end = match t == stride.after.t {
+            true => Ok(stride.after),
+            false => {
+                within = stride.at(t);
+                there(&within)
+            }
+        };
+        let reached = end.and_then(|to| self.sample(stride.system, to, FINEST).map(|()| to));
         if let Some(interval) = &interval {
             // What cannot be evaluated may have crossed before.
-            if reached.is_err() || !self.is_plain(stride, [from.t, t], interval).unwrap_or(false) {
+            if reached.is_err()
+                || are_too_wide
+                || !self.is_plain(stride, [from.t, t], interval).unwrap_or(false)
+            {
                 return Ok(Look::Halve);
             }
         }
         let to = reached?;
-        self.look_at(stride.system, &to)?;
-        let any_crosses = self.events.iter_mut().any(|event| event.memory().crosses());
+        let any_crosses = self.look_at(stride.system, to)?;
         match any_crosses {
-            true => self.go_to_first(stride, from, &to)?,
+            true => self.go_to_first(stride, from, to)?,
             false => {
-                *from = to;
+                *from = *to;
                 self.events.iter_mut().for_each(|event| event.memory().go_on(t));
             }
         }
@@ -290,14 +303,7 @@ where
     /// Takes samples of all functions that are not known well enough.
     #[inline]
     fn sample(&mut self, system: &L, state: &State<L::Scalar, N>, place: usize) -> Result<(), Error> {
-        self.events.iter_mut().try_for_each(|event| {
-            if event.memory().view == View::Plain {
-                return Ok(());
-            }
-            let value = event.value(system, state)?;
-            event.memory().samples[place] = value;
-            Ok(())
-        })
+        self.events.iter_mut().try_for_each(|event| event.sample(system, state, place))
     }
 
     /// Whether each function crosses zero at most once between these times, by samples of as high a degree as that takes.
@@ -312,14 +318,11 @@ where
         F: Flow<L, N, M>,
         I: Interpolant<L::Scalar, N>,
     {
-        if self.events.iter_mut().any(|event| event.memory().is_too_wide(interval)) {
-            return Ok(false);
-        }
         let mut degree = COARSEST;
         while degree <= interval.finest {
             for place in places(degree) {
-                let state = stride.at(from + (to - from) * L::Scalar::constant(part(place)))?;
-                self.sample(stride.system, &state, place)?;
+                let state = stride.at(from + (to - from) * L::Scalar::constant(part(place)));
+                self.sample(stride.system, there(&state)?, place)?;
             }
             let mut is_plain = true;
             for event in self.events.iter_mut() {
@@ -337,21 +340,26 @@ where
         Ok(false)
     }
 
-    /// Takes note of all functions at the end of an interval.
-    fn look_at(&mut self, system: &L, end: &State<L::Scalar, N>) -> Result<(), Error> {
-        self.events.iter_mut().try_for_each(|event| {
-            if let Some(left) = event.memory().start {
+    /// Takes note of all functions at the end of an interval; whether one crosses on the way.
+    #[inline]
+    fn look_at(&mut self, system: &L, end: &State<L::Scalar, N>) -> Result<bool, Error> {
+        let mut any_crosses = false;
+        for event in self.events.iter_mut() {
+            let mut memory = event.memory();
+            if let Some(left) = memory.start {
                 let noise = noise(event, system, end)? + left;
-                let memory = event.memory();
+                memory = event.memory();
                 memory.noise = larger(memory.noise, noise);
             }
-            let memory = event.memory();
             memory.look(memory.samples[FINEST]);
-            Ok(())
-        })
+            any_crosses |= memory.crosses();
+        }
+        Ok(any_crosses)
     }
 
     /// Goes to where the first event crosses. Its function is zero there or has the other sign, and so may others be.
+    #[cold]
+    #[inline(never)]
     fn go_to_first<F, I>(
         &mut self,
         stride: &Stride<'_, L, F, I, N, M>,
@@ -396,13 +404,16 @@ where
     F: Flow<L, N, M>,
     I: Interpolant<L::Scalar, N>,
 {
-    let memory = event.memory();
-    if memory.view != View::Plain {
-        memory.judge(degree, interval);
-        if let View::Rough = memory.view {
-            let noise = noise(event, stride.system, &stride.at(middle)?)?;
-            event.memory().judge_noise(degree, noise);
-        }
+    let view = event.memory().judge(degree, interval);
+    if view != View::Rough {
+        return Ok(view);
     }
-    Ok(event.memory().view)
+    let noise = noise(event, stride.system, &stride.at(middle)?)?;
+    Ok(event.memory().judge_noise(degree, noise))
+}
+
+/// The state where it is: one that is moved out of a result takes longer than a look at it.
+#[inline(always)]
+fn there<T, const N: usize>(found: &Result<State<T, N>, Error>) -> Result<&State<T, N>, Error> {
+    found.as_ref().map_err(Error::clone)
 }
