@@ -41,10 +41,6 @@ impl<T, C> Polynomial<T, C> {
     }
 }
 
-/// An interpolant of so many bytes is written where it stays: the stack has no room for copies of it.
-#[cfg(feature = "alloc")]
-pub(in crate::motion) const LARGE: usize = 1 << 14;
-
 /// The place and its rates at one end of a step.
 pub type Node<T, const N: usize> = (Phase<T, N>, Phase<T, N>);
 

@@ -10,7 +10,6 @@ use nalgebra::ComplexField;
 use super::clock::Clock;
 use super::control::{Control, Place};
 #[cfg(feature = "alloc")]
-use super::interpolant::LARGE;
 use super::interpolant::{Polynomial, hermite};
 use super::pair::{
     Combination, Pair, Slopes, advance, advance_from, check, error_needs_last, is_carried, last,
@@ -229,10 +228,6 @@ where
         statistics: &mut Statistics,
         to: &mut Vec<Self::Interpolant>,
     ) -> Result<(), Error> {
-        if const { size_of::<Self::Interpolant>() < LARGE } {
-            to.push(Method::<L, N, M, F>::interpolant(self, system, memory, statistics)?);
-            return Ok(());
-        }
         let (start, length) = look_within::<P, L, F, N, M>(system, memory, statistics)?;
         to.push(Polynomial::new(start, length, P::coefficients([[L::Scalar::constant(0.0); N]; 2])));
         if let Some(last) = to.last_mut() {
