@@ -182,6 +182,14 @@ where
         self.system.residual_change_by_parameters_with(slopes, rates)
     }
 
+    /// How the residual changes along this direction, the same in all lanes.
+    #[cfg(feature = "alloc")]
+    fn changes_alike(&self, direction: &Direction<L::Scalar, N>) -> ResidualChange<WideOf<L, N, M>, N, M> {
+        let of = WideOf::<L, N, M>::of;
+        let Direction { t, q, v } = direction;
+        self.changes(&Direction { t: of(*t), q: q.map(of), v: v.map(of) })
+    }
+
     /// How the residual changes along this direction, and with this parameter, the same in all lanes.
     #[cfg(feature = "alloc")]
     pub(super) fn change_with<const P: usize>(
@@ -192,9 +200,7 @@ where
     where
         L: Linearized<N, M, P>,
     {
-        let of = WideOf::<L, N, M>::of;
-        let Direction { t, q, v } = direction;
-        let change = self.changes(&Direction { t: of(*t), q: q.map(of), v: v.map(of) });
+        let change = self.changes_alike(direction);
         let Some(k) = parameter else { return change };
         change.plus(&self.changes_by_parameters(&self.parameter_slopes(), &unit(k)))
     }
@@ -262,14 +268,14 @@ where
         Ok(solution)
     }
 
-    /// The derivative of the residual, which must be finite.
+    /// The derivative of the residual, which must be finite. On lanes: the long function is compiled for no other numbers then.
     #[cfg(feature = "alloc")]
     pub(super) fn residual_change(
         &self,
         direction: &Direction<L::Scalar, N>,
         entry: Entry,
     ) -> Result<ResidualChange<L::Scalar, N, M>, Error> {
-        self.checked(self.system.residual_change_with(&self.slopes, direction), entry)
+        self.checked(self.changes_alike(direction).lane(0), entry)
     }
 
     /// The derivative of the residual by parameter `k`, with these accelerations and multipliers; it must be finite.
@@ -282,7 +288,8 @@ where
     where
         L: Linearized<N, M, P>,
     {
-        let change = self.system.residual_change_by_parameters(self.state, solution, &unit(k));
+        let slopes = self.system.residual_slopes_by_parameters(self.state, solution);
+        let change = self.changes_by_parameters(&slopes, &unit(k)).lane(0);
         self.checked(change, Entry::Parameter(L::PARAMETERS[k]))
     }
 
