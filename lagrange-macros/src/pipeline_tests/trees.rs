@@ -6,6 +6,7 @@ mod draft;
 mod forest;
 mod joints;
 mod loads;
+mod long;
 mod model;
 mod oracle;
 

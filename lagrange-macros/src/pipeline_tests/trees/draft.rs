@@ -24,13 +24,13 @@ pub(super) struct Draft {
     /// `r: [3]`
     coordinates: Vec<String>,
     /// Names, types and numbers, row by row.
-    fields: Vec<(String, String, Vec<f64>)>,
+    pub(super) fields: Vec<(String, String, Vec<f64>)>,
     frames: Vec<String>,
     terms: Vec<String>,
     attributes: Vec<String>,
     dissipation: Vec<String>,
     /// The names of the multipliers, in the order of the model's ties.
-    multipliers: Vec<String>,
+    pub(super) multipliers: Vec<String>,
     /// Coordinates that are angles or lengths on their own.
     pub(super) scalars: Vec<usize>,
     /// With so many coordinates it takes no further joint of several.
@@ -50,8 +50,20 @@ pub(super) struct Frame {
     pub(super) steps: Vec<String>,
 }
 
+impl Frame {
+    pub(super) fn fixed() -> Self {
+        Self { name: "fixed".into(), link: 0, light: 0, steps: Vec::new() }
+    }
+}
+
 impl Draft {
     pub(super) fn source(&self) -> String {
+        let fields: Vec<String> = self.fields.iter().map(|(name, ty, _)| format!("{name}: {ty}")).collect();
+        format!("{}struct Tree {{ {} }}", self.attributes(), fields.join(", "))
+    }
+
+    /// All attributes, a line each.
+    pub(super) fn attributes(&self) -> String {
         let mut attributes = vec![format!("coordinates({})", self.coordinates.join(", "))];
         attributes.extend_from_slice(&self.frames);
         attributes.push(format!("lagrangian({})", self.terms.join(" + ")));
@@ -59,10 +71,7 @@ impl Draft {
             attributes.push(format!("dissipation({})", self.dissipation.join(" + ")));
         }
         attributes.extend_from_slice(&self.attributes);
-        let attributes: Vec<String> =
-            attributes.iter().map(|attribute| format!("#[{attribute}]\n")).collect();
-        let fields: Vec<String> = self.fields.iter().map(|(name, ty, _)| format!("{name}: {ty}")).collect();
-        format!("{}struct Tree {{ {} }}", attributes.concat(), fields.join(", "))
+        attributes.iter().map(|attribute| format!("#[{attribute}]\n")).collect()
     }
 
     /// A number of a field.

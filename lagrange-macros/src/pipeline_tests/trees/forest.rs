@@ -2,8 +2,8 @@
 
 use super::algebra::{Matrix, UNIT, Vector, scaled, turn_by};
 use super::draft::{Draft, Frame, inertia};
-use super::joints::{AXES, KINDS};
-use super::loads::{loads, ties};
+use super::joints::{AXES, KINDS, Kind};
+use super::loads::{loads, tied};
 use super::model::{Body, Joint, Motion, Point};
 use crate::rounds::Random;
 
@@ -31,7 +31,10 @@ pub(super) fn tree(number: u64) -> Draft {
     let more = (1 + random.below(largest)).saturating_sub(frames.len()).max(1);
     grow(&mut draft, random, &gravity, &mut frames, more);
     loads(&mut draft, random, &frames);
-    ties(&mut draft, random, &frames);
+    // On half of the trees.
+    if !random.once_in(2) {
+        tied(&mut draft, random, &frames, "tie");
+    }
     draft
 }
 
@@ -40,6 +43,41 @@ enum Gravity {
     None,
     Vector(String, Vector),
     Down(String, usize, f64),
+}
+
+/// A long system of this number: 15 to 32 frames with a body each, in a chain or a tree, some with closed loops. Most joints are of a
+/// few kinds in turn, so that loops are found in what is emitted.
+pub(super) fn long(number: u64) -> Draft {
+    let mut random = Random(number);
+    let random = &mut random;
+    let (mut draft, mut frames) = (Draft::default(), Vec::<Frame>::new());
+    let mut scalars = Vec::new();
+    draft.enough = 16;
+    draft.model.time = random.between(-1.0, 1.0);
+    let gravity = gravity(&mut draft, random);
+    let few: Vec<Kind> = (0..=random.below(5)).map(|_| KINDS[random.below(KINDS.len())]).collect();
+    // The mass matrix of a chain of 30 joints at any angles is longer than a function may be.
+    let most = if number % 3 == 1 { 32 } else { 22 };
+    for i in 0..15 + random.below(most - 14) {
+        let kind = if random.once_in(8) { KINDS[random.below(KINDS.len())] } else { few[i % few.len()] };
+        let parent = match number % 3 {
+            1 if random.once_in(2) => random.below(i + 1),
+            _ => i,
+        };
+        let name = format!("f{i}");
+        let on = parent.checked_sub(1).map_or_else(Frame::fixed, |parent: usize| frames[parent].clone());
+        // Gears and masses that vary are with the coordinate before: with any, a mass matrix has no end.
+        let all = draft.scalars.len();
+        scalars.extend(draft.scalars.drain(..all.saturating_sub(1)));
+        let frame = framed(&mut draft, random, &on, name, Some(kind));
+        body(&mut draft, random, &gravity, &frame);
+        frames.push(Frame { light: 0, ..frame });
+    }
+    draft.scalars.splice(..0, scalars);
+    loads(&mut draft, random, &frames);
+    let loops = if number.is_multiple_of(2) { 1 + random.below(3) } else { 0 };
+    (0..loops).for_each(|k| tied(&mut draft, random, &frames, &format!("tie{k}")));
+    draft
 }
 
 fn gravity(draft: &mut Draft, random: &mut Random) -> Gravity {
@@ -127,14 +165,8 @@ fn grow(draft: &mut Draft, random: &mut Random, gravity: &Gravity, frames: &mut 
         .collect();
     for (i, &parent) in parents.iter().enumerate() {
         let is_leaf = !parents.contains(&Some(before + i));
-        let fixed = Frame { name: "fixed".into(), link: 0, light: 0, steps: Vec::new() };
-        let on = parent.map_or(fixed, |parent| frames[parent].clone());
-        let name = format!("f{}", before + i);
-        let mut frame = Frame { name: name.clone(), steps: Vec::new(), ..on.clone() };
-        let coordinates = joint(draft, random, &mut frame);
-        let place = parent.map_or_else(String::new, |_| format!(" in {}", on.name));
-        draft.frame_attribute(format!("{name}{place}: {}", frame.steps.join(", ")));
-        frame.light = on.light + coordinates;
+        let on = parent.map_or_else(Frame::fixed, |parent| frames[parent].clone());
+        let mut frame = framed(draft, random, &on, format!("f{}", before + i), None);
         if is_leaf || frame.light > 1 || !random.once_in(4) {
             bodies(draft, random, gravity, &mut frame);
         } else {
@@ -147,19 +179,24 @@ fn grow(draft: &mut Draft, random: &mut Random, gravity: &Gravity, frames: &mut 
     }
 }
 
-/// The steps of a frame; how many coordinates they bring.
-fn joint(draft: &mut Draft, random: &mut Random, frame: &mut Frame) -> usize {
+/// A frame of this name in another one, declared.
+fn framed(draft: &mut Draft, random: &mut Random, on: &Frame, name: String, kind: Option<Kind>) -> Frame {
+    let place = if on.name == "fixed" { String::new() } else { format!(" in {}", on.name) };
+    let mut frame = Frame { name, steps: Vec::new(), ..on.clone() };
+    frame.light += joint(draft, random, &mut frame, kind);
+    draft.frame_attribute(format!("{}{place}: {}", frame.name, frame.steps.join(", ")));
+    frame
+}
+
+/// The steps of a frame, with a joint of this kind unless it brings too many coordinates; how many they bring.
+fn joint(draft: &mut Draft, random: &mut Random, frame: &mut Frame, kind: Option<Kind>) -> usize {
     let start = draft.model.coordinates.len();
     let most = match frame.light {
         0 if start < draft.enough => 6,
         _ => 1,
     };
-    let (name, _, draw) = loop {
-        let kind = KINDS[random.below(KINDS.len())];
-        if kind.1 <= most {
-            break kind;
-        }
-    };
+    let kinds = kind.into_iter().chain(std::iter::from_fn(|| Some(KINDS[random.below(KINDS.len())])));
+    let (name, _, draw) = kinds.into_iter().find(|kind| kind.1 <= most).expect("one of many");
     draft.count(name);
     // A light frame is moved by two coordinates that are about different axes at different places.
     if random.once_in(2) || name == "fixed" || frame.light > 0 {

@@ -6,7 +6,7 @@ use super::model::{Joint, Motion};
 use crate::rounds::Random;
 
 /// What a joint is, and how many coordinates it brings.
-pub(super) const KINDS: [(&str, usize, Draw); 15] = [
+pub(super) const KINDS: [Kind; 15] = [
     ("fixed", 0, |_, _, _| ()),
     ("driven", 0, driven),
     ("revolute", 1, revolute),
@@ -24,6 +24,7 @@ pub(super) const KINDS: [(&str, usize, Draw); 15] = [
     ("free", 6, free),
 ];
 
+pub(super) type Kind = (&'static str, usize, Draw);
 type Draw = fn(&mut Draft, &mut Random, &mut Frame);
 
 pub(super) const AXES: [&str; 3] = ["x", "y", "z"];

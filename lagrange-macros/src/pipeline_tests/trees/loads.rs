@@ -140,20 +140,16 @@ fn charge(draft: &mut Draft, random: &mut Random, frames: &[Frame]) {
     draft.load(Load::Magnetic(at.1, field));
 }
 
-/// One constraint, on half of the trees.
-pub(super) fn ties(draft: &mut Draft, random: &mut Random, frames: &[Frame]) {
-    if random.once_in(2) {
-        return;
-    }
-    // One that binds, if there is any.
+/// One constraint of this name that binds, if any is found.
+pub(super) fn tied(draft: &mut Draft, random: &mut Random, frames: &[Frame], name: &str) {
     for _ in 0..8 {
         let (one, other) = (of(&frames[random.below(frames.len())], random), point(random, frames));
         let (kind, tie) = tie(draft, random, one.1, other.1);
-        draft.tie(tie.clone(), "tie".into());
+        draft.tie(tie.clone(), name.into());
         if draft.model.is_tied_well() {
             draft.count(kind);
             let text = equation(draft, &tie, one.0, other.0);
-            return draft.attribute(format!("constraint(tie: {text})"));
+            return draft.attribute(format!("constraint({name}: {text})"));
         }
         draft.untie();
     }
