@@ -1,8 +1,12 @@
-//! Systems for tests, written down by hand.
+//! Systems for tests, written down by hand, and random numbers.
+
+mod random;
 
 use core::array::from_fn;
 
 use nalgebra::{SMatrix, SVector};
+
+pub(crate) use random::Random;
 
 use crate::number::{Over, vector};
 use crate::solution::eliminate::{LoopFactor, eliminate};

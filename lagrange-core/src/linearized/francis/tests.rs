@@ -4,26 +4,9 @@
 use nalgebra::{Complex, DMatrix, DVector};
 
 use super::eigenvalues;
-
-struct Random(u64);
+use crate::fixtures::Random;
 
 impl Random {
-    /// Uniform between −1 and 1 (Marsaglia's xorshift).
-    fn next(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        ((self.next() + 1.0) / 2.0 * n as f64) as usize % n
-    }
-
-    fn matrix(&mut self, rows: usize, columns: usize) -> DMatrix<f64> {
-        DMatrix::from_fn(rows, columns, |_, _| self.next())
-    }
-
     fn symmetric(&mut self, n: usize) -> DMatrix<f64> {
         let a = self.matrix(n, n);
         &a + a.transpose()

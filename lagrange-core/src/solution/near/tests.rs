@@ -1,4 +1,5 @@
 use super::{Corrections, project};
+use crate::fixtures::Random;
 use crate::prelude::*;
 use crate::solution::consistent::BOTH;
 
@@ -41,18 +42,10 @@ struct Coupled {
     e: f64,
 }
 
-/// A number from −1 to 1 (SplitMix64).
-fn random(seed: &mut u64) -> f64 {
-    *seed = seed.wrapping_add(0x9E37_79B9_7F4A_7C15);
-    let x = (*seed ^ (*seed >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    let x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    ((x ^ (x >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-}
-
 /// By how much a momentum changes as random states that are a few hundred units of round-off from the constraints are
 /// moved onto them, with velocities that follow and with velocities that do not: the sums over all.
 fn changes<L, const N: usize, const M: usize>(
-    system: impl Fn(&mut u64) -> L,
+    system: impl Fn(&mut Random) -> L,
     momentum: impl Fn(&L, &State<f64, N>) -> f64,
 ) -> [f64; 2]
 where
@@ -61,18 +54,18 @@ where
     let mut sums = [0.0; 2];
     let cases = std::env::var("LAGRANGE_MOMENTA").ok().and_then(|n| n.parse().ok()).unwrap_or(4000);
     for case in 0..cases {
-        let seed = &mut (1000 * case);
-        let system = system(seed);
+        let random = &mut Random(case << 32);
+        let system = system(random);
         let from =
-            State::new([(); N].map(|()| 1.0 + 0.7 * random(seed)), [(); N].map(|()| 2.0 * random(seed)));
+            State::new([(); N].map(|()| 1.0 + 0.7 * random.next()), [(); N].map(|()| 2.0 * random.next()));
         let (on, _) =
-            system.make_consistent(&State { t: 0.3 * random(seed), ..from }).expect("near the constraints");
+            system.make_consistent(&State { t: 0.3 * random.next(), ..from }).expect("near the constraints");
         let off = State {
-            q: on.q.map(|q| q + 1e-13 * random(seed)),
-            v: on.v.map(|v| v + 1e-15 * random(seed)),
+            q: on.q.map(|q| q + 1e-13 * random.next()),
+            v: on.v.map(|v| v + 1e-15 * random.next()),
             ..on
         };
-        let step = 0.1 + 0.09 * random(seed);
+        let step = 0.1 + 0.09 * random.next();
         let corrections = [Corrections::OnceAfter(step), Corrections::ToRoundOff];
         for (sum, corrections) in sums.iter_mut().zip(corrections) {
             let (near, doubt) = project::<_, f64, N, M>(&system, &BOTH, corrections, off, &mut [[0.0; N]; 2]);
@@ -87,24 +80,18 @@ where
 #[test]
 fn momenta_are_kept_where_velocities_follow_the_coordinates() {
     let cartesian = changes(
-        |s| Cartesian {
-            m: 1.5 + random(s),
-            b: random(s),
-            k: random(s),
-            l: 1.5 + 0.5 * random(s),
-            u: random(s),
-        },
+        |r| Cartesian { m: 1.5 + r.next(), b: r.next(), k: r.next(), l: 1.5 + 0.5 * r.next(), u: r.next() },
         |system, state| {
             let p = system.momentum(state);
             state.q[0] * p[1] - state.q[1] * p[0]
         },
     );
     let polar = changes(
-        |s| Polar { m: 1.5 + random(s), b: random(s), k: random(s), l: 1.5 + 0.5 * random(s), u: random(s) },
+        |r| Polar { m: 1.5 + r.next(), b: r.next(), k: r.next(), l: 1.5 + 0.5 * r.next(), u: r.next() },
         |system, state| system.momentum(state)[1],
     );
     let coupled = changes(
-        |s| Coupled { m: 1.5 + random(s), g: 2.0 * random(s), k: random(s), e: 1.0 + 0.5 * random(s) },
+        |r| Coupled { m: 1.5 + r.next(), g: 2.0 * r.next(), k: r.next(), e: 1.0 + 0.5 * r.next() },
         |system, state| {
             let p = system.momentum(state);
             state.q[0] * p[1] - state.q[1] * p[0] + p[4]

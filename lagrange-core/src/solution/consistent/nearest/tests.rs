@@ -3,6 +3,7 @@ use std::vec::Vec;
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::fixtures::Random;
 use crate::prelude::*;
 
 #[derive(Lagrangian)]
@@ -59,23 +60,14 @@ struct Curve {
     b: [f64; 3],
 }
 
-/// A number from −1 to 1 (SplitMix64).
-fn number(seed: &mut u64) -> f64 {
-    *seed = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let mut z = *seed;
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    2.0 * ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64 - 1.0
-}
-
 /// 40 random surfaces and starts up to three times as far away as they are large; `LAGRANGE_NEAREST` says how many otherwise.
 /// The equations of the nearest point hold, by their own derivatives, and no point nearby is nearer.
 #[test]
 fn what_is_found_satisfies_the_equations_of_the_nearest_point() {
     let count = std::env::var("LAGRANGE_NEAREST").ok().and_then(|count| count.parse().ok()).unwrap_or(40);
-    let (mut seed, mut worst, mut refused, mut nearer) = (1, 0.0_f64, 0, 0);
+    let (mut random, mut worst, mut refused, mut nearer) = (Random(1), 0.0_f64, 0, 0);
     for _ in 0..count {
-        let mut next = || number(&mut seed);
+        let mut next = || random.next();
         let curve = Curve {
             m: [0; 4].map(|_| 1.0 + 0.8 * next()),
             n: 0.1 * next(),
