@@ -101,8 +101,9 @@ fn windows_are_stepped_across() -> Result<(), Error> {
 /// Here a whole row of the Jacobian vanishes, whatever the others are: below 10⁻¹⁰ the motion ends there.
 #[test]
 fn a_linkage_that_folds_keeps_its_energy_as_far_as_it_goes() -> Result<(), Error> {
-    let mut through = 0;
-    for g in GRAVITIES {
+    let (mut through, mut motions) = (0, 0);
+    for g in GRAVITIES.into_iter().step_by(3) {
+        motions += 2;
         let linkage = Linkage { g };
         let start = State::at_rest([1.0, 0.762_873_910_257_525, 2.306_798_799_395_277]);
         let (start, _) = linkage.make_consistent(&start)?;
@@ -115,7 +116,7 @@ fn a_linkage_that_folds_keeps_its_energy_as_far_as_it_goes() -> Result<(), Error
             through += usize::from(tolerance >= 1e-9 && end == END);
         }
     }
-    assert!(through >= 2 * GRAVITIES.len() - 1, "{through}");
+    assert!(through >= motions - 1, "{through} of {motions}");
     Ok(())
 }
 
