@@ -45,7 +45,7 @@ use step::Attempt;
 /// not those of the equations, to the tolerance. Rounding errors of the
 /// states are carried along (compensated sums); each state is projected onto the constraints, its velocities along the
 /// Hamiltonian vector fields of the constraints, so that what rounding does to the distance of a body leaves its angular momentum
-/// and energy. On constraints energy changes as a random walk, of 9·10⁻¹⁶ of the kinetic energy in a step of 2½ rad, and
+/// and energy. On constraints, without magnetic fields and damping, energy changes as a random walk, of 9·10⁻¹⁶ of the kinetic energy in a step of 2½ rad, and
 /// drifts by some 10⁻¹⁸ a step. Between its ends a step is the series itself.
 ///
 /// A force may vanish to round-off where a step begins and be strong within: a wall by `tanh`, a pulse in time by `exp`, a high power

@@ -3,14 +3,17 @@ use crate::fixtures::Random;
 use crate::prelude::*;
 use crate::solution::consistent::BOTH;
 
-/// In a magnetic field, about a centre, on a circle that grows.
+/// About a centre, on a circle that grows, in a magnetic field and with damping that is not the same in all directions.
 #[derive(Lagrangian)]
 #[coordinates(x, y)]
 #[lagrangian(m/2*(x_dot^2 + y_dot^2) + b/2*(x*y_dot - y*x_dot) - k*(x^2 + y^2)^2)]
 #[constraint(circle: x^2 + y^2 = (l + u*t)^2)]
+#[force(x: -c*(x_dot + y_dot/2))]
+#[force(y: -c*(3*y_dot + x_dot/2))]
 struct Cartesian {
     m: f64,
     b: f64,
+    c: f64,
     k: f64,
     l: f64,
     u: f64,
@@ -19,11 +22,10 @@ struct Cartesian {
 /// The same in coordinates of which the mass matrix varies.
 #[derive(Lagrangian)]
 #[coordinates(r, phi)]
-#[lagrangian(m/2*(r_dot^2 + r^2*phi_dot^2) + b/2*r^2*phi_dot - k*r^4)]
+#[lagrangian(m/2*(r_dot^2 + r^2*phi_dot^2) - k*r^4)]
 #[constraint(circle: r = l + u*t)]
 struct Polar {
     m: f64,
-    b: f64,
     k: f64,
     l: f64,
     u: f64,
@@ -65,7 +67,7 @@ where
             v: on.v.map(|v| v + 1e-15 * random.next()),
             ..on
         };
-        let step = 0.1 + 0.09 * random.next();
+        let step = 0.6 + 0.3 * random.next();
         let corrections = [Corrections::OnceAfter(step), Corrections::ToRoundOff];
         for (sum, corrections) in sums.iter_mut().zip(corrections) {
             let (near, doubt) = project::<_, f64, N, M>(&system, &BOTH, corrections, off, &mut [[0.0; N]; 2]);
@@ -76,18 +78,25 @@ where
     sums.map(|sum| sum / cases as f64)
 }
 
+/// With so strong a field and damping.
+fn cartesian(random: &mut Random, strength: f64) -> Cartesian {
+    let [b, c] = [strength * random.next(), strength * random.next().abs()];
+    let [m, k, l, u] = [1.5 + random.next(), random.next(), 1.5 + 0.5 * random.next(), random.next()];
+    Cartesian { m, b, c, k, l, u }
+}
+
 /// A momentum that symmetry conserves is kept by a correction along Hamiltonian vector fields.
 #[test]
 fn momenta_are_kept_where_velocities_follow_the_coordinates() {
     let cartesian = changes(
-        |r| Cartesian { m: 1.5 + r.next(), b: r.next(), k: r.next(), l: 1.5 + 0.5 * r.next(), u: r.next() },
+        |r| cartesian(r, 0.0),
         |system, state| {
             let p = system.momentum(state);
             state.q[0] * p[1] - state.q[1] * p[0]
         },
     );
     let polar = changes(
-        |r| Polar { m: 1.5 + r.next(), b: r.next(), k: r.next(), l: 1.5 + 0.5 * r.next(), u: r.next() },
+        |r| Polar { m: 1.5 + r.next(), k: r.next(), l: 1.5 + 0.5 * r.next(), u: r.next() },
         |system, state| system.momentum(state)[1],
     );
     let coupled = changes(
@@ -99,6 +108,14 @@ fn momenta_are_kept_where_velocities_follow_the_coordinates() {
     );
     for [follows, stays] in [cartesian, polar, coupled] {
         std::println!("{follows:.1e} {stays:.1e}");
-        assert!(follows < 5e-16 && stays > 2e-14, "{follows:e}, {stays:e}");
+        assert!(follows < stays / 100.0 && stays > 2e-14, "{follows:e}, {stays:e}");
     }
+}
+
+/// A field that makes of the round-off of coordinates 10⁹ units of that of velocities does not.
+#[test]
+fn velocities_follow_no_forces() {
+    let speed = |_: &Cartesian, state: &State<f64, 2>| state.v.norm();
+    let [follows, stays] = changes(|r| cartesian(r, 1e9), speed);
+    assert!(follows < 4e-13 && stays < 4e-13, "{follows:e}, {stays:e}");
 }
