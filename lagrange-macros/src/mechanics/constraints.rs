@@ -69,7 +69,7 @@ pub(super) fn derive(
 ) -> Option<Constraints> {
     let mut constraints = Constraints::default();
     for (label, expression) in &problem.constraints {
-        if let Some(message) = constraints.push(graph, problem, twists, *expression) {
+        if let Some(message) = constraints.push(graph, problem, twists, (label, *expression)) {
             diagnostics.error(label.place, named(label, message));
         }
         diagnostics.stop_at_fault(label.place, graph);
@@ -89,7 +89,7 @@ impl Constraints {
         graph: &mut Graph,
         problem: &Problem,
         twists: Option<&Twists>,
-        expression: Id,
+        (label, expression): (&Label, Id),
     ) -> Option<String> {
         let n = problem.coordinates.len();
         let mut drift = match twists {
@@ -105,7 +105,7 @@ impl Constraints {
             Some(twists) => twists.row(graph, expression, n),
             None => graph.gradient(expression, &symbols(n, variable)),
         };
-        let wrong = malformed(graph, problem, expression, kind, &jacobian);
+        let wrong = malformed(graph, problem, (label, expression), kind, &jacobian);
         self.kinds.push(kind);
         self.residual.push(residual);
         self.rate.push(rate);
@@ -115,19 +115,30 @@ impl Constraints {
     }
 }
 
+/// How the other constraints are written that are written as one with it.
+fn without(label: &Label) -> String {
+    match label.text.split_once('[') {
+        Some((name, _)) => format!("write the others alone, as in `{name}[k in 0..2]: a[k] = b[k]`"),
+        None => "leave it out".to_owned(),
+    }
+}
+
 fn malformed(
     graph: &mut Graph,
     problem: &Problem,
-    expression: Id,
+    (label, expression): (&Label, Id),
     kind: ConstraintKind,
     jacobian: &[Id],
 ) -> Option<String> {
     if jacobian.iter().all(|&entry| vanishes(graph, problem, entry).is_some()) {
         let message = match expression {
-            Id::ZERO => "both sides of this constraint are the same, whatever the motion: leave it out",
-            _ => "this constraint depends on no coordinate and no velocity: nothing can be done to meet it",
+            Id::ZERO => {
+                format!("both sides of this constraint are the same, whatever the motion: {}", without(label))
+            }
+            _ => "this constraint depends on no coordinate and no velocity: nothing can be done to meet it"
+                .to_owned(),
         };
-        return Some(message.to_owned());
+        return Some(message);
     }
     // A velocity constraint is F q̇ + b: its Jacobian holds no velocity.
     let entries = if kind == Velocity { jacobian } else { &[] };

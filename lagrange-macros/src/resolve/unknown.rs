@@ -4,13 +4,18 @@ use super::scope::{CONSTANTS, Entity, Scope, functions};
 use crate::syntax::{GREEK, Name};
 
 /// Names of fixed quantities elsewhere, one beside the other, and what to write here.
-const NAMES: [(&str, &str); 6] = [
+const NAMES: [(&str, &str); 8] = [
     ("fixed", "it is the frame at rest, and stands where a frame is asked for: `express(v, fixed)`"),
     ("time Time", "the time is `t`"),
     ("e E exp1", "the exponential function is `exp(x)`"),
     ("deg degree degrees rad radians", "angles are in radians, and a degree is `pi/180`"),
     ("inf Inf infinity oo nan NaN", "the expression must have a value everywhere"),
     ("TAU", "a full turn is `2*pi`"),
+    ("π PI Pi", "it is written `pi`"),
+    (
+        "position",
+        "of a frame it is `position(frame, [x, y, z])`, which does not stand in definitions with arguments",
+    ),
 ];
 
 /// What is called by a letter here and by a word there.
