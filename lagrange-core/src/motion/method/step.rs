@@ -9,7 +9,6 @@ use nalgebra::ComplexField;
 
 use super::clock::Clock;
 use super::control::{Control, Place};
-#[cfg(feature = "alloc")]
 use super::interpolant::{Polynomial, hermite};
 use super::pair::{
     Combination, Pair, Slopes, advance, advance_from, check, error_needs_last, is_carried, last,
