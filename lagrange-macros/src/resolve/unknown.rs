@@ -11,7 +11,7 @@ const NAMES: [(&str, &str); 8] = [
     ("deg degree degrees rad radians", "angles are in radians, and a degree is `pi/180`"),
     ("inf Inf infinity oo nan NaN", "the expression must have a value everywhere"),
     ("TAU", "a full turn is `2*pi`"),
-    ("π PI Pi", "it is written `pi`"),
+    ("π", "it is written `pi`"),
     (
         "position",
         "of a frame it is `position(frame, [x, y, z])`, which does not stand in definitions with arguments",
