@@ -268,7 +268,8 @@ where
         Ok(solution)
     }
 
-    /// The derivative of the residual, which must be finite. On lanes: the long function is compiled for no other numbers then.
+    /// The derivative of the residual, which must be finite. It is computed on lanes, although there is one direction: so the long
+    /// function is compiled for lanes alone.
     #[cfg(feature = "alloc")]
     pub(super) fn residual_change(
         &self,

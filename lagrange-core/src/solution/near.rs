@@ -16,7 +16,7 @@ use super::consistent::Level;
 use crate::number::{Real, Scalar, sum, vector};
 use crate::system::{Lagrangian, Solution, State};
 
-/// When corrections are made, and what becomes of velocities as coordinates are corrected.
+/// How a state is corrected: when, how often, and whether its velocities follow its coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Corrections<T> {
     /// Where more is left than four units of round-off, at most three. From as far off as the error of a step one leads
@@ -97,8 +97,8 @@ where
 /// The impulse by which velocities follow a correction w = M⁻¹Fᵀμ of the coordinates: Ṁw − Ḟᵀμ + 2 h₂(q̇, w), where h₂ is the part
 /// of h that is quadratic in velocities.
 ///
-/// With it coordinates and momenta go along the Hamiltonian vector fields of μᵀΦ̇ and of the constraints, which are across
-/// every motion on the constraints (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, VII.1): a
+/// With it coordinates and momenta move along the Hamiltonian vector fields of μᵀΦ̇ and of the constraints. These fields are
+/// orthogonal, in the symplectic form, to every motion on the constraints (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, VII.1): a
 /// correction that is made to the same side step by step, as of a body that keeps its distance, leaves its angular momentum
 /// and energy as they were. Velocities that stay as they are would lose or gain with each. Forces that are linear in
 /// velocities, of magnetic fields and of damping, are left out: a strong field makes of the round-off of coordinates many units

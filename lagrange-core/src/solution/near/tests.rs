@@ -78,7 +78,7 @@ where
     sums.map(|sum| sum / cases as f64)
 }
 
-/// With so strong a field and damping.
+/// A random system with a magnetic field and damping of this strength.
 fn cartesian(random: &mut Random, strength: f64) -> Cartesian {
     let [b, c] = [strength * random.next(), strength * random.next().abs()];
     let [m, k, l, u] = [1.5 + random.next(), random.next(), 1.5 + 0.5 * random.next(), random.next()];
