@@ -4,35 +4,16 @@
 
 use lagrange_core::{Method, Sample, prelude::*};
 
+use crate::random::Random;
 use crate::{Free, Spring};
 
 fn cases(unless_told: u64) -> u64 {
     std::env::var("LAGRANGE_EVENTS").ok().and_then(|n| n.parse().ok()).unwrap_or(unless_told)
 }
 
-/// Steele, Lea and Flood's SplitMix.
-struct Random(u64);
-
-impl Random {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let x = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        x ^ (x >> 31)
-    }
-
-    fn below(&mut self, n: u64) -> usize {
-        (self.bits() % n) as usize
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// From a thousandth of a millionth to one, any decade alike.
-    fn length(&mut self) -> f64 {
-        10_f64.powf(self.between(-9.0, 0.0))
-    }
+/// From a thousandth of a millionth to one, any decade alike.
+fn any_length(random: &mut Random) -> f64 {
+    random.size(1e-9, 1.0)
 }
 
 /// Times and directions of the crossings from `start` to `end`.
@@ -110,7 +91,7 @@ fn clustered(random: &mut Random, [low, high]: [f64; 2], most: u64) -> Vec<f64> 
     let (mut zeros, count, length) = (Vec::new(), 1 + random.below(most), high - low);
     while zeros.len() < count {
         let (zero, apart) =
-            (random.between(low + 0.05 * length, high - 0.2 * length), length * random.length());
+            (random.between(low + 0.05 * length, high - 0.2 * length), length * any_length(random));
         for k in 0..(1 + random.below(4)).min(count - zeros.len()) {
             zeros.push(zero + 0.045 * apart.max(1e-9 / 0.045 * length) * k as f64);
         }
@@ -145,7 +126,7 @@ fn sines() {
         let length = random.between(1.0, 4.0);
         let (backwards, of_time, method) = (random.below(2) == 0, random.below(2) == 0, random.below(5));
         let [one, other] =
-            [(); 2].map(|()| (30.0 / length * random.length().powf(0.3), random.between(0.0, 3.0)));
+            [(); 2].map(|()| (30.0 / length * any_length(random).powf(0.3), random.between(0.0, 3.0)));
         let value = |t: f64| (one.0 * t - one.1).sin() * (other.0 * t - other.1).sin();
         let zeros = [one, other].into_iter().flat_map(|(rate, phase)| {
             (-1..12).map(move |k| (std::f64::consts::PI * f64::from(k) + phase) / rate).filter(|t| *t > 0.0)
@@ -175,7 +156,7 @@ fn sines() {
 fn levels() {
     campaign("levels", cases(100), |random| {
         let (amplitude, phase) = (random.between(0.5, 2.0), random.between(0.0, 6.3));
-        let (count, apart) = (2 + 2 * random.below(2), amplitude * random.length());
+        let (count, apart) = (2 + 2 * random.below(2), amplitude * any_length(random));
         let first = random.between(-0.95, 0.9) * amplitude;
         let levels: Vec<f64> = (0..count).map(|k| first + apart.max(1e-8) * k as f64 * 0.9).collect();
         let (length, backwards, method) = (random.between(3.0, 20.0), random.below(2) == 0, random.below(5));

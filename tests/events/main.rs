@@ -3,6 +3,8 @@
 mod adversary;
 mod impacts;
 mod journeys;
+#[path = "../random/mod.rs"]
+mod random;
 mod rule;
 mod runs;
 mod section;

@@ -6,6 +6,8 @@ mod control;
 mod drift;
 mod events;
 mod functions;
+#[path = "../random/mod.rs"]
+mod random;
 mod references;
 mod short_ranged;
 mod singular;

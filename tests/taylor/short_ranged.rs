@@ -6,6 +6,8 @@ use std::f64::consts::PI;
 
 use lagrange_core::{Lanes, Pack, TaylorSeries, prelude::*};
 
+use crate::random::Random;
+
 const END: f64 = 12.0;
 const TOLERANCES: [f64; 4] = [f64::EPSILON, 1e-12, 1e-9, 1e-6];
 
@@ -57,23 +59,6 @@ macro_rules! trains {
     )*};
 }
 trains!(Train: 40 NarrowTrain: 400);
-
-/// Steele, Lea and Flood's SplitMix.
-struct Random(u64);
-
-impl Random {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let x = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        low + (high - low) * ((x ^ (x >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// Any factor alike.
-    fn size(&mut self, low: f64, high: f64) -> f64 {
-        self.between(low.ln(), high.ln()).exp()
-    }
-}
 
 /// A system, its start, and by how much an end is off, as a part of what the force makes of it.
 type Case<L> = (L, State<f64, 1>, Box<dyn Fn(&L, &State<f64, 1>) -> f64 + Send + Sync>);
