@@ -34,8 +34,9 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     /// # Errors
     /// [`Error::StateNotFinite`] and [`Error::ParameterNotAsSaid`], also of what the equations do not use;
     /// [`Error::EquationsNotFinite`], [`Error::Singular`] where nothing determines some acceleration, and
-    /// [`Error::Contradictory`] where dependent constraints demand different accelerations; each names the
-    /// coordinates or the constraint.
+    /// [`Error::Contradictory`] where dependent constraints demand different accelerations, [`Error::NoGradient`] where the row of
+    /// one is zero; each names the coordinates or the constraint. Whether the state is on the constraints, and no row the
+    /// round-off of zero, [`check_consistent`](Self::check_consistent) tells.
     fn solve(&self, state: &State<Self::Scalar, N>) -> Result<Solution<Self::Scalar, N, M>, Error> {
         solve(self, state)
     }
@@ -44,7 +45,7 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     ///
     /// # Errors
     /// [`Error::StateNotFinite`] and [`Error::ParameterNotAsSaid`]; [`Error::Inconsistent`], with the first constraint that it
-    /// violates.
+    /// violates; [`Error::NoGradient`], with the first that fixes no acceleration.
     fn check_consistent(&self, state: &State<Self::Scalar, N>) -> Result<(), Error> {
         check_finite(self, state)?;
         consistent::check(self, state)
@@ -75,7 +76,8 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     /// ```
     ///
     /// # Errors
-    /// [`Error::StateNotFinite`], and [`Error::NotProjected`] where Newton's iteration does not get there.
+    /// [`Error::StateNotFinite`], [`Error::NotProjected`] where Newton's iteration does not get there, and
+    /// [`Error::NoGradient`] where a constraint holds and its gradient vanishes.
     fn make_consistent(&self, state: &State<Self::Scalar, N>) -> Result<Consistent<Self::Scalar, N>, Error> {
         check_finite(self, state)?;
         consistent::make_consistent(self, state, &[[false; N]; 2])

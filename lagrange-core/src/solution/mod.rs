@@ -8,6 +8,7 @@ pub(crate) mod impact;
 pub(crate) mod kkt;
 pub(crate) mod near;
 pub(crate) mod newton;
+pub(crate) mod round_off;
 mod sample;
 pub(crate) mod solve;
 

@@ -5,6 +5,7 @@ use nalgebra::{ComplexField, SVector};
 use crate::error::Error;
 use crate::names::{Names, Row};
 use crate::number::{Real, Scalar, larger, power_of_epsilon};
+use crate::solution::consistent::gradient;
 use crate::solution::kkt::{self, Fault, KktSystem, Rank, Solved};
 use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, Solution, State};
@@ -16,7 +17,11 @@ pub(crate) fn solve<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: 
     state: &State<L::Scalar, N>,
 ) -> Result<Solution<L::Scalar, N, M>, Error> {
     check_finite(system, state)?;
-    solve_near(system, state, None, |solution, _| *solution)
+    let solution = solve_near(system, state, None, |solution, _| *solution)?;
+    if !solution.multipliers_are_unique() {
+        gradient::check(system, state)?;
+    }
+    Ok(solution)
 }
 
 /// What `read` makes of the solution, which is not moved, and of the constraints that it rests on.

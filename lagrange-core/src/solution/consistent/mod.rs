@@ -5,6 +5,7 @@
 //! *Geometric Numerical Integration*, IV.4). Each correction is the least, their sum is not where constraints curve: from
 //! as far off as round-off that makes no difference, and from farther the [nearest] point is then sought.
 
+pub(crate) mod gradient;
 mod nearest;
 #[cfg(test)]
 mod tests;
@@ -65,6 +66,7 @@ pub(crate) fn make_consistent<L: Lagrangian<N, M, Scalar: Real>, const N: usize,
 ) -> Result<Consistent<L::Scalar, N>, Error> {
     let mut consistent = *state;
     if const { M > 0 } {
+        gradient::check(system, state)?;
         project_holding(system, Level::Position, &held[0], &mut consistent)?;
         nearest::approach(system, state, &held[0], &mut consistent);
         project_holding(system, Level::Velocity, &held[1], &mut consistent)?;
@@ -167,6 +169,7 @@ pub(crate) fn check<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: 
     system: &L,
     state: &State<L::Scalar, N>,
 ) -> Result<(), Error> {
+    gradient::check(system, state)?;
     BOTH.into_iter().try_for_each(|level| check_level(system, level, state))
 }
 

@@ -1,0 +1,200 @@
+//! Errors as sentences.
+
+use core::fmt::{self, Debug, Display, Formatter};
+
+use super::Error;
+use crate::names::Row;
+
+impl Display for Error {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::StateNotFinite { entry, value } => {
+                write!(f, "`{entry}` is {value} in the state given: every entry must be finite")
+            }
+            Self::ParameterNotAsSaid { name, wanted, defect } if !defect.is_finite() => {
+                write!(f, "the parameter `{name}` is not {wanted}: one of its entries is not finite")
+            }
+            Self::ParameterNotAsSaid { name, wanted, defect } => {
+                write!(f, "the parameter `{name}` is not {wanted}: it is off by {defect:.1e} of its size")
+            }
+            Self::EquationsNotFinite { row, time } => write!(
+                f,
+                "the equations are not finite at t = {time}; row of {row}: check the parameters, and whether the state is at a pole"
+            ),
+            Self::DerivativeNotFinite { row, entry, time } => write!(
+                f,
+                "the derivative of the equations of motion by `{entry}` is not finite at t = {time}; row of {row}: check whether the state is at a pole, or at a point where the equations have a kink"
+            ),
+            Self::Table => {
+                write!(
+                    f,
+                    "a table needs at least two points (a smooth one three), finite, with x increasing from one to the next"
+                )
+            }
+            Self::Setting { name, value } => {
+                write!(f, "the {name} is {value}: it must be positive and finite")
+            }
+            Self::EndNotFinite { end } => write!(f, "cannot integrate to t = {end}: the end must be finite"),
+            #[cfg(feature = "alloc")]
+            Self::Unfinished(ending) => write!(f, "{ending}"),
+            Self::Singular { coordinates, time } => write!(
+                f,
+                "the equations do not determine the acceleration of {coordinates} at t = {time}: give it a mass or constrain it"
+            ),
+            Self::Contradictory { constraint, time } => write!(
+                f,
+                "constraint `{constraint}` contradicts the others at t = {time}: no accelerations satisfy all; remove it or make it agree"
+            ),
+            Self::Inconsistent { constraint, rate, residual, time } => write!(
+                f,
+                "the state violates constraint `{constraint}` at t = {time}: its {} is {residual:e}, not 0; call `make_consistent` first",
+                if *rate { "rate F q_dot + b" } else { "residual" }
+            ),
+            Self::NoGradient { constraint, time } => write!(
+                f,
+                "the gradient of constraint `{constraint}` vanishes at t = {time}, where it holds, so that it fixes no acceleration; write it by a function that changes sign there, as `sin(a) = 0` for `cos(a) = 1` or `x - y = 0` for `(x - y)^2 = 0`, or leave it out if others imply it; if it vanishes at this pose alone, start beside it"
+            ),
+            Self::NotProjected { constraint, residual, iterations, time } => write!(
+                f,
+                "no consistent state found near the one given at t = {time}: constraint `{constraint}` has residual {residual:e} after {iterations} iterations; start closer to the constraints, or check that they can hold together"
+            ),
+            Self::HeldTooMuch { constraint, rate, residual, held, time } => write!(
+                f,
+                "what is held, {}{held}, leaves too little freedom for constraint `{constraint}` at t = {time}: its {} stays {residual:e}; hold less, or give what is held other values",
+                if *rate { "the velocity of " } else { "" },
+                if *rate { "rate F q_dot + b" } else { "residual" }
+            ),
+            Self::VelocityUndetermined { coordinates, time } => write!(
+                f,
+                "the momenta do not determine the velocity of {coordinates} at t = {time}: give it a mass, constrain it, or start the search elsewhere with `legendre_near`"
+            ),
+            Self::MomentumNotReached { coordinate, residual, iterations, time } => write!(
+                f,
+                "no velocity found with the momenta given at t = {time}: that of `{coordinate}` is off by {residual:e} after {iterations} iterations; start the search closer with `legendre_near`, or check that some velocity has these momenta"
+            ),
+            #[cfg(feature = "alloc")]
+            Self::NoEquilibrium { row, residual, iterations, best, time } => write!(
+                f,
+                "no equilibrium found near the state given at t = {time}: the row of {row} leaves {residual:e} after {iterations} steps, at {}; start closer, or let other coordinates, velocities or parameters change",
+                best.join(", ")
+            ),
+            Self::NotSteady { coordinate, row, time } => write!(
+                f,
+                "no steady motion with these velocities at t = {time}: the row of {row} changes as `{coordinate}` moves; give it no velocity"
+            ),
+            Self::InputShiftsConstraint { input, constraint } => write!(
+                f,
+                "constraint `{constraint}` changes with the input `{input}`, and with it which motions are allowed: make the input a force, or what it moves a coordinate"
+            ),
+            Self::ParameterFixed { name } => write!(
+                f,
+                "the parameter `{name}` cannot be changed: its field is a reference or a rotation, or its type says no shape; make the field a number, an array, or a vector or matrix of nalgebra"
+            ),
+            Self::NotRealizable { row: row @ Row::Coordinate(_), residual, time } => write!(
+                f,
+                "the inputs named do not give these accelerations at t = {time}: the row of {row} lacks a generalized force of {residual:e}; name an input that acts on it, or ask for other accelerations"
+            ),
+            Self::NotRealizable { row, residual, time } => write!(
+                f,
+                "these accelerations violate {row} at t = {time}: F q_ddot + gamma is {residual:e}, not 0; `solve` gives some that do not"
+            ),
+            Self::InputsNotUnique { inputs, time } => {
+                write!(f, "many values of {inputs} give these accelerations at t = {time}: name fewer inputs")
+            }
+            Self::EigenvaluesNotFound => write!(
+                f,
+                "the eigenvalues or singular values of a matrix were not found: check that its entries are finite, and the scales of the parameters"
+            ),
+            #[cfg(feature = "alloc")]
+            Self::UnknownName { name, kind, hint: Some(hint), .. } => {
+                write!(f, "there is no {kind} `{name}`: {hint}")
+            }
+            #[cfg(feature = "alloc")]
+            Self::UnknownName { name, kind, hint: None, known } => match known.as_slice() {
+                [] => write!(f, "there is no {kind} `{name}`; the system has none"),
+                _ => write!(f, "there is no {kind} `{name}`; there are `{}`", known.join("`, `")),
+            },
+            #[cfg(feature = "alloc")]
+            Self::RepeatedName { name } => write!(f, "`{name}` is given twice: give each entry once"),
+            Self::Shard { shard, of } => {
+                write!(
+                    f,
+                    "there is no part {shard} of {of}: parts are counted from 0, and there is at least one"
+                )
+            }
+            Self::SampleTime { index, time } => write!(
+                f,
+                "the sample time {index} (counted from 0) is {time}: give finite times in the order of the motion"
+            ),
+            Self::Merge { reason } => write!(f, "the outcomes are not parts of one ensemble: {reason}"),
+            Self::OtherRun { member, differs } => write!(
+                f,
+                "member {member} of the table to resume from is of another run: {differs}; resume with what made the table, or begin a new one"
+            ),
+            #[cfg(feature = "std")]
+            Self::Untagged { code } => write!(
+                f,
+                "{code} may have been another when the rows to resume from were made, and nothing in them tells: name it in both runs by `.tag(\"…\")` on the ensemble, and anew whenever it changes; `.tag(\"\")` takes over rows of a run without a tag"
+            ),
+            #[cfg(feature = "std")]
+            Self::Elsewhere { said } => f.write_str(said),
+            #[cfg(feature = "parquet")]
+            Self::Parquet { file, reason } => write!(f, "{file}, of a table of members: {reason}"),
+            Self::Ranks { rank, reason } => {
+                write!(f, "the ranks cannot do this ensemble together: on rank {rank} {reason}")
+            }
+            Self::NoSuchMember { member, count } => {
+                write!(f, "there is no member {member}: the ensemble has {count}, counted from 0")
+            }
+            Self::Resume { line, column, reason } => write!(
+                f,
+                "line {line}, column {column} of the table of members does not belong there: {reason}"
+            ),
+            Self::Restitution { value } => {
+                write!(f, "the coefficient of restitution is {value}: it must not be negative, and finite")
+            }
+            Self::LegApart { start, end, expected } => write!(
+                f,
+                "the leg from t = {start} to {end} does not go on from t = {expected}, where the journey has come to: start it there, and lead it the same way in time"
+            ),
+            Self::EventNotFinite { event, time } => write!(
+                f,
+                "the function of the event `{event}` is not a number at t = {time}: make it one wherever the motion may lead"
+            ),
+            Self::Grazing { event, time } => write!(
+                f,
+                "the motion grazes the event `{event}` at t = {time}: the rate of its function is zero there to round-off, and the event has no derivative; start so that it is crossed, or missed"
+            ),
+            Self::OutsideTrajectory { time, start, end } => {
+                write!(f, "t = {time} lies outside the trajectory, which covers {start} to {end}")
+            }
+        }
+    }
+}
+
+/// The sentence of its `Display`: `main` prints an error that it returns by this. What tells errors apart are its fields.
+impl Debug for Error {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        Display::fmt(self, f)
+    }
+}
+
+#[cfg(all(test, feature = "alloc"))]
+mod tests {
+    use alloc::{format, string::ToString};
+
+    use super::*;
+    use crate::ending::Ending;
+
+    /// `main` prints an error by `Debug`, and so does a result that is unwrapped.
+    #[test]
+    fn errors_and_endings_are_debugged_as_sentences() {
+        let apart = Error::LegApart { start: 0.5, end: 1.0, expected: 0.25 };
+        let ending = Ending::TimeTooCoarse { time: 2.0, step: 1e-17 };
+        assert_eq!(
+            format!("{apart:?}"),
+            "the leg from t = 0.5 to 1 does not go on from t = 0.25, where the journey has come to: start it there, and lead it the same way in time"
+        );
+        assert_eq!([format!("{apart:?}"), format!("{ending:#?}")], [apart.to_string(), ending.to_string()]);
+    }
+}
