@@ -23,7 +23,7 @@ impl ByHand<2, 1> for RollingSphere {
 
     fn random(random: &mut Random) -> Self {
         let [m, a, g] = random.array(Random::positive);
-        Self { m, a, g, alpha: random.within(0.0..1.5) }
+        Self { m, a, g, alpha: random.between(0.0, 1.5) }
     }
 
     fn l<D: Number>(&self, _: D, [x, _]: &[D; 2], [vx, spin]: &[D; 2]) -> D {

@@ -88,7 +88,7 @@ struct Powers {
 
 impl ByHand<2, 0> for Powers {
     fn random(random: &mut Random) -> Self {
-        Self { m: random.within(3.0..4.0), a: random.signed() }
+        Self { m: random.between(3.0, 4.0), a: random.signed() }
     }
 
     fn state(&self, random: &mut Random) -> State<f64, 2> {

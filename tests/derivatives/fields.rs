@@ -67,7 +67,7 @@ impl ByHand<6, 0> for StringOfMasses {
     fn state(&self, random: &mut Random) -> State<f64, 6> {
         // Away from the poles, where the azimuth has no inertia.
         let mut state = random.state();
-        (0..3).for_each(|i| state.q[i] = random.within(0.5..2.5));
+        (0..3).for_each(|i| state.q[i] = random.between(0.5, 2.5));
         state
     }
 

@@ -47,7 +47,7 @@ pub(crate) struct Relativistic {
 
 impl ByHand<2, 0> for Relativistic {
     fn random(random: &mut Random) -> Self {
-        let c = random.within(3.0..5.0);
+        let c = random.between(3.0, 5.0);
         Self { m: random.positive(), c, k: random.positive(), q: random.signed() }
     }
 

@@ -7,24 +7,13 @@ mod closed_forms;
 mod constrained;
 mod legendre;
 mod motion;
+#[path = "../random/mod.rs"]
+mod random;
 mod rotating_frame;
 
 use lagrange_core::Function;
 use lagrange_core::prelude::*;
-
-/// Numbers between −1 and 1, the same ones in every run.
-struct Random(u64);
-
-impl Random {
-    fn number(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-
-    fn vector<const K: usize>(&mut self) -> [f64; K] {
-        std::array::from_fn(|_| self.number())
-    }
-}
+use random::Random;
 
 /// A smooth potential without any symmetry.
 struct Potential;

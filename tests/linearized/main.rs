@@ -10,6 +10,8 @@ mod errors;
 mod inverse;
 mod large_fields;
 mod numbers;
+#[path = "../random/mod.rs"]
+mod random;
 mod ranks;
 mod steady;
 

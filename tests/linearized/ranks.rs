@@ -3,23 +3,13 @@
 use lagrange_core::nalgebra::{DMatrix, DVector};
 use lagrange_core::prelude::*;
 
-/// Uniform between −1 and 1 (Marsaglia's xorshift).
-struct Random(u64);
+use crate::random::Random;
 
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-
-    /// Four rows in six directions, of which `rank` are independent.
-    fn rows(&mut self, rank: usize) -> [[f64; 6]; 4] {
-        let [left, right] = [(4, rank), (rank, 6)].map(|(m, n)| DMatrix::from_fn(m, n, |_, _| self.next()));
-        let product = left * right;
-        std::array::from_fn(|a| std::array::from_fn(|i| product[(a, i)]))
-    }
+/// Four rows in six directions, of which `rank` are independent.
+fn rows(random: &mut Random, rank: usize) -> [[f64; 6]; 4] {
+    let [left, right] = [(4, rank), (rank, 6)].map(|(m, n)| DMatrix::from_fn(m, n, |_, _| random.number()));
+    let product = left * right;
+    std::array::from_fn(|a| std::array::from_fn(|i| product[(a, i)]))
 }
 
 /// 200 of each; `LAGRANGE_MATRICES` says how many otherwise.
@@ -42,8 +32,8 @@ struct Led {
 fn forces_are_found_beside_constraints_that_depend_on_one_another() {
     let (mut random, mut worst) = (Random(0x9E37_79B9_7F4A_7C15), 0.0_f64);
     for _ in 0..count() {
-        let rank = 1 + (random.next().abs() * 4.0) as usize % 4;
-        let led = Led { c: random.rows(rank), h: [0; 6].map(|_| random.next()) };
+        let rank = 1 + random.below(4);
+        let led = Led { c: rows(&mut random, rank), h: random.vector() };
         let names = &["q[0]", "q[1]", "q[2]", "q[3]", "q[4]"][..6 - rank];
         let found = led.inputs_for(&State::at_rest([0.0; 6]), &[0.0; 6].into(), names).unwrap();
         let terms = |i: usize| {
@@ -73,11 +63,11 @@ struct Hung {
 fn one_of_a_family_of_equilibria_is_found_at_once() {
     let (mut random, mut most) = (Random(7), 0);
     for _ in 0..count() {
-        let rank = 1 + (random.next().abs() * 4.0) as usize % 4;
-        let (c, q) = (random.rows(rank), [0; 6].map(|_| random.next()));
+        let rank = 1 + random.below(4);
+        let (c, q) = (rows(&mut random, rank), random.vector::<6>());
         let b = c.map(|row| row.iter().zip(&q).map(|(x, y)| x * y).sum());
         let hung = Hung { c, b };
-        let found = hung.equilibrium(&State::at_rest([0; 6].map(|_| random.next())), &[]).unwrap();
+        let found = hung.equilibrium(&State::at_rest(random.vector()), &[]).unwrap();
         let force = hung.forcing(&found.state).amax();
         assert!(force < 1e-13, "rank {rank}: {force:e}, {c:?}");
         most = most.max(found.iterations);

@@ -21,6 +21,15 @@ impl Random {
         low + (high - low) * (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
+    /// Between −1 and 1.
+    pub(crate) fn number(&mut self) -> f64 {
+        self.between(-1.0, 1.0)
+    }
+
+    pub(crate) fn vector<const K: usize>(&mut self) -> [f64; K] {
+        std::array::from_fn(|_| self.number())
+    }
+
     /// Any factor alike.
     pub(crate) fn size(&mut self, low: f64, high: f64) -> f64 {
         self.between(low.ln(), high.ln()).exp()
