@@ -1,21 +1,11 @@
 //! What a long system is asked: every function that is emitted, against the equations of Newton and Euler or against others.
 
+#[path = "../random/mod.rs"]
+pub(crate) mod random;
+
 use lagrange_core::nalgebra::{SMatrix, SVector};
 use lagrange_core::prelude::*;
-
-/// Numbers in (−1, 1), always the same.
-pub(crate) struct Random(pub(crate) u64);
-
-impl Random {
-    pub(crate) fn number(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-
-    pub(crate) fn vector<const K: usize>(&mut self) -> SVector<f64, K> {
-        SVector::from_fn(|_, _| self.number())
-    }
-}
+use random::Random;
 
 /// An error where they are further apart than this part of the largest entry, or of `scale`.
 pub(crate) fn close<const R: usize>(
@@ -34,7 +24,7 @@ pub(crate) fn close<const R: usize>(
 /// The derivative at 0, from differences with three steps (Richardson).
 pub(crate) fn slope<const R: usize>(f: impl Fn(f64) -> SVector<f64, R>) -> SVector<f64, R> {
     let difference = |h: f64| (f(h) - f(-h)) / (2.0 * h);
-    let [a, b, c] = [4e-3, 2e-3, 1e-3].map(difference);
+    let [a, b, c] = [1e-3, 5e-4, 2.5e-4].map(difference);
     let [x, y] = [(b * 4.0 - a) / 3.0, (c * 4.0 - b) / 3.0];
     (y * 16.0 - x) / 15.0
 }
@@ -54,13 +44,41 @@ where
     L::PARAMETERS
 }
 
-/// Compares all functions of a system at a state; multipliers are given with their names.
+/// A time, coordinates and velocities to move along.
+pub(crate) type Along<const N: usize> = (f64, SVector<f64, N>, SVector<f64, N>);
+
+pub(crate) fn random_direction<const N: usize>(random: &mut Random) -> Along<N> {
+    (random.number(), random.vector().into(), random.vector().into())
+}
+
+/// The state by this part farther.
+pub(crate) fn moved<const N: usize>(
+    state: &State<f64, N>,
+    part: f64,
+    &(t, q, v): &Along<N>,
+) -> State<f64, N> {
+    State { t: state.t + part * t, q: state.q + q * part, v: state.v + v * part }
+}
+
+/// Accelerations, or no numbers.
+pub(crate) fn accelerations<L, const N: usize, const M: usize>(
+    system: &L,
+    state: &State<f64, N>,
+) -> SVector<f64, N>
+where
+    L: Lagrangian<N, M, Scalar = f64>,
+{
+    system.solve(state).map_or(SVector::from_element(f64::NAN), |found| found.accelerations)
+}
+
+/// Compares all functions of a system at a state, but for its Jacobians; multipliers are given with their names.
 macro_rules! drive {
     ($name:literal, $system:ident, $state:ident, $accelerations:expr, $multipliers:expr) => {{
-        use lagrange_core::{Lanes, Pack, StateDerivatives};
-        use $crate::drive::{Random, close, constraints, one, parameters, slope};
+        use lagrange_core::{Lanes, Pack};
+        use $crate::drive::random::Random;
+        use $crate::drive::{close, constraints, moved, one, random_direction, slope};
         let (mut random, sides) = (Random(7), &$multipliers as &[(&str, f64)]);
-        let (n, expected) = ($state.q.len(), Vec::from($accelerations));
+        let expected = Vec::from($accelerations);
         let solution = $system.solve(&$state).map_err(|error| format!("{}: {error}", $name))?;
         let said = |found: Result<(), String>| found.map_err(|found| format!("{}: {found}", $name));
 
@@ -97,7 +115,7 @@ macro_rules! drive {
         let scale = (m * accelerations).amax().max(h.amax());
         said(close("M a", &(m * accelerations), &(h + f.transpose() * multipliers), scale, 1e-8))?;
         said(close("F a", &(f * accelerations), &-gamma, accelerations.amax(), 1e-8))?;
-        let (other, others) = (random.vector(), multipliers.map(|_| random.number()));
+        let (other, others) = (random.vector().into(), multipliers.map(|_| random.number()));
         let dynamics = $system.inverse_dynamics(&$state, &other, &others);
         let expected = m * other - h - $system.constraint_force(&$state, &others);
         said(close("inverse dynamics", &dynamics, &expected, scale, 1e-8))?;
@@ -110,58 +128,19 @@ macro_rules! drive {
         ))?;
 
         // The Lagrangian: momenta, energy, and the mass matrix as their derivative.
-        let (t, q, v) = (random.number(), random.vector(), random.vector());
-        let moved = |h: f64,
-                     t: f64,
-                     q: &lagrange_core::nalgebra::SVector<f64, _>,
-                     v: &lagrange_core::nalgebra::SVector<f64, _>| {
-            State { t: $state.t + h * t, q: $state.q + q * h, v: $state.v + v * h }
-        };
+        let (_, _, v) = random_direction(&mut random);
         let zero = v * 0.0;
         let (p, lagrangian) = ($system.momentum(&$state), $system.lagrangian(&$state));
-        let by_difference = slope(|h| one($system.lagrangian(&moved(h, 0.0, &zero, &v))));
+        let by_difference = slope(|h| one($system.lagrangian(&moved(&$state, h, &(0.0, zero, v)))));
         said(close("momentum", &one(p.dot(&v)), &by_difference, lagrangian.abs(), 1e-7))?;
         let energy = p.dot(&$state.v) - lagrangian;
         said(close("energy", &one($system.energy(&$state)), &one(energy), lagrangian.abs(), 1e-9))?;
-        let by_difference = slope(|h| $system.momentum(&moved(h, 0.0, &zero, &v)));
+        let by_difference = slope(|h| $system.momentum(&moved(&$state, h, &(0.0, zero, v))));
         said(close("mass matrix", &(m * v), &by_difference, 0.0, 1e-7))?;
         // dp/dt = ∂L/∂q + Q + Fᵀλ along the motion.
-        let along = slope(|h| $system.momentum(&moved(h, 1.0, &$state.v, &accelerations)));
+        let along = slope(|h| $system.momentum(&moved(&$state, h, &(1.0, $state.v, accelerations))));
         let rate = $system.momentum_rate(&$state) + f.transpose() * multipliers;
         said(close("momentum rate", &rate, &along, scale, 1e-7))?;
-
-        // Derivatives by the state and by parameters.
-        let jacobian = $system.state_jacobian(&$state).map_err(|error| format!("{}: {error}", $name))?;
-        let by = &jacobian.accelerations;
-        let derivative = by.t * t + by.q * q + by.v * v;
-        let accelerations_at = |system: &System<f64>, state: &State<f64, _>| {
-            system.solve(state).map(|found| found.accelerations)
-        };
-        let by_difference =
-            slope(|h| accelerations_at(&$system, &moved(h, t, &q, &v)).unwrap_or(zero * f64::NAN));
-        said(close("state Jacobian", &derivative, &by_difference, accelerations.amax(), 1e-5))?;
-        let (all, names) = ($system.parameters(), parameters(&$system));
-        let mut tried = 0;
-        for k in (0..names.len()).step_by(1 + names.len() / 12) {
-            if !$system.clone().set_parameter(k, all[k]) {
-                continue;
-            }
-            tried += 1;
-            let with = |h: f64| {
-                let mut system = $system.clone();
-                system.set_parameter(k, all[k] + h);
-                accelerations_at(&system, &$state).unwrap_or(zero * f64::NAN)
-            };
-            let by =
-                $system.jacobian_by(&$state, &[names[k]]).map_err(|error| format!("{}: {error}", $name))?;
-            let column = by.accelerations.column(0).into_owned();
-            let mut derivative = zero;
-            derivative.copy_from_slice(column.as_slice());
-            said(close(names[k], &derivative, &slope(with), accelerations.amax(), 1e-5))?;
-        }
-        if tried == 0 || n == 0 {
-            return Err(format!("{}: no parameter", $name));
-        }
 
         // Taylor's method and another one, where the state is on the constraints.
         if let Ok((start, _)) = $system.make_consistent(&$state) {
@@ -176,8 +155,43 @@ macro_rules! drive {
             said(close("Taylor", &a.q, &b.q, 1.0, 1e-8))?;
             said(close("Taylor's velocities", &a.v, &b.v, 1.0, 1e-7))?;
         }
-        Ok(())
     }};
 }
 
-pub(crate) use drive;
+/// Compares derivatives by the state and by parameters with differences.
+macro_rules! jacobians {
+    ($name:literal, $system:ident, $state:ident) => {{
+        use lagrange_core::StateDerivatives;
+        use $crate::drive::random::Random;
+        use $crate::drive::{accelerations, close, moved, parameters, random_direction, slope};
+        let said = |found: Result<(), String>| found.map_err(|found| format!("{}: {found}", $name));
+        let unsolved = |error: Error| format!("{}: {error}", $name);
+        let scale = accelerations(&$system, &$state).amax();
+        let jacobian = $system.state_jacobian(&$state).map_err(unsolved)?;
+        let (by, along) = (&jacobian.accelerations, random_direction(&mut Random(7)));
+        let derivative = by.t * along.0 + by.q * along.1 + by.v * along.2;
+        let by_difference = slope(|h| accelerations(&$system, &moved(&$state, h, &along)));
+        said(close("state Jacobian", &derivative, &by_difference, scale, 1e-5))?;
+        let (all, names) = ($system.parameters(), parameters(&$system));
+        let mut tried = 0;
+        for k in (0..names.len()).step_by(1 + names.len() / 12) {
+            if !$system.clone().set_parameter(k, all[k]) {
+                continue;
+            }
+            tried += 1;
+            let with = |h: f64| {
+                let mut system = $system.clone();
+                system.set_parameter(k, all[k] + h);
+                accelerations(&system, &$state)
+            };
+            let by = $system.jacobian_by(&$state, &[names[k]]).map_err(unsolved)?;
+            let column = derivative.map_with_location(|i, _, _| by.accelerations[(i, 0)]);
+            said(close(names[k], &column, &slope(with), scale, 1e-5))?;
+        }
+        if tried == 0 {
+            return Err(format!("{}: no parameter", $name));
+        }
+    }};
+}
+
+pub(crate) use {drive, jacobians};

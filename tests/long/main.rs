@@ -4,7 +4,7 @@
 mod drive;
 mod system;
 
-use drive::drive;
+use drive::{drive, jacobians};
 
 #[test]
 fn a_long_system_moves_as_newton_and_euler_say() -> Result<(), String> {

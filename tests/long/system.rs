@@ -450,5 +450,7 @@ pub(crate) fn check() -> Result<(), String> {
             1.6253051001680676
         ],
         []
-    )
+    );
+    super::jacobians!("161", system, state);
+    Ok(())
 }

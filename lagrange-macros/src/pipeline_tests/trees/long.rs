@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
+use quote::ToTokens;
+
 use super::draft::Draft;
 use super::{forest, oracle};
 
@@ -22,16 +24,33 @@ fn long_systems_are_written() {
     let range = asked("LAGRANGE_LONG").unwrap_or_else(|| "0..3".into());
     let (first, last) = range.split_once("..").expect("first..last");
     for number in first.parse().expect("a number")..last.parse::<u64>().expect("a number") {
-        let text = written(number, &forest::long(number));
-        syn::parse_file(&text).unwrap_or_else(|error| panic!("{error}: {text}"));
-        if let Some(folder) = asked("LAGRANGE_LONG_FOLDER") {
-            std::fs::write(format!("{folder}/s{number}.rs"), text).expect("a folder");
-        }
+        let Some(folder) = asked("LAGRANGE_LONG_FOLDER") else {
+            parsed(&written(number, &forest::long(number), true));
+            continue;
+        };
+        // Of the same kind, where a mass matrix is longer than a function may be.
+        let drafts = (0..).map(|again| forest::long(number + 12_000 * again));
+        let text = { drafts }.find_map(|draft| accepted(number, &draft)).expect("one that is short enough");
+        std::fs::write(format!("{folder}/s{number}.rs"), text).expect("a folder");
     }
 }
 
+fn parsed(text: &str) -> syn::File {
+    syn::parse_file(text).unwrap_or_else(|error| panic!("{error}: {text}"))
+}
+
+/// The module of a system that the derive accepts, which asks for Jacobians unless they are left out for their length.
+fn accepted(number: u64, draft: &Draft) -> Option<String> {
+    let file = parsed(&written(number, draft, true));
+    let system =
+        file.items.iter().find(|item| matches!(item, syn::Item::Struct(item) if item.ident == "System"));
+    let emitted = crate::expand(system.to_token_stream()).to_string();
+    let is_refused = emitted.contains("compile_error");
+    (!is_refused).then(|| written(number, draft, emitted.contains("StateDerivatives")))
+}
+
 /// The module of a system: its fields alone, in arrays, or in an array of structs.
-fn written(number: u64, draft: &Draft) -> String {
+fn written(number: u64, draft: &Draft, has_jacobians: bool) -> String {
     let solution = oracle::solve(&draft.model);
     assert!(solution.pivot > 1e-7, "system {number} is all but singular: {:e}", solution.pivot);
     let attributes = draft.attributes();
@@ -50,7 +69,8 @@ use lagrange_core::prelude::*;\n\n{structs}#[derive(Lagrangian, Clone, Debug)]\n
 pub(crate) fn check() -> Result<(), String> {{
     let system = System::<f64> {{ {made} }};
     let state = State::new({q:?}, {v:?}).at_time({t:?});
-    super::drive!(\"{number}\", system, state, {accelerations:?}, [{multipliers}])
+    super::drive!(\"{number}\", system, state, {accelerations:?}, [{multipliers}]);{jacobians}
+    Ok(())
 }}\n",
         count = draft.attributes().matches("#[frame(").count(),
         q = model.coordinates,
@@ -58,6 +78,10 @@ pub(crate) fn check() -> Result<(), String> {{
         t = model.time,
         accelerations = solution.accelerations,
         multipliers = multipliers.join(", "),
+        jacobians = match has_jacobians {
+            true => format!("\n    super::jacobians!(\"{number}\", system, state);"),
+            false => String::new(),
+        },
     )
 }
 
