@@ -1,6 +1,7 @@
 //! The systems that any test, example or page of documentation derives.
 
 use std::path::Path;
+use std::sync::LazyLock;
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
@@ -131,6 +132,11 @@ pub(super) fn of_all<T: Send + 'static>(folders: &'static [&str], ask: fn(System
     let thread = std::thread::Builder::new().stack_size(1 << 28).spawn(derive).expect("a thread");
     thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
 }
+
+/// The equations of the systems of the crates, in three forms each.
+pub(super) static FORMS: LazyLock<Vec<[[String; 3]; 3]>> = LazyLock::new(|| {
+    of_all(&["tests", "examples", "lagrange-core/src", "lagrange-core/benches"], |system| system.forms)
+});
 
 fn tokens(folders: &[&str]) -> Vec<TokenStream> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");

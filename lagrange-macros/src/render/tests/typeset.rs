@@ -2,7 +2,7 @@
 
 use std::process::Command;
 
-use super::systems::of_all;
+use super::systems::FORMS;
 
 /// As much of them as the tests of the crates derive, in one document.
 #[test]
@@ -18,10 +18,8 @@ fn latex_sets_all_systems_without_an_overfull_line() {
     let mut document = String::from(
         "\\documentclass{article}\n\\usepackage[utf8]{inputenc}\n\\usepackage{amsmath}\n\\allowdisplaybreaks\n\\hfuzz=0.1pt\n\\begin{document}\n",
     );
-    let folders = &["tests", "examples", "lagrange-core/src", "lagrange-core/benches"];
-    let systems = of_all(folders, |system| system.forms.map(|[_, latex, _]| latex));
-    let systems: Vec<String> = systems.into_iter().flatten().collect();
-    for (number, latex) in systems.iter().enumerate() {
+    let systems = FORMS.iter().flatten().map(|[_, latex, _]| latex);
+    for (number, latex) in systems.enumerate() {
         // Labels of systems that have one name would be equal.
         let latex = latex.replace("\\label{eq:", &format!("\\label{{eq:{number}-"));
         document += &format!("% {number}\n\\typeout{{system {number}}}\n{latex}\n\n");
