@@ -128,7 +128,7 @@ fn spherical_pendulums_keep_their_energy() {
     ];
     for (g, angle, speed, kinetic, drift, count) in starts {
         let pendulum = Pendulum { g };
-        let end = turns(200.0) * TURN / g.sqrt();
+        let end = turns(100.0) * TURN / g.sqrt();
         let (across, height) = (angle.sin(), -angle.cos());
         let start = |State { q, v, .. }: State<f64, 2>| {
             State::new([across * q[0], across * q[1], height], [speed * v[0], speed * v[1], 0.0])
