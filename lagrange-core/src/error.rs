@@ -168,7 +168,7 @@ pub enum Error {
         /// The time of the state.
         time: f64,
     },
-    /// An input by which a constraint, and with it the states or accelerations that it allows, would change.
+    /// A constraint depends on this input, which would change the admissible states or accelerations.
     InputShiftsConstraint {
         /// The parameter.
         input: &'static str,

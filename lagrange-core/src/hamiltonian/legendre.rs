@@ -37,7 +37,7 @@ struct Inversion<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
     active: [bool; M],
 }
 
-/// A velocity, and how far it is from what is sought.
+/// Trial velocity with its residual.
 struct Trial<T, const N: usize, const M: usize> {
     state: State<T, N>,
     /// μ.

@@ -28,7 +28,7 @@ pub struct LyapunovSpectrum<T> {
     pub running: Vec<(T, Vec<T>)>,
 }
 
-/// The motion is looked at in so many parts, beside a first one in which the variations turn to where they grow.
+/// Number of parts of the motion for the standard errors, after a first part in which the variations align with the growing directions.
 const PARTS: usize = 20;
 
 /// See [`Linearized::lyapunov_spectrum`].

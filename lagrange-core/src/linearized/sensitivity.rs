@@ -144,7 +144,7 @@ where
     Ok(at)
 }
 
-/// How fast the function of an event changes along the motion, and the sum of the magnitudes of what this is made of.
+/// Rate of an event's function along the motion, and the sum of the magnitudes of its terms.
 fn rate<L, const N: usize, const M: usize, const P: usize>(
     system: &L,
     state: &State<L::Scalar, N>,

@@ -245,7 +245,7 @@ where
         })
     }
 
-    /// The first crossing after `at`, which moves there.
+    /// Finds the first crossing after `at` and moves `at` there.
     fn search(
         &mut self,
         end: L::Scalar,

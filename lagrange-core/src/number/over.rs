@@ -21,15 +21,15 @@ impl<T: Scalar> Over<T> for T {
     }
 }
 
-/// Numbers over `T` that can be taken apart.
+/// Composite scalars over `T` with accessible components.
 pub trait Wide<T>: Over<T> {
-    /// How many there are.
+    /// Number of components.
     const COUNT: usize;
 
-    /// Puts a number among them.
+    /// Sets one component.
     fn put(&mut self, lane: usize, x: T);
 
-    /// One of them.
+    /// Returns one component.
     fn lane(&self, lane: usize) -> T;
 }
 

@@ -34,7 +34,7 @@ pub trait Lagrangian<const N: usize, const M: usize> {
     /// The number type of the parameters and the state.
     type Scalar: Scalar;
 
-    /// The matrix of the equations of motion at a state, factored: plain numbers.
+    /// Factorization of the matrix of the equations of motion at a state; plain numbers.
     type Factor: Copy + Debug;
 
     /// The name of the struct.

@@ -51,7 +51,7 @@ members! {
     {R, C} [[T; C]; R] = SMatrix<T, R, C>, |member, k| member[(k / C, k % C)];
 }
 
-/// For each type that may be a rotation, where the number `k` is.
+/// Position of the number `k` in each type of rotation.
 macro_rules! turns {
     ($({$($length:ident)?} $shape:ty = $ty:ty, |$member:ident, $k:ident| $place:expr;)+) => {$(
         #[diagnostic::do_not_recommend]

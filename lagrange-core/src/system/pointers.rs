@@ -13,7 +13,7 @@ use super::taylor_series::{RightHandSides, TaylorSeries};
 use crate::linearized::{Direction, ResidualChange, StateDerivatives};
 use crate::number::{Over, PowerSeries};
 
-/// Forwards every method and constant, those that have a default too: it would hide what the system has.
+/// Forwards every method and constant, also those with a default, which would hide the system's own.
 macro_rules! forward {
     ($($pointer:ty),*) => {$(
         #[diagnostic::do_not_recommend]

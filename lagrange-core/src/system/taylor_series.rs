@@ -43,7 +43,7 @@ pub trait TaylorSeries<const N: usize, const M: usize>: Lagrangian<N, M> {
     /// start of a step, and large within.
     const STEEP: &'static [[usize; 3]] = &[];
 
-    /// The numbers that all orders are made of.
+    /// Coefficients that the recurrences of all orders share, at one state.
     fn series_slopes(
         &self,
         state: &State<Self::Scalar, N>,

@@ -16,7 +16,7 @@ pub struct Deviation<T> {
     pub name: &'static str,
     /// The value at the start.
     pub start: T,
-    /// The largest distance from it at any step.
+    /// Largest deviation from the initial value over all steps.
     pub largest: T,
 }
 

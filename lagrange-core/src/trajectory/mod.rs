@@ -222,7 +222,7 @@ impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Debug for Trajector
     }
 }
 
-/// The time after this part of the way, which rounding carries neither past the last nor past all numbers.
+/// Interpolates between two times; rounding leads neither past the last one nor to infinity.
 fn between<T: Real>(first: T, last: T, part: f64) -> T {
     let (span, done) = (last - first, T::constant(part));
     if part == 1.0 {

@@ -73,7 +73,7 @@ impl Style<'_> {
         }
     }
 
-    /// Statements that bring the inputs in use into scope: some by the whole arrays that they are in, the others one by one.
+    /// Emits the bindings of all used inputs, as whole arrays or one by one.
     pub(super) fn inputs(&self, used: &BTreeSet<Symbol>) -> TokenStream {
         let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
         let whole: [(usize, Family); 8] = [

@@ -80,7 +80,7 @@ impl Style<'_> {
         (quote! { let mut waiting = [#zero; #waiting]; #(#calls)* }, methods)
     }
 
-    /// The call of a part, and the method that it becomes.
+    /// Emits one part of a long function: its call, and its method.
     fn part(
         &self,
         method: &Ident,
@@ -126,7 +126,7 @@ impl Style<'_> {
 }
 
 impl Style<'_> {
-    /// Of a part, which is no method of a trait.
+    /// Declares an argument of a part, which is an inherent method.
     fn argument(&self, argument: Argument) -> TokenStream {
         let factor = &self.factor;
         match argument {

@@ -143,7 +143,7 @@ impl Emitter<'_> {
         })
     }
 
-    /// The method that returns what `result` makes of the kernel's results.
+    /// Emits the method that returns `result` of the kernel's results.
     pub(super) fn function(
         &self,
         method: &Method,

@@ -8,7 +8,7 @@ use super::count::Count;
 use super::operation::{Call, Operation, Register};
 use crate::symbolic::{Function, Graph, Id, Node, Rational, Scaled, to_f64};
 
-/// What an operation comes to.
+/// Result of folding an operation: an existing register, or a simpler operation.
 enum Folded {
     To(Register),
     Into(Operation),

@@ -7,7 +7,7 @@ use super::schedule::Schedule;
 pub(super) struct Time {
     /// What there is to do, were nothing ever waited for.
     pub(super) work: usize,
-    /// The longest chain of operations that wait for one another.
+    /// Latency of the critical path: the longest chain of dependent operations.
     pub(super) path: usize,
 }
 

@@ -22,7 +22,7 @@ const INFORMATIVE: f64 = 1e-6;
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Quantity {
-    /// p of this coordinate.
+    /// Generalized momentum of this coordinate.
     Momentum(usize),
     Energy,
     /// An entry of an observable.
@@ -108,7 +108,7 @@ fn energy_changes(graph: &mut Graph, problem: &Problem, equations: &Equations) -
     ]
 }
 
-/// Those that the user says are conserved; where one is not, or cannot be tried, that is reported.
+/// Checks the quantities declared as conserved and reports those that are not, or that cannot be checked.
 pub(super) fn of_observables(
     graph: &mut Graph,
     moments: &mut Moments,

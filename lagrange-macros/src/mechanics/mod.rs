@@ -77,7 +77,7 @@ pub(crate) fn derive(graph: &mut Graph, problem: &Problem, diagnostics: &mut Dia
     Some(Derived { equations, facts, potential, inertia, read, hamilton, linearization })
 }
 
-/// Frames have names for every step; a page is shorter without.
+/// Replaces the intermediate names of frames by their values, which shortens the printed equations.
 fn read(graph: &mut Graph, equations: &Equations, inertia: &[Id]) -> FxHashMap<Id, Id> {
     let Equations { forcing, momentum, energy, constraint_force, .. } = equations;
     let all = [inertia, forcing, momentum, &[*energy], constraint_force].concat();

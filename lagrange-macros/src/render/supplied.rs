@@ -48,7 +48,7 @@ fn grouped(flat: &[Formula], function: &Supplied) -> Vec<Formula> {
     arguments
 }
 
-/// Arrays of these lengths: by a name, where all of what it names is in them.
+/// Writes arrays of these lengths, by a name where the name covers all of their entries.
 fn array(entries: &[Formula], lengths: &[usize]) -> Formula {
     let [length, inner @ ..] = lengths else { return entries[0].clone() };
     whole(entries, lengths).unwrap_or_else(|| {

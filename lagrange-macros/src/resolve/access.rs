@@ -1,4 +1,4 @@
-//! Numbers of fields by what stands after the name: `m`, `a[i][j]`, `link[i].c[0]`.
+//! Access paths to numbers in fields: `m`, `a[i][j]`, `link[i].c[0]`.
 
 use super::lower::Lowering;
 use super::scope::Entity;

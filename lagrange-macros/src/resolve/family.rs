@@ -7,20 +7,20 @@ use super::lower::Lowering;
 use super::value::Value;
 use crate::syntax::{Expression, TargetIndex};
 
-/// The longest range, and the most elements of a family: each is written out.
+/// Maximum length of a range, and number of elements of a family: each is written out.
 const RANGE_LIMIT: i128 = 10_000;
 
-/// Values by their indices, of which each has as many.
+/// Values keyed by their indices; all keys have the same number of indices.
 #[derive(Debug, Default)]
 pub(super) struct Family(BTreeMap<Vec<usize>, Value>);
 
 impl Family {
-    /// Whether there was none of these indices.
+    /// Inserts an element; false if the family has these indices already.
     pub(super) fn insert(&mut self, indices: Vec<usize>, value: Value) -> bool {
         self.0.insert(indices, value).is_none()
     }
 
-    /// How many indices an element has.
+    /// Number of indices of an element.
     pub(super) fn rank(&self) -> usize {
         self.0.keys().next().map_or(0, Vec::len)
     }

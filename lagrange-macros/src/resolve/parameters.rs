@@ -31,7 +31,7 @@ pub(crate) struct Parameters {
     pub(crate) ranges: Vec<(f64, f64)>,
     /// What is said beside them of the matrices that they are.
     pub(super) properties: Vec<Option<Property>>,
-    /// The fields of which something wrong is reported.
+    /// Fields with a reported error.
     reported: Vec<usize>,
 }
 

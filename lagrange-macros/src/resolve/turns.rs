@@ -20,7 +20,7 @@ pub(super) enum Turn {
     Placed(Rotation),
 }
 
-/// The turns of matrices, which are known by their entries.
+/// Rotations behind matrices, keyed by the entries of the matrix.
 pub(super) type Turns = FxHashMap<Rotation, Vec<Turn>>;
 
 /// Products of more turns take their squares: their lengths double from one definition to the next.
@@ -73,7 +73,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// Whether any of these numbers changes in time.
+    /// True if any of these expressions depends on time, coordinates or velocities.
     pub(super) fn move_in_time(&self, numbers: &[Id]) -> bool {
         self.graph.symbols(numbers).any(|symbol| !matches!(Variable::of(symbol), Variable::Parameter(_)))
     }

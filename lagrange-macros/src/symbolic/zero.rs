@@ -4,7 +4,7 @@ use super::evaluate::Approximate;
 use super::graph::{Graph, Id, Symbol};
 use super::sample::Sample;
 
-/// How sure the answer is.
+/// Certainty of the answer.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Verdict {
     /// Zero by its canonical form.

@@ -28,7 +28,7 @@ pub(crate) struct Declaration {
     pub(crate) observables: Vec<Named>,
     pub(crate) parameters: Vec<Parameter>,
     pub(crate) options: Options,
-    /// Hash of what the motion follows from.
+    /// Hash of the attributes and fields that determine the motion.
     pub(crate) digest: u32,
 }
 
@@ -86,7 +86,7 @@ pub(crate) struct Constraint {
     pub(crate) target: Target,
     pub(crate) left: Expression,
     pub(crate) right: Expression,
-    /// Whether nobody wrote it: a frame that is turned by a quaternion brings it.
+    /// True for the unit constraint of a quaternion that turns a frame, which the user did not write.
     pub(crate) is_implied: bool,
 }
 

@@ -1,4 +1,4 @@
-//! The struct's fields: what each one's type says about its shape.
+//! Fields of the struct, with the shape that each type states.
 
 use quote::ToTokens;
 use syn::{Expr, ExprLit, GenericArgument, Lit, PathArguments, PathSegment, Type};

@@ -47,7 +47,7 @@ fn check_header<const N: usize>(text: &str, header: &str) -> Result<(), Wrong> {
     }
 }
 
-/// A row; none if it was not written to its end.
+/// Reads a row; `None` if it is incomplete.
 fn row<T: Real + FromStr, const N: usize>(
     text: &str,
     count: usize,

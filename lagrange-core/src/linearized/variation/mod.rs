@@ -36,9 +36,9 @@ pub(crate) struct Block<W, const N: usize, const P: usize> {
     pub(crate) y: Phase<W, N>,
     /// At which parameters change, if any does.
     pub(crate) rates: Option<SVector<W, P>>,
-    /// One over the size of what is varied: that of a parameter, or 1.
+    /// Reciprocal of the size of the varied quantity: that of a parameter, else 1.
     pub(crate) unit: W,
-    /// How many of the lanes are taken.
+    /// Number of lanes in use.
     pub(crate) lanes: usize,
 }
 

@@ -124,7 +124,7 @@ impl Taylor {
         Self { max_step: Some(step), ..self }
     }
 
-    /// How many steps may be tried.
+    /// Sets the limit on the number of attempted steps.
     pub fn max_steps(mut self, steps: usize) -> Self {
         self.limits.max_steps = steps;
         self

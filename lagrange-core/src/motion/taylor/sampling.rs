@@ -14,7 +14,7 @@ use crate::system::TaylorSeries;
 const MOST: usize = 128;
 /// Growth of the distance between samples from step to step.
 const WIDER: f64 = 2.0;
-/// Growth of the length from step to step.
+/// Largest ratio of successive step lengths, dimensionless.
 const GROWTH: f64 = 10.0;
 /// Position of the first sample, in units of the distance between samples. No simple fraction, so that samples do not all fall on the
 /// zeros of a periodic force.

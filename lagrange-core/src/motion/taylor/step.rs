@@ -28,7 +28,7 @@ impl<S: Filled<T>, T: Real, const N: usize, const M: usize> Memory<S, T, N, M> {
         Sum { phase: [q, v], rest: [rest_q, rest_v], accelerations }
     }
 
-    /// Plans another step after one of this length was refused.
+    /// Plans a shorter step after a rejected one of length `h`.
     fn shorten(&mut self, h: T) {
         let next = self.crossing.take().map(Crossing::longer);
         self.planned = match next {

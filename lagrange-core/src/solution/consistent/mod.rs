@@ -244,7 +244,7 @@ impl Level {
         }
     }
 
-    /// The entries that move.
+    /// Unknowns of this level: coordinates or velocities.
     pub(super) fn unknowns<T, const N: usize>(self, state: &mut State<T, N>) -> &mut SVector<T, N> {
         match self {
             Self::Position => &mut state.q,

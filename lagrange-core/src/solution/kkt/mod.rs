@@ -29,7 +29,7 @@ pub(crate) struct KktSystem<T, const N: usize, const M: usize> {
     pub(crate) gamma: [T; M],
 }
 
-/// Why equations have no solution, or many.
+/// Reason why the equations have no solution, or more than one.
 #[derive(Debug)]
 pub(crate) enum Fault<T, const N: usize> {
     /// Accelerations in proportion to these are undetermined (each in its own natural unit).

@@ -50,7 +50,7 @@ impl Part {
 #[derive(Clone, Debug)]
 pub(super) struct Rounds {
     pub(super) count: usize,
-    /// What they read in each round.
+    /// Inputs of each round of the loop.
     pub(super) given: Vec<Given>,
 }
 

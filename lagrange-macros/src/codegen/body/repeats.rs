@@ -22,7 +22,7 @@ const LEAST: usize = 128;
 const NEAR: usize = 60;
 /// So many operations in a row tell where a round may begin again.
 const PHRASE: usize = 8;
-/// So many places for the first round to begin are tried, those first where fewest results wait.
+/// Number of candidate starts of the first round, in order of fewest live results.
 const BEGINNINGS: usize = 8;
 
 /// Rounds of like operations, one after the other in the sequence.

@@ -79,10 +79,9 @@ impl Tie {
 /// A form while it is reduced.
 struct Reduced {
     matrix: Vec<Vec<Entry>>,
-    /// The diagonal as it would be had nothing been subtracted.
+    /// Diagonal before any subtraction, the scale that pivots are compared with.
     scale: Vec<Entry>,
-    /// Where the multipliers start that are among the variables. On their diagonal, which is zero, every coordinate leaves
-    /// something that is negative.
+    /// Index of the first multiplier among the variables. Its diagonal is zero at first, and negative once coordinates are eliminated.
     multipliers: usize,
 }
 

@@ -36,7 +36,7 @@ enum Kind {
     Finite,
     /// It may be infinite: something is divided by, or a function has a pole, or is unknown.
     Unbounded,
-    /// A sum of rates of change, each times a number. The activity is zero where all of them are.
+    /// Linear combination of rates of change; its activity is zero where all rates are.
     Rate { activity: Register },
 }
 

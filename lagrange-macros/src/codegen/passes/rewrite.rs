@@ -32,7 +32,7 @@ impl Places {
     }
 }
 
-/// The schedule built anew, as far as `results` need it: `step` says how, operation by operation.
+/// Rebuilds the part of the schedule that `results` depend on; `step` translates each operation.
 pub(super) fn rebuilt(
     old: &Schedule,
     results: &[Register],

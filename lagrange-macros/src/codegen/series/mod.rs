@@ -21,7 +21,7 @@ use crate::symbolic::Graph;
 use recurrences::Recurrences;
 use supplied::CallOnSeries;
 
-/// The runtime computes so many sums side by side.
+/// Number of sums that the runtime computes side by side.
 const WIDTH: usize = 4;
 
 /// The programs of an order.

@@ -25,7 +25,7 @@ pub(super) struct Space {
     pub(super) symbols: Vec<Symbol>,
     /// dΦ of the holonomic constraints.
     pub(super) holonomic: Vec<Form>,
-    /// The velocity constraints, each with its number.
+    /// Velocity constraints with their indices.
     pub(super) velocity: Vec<(usize, Form)>,
     samples: Vec<Sample>,
 }

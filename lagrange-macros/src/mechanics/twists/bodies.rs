@@ -96,7 +96,7 @@ impl Twists<'_> {
     }
 }
 
-/// Whether it is the same everywhere, and no force divided by a mass, which may be zero.
+/// True if the candidate is uniform in space and not a force divided by a mass, which may be zero.
 fn is_uniform(graph: &mut Graph, candidate: Id, mass: Id) -> bool {
     let of_mass: Vec<Symbol> = graph.symbols(&[mass]).collect();
     let is_given = |symbol| matches!(Variable::of(symbol), Variable::Parameter(_) | Variable::Time);

@@ -80,7 +80,7 @@ pub(super) trait Spelling: Sync {
     /// A matrix by its rows.
     fn matrix(&self, rows: &[Vec<String>]) -> String;
 
-    /// A function before its argument, which stands in parentheses or is bare.
+    /// Writes a function and its argument, in parentheses or bare.
     fn applied(&self, function: &str, argument: &str, is_bare: bool) -> String;
 
     /// ∂x, ∂²U

@@ -229,7 +229,7 @@ impl Lowering<'_> {
         names
     }
 
-    /// A frame that is declared, but not before this, or not this element of it.
+    /// Reports a frame that is declared only later, or whose family lacks this element.
     fn unknown_frame<T>(&mut self, expression: &Expression, name: &Name, text: &str) -> Option<T> {
         let declared = self.declared_frames.iter().filter(|frame| frame.target.name.text == name.text);
         let wanted = declared.map(|frame| frame.target.indices.len()).max().unwrap_or(0);

@@ -83,7 +83,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// A frame, and a point in its axes: the origin where none is given.
+    /// Resolves a frame and a point along its axes, by default its origin.
     fn point(&mut self, frame: &Expression, point: &[Expression]) -> Option<(Axes, Triple)> {
         let (axes, point) = (self.frame(frame), self.lower_all(point).map(|values| (values, point)));
         let (axes, (values, expressions)) = (axes?, point?);

@@ -116,7 +116,7 @@ impl Planner<'_> {
         Turn { angle, sine, cosine }
     }
 
-    /// An angle is computed before its turn has come, with what it is made of.
+    /// Computes an angle, and what it depends on, ahead of the schedule.
     fn compute_early(&mut self, angle: Register) {
         let mut needed = BTreeSet::from([angle]);
         let mut pending = vec![angle];
