@@ -23,7 +23,7 @@ pub enum Ending {
     /// The tolerance demands steps too short to advance the time: a singularity of the motion, a tolerance
     /// below the round-off, or a time that is counted from far away.
     StepTooSmall {
-        /// The last time reached.
+        /// Last time reached.
         time: f64,
         /// The coordinate or velocity with the largest error.
         entry: Entry,
@@ -144,8 +144,7 @@ pub enum Ending {
 pub struct Pace {
     /// The length of the next step, where the method chooses it.
     pub step: Option<f64>,
-    /// Where the problem looks stiff, the rate at which its fastest motion grows or dies: steps are short because the
-    /// method would not be stable with longer ones, not because the accuracy asks for it.
+    /// Rate of the fastest decay or growth, if the problem looks stiff: stability, not accuracy, limits the step length.
     pub stiffness: Option<f64>,
     /// Where the time is too coarse for the tolerance, how far its numbers lie apart: from one to the next the rates change by
     /// what costs a step half of its tolerance or more, because the time is counted from far away.

@@ -45,7 +45,7 @@ impl Place {
         Error::new_spanned([first, last].into_iter().collect::<TokenStream>(), message)
     }
 
-    /// An error with a note at the place that it has to do with.
+    /// Creates an error with a note at a related place.
     pub(crate) fn error_beside(self, message: impl Display, other: Self, note: impl Display) -> Error {
         let mut error = self.error(message);
         error.combine(other.error(note));

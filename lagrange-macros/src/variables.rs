@@ -160,7 +160,7 @@ fn in_time(rates: Vec<(Symbol, Id)>) -> Forward {
     Forward::along([(Variable::Time.symbol(), Id::ONE)].into_iter().chain(rates))
 }
 
-/// How the variables of each coordinate in turn change at these rates.
+/// Directions along which the variables of one coordinate after another change at these rates.
 pub(crate) fn directions(graph: &mut Graph, coordinates: usize, rates: &[Rate]) -> Vec<(Symbol, Id)> {
     let pairs = (0..coordinates).flat_map(|i| rates.iter().map(move |(of, rate)| (of(i), rate(i))));
     pairs.map(|(of, rate)| (of.symbol(), graph.symbol(rate.symbol()))).collect()

@@ -1,4 +1,4 @@
-//! What tells the rows of one run from those of another.
+//! Fingerprints that tell the rows of one run from those of another.
 
 use core::fmt::{self, Write};
 
@@ -21,7 +21,7 @@ pub struct Fingerprint {
     /// Of the method and its settings, whether it was on lanes, the end, the times and quantities of samples, the events by name,
     /// direction, pieces and terminal count, the interval of the controller, and the [tag](super::Ensemble::tag).
     pub run: u32,
-    /// Of the time, coordinates, velocities and parameters that the member starts with, bit for bit.
+    /// Hash of the member's initial time, coordinates, velocities and parameters, bit for bit.
     pub start: u32,
 }
 
@@ -100,7 +100,7 @@ impl Fingerprint {
 pub(super) const OTHER_SYSTEM: &str = "the system or its equations are others";
 pub(super) const OTHER_START: &str = "the start or the parameters of the member are others";
 
-/// FNV-1a of what was written so far.
+/// FNV-1a hash of the bytes written so far.
 pub(super) struct Hash(u32);
 
 impl Hash {

@@ -1,4 +1,4 @@
-//! Outcomes as comma-separated values, and back.
+//! Outcomes written as comma-separated values, and read back.
 
 mod read;
 

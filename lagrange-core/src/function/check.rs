@@ -23,7 +23,7 @@ pub struct WrongDerivative {
 }
 
 impl WrongDerivative {
-    /// How far it is off, as a part of its size.
+    /// Relative error.
     fn part(&self) -> f64 {
         let part = (self.given - self.expected).abs() / self.given.abs().max(self.expected.abs());
         // What is not a number is farthest off.

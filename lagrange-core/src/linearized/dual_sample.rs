@@ -181,7 +181,7 @@ fn dual<T: Real, const N: usize, const M: usize>(
     }
 }
 
-/// How a number of this name changes with the argument: by 1, or not at all.
+/// Derivative of the number of this name by the argument: 1 or 0.
 pub(super) fn slope<T: Scalar>(argument: Option<Entry>, name: &str) -> T {
     let is_argument = matches!(argument, Some(Entry::Parameter(known)) if known == name);
     T::constant(if is_argument { 1.0 } else { 0.0 })

@@ -1,4 +1,4 @@
-//! Lyapunov exponents: how fast variations of a motion grow, in the long run.
+//! Lyapunov exponents: long-time growth rates of variations of a motion.
 
 use alloc::{boxed::Box, vec, vec::Vec};
 use core::cmp::Ordering;

@@ -1,4 +1,4 @@
-//! A state with its derivatives, and what an event makes of them.
+//! A state with its derivatives, and their jump at an event.
 //!
 //! At an event the time changes too: with δ the change of the state at a given time, g(t, q, q̇, p) = 0 there gives
 //! δt = −(g_q δq + g_q̇ δq̇ + g_p δp)/ġ, and the state at the event changes by Δ = δ + ẋ⁻ δt. A reset x⁺ = R(t, x⁻, p) makes

@@ -130,7 +130,7 @@ pub(crate) struct Record<'o, L: Lagrangian<N, M>, const N: usize, const M: usize
     pieces: usize,
     start: L::Scalar,
     end: L::Scalar,
-    /// Where the motion goes to next: the end, or where the controller is to be called before.
+    /// Next time to reach: the end, or an earlier call of the controller.
     pub(crate) goal: L::Scalar,
     /// How often it has been called.
     calls: usize,

@@ -138,7 +138,7 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
         found.map_err(|error| Ending::of(error, before.t.to_f64()))
     }
 
-    /// One accepted step with what goes along; where that fails the step is taken back, and a shorter one tried.
+    /// Takes one accepted step with its samples and events; a failure of these undoes the step and tries a shorter one.
     #[inline(always)]
     pub(crate) fn step_with<L, F, P, R, const M: usize>(
         &mut self,

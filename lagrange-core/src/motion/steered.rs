@@ -356,7 +356,7 @@ where
         })
     }
 
-    /// The state at `t`, on the way to `end`.
+    /// Returns the state at `t`, between the current time and `end`.
     fn state_on_the_way(
         &mut self,
         t: L::Scalar,

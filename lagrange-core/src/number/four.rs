@@ -1,4 +1,4 @@
-//! Four numbers side by side.
+//! Four numbers in one SIMD register.
 
 use core::array::from_fn;
 #[cfg(feature = "std")]

@@ -138,7 +138,7 @@ where
     let back = size(&w).by_order((coordinates + way) * number(16.0), back, back, number(0.0));
     let back = way.by_order(coordinates * number(1.0 / 16.0), number(0.0), number(0.0), back);
     let impulse = |i: usize| ((with[i] - without[i]) - (of_change[i] - of_none[i])) * back;
-    // Forces may have no number at rest, as friction has no direction there: what is no number is not larger than zero.
+    // Forces may be NaN at rest, as friction has no direction there. `max` replaces NaN by zero.
     let number_or_zero = |x: L::Scalar| x.max(number(0.0)) - (-x).max(number(0.0));
     vector(from_fn(|i| number_or_zero(impulse(i))))
 }

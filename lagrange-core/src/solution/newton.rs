@@ -10,7 +10,7 @@ use crate::number::{Real, Scalar};
 
 pub(crate) trait Search {
     type Scalar: Real;
-    /// A place, and what is left there of what should vanish.
+    /// Trial point with its residual.
     type Trial;
     /// What corrections of a trial follow from, and the units in which the trials near it compare.
     type Linear;

@@ -1,4 +1,4 @@
-//! Whether the entries of a state are numbers, and the parameters what is said of them.
+//! Checks that a state is finite and that parameters have their declared properties.
 
 use nalgebra::{ComplexField, SVector};
 

@@ -12,7 +12,7 @@ use crate::system::Lagrangian;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Deviation<T> {
-    /// The name in [`Facts::conserved`](crate::Facts::conserved).
+    /// Name of the quantity in [`Facts::conserved`](crate::Facts::conserved).
     pub name: &'static str,
     /// The value at the start.
     pub start: T,

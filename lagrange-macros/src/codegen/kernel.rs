@@ -37,7 +37,7 @@ impl Style<'_> {
         self.write(name, &Program::of(self.graph, roots), shapes)
     }
 
-    /// The program as statements, and where its results are.
+    /// Writes the program as statements, with the expressions of its results.
     pub(super) fn write(&self, name: &str, program: &Program, shapes: &[Shape]) -> Kernel {
         let count = program.count();
         if count.total() > OPERATION_LIMIT {

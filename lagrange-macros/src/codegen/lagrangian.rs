@@ -127,7 +127,7 @@ impl Emitter<'_> {
             | Quantity::SeriesRightHandSides
             | Quantity::SeriesFactors => Vec::new(),
         };
-        // nalgebra's matrices are stored by columns, of which there is one a coordinate.
+        // nalgebra stores matrices by columns, one column for each coordinate.
         let (shape, wrapped) = match method.gives {
             Gives::Vector(_) => (Shape::Vector(entries.len()), Some(quote!(vector))),
             Gives::Matrix(..) => {

@@ -21,7 +21,7 @@ impl Emitter<'_> {
         let ident = &self.declaration.ident;
         let generics = super::bounds::bounded_generics(self.declaration, &self.problem.scalar);
         let (impl_generics, type_generics, where_clause) = generics.split_for_impl();
-        // Nobody calls it: it is there to be checked by the compiler.
+        // Never called: the compiler checks the types of its body.
         (!reads.is_empty()).then(|| {
             quote! {
                 #[allow(dead_code, clippy::all, clippy::pedantic, clippy::nursery)]

@@ -8,7 +8,7 @@ use super::schedule::Schedule;
 use crate::mechanics::{Equations, Form};
 use crate::symbolic::{Graph, Id};
 
-/// What is emitted of the elimination.
+/// Emitted parts of the elimination.
 pub(super) struct Solving {
     /// From a state to accelerations, multipliers and the pivot.
     pub(super) accelerations: Program,

@@ -13,7 +13,7 @@ pub(crate) enum Evidence {
 }
 
 impl Evidence {
-    /// Of a statement that rests on two others.
+    /// Evidence of a statement that follows from two others: the weaker one.
     pub(super) fn and(self, other: Self) -> Self {
         match (self, other) {
             (Self::Proved, other) | (other, Self::Proved) => other,

@@ -49,7 +49,7 @@ pub(crate) struct Rendered {
     pub(crate) total_derivatives: Vec<String>,
 }
 
-/// A system that is being written down.
+/// Equations of a system while they are typeset.
 struct Page<'a> {
     declaration: &'a Declaration,
     graph: &'a Graph,

@@ -6,7 +6,7 @@ use crate::syntax::{FieldShape, Inside, Property};
 use crate::variables::Variable;
 
 impl Problem {
-    /// The value of a symbol in this draw.
+    /// Random value of a symbol, the same for the same draw.
     pub(crate) fn drawn(&self, symbol: Symbol, draw: u64) -> Approximate {
         self.parameters.value_of(symbol, draw)
     }

@@ -224,7 +224,7 @@ impl<'a> Lowering<'a> {
         values.into_iter().collect()
     }
 
-    /// A value that must be a whole number.
+    /// Evaluates an expression that must be an integer.
     pub(super) fn integer(&mut self, expression: &Expression) -> Option<i128> {
         let id = self.scalar(expression)?;
         let value = self.graph.as_number(id).filter(Rational::is_integer).map(|value| value.to_integer());

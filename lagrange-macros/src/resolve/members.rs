@@ -104,7 +104,7 @@ impl Parameters {
         or_meant(near, "member", names.into_iter())
     }
 
-    /// As an expression names it: as many of a field's members, with indices where they are known.
+    /// Spells a field and the first `members` names of its path, with the known indices.
     pub(super) fn spelled(&self, field: usize, members: usize, indices: &[usize]) -> String {
         let Field { name, members: path, .. } = &self.fields[field];
         let (mut text, mut from) = (name.text.clone(), 0);

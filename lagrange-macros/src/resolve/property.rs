@@ -49,7 +49,7 @@ impl Parameters {
         self.element(entry.field, &indices[..indices.len().saturating_sub(2)])
     }
 
-    /// The number across the diagonal of a matrix.
+    /// Entry of the transposed position in a matrix.
     pub(crate) fn mirrored(&self, Entry { field, number }: Entry) -> Entry {
         let size = self.size(field);
         let (matrix, row, column) = (number / (size * size), number / size % size, number % size);

@@ -126,7 +126,7 @@ impl Scope {
         }
     }
 
-    /// Elements of a family share their name, and have as many indices; anything else of one name clashes.
+    /// Declares a definition. Elements of a family share a name and a number of indices; any other repeated name is an error.
     fn declare_definition(
         &mut self,
         declaration: &Declaration,

@@ -74,7 +74,7 @@ impl Graph {
         None
     }
 
-    /// Functions that are antiderivatives of base ^ exponent, but for a factor, by something.
+    /// Candidate antiderivatives of base ^ exponent, up to a factor.
     fn candidates(&mut self, base: Id, exponent: Rational) -> Vec<Id> {
         let mut found = Vec::new();
         if exponent.is_one() {

@@ -135,7 +135,7 @@ impl Graph {
         }
     }
 
-    /// The operands of a product, a power or a function that are no numbers, each once: of xˣ there is one.
+    /// Distinct operands of a product, a power or a function, without constants: one for xˣ.
     fn distinct_operands(&self, id: Id) -> Vec<Id> {
         let mut operands = Vec::new();
         self.operands(id, |operand| operands.push(operand));

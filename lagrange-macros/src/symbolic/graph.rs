@@ -134,7 +134,7 @@ pub(crate) struct Graph {
     nodes: IndexSet<Node, FxBuildHasher>,
     /// The number 10, once a power of it stands in a product.
     pub(super) ten: Option<Id>,
-    /// Errors of the numbers that had more digits than fit.
+    /// Rounding errors of constants with more digits than an exact fraction holds.
     pub(super) roundings: Roundings,
     fault: Option<Fault>,
 }

@@ -127,7 +127,7 @@ impl Polynomial {
 }
 
 impl Polynomials {
-    /// The polynomial that an expression without boundaries is; `None` where it is too long.
+    /// Expands an expression without boundaries into a polynomial; `None` if that is too long.
     pub(crate) fn of(&mut self, graph: &mut Graph, root: Id) -> Option<Polynomial> {
         for id in graph.reachable(&[root]) {
             if !self.known.contains_key(&id) {

@@ -92,7 +92,7 @@ fn moves(attribute: &Attribute) -> bool {
     own(attribute).is_some_and(|word| !matches!(word, "observable" | "conserved"))
 }
 
-/// Attributes that say one thing are given once.
+/// Reports an attribute that may be given only once and is repeated.
 fn once(word: &'static str, attribute: &Attribute, seen: &mut Vec<(&'static str, Place)>) -> Result<()> {
     let place = Place::of(&attribute.meta);
     let earlier = seen.iter().find(|(found, _)| *found == word).map(|(_, place)| *place);

@@ -64,7 +64,7 @@ pub(crate) struct Frame {
     pub(crate) parent: Option<Expression>,
     /// How it comes from there, each step in the axes that the steps before have led to.
     pub(crate) steps: Vec<Expression>,
-    /// How many definitions stand above.
+    /// Number of definitions that precede it.
     pub(crate) definitions: usize,
 }
 

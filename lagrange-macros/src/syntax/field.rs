@@ -94,7 +94,7 @@ impl Layout {
         self.lengths.is_empty()
     }
 
-    /// How many numbers that is; more than can be counted count as the most.
+    /// Number of scalars, saturating.
     pub(crate) fn numbers(&self) -> usize {
         numbers(&self.lengths)
     }

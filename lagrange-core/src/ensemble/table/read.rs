@@ -25,7 +25,7 @@ pub(in crate::ensemble) fn read<T: Real + FromStr, const N: usize>(
     for (line, text) in (1..).zip(table.lines()) {
         let text = text.strip_suffix('\r').unwrap_or(text);
         let read = match text.trim_start_matches(|digit: char| digit.is_ascii_digit()) {
-            // A row that was cut in its first number, and the header of the next table.
+            // A row cut off within its first number, followed by the header of the next table.
             rest if rest == header => Ok(None),
             _ if text.starts_with('m') => check_header::<N>(text, &header).map(|()| None),
             _ => row(text, count),

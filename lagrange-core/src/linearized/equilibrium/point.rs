@@ -21,7 +21,7 @@ impl<L, const N: usize, const M: usize, const P: usize> Point<L, N, M, P>
 where
     L: Linearized<N, M, P, Scalar: Real>,
 {
-    /// R, the motion's rows first.
+    /// Residual R, with the rows of the motion first.
     pub(super) fn residual(&self) -> DVector<L::Scalar> {
         let Self { system, state, multipliers } = self;
         let motion = -(system.forcing(state) + system.constraint_force(state, multipliers));

@@ -99,7 +99,7 @@ where
         }
     }
 
-    /// Puts into the first of two variations what is made of both.
+    /// Combines two variations into the first.
     fn combine(
         &mut self,
         linear: &mut [&mut [WideOf<L, N, M>]],

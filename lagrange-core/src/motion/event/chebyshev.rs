@@ -78,7 +78,7 @@ pub(super) struct Shape<T> {
     bend: T,
     /// The largest value.
     pub(super) most: T,
-    /// The highest degree that adds more than a 256th of the swing.
+    /// Highest degree that contributes more than 1/256 of the swing.
     pub(super) order: usize,
 }
 

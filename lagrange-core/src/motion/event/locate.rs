@@ -1,4 +1,4 @@
-//! Where an event crosses zero within an interval.
+//! Root finding: the crossing of an event within an interval.
 
 use super::Watched;
 use super::narrow::{Probe, narrow};
@@ -52,7 +52,7 @@ fn ends<T: Real, const N: usize>(
     ]
 }
 
-/// The state at this part of the time between two, and what the function of an event is there.
+/// Evaluates the event's function at a fraction of an interval, with the state there.
 fn probe<L, F, I, const N: usize, const M: usize>(
     stride: &Stride<'_, L, F, I, N, M>,
     event: &impl Watched<L, N, M>,

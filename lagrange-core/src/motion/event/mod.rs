@@ -279,7 +279,7 @@ where
     #[inline]
     fn value(&self, system: &L, state: &State<L::Scalar, N>) -> Result<L::Scalar, Error> {
         let value = self.function.at(system.borrow(), state)?;
-        // What is infinite has a side, as at a pole.
+        // An infinite value has a sign, as at a pole.
         match value.to_f64().is_nan() {
             false => Ok(value),
             true => Err(Error::EventNotFinite { event: self.memory.name, time: state.t.to_f64() }),

@@ -26,9 +26,9 @@ where
     /// What is kept of it on the way.
     pub(crate) record: Record<'o, L, N, M>,
     pub(crate) system: L,
-    /// Where it is lies in the lane, and here only while a step is taken alone.
+    /// Method's memory, valid only while a step is taken outside the lanes.
     pub(crate) memory: P::Memory,
-    /// What lies within the last step, where that was taken alone and is to be looked into.
+    /// Dense output of the last step, if it was taken outside the lanes and is sampled.
     pub(super) within: Option<P::Interpolant>,
     end: f64,
     limits: Watchdog,

@@ -172,7 +172,7 @@ pub enum Step<T, const N: usize> {
 pub struct Limits {
     /// Attempted steps, rejected ones included.
     pub max_steps: usize,
-    /// Time by the clock on the wall.
+    /// Limit on wall-clock time.
     #[cfg(feature = "std")]
     pub wall_time: Option<std::time::Duration>,
 }

@@ -61,7 +61,7 @@ pub trait Pair {
     const INTERPOLATION_STAGES: &'static [Combination];
     /// Coefficients of the interpolant beyond the fourth.
     const INTERPOLATION: &'static [Combination];
-    /// The estimate behaves as this power of the step.
+    /// Order of the error estimate: the power of the step length that it is proportional to.
     const ORDER: f64;
     /// Weight of the previous error in the choice of the step (β of the PI controller).
     const DAMPING: f64;

@@ -104,7 +104,7 @@ impl RungeKutta4 {
         Self { step, limits: Limits::default() }
     }
 
-    /// How many steps may be taken.
+    /// Sets the limit on the number of steps.
     pub fn max_steps(mut self, steps: usize) -> Self {
         self.limits.max_steps = steps;
         self

@@ -166,7 +166,7 @@ where
         statistics: &mut Statistics,
     ) -> Result<(), Error> {
         memory.clock.set(state.t);
-        // The velocity is where the search for that of the rates starts.
+        // The velocity is the initial guess for the Legendre inversion of the first rate.
         (memory.y, memory.slope[0]) = (F::phase(system, state), state.v.into());
         (memory.has_slope, memory.taken) = (false, None);
         memory.ensure_slope::<L, F>(system, statistics)
@@ -430,7 +430,7 @@ fn interpolate<P: Pair, T: Real, const N: usize, const M: usize>(
     }
 }
 
-/// Evaluates the slopes of these stages, the first of which has the number given.
+/// Evaluates the rates of consecutive stages, from the stage of the given index on.
 fn stages<P, L, F, const N: usize, const M: usize>(
     system: &L,
     from: &Origin<L::Scalar, N, M>,

@@ -50,7 +50,7 @@ impl Taylor {
         self.limited(smaller(T::constant(FIRST) * tolerance.guess_step(&y, &slope, span), span))
     }
 
-    /// What of the absolute tolerance each entry has beside its size.
+    /// Absolute tolerance as a fraction of the relative one, added to the size of each entry.
     pub(super) fn slack<T: Real>(&self) -> f64 {
         self.absolute / self.tolerance::<T>()
     }

@@ -16,7 +16,7 @@ use few::Few;
 /// So many sums are computed side by side, of a multiple of which the derive tells.
 const WIDTH: usize = 4;
 
-/// Aligned as the instructions that read it would have it: every other one would otherwise touch two lines of the cache.
+/// Aligned for the SIMD loads that read it: otherwise every other load would touch two cache lines.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
 struct Group<T>([T; WIDTH]);

@@ -357,7 +357,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Projecti
         let mut m: [[L::Scalar; N]; N] = self.system.mass_matrix(state).into();
         let mut f = residual.jacobian;
         hold(self.held, &mut m, &mut f);
-        // Where it serves, it keeps more digits of small constraints beside large ones.
+        // The elimination keeps more digits of small constraints beside large ones than the general solve does.
         let fast = eliminate(m, h, f, residual.value);
         if is_trustworthy(&fast) {
             return Some(fast.accelerations);

@@ -22,7 +22,7 @@ use crate::system::{Lagrangian, State};
 /// Newton's method takes five or so; far away and where minima are flat it takes more, 31 for a chain of 50 rods.
 const STEPS: usize = 100;
 
-/// Moves coordinates on the holonomic constraints to where no small move along them brings them nearer to those given.
+/// Moves coordinates along the holonomic constraints to a local minimum of the distance from those given.
 pub(super) fn approach<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     given: &State<L::Scalar, N>,

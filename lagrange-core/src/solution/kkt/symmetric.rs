@@ -13,7 +13,7 @@ pub(super) struct Symmetric<T, const N: usize> {
     /// L below the diagonal (or the 2×2 block), D on it.
     a: [[T; N]; N],
     order: [usize; N],
-    /// Whether a 2×2 block of D starts here.
+    /// True where a 2×2 block of D starts.
     pair: [bool; N],
     pub(super) rank: usize,
     /// The smallest of the pivots, as the magnitude by which each was chosen.

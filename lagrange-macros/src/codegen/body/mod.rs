@@ -46,7 +46,7 @@ impl Part {
     }
 }
 
-/// Says that the statements are run over and over.
+/// Marks statements that run as a loop.
 #[derive(Clone, Debug)]
 pub(super) struct Rounds {
     pub(super) count: usize,

@@ -92,7 +92,7 @@ fn depth_first(schedule: &Schedule, operands: &[Vec<usize>], roots: &[Register])
             continue;
         }
         let mut operands = operands[index].clone();
-        // What is pushed last is computed first.
+        // The operand pushed last is computed first.
         operands.sort_by_key(|&operand| ready[operand]);
         stack.push((index, true));
         stack.extend(operands.into_iter().map(|operand| (operand, false)));

@@ -149,7 +149,7 @@ impl<'s> Text<'s> {
         counts.into_iter().filter(is_frequent).map(|(period, _)| period)
     }
 
-    /// Where operations look like those so many before them.
+    /// Runs of operations that equal those `period` operations earlier, up to their operands.
     fn runs(&self, period: usize) -> Vec<Run> {
         let (mut runs, mut start) = (Vec::new(), 0);
         for at in 0..=self.looks.len() - period {

@@ -6,7 +6,7 @@ use crate::symbolic::Id;
 
 /// A number, unless it is known to be zero.
 pub(super) type Entry = Option<Register>;
-/// The entries that are not zero, by index.
+/// Nonzero entries with their indices.
 pub(super) type Sparse = Vec<(usize, Register)>;
 
 pub(super) fn sparse(x: &[Entry]) -> Sparse {

@@ -91,7 +91,7 @@ fn is_doubtful(operation: Operation, operands: &[Kind]) -> bool {
     }
 }
 
-/// Whether the result may be infinite for finite operands.
+/// True if the result may be infinite for finite operands.
 fn has_pole(operation: Operation) -> bool {
     match operation {
         Operation::Divide(..) | Operation::Power(..) | Operation::Result { .. } => true,

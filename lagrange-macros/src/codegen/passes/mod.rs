@@ -23,7 +23,7 @@ use crate::variables::Variable;
 /// The passes do not make a function half as long: beyond, they are not tried.
 const HOPELESS: usize = 2 * OPERATION_LIMIT;
 
-/// A schedule and where its results are, and what each pass left of it.
+/// A schedule with the registers of its results, and its length after each pass.
 pub(super) struct Program {
     pub(super) schedule: Schedule,
     pub(super) results: Vec<Register>,

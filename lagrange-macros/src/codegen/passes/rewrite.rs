@@ -22,7 +22,7 @@ pub(super) fn carried_over(
     new.push(operation)
 }
 
-/// Where the results of a schedule are in the one built anew, as far as it is.
+/// Registers of a schedule's operations in the rebuilt schedule, as far as it is built.
 pub(super) struct Places(Vec<Option<Register>>);
 
 impl Places {

@@ -1,4 +1,4 @@
-//! How far an elimination of a symmetric matrix gets.
+//! Number of pivots of a symmetric matrix, by elimination with diagonal pivoting.
 
 pub(super) type Matrix = Vec<Vec<f64>>;
 

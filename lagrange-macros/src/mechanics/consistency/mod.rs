@@ -94,7 +94,7 @@ impl<'a> Rows<'a> {
             |rate| scratch.substituted(rate, |symbol| velocities.contains(&symbol).then_some(Id::ZERO));
         let bias: Vec<Id> = rates.into_iter().map(at_rest).collect();
         columns.push(bias.clone());
-        // What has no value, or cannot be written, is reported elsewhere.
+        // Faults such as a division by zero are reported elsewhere.
         scratch.take_fault().is_none().then_some(())?;
         let ring = Polynomials::default();
         let mut rows = Self { graph: scratch, ring, problem, constraints, circuit, written, bias };

@@ -39,7 +39,7 @@ impl Twists<'_> {
 }
 
 impl Acceleration {
-    /// That of the frame which a step leads to from this one.
+    /// Acceleration of the frame after a step from this one.
     fn after(&self, frame: &Frame, before: &Frame, along: &mut Forward, graph: &mut Graph) -> Self {
         let mut rates =
             |vector: Triple, graph: &mut Graph| vector.map(|component| along.of(graph, component));

@@ -9,7 +9,7 @@ use crate::resolve::{Body, Frame, Problem, Step, Triple, cross, sum};
 use crate::symbolic::{Graph, Id, Symbol};
 use crate::variables::Variable;
 
-/// The bodies whose kinetic energies are terms of L, and L without them.
+/// Splits L into the bodies whose kinetic energies are terms of it, and the rest.
 pub(super) fn apart(graph: &mut Graph, problem: &Problem) -> (Vec<Body>, Id) {
     let mut bodies: Vec<Body> = Vec::new();
     for body in &problem.bodies {

@@ -28,7 +28,7 @@ type Rule = fn(&mut Atoms, &Polynomial, &Monomial, Rational, [&Wave; 2]) -> Opti
 const RULES: [Rule; 4] = [pythagoras, complement, addition, halves];
 
 impl Atoms {
-    /// The same with terms merged as far as that goes.
+    /// Merges terms until none merges any more.
     pub(super) fn merged(&mut self, polynomial: Polynomial) -> Option<Polynomial> {
         let mut merged = polynomial;
         while let Some(Merger { parts, factors }) = RULES.iter().find_map(|rule| self.merger(&merged, *rule))

@@ -1,4 +1,4 @@
-//! Nodes of the graph, multiplied out.
+//! Expansion of nodes of the graph into polynomials.
 
 use num_traits::One;
 use rustc_hash::{FxHashMap, FxHashSet};

@@ -159,7 +159,7 @@ fn component(formula: &Formula) -> Option<(Formula, usize)> {
     }
 }
 
-/// The variable of the first component, given one of another.
+/// Variable of a vector's first component, from that of another component.
 fn first(variable: Variable, place: usize) -> Variable {
     match variable {
         Variable::Coordinate(i) => Variable::Coordinate(i - place),

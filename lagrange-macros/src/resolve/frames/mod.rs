@@ -221,7 +221,7 @@ impl Lowering<'_> {
         self.report(name.place, message)
     }
 
-    /// Of a family the name stands once.
+    /// Names of all frames; a family is listed once.
     fn frame_names(&self) -> Vec<&str> {
         let declared = self.declared_frames.iter().map(|declared| declared.target.name.text.as_str());
         let mut names: Vec<&str> = declared.chain([FIXED]).collect();

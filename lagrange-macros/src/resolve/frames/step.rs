@@ -170,7 +170,7 @@ impl Lowering<'_> {
         Some(self.turned_at(by, rate))
     }
 
-    /// By q/|q|, so that nothing depends on the length.
+    /// Rotation by q/|q|, independent of the length of q.
     fn turned_by_quaternion(&mut self, q: [Id; 4], at: &Expression) -> Option<Turned> {
         let graph = &mut self.graph;
         let square = graph.dot(&q, &q);
@@ -214,7 +214,7 @@ impl Lowering<'_> {
         rates.try_into().ok()
     }
 
-    /// The three numbers of a vector in space, along whatever axes.
+    /// Three components of a spatial vector, along any axes.
     pub(super) fn components(&self, value: &Value) -> Option<Triple> {
         value.as_vector()?.try_into().ok()
     }

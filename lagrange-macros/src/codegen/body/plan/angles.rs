@@ -139,7 +139,7 @@ impl Planner<'_> {
         }
     }
 
-    /// The sine or the cosine of this, if it is used and not at hand.
+    /// Sine or cosine of a register, if it is used and not computed yet.
     fn missing(&self, function: Function, x: Register) -> Option<Register> {
         self.used(function, x).filter(|register| self.values[register.index()].is_none())
     }
