@@ -27,11 +27,11 @@ use crate::function::{First, Second, Value};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
-    knots: Box<[Knot]>,
+    knots: Box<[CubicKnot]>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Knot {
+struct CubicKnot {
     x: f64,
     y: f64,
     /// The second derivative there.
@@ -48,9 +48,10 @@ impl Table {
         if points.len() < 2 || !are_increasing(points) {
             return Err(Error::Table);
         }
-        let knots = points.iter().zip(bends(points)).map(|(&(x, y), bend)| Knot { x, y, bend });
+        let knots = points.iter().zip(bends(points)).map(|(&(x, y), bend)| CubicKnot { x, y, bend });
         let table = Self { knots: knots.collect() };
-        let finite = |knot: &Knot| knot.x.is_finite() && table.at(knot.x).into_iter().all(f64::is_finite);
+        let finite =
+            |knot: &CubicKnot| knot.x.is_finite() && table.at(knot.x).into_iter().all(f64::is_finite);
         if table.knots.iter().all(finite) { Ok(table) } else { Err(Error::Table) }
     }
 

@@ -37,8 +37,8 @@ struct Inversion<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
     active: [bool; M],
 }
 
-/// Trial velocity with its residual.
-struct Trial<T, const N: usize, const M: usize> {
+/// VelocityTrial velocity with its residual.
+struct VelocityTrial<T, const N: usize, const M: usize> {
     state: State<T, N>,
     /// μ.
     multipliers: [T; M],
@@ -57,7 +57,7 @@ struct Linear<'a, T, const N: usize, const M: usize> {
 
 impl<T: Real, const N: usize, const M: usize> Linear<'_, T, N, M> {
     /// p(q, v) − p − Fᵀμ, and the sum of the magnitudes of its terms.
-    fn momentum_residual(&self, trial: &Trial<T, N, M>, i: usize) -> (T, T) {
+    fn momentum_residual(&self, trial: &VelocityTrial<T, N, M>, i: usize) -> (T, T) {
         let (given, wanted) = (trial.momentum[i], self.wanted.p[i]);
         let inertia = (0..N).map(|j| self.equations.m[i][j] * trial.state.v[j]);
         let terms = inertia.fold(Scalar::abs(given) + Scalar::abs(wanted), |sum, x| sum + Scalar::abs(x));
@@ -69,7 +69,7 @@ impl<T: Real, const N: usize, const M: usize> Linear<'_, T, N, M> {
 
     /// A distance, in the natural units of the dynamics, and the size of the terms that it is the difference of. What is
     /// round-off of the terms of its row does not count: it must not hide another row.
-    fn distance(&self, trial: &Trial<T, N, M>) -> (T, T) {
+    fn distance(&self, trial: &VelocityTrial<T, N, M>) -> (T, T) {
         let momenta = (0..N).map(|i| {
             let (residual, terms) = self.momentum_residual(trial, i);
             (residual * self.units.coordinates[i], terms * self.units.coordinates[i])
@@ -117,9 +117,13 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Inversio
         newton::find(&mut self, start).map(|(found, _)| found.state)
     }
 
-    fn trial(&self, state: State<L::Scalar, N>, multipliers: [L::Scalar; M]) -> Trial<L::Scalar, N, M> {
+    fn trial(
+        &self,
+        state: State<L::Scalar, N>,
+        multipliers: [L::Scalar; M],
+    ) -> VelocityTrial<L::Scalar, N, M> {
         let rate = self.system.constraint_rate(&state);
-        Trial {
+        VelocityTrial {
             momentum: self.system.momentum(&state).into(),
             rate: from_fn(|a| if self.active[a] { rate[a] } else { L::Scalar::constant(0.0) }),
             state,
@@ -158,7 +162,7 @@ where
     L: Lagrangian<N, M, Scalar: Real>,
 {
     type Scalar = L::Scalar;
-    type Trial = Trial<L::Scalar, N, M>;
+    type Trial = VelocityTrial<L::Scalar, N, M>;
     type Linear = Linear<'a, L::Scalar, N, M>;
 
     const STEPS: usize = 100;

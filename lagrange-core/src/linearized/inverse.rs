@@ -49,7 +49,7 @@ where
 {
     check_finite(system, state)?;
     let inputs = Argument::actuators::<L, N, M, P>(names)?;
-    let mut balance = Balance::new(system.clone(), state, accelerations, inputs)?;
+    let mut balance = InputBalance::new(system.clone(), state, accelerations, inputs)?;
     for _ in 0..STEPS {
         let step = balance.step()?;
         if balance.go(&step) {
@@ -57,13 +57,13 @@ where
         }
     }
     balance.check()?;
-    let Balance { inputs, values, multipliers, .. } = balance;
+    let InputBalance { inputs, values, multipliers, .. } = balance;
     let names = inputs.iter().map(|input| format!("{}", input.entry::<L, N, M, P>())).collect();
     Ok(Actuation { inputs: values, multipliers, names })
 }
 
 /// M a = h + Fᵀλ + Σ τ and F a + γ = 0, at a guess of inputs and multipliers.
-struct Balance<'a, L: Linearized<N, M, P>, const N: usize, const M: usize, const P: usize> {
+struct InputBalance<'a, L: Linearized<N, M, P>, const N: usize, const M: usize, const P: usize> {
     /// With the inputs that are parameters as they are.
     system: L,
     state: &'a State<L::Scalar, N>,
@@ -75,7 +75,7 @@ struct Balance<'a, L: Linearized<N, M, P>, const N: usize, const M: usize, const
     units: Units<L::Scalar, N, M>,
 }
 
-impl<'a, L, const N: usize, const M: usize, const P: usize> Balance<'a, L, N, M, P>
+impl<'a, L, const N: usize, const M: usize, const P: usize> InputBalance<'a, L, N, M, P>
 where
     L: Linearized<N, M, P, Scalar: Real>,
 {

@@ -10,7 +10,7 @@ use super::variation::{DifferentiableMethod, Variations};
 use super::{Direction, Linearized};
 use crate::ending::Ending;
 use crate::error::Error;
-use crate::motion::event::{Search, Watched};
+use crate::motion::event::{EventSearch, Watched};
 use crate::motion::run::{Run, Watchdog, check_end};
 use crate::names::Entry;
 use crate::number::{Over, Real, Scalar, Wide};
@@ -71,7 +71,7 @@ where
     let (mut course, mut companion) = Course::from(system, &run.state, start, method)?;
     let mut watched: Vec<_> =
         events.iter_mut().map(|event| &mut **event as &mut dyn Watched<L, N, M>).collect();
-    let mut search = Search::begin(&mut watched, system, &run.state)?;
+    let mut search = EventSearch::begin(&mut watched, system, &run.state)?;
     let limits = Watchdog::new(method.limits(), &run.statistics);
     let mut stopped = search.record_due(&run.state, &mut path.crossings);
     let ending = loop {

@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 
 use nalgebra::ComplexField;
 
-use super::event::{Crossing, Event, EventFunction, EventValue, Search, Stride};
+use super::event::{Crossing, Event, EventFunction, EventSearch, EventValue, Stride};
 use super::method::{Interpolant, Method};
 use super::run::{Run, Watchdog, is_between, resume};
 use crate::ending::Ending;
@@ -19,9 +19,9 @@ use crate::system::{Lagrangian, State};
 pub(crate) struct Orders<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
     /// When states are, in the order of the motion.
     pub(crate) times: Vec<L::Scalar>,
-    quantities: Vec<(&'static str, Box<Value<'a, L, N, M>>)>,
+    quantities: Vec<(&'static str, Box<Observed<'a, L, N, M>>)>,
     /// As they are before the first crossing.
-    events: Vec<Event<L, Box<Value<'a, L, N, M>>, N, M>>,
+    events: Vec<Event<L, Box<Observed<'a, L, N, M>>, N, M>>,
     /// Called at the start, and then as often as this.
     controller: Option<(L::Scalar, Box<Controller<'a, L, N, M>>)>,
 }
@@ -33,7 +33,7 @@ type Controller<'a, L, const N: usize, const M: usize> = dyn Fn(usize, &mut L, &
     + 'a;
 
 /// A number that follows from a state.
-type Value<'a, L, const N: usize, const M: usize> =
+type Observed<'a, L, const N: usize, const M: usize> =
     dyn Fn(&Sample<&L, N, M>) -> Result<<L as Lagrangian<N, M>>::Scalar, Error> + Send + Sync + 'a;
 
 impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Default for Orders<'_, L, N, M> {
@@ -56,7 +56,7 @@ impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Orde
         G: EventFunction<L, N, M> + Send + Sync + 'a,
     {
         self.events.push(event.map(|function| {
-            let value: Box<Value<'a, L, N, M>> =
+            let value: Box<Observed<'a, L, N, M>> =
                 Box::new(move |sample: &Sample<&L, N, M>| function.at(sample.system, &sample.state));
             value
         }));
@@ -125,7 +125,7 @@ pub(crate) struct Record<'o, L: Lagrangian<N, M>, const N: usize, const M: usize
     /// The quantities of the first sample, those of the second, …
     pub(crate) values: Vec<L::Scalar>,
     pub(crate) crossings: Vec<Crossing<L::Scalar, N>>,
-    events: Vec<Event<L, &'o Value<'o, L, N, M>, N, M>>,
+    events: Vec<Event<L, &'o Observed<'o, L, N, M>, N, M>>,
     /// How many pieces every step is looked at in, at least.
     pieces: usize,
     start: L::Scalar,
@@ -162,7 +162,7 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
         orders.quantities.iter().try_for_each(|(_, value)| value(&sample).map(drop))?;
         let mut events: Vec<_> =
             orders.events.iter().map(|event| event.anew(|function| &**function)).collect();
-        let Search { pieces, .. } = Search::begin(&mut events, system, start)?;
+        let EventSearch { pieces, .. } = EventSearch::begin(&mut events, system, start)?;
         let samples = Vec::with_capacity(times.len());
         let values = Vec::with_capacity(times.len() * orders.quantities.len());
         let goal = if orders.controller.is_some() { start.t } else { end };
@@ -222,7 +222,8 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
     {
         let (mut at, mut stopped) = (*stride.before, None);
         if !self.events.is_empty() {
-            let mut search = Search { events: &mut self.events, pieces: self.pieces, system: PhantomData };
+            let mut search =
+                EventSearch { events: &mut self.events, pieces: self.pieces, system: PhantomData };
             if let Some((state, ending)) = search.record(stride, &mut self.crossings) {
                 (*end, stopped) = (state, Some(ending));
             }
@@ -264,7 +265,7 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
         if self.goal == state.t {
             return Err(Ending::TimeTooCoarse { time, step: interval.to_f64() });
         }
-        Search::from(&mut self.events, system, state, true).map_err(|error| Ending::of(error, time))?;
+        EventSearch::from(&mut self.events, system, state, true).map_err(|error| Ending::of(error, time))?;
         Ok(())
     }
 

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use core::ops::ControlFlow;
 
 #[cfg(feature = "alloc")]
-use super::event::{Search, Watched};
+use super::event::{EventSearch, Watched};
 use super::method::{Limits, Method, Step};
 use crate::ending::{Ending, Pace};
 use crate::error::Error;
@@ -229,7 +229,7 @@ where
     let (run, adjustment) = begun.as_mut().map_err(|error| error.clone())?;
     let start = run.state.t.to_f64();
     let mut path = Path::from(run.state);
-    let mut search = Search::begin(events, system, &run.state)?;
+    let mut search = EventSearch::begin(events, system, &run.state)?;
     let limits = Watchdog::new(method.limits(), &run.statistics);
     let mut stopped = search.record_due(&run.state, &mut path.crossings);
     let ending = loop {

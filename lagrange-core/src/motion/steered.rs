@@ -4,7 +4,7 @@ use core::fmt::{self, Debug, Formatter};
 use core::marker::PhantomData;
 
 use super::Method;
-use super::event::{Crossing, Search, Stride, Watched};
+use super::event::{Crossing, EventSearch, Stride, Watched};
 use super::run::{self, Run, Watchdog, Within, is_between, resume};
 use crate::ending::Ending;
 use crate::error::Error;
@@ -254,8 +254,8 @@ where
     ) -> Result<Option<Crossing<L::Scalar, N>>, Ending> {
         let Self { system, method, run, within, has_step, is_current, .. } = self;
         let limits = Watchdog::new(method.limits(), &run.statistics);
-        let mut search =
-            Search::from(events, system, at, !*has_step).map_err(|error| Ending::of(error, at.t.to_f64()))?;
+        let mut search = EventSearch::from(events, system, at, !*has_step)
+            .map_err(|error| Ending::of(error, at.t.to_f64()))?;
         let mut found = search.due(at)?;
         loop {
             if let (None, Some(interpolant)) = (&found, within.iter().next()) {

@@ -179,30 +179,30 @@ fn write_column<W: Write + Send>(
 
 /// Why a file is not read or written.
 #[derive(Debug)]
-pub(super) enum Fault {
+pub(super) enum FileFault {
     /// It was cut off, or the disk is full, or the like.
     Damaged(String),
     /// It cannot be opened, or is whole and of something else.
     Other(String),
 }
 
-impl From<ParquetError> for Fault {
+impl From<ParquetError> for FileFault {
     fn from(error: ParquetError) -> Self {
         Self::Damaged(error.to_string())
     }
 }
 
-impl From<std::io::Error> for Fault {
+impl From<std::io::Error> for FileFault {
     fn from(error: std::io::Error) -> Self {
         Self::Damaged(error.to_string())
     }
 }
 
 /// The fingerprint of member 0 in the run that a file is of. `columns` says which there must be.
-fn first(reader: &SerializedFileReader<File>, columns: &[Column]) -> Result<Fingerprint, Fault> {
+fn first(reader: &SerializedFileReader<File>, columns: &[Column]) -> Result<Fingerprint, FileFault> {
     let head = reader.metadata().file_metadata();
     if head.schema() != &*schema(columns)? {
-        return Err(Fault::Other("its columns are others".into()));
+        return Err(FileFault::Other("its columns are others".into()));
     }
     let number = |key: &str| {
         let entry = head.key_value_metadata()?.iter().find(|entry| entry.key == key)?;
@@ -210,7 +210,7 @@ fn first(reader: &SerializedFileReader<File>, columns: &[Column]) -> Result<Fing
     };
     match (number(SYSTEM), number(RUN), number(FIRST)) {
         (Some(system), Some(run), Some(start)) => Ok(Fingerprint { system, run, start }),
-        _ => Err(Fault::Other("it does not say of which run it is".into())),
+        _ => Err(FileFault::Other("it does not say of which run it is".into())),
     }
 }
 
@@ -219,7 +219,7 @@ fn first(reader: &SerializedFileReader<File>, columns: &[Column]) -> Result<Fing
 pub(super) fn read(
     file: File,
     mut columns: Vec<Column>,
-) -> Result<(Vec<Column>, Vec<bool>, Fingerprint), Fault> {
+) -> Result<(Vec<Column>, Vec<bool>, Fingerprint), FileFault> {
     let reader = SerializedFileReader::new(file)?;
     let first = first(&reader, &columns)?;
     let mut levels = Vec::new();

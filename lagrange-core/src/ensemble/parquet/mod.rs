@@ -14,7 +14,7 @@ use std::fs::{File, create_dir_all, read_dir, remove_file, rename};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use self::file::Fault;
+use self::file::FileFault;
 use self::rows::{columns, rows};
 use super::fingerprint::{Fingerprint, Hash, OTHER_START};
 use super::outcome::Member;
@@ -163,8 +163,8 @@ where
         for path in self.files()? {
             match self.rows_in(&path) {
                 Ok(read) => found.extend(read.into_iter().map(|row| (path.clone(), row))),
-                Err(Fault::Damaged(reason)) => self.damaged.push(wrong(&path, reason)),
-                Err(Fault::Other(reason)) => return Err(wrong(&path, reason)),
+                Err(FileFault::Damaged(reason)) => self.damaged.push(wrong(&path, reason)),
+                Err(FileFault::Other(reason)) => return Err(wrong(&path, reason)),
             }
         }
         MemberTable::gather(L::COORDINATES, Fingerprint::of_system::<L, N, M>(), found, |path, _, reason| {
@@ -208,12 +208,12 @@ where
     }
 
     /// The rows of a file, whose member 0 must be the one that is made here.
-    fn rows_in(&self, path: &Path) -> Result<Vec<MemberRow<T, N>>, Fault> {
-        let file = File::open(path).map_err(|error| Fault::Other(error.to_string()))?;
+    fn rows_in(&self, path: &Path) -> Result<Vec<MemberRow<T, N>>, FileFault> {
+        let file = File::open(path).map_err(|error| FileFault::Other(error.to_string()))?;
         let read = file::read(file, columns::<L, T, N, M, P>(&[], &[]))?;
         let (.., first) = &read;
         if first.system == Fingerprint::of_system::<L, N, M>() && first.start != self.first() {
-            return Err(Fault::Other(OTHER_START.into()));
+            return Err(FileFault::Other(OTHER_START.into()));
         }
         rows::<T, N, P>(&read)
     }
@@ -232,8 +232,8 @@ where
         let rows = match self.rows_in(path) {
             Ok(rows) => rows,
             // No row of it is read.
-            Err(Fault::Damaged(_)) => return Ok(()),
-            Err(Fault::Other(reason)) => return Err(wrong(path, reason)),
+            Err(FileFault::Damaged(_)) => return Ok(()),
+            Err(FileFault::Other(reason)) => return Err(wrong(path, reason)),
         };
         let run = self.waiting[0].fingerprint;
         for row in rows {
@@ -259,19 +259,19 @@ where
         let first = Fingerprint { start: self.first(), ..rows[0].fingerprint };
         let path = self.directory.join(name(rows));
         let unfinished = path.with_extension(&UNFINISHED[1..]);
-        let written = File::create(&unfinished).map_err(Fault::from).and_then(|file| {
+        let written = File::create(&unfinished).map_err(FileFault::from).and_then(|file| {
             file::write(&file, &columns, &has_end, first, [L::NAME, L::EQUATIONS.text()])?;
             file.sync_all()?;
             Ok(rename(&unfinished, &path)?)
         });
         match written {
             Ok(()) => Ok(path),
-            Err(Fault::Damaged(reason)) => {
+            Err(FileFault::Damaged(reason)) => {
                 // What is left of it helps nobody, and where the disk is full it is in the way.
                 let _ = remove_file(&unfinished);
                 Err(wrong(&path, reason))
             }
-            Err(Fault::Other(reason)) => Err(wrong(&path, reason)),
+            Err(FileFault::Other(reason)) => Err(wrong(&path, reason)),
         }
     }
 }

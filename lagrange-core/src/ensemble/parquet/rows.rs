@@ -1,6 +1,6 @@
 //! Rows as columns, and back.
 
-use super::file::{Column, END, Fault, Values};
+use super::file::{Column, END, FileFault, Values};
 use crate::ensemble::fingerprint::Fingerprint;
 use crate::ensemble::table::MemberRow;
 use crate::linearized::Linearized;
@@ -60,8 +60,10 @@ where
 /// The rows that such columns are of.
 pub(super) fn rows<T: Real, const N: usize, const P: usize>(
     (columns, has_end, first): &(Vec<Column>, Vec<bool>, Fingerprint),
-) -> Result<Vec<MemberRow<T, N>>, Fault> {
-    let [members, starts, endings] = &columns[..3] else { return Err(Fault::Other("it has no rows".into())) };
+) -> Result<Vec<MemberRow<T, N>>, FileFault> {
+    let [members, starts, endings] = &columns[..3] else {
+        return Err(FileFault::Other("it has no rows".into()));
+    };
     let end = &columns[3 + 2 * N + 1 + P..];
     let mut ends = 0..;
     let row = |k: usize| -> Option<MemberRow<T, N>> {
@@ -88,7 +90,7 @@ pub(super) fn rows<T: Real, const N: usize, const P: usize>(
         })
     };
     let rows: Option<Vec<_>> = (0..has_end.len()).map(row).collect();
-    rows.ok_or(Fault::Damaged("a number in it is none".into()))
+    rows.ok_or(FileFault::Damaged("a number in it is none".into()))
 }
 
 /// The columns of times, coordinates and velocities.

@@ -29,12 +29,12 @@ use crate::function::{First, Second, Third, Value};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct SmoothTable {
-    knots: Box<[Knot]>,
+    knots: Box<[QuinticKnot]>,
 }
 
 /// A point with the first two derivatives there.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Knot {
+struct QuinticKnot {
     x: f64,
     y: f64,
     slope: f64,
@@ -52,9 +52,11 @@ impl SmoothTable {
             return Err(Error::Table);
         }
         let slopes = slopes_and_bends(points).ok_or(Error::Table)?;
-        let knots = points.iter().zip(slopes).map(|(&(x, y), s)| Knot { x, y, slope: s[0], bend: s[1] });
+        let knots =
+            points.iter().zip(slopes).map(|(&(x, y), s)| QuinticKnot { x, y, slope: s[0], bend: s[1] });
         let table = Self { knots: knots.collect() };
-        let is_finite = |knot: &Knot| knot.x.is_finite() && table.at(knot.x).into_iter().all(f64::is_finite);
+        let is_finite =
+            |knot: &QuinticKnot| knot.x.is_finite() && table.at(knot.x).into_iter().all(f64::is_finite);
         if table.knots.iter().all(is_finite) { Ok(table) } else { Err(Error::Table) }
     }
 
@@ -73,7 +75,7 @@ impl SmoothTable {
     }
 }
 
-impl Knot {
+impl QuinticKnot {
     fn parabola(self, x: f64) -> [f64; 4] {
         let away = x - self.x;
         let slope = self.slope + self.bend * away;
@@ -82,7 +84,7 @@ impl Knot {
 }
 
 /// The quintic that has values and derivatives of both knots, and its first three derivatives.
-fn between(a: Knot, b: Knot, x: f64) -> [f64; 4] {
+fn between(a: QuinticKnot, b: QuinticKnot, x: f64) -> [f64; 4] {
     let width = b.x - a.x;
     let u = (x - a.x) / width;
     let (rise, [from, to]) = (b.y - a.y, [a, b].map(|knot| knot.slope * width));

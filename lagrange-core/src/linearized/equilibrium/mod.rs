@@ -19,7 +19,7 @@ use crate::solution::solve::solve;
 use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, State};
 use point::Point;
-use search::Balance;
+use search::EquilibriumSearch;
 
 /// An equilibrium, or a steady motion.
 #[derive(Clone)]
@@ -72,7 +72,7 @@ where
         [] => (0..N).map(Argument::Coordinate).collect(),
         names => Argument::named::<L, N, M, P>(names)?,
     };
-    let (mut balance, start) = Balance::start(system.clone(), guess, unknowns)?;
+    let (mut balance, start) = EquilibriumSearch::start(system.clone(), guess, unknowns)?;
     let at_the_guess = start.point.unsteadiness()?;
     let (found, iterations) = newton::find(&mut balance, start)?;
     balance.check_resolved(&found, iterations)?;

@@ -20,7 +20,7 @@ use crate::solution::solve::solve;
 use crate::system::{Lagrangian, State};
 
 /// What is sought, and in which units.
-pub(super) struct Balance<L: Lagrangian<N, M>, const N: usize, const M: usize, const P: usize> {
+pub(super) struct EquilibriumSearch<L: Lagrangian<N, M>, const N: usize, const M: usize, const P: usize> {
     unknowns: Vec<Argument>,
     /// What each row is multiplied by, so that rows of different units compare.
     weights: DVector<L::Scalar>,
@@ -29,14 +29,14 @@ pub(super) struct Balance<L: Lagrangian<N, M>, const N: usize, const M: usize, c
 }
 
 /// Where the search is.
-pub(super) struct Trial<L: Lagrangian<N, M>, const N: usize, const M: usize, const P: usize> {
+pub(super) struct Iterate<L: Lagrangian<N, M>, const N: usize, const M: usize, const P: usize> {
     pub(super) point: Point<L, N, M, P>,
     residual: DVector<L::Scalar>,
     jacobian: DMatrix<L::Scalar>,
     damping: L::Scalar,
 }
 
-impl<L, const N: usize, const M: usize, const P: usize> Balance<L, N, M, P>
+impl<L, const N: usize, const M: usize, const P: usize> EquilibriumSearch<L, N, M, P>
 where
     L: Linearized<N, M, P, Scalar: Real> + Clone,
 {
@@ -45,7 +45,7 @@ where
         system: L,
         guess: &State<L::Scalar, N>,
         unknowns: Vec<Argument>,
-    ) -> Result<(Self, Trial<L, N, M, P>), Error> {
+    ) -> Result<(Self, Iterate<L, N, M, P>), Error> {
         let none = vector([L::Scalar::constant(0.0); M]);
         let mut state = *guess;
         // Onto the constraints where nothing of it is held, and where that can be.
@@ -70,8 +70,8 @@ where
         Ok((balance, start))
     }
 
-    fn trial(&self, point: Point<L, N, M, P>, damping: L::Scalar) -> Trial<L, N, M, P> {
-        Trial { residual: point.residual(), jacobian: point.jacobian(&self.unknowns), point, damping }
+    fn trial(&self, point: Point<L, N, M, P>, damping: L::Scalar) -> Iterate<L, N, M, P> {
+        Iterate { residual: point.residual(), jacobian: point.jacobian(&self.unknowns), point, damping }
     }
 
     /// δ = −Σ_k v_k σ_k (u_k·R)/(σ_k² + μ), over the singular values that are not zero.
@@ -113,7 +113,7 @@ where
     /// Σ_j |∂R_i/∂x_j| size(j, |x_j|) over the unknowns and multipliers, for each row i.
     fn terms(
         &self,
-        trial: &Trial<L, N, M, P>,
+        trial: &Iterate<L, N, M, P>,
         size: impl Fn(usize, L::Scalar) -> L::Scalar,
     ) -> DVector<L::Scalar> {
         let unknowns = self.unknowns.iter().map(|&unknown| trial.point.value(unknown));
@@ -124,12 +124,12 @@ where
     }
 
     /// |R| in the units of the rows.
-    fn distance(&self, trial: &Trial<L, N, M, P>) -> L::Scalar {
+    fn distance(&self, trial: &Iterate<L, N, M, P>) -> L::Scalar {
         trial.residual.component_mul(&self.weights).norm()
     }
 
     /// Whether every row is round-off of its terms.
-    fn is_rounded(&self, trial: &Trial<L, N, M, P>) -> bool {
+    fn is_rounded(&self, trial: &Iterate<L, N, M, P>) -> bool {
         let part = L::Scalar::constant(4.0 * L::Scalar::EPSILON);
         let bound = self.terms(trial, |_, x| part * x);
         trial.residual.iter().zip(&bound).all(|(r, bound)| is_within(Scalar::abs(*r), *bound))
@@ -138,7 +138,7 @@ where
     /// Whether what is left may be round-off: it is small, of the terms of each row and of those where the unknowns
     /// are about 1; and what no step could take away is round-off of the terms here or at the guess. The second
     /// tells forces that cannot balance, however small their unit makes them.
-    fn is_negligible(&self, factors: &Singular<L::Scalar>, trial: &Trial<L, N, M, P>) -> bool {
+    fn is_negligible(&self, factors: &Singular<L::Scalar>, trial: &Iterate<L, N, M, P>) -> bool {
         let part = L::Scalar::constant(16.0 * L::Scalar::EPSILON);
         let floor = power_of_epsilon(0.75);
         let small = self.terms(trial, |_, x| part * x + floor);
@@ -152,7 +152,7 @@ where
 
     /// Refuses what is round-off only by a gradient: at the angle 10¹⁶, which is known to ±1, every force is round-off of
     /// the angle times its gradient. Of each term counts what the row really changes by with the unknown.
-    pub(super) fn check_resolved(&self, found: &Trial<L, N, M, P>, steps: usize) -> Result<(), Error> {
+    pub(super) fn check_resolved(&self, found: &Iterate<L, N, M, P>, steps: usize) -> Result<(), Error> {
         let (part, root) =
             (L::Scalar::constant(32.0 * L::Scalar::EPSILON), power_of_epsilon::<L::Scalar>(0.5));
         let unknowns = self.unknowns.len();
@@ -175,7 +175,7 @@ where
     }
 
     /// What takes part in the directions along which nothing changes.
-    pub(super) fn undetermined(&mut self, found: &Trial<L, N, M, P>) -> Result<Vec<String>, Error> {
+    pub(super) fn undetermined(&mut self, found: &Iterate<L, N, M, P>) -> Result<Vec<String>, Error> {
         let zero = L::Scalar::constant(0.0);
         let factors = self.linearize(found)?;
         let least = factors.norm() * power_of_epsilon(2.0 / 3.0);
@@ -189,12 +189,12 @@ where
     }
 }
 
-impl<L, const N: usize, const M: usize, const P: usize> Search for Balance<L, N, M, P>
+impl<L, const N: usize, const M: usize, const P: usize> Search for EquilibriumSearch<L, N, M, P>
 where
     L: Linearized<N, M, P, Scalar: Real> + Clone,
 {
     type Scalar = L::Scalar;
-    type Trial = Trial<L, N, M, P>;
+    type Trial = Iterate<L, N, M, P>;
     type Linear = Singular<L::Scalar>;
 
     const STEPS: usize = 200;
@@ -240,11 +240,11 @@ where
     }
 }
 
-impl<L, const N: usize, const M: usize, const P: usize> Balance<L, N, M, P>
+impl<L, const N: usize, const M: usize, const P: usize> EquilibriumSearch<L, N, M, P>
 where
     L: Linearized<N, M, P, Scalar: Real> + Clone,
 {
-    fn no_equilibrium(&self, trial: &Trial<L, N, M, P>, steps: usize) -> Error {
+    fn no_equilibrium(&self, trial: &Iterate<L, N, M, P>, steps: usize) -> Error {
         let size = |i: usize| Scalar::abs(trial.residual[i]) * self.weights[i];
         let worst =
             (1..trial.residual.len()).fold(0, |worst, i| if size(i) > size(worst) { i } else { worst });

@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::linearized::tangent::{Tangent, WideOf};
 use crate::motion::method::interpolant::{evaluate, hermite};
 use crate::motion::method::pair::{Slopes, advance, last};
-use crate::motion::method::step::Memory;
+use crate::motion::method::step::PairMemory;
 use crate::motion::run::Run;
 use crate::motion::{Adaptive, Combination, Pair};
 use crate::number::{Over, Real, Scalar, Wide, exceeds, vector};
@@ -122,7 +122,7 @@ impl<Q: Pair> Adaptive<Q> {
     /// The largest error of a variation as a part of the tolerance, and of which.
     fn error_of<L, const N: usize, const M: usize, const P: usize>(
         &self,
-        memory: &Memory<L::Scalar, N, M>,
+        memory: &PairMemory<L::Scalar, N, M>,
         variations: &Variations<L, N, M, P>,
         all: &[Stages<WideOf<L, N, M>, N>],
     ) -> (L::Scalar, usize)
@@ -162,7 +162,7 @@ fn step_back<L, const N: usize, const M: usize, const P: usize>(
 /// To the end of the step that the motion has taken.
 fn go<Q: Pair, L, const N: usize, const M: usize, const P: usize>(
     system: &L,
-    memory: &Memory<L::Scalar, N, M>,
+    memory: &PairMemory<L::Scalar, N, M>,
     variations: &mut Variations<L, N, M, P>,
     all: &mut [Stages<WideOf<L, N, M>, N>],
 ) -> Result<(), Error>
@@ -189,7 +189,7 @@ where
 /// The slopes of these stages of a step taken, the first of which has the number given.
 fn stages<Q: Pair, L, const N: usize, const M: usize, const P: usize>(
     system: &L,
-    memory: &Memory<L::Scalar, N, M>,
+    memory: &PairMemory<L::Scalar, N, M>,
     variations: &Variations<L, N, M, P>,
     all: &mut [Stages<WideOf<L, N, M>, N>],
     (first, rows): (usize, &[Combination]),

@@ -1,6 +1,6 @@
 //! What an event is about, and what is known of it from step to step.
 
-use super::Direction;
+use super::CrossingDirection;
 use super::chebyshev::{FINEST, Samples, Shape};
 use crate::ending::Ending;
 use crate::motion::run::is_between;
@@ -8,9 +8,9 @@ use crate::number::{Real, Scalar, larger, smaller};
 
 /// What an event is about, and what is known of it from step to step.
 #[derive(Clone, Debug)]
-pub struct Memory<T> {
+pub struct EventState<T> {
     pub(super) name: &'static str,
-    pub(super) direction: Direction,
+    pub(super) direction: CrossingDirection,
     /// How many pieces a step is looked at in, at least.
     pub(super) pieces: usize,
     /// The crossing at which a run ends.
@@ -88,12 +88,12 @@ const SHORT: f64 = 1.0 / 67_108_864.0;
 /// have a few zeros close together, but no motion is changed again and again without a reason.
 const ACCUMULATED: usize = 6;
 
-impl<T: Real> Memory<T> {
+impl<T: Real> EventState<T> {
     pub(super) fn new(name: &'static str) -> Self {
         let zero = T::constant(0.0);
         Self {
             name,
-            direction: Direction::Both,
+            direction: CrossingDirection::Both,
             pieces: 1,
             terminal: None,
             count: 0,
@@ -273,9 +273,9 @@ impl<T: Real> Memory<T> {
         let rises = self.value < zero && self.next >= zero;
         let falls = self.value > zero && self.next <= zero;
         match self.direction {
-            Direction::Rising => rises,
-            Direction::Falling => falls,
-            Direction::Both => rises || falls,
+            CrossingDirection::Rising => rises,
+            CrossingDirection::Falling => falls,
+            CrossingDirection::Both => rises || falls,
         }
     }
 

@@ -12,8 +12,8 @@ use core::borrow::Borrow;
 use core::fmt::{self, Debug, Formatter};
 use core::marker::PhantomData;
 
-use memory::Memory;
-pub(crate) use search::{Search, Stride};
+use memory::EventState;
+pub(crate) use search::{EventSearch, Stride};
 
 use crate::error::Error;
 use crate::number::{Dual, Real};
@@ -71,26 +71,26 @@ use crate::system::{Lagrangian, State};
 /// another one starts.
 pub struct Event<L: Lagrangian<N, M>, G, const N: usize, const M: usize> {
     function: G,
-    memory: Memory<L::Scalar>,
+    memory: EventState<L::Scalar>,
     system: PhantomData<fn(&L)>,
 }
 
 impl<L: Lagrangian<N, M, Scalar: Real>, G, const N: usize, const M: usize> Event<L, G, N, M> {
     pub(crate) fn new(name: &'static str, function: G) -> Self {
-        Self { function, memory: Memory::new(name), system: PhantomData }
+        Self { function, memory: EventState::new(name), system: PhantomData }
     }
 
     /// Only where g grows through zero.
     #[must_use]
     pub fn rising(mut self) -> Self {
-        self.memory.direction = Direction::Rising;
+        self.memory.direction = CrossingDirection::Rising;
         self
     }
 
     /// Only where g falls through zero.
     #[must_use]
     pub fn falling(mut self) -> Self {
-        self.memory.direction = Direction::Falling;
+        self.memory.direction = CrossingDirection::Falling;
         self
     }
 
@@ -146,7 +146,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, G, const N: usize, const M: usize> Event
 
 /// Which crossings an event is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Direction {
+enum CrossingDirection {
     Rising,
     Falling,
     Both,
@@ -233,7 +233,7 @@ pub trait Watched<L: Lagrangian<N, M>, const N: usize, const M: usize>: sealed::
 
     /// What it is about, and what is known of it.
     #[doc(hidden)]
-    fn memory(&mut self) -> &mut Memory<L::Scalar>;
+    fn memory(&mut self) -> &mut EventState<L::Scalar>;
 
     /// Takes a sample of its function, unless it is known well enough.
     #[doc(hidden)]
@@ -260,7 +260,7 @@ impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Watched<L, N, M>
     }
 
     #[inline]
-    fn memory(&mut self) -> &mut Memory<L::Scalar> {
+    fn memory(&mut self) -> &mut EventState<L::Scalar> {
         (**self).memory()
     }
 
@@ -287,7 +287,7 @@ where
     }
 
     #[inline]
-    fn memory(&mut self) -> &mut Memory<L::Scalar> {
+    fn memory(&mut self) -> &mut EventState<L::Scalar> {
         &mut self.memory
     }
 

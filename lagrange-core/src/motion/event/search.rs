@@ -85,14 +85,14 @@ enum Look {
 const MOST_INTERVALS: usize = 4096;
 
 /// The events `W` that a motion is searched for.
-pub(crate) struct Search<'e, W, L: Lagrangian<N, M>, const N: usize, const M: usize> {
+pub(crate) struct EventSearch<'e, W, L: Lagrangian<N, M>, const N: usize, const M: usize> {
     pub(crate) events: &'e mut [W],
     /// How many pieces every step is looked at in, at least.
     pub(crate) pieces: usize,
     pub(crate) system: PhantomData<fn(&L)>,
 }
 
-impl<'e, W, L, const N: usize, const M: usize> Search<'e, W, L, N, M>
+impl<'e, W, L, const N: usize, const M: usize> EventSearch<'e, W, L, N, M>
 where
     W: Watched<L, N, M>,
     L: Lagrangian<N, M, Scalar: Real>,

@@ -18,7 +18,7 @@ where
     P: LaneMethod<L, N, M>,
 {
     method: &'o P,
-    abreast: P::Abreast,
+    abreast: P::LaneMemory,
     seats: Seats<'o, L, P, N, M>,
 }
 

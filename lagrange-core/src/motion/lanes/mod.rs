@@ -35,7 +35,7 @@ where
 {
     /// Systems with their states, and what a step of them takes.
     #[doc(hidden)]
-    type Abreast;
+    type LaneMemory;
 
     /// The time that a motion has reached.
     #[doc(hidden)]
@@ -57,45 +57,45 @@ where
 
     /// This motion in all lanes. Free ones compute what the first does, to no purpose and no harm.
     #[doc(hidden)]
-    fn abreast(&self, system: &L, memory: &Self::Memory) -> Self::Abreast;
+    fn abreast(&self, system: &L, memory: &Self::Memory) -> Self::LaneMemory;
 
     /// Puts the parameters into a lane; `false`, and nothing done, where a field that all lanes share differs.
     #[doc(hidden)]
-    fn place(abreast: &mut Self::Abreast, lane: usize, system: &L) -> bool;
+    fn place(abreast: &mut Self::LaneMemory, lane: usize, system: &L) -> bool;
 
     /// Puts where a motion is into a lane.
     #[doc(hidden)]
-    fn load(abreast: &mut Self::Abreast, lane: usize, memory: &Self::Memory);
+    fn load(abreast: &mut Self::LaneMemory, lane: usize, memory: &Self::Memory);
 
     /// Gives the motion what its lane holds.
     #[doc(hidden)]
-    fn unload(abreast: &Self::Abreast, lane: usize, memory: &mut Self::Memory);
+    fn unload(abreast: &Self::LaneMemory, lane: usize, memory: &mut Self::Memory);
 
     /// Coordinates and velocities in a lane.
     #[doc(hidden)]
-    fn phase(abreast: &Self::Abreast, lane: usize) -> Phase<f64, N>;
+    fn phase(abreast: &Self::LaneMemory, lane: usize) -> Phase<f64, N>;
 
     /// Where the step tried last leads in a lane. After it is taken this is the same, and need not wait for the numbers to be
     /// written there.
     #[doc(hidden)]
-    fn reached(abreast: &Self::Abreast, lane: usize) -> Phase<f64, N>;
+    fn reached(abreast: &Self::LaneMemory, lane: usize) -> Phase<f64, N>;
 
     /// Tries a step in all lanes and moves the clocks of those where it is accepted; `None` for one that is to be taken alone.
     /// Of no step is it known where it leads within, where `IS_WATCHED` is false.
     #[doc(hidden)]
     fn attempt<const IS_WATCHED: bool>(
         &self,
-        abreast: &mut Self::Abreast,
+        abreast: &mut Self::LaneMemory,
         seats: &mut Seats<'_, L, Self, N, M>,
     ) -> [Option<Fate>; Lanes::COUNT];
 
     /// Moves the lanes chosen to where their steps lead.
     #[doc(hidden)]
-    fn settle(abreast: &mut Self::Abreast, chosen: Lanes);
+    fn settle(abreast: &mut Self::LaneMemory, chosen: Lanes);
 
     /// What lies within the step of a lane that was tried last.
     #[doc(hidden)]
-    fn within(abreast: &Self::Abreast, lane: usize) -> impl Interpolant<f64, N>;
+    fn within(abreast: &Self::LaneMemory, lane: usize) -> impl Interpolant<f64, N>;
 }
 
 /// Who is in which lane.

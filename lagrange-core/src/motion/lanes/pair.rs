@@ -6,7 +6,7 @@ use super::{Fate, LaneMethod, Seats, Trust, unpacked};
 use crate::error::Error;
 use crate::motion::method::interpolant::{evaluate, hermite};
 use crate::motion::method::pair::{Combination, Slopes, advance, check, last};
-use crate::motion::method::step::Memory;
+use crate::motion::method::step::PairMemory;
 use crate::motion::{Adaptive, Interpolant, Pair};
 use crate::number::{Lanes, Scalar, vector};
 use crate::room::Room;
@@ -18,7 +18,7 @@ use crate::system::{Lagrangian, Pack, Packed, State};
 
 /// Motions side by side, and what a step of them takes.
 #[derive(Debug)]
-pub struct Abreast<S, P: Pair, const N: usize, const M: usize> {
+pub struct PairLanes<S, P: Pair, const N: usize, const M: usize> {
     system: S,
     y: Phase<Lanes, N>,
     /// The first is that of `y`.
@@ -34,7 +34,7 @@ pub struct Abreast<S, P: Pair, const N: usize, const M: usize> {
 }
 
 /// What the lanes say about a step, before anyone decides.
-struct Tried {
+struct LaneErrors {
     error: [f64; Lanes::COUNT],
     /// Which lanes can be relied on.
     sound: [bool; Lanes::COUNT],
@@ -45,20 +45,20 @@ where
     P: Pair,
     L: Lagrangian<N, M, Scalar = f64> + Pack<Lanes, Packed: Lagrangian<N, M, Scalar = Lanes>>,
 {
-    type Abreast = Abreast<L::Packed, P, N, M>;
+    type LaneMemory = PairLanes<L::Packed, P, N, M>;
 
-    fn now(memory: &Memory<f64, N, M>) -> f64 {
+    fn now(memory: &PairMemory<f64, N, M>) -> f64 {
         memory.clock.now
     }
 
-    fn is_at_end(memory: &Memory<f64, N, M>) -> bool {
+    fn is_at_end(memory: &PairMemory<f64, N, M>) -> bool {
         memory.clock.is_at_end()
     }
 
     fn prepare(
         &self,
         system: &L,
-        memory: &mut Memory<f64, N, M>,
+        memory: &mut PairMemory<f64, N, M>,
         end: f64,
         statistics: &mut Statistics,
     ) -> Result<(), Error> {
@@ -70,40 +70,40 @@ where
         memory.ensure_slope::<L, LagrangianFlow>(system, statistics)
     }
 
-    fn abreast(&self, system: &L, memory: &Memory<f64, N, M>) -> Self::Abreast {
+    fn abreast(&self, system: &L, memory: &PairMemory<f64, N, M>) -> Self::LaneMemory {
         let zero = [[Lanes::constant(0.0); N]; 2];
         let mut slopes = Room::<Slopes<Lanes, N>>::filled(zero);
         slopes[0] = Packed::splat(&memory.slope);
         let (system, y) = (system.pack(), Packed::splat(&memory.y));
         let [now, h, end] = [[0.0; Lanes::COUNT]; 3];
-        Abreast { system, y, slopes, now, h, end, next: zero, coefficients: P::coefficients(zero) }
+        PairLanes { system, y, slopes, now, h, end, next: zero, coefficients: P::coefficients(zero) }
     }
 
-    fn place(abreast: &mut Self::Abreast, lane: usize, system: &L) -> bool {
+    fn place(abreast: &mut Self::LaneMemory, lane: usize, system: &L) -> bool {
         system.place(&mut abreast.system, lane)
     }
 
-    fn load(abreast: &mut Self::Abreast, lane: usize, memory: &Memory<f64, N, M>) {
+    fn load(abreast: &mut Self::LaneMemory, lane: usize, memory: &PairMemory<f64, N, M>) {
         abreast.y.place(lane, &memory.y);
         abreast.slopes[0].place(lane, &memory.slope);
     }
 
-    fn unload(abreast: &Self::Abreast, lane: usize, memory: &mut Memory<f64, N, M>) {
+    fn unload(abreast: &Self::LaneMemory, lane: usize, memory: &mut PairMemory<f64, N, M>) {
         [memory.y, memory.slope] = [&abreast.y, &abreast.slopes[0]].map(|packed| unpacked(packed, lane));
     }
 
-    fn phase(abreast: &Self::Abreast, lane: usize) -> Phase<f64, N> {
+    fn phase(abreast: &Self::LaneMemory, lane: usize) -> Phase<f64, N> {
         unpacked(&abreast.y, lane)
     }
 
-    fn reached(abreast: &Self::Abreast, lane: usize) -> Phase<f64, N> {
+    fn reached(abreast: &Self::LaneMemory, lane: usize) -> Phase<f64, N> {
         unpacked(&abreast.next, lane)
     }
 
     #[inline(always)]
     fn attempt<const IS_WATCHED: bool>(
         &self,
-        abreast: &mut Self::Abreast,
+        abreast: &mut Self::LaneMemory,
         seats: &mut Seats<'_, L, Self, N, M>,
     ) -> [Option<Fate>; Lanes::COUNT] {
         // In a free lane time stands still.
@@ -124,8 +124,8 @@ where
         })
     }
 
-    fn settle(abreast: &mut Self::Abreast, chosen: Lanes) {
-        let Abreast { y, slopes, next, .. } = abreast;
+    fn settle(abreast: &mut Self::LaneMemory, chosen: Lanes) {
+        let PairLanes { y, slopes, next, .. } = abreast;
         for half in 0..2 {
             for i in 0..N {
                 let (y, slope) = (&mut y[half][i], slopes[last::<P>()][half][i]);
@@ -135,19 +135,19 @@ where
         }
     }
 
-    fn within(abreast: &Self::Abreast, lane: usize) -> impl Interpolant<f64, N> {
+    fn within(abreast: &Self::LaneMemory, lane: usize) -> impl Interpolant<f64, N> {
         let (start, length, coefficients) = (abreast.now[lane], abreast.h[lane], &abreast.coefficients);
         LaneOf { lane, start, length, coefficients }
     }
 }
 
-impl<S, P, const N: usize, const M: usize> Abreast<S, P, N, M>
+impl<S, P, const N: usize, const M: usize> PairLanes<S, P, N, M>
 where
     S: Lagrangian<N, M, Scalar = Lanes>,
     P: Pair,
 {
     /// Stages, error and projection in all lanes, and the slopes at the end of the step.
-    fn attempt<L>(&mut self, method: &Adaptive<P>, seats: &Seats<'_, L, Adaptive<P>, N, M>) -> Tried
+    fn attempt<L>(&mut self, method: &Adaptive<P>, seats: &Seats<'_, L, Adaptive<P>, N, M>) -> LaneErrors
     where
         L: Lagrangian<N, M, Scalar = f64>,
     {
@@ -172,7 +172,7 @@ where
         }
         self.next = next;
         let trusted = trust.lanes();
-        Tried { error, sound: from_fn(|lane| trusted[lane] && projected[lane]) }
+        LaneErrors { error, sound: from_fn(|lane| trusted[lane] && projected[lane]) }
     }
 
     /// The slopes of these stages, the first of which has the number given.
@@ -235,7 +235,7 @@ where
         &mut self,
         method: &Adaptive<P>,
         seats: &Seats<'_, L, Adaptive<P>, N, M>,
-        tried: &mut Tried,
+        tried: &mut LaneErrors,
     ) -> [bool; Lanes::COUNT]
     where
         L: Lagrangian<N, M, Scalar = f64>,
@@ -266,11 +266,11 @@ where
 /// Accepts or rejects a step computed on lanes; `None` where it is to be taken alone.
 fn decide<P: Pair, const N: usize, const M: usize>(
     method: &Adaptive<P>,
-    memory: &mut Memory<f64, N, M>,
+    memory: &mut PairMemory<f64, N, M>,
     (h, time): (f64, f64),
     error: f64,
 ) -> Option<Fate> {
-    let Memory { clock, control, active, .. } = memory;
+    let PairMemory { clock, control, active, .. } = memory;
     if active.contains(&false) || !clock.is_ahead(time) {
         return None;
     }
@@ -290,7 +290,7 @@ fn decide<P: Pair, const N: usize, const M: usize>(
 /// As many evaluations as the step takes alone, with an interpolant or without.
 fn count<P: Pair, const N: usize, const M: usize>(
     method: &Adaptive<P>,
-    Memory { has_slope, .. }: &mut Memory<f64, N, M>,
+    PairMemory { has_slope, .. }: &mut PairMemory<f64, N, M>,
     statistics: &mut Statistics,
     fate: Fate,
     is_looked_into: bool,

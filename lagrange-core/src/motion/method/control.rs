@@ -8,7 +8,7 @@ use super::clock::Clock;
 use super::pair::error_needs_last;
 use super::pair::{Pair, Slopes, combine};
 #[cfg(feature = "alloc")]
-use super::step::Memory;
+use super::step::PairMemory;
 #[cfg(feature = "alloc")]
 use crate::number::Over;
 use crate::number::{Real, Scalar, entries, exceeds, larger, smaller, sum};
@@ -68,7 +68,7 @@ fn reduction<P: Pair, T: Real>(error: T) -> T {
 }
 
 /// The place of an entry: half 0 the coordinates, 1 the velocities, and the index.
-pub(crate) type Place = (usize, usize);
+pub(crate) type StateEntry = (usize, usize);
 
 /// The error allowed in each entry: `absolute + relative · |x|`.
 #[derive(Clone, Copy)]
@@ -140,9 +140,9 @@ impl Tolerance {
         slopes: &Slopes<T, N>,
         before: &Phase<T, N>,
         after: &Phase<T, N>,
-    ) -> Place {
+    ) -> StateEntry {
         let (error, scale) = (combine(slopes, P::ERROR), self.scale(before, after));
-        let part = |(half, i): Place| Scalar::abs(error[half][i]) / scale[half][i];
+        let part = |(half, i): StateEntry| Scalar::abs(error[half][i]) / scale[half][i];
         let places = (0..2).flat_map(|half| (0..N).map(move |i| (half, i)));
         places.fold((0, 0), |worst, place| if part(place) > part(worst) { place } else { worst })
     }
@@ -221,7 +221,7 @@ impl<P: Pair> Adaptive<P> {
     #[cfg(feature = "alloc")]
     pub(crate) fn accept_with<T: Real, const N: usize, const M: usize>(
         &self,
-        memory: &mut Memory<T, N, M>,
+        memory: &mut PairMemory<T, N, M>,
         error: T,
     ) {
         let Some(taken) = memory.taken.as_ref().filter(|_| self.fixed_step.is_none()) else { return };

@@ -8,7 +8,7 @@ use core::fmt;
 use nalgebra::ComplexField;
 
 use super::clock::Clock;
-use super::control::{Control, Place};
+use super::control::{Control, StateEntry};
 use super::interpolant::{Polynomial, hermite};
 use super::pair::{
     Combination, Pair, Slopes, advance, advance_from, check, error_needs_last, is_carried, last,
@@ -26,7 +26,7 @@ use crate::system::{Lagrangian, State};
 
 /// What a pair carries from step to step.
 #[derive(Clone, Debug)]
-pub struct Memory<T, const N: usize, const M: usize> {
+pub struct PairMemory<T, const N: usize, const M: usize> {
     pub(crate) clock: Clock<T>,
     pub(crate) control: Control<T>,
     /// Whether the length of a step has been chosen, which takes an end.
@@ -61,7 +61,7 @@ struct Origin<T, const N: usize, const M: usize> {
     active: [bool; M],
 }
 
-impl<T: Real, const N: usize, const M: usize> Memory<T, N, M> {
+impl<T: Real, const N: usize, const M: usize> PairMemory<T, N, M> {
     /// The next step, signed, and the time after it.
     pub(crate) fn next(&self) -> (T, T) {
         self.clock.next(self.control.step)
@@ -97,7 +97,7 @@ impl<T: Real, const N: usize, const M: usize> Memory<T, N, M> {
 /// Why a step is not accepted.
 enum Refusal<T> {
     /// Its error is this many times the tolerance.
-    Inaccurate(T, Place),
+    Inaccurate(T, StateEntry),
     /// Somewhere in it the equations or the constraints have no solution.
     Unsolved(Error),
 }
@@ -121,7 +121,7 @@ where
     L: Lagrangian<N, M, Scalar: Real>,
     F: Flow<L, N, M>,
 {
-    type Memory = Memory<L::Scalar, N, M>;
+    type Memory = PairMemory<L::Scalar, N, M>;
     type Interpolant = Polynomial<L::Scalar, P::Coefficients<Phase<L::Scalar, N>>>;
 
     fn limits(&self) -> Limits {
@@ -143,7 +143,7 @@ where
         statistics: &mut Statistics,
     ) -> Result<Self::Memory, Error> {
         let zero = [[L::Scalar::constant(0.0); N]; 2];
-        let mut memory = Memory {
+        let mut memory = PairMemory {
             clock: Clock::new(start.t, self.fixed_step.map(L::Scalar::constant)),
             control: Control::new(L::Scalar::constant(0.0)),
             is_planned: false,
@@ -259,7 +259,7 @@ impl<P: Pair> Adaptive<P> {
     pub(crate) fn aim<L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize>(
         &self,
         system: &L,
-        memory: &mut Memory<L::Scalar, N, M>,
+        memory: &mut PairMemory<L::Scalar, N, M>,
         end: L::Scalar,
         statistics: &mut Statistics,
     ) {
@@ -275,14 +275,14 @@ impl<P: Pair> Adaptive<P> {
     }
 
     /// Whether there is a shorter step to try; none is where all are of one size.
-    fn can_try_again<T: Real, const N: usize, const M: usize>(&self, memory: &Memory<T, N, M>) -> bool {
+    fn can_try_again<T: Real, const N: usize, const M: usize>(&self, memory: &PairMemory<T, N, M>) -> bool {
         self.fixed_step.is_none() && memory.clock.advances_by(memory.control.step)
     }
 
     /// Moves to where the step has led.
     fn take<L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize>(
         &self,
-        memory: &mut Memory<L::Scalar, N, M>,
+        memory: &mut PairMemory<L::Scalar, N, M>,
         (h, time): (L::Scalar, L::Scalar),
         reached: &Reached<L::Scalar, N, M>,
     ) -> State<L::Scalar, N> {
@@ -298,7 +298,7 @@ impl<P: Pair> Adaptive<P> {
     fn attempt<L, F, const N: usize, const M: usize, const IS_FIXED: bool>(
         &self,
         system: &L,
-        memory: &mut Memory<L::Scalar, N, M>,
+        memory: &mut PairMemory<L::Scalar, N, M>,
         (h, time): (L::Scalar, L::Scalar),
         statistics: &mut Statistics,
     ) -> Result<Reached<L::Scalar, N, M>, Refusal<L::Scalar>>
@@ -359,9 +359,9 @@ impl<P: Pair> Adaptive<P> {
     >(
         &self,
         system: &L,
-        memory: &Memory<L::Scalar, N, M>,
+        memory: &PairMemory<L::Scalar, N, M>,
     ) -> Option<f64> {
-        let Memory { clock, control, y, slope: here, active, .. } = memory;
+        let PairMemory { clock, control, y, slope: here, active, .. } = memory;
         // From 0.75 to 1.5 of the way to the next number, and so that one.
         let next = clock.now + L::Scalar::constant(0.75 * L::Scalar::EPSILON) * Scalar::abs(clock.now);
         let point = PhasePoint { t: next, y: *y, velocity: here[0] };
@@ -376,10 +376,10 @@ impl<P: Pair> Adaptive<P> {
     fn estimate_step<L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize>(
         &self,
         system: &L,
-        memory: &Memory<L::Scalar, N, M>,
+        memory: &PairMemory<L::Scalar, N, M>,
         statistics: &mut Statistics,
     ) -> L::Scalar {
-        let Memory { clock, y, slope: first, active, .. } = memory;
+        let PairMemory { clock, y, slope: first, active, .. } = memory;
         let guess = self.tolerance::<L::Scalar>().guess_step(y, first, clock.left());
         let h = clock.directed(guess);
         let euler = from_fn(|half| entries(|i| y[half][i] + h * first[half][i]));
@@ -396,7 +396,7 @@ impl<P: Pair> Adaptive<P> {
 #[inline(always)]
 fn look_within<P, L, F, const N: usize, const M: usize>(
     system: &L,
-    memory: &mut Memory<L::Scalar, N, M>,
+    memory: &mut PairMemory<L::Scalar, N, M>,
     statistics: &mut Statistics,
 ) -> Result<(L::Scalar, L::Scalar), Error>
 where
@@ -417,7 +417,7 @@ where
 /// Puts what lies within the step taken last, by its slopes, into these coefficients.
 #[inline(always)]
 fn interpolate<P: Pair, T: Real, const N: usize, const M: usize>(
-    memory: &Memory<T, N, M>,
+    memory: &PairMemory<T, N, M>,
     coefficients: &mut [Phase<T, N>],
 ) {
     let (slopes, zero) = (&*memory.slopes, [[T::constant(0.0); N]; 2]);
@@ -497,7 +497,7 @@ fn check_finite<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usiz
 }
 
 fn entry<L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize>(
-    (half, index): Place,
+    (half, index): StateEntry,
 ) -> Entry {
     let name = name(&L::COORDINATES, index);
     if half == 0 { Entry::Coordinate(name) } else { F::entry(name) }

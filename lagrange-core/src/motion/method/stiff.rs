@@ -5,7 +5,7 @@
 //! problem, step after step is as long as the method stays stable.
 
 use super::pair::{Combination, Pair, SLOPES, combine, last};
-use super::step::{Memory, Taken};
+use super::step::{PairMemory, Taken};
 use super::{Adaptive, Method, Step};
 use crate::number::{Real, Scalar};
 use crate::solution::flow::Flow;
@@ -21,7 +21,7 @@ impl<P: Pair> Adaptive<P> {
     pub(super) fn find_stiffness<L, F, const N: usize, const M: usize>(
         &self,
         system: &L,
-        memory: &Memory<L::Scalar, N, M>,
+        memory: &PairMemory<L::Scalar, N, M>,
         end: L::Scalar,
     ) -> Option<f64>
     where
@@ -47,7 +47,7 @@ impl<P: Pair> Adaptive<P> {
     }
 }
 
-impl<T: Real, const N: usize, const M: usize> Memory<T, N, M> {
+impl<T: Real, const N: usize, const M: usize> PairMemory<T, N, M> {
     /// The length of the last step, and the rate |λ| of the motion that grows or dies fastest, if it shows there.
     ///
     /// Where q̇ = λ q and q̈ = λ q̇, the product of both ratios is λ², whatever the units. So it is where q̈ = λ² q alone

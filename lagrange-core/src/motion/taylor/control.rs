@@ -3,7 +3,7 @@
 use core::array::from_fn;
 
 use super::Taylor;
-use super::expansion::{Expansion, Solved};
+use super::expansion::{Expansion, SolvedState};
 use crate::motion::method::clock::Clock;
 use crate::motion::method::control::{FIRST, Tolerance};
 use crate::number::{Filled, ROOM, Real, Scalar, larger, smaller};
@@ -41,7 +41,7 @@ impl Taylor {
     pub(super) fn first<T: Real, const N: usize, const M: usize>(
         &self,
         state: &State<T, N>,
-        solved: &Solved<T, N, M>,
+        solved: &SolvedState<T, N, M>,
         span: T,
     ) -> T {
         let tolerance = Tolerance { relative: self.tolerance::<T>(), absolute: self.absolute };

@@ -6,7 +6,7 @@
 
 use super::Taylor;
 use super::control::log2_roughly;
-use super::expansion::{Expansion, Solved};
+use super::expansion::{Expansion, SolvedState};
 use crate::number::{Filled, Real, Scalar, larger};
 use crate::solution::solve::is_trustworthy;
 
@@ -27,7 +27,7 @@ const ROUNDING: f64 = 1.2;
 /// So many times it is tried longer where it was refused.
 const LONGER: usize = 2;
 
-impl<T: Real, const N: usize, const M: usize> Solved<T, N, M> {
+impl<T: Real, const N: usize, const M: usize> SolvedState<T, N, M> {
     /// How independent the constraints are, from 0 to 1.
     fn independence(&self) -> T {
         // The elimination has squares on its diagonal.
@@ -65,7 +65,7 @@ impl Taylor {
         &self,
         series: &mut Expansion<S, T, N>,
         planned: T,
-    ) -> Option<Crossing<T>> {
+    ) -> Option<SingularStep<T>> {
         let [least, times] = ERROR;
         let error = log2_roughly(larger(least, times * self.tolerance::<T>()));
         let scales = series.scales(T::constant(self.slack::<T>()));
@@ -84,14 +84,14 @@ impl Taylor {
         let is_worth_it = is_rounding && length > planned * T::constant(WORTH);
         is_worth_it.then(|| {
             series.summed = order;
-            Crossing { length, left: LONGER, planned }
+            SingularStep { length, left: LONGER, planned }
         })
     }
 }
 
 /// A step by fewer orders.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Crossing<T> {
+pub(super) struct SingularStep<T> {
     pub(super) length: T,
     /// So many times it may still be tried longer: where it was refused, it ended near the pose.
     left: usize,
@@ -99,7 +99,7 @@ pub(super) struct Crossing<T> {
     planned: T,
 }
 
-impl<T: Real> Crossing<T> {
+impl<T: Real> SingularStep<T> {
     /// The next to try after this one was refused; the step by all orders where none is left.
     pub(super) fn longer(self) -> Result<Self, T> {
         let left = self.left.checked_sub(1).ok_or(self.planned)?;

@@ -3,7 +3,7 @@
 use core::array::from_fn;
 
 use super::Taylor;
-use super::expansion::{Expansion, Solved};
+use super::expansion::{Expansion, SolvedState};
 use super::sampling::parts;
 use crate::error::Error;
 use crate::number::{Filled, Real, Scalar, exceeds, larger, vector};
@@ -25,11 +25,11 @@ const STRICT: f64 = 64.0;
 const ROUNDING: [f64; 2] = [4.0, 16.0];
 
 /// A step to be looked at.
-pub(super) struct Tried<'a, S, T, const N: usize, const M: usize> {
+pub(super) struct CandidateStep<'a, S, T, const N: usize, const M: usize> {
     pub(super) series: &'a Expansion<S, T, N>,
     pub(super) start: &'a State<T, N>,
     pub(super) end: &'a State<T, N>,
-    pub(super) solved: &'a Solved<T, N, M>,
+    pub(super) solved: &'a SolvedState<T, N, M>,
     pub(super) length: T,
     /// Those of the series at the end.
     pub(super) accelerations: &'a [T; N],
@@ -39,7 +39,7 @@ pub(super) struct Tried<'a, S, T, const N: usize, const M: usize> {
     pub(super) is_near_dependence: bool,
 }
 
-impl<S: Filled<T>, T: Real, const N: usize, const M: usize> Tried<'_, S, T, N, M> {
+impl<S: Filled<T>, T: Real, const N: usize, const M: usize> CandidateStep<'_, S, T, N, M> {
     /// The velocity that is off the most, where one is by too much.
     pub(super) fn inaccurate<L>(
         &self,
@@ -68,7 +68,7 @@ impl<S: Filled<T>, T: Real, const N: usize, const M: usize> Tried<'_, S, T, N, M
                 .map(|(x, change)| vector(from_fn(|i| x[i] + change[i])));
             let there = State { t: self.start.t + length, q, v };
             statistics.evaluations += 1;
-            let solved = Solved::at(system, &there)?;
+            let solved = SolvedState::at(system, &there)?;
             let found = self.off(system, method, (&there, &solved), &accelerations, bound);
             if found.is_some() {
                 return Ok(found);
@@ -81,7 +81,7 @@ impl<S: Filled<T>, T: Real, const N: usize, const M: usize> Tried<'_, S, T, N, M
         &self,
         system: &L,
         method: &Taylor,
-        (state, solved): (&State<T, N>, &Solved<T, N, M>),
+        (state, solved): (&State<T, N>, &SolvedState<T, N, M>),
         accelerations: &[T; N],
         bound: f64,
     ) -> Option<usize>
@@ -137,7 +137,7 @@ pub(super) fn part<T: Scalar>([start, end]: [T; 2], off: T, length: T, slack: T)
 fn is_rounding<L, T: Real, const N: usize, const M: usize>(
     system: &L,
     state: &State<T, N>,
-    solved: &Solved<T, N, M>,
+    solved: &SolvedState<T, N, M>,
     row: usize,
     off: T,
 ) -> bool
@@ -149,10 +149,10 @@ where
     let moved = |[even, odd]: [T; 2]| {
         let moved = |x: &[T; N]| vector(from_fn(|i| x[i] * if i % 2 == 0 { even } else { odd }));
         let state = State { t: state.t * even, q: moved(&state.q.into()), v: moved(&state.v.into()) };
-        Solved::at(system, &state)
+        SolvedState::at(system, &state)
     };
     [factors, [factors[1], factors[0]]].into_iter().any(|factors| {
-        let change = |other: Solved<T, N, M>| {
+        let change = |other: SolvedState<T, N, M>| {
             Scalar::abs(other.solution.accelerations[row] - solved.solution.accelerations[row])
         };
         moved(factors).is_ok_and(|other| off <= change(other) * T::constant(times))

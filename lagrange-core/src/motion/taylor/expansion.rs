@@ -6,7 +6,7 @@ use core::convert::Infallible;
 
 use super::control::{LAST, Last, exp2_roughly, log2_roughly};
 use super::sampling::is_linear;
-use super::sums::{Ends, Factors};
+use super::sums::{Ends, SeriesFactors};
 use crate::error::Error;
 use crate::linearized::Direction;
 use crate::number::{Filled, PowerSeries, Real, Scalar, larger, vector};
@@ -28,12 +28,12 @@ const LEAST: f64 = 2.0;
 
 /// Accelerations and multipliers at a state, and on which constraints they rest.
 #[derive(Clone, Debug)]
-pub(super) struct Solved<T, const N: usize, const M: usize> {
+pub(super) struct SolvedState<T, const N: usize, const M: usize> {
     pub(super) solution: Solution<T, N, M>,
     pub(super) active: [bool; M],
 }
 
-impl<T: Real, const N: usize, const M: usize> Solved<T, N, M> {
+impl<T: Real, const N: usize, const M: usize> SolvedState<T, N, M> {
     pub(super) fn at<L: Lagrangian<N, M, Scalar = T>>(
         system: &L,
         state: &State<T, N>,
@@ -60,7 +60,7 @@ pub(super) struct Expansion<S, T, const N: usize> {
     pub(super) v: Vec<[T; N]>,
     /// Up to which order they are summed: all, or where those beyond are rounding.
     pub(super) summed: usize,
-    pub(super) factors: Factors<T, S>,
+    pub(super) factors: SeriesFactors<T, S>,
     /// The values of roots, in the order of [`TaylorSeries::ROOTS`].
     pub(super) roots: Vec<T>,
     /// The values of arguments, in the order of [`TaylorSeries::STEEP`].
@@ -82,7 +82,7 @@ impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
             q: vec![[zero; N]; order + 2],
             v: vec![[zero; N]; order + 1],
             summed: order,
-            factors: Factors::new(order),
+            factors: SeriesFactors::new(order),
             roots: vec![zero; L::ROOTS.len()],
             steep: vec![zero; L::STEEP.len()],
             arguments: vec![PowerSeries::constant(0.0); L::ARGUMENTS.len()],
@@ -190,7 +190,7 @@ impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
         &mut self,
         system: &L,
         state: &State<T, N>,
-        solved: &Solved<T, N, M>,
+        solved: &SolvedState<T, N, M>,
         [unit, slack]: [T; 2],
     ) -> Result<Last<T>, Error>
     where
@@ -218,7 +218,7 @@ impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
         &mut self,
         system: &L,
         state: &State<T, N>,
-        Solved { solution, active }: &Solved<T, N, M>,
+        SolvedState { solution, active }: &SolvedState<T, N, M>,
         [unit, slack]: [T; 2],
     ) -> Result<Last<T>, Error>
     where

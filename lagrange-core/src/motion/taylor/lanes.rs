@@ -10,7 +10,7 @@ use super::defect::part;
 use super::expansion::Expansion;
 use super::sampling::{Sampling, few, parts, samples_of_steep};
 use super::step::compensated;
-use super::{Memory, Taylor, TaylorPolynomial};
+use super::{Taylor, TaylorMemory, TaylorPolynomial};
 use crate::error::Error;
 use crate::motion::Interpolant;
 use crate::motion::lanes::{Fate, LaneMethod, Seats, Trust, unpacked};
@@ -23,18 +23,18 @@ use crate::system::{Pack, Packed, RightHandSides, Solution, State, TaylorSeries}
 
 /// Motions side by side, and what a step of them takes.
 #[derive(Debug)]
-pub struct Abreast<S, U, const N: usize, const M: usize> {
+pub struct TaylorLanes<S, U, const N: usize, const M: usize> {
     system: S,
-    here: Place<N, M>,
+    here: LaneState<N, M>,
     /// About where the step tried last starts.
     series: Expansion<U, Lanes, N>,
     /// Where it leads.
-    next: Place<N, M>,
+    next: LaneState<N, M>,
 }
 
 /// Where motions are, with what rounding has left of that, and what the equations give there.
 #[derive(Clone, Copy, Debug)]
-struct Place<const N: usize, const M: usize> {
+struct LaneState<const N: usize, const M: usize> {
     y: Phase<Lanes, N>,
     rest: [[Lanes; N]; 2],
     solution: Solution<Lanes, N, M>,
@@ -42,7 +42,7 @@ struct Place<const N: usize, const M: usize> {
 
 /// The step to try in a lane.
 #[derive(Clone, Copy, Default)]
-struct Plan {
+struct LaneStep {
     /// How long it was to be before it was cut to the time that there is.
     planned: f64,
     h: f64,
@@ -53,7 +53,7 @@ impl<L, const N: usize, const M: usize> LaneMethod<L, N, M> for Taylor
 where
     L: TaylorSeries<N, M, Scalar = f64> + Pack<Lanes, Packed: TaylorSeries<N, M, Scalar = Lanes>>,
 {
-    type Abreast = Abreast<L::Packed, <L::Packed as TaylorSeries<N, M>>::Sums, N, M>;
+    type LaneMemory = TaylorLanes<L::Packed, <L::Packed as TaylorSeries<N, M>>::Sums, N, M>;
 
     fn now(memory: &Self::Memory) -> f64 {
         memory.clock.now
@@ -68,7 +68,7 @@ where
         Ok(())
     }
 
-    fn abreast(&self, system: &L, memory: &Self::Memory) -> Self::Abreast {
+    fn abreast(&self, system: &L, memory: &Self::Memory) -> Self::LaneMemory {
         let zero = [[Lanes::constant(0.0); N]; 2];
         let solution = Solution {
             accelerations: Packed::splat(&memory.solved.solution.accelerations),
@@ -77,16 +77,16 @@ where
             rank: M,
         };
         let y = Packed::splat(&[memory.state.q.into(), memory.state.v.into()]);
-        let here = Place { y, rest: zero, solution };
+        let here = LaneState { y, rest: zero, solution };
         let series = Expansion::new::<L::Packed, M>(self.order::<f64>());
-        Abreast { system: system.pack(), here, series, next: here }
+        TaylorLanes { system: system.pack(), here, series, next: here }
     }
 
-    fn place(abreast: &mut Self::Abreast, lane: usize, system: &L) -> bool {
+    fn place(abreast: &mut Self::LaneMemory, lane: usize, system: &L) -> bool {
         system.place(&mut abreast.system, lane)
     }
 
-    fn load(Abreast { here, .. }: &mut Self::Abreast, lane: usize, memory: &Self::Memory) {
+    fn load(TaylorLanes { here, .. }: &mut Self::LaneMemory, lane: usize, memory: &Self::Memory) {
         let (state, solution) = (&memory.state, &memory.solved.solution);
         here.y.place(lane, &[state.q.into(), state.v.into()]);
         here.rest.place(lane, &memory.rest);
@@ -95,7 +95,7 @@ where
         here.solution.pivot.place(lane, &solution.pivot);
     }
 
-    fn unload(Abreast { here, .. }: &Self::Abreast, lane: usize, memory: &mut Self::Memory) {
+    fn unload(TaylorLanes { here, .. }: &Self::LaneMemory, lane: usize, memory: &mut Self::Memory) {
         let (state, solution) = (&mut memory.state, &mut memory.solved.solution);
         let [q, v] = unpacked(&here.y, lane);
         (state.t, state.q, state.v) = (memory.clock.now, vector(q), vector(v));
@@ -105,22 +105,22 @@ where
         solution.pivot = here.solution.pivot.to_array()[lane];
     }
 
-    fn phase(abreast: &Self::Abreast, lane: usize) -> Phase<f64, N> {
+    fn phase(abreast: &Self::LaneMemory, lane: usize) -> Phase<f64, N> {
         unpacked(&abreast.here.y, lane)
     }
 
-    fn reached(abreast: &Self::Abreast, lane: usize) -> Phase<f64, N> {
+    fn reached(abreast: &Self::LaneMemory, lane: usize) -> Phase<f64, N> {
         unpacked(&abreast.next.y, lane)
     }
 
     #[inline(always)]
     fn attempt<const IS_WATCHED: bool>(
         &self,
-        abreast: &mut Self::Abreast,
+        abreast: &mut Self::LaneMemory,
         seats: &mut Seats<'_, L, Self, N, M>,
     ) -> [Option<Fate>; Lanes::COUNT] {
         let mut trust = Trust::new();
-        let time = |Memory { clock, planned, .. }: &Self::Memory| (clock.now, clock.directed(*planned));
+        let time = |TaylorMemory { clock, planned, .. }: &Self::Memory| (clock.now, clock.directed(*planned));
         let times = seats.each_ref().map(|seat| seat.as_ref().map_or((0.0, 1.0), |seat| time(&seat.memory)));
         abreast.expand(times, &mut trust);
         let last = Last::of(&abreast.series, Lanes::constant(self.slack::<f64>()));
@@ -132,13 +132,13 @@ where
         let plan = from_fn(|lane| {
             seats[lane]
                 .as_ref()
-                .map_or(Plan::default(), |seat| self.plan::<L, N, M>(allowed[lane], &seat.memory))
+                .map_or(LaneStep::default(), |seat| self.plan::<L, N, M>(allowed[lane], &seat.memory))
         });
         let keeps = abreast.advance(self, &plan, self.defect_allowed::<L, N, M>(), &mut trust);
         let trusted = trust.lanes();
         from_fn(|lane| {
             let seat = seats[lane].as_mut()?;
-            let Memory { clock, solved, is_expanded, planned, sampling, .. } = &mut seat.memory;
+            let TaylorMemory { clock, solved, is_expanded, planned, sampling, .. } = &mut seat.memory;
             let (length, few) = (plan[lane].h.abs(), few::<L, N, M>());
             // Where the last coefficients are zero, or a step is much longer than the one before, it takes a closer look.
             let can_go = !*is_expanded
@@ -156,11 +156,11 @@ where
         })
     }
 
-    fn settle(Abreast { here, next, .. }: &mut Self::Abreast, chosen: Lanes) {
+    fn settle(TaylorLanes { here, next, .. }: &mut Self::LaneMemory, chosen: Lanes) {
         *here = next.select(chosen, here);
     }
 
-    fn within(Abreast { series, .. }: &Self::Abreast, lane: usize) -> impl Interpolant<f64, N> {
+    fn within(TaylorLanes { series, .. }: &Self::LaneMemory, lane: usize) -> impl Interpolant<f64, N> {
         let [start, unit] = [series.start, series.unit].map(|x| x.to_array()[lane]);
         TaylorPolynomial::new(start, unit, series.q.iter().map(|q| q.map(|x| x.to_array()[lane])))
     }
@@ -179,26 +179,26 @@ impl Taylor {
     fn plan<L, const N: usize, const M: usize>(
         &self,
         allowed: f64,
-        memory: &Memory<L::Sums, f64, N, M>,
-    ) -> Plan
+        memory: &TaylorMemory<L::Sums, f64, N, M>,
+    ) -> LaneStep
     where
         L: TaylorSeries<N, M, Scalar = f64>,
     {
         let longest = memory.sampling.longest::<L, N, M>(memory.planned);
         let planned = self.choose(allowed, longest, &memory.clock);
         let (h, end) = memory.clock.next(planned);
-        Plan { planned, h, end }
+        LaneStep { planned, h, end }
     }
 }
 
-impl<S, U, const N: usize, const M: usize> Abreast<S, U, N, M>
+impl<S, U, const N: usize, const M: usize> TaylorLanes<S, U, N, M>
 where
     S: TaylorSeries<N, M, Scalar = Lanes, Sums = U>,
     U: Filled<Lanes>,
 {
     /// Expands the motions at these times in these units of time.
     fn expand(&mut self, times: [(f64, f64); Lanes::COUNT], trust: &mut Trust) {
-        let Self { system, here: Place { y, solution, .. }, series, .. } = self;
+        let Self { system, here: LaneState { y, solution, .. }, series, .. } = self;
         let (t, unit) = (times.map(|(t, _)| t).into(), times.map(|(_, unit)| unit).into());
         let state = State { t, q: vector(y[0]), v: vector(y[1]) };
         let factor = system.factor(&state);
@@ -213,12 +213,12 @@ where
     fn advance(
         &mut self,
         method: &Taylor,
-        plan: &[Plan; Lanes::COUNT],
+        plan: &[LaneStep; Lanes::COUNT],
         defect_allowed: f64,
         trust: &mut Trust,
     ) -> [bool; Lanes::COUNT] {
         let (h, t) = (plan.map(|plan| plan.h).into(), plan.map(|plan| plan.end).into());
-        let Place { y, rest, .. } = &self.here;
+        let LaneState { y, rest, .. } = &self.here;
         let [dq, dv, accelerations] = self.series.change(h);
         let (q, rest_q) = compensated(&y[0], &dq, &rest[0]);
         let (v, rest_v) = compensated(&y[1], &dv, &rest[1]);
@@ -246,7 +246,7 @@ where
         }
         let [doubt, worst] = [doubt, worst].map(Lanes::to_array);
         let y = [state.q.into(), state.v.into()];
-        self.next = Place { y, rest, solution };
+        self.next = LaneState { y, rest, solution };
         let (keeps_roots, is_steep) = (self.keeps_roots(h), self.is_steep(h));
         from_fn(|lane| {
             !is_steep[lane] && doubt[lane] == 0.0 && worst[lane] <= defect_allowed && keeps_roots[lane]
@@ -285,7 +285,7 @@ where
     }
 }
 
-impl<const N: usize, const M: usize> Place<N, M> {
+impl<const N: usize, const M: usize> LaneState<N, M> {
     /// `self` in the lanes that are chosen, `other` in the rest.
     fn select(&self, chosen: Lanes, other: &Self) -> Self {
         let select = |x: Lanes, y: Lanes| x.select(chosen, y);

@@ -25,8 +25,8 @@ use crate::number::{Real, Scalar, vector};
 use crate::solution::solve::name;
 use crate::statistics::Statistics;
 use crate::system::{State, TaylorSeries};
-use crossing::Crossing;
-use expansion::{Expansion, Solved};
+use crossing::SingularStep;
+use expansion::{Expansion, SolvedState};
 pub use polynomial::TaylorPolynomial;
 use sampling::Sampling;
 use step::Attempt;
@@ -140,10 +140,10 @@ impl Taylor {
 
 /// What Taylor's method carries from step to step.
 #[derive(Clone, Debug)]
-pub struct Memory<S, T, const N: usize, const M: usize> {
+pub struct TaylorMemory<S, T, const N: usize, const M: usize> {
     clock: Clock<T>,
     state: State<T, N>,
-    solved: Solved<T, N, M>,
+    solved: SolvedState<T, N, M>,
     /// What rounding has left of the state: coordinates and velocities.
     rest: [[T; N]; 2],
     /// About the state, or about where the last step started.
@@ -153,7 +153,7 @@ pub struct Memory<S, T, const N: usize, const M: usize> {
     planned: T,
     sampling: Sampling<T>,
     /// Where the step is summed by fewer orders.
-    crossing: Option<Crossing<T>>,
+    crossing: Option<SingularStep<T>>,
     /// What was known where the step taken last starts.
     before: Option<Before<T, N, M>>,
 }
@@ -161,7 +161,7 @@ pub struct Memory<S, T, const N: usize, const M: usize> {
 /// What is known of a state beside its series.
 #[derive(Clone, Debug)]
 struct Before<T, const N: usize, const M: usize> {
-    solved: Solved<T, N, M>,
+    solved: SolvedState<T, N, M>,
     rest: [[T; N]; 2],
     sampling: Sampling<T>,
 }
@@ -170,7 +170,7 @@ impl<L, const N: usize, const M: usize> Method<L, N, M> for Taylor
 where
     L: TaylorSeries<N, M, Scalar: Real>,
 {
-    type Memory = Memory<L::Sums, L::Scalar, N, M>;
+    type Memory = TaylorMemory<L::Sums, L::Scalar, N, M>;
     type Interpolant = TaylorPolynomial<L::Scalar, N>;
 
     fn limits(&self) -> Limits {
@@ -197,9 +197,9 @@ where
         statistics: &mut Statistics,
     ) -> Result<Self::Memory, Error> {
         statistics.evaluations += 1;
-        let (zero, solved) = (L::Scalar::constant(0.0), Solved::at(system, start)?);
+        let (zero, solved) = (L::Scalar::constant(0.0), SolvedState::at(system, start)?);
         statistics.multipliers_are_unique &= solved.solution.multipliers_are_unique();
-        Ok(Memory {
+        Ok(TaylorMemory {
             clock: Clock::new(start.t, None),
             state: *start,
             solved,
@@ -222,7 +222,7 @@ where
     ) -> Result<(), Error> {
         statistics.evaluations += 1;
         memory.clock.set(state.t);
-        (memory.state, memory.solved) = (*state, Solved::at(system, state)?);
+        (memory.state, memory.solved) = (*state, SolvedState::at(system, state)?);
         statistics.multipliers_are_unique &= memory.solved.solution.multipliers_are_unique();
         (memory.is_expanded, memory.before) = (false, None);
         memory.rest = [[L::Scalar::constant(0.0); N]; 2];

@@ -9,13 +9,13 @@ const PARTS: usize = 8;
 const THIRDS: usize = 40;
 
 /// The series of what is watched, a root or the argument of a steep function, in powers of (t − t₀)/unit.
-pub(super) struct Watched<I, T> {
+pub(super) struct WatchedSeries<I, T> {
     value: T,
     /// From order 1.
     coefficients: I,
 }
 
-impl<T: Scalar, I: Iterator<Item = T> + Clone> Watched<I, T> {
+impl<T: Scalar, I: Iterator<Item = T> + Clone> WatchedSeries<I, T> {
     pub(super) fn new(value: T, coefficients: I) -> Self {
         Self { value, coefficients }
     }
@@ -29,7 +29,7 @@ impl<T: Scalar, I: Iterator<Item = T> + Clone> Watched<I, T> {
     }
 }
 
-impl<T: Real, I: Iterator<Item = T> + Clone> Watched<I, T> {
+impl<T: Real, I: Iterator<Item = T> + Clone> WatchedSeries<I, T> {
     /// Where in a step of this length the series is least, if it comes below zero.
     fn vanishes(&self, length: T) -> Option<T> {
         let [value, change] = self.value_and_change(length);
@@ -65,12 +65,12 @@ impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
     /// The roots, in powers of the unit of time.
     pub(super) fn series_of_roots<L, const M: usize>(
         &self,
-    ) -> impl Iterator<Item = Watched<impl Iterator<Item = T> + Clone, T>>
+    ) -> impl Iterator<Item = WatchedSeries<impl Iterator<Item = T> + Clone, T>>
     where
         L: TaylorSeries<N, M, Scalar = T, Sums = S>,
     {
         let coefficients = |place| self.factors.right_factor(place, self.order() - 1);
-        let root = move |(&[place, _], &value): (&[usize; 2], &T)| Watched {
+        let root = move |(&[place, _], &value): (&[usize; 2], &T)| WatchedSeries {
             value,
             coefficients: coefficients(place),
         };

@@ -6,7 +6,7 @@
 //! step of its length do, the series knows its surroundings, and few samples will do.
 
 use super::expansion::Expansion;
-use super::roots::Watched;
+use super::roots::WatchedSeries;
 use crate::number::{Filled, Real, Scalar, smaller};
 use crate::system::TaylorSeries;
 
@@ -82,7 +82,7 @@ impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
     {
         let theta = length / self.unit;
         let steep = move |(&[place, _, exponent], &value): (&[usize; 3], &T)| {
-            let watched = Watched::new(value, self.factors.left_factor(place, self.order() - 1));
+            let watched = WatchedSeries::new(value, self.factors.left_factor(place, self.order() - 1));
             (watched.value_and_change(theta), exponent)
         };
         L::STEEP.iter().zip(&self.steep).map(steep)

@@ -4,11 +4,11 @@ use core::array::from_fn;
 
 use nalgebra::ComplexField;
 
-use super::crossing::Crossing;
-use super::defect::Tried;
-use super::expansion::Solved;
+use super::crossing::SingularStep;
+use super::defect::CandidateStep;
+use super::expansion::SolvedState;
 use super::sampling::{Sampling, few, samples_of_steep};
-use super::{Before, Memory, Taylor};
+use super::{Before, Taylor, TaylorMemory};
 use crate::error::Error;
 use crate::number::{Filled, Real, Scalar, vector};
 use crate::solution::consistent::{BOTH, project_by};
@@ -17,7 +17,7 @@ use crate::solution::solve::first_row;
 use crate::statistics::Statistics;
 use crate::system::{State, TaylorSeries};
 
-impl<S: Filled<T>, T: Real, const N: usize, const M: usize> Memory<S, T, N, M> {
+impl<S: Filled<T>, T: Real, const N: usize, const M: usize> TaylorMemory<S, T, N, M> {
     /// Where a step of this length leads.
     #[inline]
     fn sum(&self, h: T) -> Sum<T, N> {
@@ -30,7 +30,7 @@ impl<S: Filled<T>, T: Real, const N: usize, const M: usize> Memory<S, T, N, M> {
 
     /// Plans a shorter step after a rejected one of length `h`.
     fn shorten(&mut self, h: T) {
-        let next = self.crossing.take().map(Crossing::longer);
+        let next = self.crossing.take().map(SingularStep::longer);
         self.planned = match next {
             Some(Ok(crossing)) => {
                 self.crossing = Some(crossing);
@@ -56,7 +56,7 @@ impl Taylor {
     /// Plans another step after one of this length was refused, if a time is that near.
     pub(super) fn can_be_shorter<S: Filled<T>, T: Real, const N: usize, const M: usize>(
         &self,
-        memory: &mut Memory<S, T, N, M>,
+        memory: &mut TaylorMemory<S, T, N, M>,
         h: T,
     ) -> bool {
         memory.shorten(h);
@@ -67,7 +67,7 @@ impl Taylor {
     /// Turns to the end of the motion; before the first step, plans the longest that it may be.
     pub(super) fn aim<S, T: Real, const N: usize, const M: usize>(
         &self,
-        memory: &mut Memory<S, T, N, M>,
+        memory: &mut TaylorMemory<S, T, N, M>,
         end: T,
     ) {
         memory.clock.aim(end);
@@ -81,13 +81,13 @@ impl Taylor {
     pub(super) fn expand<L: TaylorSeries<N, M, Scalar: Real>, const N: usize, const M: usize>(
         &self,
         system: &L,
-        memory: &mut Memory<L::Sums, L::Scalar, N, M>,
+        memory: &mut TaylorMemory<L::Sums, L::Scalar, N, M>,
         statistics: &mut Statistics,
     ) -> Result<(), Error> {
         if memory.is_expanded {
             return Ok(());
         }
-        let Memory { clock, state, solved, series, planned, sampling, .. } = memory;
+        let TaylorMemory { clock, state, solved, series, planned, sampling, .. } = memory;
         // As long as the step: one that stays the same would round alike in every step, by which energy drifts.
         let unit = clock.directed(*planned);
         let slack = L::Scalar::constant(self.slack::<L::Scalar>());
@@ -113,19 +113,19 @@ impl Taylor {
     pub(super) fn attempt<L: TaylorSeries<N, M, Scalar: Real>, const N: usize, const M: usize>(
         &self,
         system: &L,
-        memory: &mut Memory<L::Sums, L::Scalar, N, M>,
+        memory: &mut TaylorMemory<L::Sums, L::Scalar, N, M>,
         (h, time): (L::Scalar, L::Scalar),
         statistics: &mut Statistics,
     ) -> Result<Attempt<L::Scalar, N>, Error> {
         let count = self.samples::<L, N, M>(memory, h);
         let Sum { phase: [q, v], rest, accelerations } = &mut memory.sum(h);
-        let Memory { state, series, .. } = memory;
+        let TaylorMemory { state, series, .. } = memory;
         let mut next = State { t: time, q: vector(*q), v: vector(*v) };
         if let Some(row) = first_row::<L, N, M>(|i| !(q[i].is_finite() && v[i].is_finite()), |_| false) {
             return Err(Error::EquationsNotFinite { row, time: state.t.to_f64() });
         }
         project_by(Corrections::OnceAfter(h), system, &BOTH, &mut next, rest)?;
-        let solved = Solved::at(system, &next)?;
+        let solved = SolvedState::at(system, &next)?;
         if memory.solved.avoids(&solved) {
             return Ok(Attempt::Inaccurate(0));
         }
@@ -133,7 +133,7 @@ impl Taylor {
         if let Some(worst) = self.moved([(q, projected[0]), (v, projected[1])]) {
             return Ok(Attempt::Inaccurate(worst));
         }
-        let tried = Tried {
+        let tried = CandidateStep {
             series,
             start: state,
             end: &next,
@@ -160,10 +160,10 @@ impl Taylor {
     /// Number of samples within a step of this length. Across a pose where constraints are dependent the step's ends tell.
     fn samples<L: TaylorSeries<N, M, Scalar: Real>, const N: usize, const M: usize>(
         &self,
-        memory: &Memory<L::Sums, L::Scalar, N, M>,
+        memory: &TaylorMemory<L::Sums, L::Scalar, N, M>,
         h: L::Scalar,
     ) -> usize {
-        let Memory { sampling, series, crossing, .. } = memory;
+        let TaylorMemory { sampling, series, crossing, .. } = memory;
         let (few, count) = (few::<L, N, M>(), sampling.count::<L, N, M>(Scalar::abs(h)));
         let measures = [self.tolerance::<L::Scalar>(), self.slack::<L::Scalar>()];
         if crossing.is_some() {

@@ -23,7 +23,7 @@ struct Group<T>([T; WIDTH]);
 
 /// The factors of all sums so far, order by order.
 #[derive(Clone, Debug)]
-pub(super) struct Factors<T, S> {
+pub(super) struct SeriesFactors<T, S> {
     /// How many orders there is room for; the first is 1.
     orders: usize,
     /// Where there are few of them, else by groups.
@@ -35,7 +35,7 @@ pub(super) struct Factors<T, S> {
     ahead: Vec<Group<T>>,
 }
 
-impl<T: Scalar, S: Filled<T>> Factors<T, S> {
+impl<T: Scalar, S: Filled<T>> SeriesFactors<T, S> {
     /// Room for so many orders.
     pub(super) fn new(orders: usize) -> Self {
         let sums = S::filled(T::constant(0.0)).as_ref().len();

@@ -13,7 +13,7 @@ use nalgebra::{ComplexField, SVector};
 
 use super::control::{LAST, Last};
 use super::expansion::Expansion;
-use super::{Memory, Taylor};
+use super::{Taylor, TaylorMemory};
 use crate::ending::Ending;
 use crate::error::Error;
 use crate::linearized::{Block, DifferentiableMethod, Linearized, Tangent, Variations, WideOf};
@@ -29,8 +29,8 @@ use general::DualGeneral;
 /// Numbers with their changes along as many directions as there are lanes.
 type Duals<L, const N: usize, const M: usize> = Dual<WideOf<L, N, M>>;
 /// The system over these.
-type OverDuals<L, const N: usize, const M: usize> = <L as Pack<Duals<L, N, M>>>::Packed;
-type Sums<L, const N: usize, const M: usize> = <OverDuals<L, N, M> as TaylorSeries<N, M>>::Sums;
+type PackedDuals<L, const N: usize, const M: usize> = <L as Pack<Duals<L, N, M>>>::Packed;
+type Sums<L, const N: usize, const M: usize> = <PackedDuals<L, N, M> as TaylorSeries<N, M>>::Sums;
 
 /// A motion with as many variations as there are lanes.
 #[derive(Debug)]
@@ -41,7 +41,7 @@ pub struct Varied<S, U, W, const N: usize> {
 }
 
 /// A step of a block of variations.
-struct Step<W, const N: usize> {
+struct BlockStep<W, const N: usize> {
     /// Where it starts.
     before: Phase<W, N>,
     /// How the velocities change at the end of the series.
@@ -51,9 +51,9 @@ struct Step<W, const N: usize> {
 impl<L, const N: usize, const M: usize, const P: usize> DifferentiableMethod<L, N, M, P> for Taylor
 where
     L: Linearized<N, M, P, Scalar: Real> + TaylorSeries<N, M> + Pack<Duals<L, N, M>>,
-    OverDuals<L, N, M>: TaylorSeries<N, M, Scalar = Duals<L, N, M>> + Linearized<N, M, P>,
+    PackedDuals<L, N, M>: TaylorSeries<N, M, Scalar = Duals<L, N, M>> + Linearized<N, M, P>,
 {
-    type Companion = Vec<Varied<OverDuals<L, N, M>, Sums<L, N, M>, WideOf<L, N, M>, N>>;
+    type Companion = Vec<Varied<PackedDuals<L, N, M>, Sums<L, N, M>, WideOf<L, N, M>, N>>;
 
     fn companion(
         &self,
@@ -64,7 +64,7 @@ where
         let order = self.order::<L::Scalar>();
         let varied = |block: &Block<_, N, P>| {
             let system = with_rates::<L, N, M, P>(system, block.rates.as_ref())?;
-            Ok(Varied { system, series: Expansion::new::<OverDuals<L, N, M>, M>(order) })
+            Ok(Varied { system, series: Expansion::new::<PackedDuals<L, N, M>, M>(order) })
         };
         variations.blocks.iter().map(varied).collect()
     }
@@ -169,9 +169,9 @@ impl Taylor {
     fn off<L, const N: usize, const M: usize, const P: usize>(
         &self,
         system: &L,
-        memory: &Memory<L::Sums, L::Scalar, N, M>,
+        memory: &TaylorMemory<L::Sums, L::Scalar, N, M>,
         variations: &mut Variations<L, N, M, P>,
-        steps: &[Step<WideOf<L, N, M>, N>],
+        steps: &[BlockStep<WideOf<L, N, M>, N>],
     ) -> Result<Option<Entry>, Error>
     where
         L: Linearized<N, M, P, Scalar: Real> + TaylorSeries<N, M>,
@@ -183,7 +183,7 @@ impl Taylor {
         let mut worst = None;
         let look = |k: usize, [_, slope]: Phase<WideOf<L, N, M>, N>| {
             let block = &variations.blocks[k];
-            let Step { before, rates } = &steps[k];
+            let BlockStep { before, rates } = &steps[k];
             let [_, scales] = self.scales([before, &block.y], block.unit, &memory.series);
             let off = (0..N).map(|i| (rates[i] - slope[i]).abs() * length * scales[i]);
             let off = off.fold(WideOf::<L, N, M>::constant(0.0), |most, off| most + off);
@@ -199,10 +199,10 @@ impl Taylor {
 fn with_rates<L, const N: usize, const M: usize, const P: usize>(
     system: &L,
     rates: Option<&SVector<WideOf<L, N, M>, P>>,
-) -> Result<OverDuals<L, N, M>, Error>
+) -> Result<PackedDuals<L, N, M>, Error>
 where
     L: Linearized<N, M, P, Scalar: Real> + Pack<Duals<L, N, M>>,
-    OverDuals<L, N, M>: Linearized<N, M, P, Scalar = Duals<L, N, M>>,
+    PackedDuals<L, N, M>: Linearized<N, M, P, Scalar = Duals<L, N, M>>,
 {
     let (mut over, values) = (system.pack(), system.parameters());
     let Some(rates) = rates else { return Ok(over) };
@@ -225,7 +225,7 @@ where
     fn expand<L, V, const M: usize, const P: usize>(
         &mut self,
         system: &L,
-        memory: &Memory<V, L::Scalar, N, M>,
+        memory: &TaylorMemory<V, L::Scalar, N, M>,
         block: &Block<W, N, P>,
         entry: impl Fn(usize) -> Entry,
     ) -> Result<(), Error>
@@ -312,7 +312,7 @@ where
         block: &mut Block<W, N, P>,
         motion: &Expansion<V, T, N>,
         now: T,
-    ) -> Step<W, N>
+    ) -> BlockStep<W, N>
     where
         W: Wide<T>,
     {
@@ -321,7 +321,7 @@ where
         let [dq, dv, rates] = self.series.change(length).map(|all| all.map(|x| x.slope));
         let before = block.y;
         block.y = [(before[0], dq), (before[1], dv)].map(|(y, change)| entries(|i| y[i] + change[i]));
-        Step { before, rates }
+        BlockStep { before, rates }
     }
 
     /// Adds the coefficients of powers of the part of a step that has passed, which is this multiple of the unit.

@@ -69,7 +69,7 @@ struct Nearest<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
 }
 
 /// A point on the constraints.
-struct Place<T, const N: usize, const M: usize> {
+struct ConstrainedPoint<T, const N: usize, const M: usize> {
     state: State<T, N>,
     f: [[T; N]; M],
     /// M (q₀ − q)
@@ -84,7 +84,7 @@ struct Place<T, const N: usize, const M: usize> {
 }
 
 impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<'_, L, N, M> {
-    fn place(&self, state: State<L::Scalar, N>) -> Option<Place<L::Scalar, N, M>> {
+    fn place(&self, state: State<L::Scalar, N>) -> Option<ConstrainedPoint<L::Scalar, N, M>> {
         let (Self { system, given, metric, .. }, zero) = (self, L::Scalar::constant(0.0));
         let mut f = Level::Position.jacobian(*system, &state);
         hold(self.held, &mut [], &mut f);
@@ -98,7 +98,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
             let slip = Scalar::abs(found.accelerations[i]);
             if slip > zero { slip / (terms + Scalar::sqrt(square / metric[i][i])) } else { zero }
         };
-        Some(Place {
+        Some(ConstrainedPoint {
             state,
             f,
             pull,
@@ -110,10 +110,10 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
     }
 
     /// A place that is nearer, or whose slip is smaller where round-off hides which is nearer.
-    fn nearer(&self, place: &Place<L::Scalar, N, M>) -> Option<Place<L::Scalar, N, M>> {
+    fn nearer(&self, place: &ConstrainedPoint<L::Scalar, N, M>) -> Option<ConstrainedPoint<L::Scalar, N, M>> {
         let half = L::Scalar::constant(0.5);
         let hidden = L::Scalar::constant(64.0 * L::Scalar::EPSILON) * place.square;
-        let is_nearer = |next: &Place<_, N, M>| {
+        let is_nearer = |next: &ConstrainedPoint<_, N, M>| {
             let change = next.square - place.square;
             change < -hidden || change <= hidden && next.slip_part < half * place.slip_part
         };
@@ -125,9 +125,9 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
     /// Back on the constraints after a step.
     fn moved(
         &self,
-        place: &Place<L::Scalar, N, M>,
+        place: &ConstrainedPoint<L::Scalar, N, M>,
         step: &SVector<L::Scalar, N>,
-    ) -> Option<Place<L::Scalar, N, M>> {
+    ) -> Option<ConstrainedPoint<L::Scalar, N, M>> {
         let mut state = place.state;
         for i in (0..N).filter(|&i| !self.held[i]) {
             state.q[i] += step[i];
@@ -138,7 +138,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
 
     /// Newton's step, none at a minimum. Where the distance curves down, a damped one, or next to a saddle one along a direction
     /// that leads down, as long as the point given is away; then the slip.
-    fn steps(&self, place: &Place<L::Scalar, N, M>) -> [Option<SVector<L::Scalar, N>>; 2] {
+    fn steps(&self, place: &ConstrainedPoint<L::Scalar, N, M>) -> [Option<SVector<L::Scalar, N>>; 2] {
         let hessian = self.hessian(place);
         let factors = Factors::of(&hessian, &place.f, Rank::off_constraints());
         let first = match factors.downhill() {
@@ -156,7 +156,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
 
     fn newton(
         factors: &Factors<L::Scalar, N, M>,
-        place: &Place<L::Scalar, N, M>,
+        place: &ConstrainedPoint<L::Scalar, N, M>,
     ) -> Option<SVector<L::Scalar, N>> {
         let found = factors.solve(&place.pull, &[L::Scalar::constant(0.0); M]);
         found.ok().map(|found| found.accelerations)
@@ -165,7 +165,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
     /// Newton's step with the least of a few multiples of the metric added to the Hessian that make it positive.
     fn damped(
         &self,
-        place: &Place<L::Scalar, N, M>,
+        place: &ConstrainedPoint<L::Scalar, N, M>,
         hessian: &[[L::Scalar; N]; N],
     ) -> Option<SVector<L::Scalar, N>> {
         let multiples = successors(Some(0.25), |multiple| Some(4.0 * multiple)).take(10);
@@ -179,7 +179,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
     /// A step in this direction, or the opposite one, towards the point given.
     fn as_long_as_the_way(
         &self,
-        place: &Place<L::Scalar, N, M>,
+        place: &ConstrainedPoint<L::Scalar, N, M>,
         down: SVector<L::Scalar, N>,
     ) -> SVector<L::Scalar, N> {
         let down = down.as_slice();
@@ -191,7 +191,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
 
     /// M − Σ μ ∇²Φ, from central differences of Fᵀμ over a part ε^(1/3) of the distance. As |Fᵀμ| is M times the distance, they are
     /// off by a part ε^(2/3) of M: a step of Newton's method leaves as little of the slip.
-    fn hessian(&self, place: &Place<L::Scalar, N, M>) -> [[L::Scalar; N]; N] {
+    fn hessian(&self, place: &ConstrainedPoint<L::Scalar, N, M>) -> [[L::Scalar; N]; N] {
         let (zero, half) = (L::Scalar::constant(0.0), L::Scalar::constant(0.5));
         let is_active = |a: usize| Level::Position.is_active(L::CONSTRAINT_KINDS[a]);
         let multipliers = vector(entries(|a| if is_active(a) { place.multipliers[a] } else { zero }));
@@ -214,7 +214,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
     }
 
     /// The length of a difference in coordinate `j`: a small part of the distance, and many round-offs of the coordinate.
-    fn difference(&self, place: &Place<L::Scalar, N, M>, j: usize) -> L::Scalar {
+    fn difference(&self, place: &ConstrainedPoint<L::Scalar, N, M>, j: usize) -> L::Scalar {
         let (zero, part) = (L::Scalar::constant(0.0), power_of_epsilon(1.0 / 3.0));
         let mass = self.metric[j][j];
         let distance = if mass > zero { Scalar::sqrt(place.square / mass) } else { zero };

@@ -21,14 +21,14 @@ pub(super) const fn are<T, S>() -> bool {
 /// The terms of all sums of an order, aligned as the instructions that read them would have it.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
-struct Row<S>(S);
+struct AlignedTerms<S>(S);
 
 /// The factors of all sums so far, order by order.
 #[derive(Clone, Debug)]
 pub(super) struct Few<S> {
-    left: Vec<Row<S>>,
+    left: Vec<AlignedTerms<S>>,
     /// From the highest order down.
-    right: Vec<Row<S>>,
+    right: Vec<AlignedTerms<S>>,
 }
 
 /// The terms at both ends of few sums.
@@ -53,14 +53,14 @@ impl<S: Copy> Few<S> {
     where
         S: Filled<T>,
     {
-        let room = vec![Row(S::filled(T::constant(0.0))); orders];
+        let room = vec![AlignedTerms(S::filled(T::constant(0.0))); orders];
         Self { left: room.clone(), right: room }
     }
 
     #[inline(always)]
     pub(super) fn put(&mut self, order: usize, newest: &[S; 2], ends: &mut Ends<S>) {
         let place = self.right.len() - order;
-        (self.left[order - 1], self.right[place]) = (Row(newest[0]), Row(newest[1]));
+        (self.left[order - 1], self.right[place]) = (AlignedTerms(newest[0]), AlignedTerms(newest[1]));
         match order {
             1 => ends.first[1] = newest[1],
             2 => ends.first[0] = self.left[0].0,
@@ -129,8 +129,8 @@ impl<S: Copy> Few<S> {
 /// Σ x_j y_j for each sum, in two parts side by side: of one, each product waits for the one before.
 #[inline(always)]
 fn products<T: Scalar, S: Filled<T>, const TERMS: usize>(
-    left: &[Row<S>; TERMS],
-    right: &[Row<S>; TERMS],
+    left: &[AlignedTerms<S>; TERMS],
+    right: &[AlignedTerms<S>; TERMS],
 ) -> S::Of<Four<T>> {
     let mut sums = S::Of::filled(Four::zero());
     let groups = left[0].0.as_ref().len() / WIDTH;
