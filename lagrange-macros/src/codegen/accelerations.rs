@@ -6,7 +6,7 @@ use quote::quote;
 
 use super::kernel::Kernel;
 use super::passes::Program;
-use super::shape::Shape;
+use super::shape::ResultShape;
 use super::signature::wide;
 use super::solving::Solving;
 use super::{Emitter, Written};
@@ -32,7 +32,7 @@ impl Emitter<'_> {
             let [mass, _, jacobian, _] = self.equations_by_rows();
             return self.in_loops(method, [mass, jacobian, self.weights()], &quote!(LoopFactor::of));
         };
-        let kernel = self.style.write(method.name, factor, &[Shape::Vector(factor.results.len())]);
+        let kernel = self.style.write(method.name, factor, &[ResultShape::Vector(factor.results.len())]);
         self.function(method, kernel, |results| quote!(#(#results)*))
     }
 
@@ -46,7 +46,7 @@ impl Emitter<'_> {
 
     fn solution(&self, method: &Method, program: &Program) -> Written {
         let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
-        let shapes = [Shape::Vector(n), Shape::Vector(m), Shape::Number];
+        let shapes = [ResultShape::Vector(n), ResultShape::Vector(m), ResultShape::Number];
         let wide = wide();
         let over = method.is_wide.then(|| self.style.over(&wide, 0));
         let kernel = over.as_ref().unwrap_or(&self.style).write(method.name, program, &shapes);
@@ -64,7 +64,7 @@ impl Emitter<'_> {
     }
 
     /// M, h, F and γ, completed as the form over the accelerations is, matrices row by row. Of M the lower triangle is read.
-    fn equations_by_rows(&self) -> [(Vec<Id>, Shape); 4] {
+    fn equations_by_rows(&self) -> [(Vec<Id>, ResultShape); 4] {
         let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
         let Equations { forms, jacobian, bias, .. } = &self.derived.equations;
         let Form { matrix, linear, .. } = &forms[0];
@@ -76,26 +76,26 @@ impl Emitter<'_> {
         };
         let mass = matrix.iter().enumerate().flat_map(row).collect();
         [
-            (mass, Shape::Matrix(n, n)),
-            (linear.clone(), Shape::Vector(n)),
-            (jacobian.concat(), Shape::Matrix(m, n)),
-            (bias.clone(), Shape::Vector(m)),
+            (mass, ResultShape::Matrix(n, n)),
+            (linear.clone(), ResultShape::Vector(n)),
+            (jacobian.concat(), ResultShape::Matrix(m, n)),
+            (bias.clone(), ResultShape::Vector(m)),
         ]
     }
 
     /// σ of each constraint, zero of those that complete nothing.
-    fn weights(&self) -> (Vec<Id>, Shape) {
+    fn weights(&self) -> (Vec<Id>, ResultShape) {
         let Equations { forms, bias, .. } = &self.derived.equations;
         let mut weights = vec![Id::ZERO; bias.len()];
         forms[0].completing.iter().for_each(|&(a, weight)| weights[a] = weight);
-        (weights, Shape::Vector(bias.len()))
+        (weights, ResultShape::Vector(bias.len()))
     }
 
     /// What a function of the runtime makes of these, which are computed together to share what they have in common.
     fn in_loops<const K: usize>(
         &self,
         method: &Method,
-        arguments: [(Vec<Id>, Shape); K],
+        arguments: [(Vec<Id>, ResultShape); K],
         function: &TokenStream,
     ) -> Written {
         let shapes = arguments.each_ref().map(|(_, shape)| *shape);

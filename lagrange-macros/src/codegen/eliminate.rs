@@ -21,9 +21,9 @@ use super::schedule::Schedule;
 use crate::mechanics::{Equations, Form};
 use crate::symbolic::Id;
 use crate::variables::Variable;
-use arithmetic::{Entry, Solver, Sparse};
+use arithmetic::{Solver, Sparse, SparseEntry};
 use order::{Pattern, reduction_order};
-use reduce::Factors;
+use reduce::FormFactors;
 
 /// Up to as many operations a matrix is reduced in straight-line code, full as it may be.
 const UNROLLED: usize = 2_500;
@@ -41,12 +41,12 @@ pub(super) struct Solved {
 
 /// The matrix of the equations of motion, M and −Fᵀ above F and 0, factored.
 pub(super) struct Factorization {
-    form: Factors,
+    form: FormFactors,
     /// How many multipliers are among the variables of the form, all or none.
     among: usize,
     /// Z = F L⁻ᵀ of the others.
     rows: Vec<Sparse>,
-    schur: Factors,
+    schur: FormFactors,
     /// σ_a F_a of the constraints a that complete M: a solve takes γ_a times as much from its h.
     completing: Vec<(usize, Sparse)>,
     trust: Trust,
@@ -98,8 +98,8 @@ pub(super) fn solve_with(
     });
     let mut input = |variable: Variable| Some(schedule.push(Operation::Input(variable.symbol())));
     let (n, m) = (equations.forcing.len(), equations.bias.len());
-    let forcing: Vec<Entry> = (0..n).map(|i| input(Variable::Forcing(i))).collect();
-    let bias: Vec<Entry> = (0..m).map(|a| input(Variable::Bias(a))).collect();
+    let forcing: Vec<SparseEntry> = (0..n).map(|i| input(Variable::Forcing(i))).collect();
+    let bias: Vec<SparseEntry> = (0..m).map(|a| input(Variable::Bias(a))).collect();
     let mut solver = Solver::new(schedule);
     let mut forcing = solver.completed(&factorization, forcing, &bias);
     forcing.extend_from_slice(&bias[..factorization.among]);
@@ -158,14 +158,14 @@ fn short(pattern: &Pattern) -> Option<Vec<usize>> {
 
 /// What a solve gives.
 struct Found {
-    accelerations: Vec<Entry>,
-    multipliers: Vec<Entry>,
+    accelerations: Vec<SparseEntry>,
+    multipliers: Vec<SparseEntry>,
 }
 
 impl Solver<'_> {
     fn factorize(&mut self, form: &Form, equations: &Equations) -> Option<Factorization> {
         let (order, among) = order(form, equations)?;
-        let mut matrix: Vec<Vec<Entry>> = form.matrix.iter().map(|row| self.entries(row)).collect();
+        let mut matrix: Vec<Vec<SparseEntry>> = form.matrix.iter().map(|row| self.entries(row)).collect();
         if among > 0 {
             self.put_among(&mut matrix, &equations.jacobian);
         }
@@ -179,7 +179,7 @@ impl Solver<'_> {
     }
 
     /// −Fᵀ beside a matrix, and −F below.
-    fn put_among(&mut self, matrix: &mut Vec<Vec<Entry>>, jacobian: &[Vec<Id>]) {
+    fn put_among(&mut self, matrix: &mut Vec<Vec<SparseEntry>>, jacobian: &[Vec<Id>]) {
         let n = matrix.len();
         for row in jacobian {
             let mut below = self.entries(row);
@@ -194,14 +194,19 @@ impl Solver<'_> {
     fn completing(&mut self, form: &Form, equations: &Equations) -> Vec<(usize, Sparse)> {
         let weighted = form.completing.iter().map(|&(a, weight)| {
             let (weight, row) = (self.entry(weight), self.entries(&equations.jacobian[a]));
-            let row: Vec<Entry> = row.into_iter().map(|entry| self.multiply(weight, entry)).collect();
+            let row: Vec<SparseEntry> = row.into_iter().map(|entry| self.multiply(weight, entry)).collect();
             (a, arithmetic::sparse(&row))
         });
         weighted.collect()
     }
 
     /// h − Fᵀσγ
-    fn completed(&mut self, factorization: &Factorization, mut h: Vec<Entry>, bias: &[Entry]) -> Vec<Entry> {
+    fn completed(
+        &mut self,
+        factorization: &Factorization,
+        mut h: Vec<SparseEntry>,
+        bias: &[SparseEntry],
+    ) -> Vec<SparseEntry> {
         for (a, row) in &factorization.completing {
             for &(i, entry) in row {
                 let part = self.multiply(Some(entry), bias[*a]);
@@ -212,7 +217,12 @@ impl Solver<'_> {
     }
 
     /// D⁻¹L⁻¹b. What is tied to nothing is divided in the graph, where it may cancel.
-    fn starts(&mut self, form: &Form, factorization: &Factorization, bias: &[Entry]) -> Vec<Entry> {
+    fn starts(
+        &mut self,
+        form: &Form,
+        factorization: &Factorization,
+        bias: &[SparseEntry],
+    ) -> Vec<SparseEntry> {
         let mut linear = self.entries(&form.linear);
         linear.extend_from_slice(&bias[..factorization.among]);
         let linear = self.forward(&factorization.form, linear);
@@ -225,12 +235,12 @@ impl Solver<'_> {
     }
 
     /// D⁻¹x
-    fn scaled(&mut self, factors: &Factors, x: Vec<Entry>) -> Vec<Entry> {
+    fn scaled(&mut self, factors: &FormFactors, x: Vec<SparseEntry>) -> Vec<SparseEntry> {
         x.into_iter().zip(&factors.reciprocals).map(|(x, &reciprocal)| self.multiply(x, reciprocal)).collect()
     }
 
     /// Z = F L⁻ᵀ
-    fn rows(&mut self, form: &Form, equations: &Equations, factors: &Factors) -> Vec<Sparse> {
+    fn rows(&mut self, form: &Form, equations: &Equations, factors: &FormFactors) -> Vec<Sparse> {
         let row = |row: &Vec<Id>| {
             let mut row = self.entries(row);
             row.resize(factors.reciprocals.len(), None);
@@ -240,11 +250,17 @@ impl Solver<'_> {
     }
 
     /// The variables from D⁻¹L⁻¹b and γ.
-    fn solve(&mut self, factorization: &Factorization, starts: Vec<Entry>, bias: Vec<Entry>) -> Found {
+    fn solve(
+        &mut self,
+        factorization: &Factorization,
+        starts: Vec<SparseEntry>,
+        bias: Vec<SparseEntry>,
+    ) -> Found {
         let Factorization { form, among, rows, schur, trust: Trust { doubt, .. }, .. } = factorization;
         let multipliers = self.multipliers(schur, &starts, rows, bias);
         // At the end, one by one: the doubt is known long after the first of them, and each waits for the one before.
-        let mut multipliers: Vec<Entry> = multipliers.into_iter().map(|one| self.add(one, *doubt)).collect();
+        let mut multipliers: Vec<SparseEntry> =
+            multipliers.into_iter().map(|one| self.add(one, *doubt)).collect();
         let pushes = self.pushes(&multipliers, rows, starts.len());
         let mut accelerations = self.backward(form, starts, &pushes, *doubt);
         multipliers.extend(accelerations.split_off(accelerations.len() - among));
@@ -252,7 +268,7 @@ impl Solver<'_> {
     }
 
     /// Zᵀλ
-    fn pushes(&mut self, multipliers: &[Entry], rows: &[Sparse], size: usize) -> Vec<Entry> {
+    fn pushes(&mut self, multipliers: &[SparseEntry], rows: &[Sparse], size: usize) -> Vec<SparseEntry> {
         let mut pushes = vec![None; size];
         for (&multiplier, row) in multipliers.iter().zip(rows) {
             for &(i, z) in row {

@@ -4,10 +4,10 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::observables::{entry_of, method_name};
-use super::shape::Shape;
+use super::shape::ResultShape;
 use super::{Emitter, Written};
 use crate::contract::Method;
-use crate::mechanics::{EnergyForm, Evidence, LinearPart, Quantity};
+use crate::mechanics::{ConservedKind, EnergyForm, Evidence, LinearPart};
 use crate::resolve::Observed;
 
 impl Emitter<'_> {
@@ -18,7 +18,7 @@ impl Emitter<'_> {
             let (name, evidence) = (&conserved.name, evidence(conserved.evidence));
             quote!(__lagrange::Conserved { name: #name, evidence: #evidence })
         });
-        let energy = facts.conserved.iter().find(|conserved| conserved.quantity == Quantity::Energy);
+        let energy = facts.conserved.iter().find(|conserved| conserved.quantity == ConservedKind::Energy);
         let energy_is_conserved = optional(energy.map(|energy| energy.evidence));
         let energy_form = energy_form(facts.energy_form);
         let totals =
@@ -57,17 +57,17 @@ impl Emitter<'_> {
         self.by_index(method, arms.collect())
     }
 
-    fn conserved_value(&self, quantity: Quantity) -> Written {
+    fn conserved_value(&self, quantity: ConservedKind) -> Written {
         let tokens = match quantity {
-            Quantity::Energy => quote!(__lagrange::Lagrangian::energy(self, state)),
-            Quantity::Momentum(a) => {
+            ConservedKind::Energy => quote!(__lagrange::Lagrangian::energy(self, state)),
+            ConservedKind::Momentum(a) => {
                 let momentum = [self.derived.equations.momentum[a]];
-                let kernel = self.style.kernel(&format!("momentum_{a}"), &momentum, &[Shape::Number]);
+                let kernel = self.style.kernel(&format!("momentum_{a}"), &momentum, &[ResultShape::Number]);
                 let (statements, results) = (&kernel.statements, &kernel.results);
                 let tokens = quote!({ #statements #(#results)* });
                 return Written { tokens, kernels: vec![kernel] };
             }
-            Quantity::Observable(observable, entry) => {
+            ConservedKind::Observable(observable, entry) => {
                 let Observed { label, lengths, .. } = &self.problem.observables[observable];
                 let (method, entry) =
                     (method_name(&label.text, label.place.start()), entry_of(lengths, entry));

@@ -12,7 +12,7 @@ use crate::syntax::FieldShape;
 use crate::variables::Variable;
 
 /// A variable of each coordinate or constraint, by its place.
-type Family = fn(usize) -> Variable;
+type VariableFamily = fn(usize) -> Variable;
 
 impl Style<'_> {
     /// An input that is read there, as functions compute with it.
@@ -76,7 +76,7 @@ impl Style<'_> {
     /// Emits the bindings of all used inputs, as whole arrays or one by one.
     pub(super) fn inputs(&self, used: &BTreeSet<Symbol>) -> TokenStream {
         let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
-        let whole: [(usize, Family); 8] = [
+        let whole: [(usize, VariableFamily); 8] = [
             (n, Variable::Coordinate),
             (n, Variable::Velocity),
             (n, Variable::Acceleration),

@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::facts::evidence;
-use super::shape::Shape;
+use super::shape::ResultShape;
 use super::{Emitter, Written};
 use crate::contract::Method;
 use crate::mechanics::{Classification, Integrals};
@@ -35,7 +35,8 @@ impl Emitter<'_> {
     pub(super) fn constraint_integral(&self, method: &Method) -> Written {
         let found = self.derived.equations.integrability.functions.iter().enumerate();
         let arms = found.filter_map(|(index, function)| {
-            let kernel = self.style.kernel(&format!("integral_{index}"), &[(*function)?], &[Shape::Number]);
+            let kernel =
+                self.style.kernel(&format!("integral_{index}"), &[(*function)?], &[ResultShape::Number]);
             let (statements, results) = (&kernel.statements, &kernel.results);
             let tokens = quote! {
                 #index => {

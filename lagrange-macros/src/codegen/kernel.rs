@@ -3,10 +3,10 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::body::{Body, Part};
+use super::body::{Chunk, FunctionBody};
 use super::count::Count;
 use super::passes::Program;
-use super::shape::{Arrays, Shape};
+use super::shape::{ResultArrays, ResultShape};
 use super::style::Style;
 use crate::contract::Argument;
 use crate::symbolic::{Id, Symbol};
@@ -33,19 +33,19 @@ pub(super) struct Kernel {
 
 impl Style<'_> {
     /// Computes `roots` for the function of this name.
-    pub(super) fn kernel(&self, name: &str, roots: &[Id], shapes: &[Shape]) -> Kernel {
+    pub(super) fn kernel(&self, name: &str, roots: &[Id], shapes: &[ResultShape]) -> Kernel {
         self.write(name, &Program::of(self.graph, roots), shapes)
     }
 
     /// Writes the program as statements, with the expressions of its results.
-    pub(super) fn write(&self, name: &str, program: &Program, shapes: &[Shape]) -> Kernel {
+    pub(super) fn write(&self, name: &str, program: &Program, shapes: &[ResultShape]) -> Kernel {
         let count = program.count();
         if count.total() > OPERATION_LIMIT {
             return Kernel { name: name.to_owned(), refused: Some(count), ..Kernel::default() };
         }
-        let body = Body::new(program, &self.problem.names);
-        let (doc, arrays) = (doc(program, &body), Arrays::new(shapes));
-        let Body { parts, waiting, results, .. } = body;
+        let body = FunctionBody::new(program, &self.problem.names);
+        let (doc, arrays) = (doc(program, &body), ResultArrays::new(shapes));
+        let FunctionBody { parts, waiting, results, .. } = body;
         let (declarations, results) = match results {
             Some(values) => {
                 let mut values = values.into_iter().map(|value| self.operand(value));
@@ -62,9 +62,9 @@ impl Style<'_> {
     fn parts(
         &self,
         name: &str,
-        mut parts: Vec<Part>,
+        mut parts: Vec<Chunk>,
         waiting: usize,
-        arrays: &Arrays,
+        arrays: &ResultArrays,
     ) -> (TokenStream, Vec<TokenStream>) {
         if parts.len() == 1 {
             return (parts.drain(..).map(|part| self.statements(part, arrays)).collect(), Vec::new());
@@ -73,7 +73,7 @@ impl Style<'_> {
         let parts = parts.into_iter().enumerate().map(|(k, part)| {
             let rounds =
                 part.rounds.as_ref().map_or_else(String::new, |rounds| format!(", {} rounds", rounds.count));
-            let doc = format!("Part {} of {count} of `{name}`{rounds}.", k + 1);
+            let doc = format!("Chunk {} of {count} of `{name}`{rounds}.", k + 1);
             self.part(&format_ident!("__{name}_{k}"), &doc, part, waiting, arrays)
         });
         let (calls, methods): (Vec<_>, Vec<_>) = parts.unzip();
@@ -85,9 +85,9 @@ impl Style<'_> {
         &self,
         method: &Ident,
         doc: &str,
-        part: Part,
+        part: Chunk,
         waiting: usize,
-        arrays: &Arrays,
+        arrays: &ResultArrays,
     ) -> (TokenStream, TokenStream) {
         let is_read = |argument: &Argument| part.reads().any(|symbol| source(symbol) == *argument);
         let read = [
@@ -174,7 +174,7 @@ fn source(symbol: Symbol) -> Argument {
 }
 
 /// What a function takes, and what each pass that gained something left of it.
-fn doc(program: &Program, body: &Body) -> String {
+fn doc(program: &Program, body: &FunctionBody) -> String {
     let mut doc = format!("{}.", program.count());
     let mut steps = program.counts.clone();
     steps.dedup_by_key(|(_, count)| *count);

@@ -5,7 +5,7 @@ use quote::quote;
 
 use super::kernel::Kernel;
 use super::observables::OBSERVABLE;
-use super::shape::Shape;
+use super::shape::ResultShape;
 use super::{Emitter, Written, pack, runtime, too_long};
 use crate::contract::{Gives, LAGRANGIAN, Method, Quantity};
 use crate::diagnostics::Diagnostics;
@@ -129,12 +129,12 @@ impl Emitter<'_> {
         };
         // nalgebra stores matrices by columns, one column for each coordinate.
         let (shape, wrapped) = match method.gives {
-            Gives::Vector(_) => (Shape::Vector(entries.len()), Some(quote!(vector))),
+            Gives::Vector(_) => (ResultShape::Vector(entries.len()), Some(quote!(vector))),
             Gives::Matrix(..) => {
                 let n = problem.coordinates.len();
-                (Shape::Matrix(n, entries.len() / n), Some(quote!(matrix)))
+                (ResultShape::Matrix(n, entries.len() / n), Some(quote!(matrix)))
             }
-            _ => (Shape::Number, None),
+            _ => (ResultShape::Number, None),
         };
         let kernel = self.style.kernel(method.name, &entries, &[shape]);
         self.function(method, kernel, |results| match &wrapped {

@@ -5,7 +5,7 @@ use quote::{format_ident, quote};
 
 use super::bounds::FUNCTION_ORDER;
 use super::passes::Program;
-use super::shape::Shape;
+use super::shape::ResultShape;
 use super::signature::wide;
 use super::{Emitter, Written, runtime};
 use crate::contract::{LINEARIZED, Method, Quantity, STATE_DERIVATIVES};
@@ -136,7 +136,7 @@ impl Emitter<'_> {
 
     /// The numbers that something linear is made of.
     pub(super) fn slopes(&self, method: &Method, slopes: &Program) -> Written {
-        let kernel = self.style.write(method.name, slopes, &[Shape::Vector(slopes.results.len())]);
+        let kernel = self.style.write(method.name, slopes, &[ResultShape::Vector(slopes.results.len())]);
         let (statements, results, doc) = (&kernel.statements, &kernel.results, &kernel.doc);
         let signature = self.style.types.signature(method);
         let tokens = quote! {
@@ -156,7 +156,7 @@ impl Emitter<'_> {
         let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
         let wide = wide();
         let style = self.style.over(&wide, slopes.results.len());
-        let kernel = style.write(method.name, changes, &[n, m, m, m].map(Shape::Vector));
+        let kernel = style.write(method.name, changes, &[n, m, m, m].map(ResultShape::Vector));
         let names = ["motion", "acceleration", "rate", "position"].map(|name| format_ident!("{name}"));
         let (statements, results, doc) = (&kernel.statements, &kernel.results, &kernel.doc);
         let signature = self.style.types.signature(method);

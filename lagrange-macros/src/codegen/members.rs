@@ -41,13 +41,13 @@ impl Style<'_> {
         entry: Entry,
         varying: Option<&Varying>,
     ) -> Option<TokenStream> {
-        let Access { span, of, shape, number } = self.member(owner, entry, varying)?;
+        let MemberNumber { span, of, shape, number } = self.member(owner, entry, varying)?;
         let scalar = &self.problem.scalar;
         Some(quote_spanned!(span=> __lagrange::generated::Member::<#scalar, #shape>::number(&#of, #number)))
     }
 
     pub(super) fn set_number_of_member(&self, entry: Entry, value: &TokenStream) -> Option<TokenStream> {
-        let Access { span, of, shape, number } = self.member(&quote!(self), entry, None)?;
+        let MemberNumber { span, of, shape, number } = self.member(&quote!(self), entry, None)?;
         let scalar = &self.problem.scalar;
         Some(quote_spanned! {span=>
             if !__lagrange::generated::Member::<#scalar, #shape>::set(&mut #of, #number, #value) {
@@ -56,14 +56,14 @@ impl Style<'_> {
         })
     }
 
-    fn member(&self, owner: &TokenStream, entry: Entry, varying: Option<&Varying>) -> Option<Access> {
+    fn member(&self, owner: &TokenStream, entry: Entry, varying: Option<&Varying>) -> Option<MemberNumber> {
         let field = &self.problem.parameters.fields[entry.field];
         let (last, shape) = (field.members.last()?, field.shape.as_ref().ok()?);
         let span = Span::call_site().located_at(last.ident.span());
         let indices = Varying::indices(varying, &self.problem.parameters.indices(entry));
         let inner = &shape.layout.lengths[last.after..];
         let number = Literal::usize_unsuffixed(entry.number % crate::syntax::numbers(inner));
-        Some(Access {
+        Some(MemberNumber {
             span,
             of: path(owner, field, &indices, span),
             shape: self.shape(entry.field, inner),
@@ -88,7 +88,7 @@ impl Style<'_> {
 }
 
 /// A member, and which of its numbers.
-struct Access {
+struct MemberNumber {
     span: Span,
     of: TokenStream,
     shape: TokenStream,

@@ -3,7 +3,7 @@
 use proc_macro2::{Span, TokenStream};
 use quote::quote;
 
-use super::shape::Shape;
+use super::shape::ResultShape;
 use super::{Emitter, Written};
 use crate::contract::Method;
 use crate::resolve::Observed;
@@ -43,9 +43,9 @@ impl Emitter<'_> {
         let visibility = &self.declaration.visibility;
         let name = method_name(&label.text, label.place.start());
         let (shape, wrapped) = match lengths[..] {
-            [] => (Shape::Number, None),
-            [length] => (Shape::Vector(length), Some(quote!(vector))),
-            [rows, ..] => (Shape::Matrix(values.len() / rows, rows), Some(quote!(matrix))),
+            [] => (ResultShape::Number, None),
+            [length] => (ResultShape::Vector(length), Some(quote!(vector))),
+            [rows, ..] => (ResultShape::Matrix(values.len() / rows, rows), Some(quote!(matrix))),
         };
         let kernel =
             self.style.kernel(&format!("{OBSERVABLE}{}", label.text), &by_columns(lengths, values), &[shape]);

@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
-use super::body::{Given, Rounds, Series};
+use super::body::{Given, Rounds, SlotSequence};
 use super::inputs::Varying;
 use super::style::Style;
 use crate::resolve::Entry;
@@ -58,7 +58,7 @@ impl Style<'_> {
         let arrays: Option<Vec<_>> = symbols.iter().map(|&symbol| self.array(symbol)).collect();
         let (arrays, places): (Vec<_>, Vec<_>) = arrays?.into_iter().unzip();
         let are_one = arrays.iter().all(|array| array.to_string() == arrays[0].to_string());
-        let (array, index) = (&arrays[0], index(Series::through(&places)?));
+        let (array, index) = (&arrays[0], index(SlotSequence::through(&places)?));
         are_one.then(|| self.widened(symbols[0], &quote!(#array[#index])))
     }
 
@@ -79,7 +79,7 @@ impl Style<'_> {
         let mut differing = (0..all[0].len()).filter(|&k| all.iter().any(|one| one[k] != all[0][k]));
         let (place, None) = (differing.next()?, differing.next()) else { return None };
         let places: Vec<usize> = all.iter().map(|one| one[place]).collect();
-        let index = index(Series::through(&places)?);
+        let index = index(SlotSequence::through(&places)?);
         let is_outside = place < parameters.arrays(first.field);
         is_outside.then(|| self.number_of_rounds(first, Some(&Varying { place, index })))
     }
@@ -94,12 +94,12 @@ fn counter() -> Ident {
 }
 
 /// What waits there, or in a loop what does in this round.
-pub(super) fn waiting(series: Series) -> TokenStream {
+pub(super) fn waiting(series: SlotSequence) -> TokenStream {
     let index = index(series);
     quote!(waiting[#index])
 }
 
-fn index(Series { first, step }: Series) -> TokenStream {
+fn index(SlotSequence { first, step }: SlotSequence) -> TokenStream {
     let (round, first, size) =
         (counter(), Literal::usize_unsuffixed(first), Literal::usize_unsuffixed(step.unsigned_abs()));
     match step {

@@ -4,14 +4,14 @@ use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
 #[derive(Clone, Copy)]
-pub(super) enum Shape {
+pub(super) enum ResultShape {
     Number,
     Vector(usize),
     /// As many arrays of as many entries each.
     Matrix(usize, usize),
 }
 
-impl Shape {
+impl ResultShape {
     pub(super) fn length(self) -> usize {
         match self {
             Self::Number => 1,
@@ -71,13 +71,13 @@ impl Shape {
 }
 
 /// Arrays that a function fills with its results, one for each shape.
-pub(super) struct Arrays<'s> {
+pub(super) struct ResultArrays<'s> {
     pub(super) names: Vec<Ident>,
-    shapes: &'s [Shape],
+    shapes: &'s [ResultShape],
 }
 
-impl<'s> Arrays<'s> {
-    pub(super) fn new(shapes: &'s [Shape]) -> Self {
+impl<'s> ResultArrays<'s> {
+    pub(super) fn new(shapes: &'s [ResultShape]) -> Self {
         let name = |k| format_ident!("entries{k}", span = Span::mixed_site());
         Self { names: (0..shapes.len()).map(name).collect(), shapes }
     }
@@ -105,9 +105,9 @@ impl<'s> Arrays<'s> {
     /// The whole of each.
     pub(super) fn results(&self) -> Vec<TokenStream> {
         let shapes = self.names.iter().zip(self.shapes);
-        let result = |(name, shape): (&Ident, &Shape)| match shape {
-            Shape::Number => shape.place(name, 0),
-            Shape::Vector(_) | Shape::Matrix(..) => quote!(#name),
+        let result = |(name, shape): (&Ident, &ResultShape)| match shape {
+            ResultShape::Number => shape.place(name, 0),
+            ResultShape::Vector(_) | ResultShape::Matrix(..) => quote!(#name),
         };
         shapes.map(result).collect()
     }

@@ -3,11 +3,11 @@
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
-use super::body::{Expression, Local, Part, Place, Series, Statement, Turn};
+use super::body::{Chunk, Local, Operand, SineAndCosine, Slot, SlotSequence, Statement};
 use super::bounds::call_of;
 use super::operation::{Call, Operation};
 use super::rounds::waiting;
-use super::shape::Arrays;
+use super::shape::ResultArrays;
 use super::style::Style;
 
 /// Up to this many locals each have a `let`. Beyond, they are declared in batches of as many, as tuples, and
@@ -20,7 +20,7 @@ const MANY_ANGLES: usize = 8;
 
 impl Style<'_> {
     /// All statements, with the declarations of what they read and of what they assign to.
-    pub(super) fn statements(&self, part: Part, arrays: &Arrays) -> TokenStream {
+    pub(super) fn statements(&self, part: Chunk, arrays: &ResultArrays) -> TokenStream {
         let inputs = self.inputs(&part.inputs);
         let is_short = part.locals.len() <= BATCH;
         let batches = if is_short { &[] } else { &part.locals[..] }.chunks(BATCH);
@@ -65,7 +65,7 @@ impl Style<'_> {
     }
 
     /// `(r1, r2) = sin_cos(x)`, or of several.
-    fn turns(&self, turns: Vec<Turn>, together: &TokenStream) -> TokenStream {
+    fn turns(&self, turns: Vec<SineAndCosine>, together: &TokenStream) -> TokenStream {
         let name = |local: Option<Local>| match local {
             Some(local) => self.local(local).into_token_stream(),
             None => quote!(_),
@@ -80,28 +80,28 @@ impl Style<'_> {
     }
 
     /// An expression that stands alone.
-    fn expression(&self, expression: Expression) -> TokenStream {
+    fn expression(&self, expression: Operand) -> TokenStream {
         match expression {
-            Expression::Local(local) => {
+            Operand::Local(local) => {
                 let name = self.local(local);
                 quote!(#name)
             }
-            Expression::Waiting(place) => waiting(Series::constant(place)),
-            Expression::Of(operation) => self.operation(*operation),
+            Operand::Waiting(place) => waiting(SlotSequence::constant(place)),
+            Operand::Of(operation) => self.operation(*operation),
         }
     }
 
     /// An expression as part of another.
-    pub(super) fn operand(&self, expression: Expression) -> TokenStream {
+    pub(super) fn operand(&self, expression: Operand) -> TokenStream {
         let is_composed = match &expression {
-            Expression::Of(operation) => !matches!(**operation, Operation::Constant(_) | Operation::Input(_)),
-            Expression::Local(_) | Expression::Waiting(_) => false,
+            Operand::Of(operation) => !matches!(**operation, Operation::Constant(_) | Operation::Input(_)),
+            Operand::Local(_) | Operand::Waiting(_) => false,
         };
         let tokens = self.expression(expression);
         if is_composed { quote!((#tokens)) } else { tokens }
     }
 
-    fn operation(&self, operation: Operation<Expression>) -> TokenStream {
+    fn operation(&self, operation: Operation<Operand>) -> TokenStream {
         match operation.with_operands(|operand| self.operand(operand)) {
             Operation::Constant(bits) => self.constant(f64::from_bits(bits)),
             Operation::Input(symbol) => {
@@ -129,7 +129,7 @@ impl Style<'_> {
     }
 
     /// `[call0_0, _, call0_2]`
-    fn pattern(&self, call: &Call<Expression>, results: &[(u32, Local)]) -> TokenStream {
+    fn pattern(&self, call: &Call<Operand>, results: &[(u32, Local)]) -> TokenStream {
         let outputs = self.problem.functions[call.function as usize].outputs as u32;
         let names = (0..outputs).map(|output| match results.iter().find(|(known, _)| *known == output) {
             Some((_, local)) => {
@@ -141,7 +141,7 @@ impl Style<'_> {
         quote!([#(#names),*])
     }
 
-    fn call(&self, call: &Call<Expression>) -> TokenStream {
+    fn call(&self, call: &Call<Operand>) -> TokenStream {
         let (function, scalar) = (&self.problem.functions[call.function as usize], self.types.scalar);
         call_of(function, call, &quote!(#scalar), |argument| self.operand(argument.clone()))
     }
@@ -167,10 +167,10 @@ fn together(statements: &[Statement]) -> TokenStream {
     }
 }
 
-fn stored(place: Place, arrays: &Arrays) -> TokenStream {
+fn stored(place: Slot, arrays: &ResultArrays) -> TokenStream {
     match place {
-        Place::Result(index) => arrays.place(index),
-        Place::Waiting(series) => waiting(series),
+        Slot::Result(index) => arrays.place(index),
+        Slot::Waiting(series) => waiting(series),
     }
 }
 

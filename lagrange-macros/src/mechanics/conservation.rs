@@ -21,7 +21,7 @@ const LARGE: usize = 120;
 const INFORMATIVE: f64 = 1e-6;
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Quantity {
+pub(crate) enum ConservedKind {
     /// Generalized momentum of this coordinate.
     Momentum(usize),
     Energy,
@@ -32,7 +32,7 @@ pub(crate) enum Quantity {
 #[derive(Debug)]
 pub(crate) struct Conserved {
     pub(crate) name: String,
-    pub(crate) quantity: Quantity,
+    pub(crate) quantity: ConservedKind,
     pub(crate) evidence: Evidence,
 }
 
@@ -76,7 +76,8 @@ pub(super) fn of_energy(graph: &mut Graph, moments: &mut Moments) -> Result<Cons
         None if !problem.constraints.is_empty() => found(graph, moments, equations.energy),
         symbolic => symbolic,
     };
-    let conserved = |evidence| Conserved { name: "energy".to_owned(), quantity: Quantity::Energy, evidence };
+    let conserved =
+        |evidence| Conserved { name: "energy".to_owned(), quantity: ConservedKind::Energy, evidence };
     evidence.map(conserved).ok_or_else(|| {
         let remain = changes.into_iter().filter(|&(_, part)| vanishes(graph, problem, part).is_none());
         remain.map(|(change, _)| change).collect()
@@ -122,7 +123,7 @@ pub(super) fn of_observables(
             match trial(graph, moments, value) {
                 Trial::Held(states) => conserved.push(Conserved {
                     name,
-                    quantity: Quantity::Observable(observable, entry),
+                    quantity: ConservedKind::Observable(observable, entry),
                     evidence: Evidence::Held(states),
                 }),
                 Trial::Broken(index, value, rate) => {

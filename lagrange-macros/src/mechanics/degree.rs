@@ -8,13 +8,13 @@ use crate::variables::{Variable, directions};
 
 /// A part of a sum: coefficient and term, and the term's degree in the velocities.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Part {
+pub(super) struct GradedTerm {
     pub(super) coefficient: Rational,
     pub(super) term: Id,
     pub(super) degree: Rational,
 }
 
-impl Part {
+impl GradedTerm {
     /// What the part is multiplied by in the energy; `None` where exact numbers have no room for it.
     pub(super) fn energy(&self) -> Option<Rational> {
         self.degree.checked_sub(&Rational::one())?.checked_mul(&self.coefficient)
@@ -25,7 +25,7 @@ impl Part {
 const LIMIT: usize = 1 << 14;
 
 /// The parts of `root`, where each can be seen to have a degree.
-pub(super) fn parts(graph: &Graph, root: Id) -> Option<Vec<Part>> {
+pub(super) fn parts(graph: &Graph, root: Id) -> Option<Vec<GradedTerm>> {
     let degrees = degrees(graph, root);
     let mut parts = Vec::new();
     let mut pending = vec![(root, Rational::one())];
@@ -34,7 +34,7 @@ pub(super) fn parts(graph: &Graph, root: Id) -> Option<Vec<Part>> {
             return None;
         }
         match (degrees[term.index()], graph.node(term)) {
-            (Some(degree), _) => parts.push(Part { coefficient, term, degree }),
+            (Some(degree), _) => parts.push(GradedTerm { coefficient, term, degree }),
             (None, Node::Sum(terms)) => {
                 for (term, c) in terms {
                     pending.push((*term, c.checked_mul(&coefficient)?));

@@ -23,7 +23,7 @@ pub(super) fn check(graph: &mut Graph, problem: &Problem, diagnostics: &mut Diag
     }
     let fault = if is_odd(graph, problem, power) {
         "is odd in the velocities: it gives the reversed motion as much power as it takes from the motion"
-    } else if sign(graph, power) == Sign::Negative {
+    } else if sign(graph, power) == PowerSign::Negative {
         "drives the motion: the power q̇·∂D/∂q̇ that it takes is negative, where parameters are positive"
     } else {
         return;
@@ -46,7 +46,7 @@ fn is_odd(graph: &mut Graph, problem: &Problem, power: Id) -> bool {
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Sign {
+enum PowerSign {
     /// Or zero.
     Positive,
     /// Or zero.
@@ -54,7 +54,7 @@ enum Sign {
     Unknown,
 }
 
-impl Sign {
+impl PowerSign {
     fn times(self, other: Self) -> Self {
         match (self, other) {
             (Self::Unknown, _) | (_, Self::Unknown) => Self::Unknown,
@@ -75,28 +75,35 @@ impl Sign {
 }
 
 /// The sign that an expression has wherever no parameter is negative.
-fn sign(graph: &Graph, root: Id) -> Sign {
-    let mut signs = vec![Sign::Unknown; root.index() + 1];
+fn sign(graph: &Graph, root: Id) -> PowerSign {
+    let mut signs = vec![PowerSign::Unknown; root.index() + 1];
     for id in graph.reachable(&[root]) {
         let of = |id: Id| signs[id.index()];
         signs[id.index()] = match graph.node(id) {
-            Node::Number(number) => Sign::of(*number),
-            Node::Pi | Node::Function(Function::Abs | Function::Exp | Function::Cosh, _) => Sign::Positive,
-            Node::Symbol(symbol) if matches!(Variable::of(*symbol), Variable::Parameter(_)) => Sign::Positive,
-            Node::Sum(terms) => {
-                let first = of(terms[0].0).times(Sign::of(terms[0].1));
-                let agrees = |&(term, number): &(Id, Rational)| of(term).times(Sign::of(number)) == first;
-                if terms.iter().all(agrees) { first } else { Sign::Unknown }
+            Node::Number(number) => PowerSign::of(*number),
+            Node::Pi | Node::Function(Function::Abs | Function::Exp | Function::Cosh, _) => {
+                PowerSign::Positive
             }
-            Node::Product(factors) => factors
-                .iter()
-                .fold(Sign::Positive, |sign, &(factor, exponent)| sign.times(of(factor).power(exponent))),
+            Node::Symbol(symbol) if matches!(Variable::of(*symbol), Variable::Parameter(_)) => {
+                PowerSign::Positive
+            }
+            Node::Sum(terms) => {
+                let first = of(terms[0].0).times(PowerSign::of(terms[0].1));
+                let agrees =
+                    |&(term, number): &(Id, Rational)| of(term).times(PowerSign::of(number)) == first;
+                if terms.iter().all(agrees) { first } else { PowerSign::Unknown }
+            }
+            Node::Product(factors) => {
+                factors.iter().fold(PowerSign::Positive, |sign, &(factor, exponent)| {
+                    sign.times(of(factor).power(exponent))
+                })
+            }
             Node::Defined(inner) => of(*inner),
             Node::Power(base, _) => match of(*base) {
-                Sign::Positive => Sign::Positive,
-                _ => Sign::Unknown,
+                PowerSign::Positive => PowerSign::Positive,
+                _ => PowerSign::Unknown,
             },
-            _ => Sign::Unknown,
+            _ => PowerSign::Unknown,
         };
     }
     signs[root.index()]

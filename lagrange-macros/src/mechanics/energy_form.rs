@@ -7,7 +7,7 @@
 
 use num_traits::{One, Zero};
 
-use super::degree::{self, Part, by_degree};
+use super::degree::{self, GradedTerm, by_degree};
 use super::equations::Equations;
 use super::evidence::{Evidence, vanishes};
 use super::twists;
@@ -57,7 +57,7 @@ pub(super) fn potential(graph: &mut Graph, problem: &Problem, form: EnergyForm) 
 
 /// D(E) = D(L) with D = Σ q̇ ∂/∂q̇.
 fn is_even(graph: &mut Graph, problem: &Problem, equations: &Equations) -> Option<Evidence> {
-    let is_even = |part: &Part| part.degree.is_zero() || part.degree == Rational::from_integer(2);
+    let is_even = |part: &GradedTerm| part.degree.is_zero() || part.degree == Rational::from_integer(2);
     if degree::parts(graph, problem.lagrangian).is_some_and(|parts| parts.iter().all(is_even)) {
         return Some(Evidence::Proved);
     }
@@ -71,7 +71,7 @@ fn is_even(graph: &mut Graph, problem: &Problem, equations: &Equations) -> Optio
 fn of_bodies(graph: &mut Graph, problem: &Problem) -> Option<EnergyForm> {
     let (energies, others) = twists::kinetic_energies(graph, problem)?;
     let kinetic = graph.total(energies);
-    let is_quadratic = |part: &Part| part.degree == Rational::from_integer(2);
+    let is_quadratic = |part: &GradedTerm| part.degree == Rational::from_integer(2);
     let holds_all = !has_velocity(graph, &[others]);
     if degree::parts(graph, kinetic).is_some_and(|parts| parts.iter().all(is_quadratic)) {
         return holds_all.then_some(EnergyForm::Sum(Evidence::Proved));
@@ -89,7 +89,7 @@ fn of_bodies(graph: &mut Graph, problem: &Problem) -> Option<EnergyForm> {
 
 /// Whether a velocity, by `der` or of a frame, has a component that is not zero where all q̇ are, and L is not linear in it.
 fn is_carried(graph: &mut Graph, problem: &Problem) -> bool {
-    let is_of_degree_one = |part: &Part| part.degree.is_one();
+    let is_of_degree_one = |part: &GradedTerm| part.degree.is_one();
     let moving = problem.rates.iter().filter(|components| has_velocity(graph, components)).flatten();
     let carried: Vec<Id> = moving
         .copied()

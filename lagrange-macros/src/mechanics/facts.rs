@@ -1,7 +1,7 @@
 //! What can be said of a system before it moves.
 
 use super::conservation;
-use super::conservation::{Conserved, EnergyChange, Quantity, found};
+use super::conservation::{Conserved, ConservedKind, EnergyChange, found};
 use super::energy_form::{self, EnergyForm};
 use super::equations::Equations;
 use super::evidence::vanishes;
@@ -70,7 +70,7 @@ fn momenta(graph: &mut Graph, moments: &mut Moments) -> (Vec<usize>, Vec<Conserv
             // A constraint that could act along the coordinate may do so in no motion.
             None => found(graph, moments, equations.momentum[a]),
         };
-        let (name, quantity) = (format!("p_{}", problem.coordinates[a].text), Quantity::Momentum(a));
+        let (name, quantity) = (format!("p_{}", problem.coordinates[a].text), ConservedKind::Momentum(a));
         conserved.extend(evidence.map(|evidence| Conserved { name, quantity, evidence }));
     }
     (cyclic, conserved)

@@ -26,7 +26,7 @@ use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};
 use crate::variables::{Variable, nodes};
-pub(crate) use conservation::{Conserved, EnergyChange, Quantity};
+pub(crate) use conservation::{Conserved, ConservedKind, EnergyChange};
 pub(crate) use constraints::ConstraintKind;
 pub(crate) use energy_form::EnergyForm;
 pub(crate) use equations::Equations;

@@ -4,8 +4,8 @@ use super::Page;
 use super::formula::Formula;
 use super::lines::Line;
 use super::reading::length;
-use super::remark::{Part, Remark};
-use crate::mechanics::{EnergyChange, EnergyForm, Evidence, Quantity};
+use super::remark::{Fragment, Remark};
+use crate::mechanics::{ConservedKind, EnergyChange, EnergyForm, Evidence};
 use crate::symbolic::Id;
 
 /// A potential energy of more signs is not repeated beside the energy that it is a part of.
@@ -15,8 +15,8 @@ fn name(text: &str) -> Formula {
     Formula::labelled(text, 0)
 }
 
-fn sum(terms: [Formula; 2]) -> Part {
-    Part::Formula(Formula::Sum(terms.to_vec()))
+fn sum(terms: [Formula; 2]) -> Fragment {
+    Fragment::Formula(Formula::Sum(terms.to_vec()))
 }
 
 impl Page<'_> {
@@ -24,7 +24,7 @@ impl Page<'_> {
     pub(super) fn conserved_energy(&self, evidence: Evidence) -> Line {
         let mut remark = self.energy_form();
         if let Evidence::Held(_) = evidence {
-            remark.push(Part::words("; conserved in all random motions tried"));
+            remark.push(Fragment::words("; conserved in all random motions tried"));
         }
         self.energy_line(remark)
     }
@@ -32,40 +32,40 @@ impl Page<'_> {
     /// The line of one that changes, as far as is known.
     pub(super) fn changing_energy(&self) -> Vec<Line> {
         let facts = &self.derived.facts;
-        if facts.conserved.iter().any(|conserved| conserved.quantity == Quantity::Energy) {
+        if facts.conserved.iter().any(|conserved| conserved.quantity == ConservedKind::Energy) {
             return Vec::new();
         }
         let mut remark = self.energy_form();
         let changes: Vec<Formula> = facts.energy_changes.iter().copied().map(change).collect();
         if !changes.is_empty() {
             let rate = Formula::Call("der".to_owned(), vec![name("E")]);
-            let rate = Part::Formula(rate);
+            let rate = Fragment::Formula(rate);
             remark.extend([
-                Part::words("; "),
+                Fragment::words("; "),
                 rate,
-                Part::words(" is "),
-                Part::Formula(Formula::sum(changes)),
+                Fragment::words(" is "),
+                Fragment::Formula(Formula::sum(changes)),
             ]);
         }
         vec![self.energy_line(remark)]
     }
 
-    fn energy_line(&self, remark: Vec<Part>) -> Line {
+    fn energy_line(&self, remark: Vec<Fragment>) -> Line {
         let energy = self.quantity(self.derived.equations.energy);
         Line { remark: Remark::of(remark), ..Line::known(name("E"), energy) }
     }
 
-    fn energy_form(&self) -> Vec<Part> {
+    fn energy_form(&self) -> Vec<Fragment> {
         let t_plus_u = || sum([name("T"), name("U")]);
         match self.derived.facts.energy_form {
             EnergyForm::Sum(_) => vec![t_plus_u()],
             EnergyForm::Even(_) => self.if_potential(t_plus_u()),
             EnergyForm::Moving => {
-                vec![Part::words("not "), t_plus_u(), Part::words(", as positions move with time")]
+                vec![Fragment::words("not "), t_plus_u(), Fragment::words(", as positions move with time")]
             }
             EnergyForm::Quadratic => {
                 let parts = sum([name("L_2"), name("L_0").negated()]);
-                vec![parts, Part::words(" by degree in the velocities")]
+                vec![parts, Fragment::words(" by degree in the velocities")]
             }
             EnergyForm::General => {
                 let product = vec![name("p"), Formula::labelled("q", 1)];
@@ -75,14 +75,14 @@ impl Page<'_> {
     }
 
     /// T + U if U is −L at rest: L does not tell.
-    fn if_potential(&self, t_plus_u: Part) -> Vec<Part> {
-        let is = [Part::words(" if "), Part::Formula(name("U")), Part::words(" is ")];
+    fn if_potential(&self, t_plus_u: Fragment) -> Vec<Fragment> {
+        let is = [Fragment::words(" if "), Fragment::Formula(name("U")), Fragment::words(" is ")];
         let potential = self.derived.potential;
         let written = potential.and_then(|potential| self.quantity(potential).ok());
         let (sum, potential) = match (potential, written) {
-            (Some(Id::ZERO), _) => (Part::Formula(name("T")), vec![Part::words("0")]),
-            (_, Some(written)) if length(&written) <= LONG => (t_plus_u, vec![Part::Formula(written)]),
-            _ => (t_plus_u, vec![Part::Formula(name("L").negated()), Part::words(" at rest")]),
+            (Some(Id::ZERO), _) => (Fragment::Formula(name("T")), vec![Fragment::words("0")]),
+            (_, Some(written)) if length(&written) <= LONG => (t_plus_u, vec![Fragment::Formula(written)]),
+            _ => (t_plus_u, vec![Fragment::Formula(name("L").negated()), Fragment::words(" at rest")]),
         };
         [sum].into_iter().chain(is).chain(potential).collect()
     }

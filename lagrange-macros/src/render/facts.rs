@@ -3,8 +3,8 @@
 use super::Page;
 use super::formula::Formula;
 use super::lines::{Equation, Line};
-use super::remark::{Part, Remark};
-use crate::mechanics::{Conserved, Evidence, Quantity};
+use super::remark::{Fragment, Remark};
+use crate::mechanics::{Conserved, ConservedKind, Evidence};
 use crate::syntax::{Expression, Sign};
 
 impl Page<'_> {
@@ -20,16 +20,16 @@ impl Page<'_> {
 
     fn conserved_quantity(&self, Conserved { name, quantity, evidence }: &Conserved) -> Option<Line> {
         let line = match *quantity {
-            Quantity::Momentum(a) => self.conserved_momentum(name, a)?,
-            Quantity::Energy => return Some(self.conserved_energy(*evidence)),
+            ConservedKind::Momentum(a) => self.conserved_momentum(name, a)?,
+            ConservedKind::Energy => return Some(self.conserved_energy(*evidence)),
             // A vector is written as such, once.
-            Quantity::Observable(observable, 0) => {
+            ConservedKind::Observable(observable, 0) => {
                 let name = &*self.problem.observables[observable].label.text;
                 let mut said = self.declaration.observables.iter().filter(|known| known.is_conserved);
                 let said = said.find(|known| known.target.name.text == name)?;
                 Line::of(Equation::Known(self.target(&said.target), self.written(&said.value)))
             }
-            Quantity::Observable(..) => return None,
+            ConservedKind::Observable(..) => return None,
         };
         Some(Line { remark: Remark::of(held(*evidence)), ..line })
     }
@@ -56,9 +56,9 @@ impl Page<'_> {
     }
 }
 
-fn held(evidence: Evidence) -> Vec<Part> {
+fn held(evidence: Evidence) -> Vec<Fragment> {
     match evidence {
         Evidence::Proved => Vec::new(),
-        Evidence::Held(_) => vec![Part::words("in all random motions tried")],
+        Evidence::Held(_) => vec![Fragment::words("in all random motions tried")],
     }
 }

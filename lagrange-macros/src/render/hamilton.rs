@@ -6,7 +6,7 @@ use super::formula::Formula;
 use super::lines::{Equation, Line};
 use super::reading::length;
 use super::{Page, vector};
-use crate::mechanics::{Conserved, Hamilton, NoHamiltonian, Quantity};
+use crate::mechanics::{Conserved, ConservedKind, Hamilton, NoHamiltonian};
 use crate::symbolic::Id;
 
 /// Longer ones, in the signs that they take, say nothing to a reader.
@@ -39,7 +39,7 @@ impl Page<'_> {
     }
 
     pub(super) fn are_conserved(&self, rows: &Range<usize>) -> bool {
-        let is_it = |i| move |known: &Conserved| known.quantity == Quantity::Momentum(i);
+        let is_it = |i| move |known: &Conserved| known.quantity == ConservedKind::Momentum(i);
         rows.clone().all(|i| self.derived.facts.conserved.iter().any(is_it(i)))
     }
 

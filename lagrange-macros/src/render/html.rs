@@ -6,7 +6,7 @@
 
 use super::lines::{Equation, Line, Section};
 use super::notation::Notation;
-use super::remark::{Part, Remark};
+use super::remark::{Fragment, Remark};
 
 /// A left side wider than this begins its line, in points at 10 point.
 const LEFT: f64 = 60.0;
@@ -23,17 +23,17 @@ const REMARK: &str = "display:inline-block;text-indent:0;opacity:.75;margin-left
 
 /// One element, without an empty line in it: so it stands in the documentation that is written in Markdown.
 pub(super) fn html(notation: Notation, sections: &[Section]) -> String {
-    let page = Rows { notation };
+    let page = HtmlRows { notation };
     let sections = sections.iter().filter(|section| !section.is_empty());
     let sections: String = sections.map(|section| page.section(section)).collect();
     format!("<div class=\"equations\" style=\"{PAGE}\">\n{sections}</div>\n")
 }
 
-struct Rows<'a> {
+struct HtmlRows<'a> {
     notation: Notation<'a>,
 }
 
-impl Rows<'_> {
+impl HtmlRows<'_> {
     fn section(&self, Section { heading, lines, note }: &Section) -> String {
         let rows: String = lines.iter().map(|line| self.row(line)).collect();
         let rows = match lines.is_empty() {
@@ -70,8 +70,8 @@ impl Rows<'_> {
     /// The name of a constraint, and what it is.
     fn remark(&self, label: Option<&str>, remark: &Remark) -> String {
         let part = |part| match part {
-            Part::Words(words) => text(&words),
-            Part::Formula(formula) => formulas(&self.notation.pieces(&formula)),
+            Fragment::Words(words) => text(&words),
+            Fragment::Formula(formula) => formulas(&self.notation.pieces(&formula)),
         };
         let said: String = remark.in_parentheses().into_iter().map(part).collect();
         let name = label.map_or(String::new(), |label| text(label) + " ");

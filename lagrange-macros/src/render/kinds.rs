@@ -1,7 +1,7 @@
 //! What kind of constraint it is, in words.
 
 use super::Page;
-use super::remark::{Part, Remark};
+use super::remark::{Fragment, Remark};
 use crate::mechanics::{Evidence, Integrability, Integrals};
 use crate::symbolic::Node;
 use crate::variables::Variable;
@@ -16,7 +16,7 @@ impl Page<'_> {
         remark
     }
 
-    fn kind(&self, row: usize) -> Vec<Part> {
+    fn kind(&self, row: usize) -> Vec<Fragment> {
         let kinds = &self.derived.equations.integrability;
         let class = kinds.classes[row];
         let kind = match class.integrability {
@@ -26,16 +26,22 @@ impl Page<'_> {
             Integrability::Together => "integrable together with the others",
             Integrability::Nonholonomic => "nonholonomic",
             Integrability::Undecided => {
-                return vec![Part::words("on the velocities; whether it can be integrated is not decided")];
+                return vec![Fragment::words(
+                    "on the velocities; whether it can be integrated is not decided",
+                )];
             }
         };
         let kind = if self.is_rheonomic(row) { format!("{kind}, rheonomic") } else { kind.to_owned() };
         let kind = qualified(&kind, class.evidence);
         match kinds.functions[row].map(|function| self.expression(function)) {
             Some(Ok(function)) => {
-                vec![Part::words(kind + ": "), Part::Formula(function), Part::words(" is constant")]
+                vec![
+                    Fragment::words(kind + ": "),
+                    Fragment::Formula(function),
+                    Fragment::words(" is constant"),
+                ]
             }
-            _ => vec![Part::words(kind)],
+            _ => vec![Fragment::words(kind)],
         }
     }
 

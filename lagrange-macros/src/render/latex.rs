@@ -5,7 +5,7 @@ use unicode_normalization::UnicodeNormalization;
 use super::formula::Formula;
 use super::lines::{Equation, Line, Section};
 use super::notation::Notation;
-use super::remark::{Part, Remark};
+use super::remark::{Fragment, Remark};
 use super::spelling::WIDE;
 use crate::syntax::GREEK;
 
@@ -87,11 +87,11 @@ impl Lines<'_> {
         let (mut pieces, mut is_new): (Vec<String>, bool) = (Vec::new(), true);
         for part in remark.in_parentheses() {
             let (parts, ends) = match part {
-                Part::Words(words) => {
+                Fragment::Words(words) => {
                     let parts = clauses(&words).map(|clause| format!(r"\text{{{clause}}}"));
                     (parts.collect(), words.ends_with([' ']) && !words.ends_with("not "))
                 }
-                Part::Formula(formula) => (self.held_together(&formula), false),
+                Fragment::Formula(formula) => (self.held_together(&formula), false),
             };
             for (place, part) in parts.into_iter().enumerate() {
                 match pieces.last_mut().filter(|_| place == 0 && !is_new) {

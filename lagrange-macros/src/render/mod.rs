@@ -26,7 +26,9 @@ mod written;
 use crate::mechanics::Derived;
 use crate::resolve::{Label, Problem};
 use crate::symbolic::{Graph, Id};
-use crate::syntax::{Constraint, Declaration, Define, Expression, Frame, Power, Target, TargetIndex};
+use crate::syntax::{
+    Constraint, Declaration, Define, Expression, FrameDeclaration, Power, Target, TargetIndex,
+};
 use arrays::Arrays;
 use formula::Formula;
 use lines::{Equation, Line, Section};
@@ -175,7 +177,7 @@ impl Page<'_> {
     }
 
     /// A frame by the one that it is in and the steps from there.
-    fn frame(&self, Frame { target, parent, steps, .. }: &Frame) -> Line {
+    fn frame(&self, FrameDeclaration { target, parent, steps, .. }: &FrameDeclaration) -> Line {
         let steps = parent.iter().chain(steps).map(|part| self.written(part)).collect();
         Line::of(Equation::Known(self.target(target), Formula::Product(steps, Vec::new())))
     }

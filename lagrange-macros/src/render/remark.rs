@@ -5,29 +5,29 @@ use super::notation::Notation;
 
 /// Words with formulas between them.
 #[derive(Default)]
-pub(super) struct Remark(Vec<Vec<Part>>);
+pub(super) struct Remark(Vec<Vec<Fragment>>);
 
 #[derive(Clone, PartialEq)]
-pub(super) enum Part {
+pub(super) enum Fragment {
     Words(String),
     Formula(Formula),
 }
 
-impl Part {
+impl Fragment {
     pub(super) fn words(words: impl Into<String>) -> Self {
         Self::Words(words.into())
     }
 }
 
 impl Remark {
-    pub(super) fn of(parts: Vec<Part>) -> Self {
+    pub(super) fn of(parts: Vec<Fragment>) -> Self {
         let mut remark = Self::default();
         remark.and(parts);
         remark
     }
 
     /// Says this too, unless it is said already.
-    pub(super) fn and(&mut self, parts: Vec<Part>) {
+    pub(super) fn and(&mut self, parts: Vec<Fragment>) {
         if !parts.is_empty() && !self.0.contains(&parts) {
             self.0.push(parts);
         }
@@ -38,12 +38,12 @@ impl Remark {
     }
 
     /// Its parts in a row, words with words.
-    fn parts(&self, bounds: [&str; 2]) -> Vec<Part> {
-        let mut all: Vec<Part> = Vec::new();
-        let [open, close] = bounds.map(Part::words);
-        for part in [vec![open], self.0.join(&Part::words("; ")), vec![close]].concat() {
+    fn parts(&self, bounds: [&str; 2]) -> Vec<Fragment> {
+        let mut all: Vec<Fragment> = Vec::new();
+        let [open, close] = bounds.map(Fragment::words);
+        for part in [vec![open], self.0.join(&Fragment::words("; ")), vec![close]].concat() {
             match (all.last_mut(), part) {
-                (Some(Part::Words(before)), Part::Words(words)) => *before += &words,
+                (Some(Fragment::Words(before)), Fragment::Words(words)) => *before += &words,
                 (_, part) => all.push(part),
             }
         }
@@ -51,7 +51,7 @@ impl Remark {
     }
 
     /// Nothing where nothing is said.
-    pub(super) fn in_parentheses(&self) -> Vec<Part> {
+    pub(super) fn in_parentheses(&self) -> Vec<Fragment> {
         if self.is_empty() { Vec::new() } else { self.parts(["(", ")"]) }
     }
 
@@ -63,8 +63,8 @@ impl Remark {
         formula: impl Fn(String) -> String,
     ) -> String {
         let spelled = self.in_parentheses().into_iter().map(|part| match part {
-            Part::Words(text) => words(&text),
-            Part::Formula(inner) => formula(notation.write(&inner)),
+            Fragment::Words(text) => words(&text),
+            Fragment::Formula(inner) => formula(notation.write(&inner)),
         });
         spelled.collect()
     }

@@ -12,10 +12,10 @@ pub(super) const NO_ELEMENTS: &str = "this is a scalar: it has no elements";
 pub(super) struct Access<'e> {
     pub(super) field: usize,
     pub(super) name: &'e Name,
-    pub(super) parts: Vec<Part<'e>>,
+    pub(super) parts: Vec<AccessPart<'e>>,
 }
 
-pub(super) enum Part<'e> {
+pub(super) enum AccessPart<'e> {
     Index(&'e Expression),
     Member(&'e Name),
 }
@@ -39,13 +39,13 @@ fn pose(place: Place) -> [Name; 2] {
 }
 
 /// The name that an expression begins with, and what stands after it.
-fn apart(mut expression: &Expression) -> (&Expression, Vec<Part<'_>>) {
+fn apart(mut expression: &Expression) -> (&Expression, Vec<AccessPart<'_>>) {
     let mut parts = Vec::new();
     // As many may follow one another as there is room for: no recursion.
     loop {
         let (base, part) = match &expression.kind {
-            Kind::Index(base, index) => (base, Part::Index(index)),
-            Kind::Member(base, member) => (base, Part::Member(member)),
+            Kind::Index(base, index) => (base, AccessPart::Index(index)),
+            Kind::Member(base, member) => (base, AccessPart::Member(member)),
             _ => break,
         };
         parts.push(part);
@@ -57,7 +57,8 @@ fn apart(mut expression: &Expression) -> (&Expression, Vec<Part<'_>>) {
 
 impl<'e> Access<'e> {
     fn members(&self) -> Vec<&'e Name> {
-        let member = |part: &Part<'e>| if let Part::Member(name) = part { Some(*name) } else { None };
+        let member =
+            |part: &AccessPart<'e>| if let AccessPart::Member(name) = part { Some(*name) } else { None };
         self.parts.iter().filter_map(member).collect()
     }
 }
@@ -122,12 +123,12 @@ impl Lowering<'_> {
             Reached { root: access.field, field, members: Vec::new(), indices: Vec::new(), place };
         for part in &access.parts {
             let end = match *part {
-                Part::Index(index) => {
+                AccessPart::Index(index) => {
                     let i = self.element_index(&reached, index, access.name.place)?;
                     reached.indices.push(i);
                     index.place
                 }
-                Part::Member(member) => {
+                AccessPart::Member(member) => {
                     reached.members.push(member);
                     reached.field = self.behind(&reached)?;
                     member.place

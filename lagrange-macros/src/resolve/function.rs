@@ -9,7 +9,7 @@ use super::value::Shape;
 use super::value::Value;
 use crate::diagnostics::{Diagnostics, Place};
 use crate::symbolic::External;
-use crate::syntax::{Coordinate, Declaration, Expression, Function, Name, numbers};
+use crate::syntax::{Coordinate, Declaration, Expression, FunctionDeclaration, Name, numbers};
 
 /// A function as generated code calls it.
 pub(crate) struct Supplied {
@@ -66,7 +66,10 @@ pub(super) fn supplied(
     supplied.collect()
 }
 
-fn no_such_field(Function { name, field, .. }: &Function, declaration: &Declaration) -> syn::Error {
+fn no_such_field(
+    FunctionDeclaration { name, field, .. }: &FunctionDeclaration,
+    declaration: &Declaration,
+) -> syn::Error {
     let fields = declaration.fields.iter().map(|field| field.name.text.as_str());
     let advice = match nearest(&field.text, fields) {
         Some(near) => format!("did you mean `{near}`?"),
@@ -96,7 +99,7 @@ impl Lowering<'_> {
         arguments: &[Expression],
         place: Place,
     ) -> Option<Value> {
-        let function: &Function = &self.functions[index];
+        let function: &FunctionDeclaration = &self.functions[index];
         let (name, wanted, given) = (&function.name.text, function.formals.len(), arguments.len());
         if wanted != given {
             return self.report(place, wrong_number(&function.name, wanted, given));

@@ -17,7 +17,7 @@ const ANGLES: usize = 3;
 
 /// What is known of a number.
 #[derive(Clone, Default)]
-struct Turned {
+struct AngleUse {
     moves: bool,
     /// The arguments that change in time of the sines and cosines that are multiplied with each other, as many as count.
     by: Vec<Id>,
@@ -40,12 +40,12 @@ impl Lowering<'_> {
 }
 
 fn turned_in_turn(graph: &Graph, roots: &[Id]) -> bool {
-    let mut all: FxHashMap<Id, Turned> = FxHashMap::default();
+    let mut all: FxHashMap<Id, AngleUse> = FxHashMap::default();
     for id in graph.reachable(roots) {
-        let mut turned = Turned::default();
+        let mut turned = AngleUse::default();
         let is_product = matches!(graph.node(id), Node::Product(_));
         graph.operands(id, |operand| {
-            let Turned { moves, by } = &all[&operand];
+            let AngleUse { moves, by } = &all[&operand];
             turned.moves |= moves;
             if is_product {
                 turned.join(by);
@@ -63,7 +63,7 @@ fn turned_in_turn(graph: &Graph, roots: &[Id]) -> bool {
     roots.iter().any(|root| all[root].by.len() >= ANGLES)
 }
 
-impl Turned {
+impl AngleUse {
     fn join(&mut self, more: &[Id]) {
         for angle in more {
             if self.by.len() < ANGLES && !self.by.contains(angle) {

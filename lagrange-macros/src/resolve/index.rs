@@ -1,6 +1,6 @@
 //! Elements and slices of arrays, fields and families.
 
-use super::access::{NO_ELEMENTS, Part};
+use super::access::{AccessPart, NO_ELEMENTS};
 use super::lower::Lowering;
 use super::scope::Entity;
 use super::value::Value;
@@ -15,7 +15,7 @@ impl Lowering<'_> {
     /// `base[index]`
     pub(super) fn index(&mut self, base: &Expression, index: &Expression) -> Option<Value> {
         if let Some(mut access) = self.access(base) {
-            access.parts.push(Part::Index(index));
+            access.parts.push(AccessPart::Index(index));
             return self.field_value(&access);
         }
         let indices = chain(base, index);

@@ -13,7 +13,9 @@ use super::turns::Turns;
 use super::value::Value;
 use crate::diagnostics::{Diagnostics, Place, fault_message};
 use crate::symbolic::{Fault, Forward, Graph, Id, Rational};
-use crate::syntax::{Coordinate, Declaration, Define, Expression, Frame, Function, Kind, Name};
+use crate::syntax::{
+    Coordinate, Declaration, Define, Expression, FrameDeclaration, FunctionDeclaration, Kind, Name,
+};
 use crate::variables::{Variable, total_time_derivative};
 
 /// What the expression at hand may contain beside coordinates, velocities and time.
@@ -61,9 +63,9 @@ pub(super) struct Lowering<'a> {
     /// The first flat index of each coordinate, and how many there are.
     pub(super) offsets: Vec<usize>,
     pub(super) count: usize,
-    pub(super) functions: &'a [Function],
+    pub(super) functions: &'a [FunctionDeclaration],
     pub(super) defines: &'a [Define],
-    pub(super) declared_frames: &'a [Frame],
+    pub(super) declared_frames: &'a [FrameDeclaration],
     pub(super) frames: Frames,
     pub(super) turns: Turns,
     /// Vectors and matrices of which rates were asked.

@@ -6,11 +6,11 @@ use crate::diagnostics::Place;
 use crate::symbolic::{Function, Graph, Id};
 use crate::syntax::{Expression, LENGTH_LIMIT, Name};
 
-type Rows = Vec<Vec<Id>>;
+type MatrixRows = Vec<Vec<Id>>;
 
 impl Value {
     /// The rows of a matrix.
-    pub(super) fn as_matrix(&self) -> Option<Rows> {
+    pub(super) fn as_matrix(&self) -> Option<MatrixRows> {
         match self {
             Self::Vector(rows) if !rows.is_empty() => rows.iter().map(Self::as_vector).collect(),
             _ => None,
@@ -43,7 +43,7 @@ impl Lowering<'_> {
             ));
         }
         let product = left.iter().map(|row| right.iter().map(|column| self.graph.dot(row, column)).collect());
-        let product: Rows = product.collect();
+        let product: MatrixRows = product.collect();
         Some(match (row, column) {
             (None, None) => {
                 let product = Value::matrix(product);
@@ -138,12 +138,12 @@ impl Lowering<'_> {
     }
 }
 
-fn transposed(rows: Rows) -> Rows {
+fn transposed(rows: MatrixRows) -> MatrixRows {
     (0..rows[0].len()).map(|j| rows.iter().map(|row| row[j]).collect()).collect()
 }
 
 /// S with S v = x × v for every v: its columns are x × eⱼ.
-fn skew(x: [Id; 3], graph: &mut Graph) -> Rows {
+fn skew(x: [Id; 3], graph: &mut Graph) -> MatrixRows {
     let unit = |j: usize| std::array::from_fn(|i| if i == j { Id::ONE } else { Id::ZERO });
     transposed((0..3).map(|j| cross(x, unit(j), graph).to_vec()).collect())
 }

@@ -4,7 +4,7 @@ use indexmap::IndexMap;
 
 use crate::diagnostics::{Diagnostics, Place};
 use crate::symbolic;
-use crate::syntax::{Declaration, Function, Name, normal_form};
+use crate::syntax::{Declaration, FunctionDeclaration, Name, normal_form};
 
 /// What a name in an expression may refer to.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -48,7 +48,8 @@ pub(super) struct Scope {
 
 impl Scope {
     pub(super) fn new(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Self {
-        let names = |function: &Function| (function.field.text.clone(), function.name.text.clone());
+        let names =
+            |function: &FunctionDeclaration| (function.field.text.clone(), function.name.text.clone());
         let functions = declaration.functions.iter().map(names).collect();
         let lengths = lengths(declaration).map(|(name, length)| (name.text.clone(), length)).collect();
         let mut scope = Self { entities: IndexMap::new(), shadowing: IndexMap::new(), functions, lengths };

@@ -13,16 +13,16 @@ use super::rational::{Rational, plus};
 const TERMS: usize = 1000;
 
 /// A product, and its coefficient in the sum.
-type Term = (Id, Rational);
-type Factors = Vec<(Id, Rational)>;
+pub(super) type Term = (Id, Rational);
+type FactorPowers = Vec<(Id, Rational)>;
 
 /// The products of a sum, by what each is without one of its factors.
 #[derive(Default)]
-struct Products {
+struct CommonFactors {
     /// `None` for those that others have taken in.
     terms: Vec<Option<Term>>,
     /// The places of terms, and the factor that each has besides.
-    by_rest: FxHashMap<Factors, Vec<(usize, Id)>>,
+    by_rest: FxHashMap<FactorPowers, Vec<(usize, Id)>>,
 }
 
 impl Graph {
@@ -37,7 +37,7 @@ impl Graph {
     fn combine(&mut self, sum: Id) -> Option<Id> {
         let Node::Sum(terms) = self.node(sum) else { return None };
         let mut waiting: Vec<Term> = terms.iter().rev().copied().collect();
-        let (before, mut products) = (waiting.len(), Products::default());
+        let (before, mut products) = (waiting.len(), CommonFactors::default());
         while let Some(term) = waiting.pop().filter(|_| before <= TERMS) {
             match products.taken_in(self, term) {
                 Some(both) => waiting.push(both),
@@ -50,7 +50,7 @@ impl Graph {
     }
 
     /// Each factor of a product, and what is left without it.
-    fn rests(&self, product: Id) -> Vec<(Id, Factors)> {
+    fn rests(&self, product: Id) -> Vec<(Id, FactorPowers)> {
         let Node::Product(factors) = self.node(product) else { return Vec::new() };
         let without = |k: usize| {
             let (mut rest, (factor, exponent)) = (factors.to_vec(), factors[k]);
@@ -82,7 +82,7 @@ impl Graph {
     }
 }
 
-impl Products {
+impl CommonFactors {
     fn put(&mut self, graph: &Graph, term: Term) {
         for (factor, rest) in graph.rests(term.0) {
             self.by_rest.entry(rest).or_default().push((self.terms.len(), factor));

@@ -28,7 +28,7 @@ pub(crate) use differentiate::Forward;
 pub(crate) use elimination::{rank, solve};
 pub(crate) use evaluate::Approximate;
 pub(crate) use graph::{External, Fault, Function, Graph, Id, Node, Symbol};
-pub(crate) use polynomial::{Polynomial, Polynomials};
+pub(crate) use polynomial::{ExactPolynomial, Polynomials};
 pub(crate) use random::{drawn, random};
 pub(crate) use rational::{Rational, plus, power, square_root, times, to_f64};
 pub(crate) use sample::Sample;

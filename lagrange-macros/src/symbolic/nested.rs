@@ -11,16 +11,15 @@ use std::collections::BTreeMap;
 use num_traits::One;
 use rustc_hash::FxHashMap;
 
+use super::combined::Term;
 use super::graph::{Graph, Id, Node};
 use super::rational::Rational;
-
-type Term = (Id, Rational);
 
 /// Sums as ways through a tree.
 #[derive(Default)]
 struct Ways {
     /// The first is the root.
-    places: Vec<Place>,
+    places: Vec<Nesting>,
     /// By a place and the term after it.
     next: FxHashMap<(usize, Term), usize>,
     /// Where the way of a sum ends.
@@ -28,7 +27,7 @@ struct Ways {
 }
 
 #[derive(Default)]
-struct Place {
+struct Nesting {
     before: usize,
     /// The last term on the way to it.
     term: Option<Term>,
@@ -64,7 +63,7 @@ impl Ways {
         let sums = sums(graph, from);
         let mut users: FxHashMap<Term, usize> = FxHashMap::default();
         sums.iter().flat_map(|(.., terms)| terms).for_each(|term| *users.entry(*term).or_default() += 1);
-        let mut ways = Self { places: vec![Place::default()], ..Self::default() };
+        let mut ways = Self { places: vec![Nesting::default()], ..Self::default() };
         for (sum, is_named, mut terms) in sums {
             terms.sort_unstable_by_key(|term| (Reverse(users[term]), *term));
             ways.add(sum, is_named, &terms);
@@ -80,7 +79,7 @@ impl Ways {
             if next == count {
                 self.places[at].ways += 1;
                 let depth = self.places[at].depth + 1;
-                self.places.push(Place { before: at, term: Some(term), depth, ..Place::default() });
+                self.places.push(Nesting { before: at, term: Some(term), depth, ..Nesting::default() });
             }
             at = next;
         }
@@ -91,7 +90,7 @@ impl Ways {
 
     /// Whether several sums begin with one that has a name, or with what saves more than one addition.
     fn is_shared(&self, place: usize) -> bool {
-        let Place { depth, ways, is_named, .. } = self.places[place];
+        let Nesting { depth, ways, is_named, .. } = self.places[place];
         ways > 1 && depth > 0 && (is_named || (ways - 1) * (depth - 1) > 1)
     }
 

@@ -33,32 +33,32 @@ enum Generator {
 
 /// Generators in falling order with their exponents: compared as vectors these are in lexicographic order, which is
 /// one that products keep.
-type Monomial = Vec<(Generator, u32)>;
+type PowerProduct = Vec<(Generator, u32)>;
 
 /// Σ coefficient · monomial, no coefficient zero.
 #[derive(Clone, Default, PartialEq, Eq, Debug)]
-pub(crate) struct Polynomial(BTreeMap<Monomial, Rational>);
+pub(crate) struct ExactPolynomial(BTreeMap<PowerProduct, Rational>);
 
 /// Expressions as polynomials, and what powers of their generators equal.
 #[derive(Default)]
 pub(crate) struct Polynomials {
-    known: FxHashMap<Id, Option<Polynomial>>,
+    known: FxHashMap<Id, Option<ExactPolynomial>>,
     /// generator^exponent, for the least exponent that is rewritten.
-    relations: FxHashMap<Generator, (u32, Polynomial)>,
+    relations: FxHashMap<Generator, (u32, ExactPolynomial)>,
     /// Products of terms so far.
     work: Cell<usize>,
 }
 
-impl Polynomial {
+impl ExactPolynomial {
     pub(crate) fn is_zero(&self) -> bool {
         self.0.is_empty()
     }
 
     pub(crate) fn number(value: Rational) -> Self {
-        Self::term(Monomial::new(), value)
+        Self::term(PowerProduct::new(), value)
     }
 
-    fn term(monomial: Monomial, coefficient: Rational) -> Self {
+    fn term(monomial: PowerProduct, coefficient: Rational) -> Self {
         Self([(monomial, coefficient)].into_iter().filter(|(_, c)| !c.is_zero()).collect())
     }
 
@@ -128,7 +128,7 @@ impl Polynomial {
 
 impl Polynomials {
     /// Expands an expression without boundaries into a polynomial; `None` if that is too long.
-    pub(crate) fn of(&mut self, graph: &mut Graph, root: Id) -> Option<Polynomial> {
+    pub(crate) fn of(&mut self, graph: &mut Graph, root: Id) -> Option<ExactPolynomial> {
         for id in graph.reachable(&[root]) {
             if !self.known.contains_key(&id) {
                 let polynomial = self.expanded(graph, id);
@@ -138,23 +138,23 @@ impl Polynomials {
         self.known[&root].clone()
     }
 
-    fn expanded(&mut self, graph: &mut Graph, id: Id) -> Option<Polynomial> {
-        let itself = Polynomial::generator(Generator::Node(id), 1);
+    fn expanded(&mut self, graph: &mut Graph, id: Id) -> Option<ExactPolynomial> {
+        let itself = ExactPolynomial::generator(Generator::Node(id), 1);
         match graph.node(id).clone() {
-            Node::Number(value) => Some(Polynomial::number(value)),
+            Node::Number(value) => Some(ExactPolynomial::number(value)),
             Node::Sum(terms) => {
-                let mut sum = Polynomial::default();
+                let mut sum = ExactPolynomial::default();
                 for (term, c) in terms {
                     sum.add(self.known[&term].as_ref()?, c)?;
                 }
                 Some(sum)
             }
             Node::Product(factors) => {
-                let mut product = Polynomial::number(Rational::one());
+                let mut product = ExactPolynomial::number(Rational::one());
                 for (factor, exponent) in factors {
                     let power = match exponent.numer().unsigned_abs() <= POWER.into() {
                         true => self.raised(factor, exponent)?,
-                        false => Polynomial::generator(Generator::Node(graph.pow(factor, exponent)), 1),
+                        false => ExactPolynomial::generator(Generator::Node(graph.pow(factor, exponent)), 1),
                     };
                     product = self.times(&product, &power)?;
                 }
@@ -167,8 +167,8 @@ impl Polynomials {
                 };
                 let other = graph.function(other, x);
                 // 1 ± other²
-                let other = Polynomial::generator(Generator::Node(other), 2);
-                let square = Polynomial::number(Rational::one()).plus(&other, sign.into())?;
+                let other = ExactPolynomial::generator(Generator::Node(other), 2);
+                let square = ExactPolynomial::number(Rational::one()).plus(&other, sign.into())?;
                 self.relations.insert(Generator::Node(id), (2, square));
                 Some(itself)
             }
@@ -177,12 +177,12 @@ impl Polynomials {
     }
 
     /// base^exponent
-    fn raised(&mut self, base: Id, exponent: Rational) -> Option<Polynomial> {
+    fn raised(&mut self, base: Id, exponent: Rational) -> Option<ExactPolynomial> {
         let whole = &self.known[&base];
         if exponent.is_integer() && *exponent.numer() > 0 {
             let whole = whole.as_ref()?;
-            let times = |power: Polynomial, _| self.times(&power, whole);
-            return (0..*exponent.numer()).try_fold(Polynomial::number(Rational::one()), times);
+            let times = |power: ExactPolynomial, _| self.times(&power, whole);
+            return (0..*exponent.numer()).try_fold(ExactPolynomial::number(Rational::one()), times);
         }
         let degree = u32::try_from(*exponent.denom()).ok()?;
         let count = u32::try_from(exponent.numer().unsigned_abs()).ok()?;
@@ -191,13 +191,13 @@ impl Polynomials {
         }
         match *exponent.numer() > 0 {
             true => self.reduced(vec![(Generator::Root(base, degree), count)]),
-            false => Some(Polynomial::generator(Generator::Reciprocal(base, degree), count)),
+            false => Some(ExactPolynomial::generator(Generator::Reciprocal(base, degree), count)),
         }
     }
 
     /// The product; `None` where it is too long.
-    pub(crate) fn times(&self, x: &Polynomial, y: &Polynomial) -> Option<Polynomial> {
-        let mut product = Polynomial::default();
+    pub(crate) fn times(&self, x: &ExactPolynomial, y: &ExactPolynomial) -> Option<ExactPolynomial> {
+        let mut product = ExactPolynomial::default();
         self.work.set(self.work.get() + x.0.len() * y.0.len());
         (self.work.get() <= WORK).then_some(())?;
         for (first, &c) in &x.0 {
@@ -209,22 +209,22 @@ impl Polynomials {
     }
 
     /// A monomial with its powers rewritten.
-    fn reduced(&self, monomial: Monomial) -> Option<Polynomial> {
+    fn reduced(&self, monomial: PowerProduct) -> Option<ExactPolynomial> {
         let rewritten = monomial.iter().enumerate().find_map(|(place, &(generator, exponent))| {
             let (power, equal) = self.relations.get(&generator)?;
             (exponent >= *power).then_some((place, *power, equal))
         });
         let Some((place, power, equal)) = rewritten else {
-            return Some(Polynomial::term(monomial, Rational::one()));
+            return Some(ExactPolynomial::term(monomial, Rational::one()));
         };
         let mut rest = monomial;
         rest[place].1 -= power;
         rest.retain(|&(_, exponent)| exponent > 0);
-        self.times(&Polynomial::term(rest, Rational::one()), equal)
+        self.times(&ExactPolynomial::term(rest, Rational::one()), equal)
     }
 
     /// The polynomials times what rids all of them of reciprocals, which is nowhere zero where they have a value.
-    pub(crate) fn cleared(&self, row: &[Polynomial]) -> Option<Vec<Polynomial>> {
+    pub(crate) fn cleared(&self, row: &[ExactPolynomial]) -> Option<Vec<ExactPolynomial>> {
         let mut row = row.to_vec();
         // A base may have reciprocals in it, which come after it.
         for _ in 0..POWER {
@@ -246,38 +246,38 @@ impl Polynomials {
     /// A polynomial times base^(exponent/degree).
     fn without_reciprocal(
         &self,
-        polynomial: &Polynomial,
+        polynomial: &ExactPolynomial,
         (base, degree): (Id, u32),
         exponent: u32,
-    ) -> Option<Polynomial> {
-        let mut cleared = Polynomial::default();
+    ) -> Option<ExactPolynomial> {
+        let mut cleared = ExactPolynomial::default();
         for (monomial, &c) in &polynomial.0 {
             let mut rest = monomial.clone();
             let place = rest.iter().position(|&(other, _)| other == Generator::Reciprocal(base, degree));
             let left = exponent - place.map_or(0, |place| rest.remove(place).1);
-            let root = Polynomial::generator(Generator::Root(base, degree), left);
-            let term = Polynomial::term(rest, c);
+            let root = ExactPolynomial::generator(Generator::Root(base, degree), left);
+            let term = ExactPolynomial::term(rest, c);
             cleared.add(&self.times(&root, &term)?, Rational::one())?;
         }
         Some(cleared)
     }
 
     /// q with x = q y; `None` where there is none or it is not found.
-    pub(crate) fn quotient(&self, x: &Polynomial, y: &Polynomial) -> Option<Polynomial> {
+    pub(crate) fn quotient(&self, x: &ExactPolynomial, y: &ExactPolynomial) -> Option<ExactPolynomial> {
         let (mut x, mut y) = (x.clone(), y.clone());
         // Both by p − r g, for y = p + r g with a known g²: what is left of y has no g.
         while let Some(square) =
             y.generators().keys().find(|g| self.relations.get(g).is_some_and(|r| r.0 == 2))
         {
             let (without, with) = y.split(*square);
-            let with = self.times(&with, &Polynomial::generator(*square, 1))?;
+            let with = self.times(&with, &ExactPolynomial::generator(*square, 1))?;
             let conjugate = without.plus(&with, -Rational::one())?;
             (x, y) = (self.times(&x, &conjugate)?, self.times(&y, &conjugate)?);
         }
         let (leading, &c) = y.0.last_key_value()?;
-        let mut quotient = Polynomial::default();
+        let mut quotient = ExactPolynomial::default();
         while let Some((monomial, &d)) = x.0.last_key_value() {
-            let term = Polynomial::term(divided(monomial, leading)?, times(d, c.recip())?);
+            let term = ExactPolynomial::term(divided(monomial, leading)?, times(d, c.recip())?);
             x.add(&self.times(&term, &y)?, -Rational::one())?;
             quotient.add(&term, Rational::one())?;
         }
@@ -285,7 +285,7 @@ impl Polynomials {
     }
 }
 
-fn joined(x: &Monomial, y: &Monomial) -> Monomial {
+fn joined(x: &PowerProduct, y: &PowerProduct) -> PowerProduct {
     let mut exponents: BTreeMap<Generator, u32> = x.iter().copied().collect();
     for &(generator, exponent) in y {
         *exponents.entry(generator).or_default() += exponent;
@@ -293,7 +293,7 @@ fn joined(x: &Monomial, y: &Monomial) -> Monomial {
     exponents.into_iter().rev().collect()
 }
 
-fn divided(x: &Monomial, y: &Monomial) -> Option<Monomial> {
+fn divided(x: &PowerProduct, y: &PowerProduct) -> Option<PowerProduct> {
     let mut exponents: BTreeMap<Generator, u32> = x.iter().copied().collect();
     for (generator, exponent) in y {
         let left = exponents.get_mut(generator)?;

@@ -18,8 +18,8 @@ pub(crate) struct Declaration {
     /// Whether these are all.
     pub(crate) are_coordinates_read: bool,
     pub(crate) defines: Vec<Define>,
-    pub(crate) functions: Vec<Function>,
-    pub(crate) frames: Vec<Frame>,
+    pub(crate) functions: Vec<FunctionDeclaration>,
+    pub(crate) frames: Vec<FrameDeclaration>,
     pub(crate) lagrangian: Option<Expression>,
     pub(crate) constraints: Vec<Constraint>,
     pub(crate) forces: Vec<Force>,
@@ -58,7 +58,7 @@ pub(crate) struct Define {
 
 /// `#[frame(body in parent: translate(v), rotate_z(angle))]`
 #[derive(Debug)]
-pub(crate) struct Frame {
+pub(crate) struct FrameDeclaration {
     pub(crate) target: Target,
     /// The frame that it is in; the fixed one where none is named.
     pub(crate) parent: Option<Expression>,
@@ -70,7 +70,7 @@ pub(crate) struct Frame {
 
 /// `#[function(Omega(t): [3] = omega)]`
 #[derive(Debug)]
-pub(crate) struct Function {
+pub(crate) struct FunctionDeclaration {
     pub(crate) name: Name,
     /// Each formal, with its lengths if it says any.
     pub(crate) formals: Vec<(Name, Vec<usize>)>,

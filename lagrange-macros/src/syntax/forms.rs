@@ -5,7 +5,7 @@ use quote::ToTokens;
 use syn::Result;
 
 use super::cursor::Cursor;
-use super::declaration::{Constraint, Coordinate, Define, Force, Function, Named, Options, Power};
+use super::declaration::{Constraint, Coordinate, Define, Force, FunctionDeclaration, Named, Options, Power};
 use super::expression::{self, Expression, Kind};
 use super::field::{LENGTH_LIMIT, NOT_A_LITERAL, numbers};
 use super::name::Name;
@@ -170,7 +170,7 @@ pub(super) fn define(cursor: &mut Cursor, defines: &mut Vec<Define>) -> Result<(
     result
 }
 
-pub(super) fn function(cursor: &mut Cursor) -> Result<Function> {
+pub(super) fn function(cursor: &mut Cursor) -> Result<FunctionDeclaration> {
     let name = cursor.name("the name of the function")?;
     let Some(group) = cursor.take_group(Delimiter::Parenthesis) else {
         return Err(cursor.error(format!("expected its arguments: write `{}`", form("function"))));
@@ -183,7 +183,7 @@ pub(super) fn function(cursor: &mut Cursor) -> Result<Function> {
     }
     let field = if cursor.take_punct('=') { cursor.name("the name of a field")? } else { name.clone() };
     finish(cursor, "function")?;
-    Ok(Function { name, formals, lengths, field })
+    Ok(FunctionDeclaration { name, formals, lengths, field })
 }
 
 /// Reads the names of a function's arguments, and what `read` finds behind each.

@@ -4,7 +4,7 @@ use proc_macro2::{Delimiter, TokenTree};
 use syn::Result;
 
 use super::cursor::Cursor;
-use super::declaration::{Constraint, Declaration, Frame};
+use super::declaration::{Constraint, Declaration, FrameDeclaration};
 use super::expression::{self, Expression, Kind};
 use super::forms::form;
 use super::name::Name;
@@ -12,7 +12,7 @@ use super::target::{Target, TargetIndex, target};
 use crate::symbolic::Rational;
 
 /// `name in parent: step, step`
-pub(super) fn frame(cursor: &mut Cursor, definitions: usize) -> Result<Frame> {
+pub(super) fn frame(cursor: &mut Cursor, definitions: usize) -> Result<FrameDeclaration> {
     let target = target(cursor, &format!("the name of the frame: write `{}`", form("frame")))?;
     let parent = if cursor.take_word("in") { Some(parent(cursor)?) } else { None };
     cursor.expect_punct(
@@ -29,7 +29,7 @@ pub(super) fn frame(cursor: &mut Cursor, definitions: usize) -> Result<Frame> {
         return Err(cursor
             .error(format!("expected how the frame lies in the one that it is in: `{}`", form("frame"))));
     }
-    Ok(Frame { target, parent, steps, definitions })
+    Ok(FrameDeclaration { target, parent, steps, definitions })
 }
 
 /// `rotate_z(x) translate(v)`

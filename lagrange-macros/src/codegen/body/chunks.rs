@@ -15,7 +15,7 @@ const LONGEST: usize = 4_000;
 const SHORTEST: usize = 1_000;
 
 /// What becomes a part: operations of the sequence, which may be rounds of the same ones.
-pub(super) struct Segment {
+pub(super) struct OperationRange {
     pub(super) range: Range<usize>,
     pub(super) repeat: Option<Repeat>,
 }
@@ -25,13 +25,13 @@ pub(super) fn is_long(order: &Order) -> bool {
 }
 
 /// The parts of a function. Before and after repeats there is room for what brings numbers to their places.
-pub(super) fn segments(order: &Order, repeats: Vec<Repeat>) -> Vec<Segment> {
+pub(super) fn segments(order: &Order, repeats: Vec<Repeat>) -> Vec<OperationRange> {
     let (mut segments, mut start) = (Vec::new(), 0);
-    let straight = |range| cuts(order, range).into_iter().map(|range| Segment { range, repeat: None });
+    let straight = |range| cuts(order, range).into_iter().map(|range| OperationRange { range, repeat: None });
     for repeat in repeats {
         segments.extend(straight(start..repeat.range.start));
         start = repeat.range.end;
-        segments.push(Segment { range: repeat.range.clone(), repeat: Some(repeat) });
+        segments.push(OperationRange { range: repeat.range.clone(), repeat: Some(repeat) });
     }
     segments.extend(straight(start..order.sequence.len()));
     segments

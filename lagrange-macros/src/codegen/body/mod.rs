@@ -14,20 +14,20 @@ use super::operation::{Call, Operation};
 use crate::symbolic::{Id, Symbol};
 
 #[derive(Clone, Debug)]
-pub(super) struct Body {
+pub(super) struct FunctionBody {
     /// One after the other; more than one where the function is long.
-    pub(super) parts: Vec<Part>,
+    pub(super) parts: Vec<Chunk>,
     /// How many results wait at once for a later part.
     pub(super) waiting: usize,
     /// The results, in locals of the only part; where there are none the parts store them, all but zeros.
-    pub(super) results: Option<Vec<Expression>>,
+    pub(super) results: Option<Vec<Operand>>,
     /// How many results wait for their last use at once, at most, in the order of the derivation and in this one.
     pub(super) peaks: [usize; 2],
 }
 
 /// Statements that see no locals but their own.
 #[derive(Clone, Default, Debug)]
-pub(super) struct Part {
+pub(super) struct Chunk {
     pub(super) inputs: BTreeSet<Symbol>,
     /// What the statements give values to, each once.
     pub(super) locals: Vec<Local>,
@@ -35,7 +35,7 @@ pub(super) struct Part {
     pub(super) rounds: Option<Rounds>,
 }
 
-impl Part {
+impl Chunk {
     /// All inputs that are read, once or round by round.
     pub(super) fn reads(&self) -> impl Iterator<Item = Symbol> {
         let given = self.rounds.iter().flat_map(|rounds| &rounds.given).filter_map(|given| match given {
@@ -58,17 +58,17 @@ pub(super) struct Rounds {
 pub(super) enum Given {
     /// One after the other, round by round.
     Inputs(Vec<Symbol>),
-    Waiting(Series),
+    Waiting(SlotSequence),
 }
 
 /// Places in an array, round by round: in all the same one, or others as far apart.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) struct Series {
+pub(super) struct SlotSequence {
     pub(super) first: usize,
     pub(super) step: isize,
 }
 
-impl Series {
+impl SlotSequence {
     pub(super) fn constant(place: usize) -> Self {
         Self { first: place, step: 0 }
     }
@@ -88,26 +88,26 @@ impl Series {
 
 #[derive(Clone, Debug)]
 pub(super) enum Statement {
-    Let(Local, Expression),
+    Let(Local, Operand),
     /// Angles less full turns where they are large, of which there is no need to ask again.
-    Small(Vec<(Local, Expression)>),
+    Small(Vec<(Local, Operand)>),
     /// Sines and cosines, together: of several, small angles.
-    Turns(Vec<Turn>),
+    Turns(Vec<SineAndCosine>),
     /// A call of a function that the user supplies, and those of its results that are used.
-    Call(Call<Expression>, Vec<(u32, Local)>),
-    Store(Place, Expression),
+    Call(Call<Operand>, Vec<(u32, Local)>),
+    Store(Slot, Operand),
 }
 
 /// The sine and the cosine of one angle, as far as they are used.
 #[derive(Clone, Debug)]
-pub(super) struct Turn {
-    pub(super) angle: Expression,
+pub(super) struct SineAndCosine {
+    pub(super) angle: Operand,
     pub(super) sine: Option<Local>,
     pub(super) cosine: Option<Local>,
 }
 
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(super) enum Expression {
+pub(super) enum Operand {
     Local(Local),
     /// What an earlier part has stored.
     Waiting(usize),
@@ -132,7 +132,7 @@ pub(super) enum Local {
 
 /// Where a value is stored.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Place {
+pub(super) enum Slot {
     Result(usize),
-    Waiting(Series),
+    Waiting(SlotSequence),
 }

@@ -1,4 +1,4 @@
-//! From a schedule to a [`Body`], part by part.
+//! From a schedule to a [`FunctionBody`], chunk by chunk.
 
 mod angles;
 mod rounds;
@@ -8,22 +8,22 @@ use std::ops::Range;
 
 use rustc_hash::FxHashMap;
 
-use super::chunks::{self, Segment, Waiting};
+use super::chunks::{self, OperationRange, Waiting};
 use super::order_of_evaluation::Order;
 use super::repeats::{Repeat, repeats};
-use super::{Body, Expression, Local, Part, Place, Series, Statement};
+use super::{Chunk, FunctionBody, Local, Operand, Slot, SlotSequence, Statement};
 use crate::codegen::operation::{Call, Operation, Register};
 use crate::codegen::passes::Program;
 use crate::codegen::schedule::Schedule;
 use crate::symbolic::{Function, Id};
-use rounds::Layout;
+use rounds::RoundLayout;
 
 /// Single-use results are nested into what uses them to this depth.
 const NESTING: usize = 6;
 /// So many results, most of them zero, are not written out.
 const MANY: usize = 256;
 
-impl Body {
+impl FunctionBody {
     /// Computes the results of a program; definitions with names have locals called after them.
     pub(in crate::codegen) fn new(program: &Program, names: &FxHashMap<Id, String>) -> Self {
         let Program { schedule, results, .. } = program;
@@ -59,7 +59,7 @@ impl Body {
 }
 
 /// What becomes a part each. Of a long function only what is not computed in loops is long.
-fn segments(schedule: &Schedule, order: Order) -> (Order, Vec<Segment>) {
+fn segments(schedule: &Schedule, order: Order) -> (Order, Vec<OperationRange>) {
     if !chunks::is_long(&order) {
         let segments = chunks::segments(&order, Vec::new());
         return (order, segments);
@@ -80,21 +80,21 @@ struct Planner<'p> {
     /// For each register the last part that uses it.
     reach: Vec<usize>,
     /// What stands for each register that is computed.
-    values: Vec<Option<Value>>,
+    values: Vec<Option<LiveValue>>,
     definitions: FxHashMap<Register, Id>,
     /// For each call the results of it that are used.
     outputs: FxHashMap<u32, Vec<u32>>,
     /// For each register where it is stored as soon as it is computed.
-    places: FxHashMap<Register, Vec<Place>>,
+    places: FxHashMap<Register, Vec<Slot>>,
     waiting: Waiting,
     index: usize,
-    part: Part,
+    part: Chunk,
     /// What earlier parts computed and this one has in a local.
     fetched: BTreeSet<Register>,
     /// What is in a local and which a later part uses.
     kept: Vec<Register>,
     /// Where the repeat that comes next finds and leaves what it computes with.
-    layout: Layout,
+    layout: RoundLayout,
     /// For each part, the last first, the angles in it that depend on no sine and on no other function.
     plain: Vec<Vec<Register>>,
     /// Those of this part whose turn has not come.
@@ -105,8 +105,8 @@ struct Planner<'p> {
     small: BTreeSet<Register>,
 }
 
-struct Value {
-    expression: Expression,
+struct LiveValue {
+    expression: Operand,
     /// How deep it nests.
     depth: usize,
 }
@@ -164,13 +164,13 @@ impl<'p> Planner<'p> {
     }
 
     /// What stands for a result, here: what is neither in a local of this part nor waits is computed.
-    fn value(&mut self, register: Register) -> Expression {
+    fn value(&mut self, register: Register) -> Operand {
         let operation = self.schedule.operations[register.index()];
         if let Operation::Input(symbol) = operation {
             self.part.inputs.insert(symbol);
         }
         if matches!(operation, Operation::Constant(_) | Operation::Input(_)) {
-            return Expression::Of(Box::new(operation.with_operands(|operand| self.value(operand))));
+            return Operand::Of(Box::new(operation.with_operands(|operand| self.value(operand))));
         }
         if self.values[register.index()].is_none() {
             self.compute(register.index());
@@ -184,7 +184,7 @@ impl<'p> Planner<'p> {
         if let Some(place) = self.waiting.place(register)
             && self.fetched.insert(register)
         {
-            self.assign(self.local(register), Expression::Waiting(place));
+            self.assign(self.local(register), Operand::Waiting(place));
         }
     }
 
@@ -199,10 +199,10 @@ impl<'p> Planner<'p> {
                 let operands = self.schedule.operands(operation);
                 let depth = 1 + operands.map(|operand| self.depth(operand)).max().unwrap_or(0);
                 let expression =
-                    Expression::Of(Box::new(operation.with_operands(|operand| self.value(operand))));
+                    Operand::Of(Box::new(operation.with_operands(|operand| self.value(operand))));
                 let is_used_here = self.uses[index] == 1 && self.reach[index] == self.index;
                 if is_used_here && depth < NESTING {
-                    self.values[index] = Some(Value { expression, depth });
+                    self.values[index] = Some(LiveValue { expression, depth });
                 } else {
                     let local = self.local(register);
                     self.assign(local, expression);
@@ -245,7 +245,7 @@ impl<'p> Planner<'p> {
         }
     }
 
-    fn assign(&mut self, local: Local, expression: Expression) {
+    fn assign(&mut self, local: Local, expression: Operand) {
         self.part.locals.push(local);
         self.part.statements.push(Statement::Let(local, expression));
     }
@@ -255,21 +255,21 @@ impl<'p> Planner<'p> {
         if self.reach[register.index()] > self.index {
             self.kept.push(register);
         }
-        let expression = Expression::Local(local);
-        self.values[register.index()] = Some(Value { expression, depth: 0 });
+        let expression = Operand::Local(local);
+        self.values[register.index()] = Some(LiveValue { expression, depth: 0 });
     }
 
     /// Says which results are stored where: what is at hand at once, the others when they are computed.
     fn will_store(&mut self, results: &[(usize, Register)]) {
         for &(k, register) in results {
             match self.schedule.operations[register.index()] {
-                Operation::Constant(_) | Operation::Input(_) => self.store(Place::Result(k), register),
-                _ => self.places.entry(register).or_default().push(Place::Result(k)),
+                Operation::Constant(_) | Operation::Input(_) => self.store(Slot::Result(k), register),
+                _ => self.places.entry(register).or_default().push(Slot::Result(k)),
             }
         }
     }
 
-    fn store(&mut self, place: Place, register: Register) {
+    fn store(&mut self, place: Slot, register: Register) {
         let value = self.value(register);
         self.part.statements.push(Statement::Store(place, value));
     }
@@ -290,11 +290,11 @@ impl<'p> Planner<'p> {
     }
 
     /// The part as it stands; the next one begins, which may be a repeat of this sequence.
-    fn end_part(&mut self, next: Option<(&Repeat, &[usize])>) -> Part {
+    fn end_part(&mut self, next: Option<(&Repeat, &[usize])>) -> Chunk {
         self.release_places();
         for register in std::mem::take(&mut self.kept) {
             let value = self.value(register);
-            let place = Place::Waiting(Series::constant(self.waiting.add(register)));
+            let place = Slot::Waiting(SlotSequence::constant(self.waiting.add(register)));
             self.part.statements.push(Statement::Store(place, value));
             // It is at hand.
             self.fetched.insert(register);

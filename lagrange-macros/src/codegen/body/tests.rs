@@ -2,7 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
-use super::{Body, Expression, Local, Part, Place, Statement};
+use super::{Chunk, FunctionBody, Local, Operand, Slot, Statement};
 use crate::codegen::operation::{Call, Operation, Register};
 use crate::codegen::passes::Program;
 use crate::codegen::schedule::Schedule;
@@ -16,8 +16,8 @@ fn inputs<const N: usize>(graph: &mut Graph) -> [Id; N] {
     std::array::from_fn(|index| graph.symbol(symbol(index as u32)))
 }
 
-fn body(graph: &Graph, roots: &[Id]) -> Body {
-    Body::new(&Program::of(graph, roots), &FxHashMap::default())
+fn body(graph: &Graph, roots: &[Id]) -> FunctionBody {
+    FunctionBody::new(&Program::of(graph, roots), &FxHashMap::default())
 }
 
 fn input(symbol: Symbol) -> f64 {
@@ -34,7 +34,7 @@ fn function(call: &Call<f64>, output: u32) -> f64 {
 }
 
 /// Computes both, and returns the body.
-fn checked(graph: &Graph, roots: &[Id]) -> Body {
+fn checked(graph: &Graph, roots: &[Id]) -> FunctionBody {
     let body = body(graph, roots);
     let wanted = graph.sample(roots, 7, |symbol| Approximate::exact(input(symbol)));
     for (value, wanted) in body.values(roots.len(), input, function).into_iter().zip(wanted) {
@@ -44,8 +44,8 @@ fn checked(graph: &Graph, roots: &[Id]) -> Body {
     body
 }
 
-fn statements(body: &Body) -> &[Statement] {
-    let [Part { statements, .. }] = &body.parts[..] else { panic!("one part") };
+fn statements(body: &FunctionBody) -> &[Statement] {
+    let [Chunk { statements, .. }] = &body.parts[..] else { panic!("one part") };
     statements
 }
 
@@ -58,9 +58,8 @@ fn what_is_used_once_is_nested_and_what_is_used_twice_is_a_local() {
     let right = graph.function(Function::Ln, right);
     let body = checked(&graph, &[left, right]);
     let [Statement::Let(local, value)] = statements(&body) else { panic!("one local: {body:?}") };
-    let exponential =
-        Operation::Function(Function::Exp, Expression::Of(Box::new(Operation::Input(symbol(0)))));
-    assert_eq!(*value, Expression::Of(Box::new(exponential)));
+    let exponential = Operation::Function(Function::Exp, Operand::Of(Box::new(Operation::Input(symbol(0)))));
+    assert_eq!(*value, Operand::Of(Box::new(exponential)));
     let results = body.results.as_ref().expect("no arrays");
     assert!(
         results.iter().all(|result| format!("{result:?}").contains(&format!("{local:?}"))),
@@ -82,7 +81,7 @@ fn nesting_ends_before_it_is_deep() {
 }
 
 /// How many angles are taken at once, statement by statement.
-fn turns(body: &Body) -> Vec<usize> {
+fn turns(body: &FunctionBody) -> Vec<usize> {
     let turns = statements(body).iter().filter_map(|statement| match statement {
         Statement::Turns(turns) => Some(turns.len()),
         _ => None,
@@ -199,7 +198,7 @@ fn results_of_a_call_wait_for_later_parts() {
     let body = checked(&graph, &[last]);
     assert!(body.parts.len() > 1, "{} parts", body.parts.len());
     let names = FxHashMap::from_iter([(second, "second".to_owned())]);
-    let named = Body::new(&Program::of(&graph, &[last]), &names);
+    let named = FunctionBody::new(&Program::of(&graph, &[last]), &names);
     assert_eq!(named.values(1, input, function), body.values(1, input, function));
     let with_it = named.parts.iter().filter(|part| part.locals.contains(&Local::Definition(second)));
     assert_eq!(with_it.count(), 2);
@@ -213,7 +212,7 @@ fn a_local_is_called_after_the_definition() {
     let defined = graph.defined(sum);
     let roots = [graph.mul(defined, x), graph.mul(defined, y)];
     let names = FxHashMap::from_iter([(defined, "sum".to_owned())]);
-    let body = Body::new(&Program::of(&graph, &roots), &names);
+    let body = FunctionBody::new(&Program::of(&graph, &roots), &names);
     assert_eq!(body.parts[0].locals, [Local::Definition(defined)]);
 }
 
@@ -247,11 +246,11 @@ fn long(seed: u64, length: usize) -> Program {
 fn parts_see_what_waits_for_them_and_places_are_taken_again() {
     for seed in 1..=5 {
         let program = long(seed, 12_000);
-        let body = Body::new(&program, &FxHashMap::default());
+        let body = FunctionBody::new(&program, &FxHashMap::default());
         assert!(body.parts.len() > 2 && body.results.is_none());
         let stored =
             body.parts.iter().flat_map(|part| &part.statements).filter_map(|statement| match statement {
-                Statement::Store(Place::Waiting(series), _) => Some(series.first),
+                Statement::Store(Slot::Waiting(series), _) => Some(series.first),
                 _ => None,
             });
         let stored: Vec<usize> = stored.collect();
@@ -363,7 +362,7 @@ fn with_rounds(seed: u64, rounds: usize, length: usize, is_steady: bool) -> Prog
     Program { schedule, results, counts: Vec::new() }
 }
 
-fn rounds(body: &Body) -> Vec<usize> {
+fn rounds(body: &FunctionBody) -> Vec<usize> {
     body.parts.iter().filter_map(|part| Some(part.rounds.as_ref()?.count)).collect()
 }
 
@@ -372,7 +371,7 @@ fn what_comes_again_and_again_is_computed_in_a_loop() {
     let mut found = [0, 0];
     for (seed, is_steady) in (1..=20).flat_map(|seed| [(seed, true), (seed, false)]) {
         let program = with_rounds(seed, 40, 150, is_steady);
-        let body = Body::new(&program, &FxHashMap::default());
+        let body = FunctionBody::new(&program, &FxHashMap::default());
         assert_eq!(
             body.values(program.results.len(), input, function),
             program.schedule.values(&program.results, input),
@@ -399,5 +398,5 @@ fn of_many_results_zeros_are_not_stored() {
             _ => None,
         })
         .collect();
-    assert_eq!(places, [Some(Place::Result(9)), Some(Place::Result(7))]);
+    assert_eq!(places, [Some(Slot::Result(9)), Some(Slot::Result(7))]);
 }

@@ -5,11 +5,11 @@ use crate::codegen::schedule::Schedule;
 use crate::symbolic::Id;
 
 /// A number, unless it is known to be zero.
-pub(super) type Entry = Option<Register>;
+pub(super) type SparseEntry = Option<Register>;
 /// Nonzero entries with their indices.
 pub(super) type Sparse = Vec<(usize, Register)>;
 
-pub(super) fn sparse(x: &[Entry]) -> Sparse {
+pub(super) fn sparse(x: &[SparseEntry]) -> Sparse {
     x.iter().enumerate().filter_map(|(i, entry)| entry.map(|entry| (i, entry))).collect()
 }
 
@@ -29,11 +29,11 @@ impl<'s> Solver<'s> {
         Self { schedule, growth: Vec::new(), plain: Vec::new(), reciprocals: Vec::new() }
     }
 
-    pub(super) fn entry(&self, id: Id) -> Entry {
+    pub(super) fn entry(&self, id: Id) -> SparseEntry {
         (id != Id::ZERO).then(|| self.schedule.register(id))
     }
 
-    pub(super) fn entries(&self, ids: &[Id]) -> Vec<Entry> {
+    pub(super) fn entries(&self, ids: &[Id]) -> Vec<SparseEntry> {
         ids.iter().map(|&id| self.entry(id)).collect()
     }
 
@@ -41,14 +41,14 @@ impl<'s> Solver<'s> {
         ids.iter().map(|&(i, id)| (i, self.schedule.register(id))).collect()
     }
 
-    pub(super) fn add(&mut self, x: Entry, y: Entry) -> Entry {
+    pub(super) fn add(&mut self, x: SparseEntry, y: SparseEntry) -> SparseEntry {
         match (x, y) {
             (Some(x), Some(y)) => Some(self.schedule.push(Operation::Add(x, y))),
             (x, y) => x.or(y),
         }
     }
 
-    pub(super) fn subtract(&mut self, x: Entry, y: Entry) -> Entry {
+    pub(super) fn subtract(&mut self, x: SparseEntry, y: SparseEntry) -> SparseEntry {
         match (x, y) {
             (Some(x), Some(y)) => Some(self.schedule.push(Operation::Subtract(x, y))),
             (None, y) => self.negate(y),
@@ -56,23 +56,23 @@ impl<'s> Solver<'s> {
         }
     }
 
-    pub(super) fn negate(&mut self, x: Entry) -> Entry {
+    pub(super) fn negate(&mut self, x: SparseEntry) -> SparseEntry {
         x.map(|x| self.schedule.push(Operation::Negate(x)))
     }
 
-    pub(super) fn multiply(&mut self, x: Entry, y: Entry) -> Entry {
+    pub(super) fn multiply(&mut self, x: SparseEntry, y: SparseEntry) -> SparseEntry {
         Some(self.schedule.push(Operation::Multiply(x?, y?)))
     }
 
     /// Σ x_i y_i
-    pub(super) fn dot(&mut self, x: &Sparse, y: &[Entry]) -> Entry {
+    pub(super) fn dot(&mut self, x: &Sparse, y: &[SparseEntry]) -> SparseEntry {
         x.iter().fold(None, |sum, &(i, x)| {
             let part = self.multiply(Some(x), y[i]);
             self.add(sum, part)
         })
     }
 
-    pub(super) fn known(&mut self, entry: Entry) -> Register {
+    pub(super) fn known(&mut self, entry: SparseEntry) -> Register {
         entry.unwrap_or_else(|| self.schedule.constant(0.0))
     }
 }

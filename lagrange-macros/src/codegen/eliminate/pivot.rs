@@ -1,13 +1,13 @@
 //! What tells at run time whether the elimination can be trusted.
 
-use super::arithmetic::{Entry, Solver};
+use super::arithmetic::{Solver, SparseEntry};
 use super::{Found, Solved, Trust};
 use crate::codegen::operation::{Operation, Register};
 use crate::codegen::schedule::Schedule;
 
 impl Solver<'_> {
     /// For a pivot that differs from what it was before anything was subtracted, that over the pivot.
-    pub(super) fn note_pivot(&mut self, scale: Entry, pivot: Register, reciprocal: Register) {
+    pub(super) fn note_pivot(&mut self, scale: SparseEntry, pivot: Register, reciprocal: Register) {
         self.reciprocals.push(reciprocal);
         match scale.filter(|&scale| scale != pivot) {
             Some(scale) => self.growth.push(self.schedule.push(Operation::Multiply(scale, reciprocal))),
@@ -20,7 +20,7 @@ impl Solver<'_> {
         let Found { mut accelerations, multipliers } = found;
         accelerations.truncate(count);
         let mut registers =
-            |entries: Vec<Entry>| entries.into_iter().map(|entry| self.known(entry)).collect();
+            |entries: Vec<SparseEntry>| entries.into_iter().map(|entry| self.known(entry)).collect();
         Solved { accelerations: registers(accelerations), multipliers: registers(multipliers), pivot }
     }
 

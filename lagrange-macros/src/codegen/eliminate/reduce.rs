@@ -1,16 +1,16 @@
 //! A quadratic form reduced variable by variable, and what the reduction does to vectors.
 
-use super::arithmetic::{Entry, Solver, Sparse, sparse};
+use super::arithmetic::{Solver, Sparse, SparseEntry, sparse};
 use crate::codegen::operation::{Operation, Register};
 
 /// How the form was reduced, step by step.
-pub(super) struct Factors {
-    steps: Vec<Step>,
+pub(super) struct FormFactors {
+    steps: Vec<ReductionStep>,
     /// 1/D of the variables that were eliminated.
-    pub(super) reciprocals: Vec<Entry>,
+    pub(super) reciprocals: Vec<SparseEntry>,
 }
 
-struct Step {
+struct ReductionStep {
     variable: usize,
     kind: StepKind,
 }
@@ -22,7 +22,7 @@ enum StepKind {
     PutIn(Sparse),
 }
 
-impl Factors {
+impl FormFactors {
     /// Every register in it.
     pub(super) fn registers(&self) -> impl Iterator<Item = Register> {
         let columns = self.steps.iter().flat_map(|step| step.kind.entries()).map(|&(_, entry)| entry);
@@ -31,13 +31,13 @@ impl Factors {
 
     pub(super) fn with_registers(&self, mut new: impl FnMut(Register) -> Register) -> Self {
         let reciprocals = self.reciprocals.iter().map(|entry| entry.map(&mut new)).collect();
-        let steps = self.steps.iter().map(|&Step { variable, ref kind }| {
+        let steps = self.steps.iter().map(|&ReductionStep { variable, ref kind }| {
             let entries = kind.entries().iter().map(|&(i, entry)| (i, new(entry))).collect();
             let kind = match kind {
                 StepKind::Eliminated(_) => StepKind::Eliminated(entries),
                 StepKind::PutIn(_) => StepKind::PutIn(entries),
             };
-            Step { variable, kind }
+            ReductionStep { variable, kind }
         });
         Self { steps: steps.collect(), reciprocals }
     }
@@ -65,9 +65,9 @@ fn independent(order: &[usize], free: usize, definitions: &[Sparse]) -> usize {
 /// and w = K g + c.
 struct Tie {
     variable: usize,
-    g: Vec<Entry>,
-    c: Vec<Entry>,
-    w: Vec<Entry>,
+    g: Vec<SparseEntry>,
+    c: Vec<SparseEntry>,
+    w: Vec<SparseEntry>,
 }
 
 impl Tie {
@@ -78,9 +78,9 @@ impl Tie {
 
 /// A form while it is reduced.
 struct Reduced {
-    matrix: Vec<Vec<Entry>>,
+    matrix: Vec<Vec<SparseEntry>>,
     /// Diagonal before any subtraction, the scale that pivots are compared with.
-    scale: Vec<Entry>,
+    scale: Vec<SparseEntry>,
     /// Index of the first multiplier among the variables. Its diagonal is zero at first, and negative once coordinates are eliminated.
     multipliers: usize,
 }
@@ -91,7 +91,7 @@ impl Reduced {
         sparse(&self.matrix[i]).into_iter().filter(|&(j, _)| j != i).collect()
     }
 
-    fn set(&mut self, i: usize, j: usize, entry: Entry) {
+    fn set(&mut self, i: usize, j: usize, entry: SparseEntry) {
         self.matrix[i][j] = entry;
         self.matrix[j][i] = entry;
     }
@@ -108,29 +108,29 @@ impl Solver<'_> {
     /// them are so many multipliers.
     pub(super) fn factor(
         &mut self,
-        matrix: Vec<Vec<Entry>>,
+        matrix: Vec<Vec<SparseEntry>>,
         definitions: Vec<Sparse>,
         order: &[usize],
         multipliers: usize,
-    ) -> Factors {
+    ) -> FormFactors {
         let free = matrix.len() - definitions.len();
         let scale = (0..matrix.len()).map(|i| matrix[i][i]).collect();
         let multipliers = matrix.len() - multipliers;
         let mut form = Reduced { matrix, scale, multipliers };
-        let mut factors = Factors { steps: Vec::new(), reciprocals: vec![None; form.matrix.len()] };
+        let mut factors = FormFactors { steps: Vec::new(), reciprocals: vec![None; form.matrix.len()] };
         let mut rest = order;
         while let Some(&variable) = rest.first() {
             let mut taken = 1;
             if variable < free {
                 let (column, reciprocal) = self.eliminate(&mut form, variable);
                 factors.reciprocals[variable] = Some(reciprocal);
-                factors.steps.push(Step { variable, kind: StepKind::Eliminated(column) });
+                factors.steps.push(ReductionStep { variable, kind: StepKind::Eliminated(column) });
             } else {
                 taken = independent(rest, free, &definitions);
                 let together = rest[..taken].iter().map(|&k| (k, &definitions[k - free])).collect::<Vec<_>>();
                 self.put_in(&mut form, &together);
                 for (variable, definition) in together {
-                    factors.steps.push(Step { variable, kind: StepKind::PutIn(definition.clone()) });
+                    factors.steps.push(ReductionStep { variable, kind: StepKind::PutIn(definition.clone()) });
                 }
             }
             rest[..taken].iter().for_each(|&variable| form.remove(variable));
@@ -191,8 +191,8 @@ impl Solver<'_> {
 
     fn tie(&mut self, form: &Reduced, definitions: &[(usize, &Sparse)], block: &[Sparse], i: usize) -> Tie {
         let coefficient = |definition: &Sparse| definition.iter().find(|(j, _)| *j == i).map(|&(_, g)| g);
-        let g: Vec<Entry> = definitions.iter().map(|(_, definition)| coefficient(definition)).collect();
-        let c: Vec<Entry> = definitions.iter().map(|&(k, _)| form.matrix[k][i]).collect();
+        let g: Vec<SparseEntry> = definitions.iter().map(|(_, definition)| coefficient(definition)).collect();
+        let c: Vec<SparseEntry> = definitions.iter().map(|&(k, _)| form.matrix[k][i]).collect();
         let w = block.iter().zip(&c).map(|(row, &c)| {
             let through = self.dot(row, &g);
             self.add(through, c)
@@ -202,7 +202,7 @@ impl Solver<'_> {
     }
 
     /// Σ_k g_k (w_k + c_k)
-    fn own(&mut self, x: &Tie) -> Entry {
+    fn own(&mut self, x: &Tie) -> SparseEntry {
         let mut sum = None;
         for k in 0..x.g.len() {
             let both = if x.g[k].is_some() { self.add(x.w[k], x.c[k]) } else { None };
@@ -213,13 +213,15 @@ impl Solver<'_> {
     }
 
     /// Σ_k (g_k w'_k + c_k g'_k), from the side that takes fewer multiplications.
-    fn mutual(&mut self, x: &Tie, y: &Tie) -> Entry {
+    fn mutual(&mut self, x: &Tie, y: &Tie) -> SparseEntry {
         let one = self.schedule.constant(1.0);
         let cost = |x: &Tie, y: &Tie| {
-            let is_product =
-                |x: Entry, y: Entry| x.is_some() && y.is_some() && x != Some(one) && y != Some(one);
-            let products =
-                |x: &[Entry], y: &[Entry]| x.iter().zip(y).filter(|&(&x, &y)| is_product(x, y)).count();
+            let is_product = |x: SparseEntry, y: SparseEntry| {
+                x.is_some() && y.is_some() && x != Some(one) && y != Some(one)
+            };
+            let products = |x: &[SparseEntry], y: &[SparseEntry]| {
+                x.iter().zip(y).filter(|&(&x, &y)| is_product(x, y)).count()
+            };
             products(&x.g, &y.w) + products(&x.c, &y.g)
         };
         let (x, y) = if cost(x, y) <= cost(y, x) { (x, y) } else { (y, x) };
@@ -242,8 +244,8 @@ impl Solver<'_> {
     }
 
     /// L⁻¹ x: what the linear part of the form, or a constraint, comes to.
-    pub(super) fn forward(&mut self, factors: &Factors, mut x: Vec<Entry>) -> Vec<Entry> {
-        for Step { variable, kind } in &factors.steps {
+    pub(super) fn forward(&mut self, factors: &FormFactors, mut x: Vec<SparseEntry>) -> Vec<SparseEntry> {
+        for ReductionStep { variable, kind } in &factors.steps {
             match kind {
                 StepKind::Eliminated(column) => {
                     for &(i, l) in column {
@@ -267,12 +269,12 @@ impl Solver<'_> {
     /// these from y, which is doubted already, or else they take the `doubt` in.
     pub(super) fn backward(
         &mut self,
-        factors: &Factors,
-        mut x: Vec<Entry>,
-        y: &[Entry],
-        doubt: Entry,
-    ) -> Vec<Entry> {
-        for Step { variable, kind } in factors.steps.iter().rev() {
+        factors: &FormFactors,
+        mut x: Vec<SparseEntry>,
+        y: &[SparseEntry],
+        doubt: SparseEntry,
+    ) -> Vec<SparseEntry> {
+        for ReductionStep { variable, kind } in factors.steps.iter().rev() {
             x[*variable] = match kind {
                 StepKind::Eliminated(column) => {
                     let pushed = self.multiply(y[*variable], factors.reciprocals[*variable]);

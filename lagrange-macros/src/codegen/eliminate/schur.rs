@@ -1,8 +1,8 @@
 //! The multipliers, from the Schur complement of the constraints.
 
-use super::arithmetic::{Entry, Solver, Sparse};
+use super::arithmetic::{Solver, Sparse, SparseEntry};
 use super::order::Pattern;
-use super::reduce::Factors;
+use super::reduce::FormFactors;
 use super::short;
 
 /// A coordinate that at most as many constraints share has its products left apart, for what they have in common to be
@@ -11,7 +11,7 @@ const FEW: usize = 2;
 
 impl Solver<'_> {
     /// S = Z D⁻¹ Zᵀ factored; `None` where that would be too long.
-    pub(super) fn schur_factors(&mut self, factors: &Factors, rows: &[Sparse]) -> Option<Factors> {
+    pub(super) fn schur_factors(&mut self, factors: &FormFactors, rows: &[Sparse]) -> Option<FormFactors> {
         let schur = self.complement(factors, rows);
         let matrix = schur.iter().map(|row| row.iter().map(Option::is_some).collect()).collect();
         let order = short(&Pattern { matrix, definitions: Vec::new(), after: Vec::new() })?;
@@ -21,11 +21,11 @@ impl Solver<'_> {
     /// S λ = −γ − Z D⁻¹L⁻¹b, where the last is given but for Z.
     pub(super) fn multipliers(
         &mut self,
-        schur: &Factors,
-        starts: &[Entry],
+        schur: &FormFactors,
+        starts: &[SparseEntry],
         rows: &[Sparse],
-        bias: Vec<Entry>,
-    ) -> Vec<Entry> {
+        bias: Vec<SparseEntry>,
+    ) -> Vec<SparseEntry> {
         let target = rows.iter().zip(bias).map(|(row, bias)| {
             let reached = self.dot(row, starts);
             let sum = self.add(bias, reached);
@@ -38,7 +38,7 @@ impl Solver<'_> {
     }
 
     /// S = Z D⁻¹ Zᵀ
-    fn complement(&mut self, factors: &Factors, rows: &[Sparse]) -> Vec<Vec<Entry>> {
+    fn complement(&mut self, factors: &FormFactors, rows: &[Sparse]) -> Vec<Vec<SparseEntry>> {
         let m = rows.len();
         let mut sharing = vec![0; factors.reciprocals.len()];
         rows.iter().flatten().for_each(|&(i, _)| sharing[i] += 1);
@@ -53,7 +53,13 @@ impl Solver<'_> {
     }
 
     /// Σ_i z_i z'_i / D_i
-    fn product(&mut self, row: &Sparse, other: &Sparse, factors: &Factors, sharing: &[usize]) -> Entry {
+    fn product(
+        &mut self,
+        row: &Sparse,
+        other: &Sparse,
+        factors: &FormFactors,
+        sharing: &[usize],
+    ) -> SparseEntry {
         let mut sum = None;
         for &(i, z) in row {
             let Ok(position) = other.binary_search_by_key(&i, |&(j, _)| j) else { continue };

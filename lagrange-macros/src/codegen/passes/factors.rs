@@ -6,6 +6,7 @@
 use indexmap::IndexMap;
 
 use super::rewrite::{Places, carried_over, rebuilt};
+use super::signs::Signed;
 use crate::codegen::operation::{Operation, Register};
 use crate::codegen::schedule::Schedule;
 use crate::symbolic::Function;
@@ -45,13 +46,10 @@ fn inner_sums(old: &Schedule, uses: &[usize]) -> Vec<bool> {
 
 /// A product with a sign; its factors are registers of the old schedule.
 #[derive(Clone, PartialEq)]
-struct Term {
+struct SignedProduct {
     negative: bool,
     factors: Vec<Register>,
 }
-
-/// A number up to its sign, in the new schedule.
-type Signed = (Register, bool);
 
 struct Pass<'s> {
     old: &'s Schedule,
@@ -70,7 +68,7 @@ impl Pass<'_> {
     }
 
     /// The terms of a sum; `None` where there are too many.
-    fn terms(&self, sum: Operation) -> Option<Vec<Term>> {
+    fn terms(&self, sum: Operation) -> Option<Vec<SignedProduct>> {
         let mut terms = Vec::new();
         let mut pending = vec![(sum, false)];
         while let Some((sum, negative)) = pending.pop() {
@@ -80,7 +78,7 @@ impl Pass<'_> {
                 let operation = self.old.operations[operand.index()];
                 match is_sum(operation) && self.uses[operand.index()] == 1 {
                     true => pending.push((operation, negative)),
-                    false => terms.push(Term { negative, factors: self.factors(operand) }),
+                    false => terms.push(SignedProduct { negative, factors: self.factors(operand) }),
                 }
             }
             if terms.len() + pending.len() > TERMS {
@@ -110,7 +108,7 @@ impl Pass<'_> {
     }
 
     /// The sum of the terms where some of them can be put together.
-    fn grouped(&mut self, mut terms: Vec<Term>) -> Option<Signed> {
+    fn grouped(&mut self, mut terms: Vec<SignedProduct>) -> Option<Signed> {
         let mut sums = Vec::new();
         let mut is_better = false;
         loop {
@@ -132,7 +130,7 @@ impl Pass<'_> {
         Some(self.sum(rest.into_iter().chain(sums)))
     }
 
-    fn product_of_sum(&mut self, shared: Register, mut terms: Vec<Term>) -> Signed {
+    fn product_of_sum(&mut self, shared: Register, mut terms: Vec<SignedProduct>) -> Signed {
         for term in &mut terms {
             let position = term.factors.iter().position(|&factor| factor == shared);
             position.map(|position| term.factors.remove(position));
@@ -148,7 +146,7 @@ impl Pass<'_> {
         (self.new.push(Operation::Multiply(shared, sum)), negative)
     }
 
-    fn product(&mut self, term: &Term) -> Signed {
+    fn product(&mut self, term: &SignedProduct) -> Signed {
         let places: Vec<Register> = term.factors.iter().map(|&factor| self.places.at(factor)).collect();
         let product =
             places.into_iter().reduce(|product, factor| self.new.push(Operation::Multiply(product, factor)));
@@ -170,7 +168,7 @@ impl Pass<'_> {
     }
 
     /// Two terms that are (p cos x)² and (p sin x)², and p².
-    fn circle(&self, terms: &[Term]) -> Option<(usize, usize, Vec<Register>)> {
+    fn circle(&self, terms: &[SignedProduct]) -> Option<(usize, usize, Vec<Register>)> {
         let arms: Vec<_> = terms.iter().map(|term| self.arm(term)).collect();
         for (i, first) in arms.iter().enumerate() {
             let Some((radius, Function::Cos, angle)) = first else { continue };
@@ -185,7 +183,7 @@ impl Pass<'_> {
     }
 
     /// p, cos or sin, and x, where a term is (p cos x)² or (p sin x)².
-    fn arm(&self, term: &Term) -> Option<(Vec<Register>, Function, Register)> {
+    fn arm(&self, term: &SignedProduct) -> Option<(Vec<Register>, Function, Register)> {
         let [x, y] = term.factors[..] else { return None };
         let operation = |register: Register| self.old.operations[register.index()];
         let circular = |register| match operation(register) {
@@ -206,7 +204,7 @@ impl Pass<'_> {
 }
 
 /// The factor that most terms share, of equals the first.
-fn most_shared(terms: &[Term]) -> Option<Register> {
+fn most_shared(terms: &[SignedProduct]) -> Option<Register> {
     let mut counts: IndexMap<Register, usize> = IndexMap::new();
     for term in terms {
         let mut factors = term.factors.clone();

@@ -27,11 +27,11 @@ pub(super) fn guarded(source: &Schedule, results: &[Register]) -> (Schedule, Vec
 struct Number {
     /// Where it is in the new schedule.
     register: Register,
-    kind: Kind,
+    kind: GuardKind,
 }
 
 #[derive(Clone, Copy, PartialEq)]
-enum Kind {
+enum GuardKind {
     /// Finite for arguments that are.
     Finite,
     /// It may be infinite: something is divided by, or a function has a pole, or is unknown.
@@ -48,14 +48,14 @@ struct Guard {
 
 impl Guard {
     fn copy(&mut self, operation: Operation, source: &Schedule) {
-        let operands: Vec<Kind> =
+        let operands: Vec<GuardKind> =
             source.operands(operation).map(|operand| self.numbers[operand.index()].kind).collect();
         let numbers = &self.numbers;
         let mut register = carried_over(&mut self.schedule, source, operation, |_, operand| {
             numbers[operand.index()].register
         });
         let kind = self.kind(operation, register, &operands);
-        if let Kind::Rate { activity } = kind
+        if let GuardKind::Rate { activity } = kind
             && is_doubtful(operation, &operands)
         {
             register = self.schedule.push(Operation::Where(activity, register));
@@ -63,29 +63,31 @@ impl Guard {
         self.numbers.push(Number { register, kind });
     }
 
-    fn kind(&mut self, operation: Operation, register: Register, operands: &[Kind]) -> Kind {
+    fn kind(&mut self, operation: Operation, register: Register, operands: &[GuardKind]) -> GuardKind {
         let activities = operands.iter().filter_map(|kind| match kind {
-            Kind::Rate { activity } => Some(*activity),
+            GuardKind::Rate { activity } => Some(*activity),
             _ => None,
         });
         if let Operation::Input(symbol) = operation
             && Variable::of(symbol).is_change()
         {
-            return Kind::Rate { activity: self.schedule.push(Operation::Function(Function::Abs, register)) };
+            return GuardKind::Rate {
+                activity: self.schedule.push(Operation::Function(Function::Abs, register)),
+            };
         }
         let sum = activities.reduce(|x, y| if x == y { x } else { self.schedule.push(Operation::Add(x, y)) });
         match sum {
-            Some(activity) => Kind::Rate { activity },
-            None if has_pole(operation) || operands.contains(&Kind::Unbounded) => Kind::Unbounded,
-            None => Kind::Finite,
+            Some(activity) => GuardKind::Rate { activity },
+            None if has_pole(operation) || operands.contains(&GuardKind::Unbounded) => GuardKind::Unbounded,
+            None => GuardKind::Finite,
         }
     }
 }
 
 /// A rate of change over a number, or times one that may be infinite.
-fn is_doubtful(operation: Operation, operands: &[Kind]) -> bool {
+fn is_doubtful(operation: Operation, operands: &[GuardKind]) -> bool {
     match operation {
-        Operation::Multiply(..) => operands.contains(&Kind::Unbounded),
+        Operation::Multiply(..) => operands.contains(&GuardKind::Unbounded),
         Operation::Divide(..) => true,
         _ => false,
     }

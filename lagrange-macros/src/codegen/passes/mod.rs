@@ -44,7 +44,7 @@ impl Program {
         let (schedule, results) = scheduled(graph, roots);
         let (schedule, results) = guard::guarded(&schedule, &results);
         let whole = Self::new(schedule, results);
-        let split::Parts { slopes, changes } = split::split(&whole.schedule, &whole.results);
+        let split::TwoParts { slopes, changes } = split::split(&whole.schedule, &whole.results);
         [slopes, changes].map(|(schedule, results)| Self::unchanged(schedule, results))
     }
 
@@ -56,7 +56,7 @@ impl Program {
         kept: &[Register],
     ) -> (Self, [Self; 2], Vec<Option<usize>>) {
         let whole = Self::new(schedule, [&results.concat(), kept].concat());
-        let split::Parts { slopes: (numbers, slopes), changes: (changes, all) } =
+        let split::TwoParts { slopes: (numbers, slopes), changes: (changes, all) } =
             split::split(&whole.schedule, &whole.results);
         let (first, rest) = all.split_at(results[0].len());
         let (second, kept) = rest.split_at(results[1].len());

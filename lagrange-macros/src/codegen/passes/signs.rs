@@ -6,7 +6,7 @@ use crate::codegen::operation::{Operation, Register};
 use crate::codegen::schedule::Schedule;
 
 /// A number up to its sign: the register, and whether the number is the negative of what it holds.
-type Signed = (Register, bool);
+pub(super) type Signed = (Register, bool);
 
 pub(super) fn gathered(old: &Schedule, results: &[Register]) -> (Schedule, Vec<Register>) {
     let uses = old.uses(results);

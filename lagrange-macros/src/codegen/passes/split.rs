@@ -9,7 +9,7 @@ use crate::codegen::schedule::Schedule;
 use crate::variables::Variable;
 
 /// A function in two parts.
-pub(super) struct Parts {
+pub(super) struct TwoParts {
     /// What does not depend on rates, and which of it the other part reads as [`Variable::Slope`] 0, 1, …
     pub(super) slopes: (Schedule, Vec<Register>),
     /// What does, with the results.
@@ -17,20 +17,23 @@ pub(super) struct Parts {
 }
 
 /// The parts of what computes `results`.
-pub(super) fn split(source: &Schedule, results: &[Register]) -> Parts {
+pub(super) fn split(source: &Schedule, results: &[Register]) -> TwoParts {
     let mut split = Split {
         numbers: Schedule::default(),
         changes: Schedule::default(),
         slopes: Vec::new(),
         known: FxHashMap::default(),
     };
-    let mut values: Vec<Value> = Vec::new();
+    let mut values: Vec<ResultLocation> = Vec::new();
     for &operation in &source.operations {
-        let depends = source.operands(operation).any(|x| matches!(values[x.index()], Value::Rate { .. }));
+        let depends =
+            source.operands(operation).any(|x| matches!(values[x.index()], ResultLocation::Rate { .. }));
         let value = match operation {
-            Operation::Input(symbol) if is_rate(symbol) => Value::from(split.changes.push(operation)),
+            Operation::Input(symbol) if is_rate(symbol) => {
+                ResultLocation::from(split.changes.push(operation))
+            }
             _ if depends => split.rate(operation, &values),
-            _ => Value::Number(carried_over(&mut split.numbers, source, operation, |_, x| {
+            _ => ResultLocation::Number(carried_over(&mut split.numbers, source, operation, |_, x| {
                 values[x.index()].number()
             })),
         };
@@ -39,10 +42,10 @@ pub(super) fn split(source: &Schedule, results: &[Register]) -> Parts {
     let results = results.iter().map(|result| split.changed(values[result.index()])).collect();
     let Split { mut numbers, changes, slopes, .. } = split;
     carry_definitions(&mut numbers, source, |register| match values[register.index()] {
-        Value::Number(register) => Some(register),
-        Value::Rate { .. } => None,
+        ResultLocation::Number(register) => Some(register),
+        ResultLocation::Rate { .. } => None,
     });
-    Parts { slopes: (numbers, slopes), changes: (changes, results) }
+    TwoParts { slopes: (numbers, slopes), changes: (changes, results) }
 }
 
 fn is_rate(symbol: crate::symbolic::Symbol) -> bool {
@@ -51,20 +54,20 @@ fn is_rate(symbol: crate::symbolic::Symbol) -> bool {
 
 /// Where the result of an operation is.
 #[derive(Clone, Copy)]
-enum Value {
+enum ResultLocation {
     /// Among the numbers.
     Number(Register),
     /// Among the changes, times a number: products of numbers are put together before they meet a rate.
     Rate { rate: Register, factor: Option<Register> },
 }
 
-impl From<Register> for Value {
+impl From<Register> for ResultLocation {
     fn from(rate: Register) -> Self {
         Self::Rate { rate, factor: None }
     }
 }
 
-impl Value {
+impl ResultLocation {
     /// Of what depends on no rate.
     fn number(self) -> Register {
         match self {
@@ -83,20 +86,20 @@ struct Split {
 
 impl Split {
     /// An operation on at least one rate.
-    fn rate(&mut self, operation: Operation, values: &[Value]) -> Value {
+    fn rate(&mut self, operation: Operation, values: &[ResultLocation]) -> ResultLocation {
         let of = |register: Register| values[register.index()];
         match operation {
             Operation::Multiply(x, y) => match (of(x), of(y)) {
-                (Value::Rate { rate, factor }, Value::Number(number))
-                | (Value::Number(number), Value::Rate { rate, factor }) => {
+                (ResultLocation::Rate { rate, factor }, ResultLocation::Number(number))
+                | (ResultLocation::Number(number), ResultLocation::Rate { rate, factor }) => {
                     let product = |factor| self.numbers.push(Operation::Multiply(factor, number));
-                    Value::Rate { rate, factor: Some(factor.map_or(number, product)) }
+                    ResultLocation::Rate { rate, factor: Some(factor.map_or(number, product)) }
                 }
                 _ => self.apply(operation, values),
             },
             Operation::Negate(x) => match of(x) {
-                Value::Rate { rate, factor: Some(factor) } => {
-                    Value::Rate { rate, factor: Some(self.numbers.push(Operation::Negate(factor))) }
+                ResultLocation::Rate { rate, factor: Some(factor) } => {
+                    ResultLocation::Rate { rate, factor: Some(self.numbers.push(Operation::Negate(factor))) }
                 }
                 _ => self.apply(operation, values),
             },
@@ -104,17 +107,17 @@ impl Split {
         }
     }
 
-    fn apply(&mut self, operation: Operation, values: &[Value]) -> Value {
+    fn apply(&mut self, operation: Operation, values: &[ResultLocation]) -> ResultLocation {
         let operation = operation.with_operands(|operand| self.changed(values[operand.index()]));
         self.changes.push(operation).into()
     }
 
     /// The value among the changes.
-    fn changed(&mut self, value: Value) -> Register {
+    fn changed(&mut self, value: ResultLocation) -> Register {
         match value {
-            Value::Number(number) => self.slope(number),
-            Value::Rate { rate, factor: None } => rate,
-            Value::Rate { rate, factor: Some(factor) } => {
+            ResultLocation::Number(number) => self.slope(number),
+            ResultLocation::Rate { rate, factor: None } => rate,
+            ResultLocation::Rate { rate, factor: Some(factor) } => {
                 let slope = self.slope(factor);
                 self.changes.push(Operation::Multiply(rate, slope))
             }

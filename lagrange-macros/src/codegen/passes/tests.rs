@@ -1,6 +1,6 @@
 //! Passes keep the results: programs at random, computed before and after.
 
-use super::split::{Parts, split};
+use super::split::{TwoParts, split};
 use super::{Program, factors, fuse, guard, reciprocals, signs};
 use crate::codegen::operation::{Operation, Register};
 use crate::codegen::schedule::Schedule;
@@ -225,7 +225,7 @@ fn what_does_not_depend_on_a_direction_is_computed_apart() {
     let third = push(&mut schedule, Operation::Multiply(sine, in_x));
     let sum = push(&mut schedule, Operation::Add(first, second));
     let sum = push(&mut schedule, Operation::Add(sum, third));
-    let Parts { slopes: (numbers, slopes), changes: (changes, results) } = split(&schedule, &[sum]);
+    let TwoParts { slopes: (numbers, slopes), changes: (changes, results) } = split(&schedule, &[sum]);
     let value = |symbol| match Variable::of(symbol) {
         Variable::Change(i) => [5.0, 7.0][i],
         _ => 0.3 + 0.1 * f64::from(symbol.index),

@@ -1,12 +1,12 @@
 //! The recurrences of elementary functions, from the differential equations that they solve.
 
-use super::recurrences::{Quantity, Recurrences};
+use super::recurrences::{Recurrences, SeriesQuantity};
 use super::sums::Sum;
 use crate::codegen::operation::{Operation, Register};
 use crate::symbolic::Function;
 
 impl Recurrences {
-    pub(super) fn function(&mut self, function: Function, x: Quantity) -> Option<Quantity> {
+    pub(super) fn function(&mut self, function: Function, x: SeriesQuantity) -> Option<SeriesQuantity> {
         if self.is_at_rest(x) {
             let x = self.first(x);
             return Some(self.at_rest(Operation::Function(function, x)));
@@ -38,7 +38,7 @@ impl Recurrences {
     }
 
     /// Of s′ = c x′ and c′ = ∓s x′: s_k = c₀ x_k + Σ j x_j c_{k−j}/k, and so on.
-    fn pair(&mut self, [sine, cosine]: [Function; 2], x: Quantity) -> [Quantity; 2] {
+    fn pair(&mut self, [sine, cosine]: [Function; 2], x: SeriesQuantity) -> [SeriesQuantity; 2] {
         if let Some(&known) = self.turns.get(&(sine, x)) {
             return known;
         }
@@ -68,14 +68,14 @@ impl Recurrences {
     }
 
     /// Of z′ = z x′.
-    fn exponential(&mut self, function: Function, x: Quantity) -> Quantity {
+    fn exponential(&mut self, function: Function, x: SeriesQuantity) -> SeriesQuantity {
         let x0 = self.first(x);
         let z0 = self.schedule.push(Operation::Function(function, x0));
         self.grown(z0, x)
     }
 
     /// Of z′ = z x′: z_k = z₀ x_k + Σ j x_j z_{k−j}/k
-    fn grown(&mut self, z0: Register, x: Quantity) -> Quantity {
+    fn grown(&mut self, z0: Register, x: SeriesQuantity) -> SeriesQuantity {
         self.note_steep(x, 0);
         self.defined(z0, |of, z| {
             let sum = of.weighted_sum(x, z);
@@ -87,7 +87,7 @@ impl Recurrences {
     }
 
     /// Of z′ = (1 + z²) x′ or (1 − z²) x′: the slope is a series too.
-    fn tangent(&mut self, function: Function, x: Quantity) -> Quantity {
+    fn tangent(&mut self, function: Function, x: SeriesQuantity) -> SeriesQuantity {
         let x0 = self.first(x);
         let z0 = self.schedule.push(Operation::Function(function, x0));
         let one = self.schedule.constant(1.0);
@@ -117,7 +117,13 @@ impl Recurrences {
     }
 
     /// Of d z′ = ±x′: z_k = (±x_k − Σ j z_j d_{k−j}/k)/d₀
-    fn integral(&mut self, function: Function, x: Quantity, d: Quantity, is_falling: bool) -> Quantity {
+    fn integral(
+        &mut self,
+        function: Function,
+        x: SeriesQuantity,
+        d: SeriesQuantity,
+        is_falling: bool,
+    ) -> SeriesQuantity {
         let [x0, d0] = [x, d].map(|x| self.first(x));
         let z0 = self.schedule.push(Operation::Function(function, x0));
         let over = self.reciprocal(d0);
@@ -132,7 +138,7 @@ impl Recurrences {
     }
 
     /// Of (x² + y²) z′ = x y′ − y x′.
-    pub(super) fn angle_of(&mut self, y: Quantity, x: Quantity) -> Quantity {
+    pub(super) fn angle_of(&mut self, y: SeriesQuantity, x: SeriesQuantity) -> SeriesQuantity {
         let [y0, x0] = [y, x].map(|x| self.first(x));
         let z0 = self.schedule.push(Operation::Atan2(y0, x0));
         if self.is_at_rest(x) && self.is_at_rest(y) {
@@ -161,7 +167,7 @@ impl Recurrences {
     }
 
     /// Of z = xᵉ, x z′ = e z x′: z_k = (e z₀ x_k + Σ j (e x_j z_{k−j} − z_j x_{k−j})/k)/x₀; where e moves too, z = exp(e ln x).
-    pub(super) fn power(&mut self, x: Quantity, exponent: Quantity) -> Quantity {
+    pub(super) fn power(&mut self, x: SeriesQuantity, exponent: SeriesQuantity) -> SeriesQuantity {
         let [x0, e] = [x, exponent].map(|x| self.first(x));
         let z0 = self.schedule.push(Operation::Power(x0, e));
         if !self.is_at_rest(exponent) {

@@ -13,7 +13,7 @@ use quote::{format_ident, quote};
 use super::kernel::OPERATION_LIMIT;
 use super::operation::Register;
 use super::passes::Program;
-use super::shape::Shape;
+use super::shape::ResultShape;
 use super::{Emitter, Written, runtime};
 use crate::contract::{Method, Quantity, TAYLOR_SERIES};
 use crate::mechanics::Equations;
@@ -112,7 +112,7 @@ impl Emitter<'_> {
             let kernel = style.write(
                 method.name,
                 program,
-                &shapes.iter().map(|&length| Shape::Vector(length)).collect::<Vec<_>>(),
+                &shapes.iter().map(|&length| ResultShape::Vector(length)).collect::<Vec<_>>(),
             );
             self.function(method, kernel, |results| match results {
                 [forcing, bias, terms] => {

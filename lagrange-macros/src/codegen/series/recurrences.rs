@@ -17,7 +17,7 @@ use crate::variables::Variable;
 
 /// A quantity along the motion, by its place among all.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub(super) struct Quantity(pub(super) usize);
+pub(super) struct SeriesQuantity(pub(super) usize);
 
 /// Its coefficients, in the schedule that is being built.
 #[derive(Clone, Copy)]
@@ -54,13 +54,13 @@ pub(super) struct Recurrences {
     /// Values of roots, each with the place of a sum whose right factor it is.
     pub(super) roots: Vec<(usize, Register)>,
     /// Arguments of functions that may be too small for a series, and bases of high powers with their exponents.
-    pub(super) steep: IndexMap<Quantity, u32>,
+    pub(super) steep: IndexMap<SeriesQuantity, u32>,
     /// Bases and exponents of whole powers.
-    pub(super) powers: FxHashMap<Quantity, (Quantity, u32)>,
+    pub(super) powers: FxHashMap<SeriesQuantity, (SeriesQuantity, u32)>,
     /// Calls of functions that the user supplies.
-    pub(super) calls: IndexSet<Call<Quantity>>,
+    pub(super) calls: IndexSet<Call<SeriesQuantity>>,
     /// Sine and cosine of an angle.
-    pub(super) turns: FxHashMap<(Function, Quantity), [Quantity; 2]>,
+    pub(super) turns: FxHashMap<(Function, SeriesQuantity), [SeriesQuantity; 2]>,
 }
 
 impl Recurrences {
@@ -70,7 +70,7 @@ impl Recurrences {
     }
 
     /// Adds `results`; `None` where an operation has no Taylor series, or none that is known.
-    pub(super) fn add_up(&mut self, source: &Schedule, results: &[Register]) -> Option<Vec<Quantity>> {
+    pub(super) fn add_up(&mut self, source: &Schedule, results: &[Register]) -> Option<Vec<SeriesQuantity>> {
         let (uses, mut quantities) = (source.uses(results), FxHashMap::default());
         for (index, &operation) in source.operations.iter().enumerate().filter(|(index, _)| uses[*index] > 0)
         {
@@ -88,15 +88,15 @@ impl Recurrences {
     }
 
     /// A part of the newest coefficient; a zero where there is none.
-    pub(super) fn newest(&mut self, of: Quantity, stage: Stage) -> Register {
+    pub(super) fn newest(&mut self, of: SeriesQuantity, stage: Stage) -> Register {
         self.part(of, stage).unwrap_or_else(|| self.schedule.constant(0.0))
     }
 
-    pub(super) fn part(&self, of: Quantity, stage: Stage) -> Option<Register> {
+    pub(super) fn part(&self, of: SeriesQuantity, stage: Stage) -> Option<Register> {
         self.quantities[of.0].newest.and_then(|newest| newest[stage as usize])
     }
 
-    fn operation(&mut self, operation: Operation<Quantity>) -> Option<Quantity> {
+    fn operation(&mut self, operation: Operation<SeriesQuantity>) -> Option<SeriesQuantity> {
         Some(match operation {
             Operation::Constant(bits) => self.at_rest(Operation::Constant(bits)),
             Operation::Input(symbol) => self.input(symbol),
@@ -115,18 +115,18 @@ impl Recurrences {
         })
     }
 
-    pub(super) fn add(&mut self, first: Register, newest: Option<[Option<Register>; 2]>) -> Quantity {
+    pub(super) fn add(&mut self, first: Register, newest: Option<[Option<Register>; 2]>) -> SeriesQuantity {
         self.quantities.push(Coefficients { first, newest });
-        Quantity(self.quantities.len() - 1)
+        SeriesQuantity(self.quantities.len() - 1)
     }
 
     /// What does not depend on anything that moves.
-    pub(super) fn at_rest(&mut self, operation: Operation) -> Quantity {
+    pub(super) fn at_rest(&mut self, operation: Operation) -> SeriesQuantity {
         let first = self.schedule.push(operation);
         self.add(first, None)
     }
 
-    fn input(&mut self, symbol: Symbol) -> Quantity {
+    fn input(&mut self, symbol: Symbol) -> SeriesQuantity {
         let (newest, is_solved) = match Variable::of(symbol) {
             Variable::Time => (Variable::Change(0), false),
             Variable::Coordinate(i) => (Variable::Change(1 + i), false),
@@ -140,11 +140,11 @@ impl Recurrences {
         self.add(first, Some(if is_solved { [None, newest] } else { [newest, None] }))
     }
 
-    pub(super) fn first(&self, of: Quantity) -> Register {
+    pub(super) fn first(&self, of: SeriesQuantity) -> Register {
         self.quantities[of.0].first
     }
 
-    pub(super) fn is_at_rest(&self, of: Quantity) -> bool {
+    pub(super) fn is_at_rest(&self, of: SeriesQuantity) -> bool {
         self.quantities[of.0].newest.is_none()
     }
 
@@ -152,9 +152,9 @@ impl Recurrences {
     pub(super) fn moving<const K: usize>(
         &mut self,
         first: Register,
-        operands: [Quantity; K],
+        operands: [SeriesQuantity; K],
         mut newest: impl FnMut(&mut Self, [Option<Register>; K]) -> Option<Register>,
-    ) -> Quantity {
+    ) -> SeriesQuantity {
         let both = STAGES.map(|stage| {
             self.stage = stage;
             let operands = operands.map(|x| self.part(x, stage));
@@ -170,13 +170,13 @@ impl Recurrences {
 
     pub(super) fn linear<const K: usize>(
         &mut self,
-        operation: Operation<Quantity>,
+        operation: Operation<SeriesQuantity>,
         newest: impl FnMut(&mut Self, [Option<Register>; K]) -> Option<Register>,
-    ) -> Quantity {
-        let operands: Vec<Quantity> = operation.operands().collect();
+    ) -> SeriesQuantity {
+        let operands: Vec<SeriesQuantity> = operation.operands().collect();
         let first = operation.with_operands(|x| self.first(x));
         let first = self.schedule.push(first);
-        match <[Quantity; K]>::try_from(operands) {
+        match <[SeriesQuantity; K]>::try_from(operands) {
             Ok(operands) if operands.iter().any(|&x| !self.is_at_rest(x)) => {
                 self.moving(first, operands, newest)
             }
@@ -184,12 +184,12 @@ impl Recurrences {
         }
     }
 
-    fn negated(&mut self, x: Quantity) -> Quantity {
+    fn negated(&mut self, x: SeriesQuantity) -> SeriesQuantity {
         self.linear(Operation::Negate(x), |of, [x]| of.negative(x))
     }
 
     /// (xy)_k = x₀ y_k + y₀ x_k + Σ x_j y_{k−j}
-    pub(super) fn product(&mut self, x: Quantity, y: Quantity) -> Quantity {
+    pub(super) fn product(&mut self, x: SeriesQuantity, y: SeriesQuantity) -> SeriesQuantity {
         let [x0, y0] = [x, y].map(|x| self.first(x));
         let first = self.schedule.push(Operation::Multiply(x0, y0));
         match [x, y].map(|x| self.is_at_rest(x)) {
@@ -210,7 +210,7 @@ impl Recurrences {
     }
 
     /// Of z = x/y: z_k = (x_k − z₀ y_k − Σ z_j y_{k−j})/y₀
-    fn quotient(&mut self, x: Quantity, y: Quantity) -> Quantity {
+    fn quotient(&mut self, x: SeriesQuantity, y: SeriesQuantity) -> SeriesQuantity {
         let [x0, y0] = [x, y].map(|x| self.first(x));
         let z0 = self.schedule.push(Operation::Divide(x0, y0));
         if self.is_at_rest(x) && self.is_at_rest(y) {
@@ -232,7 +232,7 @@ impl Recurrences {
     }
 
     /// Of z = √x: z_k = (x_k − Σ z_j z_{k−j})/(2 z₀)
-    pub(super) fn root(&mut self, x: Quantity) -> Quantity {
+    pub(super) fn root(&mut self, x: SeriesQuantity) -> SeriesQuantity {
         let x0 = self.first(x);
         let z0 = self.schedule.push(Operation::SquareRoot(x0));
         if self.is_at_rest(x) {
@@ -254,8 +254,8 @@ impl Recurrences {
     pub(super) fn defined(
         &mut self,
         first: Register,
-        recurrence: impl FnOnce(&mut Self, Quantity) -> Quantity,
-    ) -> Quantity {
+        recurrence: impl FnOnce(&mut Self, SeriesQuantity) -> SeriesQuantity,
+    ) -> SeriesQuantity {
         let quantity = self.add(first, Some([None; 2]));
         let made = recurrence(self, quantity);
         self.quantities[quantity.0] = self.quantities[made.0];

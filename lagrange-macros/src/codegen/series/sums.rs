@@ -2,7 +2,7 @@
 
 use indexmap::IndexSet;
 
-use super::recurrences::{Quantity, Recurrences, Stage};
+use super::recurrences::{Recurrences, SeriesQuantity, Stage};
 use crate::codegen::operation::{Operation, Register};
 use crate::variables::Variable;
 
@@ -10,20 +10,20 @@ use crate::variables::Variable;
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) enum Sum {
     /// Σ x_j y_{k−j}
-    Product(Quantity, Quantity),
+    Product(SeriesQuantity, SeriesQuantity),
     /// Σ j x_j y_{k−j}
-    Weighted(Quantity, Quantity),
+    Weighted(SeriesQuantity, SeriesQuantity),
     /// Σ x_j y_{k−j}/((j + 1)(k − j + 1)), of the means that these have had since order 0
-    Mean(Quantity, Quantity),
+    Mean(SeriesQuantity, SeriesQuantity),
     /// No sum, but a place where an argument of a function that the user supplies is kept.
-    Argument(Quantity),
+    Argument(SeriesQuantity),
     /// What such a function adds, by the place among the calls and that of the result.
     Value(usize, u32),
 }
 
 impl Recurrences {
     /// Σ x_j y_{k−j}; of [means](Self::of_means) k + 1 times that.
-    pub(super) fn product_sum(&mut self, x: Quantity, y: Quantity) -> Register {
+    pub(super) fn product_sum(&mut self, x: SeriesQuantity, y: SeriesQuantity) -> Register {
         let (x, y) = (x.min(y), x.max(y));
         if !self.of_means {
             return self.place(Sum::Product(x, y));
@@ -33,7 +33,7 @@ impl Recurrences {
     }
 
     /// Σ j x_j y_{k−j}/k
-    pub(super) fn weighted_sum(&mut self, x: Quantity, y: Quantity) -> Register {
+    pub(super) fn weighted_sum(&mut self, x: SeriesQuantity, y: SeriesQuantity) -> Register {
         let sum = self.place(Sum::Weighted(x, y));
         let reciprocal = self.schedule.push(Operation::Input(Variable::OrderReciprocal.symbol()));
         self.schedule.push(Operation::Multiply(sum, reciprocal))
@@ -84,7 +84,7 @@ impl Recurrences {
     }
 
     /// The newest coefficient, by what is known of it; what is given with its order is not computed.
-    fn term(&mut self, of: Quantity, known: &mut IndexSet<Register>) -> Option<Register> {
+    fn term(&mut self, of: SeriesQuantity, known: &mut IndexSet<Register>) -> Option<Register> {
         let first = self.part(of, Stage::Known).map(|part| match self.schedule.operations[part.index()] {
             Operation::Input(symbol) if !matches!(Variable::of(symbol), Variable::Sum(_)) => part,
             _ => {

@@ -6,7 +6,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::Series;
-use super::recurrences::{Quantity, Recurrences, STAGES, Stage};
+use super::recurrences::{Recurrences, STAGES, SeriesQuantity, Stage};
 use super::sums::Sum;
 use crate::codegen::Emitter;
 use crate::codegen::bounds::{FUNCTION_ORDER, call_of, orders_of};
@@ -14,7 +14,7 @@ use crate::codegen::operation::{Call, Operation, Register};
 
 /// An argument of a call.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(super) enum Argument {
+pub(super) enum CallArgument {
     /// By the bits of its value.
     Constant(u64),
     /// By its place among those that the runtime keeps.
@@ -23,22 +23,22 @@ pub(super) enum Argument {
 
 /// A call on series, and where its results belong among the sums.
 pub(super) struct CallOnSeries {
-    call: Call<Argument>,
+    call: Call<CallArgument>,
     results: Vec<(u32, usize)>,
 }
 
 impl Recurrences {
     /// A result of a function, y = U(x): y_k = Σ ∂U/∂x_i x_{i,k} and what older coefficients add; `None` where that takes
     /// derivatives of a higher order than functions have.
-    pub(super) fn result(&mut self, call: Call<Quantity>, output: u32) -> Option<Quantity> {
+    pub(super) fn result(&mut self, call: Call<SeriesQuantity>, output: u32) -> Option<SeriesQuantity> {
         let first = self.value(&call, None, output);
         if call.arguments.iter().all(|&x| self.is_at_rest(x)) {
             return Some(self.add(first, None));
         }
         (call.derivatives.len() < FUNCTION_ORDER).then_some(())?;
         let moving = (0..).zip(call.arguments.clone()).filter(|&(_, x)| !self.is_at_rest(x));
-        let moving: Vec<(u32, Quantity)> = moving.collect();
-        let slopes: Vec<(Register, Quantity)> =
+        let moving: Vec<(u32, SeriesQuantity)> = moving.collect();
+        let slopes: Vec<(Register, SeriesQuantity)> =
             moving.into_iter().map(|(i, x)| (self.value(&call, Some(i), output), x)).collect();
         let (place, _) = self.calls.insert_full(call);
         let sum = self.place(Sum::Value(place, output));
@@ -54,7 +54,7 @@ impl Recurrences {
     }
 
     /// A result of a call at order 0, or its derivative by one more argument.
-    fn value(&mut self, call: &Call<Quantity>, by: Option<u32>, output: u32) -> Register {
+    fn value(&mut self, call: &Call<SeriesQuantity>, by: Option<u32>, output: u32) -> Register {
         let mut derivatives: Vec<u32> = call.derivatives.iter().copied().chain(by).collect();
         derivatives.sort_unstable();
         let arguments = call.arguments.iter().map(|&x| self.first(x)).collect();
@@ -79,21 +79,21 @@ impl Recurrences {
         (calls.collect(), kept)
     }
 
-    fn argument(&mut self, x: Quantity, kept: &mut Vec<(usize, Register)>) -> Argument {
+    fn argument(&mut self, x: SeriesQuantity, kept: &mut Vec<(usize, Register)>) -> CallArgument {
         let first = self.first(x);
         if let Operation::Constant(bits) = self.schedule.operations[first.index()] {
-            return Argument::Constant(bits);
+            return CallArgument::Constant(bits);
         }
         let place = self.argument_place(x);
         let known = kept.iter().position(|&(known, _)| known == place);
-        Argument::Kept(known.unwrap_or_else(|| {
+        CallArgument::Kept(known.unwrap_or_else(|| {
             kept.push((place, first));
             kept.len() - 1
         }))
     }
 
     /// A place among the sums where a series is kept.
-    pub(super) fn argument_place(&mut self, x: Quantity) -> usize {
+    pub(super) fn argument_place(&mut self, x: SeriesQuantity) -> usize {
         self.sums.insert_full(Sum::Argument(x)).0
     }
 }
@@ -117,11 +117,11 @@ impl Emitter<'_> {
         let (function, scalar) = (&self.problem.functions[call.function as usize], self.style.types.scalar);
         let values =
             call_of(function, call, &quote!(__lagrange::PowerSeries<#scalar>), |argument| match argument {
-                Argument::Constant(bits) => {
+                CallArgument::Constant(bits) => {
                     let value = Literal::f64_unsuffixed(f64::from_bits(*bits));
                     quote!(__lagrange::Scalar::constant(#value))
                 }
-                Argument::Kept(place) => quote!(arguments[#place]),
+                CallArgument::Kept(place) => quote!(arguments[#place]),
             });
         let puts = results.iter().map(|&(output, place)| {
             let output = output as usize;

@@ -2,7 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::codegen::body::{Body, Expression, Given, Local, Part, Place, Statement, Turn};
+use crate::codegen::body::{Chunk, FunctionBody, Given, Local, Operand, SineAndCosine, Slot, Statement};
 use crate::codegen::operation::{Call, Operation, Register};
 use crate::codegen::schedule::Schedule;
 use crate::symbolic::{Symbol, apply};
@@ -57,7 +57,7 @@ impl Schedule {
     }
 }
 
-impl Body {
+impl FunctionBody {
     /// The results, of which there are so many; functions that the user supplies are given a call and the place of a result.
     pub(crate) fn values(
         &self,
@@ -66,7 +66,7 @@ impl Body {
         function: impl Fn(&Call<f64>, u32) -> f64,
     ) -> Vec<f64> {
         let (mut waiting, mut results) = (vec![f64::NAN; self.waiting], vec![0.0; count]);
-        let rounds = |part: &Part| part.rounds.as_ref().map_or(1, |rounds| rounds.count);
+        let rounds = |part: &Chunk| part.rounds.as_ref().map_or(1, |rounds| rounds.count);
         for (part, round) in
             self.parts.iter().flat_map(|part| (0..rounds(part)).map(move |round| (part, round)))
         {
@@ -89,7 +89,7 @@ impl Body {
     }
 }
 
-impl Part {
+impl Chunk {
     fn given(&self, round: usize, waiting: &[f64], input: impl Fn(Symbol) -> f64) -> Vec<f64> {
         let given = self.rounds.iter().flat_map(|rounds| &rounds.given).map(|given| match given {
             Given::Inputs(symbols) => input(symbols[round]),
@@ -101,7 +101,7 @@ impl Part {
 
 /// What a part sees.
 struct Frame<'b, I> {
-    part: &'b Part,
+    part: &'b Chunk,
     round: usize,
     input: I,
     waiting: &'b mut [f64],
@@ -121,7 +121,7 @@ impl<I: Fn(Symbol) -> f64> Frame<'_, I> {
                 angles.iter().for_each(|(local, angle)| self.define(*local, self.value(angle)));
             }
             Statement::Turns(turns) => {
-                for Turn { angle, sine, cosine } in turns {
+                for SineAndCosine { angle, sine, cosine } in turns {
                     let angle = self.value(angle);
                     sine.iter().for_each(|&sine| self.define(sine, angle.sin()));
                     cosine.iter().for_each(|&cosine| self.define(cosine, angle.cos()));
@@ -132,8 +132,8 @@ impl<I: Fn(Symbol) -> f64> Frame<'_, I> {
                 let call = Call { function: *f, derivatives: derivatives.clone(), arguments };
                 outputs.iter().for_each(|&(output, local)| self.define(local, function(&call, output)));
             }
-            Statement::Store(Place::Result(index), value) => results[*index] = self.value(value),
-            Statement::Store(Place::Waiting(series), value) => {
+            Statement::Store(Slot::Result(index), value) => results[*index] = self.value(value),
+            Statement::Store(Slot::Waiting(series), value) => {
                 self.waiting[series.at(self.round)] = self.value(value);
             }
         }
@@ -144,13 +144,13 @@ impl<I: Fn(Symbol) -> f64> Frame<'_, I> {
         assert!(self.locals.insert(local, value).is_none(), "{local:?} has two values");
     }
 
-    fn value(&self, expression: &Expression) -> f64 {
+    fn value(&self, expression: &Operand) -> f64 {
         match expression {
-            Expression::Local(local) => {
+            Operand::Local(local) => {
                 *self.locals.get(local).unwrap_or_else(|| panic!("{local:?} has no value"))
             }
-            Expression::Waiting(place) => self.waiting[*place],
-            Expression::Of(operation) => {
+            Operand::Waiting(place) => self.waiting[*place],
+            Operand::Of(operation) => {
                 operation.as_ref().clone().with_operands(|operand| self.value(&operand)).value(&self.input)
             }
         }

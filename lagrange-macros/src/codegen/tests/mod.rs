@@ -2,7 +2,7 @@
 
 mod interpret;
 
-use super::body::Body;
+use super::body::FunctionBody;
 use super::count::Count;
 use super::operation::Call;
 use super::passes::Program;
@@ -48,7 +48,7 @@ pub(crate) fn solutions_by(
         |call: &Call<f64>, output| function(call.function, &call.derivatives, &call.arguments, output);
     let values = |form| {
         let program = solve(graph, form, equations)?.fused();
-        Some(Body::new(&program, &Default::default()).values(program.results.len(), &input, function))
+        Some(FunctionBody::new(&program, &Default::default()).values(program.results.len(), &input, function))
     };
     equations.forms.iter().map(values).collect()
 }

@@ -12,7 +12,7 @@ use crate::symbolic::{Function, Graph, Id, Node, Rational};
 const LONG: usize = 64;
 
 /// The factors of a product that it is odd in, in order, and whether it has a minus.
-type Product = (Vec<Id>, bool);
+type OddFactors = (Vec<Id>, bool);
 
 /// The terms of a sum that are surely positive, taken out of definitions where these are not as a whole.
 pub(super) fn positive_terms(graph: &mut Graph, sum: Id) -> Vec<Id> {
@@ -34,8 +34,8 @@ pub(super) fn positive_terms(graph: &mut Graph, sum: Id) -> Vec<Id> {
 }
 
 /// Of everything in an expression the different products that it is a sum of; `None` where these are very many.
-fn products(graph: &Graph, root: Id) -> FxHashMap<Id, Option<Vec<Product>>> {
-    let mut products: FxHashMap<Id, Option<Vec<Product>>> = FxHashMap::default();
+fn products(graph: &Graph, root: Id) -> FxHashMap<Id, Option<Vec<OddFactors>>> {
+    let mut products: FxHashMap<Id, Option<Vec<OddFactors>>> = FxHashMap::default();
     for id in graph.reachable(&[root]) {
         let of = |id: &Id| products.get(id).cloned().flatten();
         let found = match graph.node(id) {
@@ -68,11 +68,11 @@ fn products(graph: &Graph, root: Id) -> FxHashMap<Id, Option<Vec<Product>>> {
 }
 
 /// Odd in nothing.
-fn number() -> Vec<Product> {
+fn number() -> Vec<OddFactors> {
     vec![(Vec::new(), false)]
 }
 
-fn multiplied(one: &[Product], other: &[Product]) -> Vec<Product> {
+fn multiplied(one: &[OddFactors], other: &[OddFactors]) -> Vec<OddFactors> {
     let products = one.iter().flat_map(|(odd, minus)| {
         other.iter().map(move |(too, more)| (in_one_alone(odd, too), minus != more))
     });

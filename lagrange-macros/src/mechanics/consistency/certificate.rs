@@ -5,7 +5,7 @@
 
 use num_traits::{One, Zero};
 
-use crate::symbolic::{Polynomial, Polynomials, Rational, plus, times};
+use crate::symbolic::{ExactPolynomial, Polynomials, Rational, plus, times};
 
 /// Largest number of rows that a row is made of with coefficients that are functions; with numbers there is no limit.
 const FUNCTIONS: usize = 4;
@@ -14,24 +14,24 @@ const FUNCTIONS: usize = 4;
 pub(super) struct Combination {
     pub(super) index: usize,
     /// Those of functions are times something that is nowhere zero; the one of the row itself is zero.
-    pub(super) coefficients: Vec<Polynomial>,
+    pub(super) coefficients: Vec<ExactPolynomial>,
     pub(super) numbers: Option<Vec<Rational>>,
     /// Whether the same holds in the last column.
     pub(super) is_complete: bool,
 }
 
 /// A combination that is one of the rows, the last one if there is a choice; `None` where none is found.
-pub(super) fn find(ring: &Polynomials, columns: &[Vec<Polynomial>]) -> Option<Combination> {
+pub(super) fn find(ring: &Polynomials, columns: &[Vec<ExactPolynomial>]) -> Option<Combination> {
     let count = columns.first()?.len();
-    let one = Polynomial::number(Rational::one());
+    let one = ExactPolynomial::number(Rational::one());
     // Behind the entries, what they are multiplied by: it has no zero where the rows have values.
     let mut entries = ring.cleared(&[&columns.concat()[..], std::slice::from_ref(&one)].concat())?;
     let unit = entries.pop()?;
-    let columns: Vec<Vec<Polynomial>> = entries.chunks(count).map(<[_]>::to_vec).collect();
+    let columns: Vec<Vec<ExactPolynomial>> = entries.chunks(count).map(<[_]>::to_vec).collect();
     let (last, others) = columns.split_last()?;
     let numbers = numbers(others, count - 1).map(|numbers| [numbers, vec![Rational::zero()]].concat());
     let (index, unit, coefficients) = match &numbers {
-        Some(numbers) => (count - 1, one, numbers.iter().copied().map(Polynomial::number).collect()),
+        Some(numbers) => (count - 1, one, numbers.iter().copied().map(ExactPolynomial::number).collect()),
         None => {
             (count <= FUNCTIONS + 1).then_some(())?;
             let unit = ring.times(&unit, &unit)?;
@@ -39,7 +39,7 @@ pub(super) fn find(ring: &Polynomials, columns: &[Vec<Polynomial>]) -> Option<Co
             (index, unit, coefficients)
         }
     };
-    let is_met = |column: &[Polynomial]| {
+    let is_met = |column: &[ExactPolynomial]| {
         let parts = coefficients.iter().zip(column);
         let rest = parts.into_iter().try_fold(ring.times(&unit, &column[index])?, |rest, (c, entry)| {
             rest.plus(&ring.times(c, entry)?, -Rational::one())
@@ -52,7 +52,7 @@ pub(super) fn find(ring: &Polynomials, columns: &[Vec<Polynomial>]) -> Option<Co
 }
 
 /// Numbers c with Σ c_k row_k = row `last`, by elimination on the coefficients of every monomial.
-fn numbers(columns: &[Vec<Polynomial>], last: usize) -> Option<Vec<Rational>> {
+fn numbers(columns: &[Vec<ExactPolynomial>], last: usize) -> Option<Vec<Rational>> {
     let mut solved: Vec<Vec<Rational>> = Vec::new();
     let mut pivots: Vec<usize> = Vec::new();
     for column in columns {
@@ -99,10 +99,10 @@ fn reduce(equation: &mut [Rational], known: &[Rational], pivot: usize) -> Option
 /// a combination of them.
 fn functions(
     ring: &Polynomials,
-    columns: &[Vec<Polynomial>],
+    columns: &[Vec<ExactPolynomial>],
     last: usize,
-    unit: &Polynomial,
-) -> Option<(usize, Vec<Polynomial>)> {
+    unit: &ExactPolynomial,
+) -> Option<(usize, Vec<ExactPolynomial>)> {
     // Short entries make short minors.
     let mut candidates: Vec<usize> = (0..columns.len()).collect();
     candidates
@@ -117,24 +117,24 @@ fn functions(
         let next = *candidates.iter().find(|column| !chosen.contains(column) && adds(column))?;
         chosen.push(next);
     }
-    let parts: Option<Vec<Polynomial>> = (0..=last)
+    let parts: Option<Vec<ExactPolynomial>> = (0..=last)
         .map(|left_out| {
             let rows: Vec<usize> = (0..=last).filter(|&row| row != left_out).collect();
             let minor = minor(ring, columns, &rows, &chosen)?;
             let sign = if left_out % 2 == 0 { Rational::one() } else { -Rational::one() };
-            Polynomial::default().plus(&minor, sign)
+            ExactPolynomial::default().plus(&minor, sign)
         })
         .collect();
     let parts = parts?;
     (0..=last).rev().find_map(|index| {
         let coefficient = |k: usize| {
             if k == index {
-                return Some(Polynomial::default());
+                return Some(ExactPolynomial::default());
             }
             let quotient = ring.quotient(&ring.times(&parts[k], unit)?, &parts[index])?;
-            Polynomial::default().plus(&quotient, -Rational::one())
+            ExactPolynomial::default().plus(&quotient, -Rational::one())
         };
-        let coefficients: Option<Vec<Polynomial>> = (0..=last).map(coefficient).collect();
+        let coefficients: Option<Vec<ExactPolynomial>> = (0..=last).map(coefficient).collect();
         Some((index, coefficients?))
     })
 }
@@ -142,12 +142,14 @@ fn functions(
 /// The determinant of some rows in as many columns, by its last row.
 fn minor(
     ring: &Polynomials,
-    columns: &[Vec<Polynomial>],
+    columns: &[Vec<ExactPolynomial>],
     rows: &[usize],
     chosen: &[usize],
-) -> Option<Polynomial> {
-    let Some((&row, above)) = rows.split_last() else { return Some(Polynomial::number(Rational::one())) };
-    let mut sum = Polynomial::default();
+) -> Option<ExactPolynomial> {
+    let Some((&row, above)) = rows.split_last() else {
+        return Some(ExactPolynomial::number(Rational::one()));
+    };
+    let mut sum = ExactPolynomial::default();
     for (place, &column) in chosen.iter().enumerate() {
         let rest: Vec<usize> = chosen.iter().copied().filter(|&other| other != column).collect();
         let sign = if (place + above.len()) % 2 == 0 { Rational::one() } else { -Rational::one() };

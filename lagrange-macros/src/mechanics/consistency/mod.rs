@@ -14,7 +14,7 @@ use super::constraints::ConstraintKind::{Holonomic, Velocity};
 use super::constraints::Constraints;
 use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
-use crate::symbolic::{Graph, Id, Node, Polynomial, Polynomials, Rational, Sample};
+use crate::symbolic::{ExactPolynomial, Graph, Id, Node, Polynomials, Rational, Sample};
 use crate::variables::{Variable, symbols};
 use certificate::Combination;
 
@@ -32,7 +32,9 @@ pub(super) fn check(
     let of = |kind| (0..constraints.kinds.len()).filter(move |&row| constraints.kinds[row] == kind);
     let order: Vec<usize> = of(Holonomic).chain(of(Velocity)).collect();
     for circuit in circuits::find(graph, problem, constraints, &order) {
-        if let Some(Fault { index, others, message }) = Rows::proved(graph, problem, constraints, &circuit) {
+        if let Some(Redundancy { index, others, message }) =
+            ConstraintRows::proved(graph, problem, constraints, &circuit)
+        {
             let mut error = problem.constraints[index].0.place.error(message);
             for other in others {
                 error.combine(problem.constraints[other].0.place.error("the other one is here"));
@@ -44,7 +46,7 @@ pub(super) fn check(
 }
 
 /// A constraint that is one too many beside others, and why.
-struct Fault {
+struct Redundancy {
     index: usize,
     others: Vec<usize>,
     message: String,
@@ -60,7 +62,7 @@ enum Rest {
 }
 
 /// Some constraints in a graph of their own, without the boundaries of definitions.
-struct Rows<'a> {
+struct ConstraintRows<'a> {
     graph: Graph,
     ring: Polynomials,
     problem: &'a Problem,
@@ -71,14 +73,14 @@ struct Rows<'a> {
     bias: Vec<Id>,
 }
 
-impl<'a> Rows<'a> {
+impl<'a> ConstraintRows<'a> {
     /// What is wrong with these constraints, where that is certain.
     fn proved(
         graph: &Graph,
         problem: &'a Problem,
         constraints: &'a Constraints,
         circuit: &'a [usize],
-    ) -> Option<Fault> {
+    ) -> Option<Redundancy> {
         let mut scratch = Graph::default();
         let mut copies = |of: &dyn Fn(usize) -> Id| {
             let roots: Vec<Id> = circuit.iter().map(|&row| of(row)).collect();
@@ -101,7 +103,7 @@ impl<'a> Rows<'a> {
         rows.fault(&columns)
     }
 
-    fn fault(&mut self, columns: &[Vec<Id>]) -> Option<Fault> {
+    fn fault(&mut self, columns: &[Vec<Id>]) -> Option<Redundancy> {
         let polynomials = columns.iter().map(|column| self.polynomials(column));
         let polynomials = polynomials.collect::<Option<Vec<_>>>()?;
         let combination = certificate::find(&self.ring, &polynomials)?;
@@ -112,10 +114,10 @@ impl<'a> Rows<'a> {
         let index = self.circuit[combination.index];
         let rest = self.rest(&combination, &others)?;
         let message = self.message(index, &others, &rest, combination.numbers.is_some());
-        Some(Fault { index, others, message })
+        Some(Redundancy { index, others, message })
     }
 
-    fn polynomials(&mut self, expressions: &[Id]) -> Option<Vec<Polynomial>> {
+    fn polynomials(&mut self, expressions: &[Id]) -> Option<Vec<ExactPolynomial>> {
         expressions.iter().map(|&expression| self.ring.of(&mut self.graph, expression)).collect()
     }
 

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeSet, VecDeque};
 
-use super::space::{Form, Space};
+use super::space::{OneForm, Space};
 use crate::mechanics::Evidence;
 use crate::symbolic::{Forward, Id, Symbol};
 
@@ -27,7 +27,7 @@ pub(super) struct Closure {
 
 impl Distribution {
     /// `None` where the constraints contradict each other or have no values.
-    pub(super) fn new(space: &mut Space, velocity: &[Form]) -> Option<Self> {
+    pub(super) fn new(space: &mut Space, velocity: &[OneForm]) -> Option<Self> {
         let (holonomic, rows) = (space.holonomic.len(), [&space.holonomic, velocity].concat());
         let mut elimination = Elimination { space, rows, pivots: Vec::new() };
         elimination.pivot_all(holonomic);
@@ -54,7 +54,7 @@ impl Distribution {
     }
 
     /// ω of each field.
-    pub(super) fn applied(&self, space: &mut Space, form: &Form) -> Vec<Id> {
+    pub(super) fn applied(&self, space: &mut Space, form: &OneForm) -> Vec<Id> {
         let applied = self.fields.iter().map(|(free, parts)| {
             let along = self.along_pivots(space, form, parts);
             space.graph.add(form[*free], along)
@@ -63,14 +63,14 @@ impl Distribution {
     }
 
     /// ω of a direction along the pivots.
-    pub(super) fn along_pivots(&self, space: &mut Space, form: &Form, parts: &[Id]) -> Id {
+    pub(super) fn along_pivots(&self, space: &mut Space, form: &OneForm, parts: &[Id]) -> Id {
         let along: Vec<Id> = self.pivots.iter().map(|&pivot| form[pivot]).collect();
         space.graph.dot(&along, parts)
     }
 
     /// dω(X, Y) = X(ω(Y)) − Y(ω(X)) for every two fields: these are coordinate fields on each Φ = constant, so
     /// that [X, Y] = 0. Only for the holonomic constraints alone.
-    pub(super) fn curl(&self, space: &mut Space, form: &Form) -> Vec<Id> {
+    pub(super) fn curl(&self, space: &mut Space, form: &OneForm) -> Vec<Id> {
         let applied = self.applied(space, form);
         let active = self.active(space, &applied);
         let directions = self.fields.iter().map(|(free, parts)| self.direction(space, Some(*free), parts));
@@ -161,7 +161,7 @@ fn rates(space: &mut Space, along: &mut Forward, parts: &[Id]) -> Vec<Id> {
 /// Forms that are being solved for the directions that they allow, each for a variable.
 struct Elimination<'a> {
     space: &'a mut Space,
-    rows: Vec<Form>,
+    rows: Vec<OneForm>,
     /// Row and column of each.
     pivots: Vec<(usize, usize)>,
 }
@@ -172,7 +172,7 @@ impl Elimination<'_> {
         while let Some((row, column)) = self.best_pivot(count) {
             let graph = &mut self.space.graph;
             let pivot = self.rows[row][column];
-            let unit: Form = self.rows[row].iter().map(|&entry| graph.div(entry, pivot)).collect();
+            let unit: OneForm = self.rows[row].iter().map(|&entry| graph.div(entry, pivot)).collect();
             self.rows[row] = unit.clone();
             for (_, entries) in self.rows.iter_mut().enumerate().filter(|&(other, _)| other != row) {
                 let factor = entries[column];

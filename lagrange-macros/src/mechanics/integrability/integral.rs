@@ -3,7 +3,7 @@
 use num_traits::One;
 
 use super::kinds::Integrability;
-use super::space::{Form, Space};
+use super::space::{OneForm, Space};
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id, Rational, Symbol, Verdict};
 
@@ -13,7 +13,7 @@ pub(super) fn of(
     graph: &mut Graph,
     problem: &Problem,
     space: &mut Space,
-    form: &Form,
+    form: &OneForm,
     kind: Integrability,
 ) -> Option<Id> {
     let candidates = match kind {
@@ -30,7 +30,7 @@ pub(super) fn of(
 }
 
 /// The form divided by each factor of its coefficients, by its square, and by all factors.
-fn divided(graph: &mut Graph, form: &Form) -> Vec<Form> {
+fn divided(graph: &mut Graph, form: &OneForm) -> Vec<OneForm> {
     let mut factors: Vec<Id> = form.iter().flat_map(|&entry| graph.factors(entry)).collect();
     factors.sort_unstable();
     factors.dedup();
@@ -45,7 +45,7 @@ fn divided(graph: &mut Graph, form: &Form) -> Vec<Form> {
 }
 
 /// Integrates along one variable after the other what the earlier ones have left.
-fn potential(graph: &mut Graph, symbols: &[Symbol], form: &Form) -> Option<Id> {
+fn potential(graph: &mut Graph, symbols: &[Symbol], form: &OneForm) -> Option<Id> {
     let mut rest = form.clone();
     let mut integral = Id::ZERO;
     for (k, &symbol) in symbols.iter().enumerate() {
@@ -60,7 +60,7 @@ fn potential(graph: &mut Graph, symbols: &[Symbol], form: &Form) -> Option<Id> {
 }
 
 /// Whether the gradient of `integral` is the form.
-fn is_potential(space: &mut Space, form: &Form, integral: Id, problem: &Problem) -> bool {
+fn is_potential(space: &mut Space, form: &OneForm, integral: Id, problem: &Problem) -> bool {
     let Space { graph, symbols, .. } = space;
     let gradient = graph.gradient(integral, symbols);
     gradient.into_iter().zip(form).all(|(slope, &entry)| {

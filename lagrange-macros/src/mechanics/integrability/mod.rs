@@ -20,7 +20,7 @@ use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};
 use distribution::{Closure, Distribution};
 pub(crate) use kinds::{Classification, Integrability, Integrals, Kinds};
-use space::{Form, Space};
+use space::{OneForm, Space};
 
 /// Classifies every constraint and the set of them.
 pub(super) fn classify(graph: &mut Graph, problem: &Problem, constraints: &Constraints) -> Kinds {
@@ -46,7 +46,7 @@ fn fill(graph: &mut Graph, problem: &Problem, space: &mut Space, kinds: &mut Kin
     let rows = space.velocity.clone();
     // First what is cheap: the brackets of a large set may grow out of hand.
     let alone: Vec<_> = rows.iter().map(|(_, form)| classify_alone(space, form)).collect();
-    let forms: Vec<Form> = rows.iter().map(|(_, form)| form.clone()).collect();
+    let forms: Vec<OneForm> = rows.iter().map(|(_, form)| form.clone()).collect();
     let set = Distribution::new(space, &forms);
     let set = set.and_then(|set| set.closure(space).map(|closure| (set, closure)));
     kinds.integrals = set.as_ref().map(|(set, closure)| {
@@ -67,7 +67,7 @@ fn fill(graph: &mut Graph, problem: &Problem, space: &mut Space, kinds: &mut Kin
 }
 
 /// The verdict on a constraint without the other velocity constraints.
-fn classify_alone(space: &mut Space, form: &Form) -> Option<Classification> {
+fn classify_alone(space: &mut Space, form: &OneForm) -> Option<Classification> {
     let manifold = Distribution::new(space, &[])?;
     let curl = manifold.curl(space, form);
     space.settled()?;
@@ -87,7 +87,7 @@ fn classify_in(
     space: &mut Space,
     set: &Distribution,
     closure: &Closure,
-    form: &Form,
+    form: &OneForm,
 ) -> Option<Classification> {
     let along: Vec<Id> = closure.reached.iter().map(|parts| set.along_pivots(space, form, parts)).collect();
     let (obeyed, evidence) = space.vanish(&along)?;

@@ -16,7 +16,7 @@ const DRAWS: u64 = 64;
 const BLUR: f64 = 1e-6;
 
 /// ω = Σ F_a dq_a + b dt: the coefficients, time's the last.
-pub(super) type Form = Vec<Id>;
+pub(super) type OneForm = Vec<Id>;
 
 /// A graph of its own, without the boundaries of definitions, so that what vanishes is seen to.
 pub(super) struct Space {
@@ -24,9 +24,9 @@ pub(super) struct Space {
     /// The coordinates and, last, time.
     pub(super) symbols: Vec<Symbol>,
     /// dΦ of the holonomic constraints.
-    pub(super) holonomic: Vec<Form>,
+    pub(super) holonomic: Vec<OneForm>,
     /// Velocity constraints with their indices.
-    pub(super) velocity: Vec<(usize, Form)>,
+    pub(super) velocity: Vec<(usize, OneForm)>,
     samples: Vec<Sample>,
 }
 
@@ -60,7 +60,7 @@ impl Space {
     }
 
     /// The coefficients of what is affine in the velocities.
-    fn form(&mut self, rate: Id, n: usize) -> Form {
+    fn form(&mut self, rate: Id, n: usize) -> OneForm {
         let velocities = symbols(n, Variable::Velocity);
         let mut form = self.graph.gradient(rate, &velocities);
         // Where every velocity is 0 there is only b.

@@ -4,7 +4,7 @@
 //! m a + ω̇ × h + ω × (ω × h), and the torque J ω̇ + ω × Jω + h × a. In uniform gravity a is the acceleration against it.
 
 use super::accelerations::InTime;
-use super::{Parts, Twists};
+use super::{TwistParts, Twists};
 use crate::resolve::{Body, Frame, Problem, Step, Triple, cross, sum};
 use crate::symbolic::{Graph, Id, Symbol};
 use crate::variables::Variable;
@@ -27,7 +27,13 @@ pub(super) fn apart(graph: &mut Graph, problem: &Problem) -> (Vec<Body>, Id) {
 
 impl Twists<'_> {
     /// The forces of inertia, where the fixed frame accelerates so.
-    pub(super) fn of_bodies(&self, graph: &mut Graph, in_time: InTime, fixed: Triple, parts: &mut Parts) {
+    pub(super) fn of_bodies(
+        &self,
+        graph: &mut Graph,
+        in_time: InTime,
+        fixed: Triple,
+        parts: &mut TwistParts,
+    ) {
         let accelerations = self.accelerations(graph, in_time, fixed);
         let minus = graph.integer(-1);
         for &Body { frame, mass, moment, inertia, .. } in &self.bodies {

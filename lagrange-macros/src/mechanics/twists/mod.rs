@@ -39,19 +39,19 @@ pub(super) struct Twists<'p> {
 #[derive(Clone, Copy)]
 struct Component {
     frame: usize,
-    part: Part,
+    part: TwistPart,
     axis: usize,
     number: usize,
 }
 
 #[derive(Clone, Copy)]
-enum Part {
+enum TwistPart {
     Turning,
     Moving,
 }
 
 /// For each velocity what belongs to it, as a sum.
-struct Parts(Vec<Vec<(Id, Rational)>>);
+struct TwistParts(Vec<Vec<(Id, Rational)>>);
 
 /// The kinetic energies of the bodies that are terms of L, and L without them; `None` where there is none.
 pub(super) fn kinetic_energies(graph: &mut Graph, problem: &Problem) -> Option<(Vec<Id>, Id)> {
@@ -87,7 +87,7 @@ impl<'p> Twists<'p> {
     fn add_components(&mut self, graph: &mut Graph) {
         let mut seen: FxHashSet<Id> = FxHashSet::default();
         for (frame, Frame { angular_velocity, velocity, .. }) in self.problem.frames.iter().enumerate() {
-            for (part, vector) in [(Part::Turning, angular_velocity), (Part::Moving, velocity)] {
+            for (part, vector) in [(TwistPart::Turning, angular_velocity), (TwistPart::Moving, velocity)] {
                 for (axis, &node) in vector.iter().enumerate() {
                     self.add(graph, node);
                     let number = self.numbers.get(&node).copied().filter(|_| seen.insert(node));
@@ -172,7 +172,7 @@ impl<'p> Twists<'p> {
     }
 
     /// What belongs to each of the velocities.
-    fn parts(&self, graph: &mut Graph, in_time: InTime) -> Parts {
+    fn parts(&self, graph: &mut Graph, in_time: InTime) -> TwistParts {
         let mut parts = self.nothing();
         let places = self.places(graph);
         let gravity = self.others_of(graph, in_time, &places, &mut parts);
@@ -190,7 +190,7 @@ impl<'p> Twists<'p> {
     }
 
     /// Parts of the first velocities, from those of all.
-    fn hand_back(&self, graph: &mut Graph, mut parts: Parts, first: usize) -> Vec<Id> {
+    fn hand_back(&self, graph: &mut Graph, mut parts: TwistParts, first: usize) -> Vec<Id> {
         let n = self.problem.coordinates.len();
         for k in (first - n..self.velocities.rows.len()).rev() {
             let sum = graph.sum(std::mem::take(&mut parts.0[n + k]));
@@ -218,29 +218,29 @@ impl<'p> Twists<'p> {
         self.hand_back(graph, parts, first)
     }
 
-    fn nothing(&self) -> Parts {
-        Parts(vec![Vec::new(); self.velocities.nodes.len()])
+    fn nothing(&self) -> TwistParts {
+        TwistParts(vec![Vec::new(); self.velocities.nodes.len()])
     }
 
     /// The named numbers that say where frames are, each once.
-    fn places(&self, graph: &Graph) -> IndexMap<Id, Place> {
+    fn places(&self, graph: &Graph) -> IndexMap<Id, RowOrOrigin> {
         let mut places = IndexMap::new();
-        let mut add = |node: Id, place: Place| {
+        let mut add = |node: Id, place: RowOrOrigin| {
             if matches!(graph.node(node), Node::Defined(_)) {
                 places.entry(node).or_insert(place);
             }
         };
         for (frame, Frame { axes, origin, .. }) in self.problem.frames.iter().enumerate() {
             for row in 0..3 {
-                add(origin[row], Place { frame, row, of: None });
-                (0..3).for_each(|axis| add(axes[row][axis], Place { frame, row, of: Some(axis) }));
+                add(origin[row], RowOrOrigin { frame, row, of: None });
+                (0..3).for_each(|axis| add(axes[row][axis], RowOrOrigin { frame, row, of: Some(axis) }));
             }
         }
         places
     }
 }
 
-impl Parts {
+impl TwistParts {
     fn add(&mut self, number: usize, part: Id, sign: i128) {
         if part != Id::ZERO {
             self.0[number].push((part, Rational::from_integer(sign)));
@@ -254,7 +254,7 @@ impl Parts {
 
 /// Of the rows of a frame's axes or of its origin.
 #[derive(Clone, Copy)]
-struct Place {
+struct RowOrOrigin {
     frame: usize,
     row: usize,
     /// Which component of the row; `None` for the origin.

@@ -13,7 +13,7 @@
 use indexmap::IndexMap;
 
 use super::accelerations::InTime;
-use super::{Component, Part, Parts, Place, Twists};
+use super::{Component, RowOrOrigin, TwistPart, TwistParts, Twists};
 use crate::resolve::{Frame, Triple, columns, cross, named, sum};
 use crate::symbolic::{Forward, Graph, Id, Node};
 use crate::variables::{Variable, nodes};
@@ -24,8 +24,8 @@ impl Twists<'_> {
         &self,
         graph: &mut Graph,
         in_time: InTime,
-        places: &IndexMap<Id, Place>,
-        parts: &mut Parts,
+        places: &IndexMap<Id, RowOrOrigin>,
+        parts: &mut TwistParts,
     ) -> Triple {
         let (momenta, mut slopes) = self.slopes(graph, self.others, places);
         let coordinates = nodes(graph, self.problem.coordinates.len(), Variable::Coordinate);
@@ -41,7 +41,7 @@ impl Twists<'_> {
         &self,
         graph: &mut Graph,
         expression: Id,
-        places: &IndexMap<Id, Place>,
+        places: &IndexMap<Id, RowOrOrigin>,
     ) -> (Vec<Id>, Vec<Id>) {
         let n = self.problem.coordinates.len();
         let coordinates = nodes(graph, n, Variable::Coordinate);
@@ -56,9 +56,9 @@ impl Twists<'_> {
     pub(super) fn at_rest(
         &self,
         graph: &mut Graph,
-        places: &IndexMap<Id, Place>,
+        places: &IndexMap<Id, RowOrOrigin>,
         slopes: &[Id],
-        parts: &mut Parts,
+        parts: &mut TwistParts,
     ) {
         let (of_coordinates, of_places) = slopes.split_at(self.problem.coordinates.len());
         of_coordinates.iter().enumerate().for_each(|(i, &slope)| parts.add(i, slope, 1));
@@ -75,7 +75,7 @@ impl Twists<'_> {
     }
 
     /// −d/dt of the momenta, and μ × ω, π × v and π × ω component by component.
-    fn in_motion(&self, graph: &mut Graph, in_time: InTime, momenta: &[Id], parts: &mut Parts) {
+    fn in_motion(&self, graph: &mut Graph, in_time: InTime, momenta: &[Id], parts: &mut TwistParts) {
         if momenta.iter().all(|&momentum| momentum == Id::ZERO) {
             return;
         }
@@ -88,10 +88,10 @@ impl Twists<'_> {
             let &Frame { angular_velocity, velocity, .. } = &self.problem.frames[frame];
             let momentum = momenta[number];
             match part {
-                Part::Turning => {
+                TwistPart::Turning => {
                     self.across(graph, momentum, (axis, angular_velocity), angular_velocity, parts);
                 }
-                Part::Moving => {
+                TwistPart::Moving => {
                     self.across(graph, momentum, (axis, angular_velocity), velocity, parts);
                     self.across(graph, momentum, (axis, velocity), angular_velocity, parts);
                 }
@@ -106,7 +106,7 @@ impl Twists<'_> {
         weight: Id,
         (axis, vector): (usize, Triple),
         of: Triple,
-        parts: &mut Parts,
+        parts: &mut TwistParts,
     ) {
         let (b, c) = ((axis + 1) % 3, (axis + 2) % 3);
         for (from, to, sign) in [(b, c, 1), (c, b, -1)] {
@@ -118,7 +118,13 @@ impl Twists<'_> {
     }
 
     /// A product for each component of the displacement that goes with the velocity `of`.
-    pub(super) fn along(&self, graph: &mut Graph, products: [(Id, Id); 3], of: Triple, parts: &mut Parts) {
+    pub(super) fn along(
+        &self,
+        graph: &mut Graph,
+        products: [(Id, Id); 3],
+        of: Triple,
+        parts: &mut TwistParts,
+    ) {
         for ((x, y), node) in products.into_iter().zip(of) {
             if let Some(&number) = self.numbers.get(&node) {
                 let part = graph.mul(x, y);

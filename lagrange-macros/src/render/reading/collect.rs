@@ -45,11 +45,11 @@ impl Group {
 }
 
 /// The place of a term in a sum: multipliers last, minus signs behind plus signs, fast motion first.
-type Place = (bool, bool, Option<Rational>, Monomial);
+type TermOrder = (bool, bool, Option<Rational>, Monomial);
 
 impl Collector<'_, '_> {
     pub(super) fn sum(&self, polynomial: &Polynomial) -> Formula {
-        let mut parts: Vec<(Place, Formula)> = Vec::new();
+        let mut parts: Vec<(TermOrder, Formula)> = Vec::new();
         let mut rest = polynomial.clone();
         while let Some(group) = self.group(&rest) {
             group.members.iter().for_each(|member| rest.remove(member));
@@ -63,7 +63,7 @@ impl Collector<'_, '_> {
         Formula::sum(parts.into_iter().map(|(_, part)| part).collect())
     }
 
-    fn place(&self, monomial: &Monomial, number: Rational) -> Place {
+    fn place(&self, monomial: &Monomial, number: Rational) -> TermOrder {
         let speed = self.degree(monomial, is_velocity).map(|degree| -degree);
         let has_multiplier = monomial.factors().iter().any(|(atom, _)| self.is_multiplier(*atom));
         (has_multiplier, number.is_negative() && !has_multiplier, speed, monomial.clone())

@@ -13,16 +13,16 @@ use crate::symbolic::{self, Rational};
 use crate::variables::Variable;
 
 /// Sums of products of components.
-type Products = BTreeMap<Components, Rational>;
+type ComponentProducts = BTreeMap<Components, Rational>;
 
 /// The components in a term, the whole of it, and its coefficient.
-type Member = (Components, Monomial, Rational);
+type ComponentTerm = (Components, Monomial, Rational);
 
 impl Collector<'_, '_> {
     /// The terms with products of vectors for sums over components; `None` where there are no such sums.
     pub(super) fn dotted_terms(&self, all: &Polynomial) -> Option<Vec<VectorTerm>> {
         let mut known: Vec<Vector> = Vec::new();
-        let mut groups: BTreeMap<(Monomial, Vec<usize>), Vec<Member>> = BTreeMap::new();
+        let mut groups: BTreeMap<(Monomial, Vec<usize>), Vec<ComponentTerm>> = BTreeMap::new();
         for (monomial, &c) in all.terms() {
             let (scalar, components) = self.parted(monomial, &mut known);
             let vectors = components.iter().map(|&(vector, _)| vector).collect();
@@ -47,7 +47,7 @@ impl Collector<'_, '_> {
     fn product_of(
         &self,
         vectors: &[usize],
-        products: &Products,
+        products: &ComponentProducts,
         known: &[Vector],
     ) -> Option<Vec<(Rational, Vec<Meaning>)>> {
         let n = products.keys().flatten().map(|&(_, place)| place + 1).max()?;
@@ -114,12 +114,12 @@ fn product(components: &[(usize, usize)]) -> Components {
     components
 }
 
-fn dotted(a: usize, b: usize, n: usize) -> Products {
+fn dotted(a: usize, b: usize, n: usize) -> ComponentProducts {
     (0..n).map(|k| (product(&[(a, k), (b, k)]), Rational::from_integer(1))).collect()
 }
 
 /// a·(b×c)
-fn mixed(a: usize, b: usize, c: usize) -> Products {
+fn mixed(a: usize, b: usize, c: usize) -> ComponentProducts {
     let sign = Rational::from_integer;
     let cyclic = (0..3).flat_map(|k| {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
@@ -128,11 +128,11 @@ fn mixed(a: usize, b: usize, c: usize) -> Products {
     cyclic.collect()
 }
 
-fn scaled(products: Products, by: Rational) -> Option<Products> {
+fn scaled(products: ComponentProducts, by: Rational) -> Option<ComponentProducts> {
     products.into_iter().map(|(components, c)| Some((components, symbolic::times(c, by)?))).collect()
 }
 
-fn plus(mut one: Products, two: Products) -> Option<Products> {
+fn plus(mut one: ComponentProducts, two: ComponentProducts) -> Option<ComponentProducts> {
     for (components, c) in two {
         let sum = one.entry(components).or_default();
         *sum = symbolic::plus(*sum, c)?;
@@ -141,8 +141,8 @@ fn plus(mut one: Products, two: Products) -> Option<Products> {
     Some(one)
 }
 
-fn times(one: &Products, two: &Products) -> Option<Products> {
-    let mut sum = Products::new();
+fn times(one: &ComponentProducts, two: &ComponentProducts) -> Option<ComponentProducts> {
+    let mut sum = ComponentProducts::new();
     for (components, &c) in one {
         let row = two.iter().map(|(others, &d)| (product(&[&components[..], others].concat()), c * d));
         sum = plus(sum, row.collect())?;

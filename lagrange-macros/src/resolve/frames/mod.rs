@@ -14,7 +14,7 @@ use super::scope::Entity;
 use super::unknown::{nearest, or_meant};
 use super::value::Axes;
 use crate::symbolic::Id;
-use crate::syntax::{Expression, Frame as Declared, Kind, Name};
+use crate::syntax::{Expression, FrameDeclaration, Kind, Name};
 pub(crate) use pose::{Frame, Step, Triple, columns, named, sum, symmetric};
 pub(crate) use spatial::is_of_frames;
 pub(crate) use step::is_step;
@@ -71,7 +71,7 @@ impl Frames {
     }
 }
 
-fn name_of(declared: &Declared, element: &[usize]) -> Rc<str> {
+fn name_of(declared: &FrameDeclaration, element: &[usize]) -> Rc<str> {
     super::element_name(&declared.target.name.text, element).into()
 }
 
@@ -79,7 +79,7 @@ impl Lowering<'_> {
     /// The frames that are declared after as many definitions.
     pub(super) fn frames_after(&mut self, definitions: usize) {
         let frames = self.declared_frames;
-        let of_now = |declared: &&Declared| declared.definitions == definitions;
+        let of_now = |declared: &&FrameDeclaration| declared.definitions == definitions;
         for (index, declared) in frames.iter().enumerate().filter(|(_, declared)| of_now(declared)) {
             if !matches!(self.scope.get(&declared.target.name.text), Some(Entity::Frame)) {
                 continue;

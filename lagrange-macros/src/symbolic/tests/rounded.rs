@@ -132,12 +132,12 @@ fn number(graph: &mut Graph, text: &str) -> Id {
 }
 
 /// Σ (a monomial times numbers of sixteen digits, some of them divided by), times such a number.
-struct Polynomial {
+struct ExactPolynomial {
     terms: Vec<(Id, Vec<(Scaled, i128)>)>,
     factor: Scaled,
 }
 
-impl Polynomial {
+impl ExactPolynomial {
     fn drawn(graph: &mut Graph, symbols: [Id; 3], random: &mut Random) -> Self {
         let decimal = |random: &mut Random| {
             let text = format!("{:?}", random.between(0.1, 10.0));
@@ -196,7 +196,7 @@ fn roundings_are_within_their_bounds() {
     for_all(300, 0.9, any::<u64>(), |seed| {
         let (mut graph, symbols) = graph();
         let random = &mut Random(seed);
-        let polynomial = Polynomial::drawn(&mut graph, symbols, random);
+        let polynomial = ExactPolynomial::drawn(&mut graph, symbols, random);
         let [one, other] = [0; 2].map(|_| polynomial.built(&mut graph, random));
         let point = [0; 3].map(|_| random.between(-1.0, 1.0));
         let (found, exact) = (graph.evaluate(one, at(&point)), polynomial.value(&graph, &point));

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use super::Planner;
-use crate::codegen::body::{Expression, Local, Statement, Turn};
+use crate::codegen::body::{Local, Operand, SineAndCosine, Statement};
 use crate::codegen::operation::{Operation, Register};
 use crate::codegen::schedule::Schedule;
 use crate::symbolic::Function;
@@ -76,15 +76,15 @@ impl Planner<'_> {
     /// The sines and cosines of these angles.
     fn turn_all(&mut self, angles: &[Register]) {
         angles.iter().for_each(|&angle| self.compute_early(angle));
-        let turns: Vec<Turn> = angles.iter().map(|&angle| self.turn_of(angle)).collect();
+        let turns: Vec<SineAndCosine> = angles.iter().map(|&angle| self.turn_of(angle)).collect();
         match &turns[..] {
             [] => {}
             [
-                Turn { angle, sine: Some(only), cosine: None }
-                | Turn { angle, sine: None, cosine: Some(only) },
+                SineAndCosine { angle, sine: Some(only), cosine: None }
+                | SineAndCosine { angle, sine: None, cosine: Some(only) },
             ] => {
                 let function = if turns[0].sine.is_some() { Function::Sin } else { Function::Cos };
-                let expression = Expression::Of(Box::new(Operation::Function(function, angle.clone())));
+                let expression = Operand::Of(Box::new(Operation::Function(function, angle.clone())));
                 self.assign(*only, expression);
             }
             _ => {
@@ -108,12 +108,12 @@ impl Planner<'_> {
         both.into_iter().all(|register| self.values[register.index()].is_some())
     }
 
-    fn turn_of(&mut self, x: Register) -> Turn {
+    fn turn_of(&mut self, x: Register) -> SineAndCosine {
         let [sine, cosine] =
             [Function::Sin, Function::Cos].map(|f| self.missing(f, x).map(|register| self.local(register)));
         let is_small = self.small.contains(&x);
-        let angle = if is_small { Expression::Local(Local::Angle(x.index())) } else { self.value(x) };
-        Turn { angle, sine, cosine }
+        let angle = if is_small { Operand::Local(Local::Angle(x.index())) } else { self.value(x) };
+        SineAndCosine { angle, sine, cosine }
     }
 
     /// Computes an angle, and what it depends on, ahead of the schedule.

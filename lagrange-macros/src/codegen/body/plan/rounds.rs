@@ -8,41 +8,41 @@ use std::ops::Range;
 use indexmap::IndexSet;
 use rustc_hash::FxHashMap;
 
-use super::{Planner, Value};
+use super::{LiveValue, Planner};
 use crate::codegen::body::repeats::{Computed, Repeat, Source};
-use crate::codegen::body::{Expression, Given, Part, Place, Rounds, Series};
+use crate::codegen::body::{Chunk, Given, Operand, Rounds, Slot, SlotSequence};
 use crate::codegen::operation::{Operation, Register};
 use crate::codegen::passes::Program;
 use crate::symbolic::Symbol;
 use crate::variables::Variable;
 
 #[derive(Default)]
-pub(super) struct Layout {
+pub(super) struct RoundLayout {
     /// The operations of a round that leave something, and where.
-    left: Vec<(usize, Series)>,
+    left: Vec<(usize, SlotSequence)>,
     given: Vec<Given>,
     /// What is free after the last round, unless something waits there.
     reserved: Vec<Range<usize>>,
 }
 
 /// Places in rows, one row for each round, after those for what rounds are given that no round has left.
-struct Rows {
+struct RoundRows {
     first: usize,
     length: usize,
     ahead: usize,
 }
 
-impl Rows {
+impl RoundRows {
     /// Where the rounds find what they left so many rounds back, or leave it.
-    fn series(&self, place: usize, back: usize) -> Series {
+    fn series(&self, place: usize, back: usize) -> SlotSequence {
         let first = self.first + (self.ahead - back) * self.length + place;
-        Series { first, step: self.length as isize }
+        SlotSequence { first, step: self.length as isize }
     }
 }
 
 impl Planner<'_> {
     /// Finds places for what a repeat is given and leaves, and brings there what is elsewhere.
-    pub(super) fn lay_out(&mut self, repeat: &Repeat, sequence: &[usize]) -> Layout {
+    pub(super) fn lay_out(&mut self, repeat: &Repeat, sequence: &[usize]) -> RoundLayout {
         // Results of the whole function are stored by the part after this one.
         for &index in sequence.iter().filter(|&&index| self.places.contains_key(&Register::at(index))) {
             self.reach[index] = self.reach[index].max(self.index + 2);
@@ -51,7 +51,7 @@ impl Planner<'_> {
         let (length, ahead) = (left.len(), left.iter().map(|left| left.before.len()).max().unwrap_or(0));
         let mut reserved = Vec::new();
         let first = self.reserve(length * (ahead + repeat.rounds), &mut reserved);
-        let rows = Rows { first, length, ahead };
+        let rows = RoundRows { first, length, ahead };
         for (place, Computed { before, .. }) in left.iter().enumerate() {
             self.bring(before, rows.series(place, before.len()));
         }
@@ -61,7 +61,7 @@ impl Planner<'_> {
                 Given::Waiting(rows.series(place, computed.before.len()))
             }
             Source::Outside(registers) => self.as_they_are(registers).unwrap_or_else(|| {
-                let series = Series { first: self.reserve(repeat.rounds, &mut reserved), step: 1 };
+                let series = SlotSequence { first: self.reserve(repeat.rounds, &mut reserved), step: 1 };
                 self.bring(registers, series);
                 Given::Waiting(series)
             }),
@@ -69,7 +69,7 @@ impl Planner<'_> {
         let given = given.collect();
         let left =
             left.iter().enumerate().map(|(place, left)| (left.offset, rows.series(place, 0))).collect();
-        Layout { left, given, reserved }
+        RoundLayout { left, given, reserved }
     }
 
     fn reserve(&mut self, count: usize, reserved: &mut Vec<Range<usize>>) -> usize {
@@ -105,18 +105,18 @@ impl Planner<'_> {
         let inputs: Option<Vec<Symbol>> = registers.iter().map(symbol).collect();
         let places: Option<Vec<usize>> =
             registers.iter().map(|&register| self.waiting.place(register)).collect();
-        inputs.map(Given::Inputs).or_else(|| Series::through(&places?).map(Given::Waiting))
+        inputs.map(Given::Inputs).or_else(|| SlotSequence::through(&places?).map(Given::Waiting))
     }
 
-    fn bring(&mut self, registers: &[Register], to: Series) {
+    fn bring(&mut self, registers: &[Register], to: SlotSequence) {
         for (round, &register) in registers.iter().enumerate() {
-            self.store(Place::Waiting(Series::constant(to.at(round))), register);
+            self.store(Slot::Waiting(SlotSequence::constant(to.at(round))), register);
         }
     }
 
     /// The repeat that was laid out, as a part.
-    pub(super) fn rounds(&mut self, repeat: &Repeat, sequence: &[usize]) -> Part {
-        let Layout { left, given, reserved } = std::mem::take(&mut self.layout);
+    pub(super) fn rounds(&mut self, repeat: &Repeat, sequence: &[usize]) -> Chunk {
+        let RoundLayout { left, given, reserved } = std::mem::take(&mut self.layout);
         let mut part = one_round(repeat, &left);
         part.rounds = Some(Rounds { count: repeat.rounds, given });
         for (offset, series) in left {
@@ -139,13 +139,13 @@ impl Planner<'_> {
     fn leave(&mut self, register: Register, place: usize) {
         if self.reach[register.index()] > self.index && self.waiting.place(register).is_none() {
             self.waiting.put(register, place);
-            let expression = Expression::Local(self.local(register));
-            self.values[register.index()] = Some(Value { expression, depth: 0 });
+            let expression = Operand::Local(self.local(register));
+            self.values[register.index()] = Some(LiveValue { expression, depth: 0 });
         }
     }
 }
 
-fn one_round(repeat: &Repeat, left: &[(usize, Series)]) -> Part {
+fn one_round(repeat: &Repeat, left: &[(usize, SlotSequence)]) -> Chunk {
     let results: Vec<Register> = left.iter().map(|&(offset, _)| repeat.registers[offset]).collect();
     let program = Program { schedule: repeat.schedule.clone(), results, counts: Vec::new() };
     let is_computed =
@@ -157,7 +157,7 @@ fn one_round(repeat: &Repeat, left: &[(usize, Series)]) -> Part {
     let mut planner = Planner::new(&program, &sequence, std::slice::from_ref(&all), &names);
     sequence.iter().for_each(|&index| planner.compute(index));
     for (&result, (_, series)) in program.results.iter().zip(left) {
-        planner.store(Place::Waiting(*series), result);
+        planner.store(Slot::Waiting(*series), result);
     }
     let mut part = planner.end_part(None);
     part.inputs.retain(|&symbol| !matches!(Variable::of(symbol), Variable::Given(_)));
