@@ -3,7 +3,7 @@
 mod accelerating;
 mod declared;
 mod functions;
-#[path = "../derivatives/random.rs"]
+#[path = "../random/mod.rs"]
 mod random;
 mod references;
 mod rotating;

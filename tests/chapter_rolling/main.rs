@@ -5,7 +5,7 @@ mod ball;
 mod cylinder;
 mod euler_angles;
 mod nonholonomic;
-#[path = "../derivatives/random.rs"]
+#[path = "../random/mod.rs"]
 mod random;
 
 /// The largest of some deviations; not a number if one of them is not.

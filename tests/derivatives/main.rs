@@ -15,4 +15,5 @@ mod origin;
 mod particles;
 mod pendulums;
 mod quaternions;
+#[path = "../random/mod.rs"]
 mod random;

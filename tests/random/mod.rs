@@ -1,5 +1,7 @@
 //! Numbers at random for tests, the same in every run.
 
+use lagrange_core::State;
+
 /// Steele, Lea and Flood's SplitMix64.
 pub(crate) struct Random(pub(crate) u64);
 
@@ -33,5 +35,24 @@ impl Random {
     /// Any factor alike.
     pub(crate) fn size(&mut self, low: f64, high: f64) -> f64 {
         self.between(low.ln(), high.ln()).exp()
+    }
+
+    /// A mass, a length or another constant that is positive.
+    pub(crate) fn positive(&mut self) -> f64 {
+        self.between(0.5, 2.0)
+    }
+
+    /// A number of either sign.
+    pub(crate) fn signed(&mut self) -> f64 {
+        self.between(-1.5, 1.5)
+    }
+
+    pub(crate) fn array<const K: usize>(&mut self, number: fn(&mut Self) -> f64) -> [f64; K] {
+        std::array::from_fn(|_| number(self))
+    }
+
+    pub(crate) fn state<const N: usize>(&mut self) -> State<f64, N> {
+        let (q, v) = (self.array(Self::signed), self.array(Self::signed));
+        State::new(q, v).at_time(self.between(0.0, 3.0))
     }
 }

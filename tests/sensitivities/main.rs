@@ -9,7 +9,7 @@ mod event_errors;
 mod events;
 mod lyapunov;
 mod mixed;
-#[path = "../derivatives/random.rs"]
+#[path = "../random/mod.rs"]
 mod random;
 mod steps;
 

@@ -173,7 +173,7 @@ struct Suslov<T> {
 
 /// Numbers near these, by up to 30 %.
 fn near<const K: usize>(random: &mut Random, about: [f64; K]) -> [f64; K] {
-    about.map(|x| x * random.within(0.7..1.3))
+    about.map(|x| x * random.between(0.7, 1.3))
 }
 
 #[test]
@@ -195,7 +195,7 @@ fn bars_and_a_wheel() {
         let [m, j, k, g, c] = near(random, [1.0, 0.7, 1.5, 2.0, 0.3]);
         let [l, s, h, r] = near(random, [1.5, 0.2, 1.2, 0.6]);
         let q = near(random, [0.9, 0.5, -1.1, 0.4, 0.3]);
-        let start = State::new(q, random.array(Random::signed)).at_time(random.within(0.0..2.0));
+        let start = State::new(q, random.array(Random::signed)).at_time(random.between(0.0, 2.0));
         (Bars { m, j, k, g, c, l, s, h, r }, start)
     });
 }
@@ -234,9 +234,9 @@ fn campaign<S, const N: usize, const M: usize, const P: usize>(
     let (mut random, mut worst, mut done, mut unclear) = (Random(seed), 0.0_f64, 0, 0);
     while done < count.unwrap_or(4) {
         let (system, start) = draw(&mut random);
-        let end = start.t + random.within(0.5..1.5);
+        let end = start.t + random.between(0.5, 1.5);
         let all: Vec<usize> = (0..2 * N + P).collect();
-        let first = random.within(0.0..all.len() as f64) as usize;
+        let first = random.between(0.0, all.len() as f64) as usize;
         let mut arguments = all;
         if count.is_none() {
             arguments.rotate_left(first);
