@@ -154,9 +154,11 @@ impl<T: Real> Shape<T> {
         self.degree > COARSEST && self.has_level_end()
     }
 
-    /// Whether the last coefficients are a 16th of the sum of all or more.
+    /// True if the coefficients do not fall: the last are 1/16 of the sum of all or more, from degree 8 on half of their mean,
+    /// as those of a dip are of which one sample sees a flank.
     fn has_level_end(&self) -> bool {
-        T::constant(16.0) * self.tail >= self.swing
+        let factor = if self.degree > 8 { 2 * self.degree } else { 16 };
+        T::constant(factor as f64) * self.tail >= self.swing
     }
 
     /// Whether the function keeps away from zero, by more than it moves and this noise.
@@ -231,5 +233,27 @@ mod tests {
                 assert!(degree < from || found.is_plain(0.0), "{a}, {degree}: {found:?}");
             }
         }
+    }
+
+    /// A dip through zero between two places, of which one sees a flank: the coefficients do not fall.
+    #[test]
+    fn what_is_seen_of_a_dip_is_not_plain() {
+        for degree in [8, 16, 32] {
+            let apart = FINEST / degree;
+            for place in (0..FINEST).step_by(apart) {
+                let ends = [place, place + apart].map(|place| 1.0 - 2.0 * part(place));
+                let (middle, width) = (0.75 * ends[0] + 0.25 * ends[1], (ends[0] - ends[1]).abs() / 6.3);
+                let found = shape(degree, |x| 1.0 - 1.1 * (-((x - middle) / width).powi(2)).exp());
+                assert!(found.most < 1.01 && !found.is_plain(0.0), "{degree}, {place}: {found:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_may_be_noise_is_not_beyond_it() {
+        let found = shape(8, |x| 3.0 + x);
+        assert!(found.is_beyond(1.9) && !found.is_beyond(2.1), "{found:?}");
+        let rough = shape(8, |x| 3.0 + 0.5 * (40.0 * x).sin());
+        assert!(!rough.is_beyond(0.01), "{rough:?}");
     }
 }
