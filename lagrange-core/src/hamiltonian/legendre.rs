@@ -37,7 +37,7 @@ struct Inversion<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
     active: [bool; M],
 }
 
-/// VelocityTrial velocity with its residual.
+/// Trial velocity with its residual.
 struct VelocityTrial<T, const N: usize, const M: usize> {
     state: State<T, N>,
     /// μ.
