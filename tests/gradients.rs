@@ -7,7 +7,6 @@ mod random;
 
 use std::f64::consts::PI;
 
-use lagrange_core::nalgebra::SVector;
 use lagrange_core::prelude::*;
 use random::Random;
 
@@ -161,32 +160,4 @@ fn all_others_are_let_pass() {
         let slope = Slope { g, a: [1.0; 3], l, k: x.cos() };
         has_gradient(case, &slope.check_consistent(&State::at_rest([x, 0.0, 0.0])));
     }
-}
-
-/// Four bars, of 4, 1, 2 and 3, by the angles of three: they fold flat.
-#[derive(Lagrangian)]
-#[coordinates(a, b, c)]
-#[lagrangian(a_dot^2/6 + a_dot^2 + 4*b_dot^2/3 + 2*a_dot*b_dot*cos(a - b) + 9*c_dot^2/2
-    - g*(sin(a)/2 + 2*(sin(a) + sin(b)) + 9*sin(c)/2))]
-#[constraint(x: cos(a) + 2*cos(b) - 3*cos(c) = 4)]
-#[constraint(y: sin(a) + 2*sin(b) - 3*sin(c) = 0)]
-struct Linkage {
-    g: f64,
-}
-
-/// Folded flat, no first derivative says which way it goes on; beside that pose they do.
-#[test]
-fn no_motion_starts_at_a_singular_pose() -> Result<(), Error> {
-    let linkage = Linkage { g: 9.81 };
-    for turn in [0.0, 2.0 * PI, -20.0 * PI] {
-        let flat = State::at_rest([PI + turn, turn, PI + turn]);
-        let error = linkage.check_consistent(&flat).unwrap_err();
-        assert!(matches!(error, Error::NoGradient { constraint: "x", .. }), "{error:?}");
-        // a = 2b + 3c of y, and of x, to second order, a² = 2b² + 3c².
-        let b = 6.0_f64.sqrt() - 3.0;
-        let beside = flat.q - SVector::from([2.0 * b + 3.0, b, 1.0]) * 0.1;
-        let (beside, _) = linkage.make_consistent(&State { q: beside, ..flat })?;
-        linkage.integrate(beside, 1e-3, Dop853::default())?;
-    }
-    Ok(())
 }

@@ -1,5 +1,8 @@
 //! Poses at which constraints become dependent: the motion goes on as it would without them, or ends with a word.
 
+use std::f64::consts::PI;
+
+use lagrange_core::nalgebra::SVector;
 use lagrange_core::{TaylorSeries, prelude::*};
 
 /// Windows: verticals about (i, 0), between which couplers hang; rods of length and mass 1, by their ends. When all rods are
@@ -129,6 +132,23 @@ fn no_step_is_longer_than_allowed() -> Result<(), Error> {
     let times: Vec<f64> = path.steps().map(|step| step.state().t).collect();
     for pair in times.windows(2) {
         assert!(pair[1] - pair[0] < longest * (1.0 + 1e-9), "{pair:?}");
+    }
+    Ok(())
+}
+
+/// Folded flat, no first derivative says which way it goes on; beside that pose they do.
+#[test]
+fn no_motion_starts_at_a_singular_pose() -> Result<(), Error> {
+    let linkage = Linkage { g: 9.81 };
+    for turn in [0.0, 2.0 * PI, -20.0 * PI] {
+        let flat = State::at_rest([PI + turn, turn, PI + turn]);
+        let error = linkage.check_consistent(&flat).unwrap_err();
+        assert!(matches!(error, Error::NoGradient { constraint: "x", .. }), "{error:?}");
+        // a = 2b + 3c of y, and of x, to second order, a² = 2b² + 3c².
+        let b = 6.0_f64.sqrt() - 3.0;
+        let beside = flat.q - SVector::from([2.0 * b + 3.0, b, 1.0]) * 0.1;
+        let (beside, _) = linkage.make_consistent(&State { q: beside, ..flat })?;
+        linkage.integrate(beside, 1e-3, Dop853::default())?;
     }
     Ok(())
 }
