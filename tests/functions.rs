@@ -138,7 +138,7 @@ struct Lift {
 }
 
 #[test]
-fn tables_are_potentials_and_motions() -> Result<(), Box<dyn std::error::Error>> {
+fn tables_are_potentials_and_motions() -> Result<(), Error> {
     // Both parabolas x² inside, away from the ends where the spline straightens.
     let parabola: Vec<_> = (-400..=400).map(|i| f64::from(i) / 40.0).map(|x| (x, x * x)).collect();
     let table = Table::new(&parabola)?;

@@ -329,3 +329,11 @@ pub enum Error {
 }
 
 impl core::error::Error for Error {}
+
+/// So that `?` carries both kinds of failure, of what is asked and of a motion on its way.
+#[cfg(feature = "alloc")]
+impl From<Ending> for Error {
+    fn from(ending: Ending) -> Self {
+        Self::Unfinished(Box::new(ending))
+    }
+}

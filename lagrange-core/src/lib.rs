@@ -108,7 +108,7 @@ println!("{}", path.csv(50).energy());
 //!     motion.advance_to(0.01 * f64::from(tick))?;
 //! }
 //! assert!(motion.state().q[0].abs() < 1e-3);
-//! # Ok::<(), Box<dyn core::error::Error>>(())
+//! # Ok::<(), Error>(())
 //! ```
 //!
 //! # What else there is

@@ -31,7 +31,7 @@ fn there_and_back() -> Result<(), Error> {
 
 /// At times on a grid, which are not those of steps, by both ways that there are to them.
 #[test]
-fn constraints_hold_between_the_steps() -> Result<(), Box<dyn core::error::Error>> {
+fn constraints_hold_between_the_steps() -> Result<(), Error> {
     let path = SPHERICAL.integrate(thrown(), 20.0, Taylor::default())?;
     assert!(path.statistics().accepted < 300);
     let mut motion = Motion::new(&SPHERICAL, thrown(), Taylor::default())?;
@@ -97,7 +97,7 @@ struct Bead {
 
 /// A force along the ring is an angular acceleration: between changes the angle is a parabola.
 #[test]
-fn inputs_change_every_ten_milliseconds() -> Result<(), Box<dyn core::error::Error>> {
+fn inputs_change_every_ten_milliseconds() -> Result<(), Error> {
     let mut bead = Motion::new(Bead { u: 0.0 }, State::new([1.0, 0.0], [0.0, 0.5]), Taylor::default())?;
     let (mut angle, mut rate) = (0.0_f64, 0.5_f64);
     for k in 1..=500 {

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use lagrange_core::nalgebra::Vector2;
 use lagrange_core::{Crossing, prelude::*};
 
-type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
+type Result<T> = std::result::Result<T, Error>;
 
 #[derive(Lagrangian)]
 #[coordinates(x, y)]

@@ -97,7 +97,7 @@ fn rods_begin_next_to_equilibria() -> Result<(), Error> {
 
 /// After a long rest, in one step, a push begins a motion whose unit of time is much shorter.
 #[test]
-fn a_push_after_a_long_rest_is_a_motion() -> Result<(), Box<dyn std::error::Error>> {
+fn a_push_after_a_long_rest_is_a_motion() -> Result<(), Error> {
     let mut motion = Motion::new(Pendulum { g: 9.81_f32, u: 0.0 }, State::at_rest([0.0]), Taylor::default())?;
     motion.advance_to(1000.0)?;
     motion.system_mut().u = 1.0;

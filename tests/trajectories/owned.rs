@@ -26,7 +26,7 @@ fn exact(u: f64, t: f64) -> f64 {
 }
 
 #[test]
-fn a_function_builds_a_system_and_returns_its_path() -> Result<(), Box<dyn std::error::Error>> {
+fn a_function_builds_a_system_and_returns_its_path() -> Result<(), Error> {
     let path = build(0.5)?;
     assert_eq!(path.system().u, 0.5);
     for sample in path.samples(10) {

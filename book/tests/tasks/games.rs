@@ -2,7 +2,7 @@
 
 use lagrange_core::{Ending, Journey, prelude::*};
 
-type Result = std::result::Result<(), Box<dyn std::error::Error>>;
+type Result = std::result::Result<(), Error>;
 
 /// “A rope bridge of 12 planks on which the player walks, at 60 frames a second; it must never come apart.”
 #[test]
@@ -136,10 +136,7 @@ fn a_car_with_a_trailer() -> Result {
 
     let car = Car { m: 1000.0, inertia: 800.0, b: 2.6, d: 0.8, l: 3.0, c: 300.0, engine: 0.0, steer: 0.0 };
     let mut state = State::at_rest([0.0, 0.0, 0.0, 0.1]);
-    let mut drive = |engine: f64,
-                     steer: f64,
-                     seconds: f64|
-     -> std::result::Result<State<f64, 4>, Box<dyn std::error::Error>> {
+    let mut drive = |engine: f64, steer: f64, seconds: f64| -> std::result::Result<State<f64, 4>, Error> {
         let car = Car { engine, steer, ..car.clone() };
         // The wheels turned, the velocity is the nearest that does not slip.
         let (start, _) = car.make_consistent(&state)?;

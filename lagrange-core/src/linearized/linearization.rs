@@ -174,7 +174,7 @@ where
         L: Linearized<N, M, P>,
     {
         let (input, zero) = (L::PARAMETERS[k], L::Scalar::constant(0.0));
-        let first_shifted = |solution: &Solution<L::Scalar, N, M>| {
+        let first_shifted = |solution: &Solution<L::Scalar, N, M>| -> Result<_, Error> {
             let change = self.change_by_parameter(solution, k)?;
             let levels = |a: usize| [change.position[a], change.rate[a], change.acceleration[a]];
             Ok((0..M).find(|&a| levels(a) != [zero; 3]))

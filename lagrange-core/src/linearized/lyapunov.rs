@@ -1,6 +1,6 @@
 //! Lyapunov exponents: long-time growth rates of variations of a motion.
 
-use alloc::{boxed::Box, vec, vec::Vec};
+use alloc::{vec, vec::Vec};
 use core::cmp::Ordering;
 
 use nalgebra::DMatrix;
@@ -67,7 +67,7 @@ where
             let step = prepared.and_then(|()| {
                 run.step_with::<L, LagrangianFlow, _, _, M>(system, method, stop, &limits, along)
             });
-            step.map_err(|ending| Error::Unfinished(Box::new(ending)))?;
+            step?;
             let linear = &mut D::linear(&mut companion);
             variations.orthonormalize(linear, |j, length| growth[j] += Scalar::ln(length));
         }

@@ -144,7 +144,7 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     /// }
     /// // It falls for a second of √(2/g), then for two halves and two quarters of one.
     /// assert!((motion.state().t - (2.0 / 9.81_f64).sqrt() * 2.5).abs() < 1e-12);
-    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// # Ok::<(), Error>(())
     /// ```
     ///
     /// [`Event`] says what is found and what is not, and has the settings.

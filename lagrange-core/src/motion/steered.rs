@@ -46,7 +46,7 @@ use crate::system::{Lagrangian, State};
 ///     motion.advance_to(0.01 * f64::from(tick))?;
 /// }
 /// assert!((motion.state().q[0] - core::f64::consts::PI).abs() < 1e-6);
-/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// # Ok::<(), Error>(())
 /// ```
 ///
 /// Limits on steps and on wall time are those of one advance.
@@ -222,7 +222,7 @@ where
     ///     assert!(state.q[0].abs() < 1e-16);
     ///     println!("{} {}", state.q[1], state.v[1]);
     /// }
-    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// # Ok::<(), Error>(())
     /// ```
     ///
     /// A stroboscopic section is [`states_at`](Self::states_at) at its times.
@@ -326,7 +326,7 @@ where
     ///     assert!((state.q[0] - state.t.cos()).abs() < 1e-8);
     /// }
     /// assert_eq!(motion.state().t, 10.0);
-    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// # Ok::<(), Error>(())
     /// ```
     ///
     /// The times must be in the order of the motion, later or earlier from one to the next.

@@ -8,7 +8,6 @@ mod records;
 #[cfg(test)]
 mod tests;
 
-use alloc::boxed::Box;
 use core::fmt::{self, Debug, Formatter};
 use core::iter::once;
 use core::marker::PhantomData;
@@ -98,9 +97,8 @@ impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Trajectory<S, N, M,
 
     /// Whether it is [`finished`](Self::finished).
     pub(crate) fn check_finished(&self) -> Result<(), Error> {
-        // There is no `From<Ending>`: of two ways into an `Error`, `?` in a closure would not know which is meant.
         let is_failure = self.ending.is_failure();
-        if is_failure { Err(Error::Unfinished(Box::new(self.ending.clone()))) } else { Ok(()) }
+        if is_failure { Err(self.ending.clone().into()) } else { Ok(()) }
     }
 
     /// The system that moves.

@@ -34,10 +34,11 @@ where
         v: low.what.v + (high.what.v - low.what.v) * x,
     };
     let finest = constant(L::Scalar::EPSILON);
-    let [_, high] = narrow(ends([&low.what, &high.what], [low.value, high.value]), finest, |x| {
-        let state = between(x);
-        Ok((state, event.value(stride.system, &state)?))
-    })?;
+    let [_, high] =
+        narrow(ends([&low.what, &high.what], [low.value, high.value]), finest, |x| -> Result<_, Error> {
+            let state = between(x);
+            Ok((state, event.value(stride.system, &state)?))
+        })?;
     Ok(high.what)
 }
 

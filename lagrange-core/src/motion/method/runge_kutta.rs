@@ -191,7 +191,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Method<L
         statistics: &mut Statistics,
     ) -> Result<Self::Interpolant, Error> {
         let Walk { before, state, .. } = memory;
-        let mut node = |state: &State<L::Scalar, N>| {
+        let mut node = |state: &State<L::Scalar, N>| -> Result<_, Error> {
             statistics.evaluations += 1;
             let (q, v) = (state.q.into(), state.v.into());
             Ok(([q, v], [v, solve(system, state)?.accelerations.into()]))
