@@ -47,8 +47,9 @@ fn hessenberg<T: Real>(a: DMatrix<T>) -> DMatrix<T> {
     if a.nrows() < 3 { a } else { Hessenberg::new(a).h() }
 }
 
-/// The sum and the product of two shifts.
-type Shifts<T> = [T; 2];
+/// Two shifts, both real or conjugate. Their sum and product would do, but where an eigenvalue is multiple the differences
+/// between it and the diagonal are all that is left, and would cancel.
+type Shifts<T> = [Complex<T>; 2];
 
 struct Francis<T> {
     /// An upper Hessenberg matrix, orthogonally similar to the one given.
@@ -99,8 +100,8 @@ impl<T: Real> Francis<T> {
     fn shifts(&self, start: usize, end: usize, tries: usize) -> Shifts<T> {
         let at = |i: usize, j: usize| Scalar::abs(self.h[(i, j)]);
         let exceptional = |corner: T, size: T| {
-            let diagonal = corner + T::constant(0.75) * size;
-            [diagonal + diagonal, diagonal * diagonal + T::constant(0.4375) * size * size]
+            let (re, im) = (corner + T::constant(0.75) * size, T::constant(0.4375_f64.sqrt()) * size);
+            [Complex::new(re, im), Complex::new(re, -im)]
         };
         match tries {
             t if t % (2 * PATIENCE) == 0 => {
@@ -112,12 +113,11 @@ impl<T: Real> Francis<T> {
             _ => {
                 let [first, second] = self.pair(end - 2);
                 if first.im != T::constant(0.0) {
-                    return [first.re + first.re, first.re * first.re + first.im * first.im];
+                    return [first, second];
                 }
                 let last = self.h[(end - 1, end - 1)];
                 let is_first = Scalar::abs(first.re - last) < Scalar::abs(second.re - last);
-                let shift = if is_first { first.re } else { second.re };
-                [shift + shift, shift * shift]
+                [if is_first { first } else { second }; 2]
             }
         }
     }
@@ -141,11 +141,12 @@ impl<T: Real> Francis<T> {
     }
 
     /// The first column of (H − s₁)(H − s₂) of the block, up to a factor.
-    fn first_column(&self, start: usize, [sum, product]: Shifts<T>) -> [T; 3] {
+    fn first_column(&self, start: usize, [first, second]: Shifts<T>) -> [T; 3] {
         let h = |i: usize, j: usize| self.h[(start + i, start + j)];
+        let product = (h(0, 0) - first.re) * (h(0, 0) - second.re) - first.im * second.im;
         [
-            h(0, 0) * (h(0, 0) - sum) + product + h(0, 1) * h(1, 0),
-            h(1, 0) * (h(0, 0) + h(1, 1) - sum),
+            product + h(0, 1) * h(1, 0),
+            h(1, 0) * ((h(0, 0) - first.re) + (h(1, 1) - second.re)),
             h(1, 0) * h(2, 1),
         ]
     }

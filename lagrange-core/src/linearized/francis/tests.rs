@@ -147,3 +147,25 @@ fn a_cyclic_permutation_has_the_roots_of_unity() {
         }
     }
 }
+
+/// Blocks of Jordan of sizes 5 and 3: where shifts meet the diagonal to round-off, their sum and product would tell nothing.
+#[test]
+fn a_triple_eigenvalue_beside_a_quintuple_one_is_found() {
+    #[rustfmt::skip]
+    let entries = [
+        -1, 1, 0, 0, 0, 0, 0, 2, 0,
+        0, -1, 1, 0, 0, 0, 0, 0, 0,
+        0, 0, -1, 1, 0, 0, 0, 0, 0,
+        0, 0, 0, -1, 1, 0, 0, 0, 0,
+        0, 0, 0, 0, -1, 0, 0, 0, 0,
+        0, -1, 1, 1, 0, -2, 1, 0, 0,
+        0, 1, 1, 0, 0, 0, -2, 0, 0,
+        0, 0, 0, 0, 0, 0, 0, 1, 0,
+        0, 1, 1, 1, 1, 0, 0, 0, -2,
+    ];
+    let found = eigenvalues(DMatrix::from_row_iterator(9, 9, entries.map(f64::from))).expect("convergence");
+    for (expected, count, off) in [(-1.0, 5, 1e-2), (-2.0, 3, 1e-4), (1.0, 1, 1e-14)] {
+        let near = found.iter().filter(|s| (*s - expected).norm() < off).count();
+        assert_eq!(near, count, "{expected} among {found:?}");
+    }
+}
