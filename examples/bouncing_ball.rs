@@ -62,7 +62,7 @@ fn bounce() -> Result<(Journey<f64>, Vec<Bounce>)> {
     let mut lands = BALL.event("lands", |sample| sample.coordinate("y")).falling().terminal();
     let method = Dop853::with_tolerance(1e-12).max_step(0.1);
     loop {
-        let flight = BALL.integrate_until(state, 100.0, method, &mut [&mut lands])?;
+        let flight = BALL.motion(state).by(method).event(&mut lands).towards(100.0)?;
         let landing = *flight.end().state();
         let has_landed = matches!(flight.ending(), Ending::Event { .. });
         journey.push(flight.into_owned())?;
@@ -88,7 +88,7 @@ fn identify() -> Result<()> {
         let mut at = BALL.sensitivity(&start, &[])?.with(&["e"])?;
         for landing in 1..=3 {
             let method = Dop853::with_tolerance(1e-12);
-            let flight = BALL.integrate_sensitivities_until(&at, 100.0, method, &mut [&mut lands])?;
+            let flight = BALL.motion(&at).by(method).event(&mut lands).towards(100.0)?;
             at = flight.end()?.clone();
             if landing < 3 {
                 at = FLOOR.impact_sensitivity(&at, "floor", ("e", restitution))?;

@@ -65,10 +65,9 @@ fn fall(theta: f64) -> Result<Journey<f64>> {
     let method = Dop853::with_tolerance(1e-12);
     let start = State::at_rest([LEANING.a * theta.cos(), LEANING.a * theta.sin(), theta]);
     let mut leaves = LEANING.event("leaves", |sample| sample.multiplier("wall")).falling().terminal();
-    let first = LEANING.integrate_until(start, 100.0, method, &mut [&mut leaves])?.finished()?;
-    let mut lies = SLIDING.event("lies", |sample| sample.coordinate("theta")).falling().terminal();
-    let second =
-        SLIDING.integrate_until(*first.end().state(), 100.0, method, &mut [&mut lies])?.finished()?;
+    let first = LEANING.motion(start).by(method).event(&mut leaves).to(100.0)?;
+    let lies = SLIDING.event("lies", |sample| sample.coordinate("theta")).falling().terminal();
+    let second = SLIDING.motion(*first.end().state()).by(method).event(lies).to(100.0)?;
     let mut journey = Journey::new();
     journey.push(first.into_owned())?;
     journey.push(second.into_owned())?;

@@ -70,10 +70,10 @@ fn ride() -> Result<Journey<f64>> {
     let mut catches = slipping.event("catches", |s| Ok(s.velocity("x")? - BELT)).rising().terminal();
     let (mut journey, mut state) = (Journey::new(), State::new([0.0], [BELT]));
     while state.t < DURATION {
-        let ride = sticking.integrate_until(state, DURATION, method, &mut [&mut gives])?.finished()?;
+        let ride = sticking.motion(state).by(method).event(&mut gives).to(DURATION)?;
         state = *ride.end().state();
         journey.push(ride.into_owned())?;
-        let slip = slipping.integrate_until(state, DURATION, method, &mut [&mut catches])?.finished()?;
+        let slip = slipping.motion(state).by(method).event(&mut catches).to(DURATION)?;
         // To round-off it is as fast as the belt.
         state = State { v: [BELT].into(), ..*slip.end().state() };
         journey.push(slip.into_owned())?;

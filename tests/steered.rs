@@ -176,7 +176,7 @@ fn fixed_steps_are_the_same_whoever_asks_for_their_ends() {
     same_ends(Motion::new(&PENDULUM, start, eighth).unwrap(), &path, 3, (1, 1));
     // In momenta the velocity is one of the rates: nothing is left for later.
     let start = PENDULUM.phase_state(&start);
-    let path = PENDULUM.integrate_hamiltonian(start, 2.0, eighth).unwrap();
+    let path = PENDULUM.motion(start).by(eighth).to(2.0).unwrap();
     same_ends(Motion::in_momenta(&PENDULUM, start, eighth).unwrap(), &path, 3, (1, 0));
 }
 
@@ -210,7 +210,7 @@ fn a_step_into_a_hole_is_an_error_of_the_next() {
     motion.advance_to(1.0).unwrap();
     assert!((motion.state().q[0] - 1_f64.cos()).abs() < 1e-6);
     // A trajectory has what lies within each step, and that one has none.
-    let path = holed.integrate_towards(start, 1.0, method).unwrap();
+    let path = holed.motion(start).by(method).towards(1.0).unwrap();
     assert!(matches!(path.ending(), Ending::NotFinite { time: 0.375, .. }), "{}", path.ending());
     assert_eq!((path.end().time(), path.statistics().accepted), (0.375, 3));
     assert!((path.at(0.3).unwrap().coordinate("x").unwrap() - 0.3_f64.cos()).abs() < 1e-6);
@@ -232,7 +232,7 @@ fn a_step_into_a_hole_is_an_error_of_the_next() {
 #[test]
 fn momenta_are_steered_too() {
     let start = PENDULUM.phase_state(&swinging());
-    let path = PENDULUM.integrate_hamiltonian(start, 2.0, Dop853::default()).unwrap();
+    let path = PENDULUM.motion(start).to(2.0).unwrap();
     let mut motion = Motion::in_momenta(&PENDULUM, start, Dop853::default()).unwrap();
     motion.advance_to(2.0).unwrap();
     assert_eq!(motion.state(), path.end().state());

@@ -59,12 +59,12 @@ where
     };
     let by = |pieces: usize| {
         let mut section = system.event("section", |s| s.state().q[0]).rising().pieces(pieces);
-        let path = system.integrate_until(start, end, method(), &mut [&mut section]).expect("a start");
+        let path = system.motion(start).by(method()).event(&mut section).towards(end).expect("a start");
         black_box(path.crossings().len());
     };
     let silent = || {
         let mut never = system.event("never", |s| s.state().q[0] + 10.0);
-        let path = system.integrate_until(start, end, method(), &mut [&mut never]).expect("a start");
+        let path = system.motion(start).by(method()).event(&mut never).towards(end).expect("a start");
         black_box(path.crossings().len());
     };
     let iterated = || {

@@ -61,7 +61,7 @@ pub enum Error {
     },
     /// The motion stopped before its end.
     ///
-    /// [`Simulate::integrate_towards`](crate::Simulate::integrate_towards) gives what was computed until then.
+    /// [`MotionBuilder::towards`](crate::MotionBuilder::towards) gives what was computed until then.
     #[cfg(feature = "alloc")]
     Unfinished(
         /// When, where and why.

@@ -77,7 +77,7 @@ assert!((friction + 2.0 / 7.0 * 9.81 * 0.3_f64.sin()).abs() < 1e-12);
 let pendulum = Pendulum { m: 2.0, g: 9.81, l: 1.0 };
 let mut lowest = pendulum.event("lowest", |sample| sample.coordinate("x")).falling();
 let start = State::at_rest([1.0, 0.0]);
-let path = pendulum.integrate_until(start, 5.0, Dop853::default(), &mut [&mut lowest])?;
+let path = pendulum.motion(start).event(&mut lowest).towards(5.0)?;
 // At the lowest point it pulls with 3 m g.
 for crossing in path.crossings() {
     let sample = path.at(crossing.state.t)?;
@@ -185,9 +185,9 @@ pub use linearized::{Direction, Jacobian, Linearized, Partials, ResidualChange, 
 #[cfg(feature = "std")]
 pub use motion::LaneMethod;
 pub use motion::Simulate;
-#[cfg(feature = "alloc")]
-pub use motion::Taylor;
 pub use motion::{Crossing, Dop853, Dopri5, Event, Method, Motion, Progress, RungeKutta4, runge_kutta_step};
+#[cfg(feature = "alloc")]
+pub use motion::{MotionBuilder, Taylor};
 #[cfg(feature = "mpi")]
 pub use mpi;
 pub use nalgebra;

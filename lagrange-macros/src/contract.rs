@@ -247,7 +247,7 @@ const CONSTANTS: [&str; 16] = [
 
 /// What every system has beside: methods of `Lagrangian` that it can do without, of `Simulate`, `Hamiltonian`,
 /// `StateDerivatives` and `Linearized`.
-const PROVIDED: [&str; 34] = [
+const PROVIDED: [&str; 28] = [
     "visit_parameters",
     "visit_defects",
     "solve",
@@ -256,18 +256,12 @@ const PROVIDED: [&str; 34] = [
     "make_consistent_holding",
     "state_from",
     "integrate",
-    "integrate_with",
-    "integrate_towards",
-    "integrate_until",
+    "motion",
     "sample",
     "event",
     "impact",
     "hamiltonian",
     "hamilton_equations",
-    "integrate_hamiltonian",
-    "integrate_hamiltonian_with",
-    "integrate_hamiltonian_towards",
-    "integrate_hamiltonian_until",
     "legendre",
     "legendre_near",
     "phase_state",

@@ -24,7 +24,7 @@ fn assert_alone<L, P, const N: usize, const M: usize>(
     L: Lagrangian<N, M, Scalar = f64>,
     P: Pair + Copy,
 {
-    let path = system.integrate_until(start, end, method, events).expect("a start");
+    let path = system.motion(start).by(method).events(events).towards(end).expect("a start");
     assert_eq!(arrival.crossings, path.crossings());
     assert_eq!((&arrival.state, &arrival.ending), (path.end().state(), path.ending()));
     let steps = |statistics: &lagrange_core::Statistics| (statistics.accepted, statistics.rejected);
@@ -66,8 +66,13 @@ fn neighbours_and_threads_change_no_bit_of_an_event() {
         let (system, start) = member(index);
         let mut upper = any.event("upper", |s| s.state().q[0]).terminal_at(2);
         let mut lower = any.event("lower", |s| s.state().v[1]).rising();
-        let events: &mut [&mut dyn Watched<_, 2, 0>] = &mut [&mut upper, &mut lower];
-        let path = system.integrate_until(start, 3.0, Dop853::with_tolerance(1e-12), events).unwrap();
+        let path = system
+            .motion(start)
+            .by(Dop853::with_tolerance(1e-12))
+            .event(&mut upper)
+            .event(&mut lower)
+            .towards(3.0)
+            .unwrap();
         let found = arrival(&whole, index);
         assert_eq!(found.crossings.len(), path.crossings().len());
         for (on_lanes, alone) in found.crossings.iter().zip(path.crossings()) {
@@ -254,7 +259,7 @@ fn beads_leave_their_spheres_on_the_constraint() {
 fn members_begin_anew_and_wrong_functions_are_told() {
     let (any, start) = spring(0);
     let mut third = any.event("third", |s| s.coordinate("x")).terminal_at(3);
-    any.integrate_until(start, 5.0, Dop853::default(), &mut [&mut third]).unwrap();
+    any.motion(start).event(&mut third).towards(5.0).unwrap();
     assert_eq!(third.count(), 2);
     let outcome = Ensemble::from_fn(3, spring).event(third).integrate(20.0, Dop853::default()).unwrap();
     for member in outcome.members() {

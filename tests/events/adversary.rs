@@ -40,7 +40,7 @@ where
         G: Fn(&Sample<&L, N, 0>) -> f64,
     {
         let mut event = system.event("g", g);
-        let path = system.integrate_until(start, end, method, &mut [&mut event]).expect("a start");
+        let path = system.motion(start).by(method).event(&mut event).towards(end).expect("a start");
         assert!(path.ending().is_complete(), "{}", path.ending());
         path.crossings().iter().map(|crossing| (crossing.state.t, crossing.rising)).collect()
     }
@@ -237,8 +237,12 @@ fn dips() {
         };
         let mut event = Free.event("dip", g);
         let (start, method) = (State::new([0.0], [1.0]), RungeKutta4::with_step(step));
-        let path =
-            Free.integrate_until(start, 40.0 * direction * step, method, &mut [&mut event]).expect("a start");
+        let path = Free
+            .motion(start)
+            .by(method)
+            .event(&mut event)
+            .towards(40.0 * direction * step)
+            .expect("a start");
         let found: Vec<_> = path.crossings().iter().map(|at| (at.state.t / step, at.rising)).collect();
         // With the zeros at ±h the slope there is 2h/w², by which the round-off of the function moves them.
         let zeros = [middle - direction * half, middle + direction * half];

@@ -42,11 +42,11 @@ fn ride() -> Journey<f64> {
     let (mut journey, mut state) = (Journey::new(), State::new([0.0], [STICKING.belt]));
     for event in 0..49 {
         if event % 2 == 0 {
-            let leg = STICKING.integrate_until(state, 1e3, method, &mut [&mut gives]).expect("a start");
+            let leg = STICKING.motion(state).by(method).event(&mut gives).towards(1e3).expect("a start");
             state = *leg.end().state();
             journey.push(leg.into_owned()).expect("no gap");
         } else {
-            let leg = SLIPPING.integrate_until(state, 1e3, method, &mut [&mut catches]).expect("a start");
+            let leg = SLIPPING.motion(state).by(method).event(&mut catches).towards(1e3).expect("a start");
             state = State { v: [STICKING.belt].into(), ..*leg.end().state() };
             journey.push(leg.into_owned()).expect("no gap");
         }
@@ -114,10 +114,10 @@ fn a_journey_answers_at_any_time_by_name() {
     let Ladder { m, a, g } = LADDER;
     let (sliding, method) = (Arc::new(Sliding { m, a, g }), Dop853::with_tolerance(1e-12));
     let mut leaves = LADDER.event("leaves", |s| s.multiplier("wall")).falling().terminal();
-    let first = LADDER.integrate_until(leaning(1.2), 10.0, method, &mut [&mut leaves]).unwrap();
+    let first = LADDER.motion(leaning(1.2)).by(method).event(&mut leaves).towards(10.0).unwrap();
     let left = first.end().time();
     let mut lies = sliding.event("lies", |s| s.coordinate("theta")).falling().terminal();
-    let second = sliding.integrate_until(*first.end().state(), 10.0, method, &mut [&mut lies]).unwrap();
+    let second = sliding.motion(*first.end().state()).by(method).event(&mut lies).towards(10.0).unwrap();
     let mut journey = Journey::<f64>::new();
     assert!(journey.start().is_nan() && journey.ending().is_none() && journey.at(0.0).is_err());
     journey.push(first.into_owned()).unwrap();

@@ -127,7 +127,7 @@ fn an_event_used_twice_begins_anew() {
     for _ in 0..3 {
         let run = |event: &mut Event<Spring, _, 1, 0>| {
             let start = State::at_rest([1.0]);
-            Spring.integrate_until(start, 20.0, Dop853::default(), &mut [event]).unwrap().ending().time()
+            Spring.motion(start).event(event).towards(20.0).unwrap().ending().time()
         };
         assert!((run(&mut second) - 1.5 * PI).abs() < 1e-6);
         assert_eq!(second.count(), 2);
@@ -150,8 +150,7 @@ fn what_leaves_a_zero_slowly_does_not_cross() {
         let start = State::new([c, s], [-0.5 * s, 0.5 * c]);
         for time in [0.0, 1.0, 1e9] {
             let mut lands = Stone.event("lands", |sample| sample.state().q.norm() - 1.0).terminal();
-            let path =
-                Stone.integrate_until(start.at_time(time), time + 3.0, Dop853::default(), &mut [&mut lands]);
+            let path = Stone.motion(start.at_time(time)).event(&mut lands).towards(time + 3.0);
             assert!(path.unwrap().ending().is_complete(), "{k} at {time}");
         }
     }

@@ -28,7 +28,7 @@ fn a_ladder_leaves_the_wall_at_two_thirds_of_its_height() {
     for theta in [0.3_f64, 0.8, 1.2, 1.5] {
         let mut leaves = LADDER.event("leaves", |s| s.multiplier("wall")).falling().terminal();
         let method = Dop853::with_tolerance(1e-13);
-        let path = LADDER.integrate_until(leaning(theta), 100.0, method, &mut [&mut leaves]).unwrap();
+        let path = LADDER.motion(leaning(theta)).by(method).event(&mut leaves).towards(100.0).unwrap();
         assert!(matches!(path.ending(), Ending::Event { event: "leaves", .. }), "{}", path.ending());
         let angle = path.end().coordinate("theta").unwrap();
         let expected = (2.0 / 3.0 * theta.sin()).asin();
@@ -73,12 +73,12 @@ fn a_bead_leaves_the_sphere_where_its_push_ends() {
         };
         let mut leaves = bead.event("leaves", |s| s.observable("push")).falling().terminal();
         check(
-            bead.integrate_until(start, 10.0, method, &mut [&mut leaves]).unwrap().finished().unwrap().end(),
+            bead.motion(start).by(method).event(&mut leaves).towards(10.0).unwrap().finished().unwrap().end(),
         );
         // In (q, p), too.
         let phase = bead.phase_state(&start);
         let mut leaves = bead.event("leaves", |s| s.constraint_force("y")).falling().terminal();
-        let path = bead.integrate_hamiltonian_until(phase, 10.0, method, &mut [&mut leaves]).unwrap();
+        let path = bead.motion(phase).by(method).event(&mut leaves).towards(10.0).unwrap();
         let end = *path.end().state();
         check(bead.sample(end));
     }
@@ -90,7 +90,7 @@ fn runs_record_count_and_end() {
     let start = State::at_rest([1.0]);
     let mut zero = Spring.event("zero", |s| s.state().q[0]);
     let mut turn = Spring.event("turn", |s| s.velocity("x")).falling().terminal_at(5);
-    let path = Spring.integrate_until(start, 100.0, method, &mut [&mut zero, &mut turn]).unwrap();
+    let path = Spring.motion(start).by(method).event(&mut zero).event(&mut turn).towards(100.0).unwrap();
     // ẋ = −sin t falls through 0 at 2π, 4π, …: the start is at one.
     assert_eq!((zero.count(), turn.count()), (10, 5));
     assert!((path.ending().time() - 10.0 * std::f64::consts::PI).abs() < 1e-9);
@@ -106,7 +106,7 @@ fn runs_record_count_and_end() {
     assert_eq!(path.into_owned().crossings().len(), 15);
     // Without an end by an event, all is as without events.
     let mut zero = Spring.event("zero", |s| s.state().q[0]);
-    let path = Spring.integrate_until(start, 100.0, method, &mut [&mut zero]).unwrap();
+    let path = Spring.motion(start).by(method).event(&mut zero).towards(100.0).unwrap();
     let plain = Spring.integrate(start, 100.0, method).unwrap();
     assert!(path.ending().is_complete() && path.crossings().len() == 32);
     assert_eq!((path.end().state(), path.statistics()), (plain.end().state(), plain.statistics()));
@@ -119,7 +119,7 @@ fn bounces_that_accumulate_end_the_run_that_they_do_so_in() {
     let mut lands = ball.event("lands", |s| s.coordinate("height")).falling().terminal();
     let (mut state, mut landings) = (State::at_rest([1.0]), 0);
     let ending = loop {
-        let path = ball.integrate_until(state, 100.0, Dop853::default(), &mut [&mut lands]).unwrap();
+        let path = ball.motion(state).event(&mut lands).towards(100.0).unwrap();
         state = *path.end().state();
         landings += lands.count();
         match path.ending() {
@@ -156,7 +156,7 @@ fn a_storm_of_events_has_an_end() {
 fn what_is_wrong_with_a_function_is_told_and_the_way_there_kept() {
     let start = State::at_rest([1.0]);
     let mut root = Spring.event("root", |s| s.state().q[0].sqrt());
-    let path = Spring.integrate_until(start, 10.0, Dop853::default(), &mut [&mut root]).unwrap();
+    let path = Spring.motion(start).event(&mut root).towards(10.0).unwrap();
     assert!(matches!(path.ending(), Ending::EventNotFinite { event: "root", .. }));
     assert!(path.end().coordinate("x").unwrap() > 0.0 && path.end().time() > 0.5);
     assert!(path.at(0.5).is_ok() && path.crossings().is_empty());
@@ -164,10 +164,10 @@ fn what_is_wrong_with_a_function_is_told_and_the_way_there_kept() {
     assert!(matches!(&error, Error::Unfinished(_)), "{error}");
 
     let mut event = Spring.event("never", |_| f64::NAN);
-    let error = Spring.integrate_until(start, 1.0, Dop853::default(), &mut [&mut event]).unwrap_err();
+    let error = Spring.motion(start).event(&mut event).towards(1.0).unwrap_err();
     assert!(matches!(error, Error::EventNotFinite { event: "never", time: 0.0 }), "{error}");
     let mut event = Spring.event("typo", |s| s.velocity("x_dot"));
-    let error = Spring.integrate_until(start, 1.0, Dop853::default(), &mut [&mut event]).unwrap_err();
+    let error = Spring.motion(start).event(&mut event).towards(1.0).unwrap_err();
     assert!(matches!(error, Error::UnknownName { .. }), "{error}");
 }
 
@@ -175,7 +175,7 @@ fn what_is_wrong_with_a_function_is_told_and_the_way_there_kept() {
 #[test]
 fn jumps_are_crossings() {
     let mut jumps = Spring.event("jumps", |s| if s.time() < 2.25 + 1e-3 { -1.0 } else { 1e9 });
-    let path = Spring.integrate_until(State::at_rest([1.0]), 10.0, Dop853::default(), &mut [&mut jumps]);
+    let path = Spring.motion(State::at_rest([1.0])).event(&mut jumps).towards(10.0);
     let path = path.unwrap();
     assert_eq!(path.crossings().len(), 1);
     assert!((path.crossings()[0].state.t - 2.251).abs() <= 2.0 * f64::EPSILON * 2.251);
@@ -188,7 +188,7 @@ fn an_event_counts_anew_in_each_run() {
     let mut turn = Spring.event("turn", |s| s.velocity("x")).falling().terminal_at(2);
     let mut start = State::at_rest([1.0]);
     for again in [State::at_rest([2.0]), State::at_rest([1.0]).at_time(0.5), State::at_rest([1.0])] {
-        let path = Spring.integrate_until(start, 100.0, method, &mut [&mut turn]).unwrap();
+        let path = Spring.motion(start).by(method).event(&mut turn).towards(100.0).unwrap();
         assert_eq!((turn.count(), path.crossings().len()), (2, 2));
         assert!(
             (path.ending().time() - start.t - 4.0 * std::f64::consts::PI).abs() < 1e-9,
@@ -198,10 +198,10 @@ fn an_event_counts_anew_in_each_run() {
         start = again;
     }
     let mut zero = Spring.event("zero", |s| s.state().q[0]);
-    let first = Spring.integrate_until(start, 5.0, method, &mut [&mut zero]).unwrap();
+    let first = Spring.motion(start).by(method).event(&mut zero).towards(5.0).unwrap();
     assert_eq!(zero.count(), 2);
     let leg = *first.end().state();
-    Spring.integrate_until(leg, 10.0, method, &mut [&mut zero]).unwrap();
+    Spring.motion(leg).by(method).event(&mut zero).towards(10.0).unwrap();
     assert_eq!(zero.count(), 1);
     let mut motion = Motion::new(Spring, State::at_rest([1.0]), method).unwrap();
     let crossing = motion.advance_to_event(9.0, &mut [&mut zero]).unwrap().unwrap();

@@ -17,7 +17,7 @@ fn start() -> State<f64, 2> {
 /// The crossings until `end`, in both directions.
 fn section(end: f64, method: Dop853) -> Vec<Crossing<f64, 2>> {
     let mut event = HenonHeiles.event("section", |s| s.state().q[0]);
-    let path = HenonHeiles.integrate_until(start(), end, method, &mut [&mut event]).expect("a start");
+    let path = HenonHeiles.motion(start()).by(method).event(&mut event).towards(end).expect("a start");
     path.crossings().to_vec()
 }
 

@@ -91,7 +91,7 @@ fn a_step_that_leads_elsewhere_is_found_out() {
 }
 
 fn ending_of(end: f64, method: impl Method<Spring, 1, 0>) -> (Ending, usize) {
-    let path = Spring.integrate_towards(State::at_rest([1.0]), end, method).expect("a start");
+    let path = Spring.motion(State::at_rest([1.0])).by(method).towards(end).expect("a start");
     (path.ending().clone(), path.steps().count() - 1)
 }
 

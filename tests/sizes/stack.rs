@@ -43,7 +43,7 @@ fn move_springs(method: impl Method<Springs, 1000, 0> + Copy + Send + 'static) {
     on_a_thread(move || {
         let (springs, start) = springs();
         let mut half = springs.event("half", |sample| sample.state().q[7] - 0.6_f64.cos());
-        let path = springs.integrate_until(start, 0.5, method, &mut [&mut half]).expect("a motion");
+        let path = springs.motion(start).by(method).event(&mut half).towards(0.5).expect("a motion");
         assert!((path.crossings()[0].state.t - 0.3).abs() < 1e-6);
     });
     on_a_thread(move || {
@@ -65,7 +65,7 @@ fn a_thousand_coordinates_move_by_every_method() {
     on_a_thread(|| {
         let (springs, start) = springs();
         let phase = springs.phase_state(&start);
-        let path = springs.integrate_hamiltonian(phase, 0.5, Dop853::default()).expect("a motion");
+        let path = springs.motion(phase).to(0.5).expect("a motion");
         assert!((path.end().state().q[0] - 1.0_f64.cos()).abs() < 1e-6);
     });
 }

@@ -88,7 +88,7 @@ fn events_are_found_on_the_series() -> Result<(), Error> {
     let spring = Spring { k: 1.0 };
     let mut crossing = spring.event("through the middle", |sample| sample.coordinate("x"));
     let path =
-        spring.integrate_until(State::at_rest([1.0]), 100.0, Taylor::default(), &mut [&mut crossing])?;
+        spring.motion(State::at_rest([1.0])).by(Taylor::default()).event(&mut crossing).towards(100.0)?;
     let times: Vec<f64> = path.crossings().iter().map(|crossing| crossing.state.t).collect();
     assert_eq!(times.len(), 32);
     for (k, time) in times.iter().enumerate() {
@@ -130,7 +130,7 @@ fn settings_that_cannot_work_are_refused() {
 fn a_limit_on_steps_keeps_what_was_computed() -> Result<(), Error> {
     let spring = Spring { k: 1.0 };
     let method = Taylor::default().max_steps(10);
-    let path = spring.integrate_towards(State::at_rest([1.0]), 1e6, method)?;
+    let path = spring.motion(State::at_rest([1.0])).by(method).towards(1e6)?;
     assert!(matches!(path.ending(), Ending::StepLimit { steps: 10, .. }), "{:?}", path.ending());
     let last = path.end();
     assert!((last.coordinate("x")? - last.time().cos()).abs() < 1e-14);
@@ -152,7 +152,7 @@ fn drag_by_the_root_of_a_square_turns_with_the_velocity() -> Result<(), Error> {
     let terminal = (g / c).sqrt();
     let up = terminal / g * (v / terminal).atan();
     let thrown = Thrown { g, c };
-    let path = thrown.integrate_towards(State::new([0.0], [v]), 2.0, Taylor::default())?;
+    let path = thrown.motion(State::new([0.0], [v])).by(Taylor::default()).towards(2.0)?;
     let expected = -terminal * (g * (2.0 - up) / terminal).tanh();
     let off = (path.end().velocity("x")? - expected).abs();
     assert!(off < 4e-14, "{off:e} {:?} {:?}", path.ending(), path.statistics());
@@ -170,7 +170,7 @@ fn a_root_that_comes_down_to_zero_twice_in_a_step_is_seen() -> Result<(), Error>
     }
     for d in [0.3, 1e-2, 1e-3] {
         let driven = Driven { d };
-        let path = driven.integrate_towards(State::at_rest([0.0]), 3.0, Taylor::default())?;
+        let path = driven.motion(State::at_rest([0.0])).by(Taylor::default()).towards(3.0)?;
         // ∫|s² − d²| from −1 to 2 is that without bars and twice the part that is negative.
         let expected = (8.0 + 1.0) / 3.0 - 3.0 * d * d + 2.0 * (4.0 / 3.0) * d.powi(3);
         let off = (path.end().velocity("x")? - expected).abs();
@@ -186,7 +186,7 @@ fn a_kink_that_numbers_do_not_resolve_ends_the_motion() -> Result<(), Error> {
     #[coordinates(x)]
     #[lagrangian(x_dot^2/2 - sqrt(1 - cos(x)^2))]
     struct Valley;
-    let path = Valley.integrate_towards(State::at_rest([1.0]), 20.0, Taylor::default())?;
+    let path = Valley.motion(State::at_rest([1.0])).by(Taylor::default()).towards(20.0)?;
     let end = path.end();
     let (x, v) = (end.coordinate("x")?, end.velocity("x")?);
     let off = v * v / 2.0 + x.sin().abs() - 1.0_f64.sin();

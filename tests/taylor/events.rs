@@ -87,7 +87,7 @@ fn two_zeros_within_a_step_are_two() -> Result<()> {
         let event = Spring.event("level", move |sample| sample.state().q[0] - level);
         let mut event = if let Some(pieces) = pieces { event.pieces(pieces) } else { event };
         let method = Taylor::default();
-        let path = Spring.integrate_until(State::at_rest([-1.0]), 60.0, method, &mut [&mut event])?;
+        let path = Spring.motion(State::at_rest([-1.0])).by(method).event(&mut event).towards(60.0)?;
         assert!(path.statistics().accepted < 70 && path.crossings().len() == 20, "{apart}");
         for (crossing, k) in path.crossings().iter().zip(0..) {
             let turn = PI * f64::from(k / 2 * 2 + 1);
@@ -110,7 +110,7 @@ fn a_zero_at_the_end_of_a_step_is_one() -> Result<()> {
     let times = |start: f64, end: f64, at: f64| -> Result<Vec<f64>> {
         let mut event = Free.event("there", move |sample| sample.state().q[0] - at);
         let start = State { t: start, ..State::new([start], [1.0]) };
-        let path = Free.integrate_until(start, end, Taylor::default().max_step(0.25), &mut [&mut event])?;
+        let path = Free.motion(start).by(Taylor::default().max_step(0.25)).event(&mut event).towards(end)?;
         assert_eq!(path.statistics().accepted, ((end - start.t).abs() * 4.0) as usize);
         Ok(path.crossings().iter().map(|crossing| crossing.state.t).collect())
     };
@@ -135,7 +135,7 @@ struct Sphere;
 fn zeros_lie_on_the_constraint() -> Result<()> {
     let mut event = Sphere.event("equator", |sample| sample.state().q[2]);
     let start = State::new([1.0, 0.0, 0.0], [0.0, 0.6, 0.8]);
-    let path = Sphere.integrate_until(start, 200.0, Taylor::default(), &mut [&mut event])?;
+    let path = Sphere.motion(start).by(Taylor::default()).event(&mut event).towards(200.0)?;
     assert_eq!(path.crossings().len(), 63);
     for (crossing, k) in path.crossings().iter().zip(1..) {
         let State { t, q, .. } = crossing.state;

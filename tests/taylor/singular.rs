@@ -63,7 +63,7 @@ where
     let reduced = Reduced { n: n as f64, g };
     let pendulum = reduced.integrate(upright, END, Dop853::with_tolerance(1e-14))?;
     let each = TOLERANCES.map(|tolerance| {
-        let path = windows.integrate_towards(start, END, Taylor::with_tolerance(tolerance))?;
+        let path = windows.motion(start).by(Taylor::with_tolerance(tolerance)).towards(END)?;
         let (time, end) = (path.ending().time(), *path.end().state());
         let (sine, cosine) = pendulum.at(time)?.state().q[0].sin_cos();
         let expected = |i: usize| if i <= n { i as f64 + cosine } else { sine };
@@ -111,7 +111,7 @@ fn a_linkage_that_folds_keeps_its_energy_as_far_as_it_goes() -> Result<(), Error
         let start = State::at_rest([1.0, 0.762_873_910_257_525, 2.306_798_799_395_277]);
         let (start, _) = linkage.make_consistent(&start)?;
         for tolerance in TOLERANCES {
-            let path = linkage.integrate_towards(start, END, Taylor::with_tolerance(tolerance))?;
+            let path = linkage.motion(start).by(Taylor::with_tolerance(tolerance)).towards(END)?;
             let (change, end) =
                 (linkage.energy(path.end().state()) - linkage.energy(&start), path.ending().time());
             println!("{g}, {tolerance:e}: to {end}, energy {change:e}");
@@ -128,7 +128,7 @@ fn a_linkage_that_folds_keeps_its_energy_as_far_as_it_goes() -> Result<(), Error
 fn no_step_is_longer_than_allowed() -> Result<(), Error> {
     let longest = 2e-3;
     let start = State::new([0.0, 1.0, 1.0, 1.0], [1.0, 1.0, 0.0, 0.0]);
-    let path = Window { g: 9.81 }.integrate_towards(start, 1.0, Taylor::default().max_step(longest))?;
+    let path = Window { g: 9.81 }.motion(start).by(Taylor::default().max_step(longest)).towards(1.0)?;
     let times: Vec<f64> = path.steps().map(|step| step.state().t).collect();
     for pair in times.windows(2) {
         assert!(pair[1] - pair[0] < longest * (1.0 + 1e-9), "{pair:?}");

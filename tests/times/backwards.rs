@@ -117,8 +117,8 @@ fn there_and_back_again_is_the_start() {
 #[test]
 fn so_it_is_in_momenta() {
     let (start, method) = (WINCH.phase_state(&hanging()), Dop853::with_tolerance(1e-11));
-    let there = WINCH.integrate_hamiltonian(start, 5.0, method).unwrap();
-    let back = WINCH.integrate_hamiltonian(WINCH.phase_state(there.end().state()), 0.0, method).unwrap();
+    let there = WINCH.motion(start).by(method).to(5.0).unwrap();
+    let back = WINCH.motion(WINCH.phase_state(there.end().state())).by(method).to(0.0).unwrap();
     let end = WINCH.phase_state(back.end().state());
     assert!((end.q - start.q).norm() < 1e-8 && (end.p - start.p).norm() < 1e-8);
     assert!(back.steps().map(|step| step.time()).is_sorted_by(|a, b| a > b));
@@ -152,7 +152,7 @@ fn lanes_go_both_ways() {
 fn what_stops_a_motion_stops_it_backwards() {
     let spring = Spring { omega: 1.0 };
     let path =
-        spring.integrate_towards(State::at_rest([1.0]), -1e9, Dopri5::default().max_steps(50)).unwrap();
+        spring.motion(State::at_rest([1.0])).by(Dopri5::default().max_steps(50)).towards(-1e9).unwrap();
     assert!(
         matches!(path.ending(), Ending::StepLimit { time, steps: 50, .. } if *time < -1.0),
         "{}",
@@ -162,12 +162,11 @@ fn what_stops_a_motion_stops_it_backwards() {
         true => core::ops::ControlFlow::Break(()),
         false => core::ops::ControlFlow::Continue(()),
     };
-    let path = spring.integrate_with(State::at_rest([1.0]), -1e300, Dop853::default(), watch).unwrap();
+    let path = spring.motion(State::at_rest([1.0])).on_progress(watch).to(-1e300).unwrap();
     assert!(matches!(path.ending(), Ending::Cancelled { .. }), "{}", path.ending());
     let off = path.end().state().q[0] - path.end().time().cos();
     assert!(off.abs() <= allowed(path.statistics().accepted, 1e-9), "{off:e}");
-    let path =
-        spring.integrate_towards(State::at_rest([1.0]).at_time(1e17), 1e17 - 1e3, Dop853::default()).unwrap();
+    let path = spring.motion(State::at_rest([1.0]).at_time(1e17)).towards(1e17 - 1e3).unwrap();
     assert!(
         matches!(path.ending(), Ending::TimeTooCoarse { .. } | Ending::StepTooSmall { .. }),
         "{}",

@@ -112,7 +112,7 @@ fn an_end_that_is_never_reached_does_no_harm() {
                 true => core::ops::ControlFlow::Break(()),
                 false => core::ops::ControlFlow::Continue(()),
             };
-            let path = spring.integrate_with(State::at_rest([1.0]), end, method, watch).unwrap();
+            let path = spring.motion(State::at_rest([1.0])).by(method).on_progress(watch).to(end).unwrap();
             assert!(matches!(path.ending(), Ending::Cancelled { .. }), "{}", path.ending());
             let off = path.end().coordinate("x").unwrap() - path.end().time().cos();
             assert!(off.abs() <= allowed(path.statistics().accepted, 1e-9), "to {end:e}: off by {off:e}");
@@ -127,7 +127,7 @@ fn settings_too_small_for_single_precision_are_no_steps_of_no_length() {
     let spring = Spring { omega: 1.0_f32 };
     let start = State::at_rest([1.0]);
     for method in [Dop853::default().max_step(1e-50), Dop853::default().fixed_step(1e-50)] {
-        let path = spring.integrate_towards(start, 1.0, method).unwrap();
+        let path = spring.motion(start).by(method).towards(1.0).unwrap();
         assert!(matches!(path.ending(), Ending::TimeTooCoarse { time: 0.0, .. }), "{}", path.ending());
         assert!(path.drift().iter().all(|quantity| quantity.largest == 0.0));
     }

@@ -69,7 +69,7 @@ fn so_it_is_in_momenta() {
     for case in FAR {
         let (start, omega, end) = case;
         let (spring, from) = (Spring { omega }, PhaseState::new([1.0], [0.0]).at_time(start));
-        check(case, &motion!(spring.integrate_hamiltonian(from, end, Dop853::default())));
+        check(case, &motion!(spring.motion(from).to(end)));
     }
 }
 
@@ -117,16 +117,16 @@ fn single_precision_far_from_zero_is_that_near_zero() {
 fn what_times_cannot_resolve_ends_the_motion() {
     let spring = Spring { omega: 1e9 };
     let start = State::at_rest([1.0]).at_time(1.7e9);
-    let path = spring.integrate_towards(start, 1.7e9 + 1.0, Dop853::default()).unwrap();
+    let path = spring.motion(start).towards(1.7e9 + 1.0).unwrap();
     assert!(matches!(path.ending(), Ending::StepTooSmall { time: 1.7e9, .. }), "{}", path.ending());
     // In a step of the fifth order ωt may grow by a twentieth, and from one number to the next it grows by a seventh.
     let far = State::at_rest([1.0]).at_time(100.0);
     let spring = Spring { omega: 1e13 };
-    let path = spring.integrate_towards(far, 100.0 + 1e-11, Dopri5::default()).unwrap();
+    let path = spring.motion(far).by(Dopri5::default()).towards(100.0 + 1e-11).unwrap();
     assert!(matches!(path.ending(), Ending::StepTooSmall { time: 100.0, .. }), "{}", path.ending());
     let spring = Spring { omega: 1.0 };
     for method in [Dop853::default().max_step(1e-8), Dop853::default().fixed_step(1e-8)] {
-        let path = spring.integrate_towards(start, 1.7e9 + 1.0, method).unwrap();
+        let path = spring.motion(start).by(method).towards(1.7e9 + 1.0).unwrap();
         assert_eq!(*path.ending(), Ending::TimeTooCoarse { time: 1.7e9, step: 1e-8 });
         let one = [(spring, start)];
         let outcome = Ensemble::new(&one).integrate_on_lanes(1.7e9 + 1.0, method).unwrap();

@@ -29,7 +29,7 @@ fn path() -> Trajectory<&'static Bead, 2, 1> {
 
 fn path_in_momenta() -> Trajectory<&'static Bead, 2, 1, HamiltonianFlow> {
     let phase = BEAD.phase_state(&start());
-    BEAD.integrate_hamiltonian(phase, 1.0, Dopri5::with_tolerance(1e-6)).expect("a motion")
+    BEAD.motion(phase).by(Dopri5::with_tolerance(1e-6)).to(1.0).expect("a motion")
 }
 
 fn knows_nothing(sample: &Sample<&Bead, 2, 1>) {
@@ -150,7 +150,7 @@ fn a_sample_at_a_pole() {
     let fall = State::at_rest([1.0, 0.0]);
     let error = polar.integrate(fall, 10.0, Dop853::default()).unwrap_err();
     assert!(matches!(&error, Error::Unfinished(ending) if ending.is_failure()), "{error}");
-    let path = polar.integrate_towards(fall, 10.0, Dop853::default()).unwrap();
+    let path = polar.motion(fall).towards(10.0).unwrap();
     assert!(path.end().time() < 2.0 && path.end().state().q[0] > 0.0);
     assert!(path.csv(50).energy().records().rows.iter().flatten().all(|x| x.is_finite()));
 }

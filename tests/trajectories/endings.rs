@@ -40,7 +40,7 @@ fn a_motion_that_stops_early_is_an_error() {
     let spring = Spring { k: 1.0, c: 0.0 };
     let error = spring.integrate(START, 1e6, limited(500)).unwrap_err();
     let Error::Unfinished(ending) = &error else { panic!("{error}") };
-    let path = spring.integrate_towards(START, 1e6, limited(500)).unwrap();
+    let path = spring.motion(START).by(limited(500)).towards(1e6).unwrap();
     assert_eq!(**ending, *path.ending());
     assert!(matches!(**ending, Ending::StepLimit { steps: 500, pace, time }
             if time == path.end().time() && pace.stiffness.or(pace.time_apart).is_none()));
@@ -77,9 +77,9 @@ fn the_error_tells_time_coordinate_and_cause() {
         "{said}"
     );
     let phase = BlowUp.phase_state(&START);
-    let said = BlowUp.integrate_hamiltonian(phase, 3.0, Dop853::default()).unwrap_err().to_string();
+    let said = BlowUp.motion(phase).to(3.0).unwrap_err().to_string();
     assert!(said.starts_with("stopped at t = ") && said.contains("the error of `p(x)`"), "{said}");
-    let path = BlowUp.integrate_hamiltonian_towards(phase, 3.0, Dop853::default()).unwrap();
+    let path = BlowUp.motion(phase).towards(3.0).unwrap();
     assert!(
         path.ending().is_failure() && (path.at(0.5).unwrap().coordinate("x").unwrap() - 4.0).abs() < 1e-7
     );
@@ -100,9 +100,9 @@ fn it_goes_through_boxes() {
 
 #[test]
 fn what_is_wrong_before_the_first_step_is_an_error_of_both() {
-    let error = BlowUp.integrate_towards(START, f64::NAN, Dop853::default()).unwrap_err();
+    let error = BlowUp.motion(START).towards(f64::NAN).unwrap_err();
     assert!(matches!(error, Error::EndNotFinite { .. }), "{error}");
-    let error = BlowUp.integrate_towards(State::new([f64::NAN], [0.0]), 1.0, Dop853::default()).unwrap_err();
+    let error = BlowUp.motion(State::new([f64::NAN], [0.0])).towards(1.0).unwrap_err();
     assert!(matches!(error, Error::StateNotFinite { .. }), "{error}");
 }
 
@@ -113,19 +113,19 @@ fn the_caller_cancels_without_an_error() {
             if now.steps == steps { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         }
     };
-    let path = BlowUp.integrate_with(START, 3.0, Dop853::default(), after(5)).unwrap();
+    let path = BlowUp.motion(START).on_progress(after(5)).to(3.0).unwrap();
     assert!(matches!(path.ending(), Ending::Cancelled { .. }) && !path.ending().is_failure());
     assert_eq!(path.steps().count(), 6);
     let phase = BlowUp.phase_state(&START);
-    let path = BlowUp.integrate_hamiltonian_with(phase, 3.0, Dop853::default(), after(5)).unwrap();
+    let path = BlowUp.motion(phase).on_progress(after(5)).to(3.0).unwrap();
     assert!(matches!(path.ending(), Ending::Cancelled { .. }));
     // Who only looks on gets the error.
-    let error = BlowUp.integrate_with(START, 3.0, Dop853::default(), after(usize::MAX)).unwrap_err();
+    let error = BlowUp.motion(START).on_progress(after(usize::MAX)).to(3.0).unwrap_err();
     assert!(matches!(error, Error::Unfinished(_)), "{error}");
 }
 
 fn stiffness(spring: &Spring, method: impl Method<Spring, 1, 0>) -> Option<f64> {
-    let path = spring.integrate_towards(START, 1e9, method).expect("a start");
+    let path = spring.motion(START).by(method).towards(1e9).expect("a start");
     match *path.ending() {
         Ending::StepLimit { pace, .. } => pace.stiffness,
         ref other => panic!("{other}"),
@@ -184,7 +184,7 @@ fn members_of_an_ensemble_say_the_same() {
     let one_by_one = Ensemble::from_fn(7, member).integrate(1e9, method).unwrap();
     for (k, (a, b)) in on_lanes.members().iter().zip(one_by_one.members()).enumerate() {
         let (system, start) = member(k);
-        let alone = system.integrate_towards(start, 1e9, method).unwrap();
+        let alone = system.motion(start).by(method).towards(1e9).unwrap();
         let Ending::StepLimit { pace, .. } = *alone.ending() else { panic!("{}", alone.ending()) };
         let stiffness = pace.stiffness;
         assert!(stiffness.is_some() || k < 3, "c = 1e{k}");
@@ -209,7 +209,7 @@ struct Forced {
 
 fn forced<P: Method<Forced, 1, 0>>(s: f64, method: P) -> (usize, Ending) {
     let system = Forced { s };
-    let path = system.integrate_towards(State::at_rest([1.0]).at_time(s), s + 3.0, method).expect("a start");
+    let path = system.motion(State::at_rest([1.0]).at_time(s)).by(method).towards(s + 3.0).expect("a start");
     (path.statistics().accepted + path.statistics().rejected, path.ending().clone())
 }
 

@@ -91,7 +91,7 @@ fn unknown_numbers_come_back_unknown() {
 fn endings_are_written_with_their_names() {
     let path = path();
     assert_eq!(to_value(path.ending()).unwrap(), json!({ "ending": "Complete", "time": 3.0 }));
-    let short = BOB.integrate_towards(start(), 3.0, Dop853::default().max_steps(3)).unwrap();
+    let short = BOB.motion(start()).by(Dop853::default().max_steps(3)).towards(3.0).unwrap();
     let time = short.ending().time();
     let Ending::StepLimit { pace, .. } = *short.ending() else { panic!("{}", short.ending()) };
     let pace = json!({ "step": pace.step.unwrap(), "stiffness": null, "time_apart": null });
@@ -103,7 +103,7 @@ fn endings_are_written_with_their_names() {
     #[coordinates(x)]
     #[lagrangian(x_dot^2/2 + 2*x^3)]
     struct BlowUp;
-    let path = BlowUp.integrate_towards(State::new([1.0], [2.0]), 3.0, Dop853::default()).unwrap();
+    let path = BlowUp.motion(State::new([1.0], [2.0])).towards(3.0).unwrap();
     let written = to_value(path.ending()).unwrap();
     assert_eq!((&written["ending"], &written["entry"]), (&json!("StepTooSmall"), &json!("x_dot")));
     let error = Error::NotProjected { constraint: "rod", residual: 1.0, iterations: 3, time: 2.0 };

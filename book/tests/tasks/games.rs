@@ -86,16 +86,16 @@ fn a_grappling_hook() -> Result {
     let (swinging, flying, landed) = (Swinging { m, g, hook: 8.0, l: 6.0 }, Flying { m, g }, Landed { m, g });
     let mut journey = Journey::new();
     // The player lets go at 45° on the way up.
-    let mut lets_go =
+    let lets_go =
         swinging.event("lets go", |sample| sample.state().q[0] - 6.0 * 0.5_f64.sqrt()).rising().terminal();
     let start = State::at_rest([-6.0, 8.0]);
-    let swing = swinging.integrate_until(start, 10.0, Dop853::default(), &mut [&mut lets_go])?.finished()?;
+    let swing = swinging.motion(start).event(lets_go).to(10.0)?;
     let mut state = *swing.end().state();
     assert!((state.v.norm_squared() / 2.0 - g * 6.0 * 0.5_f64.sqrt()).abs() < 1e-6);
     journey.push(swing.into_owned())?;
     let mut lands = flying.event("lands", |sample| sample.coordinate("y")).falling().terminal();
     for _ in 0..3 {
-        let flight = flying.integrate_until(state, 60.0, Dop853::default(), &mut [&mut lands])?;
+        let flight = flying.motion(state).event(&mut lands).towards(60.0)?;
         assert!(matches!(flight.ending(), Ending::Event { event: "lands", .. }));
         state = landed.impact(flight.end().state(), "ground", 0.4)?.state;
         journey.push(flight.into_owned())?;

@@ -53,7 +53,7 @@ where
     }
 
     /// Watches each member for this event, [one](crate::Simulate::event) of any system of the kind: what a run
-    /// [with events](crate::Simulate::integrate_until) does, on lanes too. Its crossings are in
+    /// [with events](crate::MotionBuilder::event) does, on lanes too. Its crossings are in
     /// [`Arrival::crossings`](super::Arrival::crossings); a [terminal](Event::terminal) one ends the member there, with
     /// [`Ending::Event`](crate::Ending::Event), and no other. Each member counts for itself.
     ///

@@ -6,9 +6,6 @@ mod phase;
 #[cfg(test)]
 mod tests;
 
-#[cfg(feature = "alloc")]
-use core::ops::ControlFlow;
-
 use nalgebra::SVector;
 
 pub use flow::HamiltonianFlow;
@@ -16,13 +13,11 @@ pub use phase::{PhaseRate, PhaseState};
 
 use crate::error::Error;
 #[cfg(feature = "alloc")]
-use crate::motion::{Method, Progress, Watched, run};
+use crate::motion::builder::{Alone, FlowStart, MotionStart, sealed};
 use crate::names::Entry;
 use crate::number::{Real, Scalar};
 use crate::system::finite::check_entries;
 use crate::system::{Lagrangian, State};
-#[cfg(feature = "alloc")]
-use crate::trajectory::Trajectory;
 use phase::equations;
 
 /// The Legendre transform, the Hamiltonian and Hamilton's equations with constraints: every [`Lagrangian`] over
@@ -47,7 +42,7 @@ use phase::equations;
 /// assert!((particle.legendre(&phase)?.v[0] - 0.6).abs() < 1e-15);
 /// assert!((particle.hamiltonian(&phase)? - 1.25).abs() < 1e-15);
 /// # #[cfg(feature = "alloc")] {
-/// let path = particle.integrate_hamiltonian(phase, 10.0, Dop853::default())?;
+/// let path = particle.motion(phase).to(10.0)?;
 /// assert!((path.end().coordinate("x")? - 6.0).abs() < 1e-12);
 /// assert!((path.end().momentum("x")? - 0.75).abs() < 1e-15);
 /// # }
@@ -109,73 +104,28 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
         let state = self.legendre(phase)?;
         equations(self, &state, None).map(|(rate, ..)| rate)
     }
-
-    /// The motion from a phase state to the time `end` by Hamilton's equations: as
-    /// [`integrate`](crate::Simulate::integrate), but the method adds up and controls coordinates and momenta.
-    ///
-    /// # Errors
-    /// As [`integrate`](crate::Simulate::integrate) and [`legendre`](Self::legendre).
-    #[cfg(feature = "alloc")]
-    fn integrate_hamiltonian<P: Method<Self, N, M, HamiltonianFlow>>(
-        &self,
-        phase: PhaseState<Self::Scalar, N>,
-        end: Self::Scalar,
-        method: P,
-    ) -> Result<Trajectory<&Self, N, M, HamiltonianFlow>, Error> {
-        self.integrate_hamiltonian_with(phase, end, method, |_| ControlFlow::Continue(()))
-    }
-
-    /// The motion by Hamilton's equations with a look at the progress after every step; `ControlFlow::Break` cancels, which
-    /// is no error.
-    ///
-    /// # Errors
-    /// As [`integrate_hamiltonian`](Self::integrate_hamiltonian).
-    #[cfg(feature = "alloc")]
-    fn integrate_hamiltonian_with<P: Method<Self, N, M, HamiltonianFlow>>(
-        &self,
-        phase: PhaseState<Self::Scalar, N>,
-        end: Self::Scalar,
-        method: P,
-        watch: impl FnMut(Progress) -> ControlFlow<()>,
-    ) -> Result<Trajectory<&Self, N, M, HamiltonianFlow>, Error> {
-        run::drive::<_, _, _, N, M, false>(self, self.legendre(&phase)?, end, &method, &mut [], watch)
-            .and_then(Trajectory::finished)
-    }
-
-    /// The motion by Hamilton's equations as far as it gets on the way to `end`; [`Trajectory::ending`] tells why it gets no
-    /// farther.
-    ///
-    /// # Errors
-    /// As [`integrate_hamiltonian`](Self::integrate_hamiltonian), of what is wrong before the first step.
-    #[cfg(feature = "alloc")]
-    fn integrate_hamiltonian_towards<P: Method<Self, N, M, HamiltonianFlow>>(
-        &self,
-        phase: PhaseState<Self::Scalar, N>,
-        end: Self::Scalar,
-        method: P,
-    ) -> Result<Trajectory<&Self, N, M, HamiltonianFlow>, Error> {
-        run::drive::<_, _, _, N, M, false>(self, self.legendre(&phase)?, end, &method, &mut [], |_| {
-            ControlFlow::Continue(())
-        })
-    }
-
-    /// The motion by Hamilton's equations as far as the first [terminal](crate::Event::terminal) event, or to the time `end`,
-    /// or as far as it gets; as [`integrate_until`](crate::Simulate::integrate_until).
-    ///
-    /// # Errors
-    /// As [`integrate_hamiltonian`](Self::integrate_hamiltonian), of what is wrong before the first step, and of the functions
-    /// of events there.
-    #[cfg(feature = "alloc")]
-    fn integrate_hamiltonian_until<P: Method<Self, N, M, HamiltonianFlow>>(
-        &self,
-        phase: PhaseState<Self::Scalar, N>,
-        end: Self::Scalar,
-        method: P,
-        events: &mut [&mut dyn Watched<Self, N, M>],
-    ) -> Result<Trajectory<&Self, N, M, HamiltonianFlow>, Error> {
-        let start = self.legendre(&phase)?;
-        run::drive::<_, _, _, N, M, true>(self, start, end, &method, events, |_| ControlFlow::Continue(()))
-    }
 }
 
 impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Hamiltonian<N, M> for L {}
+
+#[cfg(feature = "alloc")]
+impl<T, const N: usize> sealed::Sealed for PhaseState<T, N> {}
+#[cfg(feature = "alloc")]
+impl<L: Lagrangian<N, M>, const N: usize, const M: usize> MotionStart<L, N, M> for PhaseState<L::Scalar, N> {
+    type Asked = Alone<Self>;
+
+    fn asked(self) -> Alone<Self> {
+        Alone(self)
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> FlowStart<L, N, M>
+    for PhaseState<L::Scalar, N>
+{
+    type Flow = HamiltonianFlow;
+
+    fn state(&self, system: &L) -> Result<State<L::Scalar, N>, Error> {
+        system.legendre(self)
+    }
+}

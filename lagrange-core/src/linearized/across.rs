@@ -1,8 +1,8 @@
 //! Derivatives of a motion across events: what a program calls.
 
-use super::dual_sample::{DifferentiableEvent, DualSample, OverDuals};
+use super::Linearized;
+use super::dual_sample::{DualSample, OverDuals};
 use super::sensitivity::{self, Sensitivity};
-use super::{DifferentiableMethod, Linearized, Sensitivities, sensitivities};
 use crate::error::Error;
 use crate::motion::{Event, EventValue};
 use crate::number::{Dual, Real};
@@ -32,16 +32,16 @@ use crate::system::State;
 /// struct Touching { g: f64 }
 ///
 /// let (ball, floor, method) = (Flying { g: 9.81 }, Touching { g: 9.81 }, Dop853::with_tolerance(1e-12));
-/// let mut lands = ball.differentiable_event("lands", |sample| sample.coordinate("y")).falling().terminal();
+/// let lands = ball.differentiable_event("lands", |sample| sample.coordinate("y")).falling().terminal();
 ///
 /// // Dropped from 1 m: by the height, by gravity, and by the coefficient of restitution.
 /// let start = ball.sensitivity(&State::at_rest([1.0]), &["y", "g"])?.with(&["e"])?;
-/// let fall = ball.integrate_sensitivities_until(&start, 10.0, method, &mut [&mut lands])?;
+/// let fall = ball.motion(&start).by(method).event(lands).towards(10.0)?;
 /// let landing = fall.end()?;
 /// // It falls for √(2h/g).
 /// assert!((landing.t[0] - 0.5 * landing.state.t).abs() < 1e-12);
 /// let bounce = floor.impact_sensitivity(landing, "floor", ("e", 0.8))?;
-/// let flight = ball.integrate_sensitivities_until(&bounce, 0.6, method, &mut [])?;
+/// let flight = ball.motion(&bounce).by(method).towards(0.6)?;
 /// // y = e v τ − g τ²/2 with v = √(2gh), τ = t − v/g
 /// let (v, tau) = ((2.0 * 9.81_f64).sqrt(), 0.6 - (2.0 / 9.81_f64).sqrt());
 /// assert!((flight.coordinate(0.6, "y", "e")? - v * tau).abs() < 1e-12);
@@ -90,7 +90,7 @@ pub trait AcrossEvents<const N: usize, const M: usize, const P: usize>:
     ///     block.differentiable_event("gives", |s| Ok(s.multiplier("friction")? - s.number("hold", 2.0)));
     /// let mut gives = gives.rising().terminal();
     /// let start = block.sensitivity(&State::new([0.0], [0.5]), &["k", "belt"])?.with(&["hold"])?;
-    /// let ride = block.integrate_sensitivities_until(&start, 10.0, Dop853::default(), &mut [&mut gives])?;
+    /// let ride = block.motion(&start).event(&mut gives).towards(10.0)?;
     /// // Until t = hold/(k belt)
     /// for (by, expected) in ride.end()?.t.iter().zip([-0.25, -2.0, 0.5]) {
     ///     assert!((by - expected).abs() < 1e-9);
@@ -107,26 +107,6 @@ pub trait AcrossEvents<const N: usize, const M: usize, const P: usize>:
         G: Fn(&DualSample<'_, Self, N, M, P>) -> V,
     {
         Event::new(name, OverDuals(function))
-    }
-
-    /// The motion from a state with derivatives to the first terminal event, or to the time `end`, or as far as it gets,
-    /// and its derivatives: the ending of the [trajectory](Sensitivities::trajectory) tells which.
-    ///
-    /// Where a leg before has ended at an event, its time is the start and changes too: derivatives are those at given
-    /// times. On constraints they are projected onto the tangent space.
-    ///
-    /// # Errors
-    /// As [`integrate_until`](crate::Simulate::integrate_until), of what is wrong before the first step;
-    /// [`Error::DerivativeNotFinite`]. [`Sensitivities::end`] is the error where the motion got to neither, or the event has
-    /// no derivative.
-    fn integrate_sensitivities_until<D: DifferentiableMethod<Self, N, M, P>>(
-        &self,
-        start: &Sensitivity<Self::Scalar, N>,
-        end: Self::Scalar,
-        method: D,
-        events: &mut [&mut dyn DifferentiableEvent<Self, N, M, P>],
-    ) -> Result<Sensitivities<'_, Self, N, M, P>, Error> {
-        sensitivities::integrate(self, start, end, &method, events)
     }
 
     /// The state with its derivatives after an [`impact`](crate::Simulate::impact), by the system that has the

@@ -220,7 +220,7 @@ where
 /// [`AcrossEvents::differentiable_event`](super::AcrossEvents::differentiable_event).
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not an event of `{L}` that can be differentiated",
-    note = "make one by `system.differentiable_event(\"name\", |sample| …)`, of the same system, and pass `&mut [&mut event]`"
+    note = "make one by `system.differentiable_event(\"name\", |sample| …)`, of the same system"
 )]
 pub trait DifferentiableEvent<L, const N: usize, const M: usize, const P: usize>: Watched<L, N, M>
 where
@@ -265,5 +265,25 @@ where
 
     fn called(&self) -> &'static str {
         self.name()
+    }
+}
+
+impl<L, W, const N: usize, const M: usize, const P: usize> DifferentiableEvent<L, N, M, P> for &mut W
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+    W: DifferentiableEvent<L, N, M, P> + ?Sized,
+{
+    fn change(
+        &self,
+        system: &L,
+        state: &State<L::Scalar, N>,
+        direction: &Direction<L::Scalar, N>,
+        argument: Option<Entry>,
+    ) -> Result<L::Scalar, Error> {
+        (**self).change(system, state, direction, argument)
+    }
+
+    fn called(&self) -> &'static str {
+        DifferentiableEvent::<L, N, M, P>::called(&**self)
     }
 }

@@ -101,7 +101,7 @@ impl<T: Real> Francis<T> {
     fn shifts(&self, start: usize, end: usize, tries: usize) -> Shifts<T> {
         let at = |i: usize, j: usize| Scalar::abs(self.h[(i, j)]);
         let exceptional = |corner: T, size: T| {
-            let (re, im) = (corner + T::constant(0.75) * size, T::constant(0.4375_f64.sqrt()) * size);
+            let (re, im) = (corner + T::constant(0.75) * size, Scalar::sqrt(T::constant(0.4375)) * size);
             [Complex::new(re, im), Complex::new(re, -im)]
         };
         match tries {

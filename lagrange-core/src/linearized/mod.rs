@@ -258,8 +258,8 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     where
         Self: Lagrangian<N, M, Scalar: Real> + Sized,
     {
-        self.integrate_sensitivities_until(&self.sensitivity(&state, arguments)?, end, method, &mut [])?
-            .finished()
+        use crate::motion::Simulate;
+        self.motion(self.sensitivity(&state, arguments)?).by(method).to(end)
     }
 
     /// All Lyapunov exponents of the motion from a state to the time `end`: the mean rates at which small changes of the

@@ -1,6 +1,6 @@
 //! A motion with its derivatives by where it starts and by parameters.
 
-use alloc::{string::String, string::ToString, vec::Vec};
+use alloc::{boxed::Box, string::String, string::ToString, vec::Vec};
 use core::fmt::{self, Debug, Formatter};
 
 use super::dual_sample::DifferentiableEvent;
@@ -10,14 +10,15 @@ use super::variation::{DifferentiableMethod, Variations};
 use super::{Direction, Linearized};
 use crate::ending::Ending;
 use crate::error::Error;
-use crate::motion::event::{EventSearch, Watched};
-use crate::motion::run::{Run, Watchdog, check_end};
+use crate::motion::MotionBuilder;
+use crate::motion::builder::{EventList, MotionStart, sealed};
+use crate::motion::run::{Companion, Driven, OnProgress, Run, drive};
 use crate::names::Entry;
 use crate::number::{Over, Real, Scalar, Wide};
 use crate::solution::flow::{LagrangianFlow, Phase};
 use crate::system::finite::check_finite;
-use crate::system::{State, lookup};
-use crate::trajectory::{Path, Trajectory};
+use crate::system::{Lagrangian, State, lookup};
+use crate::trajectory::Trajectory;
 
 /// A motion, and how it changes with entries of its start and with parameters.
 ///
@@ -52,61 +53,161 @@ struct Course<L: Linearized<N, M, P, Scalar: Real>, const N: usize, const M: usi
 /// What lies after a part of a step, by its coefficients.
 type Between<W, const N: usize> = fn(&[Phase<W, N>], W) -> Phase<W, N>;
 
-/// See [`AcrossEvents::integrate_sensitivities_until`](super::AcrossEvents::integrate_sensitivities_until).
-pub(super) fn integrate<'a, L, D, const N: usize, const M: usize, const P: usize>(
+impl<T, const N: usize> sealed::Sealed for Sensitivity<T, N> {}
+impl<L: Lagrangian<N, M>, const N: usize, const M: usize> MotionStart<L, N, M> for Sensitivity<L::Scalar, N> {
+    type Asked = Self;
+
+    fn asked(self) -> Self {
+        self
+    }
+}
+
+impl<T, const N: usize> sealed::Sealed for &Sensitivity<T, N> {}
+impl<L: Lagrangian<N, M>, const N: usize, const M: usize> MotionStart<L, N, M>
+    for &Sensitivity<L::Scalar, N>
+{
+    type Asked = Sensitivity<L::Scalar, N>;
+
+    fn asked(self) -> Self::Asked {
+        self.clone()
+    }
+}
+
+/// What an event is to a motion with derivatives.
+type AnyEvent<'a, L, const N: usize, const M: usize, const P: usize> =
+    dyn DifferentiableEvent<L, N, M, P> + 'a;
+
+impl<'a, 'w, L, const N: usize, const M: usize, P, E>
+    MotionBuilder<'a, 'w, L, Sensitivity<L::Scalar, N>, N, M, P, E>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    /// With this event, or a `&mut` to it, made by [`differentiable_event`](crate::AcrossEvents::differentiable_event).
+    #[allow(clippy::type_complexity, reason = "the type of the builder itself, with its list of events")]
+    pub fn event<const K: usize>(
+        self,
+        event: impl DifferentiableEvent<L, N, M, K> + 'w,
+    ) -> MotionBuilder<'a, 'w, L, Sensitivity<L::Scalar, N>, N, M, P, Vec<Box<AnyEvent<'w, L, N, M, K>>>>
+    where
+        L: Linearized<N, M, K>,
+        E: EventList<AnyEvent<'w, L, N, M, K>>,
+    {
+        self.with_events(|events| {
+            let mut events = events.list();
+            events.push(Box::new(event));
+            events
+        })
+    }
+
+    /// The motion with its derivatives to the time `end`, or to the first terminal event.
+    ///
+    /// # Errors
+    /// As [`Linearized::integrate_sensitivities`]; [`Error::EventNotFinite`] and [`Error::UnknownName`] of the functions of events
+    /// at the start.
+    pub fn to<const K: usize>(self, end: L::Scalar) -> Result<Sensitivities<'a, L, N, M, K>, Error>
+    where
+        L: Linearized<N, M, K>,
+        P: DifferentiableMethod<L, N, M, K>,
+        E: EventList<AnyEvent<'w, L, N, M, K>>,
+    {
+        self.towards(end)?.finished()
+    }
+
+    /// The motion with its derivatives as far as it gets on the way to the time `end`.
+    ///
+    /// # Errors
+    /// As [`to`](Self::to), of what is wrong before the first step.
+    pub fn towards<const K: usize>(self, end: L::Scalar) -> Result<Sensitivities<'a, L, N, M, K>, Error>
+    where
+        L: Linearized<N, M, K>,
+        P: DifferentiableMethod<L, N, M, K>,
+        E: EventList<AnyEvent<'w, L, N, M, K>>,
+    {
+        let Self { system, start, method, events, on_progress } = self;
+        integrate(system, &start, end, &method, &mut events.list(), on_progress)
+    }
+}
+
+/// See [`MotionBuilder`], from a start with derivatives.
+fn integrate<'a, L, D, const N: usize, const M: usize, const P: usize>(
     system: &'a L,
     start: &Sensitivity<L::Scalar, N>,
     end: L::Scalar,
     method: &D,
-    events: &mut [&mut dyn DifferentiableEvent<L, N, M, P>],
+    events: &mut [Box<AnyEvent<'_, L, N, M, P>>],
+    on_progress: Option<OnProgress<'_>>,
 ) -> Result<Sensitivities<'a, L, N, M, P>, Error>
 where
     L: Linearized<N, M, P, Scalar: Real>,
     D: DifferentiableMethod<L, N, M, P>,
 {
     check_finite(system, &start.state)?;
-    check_end(end)?;
-    let (mut run, adjustment) = Run::begin::<L, LagrangianFlow, _, M>(system, &start.state, method)?;
-    let mut path = Path::from(run.state);
-    let (mut course, mut companion) = Course::from(system, &run.state, start, method)?;
-    let mut watched: Vec<_> =
-        events.iter_mut().map(|event| &mut **event as &mut dyn Watched<L, N, M>).collect();
-    let mut search = EventSearch::begin(&mut watched, system, &run.state)?;
-    let limits = Watchdog::new(method.limits(), &run.statistics);
-    let mut stopped = search.record_due(&run.state, &mut path.crossings);
-    let ending = loop {
-        if let Some(ending) = stopped {
-            break ending;
-        }
-        if run.state.t == end {
-            break Ending::Complete { time: end.to_f64() };
-        }
-        let variations = &mut course.variations;
-        if let Err(ending) = method.prepare(system, &mut run, end, variations, &mut companion) {
-            break ending;
-        }
-        let along = |run: &mut Run<_, _, N>| {
-            method.follow(system, run, variations, &mut companion)?;
-            let (within, coefficients) = (path.interpolants(), &mut course.coefficients);
-            method.interpolate(system, run, variations, &mut companion, within, coefficients)
-        };
-        if let Err(ending) = run.step_with::<L, LagrangianFlow, _, _, M>(system, method, end, &limits, along)
-        {
-            break ending;
-        }
-        course.push(run.before.t, run.state.t);
-        path.push(run.state);
-        stopped = search.record_in::<LagrangianFlow, _>(&mut path, system, [&run.before, &run.state]);
+    let along = |state: &State<L::Scalar, N>| {
+        let (course, stages) = Course::from(system, state, start, method)?;
+        Ok(Along { course, stages })
     };
-    let event = path.crossings.last().map(|crossing| crossing.index);
-    let event = event.filter(|_| matches!(ending, Ending::Event { .. })).and_then(|index| events.get(index));
-    let trajectory = Trajectory::new(system, path.finish(), ending, run.statistics, adjustment);
+    let driven = drive::<_, LagrangianFlow, _, _, Along<L, D, N, M, P>, N, M, true>(
+        system,
+        start.state,
+        end,
+        method,
+        events,
+        on_progress,
+        along,
+    )?;
+    let Driven { trajectory, companion: Along { course, .. }, before } = driven;
+    let event = trajectory.crossings().last().map(|crossing| crossing.index);
+    let is_at_event = matches!(trajectory.ending(), Ending::Event { .. });
+    let event = event.filter(|_| is_at_event).and_then(|index| events.get(index));
     let end = trajectory.check_finished().and_then(|()| course.at(system, trajectory.end().state()));
     let end = end.and_then(|at| match event {
         None => Ok(at),
-        Some(event) => at_event(system, at, &**event, &run.before),
+        Some(event) => at_event(system, at, &**event, &before),
     });
     Ok(Sensitivities { trajectory, course, end })
+}
+
+/// The derivatives along a motion that is on its way.
+struct Along<L, D, const N: usize, const M: usize, const P: usize>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+    D: DifferentiableMethod<L, N, M, P>,
+{
+    course: Course<L, N, M, P>,
+    stages: D::Companion,
+}
+
+impl<L, D, const N: usize, const M: usize, const P: usize> Companion<L, LagrangianFlow, D, N, M>
+    for Along<L, D, N, M, P>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+    D: DifferentiableMethod<L, N, M, P>,
+{
+    fn prepare(
+        &mut self,
+        system: &L,
+        method: &D,
+        run: &mut Run<D::Memory, L::Scalar, N>,
+        end: L::Scalar,
+    ) -> Result<(), Ending> {
+        method.prepare(system, run, end, &self.course.variations, &mut self.stages)
+    }
+
+    fn follow(
+        &mut self,
+        system: &L,
+        method: &D,
+        run: &mut Run<D::Memory, L::Scalar, N>,
+        within: &mut Vec<D::Interpolant>,
+    ) -> Result<(), Ending> {
+        let Self { course: Course { variations, coefficients, .. }, stages } = self;
+        method.follow(system, run, variations, stages)?;
+        method.interpolate(system, run, variations, stages, within, coefficients)
+    }
+
+    fn keep(&mut self, from: L::Scalar, to: L::Scalar) {
+        self.course.push(from, to);
+    }
 }
 
 impl<L, const N: usize, const M: usize, const P: usize> Course<L, N, M, P>

@@ -17,6 +17,8 @@
 //! any of them may end; [`Taylor`] steps across where it can, the others may go on along another branch that begins there. The example `methods` prints what an error costs by
 //! the first three in eight systems; the book has its table.
 
+#[cfg(feature = "alloc")]
+pub(crate) mod builder;
 pub(crate) mod event;
 #[cfg(feature = "std")]
 mod lanes;
@@ -31,6 +33,8 @@ mod taylor;
 #[cfg(test)]
 mod tests;
 
+#[cfg(feature = "alloc")]
+pub use builder::{Alone, EventList, FlowStart, MotionBuilder, MotionStart};
 pub use event::{Crossing, Event, EventFunction, EventValue, Watched};
 #[cfg(feature = "std")]
 pub use lanes::LaneMethod;

@@ -1,7 +1,7 @@
 //! The loop from the first step to the ending, the same for every method.
 
 #[cfg(feature = "alloc")]
-use alloc::vec::Vec;
+use alloc::{boxed::Box, vec::Vec};
 #[cfg(feature = "alloc")]
 use core::ops::ControlFlow;
 
@@ -32,6 +32,10 @@ pub struct Progress {
     /// Steps taken.
     pub steps: usize,
 }
+
+/// What looks at the progress, and may cancel.
+#[cfg(feature = "alloc")]
+pub(crate) type OnProgress<'a> = Box<dyn FnMut(Progress) -> ControlFlow<()> + 'a>;
 
 /// A motion on its way: where it is, what its method carries and what it took so far.
 #[derive(Debug)]
@@ -206,28 +210,110 @@ where
     return method.interpolant(system, memory, statistics).map(|interpolant| *within = Some(interpolant));
 }
 
-/// See [`Simulate::integrate_with`](crate::Simulate::integrate_with) and
-/// [`integrate_until`](crate::Simulate::integrate_until). Where there are no events, and `IS_WATCHED` is false, nothing of
-/// their search is compiled.
+/// What is computed along with a motion, step by step.
 #[cfg(feature = "alloc")]
-pub(crate) fn drive<'a, L, F, P, const N: usize, const M: usize, const IS_WATCHED: bool>(
-    system: &'a L,
-    state: State<L::Scalar, N>,
-    end: L::Scalar,
-    method: &P,
-    events: &mut [&mut dyn Watched<L, N, M>],
-    mut watch: impl FnMut(Progress) -> ControlFlow<()>,
-) -> Result<Trajectory<&'a L, N, M, F>, Error>
+pub(crate) trait Companion<L, F, P, const N: usize, const M: usize>
 where
     L: Lagrangian<N, M, Scalar: Real>,
     F: Flow<L, N, M>,
     P: Method<L, N, M, F>,
+{
+    /// Before a step towards `end`.
+    fn prepare(
+        &mut self,
+        system: &L,
+        method: &P,
+        run: &mut Run<P::Memory, L::Scalar, N>,
+        end: L::Scalar,
+    ) -> Result<(), Ending>;
+
+    /// Goes along with the step taken last and puts what lies within it there. The error is why the step is to be taken back.
+    fn follow(
+        &mut self,
+        system: &L,
+        method: &P,
+        run: &mut Run<P::Memory, L::Scalar, N>,
+        within: &mut Vec<P::Interpolant>,
+    ) -> Result<(), Ending>;
+
+    /// After a step between these times that stays.
+    fn keep(&mut self, from: L::Scalar, to: L::Scalar);
+}
+
+/// None: what lies within a step is that of the motion alone.
+#[cfg(feature = "alloc")]
+pub(crate) struct NoCompanion;
+
+#[cfg(feature = "alloc")]
+impl<L, F, P, const N: usize, const M: usize> Companion<L, F, P, N, M> for NoCompanion
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: Flow<L, N, M>,
+    P: Method<L, N, M, F>,
+{
+    #[inline(always)]
+    fn prepare(
+        &mut self,
+        _: &L,
+        _: &P,
+        _: &mut Run<P::Memory, L::Scalar, N>,
+        _: L::Scalar,
+    ) -> Result<(), Ending> {
+        Ok(())
+    }
+
+    #[inline(always)]
+    fn follow(
+        &mut self,
+        system: &L,
+        method: &P,
+        run: &mut Run<P::Memory, L::Scalar, N>,
+        within: &mut Vec<P::Interpolant>,
+    ) -> Result<(), Ending> {
+        run.look_within::<L, F, P, M>(system, method, within)
+    }
+
+    #[inline(always)]
+    fn keep(&mut self, _: L::Scalar, _: L::Scalar) {}
+}
+
+/// A motion that was computed, its companion, and where its last step started.
+#[cfg(feature = "alloc")]
+pub(crate) struct Driven<'a, L, F, C, const N: usize, const M: usize>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: Flow<L, N, M>,
+{
+    pub(crate) trajectory: Trajectory<&'a L, N, M, F>,
+    pub(crate) companion: C,
+    pub(crate) before: State<L::Scalar, N>,
+}
+
+/// Computes a motion, see [`MotionBuilder`](super::MotionBuilder). Where there are no events, and `IS_WATCHED` is false,
+/// nothing of their search is compiled.
+#[cfg(feature = "alloc")]
+pub(crate) fn drive<'a, L, F, P, W, C, const N: usize, const M: usize, const IS_WATCHED: bool>(
+    system: &'a L,
+    state: State<L::Scalar, N>,
+    end: L::Scalar,
+    method: &P,
+    events: &mut [W],
+    mut on_progress: Option<OnProgress<'_>>,
+    companion: impl FnOnce(&State<L::Scalar, N>) -> Result<C, Error>,
+) -> Result<Driven<'a, L, F, C, N, M>, Error>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: Flow<L, N, M>,
+    P: Method<L, N, M, F>,
+    W: Watched<L, N, M>,
+    C: Companion<L, F, P, N, M>,
 {
     check_end(end)?;
     // Not moved to where it is used: unless that is optimized away, there would be several of it.
     let mut begun = Run::begin(system, &state, method);
     let (run, adjustment) = begun.as_mut().map_err(|error| error.clone())?;
     let start = run.state.t.to_f64();
+    let mut companion = companion(&run.state)?;
     let mut path = Path::from(run.state);
     let mut search = EventSearch::begin(events, system, &run.state)?;
     let limits = Watchdog::new(method.limits(), &run.statistics);
@@ -240,20 +326,30 @@ where
         if run.state.t == end {
             break Ending::Complete { time };
         }
-        let within = path.interpolants();
-        if let Err(ending) = run.step_with_interpolant::<L, F, P, M>(system, method, end, &limits, within) {
+        if let Err(ending) = companion.prepare(system, method, run, end) {
             break ending;
         }
+        let within = path.interpolants();
+        let along = |run: &mut Run<_, _, N>| companion.follow(system, method, run, within);
+        if let Err(ending) = run.step_with::<L, F, P, _, M>(system, method, end, &limits, along) {
+            break ending;
+        }
+        companion.keep(run.before.t, run.state.t);
         path.push(run.state);
         if const { IS_WATCHED } {
             stopped = search.record_in::<F, _>(&mut path, system, [&run.before, &run.state]);
         }
         let (time, steps) = (run.state.t.to_f64(), run.statistics.accepted);
-        if stopped.is_none() && watch(Progress { start, time, end: end.to_f64(), steps }).is_break() {
+        let progress = Progress { start, time, end: end.to_f64(), steps };
+        if stopped.is_none()
+            && let Some(look) = &mut on_progress
+            && look(progress).is_break()
+        {
             break Ending::Cancelled { time };
         }
     };
-    Ok(Trajectory::new(system, path.finish(), ending, run.statistics, *adjustment))
+    let trajectory = Trajectory::new(system, path.finish(), ending, run.statistics, *adjustment);
+    Ok(Driven { trajectory, companion, before: run.before })
 }
 
 /// Tells the method of a system that has been changed, or of another state.

@@ -1,11 +1,11 @@
 //! What a program does with a system.
 
 #[cfg(feature = "alloc")]
-use core::{array::from_fn, ops::ControlFlow};
+use core::array::from_fn;
 
 use super::event::{Event, EventValue};
 #[cfg(feature = "alloc")]
-use super::{Method, Progress, event::Watched, run};
+use super::{Method, MotionBuilder, builder::MotionStart};
 use crate::error::Error;
 use crate::number::Real;
 #[cfg(feature = "alloc")]
@@ -208,8 +208,7 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     /// What is wrong before the first step: entries, equations, settings or times that are not finite or not
     /// positive, a state off the constraints ([`make_consistent`](Self::make_consistent) helps), singular or
     /// contradictory equations. [`Error::Unfinished`] where the motion stops before its end: it says when, by which
-    /// coordinate or constraint, why and what helps. [`integrate_towards`](Self::integrate_towards) keeps what was
-    /// computed until then.
+    /// coordinate or constraint, why and what helps. [`motion`](Self::motion) has more to ask for.
     #[cfg(feature = "alloc")]
     fn integrate<P: Method<Self, N, M>>(
         &self,
@@ -217,111 +216,60 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
         end: Self::Scalar,
         method: P,
     ) -> Result<Trajectory<&Self, N, M>, Error> {
-        self.integrate_with(state, end, method, |_| ControlFlow::Continue(()))
+        self.motion(state).by(method).to(end)
     }
 
-    /// The motion with a look at the progress after every step. `ControlFlow::Break` cancels, which is no error: the
-    /// trajectory has what was computed so far.
+    /// A motion that starts there, to be asked for piece by piece: its method, events, a look at the progress. The start is a [`State`],
+    /// a [`PhaseState`](crate::PhaseState) for a motion by Hamilton's equations, or a [`Sensitivity`](crate::Sensitivity) for one with
+    /// its derivatives.
     ///
-    /// # Errors
-    /// As [`integrate`](Self::integrate).
+    /// ```
+    /// use lagrange_core::{Ending, prelude::*};
+    ///
+    /// /// A bead that slides off a sphere.
+    /// #[derive(Lagrangian)]
+    /// #[coordinates(r, theta)]
+    /// #[lagrangian(m/2 * (r_dot^2 + r^2 * theta_dot^2) - m*g*r*cos(theta))]
+    /// #[constraint(sphere: r - a = 0)]
+    /// struct Bead { m: f64, g: f64, a: f64 }
+    ///
+    /// let bead = Bead { m: 1.0, g: 9.81, a: 1.0 };
+    /// let start = State::new([1.0, 0.0], [0.0, 0.1]);
+    /// let leaves = bead.event("leaves", |sample| sample.multiplier("sphere")).falling().terminal();
+    /// let path = bead.motion(start).by(Dop853::with_tolerance(1e-12)).event(leaves).to(100.0)?;
+    /// assert!(matches!(path.ending(), Ending::Event { event: "leaves", .. }));
+    /// // From rest it would be where cos θ = 2/3.
+    /// let leaves = path.end().coordinate("theta")?.cos();
+    /// assert!((leaves - (2.0 + 0.01 / 9.81) / 3.0).abs() < 1e-9);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// What was computed until a motion stops early is kept by [`towards`](MotionBuilder::towards):
+    ///
+    /// ```
+    /// # use lagrange_core::{Ending, prelude::*};
+    /// /// A stone that falls into a star.
+    /// #[derive(Lagrangian)]
+    /// #[coordinates(r)]
+    /// #[lagrangian(r_dot^2/2 + 1/r)]
+    /// struct Stone;
+    ///
+    /// let start = State::at_rest([1.0]);
+    /// let error = Stone.motion(start).to(2.0).unwrap_err();
+    /// assert!(error.to_string().starts_with("stopped at t = 1.11"));
+    ///
+    /// let path = Stone.motion(start).towards(2.0)?;
+    /// let collision = core::f64::consts::PI / 8.0_f64.sqrt();
+    /// assert!((path.end().time() - collision).abs() < 1e-6);
+    /// assert!(path.ending().is_failure() && path.at(1.0)?.velocity("r")? < -1.0);
+    /// # Ok::<(), Error>(())
+    /// ```
     #[cfg(feature = "alloc")]
-    fn integrate_with<P: Method<Self, N, M>>(
+    fn motion<'w, S: MotionStart<Self, N, M>>(
         &self,
-        state: State<Self::Scalar, N>,
-        end: Self::Scalar,
-        method: P,
-        watch: impl FnMut(Progress) -> ControlFlow<()>,
-    ) -> Result<Trajectory<&Self, N, M>, Error> {
-        check_finite(self, &state)?;
-        run::drive::<_, _, _, N, M, false>(self, state, end, &method, &mut [], watch)
-            .and_then(Trajectory::finished)
-    }
-
-    /// The motion as far as it gets on the way to `end`; [`Trajectory::ending`] tells why it gets no farther.
-    ///
-    #[cfg_attr(
-        feature = "std",
-        doc = r#"
-```
-use lagrange_core::{Ending, prelude::*};
-
-/// A stone that falls into a star.
-#[derive(Lagrangian)]
-#[coordinates(r)]
-#[lagrangian(r_dot^2/2 + 1/r)]
-struct Stone;
-
-let start = State::at_rest([1.0]);
-let collision = std::f64::consts::PI / 8.0_f64.sqrt();
-
-let error = Stone.integrate(start, 2.0, Dop853::default()).unwrap_err();
-assert!(error.to_string().starts_with("stopped at t = 1.11"));
-
-let path = Stone.integrate_towards(start, 2.0, Dop853::default())?;
-assert!((path.end().time() - collision).abs() < 1e-6);
-assert!(path.ending().is_failure() && path.at(1.0)?.velocity("r")? < -1.0);
-# Ok::<(), Error>(())
-```
-"#
-    )]
-    ///
-    /// # Errors
-    /// As [`integrate`](Self::integrate), of what is wrong before the first step.
-    #[cfg(feature = "alloc")]
-    fn integrate_towards<P: Method<Self, N, M>>(
-        &self,
-        state: State<Self::Scalar, N>,
-        end: Self::Scalar,
-        method: P,
-    ) -> Result<Trajectory<&Self, N, M>, Error> {
-        check_finite(self, &state)?;
-        run::drive::<_, _, _, N, M, false>(self, state, end, &method, &mut [], |_| ControlFlow::Continue(()))
-    }
-
-    /// The motion as far as the first [terminal](Event::terminal) event, or to the time `end`, or as far as it gets:
-    /// [`Trajectory::ending`] tells which, [`Trajectory::finished`] makes an error of what is a failure. The crossings of all
-    /// events are in [`Trajectory::crossings`].
-    ///
-    #[cfg_attr(
-        feature = "std",
-        doc = r#"
-```
-use lagrange_core::{Ending, prelude::*};
-
-/// A bead that slides off a sphere.
-#[derive(Lagrangian)]
-#[coordinates(r, theta)]
-#[lagrangian(m/2 * (r_dot^2 + r^2 * theta_dot^2) - m*g*r*cos(theta))]
-#[constraint(sphere: r - a = 0)]
-struct Bead { m: f64, g: f64, a: f64 }
-
-let bead = Bead { m: 1.0, g: 9.81, a: 1.0 };
-let start = State::new([1.0, 0.0], [0.0, 0.1]);
-let mut leaves = bead.event("leaves", |sample| sample.multiplier("sphere")).falling().terminal();
-let path = bead.integrate_until(start, 100.0, Dop853::default(), &mut [&mut leaves])?;
-assert!(matches!(path.ending(), Ending::Event { event: "leaves", .. }));
-// From rest it would be where cos θ = 2/3.
-let leaves = path.end().coordinate("theta")?.cos();
-assert!((leaves - (2.0 + 0.01 / 9.81) / 3.0).abs() < 1e-9);
-# Ok::<(), Error>(())
-```
-"#
-    )]
-    ///
-    /// # Errors
-    /// As [`integrate`](Self::integrate), of what is wrong before the first step; [`Error::EventNotFinite`] and
-    /// [`Error::UnknownName`] of the functions of events at the start.
-    #[cfg(feature = "alloc")]
-    fn integrate_until<P: Method<Self, N, M>>(
-        &self,
-        state: State<Self::Scalar, N>,
-        end: Self::Scalar,
-        method: P,
-        events: &mut [&mut dyn Watched<Self, N, M>],
-    ) -> Result<Trajectory<&Self, N, M>, Error> {
-        check_finite(self, &state)?;
-        run::drive::<_, _, _, N, M, true>(self, state, end, &method, events, |_| ControlFlow::Continue(()))
+        start: S,
+    ) -> MotionBuilder<'_, 'w, Self, S::Asked, N, M> {
+        MotionBuilder::new(self, start.asked())
     }
 
     /// A state at t = 0 from names: `x` a coordinate, `x_dot` its velocity, `r[0]` and `r_dot[0]` those of a vector;

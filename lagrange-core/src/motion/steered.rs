@@ -92,7 +92,7 @@ where
     /// A motion by Hamilton's equations from this phase state on: the method adds up and controls coordinates and momenta.
     ///
     /// # Errors
-    /// As [`Hamiltonian::integrate_hamiltonian`] where it does not start.
+    /// As [`legendre`](Hamiltonian::legendre), and as [`Motion::new`] where it does not start.
     pub fn in_momenta(system: L, phase: PhaseState<L::Scalar, N>, method: P) -> Result<Self, Error> {
         let state = system.legendre(&phase)?;
         Self::begin(system, &state, method)

@@ -216,8 +216,8 @@ fn a_blow_up_ends_with_the_coordinate_named() {
     // x = 1/(1 − t)².
     let system = free::<1>(|s| [6.0 * s.q[0] * s.q[0]]);
     for path in [
-        system.integrate_towards(State::new([1.0], [2.0]), 3.0, Dop853::default()).unwrap(),
-        system.integrate_towards(State::new([1.0], [2.0]), 3.0, Dopri5::default()).unwrap(),
+        system.motion(State::new([1.0], [2.0])).towards(3.0).unwrap(),
+        system.motion(State::new([1.0], [2.0])).by(Dopri5::default()).towards(3.0).unwrap(),
     ] {
         assert!(!path.ending().is_complete());
         assert!((path.ending().time() - 1.0).abs() < 1e-6, "{}", path.ending());
@@ -231,7 +231,7 @@ fn a_blow_up_ends_with_the_coordinate_named() {
 fn equations_that_become_undefined_end_the_motion() {
     // A fall from 1 to 0 with force −1/√x, which is not a number below 0.
     let system = free::<1>(|s| [-1.0 / s.q[0].sqrt()]);
-    let path = system.integrate_towards(State::new([1.0], [-1.0]), 3.0, Dop853::default()).unwrap();
+    let path = system.motion(State::new([1.0], [-1.0])).towards(3.0).unwrap();
     assert!(!path.ending().is_complete(), "{}", path.ending());
     let end = path.end().coordinate("x").unwrap();
     assert!((0.0..1e-3).contains(&end), "{end}");
@@ -242,7 +242,7 @@ fn equations_that_become_undefined_end_the_motion() {
 #[test]
 fn a_mass_that_vanishes_ends_the_motion() {
     let system = Mechanism { mass: |s| [[if s.t < 0.5 { 1.0 } else { 0.0 }]], ..free(|_| [0.0]) };
-    let path = system.integrate_towards(State::new([1.0], [1.0]), 1.0, Dopri5::default()).unwrap();
+    let path = system.motion(State::new([1.0], [1.0])).by(Dopri5::default()).towards(1.0).unwrap();
     let Ending::Singular { time, error: Error::Singular { coordinates, .. } } = path.ending() else {
         panic!("{}", path.ending());
     };
@@ -261,7 +261,7 @@ fn constraints_that_come_to_contradict_end_the_motion() {
         jacobian: |_| [[1.0, 0.0]; 2],
         bias: |s| [0.0, if s.t < 0.5 { 0.0 } else { 1.0 }],
     };
-    let path = system.integrate_towards(State::new([0.0, 0.0], [0.0, 1.0]), 1.0, Dop853::default()).unwrap();
+    let path = system.motion(State::new([0.0, 0.0], [0.0, 1.0])).towards(1.0).unwrap();
     let Ending::Contradictory { time, error: Error::Contradictory { constraint: "c0" | "c1", .. } } =
         path.ending()
     else {
@@ -306,7 +306,7 @@ fn constraints_that_part_end_the_motion() {
         jacobian: |s| [s.q.into()],
         bias: |s| [s.v.norm_squared()],
     };
-    let path = system.integrate_towards(State::new([1.0, 0.0], [-0.5, 0.0]), 2.0, Dop853::default()).unwrap();
+    let path = system.motion(State::new([1.0, 0.0], [-0.5, 0.0])).towards(2.0).unwrap();
     assert!(!path.ending().is_complete());
     assert!((path.end().time() - 1.0).abs() < 1e-6, "{}", path.ending());
 }
@@ -315,11 +315,11 @@ fn constraints_that_part_end_the_motion() {
 fn limits_end_the_motion_and_keep_it() {
     let system = oscillator();
     let start = State::new([1.0], [0.0]);
-    let path = system.integrate_towards(start, 1e6, Dopri5::default().max_steps(50)).unwrap();
+    let path = system.motion(start).by(Dopri5::default().max_steps(50)).towards(1e6).unwrap();
     assert!(matches!(path.ending(), Ending::StepLimit { steps: 50, .. }), "{}", path.ending());
     assert!(path.end().time() > 0.5 && path.steps().count() == path.statistics().accepted + 1);
     let method = Dopri5::default().wall_time(Duration::from_millis(20)).max_steps(usize::MAX);
-    let path = system.integrate_towards(start, 1e9, method).unwrap();
+    let path = system.motion(start).by(method).towards(1e9).unwrap();
     assert!(matches!(path.ending(), Ending::WallTimeLimit { .. }), "{}", path.ending());
     let mut seen = 0;
     let watch = |progress: Progress| {
@@ -327,7 +327,7 @@ fn limits_end_the_motion_and_keep_it() {
         assert_eq!(progress.steps, seen);
         if progress.time > 2.0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     };
-    let path = system.integrate_with(start, 10.0, Dop853::default(), watch).unwrap();
+    let path = system.motion(start).on_progress(watch).to(10.0).unwrap();
     assert!(matches!(path.ending(), Ending::Cancelled { time } if *time > 2.0 && *time < 10.0));
     let longest = 0.01;
     let path = system.integrate(start, 1.0, Dop853::default().max_step(longest).first_step(1e-3)).unwrap();

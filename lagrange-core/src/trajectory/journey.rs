@@ -41,10 +41,10 @@ let (m, a, g) = (3.0, 2.0, 9.81);
 let (leaning, sliding) = (Leaning { m, a, g }, Sliding { m, a, g });
 let (start, method) = (State::at_rest([2.0 * 1.2_f64.cos(), 2.0 * 1.2_f64.sin(), 1.2]), Dop853::default());
 
-let mut leaves = leaning.event("leaves", |sample| sample.multiplier("wall")).falling().terminal();
-let first = leaning.integrate_until(start, 10.0, method, &mut [&mut leaves])?;
-let mut falls = sliding.event("falls", |sample| sample.coordinate("theta")).falling().terminal();
-let second = sliding.integrate_until(*first.end().state(), 10.0, method, &mut [&mut falls])?;
+let leaves = leaning.event("leaves", |sample| sample.multiplier("wall")).falling().terminal();
+let first = leaning.motion(start).by(method).event(leaves).towards(10.0)?;
+let falls = sliding.event("falls", |sample| sample.coordinate("theta")).falling().terminal();
+let second = sliding.motion(*first.end().state()).by(method).event(falls).towards(10.0)?;
 
 let mut journey = Journey::new();
 journey.push(first.into_owned())?;

@@ -107,12 +107,12 @@ impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Trajectory<S, N, M,
     }
 
     /// Why the trajectory ends where it does: the end was reached, or the caller or an event said so; and whatever else it may be after
-    /// [`integrate_towards`](crate::Simulate::integrate_towards).
+    /// [`towards`](crate::MotionBuilder::towards).
     pub fn ending(&self) -> &Ending {
         &self.ending
     }
 
-    /// Where the events were that [`integrate_until`](crate::Simulate::integrate_until) was given, in the order of the motion.
+    /// Where the [events](crate::MotionBuilder::event) were, in the order of the motion.
     pub fn crossings(&self) -> &[Crossing<S::Scalar, N>] {
         &self.path.crossings
     }

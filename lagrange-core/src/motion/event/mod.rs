@@ -8,6 +8,8 @@ mod narrow;
 mod noise;
 mod search;
 
+#[cfg(feature = "alloc")]
+use alloc::boxed::Box;
 use core::borrow::Borrow;
 use core::fmt::{self, Debug, Formatter};
 use core::marker::PhantomData;
@@ -221,10 +223,10 @@ where
 
 /// An event of a system: every [`Event`] of it, also where the system is behind a reference or a pointer.
 ///
-/// Functions take events as `&mut [&mut lands, &mut slips]`.
+/// A [`Motion`](crate::Motion) takes events as `&mut [&mut lands, &mut slips]`.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not an event of `{L}`",
-    note = "make one by `system.event(\"name\", |sample| …)`, of the same system, and pass `&mut [&mut event]`"
+    note = "make one by `system.event(\"name\", |sample| …)`, of the same system; a `Motion` takes `&mut [&mut event]`"
 )]
 pub trait Watched<L: Lagrangian<N, M>, const N: usize, const M: usize>: sealed::Sealed {
     /// What its function is at this state.
@@ -246,29 +248,40 @@ mod sealed {
 
 impl<L: Lagrangian<N, M>, G, const N: usize, const M: usize> sealed::Sealed for Event<L, G, N, M> {}
 
-impl<L: Lagrangian<N, M>, const N: usize, const M: usize> sealed::Sealed
-    for &mut (dyn Watched<L, N, M> + '_)
-{
+impl<W: sealed::Sealed + ?Sized> sealed::Sealed for &mut W {}
+
+#[cfg(feature = "alloc")]
+impl<W: sealed::Sealed + ?Sized> sealed::Sealed for Box<W> {}
+
+/// What points to an event is one.
+macro_rules! watched_behind {
+    ($pointer:ty) => {
+        impl<L, W, const N: usize, const M: usize> Watched<L, N, M> for $pointer
+        where
+            L: Lagrangian<N, M>,
+            W: Watched<L, N, M> + ?Sized,
+        {
+            #[inline]
+            fn value(&self, system: &L, state: &State<L::Scalar, N>) -> Result<L::Scalar, Error> {
+                (**self).value(system, state)
+            }
+
+            #[inline]
+            fn memory(&mut self) -> &mut EventState<L::Scalar> {
+                Watched::<L, N, M>::memory(&mut **self)
+            }
+
+            #[inline]
+            fn sample(&mut self, system: &L, state: &State<L::Scalar, N>, place: usize) -> Result<(), Error> {
+                (**self).sample(system, state, place)
+            }
+        }
+    };
 }
 
-impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Watched<L, N, M>
-    for &mut (dyn Watched<L, N, M> + '_)
-{
-    #[inline]
-    fn value(&self, system: &L, state: &State<L::Scalar, N>) -> Result<L::Scalar, Error> {
-        (**self).value(system, state)
-    }
-
-    #[inline]
-    fn memory(&mut self) -> &mut EventState<L::Scalar> {
-        (**self).memory()
-    }
-
-    #[inline]
-    fn sample(&mut self, system: &L, state: &State<L::Scalar, N>, place: usize) -> Result<(), Error> {
-        (**self).sample(system, state, place)
-    }
-}
+watched_behind!(&mut W);
+#[cfg(feature = "alloc")]
+watched_behind!(Box<W>);
 
 impl<L, K, G, const N: usize, const M: usize> Watched<L, N, M> for Event<K, G, N, M>
 where
