@@ -88,7 +88,7 @@ fn identify() -> Result<()> {
         let mut at = BALL.sensitivity(&start, &[])?.with(&["e"])?;
         for landing in 1..=3 {
             let method = Dop853::with_tolerance(1e-12);
-            let flight = BALL.motion(&at).by(method).event(&mut lands).towards(100.0)?;
+            let flight = BALL.motion_with_derivatives(&at).by(method).event(&mut lands).towards(100.0)?;
             at = flight.end()?.clone();
             if landing < 3 {
                 at = FLOOR.impact_sensitivity(&at, "floor", ("e", restitution))?;

@@ -230,7 +230,7 @@ fn check_energy(system: &InFrame, path: &Path<'_>) {
 /// The same motion by Hamilton's equations, and H by hand.
 fn check_hamilton(system: &InFrame, path: &Path<'_>, method: Dop853) -> Result<()> {
     let start = system.phase_state(path.start().state());
-    let canonical = system.motion(start).by(method).to(DURATION)?;
+    let canonical = system.motion_in_momenta(start).by(method).to(DURATION)?;
     let (mut motion, mut hamiltonian) = (0.0_f64, 0.0_f64);
     for sample in path.samples(500) {
         let s = canonical.at(sample.time())?;

@@ -24,7 +24,7 @@ const ZEROS: [f64; 3] = [0.5, 1.5, 2.5];
 
 /// Asks from this start, by this method, for events and progress, to a failure or not, forward and backward.
 macro_rules! asked {
-    ($start:expr, $method:expr, $event:ident, $trajectory:expr) => {
+    ($asked:ident($start:expr), $method:expr, $event:ident, $trajectory:expr) => {
         for sign in [1.0, -1.0] {
             let event = |name| SPRING.$event(name, |s| s.coordinate("x"));
             let (mut looks, end) = (Vec::new(), 10.0 * sign);
@@ -34,7 +34,7 @@ macro_rules! asked {
             };
             // Two events, one by value and one lent, one of which ends the motion.
             let mut third = event("third").terminal_at(3);
-            let asked = SPRING.motion($start).by($method).event(event("zero")).event(&mut third);
+            let asked = SPRING.$asked($start).by($method).event(event("zero")).event(&mut third);
             let motion = asked.on_progress(look).to(end).expect("a motion");
             let path = $trajectory(&motion);
             assert!(matches!(path.ending(), Ending::Event { event: "third", .. }));
@@ -54,19 +54,19 @@ macro_rules! asked {
                 steps += 1;
                 if steps == 2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             };
-            let asked = SPRING.motion($start).by($method).event(event("zero")).on_progress(look);
+            let asked = SPRING.$asked($start).by($method).event(event("zero")).on_progress(look);
             let cancelled = asked.to(end).expect("a motion");
             let path = $trajectory(&cancelled);
             assert!(matches!(path.ending(), Ending::Cancelled { .. }) && path.statistics().accepted == 2);
 
             // What is looked at changes nothing.
-            let plain = SPRING.motion($start).by($method).to(end).expect("a motion");
-            let watched = SPRING.motion($start).by($method).event(event("zero")).to(end).expect("a motion");
+            let plain = SPRING.$asked($start).by($method).to(end).expect("a motion");
+            let watched = SPRING.$asked($start).by($method).event(event("zero")).to(end).expect("a motion");
             let states = [&plain, &watched].map(|motion| *$trajectory(motion).end().state());
             assert_eq!(states[0], states[1]);
 
             // What was computed until a failure is kept by `towards` alone.
-            let short = || SPRING.motion($start).by($method.max_steps(2)).event(event("zero"));
+            let short = || SPRING.$asked($start).by($method.max_steps(2)).event(event("zero"));
             assert!(matches!(short().to(end), Err(Error::Unfinished(_))));
             let kept = short().towards(end).expect("a motion");
             assert!(matches!($trajectory(&kept).ending(), Ending::StepLimit { steps: 2, .. }));
@@ -78,17 +78,17 @@ macro_rules! asked {
 #[test]
 fn a_motion_from_a_state_is_asked_for_everything() {
     let start = State::at_rest([1.0]);
-    asked!(start, Dop853::default(), event, |path| path);
-    asked!(start, Dopri5::default(), event, |path| path);
-    asked!(start, Taylor::default(), event, |path| path);
-    asked!(start, RungeKutta4::with_step(1e-2), event, |path| path);
+    asked!(motion(start), Dop853::default(), event, |path| path);
+    asked!(motion(start), Dopri5::default(), event, |path| path);
+    asked!(motion(start), Taylor::default(), event, |path| path);
+    asked!(motion(start), RungeKutta4::with_step(1e-2), event, |path| path);
 }
 
 #[test]
 fn a_motion_from_momenta_is_asked_for_everything() {
     let start = PhaseState::new([1.0], [0.0]);
-    asked!(start, Dop853::default(), event, |path| path);
-    asked!(start, Dopri5::default(), event, |path| path);
+    asked!(motion_in_momenta(start), Dop853::default(), event, |path| path);
+    asked!(motion_in_momenta(start), Dopri5::default(), event, |path| path);
 }
 
 fn path_of<'m, 's>(
@@ -100,7 +100,7 @@ fn path_of<'m, 's>(
 #[test]
 fn a_motion_with_derivatives_is_asked_for_everything() {
     let start = SPRING.sensitivity(&State::at_rest([1.0]), &["x", "k"]).expect("names");
-    asked!(&start, Dop853::default(), differentiable_event, path_of);
-    asked!(&start, Dopri5::default(), differentiable_event, path_of);
-    asked!(&start, Taylor::default(), differentiable_event, path_of);
+    asked!(motion_with_derivatives(&start), Dop853::default(), differentiable_event, path_of);
+    asked!(motion_with_derivatives(&start), Dopri5::default(), differentiable_event, path_of);
+    asked!(motion_with_derivatives(&start), Taylor::default(), differentiable_event, path_of);
 }

@@ -311,7 +311,7 @@ fn matrices_of_steps<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M:
     });
     let hamiltonian = of(&|end| {
         let start = counted.phase_state(&start);
-        let path = counted.motion(start).to(end).expect("a motion");
+        let path = counted.motion_in_momenta(start).to(end).expect("a motion");
         assert_eq!(path.samples(50).count(), 50);
         path.statistics().accepted
     });

@@ -355,7 +355,7 @@ fn what_is_said_of_a_matrix_is_verified() {
         error.to_string(),
         "the parameter `inertia[1]` is not symmetric: it is off by 1.9e-3 of its size"
     );
-    assert!(skew.motion(skew.phase_state(&state)).to(1.0).is_err());
+    assert!(skew.motion_in_momenta(skew.phase_state(&state)).to(1.0).is_err());
     // The other matrix is not in use, and round-off is no fault.
     skew.inertia[1][2][0] = good.inertia[1][0][2] * (1.0 + 1e-13);
     assert!(skew.solve(&state).is_ok());

@@ -67,8 +67,8 @@ fn pointers_move_as_the_system_does() -> Result<(), Error> {
     assert_eq!(borrowed.integrate(start, 3.0, method)?.end().state(), alone.end().state());
     let phase = shared.phase_state(&start);
     assert_eq!(
-        shared.motion(phase).by(method).to(3.0)?.end().state(),
-        SPHERE.motion(phase).by(method).to(3.0)?.end().state()
+        shared.motion_in_momenta(phase).by(method).to(3.0)?.end().state(),
+        SPHERE.motion_in_momenta(phase).by(method).to(3.0)?.end().state()
     );
     Ok(())
 }

@@ -97,7 +97,7 @@ fn it_moves_as_far_in_any_unit() {
         assert!(path.ending().is_complete() && path.multipliers_are_unique());
         assert!((x - 2.4).abs() < 1e-12 && (y + 1.8).abs() < 1e-12, "({x}, {y}) for {s}");
         let phase = bead.phase_state(&State::at_rest([0.0; 2]));
-        let path = bead.motion(phase).to(1.0).expect("a path");
+        let path = bead.motion_in_momenta(phase).to(1.0).expect("a path");
         let [x, y]: [f64; 2] = path.end().state().q.into();
         assert!((x - 2.4).abs() < 1e-12 && (y + 1.8).abs() < 1e-12, "({x}, {y}) for {s} in (q, p)");
     }

@@ -176,7 +176,7 @@ fn fixed_steps_are_the_same_whoever_asks_for_their_ends() {
     same_ends(Motion::new(&PENDULUM, start, eighth).unwrap(), &path, 3, (1, 1));
     // In momenta the velocity is one of the rates: nothing is left for later.
     let start = PENDULUM.phase_state(&start);
-    let path = PENDULUM.motion(start).by(eighth).to(2.0).unwrap();
+    let path = PENDULUM.motion_in_momenta(start).by(eighth).to(2.0).unwrap();
     same_ends(Motion::in_momenta(&PENDULUM, start, eighth).unwrap(), &path, 3, (1, 0));
 }
 
@@ -232,7 +232,7 @@ fn a_step_into_a_hole_is_an_error_of_the_next() {
 #[test]
 fn momenta_are_steered_too() {
     let start = PENDULUM.phase_state(&swinging());
-    let path = PENDULUM.motion(start).to(2.0).unwrap();
+    let path = PENDULUM.motion_in_momenta(start).to(2.0).unwrap();
     let mut motion = Motion::in_momenta(&PENDULUM, start, Dop853::default()).unwrap();
     motion.advance_to(2.0).unwrap();
     assert_eq!(motion.state(), path.end().state());

@@ -45,7 +45,7 @@ where
         ("hamilton_equations", system.hamilton_equations(&phase).is_ok()),
         ("runge_kutta_step", stepped.q.iter().chain(&stepped.v).all(|x| x.is_finite())),
         ("integrate", system.integrate(state, 1.0, Dop853::default()).is_ok()),
-        ("motion", system.motion(phase).to(1.0).is_ok()),
+        ("motion", system.motion_in_momenta(phase).to(1.0).is_ok()),
         ("Motion", Motion::new(system, state, Dop853::default()).is_ok()),
     ]
 }

@@ -75,9 +75,9 @@ assert!((friction + 2.0 / 7.0 * 9.81 * 0.3_f64.sin()).abs() < 1e-12);
 # #[observable(pull = -lambda(rod)*l)]
 # struct Pendulum { m: f64, g: f64, l: f64 }
 let pendulum = Pendulum { m: 2.0, g: 9.81, l: 1.0 };
-let mut lowest = pendulum.event("lowest", |sample| sample.coordinate("x")).falling();
+let lowest = pendulum.event("lowest", |sample| sample.coordinate("x")).falling();
 let start = State::at_rest([1.0, 0.0]);
-let path = pendulum.motion(start).event(&mut lowest).towards(5.0)?;
+let path = pendulum.motion(start).event(lowest).towards(5.0)?;
 // At the lowest point it pulls with 3 m g.
 for crossing in path.crossings() {
     let sample = path.at(crossing.state.t)?;

@@ -247,7 +247,7 @@ const CONSTANTS: [&str; 16] = [
 
 /// What every system has beside: methods of `Lagrangian` that it can do without, of `Simulate`, `Hamiltonian`,
 /// `StateDerivatives` and `Linearized`.
-const PROVIDED: [&str; 28] = [
+const PROVIDED: [&str; 29] = [
     "visit_parameters",
     "visit_defects",
     "solve",
@@ -257,6 +257,7 @@ const PROVIDED: [&str; 28] = [
     "state_from",
     "integrate",
     "motion",
+    "motion_in_momenta",
     "sample",
     "event",
     "impact",

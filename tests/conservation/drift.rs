@@ -77,7 +77,7 @@ fn all_quantities_take_one_walk_along_the_steps() {
     let asked = std::cell::Cell::new(0);
     let system = Heavier { mass: Counted(&asked) };
     let start = PhaseState::new([0.1, 0.0, 0.0], [0.5, 1.0, -1.0]);
-    let path = system.motion(start).by(Dopri5::default()).to(5.0).unwrap();
+    let path = system.motion_in_momenta(start).by(Dopri5::default()).to(5.0).unwrap();
     let work = |walk: &dyn Fn()| {
         asked.set(0);
         walk();

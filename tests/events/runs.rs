@@ -78,7 +78,7 @@ fn a_bead_leaves_the_sphere_where_its_push_ends() {
         // In (q, p), too.
         let phase = bead.phase_state(&start);
         let mut leaves = bead.event("leaves", |s| s.constraint_force("y")).falling().terminal();
-        let path = bead.motion(phase).by(method).event(&mut leaves).towards(10.0).unwrap();
+        let path = bead.motion_in_momenta(phase).by(method).event(&mut leaves).towards(10.0).unwrap();
         let end = *path.end().state();
         check(bead.sample(end));
     }

@@ -147,6 +147,6 @@ fn single_precision() {
     let phase = PhaseState::new([2.0], [0.75]);
     assert!((system.hamiltonian(&phase).unwrap() - 2.25).abs() < 1e-6);
     assert!((system.hamilton_equations(&phase).unwrap().q[0] - 0.6).abs() < 1e-6);
-    let path = system.motion(phase).by(Dopri5::with_tolerance(1e-5)).to(5.0).unwrap();
+    let path = system.motion_in_momenta(phase).by(Dopri5::with_tolerance(1e-5)).to(5.0).unwrap();
     assert!(path.ending().is_complete() && (path.end().energy() - 2.25).abs() < 1e-3);
 }

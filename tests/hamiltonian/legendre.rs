@@ -84,7 +84,7 @@ fn a_motion_stays_on_its_branch() {
     struct Wind;
     let u = 1.1_f64;
     let phase = PhaseState::new([0.0], [u.powi(3) - u]);
-    let path = Wind.motion(phase).by(Dop853::default().max_step(0.5)).to(10.0).unwrap();
+    let path = Wind.motion_in_momenta(phase).by(Dop853::default().max_step(0.5)).to(10.0).unwrap();
     for sample in path.samples(101) {
         let t = sample.time();
         assert!((sample.state().q[0] - (u - 1.1) * t - 0.1 * t * t).abs() < 1e-12);
@@ -113,7 +113,7 @@ fn entries_that_are_no_numbers_are_named() {
     struct Free;
     let text = message(Free.hamiltonian(&PhaseState::new([0.0, 0.0], [0.0, f64::NAN])));
     assert_eq!(text, "`p(r[1])` is NaN in the state given: every entry must be finite");
-    let text = message(Free.motion(PhaseState::new([f64::INFINITY, 0.0], [0.0, 0.0])).to(1.0));
+    let text = message(Free.motion_in_momenta(PhaseState::new([f64::INFINITY, 0.0], [0.0, 0.0])).to(1.0));
     assert_eq!(text, "`r[0]` is inf in the state given: every entry must be finite");
 }
 

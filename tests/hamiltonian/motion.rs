@@ -19,7 +19,7 @@ fn check<L: Simulate<N, M, Scalar = f64>, const N: usize, const M: usize>(
     start: State<f64, N>,
 ) -> Trajectory<&L, N, M, HamiltonianFlow> {
     let lagrange = system.integrate(start, END, method()).unwrap();
-    let hamilton = system.motion(system.phase_state(&start)).by(method()).to(END).unwrap();
+    let hamilton = system.motion_in_momenta(system.phase_state(&start)).by(method()).to(END).unwrap();
     assert!(hamilton.ending().is_complete(), "{}", hamilton.ending());
     for (one, other) in lagrange.samples(1001).zip(hamilton.samples(1001)) {
         assert_eq!(one.time(), other.time());
@@ -113,11 +113,11 @@ fn sleigh() {
 fn methods_and_progress_are_those_of_lagranges_equations() {
     let system = Polar { m: 1.0, l: 1.0, g: 9.81 };
     let phase = system.phase_state(&State::new([1.0, 0.0], [0.0, 1.0]));
-    let one = system.motion(phase).by(Dopri5::with_tolerance(1e-11)).to(5.0).unwrap();
-    let other = system.motion(phase).by(method()).to(5.0).unwrap();
+    let one = system.motion_in_momenta(phase).by(Dopri5::with_tolerance(1e-11)).to(5.0).unwrap();
+    let other = system.motion_in_momenta(phase).by(method()).to(5.0).unwrap();
     agree(one.end().state().q.as_slice(), other.end().state().q.as_slice(), 1e-8);
     let path = system
-        .motion(phase)
+        .motion_in_momenta(phase)
         .by(method())
         .on_progress(|now| {
             if now.steps == 3 {
@@ -141,7 +141,7 @@ fn a_momentum_that_no_velocity_has_ends_the_motion() {
     #[lagrangian(x_dot^4/4 - x_dot^2/2 - x)]
     struct Fold;
     let phase = Fold.phase_state(&State::new([0.0], [1.1]));
-    let path = Fold.motion(phase).towards(2.0).unwrap();
+    let path = Fold.motion_in_momenta(phase).towards(2.0).unwrap();
     let Ending::Unsolved { time, error: Error::MomentumNotReached { coordinate: "x", .. } } = path.ending()
     else {
         panic!("{}", path.ending());

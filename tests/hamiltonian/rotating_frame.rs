@@ -92,7 +92,7 @@ fn the_motion_is_that_of_8_47() {
     let (system, newton) = (rotating(), Newton { m: 1.3, potential: Potential, omega: Turning });
     let start = State::new([0.7, -0.4, 0.5], [0.3, 0.8, -0.2]);
     let method = Dop853::with_tolerance(1e-12);
-    let hamilton = system.motion(system.phase_state(&start)).by(method).to(50.0).unwrap();
+    let hamilton = system.motion_in_momenta(system.phase_state(&start)).by(method).to(50.0).unwrap();
     let forces = newton.integrate(start, 50.0, method).unwrap();
     assert!(hamilton.ending().is_complete() && forces.ending().is_complete());
     for (one, other) in hamilton.samples(1001).zip(forces.samples(1001)) {

@@ -85,13 +85,13 @@ fn a_spherical_pendulum_that_hits_a_wall_twice() {
         hits = hits.rising().terminal();
         let mut at = bob.sensitivity(&start, &NAMES[..6]).unwrap().with(&NAMES[6..]).unwrap();
         for _ in 0..2 {
-            let swing = bob.motion(&at).by(method()).event(&mut hits).towards(10.0).unwrap();
+            let swing = bob.motion_with_derivatives(&at).by(method()).event(&mut hits).towards(10.0).unwrap();
             assert!(matches!(swing.trajectory().ending(), Ending::Event { .. }));
             at = walled.impact_sensitivity(swing.end().unwrap(), "wall", ("e", e)).unwrap();
         }
         let end = 2.2;
         assert!(at.state.t > 0.3 && at.state.t < end, "{}", at.state.t);
-        let after = bob.motion(&at).by(method()).towards(end).unwrap();
+        let after = bob.motion_with_derivatives(&at).by(method()).towards(end).unwrap();
         assert_eq!(after.trajectory().end().time(), end);
         let last = after.end().unwrap().clone();
         // Derivatives by the start stay on the rod.
@@ -148,13 +148,14 @@ fn a_ladder_that_leaves_the_wall() {
         let leaves = leaning.differentiable_event("leaves", |s| s.multiplier("wall"));
         let mut leaves = leaves.falling().terminal();
         let at = leaning.sensitivity(&start, &["theta", "m", "a", "g"]).unwrap();
-        let lean = leaning.motion(&at).by(method()).event(&mut leaves).towards(10.0).unwrap();
+        let lean =
+            leaning.motion_with_derivatives(&at).by(method()).event(&mut leaves).towards(10.0).unwrap();
         let left = lean.end().unwrap().clone();
         let [from, to] = [start.q[2], left.state.q[2]];
         assert!((to.sin() - from.sin() * 2.0 / 3.0).abs() < 1e-12);
         let (expected, turned) = (2.0 / 3.0 * from.cos() / to.cos(), lean.at(0.0).unwrap().q[(2, 0)]);
         assert!((left.q[(2, 0)] - expected * turned).abs() < 1e-10, "{}", left.q[(2, 0)] / turned);
-        let slide = sliding.motion(&left).by(method()).towards(1.4).unwrap();
+        let slide = sliding.motion_with_derivatives(&left).by(method()).towards(1.4).unwrap();
         (left, slide.end().unwrap().clone())
     };
     let given = [3.0, 2.0, 9.81];
@@ -191,7 +192,8 @@ fn a_reset_to_other_coordinates() {
         let mut lands = lands.falling().terminal();
         let at = swinging.sensitivity(&State::at_rest([theta]), &["theta", "l", "g"]).unwrap();
         let at = at.with(&["cut", "speed"]).unwrap();
-        let swing = swinging.motion(&at).by(method()).event(&mut cuts).towards(10.0).unwrap();
+        let swing =
+            swinging.motion_with_derivatives(&at).by(method()).event(&mut cuts).towards(10.0).unwrap();
         let thrown = swinging.carry(swing.end().unwrap(), |s| {
             let (l, theta, rate) = (s.parameter("l")?, s.coordinate("theta")?, s.velocity("theta")?);
             let (sin, cos) = theta.sin_cos();
@@ -199,7 +201,8 @@ fn a_reset_to_other_coordinates() {
             let up = l * sin * rate + s.number("speed", speed) * s.time();
             Ok([[l * sin, -l * cos], [l * cos * rate, up]])
         });
-        let flight = flying.motion(&thrown.unwrap()).by(method()).event(&mut lands).towards(10.0);
+        let flight =
+            flying.motion_with_derivatives(&thrown.unwrap()).by(method()).event(&mut lands).towards(10.0);
         flight.unwrap().end().unwrap().clone()
     };
     let given = [-1.0, 1.5, 9.81, 0.7, 0.4];

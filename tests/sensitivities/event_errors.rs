@@ -20,12 +20,12 @@ fn what_grazes_has_no_derivative() {
         Ok(over * over * over)
     });
     flat = flat.terminal();
-    let motion = ball.motion(&start).by(method).event(&mut touches).towards(3.0).unwrap();
+    let motion = ball.motion_with_derivatives(&start).by(method).event(&mut touches).towards(3.0).unwrap();
     let error = motion.end().unwrap_err();
     assert_eq!(error, Error::Grazing { event: "touches", time: 1.0 });
     // The motion is there all the same, and its derivatives at given times.
     assert!((motion.at(0.6).unwrap().q[(1, 0)] - 0.6).abs() < 1e-14);
-    let motion = ball.motion(&start).by(method).event(&mut flat).towards(3.0).unwrap();
+    let motion = ball.motion_with_derivatives(&start).by(method).event(&mut flat).towards(3.0).unwrap();
     let error = motion.end().unwrap_err().to_string();
     assert!(error.contains("grazes the event `flat` at t = 0.367"), "{error}");
 }
@@ -37,7 +37,7 @@ fn what_is_not_finished_is_said() {
     let mut at = ball.sensitivity(&State::at_rest([0.0, 1.0]), &["y"]).unwrap();
     let mut lands = ball.differentiable_event("lands", |s| s.coordinate("y")).falling().terminal();
     let few = method().max_steps(2);
-    let fall = ball.motion(&at).by(few).event(&mut lands).towards(5.0).unwrap();
+    let fall = ball.motion_with_derivatives(&at).by(few).event(&mut lands).towards(5.0).unwrap();
     assert!(
         matches!(fall.trajectory().ending(), Ending::StepLimit { .. })
             && fall.at(fall.trajectory().end().time() / 2.0).is_ok()
@@ -46,7 +46,7 @@ fn what_is_not_finished_is_said() {
     assert!(matches!(ball.integrate_sensitivities(at.state, 5.0, few, &["y"]), Err(Error::Unfinished(_))));
     let mut bounces = 0;
     let ending = loop {
-        let flight = ball.motion(&at).by(method()).event(&mut lands).towards(50.0).unwrap();
+        let flight = ball.motion_with_derivatives(&at).by(method()).event(&mut lands).towards(50.0).unwrap();
         match flight.end() {
             Ok(landing) => at = floor.impact_sensitivity(landing, "floor", ("e", 0.4)).unwrap(),
             Err(_) => break flight.trajectory().ending().clone(),
@@ -72,7 +72,7 @@ fn what_cannot_be_is_named() {
     assert!(error.to_string().contains("did you mean `floor`?"), "{error}");
     assert!(matches!(floor.impact_sensitivity(&start, "floor", ("e", -1.0)), Err(Error::Restitution { .. })));
     let mut event = ball.differentiable_event("no", |s| s.multiplier("floor"));
-    let error = ball.motion(&start).by(method()).event(&mut event).towards(1.0).unwrap_err();
+    let error = ball.motion_with_derivatives(&start).by(method()).event(&mut event).towards(1.0).unwrap_err();
     assert!(error.to_string().contains("there is no constraint `floor`"), "{error}");
     // A value without a derivative.
     let mut kink = ball.differentiable_event("kink", |s| {
@@ -80,6 +80,6 @@ fn what_cannot_be_is_named() {
         Ok(Dual { value: down, slope: f64::NAN })
     });
     kink = kink.terminal();
-    let fall = ball.motion(&start).by(method()).event(&mut kink).towards(1.0).unwrap();
+    let fall = ball.motion_with_derivatives(&start).by(method()).event(&mut kink).towards(1.0).unwrap();
     assert!(matches!(fall.end(), Err(Error::EventNotFinite { event: "kink", .. })), "{:?}", fall.end());
 }

@@ -41,14 +41,14 @@ fn a_ball_after_three_bounces() {
     let start = State::new([0.0, h], [0.5, 0.0]);
     let mut at = ball.sensitivity(&start, &["y", "g", "m", "x_dot"]).unwrap().with(&["e"]).unwrap();
     for _ in 0..3 {
-        let flight = ball.motion(&at).by(method()).event(&mut lands).towards(10.0).unwrap();
+        let flight = ball.motion_with_derivatives(&at).by(method()).event(&mut lands).towards(10.0).unwrap();
         let landing = flight.end().unwrap();
         // At the event the height is zero whatever changes.
         assert!(landing.q.row(1).amax() < 1e-14);
         at = floor.impact_sensitivity(landing, "floor", ("e", e)).unwrap();
     }
     let end = at.state.t + 0.3;
-    let flight = ball.motion(&at).by(method()).event(&mut lands).towards(end).unwrap();
+    let flight = ball.motion_with_derivatives(&at).by(method()).event(&mut lands).towards(end).unwrap();
     for t in [at.state.t + 1e-9, at.state.t + 0.13, end] {
         let [one, d] = [Dual64::from_re, |x| Dual64::from_re(x).derivative()];
         let exact = [
@@ -121,10 +121,15 @@ fn stick_and_slip_from_system_to_system() {
     let start = State::new([0.0], [belt]);
     let start = sticking.sensitivity(&start, &["m", "k", "belt"]).unwrap().with(&["pull", "hold"]).unwrap();
     let method = Dop853::with_tolerance(1e-13);
-    let ride = sticking.motion(&start).by(method).event(&mut gives).towards(50.0).unwrap();
-    let slip = slipping.motion(ride.end().unwrap()).by(method).event(&mut catches).towards(50.0).unwrap();
+    let ride = sticking.motion_with_derivatives(&start).by(method).event(&mut gives).towards(50.0).unwrap();
+    let slip = slipping
+        .motion_with_derivatives(ride.end().unwrap())
+        .by(method)
+        .event(&mut catches)
+        .towards(50.0)
+        .unwrap();
     let caught = slip.end().unwrap();
-    let again = sticking.motion(caught).by(method).towards(caught.state.t + 0.5).unwrap();
+    let again = sticking.motion_with_derivatives(caught).by(method).towards(caught.state.t + 0.5).unwrap();
     for (leg, part) in (0..30).map(|k| (k % 3, f64::from(1 + k / 3) / 11.0)) {
         let (start, end) = match leg {
             0 => (0.0, ride.trajectory().end().time()),
@@ -163,7 +168,8 @@ fn a_poincare_map_keeps_areas() {
     let start = HenonHeiles.sensitivity(&state, &["y", "y_dot", "x_dot"]).unwrap();
     let mut section = HenonHeiles.differentiable_event("section", |s| s.state().q[0]).rising().terminal_at(5);
     let method = Dop853::with_tolerance(1e-13);
-    let motion = HenonHeiles.motion(&start).by(method).event(&mut section).towards(1e3).unwrap();
+    let motion =
+        HenonHeiles.motion_with_derivatives(&start).by(method).event(&mut section).towards(1e3).unwrap();
     let end = motion.end().unwrap();
     assert_eq!(motion.trajectory().crossings().len(), 5);
     assert!(end.q.row(0).amax() < 1e-14 && end.t.amin() > 1e-3, "{end:?}");
@@ -182,7 +188,7 @@ fn an_elastic_bounce_backwards() {
     let start = ball.sensitivity(&State::new([0.0, 1.0], [1.0, 0.5]), &["x", "y", "x_dot", "y_dot"]).unwrap();
     let mut at = start.clone();
     for time in [10.0, 0.7, -10.0, 0.0_f64] {
-        let flight = ball.motion(&at).by(method()).event(&mut lands).towards(time).unwrap();
+        let flight = ball.motion_with_derivatives(&at).by(method()).event(&mut lands).towards(time).unwrap();
         at = flight.end().unwrap().clone();
         if time.abs() == 10.0 {
             assert!(at.state.q[1].abs() < 1e-15 && at.t[1].abs() > 1e-2);
@@ -240,9 +246,9 @@ fn a_bounce_in_single_precision() {
     let mut lands = ball.differentiable_event("lands", |s| s.coordinate("y")).falling().terminal();
     let start = ball.sensitivity(&State::at_rest([1.0]), &["y", "g"]).unwrap().with(&["e"]).unwrap();
     let method = Dop853::with_tolerance(1e-6);
-    let fall = ball.motion(&start).by(method).event(&mut lands).towards(10.0).unwrap();
+    let fall = ball.motion_with_derivatives(&start).by(method).event(&mut lands).towards(10.0).unwrap();
     let bounce = floor.impact_sensitivity(fall.end().unwrap(), "floor", ("e", 0.8)).unwrap();
-    let flight = ball.motion(&bounce).by(method).towards(0.6).unwrap();
+    let flight = ball.motion_with_derivatives(&bounce).by(method).towards(0.6).unwrap();
     let (v, fall) = (19.62_f32.sqrt(), (2.0_f32 / 9.81).sqrt());
     assert!((flight.coordinate(0.6, "y", "e").unwrap() - v * (0.6 - fall)).abs() < 1e-5);
 }

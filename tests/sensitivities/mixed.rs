@@ -76,9 +76,10 @@ fn an_impact_on_constraints_of_both_kinds() {
             th + x * x * Dual::constant(0.25) + u / Dual::constant(3.0) + moved - Dual::constant(s)
         });
         let at = turning.sensitivity(&start, &NAMES[..2]).unwrap().with(&NAMES[2..]).unwrap();
-        let turn = turning.motion(&at).by(method()).event(hits.rising().terminal()).towards(10.0);
+        let turn =
+            turning.motion_with_derivatives(&at).by(method()).event(hits.rising().terminal()).towards(10.0);
         let hit = stopped.impact_sensitivity(turn.unwrap().end().unwrap(), "stop", ("e", e)).unwrap();
-        let after = turning.motion(&hit).by(method()).towards(1.2).unwrap();
+        let after = turning.motion_with_derivatives(&hit).by(method()).towards(1.2).unwrap();
         (hit, after.end().unwrap().clone())
     };
     let (hit, end) = run(start, given);

@@ -66,7 +66,7 @@ where
         );
     }
     let other = system.integrate(start, half, Dopri5::default())?;
-    let phases = system.motion(system.phase_state(&start)).to(half)?;
+    let phases = system.motion_in_momenta(system.phase_state(&start)).to(half)?;
     for i in 0..N {
         close(other.end().state().q[i], path.end().state().q[i].to_f64(), "by Dopri5");
         close(phases.end().state().q[i], path.end().state().q[i].to_f64(), "in (q, p)");

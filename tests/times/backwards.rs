@@ -117,8 +117,8 @@ fn there_and_back_again_is_the_start() {
 #[test]
 fn so_it_is_in_momenta() {
     let (start, method) = (WINCH.phase_state(&hanging()), Dop853::with_tolerance(1e-11));
-    let there = WINCH.motion(start).by(method).to(5.0).unwrap();
-    let back = WINCH.motion(WINCH.phase_state(there.end().state())).by(method).to(0.0).unwrap();
+    let there = WINCH.motion_in_momenta(start).by(method).to(5.0).unwrap();
+    let back = WINCH.motion_in_momenta(WINCH.phase_state(there.end().state())).by(method).to(0.0).unwrap();
     let end = WINCH.phase_state(back.end().state());
     assert!((end.q - start.q).norm() < 1e-8 && (end.p - start.p).norm() < 1e-8);
     assert!(back.steps().map(|step| step.time()).is_sorted_by(|a, b| a > b));

@@ -69,7 +69,7 @@ fn so_it_is_in_momenta() {
     for case in FAR {
         let (start, omega, end) = case;
         let (spring, from) = (Spring { omega }, PhaseState::new([1.0], [0.0]).at_time(start));
-        check(case, &motion!(spring.motion(from).to(end)));
+        check(case, &motion!(spring.motion_in_momenta(from).to(end)));
     }
 }
 

@@ -29,7 +29,7 @@ fn path() -> Trajectory<&'static Bead, 2, 1> {
 
 fn path_in_momenta() -> Trajectory<&'static Bead, 2, 1, HamiltonianFlow> {
     let phase = BEAD.phase_state(&start());
-    BEAD.motion(phase).by(Dopri5::with_tolerance(1e-6)).to(1.0).expect("a motion")
+    BEAD.motion_in_momenta(phase).by(Dopri5::with_tolerance(1e-6)).to(1.0).expect("a motion")
 }
 
 fn knows_nothing(sample: &Sample<&Bead, 2, 1>) {

@@ -77,9 +77,9 @@ fn the_error_tells_time_coordinate_and_cause() {
         "{said}"
     );
     let phase = BlowUp.phase_state(&START);
-    let said = BlowUp.motion(phase).to(3.0).unwrap_err().to_string();
+    let said = BlowUp.motion_in_momenta(phase).to(3.0).unwrap_err().to_string();
     assert!(said.starts_with("stopped at t = ") && said.contains("the error of `p(x)`"), "{said}");
-    let path = BlowUp.motion(phase).towards(3.0).unwrap();
+    let path = BlowUp.motion_in_momenta(phase).towards(3.0).unwrap();
     assert!(
         path.ending().is_failure() && (path.at(0.5).unwrap().coordinate("x").unwrap() - 4.0).abs() < 1e-7
     );
@@ -117,7 +117,7 @@ fn the_caller_cancels_without_an_error() {
     assert!(matches!(path.ending(), Ending::Cancelled { .. }) && !path.ending().is_failure());
     assert_eq!(path.steps().count(), 6);
     let phase = BlowUp.phase_state(&START);
-    let path = BlowUp.motion(phase).on_progress(after(5)).to(3.0).unwrap();
+    let path = BlowUp.motion_in_momenta(phase).on_progress(after(5)).to(3.0).unwrap();
     assert!(matches!(path.ending(), Ending::Cancelled { .. }));
     // Who only looks on gets the error.
     let error = BlowUp.motion(START).on_progress(after(usize::MAX)).to(3.0).unwrap_err();

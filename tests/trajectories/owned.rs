@@ -86,7 +86,7 @@ fn a_sample_outlives_its_path_and_its_system() -> Result<(), Error> {
 fn motions_in_momenta_are_owned_too() -> Result<(), Error> {
     let build = || -> Result<Trajectory<Plant, 1, 0, HamiltonianFlow>, Error> {
         let plant = Plant { u: 0.5 };
-        let path = plant.motion(PhaseState::new([0.0], [0.0])).to(3.0)?;
+        let path = plant.motion_in_momenta(PhaseState::new([0.0], [0.0])).to(3.0)?;
         Ok(path.into_owned())
     };
     assert!((build()?.at(2.0)?.momentum("x")? - 0.5 * 2.0_f64.sin()).abs() < 1e-8);

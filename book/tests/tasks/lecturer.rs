@@ -62,10 +62,9 @@ fn a_pendulum_that_keeps_time() -> Result<(), Error> {
 
     let cycloid = Cycloid { m: 1.0, a: 0.25, g: 9.81 };
     for amplitude in [0.01, 0.5, 1.5, 2.5] {
-        let mut lowest = cycloid.event("lowest", |sample| sample.coordinate("phi")).falling().terminal();
+        let lowest = cycloid.event("lowest", |sample| sample.coordinate("phi")).falling().terminal();
         let start = State::at_rest([amplitude]);
-        let path =
-            cycloid.motion(start).by(Dop853::with_tolerance(1e-12)).event(&mut lowest).towards(10.0)?;
+        let path = cycloid.motion(start).by(Dop853::with_tolerance(1e-12)).event(lowest).towards(10.0)?;
         // A quarter of 2π √(4a/g).
         assert!((path.end().time() - FRAC_PI_2 * (4.0 * 0.25 / 9.81_f64).sqrt()).abs() < 1e-9);
     }
@@ -94,14 +93,14 @@ fn a_hoop_in_a_half_pipe() -> Result<(), Error> {
     let hoop = Hoop { m: 2.0, a: 0.1, pipe: 1.1, g: 9.81 };
     // Half of its inertia is in turning: the period is √2 that of the bead.
     let small = State::at_rest([1.0, 1e-3, 0.0]);
-    let mut lowest = hoop.event("lowest", |sample| sample.coordinate("theta")).falling().terminal();
-    let swing = hoop.motion(small).by(Dop853::with_tolerance(1e-12)).event(&mut lowest).towards(10.0)?;
+    let lowest = hoop.event("lowest", |sample| sample.coordinate("theta")).falling().terminal();
+    let swing = hoop.motion(small).by(Dop853::with_tolerance(1e-12)).event(lowest).towards(10.0)?;
     assert!((swing.end().time() - FRAC_PI_2 * (2.0 / 9.81_f64).sqrt()).abs() < 1e-6);
 
     // Released at θ₀ it presses with m g (2 cos θ − cos θ₀), and friction is ½ m g sin θ: most is needed where it starts.
     let start = State::at_rest([1.0, PI / 3.0, 0.0]);
-    let mut lowest = hoop.event("lowest", |sample| sample.coordinate("theta")).falling().terminal();
-    let path = hoop.motion(start).event(&mut lowest).towards(10.0)?;
+    let lowest = hoop.event("lowest", |sample| sample.coordinate("theta")).falling().terminal();
+    let path = hoop.motion(start).event(lowest).towards(10.0)?;
     let mut needed: f64 = 0.0;
     for sample in path.samples(200) {
         let (theta, press) = (sample.coordinate("theta")?, sample.observable("press")?);

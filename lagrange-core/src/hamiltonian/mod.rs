@@ -13,7 +13,7 @@ pub use phase::{PhaseRate, PhaseState};
 
 use crate::error::Error;
 #[cfg(feature = "alloc")]
-use crate::motion::builder::{Alone, FlowStart, MotionStart, sealed};
+use crate::motion::builder::{MotionBuilder, Start};
 use crate::names::Entry;
 use crate::number::{Real, Scalar};
 use crate::system::finite::check_entries;
@@ -42,7 +42,7 @@ use phase::equations;
 /// assert!((particle.legendre(&phase)?.v[0] - 0.6).abs() < 1e-15);
 /// assert!((particle.hamiltonian(&phase)? - 1.25).abs() < 1e-15);
 /// # #[cfg(feature = "alloc")] {
-/// let path = particle.motion(phase).to(10.0)?;
+/// let path = particle.motion_in_momenta(phase).to(10.0)?;
 /// assert!((path.end().coordinate("x")? - 6.0).abs() < 1e-12);
 /// assert!((path.end().momentum("x")? - 0.75).abs() < 1e-15);
 /// # }
@@ -104,28 +104,21 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
         let state = self.legendre(phase)?;
         equations(self, &state, None).map(|(rate, ..)| rate)
     }
+
+    /// A motion from a phase state by Hamilton's equations, to be asked for piece by piece as
+    /// [`motion`](crate::Simulate::motion) says; the method adds up and controls coordinates and momenta.
+    #[cfg(feature = "alloc")]
+    fn motion_in_momenta<'w>(
+        &self,
+        phase: PhaseState<Self::Scalar, N>,
+    ) -> HamiltonianMotion<'_, 'w, Self, N, M> {
+        MotionBuilder::new(self, Start::new(self.legendre(&phase)))
+    }
 }
+
+/// A motion by Hamilton's equations that is asked for.
+#[cfg(feature = "alloc")]
+type HamiltonianMotion<'a, 'w, L, const N: usize, const M: usize> =
+    MotionBuilder<'a, 'w, L, Start<<L as Lagrangian<N, M>>::Scalar, N, HamiltonianFlow>, N, M>;
 
 impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Hamiltonian<N, M> for L {}
-
-#[cfg(feature = "alloc")]
-impl<T, const N: usize> sealed::Sealed for PhaseState<T, N> {}
-#[cfg(feature = "alloc")]
-impl<L: Lagrangian<N, M>, const N: usize, const M: usize> MotionStart<L, N, M> for PhaseState<L::Scalar, N> {
-    type Asked = Alone<Self>;
-
-    fn asked(self) -> Alone<Self> {
-        Alone(self)
-    }
-}
-
-#[cfg(feature = "alloc")]
-impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> FlowStart<L, N, M>
-    for PhaseState<L::Scalar, N>
-{
-    type Flow = HamiltonianFlow;
-
-    fn state(&self, system: &L) -> Result<State<L::Scalar, N>, Error> {
-        system.legendre(self)
-    }
-}

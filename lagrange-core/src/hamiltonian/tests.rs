@@ -23,7 +23,7 @@ fn dependent_constraints_give_the_same_motion() {
     let start = State::new([0.6, -0.8], [0.8, 0.6]);
     let method = Dop853::with_tolerance(1e-12);
     let lagrange = system.integrate(start, 10.0, method).unwrap();
-    let hamilton = system.motion(system.phase_state(&start)).by(method).to(10.0).unwrap();
+    let hamilton = system.motion_in_momenta(system.phase_state(&start)).by(method).to(10.0).unwrap();
     assert!(hamilton.ending().is_complete() && !hamilton.multipliers_are_unique());
     for (one, other) in lagrange.samples(101).zip(hamilton.samples(101)) {
         assert!((one.state().q - other.state().q).norm() < 1e-9);
@@ -37,7 +37,7 @@ fn dependent_constraints_give_the_same_motion() {
 fn an_ending_names_a_momentum() {
     let falling = free::<1>(|s| [1.0 / (1.0 - s.t)]);
     let phase = PhaseState::new([0.0], [0.0]);
-    let path = falling.motion(phase).towards(2.0).unwrap();
+    let path = falling.motion_in_momenta(phase).towards(2.0).unwrap();
     let text = std::format!("{}", path.ending());
     assert!(text.contains("the error of `p(x)` demands a step too small"), "{text}");
 }

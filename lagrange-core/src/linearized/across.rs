@@ -4,7 +4,7 @@ use super::Linearized;
 use super::dual_sample::{DualSample, OverDuals};
 use super::sensitivity::{self, Sensitivity};
 use crate::error::Error;
-use crate::motion::{Event, EventValue};
+use crate::motion::{Event, EventValue, MotionBuilder};
 use crate::number::{Dual, Real};
 use crate::solution::flow::Phase;
 use crate::system::State;
@@ -36,12 +36,12 @@ use crate::system::State;
 ///
 /// // Dropped from 1 m: by the height, by gravity, and by the coefficient of restitution.
 /// let start = ball.sensitivity(&State::at_rest([1.0]), &["y", "g"])?.with(&["e"])?;
-/// let fall = ball.motion(&start).by(method).event(lands).towards(10.0)?;
+/// let fall = ball.motion_with_derivatives(&start).by(method).event(lands).towards(10.0)?;
 /// let landing = fall.end()?;
 /// // It falls for √(2h/g).
 /// assert!((landing.t[0] - 0.5 * landing.state.t).abs() < 1e-12);
 /// let bounce = floor.impact_sensitivity(landing, "floor", ("e", 0.8))?;
-/// let flight = ball.motion(&bounce).by(method).towards(0.6)?;
+/// let flight = ball.motion_with_derivatives(&bounce).by(method).towards(0.6)?;
 /// // y = e v τ − g τ²/2 with v = √(2gh), τ = t − v/g
 /// let (v, tau) = ((2.0 * 9.81_f64).sqrt(), 0.6 - (2.0 / 9.81_f64).sqrt());
 /// assert!((flight.coordinate(0.6, "y", "e")? - v * tau).abs() < 1e-12);
@@ -88,9 +88,9 @@ pub trait AcrossEvents<const N: usize, const M: usize, const P: usize>:
     /// let block = Sticking { k: 4.0, belt: 0.5 };
     /// let gives =
     ///     block.differentiable_event("gives", |s| Ok(s.multiplier("friction")? - s.number("hold", 2.0)));
-    /// let mut gives = gives.rising().terminal();
+    /// let gives = gives.rising().terminal();
     /// let start = block.sensitivity(&State::new([0.0], [0.5]), &["k", "belt"])?.with(&["hold"])?;
-    /// let ride = block.motion(&start).event(&mut gives).towards(10.0)?;
+    /// let ride = block.motion_with_derivatives(&start).event(gives).towards(10.0)?;
     /// // Until t = hold/(k belt)
     /// for (by, expected) in ride.end()?.t.iter().zip([-0.25, -2.0, 0.5]) {
     ///     assert!((by - expected).abs() < 1e-9);
@@ -107,6 +107,18 @@ pub trait AcrossEvents<const N: usize, const M: usize, const P: usize>:
         G: Fn(&DualSample<'_, Self, N, M, P>) -> V,
     {
         Event::new(name, OverDuals(function))
+    }
+
+    /// A motion from a state with derivatives, to be asked for piece by piece as [`motion`](crate::Simulate::motion) says.
+    ///
+    /// Where a leg before has ended at an event, its time is the start and changes too: derivatives are those at given
+    /// times. On constraints they are projected onto the tangent space. [`Sensitivities::end`](crate::Sensitivities::end) is the
+    /// error where the motion got neither to its end nor to an event, or where the event has no derivative.
+    fn motion_with_derivatives<'w>(
+        &self,
+        start: &Sensitivity<Self::Scalar, N>,
+    ) -> MotionBuilder<'_, 'w, Self, Sensitivity<Self::Scalar, N>, N, M> {
+        MotionBuilder::new(self, start.clone())
     }
 
     /// The state with its derivatives after an [`impact`](crate::Simulate::impact), by the system that has the

@@ -258,8 +258,7 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     where
         Self: Lagrangian<N, M, Scalar: Real> + Sized,
     {
-        use crate::motion::Simulate;
-        self.motion(self.sensitivity(&state, arguments)?).by(method).to(end)
+        self.motion_with_derivatives(&self.sensitivity(&state, arguments)?).by(method).to(end)
     }
 
     /// All Lyapunov exponents of the motion from a state to the time `end`: the mean rates at which small changes of the

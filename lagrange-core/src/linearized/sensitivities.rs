@@ -11,7 +11,7 @@ use super::{Direction, Linearized};
 use crate::ending::Ending;
 use crate::error::Error;
 use crate::motion::MotionBuilder;
-use crate::motion::builder::{EventList, MotionStart, sealed};
+use crate::motion::builder::EventList;
 use crate::motion::run::{Companion, Driven, OnProgress, Run, drive};
 use crate::names::Entry;
 use crate::number::{Over, Real, Scalar, Wide};
@@ -52,26 +52,6 @@ struct Course<L: Linearized<N, M, P, Scalar: Real>, const N: usize, const M: usi
 
 /// What lies after a part of a step, by its coefficients.
 type Between<W, const N: usize> = fn(&[Phase<W, N>], W) -> Phase<W, N>;
-
-impl<T, const N: usize> sealed::Sealed for Sensitivity<T, N> {}
-impl<L: Lagrangian<N, M>, const N: usize, const M: usize> MotionStart<L, N, M> for Sensitivity<L::Scalar, N> {
-    type Asked = Self;
-
-    fn asked(self) -> Self {
-        self
-    }
-}
-
-impl<T, const N: usize> sealed::Sealed for &Sensitivity<T, N> {}
-impl<L: Lagrangian<N, M>, const N: usize, const M: usize> MotionStart<L, N, M>
-    for &Sensitivity<L::Scalar, N>
-{
-    type Asked = Sensitivity<L::Scalar, N>;
-
-    fn asked(self) -> Self::Asked {
-        self.clone()
-    }
-}
 
 /// What an event is to a motion with derivatives.
 type AnyEvent<'a, L, const N: usize, const M: usize, const P: usize> =

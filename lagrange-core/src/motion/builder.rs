@@ -3,6 +3,7 @@
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::fmt::{self, Debug, Formatter};
+use core::marker::PhantomData;
 use core::ops::ControlFlow;
 
 use super::event::Watched;
@@ -10,13 +11,14 @@ use super::method::{Dop853, Method};
 use super::run::{Driven, NoCompanion, OnProgress, Progress, drive};
 use crate::error::Error;
 use crate::number::Real;
-use crate::solution::flow::{Flow, LagrangianFlow};
-use crate::system::finite::check_finite;
+use crate::solution::flow::Flow;
 use crate::system::{Lagrangian, State};
 use crate::trajectory::Trajectory;
 
-/// A motion that is asked for: where it starts, by which method it goes, and what is to be looked at on the way. Made by
-/// [`Simulate::motion`](crate::Simulate::motion); [`to`](Self::to) and [`towards`](Self::towards) compute it.
+/// A motion that is asked for: where it starts, by which method it goes, and what is to be looked at on the way.
+///
+/// Made by [`motion`](crate::Simulate::motion), [`motion_in_momenta`](crate::Hamiltonian::motion_in_momenta) and
+/// [`motion_with_derivatives`](crate::AcrossEvents::motion_with_derivatives); [`to`](Self::to) and [`towards`](Self::towards) compute it.
 ///
 /// The method is [`Dop853`] with a tolerance of 10⁻⁹ unless [`by`](Self::by) names another.
 #[must_use = "a motion is computed by `to` or `towards`"]
@@ -28,40 +30,18 @@ pub struct MotionBuilder<'a, 'w, L, S, const N: usize, const M: usize, P = Dop85
     pub(crate) on_progress: Option<OnProgress<'w>>,
 }
 
-/// Where a motion starts: a [`State`] for Lagrange's equations, a [`PhaseState`](crate::PhaseState) for Hamilton's, where the method
-/// adds up and controls coordinates and momenta, or a [`Sensitivity`](crate::Sensitivity) for a motion with its derivatives.
-#[diagnostic::on_unimplemented(
-    message = "no motion of `{L}` starts at `{Self}`",
-    note = "a motion starts at a `State` of as many coordinates, at a `PhaseState`, or at a `Sensitivity`, over the number type of the system"
-)]
-pub trait MotionStart<L, const N: usize, const M: usize>: sealed::Sealed {
-    /// What is computed from there.
-    #[doc(hidden)]
-    type Asked;
-
-    /// The same start.
-    #[doc(hidden)]
-    fn asked(self) -> Self::Asked;
+/// The state that a motion starts at, and the equations that it goes by, `F`: those of Lagrange, or those of Hamilton.
+#[derive(Clone, Debug)]
+pub struct Start<T, const N: usize, F> {
+    /// Or why there is none.
+    state: Result<State<T, N>, Error>,
+    flow: PhantomData<F>,
 }
 
-/// The start of a motion that goes without its derivatives.
-#[derive(Clone, Copy, Debug)]
-pub struct Alone<S>(pub(crate) S);
-
-/// A start to which equations of motion belong.
-pub trait FlowStart<L, const N: usize, const M: usize>: sealed::Sealed
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-{
-    /// The equations that the motion goes by.
-    type Flow: Flow<L, N, M>;
-
-    /// The state there.
-    ///
-    /// # Errors
-    /// Entries that are not finite, and momenta to which no velocities belong.
-    #[doc(hidden)]
-    fn state(&self, system: &L) -> Result<State<L::Scalar, N>, Error>;
+impl<T, const N: usize, F> Start<T, N, F> {
+    pub(crate) fn new(state: Result<State<T, N>, Error>) -> Self {
+        Self { state, flow: PhantomData }
+    }
 }
 
 /// The events of a [`MotionBuilder`]: none, or a list.
@@ -73,31 +53,6 @@ pub trait EventList<W: ?Sized> {
     /// The list.
     #[doc(hidden)]
     fn list(self) -> Vec<Box<W>>;
-}
-
-/// The starts are those of this crate.
-pub(crate) mod sealed {
-    pub trait Sealed {}
-}
-
-impl<T, const N: usize> sealed::Sealed for State<T, N> {}
-
-impl<L: Lagrangian<N, M>, const N: usize, const M: usize> MotionStart<L, N, M> for State<L::Scalar, N> {
-    type Asked = Alone<Self>;
-
-    fn asked(self) -> Alone<Self> {
-        Alone(self)
-    }
-}
-
-impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> FlowStart<L, N, M>
-    for State<L::Scalar, N>
-{
-    type Flow = LagrangianFlow;
-
-    fn state(&self, system: &L) -> Result<Self, Error> {
-        check_finite(system, self).map(|()| *self)
-    }
 }
 
 impl<W: ?Sized> EventList<W> for () {
@@ -148,10 +103,11 @@ impl<'a, 'w, L, S, const N: usize, const M: usize, P, E> MotionBuilder<'a, 'w, L
 /// What an event is to a motion by itself.
 type AnyEvent<'a, L, const N: usize, const M: usize> = dyn Watched<L, N, M> + 'a;
 
-impl<'a, 'w, L, S, const N: usize, const M: usize, P, E> MotionBuilder<'a, 'w, L, Alone<S>, N, M, P, E>
+impl<'a, 'w, L, F, const N: usize, const M: usize, P, E>
+    MotionBuilder<'a, 'w, L, Start<L::Scalar, N, F>, N, M, P, E>
 where
     L: Lagrangian<N, M, Scalar: Real>,
-    S: FlowStart<L, N, M>,
+    F: Flow<L, N, M>,
     E: EventList<AnyEvent<'w, L, N, M>>,
 {
     /// With this event, or a `&mut` to it: its crossings are kept, and the motion ends where it is
@@ -160,7 +116,7 @@ where
     pub fn event(
         self,
         event: impl Watched<L, N, M> + 'w,
-    ) -> MotionBuilder<'a, 'w, L, Alone<S>, N, M, P, Vec<Box<AnyEvent<'w, L, N, M>>>> {
+    ) -> MotionBuilder<'a, 'w, L, Start<L::Scalar, N, F>, N, M, P, Vec<Box<AnyEvent<'w, L, N, M>>>> {
         self.events([event])
     }
 
@@ -169,7 +125,7 @@ where
     pub fn events<W: Watched<L, N, M> + 'w>(
         self,
         events: impl IntoIterator<Item = W>,
-    ) -> MotionBuilder<'a, 'w, L, Alone<S>, N, M, P, Vec<Box<AnyEvent<'w, L, N, M>>>> {
+    ) -> MotionBuilder<'a, 'w, L, Start<L::Scalar, N, F>, N, M, P, Vec<Box<AnyEvent<'w, L, N, M>>>> {
         let more = events.into_iter().map(|event| Box::new(event) as Box<AnyEvent<'w, L, N, M>>);
         self.with_events(|events| {
             let mut events = events.list();
@@ -184,9 +140,9 @@ where
     /// # Errors
     /// As [`Simulate::integrate`](crate::Simulate::integrate); [`Error::EventNotFinite`] and [`Error::UnknownName`] of the functions of
     /// events at the start; as [`legendre`](crate::Hamiltonian::legendre) from a [`PhaseState`](crate::PhaseState).
-    pub fn to(self, end: L::Scalar) -> Result<Trajectory<&'a L, N, M, S::Flow>, Error>
+    pub fn to(self, end: L::Scalar) -> Result<Trajectory<&'a L, N, M, F>, Error>
     where
-        P: Method<L, N, M, S::Flow>,
+        P: Method<L, N, M, F>,
     {
         self.towards(end)?.finished()
     }
@@ -195,14 +151,14 @@ where
     ///
     /// # Errors
     /// As [`to`](Self::to), of what is wrong before the first step.
-    pub fn towards(self, end: L::Scalar) -> Result<Trajectory<&'a L, N, M, S::Flow>, Error>
+    pub fn towards(self, end: L::Scalar) -> Result<Trajectory<&'a L, N, M, F>, Error>
     where
-        P: Method<L, N, M, S::Flow>,
+        P: Method<L, N, M, F>,
     {
         let Self { system, start, method, events, on_progress } = self;
-        let (state, mut events) = (start.0.state(system)?, events.list());
+        let (state, mut events) = (start.state?, events.list());
         let none = |_: &State<L::Scalar, N>| Ok(NoCompanion);
-        let driven: Driven<'a, L, S::Flow, NoCompanion, N, M> = match const { E::IS_WATCHED } {
+        let driven: Driven<'a, L, F, NoCompanion, N, M> = match const { E::IS_WATCHED } {
             true => drive::<_, _, _, _, _, N, M, true>(
                 system,
                 state,

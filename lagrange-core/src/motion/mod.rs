@@ -34,7 +34,7 @@ mod taylor;
 mod tests;
 
 #[cfg(feature = "alloc")]
-pub use builder::{Alone, EventList, FlowStart, MotionBuilder, MotionStart};
+pub use builder::{EventList, MotionBuilder, Start};
 pub use event::{Crossing, Event, EventFunction, EventValue, Watched};
 #[cfg(feature = "std")]
 pub use lanes::LaneMethod;

@@ -5,13 +5,15 @@ use core::array::from_fn;
 
 use super::event::{Event, EventValue};
 #[cfg(feature = "alloc")]
-use super::{Method, MotionBuilder, builder::MotionStart};
+use super::{Method, MotionBuilder, builder::Start};
 use crate::error::Error;
 use crate::number::Real;
 #[cfg(feature = "alloc")]
 use crate::number::Scalar;
 use crate::solution::Sample;
 use crate::solution::consistent::{self, Consistent};
+#[cfg(feature = "alloc")]
+use crate::solution::flow::LagrangianFlow;
 #[cfg(feature = "alloc")]
 use crate::solution::impact::{Impact, impact};
 use crate::solution::solve::solve;
@@ -219,9 +221,9 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
         self.motion(state).by(method).to(end)
     }
 
-    /// A motion that starts there, to be asked for piece by piece: its method, events, a look at the progress. The start is a [`State`],
-    /// a [`PhaseState`](crate::PhaseState) for a motion by Hamilton's equations, or a [`Sensitivity`](crate::Sensitivity) for one with
-    /// its derivatives.
+    /// A motion from this state, to be asked for piece by piece: its method, events, a look at the progress. One by Hamilton's equations
+    /// is [`motion_in_momenta`](crate::Hamiltonian::motion_in_momenta), one with its derivatives
+    /// [`motion_with_derivatives`](crate::AcrossEvents::motion_with_derivatives).
     ///
     /// ```
     /// use lagrange_core::{Ending, prelude::*};
@@ -265,11 +267,8 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     /// # Ok::<(), Error>(())
     /// ```
     #[cfg(feature = "alloc")]
-    fn motion<'w, S: MotionStart<Self, N, M>>(
-        &self,
-        start: S,
-    ) -> MotionBuilder<'_, 'w, Self, S::Asked, N, M> {
-        MotionBuilder::new(self, start.asked())
+    fn motion<'w>(&self, start: State<Self::Scalar, N>) -> LagrangianMotion<'_, 'w, Self, N, M> {
+        MotionBuilder::new(self, Start::new(check_finite(self, &start).map(|()| start)))
     }
 
     /// A state at t = 0 from names: `x` a coordinate, `x_dot` its velocity, `r[0]` and `r_dot[0]` those of a vector;
@@ -292,5 +291,10 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
         Ok(state)
     }
 }
+
+/// A motion by Lagrange's equations that is asked for.
+#[cfg(feature = "alloc")]
+type LagrangianMotion<'a, 'w, L, const N: usize, const M: usize> =
+    MotionBuilder<'a, 'w, L, Start<<L as Lagrangian<N, M>>::Scalar, N, LagrangianFlow>, N, M>;
 
 impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Simulate<N, M> for L {}
