@@ -346,23 +346,33 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Projecti
         (state, Residual::of(self.system, self.level, &state))
     }
 
-    /// The least δ with F δ = −residual, of the entries that move.
+    /// The least δ with F δ = −residual, of the entries that move. Not inlined, as what it calls, so that no more matrices lie on the
+    /// stack together than are needed at a time.
+    #[inline(never)]
     fn correction(
         &self,
         (state, residual): &Trial<L::Scalar, N, M>,
         rank: Rank<L::Scalar>,
     ) -> Option<SVector<L::Scalar, N>> {
-        let zero = L::Scalar::constant(0.0);
-        let h = [zero; N];
         let mut m: [[L::Scalar; N]; N] = self.system.mass_matrix(state).into();
         let mut f = residual.jacobian;
         hold(self.held, &mut m, &mut f);
         // The elimination keeps more digits of small constraints beside large ones than the general solve does.
-        let fast = eliminate(m, h, f, residual.value);
-        if is_trustworthy(&fast) {
-            return Some(fast.accelerations);
-        }
-        let step = factors_of_nearest(&m, &f, rank).solve(&h, &residual.value).ok()?.accelerations;
+        fast_correction(&m, &f, &residual.value)
+            .or_else(|| self.general_correction(&m, &f, &residual.value, rank))
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn general_correction(
+        &self,
+        m: &[[L::Scalar; N]; N],
+        f: &[[L::Scalar; N]; M],
+        left: &[L::Scalar; M],
+        rank: Rank<L::Scalar>,
+    ) -> Option<SVector<L::Scalar, N>> {
+        let zero = L::Scalar::constant(0.0);
+        let step = factors_of_nearest(m, f, rank).solve(&[zero; N], left).ok()?.accelerations;
         let moving: SVector<_, N> = vector(entries(|i| if self.held[i] { zero } else { step[i] }));
         moving.iter().all(|x| x.is_finite()).then_some(moving)
     }
@@ -418,6 +428,16 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Search f
         let held = (0..N).filter(|&i| self.held[i]).map(|i| L::COORDINATES[i]).collect();
         Error::HeldTooMuch { constraint, rate: self.level == Level::Velocity, residual: left, held, time }
     }
+}
+
+#[inline(never)]
+fn fast_correction<T: Real, const N: usize, const M: usize>(
+    m: &[[T; N]; N],
+    f: &[[T; N]; M],
+    left: &[T; M],
+) -> Option<SVector<T, N>> {
+    let fast = eliminate(*m, [T::constant(0.0); N], *f, *left);
+    is_trustworthy(&fast).then_some(fast.accelerations)
 }
 
 /// Factors of the least x with F x + γ = 0, in the metric of the mass matrix. Where F leaves a direction without mass,

@@ -4,6 +4,8 @@
 //! them (Absil, Mahony and Sepulchre, *Optimization Algorithms on Matrix Manifolds*, 6.2). Its Hessian is that of the
 //! Lagrange function, M − Σ μ ∇²Φ, on their tangent space; where that is not positive, multiples of M are added, and next to a
 //! maximum or a saddle the step goes along a direction in which the distance curves down: neither is taken for the nearest point.
+//!
+//! What factorizes is not inlined and what is kept lies on the heap: else all matrices would lie on the stack together.
 
 #[cfg(test)]
 mod tests;
@@ -15,6 +17,7 @@ use nalgebra::SVector;
 
 use super::{Level, diagonal, hold, project_holding};
 use crate::number::{Real, Scalar, entries, is_within, larger, power_of_epsilon, vector};
+use crate::room::Room;
 use crate::solution::kkt::{Factors, Rank};
 use crate::solution::newton::halvings;
 use crate::system::{Lagrangian, State};
@@ -43,21 +46,31 @@ pub(super) fn approach<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const 
 }
 
 /// The mass matrix at the coordinates given, or minus it, where that is positive; else the masses on its diagonal.
+#[inline(never)]
 fn metric<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     given: &State<L::Scalar, N>,
     held: &[bool; N],
     state: &State<L::Scalar, N>,
-) -> [[L::Scalar; N]; N] {
-    let (mut f, none) = (Level::Position.jacobian(system, state), [[L::Scalar::constant(0.0); N]; M]);
+) -> Room<[[L::Scalar; N]; N]> {
+    let mut f = Level::Position.jacobian(system, state);
     let mut m: [[L::Scalar; N]; N] = system.mass_matrix(given).into();
     if m.iter().enumerate().all(|(i, row)| row[i] <= L::Scalar::constant(0.0)) {
         m.as_flattened_mut().iter_mut().for_each(|x| *x = -*x);
     }
     hold(held, &mut m, &mut f);
-    let is_metric = Factors::of(&m, &none, Rank::off_constraints()).is_semidefinite()
-        && Factors::of(&m, &f, Rank::off_constraints()).are_regular();
-    if is_metric { m } else { diagonal(&m) }
+    Room::of(if is_semidefinite(&m) && is_regular(&m, &f) { m } else { diagonal(&m) })
+}
+
+#[inline(never)]
+fn is_semidefinite<T: Real, const N: usize>(m: &[[T; N]; N]) -> bool {
+    Factors::<T, N, 0>::of(m, &[], Rank::off_constraints()).is_semidefinite()
+}
+
+/// Whether what these constraints leave free has masses.
+#[inline(never)]
+fn is_regular<T: Real, const N: usize, const M: usize>(m: &[[T; N]; N], f: &[[T; N]; M]) -> bool {
+    Factors::of(m, f, Rank::off_constraints()).are_regular()
 }
 
 struct Nearest<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
@@ -65,13 +78,13 @@ struct Nearest<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
     given: &'a State<L::Scalar, N>,
     /// Entries that stay as they are.
     held: &'a [bool; N],
-    metric: [[L::Scalar; N]; N],
+    metric: Room<[[L::Scalar; N]; N]>,
 }
 
 /// A point on the constraints.
 struct ConstrainedPoint<T, const N: usize, const M: usize> {
     state: State<T, N>,
-    f: [[T; N]; M],
+    f: Room<[[T; N]; M]>,
     /// M (q₀ − q)
     pull: [T; N],
     /// The square of the distance.
@@ -84,6 +97,7 @@ struct ConstrainedPoint<T, const N: usize, const M: usize> {
 }
 
 impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<'_, L, N, M> {
+    #[inline(never)]
     fn place(&self, state: State<L::Scalar, N>) -> Option<ConstrainedPoint<L::Scalar, N, M>> {
         let (Self { system, given, metric, .. }, zero) = (self, L::Scalar::constant(0.0));
         let mut f = Level::Position.jacobian(*system, &state);
@@ -100,7 +114,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
         };
         Some(ConstrainedPoint {
             state,
-            f,
+            f: Room::of(f),
             pull,
             square,
             slip: found.accelerations,
@@ -138,6 +152,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
 
     /// Newton's step, none at a minimum. Where the distance curves down, a damped one, or next to a saddle one along a direction
     /// that leads down, as long as the point given is away; then the slip.
+    #[inline(never)]
     fn steps(&self, place: &ConstrainedPoint<L::Scalar, N, M>) -> [Option<SVector<L::Scalar, N>>; 2] {
         let hessian = self.hessian(place);
         let factors = Factors::of(&hessian, &place.f, Rank::off_constraints());
@@ -163,6 +178,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
     }
 
     /// Newton's step with the least of a few multiples of the metric added to the Hessian that make it positive.
+    #[inline(never)]
     fn damped(
         &self,
         place: &ConstrainedPoint<L::Scalar, N, M>,
@@ -191,11 +207,12 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
 
     /// M − Σ μ ∇²Φ, from central differences of Fᵀμ over a part ε^(1/3) of the distance. As |Fᵀμ| is M times the distance, they are
     /// off by a part ε^(2/3) of M: a step of Newton's method leaves as little of the slip.
-    fn hessian(&self, place: &ConstrainedPoint<L::Scalar, N, M>) -> [[L::Scalar; N]; N] {
+    #[inline(never)]
+    fn hessian(&self, place: &ConstrainedPoint<L::Scalar, N, M>) -> Room<[[L::Scalar; N]; N]> {
         let (zero, half) = (L::Scalar::constant(0.0), L::Scalar::constant(0.5));
         let is_active = |a: usize| Level::Position.is_active(L::CONSTRAINT_KINDS[a]);
         let multipliers = vector(entries(|a| if is_active(a) { place.multipliers[a] } else { zero }));
-        let mut hessian = self.metric;
+        let mut hessian = self.metric.clone();
         for j in 0..N {
             let step = self.difference(place, j);
             let force = |step: L::Scalar| {
@@ -209,7 +226,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
                 hessian[j][i] -= change[i];
             }
         }
-        hold(self.held, &mut hessian, &mut []);
+        hold(self.held, &mut *hessian, &mut []);
         hessian
     }
 
