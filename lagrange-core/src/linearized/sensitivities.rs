@@ -12,7 +12,7 @@ use crate::ending::Ending;
 use crate::error::Error;
 use crate::motion::MotionBuilder;
 use crate::motion::builder::EventList;
-use crate::motion::run::{Companion, Driven, OnProgress, Run, drive};
+use crate::motion::run::{Companion, OnProgress, Run, drive};
 use crate::names::Entry;
 use crate::number::{Over, Real, Scalar, Wide};
 use crate::solution::flow::{LagrangianFlow, Phase};
@@ -122,47 +122,54 @@ where
     D: DifferentiableMethod<L, N, M, P>,
 {
     check_finite(system, &start.state)?;
-    let along = |state: &State<L::Scalar, N>| {
-        let (course, stages) = Course::from(system, state, start, method)?;
-        Ok(Along { course, stages })
-    };
-    let driven = drive::<_, LagrangianFlow, _, _, Along<L, D, N, M, P>, N, M, true>(
+    let mut along = Along { start, before: start.state, going: None };
+    let trajectory = drive::<_, LagrangianFlow, _, _, Along<'_, L, D, N, M, P>, N, M, true>(
         system,
         start.state,
         end,
         method,
         events,
         on_progress,
-        along,
+        &mut along,
     )?;
-    let Driven { trajectory, companion: Along { course, .. }, before } = driven;
+    // The motion has begun, and they with it.
+    let Some((course, _)) = along.going else { return Err(Error::EndNotFinite { end: end.to_f64() }) };
     let event = trajectory.crossings().last().map(|crossing| crossing.index);
     let is_at_event = matches!(trajectory.ending(), Ending::Event { .. });
     let event = event.filter(|_| is_at_event).and_then(|index| events.get(index));
     let end = trajectory.check_finished().and_then(|()| course.at(system, trajectory.end().state()));
     let end = end.and_then(|at| match event {
         None => Ok(at),
-        Some(event) => at_event(system, at, &**event, &before),
+        Some(event) => at_event(system, at, &**event, &along.before),
     });
     Ok(Sensitivities { trajectory, course, end })
 }
 
 /// The derivatives along a motion that is on its way.
-struct Along<L, D, const N: usize, const M: usize, const P: usize>
+struct Along<'s, L, D, const N: usize, const M: usize, const P: usize>
 where
     L: Linearized<N, M, P, Scalar: Real>,
     D: DifferentiableMethod<L, N, M, P>,
 {
-    course: Course<L, N, M, P>,
-    stages: D::Companion,
+    start: &'s Sensitivity<L::Scalar, N>,
+    /// Where the last step started.
+    before: State<L::Scalar, N>,
+    /// From the start on.
+    going: Option<(Course<L, N, M, P>, D::Companion)>,
 }
 
 impl<L, D, const N: usize, const M: usize, const P: usize> Companion<L, LagrangianFlow, D, N, M>
-    for Along<L, D, N, M, P>
+    for Along<'_, L, D, N, M, P>
 where
     L: Linearized<N, M, P, Scalar: Real>,
     D: DifferentiableMethod<L, N, M, P>,
 {
+    fn begin(&mut self, system: &L, method: &D, start: &State<L::Scalar, N>) -> Result<(), Error> {
+        self.before = *start;
+        self.going = Some(Course::from(system, start, self.start, method)?);
+        Ok(())
+    }
+
     fn prepare(
         &mut self,
         system: &L,
@@ -170,7 +177,8 @@ where
         run: &mut Run<D::Memory, L::Scalar, N>,
         end: L::Scalar,
     ) -> Result<(), Ending> {
-        method.prepare(system, run, end, &self.course.variations, &mut self.stages)
+        let Some((course, stages)) = &mut self.going else { return Ok(()) };
+        method.prepare(system, run, end, &course.variations, stages)
     }
 
     fn follow(
@@ -180,13 +188,17 @@ where
         run: &mut Run<D::Memory, L::Scalar, N>,
         within: &mut Vec<D::Interpolant>,
     ) -> Result<(), Ending> {
-        let Self { course: Course { variations, coefficients, .. }, stages } = self;
+        let Some((course, stages)) = &mut self.going else { return Ok(()) };
+        let Course { variations, coefficients, .. } = course;
         method.follow(system, run, variations, stages)?;
         method.interpolate(system, run, variations, stages, within, coefficients)
     }
 
-    fn keep(&mut self, from: L::Scalar, to: L::Scalar) {
-        self.course.push(from, to);
+    fn keep(&mut self, from: &State<L::Scalar, N>, to: &State<L::Scalar, N>) {
+        self.before = *from;
+        if let Some((course, _)) = &mut self.going {
+            course.push(from.t, to.t);
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use core::ops::ControlFlow;
 
 use super::event::Watched;
 use super::method::{Dop853, Method};
-use super::run::{Driven, NoCompanion, OnProgress, Progress, drive};
+use super::run::{NoCompanion, OnProgress, Progress, drive};
 use crate::error::Error;
 use crate::number::Real;
 use crate::solution::flow::Flow;
@@ -33,14 +33,14 @@ pub struct MotionBuilder<'a, 'w, L, S, const N: usize, const M: usize, P = Dop85
 /// The state that a motion starts at, and the equations that it goes by, `F`: those of Lagrange, or those of Hamilton.
 #[derive(Clone, Debug)]
 pub struct Start<T, const N: usize, F> {
-    /// Or why there is none.
-    state: Result<State<T, N>, Error>,
+    /// Or why there is none. On the heap: what is asked for is moved from call to call.
+    state: Box<Result<State<T, N>, Error>>,
     flow: PhantomData<F>,
 }
 
 impl<T, const N: usize, F> Start<T, N, F> {
     pub(crate) fn new(state: Result<State<T, N>, Error>) -> Self {
-        Self { state, flow: PhantomData }
+        Self { state: Box::new(state), flow: PhantomData }
     }
 }
 
@@ -156,29 +156,16 @@ where
         P: Method<L, N, M, F>,
     {
         let Self { system, start, method, events, on_progress } = self;
-        let (state, mut events) = (start.state?, events.list());
-        let none = |_: &State<L::Scalar, N>| Ok(NoCompanion);
-        let driven: Driven<'a, L, F, NoCompanion, N, M> = match const { E::IS_WATCHED } {
-            true => drive::<_, _, _, _, _, N, M, true>(
-                system,
-                state,
-                end,
-                &method,
-                &mut events,
-                on_progress,
-                none,
-            )?,
-            false => drive::<_, _, _, _, _, N, M, false>(
-                system,
-                state,
-                end,
-                &method,
-                &mut events,
-                on_progress,
-                none,
-            )?,
-        };
-        Ok(driven.trajectory)
+        let (state, mut events) = ((*start.state)?, events.list());
+        let (events, none) = (&mut events, &mut NoCompanion);
+        match const { E::IS_WATCHED } {
+            true => {
+                drive::<_, _, _, _, _, N, M, true>(system, state, end, &method, events, on_progress, none)
+            }
+            false => {
+                drive::<_, _, _, _, _, N, M, false>(system, state, end, &method, events, on_progress, none)
+            }
+        }
     }
 }
 

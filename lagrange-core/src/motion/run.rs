@@ -218,6 +218,9 @@ where
     F: Flow<L, N, M>,
     P: Method<L, N, M, F>,
 {
+    /// At the start.
+    fn begin(&mut self, system: &L, method: &P, start: &State<L::Scalar, N>) -> Result<(), Error>;
+
     /// Before a step towards `end`.
     fn prepare(
         &mut self,
@@ -236,8 +239,8 @@ where
         within: &mut Vec<P::Interpolant>,
     ) -> Result<(), Ending>;
 
-    /// After a step between these times that stays.
-    fn keep(&mut self, from: L::Scalar, to: L::Scalar);
+    /// After a step between these states that stays.
+    fn keep(&mut self, from: &State<L::Scalar, N>, to: &State<L::Scalar, N>);
 }
 
 /// None: what lies within a step is that of the motion alone.
@@ -251,6 +254,11 @@ where
     F: Flow<L, N, M>,
     P: Method<L, N, M, F>,
 {
+    #[inline(always)]
+    fn begin(&mut self, _: &L, _: &P, _: &State<L::Scalar, N>) -> Result<(), Error> {
+        Ok(())
+    }
+
     #[inline(always)]
     fn prepare(
         &mut self,
@@ -274,19 +282,7 @@ where
     }
 
     #[inline(always)]
-    fn keep(&mut self, _: L::Scalar, _: L::Scalar) {}
-}
-
-/// A motion that was computed, its companion, and where its last step started.
-#[cfg(feature = "alloc")]
-pub(crate) struct Driven<'a, L, F, C, const N: usize, const M: usize>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
-{
-    pub(crate) trajectory: Trajectory<&'a L, N, M, F>,
-    pub(crate) companion: C,
-    pub(crate) before: State<L::Scalar, N>,
+    fn keep(&mut self, _: &State<L::Scalar, N>, _: &State<L::Scalar, N>) {}
 }
 
 /// Computes a motion, see [`MotionBuilder`](super::MotionBuilder). Where there are no events, and `IS_WATCHED` is false,
@@ -299,8 +295,8 @@ pub(crate) fn drive<'a, L, F, P, W, C, const N: usize, const M: usize, const IS_
     method: &P,
     events: &mut [W],
     mut on_progress: Option<OnProgress<'_>>,
-    companion: impl FnOnce(&State<L::Scalar, N>) -> Result<C, Error>,
-) -> Result<Driven<'a, L, F, C, N, M>, Error>
+    companion: &mut C,
+) -> Result<Trajectory<&'a L, N, M, F>, Error>
 where
     L: Lagrangian<N, M, Scalar: Real>,
     F: Flow<L, N, M>,
@@ -313,7 +309,7 @@ where
     let mut begun = Run::begin(system, &state, method);
     let (run, adjustment) = begun.as_mut().map_err(|error| error.clone())?;
     let start = run.state.t.to_f64();
-    let mut companion = companion(&run.state)?;
+    companion.begin(system, method, &run.state)?;
     let mut path = Path::from(run.state);
     let mut search = EventSearch::begin(events, system, &run.state)?;
     let limits = Watchdog::new(method.limits(), &run.statistics);
@@ -334,7 +330,7 @@ where
         if let Err(ending) = run.step_with::<L, F, P, _, M>(system, method, end, &limits, along) {
             break ending;
         }
-        companion.keep(run.before.t, run.state.t);
+        companion.keep(&run.before, &run.state);
         path.push(run.state);
         if const { IS_WATCHED } {
             stopped = search.record_in::<F, _>(&mut path, system, [&run.before, &run.state]);
@@ -348,8 +344,7 @@ where
             break Ending::Cancelled { time };
         }
     };
-    let trajectory = Trajectory::new(system, path.finish(), ending, run.statistics, *adjustment);
-    Ok(Driven { trajectory, companion, before: run.before })
+    Ok(Trajectory::new(system, path.finish(), ending, run.statistics, *adjustment))
 }
 
 /// Tells the method of a system that has been changed, or of another state.
