@@ -247,7 +247,7 @@ const CONSTANTS: [&str; 16] = [
 
 /// What every system has beside: methods of `Lagrangian` that it can do without, of `Simulate`, `Hamiltonian`,
 /// `StateDerivatives` and `Linearized`.
-const PROVIDED: [&str; 29] = [
+const PROVIDED: [&str; 30] = [
     "visit_parameters",
     "visit_defects",
     "solve",
@@ -258,6 +258,7 @@ const PROVIDED: [&str; 29] = [
     "integrate",
     "motion",
     "motion_in_momenta",
+    "integrate_hamiltonian",
     "sample",
     "event",
     "impact",

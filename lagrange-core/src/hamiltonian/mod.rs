@@ -13,11 +13,16 @@ pub use phase::{PhaseRate, PhaseState};
 
 use crate::error::Error;
 #[cfg(feature = "alloc")]
-use crate::motion::builder::{MotionBuilder, Start};
+use crate::motion::{
+    Method,
+    builder::{MotionBuilder, Start},
+};
 use crate::names::Entry;
 use crate::number::{Real, Scalar};
 use crate::system::finite::check_entries;
 use crate::system::{Lagrangian, State};
+#[cfg(feature = "alloc")]
+use crate::trajectory::Trajectory;
 use phase::equations;
 
 /// The Legendre transform, the Hamiltonian and Hamilton's equations with constraints: every [`Lagrangian`] over
@@ -103,6 +108,21 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
     ) -> Result<PhaseRate<Self::Scalar, N, M>, Error> {
         let state = self.legendre(phase)?;
         equations(self, &state, None).map(|(rate, ..)| rate)
+    }
+
+    /// The motion from a phase state to the time `end` by Hamilton's equations: as
+    /// [`integrate`](crate::Simulate::integrate), but the method adds up and controls coordinates and momenta.
+    ///
+    /// # Errors
+    /// As [`integrate`](crate::Simulate::integrate) and [`legendre`](Self::legendre).
+    #[cfg(feature = "alloc")]
+    fn integrate_hamiltonian<P: Method<Self, N, M, HamiltonianFlow>>(
+        &self,
+        phase: PhaseState<Self::Scalar, N>,
+        end: Self::Scalar,
+        method: P,
+    ) -> Result<Trajectory<&Self, N, M, HamiltonianFlow>, Error> {
+        self.motion_in_momenta(phase).by(method).to(end)
     }
 
     /// A motion from a phase state by Hamilton's equations, to be asked for piece by piece as
