@@ -11,7 +11,7 @@ use lagrange_core::prelude::*;
 #[observable(first = push[0])]
 #[observable(thrust = der(speed))]
 #[observable(change = rate(speed))]
-#[observable(motion = place(x))]
+#[observable(moving = place(x))]
 #[observable(fast = ẍ)]
 #[observable(wrong = nothing*thrust)]
 #[observable(worse = nothing + der(speed))]
@@ -26,6 +26,6 @@ fn main() {
     let solution = system.accelerations_unchecked(&state);
     println!("{}", system.push(&state, &solution)[1] + system.first(&state, &solution));
     println!("{}", system.thrust(&state, &solution) + system.change(&state, &solution));
-    println!("{}", system.motion(&state) + system.fast(&state, &solution));
+    println!("{}", system.moving(&state) + system.fast(&state, &solution));
     println!("{}", system.wrong(&state, &solution) + system.worse(&state, &solution) + system.worst(&state));
 }
