@@ -125,7 +125,7 @@ where
     let mut along = Along { start, before: start.state, going: None };
     let trajectory = drive::<_, LagrangianFlow, _, _, Along<'_, L, D, N, M, P>, N, M, true>(
         system,
-        start.state,
+        &start.state,
         end,
         method,
         events,

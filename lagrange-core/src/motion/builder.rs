@@ -156,7 +156,7 @@ where
         P: Method<L, N, M, F>,
     {
         let Self { system, start, method, events, on_progress } = self;
-        let (state, mut events) = ((*start.state)?, events.list());
+        let (state, mut events) = (start.state.as_ref().as_ref().map_err(Error::clone)?, events.list());
         let (events, none) = (&mut events, &mut NoCompanion);
         match const { E::IS_WATCHED } {
             true => {

@@ -290,7 +290,7 @@ where
 #[cfg(feature = "alloc")]
 pub(crate) fn drive<'a, L, F, P, W, C, const N: usize, const M: usize, const IS_WATCHED: bool>(
     system: &'a L,
-    state: State<L::Scalar, N>,
+    state: &State<L::Scalar, N>,
     end: L::Scalar,
     method: &P,
     events: &mut [W],
@@ -306,7 +306,7 @@ where
 {
     check_end(end)?;
     // Not moved to where it is used: unless that is optimized away, there would be several of it.
-    let mut begun = Run::begin(system, &state, method);
+    let mut begun = Run::begin(system, state, method);
     let (run, adjustment) = begun.as_mut().map_err(|error| error.clone())?;
     let start = run.state.t.to_f64();
     companion.begin(system, method, &run.state)?;

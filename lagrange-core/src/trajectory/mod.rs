@@ -150,12 +150,12 @@ where
 
     /// The first state, made consistent.
     pub fn start(&self) -> Sample<S, N, M> {
-        self.sample(self.path.start)
+        self.sample(*self.path.start)
     }
 
     /// The last state.
     pub fn end(&self) -> Sample<S, N, M> {
-        self.sample(self.path.last)
+        self.sample(*self.path.last)
     }
 
     /// The states that the method computed, first and last included.
@@ -179,7 +179,7 @@ impl<S: Lagrangian<N, M, Scalar: Real>, F: Flow<S, N, M>, const N: usize, const 
 {
     fn states_of_steps(&self) -> impl Iterator<Item = State<S::Scalar, N>> + '_ {
         let starts = (0..self.statistics.accepted).filter_map(|i| self.path.start_of(i));
-        starts.map(|point| F::state(&self.system, &point)).chain(once(self.path.last))
+        starts.map(|point| F::state(&self.system, &point)).chain(once(*self.path.last))
     }
 
     fn states(&self, count: usize) -> impl Iterator<Item = State<S::Scalar, N>> + '_ {
@@ -195,7 +195,7 @@ impl<S: Lagrangian<N, M, Scalar: Real>, F: Flow<S, N, M>, const N: usize, const 
     /// An interpolated state is off the constraints by about the tolerance: it is projected.
     fn state_at(&self, t: S::Scalar) -> Result<State<S::Scalar, N>, Error> {
         if t == self.path.last.t {
-            return Ok(self.path.last);
+            return Ok(*self.path.last);
         }
         match self.path.at(t) {
             Some(point) => F::project(&self.system, &point),
@@ -212,8 +212,8 @@ impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Debug for Trajector
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_struct("Trajectory")
             .field("system", &S::NAME)
-            .field("start", &self.path.start)
-            .field("end", &self.path.last)
+            .field("start", &*self.path.start)
+            .field("end", &*self.path.last)
             .field("ending", &self.ending)
             .field("statistics", &self.statistics)
             .finish()

@@ -5,14 +5,15 @@ use alloc::vec::Vec;
 
 use crate::motion::{Crossing, Interpolant};
 use crate::number::Real;
+use crate::room::Room;
 use crate::solution::flow::PhasePoint;
 use crate::system::State;
 
 /// The states at the ends of the steps, and the interpolants between them: those of one method, whose type is
 /// forgotten when it is finished.
 pub(crate) struct Path<T, const N: usize, S = Box<dyn Interpolants<T, N> + Send + Sync>> {
-    pub(super) start: State<T, N>,
-    pub(super) last: State<T, N>,
+    pub(super) start: Room<State<T, N>>,
+    pub(super) last: Room<State<T, N>>,
     /// Where events were on the way.
     pub(crate) crossings: Vec<Crossing<T, N>>,
     /// The times at the starts of the steps.
@@ -34,7 +35,13 @@ impl<T, const N: usize, I: Interpolant<T, N>> Interpolants<T, N> for Vec<I> {
 
 impl<T: Real, const N: usize, I: Interpolant<T, N> + Send + Sync + 'static> Path<T, N, Vec<I>> {
     pub(crate) fn from(start: State<T, N>) -> Self {
-        Self { start, last: start, crossings: Vec::new(), times: Vec::new(), interpolants: Vec::new() }
+        Self {
+            start: Room::of(start),
+            last: Room::of(start),
+            crossings: Vec::new(),
+            times: Vec::new(),
+            interpolants: Vec::new(),
+        }
     }
 
     /// Where the interpolant of the next step is put, before the step is [pushed](Self::push).
@@ -47,7 +54,7 @@ impl<T: Real, const N: usize, I: Interpolant<T, N> + Send + Sync + 'static> Path
     #[inline(always)]
     pub(crate) fn push(&mut self, state: State<T, N>) {
         self.times.push(self.last.t);
-        self.last = state;
+        *self.last = state;
     }
 
     /// What lies within the last step, and where crossings within it belong.
@@ -61,7 +68,7 @@ impl<T: Real, const N: usize, I: Interpolant<T, N> + Send + Sync + 'static> Path
             self.times.pop();
             self.interpolants.truncate(self.times.len());
         }
-        self.last = end;
+        *self.last = end;
     }
 
     pub(crate) fn finish(self) -> Path<T, N> {
