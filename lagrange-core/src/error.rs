@@ -330,7 +330,7 @@ pub enum Error {
 
 impl core::error::Error for Error {}
 
-/// So that `?` carries both kinds of failure, of what is asked and of a motion on its way.
+/// Lets `?` return the ending of a [`Motion`](crate::Motion) that failed from a function that returns an [`Error`].
 #[cfg(feature = "alloc")]
 impl From<Ending> for Error {
     fn from(ending: Ending) -> Self {

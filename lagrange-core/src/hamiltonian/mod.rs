@@ -15,7 +15,7 @@ use crate::error::Error;
 #[cfg(feature = "alloc")]
 use crate::motion::{
     Method,
-    builder::{MotionBuilder, Start},
+    builder::{MotionBuilder, MotionFrom, Start},
 };
 use crate::names::Entry;
 use crate::number::{Real, Scalar};
@@ -125,20 +125,15 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
         self.motion_in_momenta(phase).by(method).to(end)
     }
 
-    /// A motion from a phase state by Hamilton's equations, to be asked for piece by piece as
-    /// [`motion`](crate::Simulate::motion) says; the method adds up and controls coordinates and momenta.
+    /// The settings of a motion by Hamilton's equations from a phase state: events and the rest are chosen as for
+    /// [`motion`](crate::Simulate::motion). The method integrates coordinates and momenta, and controls the errors of both.
     #[cfg(feature = "alloc")]
     fn motion_in_momenta<'w>(
         &self,
         phase: PhaseState<Self::Scalar, N>,
-    ) -> HamiltonianMotion<'_, 'w, Self, N, M> {
+    ) -> MotionFrom<'_, 'w, Self, HamiltonianFlow, N, M> {
         MotionBuilder::new(self, Start::new(self.legendre(&phase)))
     }
 }
-
-/// A motion by Hamilton's equations that is asked for.
-#[cfg(feature = "alloc")]
-type HamiltonianMotion<'a, 'w, L, const N: usize, const M: usize> =
-    MotionBuilder<'a, 'w, L, Start<<L as Lagrangian<N, M>>::Scalar, N, HamiltonianFlow>, N, M>;
 
 impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Hamiltonian<N, M> for L {}

@@ -109,11 +109,13 @@ pub trait AcrossEvents<const N: usize, const M: usize, const P: usize>:
         Event::new(name, OverDuals(function))
     }
 
-    /// A motion from a state with derivatives, to be asked for piece by piece as [`motion`](crate::Simulate::motion) says.
+    /// The settings of a motion with its derivatives, from a state whose derivatives are given: method and events are chosen as for
+    /// [`motion`](crate::Simulate::motion).
     ///
-    /// Where a leg before has ended at an event, its time is the start and changes too: derivatives are those at given
-    /// times. On constraints they are projected onto the tangent space. [`Sensitivities::end`](crate::Sensitivities::end) is the
-    /// error where the motion got neither to its end nor to an event, or where the event has no derivative.
+    /// Where the start is the end of an earlier leg, at an event, its time depends on the arguments too; the derivatives along the
+    /// motion are those at fixed times. On constraints they are projected onto the tangent space.
+    /// [`Sensitivities::end`](crate::Sensitivities::end) is an error where the motion reached neither its end nor an event, or where
+    /// the event has no derivative.
     fn motion_with_derivatives<'w>(
         &self,
         start: &Sensitivity<Self::Scalar, N>,

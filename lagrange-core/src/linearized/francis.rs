@@ -48,8 +48,8 @@ fn hessenberg<T: Real>(a: DMatrix<T>) -> DMatrix<T> {
     if a.nrows() < 3 { a } else { Hessenberg::new(a).h() }
 }
 
-/// Two shifts, both real or conjugate. Their sum and product would do, but where an eigenvalue is multiple the differences
-/// between it and the diagonal are all that is left, and would cancel.
+/// Two shifts, both real or complex conjugates. They are kept apart, and not as their sum and product: next to a multiple eigenvalue
+/// the differences between shifts and diagonal are of the size of round-off, and would be lost in the product.
 type Shifts<T> = [Complex<T>; 2];
 
 struct Francis<T> {

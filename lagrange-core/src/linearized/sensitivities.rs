@@ -53,7 +53,7 @@ struct Course<L: Linearized<N, M, P, Scalar: Real>, const N: usize, const M: usi
 /// What lies after a part of a step, by its coefficients.
 type Between<W, const N: usize> = fn(&[Phase<W, N>], W) -> Phase<W, N>;
 
-/// What an event is to a motion with derivatives.
+/// An event of a motion with derivatives.
 type AnyEvent<'a, L, const N: usize, const M: usize, const P: usize> =
     dyn DifferentiableEvent<L, N, M, P> + 'a;
 
@@ -62,7 +62,7 @@ impl<'a, 'w, L, const N: usize, const M: usize, P, E>
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {
-    /// With this event, or a `&mut` to it, made by [`differentiable_event`](crate::AcrossEvents::differentiable_event).
+    /// Adds an event made by [`differentiable_event`](crate::AcrossEvents::differentiable_event), by value or as `&mut event`.
     #[allow(clippy::type_complexity, reason = "the type of the builder itself, with its list of events")]
     pub fn event<const K: usize>(
         self,
@@ -79,11 +79,11 @@ where
         })
     }
 
-    /// The motion with its derivatives to the time `end`, or to the first terminal event.
+    /// Integrates the motion and its derivatives to the time `end`, or to the first [terminal](crate::Event::terminal) event.
     ///
     /// # Errors
-    /// As [`Linearized::integrate_sensitivities`]; [`Error::EventNotFinite`] and [`Error::UnknownName`] of the functions of events
-    /// at the start.
+    /// The errors of [`Linearized::integrate_sensitivities`]; [`Error::EventNotFinite`] and [`Error::UnknownName`] where the function
+    /// of an event fails at the start.
     pub fn to<const K: usize>(self, end: L::Scalar) -> Result<Sensitivities<'a, L, N, M, K>, Error>
     where
         L: Linearized<N, M, K>,
@@ -93,10 +93,11 @@ where
         self.towards(end)?.finished()
     }
 
-    /// The motion with its derivatives as far as it gets on the way to the time `end`.
+    /// Integrates the motion and its derivatives towards the time `end`. Where the motion fails on the way, what was computed up to
+    /// there is returned.
     ///
     /// # Errors
-    /// As [`to`](Self::to), of what is wrong before the first step.
+    /// The errors of [`to`](Self::to) that are found before the first step.
     pub fn towards<const K: usize>(self, end: L::Scalar) -> Result<Sensitivities<'a, L, N, M, K>, Error>
     where
         L: Linearized<N, M, K>,
@@ -108,7 +109,7 @@ where
     }
 }
 
-/// See [`MotionBuilder`], from a start with derivatives.
+/// Integrates a motion together with its derivatives.
 fn integrate<'a, L, D, const N: usize, const M: usize, const P: usize>(
     system: &'a L,
     start: &Sensitivity<L::Scalar, N>,
@@ -122,54 +123,62 @@ where
     D: DifferentiableMethod<L, N, M, P>,
 {
     check_finite(system, &start.state)?;
-    let mut along = Along { start, before: start.state, going: None };
-    let trajectory = drive::<_, LagrangianFlow, _, _, Along<'_, L, D, N, M, P>, N, M, true>(
-        system,
-        &start.state,
-        end,
-        method,
-        events,
-        on_progress,
-        &mut along,
-    )?;
-    // The motion has begun, and they with it.
-    let Some((course, _)) = along.going else { return Err(Error::EndNotFinite { end: end.to_f64() }) };
-    let event = trajectory.crossings().last().map(|crossing| crossing.index);
+    let along = |state: &State<L::Scalar, N>| Along::begin(system, state, start, method);
+    let (trajectory, Along { course, before, .. }) =
+        drive::<_, LagrangianFlow, _, _, Along<L, D, N, M, P>, N, M, true>(
+            system,
+            &start.state,
+            end,
+            method,
+            events,
+            on_progress,
+            along,
+        )?;
     let is_at_event = matches!(trajectory.ending(), Ending::Event { .. });
-    let event = event.filter(|_| is_at_event).and_then(|index| events.get(index));
+    let last = trajectory.crossings().last().filter(|_| is_at_event);
     let end = trajectory.check_finished().and_then(|()| course.at(system, trajectory.end().state()));
-    let end = end.and_then(|at| match event {
+    let end = end.and_then(|at| match last.and_then(|crossing| events.get(crossing.index)) {
         None => Ok(at),
-        Some(event) => at_event(system, at, &**event, &along.before),
+        Some(event) => at_event(system, at, &**event, &before),
     });
     Ok(Sensitivities { trajectory, course, end })
 }
 
-/// The derivatives along a motion that is on its way.
-struct Along<'s, L, D, const N: usize, const M: usize, const P: usize>
+/// The derivatives of a motion while it is integrated.
+struct Along<L, D, const N: usize, const M: usize, const P: usize>
 where
     L: Linearized<N, M, P, Scalar: Real>,
     D: DifferentiableMethod<L, N, M, P>,
 {
-    start: &'s Sensitivity<L::Scalar, N>,
-    /// Where the last step started.
+    course: Course<L, N, M, P>,
+    /// What the method needs for the next step of the derivatives.
+    stages: D::Companion,
+    /// The state at the start of the last step.
     before: State<L::Scalar, N>,
-    /// From the start on.
-    going: Option<(Course<L, N, M, P>, D::Companion)>,
+}
+
+impl<L, D, const N: usize, const M: usize, const P: usize> Along<L, D, N, M, P>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+    D: DifferentiableMethod<L, N, M, P>,
+{
+    fn begin(
+        system: &L,
+        state: &State<L::Scalar, N>,
+        start: &Sensitivity<L::Scalar, N>,
+        method: &D,
+    ) -> Result<Self, Error> {
+        let (course, stages) = Course::from(system, state, start, method)?;
+        Ok(Self { course, stages, before: *state })
+    }
 }
 
 impl<L, D, const N: usize, const M: usize, const P: usize> Companion<L, LagrangianFlow, D, N, M>
-    for Along<'_, L, D, N, M, P>
+    for Along<L, D, N, M, P>
 where
     L: Linearized<N, M, P, Scalar: Real>,
     D: DifferentiableMethod<L, N, M, P>,
 {
-    fn begin(&mut self, system: &L, method: &D, start: &State<L::Scalar, N>) -> Result<(), Error> {
-        self.before = *start;
-        self.going = Some(Course::from(system, start, self.start, method)?);
-        Ok(())
-    }
-
     fn prepare(
         &mut self,
         system: &L,
@@ -177,8 +186,7 @@ where
         run: &mut Run<D::Memory, L::Scalar, N>,
         end: L::Scalar,
     ) -> Result<(), Ending> {
-        let Some((course, stages)) = &mut self.going else { return Ok(()) };
-        method.prepare(system, run, end, &course.variations, stages)
+        method.prepare(system, run, end, &self.course.variations, &mut self.stages)
     }
 
     fn follow(
@@ -188,17 +196,14 @@ where
         run: &mut Run<D::Memory, L::Scalar, N>,
         within: &mut Vec<D::Interpolant>,
     ) -> Result<(), Ending> {
-        let Some((course, stages)) = &mut self.going else { return Ok(()) };
-        let Course { variations, coefficients, .. } = course;
+        let Self { course: Course { variations, coefficients, .. }, stages, .. } = self;
         method.follow(system, run, variations, stages)?;
         method.interpolate(system, run, variations, stages, within, coefficients)
     }
 
     fn keep(&mut self, from: &State<L::Scalar, N>, to: &State<L::Scalar, N>) {
         self.before = *from;
-        if let Some((course, _)) = &mut self.going {
-            course.push(from.t, to.t);
-        }
+        self.course.push(from.t, to.t);
     }
 }
 

@@ -1,4 +1,4 @@
-//! A motion is asked for, piece by piece.
+//! The settings of one motion: its start, its method, its events and who looks at its progress.
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -15,13 +15,12 @@ use crate::solution::flow::Flow;
 use crate::system::{Lagrangian, State};
 use crate::trajectory::Trajectory;
 
-/// A motion that is asked for: where it starts, by which method it goes, and what is to be looked at on the way.
+/// The settings of a motion that has not been integrated yet: its start, its method, its events and who looks at its progress.
 ///
-/// Made by [`motion`](crate::Simulate::motion), [`motion_in_momenta`](crate::Hamiltonian::motion_in_momenta) and
-/// [`motion_with_derivatives`](crate::AcrossEvents::motion_with_derivatives); [`to`](Self::to) and [`towards`](Self::towards) compute it.
-///
-/// The method is [`Dop853`] with a tolerance of 10⁻⁹ unless [`by`](Self::by) names another.
-#[must_use = "a motion is computed by `to` or `towards`"]
+/// [`motion`](crate::Simulate::motion), [`motion_in_momenta`](crate::Hamiltonian::motion_in_momenta) and
+/// [`motion_with_derivatives`](crate::AcrossEvents::motion_with_derivatives) make it, [`to`](Self::to) and [`towards`](Self::towards)
+/// integrate. The method is [`Dop853`] with a tolerance of 10⁻⁹ unless [`by`](Self::by) names another.
+#[must_use = "a motion is integrated by `to` or `towards`"]
 pub struct MotionBuilder<'a, 'w, L, S, const N: usize, const M: usize, P = Dop853, E = ()> {
     pub(crate) system: &'a L,
     pub(crate) start: S,
@@ -30,10 +29,11 @@ pub struct MotionBuilder<'a, 'w, L, S, const N: usize, const M: usize, P = Dop85
     pub(crate) on_progress: Option<OnProgress<'w>>,
 }
 
-/// The state that a motion starts at, and the equations that it goes by, `F`: those of Lagrange, or those of Hamilton.
+/// The state at which a motion starts, and the equations of motion, `F`: Lagrange's or Hamilton's.
 #[derive(Clone, Debug)]
 pub struct Start<T, const N: usize, F> {
-    /// Or why there is none. On the heap: what is asked for is moved from call to call.
+    /// An error where the start is not finite, or where no velocities belong to its momenta. It lies on the heap, because each call of
+    /// the builder moves the settings, and a state of 1,000 coordinates would fill the stack.
     state: Box<Result<State<T, N>, Error>>,
     flow: PhantomData<F>,
 }
@@ -44,13 +44,17 @@ impl<T, const N: usize, F> Start<T, N, F> {
     }
 }
 
-/// The events of a [`MotionBuilder`]: none, or a list.
+/// The settings of a motion without derivatives, by the equations of motion `F`.
+pub(crate) type MotionFrom<'a, 'w, L, F, const N: usize, const M: usize> =
+    MotionBuilder<'a, 'w, L, Start<<L as Lagrangian<N, M>>::Scalar, N, F>, N, M>;
+
+/// The events of a [`MotionBuilder`], `()` where there are none.
 pub trait EventList<W: ?Sized> {
-    /// Whether steps are looked into.
+    /// Whether there are events.
     #[doc(hidden)]
     const IS_WATCHED: bool;
 
-    /// The list.
+    /// The events in the order in which they were given.
     #[doc(hidden)]
     fn list(self) -> Vec<Box<W>>;
 }
@@ -78,14 +82,14 @@ impl<'a, 'w, L, S, const N: usize, const M: usize> MotionBuilder<'a, 'w, L, S, N
 }
 
 impl<'a, 'w, L, S, const N: usize, const M: usize, P, E> MotionBuilder<'a, 'w, L, S, N, M, P, E> {
-    /// By this method.
+    /// Sets the method.
     pub fn by<Q>(self, method: Q) -> MotionBuilder<'a, 'w, L, S, N, M, Q, E> {
         let Self { system, start, events, on_progress, .. } = self;
         MotionBuilder { system, start, method, events, on_progress }
     }
 
-    /// With a look at the progress after every step. `ControlFlow::Break` cancels, which is no error: what was computed until then
-    /// is there, and its ending is [`Ending::Cancelled`](crate::Ending::Cancelled).
+    /// Calls `look` with the progress after every step. Where it returns `ControlFlow::Break` the motion ends there, which is no
+    /// error: its ending is [`Ending::Cancelled`](crate::Ending::Cancelled).
     pub fn on_progress(mut self, look: impl FnMut(Progress) -> ControlFlow<()> + 'w) -> Self {
         self.on_progress = Some(Box::new(look));
         self
@@ -100,7 +104,7 @@ impl<'a, 'w, L, S, const N: usize, const M: usize, P, E> MotionBuilder<'a, 'w, L
     }
 }
 
-/// What an event is to a motion by itself.
+/// An event of a motion without derivatives.
 type AnyEvent<'a, L, const N: usize, const M: usize> = dyn Watched<L, N, M> + 'a;
 
 impl<'a, 'w, L, F, const N: usize, const M: usize, P, E>
@@ -110,8 +114,8 @@ where
     F: Flow<L, N, M>,
     E: EventList<AnyEvent<'w, L, N, M>>,
 {
-    /// With this event, or a `&mut` to it: its crossings are kept, and the motion ends where it is
-    /// [terminal](crate::Event::terminal). Several are given one after the other.
+    /// Adds an event, by value or as `&mut event`. The trajectory keeps its crossings, and the motion ends at it where it is
+    /// [terminal](crate::Event::terminal). For several events, call it once for each.
     #[allow(clippy::type_complexity, reason = "the type of the builder itself, with its list of events")]
     pub fn event(
         self,
@@ -120,7 +124,7 @@ where
         self.events([event])
     }
 
-    /// With these events of one type, in their order.
+    /// Adds several events of one type.
     #[allow(clippy::type_complexity, reason = "the type of the builder itself, with its list of events")]
     pub fn events<W: Watched<L, N, M> + 'w>(
         self,
@@ -134,12 +138,13 @@ where
         })
     }
 
-    /// The motion to the time `end`, backwards where that lies before the start; or to the first
+    /// Integrates to the time `end`, backwards where that lies before the start, or to the first
     /// [terminal](crate::Event::terminal) event.
     ///
     /// # Errors
-    /// As [`Simulate::integrate`](crate::Simulate::integrate); [`Error::EventNotFinite`] and [`Error::UnknownName`] of the functions of
-    /// events at the start; as [`legendre`](crate::Hamiltonian::legendre) from a [`PhaseState`](crate::PhaseState).
+    /// The errors of [`integrate`](crate::Simulate::integrate); for a motion in momenta those of
+    /// [`legendre`](crate::Hamiltonian::legendre); [`Error::EventNotFinite`] and [`Error::UnknownName`] where the function of an event
+    /// fails at the start.
     pub fn to(self, end: L::Scalar) -> Result<Trajectory<&'a L, N, M, F>, Error>
     where
         P: Method<L, N, M, F>,
@@ -147,25 +152,27 @@ where
         self.towards(end)?.finished()
     }
 
-    /// The motion as far as it gets on the way to the time `end`: [`Trajectory::ending`] tells why it gets no farther.
+    /// Integrates towards the time `end`. Where the motion fails on the way, the trajectory up to there is returned, and
+    /// [`Trajectory::ending`] says why it is no longer.
     ///
     /// # Errors
-    /// As [`to`](Self::to), of what is wrong before the first step.
+    /// The errors of [`to`](Self::to) that are found before the first step.
     pub fn towards(self, end: L::Scalar) -> Result<Trajectory<&'a L, N, M, F>, Error>
     where
         P: Method<L, N, M, F>,
     {
         let Self { system, start, method, events, on_progress } = self;
         let (state, mut events) = (start.state.as_ref().as_ref().map_err(Error::clone)?, events.list());
-        let (events, none) = (&mut events, &mut NoCompanion);
-        match const { E::IS_WATCHED } {
+        let (events, none) = (&mut events, |_: &State<L::Scalar, N>| Ok(NoCompanion));
+        let driven = match const { E::IS_WATCHED } {
             true => {
                 drive::<_, _, _, _, _, N, M, true>(system, state, end, &method, events, on_progress, none)
             }
             false => {
                 drive::<_, _, _, _, _, N, M, false>(system, state, end, &method, events, on_progress, none)
             }
-        }
+        };
+        driven.map(|(trajectory, NoCompanion)| trajectory)
     }
 }
 

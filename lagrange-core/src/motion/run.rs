@@ -210,7 +210,7 @@ where
     return method.interpolant(system, memory, statistics).map(|interpolant| *within = Some(interpolant));
 }
 
-/// What is computed along with a motion, step by step.
+/// What is integrated along with a motion, step by step: its derivatives, say.
 #[cfg(feature = "alloc")]
 pub(crate) trait Companion<L, F, P, const N: usize, const M: usize>
 where
@@ -218,19 +218,21 @@ where
     F: Flow<L, N, M>,
     P: Method<L, N, M, F>,
 {
-    /// At the start.
-    fn begin(&mut self, system: &L, method: &P, start: &State<L::Scalar, N>) -> Result<(), Error>;
-
-    /// Before a step towards `end`.
+    /// Called before each step towards `end`.
+    #[allow(unused_variables)]
+    #[inline(always)]
     fn prepare(
         &mut self,
         system: &L,
         method: &P,
         run: &mut Run<P::Memory, L::Scalar, N>,
         end: L::Scalar,
-    ) -> Result<(), Ending>;
+    ) -> Result<(), Ending> {
+        Ok(())
+    }
 
-    /// Goes along with the step taken last and puts what lies within it there. The error is why the step is to be taken back.
+    /// Called after each step of the motion: adds the interpolant of the step to `within`. An error undoes the step, and a shorter
+    /// one is tried.
     fn follow(
         &mut self,
         system: &L,
@@ -239,11 +241,13 @@ where
         within: &mut Vec<P::Interpolant>,
     ) -> Result<(), Ending>;
 
-    /// After a step between these states that stays.
-    fn keep(&mut self, from: &State<L::Scalar, N>, to: &State<L::Scalar, N>);
+    /// Called once a step from one of these states to the other is final.
+    #[allow(unused_variables)]
+    #[inline(always)]
+    fn keep(&mut self, from: &State<L::Scalar, N>, to: &State<L::Scalar, N>) {}
 }
 
-/// None: what lies within a step is that of the motion alone.
+/// The motion alone: its interpolants are those of the method.
 #[cfg(feature = "alloc")]
 pub(crate) struct NoCompanion;
 
@@ -255,22 +259,6 @@ where
     P: Method<L, N, M, F>,
 {
     #[inline(always)]
-    fn begin(&mut self, _: &L, _: &P, _: &State<L::Scalar, N>) -> Result<(), Error> {
-        Ok(())
-    }
-
-    #[inline(always)]
-    fn prepare(
-        &mut self,
-        _: &L,
-        _: &P,
-        _: &mut Run<P::Memory, L::Scalar, N>,
-        _: L::Scalar,
-    ) -> Result<(), Ending> {
-        Ok(())
-    }
-
-    #[inline(always)]
     fn follow(
         &mut self,
         system: &L,
@@ -280,13 +268,10 @@ where
     ) -> Result<(), Ending> {
         run.look_within::<L, F, P, M>(system, method, within)
     }
-
-    #[inline(always)]
-    fn keep(&mut self, _: &State<L::Scalar, N>, _: &State<L::Scalar, N>) {}
 }
 
-/// Computes a motion, see [`MotionBuilder`](super::MotionBuilder). Where there are no events, and `IS_WATCHED` is false,
-/// nothing of their search is compiled.
+/// Integrates a motion and its companion, which `companion` makes at the consistent start; called by
+/// [`MotionBuilder`](super::MotionBuilder). Where there are no events, `IS_WATCHED` is false, and their search is not compiled.
 #[cfg(feature = "alloc")]
 pub(crate) fn drive<'a, L, F, P, W, C, const N: usize, const M: usize, const IS_WATCHED: bool>(
     system: &'a L,
@@ -295,8 +280,8 @@ pub(crate) fn drive<'a, L, F, P, W, C, const N: usize, const M: usize, const IS_
     method: &P,
     events: &mut [W],
     mut on_progress: Option<OnProgress<'_>>,
-    companion: &mut C,
-) -> Result<Trajectory<&'a L, N, M, F>, Error>
+    companion: impl FnOnce(&State<L::Scalar, N>) -> Result<C, Error>,
+) -> Result<(Trajectory<&'a L, N, M, F>, C), Error>
 where
     L: Lagrangian<N, M, Scalar: Real>,
     F: Flow<L, N, M>,
@@ -309,7 +294,7 @@ where
     let mut begun = Run::begin(system, state, method);
     let (run, adjustment) = begun.as_mut().map_err(|error| error.clone())?;
     let start = run.state.t.to_f64();
-    companion.begin(system, method, &run.state)?;
+    let mut companion = companion(&run.state)?;
     let mut path = Path::from(run.state);
     let mut search = EventSearch::begin(events, system, &run.state)?;
     let limits = Watchdog::new(method.limits(), &run.statistics);
@@ -344,7 +329,7 @@ where
             break Ending::Cancelled { time };
         }
     };
-    Ok(Trajectory::new(system, path.finish(), ending, run.statistics, *adjustment))
+    Ok((Trajectory::new(system, path.finish(), ending, run.statistics, *adjustment), companion))
 }
 
 /// Tells the method of a system that has been changed, or of another state.

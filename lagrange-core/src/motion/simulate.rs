@@ -5,7 +5,10 @@ use core::array::from_fn;
 
 use super::event::{Event, EventValue};
 #[cfg(feature = "alloc")]
-use super::{Method, MotionBuilder, builder::Start};
+use super::{
+    Method, MotionBuilder,
+    builder::{MotionFrom, Start},
+};
 use crate::error::Error;
 use crate::number::Real;
 #[cfg(feature = "alloc")]
@@ -210,7 +213,7 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     /// What is wrong before the first step: entries, equations, settings or times that are not finite or not
     /// positive, a state off the constraints ([`make_consistent`](Self::make_consistent) helps), singular or
     /// contradictory equations. [`Error::Unfinished`] where the motion stops before its end: it says when, by which
-    /// coordinate or constraint, why and what helps. [`motion`](Self::motion) has more to ask for.
+    /// coordinate or constraint, why and what helps. [`motion`](Self::motion) has more settings.
     #[cfg(feature = "alloc")]
     fn integrate<P: Method<Self, N, M>>(
         &self,
@@ -221,9 +224,9 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
         self.motion(state).by(method).to(end)
     }
 
-    /// A motion from this state, to be asked for piece by piece: its method, events, a look at the progress. One by Hamilton's equations
-    /// is [`motion_in_momenta`](crate::Hamiltonian::motion_in_momenta), one with its derivatives
-    /// [`motion_with_derivatives`](crate::AcrossEvents::motion_with_derivatives).
+    /// The settings of a motion from this state: method, events and who looks at its progress are chosen one by one, then
+    /// [`to`](MotionBuilder::to) integrates. [`motion_in_momenta`](crate::Hamiltonian::motion_in_momenta) does the same for Hamilton's
+    /// equations, [`motion_with_derivatives`](crate::AcrossEvents::motion_with_derivatives) for a motion with its derivatives.
     ///
     /// ```
     /// use lagrange_core::{Ending, prelude::*};
@@ -246,7 +249,8 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     /// # Ok::<(), Error>(())
     /// ```
     ///
-    /// What was computed until a motion stops early is kept by [`towards`](MotionBuilder::towards):
+    /// Where a motion fails before its end, [`to`](MotionBuilder::to) returns an error, [`towards`](MotionBuilder::towards) the trajectory
+    /// up to there:
     ///
     /// ```
     /// # use lagrange_core::{Ending, prelude::*};
@@ -267,7 +271,7 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     /// # Ok::<(), Error>(())
     /// ```
     #[cfg(feature = "alloc")]
-    fn motion<'w>(&self, start: State<Self::Scalar, N>) -> LagrangianMotion<'_, 'w, Self, N, M> {
+    fn motion<'w>(&self, start: State<Self::Scalar, N>) -> MotionFrom<'_, 'w, Self, LagrangianFlow, N, M> {
         MotionBuilder::new(self, Start::new(check_finite(self, &start).map(|()| start)))
     }
 
@@ -291,10 +295,5 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
         Ok(state)
     }
 }
-
-/// A motion by Lagrange's equations that is asked for.
-#[cfg(feature = "alloc")]
-type LagrangianMotion<'a, 'w, L, const N: usize, const M: usize> =
-    MotionBuilder<'a, 'w, L, Start<<L as Lagrangian<N, M>>::Scalar, N, LagrangianFlow>, N, M>;
 
 impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Simulate<N, M> for L {}

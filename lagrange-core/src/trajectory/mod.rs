@@ -106,13 +106,13 @@ impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Trajectory<S, N, M,
         &self.system
     }
 
-    /// Why the trajectory ends where it does: the end was reached, or the caller or an event said so; and whatever else it may be after
-    /// [`towards`](crate::MotionBuilder::towards).
+    /// Why the trajectory ends where it does: it reached its end or a terminal event, or was cancelled; or it failed, of which
+    /// [`towards`](crate::MotionBuilder::towards) makes no error.
     pub fn ending(&self) -> &Ending {
         &self.ending
     }
 
-    /// Where the [events](crate::MotionBuilder::event) were, in the order of the motion.
+    /// The crossings of the [events](crate::MotionBuilder::event), in the order of the motion.
     pub fn crossings(&self) -> &[Crossing<S::Scalar, N>] {
         &self.path.crossings
     }

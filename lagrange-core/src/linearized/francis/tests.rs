@@ -148,7 +148,8 @@ fn a_cyclic_permutation_has_the_roots_of_unity() {
     }
 }
 
-/// Blocks of Jordan of sizes 5 and 3: where shifts meet the diagonal to round-off, their sum and product would tell nothing.
+/// A matrix with Jordan blocks of sizes 5 and 3. The iteration does not converge where it keeps the sum and the product of its
+/// shifts in place of the shifts.
 #[test]
 fn a_triple_eigenvalue_beside_a_quintuple_one_is_found() {
     #[rustfmt::skip]

@@ -346,8 +346,8 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Projecti
         (state, Residual::of(self.system, self.level, &state))
     }
 
-    /// The least δ with F δ = −residual, of the entries that move. Not inlined, as what it calls, so that no more matrices lie on the
-    /// stack together than are needed at a time.
+    /// The least δ with F δ = −residual, of the entries that move. Neither it nor what it calls is inlined, so
+    /// that the stack holds few matrices at a time.
     #[inline(never)]
     fn correction(
         &self,

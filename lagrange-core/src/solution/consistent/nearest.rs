@@ -5,7 +5,8 @@
 //! Lagrange function, M − Σ μ ∇²Φ, on their tangent space; where that is not positive, multiples of M are added, and next to a
 //! maximum or a saddle the step goes along a direction in which the distance curves down: neither is taken for the nearest point.
 //!
-//! What factorizes is not inlined and what is kept lies on the heap: else all matrices would lie on the stack together.
+//! Functions that factorize a matrix are not inlined, and matrices that are kept lie on the heap, so that the stack holds few of
+//! them at a time: 0.75 MiB for 100 coordinates and 50 constraints.
 
 #[cfg(test)]
 mod tests;
@@ -62,12 +63,13 @@ fn metric<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     Room::of(if is_semidefinite(&m) && is_regular(&m, &f) { m } else { diagonal(&m) })
 }
 
+/// Whether no direction has a negative mass.
 #[inline(never)]
 fn is_semidefinite<T: Real, const N: usize>(m: &[[T; N]; N]) -> bool {
     Factors::<T, N, 0>::of(m, &[], Rank::off_constraints()).is_semidefinite()
 }
 
-/// Whether what these constraints leave free has masses.
+/// Whether every direction that the constraints leave free has a mass.
 #[inline(never)]
 fn is_regular<T: Real, const N: usize, const M: usize>(m: &[[T; N]; N], f: &[[T; N]; M]) -> bool {
     Factors::of(m, f, Rank::off_constraints()).are_regular()
