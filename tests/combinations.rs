@@ -1,4 +1,4 @@
-//! What may be asked of a motion goes together: events, a look at the progress, each method, each kind of start, both directions of time.
+//! All settings of a motion can be combined: events, progress, methods, kinds of start, and both directions of time.
 //!
 //! | start | events, progress, `to`, `towards` | methods |
 //! |---|---|---|
@@ -22,7 +22,7 @@ const SPRING: Spring<f64> = Spring { k: 1.0 };
 /// x = cos t is zero at π/2, 3π/2, 5π/2; the motion goes to ±10.
 const ZEROS: [f64; 3] = [0.5, 1.5, 2.5];
 
-/// Asks from this start, by this method, for events and progress, to a failure or not, forward and backward.
+/// Integrates from this start by this method, forward and backward: with events and progress, cancelled, and with too few steps.
 macro_rules! asked {
     ($asked:ident($start:expr), $method:expr, $event:ident, $trajectory:expr) => {
         for sign in [1.0, -1.0] {
@@ -54,7 +54,8 @@ macro_rules! asked {
                 steps += 1;
                 if steps == 2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             };
-            let asked = SPRING.$asked($start).by($method).event(event("zero")).on_progress(look);
+            // Settings come in any order.
+            let asked = SPRING.$asked($start).on_progress(look).event(event("zero")).by($method);
             let cancelled = asked.to(end).expect("a motion");
             let path = $trajectory(&cancelled);
             assert!(matches!(path.ending(), Ending::Cancelled { .. }) && path.statistics().accepted == 2);

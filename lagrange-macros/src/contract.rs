@@ -246,8 +246,8 @@ const CONSTANTS: [&str; 16] = [
 ];
 
 /// What every system has beside: methods of `Lagrangian` that it can do without, of `Simulate`, `Hamiltonian`,
-/// `StateDerivatives` and `Linearized`.
-const PROVIDED: [&str; 30] = [
+/// `StateDerivatives`, `Linearized` and `AcrossEvents`.
+const PROVIDED: [&str; 35] = [
     "visit_parameters",
     "visit_defects",
     "solve",
@@ -259,6 +259,11 @@ const PROVIDED: [&str; 30] = [
     "motion",
     "motion_in_momenta",
     "integrate_hamiltonian",
+    "sensitivity",
+    "differentiable_event",
+    "motion_with_derivatives",
+    "impact_sensitivity",
+    "carry",
     "sample",
     "event",
     "impact",
@@ -371,7 +376,7 @@ mod tests {
                 _ => None,
             }));
         }
-        for name in ["Simulate", "Hamiltonian"] {
+        for name in ["Simulate", "Hamiltonian", "AcrossEvents"] {
             provided.extend(methods(&traits[name]).into_keys());
         }
         let sorted = |names: &[&str]| {
