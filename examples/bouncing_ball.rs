@@ -6,7 +6,7 @@
 
 mod picture;
 
-use lagrange_core::{Ending, Journey, prelude::*};
+use lagrange_core::{Ending, HybridTrajectory, prelude::*};
 use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
 
@@ -38,26 +38,26 @@ const RESTITUTION: f64 = 0.8;
 type Bounce = (f64, f64, f64);
 
 fn main() -> Result<()> {
-    let (journey, bounces) = bounce()?;
+    let (trajectory, bounces) = bounce()?;
     println!("A ball dropped from {HEIGHT} m with 0.5 m/s to the side; e = {RESTITUTION}\n");
     println!("{:>6} {:>14} {:>14} {:>18}", "bounce", "t/s", "impulse/Ns", "off the series/s");
     for (k, (t, impulse, off)) in bounces.iter().enumerate().filter(|(k, _)| k % 8 == 0) {
         println!("{:6} {t:14.10} {impulse:14.10} {off:18.1e}", k + 1);
     }
-    let ending = journey.ending().ok_or("no leg")?;
-    println!("\n{} flights, then: {ending}", journey.legs().len());
+    let ending = trajectory.ending().ok_or("no leg")?;
+    println!("\n{} flights, then: {ending}", trajectory.legs().len());
     let rest = (2.0 * HEIGHT / BALL.g).sqrt() * (1.0 + RESTITUTION) / (1.0 - RESTITUTION);
     println!("by the series it is at rest at t = {rest}, {:.0e} s later", rest - ending.time());
     identify()?;
     let file = picture::path("bouncing_ball")?;
-    draw(&journey, &bounces, &file)?;
+    draw(&trajectory, &bounces, &file)?;
     println!("\npicture: {}", file.display());
     Ok(())
 }
 
 /// Flights from impact to impact, until they accumulate.
-fn bounce() -> Result<(Journey<f64>, Vec<Bounce>)> {
-    let (mut journey, mut bounces) = (Journey::new(), Vec::new());
+fn bounce() -> Result<(HybridTrajectory<f64>, Vec<Bounce>)> {
+    let (mut trajectory, mut bounces) = (HybridTrajectory::new(), Vec::new());
     let mut state = State::new([0.0, HEIGHT], [0.5, 0.0]);
     let mut lands = BALL.event("lands", |sample| sample.coordinate("y")).falling().terminal();
     let method = Dop853::with_tolerance(1e-12).max_step(0.1);
@@ -65,9 +65,9 @@ fn bounce() -> Result<(Journey<f64>, Vec<Bounce>)> {
         let flight = BALL.motion(state).by(method).event(&mut lands).towards(100.0)?;
         let landing = *flight.end().state();
         let has_landed = matches!(flight.ending(), Ending::Event { .. });
-        journey.push(flight.into_owned())?;
+        trajectory.push(flight.into_owned())?;
         if !has_landed {
-            return Ok((journey, bounces));
+            return Ok((trajectory, bounces));
         }
         let impact = FLOOR.impact(&landing, "floor", RESTITUTION)?;
         let expected = series(bounces.len() as i32);
@@ -109,11 +109,11 @@ fn series(n: i32) -> f64 {
     fall * (1.0 + 2.0 * RESTITUTION * (1.0 - RESTITUTION.powi(n)) / (1.0 - RESTITUTION))
 }
 
-fn draw(journey: &Journey<f64>, bounces: &[Bounce], file: &std::path::Path) -> Result<()> {
+fn draw(trajectory: &HybridTrajectory<f64>, bounces: &[Bounce], file: &std::path::Path) -> Result<()> {
     let root = picture::sheet(file, (1100, 900))?;
     let panels = root.split_evenly((2, 2));
     let [mut flight, mut speed, mut energy] = [const { Points::new() }; 3];
-    for sample in journey.samples(3000) {
+    for sample in trajectory.samples(3000) {
         let sample = sample?;
         flight.push((sample.coordinate("x")?, sample.coordinate("y")?));
         speed.push((sample.time(), sample.velocity("y")?));

@@ -5,7 +5,7 @@
 
 mod picture;
 
-use lagrange_core::{Journey, Named, prelude::*};
+use lagrange_core::{HybridTrajectory, Named, prelude::*};
 use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
 
@@ -41,46 +41,46 @@ fn main() -> Result<()> {
     println!("A ladder of {} m and {} kg, from rest\n", 2.0 * LEANING.a, LEANING.m);
     println!("{:>8} {:>12} {:>16} {:>10} {:>10}", "θ₀/rad", "leaves at/s", "θ/rad", "error", "down at/s");
     for start in [0.4, 0.8, 1.2, 1.5] {
-        let journey = fall(start)?;
-        let leg = journey.leg::<Trajectory<Leaning, 3, 2>>(0).ok_or("the first leg")?;
+        let trajectory = fall(start)?;
+        let leg = trajectory.leg::<Trajectory<Leaning, 3, 2>>(0).ok_or("the first leg")?;
         let angle = leg.end().coordinate("theta")?;
         let error = angle - (2.0 / 3.0 * start.sin()).asin();
-        let (left, down) = (leg.end().time(), journey.end());
+        let (left, down) = (leg.end().time(), trajectory.end());
         println!("{start:8.1} {left:12.6} {angle:16.12} {error:10.0e} {down:10.6}");
     }
-    let journey = fall(1.3)?;
-    println!("\nfrom 1.3 rad: {}", journey.ending().ok_or("no leg")?);
+    let trajectory = fall(1.3)?;
+    println!("\nfrom 1.3 rad: {}", trajectory.ending().ok_or("no leg")?);
     let energy = |sample: Box<dyn Named<f64> + '_>| sample.energy();
-    let start = energy(journey.at(journey.start())?);
-    let end = energy(journey.at(journey.end())?);
+    let start = energy(trajectory.at(trajectory.start())?);
+    let end = energy(trajectory.at(trajectory.end())?);
     println!("energy at the start and when it is down: {start:.10} J, {end:.10} J");
     let file = picture::path("sliding_ladder")?;
-    draw(&journey, &file)?;
+    draw(&trajectory, &file)?;
     println!("\npicture: {}", file.display());
     Ok(())
 }
 
 /// Down the wall, and away from it to the floor.
-fn fall(theta: f64) -> Result<Journey<f64>> {
+fn fall(theta: f64) -> Result<HybridTrajectory<f64>> {
     let method = Dop853::with_tolerance(1e-12);
     let start = State::at_rest([LEANING.a * theta.cos(), LEANING.a * theta.sin(), theta]);
     let mut leaves = LEANING.event("leaves", |sample| sample.multiplier("wall")).falling().terminal();
     let first = LEANING.motion(start).by(method).event(&mut leaves).to(100.0)?;
     let lies = SLIDING.event("lies", |sample| sample.coordinate("theta")).falling().terminal();
     let second = SLIDING.motion(*first.end().state()).by(method).event(lies).to(100.0)?;
-    let mut journey = Journey::new();
-    journey.push(first.into_owned())?;
-    journey.push(second.into_owned())?;
-    Ok(journey)
+    let mut trajectory = HybridTrajectory::new();
+    trajectory.push(first.into_owned())?;
+    trajectory.push(second.into_owned())?;
+    Ok(trajectory)
 }
 
-fn draw(journey: &Journey<f64>, file: &std::path::Path) -> Result<()> {
+fn draw(trajectory: &HybridTrajectory<f64>, file: &std::path::Path) -> Result<()> {
     let root = picture::sheet(file, (1100, 900))?;
     let panels = root.split_evenly((2, 2));
-    draw_poses(journey, &panels[0])?;
-    let left = journey.legs().next().ok_or("no leg")?.end_time();
+    draw_poses(trajectory, &panels[0])?;
+    let left = trajectory.legs().next().ok_or("no leg")?.end_time();
     let [mut theta, mut floor, mut wall, mut x] = [const { Points::new() }; 4];
-    for sample in journey.samples(600) {
+    for sample in trajectory.samples(600) {
         let (sample, weight) = (sample?, LEANING.m * LEANING.g);
         let t = sample.time();
         theta.push((t, sample.coordinate("theta")?));
@@ -107,11 +107,11 @@ fn draw(journey: &Journey<f64>, file: &std::path::Path) -> Result<()> {
 }
 
 /// At times that are evenly spaced: leaning in blue, free in red.
-fn draw_poses(journey: &Journey<f64>, area: &picture::Area) -> Result<()> {
+fn draw_poses(trajectory: &HybridTrajectory<f64>, area: &picture::Area) -> Result<()> {
     let mut chart = Panel::new("On its way down", ["x in m", "y in m"]).equal_axes();
     let corner = vec![(0.0, 4.0), (0.0, 0.0), (6.4, 0.0)];
     chart.curve("wall and floor", GREY, &corner);
-    for sample in journey.samples(25) {
+    for sample in trajectory.samples(25) {
         let sample = sample?;
         let (x, theta) = (sample.coordinate("x")?, sample.coordinate("theta")?);
         let color = if sample.multiplier("wall").is_ok() { BLUE } else { RED };

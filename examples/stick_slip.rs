@@ -8,7 +8,7 @@ mod picture;
 
 use std::f64::consts::TAU;
 
-use lagrange_core::{Journey, prelude::*};
+use lagrange_core::{HybridTrajectory, prelude::*};
 use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
 
@@ -44,8 +44,8 @@ const DURATION: f64 = 60.0;
 
 fn main() -> Result<()> {
     println!("m = {M} kg, k = {K} N/m, the belt at {BELT} m/s, friction {HOLD} N held, {PULL} N slipping\n");
-    let journey = ride()?;
-    let times: Vec<f64> = journey.legs().map(|leg| leg.end_time()).collect();
+    let trajectory = ride()?;
+    let times: Vec<f64> = trajectory.legs().map(|leg| leg.end_time()).collect();
     let (d, omega) = ((HOLD - PULL) / K, (K / M).sqrt());
     let expected = [2.0 * d / BELT, (TAU - 2.0 * (omega * d / BELT).atan()) / omega];
     println!("{:>14} {:>14} {:>14} {:>14} {:>10}", "begins/s", "", "lasts/s", "exactly/s", "error");
@@ -54,39 +54,39 @@ fn main() -> Result<()> {
         let what = if k % 2 == 0 { "slips" } else { "sticks" };
         println!("{:14.9} {what:>14} {lasts:14.10} {expected:14.10} {:10.0e}", pair[0], lasts - expected);
     }
-    println!("\n{} legs; {}", journey.legs().len(), journey.ending().ok_or("no leg")?);
+    println!("\n{} legs; {}", trajectory.legs().len(), trajectory.ending().ok_or("no leg")?);
     let file = picture::path("stick_slip")?;
-    draw(&journey, &file)?;
+    draw(&trajectory, &file)?;
     println!("\npicture: {}", file.display());
     Ok(())
 }
 
 /// By turns.
-fn ride() -> Result<Journey<f64>> {
+fn ride() -> Result<HybridTrajectory<f64>> {
     let sticking = Sticking { m: M, k: K, belt: BELT };
     let slipping = Slipping { m: M, k: K, friction: PULL };
     let method = Dop853::with_tolerance(1e-12);
     let mut gives = sticking.event("gives", |s| Ok(s.multiplier("friction")? - HOLD)).rising().terminal();
     let mut catches = slipping.event("catches", |s| Ok(s.velocity("x")? - BELT)).rising().terminal();
-    let (mut journey, mut state) = (Journey::new(), State::new([0.0], [BELT]));
+    let (mut trajectory, mut state) = (HybridTrajectory::new(), State::new([0.0], [BELT]));
     while state.t < DURATION {
         let ride = sticking.motion(state).by(method).event(&mut gives).to(DURATION)?;
         state = *ride.end().state();
-        journey.push(ride.into_owned())?;
+        trajectory.push(ride.into_owned())?;
         let slip = slipping.motion(state).by(method).event(&mut catches).to(DURATION)?;
         // To round-off it is as fast as the belt.
         state = State { v: [BELT].into(), ..*slip.end().state() };
-        journey.push(slip.into_owned())?;
+        trajectory.push(slip.into_owned())?;
     }
-    Ok(journey)
+    Ok(trajectory)
 }
 
-fn draw(journey: &Journey<f64>, file: &std::path::Path) -> Result<()> {
+fn draw(trajectory: &HybridTrajectory<f64>, file: &std::path::Path) -> Result<()> {
     let root = picture::sheet(file, (1100, 900))?;
     let panels = root.split_evenly((2, 2));
     let [mut x, mut speed, mut friction, mut phase] = [const { Points::new() }; 4];
     for k in 0..=2000 {
-        let sample = journey.at(12.0 * f64::from(k) / 2000.0)?;
+        let sample = trajectory.at(12.0 * f64::from(k) / 2000.0)?;
         let (t, place, v) = (sample.time(), sample.coordinate("x")?, sample.velocity("x")?);
         x.push((t, place));
         speed.push((t, v));
@@ -101,7 +101,7 @@ fn draw(journey: &Journey<f64>, file: &std::path::Path) -> Result<()> {
     chart.draw(&panels[1])?;
     draw_one(&panels[2], "Friction: it gives at 2 N", ["t in s", "F in N"], ("friction", RED, &friction))?;
     let mut events = Points::new();
-    for leg in journey.legs().take(10) {
+    for leg in trajectory.legs().take(10) {
         let end = leg.named_at(leg.end_time())?;
         events.push((end.coordinate("x")?, end.velocity("x")? / (K / M).sqrt()));
     }

@@ -4,11 +4,11 @@
 //! |---|---|---|
 //! | `State` | all | all |
 //! | `PhaseState` | all | pairs; not `Taylor`, whose series are those of Lagrange's equations (does not compile) |
-//! | `Sensitivity` | all; events that can be differentiated, others do not compile | pairs, `Taylor` where the number type is a parameter |
+//! | `StateSensitivity` | all; events that can be differentiated, others do not compile | pairs, `Taylor` where the number type is a parameter |
 
 use core::ops::ControlFlow;
 
-use lagrange_core::{Ending, Progress, Sensitivities, prelude::*};
+use lagrange_core::{Ending, Progress, TrajectorySensitivity, prelude::*};
 
 #[derive(Lagrangian)]
 #[coordinates(x)]
@@ -93,7 +93,7 @@ fn a_motion_from_momenta_is_asked_for_everything() {
 }
 
 fn path_of<'m, 's>(
-    motion: &'m Sensitivities<'s, Spring<f64>, 1, 0, 1>,
+    motion: &'m TrajectorySensitivity<'s, Spring<f64>, 1, 0, 1>,
 ) -> &'m Trajectory<&'s Spring<f64>, 1, 0> {
     motion.trajectory()
 }

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 
 use lagrange_core::prelude::*;
-use lagrange_core::{ConstraintKind, Facts, FourLanes, Hamiltonian, Lagrangian, Over, Scalar, Solution};
+use lagrange_core::{Broadcast, ConstraintKind, Facts, FourLanes, Hamiltonian, Lagrangian, Scalar, Solution};
 use nalgebra::{SMatrix, SVector};
 use num_dual::Dual64;
 
@@ -273,7 +273,7 @@ impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Lagrangi
     fn factor(&self, state: &State<f64, N>) -> L::Factor {
         self.system.factor(state)
     }
-    fn solve_with<S: Over<f64>>(
+    fn solve_with<S: Broadcast<f64>>(
         &self,
         factor: &L::Factor,
         forcing: &SVector<S, N>,

@@ -1,7 +1,7 @@
 //! Functions that the user supplies, in every form and over every number type.
 
-use lagrange_core::{ByHand, prelude::*};
-use lagrange_core::{HandWritten, SmoothTable, Table};
+use lagrange_core::{FunctionWithDerivatives, SmoothTable, Table};
+use lagrange_core::{WithDerivatives, prelude::*};
 use num_dual::Dual64;
 use simba::simd::{SimdValue, WideF64x4};
 
@@ -19,7 +19,7 @@ impl Function<2, 1> for Valley {
 #[derive(Clone, Copy)]
 struct ValleyByHand;
 
-impl HandWritten<2, 1> for ValleyByHand {
+impl FunctionWithDerivatives<2, 1> for ValleyByHand {
     fn value(&self, [x, y]: [f64; 2]) -> [f64; 1] {
         [x.powi(4) / 4.0 + y.sin()]
     }
@@ -83,7 +83,8 @@ fn assert_close(ours: &[f64], expected: &[f64], tolerance: f64) {
 #[test]
 fn a_function_by_hand_is_the_same_as_one_for_every_scalar() {
     for inputs in INPUTS {
-        let (general, by_hand) = (everything(inputs, Valley), everything(inputs, ByHand(ValleyByHand)));
+        let (general, by_hand) =
+            (everything(inputs, Valley), everything(inputs, WithDerivatives(ValleyByHand)));
         assert_close(&by_hand, &general, 1e-14);
     }
 }

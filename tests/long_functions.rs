@@ -246,7 +246,7 @@ mod arm {
 mod unlike_links {
     use std::array::from_fn;
 
-    use lagrange_core::Partials;
+    use lagrange_core::PartialDerivatives;
     use nalgebra::{Matrix3, Vector3};
     use num_dual::{Dual2_64, DualNum};
 
@@ -385,7 +385,7 @@ mod unlike_links {
             };
             let difference = |h: f64| (forces(h) - forces(-h)) / (2.0 * h);
             let slope = (difference(1e-3) * 4.0 - difference(2e-3)) / 3.0;
-            let Partials { q, v, parameters, .. } = &jacobian.accelerations;
+            let PartialDerivatives { q, v, parameters, .. } = &jacobian.accelerations;
             let off = (mass * (q * dq + v * dv + parameters * dp) + slope).amax();
             assert!(off < 1e-8 * slope.amax(), "{off:e} of {:e}", slope.amax());
         }

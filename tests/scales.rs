@@ -152,7 +152,8 @@ fn a_pendulum_swings_alike_in_any_unit_or_is_refused() {
             }
             let rod = Rod { m, g: 10.0 * unit, l: unit };
             let start = State::at_rest([0.6 * unit, -0.8 * unit]);
-            let Ok(path) = rod.integrate(start, 1.0, Dop853::default().absolute(1e-9 * unit)) else {
+            let Ok(path) = rod.integrate(start, 1.0, Dop853::default().absolute_tolerance(1e-9 * unit))
+            else {
                 refused += 1;
                 continue;
             };

@@ -1,6 +1,6 @@
 //! Motions that go on when they are told to: inputs that change, times that are reached, states in between.
 
-use lagrange_core::motion::{Flow, Limits};
+use lagrange_core::motion::{Limits, VectorField};
 use lagrange_core::{Dual, Ending, Lanes, Method, Pack, RungeKutta4, prelude::*, runge_kutta_step};
 
 /// A cart with a motor and a brake.
@@ -146,7 +146,7 @@ fn same_ends<L, P, F, const N: usize, const M: usize>(
     (start, left): (usize, usize),
 ) where
     L: Lagrangian<N, M, Scalar = f64> + Clone,
-    F: Flow<L, N, M>,
+    F: VectorField<L, N, M>,
     P: Method<L, N, M, F>,
 {
     assert_eq!(motion.statistics().evaluations, start);

@@ -58,7 +58,7 @@ where
         black_box(system.integrate(start, end, method()).expect("a motion").end().state().q[0]);
     };
     let by = |pieces: usize| {
-        let mut section = system.event("section", |s| s.state().q[0]).rising().pieces(pieces);
+        let mut section = system.event("section", |s| s.state().q[0]).rising().subdivide(pieces);
         let path = system.motion(start).by(method()).event(&mut section).towards(end).expect("a start");
         black_box(path.crossings().len());
     };

@@ -21,8 +21,8 @@ macro_rules! as_f32 {
         impl Scalar for Single {
             fn constant(x: f64) -> Self { Self(x as f32) }
             fn sin_cos(self) -> (Self, Self) { sin_cos(self.0) }
-            fn by_order(self, y: Self, less: Self, equal: Self, greater: Self) -> Self {
-                Self(Scalar::by_order(self.0, y.0, less.0, equal.0, greater.0))
+            fn select_by_order(self, y: Self, less: Self, equal: Self, greater: Self) -> Self {
+                Self(Scalar::select_by_order(self.0, y.0, less.0, equal.0, greater.0))
             }
             $(fn $name(self $(, $argument: Self)*) -> Self { Self(Scalar::$name(self.0 $(, $argument.0)*)) })*
         }

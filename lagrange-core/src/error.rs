@@ -294,7 +294,7 @@ pub enum Error {
         /// Its value.
         value: f64,
     },
-    /// A leg that does not go on where a journey has come to.
+    /// A leg that does not go on where a hybrid trajectory has come to.
     LegApart {
         /// When the leg starts.
         start: f64,

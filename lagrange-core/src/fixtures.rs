@@ -8,7 +8,7 @@ use nalgebra::{SMatrix, SVector};
 
 pub(crate) use random::Random;
 
-use crate::number::{Over, vector};
+use crate::number::{Broadcast, vector};
 use crate::solution::eliminate::{LoopFactor, eliminate};
 use crate::system::{ConstraintKind, Facts, Lagrangian, Solution, State};
 
@@ -120,7 +120,7 @@ impl<const N: usize, const M: usize, const H: usize> Lagrangian<N, M> for Mechan
         LoopFactor::of((self.mass)(state), (self.jacobian)(state), [0.0; M])
     }
 
-    fn solve_with<S: Over<f64>>(
+    fn solve_with<S: Broadcast<f64>>(
         &self,
         factor: &LoopFactor<f64, N, M>,
         forcing: &SVector<S, N>,

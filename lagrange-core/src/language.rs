@@ -340,8 +340,8 @@
 //! # Ok::<(), lagrange_core::Error>(())
 //! ```
 //!
-//! For `f64` alone there are two further forms. A [`HandWritten`](crate::HandWritten) function gives its value,
-//! gradient and second derivatives, and is put into [`ByHand`](crate::ByHand);
+//! For `f64` alone there are two further forms. A [`FunctionWithDerivatives`](crate::FunctionWithDerivatives) function gives its value,
+//! gradient and second derivatives, and is put into [`WithDerivatives`](crate::WithDerivatives);
 //! [`check_derivatives`](crate::function::check_derivatives) compares them with differences. A [`Table`](crate::Table) is the
 //! curve through measured points with two continuous derivatives, a [`SmoothTable`](crate::SmoothTable) the one with four, along
 //! which motions keep their digits. Where the equations need a third derivative, which a `SmoothTable` alone has of these, that is
@@ -351,13 +351,13 @@
 //! can be differentiated by or sought.
 //!
 //! ```
-//! use lagrange_core::{ByHand, prelude::*};
-//! use lagrange_core::{HandWritten, Table};
+//! use lagrange_core::{WithDerivatives, prelude::*};
+//! use lagrange_core::{FunctionWithDerivatives, Table};
 //!
 //! /// z = x² − y²
 //! struct Saddle;
 //!
-//! impl HandWritten<2, 1> for Saddle {
+//! impl FunctionWithDerivatives<2, 1> for Saddle {
 //!     fn value(&self, [x, y]: [f64; 2]) -> [f64; 1] {
 //!         [x * x - y * y]
 //!     }
@@ -376,10 +376,10 @@
 //! #[function(U(x) = potential)]
 //! #[lagrangian(m/2 * (x_dot^2 + y_dot^2 + z_dot^2) - m*g*z - U(x))]
 //! #[constraint(on: z = f(x, y))]
-//! struct Bead { m: f64, g: f64, surface: ByHand<Saddle>, potential: Table }
+//! struct Bead { m: f64, g: f64, surface: WithDerivatives<Saddle>, potential: Table }
 //!
 //! let potential = Table::new(&[(-2.0, 0.0), (0.0, 0.0), (1.0, 0.5), (2.0, 3.0)])?;
-//! let bead = Bead { m: 1.0, g: 9.81, surface: ByHand(Saddle), potential };
+//! let bead = Bead { m: 1.0, g: 9.81, surface: WithDerivatives(Saddle), potential };
 //! let start = State::new([0.0; 3], [1.0, 2.0, 0.0]);
 //! // At the saddle z̈ = 2 ẋ² − 2 ẏ².
 //! let solution = bead.solve(&start)?;

@@ -115,9 +115,9 @@ println!("{}", path.csv(50).energy());
 //!
 //! - [`Hamiltonian`]: momenta, the Legendre transform, Hamilton's equations, motion in (q, p).
 //! - [`Linearized`] and [`StateDerivatives`]: exact derivatives; equilibria, the linear system near a state, inverse dynamics, motions with
-//!   their derivatives; [`AcrossEvents`] those across impacts.
+//!   their derivatives; [`MotionDerivatives`] those across impacts.
 //! - [`Ensemble`]: many members at once, on SIMD lanes, on all threads, on many machines ([`ensemble`]).
-//! - [`Journey`]: a motion of several legs, of several systems; [`Simulate::impact`].
+//! - [`HybridTrajectory`]: a motion of several legs, of several systems; [`Simulate::impact`].
 //! - [`Lagrangian`] is the contract that generated code implements, [`Solution`] what it gives; [`Scalar`] what numbers must be.
 //! - [`embedded`] is about programs without an operating system.
 //!
@@ -171,17 +171,17 @@ pub use ensemble::{
     Arrival, Ensemble, EnsembleProgress, Fingerprint, Member, MemberEnding, MemberRow, MemberTable, Outcome,
 };
 pub use error::Error;
-pub use function::{ByHand, Function, HandWritten};
+pub use function::{Function, FunctionWithDerivatives, WithDerivatives};
 #[cfg(feature = "alloc")]
 pub use function::{SmoothTable, Table};
-pub use hamiltonian::{Hamiltonian, HamiltonianFlow, PhaseRate, PhaseState};
+pub use hamiltonian::{Hamiltonian, HamiltonianVectorField, PhaseDerivative, PhaseState};
 pub use lagrange_macros::Lagrangian;
 #[cfg(feature = "alloc")]
 pub use linearized::{
-    AcrossEvents, Actuation, DifferentiableMethod, DualSample, Equilibrium, JacobianBy, Linearization,
-    LyapunovSpectrum, Sensitivities, Sensitivity, Stability,
+    DifferentiableMethod, DualSample, Equilibrium, InverseDynamics, Linearization, LyapunovSpectrum,
+    MotionDerivatives, SelectedJacobian, Stability, StateSensitivity, TrajectorySensitivity,
 };
-pub use linearized::{Direction, Jacobian, Linearized, Partials, ResidualChange, StateDerivatives};
+pub use linearized::{Direction, Jacobian, Linearized, PartialDerivatives, ResidualChange, StateDerivatives};
 #[cfg(feature = "std")]
 pub use motion::LaneMethod;
 pub use motion::Simulate;
@@ -192,7 +192,7 @@ pub use motion::{MotionBuilder, Taylor};
 pub use mpi;
 pub use nalgebra;
 pub use names::{Entry, Names, Row};
-pub use number::{Dual, Filled, Over, PowerSeries, Real, Scalar, Wide};
+pub use number::{Broadcast, Dual, FixedArray, PowerSeries, Real, Scalar, Wide};
 #[cfg(feature = "std")]
 pub use number::{FourLanes, Lanes};
 #[cfg(feature = "alloc")]
@@ -205,7 +205,7 @@ pub use system::{
     State, TaylorSeries, TotalDerivative,
 };
 #[cfg(feature = "alloc")]
-pub use trajectory::{Csv, Deviation, Drift, Journey, Leg, Named, Records, Trajectory};
+pub use trajectory::{Csv, Deviation, Drift, HybridTrajectory, Leg, Named, Records, Trajectory};
 
 /// The README's program is compiled and run with the documentation's examples.
 #[cfg(doctest)]

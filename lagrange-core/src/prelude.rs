@@ -5,9 +5,9 @@ pub use crate::ensemble::Ensemble;
 pub use crate::error::Error;
 pub use crate::function::Function;
 pub use crate::hamiltonian::{Hamiltonian, PhaseState};
-#[cfg(feature = "alloc")]
-pub use crate::linearized::AcrossEvents;
 pub use crate::linearized::Linearized;
+#[cfg(feature = "alloc")]
+pub use crate::linearized::MotionDerivatives;
 pub use crate::motion::Simulate;
 #[cfg(feature = "alloc")]
 pub use crate::motion::Taylor;

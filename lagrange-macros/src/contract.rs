@@ -246,7 +246,7 @@ const CONSTANTS: [&str; 16] = [
 ];
 
 /// What every system has beside: methods of `Lagrangian` that it can do without, of `Simulate`, `Hamiltonian`,
-/// `StateDerivatives`, `Linearized` and `AcrossEvents`.
+/// `StateDerivatives`, `Linearized` and `MotionDerivatives`.
 const PROVIDED: [&str; 35] = [
     "visit_parameters",
     "visit_defects",
@@ -263,7 +263,7 @@ const PROVIDED: [&str; 35] = [
     "differentiable_event",
     "motion_with_derivatives",
     "impact_sensitivity",
-    "carry",
+    "push_forward",
     "sample",
     "event",
     "impact",
@@ -376,7 +376,7 @@ mod tests {
                 _ => None,
             }));
         }
-        for name in ["Simulate", "Hamiltonian", "AcrossEvents"] {
+        for name in ["Simulate", "Hamiltonian", "MotionDerivatives"] {
             provided.extend(methods(&traits[name]).into_keys());
         }
         let sorted = |names: &[&str]| {

@@ -148,7 +148,7 @@ fn nutation_about_the_cone() {
 fn polar_and_cartesian_are_one_motion() {
     let cartesian = Cartesian { m: PENDULUM.m, g: G, l: PENDULUM.l };
     for start in pendulums() {
-        let method = Dop853::with_tolerance(1e-12).absolute(1e-13);
+        let method = Dop853::with_tolerance(1e-12).absolute_tolerance(1e-13);
         let polar = PENDULUM.integrate(start, 50.0, method).unwrap();
         let [q, v] = on_the_sphere(&start);
         let other = cartesian.integrate(State::new(q, v), 50.0, method).unwrap();

@@ -1,9 +1,9 @@
-use lagrange_core::HandWritten;
-use lagrange_core::{ByHand, prelude::*};
+use lagrange_core::FunctionWithDerivatives;
+use lagrange_core::{WithDerivatives, prelude::*};
 
 struct Parabola;
 
-impl HandWritten<1, 1> for Parabola {
+impl FunctionWithDerivatives<1, 1> for Parabola {
     fn value(&self, [t]: [f64; 1]) -> [f64; 1] {
         [t * t]
     }
@@ -20,7 +20,7 @@ impl HandWritten<1, 1> for Parabola {
 #[function(height(t) = lift)]
 #[lagrangian(x_dot^2/2 + x_dot*der(der(height(t))))]
 struct System {
-    lift: ByHand<Parabola>,
+    lift: WithDerivatives<Parabola>,
 }
 
 fn main() {}

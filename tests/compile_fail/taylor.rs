@@ -1,4 +1,4 @@
-use lagrange_core::{ByHand, HandWritten, Table, prelude::*};
+use lagrange_core::{WithDerivatives, FunctionWithDerivatives, Table, prelude::*};
 
 #[derive(Lagrangian)]
 #[coordinates(x)]
@@ -16,7 +16,7 @@ struct Supplied<F> {
 
 struct Square;
 
-impl HandWritten<1, 1> for Square {
+impl FunctionWithDerivatives<1, 1> for Square {
     fn value(&self, [x]: [f64; 1]) -> [f64; 1] {
         [x * x]
     }
@@ -33,7 +33,7 @@ impl HandWritten<1, 1> for Square {
 fn main() {
     let start = State::at_rest([1.0]);
     let _ = Kinked.integrate(start, 1.0, Taylor::default());
-    let _ = Supplied { U: ByHand(Square) }.integrate(start, 1.0, Taylor::default());
+    let _ = Supplied { U: WithDerivatives(Square) }.integrate(start, 1.0, Taylor::default());
     let table = Table::new(&[(0.0, 0.0), (1.0, 1.0)]).unwrap();
     let _ = Supplied { U: table }.integrate(start, 1.0, Taylor::default());
 }

@@ -21,7 +21,7 @@ pub(crate) trait Number: DualNum<Primitive = f64> + Copy {}
 impl<D: DualNum<Primitive = f64> + Copy> Number for D {}
 
 /// The system that the attributes state, once more.
-pub(crate) trait ByHand<const N: usize, const M: usize>:
+pub(crate) trait WithDerivatives<const N: usize, const M: usize>:
     Lagrangian<N, M, Scalar = f64> + Sized
 {
     const KINDS: [ConstraintKind; M] = [ConstraintKind::Holonomic; M];
@@ -91,7 +91,7 @@ struct Derivatives<'a, S, const N: usize, const M: usize> {
     state: &'a State<f64, N>,
 }
 
-impl<S: ByHand<N, M>, const N: usize, const M: usize> Derivatives<'_, S, N, M> {
+impl<S: WithDerivatives<N, M>, const N: usize, const M: usize> Derivatives<'_, S, N, M> {
     fn l(&self, x: By, y: By) -> HyperDual64 {
         differentiate(self.state, (x, y), |t, q, v| self.system.l(t, q, v))
     }
@@ -187,7 +187,7 @@ impl<S: ByHand<N, M>, const N: usize, const M: usize> Derivatives<'_, S, N, M> {
 /// Compares everything that is emitted for a system, at random states and parameters.
 pub(crate) fn check<S, const N: usize, const M: usize, const P: usize>()
 where
-    S: ByHand<N, M> + Linearized<N, M, P>,
+    S: WithDerivatives<N, M> + Linearized<N, M, P>,
 {
     assert_eq!(S::CONSTRAINT_KINDS, S::KINDS, "{}", S::NAME);
     let mut random = Random(1);
@@ -208,7 +208,7 @@ where
 }
 
 /// The same at the origin and at rest, where many terms vanish and nothing may divide by them.
-pub(crate) fn check_at_origin<S: ByHand<N, M>, const N: usize, const M: usize>() {
+pub(crate) fn check_at_origin<S: WithDerivatives<N, M>, const N: usize, const M: usize>() {
     let mut random = Random(2);
     let system = S::random(&mut random);
     let (state, mut worst) = (State::at_rest([0.0; N]), Worst::default());
@@ -249,7 +249,7 @@ fn ratio(x: f64, scale: f64) -> f64 {
     if x == 0.0 { 0.0 } else { x.abs() / scale }
 }
 
-fn check_derivatives<S: ByHand<N, M>, const N: usize, const M: usize>(
+fn check_derivatives<S: WithDerivatives<N, M>, const N: usize, const M: usize>(
     system: &S,
     state: &State<f64, N>,
     multipliers: &SVector<f64, M>,
@@ -275,7 +275,7 @@ fn check_derivatives<S: ByHand<N, M>, const N: usize, const M: usize>(
 }
 
 /// Where a system is given any accelerations and multipliers, M q̈ − h − Fᵀλ is lacking, with M, h and F by hand.
-fn check_inverse_dynamics<S: ByHand<N, M>, const N: usize, const M: usize>(
+fn check_inverse_dynamics<S: WithDerivatives<N, M>, const N: usize, const M: usize>(
     by_hand: &Derivatives<'_, S, N, M>,
     multipliers: &SVector<f64, M>,
 ) {
@@ -293,7 +293,7 @@ fn check_inverse_dynamics<S: ByHand<N, M>, const N: usize, const M: usize>(
 }
 
 /// M q̈ − Fᵀλ = h and F q̈ = −γ, with M, F, h and γ by hand; false where the system is near singular.
-fn check_accelerations<S: ByHand<N, M>, const N: usize, const M: usize>(
+fn check_accelerations<S: WithDerivatives<N, M>, const N: usize, const M: usize>(
     system: &S,
     state: &State<f64, N>,
     worst: &mut Worst,

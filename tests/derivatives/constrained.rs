@@ -2,7 +2,7 @@
 
 use lagrange_core::{ConstraintKind, prelude::*};
 
-use crate::by_hand::{ByHand, Number, check};
+use crate::by_hand::{Number, WithDerivatives, check};
 use crate::random::Random;
 
 /// Milton (8.8)–(8.10).
@@ -18,7 +18,7 @@ pub(crate) struct RollingSphere {
     alpha: f64,
 }
 
-impl ByHand<2, 1> for RollingSphere {
+impl WithDerivatives<2, 1> for RollingSphere {
     const KINDS: [ConstraintKind; 1] = [ConstraintKind::Velocity];
 
     fn random(random: &mut Random) -> Self {
@@ -56,7 +56,7 @@ pub(crate) struct BeadOnWire {
     c: f64,
 }
 
-impl ByHand<3, 2> for BeadOnWire {
+impl WithDerivatives<3, 2> for BeadOnWire {
     const KINDS: [ConstraintKind; 2] = [ConstraintKind::Holonomic, ConstraintKind::Velocity];
 
     fn random(random: &mut Random) -> Self {
@@ -93,7 +93,7 @@ pub(crate) struct ChaplyginSleigh {
     inertia: f64,
 }
 
-impl ByHand<3, 1> for ChaplyginSleigh {
+impl WithDerivatives<3, 1> for ChaplyginSleigh {
     const KINDS: [ConstraintKind; 1] = [ConstraintKind::Velocity];
 
     fn random(random: &mut Random) -> Self {
@@ -132,7 +132,7 @@ pub(crate) struct Turntable {
     w: f64,
 }
 
-impl ByHand<5, 2> for Turntable {
+impl WithDerivatives<5, 2> for Turntable {
     const KINDS: [ConstraintKind; 2] = [ConstraintKind::Velocity; 2];
 
     fn random(random: &mut Random) -> Self {
@@ -170,7 +170,7 @@ struct Rods {
     b: f64,
 }
 
-impl ByHand<6, 3> for Rods {
+impl WithDerivatives<6, 3> for Rods {
     fn random(random: &mut Random) -> Self {
         let m = random.array(Random::positive);
         Self { m, g: random.positive(), l: random.positive(), b: random.signed() }
@@ -206,7 +206,7 @@ pub(crate) struct BeadOnCurve {
     b: f64,
 }
 
-impl ByHand<2, 1> for BeadOnCurve {
+impl WithDerivatives<2, 1> for BeadOnCurve {
     const KINDS: [ConstraintKind; 1] = [ConstraintKind::Velocity];
 
     fn random(random: &mut Random) -> Self {

@@ -2,7 +2,7 @@
 
 use lagrange_core::prelude::*;
 
-use crate::by_hand::{ByHand, Number, check};
+use crate::by_hand::{Number, WithDerivatives, check};
 use crate::random::Random;
 
 #[derive(Lagrangian)]
@@ -17,7 +17,7 @@ struct Circular {
     m: f64,
 }
 
-impl ByHand<3, 0> for Circular {
+impl WithDerivatives<3, 0> for Circular {
     fn random(random: &mut Random) -> Self {
         Self { m: random.positive() }
     }
@@ -52,7 +52,7 @@ struct Hyperbolic {
     m: f64,
 }
 
-impl ByHand<3, 0> for Hyperbolic {
+impl WithDerivatives<3, 0> for Hyperbolic {
     fn random(random: &mut Random) -> Self {
         Self { m: random.positive() }
     }
@@ -86,7 +86,7 @@ struct Powers {
     a: f64,
 }
 
-impl ByHand<2, 0> for Powers {
+impl WithDerivatives<2, 0> for Powers {
     fn random(random: &mut Random) -> Self {
         Self { m: random.between(3.0, 4.0), a: random.signed() }
     }
@@ -126,7 +126,7 @@ struct PowerOfItself {
     m: f64,
 }
 
-impl ByHand<1, 0> for PowerOfItself {
+impl WithDerivatives<1, 0> for PowerOfItself {
     fn random(random: &mut Random) -> Self {
         Self { m: random.positive() }
     }
@@ -161,7 +161,7 @@ struct Functions {
     b: [f64; 3],
 }
 
-impl ByHand<4, 0> for Functions {
+impl WithDerivatives<4, 0> for Functions {
     fn random(random: &mut Random) -> Self {
         let [m, a, k] = random.array(Random::positive);
         Self { m, a, k, b: random.array(Random::signed) }

@@ -3,7 +3,7 @@
 use lagrange_core::nalgebra::{Matrix3, SMatrix, Vector2};
 use lagrange_core::prelude::*;
 
-use crate::by_hand::{ByHand, Number, check};
+use crate::by_hand::{Number, WithDerivatives, check};
 use crate::random::Random;
 
 /// Coupled oscillators: the stiffness by rows, the inertia as a matrix of nalgebra, and a constraint of two rows.
@@ -18,7 +18,7 @@ pub(crate) struct Coupled {
     d: Vector2<f64>,
 }
 
-impl ByHand<3, 2> for Coupled {
+impl WithDerivatives<3, 2> for Coupled {
     /// The inertia is not symmetric: only its symmetric part acts.
     fn random(random: &mut Random) -> Self {
         let inertia = Matrix3::from_fn(|i, j| if i == j { 4.0 } else { 0.5 * random.signed() });
@@ -59,7 +59,7 @@ pub(crate) struct StringOfMasses {
     g: f64,
 }
 
-impl ByHand<6, 0> for StringOfMasses {
+impl WithDerivatives<6, 0> for StringOfMasses {
     fn random(random: &mut Random) -> Self {
         Self { l: random.array(Random::positive), g: random.positive() }
     }

@@ -3,7 +3,7 @@
 
 use lagrange_core::{ConstraintKind, prelude::*};
 
-use crate::by_hand::{ByHand, Number, check};
+use crate::by_hand::{Number, WithDerivatives, check};
 use crate::random::Random;
 
 fn dot<D: Number>(a: [D; 3], b: [D; 3]) -> D {
@@ -98,7 +98,7 @@ pub(crate) struct Charge<F: Function<3, 1>> {
     motion: Shaken,
 }
 
-impl ByHand<3, 0> for Charge<Plummer> {
+impl WithDerivatives<3, 0> for Charge<Plummer> {
     fn random(random: &mut Random) -> Self {
         let mut positive = || random.positive();
         Self {
@@ -145,7 +145,7 @@ pub(crate) struct Frame {
     potential: Plummer,
 }
 
-impl ByHand<3, 0> for Frame {
+impl WithDerivatives<3, 0> for Frame {
     fn random(random: &mut Random) -> Self {
         let mut positive = || random.positive();
         Self {
@@ -206,7 +206,7 @@ pub(crate) struct Skater {
     surface: Drum,
 }
 
-impl ByHand<3, 2> for Skater {
+impl WithDerivatives<3, 2> for Skater {
     const KINDS: [ConstraintKind; 2] = [ConstraintKind::Holonomic, ConstraintKind::Velocity];
 
     fn random(random: &mut Random) -> Self {
@@ -260,7 +260,7 @@ pub(crate) struct Cluster {
     interaction: Pair,
 }
 
-impl ByHand<9, 4> for Cluster {
+impl WithDerivatives<9, 4> for Cluster {
     fn random(random: &mut Random) -> Self {
         Self { m: random.positive(), l: random.positive(), interaction: Pair { depth: random.positive() } }
     }

@@ -1,7 +1,7 @@
 //! Jacobians of accelerations, multipliers and constraints against differences of them.
 
 use lagrange_core::nalgebra::{DVector, SVector};
-use lagrange_core::{Direction, Entry, Jacobian, Lanes, Partials, Solution, prelude::*};
+use lagrange_core::{Direction, Entry, Jacobian, Lanes, PartialDerivatives, Solution, prelude::*};
 
 /// Largest deviation, as a fraction of the largest entry of the Jacobian.
 const TOLERANCE: f64 = 1e-9;
@@ -174,7 +174,7 @@ where
 {
     let jacobian = system.jacobian(state).expect("a regular state");
     let by_state = system.state_jacobian(state).expect("a regular state").accelerations;
-    let Partials { t, q, v, .. } = jacobian.accelerations;
+    let PartialDerivatives { t, q, v, .. } = jacobian.accelerations;
     assert_eq!((by_state.t, by_state.q, by_state.v), (t, q, v));
     check_columns(system, state, &jacobian);
     let arguments: Vec<Argument> = [Argument::Time]

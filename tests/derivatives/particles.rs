@@ -2,7 +2,7 @@
 
 use lagrange_core::prelude::*;
 
-use crate::by_hand::{ByHand, Number, check};
+use crate::by_hand::{Number, WithDerivatives, check};
 use crate::random::Random;
 
 #[derive(Lagrangian)]
@@ -13,7 +13,7 @@ struct Kepler {
     k: f64,
 }
 
-impl ByHand<2, 0> for Kepler {
+impl WithDerivatives<2, 0> for Kepler {
     fn random(random: &mut Random) -> Self {
         Self { m: random.positive(), k: random.positive() }
     }
@@ -45,7 +45,7 @@ pub(crate) struct Relativistic {
     q: f64,
 }
 
-impl ByHand<2, 0> for Relativistic {
+impl WithDerivatives<2, 0> for Relativistic {
     fn random(random: &mut Random) -> Self {
         let c = random.between(3.0, 5.0);
         Self { m: random.positive(), c, k: random.positive(), q: random.signed() }
@@ -78,7 +78,7 @@ pub(crate) struct MagneticField {
     u: f64,
 }
 
-impl ByHand<3, 0> for MagneticField {
+impl WithDerivatives<3, 0> for MagneticField {
     fn random(random: &mut Random) -> Self {
         let [m, b, w, u] = random.array(Random::positive);
         Self { m, e: random.signed(), b, w, u }
@@ -119,7 +119,7 @@ pub(crate) struct Driven {
     w: f64,
 }
 
-impl ByHand<3, 0> for Driven {
+impl WithDerivatives<3, 0> for Driven {
     fn random(random: &mut Random) -> Self {
         let [m, k, b, c, f, w] = random.array(Random::positive);
         Self { m, k, b, c, f, w }
@@ -167,7 +167,7 @@ pub(crate) struct RotatingFrame {
     k: f64,
 }
 
-impl ByHand<3, 0> for RotatingFrame {
+impl WithDerivatives<3, 0> for RotatingFrame {
     fn random(random: &mut Random) -> Self {
         let [m, w, b, k] = random.array(Random::positive);
         Self { m, w, b, k }

@@ -2,7 +2,7 @@
 
 use lagrange_core::prelude::*;
 
-use crate::by_hand::{ByHand, Number, check};
+use crate::by_hand::{Number, WithDerivatives, check};
 use crate::random::Random;
 
 #[derive(Lagrangian)]
@@ -15,7 +15,7 @@ pub(crate) struct SphericalPendulum {
     l: f64,
 }
 
-impl ByHand<3, 1> for SphericalPendulum {
+impl WithDerivatives<3, 1> for SphericalPendulum {
     fn random(random: &mut Random) -> Self {
         Self { m: random.positive(), g: random.positive(), l: random.positive() }
     }
@@ -43,7 +43,7 @@ pub(crate) struct PolarPendulum {
     pub(crate) l: f64,
 }
 
-impl ByHand<2, 0> for PolarPendulum {
+impl WithDerivatives<2, 0> for PolarPendulum {
     fn random(random: &mut Random) -> Self {
         Self { m: random.positive(), g: random.positive(), l: random.positive() }
     }
@@ -73,7 +73,7 @@ pub(crate) struct DoublePendulum {
     g: f64,
 }
 
-impl ByHand<2, 0> for DoublePendulum {
+impl WithDerivatives<2, 0> for DoublePendulum {
     fn random(random: &mut Random) -> Self {
         let [m1, m2, l1, l2, g] = random.array(Random::positive);
         Self { m1, m2, l1, l2, g }
@@ -106,7 +106,7 @@ pub(crate) struct ElasticPendulum {
     l: f64,
 }
 
-impl ByHand<2, 0> for ElasticPendulum {
+impl WithDerivatives<2, 0> for ElasticPendulum {
     fn random(random: &mut Random) -> Self {
         let [m, g, k, l] = random.array(Random::positive);
         Self { m, g, k, l }
@@ -138,7 +138,7 @@ pub(crate) struct SwingingAtwood {
     length: f64,
 }
 
-impl ByHand<3, 1> for SwingingAtwood {
+impl WithDerivatives<3, 1> for SwingingAtwood {
     fn random(random: &mut Random) -> Self {
         let [m, mass, g, length] = random.array(Random::positive);
         Self { m, mass, g, length }
@@ -176,7 +176,7 @@ pub(crate) struct DrivenPendulum {
     w: f64,
 }
 
-impl ByHand<1, 0> for DrivenPendulum {
+impl WithDerivatives<1, 0> for DrivenPendulum {
     fn random(random: &mut Random) -> Self {
         let [m, g, l, a, w] = random.array(Random::positive);
         Self { m, g, l, a, w }
@@ -211,7 +211,7 @@ pub(crate) struct Chain {
     g: f64,
 }
 
-impl ByHand<5, 0> for Chain {
+impl WithDerivatives<5, 0> for Chain {
     fn random(random: &mut Random) -> Self {
         let (m, l) = (random.array(Random::positive), random.array(Random::positive));
         Self { m, l, g: random.positive() }
@@ -267,7 +267,7 @@ impl Rods {
     }
 }
 
-impl ByHand<6, 0> for Rods {
+impl WithDerivatives<6, 0> for Rods {
     fn random(random: &mut Random) -> Self {
         let [m, l, c] = [(); 3].map(|()| random.array(Random::positive));
         Self { m, l, c, g: random.positive(), drag: random.positive(), push: random.positive() }

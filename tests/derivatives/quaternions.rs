@@ -3,7 +3,7 @@
 use lagrange_core::nalgebra::Matrix3;
 use lagrange_core::{ConstraintKind, prelude::*};
 
-use crate::by_hand::{ByHand, Number, check};
+use crate::by_hand::{Number, WithDerivatives, check};
 use crate::random::Random;
 
 /// A heavy top of any inertia, hung up by its pole, which also moves as a point would in q so that M is regular.
@@ -47,7 +47,7 @@ impl Top {
     }
 }
 
-impl ByHand<4, 2> for Top {
+impl WithDerivatives<4, 2> for Top {
     const KINDS: [ConstraintKind; 2] = [ConstraintKind::Holonomic, ConstraintKind::Velocity];
 
     fn random(random: &mut Random) -> Self {

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use lagrange_core::motion::{Adaptive, Pair, Watched};
+use lagrange_core::motion::{Adaptive, AnyEvent, Pair};
 use lagrange_core::{Arrival, Crossing, Ending, MemberEnding, MemberTable, Outcome, Sample, prelude::*};
 
 use crate::{COUNT, DoublePendulum, END, ensemble, member, on_threads};
@@ -19,7 +19,7 @@ fn assert_alone<L, P, const N: usize, const M: usize>(
     (system, start): (L, State<f64, N>),
     end: f64,
     method: Adaptive<P>,
-    events: &mut [&mut dyn Watched<L, N, M>],
+    events: &mut [&mut dyn AnyEvent<L, N, M>],
 ) where
     L: Lagrangian<N, M, Scalar = f64>,
     P: Pair + Copy,
@@ -35,7 +35,7 @@ fn assert_alone<L, P, const N: usize, const M: usize>(
 fn one_by_one_events_are_those_of_a_run() {
     let any = member(0).0;
     let upper = || any.event("upper", |s| s.coordinate("a")).terminal_at(2);
-    let lower = || any.event("lower", |s| s.velocity("b")).rising().pieces(2);
+    let lower = || any.event("lower", |s| s.velocity("b")).rising().subdivide(2);
     let (end, method) = (2.0, Dop853::default());
     let outcome = ensemble().event(upper()).event(lower()).integrate(end, method).unwrap();
     let ended =
@@ -136,7 +136,7 @@ fn different_events_of_sixty_four_members_are_found_as_the_rule_says() {
     let outcome = springs().integrate_on_lanes(end, method).unwrap();
     for index in 0..64 {
         let (mut ends, mut counted, mut kept) = (ends(), counted(), kept());
-        let events: &mut [&mut dyn Watched<_, 1, 0>] = &mut [&mut ends, &mut counted, &mut kept];
+        let events: &mut [&mut dyn AnyEvent<_, 1, 0>] = &mut [&mut ends, &mut counted, &mut kept];
         let found = arrival(&outcome, index);
         assert_alone(found, spring(index), end, method, events);
         let (Spring { kind, level, .. }, _) = spring(index);

@@ -250,8 +250,12 @@ fn rows_of_another_run_are_refused_by_name() {
     };
     const RUN: &str = "the method, one of its settings, an event, the tag or the end is another";
     let method = Dop853::default();
-    let others =
-        [method.relative(1e-10), method.absolute(1e-10), method.max_step(0.1), method.first_step(0.01)];
+    let others = [
+        method.relative_tolerance(1e-10),
+        method.absolute_tolerance(1e-10),
+        method.max_step(0.1),
+        method.first_step(0.01),
+    ];
     for other in others.into_iter().chain([method.fixed_step(0.01)]) {
         assert_eq!(refused(resumed(ensemble()).integrate_on_lanes(END, other)), (0, RUN));
     }

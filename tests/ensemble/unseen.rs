@@ -95,7 +95,7 @@ fn runs_with_other_events_are_told_apart() {
         |event| event.terminal_at(2),
         |event| event.terminal().rising(),
         |event| event.terminal().falling(),
-        |event| event.terminal().pieces(3),
+        |event| event.terminal().subdivide(3),
     ];
     for event in others {
         assert!(matches!(other(event), Err(Error::OtherRun { .. })));

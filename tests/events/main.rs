@@ -2,7 +2,7 @@
 
 mod adversary;
 mod impacts;
-mod journeys;
+mod hybrid;
 #[path = "../random/mod.rs"]
 mod random;
 mod rule;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use lagrange_core::motion::Watched;
+use lagrange_core::motion::AnyEvent;
 use lagrange_core::{Crossing, Ending, Event, Method, prelude::*};
 
 use crate::{Ball, Free, Spring};
@@ -17,7 +17,7 @@ fn steady(from: f64) -> Motion<Free, Dopri5, 1, 0> {
 fn crossings<L, P, const N: usize, const M: usize>(
     motion: &mut Motion<L, P, N, M>,
     end: f64,
-    events: &mut [&mut dyn Watched<L, N, M>],
+    events: &mut [&mut dyn AnyEvent<L, N, M>],
 ) -> Vec<Crossing<f64, N>>
 where
     L: Lagrangian<N, M, Scalar = f64>,
@@ -57,7 +57,7 @@ fn every_change_of_sign_on_the_grid_is_found() {
     close(&times(0.0, 5.0, |t| (t - 2.3) * (t - 2.31)), &[2.3, 2.31]);
     close(&times(0.0, 5.0, |t| (t - 2.3) * (t - 2.31) * (t - 2.32)), &[2.3, 2.31, 2.32]);
     for pieces in [100, 10] {
-        let mut wiggling = Free.event("wiggling", |s| (s.time() - 2.304) * (s.time() - 2.316)).pieces(pieces);
+        let mut wiggling = Free.event("wiggling", |s| (s.time() - 2.304) * (s.time() - 2.316)).subdivide(pieces);
         assert_eq!(crossings(&mut steady(0.0), 5.0, &mut [&mut wiggling]).len(), 2);
     }
 }
@@ -101,13 +101,13 @@ fn a_function_is_looked_at_closely_where_it_comes_near_zero() {
 fn pieces_show_what_is_narrower_than_samples_are_apart() {
     let dip = |t: f64| 1.0 - 2.0 * (-((t - 2.25) / 0.05).powi(2)).exp();
     for pieces in [4, 8, 100] {
-        let mut event = Free.event("dip", |s| dip(s.time())).pieces(pieces);
+        let mut event = Free.event("dip", |s| dip(s.time())).subdivide(pieces);
         let mut other = Free.event("other", |s| s.time() + 1.0);
         assert_eq!(crossings(&mut steady(0.0), 5.0, &mut [&mut other, &mut event]).len(), 2);
     }
     // What another event asks for does not take away from what this one does.
     let mut turns = Free.event("turns", |s| (s.time() - 2.3) * (s.time() - 2.44));
-    let mut other = Free.event("other", |s| s.time() + 1.0).pieces(1);
+    let mut other = Free.event("other", |s| s.time() + 1.0).subdivide(1);
     assert_eq!(crossings(&mut steady(0.0), 5.0, &mut [&mut turns, &mut other]).len(), 2);
 }
 

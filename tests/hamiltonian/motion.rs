@@ -1,6 +1,6 @@
 //! Motions by Hamilton's equations against those by Lagrange's, over 50 s at relative tolerance 1e-12.
 
-use lagrange_core::{Ending, HamiltonianFlow, prelude::*};
+use lagrange_core::{Ending, HamiltonianVectorField, prelude::*};
 
 use crate::closed_forms::{Polar, Relativistic};
 use crate::constrained::{Bead, Cartesian, Top};
@@ -17,7 +17,7 @@ fn method() -> Dop853 {
 fn check<L: Simulate<N, M, Scalar = f64>, const N: usize, const M: usize>(
     system: &L,
     start: State<f64, N>,
-) -> Trajectory<&L, N, M, HamiltonianFlow> {
+) -> Trajectory<&L, N, M, HamiltonianVectorField> {
     let lagrange = system.integrate(start, END, method()).unwrap();
     let hamilton = system.motion_in_momenta(system.phase_state(&start)).by(method()).to(END).unwrap();
     assert!(hamilton.ending().is_complete(), "{}", hamilton.ending());
@@ -40,7 +40,7 @@ fn check<L: Simulate<N, M, Scalar = f64>, const N: usize, const M: usize>(
 
 /// The largest change of H along a trajectory.
 fn drift<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize>(
-    path: &Trajectory<&L, N, M, HamiltonianFlow>,
+    path: &Trajectory<&L, N, M, HamiltonianVectorField>,
 ) -> f64 {
     path.steps().fold(0.0, |most, sample| most.max((sample.energy() - path.start().energy()).abs()))
 }

@@ -1,6 +1,6 @@
 //! Other number types, and functions that the user supplies.
 
-use lagrange_core::function::{ByHand, HandWritten};
+use lagrange_core::function::{FunctionWithDerivatives, WithDerivatives};
 use lagrange_core::nalgebra::SVector;
 use lagrange_core::{Jacobian, Solution, Stability, prelude::*};
 use num_dual::Dual64;
@@ -108,7 +108,7 @@ impl Function<1, 1> for Morse {
     }
 }
 
-impl HandWritten<1, 1> for Morse {
+impl FunctionWithDerivatives<1, 1> for Morse {
     fn value(&self, x: [f64; 1]) -> [f64; 1] {
         self.eval(x)
     }
@@ -141,7 +141,7 @@ fn a_supplied_potential_is_differentiated_once_more() {
     let bond = Morse { depth: 3.0, a: 1.2 };
     let frequency = (2.0 * 3.0 * 1.44 / 0.5_f64).sqrt();
     let general = Molecule { mass: 0.5, length: 2.0, bond: bond.clone() };
-    let by_hand = Molecule { mass: 0.5, length: 2.0, bond: ByHand(bond) };
+    let by_hand = Molecule { mass: 0.5, length: 2.0, bond: WithDerivatives(bond) };
     let found = general.equilibrium(&State::at_rest([2.3, 0.0]), &[]).unwrap();
     assert!((found.state.q[0] - 2.0).abs() < 1e-15);
     for near in [general.linearize(&found.state, &[]), by_hand.linearize(&found.state, &[])] {

@@ -149,7 +149,7 @@ macro_rules! drive {
                 .integrate(start, end, Taylor::default())
                 .map_err(|error| format!("{}: {error}", $name))?;
             let other = $system
-                .integrate(start, end, Dop853::default().relative(1e-12))
+                .integrate(start, end, Dop853::default().relative_tolerance(1e-12))
                 .map_err(|error| format!("{}: {error}", $name))?;
             let (a, b) = (*taylor.end().state(), *other.end().state());
             said(close("Taylor", &a.q, &b.q, 1.0, 1e-8))?;

@@ -2,7 +2,7 @@
 //! solver designed for parabolic problems*, BIT 41 (2001); the form without products of the Jacobian is that of Hairer and
 //! Wanner, *Solving Ordinary Differential Equations II*, (IV.7.25).
 
-use lagrange_core::motion::{Interpolant, Limits, Phase, Polynomial, Step};
+use lagrange_core::motion::{Interpolant, Limits, PhaseVector, Polynomial, Step};
 use lagrange_core::nalgebra::{DMatrix, DVector, Dyn, LU, SVector};
 use lagrange_core::{Ending, Jacobian, Method, StateDerivatives, Statistics, prelude::*};
 
@@ -111,7 +111,7 @@ where
     L: StateDerivatives<N, M, Scalar = f64>,
 {
     type Memory = Memory<N>;
-    type Interpolant = Polynomial<f64, [Phase<f64, N>; 4]>;
+    type Interpolant = Polynomial<f64, [PhaseVector<f64, N>; 4]>;
 
     fn limits(&self) -> Limits {
         Limits::default()

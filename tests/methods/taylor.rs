@@ -1,7 +1,7 @@
 //! Taylor's series of order 3, its derivatives by dual numbers through the emitted accelerations; its interpolant is the
 //! series itself, a type of its own.
 
-use lagrange_core::motion::{Interpolant, Limits, PhasePoint, Step};
+use lagrange_core::motion::{Interpolant, Limits, StagePoint, Step};
 use lagrange_core::{Dual, Method, Statistics, prelude::*};
 
 use crate::orders;
@@ -46,12 +46,12 @@ impl Series {
 }
 
 impl Interpolant<f64, 1> for Series {
-    fn at(&self, t: f64) -> PhasePoint<f64, 1> {
+    fn at(&self, t: f64) -> StagePoint<f64, 1> {
         let [x, v, a, jerk, snap] = self.derivatives;
         let h = t - self.t;
         let velocity = v + h * (a + h / 2.0 * (jerk + h / 3.0 * snap));
         let place = x + h * (v + h / 2.0 * (a + h / 3.0 * (jerk + h / 4.0 * snap)));
-        PhasePoint { t, y: [[place], [velocity]], velocity: [velocity] }
+        StagePoint { t, y: [[place], [velocity]], velocity: [velocity] }
     }
 }
 
@@ -93,7 +93,7 @@ impl Method<Pendulum<f64>, 1, 0> for Taylor {
             if left.abs() <= self.step * (1.0 + 1e-9) { end } else { state.t + self.step * left.signum() };
         statistics.evaluations += 3;
         let series = Series::at(system, state);
-        let PhasePoint { y: [q, v], .. } = series.at(time);
+        let StagePoint { y: [q, v], .. } = series.at(time);
         (*last, *state) = (Some(series), State::new(q, v).at_time(time));
         Step::Accepted(*state)
     }
@@ -140,7 +140,7 @@ fn its_interpolant_is_the_series() {
     motion.advance_to(0.1).unwrap();
     for k in 1..10 {
         let t = 0.01 * f64::from(k);
-        let PhasePoint { y: [q, v], .. } = Series::at(&PENDULUM, &sine(0.0)).at(t);
+        let StagePoint { y: [q, v], .. } = Series::at(&PENDULUM, &sine(0.0)).at(t);
         let expected = State::new(q, v).at_time(t);
         assert_eq!((*path.at(t).unwrap().state(), motion.at(t).unwrap()), (expected, expected));
     }

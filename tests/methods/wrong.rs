@@ -2,7 +2,7 @@
 
 use core::cell::Cell;
 
-use lagrange_core::motion::{Limits, Phase, Polynomial, Step};
+use lagrange_core::motion::{Limits, PhaseVector, Polynomial, Step};
 use lagrange_core::{Ending, Method, Statistics, prelude::*};
 
 #[derive(Lagrangian, Clone, Copy)]
@@ -24,7 +24,7 @@ struct Wrong(Fault);
 
 impl Method<Spring, 1, 0> for Wrong {
     type Memory = (State<f64, 1>, usize);
-    type Interpolant = Polynomial<f64, [Phase<f64, 1>; 4]>;
+    type Interpolant = Polynomial<f64, [PhaseVector<f64, 1>; 4]>;
 
     fn limits(&self) -> Limits {
         Limits::default()
@@ -149,8 +149,8 @@ impl Method<Spring, 1, 0> for Grudging {
         Method::<Spring, 1, 0>::interpolant(&Dopri5::default(), system, memory, statistics)
     }
 
-    fn take_back(&self, memory: &mut Self::Memory) -> bool {
-        self.takes_back && Method::<Spring, 1, 0>::take_back(&Dopri5::default(), memory)
+    fn undo(&self, memory: &mut Self::Memory) -> bool {
+        self.takes_back && Method::<Spring, 1, 0>::undo(&Dopri5::default(), memory)
     }
 }
 

@@ -121,7 +121,7 @@ where
 /// δΦ = 0 and δ(F q̇ + b) = 0, along the derivatives by the start.
 fn check_tangent<S, const N: usize, const M: usize, const P: usize>(
     system: &S,
-    at: &lagrange_core::Sensitivity<f64, N>,
+    at: &lagrange_core::StateSensitivity<f64, N>,
     names: &[&str],
 ) where
     S: Linearized<N, M, P, Scalar = f64>,

@@ -1,7 +1,7 @@
 //! Derivatives across events, by differences of motions.
 
 use lagrange_core::nalgebra::{DMatrix, DVector};
-use lagrange_core::{Dual, Ending, Sensitivity, prelude::*};
+use lagrange_core::{Dual, Ending, StateSensitivity, prelude::*};
 
 use crate::differences::{STEPS, TOLERANCE, difference};
 use crate::events::{Flying, method};
@@ -20,7 +20,7 @@ pub(crate) fn check(what: &str, found: &DMatrix<f64>, of: impl Fn(usize, f64) ->
 }
 
 /// Time, coordinates and velocities, one below the other.
-pub(crate) fn block<const N: usize>(at: &Sensitivity<f64, N>) -> DMatrix<f64> {
+pub(crate) fn block<const N: usize>(at: &StateSensitivity<f64, N>) -> DMatrix<f64> {
     DMatrix::from_fn(1 + 2 * N, at.t.len(), |i, j| match i {
         0 => at.t[j],
         i if i <= N => at.q[(i - 1, j)],
@@ -194,7 +194,7 @@ fn a_reset_to_other_coordinates() {
         let at = at.with(&["cut", "speed"]).unwrap();
         let swing =
             swinging.motion_with_derivatives(&at).by(method()).event(&mut cuts).towards(10.0).unwrap();
-        let thrown = swinging.carry(swing.end().unwrap(), |s| {
+        let thrown = swinging.push_forward(swing.end().unwrap(), |s| {
             let (l, theta, rate) = (s.parameter("l")?, s.coordinate("theta")?, s.velocity("theta")?);
             let (sin, cos) = theta.sin_cos();
             // Thrown a little faster the later it is.
@@ -220,14 +220,14 @@ fn what_follows_from_a_state_changes_with_it() {
     let state = State::new([-0.5, 0.2, -0.9], [0.6, 0.9, 0.0]);
     let state = bob.make_consistent(&state).unwrap().0;
     let at = bob.sensitivity(&state, &["x", "y", "z", "z_dot", "m", "n", "g", "l"]).unwrap();
-    let forces = bob.carry(&at, |s| {
+    let forces = bob.push_forward(&at, |s| {
         let [m, g, z] = [s.parameter("m")?, s.parameter("g")?, s.coordinate("z")?];
         let lever = s.multiplier("rod")? * z;
         let row =
             m * s.acceleration("z")? + m * g - s.parameter("n")? * s.velocity("x")? * s.velocity("y")?;
         Ok([[s.constraint_force("z")?, lever], [row, lever]])
     });
-    let Sensitivity { state, q, v, .. } = forces.unwrap();
+    let StateSensitivity { state, q, v, .. } = forces.unwrap();
     assert!((state.q[0] - state.q[1]).abs() < 1e-14 && (state.q[0] - state.v[0]).abs() < 1e-13);
     assert!(q.row(0).amax() > 1.0 && (q.row(0) - q.row(1)).amax() < 1e-12, "{q}");
     assert!((q.row(0) - v.row(0)).amax() < 1e-12, "{q}{v}");

@@ -17,7 +17,7 @@ use std::f64::consts::PI;
 
 use differences::{check, check_each};
 use lagrange_core::function::Function;
-use lagrange_core::{DifferentiableMethod, Error, Scalar, Sensitivity, prelude::*};
+use lagrange_core::{DifferentiableMethod, Error, Scalar, StateSensitivity, prelude::*};
 
 fn method() -> Dop853 {
     Dop853::with_tolerance(1e-13)
@@ -272,7 +272,7 @@ fn check_spring<D: DifferentiableMethod<Spring<f64>, 1, 0, 1>>(method: D, tolera
     let motion = motion.unwrap();
     for k in 0..=200 {
         let t = 2.0 * PI * f64::from(k) / 200.0;
-        let Sensitivity { q, v: rate, .. } = motion.at(t).unwrap();
+        let StateSensitivity { q, v: rate, .. } = motion.at(t).unwrap();
         let (sin, cos) = (2.0 * t).sin_cos();
         let by_w = -x * t * sin + v * (t * cos / 2.0 - sin / 4.0);
         for (found, exact) in

@@ -115,9 +115,11 @@ fn a_collision_ends_the_motion_with_its_time() {
 #[test]
 fn settings_that_cannot_work_are_refused() {
     let start = State::at_rest([1.0]);
-    for method in
-        [Taylor::with_tolerance(0.0), Taylor::default().max_step(-1.0), Taylor::default().relative(f64::NAN)]
-    {
+    for method in [
+        Taylor::with_tolerance(0.0),
+        Taylor::default().max_step(-1.0),
+        Taylor::default().relative_tolerance(f64::NAN),
+    ] {
         let error = Spring { k: 1.0 }.integrate(start, 1.0, method).err();
         assert!(matches!(error, Some(Error::Setting { .. })), "{error:?}");
     }

@@ -85,7 +85,7 @@ fn two_zeros_within_a_step_are_two() -> Result<()> {
     for (apart, pieces) in [(0.5, None), (0.13, None), (0.02, None), (0.02, Some(128))] {
         let level = (apart / 2.0_f64).cos();
         let event = Spring.event("level", move |sample| sample.state().q[0] - level);
-        let mut event = if let Some(pieces) = pieces { event.pieces(pieces) } else { event };
+        let mut event = if let Some(pieces) = pieces { event.subdivide(pieces) } else { event };
         let method = Taylor::default();
         let path = Spring.motion(State::at_rest([-1.0])).by(method).event(&mut event).towards(60.0)?;
         assert!(path.statistics().accepted < 70 && path.crossings().len() == 20, "{apart}");

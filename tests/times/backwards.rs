@@ -50,8 +50,8 @@ fn checked_backwards(method: impl Method<Spring<f64>, 1, 0> + Copy, bound: impl 
 
 #[test]
 fn a_spring_swings_back_as_its_solution_says() {
-    checked_backwards(Dop853::default().absolute(1e-14), |steps| allowed(steps, 1e-9));
-    checked_backwards(Dopri5::with_tolerance(1e-8).absolute(1e-14), |steps| allowed(steps, 1e-8));
+    checked_backwards(Dop853::default().absolute_tolerance(1e-14), |steps| allowed(steps, 1e-9));
+    checked_backwards(Dopri5::with_tolerance(1e-8).absolute_tolerance(1e-14), |steps| allowed(steps, 1e-8));
 }
 
 #[test]

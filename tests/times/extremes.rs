@@ -19,7 +19,7 @@ fn spans_of_all_sizes_are_integrated() {
         let scale = 10_f64.powi(exponent);
         let (omega, end) = (1.0 / scale, 20.0 * scale);
         let spring = Spring { omega };
-        let method = Dop853::default().absolute(1e-9 * omega.min(1.0));
+        let method = Dop853::default().absolute_tolerance(1e-9 * omega.min(1.0));
         let path = spring.integrate(State::at_rest([1.0]), end, method).unwrap();
         assert_eq!(*path.ending(), Ending::Complete { time: end });
         let off = path.end().coordinate("x").unwrap() - exact(omega, 0.0, end);
@@ -33,7 +33,7 @@ fn spans_of_all_sizes_are_integrated_in_single_precision() {
     for scale in [1e-18_f32, 1e-15, 1e-9, 1e9, 1e15, 1e18] {
         let (omega, end) = (1.0 / scale, 20.0 * scale);
         let spring = Spring { omega };
-        let method = Dop853::with_tolerance(1e-5).absolute(1e-5 * f64::from(omega.min(1.0)));
+        let method = Dop853::with_tolerance(1e-5).absolute_tolerance(1e-5 * f64::from(omega.min(1.0)));
         let path = spring.integrate(State::at_rest([1.0]), end, method).unwrap();
         assert!(path.ending().is_complete(), "{}", path.ending());
         let off =

@@ -1,7 +1,7 @@
 //! No number that is wrong without a word: for everything that gives numbers, a state where it cannot know them.
 
 use lagrange_core::prelude::*;
-use lagrange_core::{Ending, HamiltonianFlow, Motion, Sample};
+use lagrange_core::{Ending, HamiltonianVectorField, Motion, Sample};
 
 /// A bead on a wire that is nowhere for 2·10⁻⁹ s about t = 1/2, which no step meets.
 #[derive(Clone, Lagrangian)]
@@ -27,7 +27,7 @@ fn path() -> Trajectory<&'static Bead, 2, 1> {
     path
 }
 
-fn path_in_momenta() -> Trajectory<&'static Bead, 2, 1, HamiltonianFlow> {
+fn path_in_momenta() -> Trajectory<&'static Bead, 2, 1, HamiltonianVectorField> {
     let phase = BEAD.phase_state(&start());
     BEAD.motion_in_momenta(phase).by(Dopri5::with_tolerance(1e-6)).to(1.0).expect("a motion")
 }

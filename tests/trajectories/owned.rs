@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::thread;
 
 use lagrange_core::prelude::*;
-use lagrange_core::{HamiltonianFlow, Sample};
+use lagrange_core::{HamiltonianVectorField, Sample};
 
 /// A weight on a spring, pulled by a force `u`: with ω² = 1 it swings about x = u.
 #[derive(Clone, Debug, Lagrangian)]
@@ -84,7 +84,7 @@ fn a_sample_outlives_its_path_and_its_system() -> Result<(), Error> {
 
 #[test]
 fn motions_in_momenta_are_owned_too() -> Result<(), Error> {
-    let build = || -> Result<Trajectory<Plant, 1, 0, HamiltonianFlow>, Error> {
+    let build = || -> Result<Trajectory<Plant, 1, 0, HamiltonianVectorField>, Error> {
         let plant = Plant { u: 0.5 };
         let path = plant.motion_in_momenta(PhaseState::new([0.0], [0.0])).to(3.0)?;
         Ok(path.into_owned())

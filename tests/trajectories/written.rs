@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 
 use lagrange_core::prelude::*;
-use lagrange_core::{Arrival, Ending, PhaseRate, Records, Solution, Statistics};
+use lagrange_core::{Arrival, Ending, PhaseDerivative, Records, Solution, Statistics};
 use serde_json::{Value, from_str, from_value, json, to_string, to_value};
 
 #[derive(Clone, Lagrangian)]
@@ -41,7 +41,7 @@ fn numbers_come_back_to_the_bit() {
     assert_eq!(comes_back(&start()), json!({ "t": 0.0, "q": [0.6, -0.8], "v": [0.0, 0.0] }));
     comes_back::<State<f64, 2>>(end.state());
     comes_back::<PhaseState<f64, 2>>(&phase);
-    comes_back::<PhaseRate<f64, 2, 1>>(&BOB.hamilton_equations(&phase).unwrap());
+    comes_back::<PhaseDerivative<f64, 2, 1>>(&BOB.hamilton_equations(&phase).unwrap());
     let written = comes_back::<Solution<f64, 2, 1>>(&end.solution().unwrap());
     assert_eq!(written["multipliers"], json!([end.multiplier("rod").unwrap()]));
     comes_back::<Statistics>(path.statistics());

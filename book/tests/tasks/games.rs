@@ -1,6 +1,6 @@
 //! For a game.
 
-use lagrange_core::{Ending, Journey, prelude::*};
+use lagrange_core::{Ending, HybridTrajectory, prelude::*};
 
 type Result = std::result::Result<(), Error>;
 
@@ -84,7 +84,7 @@ fn a_grappling_hook() -> Result {
 
     let (m, g) = (70.0, 9.81);
     let (swinging, flying, landed) = (Swinging { m, g, hook: 8.0, l: 6.0 }, Flying { m, g }, Landed { m, g });
-    let mut journey = Journey::new();
+    let mut trajectory = HybridTrajectory::new();
     // The player lets go at 45° on the way up.
     let lets_go =
         swinging.event("lets go", |sample| sample.state().q[0] - 6.0 * 0.5_f64.sqrt()).rising().terminal();
@@ -92,19 +92,19 @@ fn a_grappling_hook() -> Result {
     let swing = swinging.motion(start).event(lets_go).to(10.0)?;
     let mut state = *swing.end().state();
     assert!((state.v.norm_squared() / 2.0 - g * 6.0 * 0.5_f64.sqrt()).abs() < 1e-6);
-    journey.push(swing.into_owned())?;
+    trajectory.push(swing.into_owned())?;
     let mut lands = flying.event("lands", |sample| sample.coordinate("y")).falling().terminal();
     for _ in 0..3 {
         let flight = flying.motion(state).event(&mut lands).towards(60.0)?;
         assert!(matches!(flight.ending(), Ending::Event { event: "lands", .. }));
         state = landed.impact(flight.end().state(), "ground", 0.4)?.state;
-        journey.push(flight.into_owned())?;
+        trajectory.push(flight.into_owned())?;
     }
     // Frames for the screen, whatever leg they are of.
-    let frames: Vec<_> = journey.samples(300).collect::<std::result::Result<_, _>>()?;
+    let frames: Vec<_> = trajectory.samples(300).collect::<std::result::Result<_, _>>()?;
     assert!(frames.iter().all(|frame| frame.coordinate("y").is_ok_and(|y| y > -1e-9)));
     assert!(frames.iter().any(|frame| frame.multiplier("rope").is_ok_and(|rope| rope < 0.0)));
-    assert_eq!(journey.legs().len(), 4);
+    assert_eq!(trajectory.legs().len(), 4);
     Ok(())
 }
 

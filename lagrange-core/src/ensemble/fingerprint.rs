@@ -19,7 +19,7 @@ pub struct Fingerprint {
     /// Of the system: its declaration ([`Lagrangian::DIGEST`]), its name, coordinates and constraints, and its number type.
     pub system: u32,
     /// Of the method and its settings, whether it was on lanes, the end, the times and quantities of samples, the events by name,
-    /// direction, pieces and terminal count, the interval of the controller, and the [tag](super::Ensemble::tag).
+    /// direction, subdivisions and terminal count, the interval of the controller, and the [tag](super::Ensemble::tag).
     pub run: u32,
     /// Hash of the member's initial time, coordinates, velocities and parameters, bit for bit.
     pub start: u32,
@@ -43,7 +43,7 @@ impl Fingerprint {
         }
         run.text(if is_on_lanes { " on lanes" } else { "" });
         run.number(end.to_f64());
-        if plan.orders.identify(&mut run).is_err() {
+        if plan.record_plan.identify(&mut run).is_err() {
             run.text("not written to its end");
         }
         if let Some(tag) = plan.tag.as_deref().filter(|tag| !tag.is_empty()) {

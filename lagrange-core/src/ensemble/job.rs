@@ -11,7 +11,7 @@ use super::table::MemberRow;
 use crate::ending::Ending;
 use crate::error::Error;
 use crate::motion::run::{Run, Watchdog};
-use crate::motion::{Batch, LagrangianFlow, LaneMethod, Method, Orders, Record, Seat};
+use crate::motion::{Batch, LagrangianVectorField, LaneMethod, LaneMotion, Method, Record, RecordPlan};
 use crate::number::Real;
 use crate::statistics::Statistics;
 use crate::system::finite::check_finite;
@@ -29,7 +29,7 @@ pub(super) struct Plan<'a, L: Lagrangian<N, M, Scalar = T>, T, const N: usize, c
     pub(super) done: Vec<MemberRow<T, N>>,
     pub(super) observer: Option<Observer<'a, T, N>>,
     pub(super) watch: Option<Watch<'a, T, N>>,
-    pub(super) orders: Orders<'a, L, N, M>,
+    pub(super) record_plan: RecordPlan<'a, L, N, M>,
     /// What the user calls the code that no fingerprint sees.
     pub(super) tag: Option<String>,
 }
@@ -53,7 +53,7 @@ where
             None => (L::DIGEST == 0).then(|| "the equations, written by hand,".into()),
         };
         let observer = self.observer.as_ref().map(|_| "the observer".into());
-        of_system.or_else(|| self.orders.unseen()).or(observer)
+        of_system.or_else(|| self.record_plan.unseen()).or(observer)
     }
 }
 
@@ -76,7 +76,7 @@ pub struct EnsembleProgress<'m, T, const N: usize> {
 pub(super) struct Job<'a, L: Lagrangian<N, M, Scalar = T>, T, const N: usize, const M: usize> {
     make: Make<'a, L, T, N>,
     observer: Option<Observer<'a, T, N>>,
-    orders: Arc<Orders<'a, L, N, M>>,
+    record_plan: Arc<RecordPlan<'a, L, N, M>>,
     end: T,
     /// What the fingerprints of all members have in common.
     run: Fingerprint,
@@ -152,10 +152,10 @@ where
 {
     pub(super) fn new(plan: Plan<'a, L, T, N, M>, end: T, run: Fingerprint) -> Result<Self, Error> {
         plan.check_tag()?;
-        let Plan { count, make, shard, shards, list, done, observer, watch, orders, tag: _ } = plan;
-        orders.check()?;
+        let Plan { count, make, shard, shards, list, done, observer, watch, record_plan, tag: _ } = plan;
+        record_plan.check()?;
         let part = Part::new(count, shard, shards, list)?;
-        let events = orders.events();
+        let events = record_plan.events();
         let mine = done.into_iter().filter(|row| part.contains(row.index));
         let mut members: Vec<_> = mine.map(|row| row.into_member(&events)).collect();
         members.iter().try_for_each(|member| {
@@ -167,13 +167,13 @@ where
         let done = members.iter().map(|member| member.index).collect();
         let ledger = Mutex::new(Ledger { members, of: part.len(), watch });
         let (given, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
-        let orders = Arc::new(orders);
-        Ok(Self { make, observer, orders, end, run, part, done, given, stopped, ledger })
+        let record_plan = Arc::new(record_plan);
+        Ok(Self { make, observer, record_plan, end, run, part, done, given, stopped, ledger })
     }
 
     pub(super) fn outcome(self) -> Outcome<T, N> {
         let ledger = self.ledger.into_inner().unwrap_or_else(PoisonError::into_inner);
-        Outcome::new(ledger.members, L::COORDINATES, self.orders.quantities(), (self.end, self.run))
+        Outcome::new(ledger.members, L::COORDINATES, self.record_plan.quantities(), (self.end, self.run))
     }
 
     /// These members alone, with what is their own here: its outcome is to be [reported](Self::report).
@@ -187,7 +187,7 @@ where
         Job {
             make: Box::new(&self.make),
             observer,
-            orders: self.orders.clone(),
+            record_plan: self.record_plan.clone(),
             end: self.end,
             run: self.run,
             part: Part { count: self.part.count, shard: 0, shards: 1, list: Some(list) },
@@ -220,7 +220,7 @@ where
     /// The names of the events.
     #[cfg(feature = "mpi")]
     pub(super) fn events(&self) -> Vec<&'static str> {
-        self.orders.events()
+        self.record_plan.events()
     }
 
     /// The member that nobody has yet.
@@ -270,16 +270,16 @@ where
     }
 
     /// Integrates members until there are none left.
-    pub(super) fn one_by_one<P: Method<L, N, M>, const IS_WATCHED: bool>(&self, method: &P) {
+    pub(super) fn one_by_one<P: Method<L, N, M>, const HAS_DENSE_OUTPUT: bool>(&self, method: &P) {
         while let Some(index) = self.next() {
             let (mut system, start) = (self.make)(index);
             let fingerprint = self.run.with_start(&system, &start);
-            let result = self.integrate::<P, IS_WATCHED>(index, &mut system, &start, method);
+            let result = self.integrate::<P, HAS_DENSE_OUTPUT>(index, &mut system, &start, method);
             self.report(Member { index, fingerprint, result });
         }
     }
 
-    fn integrate<P: Method<L, N, M>, const IS_WATCHED: bool>(
+    fn integrate<P: Method<L, N, M>, const HAS_DENSE_OUTPUT: bool>(
         &self,
         index: usize,
         system: &mut L,
@@ -287,14 +287,14 @@ where
         method: &P,
     ) -> Result<Arrival<T, N>, Error> {
         check_finite(system, start)?;
-        let (mut run, _) = Run::begin::<L, LagrangianFlow, _, M>(system, start, method)?;
-        let mut record = Record::begin(&self.orders, system, &run.state, self.end)?;
+        let (mut run, _) = Run::begin::<L, LagrangianVectorField, _, M>(system, start, method)?;
+        let mut record = Record::begin(&self.record_plan, system, &run.state, self.end)?;
         let limits = Watchdog::new(method.limits(), &run.statistics);
         let ending = loop {
             if run.state.t == self.end {
                 break Ending::Complete { time: run.state.t.to_f64() };
             }
-            let stepped = match const { IS_WATCHED } {
+            let stepped = match const { HAS_DENSE_OUTPUT } {
                 true => record.step(&mut run, (index, &mut *system), method, &limits),
                 false => run.step(system, method, self.end, &limits),
             };
@@ -333,74 +333,74 @@ fn check_run_of<T: Real, const N: usize>(member: &Member<T, N>, expected: &Finge
 
 impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Job<'_, L, f64, N, M> {
     /// Integrates members as many at a time as there are lanes until there are none left.
-    pub(super) fn on_lanes<P: LaneMethod<L, N, M>, const IS_WATCHED: bool>(&self, method: &P) {
-        let mut next = self.next_seat::<P, IS_WATCHED>(method);
+    pub(super) fn on_lanes<P: LaneMethod<L, N, M>, const HAS_DENSE_OUTPUT: bool>(&self, method: &P) {
+        let mut next = self.next_seat::<P, HAS_DENSE_OUTPUT>(method);
         while let Some(first) = next.take() {
             let mut batch = Batch::new(method, first);
-            next = self.next_seat::<P, IS_WATCHED>(method);
+            next = self.next_seat::<P, HAS_DENSE_OUTPUT>(method);
             while !batch.is_empty() && !self.is_stopped() {
-                self.fill::<P, IS_WATCHED>(&mut batch, &mut next, method);
-                batch.step::<IS_WATCHED>(
+                self.fill::<P, HAS_DENSE_OUTPUT>(&mut batch, &mut next, method);
+                batch.step::<HAS_DENSE_OUTPUT>(
                     |index, state| self.observe(index, state),
-                    |seat, state, ending| self.report(self.arrived(seat, state, ending)),
+                    |motion, state, ending| self.report(self.arrived(motion, state, ending)),
                 );
             }
         }
     }
 
     /// Gives free lanes to the next members. One that does not fit beside the others waits until they have ended.
-    fn fill<'j, P: LaneMethod<L, N, M>, const IS_WATCHED: bool>(
+    fn fill<'j, P: LaneMethod<L, N, M>, const HAS_DENSE_OUTPUT: bool>(
         &'j self,
         batch: &mut Batch<'j, L, P, N, M>,
-        next: &mut Option<Seat<'j, L, P, N, M>>,
+        next: &mut Option<LaneMotion<'j, L, P, N, M>>,
         method: &P,
     ) {
         while batch.has_free_lane()
-            && let Some(seat) = next.take()
+            && let Some(motion) = next.take()
         {
-            *next = batch.join(seat);
+            *next = batch.join(motion);
             if next.is_some() {
                 break;
             }
-            *next = self.next_seat::<P, IS_WATCHED>(method);
+            *next = self.next_seat::<P, HAS_DENSE_OUTPUT>(method);
         }
     }
 
     fn arrived<P: LaneMethod<L, N, M>>(
         &self,
-        seat: Seat<'_, L, P, N, M>,
+        motion: LaneMotion<'_, L, P, N, M>,
         state: State<f64, N>,
         ending: Ending,
     ) -> Member<f64, N> {
-        let Seat { index, start, statistics, record, .. } = seat;
+        let LaneMotion { index, start, statistics, record, .. } = motion;
         let fingerprint = Fingerprint { start, ..self.run };
         Member { index, fingerprint, result: Ok(arrival(state, ending, statistics, record)) }
     }
 
     /// The next member that has a motion; those without are reported.
-    fn next_seat<P: LaneMethod<L, N, M>, const IS_WATCHED: bool>(
+    fn next_seat<P: LaneMethod<L, N, M>, const HAS_DENSE_OUTPUT: bool>(
         &self,
         method: &P,
-    ) -> Option<Seat<'_, L, P, N, M>> {
+    ) -> Option<LaneMotion<'_, L, P, N, M>> {
         loop {
             let index = self.next()?;
             let (system, start) = (self.make)(index);
             let fingerprint = self.run.with_start(&system, &start);
-            let seat = check_finite(&system, &start).and_then(|()| {
-                Seat::new::<IS_WATCHED>(
+            let motion = check_finite(&system, &start).and_then(|()| {
+                LaneMotion::new::<HAS_DENSE_OUTPUT>(
                     (index, fingerprint.start),
                     system,
                     &start,
                     self.end,
                     method,
-                    &self.orders,
+                    &self.record_plan,
                 )
             });
-            match seat {
+            match motion {
                 Err(error) => self.report(Member { index, fingerprint, result: Err(error) }),
-                Ok((mut seat, state)) => match seat.ending_at_start(method) {
-                    None => return Some(seat),
-                    Some(ending) => self.report(self.arrived(seat, state, ending)),
+                Ok((mut motion, state)) => match motion.ending_at_start(method) {
+                    None => return Some(motion),
+                    Some(ending) => self.report(self.arrived(motion, state, ending)),
                 },
             }
         }

@@ -27,7 +27,7 @@ use core::ops::ControlFlow;
 
 use crate::error::Error;
 use crate::motion::run::check_end;
-use crate::motion::{LaneMethod, Method, Orders};
+use crate::motion::{LaneMethod, Method, RecordPlan};
 use crate::number::{Lanes, Real};
 use crate::system::{Lagrangian, Pack, State};
 pub use fingerprint::Fingerprint;
@@ -65,7 +65,7 @@ pub use table::{MemberEnding, MemberRow, MemberTable};
 /// # Ok::<(), Error>(())
 /// ```
 #[must_use = "an ensemble does nothing until it is integrated"]
-pub struct Ensemble<'a, L, T, const N: usize, const M: usize = 0, const IS_WATCHED: bool = false>
+pub struct Ensemble<'a, L, T, const N: usize, const M: usize = 0, const HAS_DENSE_OUTPUT: bool = false>
 where
     L: Lagrangian<N, M, Scalar = T>,
 {
@@ -81,8 +81,10 @@ where
     pub fn from_fn(count: usize, member: impl Fn(usize) -> (L, State<T, N>) + Send + Sync + 'a) -> Self {
         let make = Box::new(member);
         let (list, done, observer, watch, tag) = (None, Vec::new(), None, None, None);
-        let orders = Orders::default();
-        Self { plan: Plan { count, make, shard: 0, shards: 1, list, done, observer, watch, orders, tag } }
+        let record_plan = RecordPlan::default();
+        Self {
+            plan: Plan { count, make, shard: 0, shards: 1, list, done, observer, watch, record_plan, tag },
+        }
     }
 
     /// These members.
@@ -95,8 +97,8 @@ where
     }
 }
 
-impl<'a, L, T: Real, const N: usize, const M: usize, const IS_WATCHED: bool>
-    Ensemble<'a, L, T, N, M, IS_WATCHED>
+impl<'a, L, T: Real, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool>
+    Ensemble<'a, L, T, N, M, HAS_DENSE_OUTPUT>
 where
     L: Lagrangian<N, M, Scalar = T>,
 {
@@ -193,7 +195,7 @@ where
     {
         method.check()?;
         let run = Fingerprint::of_run(&method, end, false, &self.plan);
-        self.run(end, run, |job| job.one_by_one::<P, IS_WATCHED>(&method))
+        self.run(end, run, |job| job.one_by_one::<P, HAS_DENSE_OUTPUT>(&method))
     }
 
     /// Leaves out what is done: the members in this table, from [`Outcome::csv`] or from the rows of
@@ -263,7 +265,8 @@ where
     }
 }
 
-impl<L, const N: usize, const M: usize, const IS_WATCHED: bool> Ensemble<'_, L, f64, N, M, IS_WATCHED>
+impl<L, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool>
+    Ensemble<'_, L, f64, N, M, HAS_DENSE_OUTPUT>
 where
     L: Lagrangian<N, M, Scalar = f64>,
 {
@@ -285,12 +288,12 @@ where
     {
         method.check()?;
         let run = Fingerprint::of_run(&method, end, true, &self.plan);
-        self.run(end, run, |job| job.on_lanes::<P, IS_WATCHED>(&method))
+        self.run(end, run, |job| job.on_lanes::<P, HAS_DENSE_OUTPUT>(&method))
     }
 }
 
-impl<L, T, const N: usize, const M: usize, const IS_WATCHED: bool> Debug
-    for Ensemble<'_, L, T, N, M, IS_WATCHED>
+impl<L, T, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool> Debug
+    for Ensemble<'_, L, T, N, M, HAS_DENSE_OUTPUT>
 where
     L: Lagrangian<N, M, Scalar = T>,
 {

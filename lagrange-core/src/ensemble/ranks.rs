@@ -4,7 +4,7 @@
 //! way to one who computes, so that no send waits for a receive that does not come. All calls of MPI are made by the thread
 //! that asked for the integration; on rank 0 another thread integrates meanwhile.
 
-mod parcel;
+mod message;
 
 use core::fmt::{self, Debug, Formatter};
 use core::time::Duration;
@@ -26,15 +26,15 @@ use crate::motion::run::check_end;
 use crate::motion::{LaneMethod, Method};
 use crate::number::{Lanes, Real};
 use crate::system::{Lagrangian, Pack};
-use parcel::Parcel;
+use message::MemberMessage;
 
 /// An ensemble on all ranks of a communicator of MPI, from [`Ensemble::on_ranks`].
 #[must_use = "an ensemble does nothing until it is integrated"]
-pub struct OnRanks<'a, L, T, const N: usize, const M: usize = 0, const IS_WATCHED: bool = false>
+pub struct OnRanks<'a, L, T, const N: usize, const M: usize = 0, const HAS_DENSE_OUTPUT: bool = false>
 where
     L: Lagrangian<N, M, Scalar = T>,
 {
-    ensemble: Ensemble<'a, L, T, N, M, IS_WATCHED>,
+    ensemble: Ensemble<'a, L, T, N, M, HAS_DENSE_OUTPUT>,
     world: SimpleCommunicator,
     batch: Duration,
 }
@@ -44,8 +44,8 @@ const PAUSE: Duration = Duration::from_millis(1);
 /// A batch has as many members as this or more, where there are enough of them.
 const LEAST: usize = 16;
 
-impl<'a, L, T: Real, const N: usize, const M: usize, const IS_WATCHED: bool>
-    Ensemble<'a, L, T, N, M, IS_WATCHED>
+impl<'a, L, T: Real, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool>
+    Ensemble<'a, L, T, N, M, HAS_DENSE_OUTPUT>
 where
     L: Lagrangian<N, M, Scalar = T>,
 {
@@ -58,13 +58,14 @@ where
     /// one is told in words, as a table does.
     ///
     /// With the feature `rayon` each rank integrates on all threads of rayon's global pool.
-    pub fn on_ranks(self, communicator: &impl Communicator) -> OnRanks<'a, L, T, N, M, IS_WATCHED> {
+    pub fn on_ranks(self, communicator: &impl Communicator) -> OnRanks<'a, L, T, N, M, HAS_DENSE_OUTPUT> {
         // Its messages do not meet those of the program.
         OnRanks { ensemble: self, world: communicator.duplicate(), batch: Duration::from_secs(1) }
     }
 }
 
-impl<L, T: Real, const N: usize, const M: usize, const IS_WATCHED: bool> OnRanks<'_, L, T, N, M, IS_WATCHED>
+impl<L, T: Real, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool>
+    OnRanks<'_, L, T, N, M, HAS_DENSE_OUTPUT>
 where
     L: Lagrangian<N, M, Scalar = T>,
 {
@@ -88,7 +89,7 @@ where
         P: Method<L, N, M> + Sync,
     {
         let run = Fingerprint::of_run(&method, end, false, &self.ensemble.plan);
-        self.run(method.check(), end, run, |job| job.one_by_one::<P, IS_WATCHED>(&method))
+        self.run(method.check(), end, run, |job| job.one_by_one::<P, HAS_DENSE_OUTPUT>(&method))
     }
 
     fn run(
@@ -109,7 +110,7 @@ where
         let integrate = |list: Vec<usize>| {
             let batch = job.batch(list);
             super::everywhere(|| work(&batch));
-            Parcel::of(batch.outcome().members())
+            MemberMessage::of(batch.outcome().members())
         };
         if !is_first {
             follow(&self.world, integrate);
@@ -120,7 +121,8 @@ where
     }
 }
 
-impl<L, const N: usize, const M: usize, const IS_WATCHED: bool> OnRanks<'_, L, f64, N, M, IS_WATCHED>
+impl<L, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool>
+    OnRanks<'_, L, f64, N, M, HAS_DENSE_OUTPUT>
 where
     L: Lagrangian<N, M, Scalar = f64>,
 {
@@ -135,12 +137,12 @@ where
         P: LaneMethod<L, N, M> + Sync,
     {
         let run = Fingerprint::of_run(&method, end, true, &self.ensemble.plan);
-        self.run(method.check(), end, run, |job| job.on_lanes::<P, IS_WATCHED>(&method))
+        self.run(method.check(), end, run, |job| job.on_lanes::<P, HAS_DENSE_OUTPUT>(&method))
     }
 }
 
-impl<L, T, const N: usize, const M: usize, const IS_WATCHED: bool> Debug
-    for OnRanks<'_, L, T, N, M, IS_WATCHED>
+impl<L, T, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool> Debug
+    for OnRanks<'_, L, T, N, M, HAS_DENSE_OUTPUT>
 where
     L: Lagrangian<N, M, Scalar = T>,
 {
@@ -201,7 +203,7 @@ fn size(world: &SimpleCommunicator) -> usize {
 }
 
 /// Integrates what rank 0 hands out, until that is nothing.
-fn follow(world: &SimpleCommunicator, integrate: impl Fn(Vec<usize>) -> Parcel) {
+fn follow(world: &SimpleCommunicator, integrate: impl Fn(Vec<usize>) -> MemberMessage) {
     let first = world.process_at_rank(0);
     loop {
         let (list, _) = first.receive_vec();
@@ -217,7 +219,7 @@ fn lead<L, T: Real, const N: usize, const M: usize>(
     world: &SimpleCommunicator,
     job: &Job<'_, L, T, N, M>,
     batch: Duration,
-    integrate: impl Fn(Vec<usize>) -> Parcel + Send,
+    integrate: impl Fn(Vec<usize>) -> MemberMessage + Send,
 ) where
     L: Lagrangian<N, M, Scalar = T>,
 {
@@ -225,7 +227,7 @@ fn lead<L, T: Real, const N: usize, const M: usize>(
         let (own, lists) = channel();
         let (finished, parcels) = channel();
         let hands = scope
-            .spawn(move || lists.into_iter().map(integrate).try_for_each(|parcel| finished.send(parcel)));
+            .spawn(move || lists.into_iter().map(integrate).try_for_each(|message| finished.send(message)));
         let open = vec![None; size(world)];
         let mut desk = Desk { world, own, job, batch, open, members: 0, time: Duration::ZERO };
         desk.serve(&parcels, || hands.is_finished());
@@ -255,19 +257,19 @@ where
     L: Lagrangian<N, M, Scalar = T>,
 {
     /// Until all members are done, or the job is stopped, or the thread of this rank has panicked.
-    fn serve(&mut self, parcels: &Receiver<Parcel>, is_lost: impl Fn() -> bool) {
+    fn serve(&mut self, parcels: &Receiver<MemberMessage>, is_lost: impl Fn() -> bool) {
         let events = self.job.events();
         (0..self.open.len()).for_each(|rank| self.hand_out(rank));
         while self.open.iter().any(Option::is_some) && !is_lost() {
-            let own = parcels.try_recv().ok().map(|parcel| (0, parcel));
-            let Some((rank, parcel)) = own.or_else(|| Parcel::arrived(self.world)) else {
+            let own = parcels.try_recv().ok().map(|message| (0, message));
+            let Some((rank, message)) = own.or_else(|| MemberMessage::arrived(self.world)) else {
                 thread::sleep(PAUSE);
                 continue;
             };
             // The rank waits: it comes first.
             self.close(rank);
             self.hand_out(rank);
-            parcel.members(self.job.run(), &events).for_each(|member| self.job.report(member));
+            message.members(self.job.run(), &events).for_each(|member| self.job.report(member));
         }
     }
 

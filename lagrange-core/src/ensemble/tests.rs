@@ -86,8 +86,8 @@ fn lanes_count_fixed_steps_as_they_are_taken_alone() {
     count(|| springs().controlled(0.13, control), Dopri5::default());
 }
 
-fn count<L, P, const N: usize, const M: usize, const IS_WATCHED: bool>(
-    ensemble: impl Fn() -> Ensemble<'static, L, f64, N, M, IS_WATCHED>,
+fn count<L, P, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool>(
+    ensemble: impl Fn() -> Ensemble<'static, L, f64, N, M, HAS_DENSE_OUTPUT>,
     method: Adaptive<P>,
 ) -> usize
 where

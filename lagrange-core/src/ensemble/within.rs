@@ -8,8 +8,8 @@ use crate::number::Real;
 use crate::solution::Sample;
 use crate::system::{Lagrangian, State};
 
-impl<'a, L, T: Real, const N: usize, const M: usize, const IS_WATCHED: bool>
-    Ensemble<'a, L, T, N, M, IS_WATCHED>
+impl<'a, L, T: Real, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool>
+    Ensemble<'a, L, T, N, M, HAS_DENSE_OUTPUT>
 where
     L: Lagrangian<N, M, Scalar = T>,
 {
@@ -48,7 +48,7 @@ where
     /// [`Error::OutsideTrajectory`](crate::Error::OutsideTrajectory).
     pub fn samples_at(self, times: impl IntoIterator<Item = T>) -> Ensemble<'a, L, T, N, M, true> {
         let mut plan = self.plan;
-        plan.orders.times = times.into_iter().collect();
+        plan.record_plan.times = times.into_iter().collect();
         Ensemble { plan }
     }
 
@@ -83,7 +83,7 @@ where
         G: EventFunction<L, N, M> + Send + Sync + 'a,
     {
         let mut plan = self.plan;
-        plan.orders.event(event);
+        plan.record_plan.event(event);
         Ensemble { plan }
     }
 
@@ -128,7 +128,7 @@ where
         controller: impl Fn(usize, &mut L, &State<T, N>) -> Result<(), E> + Send + Sync + 'a,
     ) -> Ensemble<'a, L, T, N, M, true> {
         let mut plan = self.plan;
-        plan.orders.controller(interval, controller);
+        plan.record_plan.controller(interval, controller);
         Ensemble { plan }
     }
 
@@ -143,7 +143,7 @@ where
         name: &'static str,
         function: impl Fn(&Sample<&L, N, M>) -> V + Send + Sync + 'a,
     ) -> Self {
-        self.plan.orders.quantity(name, function);
+        self.plan.record_plan.quantity(name, function);
         self
     }
 }

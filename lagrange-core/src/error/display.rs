@@ -155,7 +155,7 @@ impl Display for Error {
             }
             Self::LegApart { start, end, expected } => write!(
                 f,
-                "the leg from t = {start} to {end} does not go on from t = {expected}, where the journey has come to: start it there, and lead it the same way in time"
+                "the leg from t = {start} to {end} does not go on from t = {expected}, where the hybrid trajectory has come to: start it there, and lead it the same way in time"
             ),
             Self::EventNotFinite { event, time } => write!(
                 f,
@@ -193,7 +193,7 @@ mod tests {
         let ending = Ending::TimeTooCoarse { time: 2.0, step: 1e-17 };
         assert_eq!(
             format!("{apart:?}"),
-            "the leg from t = 0.5 to 1 does not go on from t = 0.25, where the journey has come to: start it there, and lead it the same way in time"
+            "the leg from t = 0.5 to 1 does not go on from t = 0.25, where the hybrid trajectory has come to: start it there, and lead it the same way in time"
         );
         assert_eq!([format!("{apart:?}"), format!("{ending:#?}")], [apart.to_string(), ending.to_string()]);
     }

@@ -46,19 +46,19 @@ impl core::error::Error for WrongDerivative {}
 
 /// Compares the first and second derivatives of a function at `x` with differences of its values and first derivatives.
 ///
-/// For [`ByHand`](super::ByHand) functions, whose derivatives nothing ties to their values: call it in a test, at some points that
+/// For [`WithDerivatives`](super::WithDerivatives) functions, whose derivatives nothing ties to their values: call it in a test, at some points that
 /// the motion comes to. A derivative is wrong where it is off by more than 10⁻⁶ of its size and eight times the uncertainty of
 /// the differences, which are extrapolated from steps of 0.1 to 10⁻⁴ of |x| or 1 (Ridders, *Advances in Engineering
 /// Software* 4, 1982). Of 100,000 random sums of sines, exponentials and products none was taken for wrong, and each whose derivative
 /// was off by 0.1 % was found. Where a function is rough at the scale of these steps, less is found.
 ///
 /// ```
-/// use lagrange_core::function::{ByHand, HandWritten, check_derivatives};
+/// use lagrange_core::function::{WithDerivatives, FunctionWithDerivatives, check_derivatives};
 ///
 /// /// x² y, its second derivative by x and y forgotten.
 /// struct Product;
 ///
-/// impl HandWritten<2, 1> for Product {
+/// impl FunctionWithDerivatives<2, 1> for Product {
 ///     fn value(&self, [x, y]: [f64; 2]) -> [f64; 1] {
 ///         [x * x * y]
 ///     }
@@ -70,7 +70,7 @@ impl core::error::Error for WrongDerivative {}
 ///     }
 /// }
 ///
-/// let wrong = check_derivatives(&ByHand(Product), [0.5, 2.0]).unwrap_err();
+/// let wrong = check_derivatives(&WithDerivatives(Product), [0.5, 2.0]).unwrap_err();
 /// assert_eq!((wrong.by, wrong.then_by), (0, Some(1)));
 /// ```
 ///

@@ -43,7 +43,7 @@ use crate::number::{Dual, Scalar};
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a function of {I} number(s) with {O} result(s) over every scalar",
     label = "not known over every scalar",
-    note = "implement `lagrange_core::Function<{I}, {O}>` for it; `ByHand` and `Table` are known over `f64` alone, which is enough for `Dop853`"
+    note = "implement `lagrange_core::Function<{I}, {O}>` for it; `WithDerivatives` and `Table` are known over `f64` alone, which is enough for `Dop853`"
 )]
 pub trait Function<const I: usize, const O: usize> {
     /// The values at `x`.
@@ -54,7 +54,7 @@ pub trait Function<const I: usize, const O: usize> {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not known to be a function over `{S}` of {I} number(s) with {O} result(s)",
     label = "a field named in `#[function(…)]` must be one",
-    note = "implement `lagrange_core::Function<{I}, {O}>` for it; for `f64` alone there are `ByHand` and `Table`"
+    note = "implement `lagrange_core::Function<{I}, {O}>` for it; for `f64` alone there are `WithDerivatives` and `Table`"
 )]
 pub trait Value<S, const I: usize, const O: usize> {
     /// The values at `x`.
@@ -65,7 +65,7 @@ pub trait Value<S, const I: usize, const O: usize> {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not known to be a function over `{S}` of {I} number(s) with {O} result(s) and first derivatives",
     label = "the equations need its first derivatives",
-    note = "implement `lagrange_core::Function<{I}, {O}>` for it, from which all derivatives follow; for `f64` alone `ByHand` and `Table` know the first and the second"
+    note = "implement `lagrange_core::Function<{I}, {O}>` for it, from which all derivatives follow; for `f64` alone `WithDerivatives` and `Table` know the first and the second"
 )]
 pub trait First<S, const I: usize, const O: usize>: Value<S, I, O> {
     /// ∂/∂x_i at `x`.
@@ -76,7 +76,7 @@ pub trait First<S, const I: usize, const O: usize>: Value<S, I, O> {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not known to be a function over `{S}` of {I} number(s) with {O} result(s) and second derivatives",
     label = "the equations need its second derivatives",
-    note = "implement `lagrange_core::Function<{I}, {O}>` for it, from which all derivatives follow; for `f64` alone `ByHand` and `Table` know the first and the second"
+    note = "implement `lagrange_core::Function<{I}, {O}>` for it, from which all derivatives follow; for `f64` alone `WithDerivatives` and `Table` know the first and the second"
 )]
 pub trait Second<S, const I: usize, const O: usize>: First<S, I, O> {
     /// ∂²/∂x_i ∂x_j at `x`.
@@ -87,7 +87,7 @@ pub trait Second<S, const I: usize, const O: usize>: First<S, I, O> {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not known to be a function over `{S}` of {I} number(s) with {O} result(s) and third derivatives",
     label = "the equations need its third derivatives",
-    note = "implement `lagrange_core::Function<{I}, {O}>` for it, from which all derivatives follow; over `f64` a `SmoothTable` knows the third, `ByHand` and `Table` know none"
+    note = "implement `lagrange_core::Function<{I}, {O}>` for it, from which all derivatives follow; over `f64` a `SmoothTable` knows the third, `WithDerivatives` and `Table` know none"
 )]
 pub trait Third<S, const I: usize, const O: usize>: Second<S, I, O> {
     /// ∂³/∂x_i ∂x_j ∂x_k at `x`.
@@ -132,9 +132,9 @@ impl<F: Function<I, O>, S: Scalar, const I: usize, const O: usize> Third<S, I, O
     }
 }
 
-/// A function of `f64` with its gradient and Hessian written by hand; [`ByHand`] makes it usable in a system, and
+/// A function of `f64` with its gradient and Hessian written by hand; [`WithDerivatives`] makes it usable in a system, and
 /// [`check_derivatives`] compares them with differences.
-pub trait HandWritten<const I: usize, const O: usize> {
+pub trait FunctionWithDerivatives<const I: usize, const O: usize> {
     /// The values at `x`.
     fn value(&self, x: [f64; I]) -> [f64; O];
     /// For each result its gradient.
@@ -145,21 +145,27 @@ pub trait HandWritten<const I: usize, const O: usize> {
 
 /// A hand-written function as a field of a system over `f64`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ByHand<F>(pub F);
+pub struct WithDerivatives<F>(pub F);
 
-impl<F: HandWritten<I, O>, const I: usize, const O: usize> Value<f64, I, O> for ByHand<F> {
+impl<F: FunctionWithDerivatives<I, O>, const I: usize, const O: usize> Value<f64, I, O>
+    for WithDerivatives<F>
+{
     fn value(&self, x: [f64; I]) -> [f64; O] {
         self.0.value(x)
     }
 }
 
-impl<F: HandWritten<I, O>, const I: usize, const O: usize> First<f64, I, O> for ByHand<F> {
+impl<F: FunctionWithDerivatives<I, O>, const I: usize, const O: usize> First<f64, I, O>
+    for WithDerivatives<F>
+{
     fn first(&self, x: [f64; I], [i]: [usize; 1]) -> [f64; O] {
         self.0.gradient(x).map(|gradient| gradient[i])
     }
 }
 
-impl<F: HandWritten<I, O>, const I: usize, const O: usize> Second<f64, I, O> for ByHand<F> {
+impl<F: FunctionWithDerivatives<I, O>, const I: usize, const O: usize> Second<f64, I, O>
+    for WithDerivatives<F>
+{
     fn second(&self, x: [f64; I], [i, j]: [usize; 2]) -> [f64; O] {
         self.0.hessian(x).map(|hessian| hessian[i][j])
     }

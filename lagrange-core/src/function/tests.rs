@@ -1,6 +1,8 @@
 //! Derivatives of supplied functions against closed forms.
 
-use super::{ByHand, First, Function, HandWritten, Second, Third, Value, check_derivatives};
+use super::{
+    First, Function, FunctionWithDerivatives, Second, Third, Value, WithDerivatives, check_derivatives,
+};
 use crate::number::Scalar;
 
 /// x² y z³ and x y⁴
@@ -67,7 +69,7 @@ fn elementary_functions_come_through_at_every_order() {
 /// Numbers that tell their places.
 struct Places;
 
-impl HandWritten<2, 2> for Places {
+impl FunctionWithDerivatives<2, 2> for Places {
     fn value(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [x, y]
     }
@@ -83,7 +85,7 @@ impl HandWritten<2, 2> for Places {
 
 #[test]
 fn hand_written_derivatives_are_found_in_their_places() {
-    let (by_hand, x) = (ByHand(Places), [5.0, 6.0]);
+    let (by_hand, x) = (WithDerivatives(Places), [5.0, 6.0]);
     assert_eq!(by_hand.value(x), [5.0, 6.0]);
     assert_eq!(by_hand.first(x, [0]), [10.0, 20.0]);
     assert_eq!(by_hand.first(x, [1]), [11.0, 21.0]);
@@ -98,7 +100,7 @@ struct ByFormula {
     which: usize,
 }
 
-impl HandWritten<2, 1> for ByFormula {
+impl FunctionWithDerivatives<2, 1> for ByFormula {
     fn value(&self, [x, y]: [f64; 2]) -> [f64; 1] {
         let [a, b, c, d, e, f, g] = self.a;
         [a * (b * x + c * y).sin() + d * x * x * y + e * (f * x - g * y).exp()]
@@ -140,10 +142,10 @@ fn a_derivative_that_is_off_by_a_thousandth_is_found_and_none_else() {
     for _ in 0..count {
         let (a, x) = ([0; 7].map(|_| 3.0 * number()), [0; 2].map(|_| 2.0 * number()));
         let right = ByFormula { a, off: 1.0, which: 6 };
-        assert_eq!(check_derivatives(&ByHand(right), x), Ok(()), "{a:?} {x:?}");
+        assert_eq!(check_derivatives(&WithDerivatives(right), x), Ok(()), "{a:?} {x:?}");
         for which in 0..6 {
             let wrong = ByFormula { a, off: 1.001, which };
-            let found = check_derivatives(&ByHand(wrong), x).expect_err("a wrong derivative");
+            let found = check_derivatives(&WithDerivatives(wrong), x).expect_err("a wrong derivative");
             // A gradient that is wrong has wrong derivatives of its own, too.
             let by = if which < 2 { which } else { (which - 2) / 2 };
             assert_eq!(found.by, by, "{a:?} {x:?} {which}: {found}");
@@ -154,7 +156,9 @@ fn a_derivative_that_is_off_by_a_thousandth_is_found_and_none_else() {
 #[test]
 fn what_is_wrong_is_said_with_its_arguments() {
     let wrong = ByFormula { a: [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0], off: 1.001, which: 2 };
-    let text = std::string::ToString::to_string(&check_derivatives(&ByHand(wrong), [0.5, 2.0]).unwrap_err());
+    let text = std::string::ToString::to_string(
+        &check_derivatives(&WithDerivatives(wrong), [0.5, 2.0]).unwrap_err(),
+    );
     let start =
         "the second derivative of result 0 by arguments 0 and 0 is given as 4.004, where differences say ";
     assert!(text.starts_with(start) && text.contains(" ± "), "{text}");

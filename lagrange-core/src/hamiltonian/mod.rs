@@ -1,15 +1,15 @@
 //! The Hamiltonian side of a system: momenta instead of velocities.
 
-mod flow;
 mod legendre;
 mod phase;
 #[cfg(test)]
 mod tests;
+mod vector_field;
 
 use nalgebra::SVector;
 
-pub use flow::HamiltonianFlow;
-pub use phase::{PhaseRate, PhaseState};
+pub use phase::{PhaseDerivative, PhaseState};
+pub use vector_field::HamiltonianVectorField;
 
 use crate::error::Error;
 #[cfg(feature = "alloc")]
@@ -105,7 +105,7 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
     fn hamilton_equations(
         &self,
         phase: &PhaseState<Self::Scalar, N>,
-    ) -> Result<PhaseRate<Self::Scalar, N, M>, Error> {
+    ) -> Result<PhaseDerivative<Self::Scalar, N, M>, Error> {
         let state = self.legendre(phase)?;
         equations(self, &state, None).map(|(rate, ..)| rate)
     }
@@ -116,12 +116,12 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
     /// # Errors
     /// As [`integrate`](crate::Simulate::integrate) and [`legendre`](Self::legendre).
     #[cfg(feature = "alloc")]
-    fn integrate_hamiltonian<P: Method<Self, N, M, HamiltonianFlow>>(
+    fn integrate_hamiltonian<P: Method<Self, N, M, HamiltonianVectorField>>(
         &self,
         phase: PhaseState<Self::Scalar, N>,
         end: Self::Scalar,
         method: P,
-    ) -> Result<Trajectory<&Self, N, M, HamiltonianFlow>, Error> {
+    ) -> Result<Trajectory<&Self, N, M, HamiltonianVectorField>, Error> {
         self.motion_in_momenta(phase).by(method).to(end)
     }
 
@@ -131,7 +131,7 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
     fn motion_in_momenta<'w>(
         &self,
         phase: PhaseState<Self::Scalar, N>,
-    ) -> MotionFrom<'_, 'w, Self, HamiltonianFlow, N, M> {
+    ) -> MotionFrom<'_, 'w, Self, HamiltonianVectorField, N, M> {
         MotionBuilder::new(self, Start::new(self.legendre(&phase)))
     }
 }

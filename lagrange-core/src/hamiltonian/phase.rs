@@ -68,7 +68,7 @@ impl<T: Scalar, const N: usize> Display for PhaseState<T, N> {
         deserialize = "T: nalgebra::Scalar + serde::Deserialize<'de>"
     ))
 )]
-pub struct PhaseRate<T, const N: usize, const M: usize> {
+pub struct PhaseDerivative<T, const N: usize, const M: usize> {
     /// q̇ = ∂H/∂p.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::system::read::numbers"))]
     pub q: SVector<T, N>,
@@ -81,7 +81,7 @@ pub struct PhaseRate<T, const N: usize, const M: usize> {
 }
 
 /// Rates, how many constraints are independent, and which ones the rates rest on.
-pub(super) type Rates<T, const N: usize, const M: usize> = (PhaseRate<T, N, M>, usize, [bool; M]);
+pub(super) type Rates<T, const N: usize, const M: usize> = (PhaseDerivative<T, N, M>, usize, [bool; M]);
 
 /// Hamilton's equations at a state whose velocity belongs to its momenta.
 pub(super) fn equations<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
@@ -92,6 +92,6 @@ pub(super) fn equations<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const
     solve_near(system, state, active, |solution, &active| {
         let multipliers = solution.multipliers;
         let p = system.momentum_rate(state) + system.constraint_force(state, &multipliers);
-        (PhaseRate { q: state.v, p, multipliers }, solution.rank, active)
+        (PhaseDerivative { q: state.v, p, multipliers }, solution.rank, active)
     })
 }

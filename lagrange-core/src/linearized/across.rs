@@ -2,17 +2,17 @@
 
 use super::Linearized;
 use super::dual_sample::{DualSample, OverDuals};
-use super::sensitivity::{self, Sensitivity};
+use super::sensitivity::{self, StateSensitivity};
 use crate::error::Error;
 use crate::motion::{Event, EventValue, MotionBuilder};
 use crate::number::{Dual, Real};
-use crate::solution::flow::Phase;
+use crate::solution::vector_field::PhaseVector;
 use crate::system::State;
 
 /// Derivatives of a motion of several legs: every [`Linearized`] system over `f64` or `f32` has it.
 ///
 /// A leg ends at an event, whose time depends on where the motion starts and on the parameters; there a state with its
-/// derivatives, a [`Sensitivity`], is made one after an impact, or one of another system, and starts the next leg. That
+/// derivatives, a [`StateSensitivity`], is made one after an impact, or one of another system, and starts the next leg. That
 /// is the work of the saltation matrix: R_x + (ẋ⁺ − R_x ẋ⁻ − R_t) g_x/ġ for an event g = 0 and a reset x⁺ = R(t, x⁻).
 ///
 /// ```
@@ -54,7 +54,7 @@ use crate::system::State;
 /// Where the motion touches an event and does not cross it, it has no derivative, [`Error::Grazing`]: where the rate of
 /// the event's function is less than √ε of its terms, or of what they were where the step began. Nor has it one where
 /// two events coincide, which is not looked for.
-pub trait AcrossEvents<const N: usize, const M: usize, const P: usize>:
+pub trait MotionDerivatives<const N: usize, const M: usize, const P: usize>:
     Linearized<N, M, P, Scalar: Real> + Sized
 {
     /// A state with its derivatives by these arguments, to start with: its entries and parameters, named as in
@@ -66,7 +66,7 @@ pub trait AcrossEvents<const N: usize, const M: usize, const P: usize>:
         &self,
         state: &State<Self::Scalar, N>,
         arguments: &[&str],
-    ) -> Result<Sensitivity<Self::Scalar, N>, Error> {
+    ) -> Result<StateSensitivity<Self::Scalar, N>, Error> {
         sensitivity::start::<Self, N, M, P>(state, arguments)
     }
 
@@ -114,12 +114,12 @@ pub trait AcrossEvents<const N: usize, const M: usize, const P: usize>:
     ///
     /// Where the start is the end of an earlier leg, at an event, its time depends on the arguments too; the derivatives along the
     /// motion are those at fixed times. On constraints they are projected onto the tangent space.
-    /// [`Sensitivities::end`](crate::Sensitivities::end) is an error where the motion reached neither its end nor an event, or where
+    /// [`TrajectorySensitivity::end`](crate::TrajectorySensitivity::end) is an error where the motion reached neither its end nor an event, or where
     /// the event has no derivative.
     fn motion_with_derivatives<'w>(
         &self,
-        start: &Sensitivity<Self::Scalar, N>,
-    ) -> MotionBuilder<'_, 'w, Self, Sensitivity<Self::Scalar, N>, N, M> {
+        start: &StateSensitivity<Self::Scalar, N>,
+    ) -> MotionBuilder<'_, 'w, Self, StateSensitivity<Self::Scalar, N>, N, M> {
         MotionBuilder::new(self, start.clone())
     }
 
@@ -130,10 +130,10 @@ pub trait AcrossEvents<const N: usize, const M: usize, const P: usize>:
     /// As [`impact`](crate::Simulate::impact); [`Error::DerivativeNotFinite`].
     fn impact_sensitivity(
         &self,
-        at: &Sensitivity<Self::Scalar, N>,
+        at: &StateSensitivity<Self::Scalar, N>,
         constraint: &str,
         restitution: (&str, Self::Scalar),
-    ) -> Result<Sensitivity<Self::Scalar, N>, Error> {
+    ) -> Result<StateSensitivity<Self::Scalar, N>, Error> {
         sensitivity::impact_sensitivity(self, at, constraint, restitution)
     }
 
@@ -155,7 +155,7 @@ pub trait AcrossEvents<const N: usize, const M: usize, const P: usize>:
     ///
     /// let pendulum = Pendulum { l: 2.0, g: 9.81 };
     /// let cut = pendulum.sensitivity(&State::new([0.5], [1.5]), &["theta", "l"])?;
-    /// let thrown = pendulum.carry(&cut, |sample| {
+    /// let thrown = pendulum.push_forward(&cut, |sample| {
     ///     let (l, theta, omega) = (sample.parameter("l")?, sample.coordinate("theta")?, sample.velocity("theta")?);
     ///     let (sin, cos) = theta.sin_cos();
     ///     Ok([[l * sin, -l * cos], [l * cos * omega, l * sin * omega]])
@@ -167,16 +167,16 @@ pub trait AcrossEvents<const N: usize, const M: usize, const P: usize>:
     ///
     /// # Errors
     /// Those of the function.
-    fn carry<const K: usize>(
+    fn push_forward<const K: usize>(
         &self,
-        at: &Sensitivity<Self::Scalar, N>,
-        map: impl Fn(&DualSample<'_, Self, N, M, P>) -> Result<Phase<Dual<Self::Scalar>, K>, Error>,
-    ) -> Result<Sensitivity<Self::Scalar, K>, Error> {
-        sensitivity::carry(self, at, map)
+        at: &StateSensitivity<Self::Scalar, N>,
+        map: impl Fn(&DualSample<'_, Self, N, M, P>) -> Result<PhaseVector<Dual<Self::Scalar>, K>, Error>,
+    ) -> Result<StateSensitivity<Self::Scalar, K>, Error> {
+        sensitivity::push_forward(self, at, map)
     }
 }
 
 impl<L: Linearized<N, M, P, Scalar: Real>, const N: usize, const M: usize, const P: usize>
-    AcrossEvents<N, M, P> for L
+    MotionDerivatives<N, M, P> for L
 {
 }

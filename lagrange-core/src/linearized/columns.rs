@@ -13,7 +13,7 @@ use crate::system::{Solution, State};
 
 /// What the equations of motion give at a state, and its partial derivatives by some arguments.
 #[derive(Clone, Debug, PartialEq)]
-pub struct JacobianBy<T, const N: usize, const M: usize> {
+pub struct SelectedJacobian<T, const N: usize, const M: usize> {
     /// Accelerations and multipliers.
     pub solution: Solution<T, N, M>,
     /// Of the accelerations q̈: a row for each coordinate, a column for each argument.
@@ -24,7 +24,7 @@ pub struct JacobianBy<T, const N: usize, const M: usize> {
     arguments: Vec<String>,
 }
 
-impl<T, const N: usize, const M: usize> JacobianBy<T, N, M> {
+impl<T, const N: usize, const M: usize> SelectedJacobian<T, N, M> {
     /// The names of the arguments, in the order of the columns.
     pub fn arguments(&self) -> &[String] {
         &self.arguments
@@ -36,7 +36,7 @@ pub(super) fn jacobian_by<L, const N: usize, const M: usize, const P: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
     names: &[&str],
-) -> Result<JacobianBy<L::Scalar, N, M>, Error>
+) -> Result<SelectedJacobian<L::Scalar, N, M>, Error>
 where
     L: Linearized<N, M, P, Scalar: Real>,
 {
@@ -64,5 +64,5 @@ where
     };
     tangent.by_parameters(parameters.len(), parameter, |j, change| set(parameters[j].0, change))?;
     let names = arguments.iter().map(|argument| format!("{}", argument.entry::<L, N, M, P>())).collect();
-    Ok(JacobianBy { solution: tangent.solution, accelerations, multipliers, arguments: names })
+    Ok(SelectedJacobian { solution: tangent.solution, accelerations, multipliers, arguments: names })
 }

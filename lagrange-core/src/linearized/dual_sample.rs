@@ -8,7 +8,7 @@ use super::argument::parameter;
 use super::tangent::{Tangent, WideOf};
 use super::{Direction, Linearized, ResidualChange};
 use crate::error::Error;
-use crate::motion::{Event, EventFunction, EventValue, Watched};
+use crate::motion::{AnyEvent, Event, EventFunction, EventValue};
 use crate::names::Entry;
 use crate::number::{Dual, Real, Scalar, Wide};
 use crate::solution::solve::solve;
@@ -217,12 +217,12 @@ where
 }
 
 /// An event of a system that can be differentiated: made by
-/// [`AcrossEvents::differentiable_event`](super::AcrossEvents::differentiable_event).
+/// [`MotionDerivatives::differentiable_event`](super::MotionDerivatives::differentiable_event).
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not an event of `{L}` that can be differentiated",
     note = "make one by `system.differentiable_event(\"name\", |sample| …)`, of the same system"
 )]
-pub trait DifferentiableEvent<L, const N: usize, const M: usize, const P: usize>: Watched<L, N, M>
+pub trait DifferentiableEvent<L, const N: usize, const M: usize, const P: usize>: AnyEvent<L, N, M>
 where
     L: Linearized<N, M, P>,
 {

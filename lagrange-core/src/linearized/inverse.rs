@@ -18,7 +18,7 @@ use crate::system::{Solution, State};
 
 /// What gives a system the accelerations asked for.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Actuation<T, const M: usize> {
+pub struct InverseDynamics<T, const M: usize> {
     /// The generalized forces on the coordinates named, and the values of the parameters named.
     pub inputs: DVector<T>,
     /// The multipliers λ of the constraints, of least norm where these depend on one another, in units in which rows are
@@ -27,7 +27,7 @@ pub struct Actuation<T, const M: usize> {
     names: Vec<String>,
 }
 
-impl<T, const M: usize> Actuation<T, M> {
+impl<T, const M: usize> InverseDynamics<T, M> {
     /// What the inputs are called, in their order.
     pub fn names(&self) -> &[String] {
         &self.names
@@ -43,7 +43,7 @@ pub(super) fn inputs_for<L, const N: usize, const M: usize, const P: usize>(
     state: &State<L::Scalar, N>,
     accelerations: &SVector<L::Scalar, N>,
     names: &[&str],
-) -> Result<Actuation<L::Scalar, M>, Error>
+) -> Result<InverseDynamics<L::Scalar, M>, Error>
 where
     L: Linearized<N, M, P, Scalar: Real> + Clone,
 {
@@ -59,7 +59,7 @@ where
     balance.check()?;
     let InputBalance { inputs, values, multipliers, .. } = balance;
     let names = inputs.iter().map(|input| format!("{}", input.entry::<L, N, M, P>())).collect();
-    Ok(Actuation { inputs: values, multipliers, names })
+    Ok(InverseDynamics { inputs: values, multipliers, names })
 }
 
 /// M a = h + Fᵀλ + Σ τ and F a + γ = 0, at a guess of inputs and multipliers.

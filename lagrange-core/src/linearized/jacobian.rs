@@ -11,7 +11,7 @@ use crate::system::{Lagrangian, Solution, State};
 
 /// Partial derivatives of `R` quantities by the time, `N` coordinates, `N` velocities and `P` parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Partials<T, const R: usize, const N: usize, const P: usize> {
+pub struct PartialDerivatives<T, const R: usize, const N: usize, const P: usize> {
     /// By the time.
     pub t: SVector<T, R>,
     /// By the coordinates, a column each.
@@ -28,9 +28,9 @@ pub struct Jacobian<T, const N: usize, const M: usize, const P: usize> {
     /// Accelerations and multipliers.
     pub solution: Solution<T, N, M>,
     /// Of the accelerations q̈.
-    pub accelerations: Partials<T, N, N, P>,
+    pub accelerations: PartialDerivatives<T, N, N, P>,
     /// Of the multipliers λ; where constraints depend on one another, the change of least norm.
-    pub multipliers: Partials<T, M, N, P>,
+    pub multipliers: PartialDerivatives<T, M, N, P>,
 }
 
 /// See [`StateDerivatives::state_jacobian`].
@@ -73,7 +73,7 @@ where
 impl<T: Real, const N: usize, const M: usize, const P: usize> Jacobian<T, N, M, P> {
     /// Of what nothing changes.
     fn of(solution: Solution<T, N, M>) -> Self {
-        Self { solution, accelerations: Partials::zero(), multipliers: Partials::zero() }
+        Self { solution, accelerations: PartialDerivatives::zero(), multipliers: PartialDerivatives::zero() }
     }
 
     /// Sets the derivatives by the time and the state, where they stay: matrices are large.
@@ -111,7 +111,7 @@ pub(super) fn name_of<L: Lagrangian<N, M>, const N: usize, const M: usize>(k: us
     }
 }
 
-impl<T: Real, const R: usize, const N: usize, const P: usize> Partials<T, R, N, P> {
+impl<T: Real, const R: usize, const N: usize, const P: usize> PartialDerivatives<T, R, N, P> {
     fn zero() -> Self {
         Self { t: SMatrix::zeros(), q: SMatrix::zeros(), v: SMatrix::zeros(), parameters: SMatrix::zeros() }
     }

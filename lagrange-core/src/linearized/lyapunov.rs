@@ -11,7 +11,7 @@ use super::variation::{DifferentiableMethod, Variations};
 use crate::error::Error;
 use crate::motion::run::{Run, Watchdog, check_end};
 use crate::number::{Real, Scalar};
-use crate::solution::flow::LagrangianFlow;
+use crate::solution::vector_field::LagrangianVectorField;
 use crate::system::State;
 use crate::system::finite::check_finite;
 use crate::system::lookup::entry;
@@ -44,7 +44,7 @@ where
 {
     check_finite(system, state)?;
     check_end(end)?;
-    let (mut run, _) = Run::begin::<L, LagrangianFlow, _, M>(system, state, method)?;
+    let (mut run, _) = Run::begin::<L, LagrangianVectorField, _, M>(system, state, method)?;
     let start = run.state;
     let tangent = Tangent::at(system, &start)?;
     let basis = match const { M == 0 } {
@@ -65,7 +65,7 @@ where
             let prepared = method.prepare(system, &mut run, stop, &variations, &mut companion);
             let along = |run: &mut Run<_, _, N>| method.follow(system, run, &mut variations, &mut companion);
             let step = prepared.and_then(|()| {
-                run.step_with::<L, LagrangianFlow, _, _, M>(system, method, stop, &limits, along)
+                run.step_with::<L, LagrangianVectorField, _, _, M>(system, method, stop, &limits, along)
             });
             step?;
             let linear = &mut D::linear(&mut companion);

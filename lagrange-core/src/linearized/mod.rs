@@ -42,25 +42,25 @@ use core::fmt::Debug;
 use nalgebra::SVector;
 
 #[cfg(feature = "alloc")]
-pub use across::AcrossEvents;
+pub use across::MotionDerivatives;
 #[cfg(feature = "alloc")]
-pub use columns::JacobianBy;
+pub use columns::SelectedJacobian;
 pub use direction::{Direction, ResidualChange};
 #[cfg(feature = "alloc")]
 pub use dual_sample::{DifferentiableEvent, DualSample, OverDuals};
 #[cfg(feature = "alloc")]
 pub use equilibrium::Equilibrium;
 #[cfg(feature = "alloc")]
-pub use inverse::Actuation;
-pub use jacobian::{Jacobian, Partials};
+pub use inverse::InverseDynamics;
+pub use jacobian::{Jacobian, PartialDerivatives};
 #[cfg(feature = "alloc")]
 pub use linearization::Linearization;
 #[cfg(feature = "alloc")]
 pub use lyapunov::LyapunovSpectrum;
 #[cfg(feature = "alloc")]
-pub use sensitivities::Sensitivities;
+pub use sensitivities::TrajectorySensitivity;
 #[cfg(feature = "alloc")]
-pub use sensitivity::Sensitivity;
+pub use sensitivity::StateSensitivity;
 #[cfg(feature = "alloc")]
 pub use spectrum::Stability;
 pub use state_derivatives::StateDerivatives;
@@ -72,7 +72,7 @@ pub use variation::DifferentiableMethod;
 pub(crate) use variation::{Block, Variations};
 
 use crate::error::Error;
-use crate::number::{Over, Real};
+use crate::number::{Broadcast, Real};
 use crate::system::{Lagrangian, Solution, State};
 
 /// A system whose equations of motion can be differentiated by parameters too: Jacobians, equilibria, linearization.
@@ -147,7 +147,7 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
 
     /// The derivative of the residual where the parameters change at these rates, or at several at once on
     /// [`Lanes`](crate::Lanes), by the slopes of a state; in the order of [`PARAMETERS`](Self::PARAMETERS).
-    fn residual_change_by_parameters_with<S: Over<Self::Scalar>>(
+    fn residual_change_by_parameters_with<S: Broadcast<Self::Scalar>>(
         &self,
         slopes: &Self::ParameterSlopes,
         rates: &SVector<S, P>,
@@ -206,7 +206,7 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
         &self,
         state: &State<Self::Scalar, N>,
         arguments: &[&str],
-    ) -> Result<JacobianBy<Self::Scalar, N, M>, Error>
+    ) -> Result<SelectedJacobian<Self::Scalar, N, M>, Error>
     where
         Self: Lagrangian<N, M, Scalar: Real> + Sized,
     {
@@ -220,7 +220,7 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     /// as short as the motion and each derivative need: a derivative is allowed ten times the error of the motion itself, over
     /// the size of the parameter or 1, and of its own largest entry. On
     /// constraints the start is the nearest state to the one given, for other parameters too, and so are its derivatives;
-    /// they stay in the tangent space, projected as the state is. [`AcrossEvents`] goes on across events.
+    /// they stay in the tangent space, projected as the state is. [`MotionDerivatives`] goes on across events.
     ///
     /// It takes [`Dop853`](crate::Dop853) and [`Dopri5`](crate::Dopri5), and other embedded [`Pair`](crate::motion::Pair)s, on
     /// Lagrange's equations, and [`Taylor`](crate::Taylor) where the number type of the system is a parameter; motions by
@@ -254,7 +254,7 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
         end: Self::Scalar,
         method: D,
         arguments: &[&str],
-    ) -> Result<Sensitivities<'_, Self, N, M, P>, Error>
+    ) -> Result<TrajectorySensitivity<'_, Self, N, M, P>, Error>
     where
         Self: Lagrangian<N, M, Scalar: Real> + Sized,
     {
@@ -346,7 +346,7 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
         state: &State<Self::Scalar, N>,
         accelerations: &SVector<Self::Scalar, N>,
         inputs: &[&str],
-    ) -> Result<Actuation<Self::Scalar, M>, Error>
+    ) -> Result<InverseDynamics<Self::Scalar, M>, Error>
     where
         Self: Lagrangian<N, M, Scalar: Real> + Clone,
     {

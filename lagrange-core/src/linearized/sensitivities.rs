@@ -4,7 +4,7 @@ use alloc::{boxed::Box, string::String, string::ToString, vec::Vec};
 use core::fmt::{self, Debug, Formatter};
 
 use super::dual_sample::DifferentiableEvent;
-use super::sensitivity::{Sensitivity, at_event};
+use super::sensitivity::{StateSensitivity, at_event};
 use super::tangent::{Tangent, WideOf};
 use super::variation::{DifferentiableMethod, Variations};
 use super::{Direction, Linearized};
@@ -14,8 +14,8 @@ use crate::motion::MotionBuilder;
 use crate::motion::builder::EventList;
 use crate::motion::run::{Companion, OnProgress, Run, drive};
 use crate::names::Entry;
-use crate::number::{Over, Real, Scalar, Wide};
-use crate::solution::flow::{LagrangianFlow, Phase};
+use crate::number::{Broadcast, Real, Scalar, Wide};
+use crate::solution::vector_field::{LagrangianVectorField, PhaseVector};
 use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, State, lookup};
 use crate::trajectory::Trajectory;
@@ -24,7 +24,7 @@ use crate::trajectory::Trajectory;
 ///
 /// What changes is named in the call that integrates: coordinates and velocities of the start, and parameters. On
 /// constraints, derivatives lie in their tangent space at every time.
-pub struct Sensitivities<
+pub struct TrajectorySensitivity<
     'a,
     L: Linearized<N, M, P, Scalar: Real>,
     const N: usize,
@@ -33,7 +33,7 @@ pub struct Sensitivities<
 > {
     trajectory: Trajectory<&'a L, N, M>,
     course: Course<L, N, M, P>,
-    end: Result<Sensitivity<L::Scalar, N>, Error>,
+    end: Result<StateSensitivity<L::Scalar, N>, Error>,
 }
 
 /// The derivatives along a motion.
@@ -45,32 +45,32 @@ struct Course<L: Linearized<N, M, P, Scalar: Real>, const N: usize, const M: usi
     /// Start and length of each step.
     steps: Vec<[L::Scalar; 2]>,
     /// Step by step and block by block, the coefficients of what lies between, as many for each.
-    coefficients: Vec<Phase<WideOf<L, N, M>, N>>,
+    coefficients: Vec<PhaseVector<WideOf<L, N, M>, N>>,
     /// What they are the coefficients of.
     between: Between<WideOf<L, N, M>, N>,
 }
 
 /// What lies after a part of a step, by its coefficients.
-type Between<W, const N: usize> = fn(&[Phase<W, N>], W) -> Phase<W, N>;
+type Between<W, const N: usize> = fn(&[PhaseVector<W, N>], W) -> PhaseVector<W, N>;
 
 /// An event of a motion with derivatives.
-type AnyEvent<'a, L, const N: usize, const M: usize, const P: usize> =
+type DynEvent<'a, L, const N: usize, const M: usize, const P: usize> =
     dyn DifferentiableEvent<L, N, M, P> + 'a;
 
 impl<'a, 'w, L, const N: usize, const M: usize, P, E>
-    MotionBuilder<'a, 'w, L, Sensitivity<L::Scalar, N>, N, M, P, E>
+    MotionBuilder<'a, 'w, L, StateSensitivity<L::Scalar, N>, N, M, P, E>
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {
-    /// Adds an event made by [`differentiable_event`](crate::AcrossEvents::differentiable_event), by value or as `&mut event`.
+    /// Adds an event made by [`differentiable_event`](crate::MotionDerivatives::differentiable_event), by value or as `&mut event`.
     #[allow(clippy::type_complexity, reason = "the type of the builder itself, with its list of events")]
     pub fn event<const K: usize>(
         self,
         event: impl DifferentiableEvent<L, N, M, K> + 'w,
-    ) -> MotionBuilder<'a, 'w, L, Sensitivity<L::Scalar, N>, N, M, P, Vec<Box<AnyEvent<'w, L, N, M, K>>>>
+    ) -> MotionBuilder<'a, 'w, L, StateSensitivity<L::Scalar, N>, N, M, P, Vec<Box<DynEvent<'w, L, N, M, K>>>>
     where
         L: Linearized<N, M, K>,
-        E: EventList<AnyEvent<'w, L, N, M, K>>,
+        E: EventList<DynEvent<'w, L, N, M, K>>,
     {
         self.with_events(|events| {
             let mut events = events.list();
@@ -84,11 +84,11 @@ where
     /// # Errors
     /// The errors of [`Linearized::integrate_sensitivities`]; [`Error::EventNotFinite`] and [`Error::UnknownName`] where the function
     /// of an event fails at the start.
-    pub fn to<const K: usize>(self, end: L::Scalar) -> Result<Sensitivities<'a, L, N, M, K>, Error>
+    pub fn to<const K: usize>(self, end: L::Scalar) -> Result<TrajectorySensitivity<'a, L, N, M, K>, Error>
     where
         L: Linearized<N, M, K>,
         P: DifferentiableMethod<L, N, M, K>,
-        E: EventList<AnyEvent<'w, L, N, M, K>>,
+        E: EventList<DynEvent<'w, L, N, M, K>>,
     {
         self.towards(end)?.finished()
     }
@@ -98,11 +98,14 @@ where
     ///
     /// # Errors
     /// The errors of [`to`](Self::to) that are found before the first step.
-    pub fn towards<const K: usize>(self, end: L::Scalar) -> Result<Sensitivities<'a, L, N, M, K>, Error>
+    pub fn towards<const K: usize>(
+        self,
+        end: L::Scalar,
+    ) -> Result<TrajectorySensitivity<'a, L, N, M, K>, Error>
     where
         L: Linearized<N, M, K>,
         P: DifferentiableMethod<L, N, M, K>,
-        E: EventList<AnyEvent<'w, L, N, M, K>>,
+        E: EventList<DynEvent<'w, L, N, M, K>>,
     {
         let Self { system, start, method, events, on_progress } = self;
         integrate(system, &start, end, &method, &mut events.list(), on_progress)
@@ -112,12 +115,12 @@ where
 /// Integrates a motion together with its derivatives.
 fn integrate<'a, L, D, const N: usize, const M: usize, const P: usize>(
     system: &'a L,
-    start: &Sensitivity<L::Scalar, N>,
+    start: &StateSensitivity<L::Scalar, N>,
     end: L::Scalar,
     method: &D,
-    events: &mut [Box<AnyEvent<'_, L, N, M, P>>],
+    events: &mut [Box<DynEvent<'_, L, N, M, P>>],
     on_progress: Option<OnProgress<'_>>,
-) -> Result<Sensitivities<'a, L, N, M, P>, Error>
+) -> Result<TrajectorySensitivity<'a, L, N, M, P>, Error>
 where
     L: Linearized<N, M, P, Scalar: Real>,
     D: DifferentiableMethod<L, N, M, P>,
@@ -125,7 +128,7 @@ where
     check_finite(system, &start.state)?;
     let along = |state: &State<L::Scalar, N>| Along::begin(system, state, start, method);
     let (trajectory, Along { course, before, .. }) =
-        drive::<_, LagrangianFlow, _, _, Along<L, D, N, M, P>, N, M, true>(
+        drive::<_, LagrangianVectorField, _, _, Along<L, D, N, M, P>, N, M, true>(
             system,
             &start.state,
             end,
@@ -141,7 +144,7 @@ where
         None => Ok(at),
         Some(event) => at_event(system, at, &**event, &before),
     });
-    Ok(Sensitivities { trajectory, course, end })
+    Ok(TrajectorySensitivity { trajectory, course, end })
 }
 
 /// The derivatives of a motion while it is integrated.
@@ -152,7 +155,7 @@ where
 {
     course: Course<L, N, M, P>,
     /// What the method needs for the next step of the derivatives.
-    stages: D::Companion,
+    stages: D::VariationMemory,
     /// The state at the start of the last step.
     before: State<L::Scalar, N>,
 }
@@ -165,7 +168,7 @@ where
     fn begin(
         system: &L,
         state: &State<L::Scalar, N>,
-        start: &Sensitivity<L::Scalar, N>,
+        start: &StateSensitivity<L::Scalar, N>,
         method: &D,
     ) -> Result<Self, Error> {
         let (course, stages) = Course::from(system, state, start, method)?;
@@ -173,7 +176,7 @@ where
     }
 }
 
-impl<L, D, const N: usize, const M: usize, const P: usize> Companion<L, LagrangianFlow, D, N, M>
+impl<L, D, const N: usize, const M: usize, const P: usize> Companion<L, LagrangianVectorField, D, N, M>
     for Along<L, D, N, M, P>
 where
     L: Linearized<N, M, P, Scalar: Real>,
@@ -215,9 +218,9 @@ where
     fn from<D: DifferentiableMethod<L, N, M, P>>(
         system: &L,
         state: &State<L::Scalar, N>,
-        start: &Sensitivity<L::Scalar, N>,
+        start: &StateSensitivity<L::Scalar, N>,
         method: &D,
-    ) -> Result<(Self, D::Companion), Error> {
+    ) -> Result<(Self, D::VariationMemory), Error> {
         let tangent = Tangent::at(system, state)?;
         // At the time given, not at that of the event where the start is one.
         let column = |j| {
@@ -237,9 +240,9 @@ where
     }
 
     /// The derivatives of a state of the motion.
-    fn at(&self, system: &L, state: &State<L::Scalar, N>) -> Result<Sensitivity<L::Scalar, N>, Error> {
+    fn at(&self, system: &L, state: &State<L::Scalar, N>) -> Result<StateSensitivity<L::Scalar, N>, Error> {
         let (lanes, blocks) = (<WideOf<L, N, M> as Wide<L::Scalar>>::COUNT, self.variations.blocks.len());
-        let mut at = Sensitivity::of(*state, self.variations.arguments().to_vec());
+        let mut at = StateSensitivity::of(*state, self.variations.arguments().to_vec());
         let found = if state.t == self.end { None } else { self.step(state.t) };
         let tangent = if const { M > 0 } { Some(Tangent::at(system, state)) } else { None };
         let tangent = tangent.transpose()?;
@@ -272,17 +275,17 @@ where
     }
 }
 
-impl<L, const N: usize, const M: usize, const P: usize> Debug for Sensitivities<'_, L, N, M, P>
+impl<L, const N: usize, const M: usize, const P: usize> Debug for TrajectorySensitivity<'_, L, N, M, P>
 where
     L: Linearized<N, M, P, Scalar: Real>,
 {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let mut sensitivities = f.debug_struct("Sensitivities");
+        let mut sensitivities = f.debug_struct("TrajectorySensitivity");
         sensitivities.field("trajectory", &self.trajectory).field("arguments", &self.arguments()).finish()
     }
 }
 
-impl<'a, L, const N: usize, const M: usize, const P: usize> Sensitivities<'a, L, N, M, P>
+impl<'a, L, const N: usize, const M: usize, const P: usize> TrajectorySensitivity<'a, L, N, M, P>
 where
     L: Linearized<N, M, P, Scalar: Real>,
 {
@@ -300,7 +303,7 @@ where
         &self.trajectory
     }
 
-    /// The motion alone, for a leg of a [`Journey`](crate::Journey) say.
+    /// The motion alone, for a leg of a [`HybridTrajectory`](crate::HybridTrajectory) say.
     pub fn into_trajectory(self) -> Trajectory<&'a L, N, M> {
         self.trajectory
     }
@@ -314,7 +317,7 @@ where
     ///
     /// # Errors
     /// As [`Trajectory::at`]; as [`Linearized::jacobian`].
-    pub fn at(&self, t: L::Scalar) -> Result<Sensitivity<L::Scalar, N>, Error> {
+    pub fn at(&self, t: L::Scalar) -> Result<StateSensitivity<L::Scalar, N>, Error> {
         self.course.at(self.trajectory.system(), self.trajectory.at(t)?.state())
     }
 
@@ -324,7 +327,7 @@ where
     /// # Errors
     /// [`Error::Unfinished`] where the motion got to neither; [`Error::Grazing`], and [`Error::EventNotFinite`] where the function of the event has no derivative; as
     /// [`at`](Self::at).
-    pub fn end(&self) -> Result<&Sensitivity<L::Scalar, N>, Error> {
+    pub fn end(&self) -> Result<&StateSensitivity<L::Scalar, N>, Error> {
         self.end.as_ref().map_err(Error::clone)
     }
 

@@ -18,17 +18,17 @@ use super::tangent::Tangent;
 use super::{Direction, Linearized, ResidualChange};
 use crate::error::Error;
 use crate::names::Entry;
-use crate::number::{Dual, Over, Real, Scalar, Wide, larger, power_of_epsilon, vector};
-use crate::solution::flow::Phase;
+use crate::number::{Broadcast, Dual, Real, Scalar, Wide, larger, power_of_epsilon, vector};
 use crate::solution::impact::impact;
 use crate::solution::solve::solve;
+use crate::solution::vector_field::PhaseVector;
 use crate::system::lookup::index;
 use crate::system::{Solution, State};
 
 /// A state of a motion and its derivatives by some arguments: entries of a start, parameters, and numbers of one's
 /// own.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sensitivity<T, const N: usize> {
+pub struct StateSensitivity<T, const N: usize> {
     /// The state.
     pub state: State<T, N>,
     /// Of the time, by each argument: zero at a time that is given. The time of an event changes.
@@ -40,7 +40,7 @@ pub struct Sensitivity<T, const N: usize> {
     arguments: Vec<Entry>,
 }
 
-impl<T: Real, const N: usize> Sensitivity<T, N> {
+impl<T: Real, const N: usize> StateSensitivity<T, N> {
     /// Of a state that nothing changes yet.
     pub(super) fn of(state: State<T, N>, arguments: Vec<Entry>) -> Self {
         let count = arguments.len();
@@ -95,17 +95,17 @@ impl<T: Real, const N: usize> Sensitivity<T, N> {
     }
 }
 
-/// See [`AcrossEvents::sensitivity`](super::AcrossEvents::sensitivity).
+/// See [`MotionDerivatives::sensitivity`](super::MotionDerivatives::sensitivity).
 pub(super) fn start<L, const N: usize, const M: usize, const P: usize>(
     state: &State<L::Scalar, N>,
     names: &[&str],
-) -> Result<Sensitivity<L::Scalar, N>, Error>
+) -> Result<StateSensitivity<L::Scalar, N>, Error>
 where
     L: Linearized<N, M, P, Scalar: Real>,
 {
     let arguments = Argument::named::<L, N, M, P>(names)?;
     let entries = arguments.iter().map(|argument| argument.entry::<L, N, M, P>()).collect();
-    let mut start = Sensitivity::of(*state, entries);
+    let mut start = StateSensitivity::of(*state, entries);
     for (j, argument) in arguments.iter().enumerate() {
         match *argument {
             Argument::Coordinate(i) => start.q[(i, j)] = L::Scalar::constant(1.0),
@@ -123,10 +123,10 @@ where
 /// [`Error::Grazing`].
 pub(super) fn at_event<L, const N: usize, const M: usize, const P: usize>(
     system: &L,
-    mut at: Sensitivity<L::Scalar, N>,
+    mut at: StateSensitivity<L::Scalar, N>,
     event: &dyn DifferentiableEvent<L, N, M, P>,
     before: &State<L::Scalar, N>,
-) -> Result<Sensitivity<L::Scalar, N>, Error>
+) -> Result<StateSensitivity<L::Scalar, N>, Error>
 where
     L: Linearized<N, M, P, Scalar: Real>,
 {
@@ -173,18 +173,18 @@ fn only<T: Real, const N: usize>(i: usize, x: &SVector<T, N>) -> SVector<T, N> {
     SVector::from_fn(|j, _| if i == j { x[j] } else { T::constant(0.0) })
 }
 
-/// See [`AcrossEvents::carry`](super::AcrossEvents::carry).
-pub(super) fn carry<L, const N: usize, const M: usize, const P: usize, const K: usize>(
+/// See [`MotionDerivatives::push_forward`](super::MotionDerivatives::push_forward).
+pub(super) fn push_forward<L, const N: usize, const M: usize, const P: usize, const K: usize>(
     system: &L,
-    at: &Sensitivity<L::Scalar, N>,
-    map: impl Fn(&DualSample<'_, L, N, M, P>) -> Result<Phase<Dual<L::Scalar>, K>, Error>,
-) -> Result<Sensitivity<L::Scalar, K>, Error>
+    at: &StateSensitivity<L::Scalar, N>,
+    map: impl Fn(&DualSample<'_, L, N, M, P>) -> Result<PhaseVector<Dual<L::Scalar>, K>, Error>,
+) -> Result<StateSensitivity<L::Scalar, K>, Error>
 where
     L: Linearized<N, M, P, Scalar: Real>,
 {
     let [q, v] = map(&DualSample::along(system, &at.state, &Direction::zero(), None))?
         .map(|half| vector(half.map(|x| x.value)));
-    let mut after = Sensitivity::of(State { t: at.state.t, q, v }, at.arguments.clone());
+    let mut after = StateSensitivity::of(State { t: at.state.t, q, v }, at.arguments.clone());
     after.t.copy_from(&at.t);
     for (j, argument) in at.arguments.iter().enumerate() {
         let sample = DualSample::along(system, &at.state, &at.direction(j), Some(*argument));
@@ -194,17 +194,17 @@ where
     Ok(after)
 }
 
-/// See [`AcrossEvents::impact_sensitivity`](super::AcrossEvents::impact_sensitivity).
+/// See [`MotionDerivatives::impact_sensitivity`](super::MotionDerivatives::impact_sensitivity).
 ///
 /// The jump J of the velocities and the impulses Λ solve M J − FᵀΛ = 0, F J + ρ = 0 with ρ = F q̇⁻ + b, times 1 + e in the row
 /// that is hit. Differentiated, δM J − δFᵀΛ is the change of the residual of motion at accelerations J and multipliers Λ less
 /// that at none, and δF J that of the accelerations of the constraints.
 pub(super) fn impact_sensitivity<L, const N: usize, const M: usize, const P: usize>(
     system: &L,
-    at: &Sensitivity<L::Scalar, N>,
+    at: &StateSensitivity<L::Scalar, N>,
     constraint: &str,
     (name, restitution): (&str, L::Scalar),
-) -> Result<Sensitivity<L::Scalar, N>, Error>
+) -> Result<StateSensitivity<L::Scalar, N>, Error>
 where
     L: Linearized<N, M, P, Scalar: Real>,
 {
@@ -217,7 +217,7 @@ where
     let jumped = Tangent::of(system, &at.state, solution(impact.state.v - at.state.v, impact.impulses));
     let still = Tangent::of(system, &at.state, none);
     let rate = system.constraint_rate(&at.state)[hit];
-    let mut after = Sensitivity { state: impact.state, ..at.clone() };
+    let mut after = StateSensitivity { state: impact.state, ..at.clone() };
     for (j, &argument) in at.arguments.iter().enumerate() {
         let along = (at.direction(j), parameter::<L, N, M, P>(argument));
         let [with, without] = [&jumped, &still].map(|tangent| tangent.change_with(&along.0, along.1));

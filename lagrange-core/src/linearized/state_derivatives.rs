@@ -7,7 +7,7 @@ use super::Linearized;
 use super::jacobian::{self, Jacobian};
 use super::{Direction, ResidualChange};
 use crate::error::Error;
-use crate::number::{Over, Real};
+use crate::number::{Broadcast, Real};
 use crate::system::{Lagrangian, Solution, State};
 
 /// A system whose equations of motion can be differentiated by the time and the state: what implicit methods and
@@ -34,7 +34,7 @@ pub trait StateDerivatives<const N: usize, const M: usize>: Lagrangian<N, M> {
 
     /// The derivative of the residual along a direction, or along several at once on [`Lanes`](crate::Lanes), by the
     /// [`residual_slopes`](Self::residual_slopes) of a state.
-    fn residual_change_with<S: Over<Self::Scalar>>(
+    fn residual_change_with<S: Broadcast<Self::Scalar>>(
         &self,
         slopes: &Self::Slopes,
         direction: &Direction<S, N>,

@@ -12,7 +12,7 @@ use super::direction::unit;
 use super::{Direction, Linearized, ResidualChange, StateDerivatives};
 use crate::error::Error;
 use crate::names::Entry;
-use crate::number::{Over, Real, Scalar, Wide};
+use crate::number::{Broadcast, Real, Scalar, Wide};
 use crate::room::Room;
 use crate::solution::kkt::{Factors, Rank};
 use crate::solution::solve::{fault, first_row, is_trustworthy, least_pivot, solve};

@@ -6,19 +6,19 @@ use core::fmt::{self, Debug, Formatter};
 use core::marker::PhantomData;
 use core::ops::ControlFlow;
 
-use super::event::Watched;
+use super::event::AnyEvent;
 use super::method::{Dop853, Method};
 use super::run::{NoCompanion, OnProgress, Progress, drive};
 use crate::error::Error;
 use crate::number::Real;
-use crate::solution::flow::Flow;
+use crate::solution::vector_field::VectorField;
 use crate::system::{Lagrangian, State};
 use crate::trajectory::Trajectory;
 
 /// The settings of a motion that has not been integrated yet: its start, its method, its events and who looks at its progress.
 ///
 /// [`motion`](crate::Simulate::motion), [`motion_in_momenta`](crate::Hamiltonian::motion_in_momenta) and
-/// [`motion_with_derivatives`](crate::AcrossEvents::motion_with_derivatives) make it, [`to`](Self::to) and [`towards`](Self::towards)
+/// [`motion_with_derivatives`](crate::MotionDerivatives::motion_with_derivatives) make it, [`to`](Self::to) and [`towards`](Self::towards)
 /// integrate. The method is [`Dop853`] with a tolerance of 10⁻⁹ unless [`by`](Self::by) names another.
 #[must_use = "a motion is integrated by `to` or `towards`"]
 pub struct MotionBuilder<'a, 'w, L, S, const N: usize, const M: usize, P = Dop853, E = ()> {
@@ -35,12 +35,12 @@ pub struct Start<T, const N: usize, F> {
     /// An error where the start is not finite, or where no velocities belong to its momenta. It lies on the heap, because each call of
     /// the builder moves the settings, and a state of 1,000 coordinates would fill the stack.
     state: Box<Result<State<T, N>, Error>>,
-    flow: PhantomData<F>,
+    field: PhantomData<F>,
 }
 
 impl<T, const N: usize, F> Start<T, N, F> {
     pub(crate) fn new(state: Result<State<T, N>, Error>) -> Self {
-        Self { state: Box::new(state), flow: PhantomData }
+        Self { state: Box::new(state), field: PhantomData }
     }
 }
 
@@ -52,7 +52,7 @@ pub(crate) type MotionFrom<'a, 'w, L, F, const N: usize, const M: usize> =
 pub trait EventList<W: ?Sized> {
     /// Whether there are events.
     #[doc(hidden)]
-    const IS_WATCHED: bool;
+    const HAS_EVENTS: bool;
 
     /// The events in the order in which they were given.
     #[doc(hidden)]
@@ -60,7 +60,7 @@ pub trait EventList<W: ?Sized> {
 }
 
 impl<W: ?Sized> EventList<W> for () {
-    const IS_WATCHED: bool = false;
+    const HAS_EVENTS: bool = false;
 
     fn list(self) -> Vec<Box<W>> {
         Vec::new()
@@ -68,7 +68,7 @@ impl<W: ?Sized> EventList<W> for () {
 }
 
 impl<W: ?Sized> EventList<W> for Vec<Box<W>> {
-    const IS_WATCHED: bool = true;
+    const HAS_EVENTS: bool = true;
 
     fn list(self) -> Self {
         self
@@ -105,32 +105,32 @@ impl<'a, 'w, L, S, const N: usize, const M: usize, P, E> MotionBuilder<'a, 'w, L
 }
 
 /// An event of a motion without derivatives.
-type AnyEvent<'a, L, const N: usize, const M: usize> = dyn Watched<L, N, M> + 'a;
+type DynEvent<'a, L, const N: usize, const M: usize> = dyn AnyEvent<L, N, M> + 'a;
 
 impl<'a, 'w, L, F, const N: usize, const M: usize, P, E>
     MotionBuilder<'a, 'w, L, Start<L::Scalar, N, F>, N, M, P, E>
 where
     L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
-    E: EventList<AnyEvent<'w, L, N, M>>,
+    F: VectorField<L, N, M>,
+    E: EventList<DynEvent<'w, L, N, M>>,
 {
     /// Adds an event, by value or as `&mut event`. The trajectory keeps its crossings, and the motion ends at it where it is
     /// [terminal](crate::Event::terminal). For several events, call it once for each.
     #[allow(clippy::type_complexity, reason = "the type of the builder itself, with its list of events")]
     pub fn event(
         self,
-        event: impl Watched<L, N, M> + 'w,
-    ) -> MotionBuilder<'a, 'w, L, Start<L::Scalar, N, F>, N, M, P, Vec<Box<AnyEvent<'w, L, N, M>>>> {
+        event: impl AnyEvent<L, N, M> + 'w,
+    ) -> MotionBuilder<'a, 'w, L, Start<L::Scalar, N, F>, N, M, P, Vec<Box<DynEvent<'w, L, N, M>>>> {
         self.events([event])
     }
 
     /// Adds several events of one type.
     #[allow(clippy::type_complexity, reason = "the type of the builder itself, with its list of events")]
-    pub fn events<W: Watched<L, N, M> + 'w>(
+    pub fn events<W: AnyEvent<L, N, M> + 'w>(
         self,
         events: impl IntoIterator<Item = W>,
-    ) -> MotionBuilder<'a, 'w, L, Start<L::Scalar, N, F>, N, M, P, Vec<Box<AnyEvent<'w, L, N, M>>>> {
-        let more = events.into_iter().map(|event| Box::new(event) as Box<AnyEvent<'w, L, N, M>>);
+    ) -> MotionBuilder<'a, 'w, L, Start<L::Scalar, N, F>, N, M, P, Vec<Box<DynEvent<'w, L, N, M>>>> {
+        let more = events.into_iter().map(|event| Box::new(event) as Box<DynEvent<'w, L, N, M>>);
         self.with_events(|events| {
             let mut events = events.list();
             events.extend(more);
@@ -164,7 +164,7 @@ where
         let Self { system, start, method, events, on_progress } = self;
         let (state, mut events) = (start.state.as_ref().as_ref().map_err(Error::clone)?, events.list());
         let (events, none) = (&mut events, |_: &State<L::Scalar, N>| Ok(NoCompanion));
-        let driven = match const { E::IS_WATCHED } {
+        let driven = match const { E::HAS_EVENTS } {
             true => {
                 drive::<_, _, _, _, _, N, M, true>(system, state, end, &method, events, on_progress, none)
             }

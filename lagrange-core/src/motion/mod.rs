@@ -7,7 +7,7 @@
 //! - [`Taylor`], the series of the motion itself, for errors below 10⁻⁹ down to round-off: one factorisation a step and, for each
 //!   order, 13 for 10⁻⁶ and 29 for round-off, one to two evaluations. Its time grows less with the digits asked for than that of the
 //!   others, and what is conserved stays; for ensembles on lanes too. Not for equations with `abs`, `min`, `max`, `clamp`,
-//!   [`ByHand`](crate::ByHand), [`Table`](crate::Table), [`SmoothTable`](crate::SmoothTable) or third derivatives of a [`Function`](crate::Function), nor for (q, p).
+//!   [`WithDerivatives`](crate::WithDerivatives), [`Table`](crate::Table), [`SmoothTable`](crate::SmoothTable) or third derivatives of a [`Function`](crate::Function), nor for (q, p).
 //! - [`Dopri5`], a pair of order 5, for errors of 10⁻³ and forces that are not smooth. 6 evaluations a step, of which it needs many
 //!   below 10⁻⁷.
 //! - [`RungeKutta4`], of order 4, where each step is to take as long as any other: control in real time. 4 evaluations; it does not know
@@ -35,21 +35,23 @@ mod tests;
 
 #[cfg(feature = "alloc")]
 pub use builder::{EventList, MotionBuilder, Start};
-pub use event::{Crossing, Event, EventFunction, EventValue, Watched};
+pub use event::{AnyEvent, Crossing, Event, EventFunction, EventValue};
 #[cfg(feature = "std")]
 pub use lanes::LaneMethod;
 #[cfg(feature = "std")]
-pub(crate) use lanes::{Batch, Seat};
+pub(crate) use lanes::{Batch, LaneMotion};
 pub use method::{
-    Adaptive, Combination, Dop853, Dopri5, DormandPrince54, DormandPrince853, Interpolant, Limits, Method,
-    Node, Pair, Polynomial, RungeKutta4, Step, runge_kutta_step,
+    Adaptive, Dop853, Dopri5, DormandPrince54, DormandPrince853, HermiteNode, Interpolant, Limits, Method,
+    Pair, Polynomial, RungeKutta4, Step, TableauRow, runge_kutta_step,
 };
 #[cfg(feature = "std")]
-pub(crate) use record::{Orders, Record};
+pub(crate) use record::{Record, RecordPlan};
 pub use run::Progress;
 pub use simulate::Simulate;
 pub use steered::Motion;
 #[cfg(feature = "alloc")]
 pub use taylor::{Taylor, TaylorPolynomial};
 
-pub use crate::solution::flow::{Basis, Flow, LagrangianFlow, Phase, PhasePoint};
+pub use crate::solution::vector_field::{
+    ActiveConstraints, LagrangianVectorField, PhaseVector, StagePoint, VectorField,
+};

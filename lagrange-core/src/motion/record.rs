@@ -5,18 +5,18 @@ use core::marker::PhantomData;
 
 use nalgebra::ComplexField;
 
-use super::event::{Crossing, Event, EventFunction, EventSearch, EventValue, Stride};
+use super::event::{Crossing, DenseStep, Event, EventFunction, EventSearch, EventValue};
 use super::method::{Interpolant, Method};
 use super::run::{Run, Watchdog, is_between, resume};
 use crate::ending::Ending;
 use crate::error::Error;
 use crate::number::{Real, Scalar};
 use crate::solution::Sample;
-use crate::solution::flow::{Flow, LagrangianFlow};
+use crate::solution::vector_field::{LagrangianVectorField, VectorField};
 use crate::system::{Lagrangian, State};
 
 /// What is to be kept of each of many motions.
-pub(crate) struct Orders<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
+pub(crate) struct RecordPlan<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
     /// When states are, in the order of the motion.
     pub(crate) times: Vec<L::Scalar>,
     quantities: Vec<(&'static str, Box<Observed<'a, L, N, M>>)>,
@@ -36,13 +36,13 @@ type Controller<'a, L, const N: usize, const M: usize> = dyn Fn(usize, &mut L, &
 type Observed<'a, L, const N: usize, const M: usize> =
     dyn Fn(&Sample<&L, N, M>) -> Result<<L as Lagrangian<N, M>>::Scalar, Error> + Send + Sync + 'a;
 
-impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Default for Orders<'_, L, N, M> {
+impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Default for RecordPlan<'_, L, N, M> {
     fn default() -> Self {
         Self { times: Vec::new(), quantities: Vec::new(), events: Vec::new(), controller: None }
     }
 }
 
-impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Orders<'a, L, N, M> {
+impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> RecordPlan<'a, L, N, M> {
     pub(crate) fn quantity<V: EventValue<L::Scalar>>(
         &mut self,
         name: &'static str,
@@ -109,7 +109,7 @@ impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Orde
         event.or_else(|| self.controller.as_ref().map(|_| "the controller".into()))
     }
 
-    /// Writes what tells these orders from others; what their functions hold is not seen.
+    /// Writes what tells these record_plan from others; what their functions hold is not seen.
     pub(crate) fn identify(&self, to: &mut dyn Write) -> fmt::Result {
         self.times.iter().try_for_each(|t| write!(to, " at {:?}", t.to_f64()))?;
         self.quantities.iter().try_for_each(|(name, _)| write!(to, " of {name}"))?;
@@ -120,14 +120,14 @@ impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Orde
 
 /// What is kept of one.
 pub(crate) struct Record<'o, L: Lagrangian<N, M>, const N: usize, const M: usize> {
-    orders: &'o Orders<'o, L, N, M>,
+    record_plan: &'o RecordPlan<'o, L, N, M>,
     pub(crate) samples: Vec<State<L::Scalar, N>>,
     /// The quantities of the first sample, those of the second, …
     pub(crate) values: Vec<L::Scalar>,
     pub(crate) crossings: Vec<Crossing<L::Scalar, N>>,
     events: Vec<Event<L, &'o Observed<'o, L, N, M>, N, M>>,
-    /// How many pieces every step is looked at in, at least.
-    pieces: usize,
+    /// How many subdivisions every step is looked at in, at least.
+    subdivisions: usize,
     start: L::Scalar,
     end: L::Scalar,
     /// Next time to reach: the end, or an earlier call of the controller.
@@ -139,12 +139,12 @@ pub(crate) struct Record<'o, L: Lagrangian<N, M>, const N: usize, const M: usize
 impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Record<'o, L, N, M> {
     /// Before the first step, with what is due at the start.
     pub(crate) fn begin(
-        orders: &'o Orders<'o, L, N, M>,
+        record_plan: &'o RecordPlan<'o, L, N, M>,
         system: &L,
         start: &State<L::Scalar, N>,
         end: L::Scalar,
     ) -> Result<Self, Error> {
-        let times = &orders.times;
+        let times = &record_plan.times;
         if let (Some(&first), Some(&last)) = (times.first(), times.last()) {
             let outside = |time: L::Scalar| {
                 let [time, start, end] = [time, start.t, end].map(Real::to_f64);
@@ -159,21 +159,21 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
         }
         // A name that is not known is told before the first step.
         let sample = Sample { system, state: *start };
-        orders.quantities.iter().try_for_each(|(_, value)| value(&sample).map(drop))?;
+        record_plan.quantities.iter().try_for_each(|(_, value)| value(&sample).map(drop))?;
         let mut events: Vec<_> =
-            orders.events.iter().map(|event| event.anew(|function| &**function)).collect();
-        let EventSearch { pieces, .. } = EventSearch::begin(&mut events, system, start)?;
+            record_plan.events.iter().map(|event| event.anew(|function| &**function)).collect();
+        let EventSearch { subdivisions, .. } = EventSearch::begin(&mut events, system, start)?;
         let samples = Vec::with_capacity(times.len());
-        let values = Vec::with_capacity(times.len() * orders.quantities.len());
-        let goal = if orders.controller.is_some() { start.t } else { end };
+        let values = Vec::with_capacity(times.len() * record_plan.quantities.len());
+        let goal = if record_plan.controller.is_some() { start.t } else { end };
         let (start_time, crossings) = (start.t, Vec::new());
         let mut record = Self {
-            orders,
+            record_plan,
             samples,
             values,
             crossings,
             events,
-            pieces,
+            subdivisions,
             start: start_time,
             end,
             goal,
@@ -187,12 +187,12 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
 
     /// When the next sample is.
     fn next_time(&self) -> Option<L::Scalar> {
-        self.orders.times.get(self.samples.len()).copied()
+        self.record_plan.times.get(self.samples.len()).copied()
     }
 
     fn push(&mut self, system: &L, state: State<L::Scalar, N>) -> Result<(), Error> {
         let (sample, before) = (Sample { system, state }, self.values.len());
-        for (_, value) in &self.orders.quantities {
+        for (_, value) in &self.record_plan.quantities {
             match value(&sample) {
                 Ok(value) => self.values.push(value),
                 Err(error) => {
@@ -213,27 +213,30 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
     /// Keeps what is due in this step to `end`; where the motion stops before, that is then the end, and why.
     pub(crate) fn keep<F, I>(
         &mut self,
-        stride: &Stride<'_, L, F, I, N, M>,
+        step: &DenseStep<'_, L, F, I, N, M>,
         end: &mut State<L::Scalar, N>,
     ) -> Option<Ending>
     where
-        F: Flow<L, N, M>,
+        F: VectorField<L, N, M>,
         I: Interpolant<L::Scalar, N>,
     {
-        let (mut at, mut stopped) = (*stride.before, None);
+        let (mut at, mut stopped) = (*step.before, None);
         if !self.events.is_empty() {
-            let mut search =
-                EventSearch { events: &mut self.events, pieces: self.pieces, system: PhantomData };
-            if let Some((state, ending)) = search.record(stride, &mut self.crossings) {
+            let mut search = EventSearch {
+                events: &mut self.events,
+                subdivisions: self.subdivisions,
+                system: PhantomData,
+            };
+            if let Some((state, ending)) = search.record(step, &mut self.crossings) {
                 (*end, stopped) = (state, Some(ending));
             }
         }
         while let Some(t) = self.next_time()
-            && is_between(stride.before.t, t, end.t)
+            && is_between(step.before.t, t, end.t)
         {
-            let kept = stride.at(t).and_then(|state| {
+            let kept = step.at(t).and_then(|state| {
                 at = state;
-                self.push(stride.system, state)
+                self.push(step.system, state)
             });
             if let Err(error) = kept {
                 *end = at;
@@ -255,7 +258,7 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
         system: &mut L,
         state: &State<L::Scalar, N>,
     ) -> Result<(), Ending> {
-        let Some((interval, controller)) = &self.orders.controller else { return Ok(()) };
+        let Some((interval, controller)) = &self.record_plan.controller else { return Ok(()) };
         let time = state.t.to_f64();
         controller(index, system, state).map_err(|said| Ending::ControllerFailed { time, said })?;
         self.calls += 1;
@@ -280,20 +283,22 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
         if self.is_due(run.state.t) {
             self.control(index, system, &run.state)?;
             let Run { memory, state, statistics, .. } = run;
-            resume::<_, LagrangianFlow, _, N, M>(system, method, memory, state, statistics)
+            resume::<_, LagrangianVectorField, _, N, M>(system, method, memory, state, statistics)
                 .map_err(|error| Ending::of(error, state.t.to_f64()))?;
         }
         let (system, end) = (&*system, self.goal);
-        let within = run.step_with::<L, LagrangianFlow, P, _, M>(system, method, end, limits, |run| {
-            let Run { memory, statistics, before, state } = run;
-            let interpolant =
-                self.looks_into(before.t, state.t).then(|| method.interpolant(system, memory, statistics));
-            interpolant.transpose().map_err(|error| Ending::of(error, before.t.to_f64()))
-        })?;
+        let within =
+            run.step_with::<L, LagrangianVectorField, P, _, M>(system, method, end, limits, |run| {
+                let Run { memory, statistics, before, state } = run;
+                let interpolant = self
+                    .looks_into(before.t, state.t)
+                    .then(|| method.interpolant(system, memory, statistics));
+                interpolant.transpose().map_err(|error| Ending::of(error, before.t.to_f64()))
+            })?;
         let Some(interpolant) = &within else { return Ok(()) };
         let (before, after) = (&run.before, &{ run.state });
-        let flow = PhantomData::<LagrangianFlow>;
-        let stride = Stride { system, before, after, interpolant, flow };
-        self.keep(&stride, &mut run.state).map_or(Ok(()), Err)
+        let field = PhantomData::<LagrangianVectorField>;
+        let step = DenseStep { system, before, after, interpolant, field };
+        self.keep(&step, &mut run.state).map_or(Ok(()), Err)
     }
 }

@@ -6,15 +6,15 @@ use alloc::{boxed::Box, vec::Vec};
 use core::ops::ControlFlow;
 
 #[cfg(feature = "alloc")]
-use super::event::{EventSearch, Watched};
+use super::event::{AnyEvent, EventSearch};
 use super::method::{Limits, Method, Step};
 use crate::ending::{Ending, Pace};
 use crate::error::Error;
 use crate::number::Real;
 use crate::solution::Adjustment;
 use crate::solution::consistent::{self, Consistent};
-use crate::solution::flow::Flow;
 use crate::solution::solve::solve;
+use crate::solution::vector_field::VectorField;
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State};
 #[cfg(feature = "alloc")]
@@ -57,7 +57,7 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
     ) -> Result<(Self, Adjustment<T, N>), Error>
     where
         L: Lagrangian<N, M, Scalar = T>,
-        F: Flow<L, N, M>,
+        F: VectorField<L, N, M>,
         P: Method<L, N, M, F, Memory = X>,
     {
         method.check()?;
@@ -79,7 +79,7 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
     ) -> Result<(), Ending>
     where
         L: Lagrangian<N, M, Scalar = T>,
-        F: Flow<L, N, M>,
+        F: VectorField<L, N, M>,
         P: Method<L, N, M, F, Memory = X>,
     {
         let now = self.state.t;
@@ -116,7 +116,7 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
     ) -> Result<(), Ending>
     where
         L: Lagrangian<N, M, Scalar = T>,
-        F: Flow<L, N, M>,
+        F: VectorField<L, N, M>,
         P: Method<L, N, M, F, Memory = X>,
     {
         self.step_with::<L, F, P, _, M>(system, method, end, limits, |run| {
@@ -134,7 +134,7 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
     ) -> Result<(), Ending>
     where
         L: Lagrangian<N, M, Scalar = T>,
-        F: Flow<L, N, M>,
+        F: VectorField<L, N, M>,
         P: Method<L, N, M, F, Memory = X>,
     {
         let Self { memory, statistics, before, .. } = self;
@@ -154,7 +154,7 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
     ) -> Result<R, Ending>
     where
         L: Lagrangian<N, M, Scalar = T>,
-        F: Flow<L, N, M>,
+        F: VectorField<L, N, M>,
         P: Method<L, N, M, F, Memory = X>,
     {
         loop {
@@ -166,7 +166,7 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
             self.state = self.before;
             self.statistics.accepted -= 1;
             self.statistics.rejected += 1;
-            if !method.take_back(&mut self.memory) {
+            if !method.undo(&mut self.memory) {
                 return Err(ending);
             }
         }
@@ -201,7 +201,7 @@ pub(super) fn put_interpolant<L, F, P, const N: usize, const M: usize>(
 ) -> Result<(), Error>
 where
     L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
+    F: VectorField<L, N, M>,
     P: Method<L, N, M, F>,
 {
     #[cfg(feature = "alloc")]
@@ -215,7 +215,7 @@ where
 pub(crate) trait Companion<L, F, P, const N: usize, const M: usize>
 where
     L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
+    F: VectorField<L, N, M>,
     P: Method<L, N, M, F>,
 {
     /// Called before each step towards `end`.
@@ -255,7 +255,7 @@ pub(crate) struct NoCompanion;
 impl<L, F, P, const N: usize, const M: usize> Companion<L, F, P, N, M> for NoCompanion
 where
     L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
+    F: VectorField<L, N, M>,
     P: Method<L, N, M, F>,
 {
     #[inline(always)]
@@ -271,9 +271,9 @@ where
 }
 
 /// Integrates a motion and its companion, which `companion` makes at the consistent start; called by
-/// [`MotionBuilder`](super::MotionBuilder). Where there are no events, `IS_WATCHED` is false, and their search is not compiled.
+/// [`MotionBuilder`](super::MotionBuilder). Where there are no events, `HAS_EVENTS` is false, and their search is not compiled.
 #[cfg(feature = "alloc")]
-pub(crate) fn drive<'a, L, F, P, W, C, const N: usize, const M: usize, const IS_WATCHED: bool>(
+pub(crate) fn drive<'a, L, F, P, W, C, const N: usize, const M: usize, const HAS_EVENTS: bool>(
     system: &'a L,
     state: &State<L::Scalar, N>,
     end: L::Scalar,
@@ -284,9 +284,9 @@ pub(crate) fn drive<'a, L, F, P, W, C, const N: usize, const M: usize, const IS_
 ) -> Result<(Trajectory<&'a L, N, M, F>, C), Error>
 where
     L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
+    F: VectorField<L, N, M>,
     P: Method<L, N, M, F>,
-    W: Watched<L, N, M>,
+    W: AnyEvent<L, N, M>,
     C: Companion<L, F, P, N, M>,
 {
     check_end(end)?;
@@ -317,7 +317,7 @@ where
         }
         companion.keep(&run.before, &run.state);
         path.push(run.state);
-        if const { IS_WATCHED } {
+        if const { HAS_EVENTS } {
             stopped = search.record_in::<F, _>(&mut path, system, [&run.before, &run.state]);
         }
         let (time, steps) = (run.state.t.to_f64(), run.statistics.accepted);
@@ -343,7 +343,7 @@ pub(super) fn resume<L, F, P, const N: usize, const M: usize>(
 ) -> Result<(), Error>
 where
     L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
+    F: VectorField<L, N, M>,
     P: Method<L, N, M, F>,
 {
     if M > 0 {
@@ -369,7 +369,7 @@ fn check_start<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize
 ) -> Result<Consistent<L::Scalar, N>, Error> {
     solve(system, state)?;
     consistent::check(system, state)?;
-    consistent::settle(system, state)
+    consistent::project_to_round_off(system, state)
 }
 
 /// An end that can be reached.

@@ -16,10 +16,10 @@ use crate::number::Scalar;
 use crate::solution::Sample;
 use crate::solution::consistent::{self, Consistent};
 #[cfg(feature = "alloc")]
-use crate::solution::flow::LagrangianFlow;
-#[cfg(feature = "alloc")]
 use crate::solution::impact::{Impact, impact};
 use crate::solution::solve::solve;
+#[cfg(feature = "alloc")]
+use crate::solution::vector_field::LagrangianVectorField;
 use crate::system::finite::check_finite;
 #[cfg(feature = "alloc")]
 use crate::system::lookup;
@@ -226,7 +226,7 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
 
     /// The settings of a motion from this state: method, events and who looks at its progress are chosen one by one, then
     /// [`to`](MotionBuilder::to) integrates. [`motion_in_momenta`](crate::Hamiltonian::motion_in_momenta) does the same for Hamilton's
-    /// equations, [`motion_with_derivatives`](crate::AcrossEvents::motion_with_derivatives) for a motion with its derivatives.
+    /// equations, [`motion_with_derivatives`](crate::MotionDerivatives::motion_with_derivatives) for a motion with its derivatives.
     ///
     /// ```
     /// use lagrange_core::{Ending, prelude::*};
@@ -271,7 +271,10 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     /// # Ok::<(), Error>(())
     /// ```
     #[cfg(feature = "alloc")]
-    fn motion<'w>(&self, start: State<Self::Scalar, N>) -> MotionFrom<'_, 'w, Self, LagrangianFlow, N, M> {
+    fn motion<'w>(
+        &self,
+        start: State<Self::Scalar, N>,
+    ) -> MotionFrom<'_, 'w, Self, LagrangianVectorField, N, M> {
         MotionBuilder::new(self, Start::new(check_finite(self, &start).map(|()| start)))
     }
 

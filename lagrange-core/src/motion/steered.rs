@@ -4,15 +4,15 @@ use core::fmt::{self, Debug, Formatter};
 use core::marker::PhantomData;
 
 use super::Method;
-use super::event::{Crossing, EventSearch, Stride, Watched};
+use super::event::{AnyEvent, Crossing, DenseStep, EventSearch};
 use super::run::{self, Run, Watchdog, Within, is_between, resume};
 use crate::ending::Ending;
 use crate::error::Error;
-use crate::hamiltonian::{Hamiltonian, HamiltonianFlow, PhaseState};
+use crate::hamiltonian::{Hamiltonian, HamiltonianVectorField, PhaseState};
 use crate::motion::Interpolant;
 use crate::number::Real;
 use crate::solution::consistent;
-use crate::solution::flow::{Flow, LagrangianFlow};
+use crate::solution::vector_field::{LagrangianVectorField, VectorField};
 use crate::statistics::Statistics;
 use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, State};
@@ -50,10 +50,10 @@ use crate::system::{Lagrangian, State};
 /// ```
 ///
 /// Limits on steps and on wall time are those of one advance.
-pub struct Motion<L, P, const N: usize, const M: usize, F = LagrangianFlow>
+pub struct Motion<L, P, const N: usize, const M: usize, F = LagrangianVectorField>
 where
     L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
+    F: VectorField<L, N, M>,
     P: Method<L, N, M, F>,
 {
     system: L,
@@ -84,10 +84,10 @@ where
     }
 }
 
-impl<L, P, const N: usize, const M: usize> Motion<L, P, N, M, HamiltonianFlow>
+impl<L, P, const N: usize, const M: usize> Motion<L, P, N, M, HamiltonianVectorField>
 where
     L: Lagrangian<N, M, Scalar: Real>,
-    P: Method<L, N, M, HamiltonianFlow>,
+    P: Method<L, N, M, HamiltonianVectorField>,
 {
     /// A motion by Hamilton's equations from this phase state on: the method adds up and controls coordinates and momenta.
     ///
@@ -102,7 +102,7 @@ where
 impl<L, P, F, const N: usize, const M: usize> Motion<L, P, N, M, F>
 where
     L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
+    F: VectorField<L, N, M>,
     P: Method<L, N, M, F>,
 {
     fn begin(system: L, state: &State<L::Scalar, N>, method: P) -> Result<Self, Error> {
@@ -140,7 +140,7 @@ where
     pub fn set_state(&mut self, state: State<L::Scalar, N>) -> Result<(), Error> {
         check_finite(&self.system, &state)?;
         consistent::check(&self.system, &state)?;
-        let (state, _) = consistent::settle(&self.system, &state)?;
+        let (state, _) = consistent::project_to_round_off(&self.system, &state)?;
         self.go_on_from(state);
         Ok(())
     }
@@ -195,7 +195,7 @@ where
     pub fn advance_to_event(
         &mut self,
         end: L::Scalar,
-        events: &mut [&mut dyn Watched<L, N, M>],
+        events: &mut [&mut dyn AnyEvent<L, N, M>],
     ) -> Result<Option<Crossing<L::Scalar, N>>, Ending> {
         self.refresh(end)?;
         let mut at = *self.state();
@@ -232,7 +232,7 @@ where
     pub fn crossings<'e>(
         &mut self,
         end: L::Scalar,
-        events: &'e mut [&'e mut dyn Watched<L, N, M>],
+        events: &'e mut [&'e mut dyn AnyEvent<L, N, M>],
     ) -> impl Iterator<Item = Result<Crossing<L::Scalar, N>, Ending>> + use<'_, 'e, L, P, F, N, M> {
         let mut has_failed = false;
         core::iter::from_fn(move || {
@@ -249,7 +249,7 @@ where
     fn search(
         &mut self,
         end: L::Scalar,
-        events: &mut [&mut dyn Watched<L, N, M>],
+        events: &mut [&mut dyn AnyEvent<L, N, M>],
         at: &mut State<L::Scalar, N>,
     ) -> Result<Option<Crossing<L::Scalar, N>>, Ending> {
         let Self { system, method, run, within, has_step, is_current, .. } = self;
@@ -260,8 +260,8 @@ where
         loop {
             if let (None, Some(interpolant)) = (&found, within.iter().next()) {
                 let (before, after) = (&run.before, &run.state);
-                let stride = Stride { system, before, after, interpolant, flow: PhantomData::<F> };
-                found = search.next(&stride, at)?;
+                let step = DenseStep { system, before, after, interpolant, field: PhantomData::<F> };
+                found = search.next(&step, at)?;
             }
             if found.is_some() || run.state.t == end {
                 return Ok(found);
@@ -409,7 +409,7 @@ where
 impl<L, P, F, const N: usize, const M: usize> Debug for Motion<L, P, N, M, F>
 where
     L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
+    F: VectorField<L, N, M>,
     P: Method<L, N, M, F>,
 {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {

@@ -360,8 +360,8 @@ fn wrong_settings_are_refused() {
     let start = State::new([1.0], [0.0]);
     for method in [
         Dop853::with_tolerance(0.0),
-        Dop853::default().relative(-1.0),
-        Dop853::default().absolute(f64::NAN),
+        Dop853::default().relative_tolerance(-1.0),
+        Dop853::default().absolute_tolerance(f64::NAN),
         Dop853::default().max_step(0.0),
         Dop853::default().first_step(f64::INFINITY),
         Dop853::default().fixed_step(-0.1),

@@ -30,15 +30,15 @@ pub(crate) fn entries<T: Scalar, const K: usize>(mut of: impl FnMut(usize) -> T)
 }
 
 /// An array that can be filled, as long as it is.
-pub trait Filled<T>: Copy + AsRef<[T]> + AsMut<[T]> {
+pub trait FixedArray<T>: Copy + AsRef<[T]> + AsMut<[T]> {
     /// As many others.
-    type Of<U: Copy>: Filled<U>;
+    type Of<U: Copy>: FixedArray<U>;
 
     /// With `x` in every place.
     fn filled(x: T) -> Self;
 }
 
-impl<T: Copy, const K: usize> Filled<T> for [T; K] {
+impl<T: Copy, const K: usize> FixedArray<T> for [T; K] {
     type Of<U: Copy> = [U; K];
 
     #[inline(always)]

@@ -195,7 +195,7 @@ impl<S: Scalar> Scalar for Dual<S> {
     #[inline(always)]
     fn tanh(self) -> Self {
         let (x, zero, one) = (self.value, S::constant(0.0), S::constant(1.0));
-        let y = (S::constant(2.0) * x.by_order(zero, x, x, -x)).exp();
+        let y = (S::constant(2.0) * x.select_by_order(zero, x, x, -x)).exp();
         let root = S::constant(2.0) / (one + y);
         self.chain(x.tanh(), y * root * root)
     }
@@ -221,7 +221,7 @@ impl<S: Scalar> Scalar for Dual<S> {
     #[inline(always)]
     fn abs(self) -> Self {
         let zero = S::constant(0.0);
-        let slope = self.value.by_order(zero, -self.slope, zero, self.slope);
+        let slope = self.value.select_by_order(zero, -self.slope, zero, self.slope);
         Self { value: self.value.abs(), slope }
     }
 
@@ -244,7 +244,7 @@ impl<S: Scalar> Scalar for Dual<S> {
     #[inline(always)]
     fn min(self, other: Self) -> Self {
         let (x, y) = (self.slope, other.slope);
-        let slope = self.value.by_order(other.value, x, mean(x, y), y);
+        let slope = self.value.select_by_order(other.value, x, mean(x, y), y);
         Self { value: self.value.min(other.value), slope }
     }
 
@@ -252,13 +252,13 @@ impl<S: Scalar> Scalar for Dual<S> {
     #[inline(always)]
     fn max(self, other: Self) -> Self {
         let (x, y) = (self.slope, other.slope);
-        let slope = self.value.by_order(other.value, y, mean(x, y), x);
+        let slope = self.value.select_by_order(other.value, y, mean(x, y), x);
         Self { value: self.value.max(other.value), slope }
     }
 
     #[inline(always)]
-    fn by_order(self, other: Self, less: Self, equal: Self, greater: Self) -> Self {
-        let choose = |l: S, e: S, g: S| self.value.by_order(other.value, l, e, g);
+    fn select_by_order(self, other: Self, less: Self, equal: Self, greater: Self) -> Self {
+        let choose = |l: S, e: S, g: S| self.value.select_by_order(other.value, l, e, g);
         Self {
             value: choose(less.value, equal.value, greater.value),
             slope: choose(less.slope, equal.slope, greater.slope),

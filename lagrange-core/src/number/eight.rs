@@ -101,7 +101,7 @@ impl Scalar for Eight {
     }
 
     #[inline(always)]
-    fn by_order(self, other: Self, less: Self, equal: Self, greater: Self) -> Self {
+    fn select_by_order(self, other: Self, less: Self, equal: Self, greater: Self) -> Self {
         let ordered = self.0.simd_eq(other.0).select(equal.0, greater.0);
         let ordered = self.0.simd_lt(other.0).select(less.0, ordered);
         let are_numbers = self.0.simd_eq(self.0) & other.0.simd_eq(other.0);

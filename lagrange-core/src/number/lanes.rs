@@ -2,9 +2,9 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+use super::broadcast::Broadcast;
 #[cfg(target_feature = "avx512f")]
 use super::eight::Eight as Widest;
-use super::over::Over;
 use super::quad::Quad;
 #[cfg(not(target_feature = "avx512f"))]
 use super::quad::Quad as Widest;
@@ -67,7 +67,7 @@ macro_rules! lanes {
             }
         }
 
-        impl Over<f64> for $lanes {
+        impl Broadcast<f64> for $lanes {
             #[inline(always)]
             fn of(x: f64) -> Self {
                 Self::constant(x)
@@ -95,7 +95,7 @@ macro_rules! lanes {
 
             lane_by_lane! {
                 tan(), asin(), acos(), atan(), atan2(x), sinh(), cosh(), tanh(), exp(), ln(), sqrt(), abs(),
-                powf(exponent), min(other), max(other), by_order(other, less, equal, greater),
+                powf(exponent), min(other), max(other), select_by_order(other, less, equal, greater),
                 multiply_add(y, z), subtract_product(y, z),
             }
         }

@@ -1,6 +1,7 @@
 //! The numbers that everything is computed with.
 
 mod array;
+mod broadcast;
 mod dual;
 #[cfg(all(feature = "std", target_feature = "avx512f"))]
 mod eight;
@@ -9,7 +10,6 @@ mod four;
 #[cfg(feature = "std")]
 mod lanes;
 mod numeric;
-mod over;
 #[cfg(feature = "std")]
 mod quad;
 mod scalar;
@@ -18,7 +18,8 @@ mod series;
 mod sines;
 
 pub(crate) use array::entries;
-pub use array::{Filled, matrix, vector};
+pub use array::{FixedArray, matrix, vector};
+pub use broadcast::{Broadcast, Wide};
 pub use dual::Dual;
 #[cfg(feature = "alloc")]
 pub(crate) use four::Four;
@@ -28,7 +29,6 @@ pub(crate) use numeric::{
     beyond_round_off, exceeds, is_within, larger, largest, norm, power_of_epsilon, power_of_two, smaller, sum,
 };
 pub use numeric::{only_where, sin_cos_of_small};
-pub use over::{Over, Wide};
 pub use scalar::{Real, Scalar};
 pub use series::PowerSeries;
 #[cfg(feature = "alloc")]

@@ -7,7 +7,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use simba::scalar::{RealField, SupersetOf};
 use simba::simd::SimdRealField;
 
-use super::over::Wide;
+use super::broadcast::Wide;
 #[cfg(feature = "std")]
 use super::sines;
 
@@ -91,35 +91,35 @@ pub trait Scalar:
     /// `less`, `equal` or `greater` as `self` is to `other`, and NaN where one of them is, lane by lane. Of numbers with
     /// derivatives the values are compared.
     #[must_use]
-    fn by_order(self, other: Self, less: Self, equal: Self, greater: Self) -> Self;
+    fn select_by_order(self, other: Self, less: Self, equal: Self, greater: Self) -> Self;
     /// The larger of `self` and 0, and NaN where `self` is: what `max` and `min` are made of.
     #[inline(always)]
     #[must_use]
     fn ramp(self) -> Self {
         let [zero, half] = [0.0, 0.5].map(Self::constant);
         // With derivatives: half of the slope where it changes.
-        self.by_order(zero, zero, self * half, self)
+        self.select_by_order(zero, zero, self * half, self)
     }
     /// 0 below zero, 1 above it, ½ there, and NaN where `self` is: the slope of [`ramp`](Self::ramp).
     #[inline(always)]
     #[must_use]
     fn step(self) -> Self {
         let [zero, half, one] = [0.0, 0.5, 1.0].map(Self::constant);
-        self.by_order(zero, zero, half, one)
+        self.select_by_order(zero, zero, half, one)
     }
     /// `self` · `y`, and zero where `self` is zero, be `y` infinite or not a number.
     #[inline(always)]
     #[must_use]
     fn zero_or_product(self, y: Self) -> Self {
         let (zero, product) = (Self::constant(0.0), self * y);
-        self.by_order(zero, product, zero, product)
+        self.select_by_order(zero, product, zero, product)
     }
     /// `value`, zero where `self` is zero and NaN where it is: of one comparison with zero, for functions that have hundreds.
     #[doc(hidden)]
     #[inline(always)]
     #[must_use]
     fn only_where_not_zero(self, value: Self) -> Self {
-        self.by_order(Self::constant(0.0), value, self, value)
+        self.select_by_order(Self::constant(0.0), value, self, value)
     }
     /// `self` · `y` + `z`: rounded once where the target has an instruction for it (always on aarch64, on x86 with the
     /// target feature `fma`), else twice.
@@ -205,7 +205,7 @@ impl<T: SimdRealField + SupersetOf<f64> + Copy + Debug + 'static> Scalar for T {
     }
 
     #[inline(always)]
-    fn by_order(self, other: Self, less: Self, equal: Self, greater: Self) -> Self {
+    fn select_by_order(self, other: Self, less: Self, equal: Self, greater: Self) -> Self {
         let ordered = equal.select(self.simd_eq(other), greater);
         let ordered = less.select(self.simd_lt(other), ordered);
         ordered.select(self.simd_eq(self) & other.simd_eq(other), Self::constant(f64::NAN))

@@ -281,7 +281,7 @@ impl<S: Scalar> Scalar for PowerSeries<S> {
     #[inline]
     fn abs(self) -> Self {
         let zero = Self::constant(0.0);
-        self.by_order(zero, -self, zero, self)
+        self.select_by_order(zero, -self, zero, self)
     }
 
     /// A small whole exponent is a product, of whatever base.
@@ -302,21 +302,21 @@ impl<S: Scalar> Scalar for PowerSeries<S> {
 
     #[inline]
     fn min(self, other: Self) -> Self {
-        self.by_order(other, self, mean(self, other), other)
+        self.select_by_order(other, self, mean(self, other), other)
     }
 
     #[inline]
     fn max(self, other: Self) -> Self {
-        self.by_order(other, other, mean(self, other), self)
+        self.select_by_order(other, other, mean(self, other), self)
     }
 
     /// By the values at τ = 0.
     #[inline]
-    fn by_order(self, other: Self, less: Self, equal: Self, greater: Self) -> Self {
+    fn select_by_order(self, other: Self, less: Self, equal: Self, greater: Self) -> Self {
         let [x, y] = [self.coefficients[0], other.coefficients[0]];
         let all = less.beside(&equal).beside(&greater);
         all.defined(|_, k| {
-            x.by_order(y, less.coefficients[k], equal.coefficients[k], greater.coefficients[k])
+            x.select_by_order(y, less.coefficients[k], equal.coefficients[k], greater.coefficients[k])
         })
     }
 

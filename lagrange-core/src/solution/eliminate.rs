@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use crate::number::{Over, Scalar, vector};
+use crate::number::{Broadcast, Scalar, vector};
 use crate::system::Solution;
 
 /// Solves M q̈ − Fᵀλ = h, F q̈ = −γ by LDLᵀ of M and of the Schur complement F M⁻¹ Fᵀ, without pivoting.
@@ -53,7 +53,7 @@ impl<T: Scalar, const N: usize, const M: usize> LoopFactor<T, N, M> {
 
     /// M x − Fᵀλ = `forcing`, F x = −`bias`.
     #[inline]
-    pub fn solve<S: Over<T>>(&self, forcing: &SVector<S, N>, bias: &SVector<S, M>) -> Solution<S, N, M> {
+    pub fn solve<S: Broadcast<T>>(&self, forcing: &SVector<S, N>, bias: &SVector<S, M>) -> Solution<S, N, M> {
         let (mut h, gamma) = (forcing.data.0[0], bias.data.0[0]);
         for a in (0..M).filter(|&a| self.weights[a] != T::constant(0.0)) {
             let part = S::of(self.weights[a]) * gamma[a];
@@ -66,7 +66,7 @@ impl<T: Scalar, const N: usize, const M: usize> LoopFactor<T, N, M> {
 
     /// Of h − Fᵀσγ.
     #[inline]
-    fn solve_completed<S: Over<T>>(&self, h: [S; N], gamma: [S; M]) -> Solution<S, N, M> {
+    fn solve_completed<S: Broadcast<T>>(&self, h: [S; N], gamma: [S; M]) -> Solution<S, N, M> {
         let mut q = h;
         self.mass.solve(&mut q);
         let mut lambda = gamma;
@@ -81,7 +81,7 @@ impl<T: Scalar, const N: usize, const M: usize> LoopFactor<T, N, M> {
         }
         let pivots = [self.mass.pivot, self.schur.pivot];
         let pivot = poison(pivots[0].min(pivots[1]), pivots[0] * pivots[1]);
-        let doubt = S::of(doubt(pivot, T::constant(1.0)));
+        let doubt = S::of(nan_if_ill_conditioned(pivot, T::constant(1.0)));
         Solution {
             accelerations: vector(q.map(|x| x + doubt)),
             multipliers: vector(lambda.map(|x| x + doubt)),
@@ -127,7 +127,7 @@ impl<T: Scalar, const K: usize> Ldl<T, K> {
     }
 
     #[inline]
-    fn solve<S: Over<T>>(&self, x: &mut [S; K]) {
+    fn solve<S: Broadcast<T>>(&self, x: &mut [S; K]) {
         for i in 0..K {
             for j in 0..i {
                 x[i] = x[i] - S::of(self.l[i][j]) * x[j];
@@ -147,12 +147,12 @@ impl<T: Scalar, const K: usize> Ldl<T, K> {
 /// Zero where the least and the greatest of what pivots were over what they are leave two thirds of the digits of the
 /// scalar, which is `least_pivot`; else NaN, lane by lane.
 #[inline]
-pub fn doubt<T: Scalar>(least: T, most: T) -> T {
+pub fn nan_if_ill_conditioned<T: Scalar>(least: T, most: T) -> T {
     let [zero, one, nan] = [0.0, 1.0, f64::NAN].map(T::constant);
     let is_single = T::constant(1.0 + f64::EPSILON) == one;
     let bound = if is_single { 4.921_566_601_151_855e-3 } else { 6.055_454_452_393_343e-6 };
-    let below = most.by_order(T::constant(1.0 / bound), zero, nan, nan);
-    least.by_order(T::constant(bound), nan, nan, below)
+    let below = most.select_by_order(T::constant(1.0 / bound), zero, nan, nan);
+    least.select_by_order(T::constant(bound), nan, nan, below)
 }
 
 /// `x`, or NaN where `y` is not finite: a minimum drops NaN, and 0/0 must not pass for a good pivot.

@@ -2,7 +2,6 @@
 
 pub(crate) mod consistent;
 pub(crate) mod eliminate;
-pub(crate) mod flow;
 #[cfg(feature = "alloc")]
 pub(crate) mod impact;
 pub(crate) mod kkt;
@@ -11,6 +10,7 @@ pub(crate) mod newton;
 pub(crate) mod round_off;
 mod sample;
 pub(crate) mod solve;
+pub(crate) mod vector_field;
 
 pub use consistent::{Adjustment, Consistent};
 #[cfg(feature = "alloc")]

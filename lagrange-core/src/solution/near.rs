@@ -85,7 +85,7 @@ where
             let (unknowns, rest) = (level.unknowns(&mut state), &mut rest[level as usize]);
             let x: [_; N] = (*unknowns).into();
             let moved: [_; N] = from_fn(|i| exact_sum(x[i], correction.accelerations[i] + rest[i]));
-            let chosen = |x: L::Scalar, moved| wanted.by_order(zero, x, x, moved);
+            let chosen = |x: L::Scalar, moved| wanted.select_by_order(zero, x, x, moved);
             *unknowns = vector(from_fn(|i| chosen(x[i], moved[i][0])));
             *rest = from_fn(|i| chosen(rest[i], moved[i][1]));
         };
@@ -135,8 +135,8 @@ where
         [*v, back_a_part, at_rest].map(|v| forces(v, &at_rest, &vector([number(0.0); M])));
     let (coordinates, way) = (size(q), step.abs() * size(v));
     let back = number(1.0 / scale) / part;
-    let back = size(&w).by_order((coordinates + way) * number(16.0), back, back, number(0.0));
-    let back = way.by_order(coordinates * number(1.0 / 16.0), number(0.0), number(0.0), back);
+    let back = size(&w).select_by_order((coordinates + way) * number(16.0), back, back, number(0.0));
+    let back = way.select_by_order(coordinates * number(1.0 / 16.0), number(0.0), number(0.0), back);
     let impulse = |i: usize| ((with[i] - without[i]) - (of_change[i] - of_none[i])) * back;
     // Forces may be NaN at rest, as friction has no direction there. `max` replaces NaN by zero.
     let number_or_zero = |x: L::Scalar| x.max(number(0.0)) - (-x).max(number(0.0));
@@ -155,6 +155,6 @@ pub(crate) fn exact_sum<T: Scalar>(x: T, y: T) -> [T; 2] {
 #[inline]
 fn excess<T: Scalar, const M: usize>(x: &SVector<T, M>, size: &SVector<T, M>, part: f64) -> T {
     let (zero, one) = (T::constant(0.0), T::constant(1.0));
-    let excess = |x: T, size: T| x.abs().by_order(size * T::constant(part), zero, zero, one);
+    let excess = |x: T, size: T| x.abs().select_by_order(size * T::constant(part), zero, zero, one);
     sum(M, |a| excess(x[a], size[a]))
 }

@@ -9,7 +9,7 @@ use super::equations::{Equations, equations};
 use super::facts::Facts;
 use super::integrability::{Classification, Integrals};
 use super::state::{Solution, State};
-use crate::number::{Over, Scalar};
+use crate::number::{Broadcast, Scalar};
 
 /// How a constraint was written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -178,7 +178,7 @@ pub trait Lagrangian<const N: usize, const M: usize> {
     /// ```
     ///
     /// Right-hand sides may be several at once, on [`Lanes`](crate::Lanes) over an `f64`.
-    fn solve_with<S: Over<Self::Scalar>>(
+    fn solve_with<S: Broadcast<Self::Scalar>>(
         &self,
         factor: &Self::Factor,
         forcing: &SVector<S, N>,

@@ -11,7 +11,7 @@ use super::pack::Pack;
 use super::state::{Solution, State};
 use super::taylor_series::{RightHandSides, TaylorSeries};
 use crate::linearized::{Direction, ResidualChange, StateDerivatives};
-use crate::number::{Over, PowerSeries};
+use crate::number::{Broadcast, PowerSeries};
 
 /// Forwards every method and constant, also those with a default, which would hide the system's own.
 macro_rules! forward {
@@ -148,7 +148,7 @@ macro_rules! forward {
     )*};
     (@methods $(fn $method:ident $(<$wide:ident>)?($($argument:ident: $type:ty),*) -> $result:ty;)*) => {$(
         #[inline]
-        fn $method $(<$wide: Over<Self::Scalar>>)?(&self, $($argument: $type),*) -> $result {
+        fn $method $(<$wide: Broadcast<Self::Scalar>>)?(&self, $($argument: $type),*) -> $result {
             L::$method(self, $($argument),*)
         }
     )*};

@@ -7,7 +7,7 @@ use nalgebra::SVector;
 use super::lagrangian::Lagrangian;
 use super::state::{Solution, State};
 use crate::linearized::Direction;
-use crate::number::{Filled, PowerSeries};
+use crate::number::{FixedArray, PowerSeries};
 
 /// What the right-hand sides of the equations of motion are: in the places of h and of γ.
 pub type RightHandSides<T, const N: usize, const M: usize> = (SVector<T, N>, SVector<T, M>);
@@ -28,7 +28,7 @@ pub trait TaylorSeries<const N: usize, const M: usize>: Lagrangian<N, M> {
     /// What an order is made of beside coefficients: plain numbers.
     type SeriesSlopes: Copy + Debug + AsRef<[Self::Scalar]>;
     /// One number for each sum, and zeros up to a multiple of four.
-    type Sums: Filled<Self::Scalar>;
+    type Sums: FixedArray<Self::Scalar>;
     /// What is known of the newest coefficients before the accelerations of their order.
     type SeriesTerms: Copy + Debug;
 

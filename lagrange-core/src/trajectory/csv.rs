@@ -8,8 +8,8 @@ use super::Trajectory;
 use super::records::Records;
 use crate::names::Entry;
 use crate::number::{Real, Scalar};
-use crate::solution::flow::{Flow, LagrangianFlow};
 use crate::solution::solve::solve;
+use crate::solution::vector_field::{LagrangianVectorField, VectorField};
 use crate::system::{Lagrangian, State};
 
 /// A table of a trajectory, one line a sample: `t`, coordinates `x`, velocities `x_dot`, multipliers
@@ -39,7 +39,7 @@ assert_eq!(table.lines().next(), Some("t,r,phi,r_dot,phi_dot,height,p_phi,energy
 "#
 )]
 #[must_use = "a table is to be printed, or written to a file"]
-pub struct Csv<'t, S: Lagrangian<N, M>, const N: usize, const M: usize, F = LagrangianFlow> {
+pub struct Csv<'t, S: Lagrangian<N, M>, const N: usize, const M: usize, F = LagrangianVectorField> {
     trajectory: &'t Trajectory<S, N, M, F>,
     count: usize,
     has_energy: bool,
@@ -70,7 +70,7 @@ impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Csv<'_, S, N, M, F>
     pub fn records(&self) -> Records<S::Scalar>
     where
         S::Scalar: Real,
-        F: Flow<S, N, M>,
+        F: VectorField<S, N, M>,
     {
         let states = self.trajectory.states(self.count);
         let row = |state| {
@@ -127,7 +127,7 @@ impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Csv<'_, S, N, M, F>
     }
 }
 
-impl<S: Lagrangian<N, M, Scalar: Real>, F: Flow<S, N, M>, const N: usize, const M: usize> Display
+impl<S: Lagrangian<N, M, Scalar: Real>, F: VectorField<S, N, M>, const N: usize, const M: usize> Display
     for Csv<'_, S, N, M, F>
 {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {

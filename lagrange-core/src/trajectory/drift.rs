@@ -5,7 +5,7 @@ use core::fmt::{self, Display, Formatter};
 
 use super::Trajectory;
 use crate::number::{Real, Scalar, exceeds};
-use crate::solution::flow::Flow;
+use crate::solution::vector_field::VectorField;
 use crate::system::Lagrangian;
 
 /// How far a conserved quantity strays from its value at the start.
@@ -50,7 +50,7 @@ pub struct Drift<T> {
     quantities: Vec<Deviation<T>>,
 }
 
-impl<S: Lagrangian<N, M, Scalar: Real>, F: Flow<S, N, M>, const N: usize, const M: usize>
+impl<S: Lagrangian<N, M, Scalar: Real>, F: VectorField<S, N, M>, const N: usize, const M: usize>
     Trajectory<S, N, M, F>
 {
     /// How far each conserved quantity strays from its value at the start.

@@ -2,7 +2,7 @@
 
 mod csv;
 mod drift;
-mod journey;
+mod hybrid;
 mod path;
 mod records;
 #[cfg(test)]
@@ -14,7 +14,7 @@ use core::marker::PhantomData;
 
 pub use csv::Csv;
 pub use drift::{Deviation, Drift};
-pub use journey::{Journey, Leg, Named};
+pub use hybrid::{HybridTrajectory, Leg, Named};
 pub(crate) use path::Path;
 pub use records::Records;
 
@@ -22,7 +22,7 @@ use crate::ending::Ending;
 use crate::error::Error;
 use crate::motion::Crossing;
 use crate::number::{Real, Scalar, vector};
-use crate::solution::flow::{Flow, LagrangianFlow};
+use crate::solution::vector_field::{LagrangianVectorField, VectorField};
 use crate::solution::{Adjustment, Sample};
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State};
@@ -35,13 +35,13 @@ use crate::system::{Lagrangian, State};
 /// The system `S` is borrowed by the call that integrates, `Trajectory<&Pendulum, 3, 1>`;
 /// [`into_owned`](Self::into_owned) makes it one that borrows nothing, `Trajectory<Pendulum, 3, 1>`. The flow `F` says
 /// which equations were integrated, Lagrange's or Hamilton's; a sample has both velocities and momenta.
-pub struct Trajectory<S: Lagrangian<N, M>, const N: usize, const M: usize, F = LagrangianFlow> {
+pub struct Trajectory<S: Lagrangian<N, M>, const N: usize, const M: usize, F = LagrangianVectorField> {
     system: S,
     path: Path<S::Scalar, N>,
     ending: Ending,
     statistics: Statistics,
     adjustment: Adjustment<S::Scalar, N>,
-    flow: PhantomData<F>,
+    field: PhantomData<F>,
 }
 
 impl<L: Lagrangian<N, M> + Clone, F, const N: usize, const M: usize> Trajectory<&L, N, M, F> {
@@ -70,8 +70,8 @@ assert!(swing(2.0)?.end().coordinate("theta")? < 0.1);
     )]
     /// Of a system in an `Arc` or an `Rc` only the pointer is copied.
     pub fn into_owned(self) -> Trajectory<L, N, M, F> {
-        let Self { system, path, ending, statistics, adjustment, flow } = self;
-        Trajectory { system: system.clone(), path, ending, statistics, adjustment, flow }
+        let Self { system, path, ending, statistics, adjustment, field } = self;
+        Trajectory { system: system.clone(), path, ending, statistics, adjustment, field }
     }
 }
 
@@ -83,7 +83,7 @@ impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Trajectory<S, N, M,
         statistics: Statistics,
         adjustment: Adjustment<S::Scalar, N>,
     ) -> Self {
-        Self { system, path, ending, statistics, adjustment, flow: PhantomData }
+        Self { system, path, ending, statistics, adjustment, field: PhantomData }
     }
 
     /// The trajectory, if nothing but the caller or an event kept it from its end.
@@ -137,7 +137,7 @@ impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Trajectory<S, N, M,
 impl<S, F, const N: usize, const M: usize> Trajectory<S, N, M, F>
 where
     S: Lagrangian<N, M, Scalar: Real> + Clone,
-    F: Flow<S, N, M>,
+    F: VectorField<S, N, M>,
 {
     /// The state at this time.
     ///
@@ -174,7 +174,7 @@ where
     }
 }
 
-impl<S: Lagrangian<N, M, Scalar: Real>, F: Flow<S, N, M>, const N: usize, const M: usize>
+impl<S: Lagrangian<N, M, Scalar: Real>, F: VectorField<S, N, M>, const N: usize, const M: usize>
     Trajectory<S, N, M, F>
 {
     fn states_of_steps(&self) -> impl Iterator<Item = State<S::Scalar, N>> + '_ {

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use crate::motion::{Crossing, Interpolant};
 use crate::number::Real;
 use crate::room::Room;
-use crate::solution::flow::PhasePoint;
+use crate::solution::vector_field::StagePoint;
 use crate::system::State;
 
 /// The states at the ends of the steps, and the interpolants between them: those of one method, whose type is
@@ -24,11 +24,11 @@ pub(crate) struct Path<T, const N: usize, S = Box<dyn Interpolants<T, N> + Send 
 /// The interpolants of steps 0, 1, …
 pub(crate) trait Interpolants<T, const N: usize> {
     /// The place at a time within this step.
-    fn at(&self, step: usize, t: T) -> Option<PhasePoint<T, N>>;
+    fn at(&self, step: usize, t: T) -> Option<StagePoint<T, N>>;
 }
 
 impl<T, const N: usize, I: Interpolant<T, N>> Interpolants<T, N> for Vec<I> {
-    fn at(&self, step: usize, t: T) -> Option<PhasePoint<T, N>> {
+    fn at(&self, step: usize, t: T) -> Option<StagePoint<T, N>> {
         self.get(step).map(|interpolant| interpolant.at(t))
     }
 }
@@ -79,12 +79,12 @@ impl<T: Real, const N: usize, I: Interpolant<T, N> + Send + Sync + 'static> Path
 
 impl<T: Real, const N: usize> Path<T, N> {
     /// Where step `step` starts.
-    pub(super) fn start_of(&self, step: usize) -> Option<PhasePoint<T, N>> {
+    pub(super) fn start_of(&self, step: usize) -> Option<StagePoint<T, N>> {
         self.interpolants.at(step, *self.times.get(step)?)
     }
 
     /// `None` before the start and from the last state on.
-    pub(super) fn at(&self, t: T) -> Option<PhasePoint<T, N>> {
+    pub(super) fn at(&self, t: T) -> Option<StagePoint<T, N>> {
         // Backwards, times are sorted by their negatives.
         let backwards = self.last.t < self.start.t;
         let directed = |t: T| if backwards { -t } else { t };

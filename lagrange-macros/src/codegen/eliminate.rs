@@ -49,12 +49,12 @@ pub(super) struct Factorization {
     schur: FormFactors,
     /// σ_a F_a of the constraints a that complete M: a solve takes γ_a times as much from its h.
     completing: Vec<(usize, Sparse)>,
-    trust: Trust,
+    check: PivotCheck,
 }
 
 /// How far a factorization can be trusted.
 #[derive(Clone, Copy)]
-struct Trust {
+struct PivotCheck {
     pivot: Register,
     /// Zero, or no number where nothing can be vouched for; `None` where it always can.
     doubt: Option<Register>,
@@ -68,7 +68,7 @@ pub(super) fn eliminate(schedule: &mut Schedule, form: &Form, equations: &Equati
     let bias = solver.entries(&equations.bias);
     let starts = solver.starts(form, &factorization, &bias);
     let found = solver.solve(&factorization, starts, bias);
-    Some(solver.finish(found, equations.forcing.len(), factorization.trust.pivot))
+    Some(solver.finish(found, equations.forcing.len(), factorization.check.pivot))
 }
 
 /// Appends the factorization alone to a schedule that computes the entries of the form, F and σ, and gives the numbers
@@ -107,7 +107,7 @@ pub(super) fn solve_with(
     let forward = solver.forward(&factorization.form, forcing);
     let starts = solver.scaled(&factorization.form, forward);
     let found = solver.solve(&factorization, starts, bias);
-    solver.finish(found, n, factorization.trust.pivot)
+    solver.finish(found, n, factorization.check.pivot)
 }
 
 impl Factorization {
@@ -115,8 +115,8 @@ impl Factorization {
     fn registers(&self) -> impl Iterator<Item = Register> {
         let completing = self.completing.iter().map(|(_, row)| row);
         let rows = self.rows.iter().chain(completing).flatten().map(|&(_, entry)| entry);
-        let trust = [Some(self.trust.pivot), self.trust.doubt].into_iter().flatten();
-        trust.chain(self.form.registers()).chain(rows).chain(self.schur.registers())
+        let check = [Some(self.check.pivot), self.check.doubt].into_iter().flatten();
+        check.chain(self.form.registers()).chain(rows).chain(self.schur.registers())
     }
 
     fn with_registers(&self, mut new: impl FnMut(Register) -> Register) -> Self {
@@ -125,9 +125,9 @@ impl Factorization {
         let mut row = |row: &Sparse| row.iter().map(|&(i, entry)| (i, new(entry))).collect();
         let rows = self.rows.iter().map(&mut row).collect();
         let completing = self.completing.iter().map(|(a, weighted)| (*a, row(weighted))).collect();
-        let Trust { pivot, doubt } = self.trust;
-        let trust = Trust { pivot: new(pivot), doubt: doubt.map(new) };
-        Self { form, among: self.among, rows, schur, completing, trust }
+        let PivotCheck { pivot, doubt } = self.check;
+        let check = PivotCheck { pivot: new(pivot), doubt: doubt.map(new) };
+        Self { form, among: self.among, rows, schur, completing, check }
     }
 }
 
@@ -174,8 +174,8 @@ impl Solver<'_> {
         let rows = if among > 0 { Vec::new() } else { self.rows(form, equations, &reduced) };
         let schur = self.schur_factors(&reduced, &rows)?;
         let completing = self.completing(form, equations);
-        let trust = self.trust(!equations.jacobian.is_empty());
-        Some(Factorization { form: reduced, among, rows, schur, completing, trust })
+        let check = self.pivot_check(!equations.jacobian.is_empty());
+        Some(Factorization { form: reduced, among, rows, schur, completing, check })
     }
 
     /// −Fᵀ beside a matrix, and −F below.
@@ -256,7 +256,7 @@ impl Solver<'_> {
         starts: Vec<SparseEntry>,
         bias: Vec<SparseEntry>,
     ) -> Found {
-        let Factorization { form, among, rows, schur, trust: Trust { doubt, .. }, .. } = factorization;
+        let Factorization { form, among, rows, schur, check: PivotCheck { doubt, .. }, .. } = factorization;
         let multipliers = self.multipliers(schur, &starts, rows, bias);
         // At the end, one by one: the doubt is known long after the first of them, and each waits for the one before.
         let mut multipliers: Vec<SparseEntry> =

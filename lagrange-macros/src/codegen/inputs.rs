@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, quote};
 
-use super::style::Style;
+use super::style::FunctionContext;
 use crate::resolve::Entry;
 use crate::symbolic::Symbol;
 use crate::syntax::FieldShape;
@@ -14,7 +14,7 @@ use crate::variables::Variable;
 /// A variable of each coordinate or constraint, by its place.
 type VariableFamily = fn(usize) -> Variable;
 
-impl Style<'_> {
+impl FunctionContext<'_> {
     /// An input that is read there, as functions compute with it.
     pub(super) fn widened(&self, symbol: Symbol, number: &TokenStream) -> TokenStream {
         let (is_narrow, wide) =

@@ -7,7 +7,7 @@ use super::body::{Chunk, FunctionBody};
 use super::count::Count;
 use super::passes::Program;
 use super::shape::{ResultArrays, ResultShape};
-use super::style::Style;
+use super::style::FunctionContext;
 use crate::contract::Argument;
 use crate::symbolic::{Id, Symbol};
 use crate::variables::Variable;
@@ -31,7 +31,7 @@ pub(super) struct Kernel {
     pub(super) refused: Option<Count>,
 }
 
-impl Style<'_> {
+impl FunctionContext<'_> {
     /// Computes `roots` for the function of this name.
     pub(super) fn kernel(&self, name: &str, roots: &[Id], shapes: &[ResultShape]) -> Kernel {
         self.write(name, &Program::of(self.graph, roots), shapes)
@@ -125,7 +125,7 @@ impl Style<'_> {
     }
 }
 
-impl Style<'_> {
+impl FunctionContext<'_> {
     /// Declares an argument of a part, which is an inherent method.
     fn argument(&self, argument: Argument) -> TokenStream {
         let factor = &self.factor;

@@ -6,7 +6,7 @@ use quote::{quote, quote_spanned};
 
 use super::Emitter;
 use super::inputs::Varying;
-use super::style::Style;
+use super::style::FunctionContext;
 use crate::resolve::Entry;
 use crate::syntax::{Field, Inside, Property};
 
@@ -33,7 +33,7 @@ impl Emitter<'_> {
     }
 }
 
-impl Style<'_> {
+impl FunctionContext<'_> {
     /// A number of a member of `owner`, where this is one.
     pub(super) fn number_of_member(
         &self,

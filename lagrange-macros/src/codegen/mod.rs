@@ -44,10 +44,10 @@ use bounds::FUNCTION_ORDER;
 pub(crate) use count::Count;
 use kernel::{Kernel, OPERATION_LIMIT};
 use linearized::Changing;
-use series::Series;
+use series::TaylorPrograms;
 use solving::Solving;
 pub(crate) use stub::stub;
-use style::Style;
+use style::FunctionContext;
 #[cfg(test)]
 pub(crate) use tests::{operations, solutions, solutions_by, solving, value};
 
@@ -63,11 +63,12 @@ pub(crate) fn implementation(
 ) -> Option<TokenStream> {
     let solving = Solving::cheapest(graph, &derived.equations);
     let changing = derived.linearization.as_ref().map(|linearization| Changing::new(graph, linearization));
-    let series = Series::new(graph, &derived.equations);
-    let slopes = changing.as_ref().map_or(0, Changing::slopes).max(series.as_ref().map_or(0, Series::slopes));
+    let series = TaylorPrograms::new(graph, &derived.equations);
+    let slopes =
+        changing.as_ref().map_or(0, Changing::slopes).max(series.as_ref().map_or(0, TaylorPrograms::slopes));
     let numbers = solving.as_ref().map(|solving| solving.factor.results.len());
     let sums = series.as_ref().map_or([0; 2], |series| [series.sums, series.terms]);
-    let style = Style::new(graph, problem, numbers, slopes, sums);
+    let style = FunctionContext::new(graph, problem, numbers, slopes, sums);
     let emitter = Emitter { declaration, problem, derived, rendered, solving, style };
     for (function, order) in emitter.orders(&[]).into_iter().filter(|(_, order)| *order > FUNCTION_ORDER) {
         let Supplied { name, place, .. } = &problem.functions[function as usize];
@@ -100,7 +101,7 @@ struct Emitter<'a> {
     rendered: &'a Rendered,
     /// `None` where the equations are better solved in loops.
     solving: Option<Solving>,
-    style: Style<'a>,
+    style: FunctionContext<'a>,
 }
 
 impl Emitter<'_> {

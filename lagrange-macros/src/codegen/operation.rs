@@ -36,7 +36,7 @@ pub(super) enum Operation<X = Register> {
     /// Zero where the first is zero, else the second.
     Where(X, X),
     /// Zero where the least and the greatest of the pivots, as parts of what they were, are not far from 1; else no number.
-    Doubt(X, X),
+    NanIfIllConditioned(X, X),
     SquareRoot(X),
     Function(Function, X),
     Atan2(X, X),
@@ -84,7 +84,7 @@ impl<X> Operation<X> {
             Self::Minimum(x, y) => Operation::Minimum(new(x), new(y)),
             Self::Maximum(x, y) => Operation::Maximum(new(x), new(y)),
             Self::Where(x, y) => Operation::Where(new(x), new(y)),
-            Self::Doubt(x, y) => Operation::Doubt(new(x), new(y)),
+            Self::NanIfIllConditioned(x, y) => Operation::NanIfIllConditioned(new(x), new(y)),
             Self::Atan2(x, y) => Operation::Atan2(new(x), new(y)),
             Self::Power(x, y) => Operation::Power(new(x), new(y)),
             Self::MultiplyAdd(x, y, z) => Operation::MultiplyAdd(new(x), new(y), new(z)),

@@ -5,12 +5,12 @@ use quote::{format_ident, quote};
 
 use super::body::{Given, Rounds, SlotSequence};
 use super::inputs::Varying;
-use super::style::Style;
+use super::style::FunctionContext;
 use crate::resolve::Entry;
 use crate::symbolic::Symbol;
 use crate::variables::Variable;
 
-impl Style<'_> {
+impl FunctionContext<'_> {
     pub(super) fn rounds(&self, Rounds { count, given }: &Rounds, statements: &TokenStream) -> TokenStream {
         let (round, given) = (counter(), given.iter().enumerate());
         let (before, within): (Vec<_>, Vec<_>) = given.map(|(k, given)| self.given(k, given)).unzip();
@@ -27,7 +27,7 @@ impl Style<'_> {
     fn given(&self, k: usize, given: &Given) -> (Option<TokenStream>, TokenStream) {
         let (name, round) = (name(k), counter());
         match given {
-            Given::Waiting(series) => {
+            Given::SpillSlots(series) => {
                 let value = waiting(*series);
                 (None, quote!(let #name = #value;))
             }

@@ -34,7 +34,7 @@ impl Types<'_> {
     /// The generic parameter of a method that computes with any numbers over these.
     pub(super) fn over(&self) -> TokenStream {
         let (wide, scalar) = (wide(), self.scalar);
-        quote!(<#wide: __lagrange::Over<#scalar>>)
+        quote!(<#wide: __lagrange::Broadcast<#scalar>>)
     }
 
     /// Of the method of an observable, a number or an array of these lengths.

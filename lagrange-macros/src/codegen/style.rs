@@ -14,7 +14,7 @@ use crate::variables::Variable;
 
 /// What all functions of a system have in common.
 #[derive(Clone)]
-pub(super) struct Style<'a> {
+pub(super) struct FunctionContext<'a> {
     pub(super) graph: &'a Graph,
     pub(super) problem: &'a Problem,
     pub(super) types: Types<'a>,
@@ -35,7 +35,7 @@ pub(super) struct Style<'a> {
     pub(super) definition_names: FxHashMap<Id, Ident>,
 }
 
-impl<'a> Style<'a> {
+impl<'a> FunctionContext<'a> {
     /// `numbers` are those of the factor; where there are none the runtime has its own. Of the `slopes` there are at most
     /// so many, of the `sums` over Taylor coefficients and of what is known of the newest as many.
     pub(super) fn new(
@@ -140,14 +140,14 @@ impl<'a> Style<'a> {
     }
 
     /// For functions that compute with any numbers over those of the system, called `wide`, and read so many slopes.
-    pub(super) fn over<'w>(&'w self, wide: &'w syn::Type, slopes: usize) -> Style<'w> {
+    pub(super) fn over<'w>(&'w self, wide: &'w syn::Type, slopes: usize) -> FunctionContext<'w> {
         let types = Types { scalar: wide, ..self.types };
-        Style { types, narrow: Some(self.types.scalar), slopes, is_f64: false, ..self.clone() }
+        FunctionContext { types, narrow: Some(self.types.scalar), slopes, is_f64: false, ..self.clone() }
     }
 
     /// For functions that read so many slopes.
     pub(super) fn reading(&self, slopes: usize) -> Self {
-        Style { slopes, ..self.clone() }
+        FunctionContext { slopes, ..self.clone() }
     }
 
     /// What a method beside those of the traits is generic over.

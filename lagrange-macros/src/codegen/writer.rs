@@ -8,7 +8,7 @@ use super::bounds::call_of;
 use super::operation::{Call, Operation};
 use super::rounds::waiting;
 use super::shape::ResultArrays;
-use super::style::Style;
+use super::style::FunctionContext;
 
 /// Up to this many locals each have a `let`. Beyond, they are declared in batches of as many, as tuples, and
 /// then assigned: one `let` each overflows rustc's stack near 3,000 in a build with debug information.
@@ -18,7 +18,7 @@ const BATCH: usize = 256;
 /// ten links and takes half the time to compile. 8 to 20 links then take 2 to 20 % less time to run, too, robots 2 % more or less.
 const MANY_ANGLES: usize = 8;
 
-impl Style<'_> {
+impl FunctionContext<'_> {
     /// All statements, with the declarations of what they read and of what they assign to.
     pub(super) fn statements(&self, part: Chunk, arrays: &ResultArrays) -> TokenStream {
         let inputs = self.inputs(&part.inputs);
@@ -86,7 +86,7 @@ impl Style<'_> {
                 let name = self.local(local);
                 quote!(#name)
             }
-            Operand::Waiting(place) => waiting(SlotSequence::constant(place)),
+            Operand::SpillSlots(place) => waiting(SlotSequence::constant(place)),
             Operand::Of(operation) => self.operation(*operation),
         }
     }
@@ -95,7 +95,7 @@ impl Style<'_> {
     pub(super) fn operand(&self, expression: Operand) -> TokenStream {
         let is_composed = match &expression {
             Operand::Of(operation) => !matches!(**operation, Operation::Constant(_) | Operation::Input(_)),
-            Operand::Local(_) | Operand::Waiting(_) => false,
+            Operand::Local(_) | Operand::SpillSlots(_) => false,
         };
         let tokens = self.expression(expression);
         if is_composed { quote!((#tokens)) } else { tokens }
@@ -118,7 +118,9 @@ impl Style<'_> {
             Operation::Minimum(x, y) => scalar("min", &[x, y]),
             Operation::Maximum(x, y) => scalar("max", &[x, y]),
             Operation::Where(x, y) => quote!(__lagrange::generated::only_where(#x, #y)),
-            Operation::Doubt(x, y) => quote!(__lagrange::generated::doubt(#x, #y)),
+            Operation::NanIfIllConditioned(x, y) => {
+                quote!(__lagrange::generated::nan_if_ill_conditioned(#x, #y))
+            }
             Operation::SquareRoot(x) => scalar("sqrt", &[x]),
             Operation::Function(function, x) => scalar(function.name(), &[x]),
             Operation::Atan2(y, x) => scalar("atan2", &[y, x]),
@@ -170,7 +172,7 @@ fn together(statements: &[Statement]) -> TokenStream {
 fn stored(place: Slot, arrays: &ResultArrays) -> TokenStream {
     match place {
         Slot::Result(index) => arrays.place(index),
-        Slot::Waiting(series) => waiting(series),
+        Slot::SpillSlots(series) => waiting(series),
     }
 }
 

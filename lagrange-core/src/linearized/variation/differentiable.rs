@@ -9,7 +9,7 @@ use crate::linearized::tangent::WideOf;
 use crate::motion::Method;
 use crate::motion::run::Run;
 use crate::number::Real;
-use crate::solution::flow::Phase;
+use crate::solution::vector_field::PhaseVector;
 use crate::system::State;
 
 /// A [`Method`] whose steps can be differentiated, so that derivatives of a motion go along with it.
@@ -29,7 +29,7 @@ where
 {
     /// What variations take along beside their values.
     #[doc(hidden)]
-    type Companion;
+    type VariationMemory;
 
     /// At the start.
     #[doc(hidden)]
@@ -38,12 +38,12 @@ where
         system: &L,
         start: &State<L::Scalar, N>,
         variations: &Variations<L, N, M, P>,
-    ) -> Result<Self::Companion, Error>;
+    ) -> Result<Self::VariationMemory, Error>;
 
     /// What is linear in the variations, block by block: it goes with them where they are combined. Nothing, where it
     /// is made anew from step to step.
     #[doc(hidden)]
-    fn linear(companion: &mut Self::Companion) -> Vec<&mut [WideOf<L, N, M>]> {
+    fn linear(companion: &mut Self::VariationMemory) -> Vec<&mut [WideOf<L, N, M>]> {
         let _ = companion;
         Vec::new()
     }
@@ -56,7 +56,7 @@ where
         run: &mut Run<Self::Memory, L::Scalar, N>,
         end: L::Scalar,
         variations: &Variations<L, N, M, P>,
-        companion: &mut Self::Companion,
+        companion: &mut Self::VariationMemory,
     ) -> Result<(), Ending> {
         let _ = (system, run, end, variations, companion);
         Ok(())
@@ -70,7 +70,7 @@ where
         system: &L,
         run: &mut Run<Self::Memory, L::Scalar, N>,
         variations: &mut Variations<L, N, M, P>,
-        companion: &mut Self::Companion,
+        companion: &mut Self::VariationMemory,
     ) -> Result<(), Ending>;
 
     /// Adds what lies within the step followed last: of the motion, and of the variations as coefficients, as many for each block
@@ -81,15 +81,15 @@ where
         system: &L,
         run: &mut Run<Self::Memory, L::Scalar, N>,
         variations: &mut Variations<L, N, M, P>,
-        companion: &mut Self::Companion,
+        companion: &mut Self::VariationMemory,
         within: &mut Vec<Self::Interpolant>,
-        coefficients: &mut Vec<Phase<WideOf<L, N, M>, N>>,
+        coefficients: &mut Vec<PhaseVector<WideOf<L, N, M>, N>>,
     ) -> Result<(), Ending>;
 
     /// The variations of a block after this part of a step, by its coefficients.
     #[doc(hidden)]
     fn between(
-        coefficients: &[Phase<WideOf<L, N, M>, N>],
+        coefficients: &[PhaseVector<WideOf<L, N, M>, N>],
         part: WideOf<L, N, M>,
-    ) -> Phase<WideOf<L, N, M>, N>;
+    ) -> PhaseVector<WideOf<L, N, M>, N>;
 }

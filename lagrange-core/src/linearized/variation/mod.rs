@@ -23,9 +23,9 @@ use crate::names::Entry;
 use crate::number::{Real, Scalar, Wide, entries, vector};
 use crate::room::Room;
 use crate::solution::consistent::factors_of_nearest;
-use crate::solution::flow::Phase;
 use crate::solution::kkt::{Factors, Fault, Rank};
 use crate::solution::solve::fault;
+use crate::solution::vector_field::PhaseVector;
 
 pub use differentiable::DifferentiableMethod;
 
@@ -33,7 +33,7 @@ pub use differentiable::DifferentiableMethod;
 #[derive(Clone, Debug)]
 pub(crate) struct Block<W, const N: usize, const P: usize> {
     /// δ(q, q̇).
-    pub(crate) y: Phase<W, N>,
+    pub(crate) y: PhaseVector<W, N>,
     /// At which parameters change, if any does.
     pub(crate) rates: Option<SVector<W, P>>,
     /// Reciprocal of the size of the varied quantity: that of a parameter, else 1.
@@ -141,7 +141,7 @@ where
     }
 
     /// δ(q, q̇) in a block.
-    pub(super) fn block(&self, index: usize) -> &Phase<WideOf<L, N, M>, N> {
+    pub(super) fn block(&self, index: usize) -> &PhaseVector<WideOf<L, N, M>, N> {
         &self.blocks[index].y
     }
 
@@ -182,8 +182,8 @@ where
     pub(crate) fn slopes_at(
         &self,
         tangent: &Tangent<'_, L, N, M>,
-        y: impl Fn(usize, &Block<WideOf<L, N, M>, N, P>) -> Phase<WideOf<L, N, M>, N>,
-        mut give: impl FnMut(usize, Phase<WideOf<L, N, M>, N>),
+        y: impl Fn(usize, &Block<WideOf<L, N, M>, N, P>) -> PhaseVector<WideOf<L, N, M>, N>,
+        mut give: impl FnMut(usize, PhaseVector<WideOf<L, N, M>, N>),
     ) -> Result<(), Error> {
         let by_parameters = self.parameter_slopes(tangent);
         for (k, block) in self.blocks.iter().enumerate() {
@@ -198,8 +198,8 @@ where
         &self,
         index: usize,
         tangent: &Tangent<'_, L, N, M>,
-        y: Phase<WideOf<L, N, M>, N>,
-    ) -> Result<Phase<WideOf<L, N, M>, N>, Error> {
+        y: PhaseVector<WideOf<L, N, M>, N>,
+    ) -> Result<PhaseVector<WideOf<L, N, M>, N>, Error> {
         let names = lane_names::<L, N, M>(&self.arguments, index);
         self.blocks[index].projected(tangent, &self.parameter_slopes(tangent), y, &names)
     }
@@ -263,7 +263,7 @@ impl<W: Scalar, const N: usize, const P: usize> Block<W, N, P> {
         &self,
         tangent: &Tangent<'_, L, N, M>,
         by_parameters: &Option<L::ParameterSlopes>,
-        [q, v]: &Phase<W, N>,
+        [q, v]: &PhaseVector<W, N>,
     ) -> ResidualChange<W, N, M>
     where
         L: Linearized<N, M, P, Scalar: Real<Wide = W>>,
@@ -279,9 +279,9 @@ impl<W: Scalar, const N: usize, const P: usize> Block<W, N, P> {
         &self,
         tangent: &Tangent<'_, L, N, M>,
         by_parameters: &Option<L::ParameterSlopes>,
-        y: &Phase<W, N>,
+        y: &PhaseVector<W, N>,
         names: &impl Fn(usize) -> Entry,
-    ) -> Result<Phase<W, N>, Error>
+    ) -> Result<PhaseVector<W, N>, Error>
     where
         L: Linearized<N, M, P, Scalar: Real<Wide = W>>,
     {
@@ -294,9 +294,9 @@ impl<W: Scalar, const N: usize, const P: usize> Block<W, N, P> {
         &self,
         tangent: &Tangent<'_, L, N, M>,
         by_parameters: &Option<L::ParameterSlopes>,
-        mut y: Phase<W, N>,
+        mut y: PhaseVector<W, N>,
         names: &impl Fn(usize) -> Entry,
-    ) -> Result<Phase<W, N>, Error>
+    ) -> Result<PhaseVector<W, N>, Error>
     where
         L: Linearized<N, M, P, Scalar: Real<Wide = W>>,
     {
@@ -312,9 +312,9 @@ impl<W: Scalar, const N: usize, const P: usize> Block<W, N, P> {
         half: usize,
         tangent: &Tangent<'_, L, N, M>,
         by_parameters: &Option<L::ParameterSlopes>,
-        mut y: Phase<W, N>,
+        mut y: PhaseVector<W, N>,
         names: &impl Fn(usize) -> Entry,
-    ) -> Result<Phase<W, N>, Error>
+    ) -> Result<PhaseVector<W, N>, Error>
     where
         L: Linearized<N, M, P, Scalar: Real<Wide = W>>,
     {

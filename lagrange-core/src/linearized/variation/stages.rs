@@ -13,22 +13,22 @@ use crate::motion::method::interpolant::{evaluate, hermite};
 use crate::motion::method::pair::{Slopes, advance, last};
 use crate::motion::method::step::PairMemory;
 use crate::motion::run::Run;
-use crate::motion::{Adaptive, Combination, Pair};
-use crate::number::{Over, Real, Scalar, Wide, exceeds, vector};
+use crate::motion::{Adaptive, Pair, TableauRow};
+use crate::number::{Broadcast, Real, Scalar, Wide, exceeds, vector};
 use crate::room::Room;
-use crate::solution::flow::{LagrangianFlow, Phase};
 use crate::solution::solve::solve_near;
+use crate::solution::vector_field::{LagrangianVectorField, PhaseVector};
 use crate::system::{Solution, State};
 
 /// The slopes of a block of variations.
 #[derive(Clone, Debug)]
 pub struct Stages<W, const N: usize> {
     /// Where the step taken last starts.
-    start: Phase<W, N>,
+    start: PhaseVector<W, N>,
     /// Of that step; the first that of its start.
     slopes: Room<Slopes<W, N>>,
     /// Where it ends.
-    slope: Phase<W, N>,
+    slope: PhaseVector<W, N>,
 }
 
 impl<Q, L, const N: usize, const M: usize, const P: usize> DifferentiableMethod<L, N, M, P> for Adaptive<Q>
@@ -36,14 +36,14 @@ where
     Q: Pair,
     L: Linearized<N, M, P, Scalar: Real>,
 {
-    type Companion = Vec<Stages<WideOf<L, N, M>, N>>;
+    type VariationMemory = Vec<Stages<WideOf<L, N, M>, N>>;
 
     fn companion(
         &self,
         system: &L,
         start: &State<L::Scalar, N>,
         variations: &Variations<L, N, M, P>,
-    ) -> Result<Self::Companion, Error> {
+    ) -> Result<Self::VariationMemory, Error> {
         let zero = [[WideOf::<L, N, M>::constant(0.0); N]; 2];
         let none = Stages { start: zero, slopes: Room::filled(zero), slope: zero };
         let mut all = vec![none; variations.blocks.len()];
@@ -52,7 +52,7 @@ where
         Ok(all)
     }
 
-    fn linear(companion: &mut Self::Companion) -> Vec<&mut [WideOf<L, N, M>]> {
+    fn linear(companion: &mut Self::VariationMemory) -> Vec<&mut [WideOf<L, N, M>]> {
         companion.iter_mut().map(|stages| stages.slope.as_flattened_mut()).collect()
     }
 
@@ -61,13 +61,13 @@ where
         system: &L,
         run: &mut Run<Self::Memory, L::Scalar, N>,
         variations: &mut Variations<L, N, M, P>,
-        all: &mut Self::Companion,
+        all: &mut Self::VariationMemory,
     ) -> Result<(), Ending> {
         for (block, stages) in variations.blocks.iter().zip(&mut *all) {
             (stages.start, stages.slopes[0]) = (block.y, stages.slope);
         }
         let time = run.before.t.to_f64();
-        let slope = run.memory.ensure_slope::<L, LagrangianFlow>(system, &mut run.statistics);
+        let slope = run.memory.ensure_slope::<L, LagrangianVectorField>(system, &mut run.statistics);
         let followed = slope.and_then(|()| go::<Q, L, N, M, P>(system, &run.memory, variations, all));
         let followed = followed.map_err(|error| Ending::of(error, time));
         let (error, worst) = followed
@@ -86,16 +86,17 @@ where
         system: &L,
         run: &mut Run<Self::Memory, L::Scalar, N>,
         variations: &mut Variations<L, N, M, P>,
-        all: &mut Self::Companion,
+        all: &mut Self::VariationMemory,
         within: &mut Vec<Self::Interpolant>,
-        coefficients: &mut Vec<Phase<WideOf<L, N, M>, N>>,
+        coefficients: &mut Vec<PhaseVector<WideOf<L, N, M>, N>>,
     ) -> Result<(), Ending> {
         let known = within.len();
         let more = (last::<Q>() + 1, Q::INTERPOLATION_STAGES);
-        let found = run.look_within::<L, LagrangianFlow, Self, M>(system, self, within).and_then(|()| {
-            let found = stages::<Q, L, N, M, P>(system, &run.memory, variations, all, more);
-            found.map_err(|error| Ending::of(error, run.before.t.to_f64()))
-        });
+        let found =
+            run.look_within::<L, LagrangianVectorField, Self, M>(system, self, within).and_then(|()| {
+                let found = stages::<Q, L, N, M, P>(system, &run.memory, variations, all, more);
+                found.map_err(|error| Ending::of(error, run.before.t.to_f64()))
+            });
         if let Err(ending) = found {
             within.truncate(known);
             step_back(variations, all);
@@ -111,9 +112,9 @@ where
     }
 
     fn between(
-        coefficients: &[Phase<WideOf<L, N, M>, N>],
+        coefficients: &[PhaseVector<WideOf<L, N, M>, N>],
         part: WideOf<L, N, M>,
-    ) -> Phase<WideOf<L, N, M>, N> {
+    ) -> PhaseVector<WideOf<L, N, M>, N> {
         evaluate(coefficients, part).0
     }
 }
@@ -192,7 +193,7 @@ fn stages<Q: Pair, L, const N: usize, const M: usize, const P: usize>(
     memory: &PairMemory<L::Scalar, N, M>,
     variations: &Variations<L, N, M, P>,
     all: &mut [Stages<WideOf<L, N, M>, N>],
-    (first, rows): (usize, &[Combination]),
+    (first, rows): (usize, &[TableauRow]),
 ) -> Result<(), Error>
 where
     L: Linearized<N, M, P, Scalar: Real>,
@@ -214,7 +215,7 @@ where
     Ok(())
 }
 
-fn state_at<T: Real, const N: usize>(t: T, [q, v]: &Phase<T, N>) -> State<T, N> {
+fn state_at<T: Real, const N: usize>(t: T, [q, v]: &PhaseVector<T, N>) -> State<T, N> {
     State { t, q: vector(*q), v: vector(*v) }
 }
 
@@ -240,7 +241,12 @@ fn tangent_at<'a, L: StateDerivatives<N, M, Scalar: Real>, const N: usize, const
 
 impl<W: Scalar, const N: usize> Stages<W, N> {
     /// Adds the coefficients of the step that led to `y`.
-    fn push_coefficients<Q: Pair>(&self, h: W, y: &Phase<W, N>, coefficients: &mut Vec<Phase<W, N>>) {
+    fn push_coefficients<Q: Pair>(
+        &self,
+        h: W,
+        y: &PhaseVector<W, N>,
+        coefficients: &mut Vec<PhaseVector<W, N>>,
+    ) {
         let zero = [[W::constant(0.0); N]; 2];
         let cubic = coefficients.len();
         coefficients.extend([zero; 4]);
@@ -260,7 +266,7 @@ mod tests {
     use crate::motion::{Adaptive, Method};
     use crate::{Dop853, Entry, prelude::*};
 
-    use super::{DifferentiableMethod, LagrangianFlow, Variations};
+    use super::{DifferentiableMethod, LagrangianVectorField, Variations};
 
     #[derive(Lagrangian)]
     #[coordinates(x)]
@@ -272,13 +278,14 @@ mod tests {
     fn an_error_that_is_no_number_refuses_the_step() {
         let (system, method) = (Spring, Dop853::default());
         let start = State::at_rest([1.0]);
-        let (mut run, _) = Run::begin::<_, LagrangianFlow, _, 0>(&system, &start, &method).expect("a start");
+        let (mut run, _) =
+            Run::begin::<_, LagrangianVectorField, _, 0>(&system, &start, &method).expect("a start");
         let arguments = vec![Entry::Coordinate("x"), Entry::Velocity("x")];
         let unit = |j: usize| [[1.0 - j as f64].into(), [j as f64].into()];
         let tangent = Tangent::at(&system, &start).expect("a start");
         let mut variations = Variations::<_, 1, 0, 0>::begin(&tangent, arguments, unit).expect("a start");
         let limits = Watchdog::new(Method::<Spring, 1, 0>::limits(&method), &run.statistics);
-        run.step::<_, LagrangianFlow, _, 0>(&system, &method, 1.0, &limits).expect("a step");
+        run.step::<_, LagrangianVectorField, _, 0>(&system, &method, 1.0, &limits).expect("a step");
         let mut stages = method.companion(&system, &start, &variations).expect("a start");
         method.follow(&system, &mut run, &mut variations, &mut stages).expect("a step");
         let (error, _) = method.error_of(&run.memory, &variations, &stages);

@@ -1,24 +1,24 @@
 //! Root finding: the crossing of an event within an interval.
 
-use super::Watched;
+use super::AnyEvent;
 use super::narrow::{Probe, narrow};
-use super::search::Stride;
+use super::search::DenseStep;
 use crate::error::Error;
 use crate::motion::Interpolant;
 use crate::number::{Real, Scalar, larger};
-use crate::solution::flow::Flow;
+use crate::solution::vector_field::VectorField;
 use crate::system::{Lagrangian, State};
 
 /// The state where an event crosses zero between these two, at which its function is zero or of the sign at the second.
 pub(super) fn locate<L, F, I, const N: usize, const M: usize>(
-    stride: &Stride<'_, L, F, I, N, M>,
-    event: &impl Watched<L, N, M>,
+    stride: &DenseStep<'_, L, F, I, N, M>,
+    event: &impl AnyEvent<L, N, M>,
     between: [&State<L::Scalar, N>; 2],
     values: [L::Scalar; 2],
 ) -> Result<State<L::Scalar, N>, Error>
 where
     L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
+    F: VectorField<L, N, M>,
     I: Interpolant<L::Scalar, N>,
 {
     let constant = L::Scalar::constant;
@@ -55,14 +55,14 @@ fn ends<T: Real, const N: usize>(
 
 /// Evaluates the event's function at a fraction of an interval, with the state there.
 fn probe<L, F, I, const N: usize, const M: usize>(
-    stride: &Stride<'_, L, F, I, N, M>,
-    event: &impl Watched<L, N, M>,
+    stride: &DenseStep<'_, L, F, I, N, M>,
+    event: &impl AnyEvent<L, N, M>,
     [a, b]: [&State<L::Scalar, N>; 2],
     x: L::Scalar,
 ) -> Result<(State<L::Scalar, N>, L::Scalar), Error>
 where
     L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
+    F: VectorField<L, N, M>,
     I: Interpolant<L::Scalar, N>,
 {
     let state = stride.at(a.t + x * (b.t - a.t))?;

@@ -11,8 +11,8 @@ use crate::number::{Real, Scalar, larger, smaller};
 pub struct EventState<T> {
     pub(super) name: &'static str,
     pub(super) direction: CrossingDirection,
-    /// How many pieces a step is looked at in, at least.
-    pub(super) pieces: usize,
+    /// How many subdivisions a step is looked at in, at least.
+    pub(super) subdivisions: usize,
     /// The crossing at which a run ends.
     pub(super) terminal: Option<usize>,
     /// How many there were in this run, or in this motion where it is steered.
@@ -94,7 +94,7 @@ impl<T: Real> EventState<T> {
         Self {
             name,
             direction: CrossingDirection::Both,
-            pieces: 1,
+            subdivisions: 1,
             terminal: None,
             count: 0,
             value: zero,
@@ -118,8 +118,8 @@ impl<T: Real> EventState<T> {
 
     /// What it is about, before the first crossing.
     pub(super) fn anew(&self) -> Self {
-        let Self { name, direction, pieces, terminal, .. } = *self;
-        Self { direction, pieces, terminal, ..Self::new(name) }
+        let Self { name, direction, subdivisions, terminal, .. } = *self;
+        Self { direction, subdivisions, terminal, ..Self::new(name) }
     }
 
     /// Counts the crossings of a run from 1.

@@ -15,7 +15,7 @@ use core::fmt::{self, Debug, Formatter};
 use core::marker::PhantomData;
 
 use memory::EventState;
-pub(crate) use search::{EventSearch, Stride};
+pub(crate) use search::{DenseStep, EventSearch};
 
 use crate::error::Error;
 use crate::number::{Dual, Real};
@@ -39,7 +39,7 @@ use crate::system::{Lagrangian, State};
 /// at least like k⁻²** (k⁻⁴ in the derivative), as those of an analytic one do once they are resolved, however close to each other its
 /// zeros are, down to its round-off. What no value shows nobody can see: a dip far from zero elsewhere and narrower than the
 /// samples are apart, in a step on whose predecessors g took a low degree. Dips 1 − a exp(−(t/w)²) with a > 1 were all found from
-/// w = 0.15 steps on: [`pieces`](Self::pieces) divides every step. After 4,096 parts
+/// w = 0.15 steps on: [`subdivide`](Self::subdivide) divides every step. After 4,096 parts
 /// on the way to one crossing none is divided further.
 ///
 /// - g crosses zero from one time to a later one where it is not zero at the first, and zero or of the other sign at the second. So
@@ -113,8 +113,8 @@ impl<L: Lagrangian<N, M, Scalar: Real>, G, const N: usize, const M: usize> Event
     /// not show elsewhere. Of several events the largest number counts. Each part costs four evaluations of the continuous extension (and on
     /// constraints as many projections).
     #[must_use]
-    pub fn pieces(mut self, pieces: usize) -> Self {
-        self.memory.pieces = pieces.max(1);
+    pub fn subdivide(mut self, subdivisions: usize) -> Self {
+        self.memory.subdivisions = subdivisions.max(1);
         self
     }
 
@@ -202,7 +202,7 @@ impl<T> EventValue<T> for Result<T, Error> {
 }
 
 /// The function of an event: a closure over samples, or one over dual numbers
-/// (`AcrossEvents::differentiable_event`).
+/// (`MotionDerivatives::differentiable_event`).
 pub trait EventFunction<L: Lagrangian<N, M>, const N: usize, const M: usize> {
     /// Its value at a state.
     #[doc(hidden)]
@@ -228,7 +228,7 @@ where
     message = "`{Self}` is not an event of `{L}`",
     note = "make one by `system.event(\"name\", |sample| …)`, of the same system; a `Motion` takes `&mut [&mut event]`"
 )]
-pub trait Watched<L: Lagrangian<N, M>, const N: usize, const M: usize>: sealed::Sealed {
+pub trait AnyEvent<L: Lagrangian<N, M>, const N: usize, const M: usize>: sealed::Sealed {
     /// What its function is at this state.
     #[doc(hidden)]
     fn value(&self, system: &L, state: &State<L::Scalar, N>) -> Result<L::Scalar, Error>;
@@ -256,10 +256,10 @@ impl<W: sealed::Sealed + ?Sized> sealed::Sealed for Box<W> {}
 /// What points to an event is one.
 macro_rules! watched_behind {
     ($pointer:ty) => {
-        impl<L, W, const N: usize, const M: usize> Watched<L, N, M> for $pointer
+        impl<L, W, const N: usize, const M: usize> AnyEvent<L, N, M> for $pointer
         where
             L: Lagrangian<N, M>,
-            W: Watched<L, N, M> + ?Sized,
+            W: AnyEvent<L, N, M> + ?Sized,
         {
             #[inline]
             fn value(&self, system: &L, state: &State<L::Scalar, N>) -> Result<L::Scalar, Error> {
@@ -268,7 +268,7 @@ macro_rules! watched_behind {
 
             #[inline]
             fn memory(&mut self) -> &mut EventState<L::Scalar> {
-                Watched::<L, N, M>::memory(&mut **self)
+                AnyEvent::<L, N, M>::memory(&mut **self)
             }
 
             #[inline]
@@ -283,7 +283,7 @@ watched_behind!(&mut W);
 #[cfg(feature = "alloc")]
 watched_behind!(Box<W>);
 
-impl<L, K, G, const N: usize, const M: usize> Watched<L, N, M> for Event<K, G, N, M>
+impl<L, K, G, const N: usize, const M: usize> AnyEvent<L, N, M> for Event<K, G, N, M>
 where
     L: Lagrangian<N, M, Scalar: Real> + Borrow<K>,
     K: Lagrangian<N, M, Scalar = L::Scalar>,
@@ -307,7 +307,7 @@ where
     #[inline]
     fn sample(&mut self, system: &L, state: &State<L::Scalar, N>, place: usize) -> Result<(), Error> {
         if !self.memory.is_known() {
-            self.memory.samples[place] = Watched::<L, N, M>::value(self, system, state)?;
+            self.memory.samples[place] = AnyEvent::<L, N, M>::value(self, system, state)?;
         }
         Ok(())
     }

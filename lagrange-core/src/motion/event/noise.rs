@@ -1,6 +1,6 @@
 //! The round-off of an event's function at a state.
 
-use super::Watched;
+use super::AnyEvent;
 use crate::number::{Real, Scalar, larger};
 use crate::solution::round_off::{SAFETY, neighbours};
 use crate::system::{Lagrangian, State};
@@ -11,7 +11,7 @@ use crate::system::{Lagrangian, State};
 #[cold]
 #[inline(never)]
 pub(super) fn noise<L, const N: usize, const M: usize>(
-    event: &impl Watched<L, N, M>,
+    event: &impl AnyEvent<L, N, M>,
     system: &L,
     state: &State<L::Scalar, N>,
 ) -> Result<L::Scalar, crate::error::Error>

@@ -9,29 +9,29 @@ use super::halves::{Halves, LEVELS};
 use super::locate::locate;
 use super::memory::{Interval, View};
 use super::noise::noise;
-use super::{Crossing, Watched};
+use super::{AnyEvent, Crossing};
 use crate::ending::Ending;
 use crate::error::Error;
 use crate::motion::Interpolant;
 use crate::number::{Real, Scalar, larger};
-use crate::solution::flow::Flow;
+use crate::solution::vector_field::VectorField;
 use crate::system::{Lagrangian, State};
 #[cfg(feature = "alloc")]
 use crate::trajectory::Path;
 
 /// A step that was taken, with what lies within.
-pub(crate) struct Stride<'a, L: Lagrangian<N, M>, F, I, const N: usize, const M: usize> {
+pub(crate) struct DenseStep<'a, L: Lagrangian<N, M>, F, I, const N: usize, const M: usize> {
     pub(crate) system: &'a L,
     pub(crate) before: &'a State<L::Scalar, N>,
     pub(crate) after: &'a State<L::Scalar, N>,
     pub(crate) interpolant: &'a I,
-    pub(crate) flow: PhantomData<F>,
+    pub(crate) field: PhantomData<F>,
 }
 
-impl<L, F, I, const N: usize, const M: usize> Stride<'_, L, F, I, N, M>
+impl<L, F, I, const N: usize, const M: usize> DenseStep<'_, L, F, I, N, M>
 where
     L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
+    F: VectorField<L, N, M>,
     I: Interpolant<L::Scalar, N>,
 {
     /// The state at a time within, on the constraints.
@@ -87,14 +87,14 @@ const MOST_INTERVALS: usize = 4096;
 /// The events `W` that a motion is searched for.
 pub(crate) struct EventSearch<'e, W, L: Lagrangian<N, M>, const N: usize, const M: usize> {
     pub(crate) events: &'e mut [W],
-    /// How many pieces every step is looked at in, at least.
-    pub(crate) pieces: usize,
+    /// How many subdivisions every step is looked at in, at least.
+    pub(crate) subdivisions: usize,
     pub(crate) system: PhantomData<fn(&L)>,
 }
 
 impl<'e, W, L, const N: usize, const M: usize> EventSearch<'e, W, L, N, M>
 where
-    W: Watched<L, N, M>,
+    W: AnyEvent<L, N, M>,
     L: Lagrangian<N, M, Scalar: Real>,
 {
     /// From the start of a run on.
@@ -111,15 +111,15 @@ where
         state: &State<L::Scalar, N>,
         is_new: bool,
     ) -> Result<Self, Error> {
-        let mut pieces = 1;
+        let mut subdivisions = 1;
         for event in events.iter_mut() {
             let value = event.value(system, state)?;
             let start = if is_new { Some(noise(event, system, state)?) } else { None };
             let memory = event.memory();
             memory.begin(value, state.t, start);
-            pieces = pieces.max(memory.pieces);
+            subdivisions = subdivisions.max(memory.subdivisions);
         }
-        Ok(Self { events, pieces, system: PhantomData })
+        Ok(Self { events, subdivisions, system: PhantomData })
     }
 
     /// The first crossing after `from`, which moves there, or to the end of the step where there is none.
@@ -128,22 +128,22 @@ where
     /// Why the motion ends at `from`.
     pub(crate) fn next<F, I>(
         &mut self,
-        stride: &Stride<'_, L, F, I, N, M>,
+        step: &DenseStep<'_, L, F, I, N, M>,
         from: &mut State<L::Scalar, N>,
     ) -> Result<Option<Crossing<L::Scalar, N>>, Ending>
     where
-        F: Flow<L, N, M>,
+        F: VectorField<L, N, M>,
         I: Interpolant<L::Scalar, N>,
     {
         let (start, mut intervals) = (from.t, 0);
-        for piece in 1..=self.pieces {
-            let mut halves = Halves::of([from.t, stride.mark(start, piece, self.pieces)]);
-            while stride.is_ahead(from.t, stride.after.t) {
+        for piece in 1..=self.subdivisions {
+            let mut halves = Halves::of([from.t, step.mark(start, piece, self.subdivisions)]);
+            while step.is_ahead(from.t, step.after.t) {
                 let end = halves.end();
-                if stride.is_ahead(from.t, end) {
+                if step.is_ahead(from.t, end) {
                     intervals += 1;
                     let may_halve = intervals < MOST_INTERVALS && halves.level < LEVELS;
-                    match self.look(stride, from, end, may_halve) {
+                    match self.look(step, from, end, may_halve) {
                         Ok(Look::Passed) => {}
                         Ok(Look::Crossed) => return self.due(from),
                         Ok(Look::Halve) => {
@@ -182,16 +182,16 @@ where
     #[inline]
     pub(crate) fn record<F, I>(
         &mut self,
-        stride: &Stride<'_, L, F, I, N, M>,
+        step: &DenseStep<'_, L, F, I, N, M>,
         crossings: &mut Vec<Crossing<L::Scalar, N>>,
     ) -> Option<(State<L::Scalar, N>, Ending)>
     where
-        F: Flow<L, N, M>,
+        F: VectorField<L, N, M>,
         I: Interpolant<L::Scalar, N>,
     {
-        let mut at = *stride.before;
+        let mut at = *step.before;
         loop {
-            match self.next(stride, &mut at) {
+            match self.next(step, &mut at) {
                 Ok(None) => return None,
                 Ok(Some(crossing)) => crossings.push(crossing),
                 Err(ending) => return Some((at, ending)),
@@ -214,12 +214,12 @@ where
         [before, after]: [&State<L::Scalar, N>; 2],
     ) -> Option<Ending>
     where
-        F: Flow<L, N, M>,
+        F: VectorField<L, N, M>,
         I: Interpolant<L::Scalar, N> + Send + Sync + 'static,
     {
         let (interpolant, crossings) = path.last_step()?;
-        let stride = Stride { system, before, after, interpolant, flow: PhantomData::<F> };
-        let (at, ending) = self.record(&stride, crossings)?;
+        let step = DenseStep { system, before, after, interpolant, field: PhantomData::<F> };
+        let (at, ending) = self.record(&step, crossings)?;
         path.cut(at);
         Some(ending)
     }
@@ -256,42 +256,42 @@ where
     #[inline]
     fn look<F, I>(
         &mut self,
-        stride: &Stride<'_, L, F, I, N, M>,
+        step: &DenseStep<'_, L, F, I, N, M>,
         from: &mut State<L::Scalar, N>,
         t: L::Scalar,
         may_halve: bool,
     ) -> Result<Look, Error>
     where
-        F: Flow<L, N, M>,
+        F: VectorField<L, N, M>,
         I: Interpolant<L::Scalar, N>,
     {
-        let interval = if may_halve { stride.interval(from.t, t) } else { None };
+        let interval = if may_halve { step.interval(from.t, t) } else { None };
         let mut are_too_wide = false;
         for event in self.events.iter_mut() {
             are_too_wide |= event.memory().open(interval.as_ref());
         }
         let within;
-        let end = match t == stride.after.t {
-            true => Ok(stride.after),
+        let end = match t == step.after.t {
+            true => Ok(step.after),
             false => {
-                within = stride.at(t);
+                within = step.at(t);
                 there(&within)
             }
         };
-        let reached = end.and_then(|to| self.sample(stride.system, to, FINEST).map(|()| to));
+        let reached = end.and_then(|to| self.sample(step.system, to, FINEST).map(|()| to));
         if let Some(interval) = &interval {
             // What cannot be evaluated may have crossed before.
             if reached.is_err()
                 || are_too_wide
-                || !self.is_plain(stride, [from.t, t], interval).unwrap_or(false)
+                || !self.is_plain(step, [from.t, t], interval).unwrap_or(false)
             {
                 return Ok(Look::Halve);
             }
         }
         let to = reached?;
-        let any_crosses = self.look_at(stride.system, to)?;
+        let any_crosses = self.look_at(step.system, to)?;
         match any_crosses {
-            true => self.go_to_first(stride, from, to)?,
+            true => self.go_to_first(step, from, to)?,
             false => {
                 *from = *to;
                 self.events.iter_mut().for_each(|event| event.memory().go_on(t));
@@ -310,23 +310,23 @@ where
     #[inline]
     fn is_plain<F, I>(
         &mut self,
-        stride: &Stride<'_, L, F, I, N, M>,
+        step: &DenseStep<'_, L, F, I, N, M>,
         [from, to]: [L::Scalar; 2],
         interval: &Interval<L::Scalar>,
     ) -> Result<bool, Error>
     where
-        F: Flow<L, N, M>,
+        F: VectorField<L, N, M>,
         I: Interpolant<L::Scalar, N>,
     {
         let mut degree = COARSEST;
         while degree <= interval.finest {
             for place in places(degree) {
-                let state = stride.at(from + (to - from) * L::Scalar::constant(part(place)));
-                self.sample(stride.system, there(&state)?, place)?;
+                let state = step.at(from + (to - from) * L::Scalar::constant(part(place)));
+                self.sample(step.system, there(&state)?, place)?;
             }
             let mut is_plain = true;
             for event in self.events.iter_mut() {
-                match judge(event, stride, (from + to) * L::Scalar::constant(0.5), interval, degree)? {
+                match judge(event, step, (from + to) * L::Scalar::constant(0.5), interval, degree)? {
                     View::Plain => {}
                     View::Bent => return Ok(false),
                     _ => is_plain = false,
@@ -362,12 +362,12 @@ where
     #[inline(never)]
     fn go_to_first<F, I>(
         &mut self,
-        stride: &Stride<'_, L, F, I, N, M>,
+        step: &DenseStep<'_, L, F, I, N, M>,
         from: &mut State<L::Scalar, N>,
         to: &State<L::Scalar, N>,
     ) -> Result<(), Error>
     where
-        F: Flow<L, N, M>,
+        F: VectorField<L, N, M>,
         I: Interpolant<L::Scalar, N>,
     {
         let mut first = (usize::MAX, *to);
@@ -375,15 +375,15 @@ where
             let memory = event.memory();
             if memory.crosses() {
                 let values = [memory.value, memory.next];
-                let place = locate(stride, event, [from, to], values)?;
-                if first.0 == usize::MAX || stride.is_ahead(place.t, first.1.t) {
+                let place = locate(step, event, [from, to], values)?;
+                if first.0 == usize::MAX || step.is_ahead(place.t, first.1.t) {
                     first = (index, place);
                 }
             }
         }
         *from = first.1;
         for (index, event) in self.events.iter_mut().enumerate() {
-            let value = event.value(stride.system, from)?;
+            let value = event.value(step.system, from)?;
             event.memory().arrive(value, from.t, index == first.0);
         }
         Ok(())
@@ -393,22 +393,22 @@ where
 /// What the samples of this degree tell of an event's function; where they may be all noise, the middle says how much of it there is.
 #[inline]
 fn judge<L, F, I, const N: usize, const M: usize>(
-    event: &mut impl Watched<L, N, M>,
-    stride: &Stride<'_, L, F, I, N, M>,
+    event: &mut impl AnyEvent<L, N, M>,
+    step: &DenseStep<'_, L, F, I, N, M>,
     middle: L::Scalar,
     interval: &Interval<L::Scalar>,
     degree: usize,
 ) -> Result<View, Error>
 where
     L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
+    F: VectorField<L, N, M>,
     I: Interpolant<L::Scalar, N>,
 {
     let view = event.memory().judge(degree, interval);
     if view != View::Rough {
         return Ok(view);
     }
-    let noise = noise(event, stride.system, &stride.at(middle)?)?;
+    let noise = noise(event, step.system, &step.at(middle)?)?;
     Ok(event.memory().judge_noise(degree, noise))
 }
 

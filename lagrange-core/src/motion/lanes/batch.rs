@@ -4,11 +4,11 @@ use core::array::from_fn;
 use core::marker::PhantomData;
 use core::ops::ControlFlow;
 
-use super::{Fate, LaneMethod, Seat, Seats};
+use super::{LaneMethod, LaneMotion, LaneMotions, LaneOutcome};
 use crate::ending::Ending;
-use crate::motion::event::Stride;
+use crate::motion::event::DenseStep;
 use crate::number::{Lanes, vector};
-use crate::solution::flow::{LagrangianFlow, Phase};
+use crate::solution::vector_field::{LagrangianVectorField, PhaseVector};
 use crate::system::{Lagrangian, State};
 
 /// Motions in lock-step.
@@ -18,8 +18,8 @@ where
     P: LaneMethod<L, N, M>,
 {
     method: &'o P,
-    abreast: P::LaneMemory,
-    seats: Seats<'o, L, P, N, M>,
+    lane_memory: P::LaneMemory,
+    motions: LaneMotions<'o, L, P, N, M>,
 }
 
 impl<'o, L, P, const N: usize, const M: usize> Batch<'o, L, P, N, M>
@@ -28,28 +28,28 @@ where
     P: LaneMethod<L, N, M>,
 {
     /// With a first motion, and the other lanes free.
-    pub(crate) fn new(method: &'o P, seat: Seat<'o, L, P, N, M>) -> Self {
-        let abreast = method.abreast(&seat.system, &seat.memory);
-        let mut seats = [const { None }; Lanes::COUNT];
-        seats[0] = Some(seat.begin(method));
-        Self { method, abreast, seats }
+    pub(crate) fn new(method: &'o P, motion: LaneMotion<'o, L, P, N, M>) -> Self {
+        let lane_memory = method.lane_memory(&motion.system, &motion.memory);
+        let mut motions = [const { None }; Lanes::COUNT];
+        motions[0] = Some(motion.begin(method));
+        Self { method, lane_memory, motions }
     }
 
     pub(crate) fn has_free_lane(&self) -> bool {
-        self.seats.iter().any(Option::is_none)
+        self.motions.iter().any(Option::is_none)
     }
 
     pub(crate) fn is_empty(&self) -> bool {
-        self.seats.iter().all(Option::is_none)
+        self.motions.iter().all(Option::is_none)
     }
 
     /// Gives the motion a free lane; gives it back where there is none that it fits in.
-    pub(crate) fn join(&mut self, seat: Seat<'o, L, P, N, M>) -> Option<Seat<'o, L, P, N, M>> {
-        let lane = self.seats.iter().position(Option::is_none);
-        match lane.filter(|&lane| P::place(&mut self.abreast, lane, &seat.system)) {
-            None => Some(seat),
+    pub(crate) fn join(&mut self, motion: LaneMotion<'o, L, P, N, M>) -> Option<LaneMotion<'o, L, P, N, M>> {
+        let lane = self.motions.iter().position(Option::is_none);
+        match lane.filter(|&lane| P::place(&mut self.lane_memory, lane, &motion.system)) {
+            None => Some(motion),
             Some(lane) => {
-                self.seats[lane] = Some(seat.begin(self.method));
+                self.motions[lane] = Some(motion.begin(self.method));
                 self.load(lane);
                 None
             }
@@ -57,88 +57,93 @@ where
     }
 
     /// Tries one step in every lane. `accept` is told each new state; `leave` each motion that has ended.
-    /// Where nothing is to be looked for within steps, and `IS_WATCHED` is false, nothing of that is compiled.
-    pub(crate) fn step<const IS_WATCHED: bool>(
+    /// Where nothing is to be looked for within steps, and `HAS_DENSE_OUTPUT` is false, nothing of that is compiled.
+    pub(crate) fn step<const HAS_DENSE_OUTPUT: bool>(
         &mut self,
         mut accept: impl FnMut(usize, &State<f64, N>) -> ControlFlow<()>,
-        mut leave: impl FnMut(Seat<'o, L, P, N, M>, State<f64, N>, Ending),
+        mut leave: impl FnMut(LaneMotion<'o, L, P, N, M>, State<f64, N>, Ending),
     ) {
-        let starts = self.seats.each_ref().map(|seat| seat.as_ref().map_or(0.0, Seat::now));
-        let fates = self.method.attempt::<IS_WATCHED>(&mut self.abreast, &mut self.seats);
-        let fates = from_fn(|lane| fates[lane].unwrap_or_else(|| self.step_alone::<IS_WATCHED>(lane)));
+        let starts = self.motions.each_ref().map(|motion| motion.as_ref().map_or(0.0, LaneMotion::now));
+        let outcomes = self.method.attempt::<HAS_DENSE_OUTPUT>(&mut self.lane_memory, &mut self.motions);
+        let outcomes =
+            from_fn(|lane| outcomes[lane].unwrap_or_else(|| self.step_alone::<HAS_DENSE_OUTPUT>(lane)));
         let before = from_fn::<_, { Lanes::COUNT }, _>(|lane| {
-            if const { IS_WATCHED } { Some(state(P::phase(&self.abreast, lane), starts[lane])) } else { None }
+            if const { HAS_DENSE_OUTPUT } {
+                Some(state(P::phase(&self.lane_memory, lane), starts[lane]))
+            } else {
+                None
+            }
         });
-        self.settle(&fates);
-        for (lane, fate) in fates.into_iter().enumerate() {
-            let Some(now) = self.seats[lane].as_ref().map(Seat::now) else { continue };
-            let mut state = match fate {
-                Fate::Accepted => state(P::reached(&self.abreast, lane), now),
-                _ => state(P::phase(&self.abreast, lane), now),
+        self.commit(&outcomes);
+        for (lane, outcome) in outcomes.into_iter().enumerate() {
+            let Some(now) = self.motions[lane].as_ref().map(LaneMotion::now) else { continue };
+            let mut state = match outcome {
+                LaneOutcome::Accepted => state(P::reached(&self.lane_memory, lane), now),
+                _ => state(P::phase(&self.lane_memory, lane), now),
             };
-            let is_accepted = fate != Fate::Rejected;
+            let is_accepted = outcome != LaneOutcome::Rejected;
             let before = before[lane].as_ref().filter(|_| is_accepted);
             let stopped = before.and_then(|before| self.keep(lane, before, &mut state));
-            let Some(seat) = &self.seats[lane] else { continue };
-            let mut is_cancelled = || is_accepted && accept(seat.index, &state).is_break();
+            let Some(motion) = &self.motions[lane] else { continue };
+            let mut is_cancelled = || is_accepted && accept(motion.index, &state).is_break();
             let mut ending = match stopped {
                 None if is_cancelled() => Some(Ending::Cancelled { time: state.t }),
                 stopped => stopped,
             };
-            if const { IS_WATCHED } && ending.is_none() {
+            if const { HAS_DENSE_OUTPUT } && ending.is_none() {
                 ending = self.control(lane, &state);
             }
             if let Some(ending) = ending.or_else(|| self.ending(lane))
-                && let Some(seat) = self.seats[lane].take()
+                && let Some(motion) = self.motions[lane].take()
             {
-                leave(seat, state, ending);
+                leave(motion, state, ending);
             }
         }
     }
 
     /// The step of a lane by the scalar method. None is taken in a free one.
     #[cold]
-    fn step_alone<const IS_WATCHED: bool>(&mut self, lane: usize) -> Fate {
-        let Some(seat) = &mut self.seats[lane] else { return Fate::Rejected };
-        P::unload(&self.abreast, lane, &mut seat.memory);
-        seat.step_alone::<IS_WATCHED>(self.method)
+    fn step_alone<const HAS_DENSE_OUTPUT: bool>(&mut self, lane: usize) -> LaneOutcome {
+        let Some(motion) = &mut self.motions[lane] else { return LaneOutcome::Rejected };
+        P::unload(&self.lane_memory, lane, &mut motion.memory);
+        motion.step_alone::<HAS_DENSE_OUTPUT>(self.method)
     }
 
     /// Moves the lanes whose steps are accepted.
-    fn settle(&mut self, fates: &[Fate; Lanes::COUNT]) {
-        let chosen = fates.map(|fate| if fate == Fate::Accepted { 1.0 } else { 0.0 });
-        P::settle(&mut self.abreast, chosen.into());
-        for lane in (0..Lanes::COUNT).filter(|lane| fates[*lane] == Fate::AcceptedAlone) {
+    fn commit(&mut self, outcomes: &[LaneOutcome; Lanes::COUNT]) {
+        let chosen = outcomes.map(|outcome| if outcome == LaneOutcome::Accepted { 1.0 } else { 0.0 });
+        P::commit(&mut self.lane_memory, chosen.into());
+        for lane in (0..Lanes::COUNT).filter(|lane| outcomes[*lane] == LaneOutcome::AcceptedAlone) {
             self.load(lane);
         }
     }
 
     /// Keeps what is due in an accepted step to `end`; where the motion stops before, that is then the end, and why.
     fn keep(&mut self, lane: usize, before: &State<f64, N>, end: &mut State<f64, N>) -> Option<Ending> {
-        let Seat { record, system, within, .. } = self.seats[lane].as_mut()?;
+        let LaneMotion { record, system, within, .. } = self.motions[lane].as_mut()?;
         if !record.looks_into(before.t, end.t) {
             return None;
         }
-        let (after, flow) = (&{ *end }, PhantomData::<LagrangianFlow>);
+        let (after, field) = (&{ *end }, PhantomData::<LagrangianVectorField>);
         match within.take() {
             Some(interpolant) => {
                 let interpolant = &interpolant;
-                record.keep(&Stride { system, before, after, interpolant, flow }, end)
+                record.keep(&DenseStep { system, before, after, interpolant, field }, end)
             }
             None => {
-                let interpolant = &P::within(&self.abreast, lane);
-                record.keep(&Stride { system, before, after, interpolant, flow }, end)
+                let interpolant = &P::within(&self.lane_memory, lane);
+                record.keep(&DenseStep { system, before, after, interpolant, field }, end)
             }
         }
     }
 
     /// Calls the controller of a member, where it is due; the ending, where that is one.
     fn control(&mut self, lane: usize, state: &State<f64, N>) -> Option<Ending> {
-        let seat = self.seats[lane].as_mut().filter(|seat| seat.record.is_due(state.t))?;
-        if let Err(ending) = seat.control(state, self.method) {
+        let motion = self.motions[lane].as_mut().filter(|motion| motion.record.is_due(state.t))?;
+        if let Err(ending) = motion.control(state, self.method) {
             return Some(ending);
         }
-        if !P::place(&mut self.abreast, lane, &seat.system) {
+        if !P::place(&mut self.lane_memory, lane, &motion.system) {
             let said = "it changes a field that is no number, which all lanes share".into();
             return Some(Ending::ControllerFailed { time: state.t, said });
         }
@@ -148,18 +153,18 @@ where
 
     /// Why there is no further step to take in a lane.
     fn ending(&mut self, lane: usize) -> Option<Ending> {
-        let abreast = &self.abreast;
-        self.seats[lane].as_mut()?.ending(self.method, |memory| P::unload(abreast, lane, memory))
+        let lane_memory = &self.lane_memory;
+        self.motions[lane].as_mut()?.ending(self.method, |memory| P::unload(lane_memory, lane, memory))
     }
 
     /// Puts where its motion is into a lane.
     fn load(&mut self, lane: usize) {
-        if let Some(seat) = &self.seats[lane] {
-            P::load(&mut self.abreast, lane, &seat.memory);
+        if let Some(motion) = &self.motions[lane] {
+            P::load(&mut self.lane_memory, lane, &motion.memory);
         }
     }
 }
 
-fn state<const N: usize>([q, v]: Phase<f64, N>, t: f64) -> State<f64, N> {
+fn state<const N: usize>([q, v]: PhaseVector<f64, N>, t: f64) -> State<f64, N> {
     State { t, q: vector(q), v: vector(v) }
 }

@@ -5,18 +5,18 @@
 //! finite, the end of all steps) its step is taken alone, by the scalar method. Nothing in a lane depends on the others.
 
 mod batch;
+mod motion;
 mod pair;
-mod seat;
-mod trust;
+mod reliability;
 
 pub(crate) use batch::Batch;
-pub(crate) use seat::{Fate, Seat};
-pub(crate) use trust::Trust;
+pub(crate) use motion::{LaneMotion, LaneOutcome};
+pub(crate) use reliability::LaneReliability;
 
 use super::{Interpolant, Method};
 use crate::error::Error;
 use crate::number::Lanes;
-use crate::solution::flow::Phase;
+use crate::solution::vector_field::PhaseVector;
 use crate::statistics::Statistics;
 use crate::system::Lagrangian;
 
@@ -57,50 +57,50 @@ where
 
     /// This motion in all lanes. Free ones compute what the first does, to no purpose and no harm.
     #[doc(hidden)]
-    fn abreast(&self, system: &L, memory: &Self::Memory) -> Self::LaneMemory;
+    fn lane_memory(&self, system: &L, memory: &Self::Memory) -> Self::LaneMemory;
 
     /// Puts the parameters into a lane; `false`, and nothing done, where a field that all lanes share differs.
     #[doc(hidden)]
-    fn place(abreast: &mut Self::LaneMemory, lane: usize, system: &L) -> bool;
+    fn place(lane_memory: &mut Self::LaneMemory, lane: usize, system: &L) -> bool;
 
     /// Puts where a motion is into a lane.
     #[doc(hidden)]
-    fn load(abreast: &mut Self::LaneMemory, lane: usize, memory: &Self::Memory);
+    fn load(lane_memory: &mut Self::LaneMemory, lane: usize, memory: &Self::Memory);
 
     /// Gives the motion what its lane holds.
     #[doc(hidden)]
-    fn unload(abreast: &Self::LaneMemory, lane: usize, memory: &mut Self::Memory);
+    fn unload(lane_memory: &Self::LaneMemory, lane: usize, memory: &mut Self::Memory);
 
     /// Coordinates and velocities in a lane.
     #[doc(hidden)]
-    fn phase(abreast: &Self::LaneMemory, lane: usize) -> Phase<f64, N>;
+    fn phase(lane_memory: &Self::LaneMemory, lane: usize) -> PhaseVector<f64, N>;
 
     /// Where the step tried last leads in a lane. After it is taken this is the same, and need not wait for the numbers to be
     /// written there.
     #[doc(hidden)]
-    fn reached(abreast: &Self::LaneMemory, lane: usize) -> Phase<f64, N>;
+    fn reached(lane_memory: &Self::LaneMemory, lane: usize) -> PhaseVector<f64, N>;
 
     /// Tries a step in all lanes and moves the clocks of those where it is accepted; `None` for one that is to be taken alone.
-    /// Of no step is it known where it leads within, where `IS_WATCHED` is false.
+    /// Of no step is it known where it leads within, where `HAS_DENSE_OUTPUT` is false.
     #[doc(hidden)]
-    fn attempt<const IS_WATCHED: bool>(
+    fn attempt<const HAS_DENSE_OUTPUT: bool>(
         &self,
-        abreast: &mut Self::LaneMemory,
-        seats: &mut Seats<'_, L, Self, N, M>,
-    ) -> [Option<Fate>; Lanes::COUNT];
+        lane_memory: &mut Self::LaneMemory,
+        motions: &mut LaneMotions<'_, L, Self, N, M>,
+    ) -> [Option<LaneOutcome>; Lanes::COUNT];
 
     /// Moves the lanes chosen to where their steps lead.
     #[doc(hidden)]
-    fn settle(abreast: &mut Self::LaneMemory, chosen: Lanes);
+    fn commit(lane_memory: &mut Self::LaneMemory, chosen: Lanes);
 
     /// What lies within the step of a lane that was tried last.
     #[doc(hidden)]
-    fn within(abreast: &Self::LaneMemory, lane: usize) -> impl Interpolant<f64, N>;
+    fn within(lane_memory: &Self::LaneMemory, lane: usize) -> impl Interpolant<f64, N>;
 }
 
 /// Who is in which lane.
-pub(crate) type Seats<'o, L, P, const N: usize, const M: usize> =
-    [Option<Seat<'o, L, P, N, M>>; Lanes::COUNT];
+pub(crate) type LaneMotions<'o, L, P, const N: usize, const M: usize> =
+    [Option<LaneMotion<'o, L, P, N, M>>; Lanes::COUNT];
 
 /// What lies in one lane.
 #[inline(always)]

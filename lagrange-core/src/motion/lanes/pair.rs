@@ -2,17 +2,17 @@
 
 use core::array::from_fn;
 
-use super::{Fate, LaneMethod, Seats, Trust, unpacked};
+use super::{LaneMethod, LaneMotions, LaneOutcome, LaneReliability, unpacked};
 use crate::error::Error;
 use crate::motion::method::interpolant::{evaluate, hermite};
-use crate::motion::method::pair::{Combination, Slopes, advance, check, last};
+use crate::motion::method::pair::{Slopes, TableauRow, advance, check, last};
 use crate::motion::method::step::PairMemory;
 use crate::motion::{Adaptive, Interpolant, Pair};
 use crate::number::{Lanes, Scalar, vector};
 use crate::room::Room;
 use crate::solution::consistent::BOTH;
-use crate::solution::flow::{Flow, LagrangianFlow, Phase, PhasePoint};
 use crate::solution::near::{self, Corrections};
+use crate::solution::vector_field::{LagrangianVectorField, PhaseVector, StagePoint, VectorField};
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, Pack, Packed, State};
 
@@ -20,7 +20,7 @@ use crate::system::{Lagrangian, Pack, Packed, State};
 #[derive(Debug)]
 pub struct PairLanes<S, P: Pair, const N: usize, const M: usize> {
     system: S,
-    y: Phase<Lanes, N>,
+    y: PhaseVector<Lanes, N>,
     /// The first is that of `y`.
     slopes: Room<Slopes<Lanes, N>>,
     /// When the step tried starts, how long it is, and when it ends.
@@ -28,9 +28,9 @@ pub struct PairLanes<S, P: Pair, const N: usize, const M: usize> {
     h: [f64; Lanes::COUNT],
     end: [f64; Lanes::COUNT],
     /// Where it leads.
-    next: Phase<Lanes, N>,
+    next: PhaseVector<Lanes, N>,
     /// What lies within, of the lanes that are looked into.
-    coefficients: P::Coefficients<Phase<Lanes, N>>,
+    coefficients: P::Coefficients<PhaseVector<Lanes, N>>,
 }
 
 /// What the lanes say about a step, before anyone decides.
@@ -62,15 +62,15 @@ where
         end: f64,
         statistics: &mut Statistics,
     ) -> Result<(), Error> {
-        self.aim::<L, LagrangianFlow, N, M>(system, memory, end, statistics);
+        self.aim::<L, LagrangianVectorField, N, M>(system, memory, end, statistics);
         // The lane is to have the slope, if there is a step to take.
         if memory.clock.is_at_end() {
             return Ok(());
         }
-        memory.ensure_slope::<L, LagrangianFlow>(system, statistics)
+        memory.ensure_slope::<L, LagrangianVectorField>(system, statistics)
     }
 
-    fn abreast(&self, system: &L, memory: &PairMemory<f64, N, M>) -> Self::LaneMemory {
+    fn lane_memory(&self, system: &L, memory: &PairMemory<f64, N, M>) -> Self::LaneMemory {
         let zero = [[Lanes::constant(0.0); N]; 2];
         let mut slopes = Room::<Slopes<Lanes, N>>::filled(zero);
         slopes[0] = Packed::splat(&memory.slope);
@@ -79,53 +79,55 @@ where
         PairLanes { system, y, slopes, now, h, end, next: zero, coefficients: P::coefficients(zero) }
     }
 
-    fn place(abreast: &mut Self::LaneMemory, lane: usize, system: &L) -> bool {
-        system.place(&mut abreast.system, lane)
+    fn place(lane_memory: &mut Self::LaneMemory, lane: usize, system: &L) -> bool {
+        system.place(&mut lane_memory.system, lane)
     }
 
-    fn load(abreast: &mut Self::LaneMemory, lane: usize, memory: &PairMemory<f64, N, M>) {
-        abreast.y.place(lane, &memory.y);
-        abreast.slopes[0].place(lane, &memory.slope);
+    fn load(lane_memory: &mut Self::LaneMemory, lane: usize, memory: &PairMemory<f64, N, M>) {
+        lane_memory.y.place(lane, &memory.y);
+        lane_memory.slopes[0].place(lane, &memory.slope);
     }
 
-    fn unload(abreast: &Self::LaneMemory, lane: usize, memory: &mut PairMemory<f64, N, M>) {
-        [memory.y, memory.slope] = [&abreast.y, &abreast.slopes[0]].map(|packed| unpacked(packed, lane));
+    fn unload(lane_memory: &Self::LaneMemory, lane: usize, memory: &mut PairMemory<f64, N, M>) {
+        [memory.y, memory.slope] =
+            [&lane_memory.y, &lane_memory.slopes[0]].map(|packed| unpacked(packed, lane));
     }
 
-    fn phase(abreast: &Self::LaneMemory, lane: usize) -> Phase<f64, N> {
-        unpacked(&abreast.y, lane)
+    fn phase(lane_memory: &Self::LaneMemory, lane: usize) -> PhaseVector<f64, N> {
+        unpacked(&lane_memory.y, lane)
     }
 
-    fn reached(abreast: &Self::LaneMemory, lane: usize) -> Phase<f64, N> {
-        unpacked(&abreast.next, lane)
+    fn reached(lane_memory: &Self::LaneMemory, lane: usize) -> PhaseVector<f64, N> {
+        unpacked(&lane_memory.next, lane)
     }
 
     #[inline(always)]
-    fn attempt<const IS_WATCHED: bool>(
+    fn attempt<const HAS_DENSE_OUTPUT: bool>(
         &self,
-        abreast: &mut Self::LaneMemory,
-        seats: &mut Seats<'_, L, Self, N, M>,
-    ) -> [Option<Fate>; Lanes::COUNT] {
+        lane_memory: &mut Self::LaneMemory,
+        motions: &mut LaneMotions<'_, L, Self, N, M>,
+    ) -> [Option<LaneOutcome>; Lanes::COUNT] {
         // In a free lane time stands still.
         let plan: [_; Lanes::COUNT] =
-            from_fn(|lane| seats[lane].as_ref().map_or((0.0, 0.0), |seat| seat.memory.next()));
-        abreast.now = from_fn(|lane| seats[lane].as_ref().map_or(0.0, |seat| seat.memory.clock.now));
-        (abreast.h, abreast.end) = (plan.map(|(h, _)| h), plan.map(|(_, end)| end));
-        let mut tried = abreast.attempt(self, seats);
-        let looked = match const { IS_WATCHED } {
-            true => abreast.look_within(self, seats, &mut tried),
+            from_fn(|lane| motions[lane].as_ref().map_or((0.0, 0.0), |motion| motion.memory.next()));
+        lane_memory.now =
+            from_fn(|lane| motions[lane].as_ref().map_or(0.0, |motion| motion.memory.clock.now));
+        (lane_memory.h, lane_memory.end) = (plan.map(|(h, _)| h), plan.map(|(_, end)| end));
+        let mut tried = lane_memory.attempt(self, motions);
+        let looked = match const { HAS_DENSE_OUTPUT } {
+            true => lane_memory.look_within(self, motions, &mut tried),
             false => [false; Lanes::COUNT],
         };
         from_fn(|lane| {
-            let seat = seats[lane].as_mut().filter(|_| tried.sound[lane])?;
-            let fate = decide(self, &mut seat.memory, plan[lane], tried.error[lane])?;
-            count(self, &mut seat.memory, &mut seat.statistics, fate, looked[lane]);
-            Some(fate)
+            let motion = motions[lane].as_mut().filter(|_| tried.sound[lane])?;
+            let outcome = decide(self, &mut motion.memory, plan[lane], tried.error[lane])?;
+            count(self, &mut motion.memory, &mut motion.statistics, outcome, looked[lane]);
+            Some(outcome)
         })
     }
 
-    fn settle(abreast: &mut Self::LaneMemory, chosen: Lanes) {
-        let PairLanes { y, slopes, next, .. } = abreast;
+    fn commit(lane_memory: &mut Self::LaneMemory, chosen: Lanes) {
+        let PairLanes { y, slopes, next, .. } = lane_memory;
         for half in 0..2 {
             for i in 0..N {
                 let (y, slope) = (&mut y[half][i], slopes[last::<P>()][half][i]);
@@ -135,8 +137,9 @@ where
         }
     }
 
-    fn within(abreast: &Self::LaneMemory, lane: usize) -> impl Interpolant<f64, N> {
-        let (start, length, coefficients) = (abreast.now[lane], abreast.h[lane], &abreast.coefficients);
+    fn within(lane_memory: &Self::LaneMemory, lane: usize) -> impl Interpolant<f64, N> {
+        let (start, length, coefficients) =
+            (lane_memory.now[lane], lane_memory.h[lane], &lane_memory.coefficients);
         LaneOf { lane, start, length, coefficients }
     }
 }
@@ -147,50 +150,60 @@ where
     P: Pair,
 {
     /// Stages, error and projection in all lanes, and the slopes at the end of the step.
-    fn attempt<L>(&mut self, method: &Adaptive<P>, seats: &Seats<'_, L, Adaptive<P>, N, M>) -> LaneErrors
+    fn attempt<L>(
+        &mut self,
+        method: &Adaptive<P>,
+        motions: &LaneMotions<'_, L, Adaptive<P>, N, M>,
+    ) -> LaneErrors
     where
         L: Lagrangian<N, M, Scalar = f64>,
     {
         const { check::<P>() };
         let (h, end) = (Lanes::from(self.h), Lanes::from(self.end));
-        let mut trust = Trust::new();
-        self.stages((1, P::STAGES), &mut trust);
+        let mut reliability = LaneReliability::new();
+        self.stages((1, P::STAGES), &mut reliability);
         let mut next = self.y;
         advance(&self.y, h, &self.slopes, P::WEIGHTS, &mut next);
-        trust.numbers(next.as_flattened());
+        reliability.numbers(next.as_flattened());
         if method.error_needs_last() {
-            self.slope(last::<P>(), end, &next, &mut trust);
+            self.slope(last::<P>(), end, &next, &mut reliability);
         }
         let tolerance = method.tolerance::<f64>();
         let error = tolerance.error::<P, _, N>(&self.slopes, h, &self.y, &next).to_array();
         let projected = match M {
             0 => [true; Lanes::COUNT],
-            _ => self.project(&mut next, method, seats, &error),
+            _ => self.project(&mut next, method, motions, &error),
         };
         if M > 0 || !method.error_needs_last() {
-            self.slope(last::<P>(), end, &next, &mut trust);
+            self.slope(last::<P>(), end, &next, &mut reliability);
         }
         self.next = next;
-        let trusted = trust.lanes();
+        let trusted = reliability.lanes();
         LaneErrors { error, sound: from_fn(|lane| trusted[lane] && projected[lane]) }
     }
 
     /// The slopes of these stages, the first of which has the number given.
     #[inline]
-    fn stages(&mut self, (first, rows): (usize, &[Combination]), trust: &mut Trust) {
+    fn stages(&mut self, (first, rows): (usize, &[TableauRow]), reliability: &mut LaneReliability) {
         let (now, h) = (Lanes::from(self.now), Lanes::from(self.h));
         let mut y = self.y;
         for (number, row) in (first..).zip(rows) {
             advance(&self.y, h, &self.slopes, row, &mut y);
-            self.slope(number, now + h * Lanes::constant(P::NODES[number]), &y, trust);
+            self.slope(number, now + h * Lanes::constant(P::NODES[number]), &y, reliability);
         }
     }
 
     /// Evaluates the slope of this number.
     #[inline(always)]
-    fn slope(&mut self, number: usize, t: Lanes, y: &Phase<Lanes, N>, trust: &mut Trust) {
+    fn slope(
+        &mut self,
+        number: usize,
+        t: Lanes,
+        y: &PhaseVector<Lanes, N>,
+        reliability: &mut LaneReliability,
+    ) {
         let solution = self.system.accelerations_unchecked(&State { t, q: vector(y[0]), v: vector(y[1]) });
-        trust.solution(&solution);
+        reliability.solution(&solution);
         self.slopes[number][0] = y[1];
         self.slopes[number][1] = solution.accelerations.data.0[0];
     }
@@ -199,9 +212,9 @@ where
     /// accurate. Whether each is where it is to be.
     fn project<L>(
         &self,
-        next: &mut Phase<Lanes, N>,
+        next: &mut PhaseVector<Lanes, N>,
         method: &Adaptive<P>,
-        seats: &Seats<'_, L, Adaptive<P>, N, M>,
+        motions: &LaneMotions<'_, L, Adaptive<P>, N, M>,
         error: &[f64; Lanes::COUNT],
     ) -> [bool; Lanes::COUNT]
     where
@@ -218,11 +231,12 @@ where
         for (x, before) in next.iter_mut().flatten().zip(before.iter().flatten()) {
             *x = x.select(chosen, *before);
         }
-        from_fn(|lane| match &seats[lane] {
-            Some(seat) if !is_there[lane] && method.accepts(error[lane]) => {
+        from_fn(|lane| match &motions[lane] {
+            Some(motion) if !is_there[lane] && method.accepts(error[lane]) => {
                 let y = unpacked(next, lane);
-                let point = PhasePoint { t: self.end[lane], y, velocity: y[1] };
-                let projected = <LagrangianFlow as Flow<L, N, M>>::project(&seat.system, &point);
+                let point = StagePoint { t: self.end[lane], y, velocity: y[1] };
+                let projected =
+                    <LagrangianVectorField as VectorField<L, N, M>>::project(&motion.system, &point);
                 projected.map(|state| next.place(lane, &[state.q.into(), state.v.into()])).is_ok()
             }
             _ => true,
@@ -234,21 +248,21 @@ where
     fn look_within<L>(
         &mut self,
         method: &Adaptive<P>,
-        seats: &Seats<'_, L, Adaptive<P>, N, M>,
+        motions: &LaneMotions<'_, L, Adaptive<P>, N, M>,
         tried: &mut LaneErrors,
     ) -> [bool; Lanes::COUNT]
     where
         L: Lagrangian<N, M, Scalar = f64>,
     {
         let looked = from_fn(|lane| {
-            let seat = seats[lane].as_ref();
-            seat.is_some_and(|seat| seat.record.looks_into(self.now[lane], self.end[lane]))
+            let motion = motions[lane].as_ref();
+            motion.is_some_and(|motion| motion.record.looks_into(self.now[lane], self.end[lane]))
         });
         let is_asked_for: [bool; Lanes::COUNT] =
             from_fn(|lane| looked[lane] && tried.sound[lane] && method.accepts(tried.error[lane]));
         if is_asked_for.contains(&true) {
-            let (h, mut trust) = (Lanes::from(self.h), Trust::new());
-            self.stages((last::<P>() + 1, P::INTERPOLATION_STAGES), &mut trust);
+            let (h, mut reliability) = (Lanes::from(self.h), LaneReliability::new());
+            self.stages((last::<P>() + 1, P::INTERPOLATION_STAGES), &mut reliability);
             let (start, end) = ((&self.y, &self.slopes[0]), (&self.next, &self.slopes[last::<P>()]));
             let (cubic, beyond) = self.coefficients.as_mut().split_at_mut(4);
             hermite(h, start, end, cubic);
@@ -256,7 +270,7 @@ where
             for (coefficient, row) in beyond.iter_mut().zip(P::INTERPOLATION) {
                 advance(&zero, h, &self.slopes, row, coefficient);
             }
-            let trusted = trust.lanes();
+            let trusted = reliability.lanes();
             tried.sound = from_fn(|lane| tried.sound[lane] && (!is_asked_for[lane] || trusted[lane]));
         }
         looked
@@ -269,14 +283,14 @@ fn decide<P: Pair, const N: usize, const M: usize>(
     memory: &mut PairMemory<f64, N, M>,
     (h, time): (f64, f64),
     error: f64,
-) -> Option<Fate> {
+) -> Option<LaneOutcome> {
     let PairMemory { clock, control, active, .. } = memory;
     if active.contains(&false) || !clock.is_ahead(time) {
         return None;
     }
     if method.accepts(error) {
         method.after_acceptance(control, clock, (h, time), error);
-        return Some(Fate::Accepted);
+        return Some(LaneOutcome::Accepted);
     }
     let before = control.clone();
     control.refuse::<P>(h, error);
@@ -284,7 +298,7 @@ fn decide<P: Pair, const N: usize, const M: usize>(
         *control = before;
         return None;
     }
-    Some(Fate::Rejected)
+    Some(LaneOutcome::Rejected)
 }
 
 /// As many evaluations as the step takes alone, with an interpolant or without.
@@ -292,10 +306,11 @@ fn count<P: Pair, const N: usize, const M: usize>(
     method: &Adaptive<P>,
     PairMemory { has_slope, .. }: &mut PairMemory<f64, N, M>,
     statistics: &mut Statistics,
-    fate: Fate,
+    outcome: LaneOutcome,
     is_looked_into: bool,
 ) {
-    let (accepted, at_start, before) = (fate == Fate::Accepted, !*has_slope, method.error_needs_last());
+    let (accepted, at_start, before) =
+        (outcome == LaneOutcome::Accepted, !*has_slope, method.error_needs_last());
     statistics.evaluations += P::STAGES.len() + usize::from(at_start) + usize::from(before);
     statistics.evaluations += if accepted && is_looked_into { P::INTERPOLATION_STAGES.len() } else { 0 };
     if accepted {
@@ -315,12 +330,12 @@ struct LaneOf<'c, C> {
     coefficients: &'c C,
 }
 
-impl<const N: usize, C: AsRef<[Phase<Lanes, N>]>> Interpolant<f64, N> for LaneOf<'_, C> {
+impl<const N: usize, C: AsRef<[PhaseVector<Lanes, N>]>> Interpolant<f64, N> for LaneOf<'_, C> {
     #[inline(always)]
-    fn at(&self, t: f64) -> PhasePoint<f64, N> {
+    fn at(&self, t: f64) -> StagePoint<f64, N> {
         let theta = Lanes::constant((t - self.start) / self.length);
         let (y, velocity) = evaluate(self.coefficients.as_ref(), theta);
         let velocity = velocity.map(|x| x.to_array()[self.lane] / self.length);
-        PhasePoint { t, y: unpacked(&y, self.lane), velocity }
+        StagePoint { t, y: unpacked(&y, self.lane), velocity }
     }
 }

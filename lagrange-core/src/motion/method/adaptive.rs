@@ -54,12 +54,12 @@ impl<P> Adaptive<P> {
     ///
     /// It covers what an entry cannot hold: a coordinate of 10³⁰⁰ with a velocity of 1 stays where it is to the last bit, and
     /// the motion is complete. Count coordinates from nearby where small changes matter.
-    pub fn relative(self, tolerance: f64) -> Self {
+    pub fn relative_tolerance(self, tolerance: f64) -> Self {
         Self { relative: tolerance, ..self }
     }
 
     /// The error allowed in the unit of each entry, which matters where the entry is about zero.
-    pub fn absolute(self, tolerance: f64) -> Self {
+    pub fn absolute_tolerance(self, tolerance: f64) -> Self {
         Self { absolute: tolerance, ..self }
     }
 

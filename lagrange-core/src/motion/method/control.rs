@@ -10,9 +10,9 @@ use super::pair::{Pair, Slopes, combine};
 #[cfg(feature = "alloc")]
 use super::step::PairMemory;
 #[cfg(feature = "alloc")]
-use crate::number::Over;
+use crate::number::Broadcast;
 use crate::number::{Real, Scalar, entries, exceeds, larger, smaller, sum};
-use crate::solution::flow::Phase;
+use crate::solution::vector_field::PhaseVector;
 
 /// The step to try next, and what its choice remembers.
 #[derive(Clone, Debug)]
@@ -84,8 +84,8 @@ impl Tolerance {
         self,
         slopes: &Slopes<T, N>,
         h: T,
-        before: &Phase<T, N>,
-        after: &Phase<T, N>,
+        before: &PhaseVector<T, N>,
+        after: &PhaseVector<T, N>,
     ) -> T {
         estimate::<P, T, N>(slopes, h, &self.scale(before, after))
     }
@@ -94,12 +94,12 @@ impl Tolerance {
     /// entry among their coordinates, and among their velocities, and of what the place itself is allowed, in units of
     /// the variations.
     #[cfg(feature = "alloc")]
-    pub(crate) fn error_of_variations<P: Pair, T: Scalar, W: Over<T>, const N: usize>(
+    pub(crate) fn error_of_variations<P: Pair, T: Scalar, W: Broadcast<T>, const N: usize>(
         self,
         slopes: &Slopes<W, N>,
         h: T,
-        [before, after]: [&Phase<W, N>; 2],
-        places: [&Phase<T, N>; 2],
+        [before, after]: [&PhaseVector<W, N>; 2],
+        places: [&PhaseVector<T, N>; 2],
         unit: W,
     ) -> W {
         let largest = |half: usize| {
@@ -116,15 +116,20 @@ impl Tolerance {
     }
 
     /// What a step of this length makes of rates, as a part of the error allowed at a place.
-    pub(crate) fn part<T: Real, const N: usize>(self, h: T, rates: &Phase<T, N>, place: &Phase<T, N>) -> T {
+    pub(crate) fn part<T: Real, const N: usize>(
+        self,
+        h: T,
+        rates: &PhaseVector<T, N>,
+        place: &PhaseVector<T, N>,
+    ) -> T {
         norm(h, rates, &self.scale(place, place))
     }
 
     /// A first guess at the first step: one that moves the state by a hundredth of its size.
     pub(crate) fn guess_step<T: Real, const N: usize>(
         self,
-        y: &Phase<T, N>,
-        slope: &Phase<T, N>,
+        y: &PhaseVector<T, N>,
+        slope: &PhaseVector<T, N>,
         span: T,
     ) -> T {
         let (scale, one) = (self.scale(y, y), T::constant(1.0));
@@ -138,8 +143,8 @@ impl Tolerance {
     pub(crate) fn worst<P: Pair, T: Real, const N: usize>(
         self,
         slopes: &Slopes<T, N>,
-        before: &Phase<T, N>,
-        after: &Phase<T, N>,
+        before: &PhaseVector<T, N>,
+        after: &PhaseVector<T, N>,
     ) -> StateEntry {
         let (error, scale) = (combine(slopes, P::ERROR), self.scale(before, after));
         let part = |(half, i): StateEntry| Scalar::abs(error[half][i]) / scale[half][i];
@@ -149,7 +154,11 @@ impl Tolerance {
 
     /// The error allowed in each entry between two places.
     #[inline]
-    fn scale<T: Scalar, const N: usize>(self, a: &Phase<T, N>, b: &Phase<T, N>) -> Phase<T, N> {
+    fn scale<T: Scalar, const N: usize>(
+        self,
+        a: &PhaseVector<T, N>,
+        b: &PhaseVector<T, N>,
+    ) -> PhaseVector<T, N> {
         let relative = T::constant(self.relative);
         let absolute = T::constant(self.absolute);
         let size = |half: usize, i: usize| a[half][i].abs().max(b[half][i].abs());
@@ -159,7 +168,7 @@ impl Tolerance {
 
 /// The estimate of the error of a step, as a part of the errors allowed.
 #[inline]
-fn estimate<P: Pair, T: Scalar, const N: usize>(slopes: &Slopes<T, N>, h: T, scale: &Phase<T, N>) -> T {
+fn estimate<P: Pair, T: Scalar, const N: usize>(slopes: &Slopes<T, N>, h: T, scale: &PhaseVector<T, N>) -> T {
     // Times h before they are squared: slopes depend on the unit of time, and their squares leave the numbers.
     let first = norm(h, &combine(slopes, P::ERROR), scale);
     if P::LOWER_ERROR.is_empty() {
@@ -247,9 +256,9 @@ impl<P: Pair> Adaptive<P> {
     pub(crate) fn first_step_from<T: Real, const N: usize>(
         &self,
         guess: T,
-        y: &Phase<T, N>,
-        before: &Phase<T, N>,
-        after: &Phase<T, N>,
+        y: &PhaseVector<T, N>,
+        before: &PhaseVector<T, N>,
+        after: &PhaseVector<T, N>,
     ) -> T {
         let scale = self.tolerance::<T>().scale(y, y);
         let change = from_fn(|half| entries(|i| after[half][i] - before[half][i]));
@@ -271,7 +280,7 @@ pub(crate) const SLACK: f64 = 10.0;
 
 /// √(mean (h x/scale)²).
 #[inline]
-fn norm<T: Scalar, const N: usize>(h: T, x: &Phase<T, N>, scale: &Phase<T, N>) -> T {
+fn norm<T: Scalar, const N: usize>(h: T, x: &PhaseVector<T, N>, scale: &PhaseVector<T, N>) -> T {
     let (x, scale) = (x.as_flattened(), scale.as_flattened());
     let squares = sum(2 * N, |i| {
         let part = h * x[i] / scale[i];

@@ -1,6 +1,6 @@
 //! Dormand and Prince's method of order 8 with error estimates of orders 5 and 3.
 
-use super::{Adaptive, Combination, Pair};
+use super::{Adaptive, Pair, TableauRow};
 
 /// The coefficients of the method 8(5,3) of Dormand and Prince, with the continuous extension of order 7
 /// (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.5, II.6 and the code DOP853).
@@ -29,7 +29,7 @@ impl Pair for DormandPrince853 {
         0.2,
         0.7777777777777778,
     ];
-    const STAGES: &'static [Combination] = &[
+    const STAGES: &'static [TableauRow] = &[
         &[(0, 0.05260015195876773)],
         &[(0, 0.0197250569845379), (1, 0.0591751709536137)],
         &[(0, 0.02958758547680685), (2, 0.08876275643042054)],
@@ -82,7 +82,7 @@ impl Pair for DormandPrince853 {
             (10, 0.6433927460157636),
         ],
     ];
-    const WEIGHTS: Combination = &[
+    const WEIGHTS: TableauRow = &[
         (0, 0.054293734116568765),
         (5, 4.450312892752409),
         (6, 1.8915178993145003),
@@ -92,7 +92,7 @@ impl Pair for DormandPrince853 {
         (10, 0.20136540080403034),
         (11, 0.04471061572777259),
     ];
-    const ERROR: Combination = &[
+    const ERROR: TableauRow = &[
         (0, 0.01312004499419488),
         (5, -1.2251564463762044),
         (6, -0.4957589496572502),
@@ -102,7 +102,7 @@ impl Pair for DormandPrince853 {
         (10, 0.08192320648511571),
         (11, -0.022355307863886294),
     ];
-    const LOWER_ERROR: Combination = &[
+    const LOWER_ERROR: TableauRow = &[
         (0, -0.18980075407240762),
         (5, 4.450312892752409),
         (6, 1.8915178993145003),
@@ -112,7 +112,7 @@ impl Pair for DormandPrince853 {
         (10, 0.20136540080403034),
         (11, 0.02265179219836082),
     ];
-    const INTERPOLATION_STAGES: &'static [Combination] = &[
+    const INTERPOLATION_STAGES: &'static [TableauRow] = &[
         &[
             (0, 0.056167502283047954),
             (6, 0.25350021021662483),
@@ -144,7 +144,7 @@ impl Pair for DormandPrince853 {
             (14, -9.15095847217987),
         ],
     ];
-    const INTERPOLATION: &'static [Combination] = &[
+    const INTERPOLATION: &'static [TableauRow] = &[
         &[
             (0, -8.428938276109013),
             (5, 0.5667149535193777),

@@ -1,6 +1,6 @@
 //! Dormand and Prince's pair of orders 5 and 4.
 
-use super::{Adaptive, Combination, Pair};
+use super::{Adaptive, Pair, TableauRow};
 
 /// The coefficients of the pair 5(4) of Dormand and Prince (1980), with the continuous extension of order 4
 /// (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, table II.5.2 and II.6).
@@ -13,7 +13,7 @@ pub type Dopri5 = Adaptive<DormandPrince54>;
 
 impl Pair for DormandPrince54 {
     const NODES: &'static [f64] = &[0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
-    const STAGES: &'static [Combination] = &[
+    const STAGES: &'static [TableauRow] = &[
         &[(0, 0.2)],
         &[(0, 3.0 / 40.0), (1, 9.0 / 40.0)],
         &[(0, 44.0 / 45.0), (1, -56.0 / 15.0), (2, 32.0 / 9.0)],
@@ -26,14 +26,14 @@ impl Pair for DormandPrince54 {
             (4, -5103.0 / 18656.0),
         ],
     ];
-    const WEIGHTS: Combination = &[
+    const WEIGHTS: TableauRow = &[
         (0, 35.0 / 384.0),
         (2, 500.0 / 1113.0),
         (3, 125.0 / 192.0),
         (4, -2187.0 / 6784.0),
         (5, 11.0 / 84.0),
     ];
-    const ERROR: Combination = &[
+    const ERROR: TableauRow = &[
         (0, 71.0 / 57600.0),
         (2, -71.0 / 16695.0),
         (3, 71.0 / 1920.0),
@@ -41,9 +41,9 @@ impl Pair for DormandPrince54 {
         (5, 22.0 / 525.0),
         (6, -1.0 / 40.0),
     ];
-    const LOWER_ERROR: Combination = &[];
-    const INTERPOLATION_STAGES: &'static [Combination] = &[];
-    const INTERPOLATION: &'static [Combination] = &[&[
+    const LOWER_ERROR: TableauRow = &[];
+    const INTERPOLATION_STAGES: &'static [TableauRow] = &[];
+    const INTERPOLATION: &'static [TableauRow] = &[&[
         (0, -12715105075.0 / 11282082432.0),
         (2, 87487479700.0 / 32700410799.0),
         (3, -10690763975.0 / 1880347072.0),

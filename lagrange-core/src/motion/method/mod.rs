@@ -14,8 +14,8 @@ mod stiff;
 pub use adaptive::Adaptive;
 pub use dop853::{Dop853, DormandPrince853};
 pub use dopri5::{Dopri5, DormandPrince54};
-pub use interpolant::{Interpolant, Node, Polynomial};
-pub use pair::{Combination, Pair};
+pub use interpolant::{HermiteNode, Interpolant, Polynomial};
+pub use pair::{Pair, TableauRow};
 pub use runge_kutta::{RungeKutta4, runge_kutta_step};
 
 #[cfg(feature = "alloc")]
@@ -25,7 +25,7 @@ use core::fmt;
 use crate::ending::{Ending, Pace};
 use crate::error::Error;
 use crate::number::Real;
-use crate::solution::flow::{Flow, LagrangianFlow};
+use crate::solution::vector_field::{LagrangianVectorField, VectorField};
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State};
 
@@ -38,10 +38,10 @@ use crate::system::{Lagrangian, State};
     message = "`{Self}` is not a method that integrates `{L}`",
     note = "use `Dop853::default()` or `Dopri5::default()`; the system must be over `f64` or `f32`"
 )]
-pub trait Method<L, const N: usize, const M: usize, F = LagrangianFlow>
+pub trait Method<L, const N: usize, const M: usize, F = LagrangianVectorField>
 where
     L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
+    F: VectorField<L, N, M>,
 {
     /// What is carried from step to step, working arrays included.
     type Memory;
@@ -133,7 +133,7 @@ where
     /// Takes the last step back, because its interpolant is wanted and there is none; the next attempt is shorter. False
     /// where that cannot be: the motion then ends before the step.
     #[allow(unused_variables)]
-    fn take_back(&self, memory: &mut Self::Memory) -> bool {
+    fn undo(&self, memory: &mut Self::Memory) -> bool {
         false
     }
 

@@ -1,10 +1,10 @@
 //! What distinguishes one embedded Runge–Kutta pair from another: coefficients.
 
 use crate::number::Scalar;
-use crate::solution::flow::Phase;
+use crate::solution::vector_field::PhaseVector;
 
 /// The coefficients of a sum of slopes: (index of the slope, coefficient).
-pub type Combination = &'static [(usize, f64)];
+pub type TableauRow = &'static [(usize, f64)];
 
 /// The coefficients of an explicit embedded pair with a continuous extension.
 ///
@@ -14,7 +14,7 @@ pub type Combination = &'static [(usize, f64)];
 /// that integrates with the pair does not compile:
 ///
 /// ```compile_fail,E0080
-/// use lagrange_core::motion::{Adaptive, Combination, Pair};
+/// use lagrange_core::motion::{Adaptive, TableauRow, Pair};
 /// use lagrange_core::prelude::*;
 ///
 /// #[derive(Clone, Copy)]
@@ -22,12 +22,12 @@ pub type Combination = &'static [(usize, f64)];
 ///
 /// impl Pair for Heun {
 ///     const NODES: &'static [f64] = &[0.0, 1.0, 1.0];
-///     const STAGES: &'static [Combination] = &[&[(0, 0.5)]]; // which is not its node
-///     const WEIGHTS: Combination = &[(0, 0.5), (1, 0.5)];
-///     const ERROR: Combination = &[(0, 0.5), (1, -0.5)];
-///     const LOWER_ERROR: Combination = &[];
-///     const INTERPOLATION_STAGES: &'static [Combination] = &[];
-///     const INTERPOLATION: &'static [Combination] = &[];
+///     const STAGES: &'static [TableauRow] = &[&[(0, 0.5)]]; // which is not its node
+///     const WEIGHTS: TableauRow = &[(0, 0.5), (1, 0.5)];
+///     const ERROR: TableauRow = &[(0, 0.5), (1, -0.5)];
+///     const LOWER_ERROR: TableauRow = &[];
+///     const INTERPOLATION_STAGES: &'static [TableauRow] = &[];
+///     const INTERPOLATION: &'static [TableauRow] = &[];
 ///     const ORDER: f64 = 2.0;
 ///     const DAMPING: f64 = 0.0;
 ///     const SHRINK: f64 = 0.2;
@@ -50,17 +50,17 @@ pub trait Pair {
     /// The time of each slope as a fraction of the step.
     const NODES: &'static [f64];
     /// Each stage but the first as a sum of the slopes before it.
-    const STAGES: &'static [Combination];
+    const STAGES: &'static [TableauRow];
     /// The new state.
-    const WEIGHTS: Combination;
+    const WEIGHTS: TableauRow;
     /// The error e that decides.
-    const ERROR: Combination;
+    const ERROR: TableauRow;
     /// A second error e′ of lower order, or nothing: the estimate is then |e|²/√(|e|² + 0.01 |e′|²) instead of |e|.
-    const LOWER_ERROR: Combination;
+    const LOWER_ERROR: TableauRow;
     /// Stages that only the interpolant needs.
-    const INTERPOLATION_STAGES: &'static [Combination];
+    const INTERPOLATION_STAGES: &'static [TableauRow];
     /// Coefficients of the interpolant beyond the fourth.
-    const INTERPOLATION: &'static [Combination];
+    const INTERPOLATION: &'static [TableauRow];
     /// Order of the error estimate: the power of the step length that it is proportional to.
     const ORDER: f64;
     /// Weight of the previous error in the choice of the step (β of the PI controller).
@@ -116,7 +116,7 @@ pub(crate) const fn check<P: Pair>() {
     }
 }
 
-const fn check_stages(rows: &[Combination], nodes: &[f64], first: usize) {
+const fn check_stages(rows: &[TableauRow], nodes: &[f64], first: usize) {
     let mut row = 0;
     while row < rows.len() {
         check_row(rows[row], first + row, nodes[first + row]);
@@ -124,7 +124,7 @@ const fn check_stages(rows: &[Combination], nodes: &[f64], first: usize) {
     }
 }
 
-const fn check_row(row: Combination, slopes: usize, expected: f64) {
+const fn check_row(row: TableauRow, slopes: usize, expected: f64) {
     let (mut sum, mut size, mut k) = (0.0, 1.0, 0);
     while k < row.len() {
         assert!(row[k].0 < slopes, "a row of coefficients names a slope that is not there yet");
@@ -136,16 +136,16 @@ const fn check_row(row: Combination, slopes: usize, expected: f64) {
 }
 
 /// The slopes (q̇, q̈) of a step.
-pub(crate) type Slopes<T, const N: usize> = [Phase<T, N>; SLOPES];
+pub(crate) type Slopes<T, const N: usize> = [PhaseVector<T, N>; SLOPES];
 
 /// Puts start + h Σ cᵢ slopeᵢ into `end`.
 #[inline]
 pub(crate) fn advance<T: Scalar, const N: usize>(
-    start: &Phase<T, N>,
+    start: &PhaseVector<T, N>,
     h: T,
     slopes: &Slopes<T, N>,
     row: &[(usize, f64)],
-    end: &mut Phase<T, N>,
+    end: &mut PhaseVector<T, N>,
 ) {
     let start = start.as_flattened();
     sums(slopes, row, |i, sum| start[i] + h * sum, end);
@@ -161,12 +161,12 @@ pub(crate) const fn is_carried<const N: usize>() -> bool {
 /// instead of the one in memory.
 #[inline(always)]
 pub(crate) fn advance_from<T: Scalar, const N: usize>(
-    (number, newest): (usize, &Phase<T, N>),
-    start: &Phase<T, N>,
+    (number, newest): (usize, &PhaseVector<T, N>),
+    start: &PhaseVector<T, N>,
     h: T,
     slopes: &Slopes<T, N>,
     row: &[(usize, f64)],
-    end: &mut Phase<T, N>,
+    end: &mut PhaseVector<T, N>,
 ) {
     match row.split_last() {
         Some(((slope, coefficient), earlier)) if is_carried::<N>() && *slope == number => {
@@ -179,7 +179,10 @@ pub(crate) fn advance_from<T: Scalar, const N: usize>(
 }
 
 #[inline]
-pub(crate) fn combine<T: Scalar, const N: usize>(slopes: &Slopes<T, N>, row: &[(usize, f64)]) -> Phase<T, N> {
+pub(crate) fn combine<T: Scalar, const N: usize>(
+    slopes: &Slopes<T, N>,
+    row: &[(usize, f64)],
+) -> PhaseVector<T, N> {
     let mut combined = [[T::constant(0.0); N]; 2];
     sums(slopes, row, |_, sum| sum, &mut combined);
     combined
@@ -194,7 +197,7 @@ fn sums<T: Scalar, const N: usize>(
     slopes: &Slopes<T, N>,
     row: &[(usize, f64)],
     what_becomes: impl Fn(usize, T) -> T,
-    results: &mut Phase<T, N>,
+    results: &mut PhaseVector<T, N>,
 ) {
     let (blocks, rest) = results.as_flattened_mut().as_chunks_mut::<BLOCK>();
     let count = blocks.len();

@@ -13,8 +13,8 @@ use crate::ending::Ending;
 use crate::error::Error;
 use crate::number::{Real, Scalar, vector};
 use crate::solution::consistent::{BOTH, project};
-use crate::solution::flow::Phase;
 use crate::solution::solve::{first_row, solve};
+use crate::solution::vector_field::PhaseVector;
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State};
 
@@ -69,11 +69,11 @@ fn step<T: Scalar, E, const N: usize>(
     h: T,
     mut accelerations: impl FnMut(&State<T, N>) -> Result<[T; N], E>,
 ) -> Result<State<T, N>, E> {
-    let (half, start): (_, Phase<_, N>) = (h * T::constant(0.5), [state.q.into(), state.v.into()]);
-    let moved = |by: T, slope: &Phase<T, N>| -> Phase<T, N> {
+    let (half, start): (_, PhaseVector<_, N>) = (h * T::constant(0.5), [state.q.into(), state.v.into()]);
+    let moved = |by: T, slope: &PhaseVector<T, N>| -> PhaseVector<T, N> {
         from_fn(|half| from_fn(|i| start[half][i] + by * slope[half][i]))
     };
-    let mut slope = |after: T, [q, v]: Phase<T, N>| -> Result<Phase<T, N>, E> {
+    let mut slope = |after: T, [q, v]: PhaseVector<T, N>| -> Result<PhaseVector<T, N>, E> {
         Ok([v, accelerations(&State { t: state.t + after, q: vector(q), v: vector(v) })?])
     };
     let a = slope(T::constant(0.0), start)?;
@@ -113,7 +113,7 @@ impl RungeKutta4 {
 
 /// What the method carries from step to step.
 #[derive(Clone, Debug)]
-pub struct Walk<T, const N: usize> {
+pub struct FixedStepState<T, const N: usize> {
     clock: Clock<T>,
     /// The length of the next step.
     planned: T,
@@ -122,8 +122,8 @@ pub struct Walk<T, const N: usize> {
 }
 
 impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Method<L, N, M> for RungeKutta4 {
-    type Memory = Walk<L::Scalar, N>;
-    type Interpolant = Polynomial<L::Scalar, [Phase<L::Scalar, N>; 4]>;
+    type Memory = FixedStepState<L::Scalar, N>;
+    type Interpolant = Polynomial<L::Scalar, [PhaseVector<L::Scalar, N>; 4]>;
 
     fn limits(&self) -> Limits {
         self.limits
@@ -139,7 +139,12 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Method<L
 
     fn begin(&self, _: &L, start: &State<L::Scalar, N>, _: &mut Statistics) -> Result<Self::Memory, Error> {
         let planned = L::Scalar::constant(self.step);
-        Ok(Walk { clock: Clock::new(start.t, Some(planned)), planned, before: *start, state: *start })
+        Ok(FixedStepState {
+            clock: Clock::new(start.t, Some(planned)),
+            planned,
+            before: *start,
+            state: *start,
+        })
     }
 
     #[inline]
@@ -150,7 +155,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Method<L
         end: L::Scalar,
         statistics: &mut Statistics,
     ) -> Step<L::Scalar, N> {
-        let Walk { clock, planned, before, state } = memory;
+        let FixedStepState { clock, planned, before, state } = memory;
         clock.aim(end);
         let (h, time) = clock.next(*planned);
         if !clock.is_ahead(time) {
@@ -190,7 +195,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Method<L
         memory: &mut Self::Memory,
         statistics: &mut Statistics,
     ) -> Result<Self::Interpolant, Error> {
-        let Walk { before, state, .. } = memory;
+        let FixedStepState { before, state, .. } = memory;
         let mut node = |state: &State<L::Scalar, N>| -> Result<_, Error> {
             statistics.evaluations += 1;
             let (q, v) = (state.q.into(), state.v.into());

@@ -11,7 +11,7 @@ use super::clock::Clock;
 use super::control::{Control, StateEntry};
 use super::interpolant::{Polynomial, hermite};
 use super::pair::{
-    Combination, Pair, Slopes, advance, advance_from, check, error_needs_last, is_carried, last,
+    Pair, Slopes, TableauRow, advance, advance_from, check, error_needs_last, is_carried, last,
 };
 use super::{Adaptive, Limits, Method, Step};
 use crate::ending::{Ending, Pace};
@@ -19,8 +19,8 @@ use crate::error::Error;
 use crate::names::{Entry, Row};
 use crate::number::{Real, Scalar, entries, vector};
 use crate::room::Room;
-use crate::solution::flow::{Basis, Flow, Phase, PhasePoint};
 use crate::solution::solve::name;
+use crate::solution::vector_field::{ActiveConstraints, PhaseVector, StagePoint, VectorField};
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State};
 
@@ -32,11 +32,11 @@ pub struct PairMemory<T, const N: usize, const M: usize> {
     /// Whether the length of a step has been chosen, which takes an end.
     is_planned: bool,
     /// Where the motion is.
-    pub(crate) y: Phase<T, N>,
+    pub(crate) y: PhaseVector<T, N>,
     /// Whether the rates there are known.
     pub(crate) has_slope: bool,
     /// The rates.
-    pub(crate) slope: Phase<T, N>,
+    pub(crate) slope: PhaseVector<T, N>,
     /// Which constraints they rest on: as many as are independent at `y`.
     pub(crate) active: [bool; M],
     /// Of the step tried last, the first that of its start.
@@ -48,16 +48,16 @@ pub struct PairMemory<T, const N: usize, const M: usize> {
 /// A step taken: what its interpolant needs, and to take it back.
 #[derive(Clone, Debug)]
 pub(super) struct Taken<T, const N: usize, const M: usize> {
-    from: Origin<T, N, M>,
+    from: StepStart<T, N, M>,
     pub(super) h: T,
     pub(super) control: Control<T>,
 }
 
 /// Where a step starts.
 #[derive(Clone, Copy, Debug)]
-struct Origin<T, const N: usize, const M: usize> {
+struct StepStart<T, const N: usize, const M: usize> {
     t: T,
-    y: Phase<T, N>,
+    y: PhaseVector<T, N>,
     active: [bool; M],
 }
 
@@ -69,28 +69,28 @@ impl<T: Real, const N: usize, const M: usize> PairMemory<T, N, M> {
 
     /// Where the step taken last starts, how long it is, and its slopes.
     #[cfg(feature = "alloc")]
-    pub(crate) fn last_step(&self) -> Option<(PhasePoint<T, N>, T, &Slopes<T, N>)> {
-        let Taken { from: Origin { t, y, .. }, h, .. } = self.taken.as_ref()?;
-        Some((PhasePoint { t: *t, y: *y, velocity: self.slopes[0][0] }, *h, &self.slopes))
+    pub(crate) fn last_step(&self) -> Option<(StagePoint<T, N>, T, &Slopes<T, N>)> {
+        let Taken { from: StepStart { t, y, .. }, h, .. } = self.taken.as_ref()?;
+        Some((StagePoint { t: *t, y: *y, velocity: self.slopes[0][0] }, *h, &self.slopes))
     }
 
     /// Evaluates the rates where the motion is, unless they are known.
     #[inline]
-    pub(crate) fn ensure_slope<L: Lagrangian<N, M, Scalar = T>, F: Flow<L, N, M>>(
+    pub(crate) fn ensure_slope<L: Lagrangian<N, M, Scalar = T>, F: VectorField<L, N, M>>(
         &mut self,
         system: &L,
         statistics: &mut Statistics,
     ) -> Result<(), Error> {
         if !self.has_slope {
-            let point = PhasePoint { t: self.clock.now, y: self.y, velocity: self.slope[0] };
+            let point = StagePoint { t: self.clock.now, y: self.y, velocity: self.slope[0] };
             self.active = slope::<L, F, N, M>(system, &point, None, &mut self.slope, statistics)?;
             self.has_slope = true;
         }
         Ok(())
     }
 
-    fn origin(&self) -> Origin<T, N, M> {
-        Origin { t: self.clock.now, y: self.y, active: self.active }
+    fn origin(&self) -> StepStart<T, N, M> {
+        StepStart { t: self.clock.now, y: self.y, active: self.active }
     }
 }
 
@@ -110,7 +110,7 @@ impl<T> From<Error> for Refusal<T> {
 
 /// Where a step ends, its error as a part of the tolerance, and which constraints its slope rests on.
 struct Reached<T, const N: usize, const M: usize> {
-    y: Phase<T, N>,
+    y: PhaseVector<T, N>,
     error: T,
     active: [bool; M],
 }
@@ -119,10 +119,10 @@ impl<P, L, F, const N: usize, const M: usize> Method<L, N, M, F> for Adaptive<P>
 where
     P: Pair,
     L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
+    F: VectorField<L, N, M>,
 {
     type Memory = PairMemory<L::Scalar, N, M>;
-    type Interpolant = Polynomial<L::Scalar, P::Coefficients<Phase<L::Scalar, N>>>;
+    type Interpolant = Polynomial<L::Scalar, P::Coefficients<PhaseVector<L::Scalar, N>>>;
 
     fn limits(&self) -> Limits {
         self.limits()
@@ -235,7 +235,7 @@ where
         Ok(())
     }
 
-    fn take_back(&self, memory: &mut Self::Memory) -> bool {
+    fn undo(&self, memory: &mut Self::Memory) -> bool {
         let Some(Taken { from, h, control }) = memory.taken.take() else { return false };
         (memory.clock.now, memory.y, memory.active) = (from.t, from.y, from.active);
         (memory.has_slope, memory.slope, memory.control) = (true, memory.slopes[0], control);
@@ -256,7 +256,12 @@ where
 
 impl<P: Pair> Adaptive<P> {
     /// Sets the end, and chooses the length of the first step.
-    pub(crate) fn aim<L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize>(
+    pub(crate) fn aim<
+        L: Lagrangian<N, M, Scalar: Real>,
+        F: VectorField<L, N, M>,
+        const N: usize,
+        const M: usize,
+    >(
         &self,
         system: &L,
         memory: &mut PairMemory<L::Scalar, N, M>,
@@ -280,7 +285,7 @@ impl<P: Pair> Adaptive<P> {
     }
 
     /// Moves to where the step has led.
-    fn take<L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize>(
+    fn take<L: Lagrangian<N, M, Scalar: Real>, F: VectorField<L, N, M>, const N: usize, const M: usize>(
         &self,
         memory: &mut PairMemory<L::Scalar, N, M>,
         (h, time): (L::Scalar, L::Scalar),
@@ -304,7 +309,7 @@ impl<P: Pair> Adaptive<P> {
     ) -> Result<Reached<L::Scalar, N, M>, Refusal<L::Scalar>>
     where
         L: Lagrangian<N, M, Scalar: Real>,
-        F: Flow<L, N, M>,
+        F: VectorField<L, N, M>,
     {
         const { check::<P>() };
         if IS_FIXED {
@@ -313,7 +318,7 @@ impl<P: Pair> Adaptive<P> {
         let (from, slopes) = (memory.origin(), &mut *memory.slopes);
         slopes[0] = memory.slope;
         stages::<P, L, F, N, M>(system, &from, h, slopes, (1, P::STAGES), statistics)?;
-        let mut next = PhasePoint { t: time, y: from.y, velocity: slopes[0][0] };
+        let mut next = StagePoint { t: time, y: from.y, velocity: slopes[0][0] };
         advance(&from.y, h, slopes, P::WEIGHTS, &mut next.y);
         check_finite::<L, N, M>(time, &next.y)?;
         let mut active = from.active;
@@ -337,8 +342,8 @@ impl<P: Pair> Adaptive<P> {
         &self,
         slopes: &Slopes<T, N>,
         h: T,
-        before: &Phase<T, N>,
-        after: &Phase<T, N>,
+        before: &PhaseVector<T, N>,
+        after: &PhaseVector<T, N>,
     ) -> Result<T, Refusal<T>> {
         let tolerance = self.tolerance::<T>();
         let error = tolerance.error::<P, T, N>(slopes, h, before, after);
@@ -353,7 +358,7 @@ impl<P: Pair> Adaptive<P> {
     #[cold]
     fn find_coarseness<
         L: Lagrangian<N, M, Scalar: Real>,
-        F: Flow<L, N, M>,
+        F: VectorField<L, N, M>,
         const N: usize,
         const M: usize,
     >(
@@ -364,7 +369,7 @@ impl<P: Pair> Adaptive<P> {
         let PairMemory { clock, control, y, slope: here, active, .. } = memory;
         // From 0.75 to 1.5 of the way to the next number, and so that one.
         let next = clock.now + L::Scalar::constant(0.75 * L::Scalar::EPSILON) * Scalar::abs(clock.now);
-        let point = PhasePoint { t: next, y: *y, velocity: here[0] };
+        let point = StagePoint { t: next, y: *y, velocity: here[0] };
         let mut there = *here;
         let (active, mut statistics) = (memory.has_slope.then_some(active)?, Statistics::default());
         slope::<L, F, N, M>(system, &point, Some(active), &mut there, &mut statistics).ok()?;
@@ -373,7 +378,12 @@ impl<P: Pair> Adaptive<P> {
         (lost >= L::Scalar::constant(0.5)).then(|| (next - clock.now).to_f64())
     }
 
-    fn estimate_step<L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize>(
+    fn estimate_step<
+        L: Lagrangian<N, M, Scalar: Real>,
+        F: VectorField<L, N, M>,
+        const N: usize,
+        const M: usize,
+    >(
         &self,
         system: &L,
         memory: &PairMemory<L::Scalar, N, M>,
@@ -383,7 +393,7 @@ impl<P: Pair> Adaptive<P> {
         let guess = self.tolerance::<L::Scalar>().guess_step(y, first, clock.left());
         let h = clock.directed(guess);
         let euler = from_fn(|half| entries(|i| y[half][i] + h * first[half][i]));
-        let point = PhasePoint { t: clock.now + h, y: euler, velocity: first[0] };
+        let point = StagePoint { t: clock.now + h, y: euler, velocity: first[0] };
         let mut second = *first;
         match slope::<L, F, N, M>(system, &point, Some(active), &mut second, statistics) {
             Ok(_) => self.first_step_from(guess, y, first, &second),
@@ -402,7 +412,7 @@ fn look_within<P, L, F, const N: usize, const M: usize>(
 where
     P: Pair,
     L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
+    F: VectorField<L, N, M>,
 {
     memory.ensure_slope::<L, F>(system, statistics)?;
     memory.slopes[last::<P>()] = memory.slope;
@@ -418,7 +428,7 @@ where
 #[inline(always)]
 fn interpolate<P: Pair, T: Real, const N: usize, const M: usize>(
     memory: &PairMemory<T, N, M>,
-    coefficients: &mut [Phase<T, N>],
+    coefficients: &mut [PhaseVector<T, N>],
 ) {
     let (slopes, zero) = (&*memory.slopes, [[T::constant(0.0); N]; 2]);
     let Some(Taken { from, h, .. }) = &memory.taken else { return };
@@ -433,18 +443,18 @@ fn interpolate<P: Pair, T: Real, const N: usize, const M: usize>(
 /// Evaluates the rates of consecutive stages, from the stage of the given index on.
 fn stages<P, L, F, const N: usize, const M: usize>(
     system: &L,
-    from: &Origin<L::Scalar, N, M>,
+    from: &StepStart<L::Scalar, N, M>,
     h: L::Scalar,
     slopes: &mut Slopes<L::Scalar, N>,
-    (first, rows): (usize, &[Combination]),
+    (first, rows): (usize, &[TableauRow]),
     statistics: &mut Statistics,
 ) -> Result<(), Error>
 where
     P: Pair,
     L: Lagrangian<N, M, Scalar: Real>,
-    F: Flow<L, N, M>,
+    F: VectorField<L, N, M>,
 {
-    let mut point = PhasePoint { t: from.t, y: from.y, velocity: slopes[0][0] };
+    let mut point = StagePoint { t: from.t, y: from.y, velocity: slopes[0][0] };
     let mut newest = slopes[first - 1];
     for (number, row) in rows.iter().enumerate().map(|(i, row)| (first + i, row)) {
         advance_from((number - 1, &newest), &from.y, h, slopes, row, &mut point.y);
@@ -461,33 +471,38 @@ where
 /// Puts the rates of the phase into `rates`, counted, and gives the constraints that they rest on. It is asked for in
 /// several places, each of which would have the equations compiled for itself.
 #[inline(never)]
-fn slope<L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize>(
+fn slope<L: Lagrangian<N, M, Scalar: Real>, F: VectorField<L, N, M>, const N: usize, const M: usize>(
     system: &L,
-    point: &PhasePoint<L::Scalar, N>,
+    point: &StagePoint<L::Scalar, N>,
     active: Option<&[bool; M]>,
-    rates: &mut Phase<L::Scalar, N>,
+    rates: &mut PhaseVector<L::Scalar, N>,
     statistics: &mut Statistics,
 ) -> Result<[bool; M], Error> {
     inlined_slope::<L, F, N, M>(system, point, active, rates, statistics)
 }
 
 #[inline(always)]
-fn inlined_slope<L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize>(
+fn inlined_slope<
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: VectorField<L, N, M>,
+    const N: usize,
+    const M: usize,
+>(
     system: &L,
-    point: &PhasePoint<L::Scalar, N>,
+    point: &StagePoint<L::Scalar, N>,
     active: Option<&[bool; M]>,
-    rates: &mut Phase<L::Scalar, N>,
+    rates: &mut PhaseVector<L::Scalar, N>,
     statistics: &mut Statistics,
 ) -> Result<[bool; M], Error> {
     statistics.evaluations += 1;
-    let Basis { active, multipliers_are_unique } = F::slope(system, point, active, rates)?;
+    let ActiveConstraints { active, multipliers_are_unique } = F::evaluate(system, point, active, rates)?;
     statistics.multipliers_are_unique &= multipliers_are_unique;
     Ok(active)
 }
 
 fn check_finite<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     t: L::Scalar,
-    [q, rest]: &Phase<L::Scalar, N>,
+    [q, rest]: &PhaseVector<L::Scalar, N>,
 ) -> Result<(), Error> {
     let row = |i: usize| Row::Coordinate(name(&L::COORDINATES, i));
     match (0..N).find(|&i| !(q[i].is_finite() && rest[i].is_finite())) {
@@ -496,7 +511,7 @@ fn check_finite<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usiz
     }
 }
 
-fn entry<L: Lagrangian<N, M, Scalar: Real>, F: Flow<L, N, M>, const N: usize, const M: usize>(
+fn entry<L: Lagrangian<N, M, Scalar: Real>, F: VectorField<L, N, M>, const N: usize, const M: usize>(
     (half, index): StateEntry,
 ) -> Entry {
     let name = name(&L::COORDINATES, index);

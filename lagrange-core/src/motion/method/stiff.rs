@@ -4,11 +4,11 @@
 //! motion near them grows or dies (Hairer and Wanner, *Solving Ordinary Differential Equations II*, IV.2). In a stiff
 //! problem, step after step is as long as the method stays stable.
 
-use super::pair::{Combination, Pair, SLOPES, combine, last};
+use super::pair::{Pair, SLOPES, TableauRow, combine, last};
 use super::step::{PairMemory, Taken};
 use super::{Adaptive, Method, Step};
 use crate::number::{Real, Scalar};
-use crate::solution::flow::Flow;
+use crate::solution::vector_field::VectorField;
 use crate::statistics::Statistics;
 use crate::system::Lagrangian;
 
@@ -26,7 +26,7 @@ impl<P: Pair> Adaptive<P> {
     ) -> Option<f64>
     where
         L: Lagrangian<N, M, Scalar: Real>,
-        F: Flow<L, N, M>,
+        F: VectorField<L, N, M>,
     {
         let limit = L::Scalar::constant(0.9 * stability_limit::<P>());
         let (mut memory, mut statistics) = (memory.clone(), Statistics::default());
@@ -79,7 +79,7 @@ fn squared_distance<T: Real, const N: usize>(a: &[T; N], b: &[T; N]) -> T {
 fn stability_limit<P: Pair>() -> f64 {
     let grows = |x: f64| {
         let mut slopes = [1.0; SLOPES];
-        let advanced = |slopes: &[f64; SLOPES], row: Combination| {
+        let advanced = |slopes: &[f64; SLOPES], row: TableauRow| {
             row.iter().fold(1.0, |sum, (i, coefficient)| sum - x * coefficient * slopes[*i])
         };
         for (number, row) in (1..).zip(P::STAGES) {

@@ -6,7 +6,7 @@ use super::Taylor;
 use super::expansion::{Expansion, SolvedState};
 use crate::motion::method::clock::Clock;
 use crate::motion::method::control::{FIRST, Tolerance};
-use crate::number::{Filled, ROOM, Real, Scalar, larger, smaller};
+use crate::number::{FixedArray, ROOM, Real, Scalar, larger, smaller};
 use crate::system::State;
 
 /// A step is so long: e to minus this, as a part of the radius of convergence.
@@ -93,7 +93,7 @@ impl<T: Real> Last<T> {
 }
 
 impl<T: Scalar> Last<T> {
-    pub(super) fn of<S: Filled<T>, const N: usize>(series: &Expansion<S, T, N>, slack: T) -> Self {
+    pub(super) fn of<S: FixedArray<T>, const N: usize>(series: &Expansion<S, T, N>, slack: T) -> Self {
         let order = series.order();
         let scales = series.scales(slack);
         let sizes = from_fn(|i| series.size(order + 1 - LAST + i, &scales));

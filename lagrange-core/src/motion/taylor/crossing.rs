@@ -7,7 +7,7 @@
 use super::Taylor;
 use super::control::log2_roughly;
 use super::expansion::{Expansion, SolvedState};
-use crate::number::{Filled, Real, Scalar, larger};
+use crate::number::{FixedArray, Real, Scalar, larger};
 use crate::solution::solve::is_trustworthy;
 
 /// How independent constraints are, from 0 to 1, where a pose may be near, or steps may have become so much shorter.
@@ -61,7 +61,7 @@ impl<T: Real, const N: usize, const M: usize> SolvedState<T, N, M> {
 impl Taylor {
     /// Sums fewer orders, if that leads much farther than this step.
     #[cold]
-    pub(super) fn cross<S: Filled<T>, T: Real, const N: usize>(
+    pub(super) fn cross<S: FixedArray<T>, T: Real, const N: usize>(
         &self,
         series: &mut Expansion<S, T, N>,
         planned: T,

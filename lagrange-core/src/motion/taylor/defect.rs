@@ -6,7 +6,7 @@ use super::Taylor;
 use super::expansion::{Expansion, SolvedState};
 use super::sampling::parts;
 use crate::error::Error;
-use crate::number::{Filled, Real, Scalar, exceeds, larger, vector};
+use crate::number::{FixedArray, Real, Scalar, exceeds, larger, vector};
 use crate::statistics::Statistics;
 use crate::system::{State, TaylorSeries};
 
@@ -39,7 +39,7 @@ pub(super) struct CandidateStep<'a, S, T, const N: usize, const M: usize> {
     pub(super) is_near_dependence: bool,
 }
 
-impl<S: Filled<T>, T: Real, const N: usize, const M: usize> CandidateStep<'_, S, T, N, M> {
+impl<S: FixedArray<T>, T: Real, const N: usize, const M: usize> CandidateStep<'_, S, T, N, M> {
     /// The velocity that is off the most, where one is by too much.
     pub(super) fn inaccurate<L>(
         &self,

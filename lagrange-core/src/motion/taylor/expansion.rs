@@ -9,7 +9,7 @@ use super::sampling::is_linear;
 use super::sums::{Ends, SeriesFactors};
 use crate::error::Error;
 use crate::linearized::Direction;
-use crate::number::{Filled, PowerSeries, Real, Scalar, larger, vector};
+use crate::number::{FixedArray, PowerSeries, Real, Scalar, larger, vector};
 use crate::solution::kkt::{self, KktSystem, Rank};
 use crate::solution::solve::{fault, is_trustworthy, not_finite, solve_near};
 use crate::system::{Lagrangian, RightHandSides, Solution, State, TaylorSeries};
@@ -69,7 +69,7 @@ pub(super) struct Expansion<S, T, const N: usize> {
     arguments: Vec<PowerSeries<T>>,
 }
 
-impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
+impl<S: FixedArray<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
     /// Room for a series of this order.
     pub(super) fn new<L, const M: usize>(order: usize) -> Self
     where
@@ -184,7 +184,7 @@ impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
     }
 }
 
-impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
+impl<S: FixedArray<T>, T: Real, const N: usize> Expansion<S, T, N> {
     /// Expands the motion about a state, by the solution of the equations there, and gives what the last coefficients say.
     pub(super) fn about<L, const M: usize>(
         &mut self,

@@ -13,11 +13,11 @@ use super::step::compensated;
 use super::{Taylor, TaylorMemory, TaylorPolynomial};
 use crate::error::Error;
 use crate::motion::Interpolant;
-use crate::motion::lanes::{Fate, LaneMethod, Seats, Trust, unpacked};
-use crate::number::{Filled, Lanes, Scalar, vector};
+use crate::motion::lanes::{LaneMethod, LaneMotions, LaneOutcome, LaneReliability, unpacked};
+use crate::number::{FixedArray, Lanes, Scalar, vector};
 use crate::solution::consistent::BOTH;
-use crate::solution::flow::Phase;
 use crate::solution::near::{self, Corrections};
+use crate::solution::vector_field::PhaseVector;
 use crate::statistics::Statistics;
 use crate::system::{Pack, Packed, RightHandSides, Solution, State, TaylorSeries};
 
@@ -35,7 +35,7 @@ pub struct TaylorLanes<S, U, const N: usize, const M: usize> {
 /// Where motions are, with what rounding has left of that, and what the equations give there.
 #[derive(Clone, Copy, Debug)]
 struct LaneState<const N: usize, const M: usize> {
-    y: Phase<Lanes, N>,
+    y: PhaseVector<Lanes, N>,
     rest: [[Lanes; N]; 2],
     solution: Solution<Lanes, N, M>,
 }
@@ -68,7 +68,7 @@ where
         Ok(())
     }
 
-    fn abreast(&self, system: &L, memory: &Self::Memory) -> Self::LaneMemory {
+    fn lane_memory(&self, system: &L, memory: &Self::Memory) -> Self::LaneMemory {
         let zero = [[Lanes::constant(0.0); N]; 2];
         let solution = Solution {
             accelerations: Packed::splat(&memory.solved.solution.accelerations),
@@ -82,8 +82,8 @@ where
         TaylorLanes { system: system.pack(), here, series, next: here }
     }
 
-    fn place(abreast: &mut Self::LaneMemory, lane: usize, system: &L) -> bool {
-        system.place(&mut abreast.system, lane)
+    fn place(lane_memory: &mut Self::LaneMemory, lane: usize, system: &L) -> bool {
+        system.place(&mut lane_memory.system, lane)
     }
 
     fn load(TaylorLanes { here, .. }: &mut Self::LaneMemory, lane: usize, memory: &Self::Memory) {
@@ -105,40 +105,42 @@ where
         solution.pivot = here.solution.pivot.to_array()[lane];
     }
 
-    fn phase(abreast: &Self::LaneMemory, lane: usize) -> Phase<f64, N> {
-        unpacked(&abreast.here.y, lane)
+    fn phase(lane_memory: &Self::LaneMemory, lane: usize) -> PhaseVector<f64, N> {
+        unpacked(&lane_memory.here.y, lane)
     }
 
-    fn reached(abreast: &Self::LaneMemory, lane: usize) -> Phase<f64, N> {
-        unpacked(&abreast.next.y, lane)
+    fn reached(lane_memory: &Self::LaneMemory, lane: usize) -> PhaseVector<f64, N> {
+        unpacked(&lane_memory.next.y, lane)
     }
 
     #[inline(always)]
-    fn attempt<const IS_WATCHED: bool>(
+    fn attempt<const HAS_DENSE_OUTPUT: bool>(
         &self,
-        abreast: &mut Self::LaneMemory,
-        seats: &mut Seats<'_, L, Self, N, M>,
-    ) -> [Option<Fate>; Lanes::COUNT] {
-        let mut trust = Trust::new();
+        lane_memory: &mut Self::LaneMemory,
+        motions: &mut LaneMotions<'_, L, Self, N, M>,
+    ) -> [Option<LaneOutcome>; Lanes::COUNT] {
+        let mut reliability = LaneReliability::new();
         let time = |TaylorMemory { clock, planned, .. }: &Self::Memory| (clock.now, clock.directed(*planned));
-        let times = seats.each_ref().map(|seat| seat.as_ref().map_or((0.0, 1.0), |seat| time(&seat.memory)));
-        abreast.expand(times, &mut trust);
-        let last = Last::of(&abreast.series, Lanes::constant(self.slack::<f64>()));
+        let times = motions
+            .each_ref()
+            .map(|motion| motion.as_ref().map_or((0.0, 1.0), |motion| time(&motion.memory)));
+        lane_memory.expand(times, &mut reliability);
+        let last = Last::of(&lane_memory.series, Lanes::constant(self.slack::<f64>()));
         let mut allowed = [0.0; Lanes::COUNT];
         for (lane, allowed) in allowed.iter_mut().enumerate() {
             *allowed = last.lane(lane).allowed();
         }
         // In a free lane time stands still.
         let plan = from_fn(|lane| {
-            seats[lane]
+            motions[lane]
                 .as_ref()
-                .map_or(LaneStep::default(), |seat| self.plan::<L, N, M>(allowed[lane], &seat.memory))
+                .map_or(LaneStep::default(), |motion| self.plan::<L, N, M>(allowed[lane], &motion.memory))
         });
-        let keeps = abreast.advance(self, &plan, self.defect_allowed::<L, N, M>(), &mut trust);
-        let trusted = trust.lanes();
+        let keeps = lane_memory.advance(self, &plan, self.defect_allowed::<L, N, M>(), &mut reliability);
+        let trusted = reliability.lanes();
         from_fn(|lane| {
-            let seat = seats[lane].as_mut()?;
-            let TaylorMemory { clock, solved, is_expanded, planned, sampling, .. } = &mut seat.memory;
+            let motion = motions[lane].as_mut()?;
+            let TaylorMemory { clock, solved, is_expanded, planned, sampling, .. } = &mut motion.memory;
             let (length, few) = (plan[lane].h.abs(), few::<L, N, M>());
             // Where the last coefficients are zero, or a step is much longer than the one before, it takes a closer look.
             let can_go = !*is_expanded
@@ -150,13 +152,13 @@ where
             }
             (*planned, clock.now) = (plan[lane].planned, plan[lane].end);
             *sampling = Sampling::after(length, few);
-            seat.statistics.evaluations += last.order + 1 + few;
-            seat.statistics.accepted += 1;
-            Some(Fate::Accepted)
+            motion.statistics.evaluations += last.order + 1 + few;
+            motion.statistics.accepted += 1;
+            Some(LaneOutcome::Accepted)
         })
     }
 
-    fn settle(TaylorLanes { here, next, .. }: &mut Self::LaneMemory, chosen: Lanes) {
+    fn commit(TaylorLanes { here, next, .. }: &mut Self::LaneMemory, chosen: Lanes) {
         *here = next.select(chosen, here);
     }
 
@@ -194,10 +196,10 @@ impl Taylor {
 impl<S, U, const N: usize, const M: usize> TaylorLanes<S, U, N, M>
 where
     S: TaylorSeries<N, M, Scalar = Lanes, Sums = U>,
-    U: Filled<Lanes>,
+    U: FixedArray<Lanes>,
 {
     /// Expands the motions at these times in these units of time.
-    fn expand(&mut self, times: [(f64, f64); Lanes::COUNT], trust: &mut Trust) {
+    fn expand(&mut self, times: [(f64, f64); Lanes::COUNT], reliability: &mut LaneReliability) {
         let Self { system, here: LaneState { y, solution, .. }, series, .. } = self;
         let (t, unit) = (times.map(|(t, _)| t).into(), times.map(|(_, unit)| unit).into());
         let state = State { t, q: vector(y[0]), v: vector(y[1]) };
@@ -205,8 +207,8 @@ where
         let solve =
             |(forcing, bias): &RightHandSides<Lanes, N, M>| Ok(system.solve_with(&factor, forcing, bias));
         let Ok::<(), Infallible>(()) = series.orders(system, &state, solution, unit, solve);
-        trust.solution(solution);
-        series.last().into_iter().for_each(|last| trust.numbers(last));
+        reliability.solution(solution);
+        series.last().into_iter().for_each(|last| reliability.numbers(last));
     }
 
     /// Goes along the series, onto the constraints; which lanes are then where the equations lead.
@@ -215,7 +217,7 @@ where
         method: &Taylor,
         plan: &[LaneStep; Lanes::COUNT],
         defect_allowed: f64,
-        trust: &mut Trust,
+        reliability: &mut LaneReliability,
     ) -> [bool; Lanes::COUNT] {
         let (h, t) = (plan.map(|plan| plan.h).into(), plan.map(|plan| plan.end).into());
         let LaneState { y, rest, .. } = &self.here;
@@ -230,8 +232,8 @@ where
                 near::project::<_, f64, N, M>(&self.system, &BOTH, corrections, state, &mut rest);
         }
         let solution = self.system.accelerations_unchecked(&state);
-        trust.solution(&solution);
-        [&q, &v, &accelerations].into_iter().for_each(|numbers| trust.numbers(numbers));
+        reliability.solution(&solution);
+        [&q, &v, &accelerations].into_iter().for_each(|numbers| reliability.numbers(numbers));
         let slack = Lanes::constant(method.slack::<f64>());
         let off = |accelerations: &[Lanes; N], solution: &Solution<Lanes, N, M>| {
             let off = |i: usize| (accelerations[i] - solution.accelerations[i]).abs();
@@ -240,8 +242,8 @@ where
         };
         let mut worst = off(&accelerations, &solution);
         for (accelerations, solution) in self.samples(h) {
-            trust.numbers(&accelerations);
-            trust.solution(&solution);
+            reliability.numbers(&accelerations);
+            reliability.solution(&solution);
             worst = worst.max(off(&accelerations, &solution));
         }
         let [doubt, worst] = [doubt, worst].map(Lanes::to_array);

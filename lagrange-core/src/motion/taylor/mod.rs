@@ -110,12 +110,12 @@ impl Taylor {
     }
 
     /// The error allowed as a fraction of each entry. Below the round-off unit of the scalar it counts as that.
-    pub fn relative(self, tolerance: f64) -> Self {
+    pub fn relative_tolerance(self, tolerance: f64) -> Self {
         Self { relative: tolerance, ..self }
     }
 
     /// The error allowed in the unit of each entry, which matters where the entry is about zero.
-    pub fn absolute(self, tolerance: f64) -> Self {
+    pub fn absolute_tolerance(self, tolerance: f64) -> Self {
         Self { absolute: tolerance, ..self }
     }
 
@@ -284,7 +284,7 @@ where
         Ok(())
     }
 
-    fn take_back(&self, memory: &mut Self::Memory) -> bool {
+    fn undo(&self, memory: &mut Self::Memory) -> bool {
         let Some(Before { solved, rest, sampling }) = memory.before.take() else { return false };
         let (start, h) = (memory.series.start, memory.clock.now - memory.series.start);
         memory.clock.now = start;

@@ -2,7 +2,7 @@
 
 use crate::motion::method::Interpolant;
 use crate::number::{ROOM, Real, vector};
-use crate::solution::flow::PhasePoint;
+use crate::solution::vector_field::StagePoint;
 
 /// The Taylor series of the coordinates about the start of a step; the velocities are its derivative.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +34,7 @@ impl<T: Real, const N: usize> TaylorPolynomial<T, N> {
 }
 
 impl<T: Real, const N: usize> Interpolant<T, N> for TaylorPolynomial<T, N> {
-    fn at(&self, t: T) -> PhasePoint<T, N> {
+    fn at(&self, t: T) -> StagePoint<T, N> {
         let theta = (t - self.start) / self.unit;
         let zero = T::constant(0.0);
         let (mut q, mut slope) = ([zero; N], [zero; N]);
@@ -45,6 +45,6 @@ impl<T: Real, const N: usize> Interpolant<T, N> for TaylorPolynomial<T, N> {
             }
         }
         let v = vector(slope.map(|x| x / self.unit)).into();
-        PhasePoint { t, y: [q, v], velocity: v }
+        StagePoint { t, y: [q, v], velocity: v }
     }
 }

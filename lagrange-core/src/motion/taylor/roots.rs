@@ -1,7 +1,7 @@
 //! Where the series of a root is not the root: √x² goes on as x where x changes its sign.
 
 use super::expansion::Expansion;
-use crate::number::{Filled, Real, Scalar, exceeds};
+use crate::number::{FixedArray, Real, Scalar, exceeds};
 use crate::system::TaylorSeries;
 
 /// In so many parts is a step looked at, and so many times is the least value closed in on, by a third each.
@@ -61,7 +61,7 @@ impl<T: Real, I: Iterator<Item = T> + Clone> WatchedSeries<I, T> {
     }
 }
 
-impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
+impl<S: FixedArray<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
     /// The roots, in powers of the unit of time.
     pub(super) fn series_of_roots<L, const M: usize>(
         &self,
@@ -78,7 +78,7 @@ impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
     }
 }
 
-impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
+impl<S: FixedArray<T>, T: Real, const N: usize> Expansion<S, T, N> {
     /// How far into a step of this length some root is below zero by its series, for each such root.
     pub(super) fn roots_below_zero<L, const M: usize>(&self, length: T) -> impl Iterator<Item = T>
     where

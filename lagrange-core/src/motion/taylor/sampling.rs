@@ -7,7 +7,7 @@
 
 use super::expansion::Expansion;
 use super::roots::WatchedSeries;
-use crate::number::{Filled, Real, Scalar, smaller};
+use crate::number::{FixedArray, Real, Scalar, smaller};
 use crate::system::TaylorSeries;
 
 /// Largest number of samples within a step. Each costs an evaluation of the equations, a thirtieth of a step or so.
@@ -74,7 +74,7 @@ impl<T: Real> Sampling<T> {
     }
 }
 
-impl<S: Filled<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
+impl<S: FixedArray<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
     /// Values of the arguments of steep functions, by how much they change at most in a step of this length, and their exponents.
     pub(super) fn steep<L, const M: usize>(&self, length: T) -> impl Iterator<Item = ([T; 2], usize)>
     where
@@ -102,7 +102,7 @@ pub(super) fn samples_of_steep([value, change]: [f64; 2], exponent: usize) -> us
     }
 }
 
-impl<S: Filled<T>, T: Real, const N: usize> Expansion<S, T, N> {
+impl<S: FixedArray<T>, T: Real, const N: usize> Expansion<S, T, N> {
     /// Whether terms of middle orders matter in a step of this length, as they do in one that the last terms limit.
     #[cold]
     pub(super) fn knows_surroundings(&self, length: T, [tolerance, slack]: [f64; 2]) -> bool {

@@ -10,14 +10,14 @@ use super::expansion::SolvedState;
 use super::sampling::{Sampling, few, samples_of_steep};
 use super::{Before, Taylor, TaylorMemory};
 use crate::error::Error;
-use crate::number::{Filled, Real, Scalar, vector};
+use crate::number::{FixedArray, Real, Scalar, vector};
 use crate::solution::consistent::{BOTH, project_by};
 use crate::solution::near::{Corrections, exact_sum};
 use crate::solution::solve::first_row;
 use crate::statistics::Statistics;
 use crate::system::{State, TaylorSeries};
 
-impl<S: Filled<T>, T: Real, const N: usize, const M: usize> TaylorMemory<S, T, N, M> {
+impl<S: FixedArray<T>, T: Real, const N: usize, const M: usize> TaylorMemory<S, T, N, M> {
     /// Where a step of this length leads.
     #[inline]
     fn sum(&self, h: T) -> Sum<T, N> {
@@ -54,7 +54,7 @@ pub(super) enum Attempt<T, const N: usize> {
 
 impl Taylor {
     /// Plans another step after one of this length was refused, if a time is that near.
-    pub(super) fn can_be_shorter<S: Filled<T>, T: Real, const N: usize, const M: usize>(
+    pub(super) fn can_be_shorter<S: FixedArray<T>, T: Real, const N: usize, const M: usize>(
         &self,
         memory: &mut TaylorMemory<S, T, N, M>,
         h: T,

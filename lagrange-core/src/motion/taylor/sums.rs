@@ -9,7 +9,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::array::from_fn;
 
-use crate::number::{Filled, Scalar};
+use crate::number::{FixedArray, Scalar};
 pub(super) use few::Ends;
 use few::Few;
 
@@ -35,11 +35,12 @@ pub(super) struct SeriesFactors<T, S> {
     ahead: Vec<Group<T>>,
 }
 
-impl<T: Scalar, S: Filled<T>> SeriesFactors<T, S> {
+impl<T: Scalar, S: FixedArray<T>> SeriesFactors<T, S> {
     /// Room for so many orders.
     pub(super) fn new(orders: usize) -> Self {
         let sums = S::filled(T::constant(0.0)).as_ref().len();
-        let [rows, groups] = if few::are::<T, S>() { [orders, 0] } else { [0, sums / WIDTH * orders] };
+        let [rows, groups] =
+            if few::are::<T, S>() { [orders, 0] } else { [0, sums / WIDTH * orders] };
         let room = |groups| vec![Group([T::constant(0.0); WIDTH]); groups];
         let (left, right, ahead) = (room(groups), room(groups), room(groups / orders));
         Self { orders, few: Few::new::<T>(rows), left, right, ahead }

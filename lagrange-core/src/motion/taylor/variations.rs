@@ -20,9 +20,9 @@ use crate::linearized::{Block, DifferentiableMethod, Linearized, Tangent, Variat
 use crate::motion::method::control::SLACK;
 use crate::motion::run::Run;
 use crate::names::Entry;
-use crate::number::{Dual, Filled, Over, Real, Scalar, Wide, entries, exceeds, smaller, vector};
-use crate::solution::flow::{LagrangianFlow, Phase};
+use crate::number::{Broadcast, Dual, FixedArray, Real, Scalar, Wide, entries, exceeds, smaller, vector};
 use crate::solution::solve::{first_row, least_pivot};
+use crate::solution::vector_field::{LagrangianVectorField, PhaseVector};
 use crate::system::{Lagrangian, Pack, RightHandSides, Solution, State, TaylorSeries};
 use general::DualGeneral;
 
@@ -43,7 +43,7 @@ pub struct Varied<S, U, W, const N: usize> {
 /// A step of a block of variations.
 struct BlockStep<W, const N: usize> {
     /// Where it starts.
-    before: Phase<W, N>,
+    before: PhaseVector<W, N>,
     /// How the velocities change at the end of the series.
     rates: [W; N],
 }
@@ -53,14 +53,14 @@ where
     L: Linearized<N, M, P, Scalar: Real> + TaylorSeries<N, M> + Pack<Duals<L, N, M>>,
     PackedDuals<L, N, M>: TaylorSeries<N, M, Scalar = Duals<L, N, M>> + Linearized<N, M, P>,
 {
-    type Companion = Vec<Varied<PackedDuals<L, N, M>, Sums<L, N, M>, WideOf<L, N, M>, N>>;
+    type VariationMemory = Vec<Varied<PackedDuals<L, N, M>, Sums<L, N, M>, WideOf<L, N, M>, N>>;
 
     fn companion(
         &self,
         system: &L,
         _: &State<L::Scalar, N>,
         variations: &Variations<L, N, M, P>,
-    ) -> Result<Self::Companion, Error> {
+    ) -> Result<Self::VariationMemory, Error> {
         let order = self.order::<L::Scalar>();
         let varied = |block: &Block<_, N, P>| {
             let system = with_rates::<L, N, M, P>(system, block.rates.as_ref())?;
@@ -75,7 +75,7 @@ where
         run: &mut Run<Self::Memory, L::Scalar, N>,
         end: L::Scalar,
         variations: &Variations<L, N, M, P>,
-        companion: &mut Self::Companion,
+        companion: &mut Self::VariationMemory,
     ) -> Result<(), Ending> {
         let (memory, time) = (&mut run.memory, run.state.t.to_f64());
         self.aim(memory, end);
@@ -101,7 +101,7 @@ where
         system: &L,
         run: &mut Run<Self::Memory, L::Scalar, N>,
         variations: &mut Variations<L, N, M, P>,
-        companion: &mut Self::Companion,
+        companion: &mut Self::VariationMemory,
     ) -> Result<(), Ending> {
         let (memory, time) = (&run.memory, run.before.t.to_f64());
         let steps: Vec<_> = variations
@@ -124,11 +124,11 @@ where
         system: &L,
         run: &mut Run<Self::Memory, L::Scalar, N>,
         _: &mut Variations<L, N, M, P>,
-        companion: &mut Self::Companion,
+        companion: &mut Self::VariationMemory,
         within: &mut Vec<Self::Interpolant>,
-        coefficients: &mut Vec<Phase<WideOf<L, N, M>, N>>,
+        coefficients: &mut Vec<PhaseVector<WideOf<L, N, M>, N>>,
     ) -> Result<(), Ending> {
-        run.look_within::<L, LagrangianFlow, Self, M>(system, self, within)?;
+        run.look_within::<L, LagrangianVectorField, Self, M>(system, self, within)?;
         let memory = &run.memory;
         let theta = (memory.clock.now - memory.series.start) / memory.series.unit;
         companion.iter().for_each(|varied| varied.push_coefficients(theta, coefficients));
@@ -136,9 +136,9 @@ where
     }
 
     fn between(
-        coefficients: &[Phase<WideOf<L, N, M>, N>],
+        coefficients: &[PhaseVector<WideOf<L, N, M>, N>],
         part: WideOf<L, N, M>,
-    ) -> Phase<WideOf<L, N, M>, N> {
+    ) -> PhaseVector<WideOf<L, N, M>, N> {
         let zero = [[WideOf::<L, N, M>::constant(0.0); N]; 2];
         coefficients.iter().rev().fold(zero, |sum, coefficient| {
             from_fn(|half| entries(|i| sum[half][i].multiply_add(part, coefficient[half][i])))
@@ -151,10 +151,10 @@ impl Taylor {
     /// their velocities, and what the motion itself is measured by, in units of the variations.
     fn scales<S, T: Real, W: Wide<T>, const N: usize>(
         &self,
-        ends: [&Phase<W, N>; 2],
+        ends: [&PhaseVector<W, N>; 2],
         unit: W,
         series: &Expansion<S, T, N>,
-    ) -> Phase<W, N> {
+    ) -> PhaseVector<W, N> {
         let slack = T::constant(self.slack::<T>());
         let (own, one, times) = ([&series.q[0], &series.v[0]], W::constant(1.0), W::constant(SLACK));
         from_fn(|half| {
@@ -181,7 +181,7 @@ impl Taylor {
         let length = WideOf::<L, N, M>::of(Scalar::abs(memory.clock.now - memory.series.start));
         let bound = L::Scalar::constant(self.jump_allowed::<L::Scalar>());
         let mut worst = None;
-        let look = |k: usize, [_, slope]: Phase<WideOf<L, N, M>, N>| {
+        let look = |k: usize, [_, slope]: PhaseVector<WideOf<L, N, M>, N>| {
             let block = &variations.blocks[k];
             let BlockStep { before, rates } = &steps[k];
             let [_, scales] = self.scales([before, &block.y], block.unit, &memory.series);
@@ -219,7 +219,7 @@ where
 
 impl<S, U, W: Scalar, const N: usize> Varied<S, U, W, N>
 where
-    U: Filled<Dual<W>>,
+    U: FixedArray<Dual<W>>,
 {
     /// Expands motion and variations about where the motion is.
     fn expand<L, V, const M: usize, const P: usize>(
@@ -233,7 +233,7 @@ where
         L: Lagrangian<N, M, Scalar: Real<Wide = W>>,
         S: TaylorSeries<N, M, Scalar = Dual<W>, Sums = U>,
         W: Wide<L::Scalar>,
-        V: Filled<L::Scalar>,
+        V: FixedArray<L::Scalar>,
     {
         let dual = |value: L::Scalar, slope| Dual { value: W::of(value), slope };
         let (at, none, [q, v]) = (&memory.state, W::constant(0.0), &block.y);
@@ -249,7 +249,8 @@ where
             let solve = |(forcing, bias): &RightHandSides<_, N, M>| {
                 Ok(self.system.solve_with(&factor, forcing, bias))
             };
-            let Ok::<(), Infallible>(()) = self.series.orders(&self.system, &state, &solution, unit, solve);
+            let Ok::<(), Infallible>(()) =
+                self.series.orders(&self.system, &state, &solution, unit, solve);
         } else {
             self.expand_in_general(system, (at, &state), unit, memory.solved.active)?;
         }
@@ -299,7 +300,7 @@ where
     }
 
     /// The largest change of a coefficient of an order, on these scales.
-    fn size(&self, order: usize, scales: &Phase<W, N>) -> W {
+    fn size(&self, order: usize, scales: &PhaseVector<W, N>) -> W {
         let coefficients = [&self.series.q[order], &self.series.v[order]];
         let sizes = coefficients.iter().zip(scales);
         let sizes = sizes.flat_map(|(x, scales)| (0..N).map(move |i| x[i].slope.abs() * scales[i]));
@@ -325,7 +326,7 @@ where
     }
 
     /// Adds the coefficients of powers of the part of a step that has passed, which is this multiple of the unit.
-    fn push_coefficients<T: Real>(&self, theta: T, coefficients: &mut Vec<Phase<W, N>>)
+    fn push_coefficients<T: Real>(&self, theta: T, coefficients: &mut Vec<PhaseVector<W, N>>)
     where
         W: Wide<T>,
     {

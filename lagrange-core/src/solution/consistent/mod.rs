@@ -75,7 +75,7 @@ pub(crate) fn make_consistent<L: Lagrangian<N, M, Scalar: Real>, const N: usize,
 }
 
 /// A state that satisfies the constraints to √ε, moved onto them to round-off.
-pub(crate) fn settle<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+pub(crate) fn project_to_round_off<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
 ) -> Result<Consistent<L::Scalar, N>, Error> {

@@ -53,14 +53,14 @@ fn cuts(order: &Order, range: Range<usize>) -> Vec<Range<usize>> {
 
 /// The places of an array in which results wait between parts.
 #[derive(Default)]
-pub(super) struct Waiting {
+pub(super) struct SpillSlots {
     places: FxHashMap<Register, usize>,
     free: BTreeSet<usize>,
     /// The length of the array.
     pub(super) length: usize,
 }
 
-impl Waiting {
+impl SpillSlots {
     pub(super) fn place(&self, register: Register) -> Option<usize> {
         self.places.get(&register).copied()
     }
@@ -133,7 +133,7 @@ mod tests {
 
     #[test]
     fn a_place_that_is_left_is_taken_again() {
-        let mut waiting = Waiting::default();
+        let mut waiting = SpillSlots::default();
         let [first, second, third] = [0, 1, 2].map(Register::at);
         assert_eq!([waiting.add(first), waiting.add(second)], [0, 1]);
         waiting.keep(|register| register != first);

@@ -40,7 +40,7 @@ impl Chunk {
     pub(super) fn reads(&self) -> impl Iterator<Item = Symbol> {
         let given = self.rounds.iter().flat_map(|rounds| &rounds.given).filter_map(|given| match given {
             Given::Inputs(symbols) => Some(symbols),
-            Given::Waiting(_) => None,
+            Given::SpillSlots(_) => None,
         });
         self.inputs.iter().chain(given.flatten()).copied()
     }
@@ -58,7 +58,7 @@ pub(super) struct Rounds {
 pub(super) enum Given {
     /// One after the other, round by round.
     Inputs(Vec<Symbol>),
-    Waiting(SlotSequence),
+    SpillSlots(SlotSequence),
 }
 
 /// Places in an array, round by round: in all the same one, or others as far apart.
@@ -110,7 +110,7 @@ pub(super) struct SineAndCosine {
 pub(super) enum Operand {
     Local(Local),
     /// What an earlier part has stored.
-    Waiting(usize),
+    SpillSlots(usize),
     /// A constant, an input, or an operation on what is nested in it.
     Of(Box<Operation<Self>>),
 }
@@ -134,5 +134,5 @@ pub(super) enum Local {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Slot {
     Result(usize),
-    Waiting(SlotSequence),
+    SpillSlots(SlotSequence),
 }

@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use rustc_hash::FxHashMap;
 
-use super::chunks::{self, OperationRange, Waiting};
+use super::chunks::{self, OperationRange, SpillSlots};
 use super::order_of_evaluation::Order;
 use super::repeats::{Repeat, repeats};
 use super::{Chunk, FunctionBody, Local, Operand, Slot, SlotSequence, Statement};
@@ -86,7 +86,7 @@ struct Planner<'p> {
     outputs: FxHashMap<u32, Vec<u32>>,
     /// For each register where it is stored as soon as it is computed.
     places: FxHashMap<Register, Vec<Slot>>,
-    waiting: Waiting,
+    waiting: SpillSlots,
     index: usize,
     part: Chunk,
     /// What earlier parts computed and this one has in a local.
@@ -184,7 +184,7 @@ impl<'p> Planner<'p> {
         if let Some(place) = self.waiting.place(register)
             && self.fetched.insert(register)
         {
-            self.assign(self.local(register), Operand::Waiting(place));
+            self.assign(self.local(register), Operand::SpillSlots(place));
         }
     }
 
@@ -294,7 +294,7 @@ impl<'p> Planner<'p> {
         self.release_places();
         for register in std::mem::take(&mut self.kept) {
             let value = self.value(register);
-            let place = Slot::Waiting(SlotSequence::constant(self.waiting.add(register)));
+            let place = Slot::SpillSlots(SlotSequence::constant(self.waiting.add(register)));
             self.part.statements.push(Statement::Store(place, value));
             // It is at hand.
             self.fetched.insert(register);

@@ -250,7 +250,7 @@ fn parts_see_what_waits_for_them_and_places_are_taken_again() {
         assert!(body.parts.len() > 2 && body.results.is_none());
         let stored =
             body.parts.iter().flat_map(|part| &part.statements).filter_map(|statement| match statement {
-                Statement::Store(Slot::Waiting(series), _) => Some(series.first),
+                Statement::Store(Slot::SpillSlots(series), _) => Some(series.first),
                 _ => None,
             });
         let stored: Vec<usize> = stored.collect();

@@ -1,7 +1,7 @@
 //! What tells at run time whether the elimination can be trusted.
 
 use super::arithmetic::{Solver, SparseEntry};
-use super::{Found, Solved, Trust};
+use super::{Found, PivotCheck, Solved};
 use crate::codegen::operation::{Operation, Register};
 use crate::codegen::schedule::Schedule;
 
@@ -25,7 +25,7 @@ impl Solver<'_> {
     }
 
     /// How far the factorization can be trusted.
-    pub(super) fn trust(&mut self, is_constrained: bool) -> Trust {
+    pub(super) fn pivot_check(&mut self, is_constrained: bool) -> PivotCheck {
         let mut doubts = Vec::new();
         // One that is infinite leaves finite results, and one that is zero may cancel out of them.
         for [pivot, reciprocal] in self.plain.clone() {
@@ -38,9 +38,10 @@ impl Solver<'_> {
         let zero = self.schedule.constant(0.0);
         let poison = self.sum(doubts).map(|sum| self.schedule.push(Operation::Multiply(zero, sum)));
         let range = self.range();
-        let doubt = range.map(|[least, most]| self.schedule.push(Operation::Doubt(least, most)));
+        let doubt =
+            range.map(|[least, most]| self.schedule.push(Operation::NanIfIllConditioned(least, most)));
         let pivot = self.smallest_pivot(range);
-        Trust {
+        PivotCheck {
             pivot: self.schedule.push(Operation::Add(pivot, poison.unwrap_or(zero))),
             doubt: if is_constrained { self.add(doubt, poison) } else { doubt },
         }

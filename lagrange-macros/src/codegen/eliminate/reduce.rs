@@ -19,7 +19,7 @@ enum StepKind {
     /// A free variable, with its column of L below the diagonal.
     Eliminated(Sparse),
     /// A defined variable, with its definition.
-    PutIn(Sparse),
+    Substituted(Sparse),
 }
 
 impl FormFactors {
@@ -35,7 +35,7 @@ impl FormFactors {
             let entries = kind.entries().iter().map(|&(i, entry)| (i, new(entry))).collect();
             let kind = match kind {
                 StepKind::Eliminated(_) => StepKind::Eliminated(entries),
-                StepKind::PutIn(_) => StepKind::PutIn(entries),
+                StepKind::Substituted(_) => StepKind::Substituted(entries),
             };
             ReductionStep { variable, kind }
         });
@@ -46,7 +46,7 @@ impl FormFactors {
 impl StepKind {
     fn entries(&self) -> &Sparse {
         match self {
-            Self::Eliminated(entries) | Self::PutIn(entries) => entries,
+            Self::Eliminated(entries) | Self::Substituted(entries) => entries,
         }
     }
 }
@@ -130,7 +130,9 @@ impl Solver<'_> {
                 let together = rest[..taken].iter().map(|&k| (k, &definitions[k - free])).collect::<Vec<_>>();
                 self.put_in(&mut form, &together);
                 for (variable, definition) in together {
-                    factors.steps.push(ReductionStep { variable, kind: StepKind::PutIn(definition.clone()) });
+                    factors
+                        .steps
+                        .push(ReductionStep { variable, kind: StepKind::Substituted(definition.clone()) });
                 }
             }
             rest[..taken].iter().for_each(|&variable| form.remove(variable));
@@ -253,7 +255,7 @@ impl Solver<'_> {
                         x[i] = self.subtract(x[i], part);
                     }
                 }
-                StepKind::PutIn(definition) => {
+                StepKind::Substituted(definition) => {
                     let value = x[*variable].take();
                     for &(i, g) in definition {
                         let part = self.multiply(Some(g), value);
@@ -285,7 +287,7 @@ impl Solver<'_> {
                         self.subtract(rest, part)
                     })
                 }
-                StepKind::PutIn(definition) => self.dot(definition, &x),
+                StepKind::Substituted(definition) => self.dot(definition, &x),
             };
         }
         x

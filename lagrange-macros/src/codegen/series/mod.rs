@@ -25,7 +25,7 @@ use supplied::CallOnSeries;
 const WIDTH: usize = 4;
 
 /// The programs of an order.
-pub(super) struct Series {
+pub(super) struct TaylorPrograms {
     /// The numbers of order 0 that the others are made of.
     slopes: Program,
     /// The right-hand sides that the coefficients of accelerations and multipliers are solved for, and what is known by then of
@@ -48,7 +48,7 @@ pub(super) struct Series {
     calls: Vec<CallOnSeries>,
 }
 
-impl Series {
+impl TaylorPrograms {
     /// `None` where something in the equations of motion has no Taylor series, or is too long.
     pub(super) fn new(graph: &Graph, equations: &Equations) -> Option<Self> {
         let mut recurrences = Recurrences::new(equations.balance.len());
@@ -104,10 +104,10 @@ fn places<const K: usize>(name: &str, all: &[[usize; K]]) -> Option<TokenStream>
 
 impl Emitter<'_> {
     /// The implementation of `TaylorSeries`.
-    pub(super) fn taylor_series(&self, series: &Series) -> TokenStream {
+    pub(super) fn taylor_series(&self, series: &TaylorPrograms) -> TokenStream {
         let style = self.style.reading(series.slopes());
         let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
-        let Series { sums, terms, .. } = *series;
+        let TaylorPrograms { sums, terms, .. } = *series;
         let of_order = |method: &Method, program: &Program, shapes: &[usize]| {
             let kernel = style.write(
                 method.name,

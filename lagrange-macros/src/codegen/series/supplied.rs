@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::Series;
+use super::TaylorPrograms;
 use super::recurrences::{Recurrences, STAGES, SeriesQuantity, Stage};
 use super::sums::Sum;
 use crate::codegen::Emitter;
@@ -100,7 +100,7 @@ impl Recurrences {
 
 impl Emitter<'_> {
     /// The method that evaluates the functions on series, where there are any.
-    pub(super) fn series_functions(&self, series: &Series) -> Option<TokenStream> {
+    pub(super) fn series_functions(&self, series: &TaylorPrograms) -> Option<TokenStream> {
         let scalar = self.style.types.scalar;
         let calls = series.calls.iter().map(|call| self.call_on_series(call));
         (!series.calls.is_empty()).then(|| {
@@ -135,7 +135,7 @@ impl Emitter<'_> {
 
     /// What functions must be able to do on series, and one derivative more than the equations need of numbers; asked for only
     /// where somebody uses it.
-    pub(super) fn generics_on_series(&self, series: &Series) -> syn::Generics {
+    pub(super) fn generics_on_series(&self, series: &TaylorPrograms) -> syn::Generics {
         let scalar = self.style.types.scalar;
         let orders = orders_of(self.orders(&[]), series.slopes.schedule.calls.iter());
         let mut generics = self.generics(&orders, series.calls.is_empty());

@@ -30,7 +30,7 @@ impl Operation<f64> {
                     y
                 }
             }
-            Self::Doubt(least, most) => {
+            Self::NanIfIllConditioned(least, most) => {
                 if least > 6e-6 && most < 1.0 / 6e-6 {
                     0.0
                 } else {
@@ -93,7 +93,7 @@ impl Chunk {
     fn given(&self, round: usize, waiting: &[f64], input: impl Fn(Symbol) -> f64) -> Vec<f64> {
         let given = self.rounds.iter().flat_map(|rounds| &rounds.given).map(|given| match given {
             Given::Inputs(symbols) => input(symbols[round]),
-            Given::Waiting(series) => waiting[series.at(round)],
+            Given::SpillSlots(series) => waiting[series.at(round)],
         });
         given.collect()
     }
@@ -133,7 +133,7 @@ impl<I: Fn(Symbol) -> f64> Frame<'_, I> {
                 outputs.iter().for_each(|&(output, local)| self.define(local, function(&call, output)));
             }
             Statement::Store(Slot::Result(index), value) => results[*index] = self.value(value),
-            Statement::Store(Slot::Waiting(series), value) => {
+            Statement::Store(Slot::SpillSlots(series), value) => {
                 self.waiting[series.at(self.round)] = self.value(value);
             }
         }
@@ -149,7 +149,7 @@ impl<I: Fn(Symbol) -> f64> Frame<'_, I> {
             Operand::Local(local) => {
                 *self.locals.get(local).unwrap_or_else(|| panic!("{local:?} has no value"))
             }
-            Operand::Waiting(place) => self.waiting[*place],
+            Operand::SpillSlots(place) => self.waiting[*place],
             Operand::Of(operation) => {
                 operation.as_ref().clone().with_operands(|operand| self.value(&operand)).value(&self.input)
             }

@@ -11,7 +11,7 @@ use crate::symbolic::{ExactPolynomial, Polynomials, Rational, plus, times};
 const FUNCTIONS: usize = 4;
 
 /// Row `index` is Σ coefficient · row over the others, in all columns but the last.
-pub(super) struct Combination {
+pub(super) struct RowCombination {
     pub(super) index: usize,
     /// Those of functions are times something that is nowhere zero; the one of the row itself is zero.
     pub(super) coefficients: Vec<ExactPolynomial>,
@@ -21,7 +21,7 @@ pub(super) struct Combination {
 }
 
 /// A combination that is one of the rows, the last one if there is a choice; `None` where none is found.
-pub(super) fn find(ring: &Polynomials, columns: &[Vec<ExactPolynomial>]) -> Option<Combination> {
+pub(super) fn find(ring: &Polynomials, columns: &[Vec<ExactPolynomial>]) -> Option<RowCombination> {
     let count = columns.first()?.len();
     let one = ExactPolynomial::number(Rational::one());
     // Behind the entries, what they are multiplied by: it has no zero where the rows have values.
@@ -48,7 +48,7 @@ pub(super) fn find(ring: &Polynomials, columns: &[Vec<ExactPolynomial>]) -> Opti
     };
     let is_combination = others.iter().all(|column| is_met(column) == Some(true));
     let is_complete = is_met(last)?;
-    is_combination.then_some(Combination { index, coefficients, numbers, is_complete })
+    is_combination.then_some(RowCombination { index, coefficients, numbers, is_complete })
 }
 
 /// Numbers c with Σ c_k row_k = row `last`, by elimination on the coefficients of every monomial.

@@ -16,7 +16,7 @@ use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
 use crate::symbolic::{ExactPolynomial, Graph, Id, Node, Polynomials, Rational, Sample};
 use crate::variables::{Variable, symbols};
-use certificate::Combination;
+use certificate::RowCombination;
 
 /// Random points that are tried for a value that is not zero.
 const DRAWS: u64 = 8;
@@ -122,7 +122,7 @@ impl<'a> ConstraintRows<'a> {
     }
 
     /// `None` where it has a coordinate in it: then all of the constraints may hold, and another one with them.
-    fn rest(&mut self, combination: &Combination, others: &[usize]) -> Option<Rest> {
+    fn rest(&mut self, combination: &RowCombination, others: &[usize]) -> Option<Rest> {
         let rows = others.iter().chain([&self.circuit[combination.index]]);
         let are_holonomic = rows.into_iter().all(|&row| self.constraints.kinds[row] == Holonomic);
         let Some(numbers) = &combination.numbers else {

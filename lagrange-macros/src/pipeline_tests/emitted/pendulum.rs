@@ -225,7 +225,7 @@ const _: () = {
         ///1 operation (+ − × ÷ √), 0 elementary functions.
         #[inline]
         #[allow(unused_variables)]
-        fn solve_with<__S: __lagrange::Over<f64>>(
+        fn solve_with<__S: __lagrange::Broadcast<f64>>(
             &self,
             factor: &Self::Factor,
             forcing: &__lagrange::nalgebra::SVector<__S, 1usize>,
@@ -377,7 +377,7 @@ const _: () = {
         ///1 operation (+ − × ÷ √), 0 elementary functions.
         #[inline]
         #[allow(unused_variables)]
-        fn residual_change_with<__S: __lagrange::Over<f64>>(
+        fn residual_change_with<__S: __lagrange::Broadcast<f64>>(
             &self,
             slopes: &Self::Slopes,
             direction: &__lagrange::Direction<__S, 1usize>,
@@ -439,7 +439,7 @@ const _: () = {
         ///12 operations (+ − × ÷ √), 0 elementary functions.
         #[inline]
         #[allow(unused_variables)]
-        fn residual_change_by_parameters_with<__S: __lagrange::Over<f64>>(
+        fn residual_change_by_parameters_with<__S: __lagrange::Broadcast<f64>>(
             &self,
             slopes: &Self::ParameterSlopes,
             rates: &__lagrange::nalgebra::SVector<__S, 3usize>,

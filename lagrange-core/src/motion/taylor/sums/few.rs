@@ -8,7 +8,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::WIDTH;
-use crate::number::{Filled, Four, ROOM, Scalar};
+use crate::number::{FixedArray, Four, ROOM, Scalar};
 
 /// So many sums are few.
 const FEW: usize = 32;
@@ -41,7 +41,7 @@ pub(in crate::motion::taylor) struct Ends<S> {
 impl<S> Ends<S> {
     pub(in crate::motion::taylor) fn new<T: Scalar>() -> Self
     where
-        S: Filled<T>,
+        S: FixedArray<T>,
     {
         let none = [S::filled(T::constant(0.0)); 2];
         Self { newest: none, first: none }
@@ -51,7 +51,7 @@ impl<S> Ends<S> {
 impl<S: Copy> Few<S> {
     pub(super) fn new<T: Scalar>(orders: usize) -> Self
     where
-        S: Filled<T>,
+        S: FixedArray<T>,
     {
         let room = vec![AlignedTerms(S::filled(T::constant(0.0))); orders];
         Self { left: room.clone(), right: room }
@@ -71,14 +71,14 @@ impl<S: Copy> Few<S> {
 
     pub(super) fn left_factor<T: Copy>(&self, place: usize, order: usize) -> T
     where
-        S: Filled<T>,
+        S: FixedArray<T>,
     {
         self.left[order - 1].0.as_ref()[place]
     }
 
     pub(super) fn right_factor<T: Copy>(&self, place: usize, order: usize) -> T
     where
-        S: Filled<T>,
+        S: FixedArray<T>,
     {
         self.right[self.right.len() - order].0.as_ref()[place]
     }
@@ -86,7 +86,7 @@ impl<S: Copy> Few<S> {
     #[inline(always)]
     pub(super) fn add_up<T: Scalar>(&self, order: usize, ends: &Ends<S>) -> S
     where
-        S: Filled<T>,
+        S: FixedArray<T>,
     {
         let (between, Ends { newest, first }) = (self.between(order), ends);
         let mut sums = S::filled(T::constant(0.0));
@@ -105,7 +105,7 @@ impl<S: Copy> Few<S> {
     #[inline(always)]
     fn between<T: Scalar>(&self, order: usize) -> S::Of<Four<T>>
     where
-        S: Filled<T>,
+        S: FixedArray<T>,
     {
         let (none, orders) = (S::Of::filled(Four::zero()), self.right.len());
         let Some(terms @ 1..) = order.checked_sub(3) else { return none };
@@ -128,7 +128,7 @@ impl<S: Copy> Few<S> {
 
 /// Σ x_j y_j for each sum, in two parts side by side: of one, each product waits for the one before.
 #[inline(always)]
-fn products<T: Scalar, S: Filled<T>, const TERMS: usize>(
+fn products<T: Scalar, S: FixedArray<T>, const TERMS: usize>(
     left: &[AlignedTerms<S>; TERMS],
     right: &[AlignedTerms<S>; TERMS],
 ) -> S::Of<Four<T>> {

@@ -58,12 +58,12 @@ impl Planner<'_> {
         let given = repeat.given.iter().map(|source| match source {
             Source::Round(computed) => {
                 let place = left.get_index_of(computed).unwrap_or(0);
-                Given::Waiting(rows.series(place, computed.before.len()))
+                Given::SpillSlots(rows.series(place, computed.before.len()))
             }
             Source::Outside(registers) => self.as_they_are(registers).unwrap_or_else(|| {
                 let series = SlotSequence { first: self.reserve(repeat.rounds, &mut reserved), step: 1 };
                 self.bring(registers, series);
-                Given::Waiting(series)
+                Given::SpillSlots(series)
             }),
         });
         let given = given.collect();
@@ -105,12 +105,12 @@ impl Planner<'_> {
         let inputs: Option<Vec<Symbol>> = registers.iter().map(symbol).collect();
         let places: Option<Vec<usize>> =
             registers.iter().map(|&register| self.waiting.place(register)).collect();
-        inputs.map(Given::Inputs).or_else(|| SlotSequence::through(&places?).map(Given::Waiting))
+        inputs.map(Given::Inputs).or_else(|| SlotSequence::through(&places?).map(Given::SpillSlots))
     }
 
     fn bring(&mut self, registers: &[Register], to: SlotSequence) {
         for (round, &register) in registers.iter().enumerate() {
-            self.store(Slot::Waiting(SlotSequence::constant(to.at(round))), register);
+            self.store(Slot::SpillSlots(SlotSequence::constant(to.at(round))), register);
         }
     }
 
@@ -157,7 +157,7 @@ fn one_round(repeat: &Repeat, left: &[(usize, SlotSequence)]) -> Chunk {
     let mut planner = Planner::new(&program, &sequence, std::slice::from_ref(&all), &names);
     sequence.iter().for_each(|&index| planner.compute(index));
     for (&result, (_, series)) in program.results.iter().zip(left) {
-        planner.store(Slot::Waiting(*series), result);
+        planner.store(Slot::SpillSlots(*series), result);
     }
     let mut part = planner.end_part(None);
     part.inputs.retain(|&symbol| !matches!(Variable::of(symbol), Variable::Given(_)));

@@ -8,14 +8,14 @@ use crate::system::Solution;
 
 /// Whether the numbers of each lane can be relied on, gathered in passing.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Trust {
+pub(crate) struct LaneReliability {
     /// The smallest pivot.
     pivot: Lanes,
     /// The sum of all magnitudes, which is a number where each is.
     size: Lanes,
 }
 
-impl Trust {
+impl LaneReliability {
     pub(crate) fn new() -> Self {
         Self { pivot: Lanes::constant(1.0), size: Lanes::constant(0.0) }
     }

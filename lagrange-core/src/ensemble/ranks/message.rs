@@ -13,7 +13,7 @@ use crate::system::State;
 
 /// Of each member the row of a table, then of one that has a motion its samples, values and crossings.
 #[derive(Default)]
-pub(super) struct Parcel {
+pub(super) struct MemberMessage {
     /// Integers are exact up to 2⁵³.
     numbers: Vec<f64>,
     /// The endings, one directly after the other: how long each is, is among the numbers.
@@ -23,11 +23,11 @@ pub(super) struct Parcel {
 const NUMBERS: i32 = 0;
 const WORDS: i32 = 1;
 
-impl Parcel {
+impl MemberMessage {
     pub(super) fn of<T: Real, const N: usize>(members: &[Member<T, N>]) -> Self {
-        let mut parcel = Self::default();
-        members.iter().for_each(|member| parcel.pack(member));
-        parcel
+        let mut message = Self::default();
+        members.iter().for_each(|member| message.pack(member));
+        message
     }
 
     fn pack<T: Real, const N: usize>(&mut self, member: &Member<T, N>) {
@@ -182,8 +182,8 @@ mod tests {
         let outcome = springs.integrate_on_lanes(3.0, Dop853::default()).expect("an outcome");
         assert!(outcome.members().iter().any(|member| member.to_string().contains("event `turn`")));
         let run = outcome.members()[0].fingerprint;
-        let parcel = Parcel::of(outcome.members());
-        let members: Vec<Member<f64, 1>> = parcel.members(run, &["zero", "turn"]).collect();
+        let message = MemberMessage::of(outcome.members());
+        let members: Vec<Member<f64, 1>> = message.members(run, &["zero", "turn"]).collect();
         assert_eq!(members.len(), 9);
         for (member, original) in members.iter().zip(outcome.members()) {
             assert_eq!(member.row(), original.row());

@@ -9,12 +9,12 @@ use super::scalar::Scalar;
 ///
 /// What is linear takes them: one factor solves for right-hand sides on lanes,
 /// [`Lagrangian::solve_with`](crate::Lagrangian::solve_with).
-pub trait Over<T>: Scalar {
+pub trait Broadcast<T>: Scalar {
     /// The number for all of them.
     fn of(x: T) -> Self;
 }
 
-impl<T: Scalar> Over<T> for T {
+impl<T: Scalar> Broadcast<T> for T {
     #[inline(always)]
     fn of(x: T) -> Self {
         x
@@ -22,7 +22,7 @@ impl<T: Scalar> Over<T> for T {
 }
 
 /// Composite scalars over `T` with accessible components.
-pub trait Wide<T>: Over<T> {
+pub trait Wide<T>: Broadcast<T> {
     /// Number of components.
     const COUNT: usize;
 

@@ -5,15 +5,15 @@ use core::fmt::{self, Debug, Formatter};
 use super::LaneMethod;
 use crate::ending::Ending;
 use crate::error::Error;
-use crate::motion::record::{Orders, Record};
+use crate::motion::record::{Record, RecordPlan};
 use crate::motion::run::{Run, Watchdog, resume};
 use crate::motion::{Method, Step};
-use crate::solution::flow::LagrangianFlow;
+use crate::solution::vector_field::LagrangianVectorField;
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State};
 
 /// A motion that has a lane, or waits for one.
-pub struct Seat<'o, L, P, const N: usize, const M: usize>
+pub struct LaneMotion<'o, L, P, const N: usize, const M: usize>
 where
     L: Lagrangian<N, M, Scalar = f64>,
     P: Method<L, N, M>,
@@ -36,21 +36,21 @@ where
     failure: Option<Ending>,
 }
 
-impl<L, P, const N: usize, const M: usize> Debug for Seat<'_, L, P, N, M>
+impl<L, P, const N: usize, const M: usize> Debug for LaneMotion<'_, L, P, N, M>
 where
     L: Lagrangian<N, M, Scalar = f64>,
     P: Method<L, N, M>,
 {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Self { index, statistics, end, .. } = self;
-        let mut text = f.debug_struct("Seat");
+        let mut text = f.debug_struct("LaneMotion");
         text.field("index", index).field("statistics", statistics).field("end", end).finish_non_exhaustive()
     }
 }
 
 /// What became of a step in one lane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fate {
+pub enum LaneOutcome {
     /// The lane is to be moved to where it leads.
     Accepted,
     /// Taken alone: the lane is to be loaded with the result.
@@ -59,33 +59,33 @@ pub enum Fate {
     Rejected,
 }
 
-impl<'o, L, P, const N: usize, const M: usize> Seat<'o, L, P, N, M>
+impl<'o, L, P, const N: usize, const M: usize> LaneMotion<'o, L, P, N, M>
 where
     L: Lagrangian<N, M, Scalar = f64>,
     P: LaneMethod<L, N, M>,
 {
     /// Before the first step, with the state made consistent.
-    pub(crate) fn new<const IS_WATCHED: bool>(
+    pub(crate) fn new<const HAS_DENSE_OUTPUT: bool>(
         (index, start): (usize, u32),
         system: L,
         state: &State<f64, N>,
         end: f64,
         method: &P,
-        orders: &'o Orders<'o, L, N, M>,
+        record_plan: &'o RecordPlan<'o, L, N, M>,
     ) -> Result<(Self, State<f64, N>), Error> {
-        let (run, _) = Run::begin::<L, LagrangianFlow, _, M>(&system, state, method)?;
-        let record = Record::begin(orders, &system, &run.state, end)?;
+        let (run, _) = Run::begin::<L, LagrangianVectorField, _, M>(&system, state, method)?;
+        let record = Record::begin(record_plan, &system, &run.state, end)?;
         let Run { memory, state, statistics, .. } = run;
         let limits = Watchdog::new(method.limits(), &statistics);
         let (within, failure) = (None, None);
-        let mut seat =
+        let mut motion =
             Self { index, start, record, system, memory, within, end, statistics, limits, failure };
-        if const { IS_WATCHED } && seat.record.is_due(state.t) {
-            seat.failure = seat.control(&state, method).err();
+        if const { HAS_DENSE_OUTPUT } && motion.record.is_due(state.t) {
+            motion.failure = motion.control(&state, method).err();
         }
-        let prepared = seat.prepare(method).err();
-        seat.failure = seat.failure.or(prepared);
-        Ok((seat, state))
+        let prepared = motion.prepare(method).err();
+        motion.failure = motion.failure.or(prepared);
+        Ok((motion, state))
     }
 
     pub(crate) fn now(&self) -> f64 {
@@ -102,7 +102,7 @@ where
     pub(super) fn control(&mut self, state: &State<f64, N>, method: &P) -> Result<(), Ending> {
         let Self { index, record, system, memory, statistics, .. } = self;
         record.control(*index, system, state)?;
-        resume::<_, LagrangianFlow, _, N, M>(system, method, memory, state, statistics)
+        resume::<_, LagrangianVectorField, _, N, M>(system, method, memory, state, statistics)
             .map_err(|error| Ending::of(error, state.t))?;
         self.end = self.record.goal;
         self.prepare(method)
@@ -136,19 +136,19 @@ where
     /// The step from where the memory is, by the scalar method, with what lies within where that is asked for: where there is
     /// none the step is taken back.
     #[cold]
-    pub(super) fn step_alone<const IS_WATCHED: bool>(&mut self, method: &P) -> Fate {
+    pub(super) fn step_alone<const HAS_DENSE_OUTPUT: bool>(&mut self, method: &P) -> LaneOutcome {
         let now = self.now();
         let Self { system, memory, end, statistics, .. } = self;
         self.failure = match method.step(system, memory, *end, statistics) {
-            Step::Accepted(_) => match self.look_within::<IS_WATCHED>(now, method) {
+            Step::Accepted(_) => match self.look_within::<HAS_DENSE_OUTPUT>(now, method) {
                 Ok(()) => {
                     self.statistics.accepted += 1;
                     self.failure = self.prepare(method).err();
-                    return Fate::AcceptedAlone;
+                    return LaneOutcome::AcceptedAlone;
                 }
                 Err(error) => {
                     self.statistics.rejected += 1;
-                    let is_taken_back = method.take_back(&mut self.memory);
+                    let is_taken_back = method.undo(&mut self.memory);
                     (!is_taken_back).then(|| Ending::of(error, now))
                 }
             },
@@ -158,11 +158,11 @@ where
             }
             Step::Failed(ending) => Some(ending),
         };
-        Fate::Rejected
+        LaneOutcome::Rejected
     }
 
-    fn look_within<const IS_WATCHED: bool>(&mut self, before: f64, method: &P) -> Result<(), Error> {
-        if const { IS_WATCHED } && self.record.looks_into(before, self.now()) {
+    fn look_within<const HAS_DENSE_OUTPUT: bool>(&mut self, before: f64, method: &P) -> Result<(), Error> {
+        if const { HAS_DENSE_OUTPUT } && self.record.looks_into(before, self.now()) {
             let Self { system, memory, statistics, .. } = self;
             self.within = Some(method.interpolant(system, memory, statistics)?);
         }

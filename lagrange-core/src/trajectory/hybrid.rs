@@ -10,7 +10,7 @@ use crate::ending::Ending;
 use crate::error::Error;
 use crate::number::Real;
 use crate::solution::Sample;
-use crate::solution::flow::Flow;
+use crate::solution::vector_field::VectorField;
 use crate::system::Lagrangian;
 
 /// A motion of several legs: until an event by one system, from there on by another, or by the same with other
@@ -20,7 +20,7 @@ use crate::system::Lagrangian;
     feature = "std",
     doc = r#"
 ```
-use lagrange_core::{Journey, prelude::*};
+use lagrange_core::{HybridTrajectory, prelude::*};
 
 /// A ladder at a wall; x and y are its middle.
 #[derive(Clone, Lagrangian)]
@@ -46,14 +46,14 @@ let first = leaning.motion(start).by(method).event(leaves).towards(10.0)?;
 let falls = sliding.event("falls", |sample| sample.coordinate("theta")).falling().terminal();
 let second = sliding.motion(*first.end().state()).by(method).event(falls).towards(10.0)?;
 
-let mut journey = Journey::new();
-journey.push(first.into_owned())?;
-journey.push(second.into_owned())?;
+let mut trajectory = HybridTrajectory::new();
+trajectory.push(first.into_owned())?;
+trajectory.push(second.into_owned())?;
 for k in 0..=10 {
-    let sample = journey.at(journey.start() + 0.1 * f64::from(k) * (journey.end() - journey.start()))?;
+    let sample = trajectory.at(trajectory.start() + 0.1 * f64::from(k) * (trajectory.end() - trajectory.start()))?;
     println!("{} {} {}", sample.time(), sample.coordinate("theta")?, sample.multiplier("floor")?);
 }
-let leaning = journey.leg::<Trajectory<Leaning, 3, 2>>(0).expect("the first leg");
+let leaning = trajectory.leg::<Trajectory<Leaning, 3, 2>>(0).expect("the first leg");
 assert!(leaning.end().multiplier("wall")?.abs() < 1e-12);
 # Ok::<(), Error>(())
 ```
@@ -62,11 +62,11 @@ assert!(leaning.end().multiplier("wall")?.abs() < 1e-12);
 ///
 /// The legs own their systems: [`Trajectory::into_owned`]. Where one ends and the next starts, the next answers: after an
 /// impact velocities are those after it. What the one before says is had from that, [`legs`](Self::legs).
-pub struct Journey<T> {
+pub struct HybridTrajectory<T> {
     legs: Vec<Box<dyn Leg<T>>>,
 }
 
-impl<T: Real> Journey<T> {
+impl<T: Real> HybridTrajectory<T> {
     /// Without a leg.
     pub fn new() -> Self {
         Self { legs: Vec::new() }
@@ -141,19 +141,19 @@ impl<T: Real> Journey<T> {
     }
 }
 
-impl<T: Real> Default for Journey<T> {
+impl<T: Real> Default for HybridTrajectory<T> {
     fn default() -> Self {
         Self::new()
     }
 }
 
-impl<T: Real> Debug for Journey<T> {
+impl<T: Real> Debug for HybridTrajectory<T> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_list().entries(&self.legs).finish()
     }
 }
 
-/// A leg of a [`Journey`]: a [`Trajectory`] without its numbers of coordinates and constraints.
+/// A leg of a [`HybridTrajectory`]: a [`Trajectory`] without its numbers of coordinates and constraints.
 pub trait Leg<T>: Any + Debug + Send + Sync {
     /// When it starts.
     fn start_time(&self) -> T;
@@ -171,7 +171,7 @@ pub trait Leg<T>: Any + Debug + Send + Sync {
 impl<S, F, const N: usize, const M: usize> Leg<S::Scalar> for Trajectory<S, N, M, F>
 where
     S: Lagrangian<N, M, Scalar: Real> + Clone + Send + Sync + 'static,
-    F: Flow<S, N, M> + Send + Sync + 'static,
+    F: VectorField<S, N, M> + Send + Sync + 'static,
 {
     fn start_time(&self) -> S::Scalar {
         self.path.start.t

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use lagrange_core::{Dop853, Ending, Journey, prelude::*};
+use lagrange_core::{Dop853, Ending, HybridTrajectory, prelude::*};
 
 use crate::runs::{LADDER, Ladder, leaning};
 use crate::{Ball, Spring};
@@ -35,23 +35,23 @@ const SLIPPING: Slipping = Slipping { m: 0.7, k: 3.0, pull: 1.1 };
 const HOLD: f64 = 1.7;
 
 /// 49 events: it gives and is caught by turns, from where the spring is slack.
-fn ride() -> Journey<f64> {
+fn ride() -> HybridTrajectory<f64> {
     let method = Dop853::with_tolerance(1e-13);
     let mut gives = STICKING.event("gives", |s| Ok(s.multiplier("friction")? - HOLD)).rising().terminal();
     let mut catches = SLIPPING.event("catches", |s| s.state().v[0] - STICKING.belt).rising().terminal();
-    let (mut journey, mut state) = (Journey::new(), State::new([0.0], [STICKING.belt]));
+    let (mut trajectory, mut state) = (HybridTrajectory::new(), State::new([0.0], [STICKING.belt]));
     for event in 0..49 {
         if event % 2 == 0 {
             let leg = STICKING.motion(state).by(method).event(&mut gives).towards(1e3).expect("a start");
             state = *leg.end().state();
-            journey.push(leg.into_owned()).expect("no gap");
+            trajectory.push(leg.into_owned()).expect("no gap");
         } else {
             let leg = SLIPPING.motion(state).by(method).event(&mut catches).towards(1e3).expect("a start");
             state = State { v: [STICKING.belt].into(), ..*leg.end().state() };
-            journey.push(leg.into_owned()).expect("no gap");
+            trajectory.push(leg.into_owned()).expect("no gap");
         }
     }
-    journey
+    trajectory
 }
 
 /// Place, velocity and friction in closed form. Slipping it swings about `pull`/k, from the place where it gives to the
@@ -75,14 +75,14 @@ fn exact(t: f64) -> [f64; 3] {
 
 #[test]
 fn stick_and_slip_over_49_events() {
-    let journey = ride();
-    assert_eq!(journey.legs().len(), 49);
-    assert!(journey.legs().all(|leg| matches!(leg.ending(), Ending::Event { .. })));
-    let ends: Vec<f64> = journey.legs().map(|leg| leg.end_time()).collect();
+    let trajectory = ride();
+    assert_eq!(trajectory.legs().len(), 49);
+    assert!(trajectory.legs().all(|leg| matches!(leg.ending(), Ending::Event { .. })));
+    let ends: Vec<f64> = trajectory.legs().map(|leg| leg.end_time()).collect();
     for pair in ends.windows(2) {
         // Just before and after each event.
         for t in [pair[0] + 1e-6, pair[1] - 1e-6, 0.5 * (pair[0] + pair[1])] {
-            let (sample, [x, v, friction]) = (journey.at(t).unwrap(), exact(t));
+            let (sample, [x, v, friction]) = (trajectory.at(t).unwrap(), exact(t));
             assert!((sample.coordinate("x").unwrap() - x).abs() < 1e-9);
             assert!((sample.velocity("x").unwrap() - v).abs() < 1e-9);
             let told = sample.multiplier("friction").unwrap_or(SLIPPING.pull);
@@ -90,15 +90,15 @@ fn stick_and_slip_over_49_events() {
         }
     }
     // The legs are there with their types, and no others.
-    assert!(journey.leg::<Trajectory<Sticking, 1, 1>>(0).is_some());
-    assert!(journey.leg::<Trajectory<Slipping, 1, 0>>(0).is_none());
-    let slip = journey.leg::<Trajectory<Slipping, 1, 0>>(47).expect("the last slip");
+    assert!(trajectory.leg::<Trajectory<Sticking, 1, 1>>(0).is_some());
+    assert!(trajectory.leg::<Trajectory<Slipping, 1, 0>>(0).is_none());
+    let slip = trajectory.leg::<Trajectory<Slipping, 1, 0>>(47).expect("the last slip");
     assert_eq!(slip.end().time(), ends[47]);
-    assert!(journey.leg::<Trajectory<Sticking, 1, 1>>(49).is_none());
+    assert!(trajectory.leg::<Trajectory<Sticking, 1, 1>>(49).is_none());
 }
 
 #[test]
-fn a_journey_answers_at_any_time_by_name() {
+fn a_hybrid_trajectory_answers_at_any_time_by_name() {
     /// The ladder without the wall.
     #[derive(Lagrangian, Clone, Copy)]
     #[coordinates(x, y, theta)]
@@ -118,15 +118,15 @@ fn a_journey_answers_at_any_time_by_name() {
     let left = first.end().time();
     let mut lies = sliding.event("lies", |s| s.coordinate("theta")).falling().terminal();
     let second = sliding.motion(*first.end().state()).by(method).event(&mut lies).towards(10.0).unwrap();
-    let mut journey = Journey::<f64>::new();
-    assert!(journey.start().is_nan() && journey.ending().is_none() && journey.at(0.0).is_err());
-    journey.push(first.into_owned()).unwrap();
-    journey.push(second.into_owned()).unwrap();
-    assert_eq!((journey.start(), journey.end()), (0.0, journey.legs().last().unwrap().end_time()));
-    assert!(journey.ending().unwrap().to_string().contains("`lies`"));
-    let energy = journey.at(0.0).unwrap().energy();
+    let mut trajectory = HybridTrajectory::<f64>::new();
+    assert!(trajectory.start().is_nan() && trajectory.ending().is_none() && trajectory.at(0.0).is_err());
+    trajectory.push(first.into_owned()).unwrap();
+    trajectory.push(second.into_owned()).unwrap();
+    assert_eq!((trajectory.start(), trajectory.end()), (0.0, trajectory.legs().last().unwrap().end_time()));
+    assert!(trajectory.ending().unwrap().to_string().contains("`lies`"));
+    let energy = trajectory.at(0.0).unwrap().energy();
     let mut count = 0;
-    for sample in journey.samples(101) {
+    for sample in trajectory.samples(101) {
         let sample = sample.unwrap();
         assert!((sample.energy() / energy - 1.0).abs() < 1e-11);
         assert!(sample.multiplier("floor").unwrap() > 0.0);
@@ -137,9 +137,9 @@ fn a_journey_answers_at_any_time_by_name() {
     }
     assert_eq!(count, 101);
     // Where they meet, the next answers.
-    assert!(journey.at(left).unwrap().observable("foot").is_ok());
-    assert!(journey.at(journey.end() + 1e-9).is_err() && journey.at(-1e-9).is_err());
-    assert!(matches!(journey.at(20.0).err(), Some(Error::OutsideTrajectory { start: 0.0, .. })));
+    assert!(trajectory.at(left).unwrap().observable("foot").is_ok());
+    assert!(trajectory.at(trajectory.end() + 1e-9).is_err() && trajectory.at(-1e-9).is_err());
+    assert!(matches!(trajectory.at(20.0).err(), Some(Error::OutsideTrajectory { start: 0.0, .. })));
 }
 
 #[test]
@@ -148,21 +148,21 @@ fn a_leg_that_does_not_go_on_is_refused() {
         let start = State::at_rest([1.0]).at_time(from);
         Spring.integrate(start, to, Dop853::default()).unwrap().into_owned()
     };
-    let mut journey = Journey::new();
-    journey.push(leg(0.0, 1.0)).unwrap();
-    let error = journey.push(leg(2.0, 3.0)).unwrap_err();
+    let mut trajectory = HybridTrajectory::new();
+    trajectory.push(leg(0.0, 1.0)).unwrap();
+    let error = trajectory.push(leg(2.0, 3.0)).unwrap_err();
     assert!(matches!(error, Error::LegApart { start: 2.0, end: 3.0, expected: 1.0 }), "{error}");
-    let error = journey.push(leg(1.0, 0.5)).unwrap_err();
+    let error = trajectory.push(leg(1.0, 0.5)).unwrap_err();
     assert!(error.to_string().contains("lead it the same way in time"), "{error}");
-    journey.push(leg(1.0, 1.0)).unwrap();
+    trajectory.push(leg(1.0, 1.0)).unwrap();
     let ball = Ball { g: 9.81 };
     let flight = ball.integrate(State::at_rest([1.0]).at_time(1.0), 2.0, Dop853::default()).unwrap();
-    journey.push(flight.into_owned()).unwrap();
-    assert!(journey.at(1.5).unwrap().coordinate("height").is_ok() && journey.legs().len() == 3);
+    trajectory.push(flight.into_owned()).unwrap();
+    assert!(trajectory.at(1.5).unwrap().coordinate("height").is_ok() && trajectory.legs().len() == 3);
     // Back in time.
-    let mut journey = Journey::new();
-    journey.push(leg(0.0, -1.0)).unwrap();
-    journey.push(leg(-1.0, -2.0)).unwrap();
-    assert!((journey.at(-0.5).unwrap().coordinate("x").unwrap() - 0.5_f64.cos()).abs() < 1e-8);
-    assert_eq!(journey.samples(5).filter_map(Result::ok).last().unwrap().time(), -2.0);
+    let mut trajectory = HybridTrajectory::new();
+    trajectory.push(leg(0.0, -1.0)).unwrap();
+    trajectory.push(leg(-1.0, -2.0)).unwrap();
+    assert!((trajectory.at(-0.5).unwrap().coordinate("x").unwrap() - 0.5_f64.cos()).abs() < 1e-8);
+    assert_eq!(trajectory.samples(5).filter_map(Result::ok).last().unwrap().time(), -2.0);
 }

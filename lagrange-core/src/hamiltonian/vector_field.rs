@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::names::Entry;
 use crate::number::{Real, vector};
 use crate::solution::consistent::{Level, project};
-use crate::solution::flow::{Basis, Flow, Phase, PhasePoint};
+use crate::solution::vector_field::{ActiveConstraints, PhaseVector, StagePoint, VectorField};
 use crate::system::{Lagrangian, State};
 
 /// Hamilton's equations, in coordinates and momenta.
@@ -14,32 +14,34 @@ use crate::system::{Lagrangian, State};
 /// A step ends with q projected onto Φ = 0 and p replaced by the momenta of the velocity that belongs to it, which
 /// takes away their part along the constraints, and nothing else.
 #[derive(Clone, Copy, Debug)]
-pub struct HamiltonianFlow;
+pub struct HamiltonianVectorField;
 
-impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Flow<L, N, M> for HamiltonianFlow {
+impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> VectorField<L, N, M>
+    for HamiltonianVectorField
+{
     const HOLDS_VELOCITY: bool = false;
 
-    fn phase(system: &L, state: &State<L::Scalar, N>) -> Phase<L::Scalar, N> {
+    fn phase(system: &L, state: &State<L::Scalar, N>) -> PhaseVector<L::Scalar, N> {
         [state.q.into(), system.momentum(state).into()]
     }
 
-    fn slope(
+    fn evaluate(
         system: &L,
-        point: &PhasePoint<L::Scalar, N>,
+        point: &StagePoint<L::Scalar, N>,
         active: Option<&[bool; M]>,
-        rates: &mut Phase<L::Scalar, N>,
-    ) -> Result<Basis<M>, Error> {
+        rates: &mut PhaseVector<L::Scalar, N>,
+    ) -> Result<ActiveConstraints<M>, Error> {
         let state = legendre::invert(system, &phase_state(point), &point.velocity, active)?;
         let (rate, rank, active) = equations(system, &state, active)?;
         *rates = [rate.q.into(), rate.p.into()];
-        Ok(Basis { active, multipliers_are_unique: rank == M })
+        Ok(ActiveConstraints { active, multipliers_are_unique: rank == M })
     }
 
-    fn state(system: &L, point: &PhasePoint<L::Scalar, N>) -> State<L::Scalar, N> {
+    fn state(system: &L, point: &StagePoint<L::Scalar, N>) -> State<L::Scalar, N> {
         legendre::invert(system, &phase_state(point), &point.velocity, None).unwrap_or(nearby(point))
     }
 
-    fn project(system: &L, point: &PhasePoint<L::Scalar, N>) -> Result<State<L::Scalar, N>, Error> {
+    fn project(system: &L, point: &StagePoint<L::Scalar, N>) -> Result<State<L::Scalar, N>, Error> {
         let mut state = nearby(point);
         project(system, &[Level::Position], &mut state)?;
         let phase = PhaseState { q: state.q, ..phase_state(point) };
@@ -51,11 +53,11 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Flow<L, 
     }
 }
 
-fn phase_state<T: Real, const N: usize>(point: &PhasePoint<T, N>) -> PhaseState<T, N> {
+fn phase_state<T: Real, const N: usize>(point: &StagePoint<T, N>) -> PhaseState<T, N> {
     PhaseState { t: point.t, q: vector(point.y[0]), p: vector(point.y[1]) }
 }
 
 /// With the velocity nearby instead of the one that belongs to the momenta.
-fn nearby<T: Real, const N: usize>(point: &PhasePoint<T, N>) -> State<T, N> {
+fn nearby<T: Real, const N: usize>(point: &StagePoint<T, N>) -> State<T, N> {
     State { t: point.t, q: vector(point.y[0]), v: vector(point.velocity) }
 }
