@@ -1,6 +1,8 @@
 //! What can go wrong, each with the name of the entry at fault and what to do about it.
 
 mod display;
+#[cfg(feature = "std")]
+mod ensemble;
 
 #[cfg(feature = "alloc")]
 use alloc::{boxed::Box, string::String, vec::Vec};
@@ -8,6 +10,8 @@ use alloc::{boxed::Box, string::String, vec::Vec};
 #[cfg(feature = "alloc")]
 use crate::ending::Ending;
 use crate::names::{Entry, Names, Row};
+#[cfg(feature = "std")]
+pub use ensemble::EnsembleError;
 
 /// Why a computation did not start or did not reach its end, or what a query asked in vain.
 ///
@@ -219,13 +223,6 @@ pub enum Error {
     },
     /// Points that no function runs through.
     Table,
-    /// A part of an ensemble that does not exist.
-    Shard {
-        /// Which part was asked for, counted from 0.
-        shard: usize,
-        /// How many parts there are.
-        of: usize,
-    },
     /// A time at which members are to be sampled that is not finite, or not in order with those before.
     SampleTime {
         /// Which one, counted from 0.
@@ -233,62 +230,9 @@ pub enum Error {
         /// The time.
         time: f64,
     },
-    /// Outcomes of different ensembles, which are no parts of one.
-    Merge {
-        /// In what they differ.
-        reason: &'static str,
-    },
-    /// A member taken over from another run, which is not to be mixed with this one.
-    OtherRun {
-        /// The index of the member.
-        member: usize,
-        /// In what the runs differ.
-        differs: &'static str,
-    },
-    /// Rows to resume from, where code that no fingerprint sees decides about them and the run has no
-    /// [tag](crate::Ensemble::tag).
+    /// An error of an ensemble as a whole, or of one of its members.
     #[cfg(feature = "std")]
-    Untagged {
-        /// The code: an event, a controller, ….
-        code: String,
-    },
-    /// What went wrong with a member in another process, which told it in words.
-    #[cfg(feature = "std")]
-    Elsewhere {
-        /// Its words.
-        said: String,
-    },
-    /// A file of a table in Parquet that cannot be read or written, or does not belong there.
-    #[cfg(feature = "parquet")]
-    Parquet {
-        /// The file, or the directory.
-        file: String,
-        /// What is wrong.
-        reason: String,
-    },
-    /// The ranks of MPI cannot do this ensemble together.
-    Ranks {
-        /// The first rank at fault.
-        rank: usize,
-        /// Why not.
-        reason: &'static str,
-    },
-    /// A member asked for that the ensemble does not have.
-    NoSuchMember {
-        /// Its index.
-        member: usize,
-        /// How many members there are.
-        count: usize,
-    },
-    /// A table of members that are done, but not of this system, or of several runs.
-    Resume {
-        /// The line, counted from 1.
-        line: usize,
-        /// The column, counted from 1.
-        column: usize,
-        /// What is wrong there.
-        reason: &'static str,
-    },
+    Ensemble(EnsembleError),
     /// A coefficient of restitution that is none.
     Restitution {
         /// Its value.

@@ -5,7 +5,7 @@ use std::ops::{ControlFlow, Range};
 use std::path::PathBuf;
 use std::time::Duration;
 
-use lagrange_core::ensemble::ParquetTable;
+use lagrange_core::ensemble::{EnsembleError, ParquetTable};
 use lagrange_core::{Ending, Member, MemberTable, Outcome, prelude::*};
 
 #[derive(Lagrangian, Clone, Copy)]
@@ -107,7 +107,9 @@ fn write_parts(directory: &Directory, outcome: &Outcome<f64, 2>, members: Range<
 #[track_caller]
 fn refused<X>(result: Result<X, Error>, why: &str) {
     match result.map(drop) {
-        Err(Error::Parquet { reason, .. }) => assert!(reason.contains(why), "{reason}"),
+        Err(Error::Ensemble(EnsembleError::Parquet { reason, .. })) => {
+            assert!(reason.contains(why), "{reason}")
+        }
         other => panic!("{other:?}"),
     }
 }
@@ -188,7 +190,7 @@ fn a_file_that_was_cut_off_loses_its_rows_alone() {
         let rest = table.read().unwrap();
         assert!(rest.rows().iter().map(|row| row.index).eq((0..10).chain(20..40)), "cut at {length}");
         assert!(
-            matches!(table.damaged(), [Error::Parquet { file, .. }] if *file == cut.display().to_string())
+            matches!(table.damaged(), [Error::Ensemble(EnsembleError::Parquet { file, .. })] if *file == cut.display().to_string())
         );
     }
     let resumed = members().resume_from(table(&directory).read().unwrap()).unwrap();
@@ -231,10 +233,16 @@ fn tables_of_other_runs_are_refused() {
         resumed().integrate_on_lanes(TO, Dopri5::default()),
     ];
     for other in others {
-        assert_eq!(other.unwrap_err(), Error::OtherRun { member: 0, differs: settings });
+        assert_eq!(
+            other.unwrap_err(),
+            Error::Ensemble(EnsembleError::OtherRun { member: 0, differs: settings })
+        );
     }
     let fewer = Ensemble::from_fn(COUNT - 1, member).resume_from(table(&directory).read().unwrap());
-    assert_eq!(fewer.unwrap_err(), Error::NoSuchMember { member: COUNT - 1, count: COUNT - 1 });
+    assert_eq!(
+        fewer.unwrap_err(),
+        Error::Ensemble(EnsembleError::NoSuchMember { member: COUNT - 1, count: COUNT - 1 })
+    );
     // By the directory, before anything is written into it.
     let coarse = members().integrate_on_lanes(TO, Dop853::with_tolerance(1e-8)).unwrap();
     let mut other = table(&directory);
@@ -242,7 +250,7 @@ fn tables_of_other_runs_are_refused() {
     refused(other.flush(), settings);
     assert_eq!(
         other.push(&outcome.members()[1]).unwrap_err(),
-        Error::OtherRun { member: 1, differs: settings }
+        Error::Ensemble(EnsembleError::OtherRun { member: 1, differs: settings })
     );
     drop(other);
     assert_eq!(directory.files().len(), 2);
@@ -275,7 +283,10 @@ fn tables_of_other_systems_and_starts_are_refused() {
     // A row whose member is made otherwise than the ensemble made it.
     let mut shifted = ParquetTable::open(&directory.0, |index| member(index + 1)).unwrap();
     let differs = "the start or the parameters of the member are others";
-    assert_eq!(shifted.push(&outcome.members()[4]).unwrap_err(), Error::OtherRun { member: 4, differs });
+    assert_eq!(
+        shifted.push(&outcome.members()[4]).unwrap_err(),
+        Error::Ensemble(EnsembleError::OtherRun { member: 4, differs })
+    );
 }
 
 /// The same but for the sign of a spring.
@@ -368,7 +379,7 @@ fn a_directory_that_cannot_be_is_an_error() {
     let file = directory.0.join("file");
     write(&file, "").unwrap();
     let opened = ParquetTable::<Oscillators<f64>, _, 2, 0, 3>::open(file.join("below"), member);
-    assert!(matches!(opened, Err(Error::Parquet { .. })));
+    assert!(matches!(opened, Err(Error::Ensemble(EnsembleError::Parquet { .. }))));
 }
 
 /// The name of the file is that of its rows, so that it can be known before.

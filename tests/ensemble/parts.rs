@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use lagrange_core::ensemble::EnsembleError;
 use lagrange_core::prelude::*;
 use lagrange_core::{Member, MemberEnding, MemberTable, Outcome};
 
@@ -206,7 +207,7 @@ fn tables_of_several_parts_may_stand_in_one_file() {
 fn a_table_of_another_ensemble_is_refused() {
     let table = whole().csv().to_string();
     let reason = |ensemble: Result<Ensemble<'_, DoublePendulum<f64>, f64, 2>, Error>| match ensemble {
-        Err(Error::Resume { line, column, reason }) => (line, column, reason),
+        Err(Error::Ensemble(EnsembleError::Resume { line, column, reason })) => (line, column, reason),
         _ => panic!("not refused"),
     };
     let fewer = Ensemble::from_fn(COUNT - 1, member);
@@ -232,7 +233,7 @@ fn members_integrated_to_another_time_are_refused_where_they_belong_to_the_part(
         resumed.integrate_on_lanes(END + 1.0, Dop853::default())
     };
     let differs = "the method, one of its settings, an event, the tag or the end is another";
-    assert_eq!(later(1).unwrap_err(), Error::OtherRun { member: 4, differs });
+    assert_eq!(later(1).unwrap_err(), Error::Ensemble(EnsembleError::OtherRun { member: 4, differs }));
     assert!(later(0).is_ok());
 }
 
@@ -245,7 +246,7 @@ fn rows_of_another_run_are_refused_by_name() {
     let table = whole().csv().to_string();
     let resumed = |ensemble: Ensemble<'static, DoublePendulum<f64>, f64, 2>| ensemble.resume(&table).unwrap();
     let refused = |run: Result<Outcome<f64, 2>, Error>| match run {
-        Err(Error::OtherRun { member, differs }) => (member, differs),
+        Err(Error::Ensemble(EnsembleError::OtherRun { member, differs })) => (member, differs),
         other => panic!("{other:?}"),
     };
     const RUN: &str = "the method, one of its settings, an event, the tag or the end is another";
@@ -300,8 +301,11 @@ fn rows_given_twice_count_once() {
 }
 
 /// The first row, which follows the header.
-const OTHER_SYSTEM: Error =
-    Error::Resume { line: 2, column: 2, reason: "the system or its equations are others" };
+const OTHER_SYSTEM: Error = Error::Ensemble(EnsembleError::Resume {
+    line: 2,
+    column: 2,
+    reason: "the system or its equations are others",
+});
 
 /// In single precision it is another system.
 #[test]
@@ -363,20 +367,26 @@ fn rows_of_other_equations_are_refused() {
     assert_eq!(other().resume(&table).unwrap_err(), OTHER_SYSTEM);
     assert_eq!(MemberTable::read::<upward::DoublePendulum<f64>, 0>(&table).unwrap_err(), OTHER_SYSTEM);
     let outcome = other().integrate_on_lanes(END, Dop853::default()).unwrap();
-    assert_eq!(whole().merge(outcome).unwrap_err(), Error::Merge { reason });
+    assert_eq!(whole().merge(outcome).unwrap_err(), Error::Ensemble(EnsembleError::Merge { reason }));
     let coarse = ensemble().integrate_on_lanes(END, Dop853::with_tolerance(1e-8)).unwrap();
     let reason = "the method, one of its settings, an event, the tag or the end is another";
-    assert_eq!(whole().merge(coarse.clone()).unwrap_err(), Error::Merge { reason });
+    assert_eq!(whole().merge(coarse.clone()).unwrap_err(), Error::Ensemble(EnsembleError::Merge { reason }));
     // Two runs in one table: the first row of the second is refused.
     let mixed = whole().csv().to_string() + &coarse.csv().to_string();
     let line = COUNT + 3;
-    assert_eq!(ensemble().resume(&mixed).unwrap_err(), Error::Resume { line, column: 3, reason });
+    assert_eq!(
+        ensemble().resume(&mixed).unwrap_err(),
+        Error::Ensemble(EnsembleError::Resume { line, column: 3, reason })
+    );
     let shifted = Ensemble::from_fn(COUNT, |index| member(index + 1));
     let shifted = shifted.integrate_on_lanes(END, Dop853::default()).unwrap();
     let reason = "the start or the parameters of the member are others";
-    assert_eq!(whole().merge(shifted.clone()).unwrap_err(), Error::Merge { reason });
+    assert_eq!(whole().merge(shifted.clone()).unwrap_err(), Error::Ensemble(EnsembleError::Merge { reason }));
     let mixed = whole().csv().to_string() + &shifted.csv().to_string();
-    assert_eq!(ensemble().resume(&mixed).unwrap_err(), Error::Resume { line, column: 4, reason });
+    assert_eq!(
+        ensemble().resume(&mixed).unwrap_err(),
+        Error::Ensemble(EnsembleError::Resume { line, column: 4, reason })
+    );
 }
 
 #[test]
@@ -446,6 +456,6 @@ fn a_list_of_members_is_run_alone() {
         few().resume(&table).unwrap().integrate_on_lanes(END, Dop853::default()).unwrap(),
     );
     let error = ensemble().members([3, COUNT]).integrate_on_lanes(END, Dop853::default()).unwrap_err();
-    assert_eq!(error, Error::NoSuchMember { member: COUNT, count: COUNT });
+    assert_eq!(error, Error::Ensemble(EnsembleError::NoSuchMember { member: COUNT, count: COUNT }));
     assert_eq!(error.to_string(), "there is no member 19: the ensemble has 19, counted from 0");
 }

@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use lagrange_core::ensemble::EnsembleError;
 use lagrange_core::prelude::*;
 
 use crate::fields::trapped;
@@ -50,11 +51,11 @@ fn rows_are_taken_over_by_tag_where_code_decides() {
             let whole = tagged(tag).integrate_on_lanes(END, method).unwrap();
             let table = whole.csv().to_string();
             let untagged = run().resume(&table).unwrap().integrate_on_lanes(END, method).unwrap_err();
-            assert_eq!(untagged, Error::Untagged { code: code.into() });
+            assert_eq!(untagged, Error::Ensemble(EnsembleError::Untagged { code: code.into() }));
             let again = tagged(tag).resume(&table).unwrap().integrate_on_lanes(END, method).unwrap();
             assert_eq!(again.csv().to_string(), table);
             let other = tagged("second").resume(&table).unwrap().integrate_on_lanes(END, method);
-            assert!(matches!(other, Err(Error::OtherRun { .. })));
+            assert!(matches!(other, Err(Error::Ensemble(EnsembleError::OtherRun { .. }))));
         }
         assert!(run().integrate_on_lanes(END, method) == run().tag("").integrate_on_lanes(END, method));
     }
@@ -98,7 +99,7 @@ fn runs_with_other_events_are_told_apart() {
         |event| event.terminal().subdivide(3),
     ];
     for event in others {
-        assert!(matches!(other(event), Err(Error::OtherRun { .. })));
+        assert!(matches!(other(event), Err(Error::Ensemble(EnsembleError::OtherRun { .. }))));
     }
     let renamed = ensemble().event(member(0).0.event("down", |sample| sample.state().q[0] - 1.0).terminal());
     assert!(renamed.tag("").resume(&table).unwrap().integrate_on_lanes(END, Dop853::default()).is_err());

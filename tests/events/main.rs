@@ -1,8 +1,8 @@
 //! Where functions of a motion cross zero.
 
 mod adversary;
-mod impacts;
 mod hybrid;
+mod impacts;
 #[path = "../random/mod.rs"]
 mod random;
 mod rule;

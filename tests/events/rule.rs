@@ -57,7 +57,8 @@ fn every_change_of_sign_on_the_grid_is_found() {
     close(&times(0.0, 5.0, |t| (t - 2.3) * (t - 2.31)), &[2.3, 2.31]);
     close(&times(0.0, 5.0, |t| (t - 2.3) * (t - 2.31) * (t - 2.32)), &[2.3, 2.31, 2.32]);
     for pieces in [100, 10] {
-        let mut wiggling = Free.event("wiggling", |s| (s.time() - 2.304) * (s.time() - 2.316)).subdivide(pieces);
+        let mut wiggling =
+            Free.event("wiggling", |s| (s.time() - 2.304) * (s.time() - 2.316)).subdivide(pieces);
         assert_eq!(crossings(&mut steady(0.0), 5.0, &mut [&mut wiggling]).len(), 2);
     }
 }

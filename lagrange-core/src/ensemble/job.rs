@@ -9,7 +9,7 @@ use super::fingerprint::Fingerprint;
 use super::outcome::{Arrival, Member, Outcome};
 use super::table::MemberRow;
 use crate::ending::Ending;
-use crate::error::Error;
+use crate::error::{EnsembleError, Error};
 use crate::motion::run::{Run, Watchdog};
 use crate::motion::{Batch, LagrangianVectorField, LaneMethod, LaneMotion, Method, Record, RecordPlan};
 use crate::number::Real;
@@ -41,7 +41,9 @@ where
     /// Whose rows are taken over, the user has to say, where code decides that no fingerprint sees.
     fn check_tag(&self) -> Result<(), Error> {
         match self.unseen() {
-            Some(code) if self.tag.is_none() && !self.done.is_empty() => Err(Error::Untagged { code }),
+            Some(code) if self.tag.is_none() && !self.done.is_empty() => {
+                Err(Error::Ensemble(EnsembleError::Untagged { code }))
+            }
             _ => Ok(()),
         }
     }
@@ -101,10 +103,10 @@ struct Part {
 impl Part {
     fn new(count: usize, shard: usize, shards: usize, list: Option<Vec<usize>>) -> Result<Self, Error> {
         if shard >= shards {
-            return Err(Error::Shard { shard, of: shards });
+            return Err(Error::Ensemble(EnsembleError::Shard { shard, of: shards }));
         }
         if let Some(&member) = list.iter().flatten().find(|member| **member >= count) {
-            return Err(Error::NoSuchMember { member, count });
+            return Err(Error::Ensemble(EnsembleError::NoSuchMember { member, count }));
         }
         let list = list.map(|mut list| {
             list.sort_unstable();
@@ -326,7 +328,7 @@ where
 /// A member taken over must be of this run, with this start and these parameters.
 fn check_run_of<T: Real, const N: usize>(member: &Member<T, N>, expected: &Fingerprint) -> Result<(), Error> {
     match member.fingerprint.difference(expected) {
-        Some((_, differs)) => Err(Error::OtherRun { member: member.index, differs }),
+        Some((_, differs)) => Err(Error::Ensemble(EnsembleError::OtherRun { member: member.index, differs })),
         None => Ok(()),
     }
 }

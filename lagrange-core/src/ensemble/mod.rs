@@ -25,6 +25,7 @@ mod within;
 use core::fmt::{self, Debug, Formatter};
 use core::ops::ControlFlow;
 
+pub use crate::error::EnsembleError;
 use crate::error::Error;
 use crate::motion::run::check_end;
 use crate::motion::{LaneMethod, Method, RecordPlan};
@@ -167,6 +168,7 @@ where
     /// # #[coordinates(x)]
     /// # #[lagrangian(x_dot^2/2 - k/2 * x^2)]
     /// # struct Spring<T> { k: T }
+    /// use lagrange_core::ensemble::EnsembleError;
     /// let springs = |level: f64| {
     ///     let rises = Spring { k: 0.0 }.event("rises", move |sample| sample.state().q[0] - level).terminal();
     ///     let springs = Ensemble::from_fn(9, |n| (Spring { k: n as f64 }, State::at_rest([1.0])));
@@ -175,7 +177,7 @@ where
     /// let table = springs(0.5).integrate(9.0, Dop853::default())?.csv().to_string();
     /// assert!(springs(0.5).resume(&table)?.integrate(9.0, Dop853::default()).is_ok());
     /// let other = springs(0.25).resume(&table)?.integrate(9.0, Dop853::default());
-    /// assert!(matches!(other, Err(Error::OtherRun { .. })));
+    /// assert!(matches!(other, Err(Error::Ensemble(EnsembleError::OtherRun { .. }))));
     /// # Ok::<(), Error>(())
     /// ```
     pub fn tag(mut self, tag: impl Into<String>) -> Self {
@@ -186,8 +188,8 @@ where
     /// The motions to the time `end`, one after the other on each thread, by the method named.
     ///
     /// # Errors
-    /// What is wrong with the whole: [`Error::Setting`], [`Error::EndNotFinite`], [`Error::Shard`],
-    /// [`Error::NoSuchMember`], [`Error::OtherRun`], [`Error::Untagged`], [`Error::SampleTime`]. What is wrong with a member is in
+    /// What is wrong with the whole: [`Error::Setting`], [`Error::EndNotFinite`], [`EnsembleError::Shard`],
+    /// [`EnsembleError::NoSuchMember`], [`EnsembleError::OtherRun`], [`EnsembleError::Untagged`], [`Error::SampleTime`]. What is wrong with a member is in
     /// the outcome.
     pub fn integrate<P>(self, end: T, method: P) -> Result<Outcome<T, N>, Error>
     where
@@ -225,9 +227,9 @@ where
     /// ```
     ///
     /// # Errors
-    /// [`Error::Resume`] for what is no row of this system, and where rows are of different runs. For members of
-    /// another run, to another end or of another start [`integrate`](Self::integrate) gives [`Error::OtherRun`], and
-    /// [`Error::Untagged`] where code decides about the members that no fingerprint sees, and there is no [tag](Self::tag).
+    /// [`EnsembleError::Resume`] for what is no row of this system, and where rows are of different runs. For members of
+    /// another run, to another end or of another start [`integrate`](Self::integrate) gives [`EnsembleError::OtherRun`], and
+    /// [`EnsembleError::Untagged`] where code decides about the members that no fingerprint sees, and there is no [tag](Self::tag).
     pub fn resume(self, table: &str) -> Result<Self, Error>
     where
         T: core::str::FromStr,
@@ -240,11 +242,13 @@ where
     /// Leaves out what is done as [`resume`](Self::resume) does, by a table that was read.
     ///
     /// # Errors
-    /// [`Error::NoSuchMember`], where the table has more members than the ensemble.
+    /// [`EnsembleError::NoSuchMember`], where the table has more members than the ensemble.
     pub fn resume_from(mut self, table: MemberTable<T, N>) -> Result<Self, Error> {
         let count = self.plan.count;
         match table.rows().last() {
-            Some(row) if row.index >= count => Err(Error::NoSuchMember { member: row.index, count }),
+            Some(row) if row.index >= count => {
+                Err(Error::Ensemble(EnsembleError::NoSuchMember { member: row.index, count }))
+            }
             _ => {
                 self.plan.done.extend(table.into_rows().filter(|row| !row.has_failed()));
                 Ok(self)

@@ -4,7 +4,7 @@ use core::fmt::{self, Display, Formatter};
 
 use super::fingerprint::Fingerprint;
 use crate::ending::Ending;
-use crate::error::Error;
+use crate::error::{EnsembleError, Error};
 use crate::motion::Crossing;
 use crate::number::Real;
 use crate::statistics::Statistics;
@@ -134,14 +134,16 @@ impl<T: Real, const N: usize> Outcome<T, N> {
     /// Puts two parts together. Of a member that is in both, this one's is kept.
     ///
     /// # Errors
-    /// [`Error::Merge`] for parts of other systems, of motions to another time, with another method or other settings, and for
+    /// [`EnsembleError::Merge`](super::EnsembleError::Merge) for parts of other systems, of motions to another time, with another method or other settings, and for
     /// parts in which one member has another start or other parameters.
     pub fn merge(mut self, other: Self) -> Result<Self, Error> {
         if self.names != other.names {
-            return Err(Error::Merge { reason: "their coordinates differ" });
+            return Err(Error::Ensemble(EnsembleError::Merge { reason: "their coordinates differ" }));
         }
         if self.end != other.end {
-            return Err(Error::Merge { reason: "they were integrated to different times" });
+            return Err(Error::Ensemble(EnsembleError::Merge {
+                reason: "they were integrated to different times",
+            }));
         }
         let differences = self
             .members
@@ -149,7 +151,7 @@ impl<T: Real, const N: usize> Outcome<T, N> {
             .filter_map(|member| Some((member.fingerprint, other.get(member.index)?.fingerprint)));
         let mut differences = core::iter::once((self.run, other.run)).chain(differences);
         if let Some((_, reason)) = differences.find_map(|(one, other)| one.difference(&other)) {
-            return Err(Error::Merge { reason });
+            return Err(Error::Ensemble(EnsembleError::Merge { reason }));
         }
         self.members.extend(other.members);
         self.members.sort_by_key(|member| member.index);

@@ -21,7 +21,7 @@ use super::Ensemble;
 use super::fingerprint::Fingerprint;
 use super::job::Job;
 use super::outcome::Outcome;
-use crate::error::Error;
+use crate::error::{EnsembleError, Error};
 use crate::motion::run::check_end;
 use crate::motion::{LaneMethod, Method};
 use crate::number::{Lanes, Real};
@@ -80,7 +80,7 @@ where
     /// of all, elsewhere none.
     ///
     /// # Errors
-    /// As there, on the rank where it is wrong, and on the others [`Error::Ranks`]; that also where the ensembles of the ranks
+    /// As there, on the rank where it is wrong, and on the others [`EnsembleError::Ranks`](super::EnsembleError::Ranks); that also where the ensembles of the ranks
     /// differ, and where MPI is not to be used beside threads. Nothing is integrated then.
     ///
     /// Where a rank panics, it ends the whole job: the others could only wait.
@@ -166,7 +166,9 @@ fn check_threads(world: &SimpleCommunicator) -> Result<(), Error> {
     let reason =
         "MPI is not to be used beside threads: begin with `initialize_with_threading(Threading::Funneled)`";
     match mpi::environment::threading_support() {
-        Threading::Single => Err(Error::Ranks { rank: world.rank().unsigned_abs() as usize, reason }),
+        Threading::Single => {
+            Err(Error::Ensemble(EnsembleError::Ranks { rank: world.rank().unsigned_abs() as usize, reason }))
+        }
         _ => Ok(()),
     }
 }
@@ -188,11 +190,14 @@ where
     let job = job?;
     for (rank, theirs) in all.chunks_exact(mine.len()).enumerate() {
         if theirs[0] == 0 {
-            return Err(Error::Ranks { rank, reason: "something is wrong that is told there" });
+            return Err(Error::Ensemble(EnsembleError::Ranks {
+                rank,
+                reason: "something is wrong that is told there",
+            }));
         }
         if theirs != &all[..mine.len()] {
             let reason = "system, method, settings, tag, end, members or part are others than on rank 0";
-            return Err(Error::Ranks { rank, reason });
+            return Err(Error::Ensemble(EnsembleError::Ranks { rank, reason }));
         }
     }
     Ok(job)

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use super::fingerprint::Fingerprint;
 use super::outcome::{Arrival, Member, Outcome};
 use crate::ending::Ending;
-use crate::error::Error;
+use crate::error::{EnsembleError, Error};
 use crate::names::Entry;
 use crate::number::Real;
 use crate::statistics::Statistics;
@@ -150,7 +150,7 @@ impl<T: Real, const N: usize> MemberTable<T, N> {
     /// The rows of a table of systems `L`.
     ///
     /// # Errors
-    /// [`Error::Resume`] for what is no row of this system, equations and all, and where rows are of different runs.
+    /// [`EnsembleError::Resume`](super::EnsembleError::Resume) for what is no row of this system, equations and all, and where rows are of different runs.
     pub fn read<L, const M: usize>(table: &str) -> Result<Self, Error>
     where
         L: Lagrangian<N, M, Scalar = T>,
@@ -164,7 +164,7 @@ impl<T: Real, const N: usize> MemberTable<T, N> {
     where
         T: FromStr,
     {
-        let wrong = |line, column, reason| Error::Resume { line, column, reason };
+        let wrong = |line, column, reason| Error::Ensemble(EnsembleError::Resume { line, column, reason });
         Self::gather(names, system, read(table, &names, count)?, wrong)
     }
 
@@ -225,7 +225,7 @@ impl<T: Real, const N: usize> MemberRow<T, N> {
     pub(super) fn into_member(self, events: &[&'static str]) -> Member<T, N> {
         let Self { index, fingerprint, state, statistics, ending } = self;
         let result = match (state, ending) {
-            (None, ending) => Err(Error::Elsewhere { said: ending.to_string() }),
+            (None, ending) => Err(Error::Ensemble(EnsembleError::Elsewhere { said: ending.to_string() })),
             (Some(state), ending) => {
                 let time = state.t.to_f64();
                 let ending = match ending {

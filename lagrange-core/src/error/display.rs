@@ -116,40 +116,12 @@ impl Display for Error {
             },
             #[cfg(feature = "alloc")]
             Self::RepeatedName { name } => write!(f, "`{name}` is given twice: give each entry once"),
-            Self::Shard { shard, of } => {
-                write!(
-                    f,
-                    "there is no part {shard} of {of}: parts are counted from 0, and there is at least one"
-                )
-            }
             Self::SampleTime { index, time } => write!(
                 f,
                 "the sample time {index} (counted from 0) is {time}: give finite times in the order of the motion"
             ),
-            Self::Merge { reason } => write!(f, "the outcomes are not parts of one ensemble: {reason}"),
-            Self::OtherRun { member, differs } => write!(
-                f,
-                "member {member} of the table to resume from is of another run: {differs}; resume with what made the table, or begin a new one"
-            ),
             #[cfg(feature = "std")]
-            Self::Untagged { code } => write!(
-                f,
-                "{code} may have been another when the rows to resume from were made, and nothing in them tells: name it in both runs by `.tag(\"…\")` on the ensemble, and anew whenever it changes; `.tag(\"\")` takes over rows of a run without a tag"
-            ),
-            #[cfg(feature = "std")]
-            Self::Elsewhere { said } => f.write_str(said),
-            #[cfg(feature = "parquet")]
-            Self::Parquet { file, reason } => write!(f, "{file}, of a table of members: {reason}"),
-            Self::Ranks { rank, reason } => {
-                write!(f, "the ranks cannot do this ensemble together: on rank {rank} {reason}")
-            }
-            Self::NoSuchMember { member, count } => {
-                write!(f, "there is no member {member}: the ensemble has {count}, counted from 0")
-            }
-            Self::Resume { line, column, reason } => write!(
-                f,
-                "line {line}, column {column} of the table of members does not belong there: {reason}"
-            ),
+            Self::Ensemble(error) => write!(f, "{error}"),
             Self::Restitution { value } => {
                 write!(f, "the coefficient of restitution is {value}: it must not be negative, and finite")
             }

@@ -4,7 +4,7 @@ use core::str::FromStr;
 
 use super::{CANCELLED, COMPLETE, MemberEnding, MemberRow, header};
 use crate::ensemble::fingerprint::Fingerprint;
-use crate::error::Error;
+use crate::error::{EnsembleError, Error};
 use crate::number::{Real, vector};
 use crate::statistics::Statistics;
 use crate::system::State;
@@ -30,7 +30,8 @@ pub(in crate::ensemble) fn read<T: Real + FromStr, const N: usize>(
             _ if text.starts_with('m') => check_header::<N>(text, &header).map(|()| None),
             _ => row(text, count),
         };
-        let row = read.map_err(|(column, reason)| Error::Resume { line, column, reason })?;
+        let row =
+            read.map_err(|(column, reason)| Error::Ensemble(EnsembleError::Resume { line, column, reason }))?;
         rows.extend(row.map(|row| (line, row)));
     }
     Ok(rows)

@@ -47,7 +47,9 @@ fn taken(table: &str) -> Vec<Member<f64, 1>> {
 #[track_caller]
 fn refused(table: &str, place: (usize, usize)) {
     match resume(table) {
-        Err(Error::Resume { line, column, .. }) => assert_eq!((line, column), place, "{table:?}"),
+        Err(Error::Ensemble(EnsembleError::Resume { line, column, .. })) => {
+            assert_eq!((line, column), place, "{table:?}")
+        }
         other => panic!("{other:?} for {table:?}"),
     }
 }

@@ -39,8 +39,7 @@ impl<T: Scalar, S: FixedArray<T>> SeriesFactors<T, S> {
     /// Room for so many orders.
     pub(super) fn new(orders: usize) -> Self {
         let sums = S::filled(T::constant(0.0)).as_ref().len();
-        let [rows, groups] =
-            if few::are::<T, S>() { [orders, 0] } else { [0, sums / WIDTH * orders] };
+        let [rows, groups] = if few::are::<T, S>() { [orders, 0] } else { [0, sums / WIDTH * orders] };
         let room = |groups| vec![Group([T::constant(0.0); WIDTH]); groups];
         let (left, right, ahead) = (room(groups), room(groups), room(groups / orders));
         Self { orders, few: Few::new::<T>(rows), left, right, ahead }

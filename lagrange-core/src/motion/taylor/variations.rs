@@ -249,8 +249,7 @@ where
             let solve = |(forcing, bias): &RightHandSides<_, N, M>| {
                 Ok(self.system.solve_with(&factor, forcing, bias))
             };
-            let Ok::<(), Infallible>(()) =
-                self.series.orders(&self.system, &state, &solution, unit, solve);
+            let Ok::<(), Infallible>(()) = self.series.orders(&self.system, &state, &solution, unit, solve);
         } else {
             self.expand_in_general(system, (at, &state), unit, memory.solved.active)?;
         }
