@@ -108,7 +108,7 @@ fn write_parts(directory: &Directory, outcome: &Outcome<f64, 2>, members: Range<
 fn refused<X>(result: Result<X, Error>, why: &str) {
     match result.map(drop) {
         Err(Error::Ensemble(EnsembleError::Parquet { reason, .. })) => {
-            assert!(reason.contains(why), "{reason}")
+            assert!(reason.contains(why), "{reason}");
         }
         other => panic!("{other:?}"),
     }

@@ -48,7 +48,7 @@ fn taken(table: &str) -> Vec<Member<f64, 1>> {
 fn refused(table: &str, place: (usize, usize)) {
     match resume(table) {
         Err(Error::Ensemble(EnsembleError::Resume { line, column, .. })) => {
-            assert_eq!((line, column), place, "{table:?}")
+            assert_eq!((line, column), place, "{table:?}");
         }
         other => panic!("{other:?} for {table:?}"),
     }
