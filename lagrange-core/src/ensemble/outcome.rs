@@ -134,7 +134,7 @@ impl<T: Real, const N: usize> Outcome<T, N> {
     /// Puts two parts together. Of a member that is in both, this one's is kept.
     ///
     /// # Errors
-    /// [`EnsembleError::Merge`](super::EnsembleError::Merge) for parts of other systems, of motions to another time, with another method or other settings, and for
+    /// [`EnsembleError::Merge`] for parts of other systems, of motions to another time, with another method or other settings, and for
     /// parts in which one member has another start or other parameters.
     pub fn merge(mut self, other: Self) -> Result<Self, Error> {
         if self.names != other.names {

@@ -150,7 +150,7 @@ impl<T: Real, const N: usize> MemberTable<T, N> {
     /// The rows of a table of systems `L`.
     ///
     /// # Errors
-    /// [`EnsembleError::Resume`](super::EnsembleError::Resume) for what is no row of this system, equations and all, and where rows are of different runs.
+    /// [`EnsembleError::Resume`] for what is no row of this system, equations and all, and where rows are of different runs.
     pub fn read<L, const M: usize>(table: &str) -> Result<Self, Error>
     where
         L: Lagrangian<N, M, Scalar = T>,
