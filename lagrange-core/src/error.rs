@@ -1,15 +1,15 @@
 //! What can go wrong, each with the name of the entry at fault and what to do about it.
 
 mod display;
+mod ending;
 #[cfg(feature = "std")]
 mod ensemble;
 
 #[cfg(feature = "alloc")]
 use alloc::{boxed::Box, string::String, vec::Vec};
 
-#[cfg(feature = "alloc")]
-use crate::ending::Ending;
 use crate::names::{Entry, Names, Row};
+pub use ending::{Ending, Pace};
 #[cfg(feature = "std")]
 pub use ensemble::EnsembleError;
 

@@ -142,7 +142,6 @@ extern crate alloc;
 extern crate self as lagrange_core;
 
 pub mod embedded;
-mod ending;
 #[cfg(feature = "std")]
 pub mod ensemble;
 mod error;
@@ -165,12 +164,12 @@ mod system;
 #[cfg(feature = "alloc")]
 mod trajectory;
 
-pub use ending::{Ending, Pace};
 #[cfg(feature = "std")]
 pub use ensemble::{
     Arrival, Ensemble, EnsembleProgress, Fingerprint, Member, MemberEnding, MemberRow, MemberTable, Outcome,
 };
 pub use error::Error;
+pub use error::{Ending, Pace};
 pub use function::{Function, FunctionWithDerivatives, WithDerivatives};
 #[cfg(feature = "alloc")]
 pub use function::{SmoothTable, Table};
@@ -181,7 +180,7 @@ pub use linearized::{
     DifferentiableMethod, DualSample, Equilibrium, InverseDynamics, Linearization, LyapunovSpectrum,
     MotionDerivatives, SelectedJacobian, Stability, StateSensitivity, TrajectorySensitivity,
 };
-pub use linearized::{Direction, Jacobian, Linearized, PartialDerivatives, ResidualChange, StateDerivatives};
+pub use linearized::{Jacobian, Linearized, PartialDerivatives, StateDerivatives};
 #[cfg(feature = "std")]
 pub use motion::LaneMethod;
 pub use motion::Simulate;
@@ -200,9 +199,9 @@ pub use solution::Impact;
 pub use solution::{Adjustment, Consistent, Sample};
 pub use statistics::Statistics;
 pub use system::{
-    Classification, Conserved, ConstraintKind, EnergyForm, Entries, Equations, Evidence, Excerpt, Extent,
-    Facts, Integrability, Integrals, Lagrangian, LinearPart, Pack, Packed, RightHandSides, Shared, Solution,
-    State, TaylorSeries, TotalDerivative,
+    Classification, Conserved, ConstraintKind, Direction, EnergyForm, Entries, Equations, Evidence, Excerpt,
+    Extent, Facts, Integrability, Integrals, Lagrangian, LinearPart, Pack, Packed, ResidualChange,
+    RightHandSides, Shared, Solution, State, TaylorSeries, TotalDerivative,
 };
 #[cfg(feature = "alloc")]
 pub use trajectory::{Csv, Deviation, Drift, HybridTrajectory, Leg, Named, Records, Trajectory};

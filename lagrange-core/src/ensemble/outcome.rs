@@ -3,8 +3,7 @@
 use core::fmt::{self, Display, Formatter};
 
 use super::fingerprint::Fingerprint;
-use crate::ending::Ending;
-use crate::error::{EnsembleError, Error};
+use crate::error::{Ending, EnsembleError, Error};
 use crate::motion::Crossing;
 use crate::number::Real;
 use crate::statistics::Statistics;

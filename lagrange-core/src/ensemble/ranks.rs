@@ -80,7 +80,7 @@ where
     /// of all, elsewhere none.
     ///
     /// # Errors
-    /// As there, on the rank where it is wrong, and on the others [`EnsembleError::Ranks`](super::EnsembleError::Ranks); that also where the ensembles of the ranks
+    /// As there, on the rank where it is wrong, and on the others [`EnsembleError::Ranks`]; that also where the ensembles of the ranks
     /// differ, and where MPI is not to be used beside threads. Nothing is integrated then.
     ///
     /// Where a rank panics, it ends the whole job: the others could only wait.

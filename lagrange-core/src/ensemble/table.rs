@@ -9,8 +9,7 @@ use std::collections::BTreeMap;
 
 use super::fingerprint::Fingerprint;
 use super::outcome::{Arrival, Member, Outcome};
-use crate::ending::Ending;
-use crate::error::{EnsembleError, Error};
+use crate::error::{Ending, EnsembleError, Error};
 use crate::names::Entry;
 use crate::number::Real;
 use crate::statistics::Statistics;

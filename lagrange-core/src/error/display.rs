@@ -156,7 +156,7 @@ mod tests {
     use alloc::{format, string::ToString};
 
     use super::*;
-    use crate::ending::Ending;
+    use crate::error::Ending;
 
     /// `main` prints an error by `Debug`, and so does a result that is unwrapped.
     #[test]

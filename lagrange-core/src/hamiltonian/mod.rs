@@ -1,6 +1,7 @@
 //! The Hamiltonian side of a system: momenta instead of velocities.
 
 mod legendre;
+mod motion;
 mod phase;
 #[cfg(test)]
 mod tests;
@@ -31,7 +32,8 @@ use phase::equations;
 /// The velocity that belongs to (t, q, p) is the one on the constraints, F q̇ + b = 0, whose momenta ∂L/∂q̇ differ from p
 /// by no more than a part Fᵀμ along the constraints: such a part does no work on any motion allowed. So
 /// ∂²L/∂q̇² may be singular where the constraints make up for it (unit quaternions, massless coordinates). Where L is
-/// quadratic in q̇ the transform is closed, elsewhere Newton's iteration.
+/// quadratic in q̇ the transform is closed, elsewhere Newton's iteration. Where L is not convex in q̇ several velocities may have the same
+/// momenta: a phase state then stands for the one that the iteration finds from rest, and [`legendre_near`](Self::legendre_near) finds others.
 ///
 /// ```
 /// use lagrange_core::prelude::*;

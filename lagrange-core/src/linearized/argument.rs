@@ -2,11 +2,10 @@
 
 use alloc::vec::Vec;
 
-use super::direction::unit;
-use super::{Direction, Linearized, ResidualChange};
+use super::Linearized;
 use crate::error::Error;
 use crate::names::Entry;
-use crate::system::{Solution, State, lookup};
+use crate::system::{Direction, ResidualChange, Solution, State, lookup, unit};
 
 /// A coordinate, a velocity or a parameter, by its index.
 #[derive(Clone, Copy, PartialEq)]

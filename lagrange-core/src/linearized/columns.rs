@@ -4,12 +4,12 @@ use alloc::{format, string::String, vec::Vec};
 
 use nalgebra::DMatrix;
 
+use super::Linearized;
 use super::argument::Argument;
 use super::tangent::{Tangent, WideOf};
-use super::{Direction, Linearized};
 use crate::error::Error;
 use crate::number::{Real, Scalar, Wide};
-use crate::system::{Solution, State};
+use crate::system::{Direction, Solution, State};
 
 /// What the equations of motion give at a state, and its partial derivatives by some arguments.
 #[derive(Clone, Debug, PartialEq)]

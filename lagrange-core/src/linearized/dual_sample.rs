@@ -4,16 +4,16 @@ use core::fmt::{self, Debug, Formatter};
 
 use nalgebra::{ComplexField, SVector};
 
+use super::Linearized;
 use super::argument::parameter;
 use super::tangent::{Tangent, WideOf};
-use super::{Direction, Linearized, ResidualChange};
 use crate::error::Error;
 use crate::motion::{AnyEvent, Event, EventFunction, EventValue};
 use crate::names::Entry;
 use crate::number::{Dual, Real, Scalar, Wide};
 use crate::solution::solve::solve;
 use crate::system::lookup::index;
-use crate::system::{Solution, State};
+use crate::system::{Direction, ResidualChange, Solution, State};
 
 /// A state of a system over dual numbers: with its change by one argument, as a function needs it that is to be
 /// differentiated.

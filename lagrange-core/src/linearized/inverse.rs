@@ -6,15 +6,14 @@ use nalgebra::{ComplexField, DMatrix, DVector, SVector};
 
 use super::Linearized;
 use super::argument::Argument;
-use super::direction::unit;
 use super::singular::Singular;
 use crate::error::Error;
 use crate::names::Row;
 use crate::number::{Real, Scalar, larger, power_of_epsilon, vector};
 use crate::solution::kkt::Units;
 use crate::solution::solve::first_row;
-use crate::system::finite::check_finite;
 use crate::system::{Solution, State};
+use crate::system::{finite::check_finite, unit};
 
 /// What gives a system the accelerations asked for.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,11 +3,11 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::tangent::Tangent;
-use super::{Direction, Linearized, StateDerivatives};
+use super::{Linearized, StateDerivatives};
 use crate::error::Error;
 use crate::names::Entry;
 use crate::number::{Real, Wide};
-use crate::system::{Lagrangian, Solution, State};
+use crate::system::{Direction, Lagrangian, Solution, State};
 
 /// Partial derivatives of `R` quantities by the time, `N` coordinates, `N` velocities and `P` parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector, SVector};
 
 use super::jacobian::{name_of, put_argument};
 use super::tangent::{Matrices, Tangent, WideOf};
-use super::{Direction, Linearized, StateDerivatives};
+use super::{Linearized, StateDerivatives};
 use crate::error::Error;
 use crate::names::Entry;
 use crate::number::{Real, Scalar, Wide, larger, largest, norm, power_of_epsilon, vector};
@@ -15,7 +15,7 @@ use crate::solution::consistent;
 use crate::solution::kkt::{Rank, Rows};
 use crate::system::finite::check_finite;
 use crate::system::lookup;
-use crate::system::{Solution, State};
+use crate::system::{Direction, Solution, State};
 
 /// The linear system ż = A z + B u near a state, u the change of the inputs.
 ///

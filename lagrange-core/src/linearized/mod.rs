@@ -6,7 +6,6 @@ mod across;
 mod argument;
 #[cfg(feature = "alloc")]
 mod columns;
-mod direction;
 #[cfg(feature = "alloc")]
 mod display;
 #[cfg(feature = "alloc")]
@@ -45,7 +44,6 @@ use nalgebra::SVector;
 pub use across::MotionDerivatives;
 #[cfg(feature = "alloc")]
 pub use columns::SelectedJacobian;
-pub use direction::{Direction, ResidualChange};
 #[cfg(feature = "alloc")]
 pub use dual_sample::{DifferentiableEvent, DualSample, OverDuals};
 #[cfg(feature = "alloc")]
@@ -65,15 +63,11 @@ pub use sensitivity::StateSensitivity;
 pub use spectrum::Stability;
 pub use state_derivatives::StateDerivatives;
 #[cfg(feature = "alloc")]
-pub(crate) use tangent::{Tangent, WideOf};
-#[cfg(feature = "alloc")]
 pub use variation::DifferentiableMethod;
-#[cfg(feature = "alloc")]
-pub(crate) use variation::{Block, Variations};
 
 use crate::error::Error;
 use crate::number::{Broadcast, Real};
-use crate::system::{Lagrangian, Solution, State};
+use crate::system::{Lagrangian, ResidualChange, Solution, State};
 
 /// A system whose equations of motion can be differentiated by parameters too: Jacobians, equilibria, linearization.
 ///

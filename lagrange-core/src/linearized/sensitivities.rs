@@ -3,13 +3,12 @@
 use alloc::{boxed::Box, string::String, string::ToString, vec::Vec};
 use core::fmt::{self, Debug, Formatter};
 
+use super::Linearized;
 use super::dual_sample::DifferentiableEvent;
 use super::sensitivity::{StateSensitivity, at_event};
 use super::tangent::{Tangent, WideOf};
 use super::variation::{DifferentiableMethod, Variations};
-use super::{Direction, Linearized};
-use crate::ending::Ending;
-use crate::error::Error;
+use crate::error::{Ending, Error};
 use crate::motion::MotionBuilder;
 use crate::motion::builder::EventList;
 use crate::motion::run::{Companion, OnProgress, Run, drive};
@@ -17,7 +16,7 @@ use crate::names::Entry;
 use crate::number::{Broadcast, Real, Scalar, Wide};
 use crate::solution::vector_field::{LagrangianVectorField, PhaseVector};
 use crate::system::finite::check_finite;
-use crate::system::{Lagrangian, State, lookup};
+use crate::system::{Direction, Lagrangian, State, lookup};
 use crate::trajectory::Trajectory;
 
 /// A motion, and how it changes with entries of its start and with parameters.

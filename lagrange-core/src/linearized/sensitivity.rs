@@ -12,10 +12,10 @@ use alloc::vec::Vec;
 
 use nalgebra::{DMatrix, DVector, SVector};
 
+use super::Linearized;
 use super::argument::{Argument, parameter};
 use super::dual_sample::{DifferentiableEvent, DualSample, slope};
 use super::tangent::Tangent;
-use super::{Direction, Linearized, ResidualChange};
 use crate::error::Error;
 use crate::names::Entry;
 use crate::number::{Broadcast, Dual, Real, Scalar, Wide, larger, power_of_epsilon, vector};
@@ -23,7 +23,7 @@ use crate::solution::impact::impact;
 use crate::solution::solve::solve;
 use crate::solution::vector_field::PhaseVector;
 use crate::system::lookup::index;
-use crate::system::{Solution, State};
+use crate::system::{Direction, ResidualChange, Solution, State};
 
 /// A state of a motion and its derivatives by some arguments: entries of a start, parameters, and numbers of one's
 /// own.

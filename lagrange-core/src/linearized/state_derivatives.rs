@@ -5,10 +5,10 @@ use core::fmt::Debug;
 #[cfg(doc)]
 use super::Linearized;
 use super::jacobian::{self, Jacobian};
-use super::{Direction, ResidualChange};
 use crate::error::Error;
 use crate::number::{Broadcast, Real};
-use crate::system::{Lagrangian, Solution, State};
+use crate::system::pointers::forward;
+use crate::system::{Direction, Lagrangian, ResidualChange, Solution, State};
 
 /// A system whose equations of motion can be differentiated by the time and the state: what implicit methods and
 /// sensitivities need.
@@ -76,3 +76,30 @@ pub trait StateDerivatives<const N: usize, const M: usize>: Lagrangian<N, M> {
         jacobian::state_jacobian(self, state)
     }
 }
+
+/// A system behind a reference or a smart pointer has the derivatives of that system.
+macro_rules! behind {
+    ($($pointer:ty),*) => {$(
+        #[diagnostic::do_not_recommend]
+        impl<L: StateDerivatives<N, M>, const N: usize, const M: usize> StateDerivatives<N, M> for $pointer {
+            type Slopes = L::Slopes;
+
+            forward! { @methods
+                fn residual_slopes(
+                    state: &State<Self::Scalar, N>,
+                    solution: &Solution<Self::Scalar, N, M>
+                ) -> Self::Slopes;
+                fn residual_change_with<S>(
+                    slopes: &Self::Slopes,
+                    direction: &Direction<S, N>
+                ) -> ResidualChange<S, N, M>;
+            }
+        }
+    )*};
+}
+
+behind!(&L);
+#[cfg(feature = "alloc")]
+behind!(alloc::boxed::Box<L>, alloc::rc::Rc<L>);
+#[cfg(all(feature = "alloc", target_has_atomic = "ptr"))]
+behind!(alloc::sync::Arc<L>);

@@ -7,9 +7,7 @@ use core::ops::Range;
 
 use nalgebra::{ComplexField, SVector};
 
-#[cfg(feature = "alloc")]
-use super::direction::unit;
-use super::{Direction, Linearized, ResidualChange, StateDerivatives};
+use super::{Linearized, StateDerivatives};
 use crate::error::Error;
 use crate::names::Entry;
 use crate::number::{Broadcast, Real, Scalar, Wide};
@@ -17,8 +15,8 @@ use crate::room::Room;
 use crate::solution::kkt::{Factors, Rank};
 use crate::solution::solve::{fault, first_row, is_trustworthy, least_pivot, solve};
 #[cfg(feature = "alloc")]
-use crate::system::ConstraintKind;
-use crate::system::{Lagrangian, Solution, State};
+use crate::system::{ConstraintKind, unit};
+use crate::system::{Direction, Lagrangian, ResidualChange, Solution, State};
 
 /// The equations of motion at a state, solved, factorized and differentiated.
 pub(crate) struct Tangent<'a, L: StateDerivatives<N, M>, const N: usize, const M: usize> {

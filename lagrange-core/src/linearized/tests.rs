@@ -1,5 +1,5 @@
-use crate::linearized::Direction;
 use crate::number::vector;
+use crate::system::Direction;
 
 #[test]
 fn a_direction_of_one_argument_changes_that_alone() {

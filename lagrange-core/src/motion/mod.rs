@@ -29,20 +29,20 @@ pub(crate) mod run;
 pub(crate) mod simulate;
 mod steered;
 #[cfg(feature = "alloc")]
-mod taylor;
+pub(crate) mod taylor;
 #[cfg(test)]
 mod tests;
 
 #[cfg(feature = "alloc")]
 pub use builder::{EventList, MotionBuilder, Start};
-pub use event::{AnyEvent, Crossing, Event, EventFunction, EventValue};
+pub use event::{AnyEvent, Event, EventFunction, EventValue};
 #[cfg(feature = "std")]
 pub use lanes::LaneMethod;
 #[cfg(feature = "std")]
 pub(crate) use lanes::{Batch, LaneMotion};
 pub use method::{
-    Adaptive, Dop853, Dopri5, DormandPrince54, DormandPrince853, HermiteNode, Interpolant, Limits, Method,
-    Pair, Polynomial, RungeKutta4, Step, TableauRow, runge_kutta_step,
+    Adaptive, Dop853, Dopri5, DormandPrince54, DormandPrince853, Limits, Method, Pair, RungeKutta4, Step,
+    TableauRow, runge_kutta_step,
 };
 #[cfg(feature = "std")]
 pub(crate) use record::{Record, RecordPlan};
@@ -52,6 +52,8 @@ pub use steered::Motion;
 #[cfg(feature = "alloc")]
 pub use taylor::{Taylor, TaylorPolynomial};
 
+pub use crate::solution::crossing::Crossing;
+pub use crate::solution::interpolant::{HermiteNode, Interpolant, Polynomial};
 pub use crate::solution::vector_field::{
     ActiveConstraints, LagrangianVectorField, PhaseVector, StagePoint, VectorField,
 };

@@ -5,13 +5,14 @@ use core::marker::PhantomData;
 
 use nalgebra::ComplexField;
 
-use super::event::{Crossing, DenseStep, Event, EventFunction, EventSearch, EventValue};
-use super::method::{Interpolant, Method};
+use super::event::{DenseStep, Event, EventFunction, EventSearch, EventValue};
+use super::method::Method;
 use super::run::{Run, Watchdog, is_between, resume};
-use crate::ending::Ending;
-use crate::error::Error;
+use crate::error::{Ending, Error};
 use crate::number::{Real, Scalar};
 use crate::solution::Sample;
+use crate::solution::crossing::Crossing;
+use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::{LagrangianVectorField, VectorField};
 use crate::system::{Lagrangian, State};
 

@@ -8,8 +8,7 @@ use core::ops::ControlFlow;
 #[cfg(feature = "alloc")]
 use super::event::{AnyEvent, EventSearch};
 use super::method::{Limits, Method, Step};
-use crate::ending::{Ending, Pace};
-use crate::error::Error;
+use crate::error::{Ending, Error, Pace};
 use crate::number::Real;
 use crate::solution::Adjustment;
 use crate::solution::consistent::{self, Consistent};

@@ -4,14 +4,13 @@ use core::fmt::{self, Debug, Formatter};
 use core::marker::PhantomData;
 
 use super::Method;
-use super::event::{AnyEvent, Crossing, DenseStep, EventSearch};
+use super::event::{AnyEvent, DenseStep, EventSearch};
 use super::run::{self, Run, Watchdog, Within, is_between, resume};
-use crate::ending::Ending;
-use crate::error::Error;
-use crate::hamiltonian::{Hamiltonian, HamiltonianVectorField, PhaseState};
-use crate::motion::Interpolant;
+use crate::error::{Ending, Error};
 use crate::number::Real;
 use crate::solution::consistent;
+use crate::solution::crossing::Crossing;
+use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::{LagrangianVectorField, VectorField};
 use crate::statistics::Statistics;
 use crate::system::finite::check_finite;
@@ -84,28 +83,13 @@ where
     }
 }
 
-impl<L, P, const N: usize, const M: usize> Motion<L, P, N, M, HamiltonianVectorField>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-    P: Method<L, N, M, HamiltonianVectorField>,
-{
-    /// A motion by Hamilton's equations from this phase state on: the method adds up and controls coordinates and momenta.
-    ///
-    /// # Errors
-    /// As [`legendre`](Hamiltonian::legendre), and as [`Motion::new`] where it does not start.
-    pub fn in_momenta(system: L, phase: PhaseState<L::Scalar, N>, method: P) -> Result<Self, Error> {
-        let state = system.legendre(&phase)?;
-        Self::begin(system, &state, method)
-    }
-}
-
 impl<L, P, F, const N: usize, const M: usize> Motion<L, P, N, M, F>
 where
     L: Lagrangian<N, M, Scalar: Real>,
     F: VectorField<L, N, M>,
     P: Method<L, N, M, F>,
 {
-    fn begin(system: L, state: &State<L::Scalar, N>, method: P) -> Result<Self, Error> {
+    pub(crate) fn begin(system: L, state: &State<L::Scalar, N>, method: P) -> Result<Self, Error> {
         let (run, _) = Run::begin(&system, state, &method)?;
         let within = Within::default();
         Ok(Self { system, method, run, stop: None, within, has_step: false, is_current: true })

@@ -1,7 +1,7 @@
 use core::ops::ControlFlow;
 use std::time::Duration;
 
-use crate::ending::Ending;
+use crate::error::Ending;
 use crate::fixtures::{
     GRAVITY, Mechanism, dependent_on_the_manifold, free, oscillator, plane_pendulum, rolling_sphere,
     spherical_pendulum,

@@ -1,9 +1,11 @@
 //! The equations of motion solved: accelerations and multipliers, consistent states, the rates of a motion.
 
 pub(crate) mod consistent;
+pub(crate) mod crossing;
 pub(crate) mod eliminate;
 #[cfg(feature = "alloc")]
 pub(crate) mod impact;
+pub(crate) mod interpolant;
 pub(crate) mod kkt;
 pub(crate) mod near;
 pub(crate) mod newton;

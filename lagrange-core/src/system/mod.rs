@@ -1,6 +1,7 @@
 //! What a system is: the contract that generated code implements, its state, and what is known about it.
 
 pub(crate) mod defect;
+mod direction;
 mod entries;
 pub(crate) mod equations;
 mod evidence;
@@ -12,12 +13,15 @@ mod lagrangian;
 pub(crate) mod lookup;
 pub(crate) mod member;
 mod pack;
-mod pointers;
+pub(crate) mod pointers;
 #[cfg(feature = "serde")]
 pub(crate) mod read;
 mod state;
 mod taylor_series;
 
+#[cfg(feature = "alloc")]
+pub(crate) use direction::unit;
+pub use direction::{Direction, ResidualChange};
 pub use entries::Entries;
 pub use equations::{Equations, Excerpt};
 pub use evidence::Evidence;

@@ -3,6 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::defect::Defect;
+use super::direction::Direction;
 use super::equations::Equations;
 use super::facts::Facts;
 use super::integrability::{Classification, Integrals};
@@ -10,7 +11,6 @@ use super::lagrangian::{ConstraintKind, Lagrangian};
 use super::pack::Pack;
 use super::state::{Solution, State};
 use super::taylor_series::{RightHandSides, TaylorSeries};
-use crate::linearized::{Direction, ResidualChange, StateDerivatives};
 use crate::number::{Broadcast, PowerSeries};
 
 /// Forwards every method and constant, also those with a default, which would hide the system's own.
@@ -81,22 +81,6 @@ macro_rules! forward {
         }
 
         #[diagnostic::do_not_recommend]
-        impl<L: StateDerivatives<N, M>, const N: usize, const M: usize> StateDerivatives<N, M> for $pointer {
-            type Slopes = L::Slopes;
-
-            forward! { @methods
-                fn residual_slopes(
-                    state: &State<Self::Scalar, N>,
-                    solution: &Solution<Self::Scalar, N, M>
-                ) -> Self::Slopes;
-                fn residual_change_with<S>(
-                    slopes: &Self::Slopes,
-                    direction: &Direction<S, N>
-                ) -> ResidualChange<S, N, M>;
-            }
-        }
-
-        #[diagnostic::do_not_recommend]
         impl<L: TaylorSeries<N, M>, const N: usize, const M: usize> TaylorSeries<N, M> for $pointer {
             type SeriesSlopes = L::SeriesSlopes;
             type Sums = L::Sums;
@@ -159,3 +143,5 @@ forward!(&L);
 forward!(alloc::boxed::Box<L>, alloc::rc::Rc<L>);
 #[cfg(all(feature = "alloc", target_has_atomic = "ptr"))]
 forward!(alloc::sync::Arc<L>);
+
+pub(crate) use forward;

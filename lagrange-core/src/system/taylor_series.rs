@@ -6,8 +6,8 @@ use nalgebra::SVector;
 
 use super::lagrangian::Lagrangian;
 use super::state::{Solution, State};
-use crate::linearized::Direction;
 use crate::number::{FixedArray, PowerSeries};
+use crate::system::Direction;
 
 /// What the right-hand sides of the equations of motion are: in the places of h and of γ.
 pub type RightHandSides<T, const N: usize, const M: usize> = (SVector<T, N>, SVector<T, M>);

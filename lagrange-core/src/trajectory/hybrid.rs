@@ -6,8 +6,7 @@ use core::any::Any;
 use core::fmt::{self, Debug, Formatter};
 
 use super::{Trajectory, between};
-use crate::ending::Ending;
-use crate::error::Error;
+use crate::error::{Ending, Error};
 use crate::number::Real;
 use crate::solution::Sample;
 use crate::solution::vector_field::VectorField;

@@ -18,10 +18,9 @@ pub use hybrid::{HybridTrajectory, Leg, Named};
 pub(crate) use path::Path;
 pub use records::Records;
 
-use crate::ending::Ending;
-use crate::error::Error;
-use crate::motion::Crossing;
+use crate::error::{Ending, Error};
 use crate::number::{Real, Scalar, vector};
+use crate::solution::crossing::Crossing;
 use crate::solution::vector_field::{LagrangianVectorField, VectorField};
 use crate::solution::{Adjustment, Sample};
 use crate::statistics::Statistics;

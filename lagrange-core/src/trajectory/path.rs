@@ -3,9 +3,10 @@
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
-use crate::motion::{Crossing, Interpolant};
 use crate::number::Real;
 use crate::room::Room;
+use crate::solution::crossing::Crossing;
+use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::StagePoint;
 use crate::system::State;
 

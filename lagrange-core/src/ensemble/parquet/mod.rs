@@ -88,7 +88,7 @@ where
     /// [made from](super::Ensemble::from_fn).
     ///
     /// # Errors
-    /// [`EnsembleError::Parquet`](super::EnsembleError::Parquet), if there is no such directory and none can be made.
+    /// [`EnsembleError::Parquet`], if there is no such directory and none can be made.
     pub fn open(
         directory: impl AsRef<Path>,
         member: impl Fn(usize) -> (L, State<T, N>) + Send + 'a,
@@ -116,7 +116,7 @@ where
     /// Appends the row of a member.
     ///
     /// # Errors
-    /// [`EnsembleError::OtherRun`](super::EnsembleError::OtherRun), if it is of another run than the rows that wait, or was made from another start. As
+    /// [`EnsembleError::OtherRun`], if it is of another run than the rows that wait, or was made from another start. As
     /// [`flush`](Self::flush), when it is time for a file; the row waits then as the others do.
     pub fn push(&mut self, member: &Member<T, N>) -> Result<(), Error> {
         let (system, start) = (self.member)(member.index);
@@ -134,7 +134,7 @@ where
     /// Writes the rows that wait into a file.
     ///
     /// # Errors
-    /// [`EnsembleError::Parquet`](super::EnsembleError::Parquet), where that cannot be done, or the directory holds files of another run or of another system, or rows of
+    /// [`EnsembleError::Parquet`], where that cannot be done, or the directory holds files of another run or of another system, or rows of
     /// members with another start or other parameters. To see that, members are made up to the last that waits; of those beyond
     /// it nothing is known yet, but that their member 0 was the same. The rows go on waiting: make room and flush again.
     pub fn flush(&mut self) -> Result<(), Error> {
@@ -155,7 +155,7 @@ where
     /// that were cut off are passed over: [`damaged`](Self::damaged) names them.
     ///
     /// # Errors
-    /// [`EnsembleError::Parquet`](super::EnsembleError::Parquet) for files of another system, by its columns or by its equations, or with another member 0, for files of
+    /// [`EnsembleError::Parquet`] for files of another system, by its columns or by its equations, or with another member 0, for files of
     /// several runs, and where the directory cannot be read.
     pub fn read(&mut self) -> Result<MemberTable<T, N>, Error> {
         self.damaged.clear();

@@ -3,11 +3,11 @@
 use nalgebra::{ComplexField, DMatrix, DVector, SVector};
 
 use crate::error::Error;
+use crate::linearized::Linearized;
 use crate::linearized::argument::Argument;
-use crate::linearized::{Linearized, ResidualChange};
 use crate::names::Row;
 use crate::number::{Real, Scalar, vector};
-use crate::system::{Lagrangian, Solution, State};
+use crate::system::{Lagrangian, ResidualChange, Solution, State};
 
 /// Where the search is.
 #[derive(Clone)]

@@ -3,8 +3,7 @@
 use alloc::vec::Vec;
 
 use super::{Linearized, Variations};
-use crate::ending::Ending;
-use crate::error::Error;
+use crate::error::{Ending, Error};
 use crate::linearized::tangent::WideOf;
 use crate::motion::Method;
 use crate::motion::run::Run;

@@ -10,6 +10,7 @@
 
 mod differentiable;
 mod stages;
+mod taylor;
 
 use alloc::vec::Vec;
 
@@ -17,7 +18,7 @@ use nalgebra::SVector;
 
 use super::argument::parameter;
 use super::tangent::{Tangent, WideOf};
-use super::{Direction, Linearized, ResidualChange, StateDerivatives};
+use super::{Linearized, StateDerivatives};
 use crate::error::Error;
 use crate::names::Entry;
 use crate::number::{Real, Scalar, Wide, entries, vector};
@@ -26,6 +27,7 @@ use crate::solution::consistent::factors_of_nearest;
 use crate::solution::kkt::{Factors, Fault, Rank};
 use crate::solution::solve::fault;
 use crate::solution::vector_field::PhaseVector;
+use crate::system::{Direction, ResidualChange};
 
 pub use differentiable::DifferentiableMethod;
 

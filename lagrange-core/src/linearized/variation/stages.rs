@@ -6,16 +6,15 @@ use alloc::vec::Vec;
 use nalgebra::ComplexField;
 
 use super::{Block, DifferentiableMethod, Linearized, StateDerivatives, Variations};
-use crate::ending::Ending;
-use crate::error::Error;
+use crate::error::{Ending, Error};
 use crate::linearized::tangent::{Tangent, WideOf};
-use crate::motion::method::interpolant::{evaluate, hermite};
 use crate::motion::method::pair::{Slopes, advance, last};
 use crate::motion::method::step::PairMemory;
 use crate::motion::run::Run;
 use crate::motion::{Adaptive, Pair, TableauRow};
 use crate::number::{Broadcast, Real, Scalar, Wide, exceeds, vector};
 use crate::room::Room;
+use crate::solution::interpolant::{evaluate, hermite};
 use crate::solution::solve::solve_near;
 use crate::solution::vector_field::{LagrangianVectorField, PhaseVector};
 use crate::system::{Solution, State};

@@ -2,7 +2,7 @@
 
 use super::CrossingDirection;
 use super::chebyshev::{FINEST, Samples, Shape};
-use crate::ending::Ending;
+use crate::error::Ending;
 use crate::motion::run::is_between;
 use crate::number::{Real, Scalar, larger, smaller};
 

@@ -4,16 +4,16 @@
 use alloc::vec::Vec;
 use core::marker::PhantomData;
 
+use super::AnyEvent;
 use super::chebyshev::{COARSEST, FINEST, part, places};
 use super::halves::{Halves, LEVELS};
 use super::locate::locate;
 use super::memory::{Interval, View};
 use super::noise::noise;
-use super::{AnyEvent, Crossing};
-use crate::ending::Ending;
-use crate::error::Error;
-use crate::motion::Interpolant;
+use crate::error::{Ending, Error};
 use crate::number::{Real, Scalar, larger};
+use crate::solution::crossing::Crossing;
+use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::VectorField;
 use crate::system::{Lagrangian, State};
 #[cfg(feature = "alloc")]

@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 use core::ops::ControlFlow;
 
 use super::{LaneMethod, LaneMotion, LaneMotions, LaneOutcome};
-use crate::ending::Ending;
+use crate::error::Ending;
 use crate::motion::event::DenseStep;
 use crate::number::{Lanes, vector};
 use crate::solution::vector_field::{LagrangianVectorField, PhaseVector};

@@ -3,8 +3,7 @@
 use core::fmt::{self, Debug, Formatter};
 
 use super::LaneMethod;
-use crate::ending::Ending;
-use crate::error::Error;
+use crate::error::{Ending, Error};
 use crate::motion::record::{Record, RecordPlan};
 use crate::motion::run::{Run, Watchdog, resume};
 use crate::motion::{Method, Step};

@@ -4,13 +4,13 @@ use core::array::from_fn;
 
 use super::{LaneMethod, LaneMotions, LaneOutcome, LaneReliability, unpacked};
 use crate::error::Error;
-use crate::motion::method::interpolant::{evaluate, hermite};
 use crate::motion::method::pair::{Slopes, TableauRow, advance, check, last};
 use crate::motion::method::step::PairMemory;
 use crate::motion::{Adaptive, Interpolant, Pair};
 use crate::number::{Lanes, Scalar, vector};
 use crate::room::Room;
 use crate::solution::consistent::BOTH;
+use crate::solution::interpolant::{evaluate, hermite};
 use crate::solution::near::{self, Corrections};
 use crate::solution::vector_field::{LagrangianVectorField, PhaseVector, StagePoint, VectorField};
 use crate::statistics::Statistics;

@@ -2,10 +2,9 @@
 
 mod adaptive;
 pub(super) mod clock;
-pub(super) mod control;
+pub(crate) mod control;
 mod dop853;
 mod dopri5;
-pub(crate) mod interpolant;
 pub(crate) mod pair;
 mod runge_kutta;
 pub(crate) mod step;
@@ -14,7 +13,6 @@ mod stiff;
 pub use adaptive::Adaptive;
 pub use dop853::{Dop853, DormandPrince853};
 pub use dopri5::{Dopri5, DormandPrince54};
-pub use interpolant::{HermiteNode, Interpolant, Polynomial};
 pub use pair::{Pair, TableauRow};
 pub use runge_kutta::{RungeKutta4, runge_kutta_step};
 
@@ -22,9 +20,9 @@ pub use runge_kutta::{RungeKutta4, runge_kutta_step};
 use alloc::vec::Vec;
 use core::fmt;
 
-use crate::ending::{Ending, Pace};
-use crate::error::Error;
+use crate::error::{Ending, Error, Pace};
 use crate::number::Real;
+use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::{LagrangianVectorField, VectorField};
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State};

@@ -7,12 +7,11 @@ use core::fmt;
 use nalgebra::{ComplexField, SVector};
 
 use super::clock::Clock;
-use super::interpolant::Polynomial;
 use super::{Limits, Method, Step, check_settings};
-use crate::ending::Ending;
-use crate::error::Error;
+use crate::error::{Ending, Error};
 use crate::number::{Real, Scalar, vector};
 use crate::solution::consistent::{BOTH, project};
+use crate::solution::interpolant::Polynomial;
 use crate::solution::solve::{first_row, solve};
 use crate::solution::vector_field::PhaseVector;
 use crate::statistics::Statistics;

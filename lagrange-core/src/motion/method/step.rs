@@ -9,16 +9,15 @@ use nalgebra::ComplexField;
 
 use super::clock::Clock;
 use super::control::{Control, StateEntry};
-use super::interpolant::{Polynomial, hermite};
 use super::pair::{
     Pair, Slopes, TableauRow, advance, advance_from, check, error_needs_last, is_carried, last,
 };
 use super::{Adaptive, Limits, Method, Step};
-use crate::ending::{Ending, Pace};
-use crate::error::Error;
+use crate::error::{Ending, Error, Pace};
 use crate::names::{Entry, Row};
 use crate::number::{Real, Scalar, entries, vector};
 use crate::room::Room;
+use crate::solution::interpolant::{Polynomial, hermite};
 use crate::solution::solve::name;
 use crate::solution::vector_field::{ActiveConstraints, PhaseVector, StagePoint, VectorField};
 use crate::statistics::Statistics;

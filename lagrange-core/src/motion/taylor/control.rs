@@ -22,23 +22,23 @@ const STEP: f64 = 1.4;
 const LEFT_OUT: f64 = 5.0;
 
 /// So many coefficients tell how long a step is to be.
-pub(super) const LAST: usize = 5;
+pub(crate) const LAST: usize = 5;
 
 impl Taylor {
     /// The tolerance, as far as the numbers go.
-    pub(super) fn tolerance<T: Real>(&self) -> f64 {
+    pub(crate) fn tolerance<T: Real>(&self) -> f64 {
         self.relative.max(T::EPSILON)
     }
 
     /// The order with which the first term that is left out, by the length of a [step](STEP), is that part of the tolerance.
-    pub(super) fn order<T: Real>(&self) -> usize {
+    pub(crate) fn order<T: Real>(&self) -> usize {
         let order = (LEFT_OUT - Scalar::ln(T::constant(self.tolerance::<T>())).to_f64()) / STEP;
         (larger(order, LAST as f64) as usize).min(ROOM - 2)
     }
 
     /// The longest first step, as of embedded pairs (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.4):
     /// it moves the state by its size at most.
-    pub(super) fn first<T: Real, const N: usize, const M: usize>(
+    pub(crate) fn first<T: Real, const N: usize, const M: usize>(
         &self,
         state: &State<T, N>,
         solved: &SolvedState<T, N, M>,
@@ -51,37 +51,37 @@ impl Taylor {
     }
 
     /// Absolute tolerance as a fraction of the relative one, added to the size of each entry.
-    pub(super) fn slack<T: Real>(&self) -> f64 {
+    pub(crate) fn slack<T: Real>(&self) -> f64 {
         self.absolute / self.tolerance::<T>()
     }
 
     /// The length of the next step, by what the last coefficients allow, the longest that the step before allows, and the time
     /// that is left.
-    pub(super) fn choose<T: Real>(&self, allowed: T, longest: T, clock: &Clock<T>) -> T {
+    pub(crate) fn choose<T: Real>(&self, allowed: T, longest: T, clock: &Clock<T>) -> T {
         let step = smaller(if allowed.is_finite() { allowed } else { clock.left() }, longest);
         let step = if step > T::constant(0.0) { clock.at_least(step) } else { clock.left() };
         self.limited(step)
     }
 
     /// No longer than the user allows.
-    pub(super) fn limited<T: Real>(&self, step: T) -> T {
+    pub(crate) fn limited<T: Real>(&self, step: T) -> T {
         self.max_step.map_or(step, |longest| smaller(step, T::constant(longest)))
     }
 }
 
 /// The last coefficients of a series, up to its order.
-pub(super) struct Last<T> {
-    pub(super) order: usize,
-    pub(super) unit: T,
+pub(crate) struct Last<T> {
+    pub(crate) order: usize,
+    pub(crate) unit: T,
     /// As parts of what they belong to, the largest of each order.
-    pub(super) sizes: [T; LAST],
+    pub(crate) sizes: [T; LAST],
 }
 
 impl<T: Real> Last<T> {
     /// The length of a step after which they no longer matter (Jorba and Zou, 3.2.1, with five coefficients instead of two:
     /// where every fourth alone is not zero, two know nothing). Infinite where all are zero.
     #[inline(always)]
-    pub(super) fn allowed(&self) -> T {
+    pub(crate) fn allowed(&self) -> T {
         let Self { order, unit, sizes } = *self;
         let mut rate = f64::NEG_INFINITY;
         for (k, size) in (order + 1 - LAST..).zip(sizes) {
@@ -93,7 +93,7 @@ impl<T: Real> Last<T> {
 }
 
 impl<T: Scalar> Last<T> {
-    pub(super) fn of<S: FixedArray<T>, const N: usize>(series: &Expansion<S, T, N>, slack: T) -> Self {
+    pub(crate) fn of<S: FixedArray<T>, const N: usize>(series: &Expansion<S, T, N>, slack: T) -> Self {
         let order = series.order();
         let scales = series.scales(slack);
         let sizes = from_fn(|i| series.size(order + 1 - LAST + i, &scales));
@@ -108,7 +108,7 @@ fn safety(order: usize) -> f64 {
 
 /// The logarithm to the base 2, at most 0.09 too small: divided by the order it is as good as any. That of zero is −1023.
 #[inline]
-pub(super) fn log2_roughly(x: f64) -> f64 {
+pub(crate) fn log2_roughly(x: f64) -> f64 {
     // Exponent and fraction as one number.
     const UNIT: f64 = 1.0 / (1_u64 << 52) as f64;
     x.to_bits() as i64 as f64 * UNIT - 1023.0
@@ -116,7 +116,7 @@ pub(super) fn log2_roughly(x: f64) -> f64 {
 
 /// 2ˣ, at most a three-hundredth off, and the smallest or largest power of two beyond these.
 #[inline(always)]
-pub(super) fn exp2_roughly(x: f64) -> f64 {
+pub(crate) fn exp2_roughly(x: f64) -> f64 {
     let biased = (x + 1023.0).clamp(1.0, 2046.0);
     let exponent = biased as u64;
     let fraction = biased - exponent as f64;

@@ -121,7 +121,7 @@ impl Taylor {
     }
 
     /// By so much the equations may jump, or a projection move a state, without another step.
-    pub(super) fn jump_allowed<T: Real>(&self) -> f64 {
+    pub(crate) fn jump_allowed<T: Real>(&self) -> f64 {
         let [times, part] = DEFECT_AT_KINKS;
         larger(times * self.tolerance::<T>(), part)
     }

@@ -8,11 +8,10 @@ use super::control::{LAST, Last, exp2_roughly, log2_roughly};
 use super::sampling::is_linear;
 use super::sums::{Ends, SeriesFactors};
 use crate::error::Error;
-use crate::linearized::Direction;
 use crate::number::{FixedArray, PowerSeries, Real, Scalar, larger, vector};
 use crate::solution::kkt::{self, KktSystem, Rank};
 use crate::solution::solve::{fault, is_trustworthy, not_finite, solve_near};
-use crate::system::{Lagrangian, RightHandSides, Solution, State, TaylorSeries};
+use crate::system::{Direction, Lagrangian, RightHandSides, Solution, State, TaylorSeries};
 
 /// Another unit of time is tried so many times at most.
 const UNITS: usize = 40;
@@ -28,13 +27,13 @@ const LEAST: f64 = 2.0;
 
 /// Accelerations and multipliers at a state, and on which constraints they rest.
 #[derive(Clone, Debug)]
-pub(super) struct SolvedState<T, const N: usize, const M: usize> {
-    pub(super) solution: Solution<T, N, M>,
-    pub(super) active: [bool; M],
+pub(crate) struct SolvedState<T, const N: usize, const M: usize> {
+    pub(crate) solution: Solution<T, N, M>,
+    pub(crate) active: [bool; M],
 }
 
 impl<T: Real, const N: usize, const M: usize> SolvedState<T, N, M> {
-    pub(super) fn at<L: Lagrangian<N, M, Scalar = T>>(
+    pub(crate) fn at<L: Lagrangian<N, M, Scalar = T>>(
         system: &L,
         state: &State<T, N>,
     ) -> Result<Self, Error> {
@@ -42,7 +41,7 @@ impl<T: Real, const N: usize, const M: usize> SolvedState<T, N, M> {
     }
 
     /// Whether the factor of the elimination is good enough for all orders.
-    pub(super) fn is_by_elimination(&self) -> bool {
+    pub(crate) fn is_by_elimination(&self) -> bool {
         is_trustworthy(&self.solution)
             && self.solution.multipliers_are_unique()
             && !self.is_close_to_dependence()
@@ -51,27 +50,27 @@ impl<T: Real, const N: usize, const M: usize> SolvedState<T, N, M> {
 
 /// The coefficients of coordinates and velocities about a state, up to an order, in powers of (t − t₀)/unit.
 #[derive(Clone, Debug)]
-pub(super) struct Expansion<S, T, const N: usize> {
-    pub(super) start: T,
+pub(crate) struct Expansion<S, T, const N: usize> {
+    pub(crate) start: T,
     /// The unit of time: with one near the length of a step, no coefficient leaves the numbers.
-    pub(super) unit: T,
+    pub(crate) unit: T,
     /// From order 0; one more of the coordinates than of the velocities.
-    pub(super) q: Vec<[T; N]>,
-    pub(super) v: Vec<[T; N]>,
+    pub(crate) q: Vec<[T; N]>,
+    pub(crate) v: Vec<[T; N]>,
     /// Up to which order they are summed: all, or where those beyond are rounding.
-    pub(super) summed: usize,
+    pub(crate) summed: usize,
     pub(super) factors: SeriesFactors<T, S>,
     /// The values of roots, in the order of [`TaylorSeries::ROOTS`].
-    pub(super) roots: Vec<T>,
+    pub(crate) roots: Vec<T>,
     /// The values of arguments, in the order of [`TaylorSeries::STEEP`].
-    pub(super) steep: Vec<T>,
+    pub(crate) steep: Vec<T>,
     /// The arguments of functions that the user supplies, in the order of [`TaylorSeries::ARGUMENTS`].
     arguments: Vec<PowerSeries<T>>,
 }
 
 impl<S: FixedArray<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
     /// Room for a series of this order.
-    pub(super) fn new<L, const M: usize>(order: usize) -> Self
+    pub(crate) fn new<L, const M: usize>(order: usize) -> Self
     where
         L: TaylorSeries<N, M, Scalar = T, Sums = S>,
     {
@@ -89,19 +88,19 @@ impl<S: FixedArray<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
         }
     }
 
-    pub(super) fn order(&self) -> usize {
+    pub(crate) fn order(&self) -> usize {
         self.v.len() - 1
     }
 
     /// The coefficients of the highest order, to which all others lead: where they are numbers, all are.
-    pub(super) fn last(&self) -> [&[T; N]; 2] {
+    pub(crate) fn last(&self) -> [&[T; N]; 2] {
         let order = self.order();
         [&self.q[order + 1], &self.v[order]]
     }
 
     /// Expands the motion about a state, by what the equations give there and what solves for accelerations and multipliers.
     #[inline(always)]
-    pub(super) fn orders<L, E, const M: usize>(
+    pub(crate) fn orders<L, E, const M: usize>(
         &mut self,
         system: &L,
         state: &State<T, N>,
@@ -162,19 +161,19 @@ impl<S: FixedArray<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
     }
 
     /// What coefficients of coordinates and velocities are measured by: 1 over their sizes.
-    pub(super) fn scales(&self, slack: T) -> [[T; N]; 2] {
+    pub(crate) fn scales(&self, slack: T) -> [[T; N]; 2] {
         [&self.q, &self.v].map(|x| x[0].map(|x| T::constant(1.0) / (x.abs() + slack)))
     }
 
     /// The largest coefficient of an order on these scales.
-    pub(super) fn size(&self, order: usize, scales: &[[T; N]; 2]) -> T {
+    pub(crate) fn size(&self, order: usize, scales: &[[T; N]; 2]) -> T {
         let [q, v] = [(&self.q[order], &scales[0]), (&self.v[order], &scales[1])]
             .map(|(x, scales)| (0..N).fold(T::constant(0.0), |most, i| most.max(x[i].abs() * scales[i])));
         q.max(v)
     }
 
     /// By how much coordinates and velocities change over a step of this length, and the accelerations at its end.
-    pub(super) fn change(&self, length: T) -> [[T; N]; 3] {
+    pub(crate) fn change(&self, length: T) -> [[T; N]; 3] {
         let (theta, order) = (length / self.unit, self.summed);
         let change =
             |coefficients: &[[T; N]]| scaled(&polynomial(coefficients.iter().copied(), theta), theta);
@@ -186,7 +185,7 @@ impl<S: FixedArray<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
 
 impl<S: FixedArray<T>, T: Real, const N: usize> Expansion<S, T, N> {
     /// Expands the motion about a state, by the solution of the equations there, and gives what the last coefficients say.
-    pub(super) fn about<L, const M: usize>(
+    pub(crate) fn about<L, const M: usize>(
         &mut self,
         system: &L,
         state: &State<T, N>,
@@ -285,7 +284,7 @@ impl<S: FixedArray<T>, T: Real, const N: usize> Expansion<S, T, N> {
     }
 
     /// Whether all of the last coefficients are zero.
-    pub(super) fn ends(&self) -> bool {
+    pub(crate) fn ends(&self) -> bool {
         let (first, zero) = (self.order() + 1 - LAST, T::constant(0.0));
         let last = [&self.v[first..], &self.q[first..=self.order()]];
         last.into_iter().flatten().flatten().all(|x| *x == zero)
@@ -322,7 +321,7 @@ fn horner<T: Scalar, const N: usize>(sum: &[T; N], theta: T, coefficient: &[T; N
 }
 
 /// The general factors of a state, on the constraints that are independent there.
-pub(super) struct General<T, const N: usize, const M: usize> {
+pub(crate) struct General<T, const N: usize, const M: usize> {
     factors: kkt::Factors<T, N, M>,
     active: [bool; M],
     time: f64,
@@ -330,7 +329,7 @@ pub(super) struct General<T, const N: usize, const M: usize> {
 
 impl<T: Real, const N: usize, const M: usize> General<T, N, M> {
     #[cold]
-    pub(super) fn at<L: Lagrangian<N, M, Scalar = T>>(
+    pub(crate) fn at<L: Lagrangian<N, M, Scalar = T>>(
         system: &L,
         state: &State<T, N>,
         active: [bool; M],
@@ -349,7 +348,7 @@ impl<T: Real, const N: usize, const M: usize> General<T, N, M> {
         Ok(Self { factors, active, time })
     }
 
-    pub(super) fn solve<L: Lagrangian<N, M, Scalar = T>>(
+    pub(crate) fn solve<L: Lagrangian<N, M, Scalar = T>>(
         &self,
         (forcing, bias): &RightHandSides<T, N, M>,
     ) -> Result<Solution<T, N, M>, Error> {

@@ -1,9 +1,9 @@
 //! Taylor's method: the motion expanded in a power series about each state, to round-off.
 
-mod control;
+pub(crate) mod control;
 mod crossing;
 mod defect;
-mod expansion;
+pub(crate) mod expansion;
 #[cfg(feature = "std")]
 mod lanes;
 mod polynomial;
@@ -11,15 +11,13 @@ mod roots;
 mod sampling;
 mod step;
 mod sums;
-mod variations;
 
 use alloc::vec::Vec;
 use core::fmt;
 
 use super::method::clock::Clock;
 use super::method::{Limits, Method, Step, check_settings};
-use crate::ending::{Ending, Pace};
-use crate::error::Error;
+use crate::error::{Ending, Error, Pace};
 use crate::names::Entry;
 use crate::number::{Real, Scalar, vector};
 use crate::solution::solve::name;
@@ -141,16 +139,16 @@ impl Taylor {
 /// What Taylor's method carries from step to step.
 #[derive(Clone, Debug)]
 pub struct TaylorMemory<S, T, const N: usize, const M: usize> {
-    clock: Clock<T>,
-    state: State<T, N>,
-    solved: SolvedState<T, N, M>,
+    pub(crate) clock: Clock<T>,
+    pub(crate) state: State<T, N>,
+    pub(crate) solved: SolvedState<T, N, M>,
     /// What rounding has left of the state: coordinates and velocities.
     rest: [[T; N]; 2],
     /// About the state, or about where the last step started.
-    series: Expansion<S, T, N>,
+    pub(crate) series: Expansion<S, T, N>,
     is_expanded: bool,
     /// The length of the next step; zero before the motion begins.
-    planned: T,
+    pub(crate) planned: T,
     sampling: Sampling<T>,
     /// Where the step is summed by fewer orders.
     crossing: Option<SingularStep<T>>,

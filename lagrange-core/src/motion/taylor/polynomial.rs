@@ -1,7 +1,7 @@
 //! What lies within a step of Taylor's method: the series itself.
 
-use crate::motion::method::Interpolant;
 use crate::number::{ROOM, Real, vector};
+use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::StagePoint;
 
 /// The Taylor series of the coordinates about the start of a step; the velocities are its derivative.

@@ -65,7 +65,7 @@ impl Taylor {
     }
 
     /// Turns to the end of the motion; before the first step, plans the longest that it may be.
-    pub(super) fn aim<S, T: Real, const N: usize, const M: usize>(
+    pub(crate) fn aim<S, T: Real, const N: usize, const M: usize>(
         &self,
         memory: &mut TaylorMemory<S, T, N, M>,
         end: T,
@@ -78,7 +78,7 @@ impl Taylor {
     }
 
     /// Expands the motion about the state, and chooses the length of the step, unless that is done.
-    pub(super) fn expand<L: TaylorSeries<N, M, Scalar: Real>, const N: usize, const M: usize>(
+    pub(crate) fn expand<L: TaylorSeries<N, M, Scalar: Real>, const N: usize, const M: usize>(
         &self,
         system: &L,
         memory: &mut TaylorMemory<L::Sums, L::Scalar, N, M>,

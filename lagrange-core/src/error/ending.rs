@@ -4,7 +4,7 @@
 use alloc::string::String;
 use core::fmt::{self, Debug, Display, Formatter};
 
-use crate::error::Error;
+use super::Error;
 use crate::names::{Entry, Row};
 
 /// Why a motion ends where it does.

@@ -39,7 +39,7 @@ impl<T: Scalar, const N: usize> Direction<T, N> {
 }
 
 /// The unit vector `i`; zero beyond the last.
-pub(super) fn unit<T: Scalar, const K: usize>(i: usize) -> SVector<T, K> {
+pub(crate) fn unit<T: Scalar, const K: usize>(i: usize) -> SVector<T, K> {
     vector(core::array::from_fn(|j| T::constant(if i == j { 1.0 } else { 0.0 })))
 }
 
@@ -59,7 +59,7 @@ pub struct ResidualChange<T, const N: usize, const M: usize> {
 impl<T: Scalar, const N: usize, const M: usize> ResidualChange<T, N, M> {
     /// The sum.
     #[cfg(feature = "alloc")]
-    pub(super) fn plus(&self, other: &Self) -> Self {
+    pub(crate) fn plus(&self, other: &Self) -> Self {
         Self {
             motion: self.motion.zip_map(&other.motion, |x, y| x + y),
             acceleration: self.acceleration.zip_map(&other.acceleration, |x, y| x + y),

@@ -11,14 +11,15 @@ use core::convert::Infallible;
 
 use nalgebra::{ComplexField, SVector};
 
-use super::control::{LAST, Last};
-use super::expansion::Expansion;
-use super::{Taylor, TaylorMemory};
-use crate::ending::Ending;
-use crate::error::Error;
-use crate::linearized::{Block, DifferentiableMethod, Linearized, Tangent, Variations, WideOf};
+use super::{Block, DifferentiableMethod, Variations};
+use crate::error::{Ending, Error};
+use crate::linearized::Linearized;
+use crate::linearized::tangent::{Tangent, WideOf};
 use crate::motion::method::control::SLACK;
 use crate::motion::run::Run;
+use crate::motion::taylor::control::{LAST, Last};
+use crate::motion::taylor::expansion::Expansion;
+use crate::motion::taylor::{Taylor, TaylorMemory};
 use crate::names::Entry;
 use crate::number::{Broadcast, Dual, FixedArray, Real, Scalar, Wide, entries, exceeds, smaller, vector};
 use crate::solution::solve::{first_row, least_pivot};

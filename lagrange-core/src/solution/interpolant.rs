@@ -33,7 +33,7 @@ impl<T: Real, C> Polynomial<T, C> {
 #[cfg(feature = "alloc")]
 impl<T, C> Polynomial<T, C> {
     /// The coefficients, to be written where they stay.
-    pub(super) fn coefficients_mut<X>(&mut self) -> &mut [X]
+    pub(crate) fn coefficients_mut<X>(&mut self) -> &mut [X]
     where
         C: AsMut<[X]>,
     {
