@@ -107,6 +107,18 @@ pub enum Error {
         /// The time of the state.
         time: f64,
     },
+    /// Constraints depend on one another to first order, but not to second, as |a| = l, |b| = l and |a − b| = 2l do, which together
+    /// are |a + b|² = 0: the first derivatives, which are all that the equations of motion know, leave directions free that the
+    /// constraints do not.
+    ///
+    /// Here or so near that the constraints differ by their round-off. At a singular pose, where branches of a motion meet, that
+    /// is so at this pose alone.
+    DependentToFirstOrder {
+        /// The constraints whose combination has no gradient.
+        constraints: Names,
+        /// The time of the state.
+        time: f64,
+    },
     /// Newton's iteration found no state on the constraints near the one given.
     NotProjected {
         /// The constraint that is farthest from satisfied.

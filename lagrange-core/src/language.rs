@@ -399,7 +399,8 @@
 //! certain: its row of F is a combination of the others' rows at every state and for all parameters. So are `x_dot = a*phi_dot`
 //! beside `x = a*phi`, the sum of two others, and `x_dot = v*cos(th)` beside the two components of the velocity along
 //! and across `th`. Rows that are dependent only on the constraints, as in some closed linkages, at some poses or for some
-//! parameters are for the numbers to tell: the motion is right, and multipliers are those of least norm.
+//! parameters are for the numbers to tell: the motion is right, and multipliers are those of least norm. Those that are dependent to
+//! first order alone, as `|a| = l`, `|b| = l` and `|a - b| = 2*l`, are an error as soon as a motion starts.
 //!
 //! ```
 //! use lagrange_core::prelude::*;

@@ -54,6 +54,10 @@ impl Display for Error {
                 f,
                 "the gradient of constraint `{constraint}` vanishes at t = {time}, where it holds, so that it fixes no acceleration; write it by a function that changes sign there, as `sin(a) = 0` for `cos(a) = 1` or `x - y = 0` for `(x - y)^2 = 0`, or leave it out if others imply it; if it vanishes at this pose alone, start beside it"
             ),
+            Self::DependentToFirstOrder { constraints, time } => write!(
+                f,
+                "constraints {constraints} depend on one another at t = {time} to first order, but not to second, so that they do not determine the accelerations; if they do wherever they hold, they hide a square, as those of |a| = l, |b| = l, |a - b| = 2l hide |a + b|^2 = 0: write its root `a + b = 0` in place of one of them; if at this pose alone, where branches of the motion meet, start beside it"
+            ),
             Self::NotProjected { constraint, residual, iterations, time } => write!(
                 f,
                 "no consistent state found near the one given at t = {time}: constraint `{constraint}` has residual {residual:e} after {iterations} iterations; start closer to the constraints, or check that they can hold together"

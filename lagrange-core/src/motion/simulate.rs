@@ -40,7 +40,7 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     /// [`Error::StateNotFinite`] and [`Error::ParameterNotAsSaid`], also of what the equations do not use;
     /// [`Error::EquationsNotFinite`], [`Error::Singular`] where nothing determines some acceleration, and
     /// [`Error::Contradictory`] where dependent constraints demand different accelerations, [`Error::NoGradient`] where the row of
-    /// one is zero; each names the coordinates or the constraint. Whether the state is on the constraints, and no row the
+    /// one is zero, [`Error::DependentToFirstOrder`] where a combination has none; each names the coordinates or the constraint. Whether the state is on the constraints, and no row the
     /// round-off of zero, [`check_consistent`](Self::check_consistent) tells.
     fn solve(&self, state: &State<Self::Scalar, N>) -> Result<Solution<Self::Scalar, N, M>, Error> {
         solve(self, state)

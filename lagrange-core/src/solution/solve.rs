@@ -5,7 +5,7 @@ use nalgebra::{ComplexField, SVector};
 use crate::error::Error;
 use crate::names::{Names, Row};
 use crate::number::{Real, Scalar, larger, power_of_epsilon};
-use crate::solution::consistent::gradient;
+use crate::solution::consistent::{dependence, gradient};
 use crate::solution::kkt::{self, Fault, KktSystem, Rank, Solved};
 use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, Solution, State};
@@ -20,6 +20,10 @@ pub(crate) fn solve<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: 
     let solution = solve_near(system, state, None, |solution, _| *solution)?;
     if !solution.multipliers_are_unique() {
         gradient::check(system, state)?;
+    }
+    let is_independent = solution.multipliers_are_unique() && solution.pivot > dependence::least_pivot();
+    if const { M > 0 } && !is_independent {
+        dependence::check(system, state)?;
     }
     Ok(solution)
 }

@@ -5,6 +5,7 @@
 //! *Geometric Numerical Integration*, IV.4). Each correction is the least, their sum is not where constraints curve: from
 //! as far off as round-off that makes no difference, and from farther the [nearest] point is then sought.
 
+pub(crate) mod dependence;
 pub(crate) mod gradient;
 mod nearest;
 #[cfg(test)]
@@ -257,6 +258,9 @@ impl Level {
     }
 }
 
+/// So many units of round-off of the terms of a constraint may be round-off, where these cancel.
+const NEGLIGIBLE: f64 = 16.0;
+
 /// What should be zero, with the Jacobian and the size of the terms that it is the sum of.
 struct Residual<T, const N: usize, const M: usize> {
     value: [T; M],
@@ -284,9 +288,16 @@ impl<T: Real, const N: usize, const M: usize> Residual<T, N, M> {
 
     /// The first constraint with a residual of more than this part of its terms (and of ε^(3/4) where they vanish).
     fn first_above(&self, part: T) -> Option<usize> {
-        let floor = power_of_epsilon::<T>(0.75);
-        let bound = |a: usize| part * self.terms[a] + floor * self.sensitivity[a];
-        (0..M).find(|&a| !is_within(Scalar::abs(self.value[a]), bound(a)))
+        (0..M).find(|&a| !is_within(Scalar::abs(self.value[a]), self.bound(part, a)))
+    }
+
+    fn bound(&self, part: T, a: usize) -> T {
+        part * self.terms[a] + power_of_epsilon::<T>(0.75) * self.sensitivity[a]
+    }
+
+    /// What a projection may leave of each as round-off.
+    fn negligible(&self) -> [T; M] {
+        entries(|a| self.bound(T::constant(NEGLIGIBLE * T::EPSILON), a))
     }
 
     /// Counts of each term only what Φ really changes by with its coordinate, of which an eighth more is tried. The angle
@@ -393,7 +404,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Search f
     fn left(&self, (): &(), (_, residual): &Self::Trial) -> Left<L::Scalar> {
         let (distance, _) = residual.farthest();
         let is_rounded = distance == L::Scalar::constant(0.0);
-        let part = L::Scalar::constant(16.0 * L::Scalar::EPSILON);
+        let part = L::Scalar::constant(NEGLIGIBLE * L::Scalar::EPSILON);
         let is_negligible = is_rounded || residual.first_above(part).is_none();
         Left { distance, is_rounded, is_negligible }
     }

@@ -62,6 +62,11 @@ impl<T: Real> Rank<T> {
     pub(crate) fn towards_constraints() -> Self {
         Self { tolerance: power_of_epsilon(1.0 / 3.0), ..Self::off_constraints() }
     }
+
+    /// To find rows that may be dependent nearby: as the last, but to this tolerance.
+    pub(crate) fn near_dependence(tolerance: T) -> Self {
+        Self { tolerance, ..Self::off_constraints() }
+    }
 }
 
 /// A solution, and which constraints it rests on: as many as are independent.
@@ -223,19 +228,51 @@ impl<T: Real, const N: usize, const M: usize> Rows<T, N, M> {
         entries(|a| -self.units.of_row(a, gamma[a]))
     }
 
-    /// Every dependent constraint must agree with the accelerations that the independent ones fix, to ε^(1/3).
+    /// The direction with F x = 0, of length 1 in natural units, with these weights of the vectors of a basis; none where F leaves none.
+    pub(crate) fn free_direction(&self, weight: impl Fn(usize) -> T) -> Option<SVector<T, N>> {
+        let rank = self.split.rank;
+        let x = entries(|i| if i < rank { T::constant(0.0) } else { weight(i - rank) });
+        let length = norm::<T>(&x);
+        (rank < N).then(|| self.out_of_basis(x.map(|x| x / length)))
+    }
+
+    /// Along what is left of each dependent row: not a number where that is nothing.
+    pub(crate) fn remainders(&self) -> impl Iterator<Item = SVector<T, N>> {
+        let split = &self.split;
+        (split.rank..M).filter_map(move |j| self.free_direction(|k| split.entry(split.rank + k, j)))
+    }
+
+    /// A dependent row with which the second derivatives h of the constraints along a free direction do not agree, as the part that
+    /// each row has in the combination. What is left of that row, s, must be so little that s²/(2h), the change of the
+    /// combination from here to where nothing is left, is no more than `round_off` of the constraints.
+    pub(crate) fn first_order_dependence(&self, second: &[T; M], round_off: &[T; M]) -> Option<[T; M]> {
+        let (split, two) = (&self.split, T::constant(2.0));
+        let (fixed, demands) = (self.fixed(second), self.demands(second));
+        let size = norm(&fixed);
+        (split.rank..M).find_map(|j| {
+            let bend = self.mismatch(j, &demands, &fixed, size)?;
+            let (left, parts) = (split.remainder(j), split.combination(j));
+            let known = |a: usize| Scalar::abs(parts[a] * self.units.of_row(a, round_off[a]));
+            let known = (0..M).fold(T::constant(0.0), |sum, a| sum + known(a));
+            (left * left <= two * bend * known).then_some(parts)
+        })
+    }
+
+    /// Every dependent constraint must agree with the accelerations that the independent ones fix.
     fn check_agreement(&self, gamma: &[T; M], h: &[T; N], fixed: &[T; N]) -> Result<(), Fault<T, N>> {
-        let (split, bias) = (&self.split, self.demands(gamma));
-        let size = norm(fixed) + norm(h);
-        for (j, &row) in split.order.iter().enumerate().skip(split.rank) {
-            let demanded = bias[row];
-            let given = (0..split.rank).fold(T::constant(0.0), |sum, i| sum + split.entry(i, j) * fixed[i]);
-            let mismatch = Scalar::abs(demanded - given);
-            if mismatch > power_of_epsilon::<T>(1.0 / 3.0) * (size + Scalar::abs(demanded)) {
-                return Err(Fault::Contradictory(row));
-            }
-        }
-        Ok(())
+        let (demands, size) = (self.demands(gamma), norm(fixed) + norm(h));
+        let disagrees = |j: &usize| self.mismatch(*j, &demands, fixed, size).is_some();
+        let at_fault = (self.split.rank..M).find(disagrees);
+        at_fault.map_or(Ok(()), |j| Err(Fault::Contradictory(self.split.order[j])))
+    }
+
+    /// By how much the dependent row in this place disagrees with what the independent ones fix, where that is more than ε^(1/3) of
+    /// their size.
+    fn mismatch(&self, j: usize, demands: &[T; M], fixed: &[T; N], size: T) -> Option<T> {
+        let (split, demanded) = (&self.split, demands[self.split.order[j]]);
+        let given = (0..split.rank).fold(T::constant(0.0), |sum, i| sum + split.entry(i, j) * fixed[i]);
+        let mismatch = Scalar::abs(demanded - given);
+        (mismatch > power_of_epsilon::<T>(1.0 / 3.0) * (size + Scalar::abs(demanded))).then_some(mismatch)
     }
 }
 

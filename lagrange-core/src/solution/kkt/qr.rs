@@ -82,6 +82,18 @@ impl<T: Real, const K: usize, const C: usize> Qr<T, K, C> {
         self.r[column][row]
     }
 
+    /// The length of what the independent columns leave of this (pivoted) column.
+    pub(super) fn remainder(&self, column: usize) -> T {
+        norm(&self.r[column][self.rank..])
+    }
+
+    /// The columns of A, in their order, whose sum is what they leave of this (pivoted) column: 1 of itself.
+    pub(super) fn combination(&self, column: usize) -> [T; C] {
+        let mut parts = self.solve(&self.r[column]).map(|x| -x);
+        parts[self.order[column]] = T::constant(1.0);
+        parts
+    }
+
     /// y with Rᵀ y = c in the first `rank` rows, c in the order of the columns of A; zero beyond.
     pub(super) fn solve_transposed(&self, c: &[T; C]) -> [T; K] {
         let mut y = [T::constant(0.0); K];

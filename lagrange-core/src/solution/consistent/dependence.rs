@@ -1,0 +1,79 @@
+//! Constraints that depend on one another to first order, but not to second, as |a| = l, |b| = l and |a − b| = 2l do.
+//!
+//! Their combination Φ = Σ cₐΦₐ has no gradient where they hold. Where it is zero for those states around that satisfy the independent
+//! ones, its second derivatives along the directions that these leave free are zero, too, and the motion is determined. Where
+//! they are not, these directions are not free, which no first derivative says.
+
+use nalgebra::SVector;
+
+use super::{Level, Residual, check_level};
+use crate::error::Error;
+use crate::names::Names;
+use crate::number::{Real, Scalar, entries, larger, power_of_epsilon};
+use crate::solution::kkt::{Rank, Rows};
+use crate::system::{Lagrangian, State};
+
+/// Directions to differentiate along, beside those of what is left of a row: where that is H d, d away from where nothing is left, H
+/// along it is at least |H d|²/(d·H d), so that a combination of this size is not overlooked. In each a second derivative that is somewhere else may vanish by chance: below 10⁻⁵ of the
+/// largest one in some 10⁵, so that with three none is overlooked in 10¹⁵.
+const DIRECTIONS: usize = 3;
+/// The golden section, of whose multiples the fractional parts are spread evenly and never repeat.
+const GOLDEN: f64 = 0.618_033_988_749_895;
+
+/// Where the smallest pivot exceeds it, no row is as near to dependent as it may have to be where one is by what a projection leaves.
+pub(crate) fn least_pivot<T: Real>() -> T {
+    power_of_epsilon(0.25)
+}
+
+/// Fails with the constraints of such a combination, at a state that satisfies the holonomic ones.
+#[cold]
+#[inline(never)]
+pub(crate) fn check<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+) -> Result<(), Error> {
+    if !Level::Position.concerns::<L, N, M>() || check_level(system, Level::Position, state).is_err() {
+        return Ok(());
+    }
+    let residual = Residual::of(system, Level::Position, state);
+    let rows =
+        Rows::of(&system.mass_matrix(state).into(), &residual.jacobian, Rank::near_dependence(least_pivot()));
+    let round_off = residual.negligible();
+    let part = |count: usize, k: usize| (GOLDEN * (count * (k + 1)) as f64).fract() - 0.5;
+    let spread =
+        (1..=DIRECTIONS).filter_map(|count| rows.free_direction(|k| L::Scalar::constant(part(count, k))));
+    let found = rows.remainders().chain(spread).find_map(|direction| {
+        rows.first_order_dependence(&second_derivatives(system, state, direction), &round_off)
+    });
+    match found {
+        None => Ok(()),
+        Some(parts) => Err(Error::DependentToFirstOrder {
+            constraints: involved::<L, N, M>(&parts),
+            time: state.t.to_f64(),
+        }),
+    }
+}
+
+/// Of the holonomic constraints along a direction of the coordinates: in their bias it is what is even in the velocity.
+fn second_derivatives<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+    direction: SVector<L::Scalar, N>,
+) -> [L::Scalar; M] {
+    let (zero, half) = (L::Scalar::constant(0.0), L::Scalar::constant(0.5));
+    let bias = |v| system.constraint_bias(&State { v, ..*state });
+    let [ahead, back] = [direction, -direction].map(bias);
+    let rest = bias(direction.map(|_| zero));
+    let is_holonomic = |a: usize| Level::Position.is_active(L::CONSTRAINT_KINDS[a]);
+    entries(|a| if is_holonomic(a) { half * (ahead[a] + back[a]) - rest[a] } else { zero })
+}
+
+/// The constraints that take part with more than ε^(1/3) of the largest part.
+fn involved<L, const N: usize, const M: usize>(parts: &[L::Scalar; M]) -> Names
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    let sizes = parts.map(Scalar::abs);
+    let least = sizes.iter().copied().fold(L::Scalar::constant(0.0), larger) * power_of_epsilon(1.0 / 3.0);
+    (0..M).filter(|&a| sizes[a] >= least).map(|a| L::CONSTRAINTS[a]).collect()
+}
