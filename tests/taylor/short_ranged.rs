@@ -60,6 +60,17 @@ macro_rules! trains {
 }
 trains!(Train: 40 NarrowTrain: 400);
 
+/// The same pulses , half of the interval earlier, with an exponent that is known at run time, half of the power of the cosine.
+#[derive(Lagrangian, Clone)]
+#[coordinates(x)]
+#[lagrangian(x_dot^2/2)]
+#[force(x: a*((1 + cos(2*pi*t/c))/2)^p)]
+struct TrainOfPower<T> {
+    a: T,
+    c: T,
+    p: T,
+}
+
 /// A system, its start, and by how much an end is off, as a part of what the force makes of it.
 type Case<L> = (L, State<f64, 1>, Box<dyn Fn(&L, &State<f64, 1>) -> f64 + Send + Sync>);
 
@@ -146,6 +157,11 @@ fn trains_of_pulses() -> Result<(), Error> {
     are_seen(3, |random| {
         let (a, c) = of(random);
         train(a, 400, NarrowTrain { a, c })
+    })?;
+    are_seen(12, |random| {
+        let (a, c) = (random.between(0.1, 1.0), END / random.between(2.0, 12.0).floor());
+        let p = random.between(20.0, 500.0).floor();
+        train(a, 2 * p as u32, TrainOfPower { a, c, p })
     })
 }
 

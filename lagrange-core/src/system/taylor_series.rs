@@ -40,7 +40,7 @@ pub trait TaylorSeries<const N: usize, const M: usize>: Lagrangian<N, M> {
     const ARGUMENTS: &'static [[usize; 2]] = &[];
     /// For each argument of exp, tanh, sinh and cosh and each base of a power of 16 or more, the place of a sum whose left factor it is, of
     /// its value among the slopes, and the exponent of the power or zero: such functions may be too small for a series at the
-    /// start of a step, and large within.
+    /// start of a step, and large within. Where the exponent e is known at run time, the value is that of x/e, and the exponent 1.
     const STEEP: &'static [[usize; 3]] = &[];
 
     /// Coefficients that the recurrences of all orders share, at one state.

@@ -48,7 +48,7 @@ use step::Attempt;
 ///
 /// A force may vanish to round-off where a step begins and be strong within: a wall by `tanh`, a pulse in time by `exp`, a high power
 /// of a sine. The series does not know such a force. So the equations are also sampled within a step, at up to 128 times, wherever the
-/// argument of `exp`, `tanh`, `sinh` or `cosh` or the base of a power of 16 or more goes far, and wherever a step gets more than
+/// argument of `exp`, `tanh`, `sinh` or `cosh` or the base of a power of 16 or more, or one that a field says, goes far, and wherever a step gets more than
 /// twice as long while its series has few terms. Guaranteed is that a force wider than the distance between two samples is seen, and a
 /// Gaussian pulse whose standard deviation is a tenth of that distance. All other steps are compared with the equations at
 /// their ends, where a pulse of an eighth of a step shows. Narrower forces can be missed, as by every method that evaluates at

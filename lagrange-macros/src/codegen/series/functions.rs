@@ -43,7 +43,7 @@ impl Recurrences {
             return known;
         }
         if sine == Function::Sinh {
-            self.note_steep(x, 0);
+            self.note_steep(x);
         }
         let x0 = self.first(x);
         let [s0, c0] = [sine, cosine].map(|function| self.schedule.push(Operation::Function(function, x0)));
@@ -76,7 +76,7 @@ impl Recurrences {
 
     /// Of z′ = z x′: z_k = z₀ x_k + Σ j x_j z_{k−j}/k
     fn grown(&mut self, z0: Register, x: SeriesQuantity) -> SeriesQuantity {
-        self.note_steep(x, 0);
+        self.note_steep(x);
         self.defined(z0, |of, z| {
             let sum = of.weighted_sum(x, z);
             of.moving(z0, [x], |of, [x]| {
@@ -94,7 +94,7 @@ impl Recurrences {
         let square = self.schedule.push(Operation::Multiply(z0, z0));
         let is_circular = function == Function::Tan;
         if !is_circular {
-            self.note_steep(x, 0);
+            self.note_steep(x);
         }
         let slope = if is_circular { Operation::Add(one, square) } else { Operation::Subtract(one, square) };
         let slope = self.schedule.push(slope);
@@ -182,6 +182,7 @@ impl Recurrences {
         if self.is_at_rest(x) {
             return self.add(z0, None);
         }
+        self.note_real_power(x, e);
         let over = self.reciprocal(x0);
         let scale = self.schedule.push(Operation::Multiply(e, z0));
         // What is no number yet may be one half.

@@ -2,16 +2,23 @@
 //! but ±1, high powers of what is all but zero. The runtime looks at how far their arguments go.
 
 use super::recurrences::{Recurrences, SeriesQuantity};
-use crate::codegen::operation::Register;
+use crate::codegen::operation::{Operation, Register};
 
 /// A power is high from here on: it doubles where its base changes by a twentieth.
 const HIGH: u32 = 16;
 
 impl Recurrences {
-    /// Notes the argument of exp, tanh, sinh or cosh, or the base of a power, with its exponent.
-    pub(super) fn note_steep(&mut self, x: SeriesQuantity, exponent: u32) {
-        let noted = self.steep.entry(x).or_default();
-        *noted = (*noted).max(exponent);
+    /// Notes the argument of exp, tanh, sinh or cosh.
+    pub(super) fn note_steep(&mut self, x: SeriesQuantity) {
+        self.steep.entry((x, None)).or_default();
+    }
+
+    /// Notes the base of a power whose exponent is not whole or is known at run time, unless that is small.
+    pub(super) fn note_real_power(&mut self, x: SeriesQuantity, exponent: Register) {
+        let is_low = matches!(self.schedule.operations[exponent.index()], Operation::Constant(e) if f64::from_bits(e).abs() < f64::from(HIGH));
+        if !is_low {
+            self.steep.insert((x, Some(exponent)), 1);
+        }
     }
 
     /// Notes that a product is a power, where both factors are powers of the same base.
@@ -21,16 +28,22 @@ impl Recurrences {
         if base == other {
             self.powers.insert(product, (base, e + f));
             if e + f >= HIGH {
-                self.note_steep(base, e + f);
+                let noted = self.steep.entry((base, None)).or_default();
+                *noted = (*noted).max(e + f);
             }
         }
     }
 
-    /// What was noted: its place among the sums, its value, and its exponent or zero.
+    /// What was noted: its place among the sums, its value, and its exponent or zero. The base of a power xᵉ whose exponent is known at
+    /// run time has the value x/e and the exponent 1, for the logarithm of the power changes as e x′/x.
     pub(super) fn steep(&mut self) -> Vec<([usize; 2], Register)> {
         let noted = core::mem::take(&mut self.steep);
-        let of = |(x, exponent): (SeriesQuantity, u32)| {
-            ([self.argument_place(x), exponent as usize], self.first(x))
+        let of = |((x, at_run_time), exponent): ((SeriesQuantity, Option<Register>), u32)| {
+            let value = match at_run_time {
+                None => self.first(x),
+                Some(e) => self.schedule.push(Operation::Divide(self.first(x), e)),
+            };
+            ([self.argument_place(x), exponent as usize], value)
         };
         noted.into_iter().map(of).collect()
     }
