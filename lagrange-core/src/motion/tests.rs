@@ -401,4 +401,6 @@ fn constraints_that_depend_on_one_another_only_where_they_hold_do_no_harm() {
     assert!((path.end().state().q - alone.end().state().q).norm() < 1e-8);
     assert!(path.statistics().accepted < 2 * alone.statistics().accepted);
     assert!(!path.multipliers_are_unique());
+    let by_fixed_steps = redundant.integrate(start, 1.0, RungeKutta4::with_step(0.01)).unwrap();
+    assert!(!by_fixed_steps.multipliers_are_unique());
 }

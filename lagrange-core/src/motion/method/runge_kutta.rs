@@ -12,10 +12,10 @@ use crate::error::{Ending, Error};
 use crate::number::{Real, Scalar, vector};
 use crate::solution::consistent::{BOTH, project};
 use crate::solution::interpolant::Polynomial;
-use crate::solution::solve::{first_row, solve};
+use crate::solution::solve::{first_row, solve, solve_near};
 use crate::solution::vector_field::PhaseVector;
 use crate::statistics::Statistics;
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, Solution, State};
 
 /// The state a time `h` later (earlier where it is negative), by one step of the classical method of Runge and Kutta of
 /// order 4 (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, table II.1.2).
@@ -163,7 +163,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Method<L
         statistics.evaluations += 4;
         let mut next = State { t: time, ..runge_kutta_step(system, state, h) };
         if (M > 0 || !is_finite(&next))
-            && let Err(error) = mend(system, state, h, &mut next)
+            && let Err(error) = mend(system, state, h, &mut next, statistics)
         {
             return Step::Failed(Ending::of(error, state.t.to_f64()));
         }
@@ -218,9 +218,18 @@ fn mend<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     start: &State<L::Scalar, N>,
     h: L::Scalar,
     end: &mut State<L::Scalar, N>,
+    statistics: &mut Statistics,
 ) -> Result<(), Error> {
     if !is_finite(end) {
-        let solved = step(start, h, |at| solve(system, at).map(|solution| solution.accelerations.into()))?;
+        // The later stages lie off the constraints, and rest on those that are independent at the start.
+        let mut at_start = None;
+        let solved = step(start, h, |at| {
+            let of = |solution: &Solution<_, N, M>, active: &_| (*solution, *active);
+            let (solution, active) = solve_near(system, at, at_start.as_ref(), of)?;
+            at_start.get_or_insert(active);
+            statistics.multipliers_are_unique &= solution.multipliers_are_unique();
+            Ok::<_, Error>(solution.accelerations.into())
+        })?;
         *end = State { t: end.t, ..solved };
     }
     match first_row::<L, N, M>(|i| !(end.q[i].is_finite() && end.v[i].is_finite()), |_| false) {
