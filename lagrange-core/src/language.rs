@@ -455,6 +455,9 @@
 //! vector, and vectors in a family a matrix, one a row. Forces may be families too, `#[force(theta[i in 0..3]: -k[i]*theta_dot[i])]`,
 //! and so may powers: `#[power(i in 0..3, push[i], velocity(leg[i], foot))]`, for each i and in all.
 //!
+//! `#[power(f, v)]` is a force f along a velocity v by the power f·v, with components along the same axes: plain numbers take those of v,
+//! which for `velocity(rod, …)` turn with `rod`. A weight keeps its direction, `#[power([0, 0, -m*g], express(velocity(rod, …), fixed))]`.
+//!
 //! `#[dissipation(D)]` is Rayleigh's function: the force is −∂D/∂q̇, and takes the power q̇·∂D/∂q̇ from the motion. A function that
 //! certainly takes none is an error: one without velocities, one odd in them such as `c*x_dot`, and one whose power is nowhere positive
 //! as long as no parameter is negative, such as `-c/2*x_dot^2`. What drives is a `#[force(…)]`.

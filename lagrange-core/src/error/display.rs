@@ -39,7 +39,7 @@ impl Display for Error {
             Self::Unfinished(ending) => write!(f, "{ending}"),
             Self::Singular { coordinates, time } => write!(
                 f,
-                "the equations do not determine the acceleration of {coordinates} at t = {time}: give it a mass or constrain it"
+                "the equations do not determine the acceleration of {coordinates} at t = {time}: give each a mass or constrain it, or start beside a pole of the angles"
             ),
             Self::Contradictory { constraint, time } => write!(
                 f,
@@ -141,6 +141,9 @@ impl Display for Error {
                 f,
                 "the motion grazes the event `{event}` at t = {time}: the rate of its function is zero there to round-off, and the event has no derivative; start so that it is crossed, or missed"
             ),
+            Self::OutsideTrajectory { time, start, .. } if start.is_nan() => {
+                write!(f, "there is no state at t = {time}: the trajectory has no legs yet")
+            }
             Self::OutsideTrajectory { time, start, end } => {
                 write!(f, "t = {time} lies outside the trajectory, which covers {start} to {end}")
             }

@@ -169,6 +169,10 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     /// the motions before and after may be those of another one with the same coordinates. Where the momenta are linear in the
     /// velocities they jump by FᵀΛ.
     ///
+    /// Whether the bodies approach is for the caller to know: a rate that leads away is turned round as well, by an impulse that pulls.
+    /// After a plastic impact they stay together, and the motion goes on by the system that has the constraint, as long as its
+    /// multiplier pushes.
+    ///
     /// ```
     /// # use lagrange_core::prelude::*;
     /// /// A ball and the floor.

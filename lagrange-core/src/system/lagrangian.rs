@@ -28,7 +28,8 @@ pub enum ConstraintKind {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no equations of motion",
     label = "not a Lagrangian system",
-    note = "put `#[derive(Lagrangian)]`, `#[coordinates(…)]` and `#[lagrangian(…)]` on the struct"
+    note = "put `#[derive(Lagrangian)]`, `#[coordinates(…)]` and `#[lagrangian(…)]` on the struct",
+    note = "a trajectory is a motion that is over: `.event(…)` and the other settings stand before `.to(…)`"
 )]
 pub trait Lagrangian<const N: usize, const M: usize> {
     /// The number type of the parameters and the state.

@@ -109,7 +109,9 @@ fn meaning<L: Lagrangian<N, M>, const N: usize, const M: usize>(name: &str) -> O
         format!("{it} is {what}, which a sample's `{method}(\"{of}\")` gives")
     });
     said.or_else(|| match name {
-        "t" | "time" => Some("it is the time, which a sample's `time()` gives".into()),
+        "t" | "time" => {
+            Some("it is the time, which a sample's `time()` gives and a state's `at_time(…)` sets".into())
+        }
         "E" | "H" | "energy" => Some("it is the energy, which a sample's `energy()` gives".into()),
         _ => None,
     })

@@ -56,6 +56,12 @@ impl Page<'_> {
     pub(super) fn why_no_hamiltonian(&self) -> Option<String> {
         let why = match self.legible().err()? {
             NoHamiltonian::NotQuadratic => "L is not quadratic in the velocities",
+            NoHamiltonian::Singular if self.problem.constraints.is_empty() => {
+                return Some(
+                    "there is none: the mass matrix is singular, and velocities do not follow from momenta"
+                        .into(),
+                );
+            }
             NoHamiltonian::Singular => {
                 "the mass matrix is singular, and constraints decide on the velocities"
             }

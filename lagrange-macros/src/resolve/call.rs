@@ -95,6 +95,9 @@ impl Lowering<'_> {
                     Entity::Coordinate(_) | Entity::Velocity(_) | Entity::Acceleration(_) if is_of_time => {
                         format!("it depends on time as it is, write `{text}`")
                     }
+                    _ if is_of_time => format!(
+                        "a product needs its sign `*`, and a function is declared, `#[function({text}(t))]`"
+                    ),
                     _ => "a product needs its sign `*`".to_owned(),
                 };
                 self.report(name.place, format!("`{text}` is {kind}, not a function: {advice}"))

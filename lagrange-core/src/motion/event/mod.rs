@@ -155,6 +155,11 @@ enum CrossingDirection {
 }
 
 /// The value of an event's function: a number, or a number that could not be had (`|s| s.multiplier("wall")`).
+#[diagnostic::on_unimplemented(
+    message = "the function of an event gives a number, not `{Self}`",
+    label = "no number",
+    note = "an event is where a number crosses zero: for `y < h` give `y - h`, and choose `.falling()`"
+)]
 pub trait EventValue<T> {
     /// The number.
     ///

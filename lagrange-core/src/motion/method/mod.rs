@@ -34,7 +34,8 @@ use crate::system::{Lagrangian, State};
 /// proposes steps. It works without an allocator where its memory does.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a method that integrates `{L}`",
-    note = "use `Dop853::default()` or `Dopri5::default()`; the system must be over `f64` or `f32`"
+    note = "methods are `Dop853::default()`, `Taylor::default()`, `Dopri5::default()` and `RungeKutta4::with_step(…)`; the system must be over `f64` or `f32`",
+    note = "the order is `integrate(start, end, method)`"
 )]
 pub trait Method<L, const N: usize, const M: usize, F = LagrangianVectorField>
 where

@@ -181,7 +181,11 @@ impl Lowering<'_> {
 
     fn inertia(&mut self, expression: &Expression) -> Option<[Triple; 3]> {
         let value = self.lower(expression)?;
-        let wrong = || format!("an inertia is a 3 by 3 matrix, but this is {}", value.shape());
+        let wrong = || {
+            let advice =
+                if matches!(value, Value::Scalar(_)) { ": write it times `identity(3)`" } else { "" };
+            format!("an inertia is a 3 by 3 matrix, but this is {}{advice}", value.shape())
+        };
         let rows = value.as_map_of_space().or_else(|| self.report(expression.place, wrong()))?;
         self.reject_unsymmetric(rows, expression)?;
         Some(rows)
