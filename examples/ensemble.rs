@@ -9,8 +9,8 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
+use lagrange_core::ensemble::{Member, Outcome};
 use lagrange_core::{Ending, prelude::*};
-use lagrange_core::{Member, Outcome};
 use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
 

@@ -6,7 +6,7 @@
 
 mod picture;
 
-use lagrange_core::{LyapunovSpectrum, prelude::*};
+use lagrange_core::{linearized::LyapunovSpectrum, prelude::*};
 use picture::{BLUE, GREY, Panel, Points, RED, Result};
 
 #[derive(Clone, Lagrangian)]

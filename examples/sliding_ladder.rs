@@ -5,7 +5,7 @@
 
 mod picture;
 
-use lagrange_core::{HybridTrajectory, Named, prelude::*};
+use lagrange_core::{HybridTrajectory, prelude::*, trajectory::Named};
 use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
 

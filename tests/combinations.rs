@@ -8,7 +8,7 @@
 
 use core::ops::ControlFlow;
 
-use lagrange_core::{Ending, Progress, TrajectorySensitivity, prelude::*};
+use lagrange_core::{Ending, linearized::TrajectorySensitivity, motion::Progress, prelude::*};
 
 #[derive(Lagrangian)]
 #[coordinates(x)]

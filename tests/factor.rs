@@ -3,7 +3,9 @@
 use std::cell::Cell;
 
 use lagrange_core::prelude::*;
-use lagrange_core::{Broadcast, ConstraintKind, Facts, FourLanes, Hamiltonian, Lagrangian, Scalar, Solution};
+use lagrange_core::{
+    Broadcast, ConstraintKind, Hamiltonian, Lagrangian, Scalar, Solution, facts::Facts, number::FourLanes,
+};
 use nalgebra::{SMatrix, SVector};
 use num_dual::Dual64;
 

@@ -1,7 +1,7 @@
 //! Functions that the user supplies, in every form and over every number type.
 
-use lagrange_core::{FunctionWithDerivatives, SmoothTable, Table};
-use lagrange_core::{WithDerivatives, prelude::*};
+use lagrange_core::function::{FunctionWithDerivatives, SmoothTable, Table};
+use lagrange_core::{function::WithDerivatives, prelude::*};
 use num_dual::Dual64;
 use simba::simd::{SimdValue, WideF64x4};
 

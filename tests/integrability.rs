@@ -2,7 +2,11 @@
 //! found, and the equations as text. That the integrals are constant is seen on integrated motions.
 
 use approx::assert_relative_eq;
-use lagrange_core::{Classification, ConstraintKind, Evidence, Extent, Integrability, Integrals, prelude::*};
+use lagrange_core::{
+    ConstraintKind,
+    facts::{Classification, Evidence, Extent, Integrability, Integrals},
+    prelude::*,
+};
 
 /// Milton (8.4)–(8.5).
 #[derive(Lagrangian)]

@@ -246,7 +246,7 @@ mod arm {
 mod unlike_links {
     use std::array::from_fn;
 
-    use lagrange_core::PartialDerivatives;
+    use lagrange_core::linearized::PartialDerivatives;
     use nalgebra::{Matrix3, Vector3};
     use num_dual::{Dual2_64, DualNum};
 

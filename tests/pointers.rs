@@ -4,7 +4,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use lagrange_core::prelude::*;
-use lagrange_core::{Classification, Lanes, Pack};
+use lagrange_core::{Lanes, Pack, facts::Classification};
 
 /// A velocity constraint with an integral, observables, conserved quantities.
 #[derive(Clone, Debug, PartialEq, Lagrangian)]

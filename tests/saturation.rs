@@ -2,7 +2,7 @@
 
 use approx::assert_relative_eq;
 use lagrange_core::prelude::*;
-use lagrange_core::{Dual, FourLanes};
+use lagrange_core::{Dual, number::FourLanes};
 
 /// A mass held by a motor of limited force, on a string that only pulls.
 #[derive(Lagrangian)]

@@ -1,6 +1,6 @@
 //! Units in which numbers are huge or tiny: the answer is the same motion in those units, or a named error.
 
-use lagrange_core::{Real, Solution, Stability, prelude::*};
+use lagrange_core::{Real, Solution, linearized::Stability, prelude::*};
 
 /// A bead on an inclined line, y = −¾ x, the constraint in units of its own.
 #[derive(Lagrangian, Clone)]

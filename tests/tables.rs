@@ -6,7 +6,10 @@
 mod rounds;
 
 use lagrange_core::function::{First, Second, Third, Value};
-use lagrange_core::{Error, SmoothTable, Table};
+use lagrange_core::{
+    Error,
+    function::{SmoothTable, Table},
+};
 use rounds::{Random, rounds};
 
 /// Anything that f64 holds: also no numbers, infinities, zeros of either sign, and what is next to another.

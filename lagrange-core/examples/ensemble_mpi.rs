@@ -16,7 +16,7 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use lagrange_core::mpi::{self, Threading, topology::SimpleCommunicator, traits::Communicator};
-use lagrange_core::{Outcome, prelude::*};
+use lagrange_core::{ensemble::Outcome, prelude::*};
 
 /// Two bobs on two rods, the angles from the vertical.
 #[derive(Lagrangian, Clone, Copy)]

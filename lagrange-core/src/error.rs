@@ -8,7 +8,7 @@ mod ensemble;
 #[cfg(feature = "alloc")]
 use alloc::{boxed::Box, string::String, vec::Vec};
 
-use crate::names::{Entry, Names, Row};
+pub use crate::names::{Entry, Names, Row};
 pub use ending::{Ending, Pace};
 #[cfg(feature = "std")]
 pub use ensemble::EnsembleError;

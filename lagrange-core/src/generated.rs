@@ -1,6 +1,7 @@
 //! What only generated code calls. It changes as the derive does, without notice.
 
-pub use crate::number::{matrix, only_where, sin_cos_of_small, vector};
+pub use crate::number::array::{matrix, vector};
+pub use crate::number::numeric::{only_where, sin_cos_of_small};
 pub use crate::solution::eliminate::{LoopFactor, eliminate, nan_if_ill_conditioned};
 pub use crate::system::defect::{Defect, asymmetry, distortion};
 pub use crate::system::equations::equations;

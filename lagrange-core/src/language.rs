@@ -340,10 +340,10 @@
 //! # Ok::<(), lagrange_core::Error>(())
 //! ```
 //!
-//! For `f64` alone there are two further forms. A [`FunctionWithDerivatives`](crate::FunctionWithDerivatives) function gives its value,
-//! gradient and second derivatives, and is put into [`WithDerivatives`](crate::WithDerivatives);
-//! [`check_derivatives`](crate::function::check_derivatives) compares them with differences. A [`Table`](crate::Table) is the
-//! curve through measured points with two continuous derivatives, a [`SmoothTable`](crate::SmoothTable) the one with four, along
+//! For `f64` alone there are two further forms. A [`FunctionWithDerivatives`](crate::function::FunctionWithDerivatives) function gives its value,
+//! gradient and second derivatives, and is put into [`WithDerivatives`](crate::function::WithDerivatives);
+//! [`check_derivatives`](crate::function::check_derivatives) compares them with differences. A [`Table`](crate::function::Table) is the
+//! curve through measured points with two continuous derivatives, a [`SmoothTable`](crate::function::SmoothTable) the one with four, along
 //! which motions keep their digits. Where the equations need a third derivative, which a `SmoothTable` alone has of these, that is
 //! an error at the field's type while compiling. [`Linearized`](crate::Linearized) takes one derivative more than the
 //! equations: where that is the third, it is missing for the other forms, and the rest of the system is there.
@@ -351,8 +351,8 @@
 //! can be differentiated by or sought.
 //!
 //! ```
-//! use lagrange_core::{WithDerivatives, prelude::*};
-//! use lagrange_core::{FunctionWithDerivatives, Table};
+//! use lagrange_core::{prelude::*, function::WithDerivatives};
+//! use lagrange_core::function::{FunctionWithDerivatives, Table};
 //!
 //! /// z = x² − y²
 //! struct Saddle;
@@ -425,11 +425,11 @@
 //! ```
 //!
 //! Whether a velocity constraint could be integrated is found out at compile time, for each one and for the set;
-//! see [`Integrability`](crate::Integrability). Where the integral is found it is a method, and stands in the
+//! see [`Integrability`](crate::facts::Integrability). Where the integral is found it is a method, and stands in the
 //! equations.
 //!
 //! ```
-//! use lagrange_core::{Classification, Evidence, Extent, Integrability, Integrals, prelude::*};
+//! use lagrange_core::{prelude::*, facts::{Classification, Evidence, Extent, Integrability, Integrals}};
 //!
 //! /// A cylinder that rolls, and a skate beside it.
 //! #[derive(Lagrangian)]
@@ -487,7 +487,7 @@
 //! # What is conserved
 //!
 //! The derive finds cyclic coordinates and their momenta, whether the energy E = p·q̇ − L is conserved and what it
-//! consists of ([`EnergyForm`](crate::EnergyForm): T + U only where that is certain), and terms of L that are total
+//! consists of ([`EnergyForm`](crate::facts::EnergyForm): T + U only where that is certain), and terms of L that are total
 //! time derivatives; constraints and forces are taken into account. All of it
 //! is in [`FACTS`](crate::Lagrangian::FACTS), with how sure it is: proved by the form of the expressions, or seen to
 //! hold at random states that satisfy the constraints.
@@ -501,7 +501,7 @@
     feature = "std",
     doc = r#"
 ```
-use lagrange_core::{Evidence, prelude::*};
+use lagrange_core::{prelude::*, facts::Evidence};
 
 /// A pendulum bob on a string.
 #[derive(Lagrangian)]

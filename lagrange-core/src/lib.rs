@@ -144,67 +144,55 @@ extern crate self as lagrange_core;
 pub mod embedded;
 #[cfg(feature = "std")]
 pub mod ensemble;
-mod error;
+pub mod error;
+pub mod facts;
 #[cfg(test)]
 mod fixtures;
 pub mod function;
 #[doc(hidden)]
 pub mod generated;
-mod hamiltonian;
+pub mod hamiltonian;
 pub mod language;
 pub mod linearized;
 pub mod motion;
 mod names;
-mod number;
+pub mod number;
 pub mod prelude;
 mod room;
 mod solution;
 mod statistics;
 mod system;
 #[cfg(feature = "alloc")]
-mod trajectory;
+pub mod trajectory;
 
 #[cfg(feature = "std")]
-pub use ensemble::{
-    Arrival, Ensemble, EnsembleProgress, Fingerprint, Member, MemberEnding, MemberRow, MemberTable, Outcome,
-};
-pub use error::Error;
-pub use error::{Ending, Pace};
-pub use function::{Function, FunctionWithDerivatives, WithDerivatives};
-#[cfg(feature = "alloc")]
-pub use function::{SmoothTable, Table};
-pub use hamiltonian::{Hamiltonian, HamiltonianVectorField, PhaseDerivative, PhaseState};
+pub use ensemble::Ensemble;
+pub use error::{Ending, Error};
+pub use function::Function;
+pub use hamiltonian::{Hamiltonian, PhaseState};
 pub use lagrange_macros::Lagrangian;
+pub use linearized::{Jacobian, Linearized, StateDerivatives};
 #[cfg(feature = "alloc")]
-pub use linearized::{
-    DifferentiableMethod, DualSample, Equilibrium, InverseDynamics, Linearization, LyapunovSpectrum,
-    MotionDerivatives, SelectedJacobian, Stability, StateSensitivity, TrajectorySensitivity,
-};
-pub use linearized::{Jacobian, Linearized, PartialDerivatives, StateDerivatives};
-#[cfg(feature = "std")]
-pub use motion::LaneMethod;
-pub use motion::Simulate;
-pub use motion::{Crossing, Dop853, Dopri5, Event, Method, Motion, Progress, RungeKutta4, runge_kutta_step};
+pub use linearized::{Linearization, MotionDerivatives};
+pub use motion::{Crossing, Dop853, Dopri5, Event, Method, Motion, RungeKutta4, Simulate, runge_kutta_step};
 #[cfg(feature = "alloc")]
 pub use motion::{MotionBuilder, Taylor};
 #[cfg(feature = "mpi")]
 pub use mpi;
 pub use nalgebra;
-pub use names::{Entry, Names, Row};
-pub use number::{Broadcast, Dual, FixedArray, PowerSeries, Real, Scalar, Wide};
 #[cfg(feature = "std")]
-pub use number::{FourLanes, Lanes};
+pub use number::Lanes;
+pub use number::{Broadcast, Dual, PowerSeries, Real, Scalar};
 #[cfg(feature = "alloc")]
 pub use solution::Impact;
-pub use solution::{Adjustment, Consistent, Sample};
+pub use solution::Sample;
 pub use statistics::Statistics;
 pub use system::{
-    Classification, Conserved, ConstraintKind, Direction, EnergyForm, Entries, Equations, Evidence, Excerpt,
-    Extent, Facts, Integrability, Integrals, Lagrangian, LinearPart, Pack, Packed, ResidualChange,
-    RightHandSides, Shared, Solution, State, TaylorSeries, TotalDerivative,
+    ConstraintKind, Direction, Entries, Lagrangian, Pack, Packed, ResidualChange, Shared, Solution, State,
+    TaylorSeries,
 };
 #[cfg(feature = "alloc")]
-pub use trajectory::{Csv, Deviation, Drift, HybridTrajectory, Leg, Named, Records, Trajectory};
+pub use trajectory::{HybridTrajectory, Trajectory};
 
 /// The README's program is compiled and run with the documentation's examples.
 #[cfg(doctest)]

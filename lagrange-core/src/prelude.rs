@@ -1,4 +1,4 @@
-//! What a program that simulates a system needs: `use lagrange_core::prelude::*`. All else is at the crate's root.
+//! What a program that simulates a system needs: `use lagrange_core::prelude::*`. All else is at the crate's root and in its modules.
 
 #[cfg(feature = "std")]
 pub use crate::ensemble::Ensemble;

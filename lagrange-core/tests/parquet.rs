@@ -6,7 +6,11 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use lagrange_core::ensemble::{EnsembleError, ParquetTable};
-use lagrange_core::{Ending, Member, MemberTable, Outcome, prelude::*};
+use lagrange_core::{
+    Ending,
+    ensemble::{Member, MemberTable, Outcome},
+    prelude::*,
+};
 
 #[derive(Lagrangian, Clone, Copy)]
 #[coordinates(a, b)]

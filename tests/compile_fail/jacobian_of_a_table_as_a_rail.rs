@@ -1,4 +1,4 @@
-use lagrange_core::Table;
+use lagrange_core::function::Table;
 use lagrange_core::prelude::*;
 
 /// The rail needs second derivatives for the motion, and third ones for its Jacobian.

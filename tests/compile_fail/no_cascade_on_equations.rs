@@ -7,7 +7,7 @@ struct System {
     m: f64,
 }
 
-const TEXT: lagrange_core::Equations = System::equations();
+const TEXT: lagrange_core::facts::Equations = System::equations();
 
 fn main() {
     println!("{} {} {TEXT}", System::equations(), System::equations().latex());

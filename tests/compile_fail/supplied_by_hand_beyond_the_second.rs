@@ -1,5 +1,5 @@
-use lagrange_core::FunctionWithDerivatives;
-use lagrange_core::{WithDerivatives, prelude::*};
+use lagrange_core::function::FunctionWithDerivatives;
+use lagrange_core::{prelude::*, function::WithDerivatives};
 
 struct Parabola;
 

@@ -1,4 +1,4 @@
-use lagrange_core::Table;
+use lagrange_core::function::Table;
 use lagrange_core::prelude::*;
 
 #[derive(Lagrangian)]

@@ -1,4 +1,4 @@
-use lagrange_core::{WithDerivatives, FunctionWithDerivatives, Table, prelude::*};
+use lagrange_core::{prelude::*, function::{WithDerivatives, FunctionWithDerivatives, Table}};
 
 #[derive(Lagrangian)]
 #[coordinates(x)]

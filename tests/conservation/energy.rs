@@ -1,8 +1,8 @@
 //! E = p·q̇ − L, Milton (8.17), of Lagrangians of every degree in the velocities.
 
 use approx::assert_relative_eq;
-use lagrange_core::{EnergyForm, LinearPart};
-use lagrange_core::{Evidence, prelude::*};
+use lagrange_core::facts::{EnergyForm, LinearPart};
+use lagrange_core::{facts::Evidence, prelude::*};
 
 #[derive(Lagrangian)]
 #[coordinates(x, y)]

@@ -1,8 +1,8 @@
 //! L and L + d/dt f(q, t) have the same motion, and the added term is found.
 
 use approx::assert_relative_eq;
+use lagrange_core::facts::{EnergyForm, Facts, LinearPart};
 use lagrange_core::prelude::*;
-use lagrange_core::{EnergyForm, Facts, LinearPart};
 
 macro_rules! pendulum {
     ($name:ident $(, $added:expr)?) => {

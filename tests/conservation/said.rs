@@ -1,6 +1,6 @@
 //! `#[conserved(…)]`: what is true compiles, and stays as it was along the motion.
 
-use lagrange_core::{Evidence, prelude::*};
+use lagrange_core::{facts::Evidence, prelude::*};
 
 /// The angular momentum, and the vector of Laplace, Runge and Lenz, which points to the pericentre.
 #[derive(Lagrangian)]

@@ -1,7 +1,7 @@
 //! Noether: cyclic coordinates, their momenta and the energy of systems with known answers.
 
-use lagrange_core::{EnergyForm, Facts, LinearPart};
-use lagrange_core::{Evidence, prelude::*};
+use lagrange_core::facts::{EnergyForm, Facts, LinearPart};
+use lagrange_core::{facts::Evidence, prelude::*};
 
 /// The names of what is conserved, for sure or in all random motions tried.
 fn conserved(facts: Facts) -> Vec<&'static str> {

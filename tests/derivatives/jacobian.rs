@@ -1,7 +1,9 @@
 //! Jacobians of accelerations, multipliers and constraints against differences of them.
 
 use lagrange_core::nalgebra::{DVector, SVector};
-use lagrange_core::{Direction, Entry, Jacobian, Lanes, PartialDerivatives, Solution, prelude::*};
+use lagrange_core::{
+    Direction, Jacobian, Lanes, Solution, error::Entry, linearized::PartialDerivatives, prelude::*,
+};
 
 /// Largest deviation, as a fraction of the largest entry of the Jacobian.
 const TOLERANCE: f64 = 1e-9;

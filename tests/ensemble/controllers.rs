@@ -1,6 +1,10 @@
 //! Members that are steered.
 
-use lagrange_core::{Arrival, Ending, Method, Outcome, prelude::*};
+use lagrange_core::{
+    Ending, Method,
+    ensemble::{Arrival, Outcome},
+    prelude::*,
+};
 
 use crate::{noise, on_threads};
 

@@ -5,7 +5,11 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use lagrange_core::motion::{Adaptive, AnyEvent, Pair};
-use lagrange_core::{Arrival, Crossing, Ending, MemberEnding, MemberTable, Outcome, Sample, prelude::*};
+use lagrange_core::{
+    Crossing, Ending, Sample,
+    ensemble::{Arrival, MemberEnding, MemberTable, Outcome},
+    prelude::*,
+};
 
 use crate::{COUNT, DoublePendulum, END, ensemble, member, on_threads};
 

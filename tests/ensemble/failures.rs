@@ -1,7 +1,10 @@
 //! One bad member is reported by its index, with the reason, and spoils no other.
 
 use lagrange_core::{Ending, prelude::*};
-use lagrange_core::{Lanes, Member, Outcome, Pack};
+use lagrange_core::{
+    Lanes, Pack,
+    ensemble::{Member, Outcome},
+};
 
 use crate::{COUNT, DoublePendulum, END, ensemble, member, on_threads};
 

@@ -22,7 +22,7 @@ fn one_by_one_each_member_moves_as_it_does_alone() {
 }
 
 /// The largest difference of an entry of a member on lanes from a motion alone.
-fn strays<M>(on_lanes: &lagrange_core::Outcome<f64, 2>, method: M) -> f64
+fn strays<M>(on_lanes: &lagrange_core::ensemble::Outcome<f64, 2>, method: M) -> f64
 where
     M: Method<crate::DoublePendulum<f64>, 2, 0> + Copy,
 {
@@ -150,7 +150,8 @@ fn the_observer_sees_every_step_and_ends_a_member() {
         ControlFlow::Continue(())
     });
     let outcome = counting.integrate_on_lanes(END, Dop853::default()).unwrap();
-    let steps = |member: &lagrange_core::Member<f64, 2>| member.arrival().unwrap().statistics.accepted;
+    let steps =
+        |member: &lagrange_core::ensemble::Member<f64, 2>| member.arrival().unwrap().statistics.accepted;
     assert_eq!(count.into_inner(), outcome.members().iter().map(steps).sum::<usize>());
 }
 

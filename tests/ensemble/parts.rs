@@ -4,8 +4,8 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use lagrange_core::ensemble::EnsembleError;
+use lagrange_core::ensemble::{Member, MemberEnding, MemberTable, Outcome};
 use lagrange_core::prelude::*;
-use lagrange_core::{Member, MemberEnding, MemberTable, Outcome};
 
 use crate::{COUNT, DoublePendulum, END, ensemble, member, on_threads};
 

@@ -2,7 +2,11 @@
 
 use std::ops::ControlFlow;
 
-use lagrange_core::{Arrival, Lanes, Method, Outcome, Pack, prelude::*};
+use lagrange_core::{
+    Lanes, Method, Pack,
+    ensemble::{Arrival, Outcome},
+    prelude::*,
+};
 
 use crate::{COUNT, END, ensemble, member, on_threads};
 

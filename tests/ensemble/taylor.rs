@@ -5,7 +5,10 @@ use std::ops::ControlFlow;
 use std::sync::Mutex;
 
 use lagrange_core::prelude::*;
-use lagrange_core::{Arrival, Ending, Outcome};
+use lagrange_core::{
+    Ending,
+    ensemble::{Arrival, Outcome},
+};
 
 use crate::members::{Spring, driven};
 use crate::{COUNT, END, constraints, ensemble, fields, member, noise, on_threads};

@@ -1,6 +1,6 @@
 //! Motions by Hamilton's equations against those by Lagrange's, over 50 s at relative tolerance 1e-12.
 
-use lagrange_core::{Ending, HamiltonianVectorField, prelude::*};
+use lagrange_core::{Ending, hamiltonian::HamiltonianVectorField, prelude::*};
 
 use crate::closed_forms::{Polar, Relativistic};
 use crate::constrained::{Bead, Cartesian, Top};

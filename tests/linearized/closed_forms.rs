@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use lagrange_core::nalgebra::{Complex, DMatrix, dmatrix};
-use lagrange_core::{Stability, prelude::*};
+use lagrange_core::{linearized::Stability, prelude::*};
 
 use crate::{TOLERANCE, assert_close, assert_spectrum, oscillations};
 

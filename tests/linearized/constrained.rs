@@ -1,7 +1,7 @@
 //! Linear systems on constraint manifolds: of the right size, and with the eigenvalues of minimal coordinates.
 
 use lagrange_core::nalgebra::{Complex, DMatrix};
-use lagrange_core::{Stability, prelude::*};
+use lagrange_core::{linearized::Stability, prelude::*};
 
 use crate::{TOLERANCE, assert_spectrum, oscillations};
 

@@ -1,7 +1,7 @@
 //! Where systems rest, and what holds them there.
 
 use lagrange_core::nalgebra::Vector2;
-use lagrange_core::{Stability, prelude::*};
+use lagrange_core::{linearized::Stability, prelude::*};
 
 use crate::TOP;
 

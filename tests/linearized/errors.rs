@@ -1,7 +1,11 @@
 //! What is wrong is said, with the names at fault.
 
-use lagrange_core::{Direction, Entry, FourLanes, Row, StateDerivatives};
-use lagrange_core::{Stability, prelude::*};
+use lagrange_core::{
+    Direction, StateDerivatives,
+    error::{Entry, Row},
+    number::FourLanes,
+};
+use lagrange_core::{linearized::Stability, prelude::*};
 
 /// A pendulum on a rod whose length is said again to be an input.
 #[derive(Clone, Lagrangian)]

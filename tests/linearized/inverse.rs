@@ -2,7 +2,11 @@
 
 use std::f64::consts::PI;
 
-use lagrange_core::{Entry, Error, Row, prelude::*};
+use lagrange_core::{
+    Error,
+    error::{Entry, Row},
+    prelude::*,
+};
 
 /// A crank, a rod and a slider, which turn as they are told: nothing is free.
 #[derive(Clone, Lagrangian)]

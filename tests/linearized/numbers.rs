@@ -2,7 +2,7 @@
 
 use lagrange_core::function::{FunctionWithDerivatives, WithDerivatives};
 use lagrange_core::nalgebra::SVector;
-use lagrange_core::{Jacobian, Solution, Stability, prelude::*};
+use lagrange_core::{Jacobian, Solution, linearized::Stability, prelude::*};
 use num_dual::Dual64;
 
 /// A bob on a spring whose upper end moves, in a wind, on a turning wire.

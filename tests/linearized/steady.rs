@@ -1,6 +1,6 @@
 //! At which velocities motions are steady.
 
-use lagrange_core::Row;
+use lagrange_core::error::Row;
 use lagrange_core::prelude::*;
 
 use crate::TOP;

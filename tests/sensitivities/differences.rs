@@ -1,7 +1,7 @@
 //! Derivatives of a motion by differences of motions.
 
 use lagrange_core::nalgebra::DVector;
-use lagrange_core::{DifferentiableMethod, Entry, prelude::*};
+use lagrange_core::{error::Entry, linearized::DifferentiableMethod, prelude::*};
 
 /// The coefficients of the central difference of eighth order (Fornberg 1988).
 const DIFFERENCE: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
@@ -121,7 +121,7 @@ where
 /// δΦ = 0 and δ(F q̇ + b) = 0, along the derivatives by the start.
 fn check_tangent<S, const N: usize, const M: usize, const P: usize>(
     system: &S,
-    at: &lagrange_core::StateSensitivity<f64, N>,
+    at: &lagrange_core::linearized::StateSensitivity<f64, N>,
     names: &[&str],
 ) where
     S: Linearized<N, M, P, Scalar = f64>,

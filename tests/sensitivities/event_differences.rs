@@ -1,7 +1,7 @@
 //! Derivatives across events, by differences of motions.
 
 use lagrange_core::nalgebra::{DMatrix, DVector};
-use lagrange_core::{Dual, Ending, StateSensitivity, prelude::*};
+use lagrange_core::{Dual, Ending, linearized::StateSensitivity, prelude::*};
 
 use crate::differences::{STEPS, TOLERANCE, difference};
 use crate::events::{Flying, method};

@@ -1,6 +1,6 @@
 //! Lyapunov exponents: pairs, sums, and a reference that shares nothing with them.
 
-use lagrange_core::{DifferentiableMethod, prelude::*};
+use lagrange_core::{linearized::DifferentiableMethod, prelude::*};
 
 use crate::{DoublePendulum, Driven};
 

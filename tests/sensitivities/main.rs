@@ -17,7 +17,11 @@ use std::f64::consts::PI;
 
 use differences::{check, check_each};
 use lagrange_core::function::Function;
-use lagrange_core::{DifferentiableMethod, Error, Scalar, StateSensitivity, prelude::*};
+use lagrange_core::{
+    Error, Scalar,
+    linearized::{DifferentiableMethod, StateSensitivity},
+    prelude::*,
+};
 
 fn method() -> Dop853 {
     Dop853::with_tolerance(1e-13)

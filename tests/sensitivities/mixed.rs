@@ -4,7 +4,7 @@
 //! `LAGRANGE_MIXED` says how many of each otherwise, and then every argument counts.
 
 use lagrange_core::nalgebra::DVector;
-use lagrange_core::{DifferentiableMethod, Dual, Entry, prelude::*};
+use lagrange_core::{Dual, error::Entry, linearized::DifferentiableMethod, prelude::*};
 
 use crate::event_differences::{block, check, stack, values};
 use crate::random::Random;

@@ -3,7 +3,7 @@
 
 use std::thread::Builder;
 
-use lagrange_core::{DifferentiableMethod, Method, StateDerivatives, prelude::*};
+use lagrange_core::{Method, StateDerivatives, linearized::DifferentiableMethod, prelude::*};
 
 #[derive(Clone, Copy, Lagrangian)]
 #[coordinates(x: [1000])]

@@ -1,6 +1,10 @@
 //! An end before the start: the same motion, the other way.
 
-use lagrange_core::{Adjustment, Ending, Method, Progress, prelude::*};
+use lagrange_core::{
+    Ending, Method,
+    motion::{Adjustment, Progress},
+    prelude::*,
+};
 
 use crate::{Spring, allowed, exact};
 

@@ -1,6 +1,6 @@
 //! Spans and starts near the ends of the numbers.
 
-use lagrange_core::{Ending, Progress, prelude::*};
+use lagrange_core::{Ending, motion::Progress, prelude::*};
 
 use crate::{Spring, allowed, exact};
 

@@ -21,7 +21,7 @@ struct Motion {
     accepted: usize,
     steps: Vec<(f64, f64)>,
     samples: Vec<(f64, f64)>,
-    energy: lagrange_core::Deviation<f64>,
+    energy: lagrange_core::trajectory::Deviation<f64>,
 }
 
 macro_rules! motion {

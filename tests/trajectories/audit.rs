@@ -1,7 +1,7 @@
 //! No number that is wrong without a word: for everything that gives numbers, a state where it cannot know them.
 
 use lagrange_core::prelude::*;
-use lagrange_core::{Ending, HamiltonianVectorField, Motion, Sample};
+use lagrange_core::{Ending, Motion, Sample, hamiltonian::HamiltonianVectorField};
 
 /// A bead on a wire that is nowhere for 2·10⁻⁹ s about t = 1/2, which no step meets.
 #[derive(Clone, Lagrangian)]

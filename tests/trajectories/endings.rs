@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::time::Duration;
 
 use lagrange_core::prelude::*;
-use lagrange_core::{Ending, Method, Progress};
+use lagrange_core::{Ending, Method, motion::Progress};
 
 /// A spring with friction: x'' = −k (x − sin t) − c x'. Where c or √k are large, x soon follows sin t slowly, and fast
 /// motions are there in the equations only.

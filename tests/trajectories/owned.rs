@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::thread;
 
 use lagrange_core::prelude::*;
-use lagrange_core::{HamiltonianVectorField, Sample};
+use lagrange_core::{Sample, hamiltonian::HamiltonianVectorField};
 
 /// A weight on a spring, pulled by a force `u`: with ω² = 1 it swings about x = u.
 #[derive(Clone, Debug, Lagrangian)]

@@ -3,7 +3,9 @@
 use std::fmt::Debug;
 
 use lagrange_core::prelude::*;
-use lagrange_core::{Arrival, Ending, PhaseDerivative, Records, Solution, Statistics};
+use lagrange_core::{
+    Ending, Solution, Statistics, ensemble::Arrival, hamiltonian::PhaseDerivative, trajectory::Records,
+};
 use serde_json::{Value, from_str, from_value, json, to_string, to_value};
 
 #[derive(Clone, Lagrangian)]

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use lagrange_core::nalgebra::SVector;
-use lagrange_core::{EnergyForm, Method, prelude::*};
+use lagrange_core::{Method, facts::EnergyForm, prelude::*};
 
 use crate::exhibit::{Exhibit, Moment};
 use crate::scene::{Point, Scene, View};

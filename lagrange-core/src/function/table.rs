@@ -19,7 +19,7 @@ use crate::function::{First, Second, Value};
 /// tolerances in 6,600 steps, those in a [`SmoothTable`] of the same points by 7 in 900.
 ///
 /// ```
-/// use lagrange_core::Table;
+/// use lagrange_core::function::Table;
 /// use lagrange_core::function::Value;
 /// let table = Table::new(&[(0.0, 0.0), (1.0, 1.0), (2.0, 2.0)])?;
 /// assert_eq!(table.value([1.5]), [1.5]);

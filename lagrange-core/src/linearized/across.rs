@@ -114,7 +114,7 @@ pub trait MotionDerivatives<const N: usize, const M: usize, const P: usize>:
     ///
     /// Where the start is the end of an earlier leg, at an event, its time depends on the arguments too; the derivatives along the
     /// motion are those at fixed times. On constraints they are projected onto the tangent space.
-    /// [`TrajectorySensitivity::end`](crate::TrajectorySensitivity::end) is an error where the motion reached neither its end nor an event, or where
+    /// [`TrajectorySensitivity::end`](crate::linearized::TrajectorySensitivity::end) is an error where the motion reached neither its end nor an event, or where
     /// the event has no derivative.
     fn motion_with_derivatives<'w>(
         &self,

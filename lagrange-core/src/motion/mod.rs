@@ -7,7 +7,7 @@
 //! - [`Taylor`], the series of the motion itself, for errors below 10⁻⁹ down to round-off: one factorisation a step and, for each
 //!   order, 13 for 10⁻⁶ and 29 for round-off, one to two evaluations. Its time grows less with the digits asked for than that of the
 //!   others, and what is conserved stays; for ensembles on lanes too. Not for equations with `abs`, `min`, `max`, `clamp`,
-//!   [`WithDerivatives`](crate::WithDerivatives), [`Table`](crate::Table), [`SmoothTable`](crate::SmoothTable) or third derivatives of a [`Function`](crate::Function), nor for (q, p).
+//!   [`WithDerivatives`](crate::function::WithDerivatives), [`Table`](crate::function::Table), [`SmoothTable`](crate::function::SmoothTable) or third derivatives of a [`Function`](crate::Function), nor for (q, p).
 //! - [`Dopri5`], a pair of order 5, for errors of 10⁻³ and forces that are not smooth. 6 evaluations a step, of which it needs many
 //!   below 10⁻⁷.
 //! - [`RungeKutta4`], of order 4, where each step is to take as long as any other: control in real time. 4 evaluations; it does not know
@@ -57,3 +57,5 @@ pub use crate::solution::interpolant::{HermiteNode, Interpolant, Polynomial};
 pub use crate::solution::vector_field::{
     ActiveConstraints, LagrangianVectorField, PhaseVector, StagePoint, VectorField,
 };
+pub use crate::solution::{Adjustment, Consistent};
+pub use crate::system::RightHandSides;

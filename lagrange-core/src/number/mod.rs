@@ -1,6 +1,6 @@
 //! The numbers that everything is computed with.
 
-mod array;
+pub(crate) mod array;
 mod broadcast;
 mod dual;
 #[cfg(all(feature = "std", target_feature = "avx512f"))]
@@ -9,7 +9,7 @@ mod eight;
 mod four;
 #[cfg(feature = "std")]
 mod lanes;
-mod numeric;
+pub(crate) mod numeric;
 #[cfg(feature = "std")]
 mod quad;
 mod scalar;
@@ -17,8 +17,8 @@ mod series;
 #[cfg(feature = "std")]
 mod sines;
 
-pub(crate) use array::entries;
-pub use array::{FixedArray, matrix, vector};
+pub use array::FixedArray;
+pub(crate) use array::{entries, vector};
 pub use broadcast::{Broadcast, Wide};
 pub use dual::Dual;
 #[cfg(feature = "alloc")]
@@ -28,7 +28,6 @@ pub use lanes::{FourLanes, Lanes};
 pub(crate) use numeric::{
     beyond_round_off, exceeds, is_within, larger, largest, norm, power_of_epsilon, power_of_two, smaller, sum,
 };
-pub use numeric::{only_where, sin_cos_of_small};
 pub use scalar::{Real, Scalar};
 pub use series::PowerSeries;
 #[cfg(feature = "alloc")]

@@ -41,7 +41,7 @@ pub enum LinearPart {
 /// not to be only where positions are seen to move.
 ///
 /// ```
-/// use lagrange_core::{EnergyForm, Evidence, prelude::*};
+/// use lagrange_core::{prelude::*, facts::{EnergyForm, Evidence}};
 ///
 /// /// A bead on a wire that is turned in a horizontal plane.
 /// #[derive(Lagrangian)]
@@ -81,7 +81,7 @@ pub enum EnergyForm {
 /// What is not listed is false or could not be decided.
 ///
 /// ```
-/// use lagrange_core::{EnergyForm, Evidence, prelude::*};
+/// use lagrange_core::{prelude::*, facts::{EnergyForm, Evidence}};
 ///
 /// /// A planet around a fixed sun.
 /// #[derive(Lagrangian)]

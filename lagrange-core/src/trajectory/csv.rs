@@ -61,7 +61,7 @@ impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Csv<'_, S, N, M, F>
         Self { has_energy: true, ..self }
     }
 
-    /// With a column for each quantity that is [conserved](crate::Facts::conserved), by its name.
+    /// With a column for each quantity that is [conserved](crate::facts::Facts::conserved), by its name.
     pub fn conserved(self) -> Self {
         Self { has_conserved: true, ..self }
     }

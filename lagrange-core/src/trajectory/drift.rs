@@ -12,7 +12,7 @@ use crate::system::Lagrangian;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Deviation<T> {
-    /// Name of the quantity in [`Facts::conserved`](crate::Facts::conserved).
+    /// Name of the quantity in [`Facts::conserved`](crate::facts::Facts::conserved).
     pub name: &'static str,
     /// The value at the start.
     pub start: T,
@@ -77,7 +77,7 @@ impl<S: Lagrangian<N, M, Scalar: Real>, F: VectorField<S, N, M>, const N: usize,
 }
 
 impl<T: Real> Drift<T> {
-    /// The quantities in the order of [`Facts::conserved`](crate::Facts::conserved).
+    /// The quantities in the order of [`Facts::conserved`](crate::facts::Facts::conserved).
     pub fn iter(&self) -> core::slice::Iter<'_, Deviation<T>> {
         self.quantities.iter()
     }

@@ -3,7 +3,7 @@
 use alloc::string::String;
 use alloc::vec::Vec;
 
-/// The names and the numbers of a table, [`Csv::records`](crate::Csv::records).
+/// The names and the numbers of a table, [`Csv::records`](crate::trajectory::Csv::records).
 ///
 /// With the feature `serde` it is written and read: `{"names": ["t", "x"], "rows": [[0.0, 1.0]]}`. In formats for people, such
 /// as JSON, what is no finite number may be written as nothing (`null`), which is read as NaN.

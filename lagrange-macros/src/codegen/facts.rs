@@ -16,7 +16,7 @@ impl Emitter<'_> {
         let cyclic = facts.cyclic.iter().map(|&a| &self.problem.coordinates[a].text);
         let conserved = facts.conserved.iter().map(|conserved| {
             let (name, evidence) = (&conserved.name, evidence(conserved.evidence));
-            quote!(__lagrange::Conserved { name: #name, evidence: #evidence })
+            quote!(__lagrange::facts::Conserved { name: #name, evidence: #evidence })
         });
         let energy = facts.conserved.iter().find(|conserved| conserved.quantity == ConservedKind::Energy);
         let energy_is_conserved = optional(energy.map(|energy| energy.evidence));
@@ -24,7 +24,7 @@ impl Emitter<'_> {
         let totals =
             self.rendered.total_derivatives.iter().zip(&facts.total_derivatives).map(|(terms, total)| {
                 let evidence = evidence(total.evidence);
-                quote!(__lagrange::TotalDerivative { terms: #terms, evidence: #evidence })
+                quote!(__lagrange::facts::TotalDerivative { terms: #terms, evidence: #evidence })
             });
         let linear_part = match facts.linear_part {
             LinearPart::Absent => quote!(Absent),
@@ -35,13 +35,13 @@ impl Emitter<'_> {
             LinearPart::Open => quote!(Open),
         };
         quote! {
-            const FACTS: __lagrange::Facts = __lagrange::Facts {
+            const FACTS: __lagrange::facts::Facts = __lagrange::facts::Facts {
                 cyclic: &[#(#cyclic),*],
                 conserved: &[#(#conserved),*],
                 energy_is_conserved: #energy_is_conserved,
                 energy_form: #energy_form,
                 total_derivatives: &[#(#totals),*],
-                linear_part: __lagrange::LinearPart::#linear_part,
+                linear_part: __lagrange::facts::LinearPart::#linear_part,
             };
         }
     }
@@ -80,8 +80,8 @@ impl Emitter<'_> {
 
 pub(super) fn evidence(evidence: Evidence) -> TokenStream {
     match evidence {
-        Evidence::Proved => quote!(__lagrange::Evidence::Proved),
-        Evidence::Held(states) => quote!(__lagrange::Evidence::Held(#states)),
+        Evidence::Proved => quote!(__lagrange::facts::Evidence::Proved),
+        Evidence::Held(states) => quote!(__lagrange::facts::Evidence::Held(#states)),
     }
 }
 
@@ -99,7 +99,7 @@ fn energy_form(form: EnergyForm) -> TokenStream {
         EnergyForm::Quadratic => quote!(Quadratic),
         EnergyForm::General => quote!(General),
     };
-    quote!(__lagrange::EnergyForm::#form)
+    quote!(__lagrange::facts::EnergyForm::#form)
 }
 
 fn optional(found: Option<Evidence>) -> TokenStream {

@@ -16,18 +16,18 @@ impl Emitter<'_> {
         let m = kinds.classes.len();
         let classes = kinds.classes.iter().map(|&Classification { integrability, evidence }| {
             let (integrability, evidence) = (format_ident!("{integrability:?}"), self::evidence(evidence));
-            quote!(__lagrange::Classification { integrability: __lagrange::Integrability::#integrability, evidence: #evidence })
+            quote!(__lagrange::facts::Classification { integrability: __lagrange::facts::Integrability::#integrability, evidence: #evidence })
         });
         let integrals = match kinds.integrals {
             Some(Integrals { count, of, evidence }) => {
                 let evidence = self::evidence(evidence);
-                quote!(::core::option::Option::Some(__lagrange::Integrals { count: #count, of: #of, evidence: #evidence }))
+                quote!(::core::option::Option::Some(__lagrange::facts::Integrals { count: #count, of: #of, evidence: #evidence }))
             }
             None => quote!(::core::option::Option::None),
         };
         quote! {
-            const CONSTRAINT_CLASSES: [__lagrange::Classification; #m] = [#(#classes),*];
-            const INTEGRALS: ::core::option::Option<__lagrange::Integrals> = #integrals;
+            const CONSTRAINT_CLASSES: [__lagrange::facts::Classification; #m] = [#(#classes),*];
+            const INTEGRALS: ::core::option::Option<__lagrange::facts::Integrals> = #integrals;
         }
     }
 

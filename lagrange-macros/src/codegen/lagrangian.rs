@@ -67,7 +67,7 @@ impl Emitter<'_> {
                     const DIGEST: u32 = #digest;
                     #supplied
                     #facts
-                    const EQUATIONS: __lagrange::Equations = Self::equations();
+                    const EQUATIONS: __lagrange::facts::Equations = Self::equations();
                     #methods
                     #visit_parameters
                     #visit_defects
@@ -229,7 +229,7 @@ impl Emitter<'_> {
         };
         quote! {
             #[doc = #doc]
-            #visibility const fn equations() -> __lagrange::Equations {
+            #visibility const fn equations() -> __lagrange::facts::Equations {
                 __lagrange::generated::equations(#forms)
             }
         }

@@ -52,7 +52,7 @@ pub(crate) fn stub(declaration: &Declaration, outline: &Outline) -> TokenStream 
                 const CONSTRAINTS: [&'static str; #m] = [""; #m];
                 const CONSTRAINT_KINDS: [__lagrange::ConstraintKind; #m] = [__lagrange::ConstraintKind::Holonomic; #m];
                 const OBSERVABLES: &'static [&'static str] = &[];
-                const FACTS: __lagrange::Facts = __lagrange::Facts::NONE;
+                const FACTS: __lagrange::facts::Facts = __lagrange::facts::Facts::NONE;
                 #(#of_lagrangian)*
             }
 
@@ -83,7 +83,7 @@ pub(crate) fn stub(declaration: &Declaration, outline: &Outline) -> TokenStream 
             #[automatically_derived]
             #[allow(unused_variables, dead_code, non_snake_case, clippy::all)]
             impl #own_generics #ident #type_generics #where_clause {
-                #visibility const fn equations() -> __lagrange::Equations {
+                #visibility const fn equations() -> __lagrange::facts::Equations {
                     __lagrange::generated::equations([[""; 3]; 3])
                 }
                 #(#observables)*

@@ -22,7 +22,7 @@ mod stewart_platform;
 mod three_bodies;
 mod turntable;
 
-use lagrange_core::{Equations, Method, prelude::*};
+use lagrange_core::{Method, facts::Equations, prelude::*};
 
 use crate::exhibit::{Exhibit, Knob};
 use crate::running::{self, Opened};

@@ -20,7 +20,7 @@ use crate::function::{First, Second, Third, Value};
 /// As a field named in `#[function(…)]` it serves systems over `f64`, up to third derivatives.
 ///
 /// ```
-/// use lagrange_core::SmoothTable;
+/// use lagrange_core::function::SmoothTable;
 /// use lagrange_core::function::{Third, Value};
 /// let table = SmoothTable::new(&[(0.0, 0.0), (1.0, 1.0), (2.0, 4.0), (3.0, 9.0)])?;
 /// assert!((table.value([1.5])[0] - 2.25).abs() < 1e-14);

@@ -263,7 +263,7 @@ mod tests {
     use crate::linearized::tangent::Tangent;
     use crate::motion::run::{Run, Watchdog};
     use crate::motion::{Adaptive, Method};
-    use crate::{Dop853, Entry, prelude::*};
+    use crate::{Dop853, error::Entry, prelude::*};
 
     use super::{DifferentiableMethod, LagrangianVectorField, Variations};
 

@@ -16,7 +16,7 @@ use crate::system::Lagrangian;
 const STEPS: usize = 15;
 
 impl<P: Pair> Adaptive<P> {
-    /// See [`Pace::stiffness`](crate::Pace::stiffness). Nothing is spent on it before it is asked for: the next steps are tried.
+    /// See [`Pace::stiffness`](crate::error::Pace::stiffness). Nothing is spent on it before it is asked for: the next steps are tried.
     #[cold]
     pub(super) fn find_stiffness<L, F, const N: usize, const M: usize>(
         &self,

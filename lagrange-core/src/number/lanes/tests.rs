@@ -1,6 +1,7 @@
 use super::LARGEST_ANGLE;
+use crate::number::numeric::only_where;
 use crate::number::scalar::FUSED;
-use crate::number::{FourLanes, Lanes, Scalar, only_where};
+use crate::number::{FourLanes, Lanes, Scalar};
 
 type Function = (&'static str, fn(Lanes) -> Lanes, fn(f64) -> f64);
 

@@ -220,10 +220,10 @@ fn coordinates_that_nothing_determines_are_named() {
 fn equations_that_are_not_finite_are_named() {
     let system = crate::fixtures::free::<2>(|_| [1.0, f64::NAN]);
     let error = system.integrate(State::at_rest([0.0; 2]).at_time(2.0), 3.0, Dopri5::default()).unwrap_err();
-    assert_eq!(error, Error::EquationsNotFinite { row: crate::Row::Coordinate("y"), time: 2.0 });
+    assert_eq!(error, Error::EquationsNotFinite { row: crate::error::Row::Coordinate("y"), time: 2.0 });
     let system = Mechanism { bias: |_| [f64::INFINITY], ..spherical_pendulum() };
     let error = system.solve(&State::at_rest([1.0, 0.0, 0.0])).unwrap_err();
-    assert_eq!(error, Error::EquationsNotFinite { row: crate::Row::Constraint("c0"), time: 0.0 });
+    assert_eq!(error, Error::EquationsNotFinite { row: crate::error::Row::Constraint("c0"), time: 0.0 });
 }
 
 #[test]

@@ -118,7 +118,7 @@ impl Equations {
     }
 
     /// The energy function E = p·q̇ − L, and in parentheses what it is and, where it is not known to be conserved, what changes it
-    /// (see [`EnergyForm`](crate::EnergyForm)).
+    /// (see [`EnergyForm`](crate::facts::EnergyForm)).
     pub fn energy(&self) -> Excerpt {
         let changing = || self.below("Energy");
         self.conserved().row("E").unwrap_or_else(changing)

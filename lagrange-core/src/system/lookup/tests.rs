@@ -55,7 +55,7 @@ fn a_name_asked_for_in_the_wrong_place_is_answered_with_the_right_one() {
     assert_eq!(said(|s| s.conserved("height")), observable);
     let energy = of("conserved quantity", "E", "the energy", "energy()");
     assert_eq!(said(|s| s.conserved("E")), energy);
-    let time = of("observable", "t", "the time", "time()");
+    let time = of("observable", "t", "the time", "time()") + " and a state's `at_time(…)` sets";
     assert_eq!(said(|s| s.observable("t")), time);
 }
 

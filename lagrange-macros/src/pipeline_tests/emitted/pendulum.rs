@@ -9,31 +9,33 @@ const _: () = {
         const COORDINATES: [&'static str; 1usize] = ["theta"];
         const CONSTRAINTS: [&'static str; 0usize] = [];
         const CONSTRAINT_KINDS: [__lagrange::ConstraintKind; 0usize] = [];
-        const CONSTRAINT_CLASSES: [__lagrange::Classification; 0usize] = [];
-        const INTEGRALS: ::core::option::Option<__lagrange::Integrals> = ::core::option::Option::Some(__lagrange::Integrals {
+        const CONSTRAINT_CLASSES: [__lagrange::facts::Classification; 0usize] = [];
+        const INTEGRALS: ::core::option::Option<__lagrange::facts::Integrals> = ::core::option::Option::Some(__lagrange::facts::Integrals {
             count: 0usize,
             of: 0usize,
-            evidence: __lagrange::Evidence::Proved,
+            evidence: __lagrange::facts::Evidence::Proved,
         });
         const MOMENTA_ARE_LINEAR: bool = true;
         const OBSERVABLES: &'static [&'static str] = &[];
         const DIGEST: u32 = 3945749694u32;
-        const FACTS: __lagrange::Facts = __lagrange::Facts {
+        const FACTS: __lagrange::facts::Facts = __lagrange::facts::Facts {
             cyclic: &[],
             conserved: &[
-                __lagrange::Conserved {
+                __lagrange::facts::Conserved {
                     name: "energy",
-                    evidence: __lagrange::Evidence::Proved,
+                    evidence: __lagrange::facts::Evidence::Proved,
                 },
             ],
             energy_is_conserved: ::core::option::Option::Some(
-                __lagrange::Evidence::Proved,
+                __lagrange::facts::Evidence::Proved,
             ),
-            energy_form: __lagrange::EnergyForm::Even(__lagrange::Evidence::Proved),
+            energy_form: __lagrange::facts::EnergyForm::Even(
+                __lagrange::facts::Evidence::Proved,
+            ),
             total_derivatives: &[],
-            linear_part: __lagrange::LinearPart::Absent,
+            linear_part: __lagrange::facts::LinearPart::Absent,
         };
-        const EQUATIONS: __lagrange::Equations = Self::equations();
+        const EQUATIONS: __lagrange::facts::Equations = Self::equations();
         ///7 operations (+ − × ÷ √), 1 elementary function. Of every kind: 10 as derived, then 8 factors taken out.
         #[inline]
         #[allow(unused_variables)]
@@ -338,7 +340,7 @@ Hamilton's equations
   θ̇ = p_θ/(m l²)
   ṗ_θ = −m l g sin θ
 ```*/
-        const fn equations() -> __lagrange::Equations {
+        const fn equations() -> __lagrange::facts::Equations {
             __lagrange::generated::equations(
                 [[
                     "Pendulum\n\nLagrangian\n  L = ½ m l² θ\u{307}² + m g l cos θ\n\nEquations of motion\n  θ: l θ\u{308} = −g sin θ\n\nConserved\n  E = ½ m l² θ\u{307}² − m l g cos θ   (T + U if U is −m l g cos θ)\n\nMomenta\n  p_θ = m l² θ\u{307}\n\nHamiltonian\n  H = p_θ²/(2 m l²) − m l g cos θ\n\nHamilton's equations\n  θ\u{307} = p_θ/(m l²)\n  ṗ_θ = −m l g sin θ\n",

@@ -7,7 +7,7 @@
 use std::io::{BufRead, stdin};
 use std::time::Instant;
 
-use lagrange_core::LaneMethod;
+use lagrange_core::motion::LaneMethod;
 use lagrange_core::prelude::*;
 
 const END: f64 = 10.0;

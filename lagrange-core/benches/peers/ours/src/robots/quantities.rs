@@ -1,8 +1,9 @@
 //! What else is asked of an arm than its accelerations, behind the same signature: matrices are left in `a` by columns.
 
 use lagrange_core::{
-    Direction, FourLanes, StateDerivatives,
+    Direction, StateDerivatives,
     nalgebra::{Matrix3, Rotation3, SMatrix, SVector, Vector3},
+    number::FourLanes,
     prelude::*,
 };
 
