@@ -39,7 +39,7 @@ pub(crate) fn check<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: 
     let rows =
         Rows::of(&system.mass_matrix(state).into(), &residual.jacobian, Rank::near_dependence(least_pivot()));
     let round_off = residual.negligible();
-    let part = |count: usize, k: usize| (GOLDEN * (count * (k + 1)) as f64).fract() - 0.5;
+    let part = |count: usize, k: usize| GOLDEN * (count * (k + 1)) as f64 % 1.0 - 0.5;
     let spread =
         (1..=DIRECTIONS).filter_map(|count| rows.free_direction(|k| L::Scalar::constant(part(count, k))));
     let found = rows.remainders().chain(spread).find_map(|direction| {
