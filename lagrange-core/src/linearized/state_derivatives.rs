@@ -78,7 +78,7 @@ pub trait StateDerivatives<const N: usize, const M: usize>: Lagrangian<N, M> {
 }
 
 /// A system behind a reference or a smart pointer has the derivatives of that system.
-macro_rules! behind {
+macro_rules! derivatives_behind {
     ($($pointer:ty),*) => {$(
         #[diagnostic::do_not_recommend]
         impl<L: StateDerivatives<N, M>, const N: usize, const M: usize> StateDerivatives<N, M> for $pointer {
@@ -98,8 +98,8 @@ macro_rules! behind {
     )*};
 }
 
-behind!(&L);
+derivatives_behind!(&L);
 #[cfg(feature = "alloc")]
-behind!(alloc::boxed::Box<L>, alloc::rc::Rc<L>);
+derivatives_behind!(alloc::boxed::Box<L>, alloc::rc::Rc<L>);
 #[cfg(all(feature = "alloc", target_has_atomic = "ptr"))]
-behind!(alloc::sync::Arc<L>);
+derivatives_behind!(alloc::sync::Arc<L>);

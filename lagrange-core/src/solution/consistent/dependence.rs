@@ -13,19 +13,22 @@ use crate::number::{Real, Scalar, entries, larger, power_of_epsilon};
 use crate::solution::kkt::{Rank, Rows};
 use crate::system::{Lagrangian, State};
 
-/// Directions to differentiate along, beside those of what is left of a row: where that is H d, d away from where nothing is left, H
-/// along it is at least |H d|²/(d·H d), so that a combination of this size is not overlooked. In each a second derivative that is somewhere else may vanish by chance: below 10⁻⁵ of the
-/// largest one in some 10⁵, so that with three none is overlooked in 10¹⁵.
+/// Number of directions, beside the remainders of the dependent rows, along which second derivatives are taken. A quadratic form H that
+/// is not zero may vanish along one of them by chance, hardly along three.
+///
+/// A remainder is H d, where d leads away from where the rows are dependent. By Schwarz's inequality the form along it is at
+/// least |H d|²/(d·H d), so that s²/(2h) is at most d·H d/2, what the combination differs from zero by at d.
 const DIRECTIONS: usize = 3;
-/// The golden section, of whose multiples the fractional parts are spread evenly and never repeat.
+/// The golden section: the fractional parts of its multiples are spread evenly.
 const GOLDEN: f64 = 0.618_033_988_749_895;
 
-/// Where the smallest pivot exceeds it, no row is as near to dependent as it may have to be where one is by what a projection leaves.
+/// Smallest pivot above which no constraints are looked at: rows that are dependent but for what a projection leaves have smaller ones.
 pub(crate) fn least_pivot<T: Real>() -> T {
     power_of_epsilon(0.25)
 }
 
-/// Fails with the constraints of such a combination, at a state that satisfies the holonomic ones.
+/// Fails where a combination of holonomic constraints that hold has no gradient, but second derivatives along free directions, with
+/// the names of those constraints.
 #[cold]
 #[inline(never)]
 pub(crate) fn check<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(

@@ -236,14 +236,14 @@ impl<T: Real, const N: usize, const M: usize> Rows<T, N, M> {
         (rank < N).then(|| self.out_of_basis(x.map(|x| x / length)))
     }
 
-    /// Along what is left of each dependent row: not a number where that is nothing.
+    /// For each dependent row the direction of its remainder, the part that the independent rows do not make up; NaN where that is zero.
     pub(crate) fn remainders(&self) -> impl Iterator<Item = SVector<T, N>> {
         let split = &self.split;
         (split.rank..M).filter_map(move |j| self.free_direction(|k| split.entry(split.rank + k, j)))
     }
 
-    /// A dependent row with which the second derivatives h of the constraints along a free direction do not agree, as the part that
-    /// each row has in the combination. What is left of that row, s, must be so little that s²/(2h), the change of the
+    /// Finds a dependent row whose second derivative along a free direction is not the one that the independent rows give it. They differ
+    /// by h. The result is the coefficient of each row in the combination. The remainder of the row, s, must be so small that s²/(2h), the change of the
     /// combination from here to where nothing is left, is no more than `round_off` of the constraints.
     pub(crate) fn first_order_dependence(&self, second: &[T; M], round_off: &[T; M]) -> Option<[T; M]> {
         let (split, two) = (&self.split, T::constant(2.0));

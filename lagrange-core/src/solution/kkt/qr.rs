@@ -82,12 +82,12 @@ impl<T: Real, const K: usize, const C: usize> Qr<T, K, C> {
         self.r[column][row]
     }
 
-    /// The length of what the independent columns leave of this (pivoted) column.
+    /// The length of the part of this (pivoted) column that is orthogonal to the independent columns.
     pub(super) fn remainder(&self, column: usize) -> T {
         norm(&self.r[column][self.rank..])
     }
 
-    /// The columns of A, in their order, whose sum is what they leave of this (pivoted) column: 1 of itself.
+    /// The coefficients of the columns of A, in their order, in the sum that is that part: 1 for the column itself.
     pub(super) fn combination(&self, column: usize) -> [T; C] {
         let mut parts = self.solve(&self.r[column]).map(|x| -x);
         parts[self.order[column]] = T::constant(1.0);

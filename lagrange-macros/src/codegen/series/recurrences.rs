@@ -53,8 +53,8 @@ pub(super) struct Recurrences {
     pub(super) sums: IndexSet<Sum>,
     /// Values of roots, each with the place of a sum whose right factor it is.
     pub(super) roots: Vec<(usize, Register)>,
-    /// Arguments of functions that may be too small for a series, and bases of high powers with their exponents: one that is
-    /// known at run time, or else the number.
+    /// Arguments of steep functions (exp, tanh, sinh, cosh), with the number 0, and bases of high powers, with the exponent: a register
+    /// where it is known at run time only, else the number.
     pub(super) steep: IndexMap<(SeriesQuantity, Option<Register>), u32>,
     /// Bases and exponents of whole powers.
     pub(super) powers: FxHashMap<SeriesQuantity, (SeriesQuantity, u32)>,

@@ -34,8 +34,8 @@ impl Recurrences {
         }
     }
 
-    /// What was noted: its place among the sums, its value, and its exponent or zero. The base of a power xᵉ whose exponent is known at
-    /// run time has the value x/e and the exponent 1, for the logarithm of the power changes as e x′/x.
+    /// For each argument that was noted its place among the sums and the exponent, 0 for a function that is no power, and its value. Of a
+    /// power xᵉ whose exponent is known at run time only, the value is x/e and the exponent 1: the rate of its logarithm, e x′/x, is the same.
     pub(super) fn steep(&mut self) -> Vec<([usize; 2], Register)> {
         let noted = core::mem::take(&mut self.steep);
         let of = |((x, at_run_time), exponent): ((SeriesQuantity, Option<Register>), u32)| {
