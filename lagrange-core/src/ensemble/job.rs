@@ -10,7 +10,9 @@ use super::outcome::{Arrival, Member, Outcome};
 use super::table::MemberRow;
 use crate::error::{Ending, EnsembleError, Error};
 use crate::motion::run::{Run, Watchdog};
-use crate::motion::{Batch, LagrangianVectorField, LaneMethod, LaneMotion, Method, Record, RecordPlan};
+use crate::motion::{
+    Batch, LagrangianVectorField, LaneMethod, LaneMotion, Method, Record, RecordPlan, Recorded,
+};
 use crate::number::Real;
 use crate::statistics::Statistics;
 use crate::system::finite::check_finite;
@@ -289,24 +291,14 @@ where
     ) -> Result<Arrival<T, N>, Error> {
         check_finite(system, start)?;
         let (mut run, _) = Run::begin::<L, LagrangianVectorField, _, M>(system, start, method)?;
-        let mut record = Record::begin(&self.record_plan, system, &run.state, self.end)?;
+        let record = Record::begin(&self.record_plan, system, &run.state, self.end)?;
         let limits = Watchdog::new(method.limits(), &run.statistics);
-        let ending = loop {
-            if run.state.t == self.end {
-                break Ending::Complete { time: run.state.t.to_f64() };
-            }
-            let stepped = match const { HAS_DENSE_OUTPUT } {
-                true => record.step(&mut run, (index, &mut *system), method, &limits),
-                false => run.step(system, method, self.end, &limits),
-            };
-            if let Err(ending) = stepped {
-                break ending;
-            }
-            if self.observe(index, &run.state).is_break() {
-                break Ending::Cancelled { time: run.state.t.to_f64() };
-            }
-        };
-        Ok(arrival(run.state, ending, run.statistics, record))
+        let accept = |state: &_| self.observe(index, state);
+        let mut recorded =
+            Recorded::<_, _, _, N, M, HAS_DENSE_OUTPUT> { index, system, record, within: None, accept };
+        let driven = run.drive::<L, LagrangianVectorField, P, _, M>(method, &limits, &mut recorded);
+        let ending = driven.err().unwrap_or(Ending::Complete { time: self.end.to_f64() });
+        Ok(arrival(run.state, ending, run.statistics, recorded.record))
     }
 }
 

@@ -8,8 +8,8 @@ use nalgebra::DMatrix;
 use super::Linearized;
 use super::tangent::Tangent;
 use super::variation::{DifferentiableMethod, Variations};
-use crate::error::Error;
-use crate::motion::run::{Run, Watchdog, check_end};
+use crate::error::{Ending, Error};
+use crate::motion::run::{Observer, Run, Watchdog, check_end};
 use crate::number::{Real, Scalar};
 use crate::solution::vector_field::LagrangianVectorField;
 use crate::system::State;
@@ -53,27 +53,90 @@ where
     };
     let most = |j: usize| entry::<L, N, M>(basis.column(j).icamax());
     let column = |j: usize| [0, N].map(|half| basis.fixed_view::<N, 1>(half, j).into_owned());
-    let mut variations = Variations::begin(&tangent, (0..basis.ncols()).map(most).collect(), column)?;
-    let mut companion = method.companion(system, &start, &variations)?;
+    let variations = Variations::begin(&tangent, (0..basis.ncols()).map(most).collect(), column)?;
+    let stages = method.companion(system, &start, &variations)?;
     let limits = Watchdog::new(method.limits(), &run.statistics);
-    let mut parts = Vec::with_capacity(PARTS + 1);
-    for part in 1..=PARTS + 1 {
+    let growth = vec![L::Scalar::constant(0.0); variations.count()];
+    let mut exponents = Growth { system, start: start.t, end, variations, stages, growth, parts: Vec::new() };
+    run.drive::<L, LagrangianVectorField, D, _, M>(method, &limits, &mut exponents)?;
+    Ok(LyapunovSpectrum::of(&exponents.parts[1..]))
+}
+
+/// How variations of a motion grow.
+struct Growth<'a, L, D, const N: usize, const M: usize, const P: usize>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+    D: DifferentiableMethod<L, N, M, P>,
+{
+    system: &'a L,
+    start: L::Scalar,
+    end: L::Scalar,
+    variations: Variations<L, N, M, P>,
+    /// What the method needs for the next step of the variations.
+    stages: D::VariationMemory,
+    /// By how much each has grown in the present part, as a logarithm.
+    growth: Vec<L::Scalar>,
+    /// The ends of the parts before, and the mean rates in them.
+    parts: Vec<(L::Scalar, Vec<L::Scalar>)>,
+}
+
+impl<L, D, const N: usize, const M: usize, const P: usize> Growth<'_, L, D, N, M, P>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+    D: DifferentiableMethod<L, N, M, P>,
+{
+    /// Where the present part ends.
+    fn stop(&self) -> L::Scalar {
+        let part = self.parts.len() + 1;
         let done = L::Scalar::constant(part as f64 / (PARTS + 1) as f64);
-        let stop = if part > PARTS { end } else { start.t + (end - start.t) * done };
-        let (mut growth, from) = (vec![L::Scalar::constant(0.0); basis.ncols()], run.state.t);
-        while run.state.t != stop {
-            let prepared = method.prepare(system, &mut run, stop, &variations, &mut companion);
-            let along = |run: &mut Run<_, _, N>| method.follow(system, run, &mut variations, &mut companion);
-            let step = prepared.and_then(|()| {
-                run.step_with::<L, LagrangianVectorField, _, _, M>(system, method, stop, &limits, along)
-            });
-            step?;
-            let linear = &mut D::linear(&mut companion);
-            variations.orthonormalize(linear, |j, length| growth[j] += Scalar::ln(length));
-        }
-        parts.push((stop, growth.into_iter().map(|x| x / (stop - from)).collect::<Vec<_>>()));
+        if part > PARTS { self.end } else { self.start + (self.end - self.start) * done }
     }
-    Ok(LyapunovSpectrum::of(&parts[1..]))
+
+    /// Ends the present part.
+    fn end_part(&mut self, stop: L::Scalar) {
+        let from = self.parts.last().map_or(self.start, |(time, _)| *time);
+        let rates = self.growth.iter().map(|growth| *growth / (stop - from)).collect();
+        self.parts.push((stop, rates));
+        self.growth.fill(L::Scalar::constant(0.0));
+    }
+}
+
+impl<L, D, const N: usize, const M: usize, const P: usize> Observer<L, LagrangianVectorField, D, N, M>
+    for Growth<'_, L, D, N, M, P>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+    D: DifferentiableMethod<L, N, M, P>,
+{
+    fn system(&self) -> &L {
+        self.system
+    }
+
+    fn goal(
+        &mut self,
+        method: &D,
+        run: &mut Run<D::Memory, L::Scalar, N>,
+    ) -> Result<Option<L::Scalar>, Ending> {
+        while self.parts.len() <= PARTS {
+            let stop = self.stop();
+            if run.state.t != stop {
+                method.prepare(self.system, run, stop, &self.variations, &mut self.stages)?;
+                return Ok(Some(stop));
+            }
+            self.end_part(stop);
+        }
+        Ok(None)
+    }
+
+    fn follow(&mut self, method: &D, run: &mut Run<D::Memory, L::Scalar, N>) -> Result<(), Ending> {
+        method.follow(self.system, run, &mut self.variations, &mut self.stages)
+    }
+
+    fn keep(&mut self, _: &D, _: &mut Run<D::Memory, L::Scalar, N>) -> Result<(), Ending> {
+        let Self { variations, stages, growth, .. } = self;
+        let linear = &mut D::linear(stages);
+        variations.orthonormalize(linear, |j, length| growth[j] += Scalar::ln(length));
+        Ok(())
+    }
 }
 
 impl<T: Real> LyapunovSpectrum<T> {

@@ -9,9 +9,10 @@ use super::sensitivity::{StateSensitivity, at_event};
 use super::tangent::{Tangent, WideOf};
 use super::variation::{DifferentiableMethod, Variations};
 use crate::error::{Ending, Error};
-use crate::motion::MotionBuilder;
 use crate::motion::builder::EventList;
-use crate::motion::run::{Companion, OnProgress, Run, drive};
+use crate::motion::run::{Observer, Run, Watchdog, check_end};
+use crate::motion::store::{OnProgress, Stored};
+use crate::motion::{AnyEvent, MotionBuilder};
 use crate::names::Entry;
 use crate::number::{Broadcast, Real, Scalar, Wide};
 use crate::solution::vector_field::{LagrangianVectorField, PhaseVector};
@@ -125,17 +126,16 @@ where
     D: DifferentiableMethod<L, N, M, P>,
 {
     check_finite(system, &start.state)?;
-    let along = |state: &State<L::Scalar, N>| Along::begin(system, state, start, method);
-    let (trajectory, Along { course, before, .. }) =
-        drive::<_, LagrangianVectorField, _, _, Along<L, D, N, M, P>, N, M, true>(
-            system,
-            &start.state,
-            end,
-            method,
-            events,
-            on_progress,
-            along,
-        )?;
+    check_end(end)?;
+    let mut begun = Run::begin::<L, LagrangianVectorField, D, M>(system, &start.state, method);
+    let (run, adjustment) = begun.as_mut().map_err(|error| error.clone())?;
+    let (course, stages) = Course::from(system, &run.state, start, method)?;
+    let stored = Stored::begin(system, &run.state, end, events, on_progress)?;
+    let mut along = Along { stored, course, stages, before: run.state };
+    let limits = Watchdog::new(method.limits(), &run.statistics);
+    let driven = run.drive::<L, LagrangianVectorField, D, _, M>(method, &limits, &mut along);
+    let (stored, course, before) = along.end();
+    let trajectory = stored.finish(driven, run.statistics, *adjustment);
     let is_at_event = matches!(trajectory.ending(), Ending::Event { .. });
     let last = trajectory.crossings().last().filter(|_| is_at_event);
     let end = trajectory.check_finished().and_then(|()| course.at(system, trajectory.end().state()));
@@ -146,12 +146,13 @@ where
     Ok(TrajectorySensitivity { trajectory, course, end })
 }
 
-/// The derivatives of a motion while it is integrated.
-struct Along<L, D, const N: usize, const M: usize, const P: usize>
+/// The derivatives of a motion while it is integrated and stored.
+struct Along<'a, 'e, L, D, W, const N: usize, const M: usize, const P: usize>
 where
     L: Linearized<N, M, P, Scalar: Real>,
     D: DifferentiableMethod<L, N, M, P>,
 {
+    stored: Stored<'a, 'e, L, W, D::Interpolant, N, M, true>,
     course: Course<L, N, M, P>,
     /// What the method needs for the next step of the derivatives.
     stages: D::VariationMemory,
@@ -159,53 +160,55 @@ where
     before: State<L::Scalar, N>,
 }
 
-impl<L, D, const N: usize, const M: usize, const P: usize> Along<L, D, N, M, P>
+impl<'a, 'e, L, D, W, const N: usize, const M: usize, const P: usize> Along<'a, 'e, L, D, W, N, M, P>
 where
     L: Linearized<N, M, P, Scalar: Real>,
     D: DifferentiableMethod<L, N, M, P>,
 {
-    fn begin(
-        system: &L,
-        state: &State<L::Scalar, N>,
-        start: &StateSensitivity<L::Scalar, N>,
-        method: &D,
-    ) -> Result<Self, Error> {
-        let (course, stages) = Course::from(system, state, start, method)?;
-        Ok(Self { course, stages, before: *state })
+    /// What is left of it after the motion.
+    #[allow(clippy::type_complexity, reason = "its fields")]
+    fn end(
+        self,
+    ) -> (Stored<'a, 'e, L, W, D::Interpolant, N, M, true>, Course<L, N, M, P>, State<L::Scalar, N>) {
+        (self.stored, self.course, self.before)
     }
 }
 
-impl<L, D, const N: usize, const M: usize, const P: usize> Companion<L, LagrangianVectorField, D, N, M>
-    for Along<L, D, N, M, P>
+impl<L, D, W, const N: usize, const M: usize, const P: usize> Observer<L, LagrangianVectorField, D, N, M>
+    for Along<'_, '_, L, D, W, N, M, P>
 where
     L: Linearized<N, M, P, Scalar: Real>,
     D: DifferentiableMethod<L, N, M, P>,
+    W: AnyEvent<L, N, M>,
 {
-    fn prepare(
-        &mut self,
-        system: &L,
-        method: &D,
-        run: &mut Run<D::Memory, L::Scalar, N>,
-        end: L::Scalar,
-    ) -> Result<(), Ending> {
-        method.prepare(system, run, end, &self.course.variations, &mut self.stages)
+    fn system(&self) -> &L {
+        Observer::<L, LagrangianVectorField, D, N, M>::system(&self.stored)
     }
 
-    fn follow(
+    fn goal(
         &mut self,
-        system: &L,
         method: &D,
         run: &mut Run<D::Memory, L::Scalar, N>,
-        within: &mut Vec<D::Interpolant>,
-    ) -> Result<(), Ending> {
-        let Self { course: Course { variations, coefficients, .. }, stages, .. } = self;
+    ) -> Result<Option<L::Scalar>, Ending> {
+        let goal = Observer::<_, LagrangianVectorField, _, N, M>::goal(&mut self.stored, method, run)?;
+        if let Some(end) = goal {
+            let system = self.stored.system();
+            method.prepare(system, run, end, &self.course.variations, &mut self.stages)?;
+        }
+        Ok(goal)
+    }
+
+    fn follow(&mut self, method: &D, run: &mut Run<D::Memory, L::Scalar, N>) -> Result<(), Ending> {
+        let Self { stored, course: Course { variations, coefficients, .. }, stages, .. } = self;
+        let system = stored.system();
         method.follow(system, run, variations, stages)?;
-        method.interpolate(system, run, variations, stages, within, coefficients)
+        method.interpolate(system, run, variations, stages, stored.interpolants(), coefficients)
     }
 
-    fn keep(&mut self, from: &State<L::Scalar, N>, to: &State<L::Scalar, N>) {
-        self.before = *from;
-        self.course.push(from.t, to.t);
+    fn keep(&mut self, method: &D, run: &mut Run<D::Memory, L::Scalar, N>) -> Result<(), Ending> {
+        self.before = run.before;
+        self.course.push(run.before.t, run.state.t);
+        Observer::<_, LagrangianVectorField, _, N, M>::keep(&mut self.stored, method, run)
     }
 }
 

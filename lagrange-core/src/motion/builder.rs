@@ -8,7 +8,8 @@ use core::ops::ControlFlow;
 
 use super::event::AnyEvent;
 use super::method::{Dop853, Method};
-use super::run::{NoCompanion, OnProgress, Progress, drive};
+use super::run::{Progress, Run, Watchdog, check_end};
+use super::store::{OnProgress, Stored};
 use crate::error::Error;
 use crate::number::Real;
 use crate::solution::vector_field::VectorField;
@@ -161,18 +162,27 @@ where
     where
         P: Method<L, N, M, F>,
     {
+        match const { E::HAS_EVENTS } {
+            true => self.store::<true>(end),
+            false => self.store::<false>(end),
+        }
+    }
+
+    fn store<const HAS_EVENTS: bool>(self, end: L::Scalar) -> Result<Trajectory<&'a L, N, M, F>, Error>
+    where
+        P: Method<L, N, M, F>,
+    {
         let Self { system, start, method, events, on_progress } = self;
         let (state, mut events) = (start.state.as_ref().as_ref().map_err(Error::clone)?, events.list());
-        let (events, none) = (&mut events, |_: &State<L::Scalar, N>| Ok(NoCompanion));
-        let driven = match const { E::HAS_EVENTS } {
-            true => {
-                drive::<_, _, _, _, _, N, M, true>(system, state, end, &method, events, on_progress, none)
-            }
-            false => {
-                drive::<_, _, _, _, _, N, M, false>(system, state, end, &method, events, on_progress, none)
-            }
-        };
-        driven.map(|(trajectory, NoCompanion)| trajectory)
+        check_end(end)?;
+        // Not moved to where it is used: unless that is optimized away, there would be several of it.
+        let mut begun = Run::begin::<L, F, P, M>(system, state, &method);
+        let (run, adjustment) = begun.as_mut().map_err(|error| error.clone())?;
+        let stored = Stored::<_, _, _, N, M, HAS_EVENTS>::begin;
+        let mut stored = stored(system, &run.state, end, &mut events, on_progress)?;
+        let limits = Watchdog::new(method.limits(), &run.statistics);
+        let driven = run.drive::<L, F, P, _, M>(&method, &limits, &mut stored);
+        Ok(stored.finish(driven, run.statistics, *adjustment))
     }
 }
 

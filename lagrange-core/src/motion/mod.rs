@@ -29,6 +29,8 @@ pub(crate) mod run;
 pub(crate) mod simulate;
 mod steered;
 #[cfg(feature = "alloc")]
+pub(crate) mod store;
+#[cfg(feature = "alloc")]
 pub(crate) mod taylor;
 #[cfg(test)]
 mod tests;
@@ -45,7 +47,7 @@ pub use method::{
     TableauRow, runge_kutta_step,
 };
 #[cfg(feature = "std")]
-pub(crate) use record::{Record, RecordPlan};
+pub(crate) use record::{Record, RecordPlan, Recorded};
 pub use run::Progress;
 pub use simulate::Simulate;
 pub use steered::Motion;

@@ -2,18 +2,19 @@
 
 use core::fmt::{self, Display, Write};
 use core::marker::PhantomData;
+use core::ops::ControlFlow;
 
 use nalgebra::ComplexField;
 
 use super::event::{DenseStep, Event, EventFunction, EventSearch, EventValue};
 use super::method::Method;
-use super::run::{Run, Watchdog, is_between, resume};
+use super::run::{Observer, Run, is_between, resume};
 use crate::error::{Ending, Error};
 use crate::number::{Real, Scalar};
 use crate::solution::Sample;
 use crate::solution::crossing::Crossing;
 use crate::solution::interpolant::Interpolant;
-use crate::solution::vector_field::{LagrangianVectorField, VectorField};
+use crate::solution::vector_field::VectorField;
 use crate::system::{Lagrangian, State};
 
 /// What is to be kept of each of many motions.
@@ -272,34 +273,74 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
         EventSearch::from(&mut self.events, system, state, true).map_err(|error| Ending::of(error, time))?;
         Ok(())
     }
+}
 
-    /// A step, and what is due in it. It may end before, where the motion stops.
-    pub(crate) fn step<X, P: Method<L, N, M, Memory = X>>(
+/// Records one motion on its way, and calls its controller. Where nothing lies within steps that is wanted, `HAS_DENSE_OUTPUT` is
+/// false, and nothing of that is compiled.
+pub(crate) struct Recorded<'o, 'r, L, I, A, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool>
+where
+    L: Lagrangian<N, M>,
+{
+    /// Which motion it is.
+    pub(crate) index: usize,
+    pub(crate) system: &'r mut L,
+    pub(crate) record: Record<'o, L, N, M>,
+    /// What lies within the step taken last, where that is wanted.
+    pub(crate) within: Option<I>,
+    /// Looks at each state; it may cancel the motion.
+    pub(crate) accept: A,
+}
+
+impl<L, F, P, A, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool> Observer<L, F, P, N, M>
+    for Recorded<'_, '_, L, P::Interpolant, A, N, M, HAS_DENSE_OUTPUT>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: VectorField<L, N, M>,
+    P: Method<L, N, M, F>,
+    A: FnMut(&State<L::Scalar, N>) -> ControlFlow<()>,
+{
+    fn system(&self) -> &L {
+        self.system
+    }
+
+    #[inline(always)]
+    fn goal(
         &mut self,
-        run: &mut Run<X, L::Scalar, N>,
-        (index, system): (usize, &mut L),
         method: &P,
-        limits: &Watchdog,
-    ) -> Result<(), Ending> {
-        if self.is_due(run.state.t) {
-            self.control(index, system, &run.state)?;
-            let Run { memory, state, statistics, .. } = run;
-            resume::<_, LagrangianVectorField, _, N, M>(system, method, memory, state, statistics)
+        run: &mut Run<P::Memory, L::Scalar, N>,
+    ) -> Result<Option<L::Scalar>, Ending> {
+        let Self { index, system, record, .. } = self;
+        let Run { memory, state, statistics, .. } = run;
+        if const { HAS_DENSE_OUTPUT } && record.is_due(state.t) {
+            record.control(*index, system, state)?;
+            resume::<_, F, _, N, M>(system, method, memory, state, statistics)
                 .map_err(|error| Ending::of(error, state.t.to_f64()))?;
         }
-        let (system, end) = (&*system, self.goal);
-        let within =
-            run.step_with::<L, LagrangianVectorField, P, _, M>(system, method, end, limits, |run| {
-                let Run { memory, statistics, before, state } = run;
-                let interpolant = self
-                    .looks_into(before.t, state.t)
-                    .then(|| method.interpolant(system, memory, statistics));
-                interpolant.transpose().map_err(|error| Ending::of(error, before.t.to_f64()))
-            })?;
-        let Some(interpolant) = &within else { return Ok(()) };
-        let (before, after) = (&run.before, &{ run.state });
-        let field = PhantomData::<LagrangianVectorField>;
-        let step = DenseStep { system, before, after, interpolant, field };
-        self.keep(&step, &mut run.state).map_or(Ok(()), Err)
+        Ok((state.t != record.end).then_some(record.goal))
+    }
+
+    #[inline(always)]
+    fn follow(&mut self, method: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<(), Ending> {
+        if const { HAS_DENSE_OUTPUT } {
+            let Run { memory, statistics, before, state } = run;
+            let is_wanted = self.record.looks_into(before.t, state.t);
+            let within = is_wanted.then(|| method.interpolant(self.system, memory, statistics)).transpose();
+            self.within = within.map_err(|error| Ending::of(error, before.t.to_f64()))?;
+        }
+        Ok(())
+    }
+
+    #[inline(always)]
+    fn keep(&mut self, _: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<(), Ending> {
+        if let (true, Some(interpolant)) = (const { HAS_DENSE_OUTPUT }, &self.within) {
+            let (system, before, after, field) =
+                (&*self.system, &run.before, &{ run.state }, PhantomData::<F>);
+            let step = DenseStep { system, before, after, interpolant, field };
+            self.record.keep(&step, &mut run.state).map_or(Ok(()), Err)?;
+        }
+        match (self.accept)(&run.state) {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(Ending::Cancelled { time: run.state.t.to_f64() }),
+        }
     }
 }

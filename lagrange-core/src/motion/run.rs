@@ -1,12 +1,8 @@
-//! The loop from the first step to the ending, the same for every method.
+//! The loop from the first step to the ending: one, for every method and everyone who looks at a motion.
 
 #[cfg(feature = "alloc")]
-use alloc::{boxed::Box, vec::Vec};
-#[cfg(feature = "alloc")]
-use core::ops::ControlFlow;
+use alloc::vec::Vec;
 
-#[cfg(feature = "alloc")]
-use super::event::{AnyEvent, EventSearch};
 use super::method::{Limits, Method, Step};
 use crate::error::{Ending, Error, Pace};
 use crate::number::Real;
@@ -16,8 +12,6 @@ use crate::solution::solve::solve;
 use crate::solution::vector_field::VectorField;
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State};
-#[cfg(feature = "alloc")]
-use crate::trajectory::{Path, Trajectory};
 
 /// How far an integration has come.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,10 +25,6 @@ pub struct Progress {
     /// Steps taken.
     pub steps: usize,
 }
-
-/// What looks at the progress, and may cancel.
-#[cfg(feature = "alloc")]
-pub(crate) type OnProgress<'a> = Box<dyn FnMut(Progress) -> ControlFlow<()> + 'a>;
 
 /// A motion on its way: where it is, what its method carries and what it took so far.
 #[derive(Debug)]
@@ -103,26 +93,6 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
         }
     }
 
-    /// One accepted step with what lies within.
-    #[inline(always)]
-    pub(crate) fn step_with_interpolant<L, F, P, const M: usize>(
-        &mut self,
-        system: &L,
-        method: &P,
-        end: T,
-        limits: &Watchdog,
-        within: &mut Within<P::Interpolant>,
-    ) -> Result<(), Ending>
-    where
-        L: Lagrangian<N, M, Scalar = T>,
-        F: VectorField<L, N, M>,
-        P: Method<L, N, M, F, Memory = X>,
-    {
-        self.step_with::<L, F, P, _, M>(system, method, end, limits, |run| {
-            run.look_within::<L, F, P, M>(system, method, within)
-        })
-    }
-
     /// Puts what lies within the last step there.
     #[inline(always)]
     pub(crate) fn look_within<L, F, P, const M: usize>(
@@ -141,27 +111,45 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
         found.map_err(|error| Ending::of(error, before.t.to_f64()))
     }
 
-    /// Takes one accepted step with its samples and events; a failure of these undoes the step and tries a shorter one.
+    /// Integrates until the observer says that the motion is to stop; the error is why it stops before.
     #[inline(always)]
-    pub(crate) fn step_with<L, F, P, R, const M: usize>(
+    pub(crate) fn drive<L, F, P, O, const M: usize>(
         &mut self,
-        system: &L,
         method: &P,
-        end: T,
         limits: &Watchdog,
-        mut along: impl FnMut(&mut Self) -> Result<R, Ending>,
-    ) -> Result<R, Ending>
+        observer: &mut O,
+    ) -> Result<(), Ending>
     where
         L: Lagrangian<N, M, Scalar = T>,
         F: VectorField<L, N, M>,
         P: Method<L, N, M, F, Memory = X>,
+        O: Observer<L, F, P, N, M>,
+    {
+        while let Some(goal) = observer.goal(method, self)? {
+            self.step_with(method, goal, limits, observer)?;
+            observer.keep(method, self)?;
+        }
+        Ok(())
+    }
+
+    /// Takes one accepted step that the observer follows; where it cannot, the step is undone and a shorter one is tried.
+    #[inline(always)]
+    fn step_with<L, F, P, O, const M: usize>(
+        &mut self,
+        method: &P,
+        end: T,
+        limits: &Watchdog,
+        observer: &mut O,
+    ) -> Result<(), Ending>
+    where
+        L: Lagrangian<N, M, Scalar = T>,
+        F: VectorField<L, N, M>,
+        P: Method<L, N, M, F, Memory = X>,
+        O: Observer<L, F, P, N, M>,
     {
         loop {
-            self.step(system, method, end, limits)?;
-            let ending = match along(self) {
-                Ok(result) => return Ok(result),
-                Err(ending) => ending,
-            };
+            self.step(observer.system(), method, end, limits)?;
+            let Err(ending) = observer.follow(method, self) else { return Ok(()) };
             self.state = self.before;
             self.statistics.accepted -= 1;
             self.statistics.rejected += 1;
@@ -169,6 +157,47 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
                 return Err(ending);
             }
         }
+    }
+}
+
+/// Who goes along with a motion: says how far it goes, looks into its steps, keeps what is wanted of them, and may stop it.
+pub(crate) trait Observer<L, F, P, const N: usize, const M: usize>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: VectorField<L, N, M>,
+    P: Method<L, N, M, F>,
+{
+    /// What moves.
+    fn system(&self) -> &L;
+
+    /// Called before each step: the time to go towards, another than that of the state; `None` where the motion is to stop here.
+    ///
+    /// # Errors
+    /// Why it can go no further.
+    fn goal(
+        &mut self,
+        method: &P,
+        run: &mut Run<P::Memory, L::Scalar, N>,
+    ) -> Result<Option<L::Scalar>, Ending>;
+
+    /// Called after each step.
+    ///
+    /// # Errors
+    /// Why the step is to be undone, and a shorter one tried; the ending, if there is none.
+    #[allow(unused_variables)]
+    #[inline(always)]
+    fn follow(&mut self, method: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<(), Ending> {
+        Ok(())
+    }
+
+    /// Called once a step is final. It may move the state back to one within the step, where the motion ends.
+    ///
+    /// # Errors
+    /// Why the motion ends there.
+    #[allow(unused_variables)]
+    #[inline(always)]
+    fn keep(&mut self, method: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<(), Ending> {
+        Ok(())
     }
 }
 
@@ -207,128 +236,6 @@ where
     return method.push_interpolant(system, memory, statistics, within);
     #[cfg(not(feature = "alloc"))]
     return method.interpolant(system, memory, statistics).map(|interpolant| *within = Some(interpolant));
-}
-
-/// What is integrated along with a motion, step by step: its derivatives, say.
-#[cfg(feature = "alloc")]
-pub(crate) trait Companion<L, F, P, const N: usize, const M: usize>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: VectorField<L, N, M>,
-    P: Method<L, N, M, F>,
-{
-    /// Called before each step towards `end`.
-    #[allow(unused_variables)]
-    #[inline(always)]
-    fn prepare(
-        &mut self,
-        system: &L,
-        method: &P,
-        run: &mut Run<P::Memory, L::Scalar, N>,
-        end: L::Scalar,
-    ) -> Result<(), Ending> {
-        Ok(())
-    }
-
-    /// Called after each step of the motion: adds the interpolant of the step to `within`. An error undoes the step, and a shorter
-    /// one is tried.
-    fn follow(
-        &mut self,
-        system: &L,
-        method: &P,
-        run: &mut Run<P::Memory, L::Scalar, N>,
-        within: &mut Vec<P::Interpolant>,
-    ) -> Result<(), Ending>;
-
-    /// Called once a step from one of these states to the other is final.
-    #[allow(unused_variables)]
-    #[inline(always)]
-    fn keep(&mut self, from: &State<L::Scalar, N>, to: &State<L::Scalar, N>) {}
-}
-
-/// The motion alone: its interpolants are those of the method.
-#[cfg(feature = "alloc")]
-pub(crate) struct NoCompanion;
-
-#[cfg(feature = "alloc")]
-impl<L, F, P, const N: usize, const M: usize> Companion<L, F, P, N, M> for NoCompanion
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: VectorField<L, N, M>,
-    P: Method<L, N, M, F>,
-{
-    #[inline(always)]
-    fn follow(
-        &mut self,
-        system: &L,
-        method: &P,
-        run: &mut Run<P::Memory, L::Scalar, N>,
-        within: &mut Vec<P::Interpolant>,
-    ) -> Result<(), Ending> {
-        run.look_within::<L, F, P, M>(system, method, within)
-    }
-}
-
-/// Integrates a motion and its companion, which `companion` makes at the consistent start; called by
-/// [`MotionBuilder`](super::MotionBuilder). Where there are no events, `HAS_EVENTS` is false, and their search is not compiled.
-#[cfg(feature = "alloc")]
-pub(crate) fn drive<'a, L, F, P, W, C, const N: usize, const M: usize, const HAS_EVENTS: bool>(
-    system: &'a L,
-    state: &State<L::Scalar, N>,
-    end: L::Scalar,
-    method: &P,
-    events: &mut [W],
-    mut on_progress: Option<OnProgress<'_>>,
-    companion: impl FnOnce(&State<L::Scalar, N>) -> Result<C, Error>,
-) -> Result<(Trajectory<&'a L, N, M, F>, C), Error>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: VectorField<L, N, M>,
-    P: Method<L, N, M, F>,
-    W: AnyEvent<L, N, M>,
-    C: Companion<L, F, P, N, M>,
-{
-    check_end(end)?;
-    // Not moved to where it is used: unless that is optimized away, there would be several of it.
-    let mut begun = Run::begin(system, state, method);
-    let (run, adjustment) = begun.as_mut().map_err(|error| error.clone())?;
-    let start = run.state.t.to_f64();
-    let mut companion = companion(&run.state)?;
-    let mut path = Path::from(run.state);
-    let mut search = EventSearch::begin(events, system, &run.state)?;
-    let limits = Watchdog::new(method.limits(), &run.statistics);
-    let mut stopped = search.record_due(&run.state, &mut path.crossings);
-    let ending = loop {
-        let time = run.state.t.to_f64();
-        if let Some(ending) = stopped {
-            break ending;
-        }
-        if run.state.t == end {
-            break Ending::Complete { time };
-        }
-        if let Err(ending) = companion.prepare(system, method, run, end) {
-            break ending;
-        }
-        let within = path.interpolants();
-        let along = |run: &mut Run<_, _, N>| companion.follow(system, method, run, within);
-        if let Err(ending) = run.step_with::<L, F, P, _, M>(system, method, end, &limits, along) {
-            break ending;
-        }
-        companion.keep(&run.before, &run.state);
-        path.push(run.state);
-        if const { HAS_EVENTS } {
-            stopped = search.record_in::<F, _>(&mut path, system, [&run.before, &run.state]);
-        }
-        let (time, steps) = (run.state.t.to_f64(), run.statistics.accepted);
-        let progress = Progress { start, time, end: end.to_f64(), steps };
-        if stopped.is_none()
-            && let Some(look) = &mut on_progress
-            && look(progress).is_break()
-        {
-            break Ending::Cancelled { time };
-        }
-    };
-    Ok((Trajectory::new(system, path.finish(), ending, run.statistics, *adjustment), companion))
 }
 
 /// Tells the method of a system that has been changed, or of another state.

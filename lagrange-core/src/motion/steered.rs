@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 
 use super::Method;
 use super::event::{AnyEvent, DenseStep, EventSearch};
-use super::run::{self, Run, Watchdog, Within, is_between, resume};
+use super::run::{self, Observer, Run, Watchdog, Within, is_between, resume};
 use crate::error::{Ending, Error};
 use crate::number::Real;
 use crate::solution::consistent;
@@ -60,12 +60,31 @@ where
     run: Run<P::Memory, L::Scalar, N>,
     /// Where the motion has stopped within the last step, at an event.
     stop: Option<State<L::Scalar, N>>,
-    /// What lies within the last step, once it has been asked for.
-    within: Within<P::Interpolant>,
-    /// Whether there is a last step, by the system and to the state as they are.
-    has_step: bool,
+    last_step: LastStep<P::Interpolant>,
+}
+
+/// What is known of the last step of a motion.
+struct LastStep<I> {
+    /// What lies within, once it has been asked for.
+    within: Within<I>,
+    /// Whether there is one, by the system and to the state as they are.
+    is_there: bool,
     /// Whether the method knows of the system and of the state as they are.
     is_current: bool,
+}
+
+impl<I> LastStep<I> {
+    /// There is none, by the system or to the state as they are now; nor when a step is tried, until it is taken.
+    #[inline]
+    fn forget(&mut self) {
+        run::clear(&mut self.within);
+        (self.is_there, self.is_current) = (false, false);
+    }
+
+    #[inline]
+    fn is_taken(&mut self) {
+        (self.is_there, self.is_current) = (true, true);
+    }
 }
 
 impl<L, P, const N: usize, const M: usize> Motion<L, P, N, M>
@@ -91,8 +110,8 @@ where
 {
     pub(crate) fn begin(system: L, state: &State<L::Scalar, N>, method: P) -> Result<Self, Error> {
         let (run, _) = Run::begin(&system, state, &method)?;
-        let within = Within::default();
-        Ok(Self { system, method, run, stop: None, within, has_step: false, is_current: true })
+        let last_step = LastStep { within: Within::default(), is_there: false, is_current: true };
+        Ok(Self { system, method, run, stop: None, last_step })
     }
 
     /// Where the motion is.
@@ -137,8 +156,7 @@ where
 
     fn forget_step(&mut self) {
         self.stop = None;
-        run::clear(&mut self.within);
-        (self.has_step, self.is_current) = (false, false);
+        self.last_step.forget();
     }
 
     /// Steps and evaluations so far.
@@ -158,13 +176,17 @@ where
     /// changed so that the state violates a constraint is [`Ending::Unsolved`].
     #[inline]
     pub fn advance_to(&mut self, end: L::Scalar) -> Result<(), Ending> {
+        let limits = Watchdog::new(self.method.limits(), &self.run.statistics);
+        self.go_past(end, end, &limits)
+    }
+
+    /// Steps towards `end` until one has led to `t` or past it.
+    #[inline]
+    fn go_past(&mut self, t: L::Scalar, end: L::Scalar, limits: &Watchdog) -> Result<(), Ending> {
         self.refresh(end)?;
         self.stop = None;
-        let limits = Watchdog::new(self.method.limits(), &self.run.statistics);
-        while self.run.state.t != end {
-            self.step(end, &limits)?;
-        }
-        Ok(())
+        let Self { system, method, run, last_step, .. } = self;
+        run.drive::<L, F, P, _, M>(method, limits, &mut GoPast { system: &*system, last_step, t, end })
     }
 
     /// Goes on to the first crossing of these events, or to the time `end` where there is none on the way.
@@ -236,25 +258,18 @@ where
         events: &mut [&mut dyn AnyEvent<L, N, M>],
         at: &mut State<L::Scalar, N>,
     ) -> Result<Option<Crossing<L::Scalar, N>>, Ending> {
-        let Self { system, method, run, within, has_step, is_current, .. } = self;
+        let Self { system, method, run, last_step, .. } = self;
         let limits = Watchdog::new(method.limits(), &run.statistics);
-        let mut search = EventSearch::from(events, system, at, !*has_step)
+        let mut search = EventSearch::from(events, system, at, !last_step.is_there)
             .map_err(|error| Ending::of(error, at.t.to_f64()))?;
-        let mut found = search.due(at)?;
-        loop {
-            if let (None, Some(interpolant)) = (&found, within.iter().next()) {
-                let (before, after) = (&run.before, &run.state);
-                let step = DenseStep { system, before, after, interpolant, field: PhantomData::<F> };
-                found = search.next(&step, at)?;
-            }
-            if found.is_some() || run.state.t == end {
-                return Ok(found);
-            }
-            run::clear(within);
-            let stepped = run.step_with_interpolant::<L, F, P, M>(system, method, end, &limits, within);
-            (*has_step, *is_current) = (stepped.is_ok(), stepped.is_ok());
-            stepped?;
+        let found = search.due(at)?;
+        let mut search = Search { system: &*system, last_step, end, search, at, found };
+        if search.found.is_none() {
+            // Of the step that the motion has stopped within.
+            search.look::<F>(&run.before, &run.state)?;
         }
+        run.drive::<L, F, P, _, M>(method, &limits, &mut search)?;
+        Ok(search.found)
     }
 
     /// Goes on for this long; back where it is negative. Many equal lengths add up with the rounding of each sum:
@@ -277,7 +292,7 @@ where
         if t == state.t {
             return Ok(state);
         }
-        let start = if self.has_step { before.t } else { state.t };
+        let start = if self.last_step.is_there { before.t } else { state.t };
         if !is_between(start, t, state.t) {
             let [time, start, end] = [t, start, state.t].map(Real::to_f64);
             return Err(Error::OutsideTrajectory { time, start, end });
@@ -285,7 +300,8 @@ where
         if t == before.t {
             return Ok(before);
         }
-        let Self { system, method, run: Run { memory, statistics, .. }, within, .. } = self;
+        let Self { system, method, run: Run { memory, statistics, .. }, last_step, .. } = self;
+        let within = &mut last_step.within;
         if within.iter().next().is_none() {
             run::put_interpolant::<L, F, P, N, M>(system, method, memory, statistics, within)?;
         }
@@ -347,22 +363,9 @@ where
         end: L::Scalar,
         limits: &Watchdog,
     ) -> Result<State<L::Scalar, N>, Ending> {
-        self.refresh(end)?;
-        self.stop = None;
-        let now = self.run.state.t.to_f64();
-        while self.run.state.t != t && is_between(self.run.state.t, t, end) {
-            self.step(end, limits)?;
-        }
+        let now = self.state().t.to_f64();
+        self.go_past(t, end, limits)?;
         self.at(t).map_err(|error| Ending::of(error, now))
-    }
-
-    #[inline]
-    fn step(&mut self, end: L::Scalar, limits: &Watchdog) -> Result<(), Ending> {
-        run::clear(&mut self.within);
-        let stepped = self.run.step(&self.system, &self.method, end, limits);
-        // What the method has of a step that is none is forgotten.
-        (self.has_step, self.is_current) = (stepped.is_ok(), stepped.is_ok());
-        stepped
     }
 
     /// Tells the method what has been changed, and checks where to go. What is left of a step that the motion has stopped
@@ -376,9 +379,9 @@ where
         {
             self.go_on_from(stop);
         }
-        if !self.is_current {
+        if !self.last_step.is_current {
             self.resume().map_err(|error| Ending::of(error, time))?;
-            self.is_current = true;
+            self.last_step.is_current = true;
         }
         Ok(())
     }
@@ -387,6 +390,101 @@ where
     fn resume(&mut self) -> Result<(), Error> {
         let Run { memory, state, statistics, .. } = &mut self.run;
         resume::<_, F, _, N, M>(&self.system, &self.method, memory, state, statistics)
+    }
+}
+
+/// Goes on until a step has led to `t` or past it, on the way to `end`.
+struct GoPast<'m, L, I, T> {
+    system: &'m L,
+    last_step: &'m mut LastStep<I>,
+    t: T,
+    end: T,
+}
+
+impl<L, F, P, const N: usize, const M: usize> Observer<L, F, P, N, M>
+    for GoPast<'_, L, P::Interpolant, L::Scalar>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: VectorField<L, N, M>,
+    P: Method<L, N, M, F>,
+{
+    fn system(&self) -> &L {
+        self.system
+    }
+
+    #[inline]
+    fn goal(&mut self, _: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<Option<L::Scalar>, Ending> {
+        let now = run.state.t;
+        let goes_on = now != self.t && is_between(now, self.t, self.end);
+        if goes_on {
+            self.last_step.forget();
+        }
+        Ok(goes_on.then_some(self.end))
+    }
+
+    #[inline]
+    fn keep(&mut self, _: &P, _: &mut Run<P::Memory, L::Scalar, N>) -> Result<(), Ending> {
+        self.last_step.is_taken();
+        Ok(())
+    }
+}
+
+/// Goes on to the first crossing, or to `end`.
+struct Search<'m, 'e, L: Lagrangian<N, M>, I, const N: usize, const M: usize> {
+    system: &'m L,
+    last_step: &'m mut LastStep<I>,
+    end: L::Scalar,
+    search: EventSearch<'m, &'e mut dyn AnyEvent<L, N, M>, L, N, M>,
+    /// As far as the events have been looked at.
+    at: &'m mut State<L::Scalar, N>,
+    found: Option<Crossing<L::Scalar, N>>,
+}
+
+impl<L, I, const N: usize, const M: usize> Search<'_, '_, L, I, N, M>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    I: Interpolant<L::Scalar, N>,
+{
+    /// Looks at what is left of the last step.
+    fn look<F: VectorField<L, N, M>>(
+        &mut self,
+        before: &State<L::Scalar, N>,
+        after: &State<L::Scalar, N>,
+    ) -> Result<(), Ending> {
+        if let Some(interpolant) = self.last_step.within.iter().next() {
+            let step = DenseStep { system: self.system, before, after, interpolant, field: PhantomData::<F> };
+            self.found = self.search.next(&step, self.at)?;
+        }
+        Ok(())
+    }
+}
+
+impl<L, F, P, const N: usize, const M: usize> Observer<L, F, P, N, M>
+    for Search<'_, '_, L, P::Interpolant, N, M>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: VectorField<L, N, M>,
+    P: Method<L, N, M, F>,
+{
+    fn system(&self) -> &L {
+        self.system
+    }
+
+    fn goal(&mut self, _: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<Option<L::Scalar>, Ending> {
+        let goes_on = self.found.is_none() && run.state.t != self.end;
+        if goes_on {
+            self.last_step.forget();
+        }
+        Ok(goes_on.then_some(self.end))
+    }
+
+    fn follow(&mut self, method: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<(), Ending> {
+        run.look_within::<L, F, P, M>(self.system, method, &mut self.last_step.within)
+    }
+
+    fn keep(&mut self, _: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<(), Ending> {
+        self.last_step.is_taken();
+        self.look::<F>(&run.before, &run.state)
     }
 }
 

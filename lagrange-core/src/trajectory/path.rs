@@ -45,6 +45,11 @@ impl<T: Real, const N: usize, I: Interpolant<T, N> + Send + Sync + 'static> Path
         }
     }
 
+    /// When it starts.
+    pub(crate) fn start(&self) -> T {
+        self.start.t
+    }
+
     /// Where the interpolant of the next step is put, before the step is [pushed](Self::push).
     #[inline(always)]
     pub(crate) fn interpolants(&mut self) -> &mut Vec<I> {

@@ -1,0 +1,130 @@
+//! A motion of which all steps are stored.
+
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+use core::ops::ControlFlow;
+
+use super::event::{AnyEvent, EventSearch};
+use super::method::Method;
+use super::run::{Observer, Progress, Run};
+use crate::error::{Ending, Error};
+use crate::number::Real;
+use crate::solution::Adjustment;
+use crate::solution::interpolant::Interpolant;
+use crate::solution::vector_field::VectorField;
+use crate::statistics::Statistics;
+use crate::system::{Lagrangian, State};
+use crate::trajectory::{Path, Trajectory};
+
+/// What looks at the progress, and may cancel.
+pub(crate) type OnProgress<'a> = Box<dyn FnMut(Progress) -> ControlFlow<()> + 'a>;
+
+/// Stores the steps with what lies within and the crossings of the events `W`. Where there are none, `HAS_EVENTS` is false, and their
+/// search is not compiled.
+pub(crate) struct Stored<
+    'a,
+    'e,
+    L: Lagrangian<N, M>,
+    W,
+    I,
+    const N: usize,
+    const M: usize,
+    const HAS_EVENTS: bool,
+> {
+    system: &'a L,
+    end: L::Scalar,
+    path: Path<L::Scalar, N, Vec<I>>,
+    search: EventSearch<'e, W, L, N, M>,
+    /// Why the motion ends where it starts, if it does.
+    stopped: Option<Ending>,
+    on_progress: Option<OnProgress<'e>>,
+}
+
+impl<'a, 'e, L, W, I, const N: usize, const M: usize, const HAS_EVENTS: bool>
+    Stored<'a, 'e, L, W, I, N, M, HAS_EVENTS>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    W: AnyEvent<L, N, M>,
+    I: Interpolant<L::Scalar, N> + Send + Sync + 'static,
+{
+    pub(crate) fn begin(
+        system: &'a L,
+        start: &State<L::Scalar, N>,
+        end: L::Scalar,
+        events: &'e mut [W],
+        on_progress: Option<OnProgress<'e>>,
+    ) -> Result<Self, Error> {
+        let mut path = Path::from(*start);
+        let mut search = EventSearch::begin(events, system, start)?;
+        let stopped = search.record_due(start, &mut path.crossings);
+        Ok(Self { system, end, path, search, stopped, on_progress })
+    }
+
+    pub(crate) fn system(&self) -> &'a L {
+        self.system
+    }
+
+    /// Where the interpolant of a step is put.
+    #[inline(always)]
+    pub(crate) fn interpolants(&mut self) -> &mut Vec<I> {
+        self.path.interpolants()
+    }
+
+    pub(crate) fn finish<F>(
+        self,
+        driven: Result<(), Ending>,
+        statistics: Statistics,
+        adjustment: Adjustment<L::Scalar, N>,
+    ) -> Trajectory<&'a L, N, M, F> {
+        let time = self.end.to_f64();
+        let ending = driven.err().unwrap_or(Ending::Complete { time });
+        Trajectory::new(self.system, self.path.finish(), ending, statistics, adjustment)
+    }
+
+    /// Tells how far the motion has come.
+    #[inline(always)]
+    fn look(&mut self, time: L::Scalar, steps: usize) -> Result<(), Ending> {
+        let Some(look) = &mut self.on_progress else { return Ok(()) };
+        let [start, time, end] = [self.path.start(), time, self.end].map(Real::to_f64);
+        match look(Progress { start, time, end, steps }) {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(Ending::Cancelled { time }),
+        }
+    }
+}
+
+impl<L, F, P, W, const N: usize, const M: usize, const HAS_EVENTS: bool> Observer<L, F, P, N, M>
+    for Stored<'_, '_, L, W, P::Interpolant, N, M, HAS_EVENTS>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: VectorField<L, N, M>,
+    P: Method<L, N, M, F>,
+    W: AnyEvent<L, N, M>,
+{
+    fn system(&self) -> &L {
+        self.system
+    }
+
+    #[inline(always)]
+    fn goal(&mut self, _: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<Option<L::Scalar>, Ending> {
+        match self.stopped.take() {
+            Some(ending) => Err(ending),
+            None => Ok((run.state.t != self.end).then_some(self.end)),
+        }
+    }
+
+    #[inline(always)]
+    fn follow(&mut self, method: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<(), Ending> {
+        run.look_within::<L, F, P, M>(self.system, method, self.path.interpolants())
+    }
+
+    #[inline(always)]
+    fn keep(&mut self, _: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<(), Ending> {
+        self.path.push(run.state);
+        if const { HAS_EVENTS } {
+            let ends = [&run.before, &run.state];
+            self.search.record_in::<F, _>(&mut self.path, self.system, ends).map_or(Ok(()), Err)?;
+        }
+        self.look(run.state.t, run.statistics.accepted)
+    }
+}
