@@ -17,6 +17,7 @@
 //! any of them may end; [`Taylor`] steps across where it can, the others may go on along another branch that begins there. The example `methods` prints what an error costs by
 //! the first three in eight systems; the book has its table.
 
+mod advance;
 #[cfg(feature = "alloc")]
 pub(crate) mod builder;
 pub(crate) mod event;

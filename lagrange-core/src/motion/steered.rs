@@ -1,11 +1,11 @@
 //! A motion that goes on when it is told to.
 
 use core::fmt::{self, Debug, Formatter};
-use core::marker::PhantomData;
 
 use super::Method;
-use super::event::{AnyEvent, DenseStep, EventSearch};
-use super::run::{self, Observer, Run, Watchdog, Within, is_between, resume};
+use super::advance::{GoPast, LastStep, Search};
+use super::event::{AnyEvent, EventSearch};
+use super::run::{Run, Watchdog, is_between, put_interpolant, resume};
 use crate::error::{Ending, Error};
 use crate::number::Real;
 use crate::solution::consistent;
@@ -63,30 +63,6 @@ where
     last_step: LastStep<P::Interpolant>,
 }
 
-/// What is known of the last step of a motion.
-struct LastStep<I> {
-    /// What lies within, once it has been asked for.
-    within: Within<I>,
-    /// Whether there is one, by the system and to the state as they are.
-    is_there: bool,
-    /// Whether the method knows of the system and of the state as they are.
-    is_current: bool,
-}
-
-impl<I> LastStep<I> {
-    /// There is none, by the system or to the state as they are now; nor when a step is tried, until it is taken.
-    #[inline]
-    fn forget(&mut self) {
-        run::clear(&mut self.within);
-        (self.is_there, self.is_current) = (false, false);
-    }
-
-    #[inline]
-    fn is_taken(&mut self) {
-        (self.is_there, self.is_current) = (true, true);
-    }
-}
-
 impl<L, P, const N: usize, const M: usize> Motion<L, P, N, M>
 where
     L: Lagrangian<N, M, Scalar: Real>,
@@ -110,7 +86,7 @@ where
 {
     pub(crate) fn begin(system: L, state: &State<L::Scalar, N>, method: P) -> Result<Self, Error> {
         let (run, _) = Run::begin(&system, state, &method)?;
-        let last_step = LastStep { within: Within::default(), is_there: false, is_current: true };
+        let last_step = LastStep::none();
         Ok(Self { system, method, run, stop: None, last_step })
     }
 
@@ -301,11 +277,11 @@ where
             return Ok(before);
         }
         let Self { system, method, run: Run { memory, statistics, .. }, last_step, .. } = self;
-        let within = &mut last_step.within;
-        if within.iter().next().is_none() {
-            run::put_interpolant::<L, F, P, N, M>(system, method, memory, statistics, within)?;
+        if last_step.interpolant().is_none() {
+            let within = &mut last_step.within;
+            put_interpolant::<L, F, P, N, M>(system, method, memory, statistics, within)?;
         }
-        let point = within.iter().next().map(|interpolant| interpolant.at(t));
+        let point = last_step.interpolant().map(|interpolant| interpolant.at(t));
         point.map_or(Ok(state), |point| F::project(system, &point))
     }
 
@@ -390,101 +366,6 @@ where
     fn resume(&mut self) -> Result<(), Error> {
         let Run { memory, state, statistics, .. } = &mut self.run;
         resume::<_, F, _, N, M>(&self.system, &self.method, memory, state, statistics)
-    }
-}
-
-/// Goes on until a step has led to `t` or past it, on the way to `end`.
-struct GoPast<'m, L, I, T> {
-    system: &'m L,
-    last_step: &'m mut LastStep<I>,
-    t: T,
-    end: T,
-}
-
-impl<L, F, P, const N: usize, const M: usize> Observer<L, F, P, N, M>
-    for GoPast<'_, L, P::Interpolant, L::Scalar>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: VectorField<L, N, M>,
-    P: Method<L, N, M, F>,
-{
-    fn system(&self) -> &L {
-        self.system
-    }
-
-    #[inline]
-    fn goal(&mut self, _: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<Option<L::Scalar>, Ending> {
-        let now = run.state.t;
-        let goes_on = now != self.t && is_between(now, self.t, self.end);
-        if goes_on {
-            self.last_step.forget();
-        }
-        Ok(goes_on.then_some(self.end))
-    }
-
-    #[inline]
-    fn keep(&mut self, _: &P, _: &mut Run<P::Memory, L::Scalar, N>) -> Result<(), Ending> {
-        self.last_step.is_taken();
-        Ok(())
-    }
-}
-
-/// Goes on to the first crossing, or to `end`.
-struct Search<'m, 'e, L: Lagrangian<N, M>, I, const N: usize, const M: usize> {
-    system: &'m L,
-    last_step: &'m mut LastStep<I>,
-    end: L::Scalar,
-    search: EventSearch<'m, &'e mut dyn AnyEvent<L, N, M>, L, N, M>,
-    /// As far as the events have been looked at.
-    at: &'m mut State<L::Scalar, N>,
-    found: Option<Crossing<L::Scalar, N>>,
-}
-
-impl<L, I, const N: usize, const M: usize> Search<'_, '_, L, I, N, M>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-    I: Interpolant<L::Scalar, N>,
-{
-    /// Looks at what is left of the last step.
-    fn look<F: VectorField<L, N, M>>(
-        &mut self,
-        before: &State<L::Scalar, N>,
-        after: &State<L::Scalar, N>,
-    ) -> Result<(), Ending> {
-        if let Some(interpolant) = self.last_step.within.iter().next() {
-            let step = DenseStep { system: self.system, before, after, interpolant, field: PhantomData::<F> };
-            self.found = self.search.next(&step, self.at)?;
-        }
-        Ok(())
-    }
-}
-
-impl<L, F, P, const N: usize, const M: usize> Observer<L, F, P, N, M>
-    for Search<'_, '_, L, P::Interpolant, N, M>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: VectorField<L, N, M>,
-    P: Method<L, N, M, F>,
-{
-    fn system(&self) -> &L {
-        self.system
-    }
-
-    fn goal(&mut self, _: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<Option<L::Scalar>, Ending> {
-        let goes_on = self.found.is_none() && run.state.t != self.end;
-        if goes_on {
-            self.last_step.forget();
-        }
-        Ok(goes_on.then_some(self.end))
-    }
-
-    fn follow(&mut self, method: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<(), Ending> {
-        run.look_within::<L, F, P, M>(self.system, method, &mut self.last_step.within)
-    }
-
-    fn keep(&mut self, _: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<(), Ending> {
-        self.last_step.is_taken();
-        self.look::<F>(&run.before, &run.state)
     }
 }
 

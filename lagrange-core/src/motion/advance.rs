@@ -1,0 +1,142 @@
+//! How a motion goes on that is told to: to a time, or to the next crossing of an event.
+
+use core::marker::PhantomData;
+
+use super::Method;
+use super::event::{AnyEvent, DenseStep, EventSearch};
+use super::run::{Observer, Run, Within, clear, is_between};
+use crate::error::Ending;
+use crate::number::Real;
+use crate::solution::crossing::Crossing;
+use crate::solution::interpolant::Interpolant;
+use crate::solution::vector_field::VectorField;
+use crate::system::{Lagrangian, State};
+
+/// What is known of the last step of a motion.
+pub(super) struct LastStep<I> {
+    /// What lies within, once it has been asked for.
+    pub(super) within: Within<I>,
+    /// Whether there is one, by the system and to the state as they are.
+    pub(super) is_there: bool,
+    /// Whether the method knows of the system and of the state as they are.
+    pub(super) is_current: bool,
+}
+
+impl<I> LastStep<I> {
+    /// Before the first one.
+    pub(super) fn none() -> Self {
+        Self { within: Within::default(), is_there: false, is_current: true }
+    }
+
+    pub(super) fn interpolant(&self) -> Option<&I> {
+        let mut within = self.within.iter();
+        within.next()
+    }
+
+    /// There is none, by the system or to the state as they are now; nor when a step is tried, until it is taken.
+    #[inline]
+    pub(super) fn forget(&mut self) {
+        clear(&mut self.within);
+        (self.is_there, self.is_current) = (false, false);
+    }
+
+    #[inline]
+    fn is_taken(&mut self) {
+        (self.is_there, self.is_current) = (true, true);
+    }
+}
+
+/// Goes on until a step has led to `t` or past it, on the way to `end`.
+pub(super) struct GoPast<'m, L, I, T> {
+    pub(super) system: &'m L,
+    pub(super) last_step: &'m mut LastStep<I>,
+    pub(super) t: T,
+    pub(super) end: T,
+}
+
+impl<L, F, P, const N: usize, const M: usize> Observer<L, F, P, N, M>
+    for GoPast<'_, L, P::Interpolant, L::Scalar>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: VectorField<L, N, M>,
+    P: Method<L, N, M, F>,
+{
+    fn system(&self) -> &L {
+        self.system
+    }
+
+    #[inline]
+    fn goal(&mut self, _: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<Option<L::Scalar>, Ending> {
+        let now = run.state.t;
+        let goes_on = now != self.t && is_between(now, self.t, self.end);
+        if goes_on {
+            self.last_step.forget();
+        }
+        Ok(goes_on.then_some(self.end))
+    }
+
+    #[inline]
+    fn keep(&mut self, _: &P, _: &mut Run<P::Memory, L::Scalar, N>) -> Result<(), Ending> {
+        self.last_step.is_taken();
+        Ok(())
+    }
+}
+
+/// Goes on to the first crossing, or to `end`.
+pub(super) struct Search<'m, 'e, L: Lagrangian<N, M>, I, const N: usize, const M: usize> {
+    pub(super) system: &'m L,
+    pub(super) last_step: &'m mut LastStep<I>,
+    pub(super) end: L::Scalar,
+    pub(super) search: EventSearch<'m, &'e mut dyn AnyEvent<L, N, M>, L, N, M>,
+    /// As far as the events have been looked at.
+    pub(super) at: &'m mut State<L::Scalar, N>,
+    pub(super) found: Option<Crossing<L::Scalar, N>>,
+}
+
+impl<L, I, const N: usize, const M: usize> Search<'_, '_, L, I, N, M>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    I: Interpolant<L::Scalar, N>,
+{
+    /// Looks at what is left of the last step.
+    pub(super) fn look<F: VectorField<L, N, M>>(
+        &mut self,
+        before: &State<L::Scalar, N>,
+        after: &State<L::Scalar, N>,
+    ) -> Result<(), Ending> {
+        if let Some(interpolant) = self.last_step.interpolant() {
+            let step = DenseStep { system: self.system, before, after, interpolant, field: PhantomData::<F> };
+            self.found = self.search.next(&step, self.at)?;
+        }
+        Ok(())
+    }
+}
+
+impl<L, F, P, const N: usize, const M: usize> Observer<L, F, P, N, M>
+    for Search<'_, '_, L, P::Interpolant, N, M>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: VectorField<L, N, M>,
+    P: Method<L, N, M, F>,
+{
+    fn system(&self) -> &L {
+        self.system
+    }
+
+    fn goal(&mut self, _: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<Option<L::Scalar>, Ending> {
+        let goes_on = self.found.is_none() && run.state.t != self.end;
+        if goes_on {
+            self.last_step.forget();
+        }
+        Ok(goes_on.then_some(self.end))
+    }
+
+    fn follow(&mut self, method: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<(), Ending> {
+        run.look_within::<L, F, P, M>(self.system, method, &mut self.last_step.within)
+    }
+
+    fn keep(&mut self, _: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<(), Ending> {
+        self.last_step.is_taken();
+        self.look::<F>(&run.before, &run.state)
+    }
+}
