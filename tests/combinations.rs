@@ -1,16 +1,23 @@
-//! All settings of a motion can be combined: events, progress, methods, kinds of start, and both directions of time.
+//! All settings of a motion can be combined: events, progress, methods, kinds of start, what is kept, who steers, and both
+//! directions of time.
 //!
-//! | start | events, progress, `to`, `towards` | methods |
-//! |---|---|---|
-//! | `State` | all | all |
-//! | `PhaseState` | all | pairs; not `Taylor`, whose series are those of Lagrange's equations (does not compile) |
-//! | `StateSensitivity` | all; events that can be differentiated, others do not compile | pairs, `Taylor` where the number type is a parameter |
+//! | start | kept | events, progress, `to`, `towards` | controller | methods |
+//! |---|---|---|---|---|
+//! | `State` | all steps | all | no: a state between steps would be one of other parameters; who asks for it keeps samples alone | all |
+//! | `State` | samples | all | yes | all |
+//! | `PhaseState` | all steps, samples | as `State` | as `State` | pairs; not `Taylor`, whose series are those of Lagrange's equations, nor `RungeKutta4` (does not compile) |
+//! | `StateSensitivity` | all steps; not samples alone, which `at` gives (does not compile) | all; events that can be differentiated, others do not compile | no: what it sets depends on the state by a function that is not differentiated (does not compile) | pairs, `Taylor` where the number type is a parameter |
+//! | member of an `Ensemble` | samples | all; progress is `observe` | yes | all |
+//! | the same on lanes | samples | all; progress is `observe` | yes | pairs, `Taylor` |
+//!
+//! What does not compile stands in `tests/compile_fail`: `motions_that_cannot_be_asked_for.rs`.
 
 use core::ops::ControlFlow;
 
-use lagrange_core::{Ending, linearized::TrajectorySensitivity, motion::Progress, prelude::*};
+use lagrange_core::motion::{Arrival, Progress};
+use lagrange_core::{Ending, linearized::TrajectorySensitivity, prelude::*};
 
-#[derive(Lagrangian)]
+#[derive(Clone, Lagrangian)]
 #[coordinates(x)]
 #[lagrangian(x_dot^2/2 - k/2 * x^2)]
 struct Spring<T> {
@@ -104,4 +111,196 @@ fn a_motion_with_derivatives_is_asked_for_everything() {
     asked!(motion_with_derivatives(&start), Dop853::default(), differentiable_event, path_of);
     asked!(motion_with_derivatives(&start), Dopri5::default(), differentiable_event, path_of);
     asked!(motion_with_derivatives(&start), Taylor::default(), differentiable_event, path_of);
+}
+
+/// Keeps samples alone, from this start by this method: they are those of the motion that is stored, with the same steps and crossings.
+macro_rules! sampled {
+    ($asked:ident($start:expr), $method:expr) => {
+        for sign in [1.0, -1.0] {
+            let (end, every) = (10.0 * sign, 0.25);
+            let zero = || SPRING.event("zero", |s| s.coordinate("x"));
+            let stored = SPRING.$asked($start).by($method).event(zero()).to(end).expect("a motion");
+            let mut looks = 0;
+            let look = |progress: Progress| {
+                looks += 1;
+                assert_eq!((progress.start, progress.end, progress.steps), (0.0, end, looks));
+                ControlFlow::Continue(())
+            };
+            let asked = SPRING.$asked($start).every(every).by($method).event(zero()).on_progress(look);
+            let asked = asked.quantity("x", |s| s.coordinate("x"));
+            let arrival: Arrival<f64, 1> =
+                asked.quantity("twice", |s| 2.0 * s.state().q[0]).to(end).expect("a motion");
+            assert_eq!(
+                (arrival.ending.clone(), arrival.state),
+                (stored.ending().clone(), *stored.end().state())
+            );
+            assert_eq!(arrival.crossings, stored.crossings());
+            assert_eq!((arrival.samples.len(), arrival.values.len()), (41, 82));
+            assert_eq!(looks, arrival.statistics.accepted);
+            for (k, (state, values)) in arrival.samples.iter().zip(arrival.values.chunks(2)).enumerate() {
+                assert_eq!(state.t, sign * every * k as f64);
+                assert_eq!(state, stored.at(state.t).expect("within").state());
+                assert_eq!(values, [state.q[0], 2.0 * state.q[0]]);
+            }
+            let given = SPRING.$asked($start).samples_at([1.0 * sign, 7.5 * sign]).by($method).to(end);
+            let given = given.expect("a motion").samples;
+            assert_eq!(given, [arrival.samples[4], arrival.samples[30]]);
+
+            // An event that ends the motion: samples up to there.
+            let ends = SPRING.$asked($start).event(zero().terminal()).every(every).by($method).to(end);
+            let ends = ends.expect("a motion");
+            assert!(matches!(ends.ending, Ending::Event { event: "zero", .. }));
+            assert_eq!((ends.samples.len(), ends.crossings[0].state), (7, ends.state));
+
+            // Cancelled after the second step, and with too few steps.
+            let mut steps = 0;
+            let look = |_| {
+                steps += 1;
+                if steps == 2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            };
+            let cancelled = SPRING.$asked($start).samples_at([]).on_progress(look).by($method).to(end);
+            let cancelled = cancelled.expect("a motion");
+            assert!(matches!(cancelled.ending, Ending::Cancelled { .. }));
+            assert_eq!(cancelled.statistics.accepted, 2);
+            let short = || SPRING.$asked($start).by($method.max_steps(2)).every(every);
+            assert!(matches!(short().to(end), Err(Error::Unfinished(_))));
+            let kept = short().towards(end).expect("a motion");
+            assert!(matches!(kept.ending, Ending::StepLimit { steps: 2, .. }));
+            assert_eq!(kept.samples.len(), 1 + (kept.state.t.abs() / every) as usize);
+        }
+    };
+}
+
+/// Steers a motion, which then goes as one that is advanced from call to call, bit for bit.
+macro_rules! steered {
+    ($asked:ident($start:expr), $method:expr, $new:expr) => {
+        for sign in [1.0, -1.0] {
+            let (mut calls, soft) = (0, Spring { k: 0.5 });
+            let rises = soft.event("rises", |s| s.state().q[0] + 0.5).rising();
+            // Settings come in any order.
+            let steered = soft.$asked($start).event(rises).controlled(0.5, |spring, state| {
+                calls += 1;
+                spring.k = 1.0 + state.q[0] * state.q[0];
+                if calls < 20 { Ok(()) } else { Err("tired") }
+            });
+            let steered = steered.quantity("k", |s| s.system().k).by($method).every(0.25);
+            let arrival = steered.towards(10.0 * sign).expect("a motion");
+            assert_eq!(arrival.ending, Ending::ControllerFailed { time: 9.5 * sign, said: "tired".into() });
+            let mut alone = $new(Spring { k: 0.5 });
+            // Samples are taken before the call at their time: at the start with the parameter as given.
+            let mut expected = vec![0.5];
+            for call in 1..20_usize {
+                alone.system_mut().k = 1.0 + alone.state().q[0] * alone.state().q[0];
+                expected.extend([alone.system().k; 2]);
+                alone.advance_to(sign * 0.5 * call as f64).expect("a motion");
+                assert_eq!(arrival.samples[2 * call], *alone.state());
+            }
+            assert_eq!((arrival.samples.len(), arrival.values), (39, expected));
+            assert_eq!((calls, arrival.state), (20, *alone.state()));
+            assert!(!arrival.crossings.is_empty());
+            assert_eq!(soft.k, 0.5);
+        }
+    };
+}
+
+#[test]
+fn a_motion_is_sampled_instead_of_stored() {
+    let (start, momenta) = (State::at_rest([1.0]), PhaseState::new([1.0], [0.0]));
+    sampled!(motion(start), Dop853::default());
+    sampled!(motion(start), Dopri5::default());
+    sampled!(motion(start), Taylor::default());
+    sampled!(motion(start), RungeKutta4::with_step(1e-2));
+    sampled!(motion_in_momenta(momenta), Dop853::default());
+    sampled!(motion_in_momenta(momenta), Dopri5::default());
+}
+
+#[test]
+fn a_motion_is_steered() {
+    let (start, momenta) = (State::at_rest([1.0]), PhaseState::new([1.0], [0.0]));
+    steered!(motion(start), Dop853::default(), |s| Motion::new(s, start, Dop853::default())
+        .expect("a start"));
+    steered!(motion(start), Dopri5::default(), |s| Motion::new(s, start, Dopri5::default())
+        .expect("a start"));
+    steered!(motion(start), Taylor::default(), |s| Motion::new(s, start, Taylor::default())
+        .expect("a start"));
+    let fixed = RungeKutta4::with_step(1e-2);
+    steered!(motion(start), fixed, |s| Motion::new(s, start, fixed).expect("a start"));
+    let dop853 = Dop853::default();
+    steered!(motion_in_momenta(momenta), dop853, |s| Motion::in_momenta(s, momenta, dop853)
+        .expect("a start"));
+}
+
+/// What cannot be sampled is told before the first step.
+#[test]
+fn samples_that_cannot_be_taken_are_refused() {
+    let motion = || SPRING.motion(State::at_rest([1.0]));
+    for interval in [0.0, -0.1, f64::NAN, f64::INFINITY, 1e-16] {
+        let error = motion().every(interval).to(1.0).expect_err("an interval");
+        assert!(matches!(error, Error::Setting { name: "interval of the samples", .. }), "{error}");
+    }
+    for interval in [0.0, -0.1, f64::NAN, f64::INFINITY] {
+        let steered = motion().every(0.1).controlled(interval, |_, _| Ok::<_, String>(()));
+        let error = steered.to(1.0).expect_err("an interval");
+        assert!(matches!(error, Error::Setting { name: "interval of the controller", .. }), "{error}");
+    }
+    let order = motion().samples_at([0.5, 0.25]).to(1.0).expect_err("an order");
+    assert!(matches!(order, Error::SampleTime { index: 1, .. }), "{order}");
+    let outside = motion().samples_at([0.5, 1.25]).to(1.0).expect_err("a time");
+    assert!(matches!(outside, Error::OutsideTrajectory { time: 1.25, .. }), "{outside}");
+    let unknown = motion().every(0.1).quantity("y", |s| s.coordinate("y")).to(1.0).expect_err("a name");
+    assert!(matches!(unknown, Error::UnknownName { .. }), "{unknown}");
+    let far = motion().every(0.1).to(f64::INFINITY).expect_err("an end");
+    assert!(matches!(far, Error::EndNotFinite { .. }), "{far}");
+    // Nothing to integrate: the start alone.
+    assert_eq!(motion().every(0.1).to(0.0).expect("a motion").samples.len(), 1);
+}
+
+/// A member of an ensemble, alone and on lanes, is asked for the same as a motion, and gives the same.
+#[test]
+fn members_of_an_ensemble_are_asked_for_everything() {
+    let start = State::at_rest([1.0]);
+    let controller = |spring: &mut Spring<f64>, state: &State<f64, 1>| {
+        spring.k = 1.0 + state.q[0] * state.q[0];
+        Ok::<_, String>(())
+    };
+    for end in [10.0, -10.0] {
+        let third = || SPRING.event("third", |s| s.coordinate("x")).terminal_at(3);
+        let asked = SPRING.motion(start).event(third()).every(0.25).quantity("k", |s| s.system().k);
+        let alone = asked.controlled(0.5, controller).to(end).expect("a motion");
+        assert!(matches!(alone.ending, Ending::Event { event: "third", .. }) && alone.samples.len() > 10);
+        let springs = || {
+            let springs = Ensemble::from_fn(5, |_| (SPRING, start)).event(third()).every(0.25);
+            let springs = springs.quantity("k", |s| s.system().k);
+            springs.controlled(0.5, move |_, spring, state| controller(spring, state))
+        };
+        for outcome in [
+            springs().integrate(end, Dop853::default()),
+            springs().integrate_on_lanes(end, Dop853::default()),
+        ] {
+            for member in outcome.expect("an ensemble").members() {
+                let arrival = member.arrival().expect("a motion");
+                assert_eq!(
+                    (arrival.samples.len(), arrival.values.len()),
+                    (alone.samples.len(), alone.values.len())
+                );
+                let pairs = arrival.samples.iter().zip(&alone.samples);
+                let pairs = pairs.chain([(&arrival.state, &alone.state)]);
+                for (one, other) in pairs {
+                    assert!((one.t - other.t).abs() < 1e-12 && (one.q[0] - other.q[0]).abs() < 1e-12);
+                }
+                assert_eq!(arrival.crossings.len(), 3);
+            }
+        }
+        // Member by member the numbers are those of a motion alone.
+        let same = springs().integrate(end, Dop853::default()).expect("an ensemble");
+        assert_eq!(same.members()[3].arrival(), Some(&alone));
+        let cancelled = springs().observe(|_, state| match state.t.abs() < 1.0 {
+            true => ControlFlow::Continue(()),
+            false => ControlFlow::Break(()),
+        });
+        let cancelled = cancelled.integrate_on_lanes(end, Dop853::default()).expect("an ensemble");
+        let endings =
+            cancelled.members().iter().map(|member| member.arrival().expect("a motion").ending.clone());
+        assert!(endings.into_iter().all(|ending| matches!(ending, Ending::Cancelled { .. })));
+    }
 }

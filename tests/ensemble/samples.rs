@@ -257,7 +257,11 @@ fn wrong_times_and_names_are_told() {
         assert!(matches!(error, Error::SampleTime { index: i, .. } if i == index), "{error}");
         assert!(error.to_string().contains(&format!("{index} (counted from 0) is {wrong}:")), "{error}");
     }
-    for times in [&[0.5, 1.5][..], &[-0.5, 0.5], &[0.5, 0.2], &[1.5], &[-1.0]] {
+    // In order, but not in that of the motion.
+    for member in run(&[0.5, 0.2]).unwrap().members() {
+        assert!(matches!(member.result, Err(Error::SampleTime { index: 1, .. })), "{member}");
+    }
+    for times in [&[0.5, 1.5][..], &[-0.5, 0.5], &[1.5], &[-1.0]] {
         let outcome = run(times).unwrap();
         for member in outcome.members() {
             assert!(

@@ -2,7 +2,7 @@
 
 use core::fmt::{self, Write};
 
-use super::job::Plan;
+use super::plan::Plan;
 use crate::motion::Method;
 use crate::number::Real;
 use crate::system::{Lagrangian, State};
@@ -43,7 +43,7 @@ impl Fingerprint {
         }
         run.text(if is_on_lanes { " on lanes" } else { "" });
         run.number(end.to_f64());
-        if plan.record_plan.identify(&mut run).is_err() {
+        if plan.member_plan.identify(&mut run).is_err() {
             run.text("not written to its end");
         }
         if let Some(tag) = plan.tag.as_deref().filter(|tag| !tag.is_empty()) {

@@ -6,63 +6,15 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::fingerprint::Fingerprint;
-use super::outcome::{Arrival, Member, Outcome};
-use super::table::MemberRow;
+use super::outcome::{Member, Outcome};
+use super::plan::{Make, MemberPlan, Observer, Plan, Watch};
 use crate::error::{Ending, EnsembleError, Error};
+use crate::motion::record::{Arrival, Moving, Recorded};
 use crate::motion::run::{Run, Watchdog};
-use crate::motion::{
-    Batch, LagrangianVectorField, LaneMethod, LaneMotion, Method, Record, RecordPlan, Recorded,
-};
+use crate::motion::{Batch, LagrangianVectorField, LaneMethod, LaneMotion, Method};
 use crate::number::Real;
-use crate::statistics::Statistics;
 use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, State};
-
-/// What an ensemble is to do.
-pub(super) struct Plan<'a, L: Lagrangian<N, M, Scalar = T>, T, const N: usize, const M: usize> {
-    pub(super) count: usize,
-    pub(super) make: Make<'a, L, T, N>,
-    pub(super) shard: usize,
-    pub(super) shards: usize,
-    /// Of these alone, if it is given.
-    pub(super) list: Option<Vec<usize>>,
-    /// Taken over from other runs.
-    pub(super) done: Vec<MemberRow<T, N>>,
-    pub(super) observer: Option<Observer<'a, T, N>>,
-    pub(super) watch: Option<Watch<'a, T, N>>,
-    pub(super) record_plan: RecordPlan<'a, L, N, M>,
-    /// What the user calls the code that no fingerprint sees.
-    pub(super) tag: Option<String>,
-}
-
-impl<L, T: Real, const N: usize, const M: usize> Plan<'_, L, T, N, M>
-where
-    L: Lagrangian<N, M, Scalar = T>,
-{
-    /// Whose rows are taken over, the user has to say, where code decides that no fingerprint sees.
-    fn check_tag(&self) -> Result<(), Error> {
-        match self.unseen() {
-            Some(code) if self.tag.is_none() && !self.done.is_empty() => {
-                Err(Error::Ensemble(EnsembleError::Untagged { code }))
-            }
-            _ => Ok(()),
-        }
-    }
-
-    /// The first piece of code of which the last states of members may depend.
-    fn unseen(&self) -> Option<String> {
-        let of_system = match L::SUPPLIED.first() {
-            Some(name) => Some(format!("the function `{name}` of the system")),
-            None => (L::DIGEST == 0).then(|| "the equations, written by hand,".into()),
-        };
-        let observer = self.observer.as_ref().map(|_| "the observer".into());
-        of_system.or_else(|| self.record_plan.unseen()).or(observer)
-    }
-}
-
-type Make<'a, L, T, const N: usize> = Box<dyn Fn(usize) -> (L, State<T, N>) + Send + Sync + 'a>;
-type Observer<'a, T, const N: usize> = Box<dyn Fn(usize, &State<T, N>) -> ControlFlow<()> + Send + Sync + 'a>;
-type Watch<'a, T, const N: usize> = Box<dyn FnMut(EnsembleProgress<'_, T, N>) -> ControlFlow<()> + Send + 'a>;
 
 /// How far an ensemble has come.
 #[derive(Clone, Copy, Debug)]
@@ -79,7 +31,7 @@ pub struct EnsembleProgress<'m, T, const N: usize> {
 pub(super) struct Job<'a, L: Lagrangian<N, M, Scalar = T>, T, const N: usize, const M: usize> {
     make: Make<'a, L, T, N>,
     observer: Option<Observer<'a, T, N>>,
-    record_plan: Arc<RecordPlan<'a, L, N, M>>,
+    member_plan: Arc<MemberPlan<'a, L, N, M>>,
     end: T,
     /// What the fingerprints of all members have in common.
     run: Fingerprint,
@@ -155,10 +107,10 @@ where
 {
     pub(super) fn new(plan: Plan<'a, L, T, N, M>, end: T, run: Fingerprint) -> Result<Self, Error> {
         plan.check_tag()?;
-        let Plan { count, make, shard, shards, list, done, observer, watch, record_plan, tag: _ } = plan;
-        record_plan.check()?;
+        let Plan { count, make, shard, shards, list, done, observer, watch, member_plan, tag: _ } = plan;
+        member_plan.check()?;
         let part = Part::new(count, shard, shards, list)?;
-        let events = record_plan.events();
+        let events = member_plan.events();
         let mine = done.into_iter().filter(|row| part.contains(row.index));
         let mut members: Vec<_> = mine.map(|row| row.into_member(&events)).collect();
         members.iter().try_for_each(|member| {
@@ -170,13 +122,18 @@ where
         let done = members.iter().map(|member| member.index).collect();
         let ledger = Mutex::new(Ledger { members, of: part.len(), watch });
         let (given, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
-        let record_plan = Arc::new(record_plan);
-        Ok(Self { make, observer, record_plan, end, run, part, done, given, stopped, ledger })
+        let member_plan = Arc::new(member_plan);
+        Ok(Self { make, observer, member_plan, end, run, part, done, given, stopped, ledger })
     }
 
     pub(super) fn outcome(self) -> Outcome<T, N> {
         let ledger = self.ledger.into_inner().unwrap_or_else(PoisonError::into_inner);
-        Outcome::new(ledger.members, L::COORDINATES, self.record_plan.quantities(), (self.end, self.run))
+        Outcome::new(
+            ledger.members,
+            L::COORDINATES,
+            self.member_plan.samples.quantities(),
+            (self.end, self.run),
+        )
     }
 
     /// These members alone, with what is their own here: its outcome is to be [reported](Self::report).
@@ -190,7 +147,7 @@ where
         Job {
             make: Box::new(&self.make),
             observer,
-            record_plan: self.record_plan.clone(),
+            member_plan: self.member_plan.clone(),
             end: self.end,
             run: self.run,
             part: Part { count: self.part.count, shard: 0, shards: 1, list: Some(list) },
@@ -223,7 +180,7 @@ where
     /// The names of the events.
     #[cfg(feature = "mpi")]
     pub(super) fn events(&self) -> Vec<&'static str> {
-        self.record_plan.events()
+        self.member_plan.events()
     }
 
     /// The member that nobody has yet.
@@ -291,29 +248,14 @@ where
     ) -> Result<Arrival<T, N>, Error> {
         check_finite(system, start)?;
         let (mut run, _) = Run::begin::<L, LagrangianVectorField, _, M>(system, start, method)?;
-        let record = Record::begin(&self.record_plan, system, &run.state, self.end)?;
+        let record = self.member_plan.record(index, system, &run.state, self.end)?;
         let limits = Watchdog::new(method.limits(), &run.statistics);
-        let accept = |state: &_| self.observe(index, state);
+        let accept = |state: &_, _| self.observe(index, state);
         let mut recorded =
-            Recorded::<_, _, _, N, M, HAS_DENSE_OUTPUT> { index, system, record, within: None, accept };
+            Recorded::<_, _, _, N, M, HAS_DENSE_OUTPUT>::new(Moving::Steered(system), record, accept);
         let driven = run.drive::<L, LagrangianVectorField, P, _, M>(method, &limits, &mut recorded);
-        let ending = driven.err().unwrap_or(Ending::Complete { time: self.end.to_f64() });
-        Ok(arrival(run.state, ending, run.statistics, recorded.record))
+        Ok(recorded.finish(driven, &run))
     }
-}
-
-/// Where a motion ended, with what was kept of it on the way.
-fn arrival<L, T: Real, const N: usize, const M: usize>(
-    state: State<T, N>,
-    ending: Ending,
-    statistics: Statistics,
-    record: Record<'_, L, N, M>,
-) -> Arrival<T, N>
-where
-    L: Lagrangian<N, M, Scalar = T>,
-{
-    let Record { samples, values, crossings, .. } = record;
-    Arrival { state, ending, statistics, samples, values, crossings }
 }
 
 /// A member taken over must be of this run, with this start and these parameters.
@@ -367,7 +309,7 @@ impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Job<'_, 
     ) -> Member<f64, N> {
         let LaneMotion { index, start, statistics, record, .. } = motion;
         let fingerprint = Fingerprint { start, ..self.run };
-        Member { index, fingerprint, result: Ok(arrival(state, ending, statistics, record)) }
+        Member { index, fingerprint, result: Ok(record.arrive(state, ending, statistics)) }
     }
 
     /// The next member that has a motion; those without are reported.
@@ -386,7 +328,7 @@ impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Job<'_, 
                     &start,
                     self.end,
                     method,
-                    &self.record_plan,
+                    |system, state| self.member_plan.record(index, system, state, self.end),
                 )
             });
             match motion {

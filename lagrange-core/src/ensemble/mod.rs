@@ -15,6 +15,7 @@ mod job;
 mod outcome;
 #[cfg(feature = "parquet")]
 mod parquet;
+mod plan;
 #[cfg(feature = "mpi")]
 mod ranks;
 mod table;
@@ -27,16 +28,18 @@ use core::ops::ControlFlow;
 
 pub use crate::error::EnsembleError;
 use crate::error::Error;
+pub use crate::motion::record::Arrival;
 use crate::motion::run::check_end;
-use crate::motion::{LaneMethod, Method, RecordPlan};
+use crate::motion::{LaneMethod, Method};
 use crate::number::{Lanes, Real};
 use crate::system::{Lagrangian, Pack, State};
 pub use fingerprint::Fingerprint;
 pub use job::EnsembleProgress;
-use job::{Job, Plan};
-pub use outcome::{Arrival, Member, Outcome};
+use job::Job;
+pub use outcome::{Member, Outcome};
 #[cfg(feature = "parquet")]
 pub use parquet::ParquetTable;
+use plan::{MemberPlan, Plan};
 #[cfg(feature = "mpi")]
 pub use ranks::OnRanks;
 pub use table::{MemberEnding, MemberRow, MemberTable};
@@ -82,9 +85,9 @@ where
     pub fn from_fn(count: usize, member: impl Fn(usize) -> (L, State<T, N>) + Send + Sync + 'a) -> Self {
         let make = Box::new(member);
         let (list, done, observer, watch, tag) = (None, Vec::new(), None, None, None);
-        let record_plan = RecordPlan::default();
+        let member_plan = MemberPlan::default();
         Self {
-            plan: Plan { count, make, shard: 0, shards: 1, list, done, observer, watch, record_plan, tag },
+            plan: Plan { count, make, shard: 0, shards: 1, list, done, observer, watch, member_plan, tag },
         }
     }
 

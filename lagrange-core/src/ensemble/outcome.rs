@@ -3,10 +3,9 @@
 use core::fmt::{self, Display, Formatter};
 
 use super::fingerprint::Fingerprint;
-use crate::error::{Ending, EnsembleError, Error};
-use crate::motion::Crossing;
+use crate::error::{EnsembleError, Error};
+use crate::motion::record::Arrival;
 use crate::number::Real;
-use crate::statistics::Statistics;
 use crate::system::State;
 
 /// What has become of one member.
@@ -20,27 +19,6 @@ pub struct Member<T, const N: usize> {
     pub fingerprint: Fingerprint,
     /// Where its motion ended and why, or why there is none.
     pub result: Result<Arrival<T, N>, Error>,
-}
-
-/// Where a motion ended.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[cfg_attr(feature = "serde", serde(bound(serialize = "T: nalgebra::Scalar + serde::Serialize")))]
-pub struct Arrival<T, const N: usize> {
-    /// The last state.
-    pub state: State<T, N>,
-    /// Why there is no later one.
-    pub ending: Ending,
-    /// Steps and evaluations.
-    pub statistics: Statistics,
-    /// The states at the times asked for by [`samples_at`](crate::Ensemble::samples_at), as far as the motion came. Of a
-    /// member taken over from a table there are none.
-    pub samples: Vec<State<T, N>>,
-    /// Their quantities: all of the first sample, all of the second, …; [`Outcome::quantity`] gives one by name.
-    pub values: Vec<T>,
-    /// Where [events](crate::Ensemble::event) were, in the order of the motion. Of a member taken over from a table there are
-    /// none.
-    pub crossings: Vec<Crossing<T, N>>,
 }
 
 impl<T: Real, const N: usize> Member<T, N> {

@@ -7,8 +7,9 @@ use core::str::FromStr;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
+use super::Arrival;
 use super::fingerprint::Fingerprint;
-use super::outcome::{Arrival, Member, Outcome};
+use super::outcome::{Member, Outcome};
 use crate::error::{Ending, EnsembleError, Error};
 use crate::names::Entry;
 use crate::number::Real;

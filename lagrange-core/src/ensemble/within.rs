@@ -3,6 +3,7 @@
 use core::fmt::Display;
 
 use super::Ensemble;
+use crate::motion::record::SampleTimes;
 use crate::motion::{Event, EventFunction, EventValue};
 use crate::number::Real;
 use crate::solution::Sample;
@@ -44,11 +45,19 @@ where
     ///
     /// # Errors
     /// [`integrate`](Self::integrate) gives [`Error::SampleTime`](crate::Error::SampleTime) for a time that is not finite or out
-    /// of order; a member that does not cover them has none but
-    /// [`Error::OutsideTrajectory`](crate::Error::OutsideTrajectory).
+    /// of order; a member that does not cover them, or moves the other way, is
+    /// [`Error::OutsideTrajectory`](crate::Error::OutsideTrajectory) or `SampleTime`.
     pub fn samples_at(self, times: impl IntoIterator<Item = T>) -> Ensemble<'a, L, T, N, M, true> {
         let mut plan = self.plan;
-        plan.record_plan.times = times.into_iter().collect();
+        plan.member_plan.samples.times = SampleTimes::At(times.into_iter().collect());
+        Ensemble { plan }
+    }
+
+    /// Keeps the state of each member at its start and whenever so much time has passed, as
+    /// [`MotionBuilder::every`](crate::MotionBuilder::every) does; else as [`samples_at`](Self::samples_at), whose times it replaces.
+    pub fn every(self, interval: T) -> Ensemble<'a, L, T, N, M, true> {
+        let mut plan = self.plan;
+        plan.member_plan.samples.times = SampleTimes::Every(interval);
         Ensemble { plan }
     }
 
@@ -83,7 +92,7 @@ where
         G: EventFunction<L, N, M> + Send + Sync + 'a,
     {
         let mut plan = self.plan;
-        plan.record_plan.event(event);
+        plan.member_plan.event(event);
         Ensemble { plan }
     }
 
@@ -128,7 +137,7 @@ where
         controller: impl Fn(usize, &mut L, &State<T, N>) -> Result<(), E> + Send + Sync + 'a,
     ) -> Ensemble<'a, L, T, N, M, true> {
         let mut plan = self.plan;
-        plan.record_plan.controller(interval, controller);
+        plan.member_plan.controller(interval, controller);
         Ensemble { plan }
     }
 
@@ -143,7 +152,7 @@ where
         name: &'static str,
         function: impl Fn(&Sample<&L, N, M>) -> V + Send + Sync + 'a,
     ) -> Self {
-        self.plan.record_plan.quantity(name, function);
+        self.plan.member_plan.samples.quantity(name, function);
         self
     }
 }

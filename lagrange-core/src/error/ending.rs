@@ -1,6 +1,6 @@
 //! Why an integration stopped.
 
-#[cfg(feature = "std")]
+#[cfg(feature = "alloc")]
 use alloc::string::String;
 use core::fmt::{self, Debug, Display, Formatter};
 
@@ -114,8 +114,8 @@ pub enum Ending {
         /// The name of the event.
         event: &'static str,
     },
-    /// The controller of a member of an ensemble failed.
-    #[cfg(feature = "std")]
+    /// The controller of a motion failed.
+    #[cfg(feature = "alloc")]
     ControllerFailed {
         /// When it was called.
         time: f64,
@@ -195,8 +195,10 @@ impl Ending {
             | Self::EventsAccumulate { time, .. }
             | Self::EventNotFinite { time, .. }
             | Self::Cancelled { time } => time,
+            #[cfg(feature = "alloc")]
+            Self::ControllerFailed { time, .. } => time,
             #[cfg(feature = "std")]
-            Self::ControllerFailed { time, .. } | Self::Elsewhere { time, .. } => time,
+            Self::Elsewhere { time, .. } => time,
         }
     }
 
@@ -264,7 +266,7 @@ impl Display for Ending {
                 f,
                 "stopped at t = {time}: the function of the event `{event}` is not a number soon after; make it one wherever the motion may lead"
             ),
-            #[cfg(feature = "std")]
+            #[cfg(feature = "alloc")]
             Self::ControllerFailed { time, said } => {
                 write!(f, "stopped at t = {time}: the controller failed: {said}")
             }

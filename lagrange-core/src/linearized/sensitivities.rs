@@ -107,7 +107,7 @@ where
         P: DifferentiableMethod<L, N, M, K>,
         E: EventList<DynEvent<'w, L, N, M, K>>,
     {
-        let Self { system, start, method, events, on_progress } = self;
+        let Self { system, start, method, events, on_progress, .. } = self;
         integrate(system, &start, end, &method, &mut events.list(), on_progress)
     }
 }

@@ -1,4 +1,4 @@
-//! The settings of one motion: its start, its method, its events and who looks at its progress.
+//! The settings of one motion: its start, its method, its events, who looks at its progress, and what is kept of it.
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -6,7 +6,7 @@ use core::fmt::{self, Debug, Formatter};
 use core::marker::PhantomData;
 use core::ops::ControlFlow;
 
-use super::event::AnyEvent;
+use super::event::{AnyEvent, DynEvent};
 use super::method::{Dop853, Method};
 use super::run::{Progress, Run, Watchdog, check_end};
 use super::store::{OnProgress, Stored};
@@ -16,26 +16,35 @@ use crate::solution::vector_field::VectorField;
 use crate::system::{Lagrangian, State};
 use crate::trajectory::Trajectory;
 
-/// The settings of a motion that has not been integrated yet: its start, its method, its events and who looks at its progress.
+/// The settings of a motion that has not been integrated yet: its start, its method, its events, who looks at its progress, what is kept
+/// of it, and who steers.
 ///
 /// [`motion`](crate::Simulate::motion), [`motion_in_momenta`](crate::Hamiltonian::motion_in_momenta) and
 /// [`motion_with_derivatives`](crate::MotionDerivatives::motion_with_derivatives) make it, [`to`](Self::to) and [`towards`](Self::towards)
-/// integrate. The method is [`Dop853`] with a tolerance of 10⁻⁹ unless [`by`](Self::by) names another.
+/// integrate. The method is [`Dop853`] with a tolerance of 10⁻⁹ unless [`by`](Self::by) names another. All steps are kept, in a
+/// [`Trajectory`], unless [`every`](Self::every) or [`samples_at`](Self::samples_at) says which states are, in an
+/// [`Arrival`](crate::motion::Arrival).
 #[must_use = "a motion is integrated by `to` or `towards`"]
-pub struct MotionBuilder<'a, 'w, L, S, const N: usize, const M: usize, P = Dop853, E = ()> {
+pub struct MotionBuilder<'a, 'w, L, S, const N: usize, const M: usize, P = Dop853, E = (), K = AllSteps> {
     pub(crate) system: &'a L,
     pub(crate) start: S,
     pub(crate) method: P,
     pub(crate) events: E,
     pub(crate) on_progress: Option<OnProgress<'w>>,
+    /// What is kept of the motion.
+    pub(super) kept: K,
 }
+
+/// All steps of a motion are kept, and what lies within: `to` gives a [`Trajectory`].
+#[derive(Clone, Copy, Debug)]
+pub struct AllSteps;
 
 /// The state at which a motion starts, and the equations of motion, `F`: Lagrange's or Hamilton's.
 #[derive(Clone, Debug)]
 pub struct Start<T, const N: usize, F> {
     /// An error where the start is not finite, or where no velocities belong to its momenta. It lies on the heap, because each call of
     /// the builder moves the settings, and a state of 1,000 coordinates would fill the stack.
-    state: Box<Result<State<T, N>, Error>>,
+    pub(super) state: Box<Result<State<T, N>, Error>>,
     field: PhantomData<F>,
 }
 
@@ -78,15 +87,15 @@ impl<W: ?Sized> EventList<W> for Vec<Box<W>> {
 
 impl<'a, 'w, L, S, const N: usize, const M: usize> MotionBuilder<'a, 'w, L, S, N, M> {
     pub(crate) fn new(system: &'a L, start: S) -> Self {
-        Self { system, start, method: Dop853::default(), events: (), on_progress: None }
+        Self { system, start, method: Dop853::default(), events: (), on_progress: None, kept: AllSteps }
     }
 }
 
-impl<'a, 'w, L, S, const N: usize, const M: usize, P, E> MotionBuilder<'a, 'w, L, S, N, M, P, E> {
+impl<'a, 'w, L, S, const N: usize, const M: usize, P, E, K> MotionBuilder<'a, 'w, L, S, N, M, P, E, K> {
     /// Sets the method.
-    pub fn by<Q>(self, method: Q) -> MotionBuilder<'a, 'w, L, S, N, M, Q, E> {
-        let Self { system, start, events, on_progress, .. } = self;
-        MotionBuilder { system, start, method, events, on_progress }
+    pub fn by<Q>(self, method: Q) -> MotionBuilder<'a, 'w, L, S, N, M, Q, E, K> {
+        let Self { system, start, events, on_progress, kept, .. } = self;
+        MotionBuilder { system, start, method, events, on_progress, kept }
     }
 
     /// Calls `look` with the progress after every step. Where it returns `ControlFlow::Break` the motion ends there, which is no
@@ -99,29 +108,31 @@ impl<'a, 'w, L, S, const N: usize, const M: usize, P, E> MotionBuilder<'a, 'w, L
     pub(crate) fn with_events<F>(
         self,
         events: impl FnOnce(E) -> F,
-    ) -> MotionBuilder<'a, 'w, L, S, N, M, P, F> {
-        let Self { system, start, method, on_progress, .. } = self;
-        MotionBuilder { system, start, method, events: events(self.events), on_progress }
+    ) -> MotionBuilder<'a, 'w, L, S, N, M, P, F, K> {
+        let Self { system, start, method, on_progress, kept, .. } = self;
+        MotionBuilder { system, start, method, events: events(self.events), on_progress, kept }
+    }
+
+    pub(super) fn keeping<J>(self, kept: impl FnOnce(K) -> J) -> MotionBuilder<'a, 'w, L, S, N, M, P, E, J> {
+        let Self { system, start, method, events, on_progress, .. } = self;
+        MotionBuilder { system, start, method, events, on_progress, kept: kept(self.kept) }
     }
 }
 
-/// An event of a motion without derivatives.
-type DynEvent<'a, L, const N: usize, const M: usize> = dyn AnyEvent<L, N, M> + 'a;
-
-impl<'a, 'w, L, F, const N: usize, const M: usize, P, E>
-    MotionBuilder<'a, 'w, L, Start<L::Scalar, N, F>, N, M, P, E>
+impl<'a, 'w, L, F, const N: usize, const M: usize, P, E, K>
+    MotionBuilder<'a, 'w, L, Start<L::Scalar, N, F>, N, M, P, E, K>
 where
     L: Lagrangian<N, M, Scalar: Real>,
     F: VectorField<L, N, M>,
     E: EventList<DynEvent<'w, L, N, M>>,
 {
-    /// Adds an event, by value or as `&mut event`. The trajectory keeps its crossings, and the motion ends at it where it is
+    /// Adds an event, by value or as `&mut event`. The result has its crossings, and the motion ends at it where it is
     /// [terminal](crate::Event::terminal). For several events, call it once for each.
     #[allow(clippy::type_complexity, reason = "the type of the builder itself, with its list of events")]
     pub fn event(
         self,
         event: impl AnyEvent<L, N, M> + 'w,
-    ) -> MotionBuilder<'a, 'w, L, Start<L::Scalar, N, F>, N, M, P, Vec<Box<DynEvent<'w, L, N, M>>>> {
+    ) -> MotionBuilder<'a, 'w, L, Start<L::Scalar, N, F>, N, M, P, Vec<Box<DynEvent<'w, L, N, M>>>, K> {
         self.events([event])
     }
 
@@ -130,7 +141,7 @@ where
     pub fn events<W: AnyEvent<L, N, M> + 'w>(
         self,
         events: impl IntoIterator<Item = W>,
-    ) -> MotionBuilder<'a, 'w, L, Start<L::Scalar, N, F>, N, M, P, Vec<Box<DynEvent<'w, L, N, M>>>> {
+    ) -> MotionBuilder<'a, 'w, L, Start<L::Scalar, N, F>, N, M, P, Vec<Box<DynEvent<'w, L, N, M>>>, K> {
         let more = events.into_iter().map(|event| Box::new(event) as Box<DynEvent<'w, L, N, M>>);
         self.with_events(|events| {
             let mut events = events.list();
@@ -138,7 +149,15 @@ where
             events
         })
     }
+}
 
+impl<'a, 'w, L, F, const N: usize, const M: usize, P, E>
+    MotionBuilder<'a, 'w, L, Start<L::Scalar, N, F>, N, M, P, E>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: VectorField<L, N, M>,
+    E: EventList<DynEvent<'w, L, N, M>>,
+{
     /// Integrates to the time `end`, backwards where that lies before the start, or to the first
     /// [terminal](crate::Event::terminal) event.
     ///
@@ -172,7 +191,7 @@ where
     where
         P: Method<L, N, M, F>,
     {
-        let Self { system, start, method, events, on_progress } = self;
+        let Self { system, start, method, events, on_progress, .. } = self;
         let (state, mut events) = (start.state.as_ref().as_ref().map_err(Error::clone)?, events.list());
         check_end(end)?;
         // Not moved to where it is used: unless that is optimized away, there would be several of it.
@@ -186,7 +205,7 @@ where
     }
 }
 
-impl<L, S, const N: usize, const M: usize, P, E> Debug for MotionBuilder<'_, '_, L, S, N, M, P, E>
+impl<L, S, const N: usize, const M: usize, P, E, K> Debug for MotionBuilder<'_, '_, L, S, N, M, P, E, K>
 where
     L: Lagrangian<N, M>,
     S: Debug,

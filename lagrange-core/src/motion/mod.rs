@@ -24,9 +24,11 @@ pub(crate) mod event;
 #[cfg(feature = "std")]
 mod lanes;
 pub(crate) mod method;
-#[cfg(feature = "std")]
-mod record;
+#[cfg(feature = "alloc")]
+pub(crate) mod record;
 pub(crate) mod run;
+#[cfg(feature = "alloc")]
+mod sampled;
 pub(crate) mod simulate;
 mod steered;
 #[cfg(feature = "alloc")]
@@ -37,7 +39,7 @@ pub(crate) mod taylor;
 mod tests;
 
 #[cfg(feature = "alloc")]
-pub use builder::{EventList, MotionBuilder, Start};
+pub use builder::{AllSteps, EventList, MotionBuilder, Start};
 pub use event::{AnyEvent, Event, EventFunction, EventValue};
 #[cfg(feature = "std")]
 pub use lanes::LaneMethod;
@@ -47,9 +49,11 @@ pub use method::{
     Adaptive, Dop853, Dopri5, DormandPrince54, DormandPrince853, Limits, Method, Pair, RungeKutta4, Step,
     TableauRow, runge_kutta_step,
 };
-#[cfg(feature = "std")]
-pub(crate) use record::{Record, RecordPlan, Recorded};
+#[cfg(feature = "alloc")]
+pub use record::Arrival;
 pub use run::Progress;
+#[cfg(feature = "alloc")]
+pub use sampled::{Kept, SamplesAlone};
 pub use simulate::Simulate;
 pub use steered::Motion;
 #[cfg(feature = "alloc")]

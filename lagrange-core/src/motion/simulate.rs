@@ -208,7 +208,8 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     ///
     /// The state must pass [`check_consistent`](Self::check_consistent); what is left is projected away, and [`Trajectory::adjustment`] tells how far that moved it.
     ///
-    /// Every step is kept. Where the end alone is of interest, or states at some times, a [`Motion`](crate::Motion) keeps none.
+    /// Every step is kept. Where the end alone is of interest, or states at some times, [`motion(state).every(0.1)`](MotionBuilder::every)
+    /// keeps none.
     ///
     /// Steps lead from one time that the scalar can hold to the next, which at a Unix time in seconds are 2.4·10⁻⁷
     /// apart: where a motion is faster, count the time from nearby.
@@ -228,8 +229,8 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
         self.motion(state).by(method).to(end)
     }
 
-    /// The settings of a motion from this state: method, events and who looks at its progress are chosen one by one, then
-    /// [`to`](MotionBuilder::to) integrates. [`motion_in_momenta`](crate::Hamiltonian::motion_in_momenta) does the same for Hamilton's
+    /// The settings of a motion from this state: method, events, who looks at its progress, what is kept and who steers are chosen one by
+    /// one, then [`to`](MotionBuilder::to) integrates. [`motion_in_momenta`](crate::Hamiltonian::motion_in_momenta) does the same for Hamilton's
     /// equations, [`motion_with_derivatives`](crate::MotionDerivatives::motion_with_derivatives) for a motion with its derivatives.
     ///
     /// ```

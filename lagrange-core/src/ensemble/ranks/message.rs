@@ -3,8 +3,9 @@
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, Destination, MatchedReceiveVec, Source};
 
+use crate::ensemble::Arrival;
 use crate::ensemble::fingerprint::Fingerprint;
-use crate::ensemble::outcome::{Arrival, Member};
+use crate::ensemble::outcome::Member;
 use crate::ensemble::table::MemberRow;
 use crate::motion::Crossing;
 use crate::number::{Real, vector};

@@ -230,6 +230,10 @@ pub trait AnyEvent<L: Lagrangian<N, M>, const N: usize, const M: usize>: sealed:
     fn sample(&mut self, system: &L, state: &State<L::Scalar, N>, place: usize) -> Result<(), Error>;
 }
 
+/// An event of any kind.
+#[cfg(feature = "alloc")]
+pub(crate) type DynEvent<'a, L, const N: usize, const M: usize> = dyn AnyEvent<L, N, M> + 'a;
+
 mod sealed {
     pub trait Sealed {}
 }

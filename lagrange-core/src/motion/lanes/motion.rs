@@ -4,7 +4,7 @@ use core::fmt::{self, Debug, Formatter};
 
 use super::LaneMethod;
 use crate::error::{Ending, Error};
-use crate::motion::record::{Record, RecordPlan};
+use crate::motion::record::Record;
 use crate::motion::run::{Run, Watchdog, resume};
 use crate::motion::{Method, Step};
 use crate::solution::vector_field::LagrangianVectorField;
@@ -70,10 +70,10 @@ where
         state: &State<f64, N>,
         end: f64,
         method: &P,
-        record_plan: &'o RecordPlan<'o, L, N, M>,
+        record: impl FnOnce(&L, &State<f64, N>) -> Result<Record<'o, L, N, M>, Error>,
     ) -> Result<(Self, State<f64, N>), Error> {
         let (run, _) = Run::begin::<L, LagrangianVectorField, _, M>(&system, state, method)?;
-        let record = Record::begin(record_plan, &system, &run.state, end)?;
+        let record = record(&system, &run.state)?;
         let Run { memory, state, statistics, .. } = run;
         let limits = Watchdog::new(method.limits(), &statistics);
         let (within, failure) = (None, None);
@@ -99,8 +99,8 @@ where
 
     /// Calls the controller, and goes on from this state with what it has set.
     pub(super) fn control(&mut self, state: &State<f64, N>, method: &P) -> Result<(), Ending> {
-        let Self { index, record, system, memory, statistics, .. } = self;
-        record.control(*index, system, state)?;
+        let Self { record, system, memory, statistics, .. } = self;
+        record.control(system, state)?;
         resume::<_, LagrangianVectorField, _, N, M>(system, method, memory, state, statistics)
             .map_err(|error| Ending::of(error, state.t))?;
         self.end = self.record.goal;

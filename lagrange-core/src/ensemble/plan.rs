@@ -1,0 +1,153 @@
+//! What an ensemble is to do, and what is to be kept of each member.
+
+use core::fmt::{self, Display, Write};
+use core::ops::ControlFlow;
+
+use super::job::EnsembleProgress;
+use super::table::MemberRow;
+use crate::error::{EnsembleError, Error};
+use crate::motion::event::DynEvent;
+use crate::motion::record::plan::Observed;
+use crate::motion::record::{CONTROLLER, Record, RecordPlan, SampleTimes, Steering, check_interval};
+use crate::motion::{Event, EventFunction};
+use crate::number::Real;
+use crate::solution::Sample;
+use crate::system::{Lagrangian, State};
+
+/// What an ensemble is to do.
+pub(super) struct Plan<'a, L: Lagrangian<N, M, Scalar = T>, T, const N: usize, const M: usize> {
+    pub(super) count: usize,
+    pub(super) make: Make<'a, L, T, N>,
+    pub(super) shard: usize,
+    pub(super) shards: usize,
+    /// Of these alone, if it is given.
+    pub(super) list: Option<Vec<usize>>,
+    /// Taken over from other runs.
+    pub(super) done: Vec<MemberRow<T, N>>,
+    pub(super) observer: Option<Observer<'a, T, N>>,
+    pub(super) watch: Option<Watch<'a, T, N>>,
+    pub(super) member_plan: MemberPlan<'a, L, N, M>,
+    /// What the user calls the code that no fingerprint sees.
+    pub(super) tag: Option<String>,
+}
+
+impl<L, T: Real, const N: usize, const M: usize> Plan<'_, L, T, N, M>
+where
+    L: Lagrangian<N, M, Scalar = T>,
+{
+    /// Whose rows are taken over, the user has to say, where code decides that no fingerprint sees.
+    pub(super) fn check_tag(&self) -> Result<(), Error> {
+        match self.unseen() {
+            Some(code) if self.tag.is_none() && !self.done.is_empty() => {
+                Err(Error::Ensemble(EnsembleError::Untagged { code }))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The first piece of code of which the last states of members may depend.
+    fn unseen(&self) -> Option<String> {
+        let of_system = match L::SUPPLIED.first() {
+            Some(name) => Some(format!("the function `{name}` of the system")),
+            None => (L::DIGEST == 0).then(|| "the equations, written by hand,".into()),
+        };
+        let observer = self.observer.as_ref().map(|_| "the observer".into());
+        of_system.or_else(|| self.member_plan.unseen()).or(observer)
+    }
+}
+
+pub(super) type Make<'a, L, T, const N: usize> = Box<dyn Fn(usize) -> (L, State<T, N>) + Send + Sync + 'a>;
+pub(super) type Observer<'a, T, const N: usize> =
+    Box<dyn Fn(usize, &State<T, N>) -> ControlFlow<()> + Send + Sync + 'a>;
+pub(super) type Watch<'a, T, const N: usize> =
+    Box<dyn FnMut(EnsembleProgress<'_, T, N>) -> ControlFlow<()> + Send + 'a>;
+
+/// What is done with each member on its way.
+pub(super) struct MemberPlan<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
+    pub(super) samples: RecordPlan<'a, L, N, M>,
+    /// As they are before the first crossing.
+    events: Vec<Event<L, Box<Observed<'a, L, N, M>>, N, M>>,
+    /// Called at the start, and then as often as this.
+    controller: Option<(L::Scalar, Box<Controller<'a, L, N, M>>)>,
+}
+
+/// Sets the parameters of the member of this index; an error in words.
+type Controller<'a, L, const N: usize, const M: usize> = dyn Fn(usize, &mut L, &State<<L as Lagrangian<N, M>>::Scalar, N>) -> Result<(), String>
+    + Send
+    + Sync
+    + 'a;
+
+impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Default for MemberPlan<'_, L, N, M> {
+    fn default() -> Self {
+        let samples = RecordPlan::of(SampleTimes::At(Vec::new()));
+        Self { samples, events: Vec::new(), controller: None }
+    }
+}
+
+impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> MemberPlan<'a, L, N, M> {
+    pub(super) fn event<G>(&mut self, event: Event<L, G, N, M>)
+    where
+        G: EventFunction<L, N, M> + Send + Sync + 'a,
+    {
+        self.events.push(event.map(|function| {
+            let value: Box<Observed<'a, L, N, M>> =
+                Box::new(move |sample: &Sample<&L, N, M>| function.at(sample.system, &sample.state));
+            value
+        }));
+    }
+
+    pub(super) fn controller<E: Display>(
+        &mut self,
+        interval: L::Scalar,
+        controller: impl Fn(usize, &mut L, &State<L::Scalar, N>) -> Result<(), E> + Send + Sync + 'a,
+    ) {
+        let in_words = move |index: usize, system: &mut L, state: &State<L::Scalar, N>| {
+            controller(index, system, state).map_err(|error| error.to_string())
+        };
+        self.controller = Some((interval, Box::new(in_words)));
+    }
+
+    /// The names of the events.
+    pub(super) fn events(&self) -> Vec<&'static str> {
+        self.events.iter().map(Event::name).collect()
+    }
+
+    /// Checks what is the same for all members.
+    pub(super) fn check(&self) -> Result<(), Error> {
+        self.samples.check()?;
+        let interval = self.controller.as_ref().map(|(interval, _)| *interval);
+        interval.map_or(Ok(()), |interval| check_interval(CONTROLLER, interval))
+    }
+
+    /// The first function by which the end of a motion may change, in words. A quantity can only make a member fail.
+    fn unseen(&self) -> Option<String> {
+        let event = self.events.first().map(|event| format!("the event `{}`", event.name()));
+        event.or_else(|| self.controller.as_ref().map(|_| "the controller".into()))
+    }
+
+    /// Writes what tells this plan from others; what its functions hold is not seen.
+    pub(super) fn identify(&self, to: &mut dyn Write) -> fmt::Result {
+        self.samples.identify(to)?;
+        self.events.iter().try_for_each(|event| write!(to, " with {:?}", event.anew(|_| ())))?;
+        self.controller.iter().try_for_each(|(interval, _)| write!(to, " every {:?}", interval.to_f64()))
+    }
+
+    /// The record of a member, before its first step.
+    pub(super) fn record(
+        &self,
+        index: usize,
+        system: &L,
+        start: &State<L::Scalar, N>,
+        end: L::Scalar,
+    ) -> Result<Record<'_, L, N, M>, Error> {
+        let events = self
+            .events
+            .iter()
+            .map(|event| -> Box<DynEvent<'_, L, N, M>> { Box::new(event.anew(|function| &**function)) });
+        let steering = self.controller.as_ref().map(|(interval, controller)| Steering {
+            interval: *interval,
+            controller: Box::new(move |system, state| controller(index, system, state)),
+        });
+        Record::begin(&self.samples, events.collect(), steering, system, start, end)
+    }
+}

@@ -1,0 +1,332 @@
+//! What is kept of a motion that is not stored: samples, quantities, crossings, and its end.
+
+pub(crate) mod plan;
+
+use alloc::boxed::Box;
+use alloc::string::String;
+use alloc::vec::Vec;
+use core::marker::PhantomData;
+use core::ops::{ControlFlow, Deref};
+
+pub(crate) use plan::{RecordPlan, SampleTimes, check_interval};
+
+use super::event::{DenseStep, DynEvent, EventSearch};
+use super::method::Method;
+use super::run::{Observer, Run, is_between, resume};
+use crate::error::{Ending, Error};
+use crate::number::{Real, Scalar};
+use crate::solution::Sample;
+use crate::solution::crossing::Crossing;
+use crate::solution::interpolant::Interpolant;
+use crate::solution::vector_field::VectorField;
+use crate::statistics::Statistics;
+use crate::system::{Lagrangian, State};
+
+/// Where a motion ended, and what was kept of it on the way.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(bound(serialize = "T: nalgebra::Scalar + serde::Serialize")))]
+pub struct Arrival<T, const N: usize> {
+    /// The last state.
+    pub state: State<T, N>,
+    /// Why there is no later one.
+    pub ending: Ending,
+    /// Steps and evaluations.
+    pub statistics: Statistics,
+    /// The states at the times asked for by `samples_at` or `every`, as far as the motion came. Of a member of an ensemble that is
+    /// taken over from a table there are none.
+    pub samples: Vec<State<T, N>>,
+    /// Their quantities: all of the first sample, all of the second, …
+    pub values: Vec<T>,
+    /// Where events were, in the order of the motion. Of a member taken over from a table there are none.
+    pub crossings: Vec<Crossing<T, N>>,
+}
+
+/// What sets the parameters of a system on the way; an error in words.
+pub(crate) type Controller<'o, L, const N: usize, const M: usize> =
+    dyn FnMut(&mut L, &State<<L as Lagrangian<N, M>>::Scalar, N>) -> Result<(), String> + 'o;
+
+/// Calls a controller at the start, and then as often as this.
+pub(crate) struct Steering<'o, L: Lagrangian<N, M>, const N: usize, const M: usize> {
+    pub(crate) interval: L::Scalar,
+    pub(crate) controller: Box<Controller<'o, L, N, M>>,
+}
+
+impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Steering<'_, L, N, M> {
+    /// The interval must be positive and finite.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        check_interval(CONTROLLER, self.interval)
+    }
+}
+
+/// What the interval of a controller is called.
+pub(crate) const CONTROLLER: &str = "interval of the controller";
+
+/// What is kept of one motion.
+pub(crate) struct Record<'o, L: Lagrangian<N, M>, const N: usize, const M: usize> {
+    plan: &'o RecordPlan<'o, L, N, M>,
+    samples: Vec<State<L::Scalar, N>>,
+    /// The quantities of the first sample, those of the second, …
+    values: Vec<L::Scalar>,
+    crossings: Vec<Crossing<L::Scalar, N>>,
+    events: Vec<Box<DynEvent<'o, L, N, M>>>,
+    /// How many subdivisions every step is looked at in, at least.
+    subdivisions: usize,
+    /// Why the motion ends where it starts, if it does.
+    stopped: Option<Ending>,
+    steering: Option<Steering<'o, L, N, M>>,
+    start: L::Scalar,
+    end: L::Scalar,
+    /// Next time to reach: the end, or an earlier call of the controller.
+    pub(crate) goal: L::Scalar,
+    /// How often it has been called.
+    calls: usize,
+}
+
+impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Record<'o, L, N, M> {
+    /// Before the first step, with what is due at the start.
+    pub(crate) fn begin(
+        plan: &'o RecordPlan<'o, L, N, M>,
+        mut events: Vec<Box<DynEvent<'o, L, N, M>>>,
+        steering: Option<Steering<'o, L, N, M>>,
+        system: &L,
+        start: &State<L::Scalar, N>,
+        end: L::Scalar,
+    ) -> Result<Self, Error> {
+        plan.times.check_within([start.t, end])?;
+        // A name that is not known is told before the first step.
+        let sample = Sample { system, state: *start };
+        plan.quantities.iter().try_for_each(|(_, value)| value(&sample).map(drop))?;
+        let mut crossings = Vec::new();
+        let mut search = EventSearch::begin(&mut events, system, start)?;
+        let (subdivisions, stopped) = (search.subdivisions, search.record_due(start, &mut crossings));
+        let count = plan.times.len();
+        let (samples, values) =
+            (Vec::with_capacity(count), Vec::with_capacity(count * plan.quantities.len()));
+        let goal = if steering.is_some() { start.t } else { end };
+        let (start_time, calls) = (start.t, 0);
+        let mut record = Self {
+            plan,
+            samples,
+            values,
+            crossings,
+            events,
+            subdivisions,
+            stopped,
+            steering,
+            start: start_time,
+            end,
+            goal,
+            calls,
+        };
+        while record.next_time().is_some_and(|t| t == start.t) {
+            record.push(system, *start)?;
+        }
+        Ok(record)
+    }
+
+    /// When the next sample is.
+    fn next_time(&self) -> Option<L::Scalar> {
+        self.plan.times.get(self.samples.len(), [self.start, self.end])
+    }
+
+    fn push(&mut self, system: &L, state: State<L::Scalar, N>) -> Result<(), Error> {
+        let (sample, before) = (Sample { system, state }, self.values.len());
+        for (_, value) in &self.plan.quantities {
+            match value(&sample) {
+                Ok(value) => self.values.push(value),
+                Err(error) => {
+                    self.values.truncate(before);
+                    return Err(error);
+                }
+            }
+        }
+        self.samples.push(state);
+        Ok(())
+    }
+
+    /// Whether there is something to be looked for in a step between these times.
+    pub(crate) fn looks_into(&self, from: L::Scalar, to: L::Scalar) -> bool {
+        !self.events.is_empty() || self.next_time().is_some_and(|t| is_between(from, t, to))
+    }
+
+    /// Keeps what is due in this step to `end`; where the motion stops before, that is then the end, and why.
+    pub(crate) fn keep<F, I>(
+        &mut self,
+        step: &DenseStep<'_, L, F, I, N, M>,
+        end: &mut State<L::Scalar, N>,
+    ) -> Option<Ending>
+    where
+        F: VectorField<L, N, M>,
+        I: Interpolant<L::Scalar, N>,
+    {
+        let (mut at, mut stopped) = (*step.before, None);
+        if !self.events.is_empty() {
+            let mut search = EventSearch {
+                events: &mut self.events,
+                subdivisions: self.subdivisions,
+                system: PhantomData,
+            };
+            if let Some((state, ending)) = search.record(step, &mut self.crossings) {
+                (*end, stopped) = (state, Some(ending));
+            }
+        }
+        while let Some(t) = self.next_time()
+            && is_between(step.before.t, t, end.t)
+        {
+            let kept = step.at(t).and_then(|state| {
+                at = state;
+                self.push(step.system, state)
+            });
+            if let Err(error) = kept {
+                *end = at;
+                return Some(Ending::of(error, at.t.to_f64()));
+            }
+        }
+        stopped
+    }
+
+    /// Whether the controller is to be called before the motion goes on.
+    pub(crate) fn is_due(&self, t: L::Scalar) -> bool {
+        t == self.goal && t != self.end
+    }
+
+    /// Calls the controller, and sets the next goal. The method is to be told.
+    pub(crate) fn control(&mut self, system: &mut L, state: &State<L::Scalar, N>) -> Result<(), Ending> {
+        let Some(Steering { interval, controller }) = &mut self.steering else { return Ok(()) };
+        let time = state.t.to_f64();
+        controller(system, state).map_err(|said| Ending::ControllerFailed { time, said })?;
+        self.calls += 1;
+        let passed = *interval * L::Scalar::constant(self.calls as f64);
+        let next = if self.end < self.start { self.start - passed } else { self.start + passed };
+        self.goal = if is_between(self.start, next, self.end) { next } else { self.end };
+        if self.goal == state.t {
+            return Err(Ending::TimeTooCoarse { time, step: interval.to_f64() });
+        }
+        EventSearch::from(&mut self.events, system, state, true).map_err(|error| Ending::of(error, time))?;
+        Ok(())
+    }
+
+    /// Where the motion ended, with what was kept of it.
+    pub(crate) fn arrive(
+        self,
+        state: State<L::Scalar, N>,
+        ending: Ending,
+        statistics: Statistics,
+    ) -> Arrival<L::Scalar, N> {
+        let Self { samples, values, crossings, .. } = self;
+        Arrival { state, ending, statistics, samples, values, crossings }
+    }
+}
+
+/// The system of a motion, which a controller may change.
+pub(crate) enum Moving<'r, L> {
+    Fixed(&'r L),
+    Steered(&'r mut L),
+}
+
+impl<L> Deref for Moving<'_, L> {
+    type Target = L;
+
+    #[inline]
+    fn deref(&self) -> &L {
+        match self {
+            Self::Fixed(system) => system,
+            Self::Steered(system) => system,
+        }
+    }
+}
+
+/// Records one motion on its way, and calls its controller. Where nothing lies within steps that is wanted, `HAS_DENSE_OUTPUT` is
+/// false, and nothing of that is compiled.
+pub(crate) struct Recorded<'o, 'r, L, I, A, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool>
+where
+    L: Lagrangian<N, M>,
+{
+    system: Moving<'r, L>,
+    record: Record<'o, L, N, M>,
+    /// What lies within the step taken last, where that is wanted.
+    within: Option<I>,
+    /// Looks at the time of each state and the number of steps; it may cancel the motion.
+    accept: A,
+}
+
+impl<'o, 'r, L, I, A, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool>
+    Recorded<'o, 'r, L, I, A, N, M, HAS_DENSE_OUTPUT>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    pub(crate) fn new(system: Moving<'r, L>, record: Record<'o, L, N, M>, accept: A) -> Self {
+        Self { system, record, within: None, accept }
+    }
+
+    /// What was kept until the motion ended.
+    pub(crate) fn finish<X>(
+        self,
+        driven: Result<(), Ending>,
+        run: &Run<X, L::Scalar, N>,
+    ) -> Arrival<L::Scalar, N> {
+        let ending = driven.err().unwrap_or(Ending::Complete { time: self.record.end.to_f64() });
+        self.record.arrive(run.state, ending, run.statistics)
+    }
+}
+
+impl<L, F, P, A, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool> Observer<L, F, P, N, M>
+    for Recorded<'_, '_, L, P::Interpolant, A, N, M, HAS_DENSE_OUTPUT>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: VectorField<L, N, M>,
+    P: Method<L, N, M, F>,
+    A: FnMut(&State<L::Scalar, N>, usize) -> ControlFlow<()>,
+{
+    fn system(&self) -> &L {
+        &self.system
+    }
+
+    #[inline(always)]
+    fn goal(
+        &mut self,
+        method: &P,
+        run: &mut Run<P::Memory, L::Scalar, N>,
+    ) -> Result<Option<L::Scalar>, Ending> {
+        let Self { system, record, .. } = self;
+        let Run { memory, state, statistics, .. } = run;
+        if const { HAS_DENSE_OUTPUT } {
+            if let Some(ending) = record.stopped.take() {
+                return Err(ending);
+            }
+            if let Moving::Steered(system) = system
+                && record.is_due(state.t)
+            {
+                record.control(system, state)?;
+                resume::<_, F, _, N, M>(system, method, memory, state, statistics)
+                    .map_err(|error| Ending::of(error, state.t.to_f64()))?;
+            }
+        }
+        Ok((state.t != record.end).then_some(record.goal))
+    }
+
+    #[inline(always)]
+    fn follow(&mut self, method: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<(), Ending> {
+        if const { HAS_DENSE_OUTPUT } {
+            let Run { memory, statistics, before, state } = run;
+            let is_wanted = self.record.looks_into(before.t, state.t);
+            let within = is_wanted.then(|| method.interpolant(&self.system, memory, statistics)).transpose();
+            self.within = within.map_err(|error| Ending::of(error, before.t.to_f64()))?;
+        }
+        Ok(())
+    }
+
+    #[inline(always)]
+    fn keep(&mut self, _: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<(), Ending> {
+        if let (true, Some(interpolant)) = (const { HAS_DENSE_OUTPUT }, &self.within) {
+            let (before, after, field) = (&run.before, &{ run.state }, PhantomData::<F>);
+            let step = DenseStep { system: &*self.system, before, after, interpolant, field };
+            self.record.keep(&step, &mut run.state).map_or(Ok(()), Err)?;
+        }
+        match (self.accept)(&run.state, run.statistics.accepted) {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(Ending::Cancelled { time: run.state.t.to_f64() }),
+        }
+    }
+}

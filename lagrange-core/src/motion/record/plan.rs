@@ -1,0 +1,184 @@
+//! What is to be kept of motions that are not stored.
+
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+#[cfg(feature = "std")]
+use core::fmt::{self, Write};
+
+use nalgebra::ComplexField;
+
+use crate::error::Error;
+use crate::motion::event::EventValue;
+use crate::motion::run::is_between;
+use crate::number::{Real, Scalar, larger};
+use crate::solution::Sample;
+use crate::system::Lagrangian;
+
+/// The samples to take of a motion, or of each of many, and the quantities of these.
+pub(crate) struct RecordPlan<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
+    pub(crate) times: SampleTimes<L::Scalar>,
+    pub(super) quantities: Vec<(&'static str, Box<Observed<'a, L, N, M>>)>,
+}
+
+/// A number that follows from a state.
+pub(crate) type Observed<'a, L, const N: usize, const M: usize> =
+    dyn Fn(&Sample<&L, N, M>) -> Result<<L as Lagrangian<N, M>>::Scalar, Error> + Send + Sync + 'a;
+
+/// When samples are taken.
+pub(crate) enum SampleTimes<T> {
+    /// At these times, in the order of the motion.
+    At(Vec<T>),
+    /// At the start, and whenever so much time has passed.
+    Every(T),
+}
+
+impl<T: Real> SampleTimes<T> {
+    /// The time of the sample of this number.
+    pub(super) fn get(&self, number: usize, [start, end]: [T; 2]) -> Option<T> {
+        match self {
+            Self::At(times) => times.get(number).copied(),
+            Self::Every(interval) => {
+                let passed = *interval * T::constant(number as f64);
+                let time = if end < start { start - passed } else { start + passed };
+                // A multiple that leads to the end by rounding alone is the end.
+                let is_end = Scalar::abs(time - end) <= round_off(start, end);
+                let time = if is_end { end } else { time };
+                is_between(start, time, end).then_some(time)
+            }
+        }
+    }
+
+    /// How many there are, if that is known.
+    pub(super) fn len(&self) -> usize {
+        match self {
+            Self::At(times) => times.len(),
+            Self::Every(_) => 0,
+        }
+    }
+
+    /// Checks what is the same for all motions.
+    fn check(&self) -> Result<(), Error> {
+        match self {
+            Self::At(times) => check_order(times),
+            Self::Every(interval) => check_interval("interval of the samples", *interval),
+        }
+    }
+
+    /// Checks that a motion between these times has them all.
+    pub(super) fn check_within(&self, [start, end]: [T; 2]) -> Result<(), Error> {
+        match self {
+            Self::At(times) => {
+                let outside = times.iter().find(|time| !is_between(start, **time, end));
+                if let Some(time) = outside {
+                    let [time, start, end] = [*time, start, end].map(Real::to_f64);
+                    return Err(Error::OutsideTrajectory { time, start, end });
+                }
+                let first = times.first().copied().unwrap_or(start);
+                match times.iter().position(|time| !is_between(first, *time, end)) {
+                    Some(index) => Err(Error::SampleTime { index, time: times[index].to_f64() }),
+                    None => Ok(()),
+                }
+            }
+            // The multiples of a longer one are different times, of which one at most is taken for the end.
+            Self::Every(interval)
+                if start != end && *interval <= T::constant(4.0) * round_off(start, end) =>
+            {
+                Err(Error::Setting { name: "interval of the samples", value: interval.to_f64() })
+            }
+            Self::Every(_) => Ok(()),
+        }
+    }
+}
+
+/// By less than so much a multiple of an interval, added to the start, misses the end by rounding alone. With ε the distance from 1 to the
+/// next number and a the larger magnitude of start and end, the interval as a number is off by up to ε/2 of itself, and so is
+/// the multiple, which is at most 2a long: together 2εa. The sum is off by up to εa/2.
+fn round_off<T: Real>(start: T, end: T) -> T {
+    T::constant(4.0 * T::EPSILON) * larger(Scalar::abs(start), Scalar::abs(end))
+}
+
+/// Times must be finite, and in one order.
+fn check_order<T: Real>(times: &[T]) -> Result<(), Error> {
+    let goes_back = times.last() < times.first();
+    let turns = |pair: &[T]| if goes_back { pair[1] > pair[0] } else { pair[1] < pair[0] };
+    let infinite = times.iter().position(|t| !ComplexField::is_finite(t));
+    let wrong = infinite.or_else(|| times.windows(2).position(turns).map(|before| before + 1));
+    match wrong {
+        Some(index) => Err(Error::SampleTime { index, time: times[index].to_f64() }),
+        None => Ok(()),
+    }
+}
+
+/// An interval must be positive and finite.
+pub(crate) fn check_interval<T: Real>(name: &'static str, interval: T) -> Result<(), Error> {
+    let is_right = ComplexField::is_finite(&interval) && interval > T::constant(0.0);
+    if is_right { Ok(()) } else { Err(Error::Setting { name, value: interval.to_f64() }) }
+}
+
+impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> RecordPlan<'a, L, N, M> {
+    /// Of samples at these times.
+    pub(crate) fn of(times: SampleTimes<L::Scalar>) -> Self {
+        Self { times, quantities: Vec::new() }
+    }
+
+    pub(crate) fn quantity<V: EventValue<L::Scalar>>(
+        &mut self,
+        name: &'static str,
+        function: impl Fn(&Sample<&L, N, M>) -> V + Send + Sync + 'a,
+    ) {
+        self.quantities.push((name, Box::new(move |sample: &Sample<&L, N, M>| function(sample).value())));
+    }
+
+    /// Checks what is the same for all motions.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        self.times.check()
+    }
+
+    /// The names of the quantities.
+    #[cfg(feature = "std")]
+    pub(crate) fn quantities(&self) -> Vec<&'static str> {
+        self.quantities.iter().map(|(name, _)| *name).collect()
+    }
+
+    /// Writes what tells this plan from others; what its functions hold is not seen.
+    #[cfg(feature = "std")]
+    pub(crate) fn identify(&self, to: &mut dyn Write) -> fmt::Result {
+        match &self.times {
+            SampleTimes::At(times) => times.iter().try_for_each(|t| write!(to, " at {:?}", t.to_f64()))?,
+            SampleTimes::Every(interval) => write!(to, " at every {:?}", interval.to_f64())?,
+        }
+        self.quantities.iter().try_for_each(|(name, _)| write!(to, " of {name}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::SampleTimes;
+    use crate::fixtures::Random;
+
+    /// Parts of a stretch of time end where it does, whatever rounding makes of their multiples; a stretch that is longer or shorter by
+    /// more than that does not.
+    #[test]
+    fn multiples_of_an_interval_end_at_the_end() {
+        let mut random = Random(7);
+        for _ in 0..100_000 {
+            let scales = [(); 2].map(|()| 2.0_f64.powf(20.0 * random.next()));
+            let (start, length) = (random.next() * scales[0], random.next() * scales[1]);
+            let parts = (1 + random.below(300)) as f64;
+            let (end, round_off) = (start + length, f64::EPSILON * start.abs().max((start + length).abs()));
+            let every = (length / parts).abs();
+            if every < 1e3 * round_off {
+                continue;
+            }
+            let times = SampleTimes::Every(every);
+            let taken =
+                |end: f64| (0..).map_while(|number| times.get(number, [start, end])).collect::<Vec<_>>();
+            let all = taken(end);
+            assert_eq!((all.len(), all.last()), (parts as usize + 1, Some(&end)), "{start} {end} {parts}");
+            assert!(all.windows(2).all(|pair| (pair[1] - pair[0]) * length > 0.0));
+            let off = 16.0 * round_off * length.signum();
+            assert_eq!(taken(end - off).len(), parts as usize);
+            assert!(taken(end + off).last().is_some_and(|last| *last != end + off));
+        }
+    }
+}

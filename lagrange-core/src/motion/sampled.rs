@@ -1,0 +1,240 @@
+//! The settings of a motion that is not stored: what is kept of it, and who steers it.
+
+use alloc::boxed::Box;
+use alloc::string::ToString;
+use alloc::vec::Vec;
+use core::fmt::{self, Debug, Display, Formatter};
+use core::ops::ControlFlow;
+
+use super::builder::{AllSteps, EventList, MotionBuilder, Start};
+use super::event::{DynEvent, EventValue};
+use super::method::Method;
+use super::record::{Arrival, Moving, Record, RecordPlan, Recorded, SampleTimes, Steering};
+use super::run::{Progress, Run, Watchdog, check_end};
+use crate::error::Error;
+use crate::number::Real;
+use crate::solution::Sample;
+use crate::solution::vector_field::VectorField;
+use crate::system::{Lagrangian, State};
+
+/// Samples alone are kept of a motion: `to` gives an [`Arrival`].
+pub struct SamplesAlone<'w, L: Lagrangian<N, M>, const N: usize, const M: usize> {
+    plan: RecordPlan<'w, L, N, M>,
+    /// Who steers, and the system that is steered.
+    steered: Option<(Steering<'w, L, N, M>, L)>,
+}
+
+impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Debug for SamplesAlone<'_, L, N, M> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.debug_struct("SamplesAlone").field("is_steered", &self.steered.is_some()).finish_non_exhaustive()
+    }
+}
+
+/// What is kept of a motion: all steps, or samples alone.
+pub trait Kept<'w, L: Lagrangian<N, M>, const N: usize, const M: usize> {
+    /// Samples alone: those asked for so far, if any.
+    #[doc(hidden)]
+    fn samples_alone(self) -> SamplesAlone<'w, L, N, M>;
+}
+
+impl<'w, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Kept<'w, L, N, M> for AllSteps {
+    fn samples_alone(self) -> SamplesAlone<'w, L, N, M> {
+        SamplesAlone { plan: RecordPlan::of(SampleTimes::At(Vec::new())), steered: None }
+    }
+}
+
+impl<'w, L: Lagrangian<N, M>, const N: usize, const M: usize> Kept<'w, L, N, M>
+    for SamplesAlone<'w, L, N, M>
+{
+    fn samples_alone(self) -> Self {
+        self
+    }
+}
+
+/// A motion of which samples alone are kept.
+type Sampled<'a, 'w, L, F, const N: usize, const M: usize, P, E> = MotionBuilder<
+    'a,
+    'w,
+    L,
+    Start<<L as Lagrangian<N, M>>::Scalar, N, F>,
+    N,
+    M,
+    P,
+    E,
+    SamplesAlone<'w, L, N, M>,
+>;
+
+impl<'a, 'w, L, F, const N: usize, const M: usize, P, E, K>
+    MotionBuilder<'a, 'w, L, Start<L::Scalar, N, F>, N, M, P, E, K>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    K: Kept<'w, L, N, M>,
+{
+    /// Keeps the states at these times, and no steps: [`to`](MotionBuilder::to) gives an [`Arrival`], which takes as much memory as they.
+    ///
+    /// They lie on the continuous extension of the method, projected onto the constraints; steps are as long as without. The
+    /// times must be in the order of the motion, and lie between its start and its end. No times at all are right where the end alone, or
+    /// the crossings, are wanted.
+    ///
+    /// ```
+    /// # use lagrange_core::prelude::*;
+    /// #[derive(Lagrangian)]
+    /// #[coordinates(x)]
+    /// #[lagrangian(x_dot^2/2 - x^2/2)]
+    /// struct Spring;
+    ///
+    /// let spring = Spring;
+    /// let arrival = spring.motion(State::at_rest([1.0])).samples_at([0.5, 1.5]).to(2.0)?;
+    /// assert!((arrival.samples[1].q[0] - 1.5_f64.cos()).abs() < 1e-8);
+    /// assert!((arrival.state.q[0] - 2.0_f64.cos()).abs() < 1e-8);
+    /// # Ok::<(), Error>(())
+    /// ```
+    pub fn samples_at(self, times: impl IntoIterator<Item = L::Scalar>) -> Sampled<'a, 'w, L, F, N, M, P, E> {
+        let times = times.into_iter().collect();
+        self.sampled(|samples| samples.plan.times = SampleTimes::At(times))
+    }
+
+    /// Keeps the state at the start and whenever so much time has passed, and no steps; else as [`samples_at`](Self::samples_at).
+    ///
+    /// The sample of number k is at the start plus k intervals, and the last at the end where that is a multiple to the
+    /// round-off of the times.
+    ///
+    /// ```
+    /// # use lagrange_core::prelude::*;
+    /// # #[derive(Lagrangian)]
+    /// # #[coordinates(x)]
+    /// # #[lagrangian(x_dot^2/2 - x^2/2)]
+    /// # struct Spring;
+    /// let arrival = Spring.motion(State::at_rest([1.0])).every(0.1).to(0.3)?;
+    /// // In floating point 3 · 0.1 is more than 0.3.
+    /// assert!(arrival.samples.iter().map(|state| state.t).eq([0.0, 0.1, 0.2, 0.3]));
+    /// # Ok::<(), Error>(())
+    /// ```
+    pub fn every(self, interval: L::Scalar) -> Sampled<'a, 'w, L, F, N, M, P, E> {
+        self.sampled(|samples| samples.plan.times = SampleTimes::Every(interval))
+    }
+
+    /// Keeps this quantity of each sample, in [`Arrival::values`]: of several, all of the first sample come first. The function gives a number, or
+    /// what gives one by name, `|sample| sample.observable("height")`.
+    ///
+    /// It is asked at the start too, so that what it cannot give there is told before the first step. Where it cannot be had
+    /// later, the motion ends.
+    pub fn quantity<V: EventValue<L::Scalar>>(
+        self,
+        name: &'static str,
+        function: impl Fn(&Sample<&L, N, M>) -> V + Send + Sync + 'w,
+    ) -> Sampled<'a, 'w, L, F, N, M, P, E> {
+        self.sampled(|samples| samples.plan.quantity(name, function))
+    }
+
+    /// Steers the motion: the controller is called at the start, and then at every interval, reads the state and sets
+    /// parameters of the system, of which the motion has a copy. They hold until it is called again (zero-order hold).
+    ///
+    /// Each time is reached exactly. Samples are taken before the call at their time; for events the motion begins anew with each
+    /// call, so that a function that jumps there does not cross. No steps are kept: what lies within one can be evaluated only while its
+    /// parameters are known.
+    ///
+    /// ```
+    /// # use lagrange_core::prelude::*;
+    /// /// A pendulum with a motor at the pivot.
+    /// #[derive(Clone, Lagrangian)]
+    /// #[coordinates(theta)]
+    /// #[lagrangian(theta_dot^2/2 + g*cos(theta))]
+    /// #[force(theta: torque)]
+    /// struct Pendulum { g: f64, torque: f64 }
+    ///
+    /// let (pendulum, upright) = (Pendulum { g: 9.81, torque: 0.0 }, core::f64::consts::PI);
+    /// let steered = pendulum.motion(State::at_rest([3.0])).by(Dopri5::with_tolerance(1e-6)).every(0.1);
+    /// let steered = steered.quantity("torque", |sample| sample.system().torque);
+    /// let arrival = steered
+    ///     .controlled(0.01, |pendulum, state| {
+    ///         pendulum.torque = 30.0 * (upright - state.q[0]) - 8.0 * state.v[0];
+    ///         if pendulum.torque.abs() < 100.0 { Ok(()) } else { Err("the motor is too weak") }
+    ///     })
+    ///     .to(5.0)?;
+    /// assert!((arrival.state.q[0] - upright).abs() < 1e-6);
+    /// assert_eq!(arrival.samples.len(), arrival.values.len());
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Where it fails the motion ends, with [`Ending::ControllerFailed`](crate::Ending::ControllerFailed). [`to`](MotionBuilder::to) gives
+    /// [`Error::Setting`] for an interval that is not positive and finite; one too short to advance the time is
+    /// [`Ending::TimeTooCoarse`](crate::Ending::TimeTooCoarse).
+    pub fn controlled<X: Display>(
+        self,
+        interval: L::Scalar,
+        mut controller: impl FnMut(&mut L, &State<L::Scalar, N>) -> Result<(), X> + 'w,
+    ) -> Sampled<'a, 'w, L, F, N, M, P, E>
+    where
+        L: Clone,
+    {
+        let controller = Box::new(move |system: &mut L, state: &State<L::Scalar, N>| {
+            controller(system, state).map_err(|error| error.to_string())
+        });
+        let steered = Some((Steering { interval, controller }, self.system.clone()));
+        self.sampled(|samples| samples.steered = steered)
+    }
+
+    fn sampled(self, set: impl FnOnce(&mut SamplesAlone<'w, L, N, M>)) -> Sampled<'a, 'w, L, F, N, M, P, E> {
+        self.keeping(|kept| {
+            let mut samples = kept.samples_alone();
+            set(&mut samples);
+            samples
+        })
+    }
+}
+
+impl<'w, L, F, const N: usize, const M: usize, P, E> Sampled<'_, 'w, L, F, N, M, P, E>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    /// Integrates to the time `end`, backwards where that lies before the start, or to the first
+    /// [terminal](crate::Event::terminal) event.
+    ///
+    /// # Errors
+    /// Those of a motion that is [stored](crate::Simulate::motion); [`Error::SampleTime`], [`Error::OutsideTrajectory`] and
+    /// [`Error::Setting`] for samples that cannot be taken; what the function of a quantity gives at the start.
+    pub fn to(self, end: L::Scalar) -> Result<Arrival<L::Scalar, N>, Error>
+    where
+        F: VectorField<L, N, M>,
+        P: Method<L, N, M, F>,
+        E: EventList<DynEvent<'w, L, N, M>>,
+    {
+        let arrival = self.towards(end)?;
+        if arrival.ending.is_failure() { Err(arrival.ending.into()) } else { Ok(arrival) }
+    }
+
+    /// Integrates towards the time `end`. Where the motion fails on the way, what was kept up to there is returned, with the
+    /// ending that says why.
+    ///
+    /// # Errors
+    /// The errors of [`to`](Self::to) that are found before the first step.
+    pub fn towards(self, end: L::Scalar) -> Result<Arrival<L::Scalar, N>, Error>
+    where
+        F: VectorField<L, N, M>,
+        P: Method<L, N, M, F>,
+        E: EventList<DynEvent<'w, L, N, M>>,
+    {
+        let Self { system, start, method, events, mut on_progress, kept: SamplesAlone { plan, steered } } =
+            self;
+        let state = start.state.as_ref().as_ref().map_err(Error::clone)?;
+        check_end(end)?;
+        plan.check()?;
+        let (steering, mut own) = steered.unzip();
+        steering.as_ref().map_or(Ok(()), Steering::check)?;
+        let mut begun = Run::begin::<L, F, P, M>(system, state, &method);
+        let (run, _) = begun.as_mut().map_err(|error| error.clone())?;
+        let record = Record::begin(&plan, events.list(), steering, system, &run.state, end)?;
+        let start = run.state.t.to_f64();
+        let accept = |state: &State<L::Scalar, N>, steps| match &mut on_progress {
+            None => ControlFlow::Continue(()),
+            Some(look) => look(Progress { start, time: state.t.to_f64(), end: end.to_f64(), steps }),
+        };
+        let moving = own.as_mut().map_or(Moving::Fixed(system), Moving::Steered);
+        let limits = Watchdog::new(method.limits(), &run.statistics);
+        let mut recorded = Recorded::<_, _, _, N, M, true>::new(moving, record, accept);
+        let driven = run.drive::<L, F, P, _, M>(&method, &limits, &mut recorded);
+        Ok(recorded.finish(driven, run))
+    }
+}
