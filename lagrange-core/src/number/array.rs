@@ -31,16 +31,11 @@ pub(crate) fn entries<T: Scalar, const K: usize>(mut of: impl FnMut(usize) -> T)
 
 /// An array that can be filled, as long as it is.
 pub trait FixedArray<T>: Copy + AsRef<[T]> + AsMut<[T]> {
-    /// As many others.
-    type Of<U: Copy>: FixedArray<U>;
-
     /// With `x` in every place.
     fn filled(x: T) -> Self;
 }
 
 impl<T: Copy, const K: usize> FixedArray<T> for [T; K] {
-    type Of<U: Copy> = [U; K];
-
     #[inline(always)]
     fn filled(x: T) -> Self {
         [x; K]

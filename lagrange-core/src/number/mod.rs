@@ -6,7 +6,6 @@ mod dual;
 #[cfg(all(feature = "std", target_feature = "avx512f"))]
 mod eight;
 #[cfg(feature = "alloc")]
-mod four;
 #[cfg(feature = "std")]
 mod lanes;
 pub(crate) mod numeric;
@@ -21,8 +20,6 @@ pub use array::FixedArray;
 pub(crate) use array::{entries, vector};
 pub use broadcast::{Broadcast, Wide};
 pub use dual::Dual;
-#[cfg(feature = "alloc")]
-pub(crate) use four::Four;
 #[cfg(feature = "std")]
 pub use lanes::{FourLanes, Lanes};
 pub(crate) use numeric::{

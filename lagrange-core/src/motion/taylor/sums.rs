@@ -3,15 +3,15 @@
 //! They take as long as their factors are read from memory. So two orders are summed at once, the later one as far as it is
 //! known: its left factors are those of the earlier one, its right factors those of the term before.
 
-mod few;
+mod alone;
 
 use alloc::vec;
 use alloc::vec::Vec;
 use core::array::from_fn;
+use core::marker::PhantomData;
 
 use crate::number::{FixedArray, Scalar};
-pub(super) use few::Ends;
-use few::Few;
+pub(super) use alone::Ends;
 
 /// So many sums are computed side by side, of a multiple of which the derive tells.
 const WIDTH: usize = 4;
@@ -26,30 +26,29 @@ struct Group<T>([T; WIDTH]);
 pub(super) struct SeriesFactors<T, S> {
     /// How many orders there is room for; the first is 1.
     orders: usize,
-    /// Where there are few of them, else by groups.
-    few: Few<S>,
     left: Vec<Group<T>>,
     /// From the highest order down, so that a sum runs through both in the same direction.
     right: Vec<Group<T>>,
     /// The sums of the next order, without the terms in which the newest are that are still to come.
     ahead: Vec<Group<T>>,
+    sums: PhantomData<S>,
 }
 
 impl<T: Scalar, S: FixedArray<T>> SeriesFactors<T, S> {
     /// Room for so many orders.
     pub(super) fn new(orders: usize) -> Self {
         let sums = S::filled(T::constant(0.0)).as_ref().len();
-        let [rows, groups] = if few::are::<T, S>() { [orders, 0] } else { [0, sums / WIDTH * orders] };
+        let groups = sums / WIDTH;
         let room = |groups| vec![Group([T::constant(0.0); WIDTH]); groups];
-        let (left, right, ahead) = (room(groups), room(groups), room(groups / orders));
-        Self { orders, few: Few::new::<T>(rows), left, right, ahead }
+        let (left, right, ahead) = (room(groups * orders), room(groups * orders), room(groups));
+        Self { orders, left, right, ahead, sums: PhantomData }
     }
 
     /// The terms of an order.
     #[inline(always)]
     pub(super) fn put(&mut self, order: usize, newest: &[S; 2], ends: &mut Ends<S>) {
-        if const { few::are::<T, S>() } {
-            return self.few.put(order, newest, ends);
+        if const { alone::is::<T, S>() } {
+            ends.put(order, newest);
         }
         let [left, right] = newest;
         let places = [(&mut self.left, left, order - 1), (&mut self.right, right, self.orders - order)];
@@ -63,27 +62,21 @@ impl<T: Scalar, S: FixedArray<T>> SeriesFactors<T, S> {
 
     /// The coefficients of the right factor of a sum, from order 1, of which there are so many.
     pub(super) fn right_factor(&self, place: usize, count: usize) -> impl Iterator<Item = T> + Clone {
-        (1..=count).map(move |order| match const { few::are::<T, S>() } {
-            true => self.few.right_factor(place, order),
-            false => self.right[place / WIDTH * self.orders + self.orders - order].0[place % WIDTH],
-        })
+        (1..=count)
+            .map(move |order| self.right[place / WIDTH * self.orders + self.orders - order].0[place % WIDTH])
     }
 
     /// The coefficients of the left factor of a sum, from order 1, of which there are so many.
     pub(super) fn left_factor(&self, place: usize, count: usize) -> impl Iterator<Item = T> + Clone {
-        (1..=count).map(move |order| match const { few::are::<T, S>() } {
-            true => self.few.left_factor(place, order),
-            false => self.left[place / WIDTH * self.orders + order - 1].0[place % WIDTH],
-        })
+        (1..=count).map(move |order| self.left[place / WIDTH * self.orders + order - 1].0[place % WIDTH])
     }
 
     /// The sums of an order, of the factors of all orders before it. Those of later orders are not read: they may hold NaN.
     /// Orders come one after the other.
     #[inline(always)]
     pub(super) fn add_up(&mut self, order: usize, ends: &Ends<S>, sums: &mut S) {
-        if const { few::are::<T, S>() } {
-            *sums = self.few.add_up(order, ends);
-            return;
+        if const { alone::is::<T, S>() } {
+            return ends.add_to(alone::between(order, &self.left, &self.right), sums);
         }
         let terms = order - 1;
         let sums = sums.as_mut().as_chunks_mut().0.iter_mut();

@@ -1,0 +1,90 @@
+//! One group of sums of plain numbers alone, as the smallest systems have it.
+//!
+//! There an order takes as long as its results wait for one another. So code is made for each number of terms, without
+//! loops, and the terms at both ends are added last, from where they were computed: what reads four numbers at once from
+//! where they were written one by one waits until they are in the cache. The others were written an order before.
+//! With more groups, these keep the processor busy without that.
+
+use super::{Group, WIDTH, plus};
+use crate::number::{FixedArray, ROOM, Scalar};
+
+/// Whether sums of this type are one group of plain numbers.
+pub(super) const fn is<T, S>() -> bool {
+    size_of::<T>() <= size_of::<f64>() && size_of::<S>() == WIDTH * size_of::<T>()
+}
+
+/// The terms at both ends of the sums.
+pub(in crate::motion::taylor) struct Ends<S> {
+    newest: [S; 2],
+    /// Those of order 1; that of the left factor where it is not the newest as well, which is from order 3 on.
+    first: [S; 2],
+}
+
+impl<S: Copy> Ends<S> {
+    pub(in crate::motion::taylor) fn new<T: Scalar>() -> Self
+    where
+        S: FixedArray<T>,
+    {
+        let none = [S::filled(T::constant(0.0)); 2];
+        Self { newest: none, first: none }
+    }
+
+    /// Takes note of the terms of an order.
+    #[inline(always)]
+    pub(super) fn put(&mut self, order: usize, newest: &[S; 2]) {
+        match order {
+            1 => self.first[1] = newest[1],
+            2 => self.first[0] = self.newest[0],
+            _ => {}
+        }
+        self.newest = *newest;
+    }
+
+    /// The sums of an order, given those without the ends.
+    #[inline(always)]
+    pub(super) fn add_to<T: Scalar>(&self, between: [T; WIDTH], sums: &mut S)
+    where
+        S: FixedArray<T>,
+    {
+        for (i, (sum, between)) in sums.as_mut().iter_mut().zip(between).enumerate() {
+            let [[left, right], [first_left, first_right]] =
+                [&self.newest, &self.first].map(|ends| ends.each_ref().map(|end| end.as_ref()[i]));
+            *sum = left.multiply_add(first_right, right.multiply_add(first_left, between));
+        }
+    }
+}
+
+/// The sums of an order, of all factors so far, without their ends.
+#[inline(always)]
+pub(super) fn between<T: Scalar>(order: usize, left: &[Group<T>], right: &[Group<T>]) -> [T; WIDTH] {
+    let none = [T::constant(0.0); WIDTH];
+    let Some(terms @ 1..) = order.checked_sub(3) else { return none };
+    let (left, right) = (&left[1..], &right[right.len() - terms - 1..]);
+    macro_rules! by_terms {
+        ($($terms:literal)*) => {
+            match terms {
+                $($terms => match (left.first_chunk(), right.first_chunk()) {
+                    (Some(left), Some(right)) => products::<T, $terms>(left, right),
+                    _ => none,
+                },)*
+                _ => none,
+            }
+        };
+    }
+    const { assert!(ROOM == 31, "the highest order, 29, has sums of order 28") }
+    by_terms!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25)
+}
+
+/// Σ x_j y_j for each sum, in two parts side by side: of one, each product waits for the one before.
+#[inline(always)]
+fn products<T: Scalar, const TERMS: usize>(
+    left: &[Group<T>; TERMS],
+    right: &[Group<T>; TERMS],
+) -> [T; WIDTH] {
+    let none = [T::constant(0.0); WIDTH];
+    let (mut even, mut odd) = (none, none);
+    for (x, y) in left.iter().zip(right) {
+        (even, odd) = (odd, plus(&even, x, y));
+    }
+    core::array::from_fn(|lane| even[lane] + odd[lane])
+}
