@@ -89,13 +89,17 @@ impl Display for Names {
     }
 }
 
+/// The name of this index.
+pub(crate) fn name<const K: usize>(names: &[&'static str; K], index: usize) -> &'static str {
+    names.get(index).copied().unwrap_or("?")
+}
+
 /// They are written as they are said.
 #[cfg(feature = "serde")]
 mod written {
     use serde::{Serialize, Serializer};
 
     use super::{Entry, Row};
-    use crate::error::Error;
 
     macro_rules! as_text {
         ($($type:ty),*) => {$(
@@ -107,5 +111,5 @@ mod written {
         )*};
     }
 
-    as_text!(Entry, Row, Error);
+    as_text!(Entry, Row);
 }

@@ -2,8 +2,6 @@
 
 use core::fmt::{self, Write};
 
-use super::plan::Plan;
-use crate::motion::Method;
 use crate::number::Real;
 use crate::system::{Lagrangian, State};
 
@@ -26,32 +24,6 @@ pub struct Fingerprint {
 }
 
 impl Fingerprint {
-    /// What all members have in common.
-    pub(super) fn of_run<L, P, const N: usize, const M: usize>(
-        method: &P,
-        end: L::Scalar,
-        is_on_lanes: bool,
-        plan: &Plan<'_, L, L::Scalar, N, M>,
-    ) -> Self
-    where
-        L: Lagrangian<N, M, Scalar: Real>,
-        P: Method<L, N, M>,
-    {
-        let mut run = Hash::new();
-        if method.identify(&mut run).is_err() {
-            run.text("not written to its end");
-        }
-        run.text(if is_on_lanes { " on lanes" } else { "" });
-        run.number(end.to_f64());
-        if plan.member_plan.identify(&mut run).is_err() {
-            run.text("not written to its end");
-        }
-        if let Some(tag) = plan.tag.as_deref().filter(|tag| !tag.is_empty()) {
-            run.text(tag);
-        }
-        Self { system: Self::of_system::<L, N, M>(), run: run.0, start: 0 }
-    }
-
     /// What all members of all runs of a system have in common.
     pub(super) fn of_system<L, const N: usize, const M: usize>() -> u32
     where
@@ -101,7 +73,7 @@ pub(super) const OTHER_SYSTEM: &str = "the system or its equations are others";
 pub(super) const OTHER_START: &str = "the start or the parameters of the member are others";
 
 /// FNV-1a hash of the bytes written so far.
-pub(super) struct Hash(u32);
+pub(super) struct Hash(pub(super) u32);
 
 impl Hash {
     pub(super) fn new() -> Self {
@@ -123,7 +95,7 @@ impl Hash {
         self.0
     }
 
-    fn number(&mut self, x: f64) {
+    pub(super) fn number(&mut self, x: f64) {
         self.bytes(&x.to_bits().to_le_bytes());
     }
 }

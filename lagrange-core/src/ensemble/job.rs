@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::fingerprint::Fingerprint;
 use super::outcome::{Member, Outcome};
-use super::plan::{Make, MemberPlan, Observer, Plan, Watch};
+use super::plan::{EnsembleProgress, Make, MemberPlan, Observer, Plan, Watch};
 use crate::error::{Ending, EnsembleError, Error};
 use crate::motion::record::{Arrival, Moving, Recorded};
 use crate::motion::run::{Run, Watchdog};
@@ -15,17 +15,6 @@ use crate::motion::{Batch, LagrangianVectorField, LaneMethod, LaneMotion, Method
 use crate::number::Real;
 use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, State};
-
-/// How far an ensemble has come.
-#[derive(Clone, Copy, Debug)]
-pub struct EnsembleProgress<'m, T, const N: usize> {
-    /// The members done, those resumed included.
-    pub done: usize,
-    /// The members of this [part](crate::Ensemble::shard), done or not.
-    pub of: usize,
-    /// The one done last.
-    pub member: &'m Member<T, N>,
-}
 
 /// What the threads share.
 pub(super) struct Job<'a, L: Lagrangian<N, M, Scalar = T>, T, const N: usize, const M: usize> {

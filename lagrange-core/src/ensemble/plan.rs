@@ -3,13 +3,14 @@
 use core::fmt::{self, Display, Write};
 use core::ops::ControlFlow;
 
-use super::job::EnsembleProgress;
+use super::fingerprint::{Fingerprint, Hash};
+use super::outcome::Member;
 use super::table::MemberRow;
 use crate::error::{EnsembleError, Error};
 use crate::motion::event::DynEvent;
 use crate::motion::record::plan::Observed;
 use crate::motion::record::{CONTROLLER, Record, RecordPlan, SampleTimes, Steering, check_interval};
-use crate::motion::{Event, EventFunction};
+use crate::motion::{Event, EventFunction, Method};
 use crate::number::Real;
 use crate::solution::Sample;
 use crate::system::{Lagrangian, State};
@@ -35,6 +36,28 @@ impl<L, T: Real, const N: usize, const M: usize> Plan<'_, L, T, N, M>
 where
     L: Lagrangian<N, M, Scalar = T>,
 {
+    /// What all members have in common.
+    pub(super) fn fingerprint<P: Method<L, N, M>>(
+        &self,
+        method: &P,
+        end: T,
+        is_on_lanes: bool,
+    ) -> Fingerprint {
+        let mut run = Hash::new();
+        if method.identify(&mut run).is_err() {
+            run.text("not written to its end");
+        }
+        run.text(if is_on_lanes { " on lanes" } else { "" });
+        run.number(end.to_f64());
+        if self.member_plan.identify(&mut run).is_err() {
+            run.text("not written to its end");
+        }
+        if let Some(tag) = self.tag.as_deref().filter(|tag| !tag.is_empty()) {
+            run.text(tag);
+        }
+        Fingerprint { system: Fingerprint::of_system::<L, N, M>(), run: run.0, start: 0 }
+    }
+
     /// Whose rows are taken over, the user has to say, where code decides that no fingerprint sees.
     pub(super) fn check_tag(&self) -> Result<(), Error> {
         match self.unseen() {
@@ -61,6 +84,17 @@ pub(super) type Observer<'a, T, const N: usize> =
     Box<dyn Fn(usize, &State<T, N>) -> ControlFlow<()> + Send + Sync + 'a>;
 pub(super) type Watch<'a, T, const N: usize> =
     Box<dyn FnMut(EnsembleProgress<'_, T, N>) -> ControlFlow<()> + Send + 'a>;
+
+/// How far an ensemble has come.
+#[derive(Clone, Copy, Debug)]
+pub struct EnsembleProgress<'m, T, const N: usize> {
+    /// The members done, those resumed included.
+    pub done: usize,
+    /// The members of this [part](crate::Ensemble::shard), done or not.
+    pub of: usize,
+    /// The one done last.
+    pub member: &'m Member<T, N>,
+}
 
 /// What is done with each member on its way.
 pub(super) struct MemberPlan<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {

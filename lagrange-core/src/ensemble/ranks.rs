@@ -17,10 +17,10 @@ use mpi::Threading;
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, CommunicatorCollectives, Destination, Source};
 
-use super::Ensemble;
 use super::fingerprint::Fingerprint;
 use super::job::Job;
 use super::outcome::Outcome;
+use super::settings::{Ensemble, everywhere};
 use crate::error::{EnsembleError, Error};
 use crate::motion::run::check_end;
 use crate::motion::{LaneMethod, Method};
@@ -88,7 +88,7 @@ where
     where
         P: Method<L, N, M> + Sync,
     {
-        let run = Fingerprint::of_run(&method, end, false, &self.ensemble.plan);
+        let run = self.ensemble.plan.fingerprint(&method, end, false);
         self.run(method.check(), end, run, |job| job.one_by_one::<P, HAS_DENSE_OUTPUT>(&method))
     }
 
@@ -109,7 +109,7 @@ where
         let job = agreed(&self.world, job)?;
         let integrate = |list: Vec<usize>| {
             let batch = job.batch(list);
-            super::everywhere(|| work(&batch));
+            everywhere(|| work(&batch));
             MemberMessage::of(batch.outcome().members())
         };
         if !is_first {
@@ -136,7 +136,7 @@ where
         L: Pack<Lanes, Packed: Lagrangian<N, M, Scalar = Lanes>>,
         P: LaneMethod<L, N, M> + Sync,
     {
-        let run = Fingerprint::of_run(&method, end, true, &self.ensemble.plan);
+        let run = self.ensemble.plan.fingerprint(&method, end, true);
         self.run(method.check(), end, run, |job| job.on_lanes::<P, HAS_DENSE_OUTPUT>(&method))
     }
 }

@@ -2,7 +2,7 @@
 
 use core::fmt::Display;
 
-use super::Ensemble;
+use super::settings::Ensemble;
 use crate::motion::record::SampleTimes;
 use crate::motion::{Event, EventFunction, EventValue};
 use crate::number::Real;

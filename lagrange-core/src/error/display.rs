@@ -177,3 +177,11 @@ mod tests {
         assert_eq!([format!("{apart:?}"), format!("{ending:#?}")], [apart.to_string(), ending.to_string()]);
     }
 }
+
+/// It is written as it is said.
+#[cfg(feature = "serde")]
+impl serde::Serialize for Error {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}

@@ -3,7 +3,7 @@
 use core::array::from_fn;
 use core::fmt::{self, Display, Formatter};
 
-use super::Second;
+use super::supplied::Second;
 
 /// A derivative that is not what differences say.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,12 +3,13 @@
 mod smooth;
 
 pub use smooth::SmoothTable;
+use smooth::are_increasing;
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
+use super::supplied::{First, Second, Value};
 use crate::error::Error;
-use crate::function::{First, Second, Value};
 
 /// The natural cubic spline through given points: twice continuously differentiable, with the second derivative
 /// zero at both ends (Stoer and Bulirsch, *Introduction to Numerical Analysis*, 2.5.2). Beyond the ends it goes on
@@ -70,10 +71,6 @@ impl Table {
         let bend = if x == inside { w * a.bend + u * b.bend } else { 0.0 };
         [value + slope * (x - inside), slope, bend]
     }
-}
-
-fn are_increasing(points: &[(f64, f64)]) -> bool {
-    points.windows(2).all(|pair| pair[0].0 < pair[1].0)
 }
 
 /// The second derivatives at the points, from the tridiagonal system for a continuous slope (Thomas's algorithm).

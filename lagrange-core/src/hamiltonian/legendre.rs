@@ -9,10 +9,12 @@ use core::array::from_fn;
 
 use super::phase::PhaseState;
 use crate::error::Error;
+use crate::names::name;
 use crate::number::{Real, Scalar, beyond_round_off, exceeds, is_within, power_of_epsilon, vector};
 use crate::solution::kkt::{self, Fault, KktSystem, Rank, Units};
 use crate::solution::newton::{self, Left, Search, halvings};
-use crate::solution::solve::{fault, is_trustworthy, name, not_finite};
+use crate::solution::pivot::is_trustworthy;
+use crate::solution::solve::{fault, not_finite};
 use crate::system::{Lagrangian, Solution, State};
 
 /// The state with these momenta, its velocity sought from `guess` on, on the constraints `active` or on as many as

@@ -13,7 +13,8 @@ use crate::names::Entry;
 use crate::number::{Broadcast, Real, Scalar, Wide};
 use crate::room::Room;
 use crate::solution::kkt::{Factors, Rank};
-use crate::solution::solve::{fault, first_row, is_trustworthy, least_pivot, solve};
+use crate::solution::pivot::{is_trustworthy, least_pivot};
+use crate::solution::solve::{fault, first_row, solve};
 #[cfg(feature = "alloc")]
 use crate::system::{ConstraintKind, unit};
 use crate::system::{Direction, Lagrangian, ResidualChange, Solution, State};

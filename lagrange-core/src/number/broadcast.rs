@@ -1,7 +1,5 @@
 //! Several numbers at once, computed with by the numbers of one system.
 
-#[cfg(feature = "std")]
-use super::lanes::FourLanes;
 use super::scalar::Scalar;
 
 /// Numbers that can be computed with by those of type `T`, each of which counts for all of them: `Lanes`
@@ -31,23 +29,6 @@ pub trait Wide<T>: Broadcast<T> {
 
     /// Returns one component.
     fn lane(&self, lane: usize) -> T;
-}
-
-#[cfg(feature = "std")]
-impl Wide<f64> for FourLanes {
-    const COUNT: usize = Self::COUNT;
-
-    #[inline(always)]
-    fn put(&mut self, lane: usize, x: f64) {
-        let mut all = self.to_array();
-        all[lane] = x;
-        *self = all.into();
-    }
-
-    #[inline(always)]
-    fn lane(&self, lane: usize) -> f64 {
-        self.to_array()[lane]
-    }
 }
 
 #[cfg(any(feature = "std", feature = "libm"))]

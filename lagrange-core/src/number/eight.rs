@@ -5,8 +5,8 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use wide::f64x8;
 
-use super::lanes::Vector;
 use super::scalar::Scalar;
+use super::simd::Vector;
 
 /// Eight `f64`.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,23 +2,14 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::broadcast::Broadcast;
+use super::broadcast::{Broadcast, Wide};
 #[cfg(target_feature = "avx512f")]
 use super::eight::Eight as Widest;
 use super::quad::Quad;
 #[cfg(not(target_feature = "avx512f"))]
 use super::quad::Quad as Widest;
 use super::scalar::Scalar;
-
-/// A vector of `f64`.
-pub(super) trait Vector: Scalar {
-    /// How many there are.
-    const COUNT: usize = size_of::<Self>() / size_of::<f64>();
-
-    /// `self` where `chosen` is positive, `other` elsewhere.
-    #[must_use]
-    fn select(self, chosen: Self, other: Self) -> Self;
-}
+use super::simd::Vector;
 
 /// Beyond, the reduction of an angle to the first octant loses digits, which it does in three parts of π/2.
 const LARGEST_ANGLE: f64 = 1e8;
@@ -139,6 +130,22 @@ lanes! {
 lanes! {
     /// Four [`Lanes`] whatever the CPU, for the directions of one system's derivatives, which are seldom many.
     FourLanes of Quad
+}
+
+impl Wide<f64> for FourLanes {
+    const COUNT: usize = Self::COUNT;
+
+    #[inline(always)]
+    fn put(&mut self, lane: usize, x: f64) {
+        let mut all = self.to_array();
+        all[lane] = x;
+        *self = all.into();
+    }
+
+    #[inline(always)]
+    fn lane(&self, lane: usize) -> f64 {
+        self.to_array()[lane]
+    }
 }
 
 #[cfg(test)]

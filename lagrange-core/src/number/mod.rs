@@ -5,14 +5,16 @@ mod broadcast;
 mod dual;
 #[cfg(all(feature = "std", target_feature = "avx512f"))]
 mod eight;
-#[cfg(feature = "alloc")]
 #[cfg(feature = "std")]
 mod lanes;
 pub(crate) mod numeric;
 #[cfg(feature = "std")]
 mod quad;
+mod real;
 mod scalar;
 mod series;
+#[cfg(feature = "std")]
+mod simd;
 #[cfg(feature = "std")]
 mod sines;
 
@@ -25,7 +27,8 @@ pub use lanes::{FourLanes, Lanes};
 pub(crate) use numeric::{
     beyond_round_off, exceeds, is_within, larger, largest, norm, power_of_epsilon, power_of_two, smaller, sum,
 };
-pub use scalar::{Real, Scalar};
+pub use real::Real;
+pub use scalar::Scalar;
 pub use series::PowerSeries;
 #[cfg(feature = "alloc")]
 pub(crate) use series::ROOM;

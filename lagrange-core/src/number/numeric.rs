@@ -2,7 +2,8 @@
 
 use core::cmp::Ordering;
 
-use super::scalar::{Real, Scalar};
+use super::real::Real;
+use super::scalar::Scalar;
 
 /// [`Scalar::sin_cos_of_small`] as a function of its own, for where there would be much of its code in line.
 #[inline(never)]

@@ -2,7 +2,7 @@
 
 use simba::simd::{SimdPartialOrd, SimdValue, WideF64x4};
 
-use super::lanes::Vector;
+use super::simd::Vector;
 
 /// Four `f64`.
 pub(super) type Quad = WideF64x4;

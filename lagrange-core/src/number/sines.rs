@@ -6,9 +6,9 @@
 //! unit in the last place. Their terms are put together in pairs (Estrin, *Proceedings of the Western Joint Computer
 //! Conference*, 1960), since a function that waits for its sines waits for the longest chain of operations.
 
-use super::lanes::Vector;
 use super::quad::Quad;
 use super::scalar::Scalar;
+use super::simd::Vector;
 
 /// Beyond, the multiple of π/2 has too many digits for the first step to be exact.
 const LARGEST: f64 = 1e5;

@@ -7,9 +7,10 @@ use nalgebra::{ComplexField, SVector};
 
 use super::consistent::{Level, check_level};
 use super::kkt::Rank;
-use super::solve::{is_trustworthy, solve_in_general};
 use crate::error::Error;
 use crate::number::{Real, Scalar};
+use crate::solution::pivot::is_trustworthy;
+use crate::solution::solve::solve_in_general;
 use crate::system::finite::check_finite;
 use crate::system::lookup::index;
 use crate::system::{Lagrangian, State};

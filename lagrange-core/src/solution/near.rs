@@ -12,7 +12,7 @@ use core::array::from_fn;
 
 use nalgebra::SVector;
 
-use super::consistent::Level;
+use super::consistent::level::Level;
 use crate::number::{Real, Scalar, sum, vector};
 use crate::system::{Lagrangian, Solution, State};
 

@@ -3,10 +3,11 @@
 use nalgebra::{ComplexField, SVector};
 
 use crate::error::Error;
-use crate::names::{Names, Row};
-use crate::number::{Real, Scalar, larger, power_of_epsilon};
+use crate::names::{Names, Row, name};
+use crate::number::{Real, Scalar, larger};
 use crate::solution::consistent::{dependence, gradient};
 use crate::solution::kkt::{self, Fault, KktSystem, Rank, Solved};
+use crate::solution::pivot::is_trustworthy;
 use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, Solution, State};
 
@@ -52,18 +53,6 @@ pub(crate) fn solve_near<L: Lagrangian<N, M, Scalar: Real>, R, const N: usize, c
     let forces = (system.forcing(state), system.constraint_bias(state));
     let (solution, active) = solve_in_general(system, state, forces, active, rank)?;
     Ok(read(&solution, &active))
-}
-
-/// Where the smallest pivot exceeds it, at most a third of the digits are lost.
-pub(crate) fn least_pivot<T: Real>() -> T {
-    power_of_epsilon(1.0 / 3.0)
-}
-
-/// Whether the elimination lost at most a third of the digits, by its smallest pivot, and all is finite.
-pub(crate) fn is_trustworthy<T: Real, const N: usize, const M: usize>(s: &Solution<T, N, M>) -> bool {
-    // Without a branch for each, so that several are looked at at once.
-    let all_finite = |x: &[T]| x.iter().fold(true, |all, x| all & x.is_finite());
-    s.pivot > least_pivot() && all_finite(s.accelerations.as_slice()) && all_finite(s.multipliers.as_slice())
 }
 
 /// M x = h + Fᵀλ and F x + γ = 0 with the M and F of a state, by the general solve; and the constraints of those `active`
@@ -131,9 +120,4 @@ where
     let largest = share.iter().copied().fold(L::Scalar::constant(0.0), larger);
     let least = largest * L::Scalar::constant(0.1);
     (0..N).filter(|&i| share[i] >= least).map(|i| L::COORDINATES[i]).collect()
-}
-
-/// The name of this index.
-pub(crate) fn name<const K: usize>(names: &[&'static str; K], index: usize) -> &'static str {
-    names.get(index).copied().unwrap_or("?")
 }

@@ -1,15 +1,13 @@
 //! Whether matrices among the parameters are what `#[parameter(…)]` says of them.
 
-use super::lagrangian::Lagrangian;
-use crate::error::Error;
-use crate::number::{Real, Scalar, exceeds, power_of_epsilon, sum};
+use crate::number::{Scalar, sum};
 
 /// How far a matrix is from being what it is said to be, beside its size.
 #[derive(Clone, Copy, Debug)]
 pub struct Defect<T> {
-    wanted: &'static str,
-    defect: T,
-    size: T,
+    pub(super) wanted: &'static str,
+    pub(super) defect: T,
+    pub(super) size: T,
 }
 
 /// Σ |aᵢⱼ − aⱼᵢ| beside Σ |aᵢⱼ|.
@@ -31,19 +29,4 @@ pub fn distortion<T: Scalar, const K: usize>(r: [[T; K]; K]) -> Defect<T> {
         _ => T::constant(0.0),
     };
     Defect { wanted: "a rotation", defect: lengths + side, size: one(true) }
-}
-
-/// Beyond what many products leave, ε^(2/3) of the size, a matrix is not what it is said to be; nor is it
-/// where an entry is not finite, also one that the equations do not use.
-pub(crate) fn check_parameters<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
-    system: &L,
-) -> Result<(), Error> {
-    let mut result = Ok(());
-    system.visit_defects(&mut |name, Defect { wanted, defect, size }| {
-        if result.is_ok() && exceeds(defect, size * power_of_epsilon(2.0 / 3.0)) {
-            let defect = (defect / size).to_f64();
-            result = Err(Error::ParameterNotAsSaid { name, wanted, defect });
-        }
-    });
-    result
 }

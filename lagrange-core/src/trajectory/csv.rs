@@ -4,8 +4,8 @@ use alloc::string::{String, ToString};
 use alloc::{format, vec::Vec};
 use core::fmt::{self, Debug, Display, Formatter};
 
-use super::Trajectory;
 use super::records::Records;
+use super::stored::Trajectory;
 use crate::names::Entry;
 use crate::number::{Real, Scalar};
 use crate::solution::solve::solve;

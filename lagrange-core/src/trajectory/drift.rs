@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::fmt::{self, Display, Formatter};
 
-use super::Trajectory;
+use super::stored::Trajectory;
 use crate::number::{Real, Scalar, exceeds};
 use crate::solution::vector_field::VectorField;
 use crate::system::Lagrangian;

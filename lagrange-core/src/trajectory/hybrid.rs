@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use core::any::Any;
 use core::fmt::{self, Debug, Formatter};
 
-use super::{Trajectory, between};
+use super::stored::{Trajectory, between};
 use crate::error::{Ending, Error};
 use crate::number::Real;
 use crate::solution::Sample;

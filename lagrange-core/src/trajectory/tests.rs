@@ -56,13 +56,16 @@ fn samples_are_evenly_spaced_and_end_at_the_end() {
 fn no_sample_is_past_the_last() {
     for (first, last) in [(-0.1_f32, 1e3), (-1e-3, 4.0), (-f32::MAX, f32::MAX), (0.0, f32::MAX)] {
         for part in [1.0, 1.0 - 1e-9, 1.0 - 1e-7, 1.0 - 1e-6, 0.75, 0.5, 1e-9, 0.0] {
-            let t = super::between(first, last, part);
+            let t = super::stored::between(first, last, part);
             let exact = f64::from(first) * (1.0 - part) + f64::from(last) * part;
             assert!((first..=last).contains(&t), "{t} at {part} from {first} to {last}");
             let off = (f64::from(t) - exact).abs() / f64::from(last.max(-first));
             assert!(off < 4.0 * f64::from(f32::EPSILON), "off by {off:e} at {part} from {first} to {last}");
         }
-        assert_eq!((super::between(first, last, 0.0), super::between(first, last, 1.0)), (first, last));
+        assert_eq!(
+            (super::stored::between(first, last, 0.0), super::stored::between(first, last, 1.0)),
+            (first, last)
+        );
     }
 }
 

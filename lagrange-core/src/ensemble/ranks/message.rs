@@ -3,11 +3,11 @@
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, Destination, MatchedReceiveVec, Source};
 
-use crate::ensemble::Arrival;
 use crate::ensemble::fingerprint::Fingerprint;
 use crate::ensemble::outcome::Member;
 use crate::ensemble::table::MemberRow;
 use crate::motion::Crossing;
+use crate::motion::record::Arrival;
 use crate::number::{Real, vector};
 use crate::statistics::Statistics;
 use crate::system::State;

@@ -2,7 +2,7 @@
 
 use core::str::FromStr;
 
-use super::{CANCELLED, COMPLETE, MemberEnding, MemberRow, header};
+use super::row::{CANCELLED, COMPLETE, MemberEnding, MemberRow, header};
 use crate::ensemble::fingerprint::Fingerprint;
 use crate::error::{EnsembleError, Error};
 use crate::number::{Real, vector};
@@ -13,7 +13,7 @@ use crate::system::State;
 type Wrong = (usize, &'static str);
 
 /// The rows of a table that were written to their ends, and the lines that they stand in, counted from 1.
-pub(in crate::ensemble) fn read<T: Real + FromStr, const N: usize>(
+pub(crate) fn read<T: Real + FromStr, const N: usize>(
     table: &str,
     names: &[&'static str; N],
     count: usize,

@@ -1,6 +1,8 @@
 //! Tables that were cut, put together, edited or are of something else: understood, or refused with the place.
 
 use super::*;
+use crate::statistics::Statistics;
+use crate::system::State;
 
 const NAMES: [&str; 1] = ["x"];
 const COUNT: usize = 30;

@@ -5,9 +5,8 @@ use alloc::vec::Vec;
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::are_increasing;
 use crate::error::Error;
-use crate::function::{First, Second, Third, Value};
+use crate::function::supplied::{First, Second, Third, Value};
 
 /// The natural quintic spline through given points: four times continuously differentiable, with the third and the fourth
 /// derivative zero at both ends, so that ∫ f‴² is least among all functions through the points (de Boor, *A Practical Guide to
@@ -180,6 +179,10 @@ impl Third<f64, 1, 1> for SmoothTable {
     fn third(&self, [x]: [f64; 1], _: [usize; 3]) -> [f64; 1] {
         [self.at(x)[3]]
     }
+}
+
+pub(super) fn are_increasing(points: &[(f64, f64)]) -> bool {
+    points.windows(2).all(|pair| pair[0].0 < pair[1].0)
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! Root finding: the crossing of an event within an interval.
 
-use super::AnyEvent;
+use super::definition::AnyEvent;
+use super::dense::DenseStep;
 use super::narrow::{Probe, narrow};
-use super::search::DenseStep;
 use crate::error::Error;
 use crate::motion::Interpolant;
 use crate::number::{Real, Scalar, larger};

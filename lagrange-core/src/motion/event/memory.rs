@@ -1,10 +1,17 @@
 //! What an event is about, and what is known of it from step to step.
 
-use super::CrossingDirection;
 use super::chebyshev::{FINEST, Samples, Shape};
 use crate::error::Ending;
 use crate::motion::run::is_between;
 use crate::number::{Real, Scalar, larger, smaller};
+
+/// Which crossings an event is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum CrossingDirection {
+    Rising,
+    Falling,
+    Both,
+}
 
 /// What an event is about, and what is known of it from step to step.
 #[derive(Clone, Debug)]

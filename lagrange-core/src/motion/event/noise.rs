@@ -1,6 +1,6 @@
 //! The round-off of an event's function at a state.
 
-use super::AnyEvent;
+use super::definition::AnyEvent;
 use crate::number::{Real, Scalar, larger};
 use crate::solution::round_off::{SAFETY, neighbours};
 use crate::system::{Lagrangian, State};

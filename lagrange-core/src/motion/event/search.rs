@@ -4,8 +4,9 @@
 use alloc::vec::Vec;
 use core::marker::PhantomData;
 
-use super::AnyEvent;
 use super::chebyshev::{COARSEST, FINEST, part, places};
+use super::definition::AnyEvent;
+use super::dense::DenseStep;
 use super::halves::{Halves, LEVELS};
 use super::locate::locate;
 use super::memory::{Interval, View};
@@ -18,58 +19,6 @@ use crate::solution::vector_field::VectorField;
 use crate::system::{Lagrangian, State};
 #[cfg(feature = "alloc")]
 use crate::trajectory::Path;
-
-/// A step that was taken, with what lies within.
-pub(crate) struct DenseStep<'a, L: Lagrangian<N, M>, F, I, const N: usize, const M: usize> {
-    pub(crate) system: &'a L,
-    pub(crate) before: &'a State<L::Scalar, N>,
-    pub(crate) after: &'a State<L::Scalar, N>,
-    pub(crate) interpolant: &'a I,
-    pub(crate) field: PhantomData<F>,
-}
-
-impl<L, F, I, const N: usize, const M: usize> DenseStep<'_, L, F, I, N, M>
-where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: VectorField<L, N, M>,
-    I: Interpolant<L::Scalar, N>,
-{
-    /// The state at a time within, on the constraints.
-    #[inline]
-    pub(crate) fn at(&self, t: L::Scalar) -> Result<State<L::Scalar, N>, Error> {
-        match t == self.after.t {
-            true => Ok(*self.after),
-            false => F::project(self.system, &self.interpolant.at(t)),
-        }
-    }
-
-    fn length(&self) -> L::Scalar {
-        self.after.t - self.before.t
-    }
-
-    /// The interval from one time to another, if it can be divided.
-    fn interval(&self, from: L::Scalar, to: L::Scalar) -> Option<Interval<L::Scalar>> {
-        let constant = L::Scalar::constant;
-        let (width, length) = (Scalar::abs(to - from), Scalar::abs(self.length()));
-        let round_off = constant(L::Scalar::EPSILON) * larger(Scalar::abs(from), Scalar::abs(to));
-        let is_wide = width * constant(8.0) >= length;
-        let finest = if width * constant(64.0) >= length { FINEST } else { 8 };
-        let jitter = constant(2.0) * round_off / width;
-        (width > constant(8.0) * round_off).then_some(Interval { width, jitter, finest, is_wide })
-    }
-
-    /// The end of this piece of what is left of the step from there.
-    fn mark(&self, from: L::Scalar, piece: usize, of: usize) -> L::Scalar {
-        let part = L::Scalar::constant(piece as f64 / of as f64);
-        if piece == of { self.after.t } else { from + (self.after.t - from) * part }
-    }
-
-    /// Whether `later` comes after `t` in the motion.
-    fn is_ahead(&self, t: L::Scalar, later: L::Scalar) -> bool {
-        let zero = L::Scalar::constant(0.0);
-        if self.length() < zero { later < t } else { later > t }
-    }
-}
 
 /// Where a look at an interval leads.
 enum Look {

@@ -4,7 +4,8 @@ use core::array::from_fn;
 use core::marker::PhantomData;
 use core::ops::ControlFlow;
 
-use super::{LaneMethod, LaneMotion, LaneMotions, LaneOutcome};
+use super::contract::{LaneMethod, LaneMotions};
+use super::motion::{LaneMotion, LaneOutcome};
 use crate::error::Ending;
 use crate::motion::event::DenseStep;
 use crate::number::{Lanes, vector};

@@ -2,7 +2,9 @@
 
 use core::array::from_fn;
 
-use super::{LaneMethod, LaneMotions, LaneOutcome, LaneReliability, unpacked};
+use super::contract::{LaneMethod, LaneMotions, unpacked};
+use super::motion::LaneOutcome;
+use super::reliability::LaneReliability;
 use crate::error::Error;
 use crate::motion::method::pair::{Slopes, TableauRow, advance, check, last};
 use crate::motion::method::step::PairMemory;

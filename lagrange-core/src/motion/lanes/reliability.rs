@@ -3,7 +3,7 @@
 use core::array::from_fn;
 
 use crate::number::{Lanes, Scalar, sum};
-use crate::solution::solve::least_pivot;
+use crate::solution::pivot::least_pivot;
 use crate::system::Solution;
 
 /// Whether the numbers of each lane can be relied on, gathered in passing.
@@ -39,7 +39,7 @@ impl LaneReliability {
         self.pivot(solution.pivot);
     }
 
-    /// As [`is_trustworthy`](crate::solution::solve::is_trustworthy) of a solution alone.
+    /// As [`is_trustworthy`](crate::solution::pivot::is_trustworthy) of a solution alone.
     pub(crate) fn lanes(&self) -> [bool; Lanes::COUNT] {
         let (pivot, size) = (self.pivot.to_array(), self.size.to_array());
         from_fn(|lane| pivot[lane] > least_pivot::<f64>() && size[lane] < f64::INFINITY)

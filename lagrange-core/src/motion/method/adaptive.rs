@@ -3,7 +3,8 @@
 use core::fmt;
 use core::marker::PhantomData;
 
-use super::{Limits, Pair, check_settings};
+use super::contract::{Limits, check_settings};
+use super::pair::Pair;
 use crate::error::Error;
 
 /// An embedded Runge–Kutta pair `P` with its settings.

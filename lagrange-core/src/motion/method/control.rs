@@ -2,13 +2,12 @@
 
 use core::array::from_fn;
 
-use super::Adaptive;
+use super::adaptive::Adaptive;
 use super::clock::Clock;
 #[cfg(feature = "std")]
 use super::pair::error_needs_last;
 use super::pair::{Pair, Slopes, combine};
 #[cfg(feature = "alloc")]
-use super::step::PairMemory;
 #[cfg(feature = "alloc")]
 use crate::number::Broadcast;
 use crate::number::{Real, Scalar, entries, exceeds, larger, smaller, sum};
@@ -18,7 +17,7 @@ use crate::solution::vector_field::PhaseVector;
 #[derive(Clone, Debug)]
 pub(crate) struct Control<T> {
     pub(crate) step: T,
-    previous_error: T,
+    pub(super) previous_error: T,
     was_refused: bool,
 }
 
@@ -223,21 +222,6 @@ impl<P: Pair> Adaptive<P> {
         // A step that the end has cut says nothing against the one planned, should the motion go on.
         let step = if clock.is_at_end() { larger(control.step, planned) } else { control.step };
         control.step = self.fit(step, clock);
-    }
-
-    /// After a step on which something else went along, with an error of this part of the tolerance: the larger of the two
-    /// errors chooses the next step.
-    #[cfg(feature = "alloc")]
-    pub(crate) fn accept_with<T: Real, const N: usize, const M: usize>(
-        &self,
-        memory: &mut PairMemory<T, N, M>,
-        error: T,
-    ) {
-        let Some(taken) = memory.taken.as_ref().filter(|_| self.fixed_step.is_none()) else { return };
-        let (step, mut control) = ((taken.h, memory.clock.now), taken.control.clone());
-        let error = larger(error, memory.control.previous_error);
-        self.after_acceptance(&mut control, &mut memory.clock, step, error);
-        memory.control = control;
     }
 
     /// The step made long enough to advance the time, and cut to the longest allowed.

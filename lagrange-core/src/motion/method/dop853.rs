@@ -1,6 +1,7 @@
 //! Dormand and Prince's method of order 8 with error estimates of orders 5 and 3.
 
-use super::{Adaptive, Pair, TableauRow};
+use super::adaptive::Adaptive;
+use super::pair::{Pair, TableauRow};
 
 /// The coefficients of the method 8(5,3) of Dormand and Prince, with the continuous extension of order 7
 /// (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.5, II.6 and the code DOP853).

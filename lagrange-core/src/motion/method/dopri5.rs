@@ -1,6 +1,7 @@
 //! Dormand and Prince's pair of orders 5 and 4.
 
-use super::{Adaptive, Pair, TableauRow};
+use super::adaptive::Adaptive;
+use super::pair::{Pair, TableauRow};
 
 /// The coefficients of the pair 5(4) of Dormand and Prince (1980), with the continuous extension of order 4
 /// (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, table II.5.2 and II.6).

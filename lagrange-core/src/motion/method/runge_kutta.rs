@@ -7,7 +7,7 @@ use core::fmt;
 use nalgebra::{ComplexField, SVector};
 
 use super::clock::Clock;
-use super::{Limits, Method, Step, check_settings};
+use super::contract::{Limits, Method, Step, check_settings};
 use crate::error::{Ending, Error};
 use crate::number::{Real, Scalar, vector};
 use crate::solution::consistent::{BOTH, project};

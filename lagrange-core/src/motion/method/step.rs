@@ -7,18 +7,20 @@ use core::fmt;
 
 use nalgebra::ComplexField;
 
+use super::adaptive::Adaptive;
 use super::clock::Clock;
+use super::contract::{Limits, Method, Step};
 use super::control::{Control, StateEntry};
 use super::pair::{
     Pair, Slopes, TableauRow, advance, advance_from, check, error_needs_last, is_carried, last,
 };
-use super::{Adaptive, Limits, Method, Step};
 use crate::error::{Ending, Error, Pace};
-use crate::names::{Entry, Row};
+use crate::names::{Entry, Row, name};
+#[cfg(feature = "alloc")]
+use crate::number::larger;
 use crate::number::{Real, Scalar, entries, vector};
 use crate::room::Room;
 use crate::solution::interpolant::{Polynomial, hermite};
-use crate::solution::solve::name;
 use crate::solution::vector_field::{ActiveConstraints, PhaseVector, StagePoint, VectorField};
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State};
@@ -276,6 +278,21 @@ impl<P: Pair> Adaptive<P> {
             memory.control.step = self.fit(step, &memory.clock);
             memory.is_planned = true;
         }
+    }
+
+    /// After a step on which something else went along, with an error of this part of the tolerance: the larger of the two
+    /// errors chooses the next step.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn accept_with<T: Real, const N: usize, const M: usize>(
+        &self,
+        memory: &mut PairMemory<T, N, M>,
+        error: T,
+    ) {
+        let Some(taken) = memory.taken.as_ref().filter(|_| self.fixed_step.is_none()) else { return };
+        let (step, mut control) = ((taken.h, memory.clock.now), taken.control.clone());
+        let error = larger(error, memory.control.previous_error);
+        self.after_acceptance(&mut control, &mut memory.clock, step, error);
+        memory.control = control;
     }
 
     /// Whether there is a shorter step to try; none is where all are of one size.

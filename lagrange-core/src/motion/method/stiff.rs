@@ -4,9 +4,10 @@
 //! motion near them grows or dies (Hairer and Wanner, *Solving Ordinary Differential Equations II*, IV.2). In a stiff
 //! problem, step after step is as long as the method stays stable.
 
+use super::adaptive::Adaptive;
+use super::contract::{Method, Step};
 use super::pair::{Pair, SLOPES, TableauRow, combine, last};
 use super::step::{PairMemory, Taken};
-use super::{Adaptive, Method, Step};
 use crate::number::{Real, Scalar};
 use crate::solution::vector_field::VectorField;
 use crate::statistics::Statistics;

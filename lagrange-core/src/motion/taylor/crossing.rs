@@ -4,11 +4,11 @@
 //! as 1/τᵏ, if the pose is τ ahead, and a step that heeds them all never gets there. Of few orders a sum is good for several
 //! times τ, with an error that is far below the terms, if it is taken in time.
 
-use super::Taylor;
-use super::control::log2_roughly;
 use super::expansion::{Expansion, SolvedState};
+use super::last::log2_roughly;
+use super::settings::Taylor;
 use crate::number::{FixedArray, Real, Scalar, larger};
-use crate::solution::solve::is_trustworthy;
+use crate::solution::pivot::is_trustworthy;
 
 /// How independent constraints are, from 0 to 1, where a pose may be near, or steps may have become so much shorter.
 const NEAR: f64 = 0.3;

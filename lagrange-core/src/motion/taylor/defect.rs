@@ -2,9 +2,9 @@
 
 use core::array::from_fn;
 
-use super::Taylor;
 use super::expansion::{Expansion, SolvedState};
 use super::sampling::parts;
+use super::settings::Taylor;
 use crate::error::Error;
 use crate::number::{FixedArray, Real, Scalar, exceeds, larger, vector};
 use crate::statistics::Statistics;

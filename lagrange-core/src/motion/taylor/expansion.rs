@@ -2,15 +2,16 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
+use core::array::from_fn;
 use core::convert::Infallible;
 
-use super::control::{LAST, Last, exp2_roughly, log2_roughly};
-use super::sampling::is_linear;
+use super::last::{LAST, Last, exp2_roughly, log2_roughly};
 use super::sums::{Ends, SeriesFactors};
 use crate::error::Error;
 use crate::number::{FixedArray, PowerSeries, Real, Scalar, larger, vector};
 use crate::solution::kkt::{self, KktSystem, Rank};
-use crate::solution::solve::{fault, is_trustworthy, not_finite, solve_near};
+use crate::solution::pivot::is_trustworthy;
+use crate::solution::solve::{fault, not_finite, solve_near};
 use crate::system::{Direction, Lagrangian, RightHandSides, Solution, State, TaylorSeries};
 
 /// Another unit of time is tried so many times at most.
@@ -172,6 +173,13 @@ impl<S: FixedArray<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
         q.max(v)
     }
 
+    /// The sizes of the last coefficients.
+    pub(crate) fn last_sizes(&self, slack: T) -> Last<T> {
+        let (order, scales) = (self.order(), self.scales(slack));
+        let sizes = from_fn(|i| self.size(order + 1 - LAST + i, &scales));
+        Last { order, unit: self.unit, sizes }
+    }
+
     /// By how much coordinates and velocities change over a step of this length, and the accelerations at its end.
     pub(crate) fn change(&self, length: T) -> [[T; N]; 3] {
         let (theta, order) = (length / self.unit, self.summed);
@@ -201,7 +209,7 @@ impl<S: FixedArray<T>, T: Real, const N: usize> Expansion<S, T, N> {
             let solve =
                 |(forcing, bias): &RightHandSides<T, N, M>| Ok(system.solve_with(&factor, forcing, bias));
             let Ok::<(), Infallible>(()) = self.orders(system, state, solution, unit, solve);
-            let last = Last::of(self, slack);
+            let last = self.last_sizes(slack);
             if self.is_finite(self.order()) && self.better_unit::<L, M>(&last, slack).is_none() {
                 return Ok(last);
             }
@@ -243,13 +251,13 @@ impl<S: FixedArray<T>, T: Real, const N: usize> Expansion<S, T, N> {
     {
         for _ in 0..UNITS {
             expand(self, unit)?;
-            let last = Last::of(self, slack);
+            let last = self.last_sizes(slack);
             match self.better_unit::<L, M>(&last, slack) {
                 None => return Ok(last),
                 Some(better) => unit = better,
             }
         }
-        Ok(Last::of(self, slack))
+        Ok(self.last_sizes(slack))
     }
 
     /// A unit in which the coefficients are numbers, where in this one the last are too large or too small to be.
@@ -356,6 +364,12 @@ impl<T: Real, const N: usize, const M: usize> General<T, N, M> {
         let solution = self.factors.solve(&(*forcing).into(), &bias);
         solution.map_err(|found| fault::<L, N, M>(&found, self.time))
     }
+}
+
+/// Whether the equations are linear with constant coefficients, so that the start of a motion tells the whole of it: no products
+/// of series.
+pub(super) const fn is_linear<L: TaylorSeries<N, M>, const N: usize, const M: usize>() -> bool {
+    size_of::<L::Sums>() == 0 && L::ARGUMENTS.is_empty()
 }
 
 #[cfg(test)]

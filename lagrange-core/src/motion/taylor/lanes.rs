@@ -5,12 +5,14 @@
 use core::array::from_fn;
 use core::convert::Infallible;
 
-use super::control::Last;
 use super::defect::part;
 use super::expansion::Expansion;
+use super::last::Last;
+use super::memory::TaylorMemory;
+use super::polynomial::TaylorPolynomial;
 use super::sampling::{Sampling, few, parts, samples_of_steep};
+use super::settings::Taylor;
 use super::step::compensated;
-use super::{Taylor, TaylorMemory, TaylorPolynomial};
 use crate::error::Error;
 use crate::motion::Interpolant;
 use crate::motion::lanes::{LaneMethod, LaneMotions, LaneOutcome, LaneReliability, unpacked};
@@ -125,7 +127,7 @@ where
             .each_ref()
             .map(|motion| motion.as_ref().map_or((0.0, 1.0), |motion| time(&motion.memory)));
         lane_memory.expand(times, &mut reliability);
-        let last = Last::of(&lane_memory.series, Lanes::constant(self.slack::<f64>()));
+        let last = lane_memory.series.last_sizes(Lanes::constant(self.slack::<f64>()));
         let mut allowed = [0.0; Lanes::COUNT];
         for (lane, allowed) in allowed.iter_mut().enumerate() {
             *allowed = last.lane(lane).allowed();

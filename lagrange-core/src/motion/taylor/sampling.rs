@@ -5,7 +5,7 @@
 //! far apart as those of the step before, or there are [`MOST`] of them; where the terms of the series fade as those of a
 //! step of its length do, the series knows its surroundings, and few samples will do.
 
-use super::expansion::Expansion;
+use super::expansion::{Expansion, is_linear};
 use super::roots::WatchedSeries;
 use crate::number::{FixedArray, Real, Scalar, smaller};
 use crate::system::TaylorSeries;
@@ -122,12 +122,6 @@ impl<S: FixedArray<T>, T: Real, const N: usize> Expansion<S, T, N> {
 /// Number of samples within a step whose series knows its surroundings: its ends will do.
 pub(super) const fn few<L: TaylorSeries<N, M>, const N: usize, const M: usize>() -> usize {
     if L::ARGUMENTS.is_empty() { 0 } else { AT_KINKS }
-}
-
-/// Whether the equations are linear with constant coefficients, so that the start of a motion tells the whole of it: no products
-/// of series.
-pub(super) const fn is_linear<L: TaylorSeries<N, M>, const N: usize, const M: usize>() -> bool {
-    size_of::<L::Sums>() == 0 && L::ARGUMENTS.is_empty()
 }
 
 /// Where the samples of a step lie, as parts of it.

@@ -6,7 +6,7 @@
 
 use nalgebra::SVector;
 
-use super::{Level, Residual, check_level};
+use super::level::{Level, Residual, check_level};
 use crate::error::Error;
 use crate::names::Names;
 use crate::number::{Real, Scalar, entries, larger, power_of_epsilon};

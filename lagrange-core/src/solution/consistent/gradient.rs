@@ -5,11 +5,11 @@
 
 use core::array::from_fn;
 
-use super::Level;
+use super::level::Level;
 use crate::error::Error;
+use crate::names::name;
 use crate::number::{Real, Scalar, entries, larger, power_of_epsilon};
 use crate::solution::round_off::{SAFETY, neighbours};
-use crate::solution::solve::name;
 use crate::system::{Lagrangian, State};
 
 /// How far next to a state to look for whether a row is zero there, too.

@@ -16,7 +16,8 @@ use core::iter::successors;
 
 use nalgebra::SVector;
 
-use super::{Level, diagonal, hold, project_holding};
+use super::level::Level;
+use super::{diagonal, hold, project_holding};
 use crate::number::{Real, Scalar, entries, is_within, larger, power_of_epsilon, vector};
 use crate::room::Room;
 use crate::solution::kkt::{Factors, Rank};

@@ -5,7 +5,7 @@
 //! where they were written one by one waits until they are in the cache. The others were written an order before.
 //! With more groups, these keep the processor busy without that.
 
-use super::{Group, WIDTH, plus};
+use super::group::{Group, WIDTH, plus};
 use crate::number::{FixedArray, ROOM, Scalar};
 
 /// Whether sums of this type are one group of plain numbers.
@@ -14,14 +14,14 @@ pub(super) const fn is<T, S>() -> bool {
 }
 
 /// The terms at both ends of the sums.
-pub(in crate::motion::taylor) struct Ends<S> {
+pub(crate) struct Ends<S> {
     newest: [S; 2],
     /// Those of order 1; that of the left factor where it is not the newest as well, which is from order 3 on.
     first: [S; 2],
 }
 
 impl<S: Copy> Ends<S> {
-    pub(in crate::motion::taylor) fn new<T: Scalar>() -> Self
+    pub(crate) fn new<T: Scalar>() -> Self
     where
         S: FixedArray<T>,
     {

@@ -1,0 +1,121 @@
+//! What a motion on a lane does alone: its start, its controller, steps that the lanes cannot take, and its ending.
+
+use super::contract::LaneMethod;
+use super::motion::{LaneMotion, LaneOutcome};
+use crate::error::{Ending, Error};
+use crate::motion::Step;
+use crate::motion::record::Record;
+use crate::motion::run::{Run, Watchdog, resume};
+use crate::solution::vector_field::LagrangianVectorField;
+use crate::system::{Lagrangian, State};
+
+impl<'o, L, P, const N: usize, const M: usize> LaneMotion<'o, L, P, N, M>
+where
+    L: Lagrangian<N, M, Scalar = f64>,
+    P: LaneMethod<L, N, M>,
+{
+    /// Before the first step, with the state made consistent.
+    pub(crate) fn new<const HAS_DENSE_OUTPUT: bool>(
+        (index, start): (usize, u32),
+        system: L,
+        state: &State<f64, N>,
+        end: f64,
+        method: &P,
+        record: impl FnOnce(&L, &State<f64, N>) -> Result<Record<'o, L, N, M>, Error>,
+    ) -> Result<(Self, State<f64, N>), Error> {
+        let (run, _) = Run::begin::<L, LagrangianVectorField, _, M>(&system, state, method)?;
+        let record = record(&system, &run.state)?;
+        let Run { memory, state, statistics, .. } = run;
+        let limits = Watchdog::new(method.limits(), &statistics);
+        let (within, failure) = (None, None);
+        let mut motion =
+            Self { index, start, record, system, memory, within, end, statistics, limits, failure };
+        if const { HAS_DENSE_OUTPUT } && motion.record.is_due(state.t) {
+            motion.failure = motion.control(&state, method).err();
+        }
+        let prepared = motion.prepare(method).err();
+        motion.failure = motion.failure.or(prepared);
+        Ok((motion, state))
+    }
+
+    pub(crate) fn now(&self) -> f64 {
+        P::now(&self.memory)
+    }
+
+    fn prepare(&mut self, method: &P) -> Result<(), Ending> {
+        let Self { system, memory, end, statistics, .. } = self;
+        let prepared = method.prepare(system, memory, *end, statistics);
+        prepared.map_err(|error| Ending::of(error, self.now()))
+    }
+
+    /// Calls the controller, and goes on from this state with what it has set.
+    pub(super) fn control(&mut self, state: &State<f64, N>, method: &P) -> Result<(), Ending> {
+        let Self { record, system, memory, statistics, .. } = self;
+        record.control(system, state)?;
+        resume::<_, LagrangianVectorField, _, N, M>(system, method, memory, state, statistics)
+            .map_err(|error| Ending::of(error, state.t))?;
+        self.end = self.record.goal;
+        self.prepare(method)
+    }
+
+    /// The clock on the wall starts when it is given a lane.
+    pub(super) fn begin(mut self, method: &P) -> Self {
+        self.limits = Watchdog::new(method.limits(), &self.statistics);
+        self
+    }
+
+    /// Why there is no step to take.
+    pub(crate) fn ending_at_start(&mut self, method: &P) -> Option<Ending> {
+        self.ending(method, |_| ())
+    }
+
+    /// Why there is no further step to take; `unload` gives the memory what the lane holds.
+    pub(super) fn ending(&mut self, method: &P, unload: impl FnOnce(&mut P::Memory)) -> Option<Ending> {
+        let Self { system, memory, end, statistics, limits, failure, .. } = self;
+        let time = P::now(memory);
+        if P::is_at_end(memory) {
+            return Some(Ending::Complete { time });
+        }
+        let pace = || {
+            unload(memory);
+            method.pace(system, memory, *end)
+        };
+        failure.clone().or_else(|| limits.exceeded(statistics, time, pace))
+    }
+
+    /// The step from where the memory is, by the scalar method, with what lies within where that is asked for: where there is
+    /// none the step is taken back.
+    #[cold]
+    pub(super) fn step_alone<const HAS_DENSE_OUTPUT: bool>(&mut self, method: &P) -> LaneOutcome {
+        let now = self.now();
+        let Self { system, memory, end, statistics, .. } = self;
+        self.failure = match method.step(system, memory, *end, statistics) {
+            Step::Accepted(_) => match self.look_within::<HAS_DENSE_OUTPUT>(now, method) {
+                Ok(()) => {
+                    self.statistics.accepted += 1;
+                    self.failure = self.prepare(method).err();
+                    return LaneOutcome::AcceptedAlone;
+                }
+                Err(error) => {
+                    self.statistics.rejected += 1;
+                    let is_taken_back = method.undo(&mut self.memory);
+                    (!is_taken_back).then(|| Ending::of(error, now))
+                }
+            },
+            Step::Rejected => {
+                statistics.rejected += 1;
+                None
+            }
+            Step::Failed(ending) => Some(ending),
+        };
+        LaneOutcome::Rejected
+    }
+
+    fn look_within<const HAS_DENSE_OUTPUT: bool>(&mut self, before: f64, method: &P) -> Result<(), Error> {
+        if const { HAS_DENSE_OUTPUT } && self.record.looks_into(before, self.now()) {
+            let Self { system, memory, statistics, .. } = self;
+            self.within = Some(method.interpolant(system, memory, statistics)?);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,146 @@
+//! Scalars that can decide, and scalars by the traits of `simba`.
+
+#[cfg(feature = "std")]
+use core::any::Any;
+use core::fmt::{Debug, Display};
+use simba::scalar::{RealField, SupersetOf};
+use simba::simd::SimdRealField;
+
+use super::broadcast::Wide;
+use super::scalar::{FUSED, Scalar, one_by_one};
+#[cfg(feature = "std")]
+use super::sines;
+
+/// A value as one of another type, if the types are the same; which they are is known to the compiler.
+#[cfg(feature = "std")]
+#[inline(always)]
+fn same<X: Copy + 'static, Y: Copy + 'static>(x: X) -> Option<Y> {
+    (&x as &dyn Any).downcast_ref().copied()
+}
+
+macro_rules! through_simba {
+    ($($name:ident => $simd:ident($($argument:ident),*)),* $(,)?) => {
+        $(#[inline(always)]
+        fn $name(self $(, $argument: Self)*) -> Self {
+            self.$simd($($argument),*)
+        })*
+    };
+}
+
+#[diagnostic::do_not_recommend]
+impl<T: SimdRealField + SupersetOf<f64> + Copy + Debug + 'static> Scalar for T {
+    #[inline(always)]
+    fn constant(x: f64) -> Self {
+        Self::from_subset(&x)
+    }
+
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        self.simd_sin_cos()
+    }
+
+    #[inline(always)]
+    fn sin_cos_of_small<const K: usize>(angles: [Self; K]) -> ([Self; K], [Self; K]) {
+        #[cfg(feature = "std")]
+        if let Some(found) = same::<_, [f64; K]>(angles).map(sines::sin_cos).and_then(same) {
+            return found;
+        }
+        one_by_one(angles)
+    }
+
+    #[inline(always)]
+    fn small_angles<const K: usize>(angles: [Self; K]) -> [Self; K] {
+        #[cfg(feature = "std")]
+        if let Some(small) = same::<_, [f64; K]>(angles).map(sines::small).and_then(same) {
+            return small;
+        }
+        angles
+    }
+
+    // One instruction. Of many calls of `f64::min` the compiler makes one of vectors, which waits for all.
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        self.select(self.simd_lt(other), other)
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        self.select(self.simd_gt(other), other)
+    }
+
+    #[inline(always)]
+    fn select_by_order(self, other: Self, less: Self, equal: Self, greater: Self) -> Self {
+        let ordered = equal.select(self.simd_eq(other), greater);
+        let ordered = less.select(self.simd_lt(other), ordered);
+        ordered.select(self.simd_eq(self) & other.simd_eq(other), Self::constant(f64::NAN))
+    }
+
+    #[inline(always)]
+    fn only_where_not_zero(self, value: Self) -> Self {
+        let zero = Self::constant(0.0);
+        // What is not a number is neither below nor above.
+        value.select(self.simd_lt(zero) | self.simd_gt(zero), self)
+    }
+
+    #[inline(always)]
+    fn multiply_add(self, y: Self, z: Self) -> Self {
+        if FUSED { self.simd_mul_add(y, z) } else { self * y + z }
+    }
+
+    #[inline(always)]
+    fn subtract_product(self, y: Self, z: Self) -> Self {
+        if FUSED { (-self).simd_mul_add(y, z) } else { z - self * y }
+    }
+
+    through_simba! {
+        sin => simd_sin(), cos => simd_cos(), tan => simd_tan(),
+        asin => simd_asin(), acos => simd_acos(), atan => simd_atan(), atan2 => simd_atan2(x),
+        sinh => simd_sinh(), cosh => simd_cosh(), tanh => simd_tanh(),
+        exp => simd_exp(), ln => simd_ln(), sqrt => simd_sqrt(), abs => simd_abs(),
+        powf => simd_powf(exponent),
+    }
+}
+
+/// A scalar that can decide: `f64` or `f32`. What chooses pivots, steps or endings needs one.
+pub trait Real: Scalar + RealField + PartialOrd + Display {
+    /// The distance from 1 to the next larger number.
+    const EPSILON: f64;
+
+    /// The smallest positive number with all of its digits.
+    const SMALLEST: f64;
+
+    /// As many as are best computed with at once.
+    type Wide: Wide<Self>;
+
+    /// The same number as an `f64`.
+    fn to_f64(self) -> f64;
+}
+
+#[cfg(any(feature = "std", feature = "libm"))]
+impl Real for f64 {
+    const EPSILON: Self = Self::EPSILON;
+    const SMALLEST: Self = Self::MIN_POSITIVE;
+
+    #[cfg(feature = "std")]
+    type Wide = super::lanes::FourLanes;
+    #[cfg(not(feature = "std"))]
+    type Wide = Self;
+
+    #[inline(always)]
+    fn to_f64(self) -> f64 {
+        self
+    }
+}
+
+#[cfg(any(feature = "std", feature = "libm"))]
+impl Real for f32 {
+    const EPSILON: f64 = Self::EPSILON as f64;
+    const SMALLEST: f64 = Self::MIN_POSITIVE as f64;
+
+    type Wide = Self;
+
+    #[inline(always)]
+    fn to_f64(self) -> f64 {
+        f64::from(self)
+    }
+}
