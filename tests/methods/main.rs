@@ -1,5 +1,6 @@
-//! Methods written against the public interface alone: an implicit one, a series, and ones that go wrong.
+//! Methods written against the public interface alone: a pair, an implicit one, a series, and ones that go wrong.
 
+mod midpoint;
 mod rosenbrock;
 mod taylor;
 mod wrong;
