@@ -33,7 +33,7 @@ use crate::number::{Dual, Scalar, Wide};
 #[diagnostic::on_unimplemented(
     message = "`{Self}` cannot be computed with other numbers, which SIMD lanes and derivatives of Taylor series take",
     label = "its number type is fixed",
-    note = "make the number type a parameter, `struct X<T> {{ m: T, l: [T; 2] }}`, and derive `Lagrangian` for that",
+    note = "make the number type a parameter, `struct X<T> {{ m: T, l: [T; 2] }}`, and derive `Lagrangian` for that; of its fields the expressions must name one",
     note = "of any system, `Ensemble::integrate` integrates one member at a time, and `Dop853` differentiates motions"
 )]
 pub trait Pack<V>: Sized {
