@@ -6,7 +6,7 @@
 //! | `State` | all steps | all | no: a state between steps would be one of other parameters; who asks for it keeps samples alone | all |
 //! | `State` | samples | all | yes | all |
 //! | `PhaseState` | all steps, samples | as `State` | as `State` | pairs; not `Taylor`, whose series are those of Lagrange's equations, nor `RungeKutta4` (does not compile) |
-//! | `StateSensitivity` | all steps; not samples alone, which `at` gives (does not compile) | all; events that can be differentiated, others do not compile | no: what it sets depends on the state by a function that is not differentiated (does not compile) | pairs, `Taylor` where the number type is a parameter |
+//! | `StateSensitivity` | all steps, samples | all; events that can be differentiated, others do not compile | no: what it sets depends on the state by a function that is not differentiated (does not compile) | pairs, `Taylor` where the number type is a parameter |
 //! | member of an `Ensemble` | samples | all; progress is `observe` | yes | all |
 //! | the same on lanes | samples | all; progress is `observe` | yes | pairs, `Taylor` |
 //!
@@ -169,6 +169,52 @@ macro_rules! sampled {
             assert_eq!(kept.samples.len(), 1 + (kept.state.t.abs() / every) as usize);
         }
     };
+}
+
+/// Derivatives of samples are those of the motion that is stored, bit for bit, at its events too.
+#[test]
+fn derivatives_are_sampled_instead_of_stored() {
+    let start = SPRING.sensitivity(&State::at_rest([1.0]), &["x", "k"]).expect("names");
+    let dop853 = || SPRING.motion_with_derivatives(&start).by(Dop853::default());
+    let taylor = || SPRING.motion_with_derivatives(&start).by(Taylor::default());
+    let zero = || SPRING.differentiable_event("zero", |s| s.coordinate("x"));
+    for sign in [1.0, -1.0] {
+        let end = 10.0 * sign;
+        let ends = [
+            (dop853().event(zero()).to(end), dop853().every(0.25).event(zero()).to(end), 41),
+            (taylor().event(zero()).to(end), taylor().event(zero()).every(0.25).to(end), 41),
+            (
+                dop853().event(zero().terminal()).to(end),
+                dop853().event(zero().terminal()).every(0.25).to(end),
+                7,
+            ),
+            (dop853().to(end), dop853().samples_at([0.0, 2.5 * sign]).to(end), 2),
+        ];
+        for (stored, sampled, count) in ends {
+            let (stored, sampled) = (stored.expect("a motion"), sampled.expect("a motion"));
+            assert_eq!(sampled.end().expect("the end"), stored.end().expect("the end"));
+            assert_eq!(sampled.arrival.crossings, stored.trajectory().crossings());
+            assert_eq!(
+                (&sampled.arrival.ending, count),
+                (stored.trajectory().ending(), sampled.samples.len())
+            );
+            for (sample, state) in sampled.samples.iter().zip(&sampled.arrival.samples) {
+                assert_eq!((sample, &sample.state), (&stored.at(state.t).expect("within"), state));
+            }
+        }
+        let (mut steps, short) = (0, || dop853().every(0.25).by(Dop853::default().max_steps(2)));
+        let look = |progress: Progress| {
+            steps += 1;
+            assert_eq!((progress.start, progress.end, progress.steps), (0.0, end, steps));
+            if steps == 2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let cancelled = dop853().every(0.25).on_progress(look).to(end).expect("a motion");
+        assert!(matches!(cancelled.arrival.ending, Ending::Cancelled { .. }));
+        assert!(matches!(short().to(end), Err(Error::Unfinished(_))));
+        let kept = short().towards(end).expect("a motion");
+        assert!(matches!(kept.arrival.ending, Ending::StepLimit { steps: 2, .. }) && kept.end().is_err());
+        assert_eq!(kept.samples.len(), kept.arrival.samples.len());
+    }
 }
 
 /// Steers a motion, which then goes as one that is advanced from call to call, bit for bit.

@@ -13,9 +13,8 @@ fn main() -> Result<(), Error> {
     let (spring, start) = (Spring { k: 1.0 }, State::at_rest([1.0]));
     // Between the steps of a motion that is stored there would be other parameters.
     let _: Trajectory<_, 1, 0> = spring.motion(start).controlled(0.1, |_, _| Ok::<_, Error>(())).to(1.0)?;
-    // Derivatives at any time are made of all steps, and know nothing of a controller.
+    // Derivatives know nothing of a controller.
     let derivatives = spring.sensitivity(&start, &["x"])?;
-    spring.motion_with_derivatives(&derivatives).every(0.1).to(1.0)?;
     spring.motion_with_derivatives(&derivatives).controlled(0.1, |_, _| Ok::<_, Error>(())).to(1.0)?;
     // An event that has no derivative.
     spring.motion_with_derivatives(&derivatives).event(spring.event("zero", |s| s.coordinate("x"))).to(1.0)?;

@@ -22,6 +22,8 @@ mod linearization;
 #[cfg(feature = "alloc")]
 mod lyapunov;
 #[cfg(feature = "alloc")]
+mod sampled_sensitivity;
+#[cfg(feature = "alloc")]
 mod sensitivities;
 #[cfg(feature = "alloc")]
 mod sensitivity;
@@ -55,6 +57,8 @@ pub use jacobian::{Jacobian, PartialDerivatives};
 pub use linearization::Linearization;
 #[cfg(feature = "alloc")]
 pub use lyapunov::LyapunovSpectrum;
+#[cfg(feature = "alloc")]
+pub use sampled_sensitivity::SampledSensitivity;
 #[cfg(feature = "alloc")]
 pub use sensitivities::TrajectorySensitivity;
 #[cfg(feature = "alloc")]

@@ -15,6 +15,7 @@ use crate::motion::store::{OnProgress, Stored};
 use crate::motion::{AnyEvent, MotionBuilder};
 use crate::names::Entry;
 use crate::number::{Broadcast, Real, Scalar, Wide};
+use crate::solution::crossing::Crossing;
 use crate::solution::vector_field::{LagrangianVectorField, PhaseVector};
 use crate::system::finite::check_finite;
 use crate::system::{Direction, Lagrangian, State, lookup};
@@ -37,15 +38,16 @@ pub struct TrajectorySensitivity<
 }
 
 /// The derivatives along a motion.
-struct Course<L: Linearized<N, M, P, Scalar: Real>, const N: usize, const M: usize, const P: usize> {
+pub(super) struct Course<L: Linearized<N, M, P, Scalar: Real>, const N: usize, const M: usize, const P: usize>
+{
     /// As they are where the last step ends.
-    variations: Variations<L, N, M, P>,
+    pub(super) variations: Variations<L, N, M, P>,
     /// When it does: a motion may have ended within it.
     end: L::Scalar,
     /// Start and length of each step.
     steps: Vec<[L::Scalar; 2]>,
     /// Step by step and block by block, the coefficients of what lies between, as many for each.
-    coefficients: Vec<PhaseVector<WideOf<L, N, M>, N>>,
+    pub(super) coefficients: Vec<PhaseVector<WideOf<L, N, M>, N>>,
     /// What they are the coefficients of.
     between: Between<WideOf<L, N, M>, N>,
 }
@@ -54,11 +56,11 @@ struct Course<L: Linearized<N, M, P, Scalar: Real>, const N: usize, const M: usi
 type Between<W, const N: usize> = fn(&[PhaseVector<W, N>], W) -> PhaseVector<W, N>;
 
 /// An event of a motion with derivatives.
-type DynEvent<'a, L, const N: usize, const M: usize, const P: usize> =
+pub(super) type DynEvent<'a, L, const N: usize, const M: usize, const P: usize> =
     dyn DifferentiableEvent<L, N, M, P> + 'a;
 
-impl<'a, 'w, L, const N: usize, const M: usize, P, E>
-    MotionBuilder<'a, 'w, L, StateSensitivity<L::Scalar, N>, N, M, P, E>
+impl<'a, 'w, L, const N: usize, const M: usize, P, E, J>
+    MotionBuilder<'a, 'w, L, StateSensitivity<L::Scalar, N>, N, M, P, E, J>
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {
@@ -67,7 +69,17 @@ where
     pub fn event<const K: usize>(
         self,
         event: impl DifferentiableEvent<L, N, M, K> + 'w,
-    ) -> MotionBuilder<'a, 'w, L, StateSensitivity<L::Scalar, N>, N, M, P, Vec<Box<DynEvent<'w, L, N, M, K>>>>
+    ) -> MotionBuilder<
+        'a,
+        'w,
+        L,
+        StateSensitivity<L::Scalar, N>,
+        N,
+        M,
+        P,
+        Vec<Box<DynEvent<'w, L, N, M, K>>>,
+        J,
+    >
     where
         L: Linearized<N, M, K>,
         E: EventList<DynEvent<'w, L, N, M, K>>,
@@ -78,7 +90,13 @@ where
             events
         })
     }
+}
 
+impl<'a, 'w, L, const N: usize, const M: usize, P, E>
+    MotionBuilder<'a, 'w, L, StateSensitivity<L::Scalar, N>, N, M, P, E>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
     /// Integrates the motion and its derivatives to the time `end`, or to the first [terminal](crate::Event::terminal) event.
     ///
     /// # Errors
@@ -136,13 +154,8 @@ where
     let driven = run.drive::<L, LagrangianVectorField, D, _, M>(method, &limits, &mut along);
     let (stored, course, before) = along.end();
     let trajectory = stored.finish(driven, run.statistics, *adjustment);
-    let is_at_event = matches!(trajectory.ending(), Ending::Event { .. });
-    let last = trajectory.crossings().last().filter(|_| is_at_event);
-    let end = trajectory.check_finished().and_then(|()| course.at(system, trajectory.end().state()));
-    let end = end.and_then(|at| match last.and_then(|crossing| events.get(crossing.index)) {
-        None => Ok(at),
-        Some(event) => at_event(system, at, &**event, &before),
-    });
+    let (ending, crossings) = (trajectory.ending(), trajectory.crossings());
+    let end = course.end(system, trajectory.end().state(), ending, crossings, events, &before);
     Ok(TrajectorySensitivity { trajectory, course, end })
 }
 
@@ -217,7 +230,7 @@ where
     L: Linearized<N, M, P, Scalar: Real>,
 {
     /// With what the variations take along.
-    fn from<D: DifferentiableMethod<L, N, M, P>>(
+    pub(super) fn from<D: DifferentiableMethod<L, N, M, P>>(
         system: &L,
         state: &State<L::Scalar, N>,
         start: &StateSensitivity<L::Scalar, N>,
@@ -236,13 +249,17 @@ where
     }
 
     /// After a step that was followed.
-    fn push(&mut self, start: L::Scalar, end: L::Scalar) {
+    pub(super) fn push(&mut self, start: L::Scalar, end: L::Scalar) {
         self.steps.push([start, end - start]);
         self.end = end;
     }
 
     /// The derivatives of a state of the motion.
-    fn at(&self, system: &L, state: &State<L::Scalar, N>) -> Result<StateSensitivity<L::Scalar, N>, Error> {
+    pub(super) fn at(
+        &self,
+        system: &L,
+        state: &State<L::Scalar, N>,
+    ) -> Result<StateSensitivity<L::Scalar, N>, Error> {
         let (lanes, blocks) = (<WideOf<L, N, M> as Wide<L::Scalar>>::COUNT, self.variations.blocks.len());
         let mut at = StateSensitivity::of(*state, self.variations.arguments().to_vec());
         let found = if state.t == self.end { None } else { self.step(state.t) };
@@ -266,6 +283,33 @@ where
             }
         }
         Ok(at)
+    }
+
+    /// The derivatives where the motion has ended, at an event with those of its time. `before` is a state earlier in the motion.
+    pub(super) fn end(
+        &self,
+        system: &L,
+        state: &State<L::Scalar, N>,
+        ending: &Ending,
+        crossings: &[Crossing<L::Scalar, N>],
+        events: &[Box<DynEvent<'_, L, N, M, P>>],
+        before: &State<L::Scalar, N>,
+    ) -> Result<StateSensitivity<L::Scalar, N>, Error> {
+        if ending.is_failure() {
+            return Err(ending.clone().into());
+        }
+        let at = self.at(system, state)?;
+        let last = crossings.last().filter(|_| matches!(ending, Ending::Event { .. }));
+        match last.and_then(|crossing| events.get(crossing.index)) {
+            None => Ok(at),
+            Some(event) => at_event(system, at, &**event, before),
+        }
+    }
+
+    /// Forgets all steps so far, but for the derivatives at the end of the last.
+    pub(super) fn forget_steps(&mut self) {
+        self.steps.clear();
+        self.coefficients.clear();
     }
 
     /// The step of this time, and which part of it has passed.

@@ -32,7 +32,7 @@ pub struct MotionBuilder<'a, 'w, L, S, const N: usize, const M: usize, P = Dop85
     pub(crate) events: E,
     pub(crate) on_progress: Option<OnProgress<'w>>,
     /// What is kept of the motion.
-    pub(super) kept: K,
+    pub(crate) kept: K,
 }
 
 /// All steps of a motion are kept, and what lies within: `to` gives a [`Trajectory`].

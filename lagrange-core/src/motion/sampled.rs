@@ -19,7 +19,7 @@ use crate::system::{Lagrangian, State};
 
 /// Samples alone are kept of a motion: `to` gives an [`Arrival`].
 pub struct SamplesAlone<'w, L: Lagrangian<N, M>, const N: usize, const M: usize> {
-    plan: RecordPlan<'w, L, N, M>,
+    pub(crate) plan: RecordPlan<'w, L, N, M>,
     /// Who steers, and the system that is steered.
     steered: Option<(Steering<'w, L, N, M>, L)>,
 }
@@ -51,26 +51,17 @@ impl<'w, L: Lagrangian<N, M>, const N: usize, const M: usize> Kept<'w, L, N, M>
     }
 }
 
-/// A motion of which samples alone are kept.
-type Sampled<'a, 'w, L, F, const N: usize, const M: usize, P, E> = MotionBuilder<
-    'a,
-    'w,
-    L,
-    Start<<L as Lagrangian<N, M>>::Scalar, N, F>,
-    N,
-    M,
-    P,
-    E,
-    SamplesAlone<'w, L, N, M>,
->;
+/// A motion of which samples alone are kept, from the start `S`.
+type Sampled<'a, 'w, L, S, const N: usize, const M: usize, P, E> =
+    MotionBuilder<'a, 'w, L, S, N, M, P, E, SamplesAlone<'w, L, N, M>>;
 
-impl<'a, 'w, L, F, const N: usize, const M: usize, P, E, K>
-    MotionBuilder<'a, 'w, L, Start<L::Scalar, N, F>, N, M, P, E, K>
+impl<'a, 'w, L, S, const N: usize, const M: usize, P, E, K> MotionBuilder<'a, 'w, L, S, N, M, P, E, K>
 where
     L: Lagrangian<N, M, Scalar: Real>,
     K: Kept<'w, L, N, M>,
 {
-    /// Keeps the states at these times, and no steps: [`to`](MotionBuilder::to) gives an [`Arrival`], which takes as much memory as they.
+    /// Keeps the states at these times, and no steps: [`to`](MotionBuilder::to) gives an [`Arrival`], which takes as much memory as they; of a
+    /// motion with derivatives a [`SampledSensitivity`](crate::linearized::SampledSensitivity).
     ///
     /// They lie on the continuous extension of the method, projected onto the constraints; steps are as long as without. The
     /// times must be in the order of the motion, and lie between its start and its end. No times at all are right where the end alone, or
@@ -89,7 +80,7 @@ where
     /// assert!((arrival.state.q[0] - 2.0_f64.cos()).abs() < 1e-8);
     /// # Ok::<(), Error>(())
     /// ```
-    pub fn samples_at(self, times: impl IntoIterator<Item = L::Scalar>) -> Sampled<'a, 'w, L, F, N, M, P, E> {
+    pub fn samples_at(self, times: impl IntoIterator<Item = L::Scalar>) -> Sampled<'a, 'w, L, S, N, M, P, E> {
         let times = times.into_iter().collect();
         self.sampled(|samples| samples.plan.times = SampleTimes::At(times))
     }
@@ -110,10 +101,25 @@ where
     /// assert!(arrival.samples.iter().map(|state| state.t).eq([0.0, 0.1, 0.2, 0.3]));
     /// # Ok::<(), Error>(())
     /// ```
-    pub fn every(self, interval: L::Scalar) -> Sampled<'a, 'w, L, F, N, M, P, E> {
+    pub fn every(self, interval: L::Scalar) -> Sampled<'a, 'w, L, S, N, M, P, E> {
         self.sampled(|samples| samples.plan.times = SampleTimes::Every(interval))
     }
 
+    fn sampled(self, set: impl FnOnce(&mut SamplesAlone<'w, L, N, M>)) -> Sampled<'a, 'w, L, S, N, M, P, E> {
+        self.keeping(|kept| {
+            let mut samples = kept.samples_alone();
+            set(&mut samples);
+            samples
+        })
+    }
+}
+
+impl<'a, 'w, L, F, const N: usize, const M: usize, P, E, K>
+    MotionBuilder<'a, 'w, L, Start<L::Scalar, N, F>, N, M, P, E, K>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+    K: Kept<'w, L, N, M>,
+{
     /// Keeps this quantity of each sample, in [`Arrival::values`]: of several, all of the first sample come first. The function gives a number, or
     /// what gives one by name, `|sample| sample.observable("height")`.
     ///
@@ -123,7 +129,7 @@ where
         self,
         name: &'static str,
         function: impl Fn(&Sample<&L, N, M>) -> V + Send + Sync + 'w,
-    ) -> Sampled<'a, 'w, L, F, N, M, P, E> {
+    ) -> Sampled<'a, 'w, L, Start<L::Scalar, N, F>, N, M, P, E> {
         self.sampled(|samples| samples.plan.quantity(name, function))
     }
 
@@ -165,7 +171,7 @@ where
         self,
         interval: L::Scalar,
         mut controller: impl FnMut(&mut L, &State<L::Scalar, N>) -> Result<(), X> + 'w,
-    ) -> Sampled<'a, 'w, L, F, N, M, P, E>
+    ) -> Sampled<'a, 'w, L, Start<L::Scalar, N, F>, N, M, P, E>
     where
         L: Clone,
     {
@@ -175,17 +181,9 @@ where
         let steered = Some((Steering { interval, controller }, self.system.clone()));
         self.sampled(|samples| samples.steered = steered)
     }
-
-    fn sampled(self, set: impl FnOnce(&mut SamplesAlone<'w, L, N, M>)) -> Sampled<'a, 'w, L, F, N, M, P, E> {
-        self.keeping(|kept| {
-            let mut samples = kept.samples_alone();
-            set(&mut samples);
-            samples
-        })
-    }
 }
 
-impl<'w, L, F, const N: usize, const M: usize, P, E> Sampled<'_, 'w, L, F, N, M, P, E>
+impl<'w, L, F, const N: usize, const M: usize, P, E> Sampled<'_, 'w, L, Start<L::Scalar, N, F>, N, M, P, E>
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {

@@ -207,6 +207,16 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
         Ok(())
     }
 
+    /// The samples so far.
+    pub(crate) fn samples(&self) -> &[State<L::Scalar, N>] {
+        &self.samples
+    }
+
+    /// Why the motion ends where it starts, if it does.
+    pub(crate) fn stopped(&mut self) -> Option<Ending> {
+        self.stopped.take()
+    }
+
     /// Where the motion ended, with what was kept of it.
     pub(crate) fn arrive(
         self,
@@ -292,7 +302,7 @@ where
         let Self { system, record, .. } = self;
         let Run { memory, state, statistics, .. } = run;
         if const { HAS_DENSE_OUTPUT } {
-            if let Some(ending) = record.stopped.take() {
+            if let Some(ending) = record.stopped() {
                 return Err(ending);
             }
             if let Moving::Steered(system) = system

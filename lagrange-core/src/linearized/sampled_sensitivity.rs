@@ -1,0 +1,243 @@
+//! A motion with its derivatives, of which samples alone are kept.
+
+use alloc::{boxed::Box, vec::Vec};
+use core::marker::PhantomData;
+
+use super::Linearized;
+use super::sensitivities::{Course, DynEvent};
+use super::sensitivity::StateSensitivity;
+use super::variation::DifferentiableMethod;
+use crate::error::{Ending, Error};
+use crate::motion::builder::EventList;
+use crate::motion::event::DenseStep;
+use crate::motion::record::{Arrival, Record, RecordPlan};
+use crate::motion::run::{Observer, Progress, Run, Watchdog, check_end};
+use crate::motion::store::OnProgress;
+use crate::motion::{MotionBuilder, SamplesAlone};
+use crate::number::Real;
+use crate::solution::vector_field::LagrangianVectorField;
+use crate::system::finite::check_finite;
+use crate::system::{Lagrangian, State};
+
+/// Where a motion ended, its samples, and how they change with entries of its start and with parameters.
+#[derive(Clone, Debug)]
+pub struct SampledSensitivity<T, const N: usize> {
+    /// The motion without its derivatives.
+    pub arrival: Arrival<T, N>,
+    /// Each sample of [`arrival`](Self::arrival) with its derivatives at its time.
+    pub samples: Vec<StateSensitivity<T, N>>,
+    end: Result<StateSensitivity<T, N>, Error>,
+}
+
+impl<T: Real, const N: usize> SampledSensitivity<T, N> {
+    /// The last state and its derivatives, as by [`TrajectorySensitivity::end`](super::TrajectorySensitivity::end).
+    ///
+    /// # Errors
+    /// As there.
+    pub fn end(&self) -> Result<&StateSensitivity<T, N>, Error> {
+        self.end.as_ref().map_err(Error::clone)
+    }
+}
+
+impl<'w, L, const N: usize, const M: usize, P, E>
+    MotionBuilder<'_, 'w, L, StateSensitivity<L::Scalar, N>, N, M, P, E, SamplesAlone<'w, L, N, M>>
+where
+    L: Lagrangian<N, M, Scalar: Real>,
+{
+    /// Integrates the motion and its derivatives to the time `end`, or to the first [terminal](crate::Event::terminal) event. Of
+    /// the steps nothing is kept.
+    ///
+    /// ```
+    /// # use lagrange_core::prelude::*;
+    /// #[derive(Lagrangian)]
+    /// #[coordinates(x)]
+    /// #[lagrangian(x_dot^2/2 - k/2 * x^2)]
+    /// struct Spring { k: f64 }
+    ///
+    /// let spring = Spring { k: 1.0 };
+    /// let start = spring.sensitivity(&State::at_rest([1.0]), &["x"])?;
+    /// let motion = spring.motion_with_derivatives(&start).every(0.5).to(10.0)?;
+    /// for sample in &motion.samples {
+    ///     // x = x₀ cos t
+    ///     assert!((sample.q[(0, 0)] - sample.state.t.cos()).abs() < 1e-7);
+    /// }
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// The errors of [`Linearized::integrate_sensitivities`], and those of samples that cannot be taken, as for a motion alone.
+    pub fn to<const K: usize>(self, end: L::Scalar) -> Result<SampledSensitivity<L::Scalar, N>, Error>
+    where
+        L: Linearized<N, M, K>,
+        P: DifferentiableMethod<L, N, M, K>,
+        E: EventList<DynEvent<'w, L, N, M, K>>,
+    {
+        let motion = self.towards(end)?;
+        let ending = &motion.arrival.ending;
+        if ending.is_failure() { Err(ending.clone().into()) } else { Ok(motion) }
+    }
+
+    /// Integrates the motion and its derivatives towards the time `end`. Where the motion fails on the way, what was kept up to there is
+    /// returned, with the ending that says why.
+    ///
+    /// # Errors
+    /// The errors of [`to`](Self::to) that are found before the first step.
+    pub fn towards<const K: usize>(self, end: L::Scalar) -> Result<SampledSensitivity<L::Scalar, N>, Error>
+    where
+        L: Linearized<N, M, K>,
+        P: DifferentiableMethod<L, N, M, K>,
+        E: EventList<DynEvent<'w, L, N, M, K>>,
+    {
+        let Self { system, start, method, events, on_progress, kept } = self;
+        integrate(system, &start, end, &method, &mut events.list(), &kept.plan, on_progress)
+    }
+}
+
+/// Integrates a motion together with its derivatives, and samples both.
+fn integrate<L, D, const N: usize, const M: usize, const P: usize>(
+    system: &L,
+    start: &StateSensitivity<L::Scalar, N>,
+    end: L::Scalar,
+    method: &D,
+    events: &mut [Box<DynEvent<'_, L, N, M, P>>],
+    plan: &RecordPlan<'_, L, N, M>,
+    on_progress: Option<OnProgress<'_>>,
+) -> Result<SampledSensitivity<L::Scalar, N>, Error>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+    D: DifferentiableMethod<L, N, M, P>,
+{
+    check_finite(system, &start.state)?;
+    check_end(end)?;
+    plan.check()?;
+    let mut begun = Run::begin::<L, LagrangianVectorField, D, M>(system, &start.state, method);
+    let (run, _) = begun.as_mut().map_err(|error| error.clone())?;
+    let (course, stages) = Course::from(system, &run.state, start, method)?;
+    let lent = events
+        .iter_mut()
+        .map(|event| -> Box<crate::motion::event::DynEvent<'_, L, N, M>> { Box::new(event) });
+    let record = Record::begin(plan, lent.collect(), None, system, &run.state, end)?;
+    let ends = [run.state.t, end];
+    let mut sampled = SampledAlong::<_, D, N, M, P> {
+        system,
+        ends,
+        record,
+        course,
+        stages,
+        before: run.state,
+        samples: Vec::new(),
+        within: Vec::new(),
+        on_progress,
+    };
+    sampled.sample()?;
+    let limits = Watchdog::new(method.limits(), &run.statistics);
+    let driven = run.drive::<L, LagrangianVectorField, D, _, M>(method, &limits, &mut sampled);
+    let ending = driven.err().unwrap_or(Ending::Complete { time: end.to_f64() });
+    let (record, course, before, samples) = sampled.end();
+    let arrival = record.arrive(run.state, ending, run.statistics);
+    let end = course.end(system, &arrival.state, &arrival.ending, &arrival.crossings, events, &before);
+    Ok(SampledSensitivity { arrival, samples, end })
+}
+
+/// The derivatives of a motion while it is integrated and sampled.
+struct SampledAlong<'a, 'o, L, D, const N: usize, const M: usize, const P: usize>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+    D: DifferentiableMethod<L, N, M, P>,
+{
+    system: &'a L,
+    /// The times of the start and of the end.
+    ends: [L::Scalar; 2],
+    record: Record<'o, L, N, M>,
+    /// Of the last step alone.
+    course: Course<L, N, M, P>,
+    /// What the method needs for the next step of the derivatives.
+    stages: D::VariationMemory,
+    /// The state at the start of the last step.
+    before: State<L::Scalar, N>,
+    samples: Vec<StateSensitivity<L::Scalar, N>>,
+    /// The interpolant of the last step, if it is looked into.
+    within: Vec<D::Interpolant>,
+    on_progress: Option<OnProgress<'o>>,
+}
+
+impl<'o, L, D, const N: usize, const M: usize, const P: usize> SampledAlong<'_, 'o, L, D, N, M, P>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+    D: DifferentiableMethod<L, N, M, P>,
+{
+    /// Adds the derivatives of the samples that have none yet.
+    fn sample(&mut self) -> Result<(), Error> {
+        for state in &self.record.samples()[self.samples.len()..] {
+            self.samples.push(self.course.at(self.system, state)?);
+        }
+        Ok(())
+    }
+
+    /// Its parts that are wanted after the motion.
+    #[allow(clippy::type_complexity, reason = "its fields")]
+    fn end(
+        self,
+    ) -> (Record<'o, L, N, M>, Course<L, N, M, P>, State<L::Scalar, N>, Vec<StateSensitivity<L::Scalar, N>>)
+    {
+        (self.record, self.course, self.before, self.samples)
+    }
+}
+
+impl<L, D, const N: usize, const M: usize, const P: usize> Observer<L, LagrangianVectorField, D, N, M>
+    for SampledAlong<'_, '_, L, D, N, M, P>
+where
+    L: Linearized<N, M, P, Scalar: Real>,
+    D: DifferentiableMethod<L, N, M, P>,
+{
+    fn system(&self) -> &L {
+        self.system
+    }
+
+    fn goal(
+        &mut self,
+        method: &D,
+        run: &mut Run<D::Memory, L::Scalar, N>,
+    ) -> Result<Option<L::Scalar>, Ending> {
+        if let Some(ending) = self.record.stopped() {
+            return Err(ending);
+        }
+        let [_, end] = self.ends;
+        if run.state.t == end {
+            return Ok(None);
+        }
+        self.course.forget_steps();
+        self.within.clear();
+        method.prepare(self.system, run, end, &self.course.variations, &mut self.stages)?;
+        Ok(Some(end))
+    }
+
+    fn follow(&mut self, method: &D, run: &mut Run<D::Memory, L::Scalar, N>) -> Result<(), Ending> {
+        let Self { system, course: Course { variations, coefficients, .. }, stages, within, .. } = self;
+        method.follow(system, run, variations, stages)?;
+        match self.record.looks_into(run.before.t, run.state.t) {
+            true => method.interpolate(system, run, variations, stages, within, coefficients),
+            false => Ok(()),
+        }
+    }
+
+    fn keep(&mut self, _: &D, run: &mut Run<D::Memory, L::Scalar, N>) -> Result<(), Ending> {
+        self.before = run.before;
+        self.course.push(run.before.t, run.state.t);
+        if let Some(interpolant) = self.within.first() {
+            let (system, before, after) = (self.system, &run.before, &{ run.state });
+            let step =
+                DenseStep { system, before, after, interpolant, field: PhantomData::<LagrangianVectorField> };
+            let ending = self.record.keep(&step, &mut run.state);
+            self.sample().map_err(|error| Ending::of(error, run.state.t.to_f64()))?;
+            ending.map_or(Ok(()), Err)?;
+        }
+        let Some(look) = &mut self.on_progress else { return Ok(()) };
+        let [start, end] = self.ends.map(Real::to_f64);
+        let progress = Progress { start, time: run.state.t.to_f64(), end, steps: run.statistics.accepted };
+        match look(progress).is_break() {
+            true => Err(Ending::Cancelled { time: progress.time }),
+            false => Ok(()),
+        }
+    }
+}
