@@ -1,4 +1,4 @@
-//! The settings of a method with step-size control.
+//! Settings of the embedded Runge–Kutta methods.
 
 use core::fmt;
 use core::marker::PhantomData;
@@ -7,11 +7,11 @@ use super::contract::{Limits, check_settings};
 use super::pair::Pair;
 use crate::error::Error;
 
-/// An embedded Runge–Kutta pair `P` with its settings.
+/// An embedded Runge–Kutta method by the pair `P`, with its settings.
 ///
-/// Each accepted step is projected onto Φ = 0 and F q̇ + b = 0, and nothing else. The error of a step, in the norm
-/// of Hairer, Nørsett and Wanner (*Solving Ordinary Differential Equations I*, II.4), is kept below
-/// `absolute + relative · |x|` of every coordinate and velocity x.
+/// Each accepted step is projected onto Φ = 0 and F q̇ + b = 0, and not altered otherwise. The error of a step is kept
+/// below `absolute + relative · |x|` of every coordinate and velocity x, in the norm of Hairer, Nørsett and Wanner
+/// (*Solving Ordinary Differential Equations I*, II.4).
 ///
 /// ```
 /// use lagrange_core::Dop853;
@@ -30,7 +30,7 @@ pub struct Adaptive<P> {
     pair: PhantomData<P>,
 }
 
-/// Relative and absolute tolerance 10⁻⁹, at most 100 000 steps, no limit on wall time.
+/// Relative and absolute tolerance 10⁻⁹, at most 100 000 steps, no limit on wall-clock time.
 impl<P> Default for Adaptive<P> {
     fn default() -> Self {
         Self::with_tolerance(1e-9)
@@ -38,7 +38,7 @@ impl<P> Default for Adaptive<P> {
 }
 
 impl<P> Adaptive<P> {
-    /// This relative and absolute tolerance.
+    /// Sets relative and absolute tolerance to the same number.
     pub fn with_tolerance(tolerance: f64) -> Self {
         Self {
             relative: tolerance,
@@ -51,53 +51,54 @@ impl<P> Adaptive<P> {
         }
     }
 
-    /// The error allowed as a fraction of each entry. Below 16 round-off units of the scalar it counts as those.
+    /// Sets the relative tolerance: the error allowed as a fraction of each entry of the state. A tolerance below 16 ε
+    /// of the scalar counts as 16 ε.
     ///
-    /// It covers what an entry cannot hold: a coordinate of 10³⁰⁰ with a velocity of 1 stays where it is to the last bit, and
-    /// the motion is complete. Count coordinates from nearby where small changes matter.
+    /// It also covers changes that an entry cannot represent: a coordinate of 10³⁰⁰ with a velocity of 1 stays constant
+    /// to the last bit, and the motion completes. If small changes matter, choose an origin of the coordinate nearby.
     pub fn relative_tolerance(self, tolerance: f64) -> Self {
         Self { relative: tolerance, ..self }
     }
 
-    /// The error allowed in the unit of each entry, which matters where the entry is about zero.
+    /// Sets the absolute tolerance: the error allowed in the unit of each entry. It matters for entries near zero.
     pub fn absolute_tolerance(self, tolerance: f64) -> Self {
         Self { absolute: tolerance, ..self }
     }
 
-    /// How many steps may be tried. In a trajectory each accepted one stores 5 (`Dopri5`) or 8 (`Dop853`) times 2N
-    /// numbers, so this bounds its memory; an ensemble or a `Motion` stores none.
+    /// Sets the limit on steps, rejected ones included. It also bounds the memory of a trajectory, which stores 5
+    /// (`Dopri5`) or 8 (`Dop853`) times 2N numbers for each accepted step. An ensemble or a `Motion` stores no steps.
     pub fn max_steps(mut self, steps: usize) -> Self {
         self.limits.max_steps = steps;
         self
     }
 
-    /// The longest step allowed.
+    /// Sets the longest step allowed, in units of time.
     pub fn max_step(self, step: f64) -> Self {
         Self { max_step: Some(step), ..self }
     }
 
-    /// The first step tried, instead of an estimate.
+    /// Sets the first step to try, instead of an estimate.
     pub fn first_step(self, step: f64) -> Self {
         Self { first_step: Some(step), ..self }
     }
 
-    /// All steps of this size, to the round-off of the time (the last may be shorter), whatever the error: to measure
-    /// orders of convergence, and for control loops.
+    /// Makes all steps this long, to the round-off of the time, whatever the error; the last may be shorter. For
+    /// measurements of orders of convergence, and for control loops.
     ///
-    /// The rates at the end of a step are evaluated by what needs them, the next step or what lies within this one; where the
-    /// equations have no solution there, that is the error.
+    /// Accelerations at the end of a step are evaluated only when the next step or the dense output needs them. If the
+    /// equations have no solution there, that later call returns the error.
     pub fn fixed_step(self, step: f64) -> Self {
         Self { fixed_step: Some(step), ..self }
     }
 
-    /// How long the integration may take by the clock on the wall.
+    /// Sets the limit on the wall-clock time of the integration.
     #[cfg(feature = "std")]
     pub fn wall_time(mut self, limit: std::time::Duration) -> Self {
         self.limits.wall_time = Some(limit);
         self
     }
 
-    /// By the numbers of the pair, not by its name.
+    /// Writes the coefficients and settings of the method. The coefficients identify the pair; its name does not.
     pub(super) fn identify(&self, to: &mut dyn fmt::Write) -> fmt::Result
     where
         P: Pair,

@@ -1,25 +1,25 @@
-//! The times of a motion.
+//! Times of a motion.
 //!
-//! Each is a number, and a step is as long as the way from one to the next: so the lengths add up to the whole,
-//! however far from zero the time is, and a state belongs to the very time that it is given with. Rounded is the step
-//! asked for, and always down.
+//! Each time is a floating-point number, and a step is as long as the difference of two of them. So the lengths add up
+//! to the whole, however far the time is from zero, and each state belongs exactly to its time. Only the step length
+//! asked for is rounded, always down.
 //!
-//! Backwards everything is as forwards with the negatives of the times, which are numbers as well.
+//! Backward integration mirrors forward integration with negated times, which are exact as well.
 
 use crate::number::{Real, Scalar, larger, smaller};
 
-/// Where a motion is on its way to the end.
+/// Current time and end of a motion.
 #[derive(Clone, Debug)]
 pub(crate) struct Clock<T> {
     pub(crate) now: T,
     pub(crate) end: T,
-    /// 1 where the end is later, −1 where it is earlier.
+    /// 1 if the end is later than the start, −1 if it is earlier.
     direction: T,
-    /// The largest time so far, in magnitude, that of the end included.
+    /// Largest magnitude of a time so far, including the end.
     farthest: T,
-    /// Where all steps are of one size, that.
+    /// Step length, if all steps have the same length.
     fixed_step: Option<T>,
-    /// By how much the last of these may be longer, for the round-off of start, end and size.
+    /// Excess that the last of these steps may have, for the round-off of start, end and step length.
     slack: T,
 }
 
@@ -41,28 +41,29 @@ impl<T: Real> Clock<T> {
         self.slack = self.fixed_step.map_or(round_off, |step| smaller(round_off, step * T::constant(0.5)));
     }
 
-    /// Goes on from this time, with no way to go yet.
+    /// Sets the current time, with the end at the same time.
     pub(crate) fn set(&mut self, now: T) {
         (self.now, self.end) = (now, now);
     }
 
-    /// A length in the direction of time.
+    /// Gives a length the sign of the direction of time.
     pub(crate) fn directed(&self, length: T) -> T {
         self.direction * length
     }
 
-    /// Whether there is no way left.
+    /// True if the current time is at the end or past it.
     pub(crate) fn is_at_end(&self) -> bool {
         self.directed(self.now) >= self.directed(self.end)
     }
 
-    /// Whether this time lies ahead.
+    /// True if `time` lies ahead of the current time.
     pub(crate) fn is_ahead(&self, time: T) -> bool {
         self.directed(time) > self.directed(self.now)
     }
 
-    /// The next step, signed, and the time after it. It is not longer than `step`, and has no length where no
-    /// time is that near. What is left for less than two steps is halved, so that no tiny one remains.
+    /// Returns the next step, signed, and the time after it. The step is not longer than `step`; it is zero if no
+    /// representable time is that near. A remainder shorter than two steps is halved, so that no tiny last step
+    /// remains.
     pub(crate) fn next(&self, step: T) -> (T, T) {
         let (left, half) = (self.left(), T::constant(0.5));
         let is_fixed = self.fixed_step.is_some();
@@ -74,41 +75,41 @@ impl<T: Real> Clock<T> {
         (time - self.now, time)
     }
 
-    /// After a step to this time where all are of one size, and this one was planned so long: the length to plan for the
-    /// next, with what the rounding of the time has taken given back.
+    /// Advances the clock after a step of fixed size that was planned with length `planned`. Returns the length to plan
+    /// for the next step: the size, plus the length that rounding has removed.
     pub(crate) fn tick(&mut self, (h, time): (T, T), planned: T, size: T) -> T {
         self.now = time;
         if self.is_at_end() { size } else { size + (planned - Scalar::abs(h)) }
     }
 
-    /// The length of the way to the end, or as much of it as a number can hold.
+    /// Length of time left to the end, or to zero if the former overflows.
     pub(crate) fn left(&self) -> T {
         self.directed(self.goal() - self.now)
     }
 
-    /// The step, or the shortest that advances the time for sure where it is shorter than that.
+    /// The step, but at least ε|t|, the shortest that surely advances the time t.
     pub(crate) fn at_least(&self, step: T) -> T {
         larger(step, T::constant(T::EPSILON) * Scalar::abs(self.now))
     }
 
-    /// Whether a step of this length leads to another time.
+    /// True if a step of this length reaches another time.
     pub(crate) fn advances_by(&self, step: T) -> bool {
         self.is_ahead(self.next(step).1)
     }
 
-    /// The end; or zero on the way, where the end is farther off than any number.
+    /// The end, or zero on the way if the end is farther away than the largest number.
     fn goal(&self) -> T {
         if (self.end - self.now).is_finite() { self.end } else { T::constant(0.0) }
     }
 
-    /// The last time that is not farther off than `step`.
+    /// The last representable time at most `step` ahead.
     fn after(&self, step: T) -> T {
         let now = self.directed(self.now);
         let time = now + step;
         if time - now <= step {
             return self.directed(time);
         }
-        // From 0.6 to 1.2 of the way to the number before, and so that one.
+        // 0.6 to 1.2 of the distance to the previous number: the difference rounds to that number.
         self.directed(time - T::constant(0.6 * T::EPSILON) * Scalar::abs(time))
     }
 }

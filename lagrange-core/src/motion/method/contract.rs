@@ -1,4 +1,4 @@
-//! What is asked of a method.
+//! The trait [`Method`]: interface of the integration methods.
 
 #[cfg(feature = "alloc")]
 use alloc::vec::Vec;
@@ -11,11 +11,11 @@ use crate::solution::vector_field::{LagrangianVectorField, VectorField};
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State};
 
-/// A way to step from one state to the next; a value, whose type says by its bounds where it applies, and
-/// whether it integrates Lagrange's equations or Hamilton's, the flow `F`.
+/// An integration method: a value with settings that proposes steps from one state to the next. Its bounds say to which
+/// systems it applies, and `F` whether it integrates Lagrange's or Hamilton's equations.
 ///
-/// [`integrate`](crate::Simulate::integrate) and [`Motion`](crate::Motion) check the start, loop, store and end; a method
-/// proposes steps. It works without an allocator where its memory does.
+/// [`integrate`](crate::Simulate::integrate) and [`Motion`](crate::Motion) check the start, run the loop, store the
+/// steps and reach the end. A method works without an allocator if its `Memory` does.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a method that integrates `{L}`",
     note = "methods are `Dop853::default()`, `Taylor::default()`, `Dopri5::default()` and `RungeKutta4::with_step(…)`; the system must be over `f64` or `f32`",
@@ -26,31 +26,31 @@ where
     L: Lagrangian<N, M, Scalar: Real>,
     F: VectorField<L, N, M>,
 {
-    /// What is carried from step to step, working arrays included.
+    /// State of the method that is carried from step to step, including its working arrays.
     type Memory;
-    /// What lies within a step.
+    /// Dense output of one step.
     type Interpolant: Interpolant<L::Scalar, N> + Send + Sync + 'static;
 
-    /// When to give up.
+    /// Limits on steps and wall-clock time.
     fn limits(&self) -> Limits;
 
-    /// Writes which method it is and the settings that its numbers depend on; the limits do not belong to them. Tables of
-    /// ensembles tell runs apart by it.
+    /// Writes the name of the method and the settings that affect its results; the limits do not. Tables of ensembles
+    /// distinguish runs by this text.
     ///
     /// # Errors
-    /// What writing gives.
+    /// Those of writing to `to`.
     fn identify(&self, to: &mut dyn fmt::Write) -> fmt::Result;
 
     /// Checks the settings.
     ///
     /// # Errors
-    /// [`Error::Setting`] for one that cannot work.
+    /// [`Error::Setting`] for a setting that is not allowed.
     fn check(&self) -> Result<(), Error>;
 
-    /// Prepares the first step from a consistent state, with settings that have been checked.
+    /// Prepares the first step from a consistent state. The settings have been checked.
     ///
     /// # Errors
-    /// What evaluating the equations gives.
+    /// Those of evaluating the equations.
     fn begin(
         &self,
         system: &L,
@@ -58,11 +58,10 @@ where
         statistics: &mut Statistics,
     ) -> Result<Self::Memory, Error>;
 
-    /// Goes on from another consistent state, or after the system has changed. What has been learnt about the length
-    /// of steps can be kept.
+    /// Continues from another consistent state, or after a change of the system. The method may keep its step length.
     ///
     /// # Errors
-    /// What evaluating the equations gives.
+    /// Those of evaluating the equations.
     fn resume(
         &self,
         system: &L,
@@ -74,8 +73,9 @@ where
         Ok(())
     }
 
-    /// Tries one step towards the time `end`, which may lie before the state. It never passes the end, and reaches it
-    /// exactly: a step that does not lead to a time between is [`Ending::MethodFailed`]. Evaluations are to be counted.
+    /// Tries one step towards the time `end`, which may lie before the state. A step must not pass the end, and must be
+    /// able to reach it exactly; the caller turns a step that does not lead towards the end into
+    /// [`Ending::MethodFailed`]. The method must count its evaluations in `statistics`.
     fn step(
         &self,
         system: &L,
@@ -84,11 +84,11 @@ where
         statistics: &mut Statistics,
     ) -> Step<L::Scalar, N>;
 
-    /// What lies within the step accepted last; asked for where it is of interest, before the next step and before the
-    /// system changes.
+    /// Returns the dense output of the last accepted step. It is called only when needed, before the next step and
+    /// before a change of the system.
     ///
     /// # Errors
-    /// What evaluating the equations within the step gives.
+    /// Those of evaluating the equations within the step.
     fn interpolant(
         &self,
         system: &L,
@@ -96,11 +96,11 @@ where
         statistics: &mut Statistics,
     ) -> Result<Self::Interpolant, Error>;
 
-    /// Puts what lies within the step accepted last behind others, where it is to stay: a large one need not be on the stack. Where
-    /// that is an error there is no more of them than before.
+    /// Appends the dense output of the last accepted step to `to`, built in place so that a large one does not go
+    /// through the stack. After an error, `to` has its former length.
     ///
     /// # Errors
-    /// As [`interpolant`](Self::interpolant).
+    /// Those of [`interpolant`](Self::interpolant).
     #[cfg(feature = "alloc")]
     fn push_interpolant(
         &self,
@@ -113,21 +113,21 @@ where
         Ok(())
     }
 
-    /// Takes the last step back, because its interpolant is wanted and there is none; the next attempt is shorter. False
-    /// where that cannot be: the motion then ends before the step.
+    /// Undoes the last step because its dense output is needed and cannot be computed; the next attempt is shorter.
+    /// Returns false if this is impossible: the motion then ends before the step.
     #[allow(unused_variables)]
     fn undo(&self, memory: &mut Self::Memory) -> bool {
         false
     }
 
-    /// How long the next step is, and what keeps it short. Asked when the limit on steps is reached.
+    /// Returns the current step length and what limits it. Called when the limit on steps is reached.
     #[allow(unused_variables)]
     fn pace(&self, system: &L, memory: &Self::Memory, end: L::Scalar) -> Pace {
         Pace::default()
     }
 }
 
-/// All settings that there are must be positive and finite.
+/// Checks that all given settings are positive and finite.
 pub(crate) fn check_settings<const K: usize>(
     settings: [(&'static str, Option<f64>); K],
 ) -> Result<(), Error> {
@@ -139,28 +139,28 @@ pub(crate) fn check_settings<const K: usize>(
     }
 }
 
-/// What became of a step.
+/// Result of an attempted step.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step<T, const N: usize> {
-    /// A new state on the constraints.
+    /// The step reached a new state, which satisfies the constraints.
     Accepted(State<T, N>),
-    /// Too long; the next attempt is shorter.
+    /// The step was too long; the next attempt is shorter.
     Rejected,
-    /// No step is short enough, or none will do. What only the method knows is [`Ending::MethodFailed`].
+    /// No shorter step exists, or no step can succeed. Reasons specific to the method are [`Ending::MethodFailed`].
     Failed(Ending),
 }
 
-/// When an integration gives up.
+/// Limits at which an integration gives up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
-    /// Attempted steps, rejected ones included.
+    /// Largest number of attempted steps, rejected ones included.
     pub max_steps: usize,
-    /// Limit on wall-clock time.
+    /// Largest wall-clock time.
     #[cfg(feature = "std")]
     pub wall_time: Option<std::time::Duration>,
 }
 
-/// At most 100 000 steps, no limit on wall time.
+/// At most 100 000 steps, no limit on wall-clock time.
 impl Default for Limits {
     fn default() -> Self {
         Self {

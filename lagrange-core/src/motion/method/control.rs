@@ -1,4 +1,4 @@
-//! The choice of the step size (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.4).
+//! Step-size control (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.4).
 
 use core::array::from_fn;
 
@@ -13,7 +13,7 @@ use crate::number::Broadcast;
 use crate::number::{Real, Scalar, entries, exceeds, larger, smaller, sum};
 use crate::solution::vector_field::PhaseVector;
 
-/// The step to try next, and what its choice remembers.
+/// Length of the next step, and the memory of the controller.
 #[derive(Clone, Debug)]
 pub(crate) struct Control<T> {
     pub(crate) step: T,
@@ -26,8 +26,8 @@ impl<T: Real> Control<T> {
         Self { step, previous_error: T::constant(1e-4), was_refused: false }
     }
 
-    /// After a step h, signed, with an error of this part of the tolerance: the PI controller, and no growth after a
-    /// refusal.
+    /// Chooses the next step after an accepted step `h`, signed, with `error` in units of the tolerance. This is the PI
+    /// controller; after a rejected step the step does not grow.
     pub(crate) fn accept<P: Pair>(&mut self, h: T, error: T) {
         let growth = T::constant(if self.was_refused { 1.0 } else { P::GROWTH });
         let damping = Scalar::powf(self.previous_error, T::constant(P::DAMPING));
@@ -37,39 +37,39 @@ impl<T: Real> Control<T> {
         self.was_refused = false;
     }
 
-    /// After a step h with too large an error.
+    /// Chooses a shorter step after a step `h` with too large an error.
     pub(crate) fn refuse<P: Pair>(&mut self, h: T, error: T) {
         let factor = T::constant(SAFETY) / reduction::<P, T>(error);
         self.step = Scalar::abs(h) * larger(T::constant(P::SHRINK), factor);
         self.was_refused = true;
     }
 
-    /// After a step h into a region where the equations have no solution.
+    /// Halves the step after a step `h` into a region where the equations have no solution.
     pub(crate) fn halve(&mut self, h: T) {
         self.step = Scalar::abs(h) * T::constant(0.5);
         self.was_refused = true;
     }
 }
 
-/// A first step is at most so many times the first guess.
+/// Largest ratio of the first step to its first guess.
 pub(crate) const FIRST: f64 = 100.0;
 
-/// The part of the predicted step that is taken, so that few are refused.
+/// Fraction of the predicted step that is taken, so that few steps are rejected.
 const SAFETY: f64 = 0.9;
 
 fn reduction<P: Pair, T: Real>(error: T) -> T {
     let exponent = 1.0 / P::ORDER - 0.75 * P::DAMPING;
     if exponent == 0.125 {
-        // Three roots take a third of the time of a power.
+        // Three square roots take a third of the time of `powf`.
         return Scalar::sqrt(Scalar::sqrt(Scalar::sqrt(error)));
     }
     Scalar::powf(error, T::constant(exponent))
 }
 
-/// The place of an entry: half 0 the coordinates, 1 the velocities, and the index.
+/// Index of an entry of the state: half 0 for coordinates, 1 for velocities, then the index of the coordinate.
 pub(crate) type StateEntry = (usize, usize);
 
-/// The error allowed in each entry: `absolute + relative · |x|`.
+/// Tolerances: the error allowed in entry x is `absolute + relative · |x|`.
 #[derive(Clone, Copy)]
 pub(crate) struct Tolerance {
     pub(crate) relative: f64,
@@ -77,7 +77,7 @@ pub(crate) struct Tolerance {
 }
 
 impl Tolerance {
-    /// The error of a step as a part of the tolerance.
+    /// Error of a step, in units of the tolerance.
     #[inline]
     pub(crate) fn error<P: Pair, T: Scalar, const N: usize>(
         self,
@@ -89,9 +89,9 @@ impl Tolerance {
         estimate::<P, T, N>(slopes, h, &self.scale(before, after))
     }
 
-    /// The error of variations over a step from one place to another: as a part of the relative tolerance of the largest
-    /// entry among their coordinates, and among their velocities, and of what the place itself is allowed, in units of
-    /// the variations.
+    /// Error of variations over a step from the state `places[0]` to `places[1]`. Its unit, for the coordinates and for
+    /// the velocities of the variations, is [`SLACK`] times a sum: the relative tolerance of the largest entry of that
+    /// half, plus the error allowed in the state itself, converted by `unit` to the unit of the variations.
     #[cfg(feature = "alloc")]
     pub(crate) fn error_of_variations<P: Pair, T: Scalar, W: Broadcast<T>, const N: usize>(
         self,
@@ -114,7 +114,7 @@ impl Tolerance {
         estimate::<P, W, N>(slopes, W::of(h), &scale)
     }
 
-    /// What a step of this length makes of rates, as a part of the error allowed at a place.
+    /// Change that `rates` make over a step of length `h`, in units of the error allowed at the state `place`.
     pub(crate) fn part<T: Real, const N: usize>(
         self,
         h: T,
@@ -124,7 +124,7 @@ impl Tolerance {
         norm(h, rates, &self.scale(place, place))
     }
 
-    /// A first guess at the first step: one that moves the state by a hundredth of its size.
+    /// First guess of the first step: it changes the state by a hundredth of its size.
     pub(crate) fn guess_step<T: Real, const N: usize>(
         self,
         y: &PhaseVector<T, N>,
@@ -138,7 +138,7 @@ impl Tolerance {
         smaller(if usable { T::constant(0.01) * size / speed } else { span * T::constant(1e-6) }, span)
     }
 
-    /// The entry with the largest error.
+    /// Index of the entry with the largest error relative to its tolerance.
     pub(crate) fn worst<P: Pair, T: Real, const N: usize>(
         self,
         slopes: &Slopes<T, N>,
@@ -151,7 +151,7 @@ impl Tolerance {
         places.fold((0, 0), |worst, place| if part(place) > part(worst) { place } else { worst })
     }
 
-    /// The error allowed in each entry between two places.
+    /// Error allowed in each entry over a step between two states.
     #[inline]
     fn scale<T: Scalar, const N: usize>(
         self,
@@ -165,46 +165,46 @@ impl Tolerance {
     }
 }
 
-/// The estimate of the error of a step, as a part of the errors allowed.
+/// Error estimate of a step, in units of the allowed errors.
 #[inline]
 fn estimate<P: Pair, T: Scalar, const N: usize>(slopes: &Slopes<T, N>, h: T, scale: &PhaseVector<T, N>) -> T {
-    // Times h before they are squared: slopes depend on the unit of time, and their squares leave the numbers.
+    // Multiply by h before squaring: slopes depend on the unit of time, and their squares could overflow or underflow.
     let first = norm(h, &combine(slopes, P::ERROR), scale);
     if P::LOWER_ERROR.is_empty() {
         return first;
     }
     let second = norm(h, &combine(slopes, P::LOWER_ERROR), scale);
     let both = (first * first + T::constant(0.01) * second * second).sqrt();
-    // Lanes cannot branch where both vanish; so small an error is none.
+    // Lanes cannot branch if both vanish, so the denominator has a lower bound; an error that small counts as zero.
     first * first / both.max(T::constant(1e-30))
 }
 
 impl<P: Pair> Adaptive<P> {
-    /// What is asked for, as far as the numbers go.
+    /// Requested tolerances, with the relative one at least 16 ε.
     pub(crate) fn tolerance<T: Real>(&self) -> Tolerance {
         Tolerance { relative: self.relative.max(16.0 * T::EPSILON), absolute: self.absolute }
     }
 
-    /// Whether nobody looks at the error of a step, because all are of one size. What the rates at its end are is then left
-    /// to those who need them, the next step or what lies within: to nobody, where the system changes first.
+    /// True for fixed steps: no error estimate is computed. The rates at the end of a step are then evaluated only when
+    /// the next step or the dense output needs them; after a change of the system, never.
     #[inline]
     pub(crate) fn ignores_error(&self) -> bool {
         self.fixed_step.is_some()
     }
 
-    /// Whether the error can be had only with the slope at the end of the step, and is looked at.
+    /// True if the error is estimated, and the estimate needs the slope at the end of the step.
     #[cfg(feature = "std")]
     #[inline]
     pub(crate) fn error_needs_last(&self) -> bool {
         !self.ignores_error() && error_needs_last::<P>()
     }
 
-    /// Whether a step with this part of the tolerance as its error will do; nothing refuses a fixed step.
+    /// True if a step with this error, in units of the tolerance, is accepted. A fixed step always is.
     pub(crate) fn accepts<T: Real>(&self, error: T) -> bool {
         self.ignores_error() || !exceeds(error, T::constant(1.0))
     }
 
-    /// After an accepted step of this length to this time: moves the clock, and chooses the next step.
+    /// Advances the clock to `time` after an accepted step `h`, and chooses the next step.
     pub(crate) fn after_acceptance<T: Real>(
         &self,
         control: &mut Control<T>,
@@ -219,24 +219,24 @@ impl<P: Pair> Adaptive<P> {
         clock.now = time;
         let planned = control.step;
         control.accept::<P>(h, error);
-        // A step that the end has cut says nothing against the one planned, should the motion go on.
+        // If the end has shortened this step, keep the planned length for a continued motion.
         let step = if clock.is_at_end() { larger(control.step, planned) } else { control.step };
         control.step = self.fit(step, clock);
     }
 
-    /// The step made long enough to advance the time, and cut to the longest allowed.
+    /// Makes the step long enough to advance the time, and no longer than `max_step`.
     pub(super) fn fit<T: Real>(&self, step: T, clock: &Clock<T>) -> T {
         if self.fixed_step.is_some() {
             return step;
         }
         let step = clock.at_least(step);
-        // Not a number, or nothing where the numbers end.
+        // Replaces NaN, and zero where times underflow.
         let step = if step > T::constant(0.0) { step } else { clock.left() };
         self.max_step.map_or(step, |longest| smaller(step, T::constant(longest)))
     }
 
-    /// The first step from that guess and the slopes before and after it: the error of a step of Euler's method of
-    /// this size would be a hundredth.
+    /// First step, from a guess and the slopes before and after a step of that length: the error of Euler's method over
+    /// the returned step would be a hundredth of the tolerance.
     pub(crate) fn first_step_from<T: Real, const N: usize>(
         &self,
         guess: T,
@@ -257,12 +257,12 @@ impl<P: Pair> Adaptive<P> {
     }
 }
 
-/// So many times the tolerance variations are allowed: their errors are about as much larger than those of the motion, as a
-/// rule, and are to shorten its steps only where it is no guide.
+/// Tolerance of variations, in units of the tolerance of the motion. Errors of variations are usually about ten times
+/// larger; they should shorten steps only if the error of the motion is no guide.
 #[cfg(feature = "alloc")]
 pub(crate) const SLACK: f64 = 10.0;
 
-/// √(mean (h x/scale)²).
+/// Root mean square of h x/scale: √(mean (h x/scale)²).
 #[inline]
 fn norm<T: Scalar, const N: usize>(h: T, x: &PhaseVector<T, N>, scale: &PhaseVector<T, N>) -> T {
     let (x, scale) = (x.as_flattened(), scale.as_flattened());

@@ -8,8 +8,8 @@ use super::pair::{Pair, TableauRow};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DormandPrince54;
 
-/// Dormand and Prince's method of order 5(4): cheap steps, for errors of 10⁻³ and forces that are not smooth. Below 10⁻⁷ they
-/// get many.
+/// Dormand and Prince's method of order 5(4): cheap steps, for errors of 10⁻³ and forces that are not smooth. It needs
+/// many steps for errors below 10⁻⁷.
 pub type Dopri5 = Adaptive<DormandPrince54>;
 
 impl Pair for DormandPrince54 {

@@ -1,4 +1,4 @@
-//! The methods: one step of each, and how a step is chosen.
+//! Integration methods: Runge–Kutta steps, and the control of their length.
 
 mod adaptive;
 pub(super) mod clock;

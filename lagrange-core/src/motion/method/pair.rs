@@ -1,17 +1,17 @@
-//! What distinguishes one embedded Runge–Kutta pair from another: coefficients.
+//! Coefficients of embedded Runge–Kutta pairs, and weighted sums of their slopes.
 
 use crate::number::Scalar;
 use crate::solution::vector_field::PhaseVector;
 
-/// The coefficients of a sum of slopes: (index of the slope, coefficient).
+/// A row of the Butcher tableau: pairs (index of a slope, its coefficient).
 pub type TableauRow = &'static [(usize, f64)];
 
 /// The coefficients of an explicit embedded pair with a continuous extension.
 ///
-/// Slopes are numbered 0 at the start, then the stages, then one at the end of the step, then the stages of the
-/// interpolant; there is room for 16. Each row of coefficients names slopes before its own only; those of a stage add
-/// up to its node, the weights to 1, and those of errors and of the interpolant to 0. Where that is not so, a program
-/// that integrates with the pair does not compile:
+/// Slopes have indices: 0 for the start, then the stages, then the slope at the end of the step, then the stages of the
+/// interpolant. There is room for 16. A row of coefficients may only use slopes before its own. The coefficients of a
+/// stage add up to its node, the weights to 1, and those of errors and of the interpolant to 0. A pair that violates
+/// this does not compile in a program that integrates with it:
 ///
 /// ```compile_fail,E0080
 /// use lagrange_core::motion::{Adaptive, TableauRow, Pair};
@@ -47,51 +47,53 @@ pub type TableauRow = &'static [(usize, f64)];
 /// # Ok::<(), Error>(())
 /// ```
 pub trait Pair {
-    /// The time of each slope as a fraction of the step.
+    /// Time of each slope, as a fraction of the step.
     const NODES: &'static [f64];
-    /// Each stage but the first as a sum of the slopes before it.
+    /// Rows of all stages but the first.
     const STAGES: &'static [TableauRow];
-    /// The new state.
+    /// Weights of the new state.
     const WEIGHTS: TableauRow;
-    /// The error e that decides.
+    /// Weights of the error estimate e, which accepts or rejects a step.
     const ERROR: TableauRow;
-    /// A second error e′ of lower order, or nothing: the estimate is then |e|²/√(|e|² + 0.01 |e′|²) instead of |e|.
+    /// Weights of a second error estimate e′ of lower order, or an empty row. With e′, the error is |e|²/√(|e|² + 0.01
+    /// |e′|²) instead of |e|.
     const LOWER_ERROR: TableauRow;
     /// Stages that only the interpolant needs.
     const INTERPOLATION_STAGES: &'static [TableauRow];
-    /// Coefficients of the interpolant beyond the fourth.
+    /// Rows for the coefficients of the interpolant beyond the four of its cubic Hermite part.
     const INTERPOLATION: &'static [TableauRow];
-    /// Order of the error estimate: the power of the step length that it is proportional to.
+    /// Order of the error estimate: it is proportional to this power of the step length.
     const ORDER: f64;
     /// Weight of the previous error in the choice of the step (β of the PI controller).
     const DAMPING: f64;
-    /// The new step is at least this times the old one …
+    /// Lower limit of the ratio of the new step to the old one.
     const SHRINK: f64;
-    /// … and at most this times.
+    /// Upper limit of the ratio of the new step to the old one.
     const GROWTH: f64;
 
-    /// All coefficients of the interpolant: an array of 4 and as many as [`INTERPOLATION`](Self::INTERPOLATION) has.
+    /// All coefficients of the interpolant: an array of 4 more elements than [`INTERPOLATION`](Self::INTERPOLATION) has
+    /// rows.
     type Coefficients<X: Copy + Send + Sync + 'static>: AsRef<[X]> + AsMut<[X]> + Copy + Send + Sync + 'static;
 
-    /// That array with `all` in every place.
+    /// Creates the array of coefficients with `all` in every element.
     fn coefficients<X: Copy + Send + Sync + 'static>(all: X) -> Self::Coefficients<X>;
 }
 
-/// The slope at the end of the step.
+/// Index of the slope at the end of the step.
 pub(crate) const fn last<P: Pair>() -> usize {
     P::STAGES.len() + 1
 }
 
-/// Whether the error can be had only with the slope at the end of the step.
+/// True if the error estimate uses the slope at the end of the step.
 #[inline]
 pub(crate) fn error_needs_last<P: Pair>() -> bool {
     P::ERROR.iter().any(|(slope, _)| *slope == last::<P>())
 }
 
-/// Room for the slopes of a step.
+/// Largest number of slopes of a step.
 pub(crate) const SLOPES: usize = 16;
 
-/// Fails to compile where the tables of a pair do not belong together.
+/// Stops the compilation if the tables of a pair are inconsistent.
 pub(crate) const fn check<P: Pair>() {
     let slopes = last::<P>() + 1 + P::INTERPOLATION_STAGES.len();
     assert!(slopes <= SLOPES, "a pair has at most 16 slopes");
@@ -135,10 +137,10 @@ const fn check_row(row: TableauRow, slopes: usize, expected: f64) {
     assert!((sum - expected).abs() <= 1e-12 * size, "the coefficients of a row do not add up");
 }
 
-/// The slopes (q̇, q̈) of a step.
+/// Slopes (q̇, q̈) of a step, by their index.
 pub(crate) type Slopes<T, const N: usize> = [PhaseVector<T, N>; SLOPES];
 
-/// Puts start + h Σ cᵢ slopeᵢ into `end`.
+/// Sets `end` to start + h Σ cᵢ slopeᵢ.
 #[inline]
 pub(crate) fn advance<T: Scalar, const N: usize>(
     start: &PhaseVector<T, N>,
@@ -151,14 +153,14 @@ pub(crate) fn advance<T: Scalar, const N: usize>(
     sums(slopes, row, |i, sum| start[i] + h * sum, end);
 }
 
-/// Whether slopes are short enough to be carried from stage to stage in registers. Numbers written to memory one by one
-/// cannot be read several at a time before they have reached the cache: every stage would wait for the last slope.
+/// True if slopes are short enough to stay in registers from stage to stage. Numbers written to memory one by one
+/// cannot be loaded as a vector before they reach the cache: every stage would wait for the last slope.
 pub(crate) const fn is_carried<const N: usize>() -> bool {
     2 * N <= BLOCK
 }
 
-/// As [`advance`], with the slope of this number, evaluated last, at hand as well: where slopes are carried, it is taken
-/// instead of the one in memory.
+/// Like [`advance`], with the slope `number`, evaluated last, also in `newest`. If slopes are carried in registers,
+/// `newest` replaces the copy in memory.
 #[inline(always)]
 pub(crate) fn advance_from<T: Scalar, const N: usize>(
     (number, newest): (usize, &PhaseVector<T, N>),
@@ -188,10 +190,10 @@ pub(crate) fn combine<T: Scalar, const N: usize>(
     combined
 }
 
-/// So many sums at a time wait in registers.
+/// Number of sums accumulated in registers at a time.
 const BLOCK: usize = 8;
 
-/// Puts what becomes of each Σ cᵢ slopeᵢ, given its place and its value, into `results`.
+/// Maps each Σ cᵢ slopeᵢ by `what_becomes`, which takes its index and its value, and stores the results.
 #[inline(always)]
 fn sums<T: Scalar, const N: usize>(
     slopes: &Slopes<T, N>,
@@ -207,7 +209,8 @@ fn sums<T: Scalar, const N: usize>(
     sum_block(slopes, row, &what_becomes, BLOCK * count, rest);
 }
 
-/// A block of the sums from this place on; its length is known at compile time, so that no loop over entries remains.
+/// One block of [`sums`], starting at index `at`. The block length is known at compile time, so loops over entries are
+/// unrolled.
 #[inline(always)]
 fn sum_block<T: Scalar, const N: usize>(
     slopes: &Slopes<T, N>,

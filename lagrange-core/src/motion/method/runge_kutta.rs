@@ -1,4 +1,4 @@
-//! The classical method of Runge and Kutta, on any scalar.
+//! The classical Runge–Kutta method of order 4, for any scalar.
 
 use core::array::from_fn;
 use core::convert::Infallible;
@@ -17,17 +17,18 @@ use crate::solution::vector_field::PhaseVector;
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, Solution, State};
 
-/// The state a time `h` later (earlier where it is negative), by one step of the classical method of Runge and Kutta of
-/// order 4 (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, table II.1.2).
+/// Returns the state a time `h` later, or earlier if `h` is negative, by one step of the classical Runge–Kutta method
+/// of order 4 (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, table II.1.2).
 ///
-/// A plain function of the emitted accelerations, for every scalar: `f64` and `f32` in real time, SIMD
-/// [lanes](crate::Lanes), each with a step of its own, and dual numbers, which carry derivatives by the start or by
-/// parameters through a motion. It takes four evaluations whatever happens, decides nothing and checks no error: the
-/// step has to be short enough, and half of it tells whether it is. The state is NaN, lane by lane, where the
-/// elimination of the accelerations cannot vouch for them.
+/// It is a plain function of the emitted accelerations, for every scalar: `f64` and `f32` in real time; SIMD
+/// [lanes](crate::Lanes), each with its own step; dual numbers, which carry derivatives by the start or by parameters
+/// through a motion. It always takes four evaluations, and estimates no error. The step must be short enough; compare
+/// with a run at half the step. The state is NaN, lane by lane, if the elimination for the accelerations is not
+/// reliable.
 ///
-/// Constraints hold in the accelerations only: coordinates and velocities leave them as the errors of the steps add
-/// up. [`RungeKutta4`] projects every step; so can [`make_consistent`](crate::Simulate::make_consistent), from time to time.
+/// Only the accelerations satisfy the constraints: coordinates and velocities drift off as the errors of the steps
+/// accumulate. [`RungeKutta4`] projects every step; [`make_consistent`](crate::Simulate::make_consistent) can project
+/// from time to time.
 ///
 /// ```
 /// use lagrange_core::{prelude::*, runge_kutta_step};
@@ -61,7 +62,7 @@ pub fn runge_kutta_step<L: Lagrangian<N, M>, const N: usize, const M: usize>(
     }
 }
 
-/// The step with accelerations from anywhere.
+/// One step, with any function for the accelerations.
 #[inline(always)]
 fn step<T: Scalar, E, const N: usize>(
     state: &State<T, N>,
@@ -85,11 +86,11 @@ fn step<T: Scalar, E, const N: usize>(
     Ok(State { t: state.t + h, q: vector(q), v: vector(v) })
 }
 
-/// The classical method of Runge and Kutta of order 4, with steps of one size: [`runge_kutta_step`], and each step
-/// projected onto the constraints.
+/// The classical Runge–Kutta method of order 4 with fixed steps: [`runge_kutta_step`], with each step projected onto
+/// the constraints.
 ///
-/// For loops that have to take the same time whatever happens; nothing checks the error. Between the steps lies the cubic
-/// polynomial with the states and rates at both ends. The last step before an end may be shorter.
+/// For loops that must take the same time in every cycle; the error is not estimated. The dense output is the cubic
+/// Hermite polynomial of the states and rates at both ends of a step. The last step before an end may be shorter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[must_use]
 pub struct RungeKutta4 {
@@ -98,7 +99,7 @@ pub struct RungeKutta4 {
 }
 
 impl RungeKutta4 {
-    /// Steps of this size, at most 100 000 of them.
+    /// Sets the step length, in units of time. The limit is 100 000 steps.
     pub fn with_step(step: f64) -> Self {
         Self { step, limits: Limits::default() }
     }
@@ -110,11 +111,11 @@ impl RungeKutta4 {
     }
 }
 
-/// What the method carries from step to step.
+/// State that the method carries from step to step.
 #[derive(Clone, Debug)]
 pub struct FixedStepState<T, const N: usize> {
     clock: Clock<T>,
-    /// The length of the next step.
+    /// Length of the next step.
     planned: T,
     before: State<T, N>,
     state: State<T, N>,
@@ -181,7 +182,8 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Method<L
         _: &mut Statistics,
     ) -> Result<(), Error> {
         memory.clock.set(state.t);
-        // Whether it is another is found out beside the motion, which would wait for a copy of what has just been written.
+        // Compare before copying: the comparison runs beside the integration, while a copy would wait for stores just
+        // made.
         if memory.state != *state {
             (memory.before, memory.state) = (*state, *state);
         }
@@ -206,13 +208,13 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Method<L
 }
 
 fn is_finite<T: Real, const N: usize>(state: &State<T, N>) -> bool {
-    // Without a branch for each.
+    // `&` instead of `&&` avoids a branch for each entry.
     let all_finite = |x: &SVector<T, N>| x.iter().fold(true, |all, x| all & x.is_finite());
     all_finite(&state.q) & all_finite(&state.v)
 }
 
-/// The end of a step of `h` from `start`, by the general solve where the elimination cannot vouch for it, and on the
-/// constraints; the error is what makes it none.
+/// Completes a step of `h` from `start`: repeats it by the general solver if the elimination is not reliable, and
+/// projects the end onto the constraints. An error rejects the step.
 fn mend<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     start: &State<L::Scalar, N>,
@@ -221,7 +223,7 @@ fn mend<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     statistics: &mut Statistics,
 ) -> Result<(), Error> {
     if !is_finite(end) {
-        // The later stages lie off the constraints, and rest on those that are independent at the start.
+        // Later stages are off the constraints, so they use the constraints that are independent at the start.
         let mut at_start = None;
         let solved = step(start, h, |at| {
             let of = |solution: &Solution<_, N, M>, active: &_| (*solution, *active);

@@ -25,28 +25,28 @@ use crate::solution::vector_field::{ActiveConstraints, PhaseVector, StagePoint, 
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State};
 
-/// What a pair carries from step to step.
+/// State that an embedded pair carries from step to step.
 #[derive(Clone, Debug)]
 pub struct PairMemory<T, const N: usize, const M: usize> {
     pub(crate) clock: Clock<T>,
     pub(crate) control: Control<T>,
-    /// Whether the length of a step has been chosen, which takes an end.
+    /// True once the first step length has been chosen, which requires the end.
     is_planned: bool,
-    /// Where the motion is.
+    /// Current coordinates and velocities, or coordinates and momenta.
     pub(crate) y: PhaseVector<T, N>,
-    /// Whether the rates there are known.
+    /// True if `slope` holds the rates at `y`.
     pub(crate) has_slope: bool,
-    /// The rates.
+    /// Rates at `y`.
     pub(crate) slope: PhaseVector<T, N>,
-    /// Which constraints they rest on: as many as are independent at `y`.
+    /// Constraints that determine the rates: a largest independent set at `y`.
     pub(crate) active: [bool; M],
-    /// Of the step tried last, the first that of its start.
+    /// Slopes of the last step tried; the first is the slope at its start.
     pub(super) slopes: Room<Slopes<T, N>>,
-    /// The step that led here.
+    /// The step that led to `y`.
     pub(super) taken: Option<Taken<T, N, M>>,
 }
 
-/// A step taken: what its interpolant needs, and to take it back.
+/// An accepted step, for its dense output or to undo it.
 #[derive(Clone, Debug)]
 pub(super) struct Taken<T, const N: usize, const M: usize> {
     from: StepStart<T, N, M>,
@@ -54,7 +54,7 @@ pub(super) struct Taken<T, const N: usize, const M: usize> {
     pub(super) control: Control<T>,
 }
 
-/// Where a step starts.
+/// Start of a step.
 #[derive(Clone, Copy, Debug)]
 struct StepStart<T, const N: usize, const M: usize> {
     t: T,
@@ -63,19 +63,19 @@ struct StepStart<T, const N: usize, const M: usize> {
 }
 
 impl<T: Real, const N: usize, const M: usize> PairMemory<T, N, M> {
-    /// The next step, signed, and the time after it.
+    /// Returns the next step, signed, and the time after it.
     pub(crate) fn next(&self) -> (T, T) {
         self.clock.next(self.control.step)
     }
 
-    /// Where the step taken last starts, how long it is, and its slopes.
+    /// Start, length and slopes of the last accepted step.
     #[cfg(feature = "alloc")]
     pub(crate) fn last_step(&self) -> Option<(StagePoint<T, N>, T, &Slopes<T, N>)> {
         let Taken { from: StepStart { t, y, .. }, h, .. } = self.taken.as_ref()?;
         Some((StagePoint { t: *t, y: *y, velocity: self.slopes[0][0] }, *h, &self.slopes))
     }
 
-    /// Evaluates the rates where the motion is, unless they are known.
+    /// Evaluates the rates at the current state, unless they are known.
     #[inline]
     pub(crate) fn ensure_slope<L: Lagrangian<N, M, Scalar = T>, F: VectorField<L, N, M>>(
         &mut self,
@@ -95,11 +95,11 @@ impl<T: Real, const N: usize, const M: usize> PairMemory<T, N, M> {
     }
 }
 
-/// Why a step is not accepted.
+/// Reason to reject a step.
 enum Refusal<T> {
-    /// Its error is this many times the tolerance.
+    /// Error in units of the tolerance, and the entry with the largest error.
     Inaccurate(T, StateEntry),
-    /// Somewhere in it the equations or the constraints have no solution.
+    /// The equations or the constraints have no solution within the step.
     Unsolved(Error),
 }
 
@@ -109,7 +109,7 @@ impl<T> From<Error> for Refusal<T> {
     }
 }
 
-/// Where a step ends, its error as a part of the tolerance, and which constraints its slope rests on.
+/// End of a step, its error in units of the tolerance, and the constraints that determine the slope there.
 struct Reached<T, const N: usize, const M: usize> {
     y: PhaseVector<T, N>,
     error: T,
@@ -186,7 +186,7 @@ where
         if !memory.clock.is_ahead(time) {
             return Step::Failed(Ending::TimeTooCoarse { time: now, step: memory.control.step.to_f64() });
         }
-        // Compiled for each, so that a step chosen by its error waits for nothing that others do.
+        // Two compiled variants, so that an adaptive step contains no code for fixed steps.
         let attempt = match self.ignores_error() {
             true => self.attempt::<L, F, N, M, true>(system, memory, (h, time), statistics),
             false => self.attempt::<L, F, N, M, false>(system, memory, (h, time), statistics),
@@ -213,7 +213,7 @@ where
         statistics: &mut Statistics,
     ) -> Result<Self::Interpolant, Error> {
         let (start, length) = look_within::<P, L, F, N, M>(system, memory, statistics)?;
-        // Written where they stay: the one copy is that into the trajectory.
+        // Build the coefficients in place: the only copy is into the trajectory.
         let mut coefficients = P::coefficients([[L::Scalar::constant(0.0); N]; 2]);
         interpolate::<P, _, N, M>(memory, coefficients.as_mut());
         Ok(Polynomial::new(start, length, coefficients))
@@ -245,7 +245,7 @@ where
     }
 
     fn pace(&self, system: &L, memory: &Self::Memory, end: L::Scalar) -> Pace {
-        // No step is chosen by its error where all are of one size.
+        // Fixed steps: no error limits their length.
         if self.fixed_step.is_some() {
             return Pace::default();
         }
@@ -256,7 +256,7 @@ where
 }
 
 impl<P: Pair> Adaptive<P> {
-    /// Sets the end, and chooses the length of the first step.
+    /// Sets the end, and chooses the length of the first step if this is the first call.
     pub(crate) fn aim<
         L: Lagrangian<N, M, Scalar: Real>,
         F: VectorField<L, N, M>,
@@ -280,8 +280,8 @@ impl<P: Pair> Adaptive<P> {
         }
     }
 
-    /// After a step on which something else went along, with an error of this part of the tolerance: the larger of the two
-    /// errors chooses the next step.
+    /// Chooses the next step after a step on which another quantity was integrated as well, with `error` in units of
+    /// its tolerance. The larger of both errors counts.
     #[cfg(feature = "alloc")]
     pub(crate) fn accept_with<T: Real, const N: usize, const M: usize>(
         &self,
@@ -295,12 +295,12 @@ impl<P: Pair> Adaptive<P> {
         memory.control = control;
     }
 
-    /// Whether there is a shorter step to try; none is where all are of one size.
+    /// True if a shorter step can be tried; never for fixed steps.
     fn can_try_again<T: Real, const N: usize, const M: usize>(&self, memory: &PairMemory<T, N, M>) -> bool {
         self.fixed_step.is_none() && memory.clock.advances_by(memory.control.step)
     }
 
-    /// Moves to where the step has led.
+    /// Accepts a step: moves to its end.
     fn take<L: Lagrangian<N, M, Scalar: Real>, F: VectorField<L, N, M>, const N: usize, const M: usize>(
         &self,
         memory: &mut PairMemory<L::Scalar, N, M>,
@@ -315,7 +315,7 @@ impl<P: Pair> Adaptive<P> {
         State { t: time, q: vector(memory.y[0]), v: vector(*velocity) }
     }
 
-    /// Stages, error, projection: whatever fails refuses the step.
+    /// Computes stages, error and projection of a step; any failure rejects it.
     fn attempt<L, F, const N: usize, const M: usize, const IS_FIXED: bool>(
         &self,
         system: &L,
@@ -353,7 +353,7 @@ impl<P: Pair> Adaptive<P> {
         Ok(Reached { y: next.y, error, active })
     }
 
-    /// The error as a part of the tolerance, at most 1.
+    /// Error in units of the tolerance; an error above 1 rejects the step.
     fn check_error<T: Real, const N: usize>(
         &self,
         slopes: &Slopes<T, N>,
@@ -369,8 +369,9 @@ impl<P: Pair> Adaptive<P> {
         Ok(error)
     }
 
-    /// How far the numbers near the time lie apart, where the rates change from one to the next by so much that a step loses half
-    /// its tolerance: each stage is evaluated at a rounded time. Where it costs steps, this part is from 1 on.
+    /// Spacing of representable times near the current time, if the rates change so much over one spacing that a step
+    /// errs by half its tolerance or more. Stages are evaluated at rounded times. From the whole tolerance on, this
+    /// rounding costs steps.
     #[cold]
     fn find_coarseness<
         L: Lagrangian<N, M, Scalar: Real>,
@@ -383,7 +384,7 @@ impl<P: Pair> Adaptive<P> {
         memory: &PairMemory<L::Scalar, N, M>,
     ) -> Option<f64> {
         let PairMemory { clock, control, y, slope: here, active, .. } = memory;
-        // From 0.75 to 1.5 of the way to the next number, and so that one.
+        // 0.75 to 1.5 of the distance to the next number: the sum rounds to that number.
         let next = clock.now + L::Scalar::constant(0.75 * L::Scalar::EPSILON) * Scalar::abs(clock.now);
         let point = StagePoint { t: next, y: *y, velocity: here[0] };
         let mut there = *here;
@@ -418,7 +419,8 @@ impl<P: Pair> Adaptive<P> {
     }
 }
 
-/// Evaluates all slopes that the interpolant of the step taken last is made of, and gives when it starts and how long it is.
+/// Evaluates the remaining slopes for the dense output of the last accepted step. Returns the start and the length of
+/// the step.
 #[inline(always)]
 fn look_within<P, L, F, const N: usize, const M: usize>(
     system: &L,
@@ -440,7 +442,7 @@ where
     Ok((from.t, *h))
 }
 
-/// Puts what lies within the step taken last, by its slopes, into these coefficients.
+/// Computes the coefficients of the dense output of the last accepted step from its slopes.
 #[inline(always)]
 fn interpolate<P: Pair, T: Real, const N: usize, const M: usize>(
     memory: &PairMemory<T, N, M>,
@@ -456,7 +458,7 @@ fn interpolate<P: Pair, T: Real, const N: usize, const M: usize>(
     }
 }
 
-/// Evaluates the rates of consecutive stages, from the stage of the given index on.
+/// Evaluates the rates of consecutive stages, beginning with stage `first`.
 fn stages<P, L, F, const N: usize, const M: usize>(
     system: &L,
     from: &StepStart<L::Scalar, N, M>,
@@ -484,8 +486,8 @@ where
     Ok(())
 }
 
-/// Puts the rates of the phase into `rates`, counted, and gives the constraints that they rest on. It is asked for in
-/// several places, each of which would have the equations compiled for itself.
+/// Evaluates the rates at a phase point into `rates`, and counts the evaluation. Returns the constraints that determine
+/// them. Not inlined: several callers would each compile the equations again.
 #[inline(never)]
 fn slope<L: Lagrangian<N, M, Scalar: Real>, F: VectorField<L, N, M>, const N: usize, const M: usize>(
     system: &L,

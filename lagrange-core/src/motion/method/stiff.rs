@@ -1,8 +1,8 @@
-//! Whether it is stability that keeps the steps short, not the accuracy asked for.
+//! Detection of stiffness: does stability limit the steps, or the requested accuracy?
 //!
-//! The last stage and the new state are two states at one time; what their slopes differ by tells how fast the fastest
-//! motion near them grows or dies (Hairer and Wanner, *Solving Ordinary Differential Equations II*, IV.2). In a stiff
-//! problem, step after step is as long as the method stays stable.
+//! The last stage and the new state are two states at the same time. The difference of their slopes yields the rate of
+//! the fastest mode near them (Hairer and Wanner, *Solving Ordinary Differential Equations II*, IV.2). In a stiff
+//! problem, the steps stay at the stability limit of the method.
 
 use super::adaptive::Adaptive;
 use super::contract::{Method, Step};
@@ -13,11 +13,12 @@ use crate::solution::vector_field::VectorField;
 use crate::statistics::Statistics;
 use crate::system::Lagrangian;
 
-/// How many of the next steps are looked at. A third of them must be as long as they can be.
+/// Number of trial steps. The problem counts as stiff if more than a third of them are at the stability limit.
 const STEPS: usize = 15;
 
 impl<P: Pair> Adaptive<P> {
-    /// See [`Pace::stiffness`](crate::error::Pace::stiffness). Nothing is spent on it before it is asked for: the next steps are tried.
+    /// Returns [`Pace::stiffness`](crate::error::Pace::stiffness). Only this call costs time: it tries the next steps
+    /// on a copy.
     #[cold]
     pub(super) fn find_stiffness<L, F, const N: usize, const M: usize>(
         &self,
@@ -49,14 +50,15 @@ impl<P: Pair> Adaptive<P> {
 }
 
 impl<T: Real, const N: usize, const M: usize> PairMemory<T, N, M> {
-    /// The length of the last step, and the rate |λ| of the motion that grows or dies fastest, if it shows there.
+    /// Length of the last step, and the rate |λ| of the mode that grows or decays fastest; `None` if round-off hides
+    /// it.
     ///
-    /// Where q̇ = λ q and q̈ = λ q̇, the product of both ratios is λ², whatever the units. So it is where q̈ = λ² q alone
-    /// holds, as in a vibration.
+    /// If q̇ = λ q and q̈ = λ q̇, the product of both ratios of differences is λ², whatever the units. This also holds
+    /// if only q̈ = λ² q, as in a vibration.
     fn fastest<P: Pair>(&self) -> Option<(T, T)> {
         let Taken { h, .. } = self.taken.as_ref()?;
         let (stage, end) = (&self.slopes[P::STAGES.len()], &self.slopes[last::<P>()]);
-        // Without the state that both start from, whose round-off may be more than they differ by.
+        // Leave out the common start of both states: its round-off may exceed their difference.
         let (to_stage, to_end) =
             (combine(&self.slopes, P::STAGES.last()?), combine(&self.slopes, P::WEIGHTS));
         let ratio = |half: usize| {
@@ -66,7 +68,8 @@ impl<T: Real, const N: usize, const M: usize> PairMemory<T, N, M> {
                 apart > round_off * round_off * squared_distance(&to_end[half], &[T::constant(0.0); N]);
             shows.then(|| squared_distance(&end[half], &stage[half]) / apart)
         };
-        // A ratio of slopes to slopes is that of slopes to states times h.
+        // The ratio of differences of slopes, divided by h, is the ratio of differences of slopes to differences of
+        // states.
         let (h, product) = (Scalar::abs(*h), ratio(0)? * ratio(1)?);
         Some((h, Scalar::sqrt(Scalar::sqrt(product)) / h))
     }
@@ -76,7 +79,8 @@ fn squared_distance<T: Real, const N: usize>(a: &[T; N], b: &[T; N]) -> T {
     (0..N).fold(T::constant(0.0), |sum, i| sum + (a[i] - b[i]) * (a[i] - b[i]))
 }
 
-/// The h|λ| up to which a decay of the rate λ stays one: beyond, |R(−h|λ|)| > 1 (R is the stability function, IV.2).
+/// Largest h|λ| for which a decay of rate λ stays stable: beyond it |R(−h|λ|)| > 1, with the stability function R
+/// (IV.2).
 fn stability_limit<P: Pair>() -> f64 {
     let grows = |x: f64| {
         let mut slopes = [1.0; SLOPES];
@@ -96,7 +100,7 @@ mod tests {
     use super::*;
     use crate::motion::{DormandPrince54, DormandPrince853};
 
-    /// The codes DOPRI5 and DOP853 take 3.25 and 6.1 for the limit.
+    /// The codes DOPRI5 and DOP853 use limits of 3.25 and 6.1.
     #[test]
     fn the_limits_of_stability_are_those_of_the_methods() {
         assert!((stability_limit::<DormandPrince54>() - 3.3).abs() < 0.05);
