@@ -1,23 +1,24 @@
-//! A function on an interval as a sum of Chebyshev polynomials, Σ cₖ Tₖ: how far it is from zero, and whether it turns back.
+//! Chebyshev series Σ cₖ Tₖ of a function on an interval, to decide how far it is from zero and whether it is
+//! monotonic.
 //!
-//! The coefficients of degree n come from the values at the n + 1 extreme points of Tₙ (Clenshaw and Curtis). Those of degree n
-//! are among those of 2n, so that a finer look takes no value twice.
+//! The coefficients of degree n follow from the values at the n + 1 extreme points of Tₙ (Clenshaw and Curtis). The
+//! points of degree n are among those of degree 2n, so doubling the degree repeats no evaluation.
 
 use core::array::from_fn;
 
 use crate::number::{Real, Scalar, larger};
 
-/// The highest degree, and the number of intervals between the places that serve all degrees.
+/// Highest degree, and number of subintervals between its points, which include the points of all lower degrees.
 pub(super) const FINEST: usize = 32;
 
-/// The lowest degree that tells anything of a function.
+/// Lowest degree.
 pub(super) const COARSEST: usize = 4;
 
-/// Values of a function at the extreme points of the polynomial of the highest degree, from the start of the interval to its
-/// end; those that a lower degree does not need may be anything.
+/// Values of a function at the extreme points of the polynomial of the highest degree, from the start of the interval
+/// to its end. Entries that a lower degree does not use may be anything.
 pub(super) type Samples<T> = [T; FINEST + 1];
 
-/// cos(kπ/32)
+/// cos(kπ/32) for k from 0 to 16.
 const COSINES: [f64; FINEST / 2 + 1] = [
     1.0,
     0.995_184_726_672_196_9,
@@ -38,7 +39,7 @@ const COSINES: [f64; FINEST / 2 + 1] = [
     0.0,
 ];
 
-/// The same for all k up to a full turn.
+/// cos(kπ/32) for all k up to a full turn.
 const TURN: [f64; 2 * FINEST] = {
     let (mut turn, mut k) = ([0.0; 2 * FINEST], 0);
     while k < 2 * FINEST {
@@ -49,12 +50,13 @@ const TURN: [f64; 2 * FINEST] = {
     turn
 };
 
-/// Which part of the interval is before this place.
+/// Position of point `place`, as a fraction of the interval.
 pub(super) fn part(place: usize) -> f64 {
     0.5 - 0.5 * TURN[place]
 }
 
-/// The places of this degree, a power of two, that half of it does not have; all but the ends for the lowest.
+/// Points of this degree, a power of two, that half the degree does not have; for the lowest degree, all points but the
+/// ends.
 #[inline(always)]
 pub(super) fn places(degree: usize) -> impl Iterator<Item = usize> {
     let apart = FINEST >> degree.trailing_zeros();
@@ -62,7 +64,7 @@ pub(super) fn places(degree: usize) -> impl Iterator<Item = usize> {
     (1..).map(move |k| apart + (k - 1) * stride).take_while(|place| *place < FINEST)
 }
 
-/// What the coefficients of one degree tell of a function. Lengths on the interval are counted in halves of it.
+/// Bounds on a function from its Chebyshev coefficients of one degree. The unit of length is half the interval.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shape<T> {
     degree: usize,
@@ -70,22 +72,22 @@ pub(super) struct Shape<T> {
     mean: T,
     /// Σ |cₖ| from k = 1 on.
     pub(super) swing: T,
-    /// The largest of the last coefficients, of both parities.
+    /// Largest of the last coefficients, even and odd: two for the lowest degree, else three.
     pub(super) tail: T,
     /// |d₀| of the derivative Σ dₖ Tₖ.
     slope: T,
     /// Σ |dₖ| from k = 1 on.
     bend: T,
-    /// The largest value.
+    /// Largest magnitude of a sample.
     pub(super) most: T,
-    /// Highest degree that contributes more than 1/256 of the swing.
+    /// Highest degree whose coefficient exceeds 1/256 of the swing.
     pub(super) order: usize,
 }
 
 impl<T: Real> Shape<T> {
     #[inline(always)]
     pub(super) fn of(samples: &Samples<T>, degree: usize) -> Self {
-        // The loops of the lowest degrees have a length that the compiler knows.
+        // Constant degrees let the compiler unroll the loops.
         match degree {
             COARSEST => Self::of_degree::<COARSEST>(samples),
             8 => Self::of_degree::<8>(samples),
@@ -97,9 +99,9 @@ impl<T: Real> Shape<T> {
     #[inline(always)]
     fn of_degree<const DEGREE: usize>(samples: &Samples<T>) -> Self {
         let (zero, half) = (T::constant(0.0), T::constant(0.5));
-        // From the first order on.
+        // c[k − 1] is the coefficient of Tₖ.
         let c: [T; DEGREE] = from_fn(|k| coefficient::<T, DEGREE>(samples, k + 1));
-        // d of order k − 1 is that of order k + 1 and 2k c of order k.
+        // Recurrence of the derivative: dₖ₋₁ = dₖ₊₁ + 2k cₖ.
         let (mut slope, mut bend, mut d) = (zero, zero, [zero; 2]);
         for k in (1..=DEGREE).rev() {
             let lower = d[1] + T::constant(2.0 * k as f64) * c[k - 1];
@@ -121,53 +123,56 @@ impl<T: Real> Shape<T> {
         Self { degree: DEGREE, mean, swing, tail, slope, bend, most, order }
     }
 
-    /// What the rounding of the values, and that of the places by this part of half of the interval, may be.
+    /// Bound on the rounding errors of the values. `jitter` is the rounding error of the points, in halves of the
+    /// interval.
     fn rounding(&self, jitter: T) -> T {
         T::constant(4.0 * T::EPSILON) * self.most + (self.slope + self.bend) * jitter
     }
 
-    /// Whether the function keeps away from zero or, by the slope, does not turn back, or is zero.
+    /// True if the function stays away from zero, is monotonic, or is zero.
     ///
-    /// A function differs from the polynomial by no more than twice the sum of the coefficients that are left out, for those
-    /// that are there hold them too. From the last one on they fall at least like k⁻² by what is taken for granted, and so add up to
-    /// n times it; those of the slope like k⁻⁴, to n³ times. Where the last ones are rounding they tell of no others.
+    /// A function differs from the interpolating polynomial by at most twice the sum of the omitted coefficients,
+    /// because of aliasing. Coefficients are assumed to fall at least like k⁻² from the last one on, so the omitted
+    /// ones add up to at most n times it. Those of the derivative are assumed to fall like k⁻⁴, and add up to at most
+    /// n³ times it. If the last coefficients are rounding errors, they say nothing about the omitted ones.
     pub(super) fn is_plain(&self, jitter: T) -> bool {
         let (n, rounding) = (self.degree as f64, self.rounding(jitter));
         let [rest, rest_of_slope] = match self.tail > rounding {
             true => [2.0 * n, 2.0 * n * n * n].map(|factor| T::constant(factor) * self.tail),
             false => [4.0, 4.0 * n * n].map(|factor| T::constant(factor) * rounding),
         };
-        // As long as they do not fall there may be anything between two places.
+        // Unless the coefficients fall, the function may do anything between two points.
         let is_away = self.mean > self.swing + rest;
         let falls = self.tail <= rounding || !self.has_level_end();
         falls && (is_away || self.slope > self.bend + rest_of_slope) || self.most == T::constant(0.0)
     }
 
-    /// Whether the polynomial alone comes near zero and turns back, and is known well: a finer look would say the same.
+    /// True if the polynomial comes near zero and is not monotonic, and is well resolved: a higher degree would not
+    /// change that.
     pub(super) fn is_bent(&self) -> bool {
         let is_known = T::constant(2.0 * self.degree as f64) * self.tail <= self.swing;
         is_known && self.mean <= self.swing && self.slope <= self.bend
     }
 
-    /// Whether the coefficients do not fall, so that a finer look is of use, or noise all that is left.
+    /// True if the coefficients do not fall: a higher degree may help, or the samples are all noise.
     pub(super) fn is_rough(&self) -> bool {
         self.degree > COARSEST && self.has_level_end()
     }
 
-    /// True if the coefficients do not fall: the last are 1/16 of the sum of all or more, from degree 8 on half of their mean,
-    /// as those of a dip are of which one sample sees a flank.
+    /// True if the coefficients do not fall: the last are at least 1/16 of the sum of all and, from degree 8 on, at
+    /// least half their mean. A dip of which one sample sees a flank has such coefficients.
     fn has_level_end(&self) -> bool {
         let factor = if self.degree > 8 { 2 * self.degree } else { 16 };
         T::constant(factor as f64) * self.tail >= self.swing
     }
 
-    /// Whether the function keeps away from zero, by more than it moves and this noise.
+    /// True if the function stays away from zero by more than its variation and this noise.
     pub(super) fn is_beyond(&self, noise: T) -> bool {
         self.tail <= noise && self.mean > self.swing + noise
     }
 }
 
-/// The coefficient of Tₖ, of the polynomial of this degree through the values.
+/// Coefficient of Tₖ of the interpolating polynomial of this degree.
 #[inline(always)]
 fn coefficient<T: Real, const DEGREE: usize>(samples: &Samples<T>, k: usize) -> T {
     let (half, apart) = (T::constant(0.5), FINEST / DEGREE);
@@ -183,7 +188,7 @@ fn coefficient<T: Real, const DEGREE: usize>(samples: &Samples<T>, k: usize) -> 
 mod tests {
     use super::*;
 
-    /// Of f on −1 … 1, where the first place is 1.
+    /// Bounds of f on −1 … 1; the first point is x = 1.
     fn shape(degree: usize, f: impl Fn(f64) -> f64) -> Shape<f64> {
         let mut samples = [f64::NAN; FINEST + 1];
         for place in (0..=FINEST).step_by(FINEST / degree) {
@@ -206,7 +211,7 @@ mod tests {
         assert_eq!(all, (1..FINEST).collect::<std::vec::Vec<_>>());
     }
 
-    /// 3 T₀ − 2 T₁ + T₃/4 and its slope, −2 + 3/4 + 3/2 T₂.
+    /// 3 T₀ − 2 T₁ + T₃/4, with the derivative −2 + 3/4 + 3/2 T₂.
     #[test]
     fn coefficients_are_those_of_the_polynomial() {
         for degree in [COARSEST, 8, 16, 32] {
@@ -220,22 +225,22 @@ mod tests {
         }
     }
 
-    /// 1/(1 + a²x²) is less than 1 at all places but one, and known where the places are as dense as it is wide.
+    /// 1/(1 + a²x²) is below 1 at all points but one, and is resolved once the points are as dense as the peak is wide.
     #[test]
     fn what_is_not_resolved_is_not_plain() {
         for (a, from) in [(0.5, 4), (2.0, 16), (5.0, 32), (25.0, 64)] {
             for degree in [4, 8, 16, 32] {
-                // Between −0.2 and 0.8: with zeros.
+                // Values between −0.2 and 0.8, with zeros.
                 let found = shape(degree, |x| 1.0 / (1.0 + (a * (x - 0.3)).powi(2)) - 0.2);
                 assert!(a == 0.5 || !found.is_plain(0.0), "{a}, {degree}: {found:?}");
-                // Far from zero, it is said only where the coefficients fall.
+                // Far from zero: reported only once the coefficients fall.
                 let found = shape(degree, |x| 1.0 / (1.0 + (a * (x - 0.3)).powi(2)) + 1.0);
                 assert!(degree < from || found.is_plain(0.0), "{a}, {degree}: {found:?}");
             }
         }
     }
 
-    /// A dip through zero between two places, of which one sees a flank: the coefficients do not fall.
+    /// A dip through zero between two points, with a flank seen by one sample: the coefficients do not fall.
     #[test]
     fn what_is_seen_of_a_dip_is_not_plain() {
         for degree in [8, 16, 32] {

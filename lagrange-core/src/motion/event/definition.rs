@@ -1,4 +1,4 @@
-//! What an event is: a function of a motion, and which of its crossings are meant.
+//! [`Event`]: a function of a motion, and the choice of its zero crossings.
 
 #[cfg(feature = "alloc")]
 use alloc::boxed::Box;
@@ -12,55 +12,58 @@ use crate::number::{Dual, Real};
 use crate::solution::Sample;
 use crate::system::{Lagrangian, State};
 
-/// Where a function g of a motion crosses zero; made by [`Simulate::event`](crate::Simulate::event).
+/// A zero crossing of a function g of a motion, made by [`Simulate::event`](crate::Simulate::event).
 ///
-/// A [`Motion`](crate::Motion) stops at every crossing ([`advance_to_event`](crate::Motion::advance_to_event)). A run that
-/// is given events records their crossings, and ends at those that say so ([`terminal`](Self::terminal)).
+/// A [`Motion`](crate::Motion) stops at every crossing ([`advance_to_event`](crate::Motion::advance_to_event)). A run
+/// with events records their crossings, and ends at those of [`terminal`](Self::terminal) events.
 ///
-/// # What is found
+/// # Which crossings are found
 ///
-/// On each step g is taken as a sum of Chebyshev polynomials, Σ cₖ Tₖ, from its values at 5, 9, 17 or 33 times, on states by the
-/// continuous extension of the method, projected onto the constraints (the points of Clenshaw and Curtis, of which those of
-/// each degree are among those of the next). A step is done where |c₀| is larger than all others together and what is left out, so that
-/// g keeps away from zero, or where the same holds for the derivative, so that g crosses once at most; else the
-/// degree is doubled, and then the step halved. The coefficients tell that only
-/// where the last ones have fallen to a 16th of all. What is left out is bounded by 2n times the largest of the last coefficients of degree n,
-/// 2n³ times in the derivative. So **every crossing is found, once, of a function whose coefficients from the last ones looked at on fall
-/// at least like k⁻²** (k⁻⁴ in the derivative), as those of an analytic one do once they are resolved, however close to each other its
-/// zeros are, down to its round-off. What no value shows nobody can see: a dip far from zero elsewhere and narrower than the
-/// samples are apart, in a step on whose predecessors g took a low degree. Dips 1 − a exp(−(t/w)²) with a > 1 were all found from
-/// w = 0.15 steps on: [`subdivide`](Self::subdivide) divides every step. After 4,096 parts
-/// on the way to one crossing none is divided further.
+/// On each step, g is expanded in Chebyshev polynomials, Σ cₖ Tₖ, from samples at 5, 9, 17 or 33 times. These are the
+/// points of Clenshaw and Curtis; those of each degree are among those of the next. The states there come from the
+/// dense output of the method, projected onto the constraints. The search of a step ends in two cases. If |c₀| exceeds
+/// the sum of all other |cₖ| and of the truncation error, g stays away from zero. If the same holds for the derivative,
+/// g crosses zero at most once. Otherwise the degree is doubled, and then the step is halved. Both tests require that
+/// the last coefficients have fallen to a 16th of the sum of all. The truncation error is bounded by 2n times the
+/// largest of the last coefficients of degree n, and 2n³ times in the derivative.
 ///
-/// - g crosses zero from one time to a later one where it is not zero at the first, and zero or of the other sign at the second. So
-///   none is reported twice or lost where steps meet, one at the very end of the motion is reported, and one at the
-///   start is not: the motion leaves it.
-/// - A touch that changes no sign is reported only where it is zero to the last bit at one of these times, once. In a motion that is
-///   computed a touch may well be two crossings, as far apart as the error lets g go beyond zero.
-/// - Where a motion starts at a zero of g, or goes on from a crossing after its state or its system has been changed, g is on no side
-///   until it is larger than its round-off: 16 times what it differs by at states whose entries and time are off by one unit. A ball
-///   may bounce and be back long before the step is over.
-/// - What is infinite is on the side of its sign; what is not a number ends the motion.
+/// So **every crossing is found, once, of a function whose coefficients fall at least like k⁻²** (k⁻⁴ in the
+/// derivative) from the last sampled ones on. The coefficients of an analytic function do so once they are resolved,
+/// however close to each other its zeros are, down to its round-off. A dip between the samples cannot be found if g is
+/// far from zero elsewhere, and if a low degree was enough for g on the steps before. Dips 1 − a exp(−(t/w)²) with a >
+/// 1 were all found from w = 0.15 steps on. For narrower ones, [`subdivide`](Self::subdivide) divides every step. After
+/// 4,096 parts on the way to one crossing, no part is divided further.
 ///
-/// The zero is located by the ITP method (Oliveira and Takahashi, *An enhancement of the bisection method average performance
-/// preserving minmax optimality*, 2021), which needs no more evaluations than bisection, as a rule a quarter. First the
-/// time is, to the last bit; then the state between those at two such times, so that g is zero to its round-off where the
-/// time is counted from far away, too. There g is zero or on the side that it crosses to. Where it jumps that place is found, and a
-/// pole to some hundred units of round-off of the time.
+/// - g crosses zero between two times if it is nonzero at the first, and zero or of opposite sign at the second. So no
+///   crossing is reported twice or lost where steps meet. A zero at the very end of the motion is reported, and a zero
+///   at the start is not, because the motion leaves it.
+/// - A touch without a change of sign is reported, once, only if g is zero to the last bit at one of these times. In a
+///   computed motion a touch may become two crossings, as far apart as the error lets g pass beyond zero.
+/// - If a motion starts at a zero of g, or continues from a crossing after a change of its state or system, g has no
+///   sign at first. It gets one when |g| exceeds its round-off: 16 times the largest change of g at states whose
+///   entries and time are off by one unit. So a ball may bounce and land again long before the step ends.
+/// - An infinite value counts by its sign; NaN ends the motion.
 ///
-/// Several events are reported in the order of their times; at one time in the order in which they are given.
+/// The zero is located by the ITP method (Oliveira and Takahashi, *An enhancement of the bisection method average
+/// performance preserving minmax optimality*, 2021), which needs no more evaluations than bisection, and usually a
+/// quarter. First the time is located to the last bit, then the state between those at two adjacent times. So g is zero
+/// to its round-off even at times far from zero. At the located state, g is zero or has the sign after the crossing. A
+/// jump through zero is located as well, and a pole to some hundred units of round-off of the time.
 ///
-/// # Where crossings accumulate
+/// Several events are reported in the order of their times; at equal times, in the order in which they are given.
 ///
-/// [`Ending::EventsAccumulate`](crate::Ending::EventsAccumulate) ends a motion where, six times in a row, or twice where the state or the
-/// system was changed at each, a crossing follows the one before of the same event within 1.5·10⁻⁸ (2⁻²⁶) of the longest interval between two of them, or up to the first, or
-/// within 64 units of round-off of the time.
+/// # Accumulating crossings
+///
+/// [`Ending::EventsAccumulate`](crate::Ending::EventsAccumulate) ends a motion after six short intervals in a row
+/// between crossings of one event. After a change of the state or of the system at each crossing, two suffice. An
+/// interval is short if it is below 1.5·10⁻⁸ (2⁻²⁶) of the longest interval between two crossings, or up to the first,
+/// or below 64 units of round-off of the time.
 ///
 /// # One event in several motions
 ///
-/// Each run counts the crossings from 1, also where it is one leg of a motion. What tells that crossings accumulate is kept from
-/// leg to leg, and forgotten where a run starts before the last crossing. A [`Motion`](crate::Motion) that is steered counts on until
-/// another one starts.
+/// Each run counts its crossings from 1, even if it is one leg of a motion. The history for accumulating crossings is
+/// kept from leg to leg, and dropped when a run starts before the last crossing. A steered [`Motion`](crate::Motion)
+/// continues to count until another motion starts.
 pub struct Event<L: Lagrangian<N, M>, G, const N: usize, const M: usize> {
     function: G,
     memory: EventState<L::Scalar>,
@@ -72,14 +75,14 @@ impl<L: Lagrangian<N, M, Scalar: Real>, G, const N: usize, const M: usize> Event
         Self { function, memory: EventState::new(name), system: PhantomData }
     }
 
-    /// Only where g grows through zero.
+    /// Selects crossings where g increases.
     #[must_use]
     pub fn rising(mut self) -> Self {
         self.memory.direction = CrossingDirection::Rising;
         self
     }
 
-    /// Only where g falls through zero.
+    /// Selects crossings where g decreases.
     #[must_use]
     pub fn falling(mut self) -> Self {
         self.memory.direction = CrossingDirection::Falling;
@@ -99,28 +102,28 @@ impl<L: Lagrangian<N, M, Scalar: Real>, G, const N: usize, const M: usize> Event
         self
     }
 
-    /// Divides every step into so many parts, evenly spaced, before any is looked at: for dips that are narrower than a step and do
-    /// not show elsewhere. Of several events the largest number counts. Each part costs four evaluations of the continuous extension (and on
-    /// constraints as many projections).
+    /// Divides every step into this number of equal parts before the search, for dips that are narrower than a step and
+    /// not visible elsewhere. With several events, the largest number applies. Each part costs four evaluations of the
+    /// dense output and, with constraints, as many projections.
     #[must_use]
     pub fn subdivide(mut self, subdivisions: usize) -> Self {
         self.memory.subdivisions = subdivisions.max(1);
         self
     }
 
-    /// The same event before its first crossing, for another motion, with what becomes of its function.
+    /// Copy of the event for another motion, without its history, and with its function mapped.
     #[cfg(feature = "std")]
     pub(crate) fn anew<'g, H>(&'g self, function: impl FnOnce(&'g G) -> H) -> Event<L, H, N, M> {
         Event { function: function(&self.function), memory: self.memory.anew(), system: PhantomData }
     }
 
-    /// The same event with what becomes of its function.
+    /// The event with its function mapped.
     #[cfg(feature = "std")]
     pub(crate) fn map<H>(self, function: impl FnOnce(G) -> H) -> Event<L, H, N, M> {
         Event { function: function(self.function), memory: self.memory, system: PhantomData }
     }
 
-    /// How many crossings there were so far, in the run that was searched last.
+    /// Number of crossings so far, in the run that was searched last.
     pub fn count(&self) -> usize {
         self.memory.count
     }
@@ -136,17 +139,17 @@ impl<L: Lagrangian<N, M, Scalar: Real>, G, const N: usize, const M: usize> Event
     }
 }
 
-/// The value of an event's function: a number, or a number that could not be had (`|s| s.multiplier("wall")`).
+/// Result of an event's function: a number, or a `Result` (`|s| s.multiplier("wall")`).
 #[diagnostic::on_unimplemented(
     message = "the function of an event gives a number, not `{Self}`",
     label = "no number",
     note = "an event is where a number crosses zero: for `y < h` give `y - h`, and choose `.falling()`"
 )]
 pub trait EventValue<T> {
-    /// The number.
+    /// Returns the number.
     ///
     /// # Errors
-    /// Why there is none.
+    /// The reason why the function has no value.
     fn value(self) -> Result<T, Error>;
 }
 
@@ -171,10 +174,9 @@ impl<T> EventValue<T> for Result<T, Error> {
     }
 }
 
-/// The function of an event: a closure over samples, or one over dual numbers
-/// (`MotionDerivatives::differentiable_event`).
+/// Function of an event: a closure over samples, or one over dual numbers (`MotionDerivatives::differentiable_event`).
 pub trait EventFunction<L: Lagrangian<N, M>, const N: usize, const M: usize> {
-    /// Its value at a state.
+    /// Value of the function at a state.
     #[doc(hidden)]
     fn at(&self, system: &L, state: &State<L::Scalar, N>) -> Result<L::Scalar, Error>;
 }
@@ -191,7 +193,7 @@ where
     }
 }
 
-/// An event of a system: every [`Event`] of it, also where the system is behind a reference or a pointer.
+/// An event of a system, or of a reference or pointer to it: implemented by [`Event`].
 ///
 /// A [`Motion`](crate::Motion) takes events as `&mut [&mut lands, &mut slips]`.
 #[diagnostic::on_unimplemented(
@@ -199,20 +201,20 @@ where
     note = "make one by `system.event(\"name\", |sample| …)`, of the same system; a `Motion` takes `&mut [&mut event]`"
 )]
 pub trait AnyEvent<L: Lagrangian<N, M>, const N: usize, const M: usize>: sealed::Sealed {
-    /// What its function is at this state.
+    /// Value of the event's function at this state.
     #[doc(hidden)]
     fn value(&self, system: &L, state: &State<L::Scalar, N>) -> Result<L::Scalar, Error>;
 
-    /// What it is about, and what is known of it.
+    /// Settings of the event, and the state of its search.
     #[doc(hidden)]
     fn memory(&mut self) -> &mut EventState<L::Scalar>;
 
-    /// Takes a sample of its function, unless it is known well enough.
+    /// Stores the value of the function as sample `place` of the interval, unless the interval is already decided.
     #[doc(hidden)]
     fn sample(&mut self, system: &L, state: &State<L::Scalar, N>, place: usize) -> Result<(), Error>;
 }
 
-/// An event of any kind.
+/// A type-erased event.
 #[cfg(feature = "alloc")]
 pub(crate) type DynEvent<'a, L, const N: usize, const M: usize> = dyn AnyEvent<L, N, M> + 'a;
 
@@ -227,7 +229,7 @@ impl<W: sealed::Sealed + ?Sized> sealed::Sealed for &mut W {}
 #[cfg(feature = "alloc")]
 impl<W: sealed::Sealed + ?Sized> sealed::Sealed for Box<W> {}
 
-/// What points to an event is one.
+/// Implements [`AnyEvent`] for a pointer to an event.
 macro_rules! watched_behind {
     ($pointer:ty) => {
         impl<L, W, const N: usize, const M: usize> AnyEvent<L, N, M> for $pointer

@@ -1,4 +1,4 @@
-//! A step that was taken, as events are looked for in it.
+//! An accepted step with its dense output, in which events are searched.
 
 use core::marker::PhantomData;
 
@@ -10,7 +10,7 @@ use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::VectorField;
 use crate::system::{Lagrangian, State};
 
-/// A step that was taken, with what lies within.
+/// An accepted step with its dense output.
 pub(crate) struct DenseStep<'a, L: Lagrangian<N, M>, F, I, const N: usize, const M: usize> {
     pub(crate) system: &'a L,
     pub(crate) before: &'a State<L::Scalar, N>,
@@ -25,7 +25,7 @@ where
     F: VectorField<L, N, M>,
     I: Interpolant<L::Scalar, N>,
 {
-    /// The state at a time within, on the constraints.
+    /// State at a time within the step, projected onto the constraints.
     #[inline]
     pub(crate) fn at(&self, t: L::Scalar) -> Result<State<L::Scalar, N>, Error> {
         match t == self.after.t {
@@ -38,7 +38,7 @@ where
         self.after.t - self.before.t
     }
 
-    /// The interval from one time to another, if it can be divided.
+    /// The interval between two times, or `None` if it is too short to be divided.
     pub(super) fn interval(&self, from: L::Scalar, to: L::Scalar) -> Option<Interval<L::Scalar>> {
         let constant = L::Scalar::constant;
         let (width, length) = (Scalar::abs(to - from), Scalar::abs(self.length()));
@@ -49,13 +49,13 @@ where
         (width > constant(8.0) * round_off).then_some(Interval { width, jitter, finest, is_wide })
     }
 
-    /// The end of this piece of what is left of the step from there.
+    /// End of part `piece` of `of` equal parts of the step from the time `from` on.
     pub(super) fn mark(&self, from: L::Scalar, piece: usize, of: usize) -> L::Scalar {
         let part = L::Scalar::constant(piece as f64 / of as f64);
         if piece == of { self.after.t } else { from + (self.after.t - from) * part }
     }
 
-    /// Whether `later` comes after `t` in the motion.
+    /// True if `later` comes after `t` in the direction of the motion.
     pub(super) fn is_ahead(&self, t: L::Scalar, later: L::Scalar) -> bool {
         let zero = L::Scalar::constant(0.0);
         if self.length() < zero { later < t } else { later > t }

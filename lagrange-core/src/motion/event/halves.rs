@@ -1,11 +1,11 @@
-//! A piece of a step, divided by halving until nothing in a part is left open.
+//! Division of a part of a step by repeated halving.
 
 use crate::number::Real;
 
-/// An interval among those that a piece of a step is divided into, by halving.
+/// Current interval of a part of a step that is divided by halving.
 pub(super) struct Halves<T> {
     ends: [T; 2],
-    /// How often it has been halved, and the place among those that are as short.
+    /// Number of halvings that lead to the interval, and its index among the intervals of the same length.
     pub(super) level: u32,
     index: u64,
 }
@@ -15,19 +15,20 @@ impl<T: Real> Halves<T> {
         Self { ends, level: 0, index: 0 }
     }
 
-    /// Where the interval ends.
+    /// End of the interval.
     pub(super) fn end(&self) -> T {
         let (next, count) = (self.index + 1, 1_u64 << self.level);
         let [from, to] = self.ends;
         if next == count { to } else { from + (to - from) * T::constant(next as f64 / count as f64) }
     }
 
-    /// Goes to the first half of the interval.
+    /// Moves to the first half of the interval.
     pub(super) fn halve(&mut self) {
         (self.level, self.index) = (self.level + 1, 2 * self.index);
     }
 
-    /// Goes to the interval that follows, if there is one in the piece: the longest, of which no part has been looked at.
+    /// Moves to the interval that follows: the longest of which no part has been searched. Returns false at the end of
+    /// the part.
     pub(super) fn advance(&mut self) -> bool {
         self.index += 1;
         while self.index.is_multiple_of(2) && self.level > 0 {
@@ -37,5 +38,5 @@ impl<T: Real> Halves<T> {
     }
 }
 
-/// A piece is halved this often at most.
+/// Largest number of halvings.
 pub(super) const LEVELS: u32 = 52;

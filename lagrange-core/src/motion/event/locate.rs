@@ -9,7 +9,8 @@ use crate::number::{Real, Scalar, larger};
 use crate::solution::vector_field::VectorField;
 use crate::system::{Lagrangian, State};
 
-/// The state where an event crosses zero between these two, at which its function is zero or of the sign at the second.
+/// Finds the state between the two given ones at which an event crosses zero. Its function there is zero, or has the
+/// sign of the second state.
 pub(super) fn locate<L, F, I, const N: usize, const M: usize>(
     stride: &DenseStep<'_, L, F, I, N, M>,
     event: &impl AnyEvent<L, N, M>,
@@ -27,7 +28,7 @@ where
     let round_off = constant(L::Scalar::EPSILON) * larger(Scalar::abs(a.t), Scalar::abs(b.t));
     let resolution = round_off / Scalar::abs(length);
     let [low, high] = narrow(ends(between, values), resolution, |x| probe(stride, event, between, x))?;
-    // No time is between those two, but there are states.
+    // No representable time lies between these two: interpolate between their states.
     let between = |x: L::Scalar| State {
         t: low.what.t + (high.what.t - low.what.t) * x,
         q: low.what.q + (high.what.q - low.what.q) * x,
@@ -42,7 +43,7 @@ where
     Ok(high.what)
 }
 
-/// Two states with what a function is there, as the places 0 and 1.
+/// Two states and the function's values there, as the points x = 0 and x = 1.
 fn ends<T: Real, const N: usize>(
     [low, high]: [&State<T, N>; 2],
     [at_low, at_high]: [T; 2],
@@ -53,7 +54,7 @@ fn ends<T: Real, const N: usize>(
     ]
 }
 
-/// Evaluates the event's function at a fraction of an interval, with the state there.
+/// State at a fraction x of an interval, and the value of the event's function there.
 fn probe<L, F, I, const N: usize, const M: usize>(
     stride: &DenseStep<'_, L, F, I, N, M>,
     event: &impl AnyEvent<L, N, M>,

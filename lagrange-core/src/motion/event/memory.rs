@@ -1,11 +1,11 @@
-//! What an event is about, and what is known of it from step to step.
+//! Settings of an event, and the state of its search from step to step.
 
 use super::chebyshev::{FINEST, Samples, Shape};
 use crate::error::Ending;
 use crate::motion::run::is_between;
 use crate::number::{Real, Scalar, larger, smaller};
 
-/// Which crossings an event is about.
+/// Direction of the crossings to report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum CrossingDirection {
     Rising,
@@ -13,86 +13,87 @@ pub(super) enum CrossingDirection {
     Both,
 }
 
-/// What an event is about, and what is known of it from step to step.
+/// Settings of an event, and the state of its search from step to step.
 #[derive(Clone, Debug)]
 pub struct EventState<T> {
     pub(super) name: &'static str,
     pub(super) direction: CrossingDirection,
-    /// How many subdivisions a step is looked at in, at least.
+    /// Minimum number of parts in which a step is searched.
     pub(super) subdivisions: usize,
-    /// The crossing at which a run ends.
+    /// Number of the crossing that ends a run.
     pub(super) terminal: Option<usize>,
-    /// How many there were in this run, or in this motion where it is steered.
+    /// Number of crossings in this run; in a steered motion, since its start.
     pub(super) count: usize,
-    /// The function on the side where the search is; zero where the motion starts at a zero, and has not left it.
+    /// Value of the function whose sign is its current side. Zero if the motion started at a zero, and has not left it.
     pub(super) value: T,
-    /// The same at the end of the interval, where the search goes on from unless something crosses before.
+    /// The same at the end of the interval, where the search continues unless an event crosses before.
     pub(super) next: T,
-    /// The function on the interval, from its start.
+    /// Samples of the function on the interval, from its start.
     pub(super) samples: Samples<T>,
-    /// What is to be known of the function on the interval.
+    /// Decision about the function on the interval.
     pub(super) view: View,
-    /// What the function may be where the motion starts at a zero or has just crossed one, beside its noise, as long as it has not
-    /// left that.
+    /// Magnitude that the function may have at a zero, in addition to its noise. `Some` from a start at a zero or from
+    /// a crossing on, until the function has left the zero.
     pub(super) start: Option<T>,
-    /// What counts as no change of side at the end of the interval.
+    /// Magnitude below which a value at the end of the interval is no change of side.
     pub(super) noise: T,
-    /// The degree that the function has taken for each unit of time.
+    /// Chebyshev degree that the function has needed per unit of time.
     density: Option<T>,
-    /// The same by the interval looked at last.
+    /// The same for the last interval alone.
     needed: Option<T>,
-    /// Crossed together with another event that was reported first: whether it rose.
+    /// Direction of a crossing that coincides with one of another event reported first: true if rising.
     pub(super) due: Option<bool>,
-    /// When the search began.
+    /// Time at which the search began.
     begun: Option<T>,
-    /// How far the motion has been searched.
+    /// Time up to which the motion has been searched.
     until: Option<T>,
-    /// The time of the last crossing.
+    /// Time of the last crossing.
     last: Option<T>,
-    /// The size of the function there.
+    /// Magnitude of the function at the last crossing.
     left: T,
-    /// Whether the state or the system have been set since.
+    /// True if the state or the system has been set since the last crossing.
     is_new: bool,
-    /// The longest interval between two, or up to the first.
+    /// Longest interval of time between two crossings, or up to the first.
     longest: T,
-    /// How many intervals in a row were short, those between starts counted three times.
+    /// Number of short intervals in a row; an interval from a changed state or system counts three times.
     short: usize,
 }
 
-/// An interval that is looked at.
+/// An interval to search.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Interval<T> {
-    /// How long it is.
+    /// Length of the interval, in units of time.
     pub(super) width: T,
-    /// The round-off of the time, in halves of the width.
+    /// Round-off of the time, in halves of the width.
     pub(super) jitter: T,
-    /// The highest degree to look at it with.
+    /// Highest Chebyshev degree to use.
     pub(super) finest: usize,
-    /// Whether it is as good as the step.
+    /// True if the interval is at least an eighth of the step.
     pub(super) is_wide: bool,
 }
 
-/// What is to be known of a function on an interval.
+/// Decision about a function on an interval.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum View {
-    /// That it crosses zero once at most.
+    /// It crosses zero at most once.
     Plain,
-    /// That it may cross more often.
+    /// It may cross zero more than once.
     Bent,
-    /// That this degree is to be looked at.
+    /// Undecided at this degree.
     Open,
-    /// The same, and that it may be all noise.
+    /// Undecided at this degree, and its samples may be all noise.
     Rough,
 }
 
-/// The degree with which a motion is looked at first, when nothing is known of the function.
+/// First Chebyshev degree of a motion, before the degree that the function needs is known.
 const FIRST: usize = 16;
 
-/// An interval is short that is this part of the longest: √ε of `f64`, 2⁻²⁶.
+/// An interval is short below this fraction of the longest: √ε of `f64`, 2⁻²⁶.
 const SHORT: f64 = 1.0 / 67_108_864.0;
 
-/// Crossings accumulate after so many short intervals in a row, or half of it where each begins at a new start: functions
-/// have a few zeros close together, but no motion is changed again and again without a reason.
+/// Number of short intervals in a row after which crossings accumulate; half of it if the state or system is changed at
+/// each crossing. Functions may have a few zeros close together, but a motion is not changed again and again without a
+/// reason.
 const ACCUMULATED: usize = 6;
 
 impl<T: Real> EventState<T> {
@@ -123,21 +124,21 @@ impl<T: Real> EventState<T> {
         }
     }
 
-    /// What it is about, before the first crossing.
+    /// Copy of the settings, without the history.
     pub(super) fn anew(&self) -> Self {
         let Self { name, direction, subdivisions, terminal, .. } = *self;
         Self { direction, subdivisions, terminal, ..Self::new(name) }
     }
 
-    /// Counts the crossings of a run from 1.
+    /// Restarts the count of crossings for a new run.
     #[cfg(feature = "alloc")]
     pub(super) fn begin_run(&mut self) {
         self.count = 0;
     }
 
-    /// Takes note of the function where a search begins. A start, where no step led to, is at a zero where the function is no
-    /// more than its noise, or than what was left of it if it crossed just then. A motion that does not go on from the last
-    /// crossing is another one, of which nothing is known.
+    /// Sets the function's value where a search begins. `start` is its noise if no step led here. The function then
+    /// counts as zero if it exceeds neither its noise nor, after a crossing at this time, its magnitude there. A motion
+    /// that does not continue from the last crossing is a different one, and the history is dropped.
     pub(super) fn begin(&mut self, value: T, t: T, start: Option<T>) {
         let last = self.last.or(Some(t));
         let is_another = !self.begun.zip(last).is_some_and(|(begun, last)| is_between(begun, last, t));
@@ -151,7 +152,7 @@ impl<T: Real> EventState<T> {
         self.samples[0] = value;
         if !goes_on {
             let noise = start.unwrap_or(T::constant(0.0));
-            // Where it jumps or has a pole it is not near zero, however much of it is left.
+            // At a jump or a pole the function is not near zero, however large it is after the crossing.
             let left = smaller(self.left + self.left, noise * T::constant(16.0));
             let left = if self.last == Some(t) { left } else { T::constant(0.0) };
             let is_at_zero = start.is_some() && Scalar::abs(value) <= noise + left;
@@ -160,7 +161,8 @@ impl<T: Real> EventState<T> {
         }
     }
 
-    /// Before an interval is looked at, in one go where it is none; whether no degree tells enough on it.
+    /// Begins the search of an interval; `None` if it may not be divided. Returns true if the interval is too wide for
+    /// the highest degree.
     #[inline]
     pub(super) fn open(&mut self, interval: Option<&Interval<T>>) -> bool {
         (self.view, self.noise) = (View::Open, T::constant(0.0));
@@ -172,13 +174,13 @@ impl<T: Real> EventState<T> {
         interval.is_some_and(|interval| interval.is_wide && self.density.is_some() && is_too_wide(interval))
     }
 
-    /// Whether its function is known well enough on this interval.
+    /// True if the function crosses zero at most once on this interval.
     #[inline]
     pub(super) fn is_known(&self) -> bool {
         self.view == View::Plain
     }
 
-    /// Looks at the samples of this degree, unless it is known.
+    /// Decides on the function by its samples of this degree, unless it is decided.
     #[inline]
     pub(super) fn judge(&mut self, degree: usize, interval: &Interval<T>) -> View {
         if self.is_known() {
@@ -201,7 +203,7 @@ impl<T: Real> EventState<T> {
         self.view
     }
 
-    /// The least degree that tells anything on this interval: half of what the last steps have taken.
+    /// Lowest degree worth evaluating on this interval: half the degree needed on the last steps.
     #[inline]
     fn least(&self, interval: &Interval<T>) -> T {
         match self.density {
@@ -210,8 +212,8 @@ impl<T: Real> EventState<T> {
         }
     }
 
-    /// Takes note of the degree that the function takes. Of one that is far away beside what it moves by that is of no
-    /// interest.
+    /// Records the degree that the function needs. Degree 1 if the function is far from zero compared with its
+    /// variation.
     #[inline]
     fn learn(&mut self, shape: &Shape<T>, interval: &Interval<T>) {
         let order = match self.view {
@@ -222,7 +224,7 @@ impl<T: Real> EventState<T> {
         self.needed = Some(T::constant(order) / interval.width);
     }
 
-    /// Looks at samples that may be all noise, given how much of it there is.
+    /// Decides on samples that may be all noise, given the magnitude of the noise.
     pub(super) fn judge_noise(&mut self, degree: usize, noise: T) -> View {
         let shape = Shape::of(&self.samples, degree);
         let part = noise * T::constant(0.25);
@@ -238,7 +240,7 @@ impl<T: Real> EventState<T> {
         self.view
     }
 
-    /// Takes note of the function at the end of the interval: it is on the side where it was unless it is beyond the noise.
+    /// Records the function at the end of the interval. It keeps its side unless its magnitude exceeds the noise.
     #[inline]
     pub(super) fn look(&mut self, value: T) {
         let is_noise =
@@ -247,7 +249,7 @@ impl<T: Real> EventState<T> {
         self.samples[FINEST] = value;
     }
 
-    /// Goes on to the end of the interval, at this time.
+    /// Moves to the end of the interval, at the time `t`.
     #[inline]
     pub(super) fn go_on(&mut self, t: T) {
         if Scalar::abs(self.samples[FINEST]) > self.noise {
@@ -256,8 +258,8 @@ impl<T: Real> EventState<T> {
         (self.value, self.samples[0], self.until) = (self.next, self.samples[FINEST], Some(t));
     }
 
-    /// Goes on to a place where some event crosses: this one if it `has_crossed`, whatever its function says when it is asked
-    /// again, or if it says so.
+    /// Moves to a crossing of some event. This event crosses there if `has_crossed`, whatever its function returns when
+    /// it is evaluated again, or if its value there has changed sign.
     pub(super) fn arrive(&mut self, value: T, t: T, has_crossed: bool) {
         if has_crossed {
             self.noise = T::constant(0.0);
@@ -268,12 +270,12 @@ impl<T: Real> EventState<T> {
         }
         self.go_on(t);
         if has_crossed {
-            // It is on the side that it has come to until it is beyond its round-off.
+            // The function keeps its new side until it exceeds its round-off.
             self.start = Some(T::constant(0.0));
         }
     }
 
-    /// Whether the function crosses zero on the way to the end of the interval, the way that the event is about.
+    /// True if the function crosses zero until the end of the interval, in the direction of the event.
     #[inline]
     pub(super) fn crosses(&self) -> bool {
         let zero = T::constant(0.0);
@@ -286,7 +288,7 @@ impl<T: Real> EventState<T> {
         }
     }
 
-    /// Counts a crossing.
+    /// Counts a crossing, and detects accumulating ones.
     pub(super) fn cross(&mut self, t: T) -> Result<(), Ending> {
         self.count += 1;
         if let Some(last) = self.last.or(self.begun) {
@@ -304,7 +306,7 @@ impl<T: Real> EventState<T> {
         }
     }
 
-    /// Whether a run is to end with the last crossing.
+    /// True if the last crossing ends the run.
     #[cfg(feature = "alloc")]
     pub(super) fn is_terminal(&self) -> bool {
         self.terminal.is_some_and(|count| self.count >= count)

@@ -1,4 +1,4 @@
-//! Events: where a function of the motion crosses zero.
+//! Events: zero crossings of functions of the motion, found within steps.
 
 mod chebyshev;
 mod definition;

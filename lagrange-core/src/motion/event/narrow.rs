@@ -1,12 +1,12 @@
-//! The ITP method for a zero between two places with different signs: I. F. D. Oliveira and R. H. C. Takahashi, *ACM
+//! The ITP method for a zero between two points of opposite sign: I. F. D. Oliveira and R. H. C. Takahashi, *ACM
 //! Transactions on Mathematical Software* 47 (2021), 5:1–5:24, with their κ₁ = 0.2/(b − a), κ₂ = 2 and n₀ = 1.
 //!
-//! Interpolation says where the zero may be, truncation moves that a little towards the middle, and projection keeps it where
-//! bisection would not be faster.
+//! Interpolation estimates the zero, truncation moves the estimate a little towards the middle, and projection limits
+//! its distance from the middle, so that the method is never slower than bisection by more than one step.
 
 use crate::number::{Real, Scalar, smaller};
 
-/// A place between 0 and 1, what is there, and the value of the function.
+/// A point x between 0 and 1, an attached result such as a state, and the value of the function.
 #[derive(Clone, Copy)]
 pub(super) struct Probe<T, S> {
     pub(super) x: T,
@@ -14,8 +14,9 @@ pub(super) struct Probe<T, S> {
     pub(super) value: T,
 }
 
-/// The last place before the zero and the first one after, where the function is zero or of the other sign, at
-/// most 2 `resolution` apart. `at` gives what is at a place, and the value there.
+/// Narrows an interval around a zero. Returns the last point before the zero and the first one after it, where the
+/// function is zero or has the opposite sign, at most 2 `resolution` apart. `at` evaluates the result and the value at
+/// a point.
 pub(super) fn narrow<T: Real, S: Copy, E>(
     [mut low, mut high]: [Probe<T, S>; 2],
     resolution: T,
@@ -24,7 +25,7 @@ pub(super) fn narrow<T: Real, S: Copy, E>(
     let (zero, half, two) = (T::constant(0.0), T::constant(0.5), T::constant(2.0));
     let length = high.x - low.x;
     let truncation = T::constant(0.2) / length;
-    // How far the middle may be from where bisection, one step later, would have the zero for sure.
+    // Largest distance from the middle that still guarantees the resolution within one step more than bisection.
     let mut reach = resolution;
     while reach < length {
         reach *= two;
@@ -46,7 +47,7 @@ pub(super) fn narrow<T: Real, S: Copy, E>(
     Ok([low, high])
 }
 
-/// This length in the direction of `way`.
+/// The length, with the sign of `way`.
 fn toward<T: Real>(way: T, length: T) -> T {
     if way < T::constant(0.0) { -length } else { length }
 }
@@ -55,10 +56,10 @@ fn toward<T: Real>(way: T, length: T) -> T {
 mod tests {
     use super::*;
 
-    /// A function with its zero.
+    /// A function and its zero.
     type Solved = (fn(f64) -> f64, f64);
 
-    /// Where the zero is located, how far apart the two places are, and the evaluations.
+    /// Location of the zero, distance of the two points, and number of evaluations.
     fn zero(resolution: f64, f: impl Fn(f64) -> f64) -> (f64, f64, usize) {
         let ends = [0.0, 1.0].map(|x| Probe { x, what: x, value: f(x) });
         let mut evaluations = 0;

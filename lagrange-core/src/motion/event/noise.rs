@@ -5,9 +5,9 @@ use crate::number::{Real, Scalar, larger};
 use crate::solution::round_off::{SAFETY, neighbours};
 use crate::system::{Lagrangian, State};
 
-/// What the function of an event cannot be told from zero by: 16 times the most by which it differs at eight states whose entries, and
-/// time, are off by a unit of round-off each, up or down at random. An entry is not known better, and what the
-/// function itself rounds moves along.
+/// Round-off of an event's function, below which it counts as zero. It is 16 times the largest change of the function
+/// at eight states whose entries and time are off by one unit of round-off each, up or down at random. The entries are
+/// not known more accurately, and the function's own rounding errors change along with them.
 #[cold]
 #[inline(never)]
 pub(super) fn noise<L, const N: usize, const M: usize>(

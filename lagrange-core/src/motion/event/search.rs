@@ -1,4 +1,4 @@
-//! Steps are searched for the crossings of events, piece by piece.
+//! Search of steps for the crossings of events.
 
 #[cfg(feature = "alloc")]
 use alloc::vec::Vec;
@@ -20,23 +20,23 @@ use crate::system::{Lagrangian, State};
 #[cfg(feature = "alloc")]
 use crate::trajectory::Path;
 
-/// Where a look at an interval leads.
+/// Result of the search of an interval.
 enum Look {
-    /// To its end.
+    /// No crossing: the search is at the end of the interval.
     Passed,
-    /// To a crossing.
+    /// The search is at a crossing.
     Crossed,
-    /// To its first half.
+    /// Undecided: search the first half of the interval.
     Halve,
 }
 
-/// So many intervals are looked at on the way to one crossing; after that, no interval is halved.
+/// Largest number of intervals searched on the way to one crossing; after that, no interval is halved.
 const MOST_INTERVALS: usize = 4096;
 
-/// The events `W` that a motion is searched for.
+/// Search of a motion for the events `W`.
 pub(crate) struct EventSearch<'e, W, L: Lagrangian<N, M>, const N: usize, const M: usize> {
     pub(crate) events: &'e mut [W],
-    /// How many subdivisions every step is looked at in, at least.
+    /// Minimum number of parts in which every step is searched.
     pub(crate) subdivisions: usize,
     pub(crate) system: PhantomData<fn(&L)>,
 }
@@ -46,14 +46,14 @@ where
     W: AnyEvent<L, N, M>,
     L: Lagrangian<N, M, Scalar: Real>,
 {
-    /// From the start of a run on.
+    /// Begins the search at the start of a run, and counts crossings from 1.
     #[cfg(feature = "alloc")]
     pub(crate) fn begin(events: &'e mut [W], system: &L, state: &State<L::Scalar, N>) -> Result<Self, Error> {
         events.iter_mut().for_each(|event| event.memory().begin_run());
         Self::from(events, system, state, true)
     }
 
-    /// From here on. `is_new` tells that no step led here.
+    /// Begins or continues the search at this state. `is_new` is true if no step led here.
     pub(crate) fn from(
         events: &'e mut [W],
         system: &L,
@@ -71,10 +71,10 @@ where
         Ok(Self { events, subdivisions, system: PhantomData })
     }
 
-    /// The first crossing after `from`, which moves there, or to the end of the step where there is none.
+    /// Finds the first crossing after `from`, and moves `from` there; without a crossing, to the end of the step.
     ///
     /// # Errors
-    /// Why the motion ends at `from`.
+    /// The reason why the motion ends at `from`.
     pub(crate) fn next<F, I>(
         &mut self,
         step: &DenseStep<'_, L, F, I, N, M>,
@@ -110,7 +110,7 @@ where
         Ok(None)
     }
 
-    /// Reports a crossing at `state` that has not been reported yet.
+    /// Returns a crossing at `state` that has not been reported yet.
     pub(crate) fn due(
         &mut self,
         state: &State<L::Scalar, N>,
@@ -126,7 +126,7 @@ where
         Ok(None)
     }
 
-    /// Writes down the crossings within a step; where and why the motion ends within it, if it does.
+    /// Records the crossings within a step. If the motion ends within it, returns the state there and the ending.
     #[cfg(feature = "alloc")]
     #[inline]
     pub(crate) fn record<F, I>(
@@ -151,9 +151,9 @@ where
         }
     }
 
-    /// Writes down the crossings within the last step of a path, between these states, and ends the path where the motion
-    /// ends within it; why it does.
-    // Inlined, so that the path can stay in registers.
+    /// Records the crossings within the last step of a path, between these states. If the motion ends within the step,
+    /// cuts the path there and returns the ending.
+    // Inlined, so that the path stays in registers.
     #[cfg(feature = "alloc")]
     #[inline(always)]
     pub(crate) fn record_in<F, I>(
@@ -173,7 +173,8 @@ where
         Some(ending)
     }
 
-    /// Writes down what has not been reported yet at this state; the ending, if one of them is that.
+    /// Records the crossings at this state that have not been reported yet. Returns the ending if one of them is
+    /// terminal.
     #[cfg(feature = "alloc")]
     pub(crate) fn record_due(
         &mut self,
@@ -192,7 +193,7 @@ where
         }
     }
 
-    /// The ending, if the last crossing is one.
+    /// Returns the ending if the last crossing is terminal.
     #[cfg(feature = "alloc")]
     fn ending(&mut self, crossings: &[Crossing<L::Scalar, N>]) -> Option<Ending> {
         let Crossing { event, index, state, .. } = crossings.last()?;
@@ -200,8 +201,8 @@ where
         is_terminal.then(|| Ending::Event { time: state.t.to_f64(), event })
     }
 
-    /// Goes on to `t`, or to where an event crosses before, unless some function may cross twice on the way and the interval
-    /// can be halved.
+    /// Moves `from` to `t`, or to an earlier crossing. If a function may cross twice on the way and the interval can be
+    /// halved, asks for that instead.
     #[inline]
     fn look<F, I>(
         &mut self,
@@ -229,7 +230,7 @@ where
         };
         let reached = end.and_then(|to| self.sample(step.system, to, FINEST).map(|()| to));
         if let Some(interval) = &interval {
-            // What cannot be evaluated may have crossed before.
+            // An event may have crossed before the state that cannot be evaluated.
             if reached.is_err()
                 || are_too_wide
                 || !self.is_plain(step, [from.t, t], interval).unwrap_or(false)
@@ -249,13 +250,14 @@ where
         Ok(if any_crosses { Look::Crossed } else { Look::Passed })
     }
 
-    /// Takes samples of all functions that are not known well enough.
+    /// Samples all functions that are undecided on the interval.
     #[inline]
     fn sample(&mut self, system: &L, state: &State<L::Scalar, N>, place: usize) -> Result<(), Error> {
         self.events.iter_mut().try_for_each(|event| event.sample(system, state, place))
     }
 
-    /// Whether each function crosses zero at most once between these times, by samples of as high a degree as that takes.
+    /// True if each function crosses zero at most once between these times. The degree of the samples is raised as
+    /// needed.
     #[inline]
     fn is_plain<F, I>(
         &mut self,
@@ -289,7 +291,7 @@ where
         Ok(false)
     }
 
-    /// Takes note of all functions at the end of an interval; whether one crosses on the way.
+    /// Records all functions at the end of an interval. Returns true if one crosses on the way.
     #[inline]
     fn look_at(&mut self, system: &L, end: &State<L::Scalar, N>) -> Result<bool, Error> {
         let mut any_crosses = false;
@@ -306,7 +308,8 @@ where
         Ok(any_crosses)
     }
 
-    /// Goes to where the first event crosses. Its function is zero there or has the other sign, and so may others be.
+    /// Moves `from` to the first crossing. Its function is zero there or has the opposite sign; others may cross there
+    /// too.
     #[cold]
     #[inline(never)]
     fn go_to_first<F, I>(
@@ -339,7 +342,8 @@ where
     }
 }
 
-/// What the samples of this degree tell of an event's function; where they may be all noise, the middle says how much of it there is.
+/// Decides on an event's function by its samples of this degree. If they may be all noise, the noise is estimated in
+/// the middle.
 #[inline]
 fn judge<L, F, I, const N: usize, const M: usize>(
     event: &mut impl AnyEvent<L, N, M>,
@@ -361,7 +365,7 @@ where
     Ok(event.memory().judge_noise(degree, noise))
 }
 
-/// The state where it is: one that is moved out of a result takes longer than a look at it.
+/// Reference to the state in a result: moving the state out would take longer than using it.
 #[inline(always)]
 fn there<T, const N: usize>(found: &Result<State<T, N>, Error>) -> Result<&State<T, N>, Error> {
     found.as_ref().map_err(Error::clone)
