@@ -1,4 +1,5 @@
-//! What a motion on a lane does alone: its start, its controller, steps that the lanes cannot take, and its ending.
+//! Scalar operations of a motion that has a lane: its start, its controller, steps that lanes cannot take, and its
+//! ending.
 
 use super::contract::LaneMethod;
 use super::motion::{LaneMotion, LaneOutcome};
@@ -14,7 +15,7 @@ where
     L: Lagrangian<N, M, Scalar = f64>,
     P: LaneMethod<L, N, M>,
 {
-    /// Before the first step, with the state made consistent.
+    /// Makes the start consistent, and prepares the first step. Returns the motion and its consistent start.
     pub(crate) fn new<const HAS_DENSE_OUTPUT: bool>(
         (index, start): (usize, u32),
         system: L,
@@ -48,7 +49,7 @@ where
         prepared.map_err(|error| Ending::of(error, self.now()))
     }
 
-    /// Calls the controller, and goes on from this state with what it has set.
+    /// Calls the controller, and continues from this state with the changed parameters.
     pub(super) fn control(&mut self, state: &State<f64, N>, method: &P) -> Result<(), Ending> {
         let Self { record, system, memory, statistics, .. } = self;
         record.control(system, state)?;
@@ -58,18 +59,18 @@ where
         self.prepare(method)
     }
 
-    /// The clock on the wall starts when it is given a lane.
+    /// Starts the wall-clock limit when the motion gets a lane.
     pub(super) fn begin(mut self, method: &P) -> Self {
         self.limits = Watchdog::new(method.limits(), &self.statistics);
         self
     }
 
-    /// Why there is no step to take.
+    /// Returns the reason why the first step cannot be taken.
     pub(crate) fn ending_at_start(&mut self, method: &P) -> Option<Ending> {
         self.ending(method, |_| ())
     }
 
-    /// Why there is no further step to take; `unload` gives the memory what the lane holds.
+    /// Returns the reason why no further step is taken. `unload` copies the lane's data into the memory.
     pub(super) fn ending(&mut self, method: &P, unload: impl FnOnce(&mut P::Memory)) -> Option<Ending> {
         let Self { system, memory, end, statistics, limits, failure, .. } = self;
         let time = P::now(memory);
@@ -83,8 +84,8 @@ where
         failure.clone().or_else(|| limits.exceeded(statistics, time, pace))
     }
 
-    /// The step from where the memory is, by the scalar method, with what lies within where that is asked for: where there is
-    /// none the step is taken back.
+    /// Takes the step from the state in the memory by the scalar method. Computes its dense output if samples or events
+    /// need it, and undoes the step if that fails.
     #[cold]
     pub(super) fn step_alone<const HAS_DENSE_OUTPUT: bool>(&mut self, method: &P) -> LaneOutcome {
         let now = self.now();

@@ -1,4 +1,4 @@
-//! Motions in lock-step: each lane a motion with its own time, step and ending.
+//! Motions in lock-step on SIMD lanes, each with its own time, step length and ending.
 
 use core::array::from_fn;
 use core::marker::PhantomData;
@@ -12,7 +12,7 @@ use crate::number::{Lanes, vector};
 use crate::solution::vector_field::{LagrangianVectorField, PhaseVector};
 use crate::system::{Lagrangian, State};
 
-/// Motions in lock-step.
+/// Motions in lock-step, at most one per lane.
 pub(crate) struct Batch<'o, L, P, const N: usize, const M: usize>
 where
     L: Lagrangian<N, M, Scalar = f64>,
@@ -28,7 +28,7 @@ where
     L: Lagrangian<N, M, Scalar = f64>,
     P: LaneMethod<L, N, M>,
 {
-    /// With a first motion, and the other lanes free.
+    /// Creates a batch with a first motion; the other lanes are free.
     pub(crate) fn new(method: &'o P, motion: LaneMotion<'o, L, P, N, M>) -> Self {
         let lane_memory = method.lane_memory(&motion.system, &motion.memory);
         let mut motions = [const { None }; Lanes::COUNT];
@@ -44,7 +44,8 @@ where
         self.motions.iter().all(Option::is_none)
     }
 
-    /// Gives the motion a free lane; gives it back where there is none that it fits in.
+    /// Assigns a free lane to the motion. Returns the motion if no lane is free, or if it differs in a field that lanes
+    /// share.
     pub(crate) fn join(&mut self, motion: LaneMotion<'o, L, P, N, M>) -> Option<LaneMotion<'o, L, P, N, M>> {
         let lane = self.motions.iter().position(Option::is_none);
         match lane.filter(|&lane| P::place(&mut self.lane_memory, lane, &motion.system)) {
@@ -57,8 +58,8 @@ where
         }
     }
 
-    /// Tries one step in every lane. `accept` is told each new state; `leave` each motion that has ended.
-    /// Where nothing is to be looked for within steps, and `HAS_DENSE_OUTPUT` is false, nothing of that is compiled.
+    /// Tries one step in every lane. Calls `accept` with each new state, and `leave` with each motion that has ended.
+    /// If `HAS_DENSE_OUTPUT` is false, no samples, events or controller exist, and their code is not compiled.
     pub(crate) fn step<const HAS_DENSE_OUTPUT: bool>(
         &mut self,
         mut accept: impl FnMut(usize, &State<f64, N>) -> ControlFlow<()>,
@@ -102,7 +103,7 @@ where
         }
     }
 
-    /// The step of a lane by the scalar method. None is taken in a free one.
+    /// Takes the step of one lane by the scalar method. A free lane takes no step.
     #[cold]
     fn step_alone<const HAS_DENSE_OUTPUT: bool>(&mut self, lane: usize) -> LaneOutcome {
         let Some(motion) = &mut self.motions[lane] else { return LaneOutcome::Rejected };
@@ -110,7 +111,7 @@ where
         motion.step_alone::<HAS_DENSE_OUTPUT>(self.method)
     }
 
-    /// Moves the lanes whose steps are accepted.
+    /// Moves the lanes with accepted steps to the ends of these steps.
     fn commit(&mut self, outcomes: &[LaneOutcome; Lanes::COUNT]) {
         let chosen = outcomes.map(|outcome| if outcome == LaneOutcome::Accepted { 1.0 } else { 0.0 });
         P::commit(&mut self.lane_memory, chosen.into());
@@ -119,7 +120,8 @@ where
         }
     }
 
-    /// Keeps what is due in an accepted step to `end`; where the motion stops before, that is then the end, and why.
+    /// Records the samples and crossings in an accepted step. If the motion stops within the step, moves `end` there
+    /// and returns the ending.
     fn keep(&mut self, lane: usize, before: &State<f64, N>, end: &mut State<f64, N>) -> Option<Ending> {
         let LaneMotion { record, system, within, .. } = self.motions[lane].as_mut()?;
         if !record.looks_into(before.t, end.t) {
@@ -138,7 +140,7 @@ where
         }
     }
 
-    /// Calls the controller of a member, where it is due; the ending, where that is one.
+    /// Calls the controller of a member if its call is due. Returns the ending if it fails.
     fn control(&mut self, lane: usize, state: &State<f64, N>) -> Option<Ending> {
         let motion = self.motions[lane].as_mut().filter(|motion| motion.record.is_due(state.t))?;
         if let Err(ending) = motion.control(state, self.method) {
@@ -152,13 +154,13 @@ where
         None
     }
 
-    /// Why there is no further step to take in a lane.
+    /// Returns the reason why a lane takes no further step.
     fn ending(&mut self, lane: usize) -> Option<Ending> {
         let lane_memory = &self.lane_memory;
         self.motions[lane].as_mut()?.ending(self.method, |memory| P::unload(lane_memory, lane, memory))
     }
 
-    /// Puts where its motion is into a lane.
+    /// Copies the current state of its motion into a lane.
     fn load(&mut self, lane: usize) {
         if let Some(motion) = &self.motions[lane] {
             P::load(&mut self.lane_memory, lane, &motion.memory);

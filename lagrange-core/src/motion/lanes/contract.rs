@@ -1,4 +1,4 @@
-//! What is asked of a method on lanes.
+//! The trait [`LaneMethod`]: interface of the methods on SIMD lanes.
 
 use super::motion::{LaneMotion, LaneOutcome};
 use crate::error::Error;
@@ -8,10 +8,11 @@ use crate::solution::vector_field::PhaseVector;
 use crate::statistics::Statistics;
 use crate::system::Lagrangian;
 
-/// A method that integrates several members of an ensemble at once: [`Dop853`](crate::Dop853), [`Dopri5`](crate::Dopri5) and every
-/// other [`Pair`](crate::motion::Pair), and [`Taylor`](crate::Taylor) where the system has a Taylor series.
+/// A method that integrates several members of an ensemble at once: [`Dop853`](crate::Dop853),
+/// [`Dopri5`](crate::Dopri5) and every other [`Pair`](crate::motion::Pair), and [`Taylor`](crate::Taylor) if the system
+/// has a Taylor series.
 ///
-/// [`Ensemble::integrate_on_lanes`](crate::Ensemble::integrate_on_lanes) takes it. What it consists of belongs to this crate.
+/// [`Ensemble::integrate_on_lanes`](crate::Ensemble::integrate_on_lanes) uses it. Its items are internal to this crate.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not integrate `{L}` on SIMD lanes",
     note = "`Dop853` and `Dopri5` do, and `Taylor` where the equations of motion have a Taylor series",
@@ -21,19 +22,19 @@ pub trait LaneMethod<L, const N: usize, const M: usize>: Method<L, N, M> + Sized
 where
     L: Lagrangian<N, M, Scalar = f64>,
 {
-    /// Systems with their states, and what a step of them takes.
+    /// Systems and states of all lanes, with the working arrays of a step.
     #[doc(hidden)]
     type LaneMemory;
 
-    /// The time that a motion has reached.
+    /// Current time of a motion.
     #[doc(hidden)]
     fn now(memory: &Self::Memory) -> f64;
 
-    /// Whether a motion has no way left.
+    /// True if a motion has reached its end.
     #[doc(hidden)]
     fn is_at_end(memory: &Self::Memory) -> bool;
 
-    /// Finds out what a step towards the end starts with, unless that is known.
+    /// Computes what a step towards the end needs at its start, such as the rates, unless it is known.
     #[doc(hidden)]
     fn prepare(
         &self,
@@ -43,33 +44,33 @@ where
         statistics: &mut Statistics,
     ) -> Result<(), Error>;
 
-    /// This motion in all lanes. Free ones compute what the first does, to no purpose and no harm.
+    /// Creates the lanes with this motion in all of them. Free lanes repeat the first one, which is harmless.
     #[doc(hidden)]
     fn lane_memory(&self, system: &L, memory: &Self::Memory) -> Self::LaneMemory;
 
-    /// Puts the parameters into a lane; `false`, and nothing done, where a field that all lanes share differs.
+    /// Copies the parameters into a lane. Returns false, without a change, if a field that all lanes share differs.
     #[doc(hidden)]
     fn place(lane_memory: &mut Self::LaneMemory, lane: usize, system: &L) -> bool;
 
-    /// Puts where a motion is into a lane.
+    /// Copies the current state of a motion into a lane.
     #[doc(hidden)]
     fn load(lane_memory: &mut Self::LaneMemory, lane: usize, memory: &Self::Memory);
 
-    /// Gives the motion what its lane holds.
+    /// Copies the data of a lane back into the memory of its motion.
     #[doc(hidden)]
     fn unload(lane_memory: &Self::LaneMemory, lane: usize, memory: &mut Self::Memory);
 
-    /// Coordinates and velocities in a lane.
+    /// Current coordinates and velocities of a lane.
     #[doc(hidden)]
     fn phase(lane_memory: &Self::LaneMemory, lane: usize) -> PhaseVector<f64, N>;
 
-    /// Where the step tried last leads in a lane. After it is taken this is the same, and need not wait for the numbers to be
-    /// written there.
+    /// End of the last step tried in a lane. After the step is accepted, [`phase`](Self::phase) is the same, but would
+    /// wait for its stores.
     #[doc(hidden)]
     fn reached(lane_memory: &Self::LaneMemory, lane: usize) -> PhaseVector<f64, N>;
 
-    /// Tries a step in all lanes and moves the clocks of those where it is accepted; `None` for one that is to be taken alone.
-    /// Of no step is it known where it leads within, where `HAS_DENSE_OUTPUT` is false.
+    /// Tries a step in all lanes, and advances the clocks of those that accept it. `None` for a lane whose step must be
+    /// taken by the scalar method. If `HAS_DENSE_OUTPUT` is false, no dense output is available.
     #[doc(hidden)]
     fn attempt<const HAS_DENSE_OUTPUT: bool>(
         &self,
@@ -77,26 +78,26 @@ where
         motions: &mut LaneMotions<'_, L, Self, N, M>,
     ) -> [Option<LaneOutcome>; Lanes::COUNT];
 
-    /// Moves the lanes chosen to where their steps lead.
+    /// Moves the chosen lanes to the ends of their steps.
     #[doc(hidden)]
     fn commit(lane_memory: &mut Self::LaneMemory, chosen: Lanes);
 
-    /// What lies within the step of a lane that was tried last.
+    /// Dense output of the last step tried in a lane.
     #[doc(hidden)]
     fn within(lane_memory: &Self::LaneMemory, lane: usize) -> impl Interpolant<f64, N>;
 }
 
-/// Who is in which lane.
+/// Motion of each lane, or `None` for a free lane.
 pub(crate) type LaneMotions<'o, L, P, const N: usize, const M: usize> =
     [Option<LaneMotion<'o, L, P, N, M>>; Lanes::COUNT];
 
-/// What lies in one lane.
+/// Extracts the numbers of one lane.
 #[inline(always)]
 pub(crate) fn unpacked<const R: usize, const N: usize>(
     packed: &[[Lanes; N]; R],
     lane: usize,
 ) -> [[f64; N]; R] {
-    // Not by `map`, which the compiler leaves a function of its own, whose result is waited for.
+    // Not by `map`: the compiler does not inline it, and the caller would wait for its result.
     let mut phase = [[0.0; N]; R];
     for (half, packed) in phase.iter_mut().zip(packed) {
         for (x, packed) in half.iter_mut().zip(packed) {

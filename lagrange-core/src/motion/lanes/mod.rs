@@ -1,8 +1,8 @@
-//! Motions side by side on SIMD lanes, by every method that can step so.
+//! Integration of several motions at once on SIMD lanes, for every method that supports it.
 //!
-//! A step is computed for all lanes at once; what decides is done lane by lane, as for a motion alone. Where a lane meets what
-//! the lanes cannot do (an elimination that is not to be trusted, constraints that depend on one another, numbers that are not
-//! finite, the end of all steps) its step is taken alone, by the scalar method. Nothing in a lane depends on the others.
+//! A step is computed for all lanes at once, and accepted or rejected lane by lane, as for a single motion. Lanes
+//! cannot handle an unreliable elimination, dependent constraints, numbers that are not finite, or the end of all
+//! steps. In these cases the scalar method takes the step of that lane alone. No lane depends on the others.
 
 mod alone;
 mod batch;

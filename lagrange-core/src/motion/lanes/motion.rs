@@ -1,4 +1,4 @@
-//! A motion that has a SIMD lane, or waits for one.
+//! A motion of an ensemble that has a SIMD lane, or waits for one.
 
 use core::fmt::{self, Debug, Formatter};
 
@@ -9,18 +9,18 @@ use crate::motion::run::Watchdog;
 use crate::statistics::Statistics;
 use crate::system::Lagrangian;
 
-/// A motion that has a lane, or waits for one.
+/// A motion of an ensemble that has a lane, or waits for one.
 pub struct LaneMotion<'o, L, P, const N: usize, const M: usize>
 where
     L: Lagrangian<N, M, Scalar = f64>,
     P: Method<L, N, M>,
 {
-    /// Which member of the ensemble it is.
+    /// Index of the member in the ensemble.
     pub(crate) index: usize,
-    /// What tells its start and parameters from others.
+    /// Identifies the start and the parameters of the member.
     pub(crate) start: u32,
     pub(crate) statistics: Statistics,
-    /// What is kept of it on the way.
+    /// Samples, quantities and crossings recorded so far.
     pub(crate) record: Record<'o, L, N, M>,
     pub(crate) system: L,
     /// Method's memory, valid only while a step is taken outside the lanes.
@@ -29,7 +29,7 @@ where
     pub(super) within: Option<P::Interpolant>,
     pub(super) end: f64,
     pub(super) limits: Watchdog,
-    /// Why no step will do.
+    /// Ending, once no further step can be taken.
     pub(super) failure: Option<Ending>,
 }
 
@@ -45,13 +45,13 @@ where
     }
 }
 
-/// What became of a step in one lane.
+/// Result of a step in one lane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LaneOutcome {
-    /// The lane is to be moved to where it leads.
+    /// Accepted: the lane moves to the end of the step.
     Accepted,
-    /// Taken alone: the lane is to be loaded with the result.
+    /// Accepted, computed by the scalar method: the lane must be loaded with the result.
     AcceptedAlone,
-    /// The lane stays where it is.
+    /// Rejected: the lane keeps its state.
     Rejected,
 }

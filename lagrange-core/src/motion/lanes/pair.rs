@@ -18,27 +18,27 @@ use crate::solution::vector_field::{LagrangianVectorField, PhaseVector, StagePoi
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, Pack, Packed, State};
 
-/// Motions side by side, and what a step of them takes.
+/// Motions in lock-step, with the working arrays of a step.
 #[derive(Debug)]
 pub struct PairLanes<S, P: Pair, const N: usize, const M: usize> {
     system: S,
     y: PhaseVector<Lanes, N>,
-    /// The first is that of `y`.
+    /// Slopes of the step; the first is the slope at `y`.
     slopes: Room<Slopes<Lanes, N>>,
-    /// When the step tried starts, how long it is, and when it ends.
+    /// Start, length and end of the step tried, per lane.
     now: [f64; Lanes::COUNT],
     h: [f64; Lanes::COUNT],
     end: [f64; Lanes::COUNT],
-    /// Where it leads.
+    /// Coordinates and velocities at the end of the step tried.
     next: PhaseVector<Lanes, N>,
-    /// What lies within, of the lanes that are looked into.
+    /// Coefficients of the dense output, valid in the lanes that need it.
     coefficients: P::Coefficients<PhaseVector<Lanes, N>>,
 }
 
-/// What the lanes say about a step, before anyone decides.
+/// Error and reliability of a step in each lane, before it is accepted or rejected.
 struct LaneErrors {
     error: [f64; Lanes::COUNT],
-    /// Which lanes can be relied on.
+    /// True for lanes whose result is reliable.
     sound: [bool; Lanes::COUNT],
 }
 
@@ -65,7 +65,7 @@ where
         statistics: &mut Statistics,
     ) -> Result<(), Error> {
         self.aim::<L, LagrangianVectorField, N, M>(system, memory, end, statistics);
-        // The lane is to have the slope, if there is a step to take.
+        // The lane needs the slope only if a step follows.
         if memory.clock.is_at_end() {
             return Ok(());
         }
@@ -109,7 +109,7 @@ where
         lane_memory: &mut Self::LaneMemory,
         motions: &mut LaneMotions<'_, L, Self, N, M>,
     ) -> [Option<LaneOutcome>; Lanes::COUNT] {
-        // In a free lane time stands still.
+        // A free lane makes steps of length zero.
         let plan: [_; Lanes::COUNT] =
             from_fn(|lane| motions[lane].as_ref().map_or((0.0, 0.0), |motion| motion.memory.next()));
         lane_memory.now =
@@ -151,7 +151,7 @@ where
     S: Lagrangian<N, M, Scalar = Lanes>,
     P: Pair,
 {
-    /// Stages, error and projection in all lanes, and the slopes at the end of the step.
+    /// Computes stages, error, projection, and the slopes at the end of the step in all lanes.
     fn attempt<L>(
         &mut self,
         method: &Adaptive<P>,
@@ -184,7 +184,7 @@ where
         LaneErrors { error, sound: from_fn(|lane| trusted[lane] && projected[lane]) }
     }
 
-    /// The slopes of these stages, the first of which has the number given.
+    /// Computes the slopes of consecutive stages; `first` is the index of the first one.
     #[inline]
     fn stages(&mut self, (first, rows): (usize, &[TableauRow]), reliability: &mut LaneReliability) {
         let (now, h) = (Lanes::from(self.now), Lanes::from(self.h));
@@ -195,7 +195,7 @@ where
         }
     }
 
-    /// Evaluates the slope of this number.
+    /// Evaluates the slope with index `number`.
     #[inline(always)]
     fn slope(
         &mut self,
@@ -210,8 +210,8 @@ where
         self.slopes[number][1] = solution.accelerations.data.0[0];
     }
 
-    /// Projects the lanes onto the constraints, all at once; one where that does not lead there alone, if its step is
-    /// accurate. Whether each is where it is to be.
+    /// Projects all lanes onto the constraints at once. A lane for which that fails is projected alone if its step is
+    /// accurate. Returns true for each lane that is projected or rejected anyway.
     fn project<L>(
         &self,
         next: &mut PhaseVector<Lanes, N>,
@@ -245,8 +245,8 @@ where
         })
     }
 
-    /// What lies within the steps that will be accepted, where a lane is to be looked into; which these are. One whose stages
-    /// there are not to be trusted is to take its step alone.
+    /// Computes the dense output of steps that will be accepted, if a lane needs it. Returns these lanes. A lane with
+    /// unreliable stages of the dense output is marked unsound, so that the scalar method repeats its step.
     fn look_within<L>(
         &mut self,
         method: &Adaptive<P>,
@@ -279,7 +279,7 @@ where
     }
 }
 
-/// Accepts or rejects a step computed on lanes; `None` where it is to be taken alone.
+/// Accepts or rejects a step computed on lanes. Returns `None` if the scalar method must take it.
 fn decide<P: Pair, const N: usize, const M: usize>(
     method: &Adaptive<P>,
     memory: &mut PairMemory<f64, N, M>,
@@ -303,7 +303,7 @@ fn decide<P: Pair, const N: usize, const M: usize>(
     Some(LaneOutcome::Rejected)
 }
 
-/// As many evaluations as the step takes alone, with an interpolant or without.
+/// Counts the evaluations that the scalar method would need for the step, with or without dense output.
 fn count<P: Pair, const N: usize, const M: usize>(
     method: &Adaptive<P>,
     PairMemory { has_slope, .. }: &mut PairMemory<f64, N, M>,
@@ -324,7 +324,7 @@ fn count<P: Pair, const N: usize, const M: usize>(
     statistics.rejected += usize::from(!accepted);
 }
 
-/// The polynomial in one lane, with the operations of a polynomial alone.
+/// Interpolant of one lane, with the same operations as a scalar one.
 struct LaneOf<'c, C> {
     lane: usize,
     start: f64,

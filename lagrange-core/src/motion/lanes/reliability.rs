@@ -1,4 +1,4 @@
-//! Whether what was computed on lanes can be relied on.
+//! Reliability of results computed on lanes.
 
 use core::array::from_fn;
 
@@ -6,12 +6,12 @@ use crate::number::{Lanes, Scalar, sum};
 use crate::solution::pivot::least_pivot;
 use crate::system::Solution;
 
-/// Whether the numbers of each lane can be relied on, gathered in passing.
+/// Collects, during a step, the evidence whether the numbers of each lane are reliable.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LaneReliability {
-    /// The smallest pivot.
+    /// Smallest pivot of each lane.
     pivot: Lanes,
-    /// The sum of all magnitudes, which is a number where each is.
+    /// Sum of all magnitudes, finite if and only if all numbers are.
     size: Lanes,
 }
 
@@ -25,7 +25,7 @@ impl LaneReliability {
         self.size = self.size + sum(numbers.len(), |i| numbers[i].abs());
     }
 
-    /// A minimum may pass over what is not a number; a sum does not.
+    /// Records a pivot. `min` may ignore NaN, so the sum records it as well.
     #[inline(always)]
     fn pivot(&mut self, pivot: Lanes) {
         self.pivot = self.pivot.min(pivot);
@@ -39,7 +39,8 @@ impl LaneReliability {
         self.pivot(solution.pivot);
     }
 
-    /// As [`is_trustworthy`](crate::solution::pivot::is_trustworthy) of a solution alone.
+    /// True for reliable lanes, by the criterion of [`is_trustworthy`](crate::solution::pivot::is_trustworthy) for
+    /// scalars.
     pub(crate) fn lanes(&self) -> [bool; Lanes::COUNT] {
         let (pivot, size) = (self.pivot.to_array(), self.size.to_array());
         from_fn(|lane| pivot[lane] > least_pivot::<f64>() && size[lane] < f64::INFINITY)
