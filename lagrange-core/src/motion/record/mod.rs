@@ -1,4 +1,4 @@
-//! What is kept of a motion that is not stored: samples, quantities, crossings, and its end.
+//! Record of a motion that keeps no steps: samples, quantities, crossings, and the end.
 
 pub(crate) mod plan;
 
@@ -22,69 +22,69 @@ use crate::solution::vector_field::VectorField;
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State};
 
-/// Where a motion ended, and what was kept of it on the way.
+/// End of a motion, with its samples, quantities and crossings.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(bound(serialize = "T: nalgebra::Scalar + serde::Serialize")))]
 pub struct Arrival<T, const N: usize> {
-    /// The last state.
+    /// Last state.
     pub state: State<T, N>,
-    /// Why there is no later one.
+    /// Reason why the motion ended there.
     pub ending: Ending,
-    /// Steps and evaluations.
+    /// Numbers of steps and evaluations.
     pub statistics: Statistics,
-    /// The states at the times asked for by `samples_at` or `every`, as far as the motion came. Of a member of an ensemble that is
-    /// taken over from a table there are none.
+    /// States at the times of `samples_at` or `every`, up to the end of the motion. Empty for a member of an ensemble
+    /// that is read from a table.
     pub samples: Vec<State<T, N>>,
-    /// Their quantities: all of the first sample, all of the second, …
+    /// Quantities of the samples: all of the first sample, all of the second, …
     pub values: Vec<T>,
-    /// Where events were, in the order of the motion. Of a member taken over from a table there are none.
+    /// Crossings of events, in the order of the motion. Empty for a member that is read from a table.
     pub crossings: Vec<Crossing<T, N>>,
 }
 
-/// What sets the parameters of a system on the way; an error in words.
+/// Controller, which sets parameters of a system during its motion. Its error is a message.
 pub(crate) type Controller<'o, L, const N: usize, const M: usize> =
     dyn FnMut(&mut L, &State<<L as Lagrangian<N, M>>::Scalar, N>) -> Result<(), String> + 'o;
 
-/// Calls a controller at the start, and then as often as this.
+/// Controller, with the interval of time between its calls.
 pub(crate) struct Steering<'o, L: Lagrangian<N, M>, const N: usize, const M: usize> {
     pub(crate) interval: L::Scalar,
     pub(crate) controller: Box<Controller<'o, L, N, M>>,
 }
 
 impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Steering<'_, L, N, M> {
-    /// The interval must be positive and finite.
+    /// Checks that the interval is positive and finite.
     pub(crate) fn check(&self) -> Result<(), Error> {
         check_interval(CONTROLLER, self.interval)
     }
 }
 
-/// What the interval of a controller is called.
+/// Name of the setting in error messages.
 pub(crate) const CONTROLLER: &str = "interval of the controller";
 
-/// What is kept of one motion.
+/// Record of one motion.
 pub(crate) struct Record<'o, L: Lagrangian<N, M>, const N: usize, const M: usize> {
     plan: &'o RecordPlan<'o, L, N, M>,
     samples: Vec<State<L::Scalar, N>>,
-    /// The quantities of the first sample, those of the second, …
+    /// Quantities of the first sample, then of the second, …
     values: Vec<L::Scalar>,
     crossings: Vec<Crossing<L::Scalar, N>>,
     events: Vec<Box<DynEvent<'o, L, N, M>>>,
-    /// How many subdivisions every step is looked at in, at least.
+    /// Minimum number of parts in which every step is searched for events.
     subdivisions: usize,
-    /// Why the motion ends where it starts, if it does.
+    /// Ending at the start, if an event that is due there ends the motion.
     stopped: Option<Ending>,
     steering: Option<Steering<'o, L, N, M>>,
     start: L::Scalar,
     end: L::Scalar,
     /// Next time to reach: the end, or an earlier call of the controller.
     pub(crate) goal: L::Scalar,
-    /// How often it has been called.
+    /// Number of calls of the controller.
     calls: usize,
 }
 
 impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Record<'o, L, N, M> {
-    /// Before the first step, with what is due at the start.
+    /// Begins the record: takes the samples and crossings that are due at the start.
     pub(crate) fn begin(
         plan: &'o RecordPlan<'o, L, N, M>,
         mut events: Vec<Box<DynEvent<'o, L, N, M>>>,
@@ -94,7 +94,7 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
         end: L::Scalar,
     ) -> Result<Self, Error> {
         plan.times.check_within([start.t, end])?;
-        // A name that is not known is told before the first step.
+        // Evaluate each quantity once, so that an unknown name is an error before the first step.
         let sample = Sample { system, state: *start };
         plan.quantities.iter().try_for_each(|(_, value)| value(&sample).map(drop))?;
         let mut crossings = Vec::new();
@@ -125,7 +125,7 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
         Ok(record)
     }
 
-    /// When the next sample is.
+    /// Time of the next sample.
     fn next_time(&self) -> Option<L::Scalar> {
         self.plan.times.get(self.samples.len(), [self.start, self.end])
     }
@@ -145,12 +145,13 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
         Ok(())
     }
 
-    /// Whether there is something to be looked for in a step between these times.
+    /// True if samples or events may be due in a step between these times, so that its dense output is needed.
     pub(crate) fn looks_into(&self, from: L::Scalar, to: L::Scalar) -> bool {
         !self.events.is_empty() || self.next_time().is_some_and(|t| is_between(from, t, to))
     }
 
-    /// Keeps what is due in this step to `end`; where the motion stops before, that is then the end, and why.
+    /// Records the samples and crossings in this step. If the motion stops within the step, moves `end` there and
+    /// returns the ending.
     pub(crate) fn keep<F, I>(
         &mut self,
         step: &DenseStep<'_, L, F, I, N, M>,
@@ -186,12 +187,12 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
         stopped
     }
 
-    /// Whether the controller is to be called before the motion goes on.
+    /// True if the controller must be called before the next step.
     pub(crate) fn is_due(&self, t: L::Scalar) -> bool {
         t == self.goal && t != self.end
     }
 
-    /// Calls the controller, and sets the next goal. The method is to be told.
+    /// Calls the controller, and sets the next goal. The caller must then resume the method.
     pub(crate) fn control(&mut self, system: &mut L, state: &State<L::Scalar, N>) -> Result<(), Ending> {
         let Some(Steering { interval, controller }) = &mut self.steering else { return Ok(()) };
         let time = state.t.to_f64();
@@ -217,7 +218,7 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
         self.stopped.take()
     }
 
-    /// Where the motion ended, with what was kept of it.
+    /// Converts the record to the result, with the state at the end.
     pub(crate) fn arrive(
         self,
         state: State<L::Scalar, N>,
@@ -247,17 +248,17 @@ impl<L> Deref for Moving<'_, L> {
     }
 }
 
-/// Records one motion on its way, and calls its controller. Where nothing lies within steps that is wanted, `HAS_DENSE_OUTPUT` is
-/// false, and nothing of that is compiled.
+/// Observer that records one motion, and calls its controller. If `HAS_DENSE_OUTPUT` is false, no samples, events or
+/// controller exist, and their code is not compiled.
 pub(crate) struct Recorded<'o, 'r, L, I, A, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool>
 where
     L: Lagrangian<N, M>,
 {
     system: Moving<'r, L>,
     record: Record<'o, L, N, M>,
-    /// What lies within the step taken last, where that is wanted.
+    /// Interpolant of the last step, if samples or events need it.
     within: Option<I>,
-    /// Looks at the time of each state and the number of steps; it may cancel the motion.
+    /// Callback with the state and the number of steps after each step; it may cancel the motion.
     accept: A,
 }
 
@@ -270,7 +271,7 @@ where
         Self { system, record, within: None, accept }
     }
 
-    /// What was kept until the motion ended.
+    /// Ends the record, and returns the result.
     pub(crate) fn finish<X>(
         self,
         driven: Result<(), Ending>,

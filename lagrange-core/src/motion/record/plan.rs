@@ -1,4 +1,4 @@
-//! What is to be kept of motions that are not stored.
+//! Choice of the samples and quantities of a motion that keeps no steps.
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -14,33 +14,33 @@ use crate::number::{Real, Scalar, larger};
 use crate::solution::Sample;
 use crate::system::Lagrangian;
 
-/// The samples to take of a motion, or of each of many, and the quantities of these.
+/// Times of the samples of a motion, or of each member of an ensemble, and the quantities to evaluate there.
 pub(crate) struct RecordPlan<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
     pub(crate) times: SampleTimes<L::Scalar>,
     pub(super) quantities: Vec<(&'static str, Box<Observed<'a, L, N, M>>)>,
 }
 
-/// A number that follows from a state.
+/// A number computed from a state.
 pub(crate) type Observed<'a, L, const N: usize, const M: usize> =
     dyn Fn(&Sample<&L, N, M>) -> Result<<L as Lagrangian<N, M>>::Scalar, Error> + Send + Sync + 'a;
 
-/// When samples are taken.
+/// Times of the samples.
 pub(crate) enum SampleTimes<T> {
     /// At these times, in the order of the motion.
     At(Vec<T>),
-    /// At the start, and whenever so much time has passed.
+    /// At the start, and after every interval.
     Every(T),
 }
 
 impl<T: Real> SampleTimes<T> {
-    /// The time of the sample of this number.
+    /// Time of sample `number`; `None` after the end.
     pub(super) fn get(&self, number: usize, [start, end]: [T; 2]) -> Option<T> {
         match self {
             Self::At(times) => times.get(number).copied(),
             Self::Every(interval) => {
                 let passed = *interval * T::constant(number as f64);
                 let time = if end < start { start - passed } else { start + passed };
-                // A multiple that leads to the end by rounding alone is the end.
+                // A multiple that differs from the end by rounding alone is the end.
                 let is_end = Scalar::abs(time - end) <= round_off(start, end);
                 let time = if is_end { end } else { time };
                 is_between(start, time, end).then_some(time)
@@ -48,7 +48,7 @@ impl<T: Real> SampleTimes<T> {
         }
     }
 
-    /// How many there are, if that is known.
+    /// Number of samples, or 0 if it is unknown: a capacity to reserve.
     pub(super) fn len(&self) -> usize {
         match self {
             Self::At(times) => times.len(),
@@ -56,7 +56,7 @@ impl<T: Real> SampleTimes<T> {
         }
     }
 
-    /// Checks what is the same for all motions.
+    /// Checks the conditions that do not depend on start and end.
     fn check(&self) -> Result<(), Error> {
         match self {
             Self::At(times) => check_order(times),
@@ -64,7 +64,7 @@ impl<T: Real> SampleTimes<T> {
         }
     }
 
-    /// Checks that a motion between these times has them all.
+    /// Checks that all times lie between start and end, in the order of the motion.
     pub(super) fn check_within(&self, [start, end]: [T; 2]) -> Result<(), Error> {
         match self {
             Self::At(times) => {
@@ -79,7 +79,7 @@ impl<T: Real> SampleTimes<T> {
                     None => Ok(()),
                 }
             }
-            // The multiples of a longer one are different times, of which one at most is taken for the end.
+            // With a longer interval, multiples are different times, and at most one of them is taken for the end.
             Self::Every(interval)
                 if start != end && *interval <= T::constant(4.0) * round_off(start, end) =>
             {
@@ -90,14 +90,14 @@ impl<T: Real> SampleTimes<T> {
     }
 }
 
-/// By less than so much a multiple of an interval, added to the start, misses the end by rounding alone. With ε the distance from 1 to the
-/// next number and a the larger magnitude of start and end, the interval as a number is off by up to ε/2 of itself, and so is
-/// the multiple, which is at most 2a long: together 2εa. The sum is off by up to εa/2.
+/// Bound on the rounding error of start + k · interval at the end. Let ε be the distance from 1 to the next number, and
+/// a the larger magnitude of start and end. The interval as a number has a relative error of up to ε/2, and so has the
+/// multiple, which is at most 2a long: together 2εa. The sum has an error of up to εa/2.
 fn round_off<T: Real>(start: T, end: T) -> T {
     T::constant(4.0 * T::EPSILON) * larger(Scalar::abs(start), Scalar::abs(end))
 }
 
-/// Times must be finite, and in one order.
+/// Checks that the times are finite and monotonic.
 fn check_order<T: Real>(times: &[T]) -> Result<(), Error> {
     let goes_back = times.last() < times.first();
     let turns = |pair: &[T]| if goes_back { pair[1] > pair[0] } else { pair[1] < pair[0] };
@@ -109,14 +109,14 @@ fn check_order<T: Real>(times: &[T]) -> Result<(), Error> {
     }
 }
 
-/// An interval must be positive and finite.
+/// Checks that an interval is positive and finite.
 pub(crate) fn check_interval<T: Real>(name: &'static str, interval: T) -> Result<(), Error> {
     let is_right = ComplexField::is_finite(&interval) && interval > T::constant(0.0);
     if is_right { Ok(()) } else { Err(Error::Setting { name, value: interval.to_f64() }) }
 }
 
 impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> RecordPlan<'a, L, N, M> {
-    /// Of samples at these times.
+    /// Creates a plan with samples at these times, without quantities.
     pub(crate) fn of(times: SampleTimes<L::Scalar>) -> Self {
         Self { times, quantities: Vec::new() }
     }
@@ -129,18 +129,18 @@ impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
         self.quantities.push((name, Box::new(move |sample: &Sample<&L, N, M>| function(sample).value())));
     }
 
-    /// Checks what is the same for all motions.
+    /// Checks the conditions that do not depend on start and end.
     pub(crate) fn check(&self) -> Result<(), Error> {
         self.times.check()
     }
 
-    /// The names of the quantities.
+    /// Names of the quantities.
     #[cfg(feature = "std")]
     pub(crate) fn quantities(&self) -> Vec<&'static str> {
         self.quantities.iter().map(|(name, _)| *name).collect()
     }
 
-    /// Writes what tells this plan from others; what its functions hold is not seen.
+    /// Writes the times and the names of the quantities, to tell plans apart; functions are not part of it.
     #[cfg(feature = "std")]
     pub(crate) fn identify(&self, to: &mut dyn Write) -> fmt::Result {
         match &self.times {
@@ -156,8 +156,8 @@ mod tests {
     use super::SampleTimes;
     use crate::fixtures::Random;
 
-    /// Parts of a stretch of time end where it does, whatever rounding makes of their multiples; a stretch that is longer or shorter by
-    /// more than that does not.
+    /// Equal parts of an interval of time end at its end, whatever the rounding errors of the multiples. They do not
+    /// end there if the interval is changed by more than these errors.
     #[test]
     fn multiples_of_an_interval_end_at_the_end() {
         let mut random = Random(7);
