@@ -1,4 +1,4 @@
-//! How a motion goes on that is told to: to a time, or to the next crossing of an event.
+//! Observers of a [`Motion`](super::Motion): advance to a time, or to the next crossing of an event.
 
 use core::marker::PhantomData;
 
@@ -12,18 +12,18 @@ use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::VectorField;
 use crate::system::{Lagrangian, State};
 
-/// What is known of the last step of a motion.
+/// State of the last step of a motion: its dense output, and whether it is still valid.
 pub(super) struct LastStep<I> {
-    /// What lies within, once it has been asked for.
+    /// Interpolant of the step, once it has been evaluated.
     pub(super) within: Within<I>,
-    /// Whether there is one, by the system and to the state as they are.
+    /// True if a step has led to the current state of the current system.
     pub(super) is_there: bool,
-    /// Whether the method knows of the system and of the state as they are.
+    /// True if the method knows the current system and state.
     pub(super) is_current: bool,
 }
 
 impl<I> LastStep<I> {
-    /// Before the first one.
+    /// Returns the value before the first step.
     pub(super) fn none() -> Self {
         Self { within: Within::default(), is_there: false, is_current: true }
     }
@@ -33,7 +33,7 @@ impl<I> LastStep<I> {
         within.next()
     }
 
-    /// There is none, by the system or to the state as they are now; nor when a step is tried, until it is taken.
+    /// Invalidates the last step: after a change of the system or the state, and before a new step is tried.
     #[inline]
     pub(super) fn forget(&mut self) {
         clear(&mut self.within);
@@ -46,7 +46,7 @@ impl<I> LastStep<I> {
     }
 }
 
-/// Goes on until a step has led to `t` or past it, on the way to `end`.
+/// Observer that steps towards `end` until a step reaches or passes `t`.
 pub(super) struct GoPast<'m, L, I, T> {
     pub(super) system: &'m L,
     pub(super) last_step: &'m mut LastStep<I>,
@@ -82,13 +82,13 @@ where
     }
 }
 
-/// Goes on to the first crossing, or to `end`.
+/// Observer that steps to the first crossing, or to `end`.
 pub(super) struct Search<'m, 'e, L: Lagrangian<N, M>, I, const N: usize, const M: usize> {
     pub(super) system: &'m L,
     pub(super) last_step: &'m mut LastStep<I>,
     pub(super) end: L::Scalar,
     pub(super) search: EventSearch<'m, &'e mut dyn AnyEvent<L, N, M>, L, N, M>,
-    /// As far as the events have been looked at.
+    /// State up to which the events have been searched.
     pub(super) at: &'m mut State<L::Scalar, N>,
     pub(super) found: Option<Crossing<L::Scalar, N>>,
 }
@@ -98,7 +98,7 @@ where
     L: Lagrangian<N, M, Scalar: Real>,
     I: Interpolant<L::Scalar, N>,
 {
-    /// Looks at what is left of the last step.
+    /// Searches the rest of the last step for a crossing.
     pub(super) fn look<F: VectorField<L, N, M>>(
         &mut self,
         before: &State<L::Scalar, N>,

@@ -1,4 +1,5 @@
-//! The settings of one motion: its start, its method, its events, who looks at its progress, and what is kept of it.
+//! Settings of one motion: start, method, events, progress callback, and the choice between all steps and samples
+//! alone.
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -16,14 +17,13 @@ use crate::solution::vector_field::VectorField;
 use crate::system::{Lagrangian, State};
 use crate::trajectory::Trajectory;
 
-/// The settings of a motion that has not been integrated yet: its start, its method, its events, who looks at its progress, what is kept
-/// of it, and who steers.
+/// Settings of a motion before its integration: start, method, events, progress callback, samples and controller.
 ///
 /// [`motion`](crate::Simulate::motion), [`motion_in_momenta`](crate::Hamiltonian::motion_in_momenta) and
-/// [`motion_with_derivatives`](crate::MotionDerivatives::motion_with_derivatives) make it, [`to`](Self::to) and [`towards`](Self::towards)
-/// integrate. The method is [`Dop853`] with a tolerance of 10⁻⁹ unless [`by`](Self::by) names another. All steps are kept, in a
-/// [`Trajectory`], unless [`every`](Self::every) or [`samples_at`](Self::samples_at) says which states are, in an
-/// [`Arrival`](crate::motion::Arrival).
+/// [`motion_with_derivatives`](crate::MotionDerivatives::motion_with_derivatives) create a builder; [`to`](Self::to)
+/// and [`towards`](Self::towards) integrate. The method is [`Dop853`] with a tolerance of 10⁻⁹ unless [`by`](Self::by)
+/// sets another. The result is a [`Trajectory`] with all steps. After [`every`](Self::every) or
+/// [`samples_at`](Self::samples_at) it is an [`Arrival`](crate::motion::Arrival) with the chosen samples alone.
 #[must_use = "a motion is integrated by `to` or `towards`"]
 pub struct MotionBuilder<'a, 'w, L, S, const N: usize, const M: usize, P = Dop853, E = (), K = AllSteps> {
     pub(crate) system: &'a L,
@@ -31,19 +31,19 @@ pub struct MotionBuilder<'a, 'w, L, S, const N: usize, const M: usize, P = Dop85
     pub(crate) method: P,
     pub(crate) events: E,
     pub(crate) on_progress: Option<OnProgress<'w>>,
-    /// What is kept of the motion.
+    /// Selects what the result keeps: all steps or samples alone.
     pub(crate) kept: K,
 }
 
-/// All steps of a motion are kept, and what lies within: `to` gives a [`Trajectory`].
+/// Marks a motion that keeps all steps and their dense output: `to` returns a [`Trajectory`].
 #[derive(Clone, Copy, Debug)]
 pub struct AllSteps;
 
-/// The state at which a motion starts, and the equations of motion, `F`: Lagrange's or Hamilton's.
+/// State at which a motion starts. `F` marks the equations of motion, Lagrange's or Hamilton's.
 #[derive(Clone, Debug)]
 pub struct Start<T, const N: usize, F> {
-    /// An error where the start is not finite, or where no velocities belong to its momenta. It lies on the heap, because each call of
-    /// the builder moves the settings, and a state of 1,000 coordinates would fill the stack.
+    /// The start, or an error if it is not finite or no velocities belong to its momenta. It is on the heap because
+    /// each call of the builder moves the settings, and a state of 1,000 coordinates would fill the stack.
     pub(super) state: Box<Result<State<T, N>, Error>>,
     field: PhantomData<F>,
 }
@@ -54,13 +54,13 @@ impl<T, const N: usize, F> Start<T, N, F> {
     }
 }
 
-/// The settings of a motion without derivatives, by the equations of motion `F`.
+/// Settings of a motion without derivatives, with the equations of motion `F`.
 pub(crate) type MotionFrom<'a, 'w, L, F, const N: usize, const M: usize> =
     MotionBuilder<'a, 'w, L, Start<<L as Lagrangian<N, M>>::Scalar, N, F>, N, M>;
 
-/// The events of a [`MotionBuilder`], `()` where there are none.
+/// Events of a [`MotionBuilder`]; `()` for none.
 pub trait EventList<W: ?Sized> {
-    /// Whether there are events.
+    /// True if there are events.
     #[doc(hidden)]
     const HAS_EVENTS: bool;
 
@@ -98,8 +98,8 @@ impl<'a, 'w, L, S, const N: usize, const M: usize, P, E, K> MotionBuilder<'a, 'w
         MotionBuilder { system, start, method, events, on_progress, kept }
     }
 
-    /// Calls `look` with the progress after every step. Where it returns `ControlFlow::Break` the motion ends there, which is no
-    /// error: its ending is [`Ending::Cancelled`](crate::Ending::Cancelled).
+    /// Calls `look` with the progress after every step. If it returns `ControlFlow::Break`, the motion ends there with
+    /// [`Ending::Cancelled`](crate::Ending::Cancelled), which is no error.
     pub fn on_progress(mut self, look: impl FnMut(Progress) -> ControlFlow<()> + 'w) -> Self {
         self.on_progress = Some(Box::new(look));
         self
@@ -126,8 +126,8 @@ where
     F: VectorField<L, N, M>,
     E: EventList<DynEvent<'w, L, N, M>>,
 {
-    /// Adds an event, by value or as `&mut event`. The result has its crossings, and the motion ends at it where it is
-    /// [terminal](crate::Event::terminal). For several events, call it once for each.
+    /// Adds an event, by value or as `&mut event`. The result lists its crossings. A [terminal](crate::Event::terminal)
+    /// event ends the motion. For several events, call this method once for each.
     #[allow(clippy::type_complexity, reason = "the type of the builder itself, with its list of events")]
     pub fn event(
         self,
@@ -158,13 +158,13 @@ where
     F: VectorField<L, N, M>,
     E: EventList<DynEvent<'w, L, N, M>>,
 {
-    /// Integrates to the time `end`, backwards where that lies before the start, or to the first
-    /// [terminal](crate::Event::terminal) event.
+    /// Integrates to the time `end`, or to the first [terminal](crate::Event::terminal) event. If `end` is before the
+    /// start, it integrates backwards.
     ///
     /// # Errors
-    /// The errors of [`integrate`](crate::Simulate::integrate); for a motion in momenta those of
-    /// [`legendre`](crate::Hamiltonian::legendre); [`Error::EventNotFinite`] and [`Error::UnknownName`] where the function of an event
-    /// fails at the start.
+    /// The errors of [`integrate`](crate::Simulate::integrate); for a motion in momenta also those of
+    /// [`legendre`](crate::Hamiltonian::legendre); [`Error::EventNotFinite`] and [`Error::UnknownName`] if the function
+    /// of an event fails at the start.
     pub fn to(self, end: L::Scalar) -> Result<Trajectory<&'a L, N, M, F>, Error>
     where
         P: Method<L, N, M, F>,
@@ -172,8 +172,8 @@ where
         self.towards(end)?.finished()
     }
 
-    /// Integrates towards the time `end`. Where the motion fails on the way, the trajectory up to there is returned, and
-    /// [`Trajectory::ending`] says why it is no longer.
+    /// Integrates towards the time `end`. If the motion fails on the way, it returns the trajectory up to there, and
+    /// [`Trajectory::ending`] holds the reason.
     ///
     /// # Errors
     /// The errors of [`to`](Self::to) that are found before the first step.
@@ -194,7 +194,7 @@ where
         let Self { system, start, method, events, on_progress, .. } = self;
         let (state, mut events) = (start.state.as_ref().as_ref().map_err(Error::clone)?, events.list());
         check_end(end)?;
-        // Not moved to where it is used: unless that is optimized away, there would be several of it.
+        // Borrowed, not moved to its use: a move that is not optimized away would leave several copies on the stack.
         let mut begun = Run::begin::<L, F, P, M>(system, state, &method);
         let (run, adjustment) = begun.as_mut().map_err(|error| error.clone())?;
         let stored = Stored::<_, _, _, N, M, HAS_EVENTS>::begin;

@@ -1,21 +1,25 @@
-//! A motion is computed: methods, and the run from the start to the ending.
+//! Integration of a motion: the methods, and the loop that runs them from the start to the end.
 //!
 //! # Which method
 //!
-//! - [`Dop853`], a pair of order 8, for errors of 10⁻⁵ … 10⁻⁹: the first choice. 12 evaluations of the accelerations a step; for
-//!   ensembles on lanes and motion in (q, p) too. Rounding stops it at some 10⁻¹³.
-//! - [`Taylor`], the series of the motion itself, for errors below 10⁻⁹ down to round-off: one factorisation a step and, for each
-//!   order, 13 for 10⁻⁶ and 29 for round-off, one to two evaluations. Its time grows less with the digits asked for than that of the
-//!   others, and what is conserved stays; for ensembles on lanes too. Not for equations with `abs`, `min`, `max`, `clamp`,
-//!   [`WithDerivatives`](crate::function::WithDerivatives), [`Table`](crate::function::Table), [`SmoothTable`](crate::function::SmoothTable) or third derivatives of a [`Function`](crate::Function), nor for (q, p).
-//! - [`Dopri5`], a pair of order 5, for errors of 10⁻³ and forces that are not smooth. 6 evaluations a step, of which it needs many
-//!   below 10⁻⁷.
-//! - [`RungeKutta4`], of order 4, where each step is to take as long as any other: control in real time. 4 evaluations; it does not know
-//!   its error, which half the step tells.
+//! - [`Dop853`], an embedded pair of order 8, is the first choice, for errors of 10⁻⁵ … 10⁻⁹. A step takes 12
+//!   evaluations of the accelerations. It also integrates ensembles on SIMD lanes, and motions in (q, p). Rounding
+//!   limits its error to some 10⁻¹³.
+//! - [`Taylor`], the Taylor series of the motion, is for errors from 10⁻⁹ down to round-off. A step takes one
+//!   factorization and, for each order, one to two evaluations; the order is 13 for an error of 10⁻⁶ and 29 for
+//!   round-off. Its time grows less with the required digits than the time of the other methods, and it conserves first
+//!   integrals. It also integrates ensembles on SIMD lanes. It does not apply to (q, p), nor to equations with `abs`,
+//!   `min`, `max`, `clamp`, [`WithDerivatives`](crate::function::WithDerivatives), [`Table`](crate::function::Table),
+//!   [`SmoothTable`](crate::function::SmoothTable) or third derivatives of a [`Function`](crate::Function).
+//! - [`Dopri5`], an embedded pair of order 5, is for errors of 10⁻³ and for forces that are not smooth. A step takes 6
+//!   evaluations. It needs many steps for errors below 10⁻⁷.
+//! - [`RungeKutta4`], of order 4, takes the same time for every step: control in real time. A step takes 4 evaluations.
+//!   It does not estimate its error; compare with a run at half the step length.
 //!
-//! None is for stiff systems. Where constraints become dependent at one pose alone, as in a linkage that folds flat, a motion by
-//! any of them may end; [`Taylor`] steps across where it can, the others may go on along another branch that begins there. The example `methods` prints what an error costs by
-//! the first three in eight systems; the book has its table.
+//! None of them is for stiff systems. A motion may end at an isolated pose where constraints become dependent, as in a
+//! linkage that folds flat. [`Taylor`] steps across such a pose if it can; the other methods may continue on another
+//! branch that begins there. The example `methods` prints the cost of an error for the first three methods in eight
+//! systems; the book has its table.
 
 mod advance;
 #[cfg(feature = "alloc")]

@@ -1,4 +1,4 @@
-//! The loop from the first step to the ending: one, for every method and everyone who looks at a motion.
+//! Integration loop from the first step to the ending, shared by every method and every observer.
 
 #[cfg(feature = "alloc")]
 use alloc::vec::Vec;
@@ -13,32 +13,33 @@ use crate::solution::vector_field::VectorField;
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State};
 
-/// How far an integration has come.
+/// Progress of an integration, for a progress callback.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// The time of the start.
+    /// Time at the start.
     pub start: f64,
-    /// The time reached.
+    /// Current time.
     pub time: f64,
-    /// The time of the end.
+    /// Time at the end.
     pub end: f64,
-    /// Steps taken.
+    /// Number of accepted steps.
     pub steps: usize,
 }
 
-/// A motion on its way: where it is, what its method carries and what it took so far.
+/// A motion during its integration: state, working memory of the method, and statistics.
 #[derive(Debug)]
 #[cfg_attr(not(feature = "alloc"), allow(unreachable_pub, reason = "what differentiates motions allocates"))]
 pub struct Run<X, T, const N: usize> {
     pub(crate) memory: X,
     pub(crate) state: State<T, N>,
-    /// Where the last step started.
+    /// State at the start of the last step.
     pub(crate) before: State<T, N>,
     pub(crate) statistics: Statistics,
 }
 
 impl<X, T: Real, const N: usize> Run<X, T, N> {
-    /// Before the first step: settings and start checked, the start made consistent, which moves it by the adjustment.
+    /// Checks settings and start, makes the start consistent, and prepares the first step. The adjustment is the change
+    /// of the start.
     pub(crate) fn begin<L, F, P, const M: usize>(
         system: &L,
         state: &State<T, N>,
@@ -57,7 +58,7 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
         begun.map(|memory| (Self { memory, state, before: state, statistics }, adjustment))
     }
 
-    /// One accepted step towards the end.
+    /// Takes one accepted step towards `end`.
     #[inline]
     pub(crate) fn step<L, F, P, const M: usize>(
         &mut self,
@@ -93,7 +94,7 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
         }
     }
 
-    /// Puts what lies within the last step there.
+    /// Appends the dense output of the last step to `within`.
     #[inline(always)]
     pub(crate) fn look_within<L, F, P, const M: usize>(
         &mut self,
@@ -111,7 +112,7 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
         found.map_err(|error| Ending::of(error, before.t.to_f64()))
     }
 
-    /// Integrates until the observer says that the motion is to stop; the error is why it stops before.
+    /// Integrates until the observer has no further goal. The error says why the motion ends before.
     #[inline(always)]
     pub(crate) fn drive<L, F, P, O, const M: usize>(
         &mut self,
@@ -132,7 +133,7 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
         Ok(())
     }
 
-    /// Takes one accepted step that the observer follows; where it cannot, the step is undone and a shorter one is tried.
+    /// Takes one accepted step. If the observer cannot follow it, undoes the step and tries a shorter one.
     #[inline(always)]
     fn step_with<L, F, P, O, const M: usize>(
         &mut self,
@@ -160,20 +161,22 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
     }
 }
 
-/// Who goes along with a motion: says how far it goes, looks into its steps, keeps what is wanted of them, and may stop it.
+/// An observer of a motion: sets its goal, evaluates the dense output of its steps, records them, and may end the
+/// motion.
 pub(crate) trait Observer<L, F, P, const N: usize, const M: usize>
 where
     L: Lagrangian<N, M, Scalar: Real>,
     F: VectorField<L, N, M>,
     P: Method<L, N, M, F>,
 {
-    /// What moves.
+    /// The system in motion.
     fn system(&self) -> &L;
 
-    /// Called before each step: the time to go towards, another than that of the state; `None` where the motion is to stop here.
+    /// Called before each step. Returns the time to integrate towards, different from the current time, or `None` to
+    /// stop here.
     ///
     /// # Errors
-    /// Why it can go no further.
+    /// The reason why the motion cannot continue.
     fn goal(
         &mut self,
         method: &P,
@@ -183,17 +186,17 @@ where
     /// Called after each step.
     ///
     /// # Errors
-    /// Why the step is to be undone, and a shorter one tried; the ending, if there is none.
+    /// The reason to undo the step and to try a shorter one. It becomes the ending if no shorter step exists.
     #[allow(unused_variables)]
     #[inline(always)]
     fn follow(&mut self, method: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<(), Ending> {
         Ok(())
     }
 
-    /// Called once a step is final. It may move the state back to one within the step, where the motion ends.
+    /// Called once a step is final. It may move the state back to a state within the step, to end the motion there.
     ///
     /// # Errors
-    /// Why the motion ends there.
+    /// The reason why the motion ends there.
     #[allow(unused_variables)]
     #[inline(always)]
     fn keep(&mut self, method: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<(), Ending> {
@@ -201,13 +204,13 @@ where
     }
 }
 
-/// What lies within steps; without the feature `alloc` within one.
+/// Dense output of the stored steps; without the feature `alloc`, of one step.
 #[cfg(feature = "alloc")]
 pub(crate) type Within<I> = Vec<I>;
 #[cfg(not(feature = "alloc"))]
 pub(crate) type Within<I> = Option<I>;
 
-/// Forgets it, and keeps the room.
+/// Removes the interpolants, and keeps their allocation.
 #[inline]
 pub(super) fn clear<I>(within: &mut Within<I>) {
     #[cfg(feature = "alloc")]
@@ -218,7 +221,8 @@ pub(super) fn clear<I>(within: &mut Within<I>) {
     }
 }
 
-/// Puts what lies within the step accepted last there, behind others or, without the feature `alloc`, in their place.
+/// Appends the interpolant of the last accepted step to `within`. Without the feature `alloc` it replaces the
+/// interpolant there.
 #[inline(always)]
 pub(super) fn put_interpolant<L, F, P, const N: usize, const M: usize>(
     system: &L,
@@ -238,7 +242,7 @@ where
     return method.interpolant(system, memory, statistics).map(|interpolant| *within = Some(interpolant));
 }
 
-/// Tells the method of a system that has been changed, or of another state.
+/// Resumes the method after a change of the system or of the state.
 #[inline]
 pub(super) fn resume<L, F, P, const N: usize, const M: usize>(
     system: &L,
@@ -258,17 +262,17 @@ where
     method.resume(system, memory, state, statistics)
 }
 
-/// Whether `t` lies between the other two, which may be in any order.
+/// True if `t` lies between `a` and `b`, in either order.
 pub(super) fn is_between<T: Real>(a: T, t: T, b: T) -> bool {
     a <= t && t <= b || b <= t && t <= a
 }
 
-/// Whether a step from `now` to `next` leads towards the end, and not past it.
+/// True if a step from `now` to `next` leads towards `end`, and not past it.
 fn is_towards<T: Real>(now: T, next: T, end: T) -> bool {
     next > now && next <= end || next < now && next >= end
 }
 
-/// The start made consistent to round-off, where that is all it lacks.
+/// Checks the start, and projects it onto the constraints if it is off by round-off alone.
 fn check_start<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
@@ -278,15 +282,15 @@ fn check_start<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize
     consistent::project_to_round_off(system, state)
 }
 
-/// An end that can be reached.
+/// Checks that the end is finite.
 pub(crate) fn check_end<T: Real>(end: T) -> Result<(), Error> {
     if end.is_finite() { Ok(()) } else { Err(Error::EndNotFinite { end: end.to_f64() }) }
 }
 
-/// Watches over the limits, from where it is made.
+/// Watches the limits on steps and wall-clock time, counted from its creation.
 pub(crate) struct Watchdog {
     limits: Limits,
-    /// Steps tried before.
+    /// Number of steps tried before its creation.
     before: usize,
     #[cfg(feature = "std")]
     started: Option<std::time::Instant>,

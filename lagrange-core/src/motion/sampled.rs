@@ -1,4 +1,4 @@
-//! The settings of a motion that is not stored: what is kept of it, and who steers it.
+//! Settings of a motion that keeps no steps: samples, quantities and a controller.
 
 use alloc::boxed::Box;
 use alloc::string::ToString;
@@ -17,10 +17,10 @@ use crate::solution::Sample;
 use crate::solution::vector_field::VectorField;
 use crate::system::{Lagrangian, State};
 
-/// Samples alone are kept of a motion: `to` gives an [`Arrival`].
+/// Marks a motion that keeps samples alone: `to` returns an [`Arrival`].
 pub struct SamplesAlone<'w, L: Lagrangian<N, M>, const N: usize, const M: usize> {
     pub(crate) plan: RecordPlan<'w, L, N, M>,
-    /// Who steers, and the system that is steered.
+    /// Controller, and the copy of the system that it changes.
     steered: Option<(Steering<'w, L, N, M>, L)>,
 }
 
@@ -30,9 +30,9 @@ impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Debug for SamplesAlone
     }
 }
 
-/// What is kept of a motion: all steps, or samples alone.
+/// Selects what a motion keeps: all steps, or samples alone.
 pub trait Kept<'w, L: Lagrangian<N, M>, const N: usize, const M: usize> {
-    /// Samples alone: those asked for so far, if any.
+    /// Converts to settings with samples alone; samples that were already chosen remain.
     #[doc(hidden)]
     fn samples_alone(self) -> SamplesAlone<'w, L, N, M>;
 }
@@ -51,7 +51,7 @@ impl<'w, L: Lagrangian<N, M>, const N: usize, const M: usize> Kept<'w, L, N, M>
     }
 }
 
-/// A motion of which samples alone are kept, from the start `S`.
+/// Settings of a motion from the start `S` that keeps samples alone.
 type Sampled<'a, 'w, L, S, const N: usize, const M: usize, P, E> =
     MotionBuilder<'a, 'w, L, S, N, M, P, E, SamplesAlone<'w, L, N, M>>;
 
@@ -60,12 +60,13 @@ where
     L: Lagrangian<N, M, Scalar: Real>,
     K: Kept<'w, L, N, M>,
 {
-    /// Keeps the states at these times, and no steps: [`to`](MotionBuilder::to) gives an [`Arrival`], which takes as much memory as they; of a
-    /// motion with derivatives a [`SampledSensitivity`](crate::linearized::SampledSensitivity).
+    /// Keeps the states at these times, and no steps: [`to`](MotionBuilder::to) returns an [`Arrival`] that holds one
+    /// state per time; for a motion with derivatives a
+    /// [`SampledSensitivity`](crate::linearized::SampledSensitivity).
     ///
-    /// They lie on the continuous extension of the method, projected onto the constraints; steps are as long as without. The
-    /// times must be in the order of the motion, and lie between its start and its end. No times at all are right where the end alone, or
-    /// the crossings, are wanted.
+    /// The states lie on the dense output of the method, projected onto the constraints; samples do not shorten steps.
+    /// The times must be in the order of the motion, between its start and its end. Without times, only the end and the
+    /// crossings are kept.
     ///
     /// ```
     /// # use lagrange_core::prelude::*;
@@ -85,9 +86,10 @@ where
         self.sampled(|samples| samples.plan.times = SampleTimes::At(times))
     }
 
-    /// Keeps the state at the start and whenever so much time has passed, and no steps; else as [`samples_at`](Self::samples_at).
+    /// Keeps the state at the start and after every interval, and no steps; otherwise like
+    /// [`samples_at`](Self::samples_at).
     ///
-    /// The sample of number k is at the start plus k intervals, and the last at the end where that is a multiple to the
+    /// Sample k is at the start plus k intervals. The last is exactly at the end if the end is a multiple to the
     /// round-off of the times.
     ///
     /// ```
@@ -97,7 +99,7 @@ where
     /// # #[lagrangian(x_dot^2/2 - x^2/2)]
     /// # struct Spring;
     /// let arrival = Spring.motion(State::at_rest([1.0])).every(0.1).to(0.3)?;
-    /// // In floating point 3 · 0.1 is more than 0.3.
+    /// // In floating-point arithmetic, 3 · 0.1 is more than 0.3.
     /// assert!(arrival.samples.iter().map(|state| state.t).eq([0.0, 0.1, 0.2, 0.3]));
     /// # Ok::<(), Error>(())
     /// ```
@@ -120,11 +122,12 @@ where
     L: Lagrangian<N, M, Scalar: Real>,
     K: Kept<'w, L, N, M>,
 {
-    /// Keeps this quantity of each sample, in [`Arrival::values`]: of several, all of the first sample come first. The function gives a number, or
-    /// what gives one by name, `|sample| sample.observable("height")`.
+    /// Keeps this quantity of each sample in [`Arrival::values`]; with several quantities, all those of the first
+    /// sample come first. The function returns a number, or the result of a query by name, `|sample|
+    /// sample.observable("height")`.
     ///
-    /// It is asked at the start too, so that what it cannot give there is told before the first step. Where it cannot be had
-    /// later, the motion ends.
+    /// The function is also evaluated at the start, so that an error there is returned before the first step. An error
+    /// at a later sample ends the motion.
     pub fn quantity<V: EventValue<L::Scalar>>(
         self,
         name: &'static str,
@@ -133,12 +136,13 @@ where
         self.sampled(|samples| samples.plan.quantity(name, function))
     }
 
-    /// Steers the motion: the controller is called at the start, and then at every interval, reads the state and sets
-    /// parameters of the system, of which the motion has a copy. They hold until it is called again (zero-order hold).
+    /// Steers the motion by a controller, which is called at the start and then after every interval. It reads the
+    /// state and sets parameters of the motion's own copy of the system. They hold until the next call (zero-order
+    /// hold).
     ///
-    /// Each time is reached exactly. Samples are taken before the call at their time; for events the motion begins anew with each
-    /// call, so that a function that jumps there does not cross. No steps are kept: what lies within one can be evaluated only while its
-    /// parameters are known.
+    /// The time of each call is reached exactly. Samples are taken before the call at their time. Events are searched
+    /// anew from each call on, so a jump of their function there is no crossing. No steps are kept, because dense
+    /// output can be evaluated only while the parameters of its step are known.
     ///
     /// ```
     /// # use lagrange_core::prelude::*;
@@ -164,8 +168,9 @@ where
     /// ```
     ///
     /// # Errors
-    /// Where it fails the motion ends, with [`Ending::ControllerFailed`](crate::Ending::ControllerFailed). [`to`](MotionBuilder::to) gives
-    /// [`Error::Setting`] for an interval that is not positive and finite; one too short to advance the time is
+    /// An error of the controller ends the motion, with [`Ending::ControllerFailed`](crate::Ending::ControllerFailed).
+    /// [`to`](MotionBuilder::to) returns [`Error::Setting`] for an interval that is not positive and finite. An
+    /// interval too short to advance the time ends the motion with
     /// [`Ending::TimeTooCoarse`](crate::Ending::TimeTooCoarse).
     pub fn controlled<X: Display>(
         self,
@@ -187,12 +192,13 @@ impl<'w, L, F, const N: usize, const M: usize, P, E> Sampled<'_, 'w, L, Start<L:
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {
-    /// Integrates to the time `end`, backwards where that lies before the start, or to the first
-    /// [terminal](crate::Event::terminal) event.
+    /// Integrates to the time `end`, or to the first [terminal](crate::Event::terminal) event. If `end` is before the
+    /// start, it integrates backwards.
     ///
     /// # Errors
-    /// Those of a motion that is [stored](crate::Simulate::motion); [`Error::SampleTime`], [`Error::OutsideTrajectory`] and
-    /// [`Error::Setting`] for samples that cannot be taken; what the function of a quantity gives at the start.
+    /// The errors of a motion that is [stored](crate::Simulate::motion); [`Error::SampleTime`],
+    /// [`Error::OutsideTrajectory`] and [`Error::Setting`] for samples that cannot be taken; errors of the function of
+    /// a quantity at the start.
     pub fn to(self, end: L::Scalar) -> Result<Arrival<L::Scalar, N>, Error>
     where
         F: VectorField<L, N, M>,
@@ -203,8 +209,8 @@ where
         if arrival.ending.is_failure() { Err(arrival.ending.into()) } else { Ok(arrival) }
     }
 
-    /// Integrates towards the time `end`. Where the motion fails on the way, what was kept up to there is returned, with the
-    /// ending that says why.
+    /// Integrates towards the time `end`. If the motion fails on the way, the result holds the record up to there, and
+    /// its ending the reason.
     ///
     /// # Errors
     /// The errors of [`to`](Self::to) that are found before the first step.

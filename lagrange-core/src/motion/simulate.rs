@@ -1,4 +1,4 @@
-//! What a program does with a system.
+//! The trait [`Simulate`]: solving the equations of a system, and integrating its motion.
 
 #[cfg(feature = "alloc")]
 use core::array::from_fn;
@@ -27,42 +27,45 @@ use crate::system::{Lagrangian, Solution, State};
 #[cfg(feature = "alloc")]
 use crate::trajectory::Trajectory;
 
-/// Solving, integrating and setting up a system: every [`Lagrangian`] over `f64` or `f32` has it.
+/// Solves, initializes and integrates a system. It is implemented for every [`Lagrangian`] over `f64` or `f32`.
 pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Real> + Sized {
-    /// Accelerations and multipliers at a state.
+    /// Returns accelerations and multipliers at a state.
     ///
-    /// Those of [`accelerations_unchecked`](Lagrangian::accelerations_unchecked) where its smallest pivot exceeds ε^(1/3)
-    /// (6·10⁻⁶ for `f64`), which costs at most a third of the digits. Else the general solve by null space, which copes with a
-    /// mass matrix that is singular or indefinite and with constraints that depend on one another;
-    /// [`Solution::multipliers_are_unique`] tells the latter.
+    /// They are the results of [`accelerations_unchecked`](Lagrangian::accelerations_unchecked) if its smallest pivot
+    /// exceeds ε^(1/3) (6·10⁻⁶ for `f64`), which costs at most a third of the digits. Else the general solver by null
+    /// space is used. It copes with a mass matrix that is singular or indefinite, and with dependent constraints;
+    /// [`Solution::multipliers_are_unique`] reports the latter.
     ///
     /// # Errors
-    /// [`Error::StateNotFinite`] and [`Error::ParameterNotAsSaid`], also of what the equations do not use;
-    /// [`Error::EquationsNotFinite`], [`Error::Singular`] where nothing determines some acceleration, and
-    /// [`Error::Contradictory`] where dependent constraints demand different accelerations, [`Error::NoGradient`] where the row of
-    /// one is zero, [`Error::DependentToFirstOrder`] where a combination has none; each names the coordinates or the constraint. Whether the state is on the constraints, and no row the
-    /// round-off of zero, [`check_consistent`](Self::check_consistent) tells.
+    /// [`Error::StateNotFinite`] and [`Error::ParameterNotAsSaid`], even for entries that the equations do not use;
+    /// [`Error::EquationsNotFinite`]; [`Error::Singular`] if an acceleration is undetermined; [`Error::Contradictory`]
+    /// if dependent constraints demand different accelerations; [`Error::NoGradient`] if the row of a constraint is
+    /// zero; [`Error::DependentToFirstOrder`] if the row of a combination of constraints is zero. Each names the
+    /// coordinates or the constraint. [`check_consistent`](Self::check_consistent) checks that the state is on the
+    /// constraints, and that no row is zero up to round-off.
     fn solve(&self, state: &State<Self::Scalar, N>) -> Result<Solution<Self::Scalar, N, M>, Error> {
         solve(self, state)
     }
 
-    /// Whether the state satisfies the constraints, to √ε of the size of their terms (1.5·10⁻⁸ for `f64`).
+    /// Checks that the state satisfies the constraints, to √ε of the size of their terms (1.5·10⁻⁸ for `f64`).
     ///
     /// # Errors
-    /// [`Error::StateNotFinite`] and [`Error::ParameterNotAsSaid`]; [`Error::Inconsistent`], with the first constraint that it
-    /// violates; [`Error::NoGradient`], with the first that fixes no acceleration.
+    /// [`Error::StateNotFinite`] and [`Error::ParameterNotAsSaid`]; [`Error::Inconsistent`], with the first constraint
+    /// that the state violates; [`Error::NoGradient`], with the first constraint that fixes no acceleration.
     fn check_consistent(&self, state: &State<Self::Scalar, N>) -> Result<(), Error> {
         check_finite(self, state)?;
         consistent::check(self, state)
     }
 
-    /// The nearest state on the constraints, and how far it is from the one given.
+    /// Projects a state onto the constraints. Returns the nearest consistent state and its distance from the given one.
     ///
-    /// First the coordinates move onto Φ = 0 of the holonomic constraints, then the velocities onto F q̇ + b = 0 of all. Near
-    /// is meant in the metric of the mass matrix, of the state given for coordinates, M(q₀)(q − q₀) = Fᵀμ, and of the
-    /// coordinates found for velocities; where it is not positive, of the masses on its diagonal. No small move along the
-    /// constraints leads nearer, unless a hundred steps did not suffice (a chain of 50 rods far off them takes 31). Where they curve more sharply than the distance, as they do seen from near the centre of an
-    /// ellipse, some point farther along may be nearer still.
+    /// First the coordinates are projected onto Φ = 0 of the holonomic constraints, then the velocities onto F q̇ + b =
+    /// 0 of all constraints. Distances are measured in the metric of the mass matrix. For coordinates it is taken at
+    /// the given state, M(q₀)(q − q₀) = Fᵀμ, for velocities at the projected coordinates. If the mass matrix is not
+    /// positive definite, its diagonal is used. The result is a local minimum of the distance, unless a hundred steps
+    /// did not suffice (a chain of 50 rods far off the constraints takes 31). If the constraints curve more sharply
+    /// than the distance does, as seen from near the centre of an ellipse, some point farther along may be nearer
+    /// still.
     ///
     /// ```
     /// # use lagrange_core::prelude::*;
@@ -81,15 +84,16 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     /// ```
     ///
     /// # Errors
-    /// [`Error::StateNotFinite`], [`Error::NotProjected`] where Newton's iteration does not get there, and
-    /// [`Error::NoGradient`] where a constraint holds and its gradient vanishes.
+    /// [`Error::StateNotFinite`], [`Error::NotProjected`] if Newton's iteration does not converge, and
+    /// [`Error::NoGradient`] if a constraint holds and its gradient vanishes.
     fn make_consistent(&self, state: &State<Self::Scalar, N>) -> Result<Consistent<Self::Scalar, N>, Error> {
         check_finite(self, state)?;
         consistent::make_consistent(self, state, &[[false; N]; 2])
     }
 
-    /// The same, with some entries as they are given: named as in [`state_from`](Self::state_from), `r` and `r_dot` for
-    /// all of a vector. The others move, to the nearest state in the metric of their part of the mass matrix.
+    /// Like [`make_consistent`](Self::make_consistent), with some entries held at their given values. They are named as
+    /// in [`state_from`](Self::state_from), or `r` and `r_dot` for all entries of a vector. The other entries move to
+    /// the nearest state, in the metric of their block of the mass matrix.
     ///
     /// ```
     /// # use lagrange_core::prelude::*;
@@ -108,8 +112,8 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     /// ```
     ///
     /// # Errors
-    /// As [`make_consistent`](Self::make_consistent); [`Error::HeldTooMuch`], with the constraint that the other
-    /// entries cannot satisfy; [`Error::UnknownName`] and [`Error::RepeatedName`].
+    /// The errors of [`make_consistent`](Self::make_consistent); [`Error::HeldTooMuch`], with the constraint that the
+    /// other entries cannot satisfy; [`Error::UnknownName`] and [`Error::RepeatedName`].
     #[cfg(feature = "alloc")]
     fn make_consistent_holding(
         &self,
@@ -123,13 +127,13 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
         consistent::make_consistent(self, state, &[q, v])
     }
 
-    /// A state of this system, to be asked for what follows from it, by name.
+    /// Pairs a state with this system, to evaluate coordinates, energies, forces and other quantities by name.
     fn sample(&self, state: State<Self::Scalar, N>) -> Sample<&Self, N, M> {
         Sample { system: self, state }
     }
 
-    /// An event of this system: where a function of its motion crosses zero. The function is given a sample, and gives a
-    /// number, or what gives one by name.
+    /// Defines an event of this system: the zero crossings of a function of its motion. The function takes a sample and
+    /// returns a number, or the result of a query by name.
     ///
     /// ```
     /// # use lagrange_core::prelude::*;
@@ -152,7 +156,7 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     /// # Ok::<(), Error>(())
     /// ```
     ///
-    /// [`Event`] says what is found and what is not, and has the settings.
+    /// [`Event`] describes which crossings are found and which are not, and has the settings.
     fn event<V, G>(&self, name: &'static str, function: G) -> Event<Self, G, N, M>
     where
         V: EventValue<Self::Scalar>,
@@ -161,17 +165,17 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
         Event::new(name, function)
     }
 
-    /// The state after an impact: the constraint of this name is hit, its rate turns round and is `restitution` times what it
-    /// was, while all others hold on.
+    /// Returns the state after an impact on the constraint `constraint`. The rate of this constraint is reversed and
+    /// multiplied by `restitution`; all other constraints continue to hold.
     ///
-    /// M(v⁺ − v⁻) = FᵀΛ with F v⁺ + b = −e (F v⁻ + b) in the row that is hit, and F v⁺ + b = 0 in the others, e from 0, a
-    /// plastic impact, to 1, an elastic one. It is solved by the factor of this system, the one that has the constraint;
-    /// the motions before and after may be those of another one with the same coordinates. Where the momenta are linear in the
-    /// velocities they jump by FᵀΛ.
+    /// The impact satisfies M(v⁺ − v⁻) = FᵀΛ, with F v⁺ + b = −e (F v⁻ + b) in the row of the impact and F v⁺ + b = 0
+    /// in the other rows. The restitution e ranges from 0, a plastic impact, to 1, an elastic one. This system, which
+    /// has the constraint, provides the factorization; the motions before and after may be those of another system with
+    /// the same coordinates. If the momenta are linear in the velocities, they jump by FᵀΛ.
     ///
-    /// Whether the bodies approach is for the caller to know: a rate that leads away is turned round as well, by an impulse that pulls.
-    /// After a plastic impact they stay together, and the motion goes on by the system that has the constraint, as long as its
-    /// multiplier pushes.
+    /// The caller must know that the bodies approach: a separating rate is reversed as well, by an impulse that pulls.
+    /// After a plastic impact the bodies stay together. The motion then continues by the system that has the
+    /// constraint, as long as its multiplier pushes.
     ///
     /// ```
     /// # use lagrange_core::prelude::*;
@@ -191,7 +195,7 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     /// ```
     ///
     /// # Errors
-    /// [`Error::UnknownName`]; [`Error::Restitution`]; [`Error::StateNotFinite`]; [`Error::Inconsistent`] where the
+    /// [`Error::UnknownName`]; [`Error::Restitution`]; [`Error::StateNotFinite`]; [`Error::Inconsistent`] if the
     /// coordinates are not on a constraint; [`Error::Singular`] and [`Error::Contradictory`] as [`solve`](Self::solve).
     #[cfg(feature = "alloc")]
     fn impact(
@@ -204,21 +208,23 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
         impact(self, state, hit, restitution)
     }
 
-    /// The motion from a state to the time `end`, by the method named; backwards where that lies before the state.
+    /// Integrates the motion from a state to the time `end` by the given method. If `end` is before the state, it
+    /// integrates backwards.
     ///
-    /// The state must pass [`check_consistent`](Self::check_consistent); what is left is projected away, and [`Trajectory::adjustment`] tells how far that moved it.
+    /// The state must pass [`check_consistent`](Self::check_consistent). The remaining violation is projected away;
+    /// [`Trajectory::adjustment`] holds the change of the state.
     ///
-    /// Every step is kept. Where the end alone is of interest, or states at some times, [`motion(state).every(0.1)`](MotionBuilder::every)
-    /// keeps none.
+    /// Every step is kept. If only the end is needed, or states at some times,
+    /// [`motion(state).every(0.1)`](MotionBuilder::every) keeps no steps.
     ///
-    /// Steps lead from one time that the scalar can hold to the next, which at a Unix time in seconds are 2.4·10⁻⁷
-    /// apart: where a motion is faster, count the time from nearby.
+    /// Steps lead from one representable time to another. Near a Unix time in seconds these are 2.4·10⁻⁷ s apart: if a
+    /// motion is faster, choose a nearer origin of time.
     ///
     /// # Errors
-    /// What is wrong before the first step: entries, equations, settings or times that are not finite or not
-    /// positive, a state off the constraints ([`make_consistent`](Self::make_consistent) helps), singular or
-    /// contradictory equations. [`Error::Unfinished`] where the motion stops before its end: it says when, by which
-    /// coordinate or constraint, why and what helps. [`motion`](Self::motion) has more settings.
+    /// Errors before the first step: entries, equations, settings or times that are not finite or not positive; a state
+    /// off the constraints (use [`make_consistent`](Self::make_consistent)); singular or contradictory equations.
+    /// [`Error::Unfinished`] if the motion stops before its end, with the time, the coordinate or constraint, the
+    /// reason and a remedy. [`motion`](Self::motion) has more settings.
     #[cfg(feature = "alloc")]
     fn integrate<P: Method<Self, N, M>>(
         &self,
@@ -229,9 +235,11 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
         self.motion(state).by(method).to(end)
     }
 
-    /// The settings of a motion from this state: method, events, who looks at its progress, what is kept and who steers are chosen one by
-    /// one, then [`to`](MotionBuilder::to) integrates. [`motion_in_momenta`](crate::Hamiltonian::motion_in_momenta) does the same for Hamilton's
-    /// equations, [`motion_with_derivatives`](crate::MotionDerivatives::motion_with_derivatives) for a motion with its derivatives.
+    /// Returns the settings of a motion from this state. Method, events, progress callback, samples and controller are
+    /// chosen one by one; then [`to`](MotionBuilder::to) integrates.
+    /// [`motion_in_momenta`](crate::Hamiltonian::motion_in_momenta) does the same for Hamilton's equations,
+    /// [`motion_with_derivatives`](crate::MotionDerivatives::motion_with_derivatives) for a motion with its
+    /// derivatives.
     ///
     /// ```
     /// use lagrange_core::{Ending, prelude::*};
@@ -248,14 +256,14 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     /// let leaves = bead.event("leaves", |sample| sample.multiplier("sphere")).falling().terminal();
     /// let path = bead.motion(start).by(Dop853::with_tolerance(1e-12)).event(leaves).to(100.0)?;
     /// assert!(matches!(path.ending(), Ending::Event { event: "leaves", .. }));
-    /// // From rest it would be where cos θ = 2/3.
+    /// // For a start at rest, cos θ = 2/3.
     /// let leaves = path.end().coordinate("theta")?.cos();
     /// assert!((leaves - (2.0 + 0.01 / 9.81) / 3.0).abs() < 1e-9);
     /// # Ok::<(), Error>(())
     /// ```
     ///
-    /// Where a motion fails before its end, [`to`](MotionBuilder::to) returns an error, [`towards`](MotionBuilder::towards) the trajectory
-    /// up to there:
+    /// If a motion fails before its end, [`to`](MotionBuilder::to) returns an error,
+    /// [`towards`](MotionBuilder::towards) the trajectory up to there:
     ///
     /// ```
     /// # use lagrange_core::{Ending, prelude::*};
@@ -283,11 +291,11 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
         MotionBuilder::new(self, Start::new(check_finite(self, &start).map(|()| start)))
     }
 
-    /// A state at t = 0 from names: `x` a coordinate, `x_dot` its velocity, `r[0]` and `r_dot[0]` those of a vector;
-    /// what is not named is zero.
+    /// Returns a state at t = 0 from named entries: `x` for a coordinate, `x_dot` for its velocity, `r[0]` and
+    /// `r_dot[0]` for an entry of a vector. Entries that are not named are zero.
     ///
     /// # Errors
-    /// [`Error::UnknownName`], which says what the name means instead or lists the names, and [`Error::RepeatedName`].
+    /// [`Error::UnknownName`], which suggests a name or lists all names, and [`Error::RepeatedName`].
     #[cfg(feature = "alloc")]
     fn state_from(&self, entries: &[(&str, Self::Scalar)]) -> Result<State<Self::Scalar, N>, Error> {
         let mut state = State::at_rest([Self::Scalar::constant(0.0); N]);

@@ -1,4 +1,4 @@
-//! A motion that goes on when it is told to.
+//! [`Motion`]: stepwise integration, advanced by its caller.
 
 use core::fmt::{self, Debug, Formatter};
 
@@ -16,15 +16,17 @@ use crate::statistics::Statistics;
 use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, State};
 
-/// A motion that goes on when it is told to, by so much or to a time, and may be steered in between.
+/// A motion that its caller advances by a length of time or to a time, and can steer in between.
 ///
-/// Between two advances its state and the parameters of its system can be read and set. What is set holds until it is set
-/// again (zero-order hold); that costs one evaluation of the equations, or none where all steps are of one size, and the
-/// length of the steps is kept. Every time asked for is reached exactly, so that inputs change there and nowhere else; it may lie in the past.
+/// Between two advances the state and the parameters of the system can be read and set. A set value holds until it is
+/// set again (zero-order hold). A change costs one evaluation of the equations, or none if all steps have one length;
+/// the step length is kept. Every requested time is reached exactly, so inputs change there and nowhere else. The time
+/// may lie in the past.
 ///
-/// Nothing is stored and no step allocates: a motion takes as much memory after 10⁹ steps as after one. Its method makes the room
-/// that it needs when the motion begins, and that for what lies within a step is made when a step is looked into first.
-/// Except by `Taylor`, it works without the feature `alloc`, and has all of that room in itself. It owns its system, which may be a reference.
+/// Nothing is stored and no step allocates: a motion takes as much memory after 10⁹ steps as after one. Its method
+/// allocates its working memory when the motion begins, and the memory of the dense output when it is first evaluated.
+/// Without the feature `alloc`, all methods but `Taylor` work, and hold all of that memory inline. The motion owns its
+/// system, which may be a reference.
 ///
 /// ```
 /// use lagrange_core::prelude::*;
@@ -48,7 +50,7 @@ use crate::system::{Lagrangian, State};
 /// # Ok::<(), Error>(())
 /// ```
 ///
-/// Limits on steps and on wall time are those of one advance.
+/// Limits on steps and on wall-clock time apply to each advance separately.
 pub struct Motion<L, P, const N: usize, const M: usize, F = LagrangianVectorField>
 where
     L: Lagrangian<N, M, Scalar: Real>,
@@ -58,7 +60,7 @@ where
     system: L,
     method: P,
     run: Run<P::Memory, L::Scalar, N>,
-    /// Where the motion has stopped within the last step, at an event.
+    /// State within the last step at which an event has stopped the motion.
     stop: Option<State<L::Scalar, N>>,
     last_step: LastStep<P::Interpolant>,
 }
@@ -68,10 +70,10 @@ where
     L: Lagrangian<N, M, Scalar: Real>,
     P: Method<L, N, M>,
 {
-    /// A motion of this system from a state on, by the method named.
+    /// Starts a motion of this system from a state, by the given method.
     ///
     /// # Errors
-    /// As [`Simulate::integrate`](crate::Simulate::integrate) where it does not start.
+    /// Those of [`Simulate::integrate`](crate::Simulate::integrate) before the first step.
     pub fn new(system: L, state: State<L::Scalar, N>, method: P) -> Result<Self, Error> {
         check_finite(&system, &state)?;
         Self::begin(system, &state, method)
@@ -90,20 +92,20 @@ where
         Ok(Self { system, method, run, stop: None, last_step })
     }
 
-    /// Where the motion is.
+    /// Current state.
     pub fn state(&self) -> &State<L::Scalar, N> {
         self.stop.as_ref().unwrap_or(&self.run.state)
     }
 
-    /// The system as it is.
+    /// The system with its current parameters.
     pub fn system(&self) -> &L {
         &self.system
     }
 
-    /// The system, to change its parameters from here on; coordinates and velocities stay as they are. The
-    /// last step is then none that [`at`](Self::at) could look into.
+    /// The system, to change its parameters from the current time on; coordinates and velocities stay as they are.
+    /// Dense output of the last step by [`at`](Self::at) is then no longer available.
     pub fn system_mut(&mut self) -> &mut L {
-        // A copy onto itself would be waited for by whoever reads the state.
+        // Without a stop, no copy of the state onto itself: reading the state would wait for that store.
         if let Some(stop) = self.stop {
             self.run.state = stop;
         }
@@ -111,11 +113,12 @@ where
         &mut self.system
     }
 
-    /// Goes on from this state, to which no step leads; what a violation of the constraints by round-off is, is projected
-    /// away.
+    /// Continues from another state, without a step that leads there. A violation of the constraints of the order of
+    /// round-off is projected away.
     ///
     /// # Errors
-    /// [`Error::StateNotFinite`]; [`Error::Inconsistent`], and [`Error::NotProjected`]. The motion is then where it was.
+    /// [`Error::StateNotFinite`]; [`Error::Inconsistent`], and [`Error::NotProjected`]. The motion then keeps its
+    /// state.
     pub fn set_state(&mut self, state: State<L::Scalar, N>) -> Result<(), Error> {
         check_finite(&self.system, &state)?;
         consistent::check(&self.system, &state)?;
@@ -124,7 +127,7 @@ where
         Ok(())
     }
 
-    /// From here on, where no step leads to.
+    /// Sets the state, and invalidates the last step.
     fn go_on_from(&mut self, state: State<L::Scalar, N>) {
         self.run.state = state;
         self.forget_step();
@@ -135,28 +138,28 @@ where
         self.last_step.forget();
     }
 
-    /// Steps and evaluations so far.
+    /// Numbers of steps and evaluations since the start.
     pub fn statistics(&self) -> &Statistics {
         &self.run.statistics
     }
 
-    /// The system as it is, without the motion.
+    /// Ends the motion, and returns its system with the current parameters.
     pub fn into_system(self) -> L {
         self.system
     }
 
-    /// Goes on to the time `end`, which is reached exactly; back where it lies in the past.
+    /// Advances to the time `end`, which is reached exactly; backwards if it lies in the past.
     ///
     /// # Errors
-    /// Why the motion stops before; it is then at the last state reached, and can go on from there. A system that has been
-    /// changed so that the state violates a constraint is [`Ending::Unsolved`].
+    /// The reason why the motion stops before `end`. The motion is then at the last state reached, and can continue
+    /// from there. If a change of the system makes the state violate a constraint, the error is [`Ending::Unsolved`].
     #[inline]
     pub fn advance_to(&mut self, end: L::Scalar) -> Result<(), Ending> {
         let limits = Watchdog::new(self.method.limits(), &self.run.statistics);
         self.go_past(end, end, &limits)
     }
 
-    /// Steps towards `end` until one has led to `t` or past it.
+    /// Steps towards `end` until a step reaches or passes `t`.
     #[inline]
     fn go_past(&mut self, t: L::Scalar, end: L::Scalar, limits: &Watchdog) -> Result<(), Ending> {
         self.refresh(end)?;
@@ -165,15 +168,17 @@ where
         run.drive::<L, F, P, _, M>(method, limits, &mut GoPast { system: &*system, last_step, t, end })
     }
 
-    /// Goes on to the first crossing of these events, or to the time `end` where there is none on the way.
+    /// Advances to the first crossing of these events, or to the time `end` if there is none on the way.
     ///
-    /// At a crossing the state and the system may be changed, or the motion left for that of another system. Who goes on
-    /// without a change goes on within the same step: stopping costs nothing. [`Event`](crate::Event) says which crossings are
-    /// found; all of them stop the motion, whether [terminal](crate::Event::terminal) or not.
+    /// At a crossing, the state and the system may be changed, or the motion replaced by a motion of another system.
+    /// Without a change, the motion continues within the same step: stopping costs nothing. [`Event`](crate::Event)
+    /// describes which crossings are found. All of them stop the motion, whether [terminal](crate::Event::terminal) or
+    /// not.
     ///
     /// # Errors
-    /// As [`advance_to`](Self::advance_to), and [`Ending::EventNotFinite`], after which the motion is where the events were
-    /// looked at last; [`Ending::EventsAccumulate`], after which it is at the last crossing.
+    /// The errors of [`advance_to`](Self::advance_to). [`Ending::EventNotFinite`], after which the motion is at the
+    /// last state where the events were evaluated. [`Ending::EventsAccumulate`], after which it is at the last
+    /// crossing.
     pub fn advance_to_event(
         &mut self,
         end: L::Scalar,
@@ -186,8 +191,8 @@ where
         found
     }
 
-    /// The crossings of these events on the way to the time `end`, each found when the iterator is asked for it: a Poincaré
-    /// section, in as much memory as its crossings take. The first that cannot be had is the last item.
+    /// Iterates over the crossings of these events until the time `end`, each found when the iterator is advanced: a
+    /// Poincaré section, in constant memory. An error is the last item.
     ///
     /// ```
     /// # use lagrange_core::prelude::*;
@@ -207,10 +212,10 @@ where
     /// # Ok::<(), Error>(())
     /// ```
     ///
-    /// A stroboscopic section is [`states_at`](Self::states_at) at its times.
+    /// For a stroboscopic section, call [`states_at`](Self::states_at) with its times.
     ///
     /// # Errors
-    /// As [`advance_to_event`](Self::advance_to_event).
+    /// The errors of [`advance_to_event`](Self::advance_to_event).
     pub fn crossings<'e>(
         &mut self,
         end: L::Scalar,
@@ -241,28 +246,28 @@ where
         let found = search.due(at)?;
         let mut search = Search { system: &*system, last_step, end, search, at, found };
         if search.found.is_none() {
-            // Of the step that the motion has stopped within.
+            // Search the rest of the step within which the motion has stopped.
             search.look::<F>(&run.before, &run.state)?;
         }
         run.drive::<L, F, P, _, M>(method, &limits, &mut search)?;
         Ok(search.found)
     }
 
-    /// Goes on for this long; back where it is negative. Many equal lengths add up with the rounding of each sum:
-    /// where that matters, say the times, [`advance_to`](Self::advance_to)`(0.01 * f64::from(k))`.
+    /// Advances by this length of time; backwards if it is negative. Many equal lengths add up with the rounding error
+    /// of each sum. To avoid that, give the times: [`advance_to`](Self::advance_to)`(0.01 * f64::from(k))`.
     ///
     /// # Errors
-    /// As [`advance_to`](Self::advance_to).
+    /// The errors of [`advance_to`](Self::advance_to).
     pub fn advance_by(&mut self, length: L::Scalar) -> Result<(), Ending> {
         self.advance_to(self.state().t + length)
     }
 
-    /// The state at a time within the last step, by the continuous extension of the method, projected onto the constraints.
-    /// Where nobody asks, no extension is computed.
+    /// Returns the state at a time within the last step, by the dense output of the method, projected onto the
+    /// constraints. The dense output is computed at the first call in a step.
     ///
     /// # Errors
-    /// [`Error::OutsideTrajectory`] for a time that lies elsewhere; after the state or the system was changed there is
-    /// none but the present. What evaluating the equations gives, and [`Error::NotProjected`].
+    /// [`Error::OutsideTrajectory`] for a time outside the last step; after a change of the state or of the system only
+    /// the current time is available. Errors of evaluating the equations, and [`Error::NotProjected`].
     pub fn at(&mut self, t: L::Scalar) -> Result<State<L::Scalar, N>, Error> {
         let (state, before) = (*self.state(), self.run.before);
         if t == state.t {
@@ -285,9 +290,8 @@ where
         point.map_or(Ok(state), |point| F::project(system, &point))
     }
 
-    /// The states at these times, each computed when the iterator is asked for it; the motion is then at the last of them.
-    /// Steps are as long as if there were no times in between, and nothing is stored. The first that cannot be had is the
-    /// last item.
+    /// Iterates over the states at these times, each computed when the iterator is advanced; the motion is then at the
+    /// last of them. The times do not shorten steps, and nothing is stored. An error is the last item.
     ///
     /// ```
     /// # use lagrange_core::prelude::*;
@@ -305,10 +309,10 @@ where
     /// # Ok::<(), Error>(())
     /// ```
     ///
-    /// The times must be in the order of the motion, later or earlier from one to the next.
+    /// The times must be monotonic, later or earlier from one to the next.
     ///
     /// # Errors
-    /// Items are errors as of [`advance_to`](Self::advance_to), and [`Ending::Unsolved`] with an
+    /// An item is an error of [`advance_to`](Self::advance_to), or [`Ending::Unsolved`] with an
     /// [`Error::OutsideTrajectory`] for a time out of order.
     pub fn states_at<I>(
         &mut self,
@@ -344,8 +348,8 @@ where
         self.at(t).map_err(|error| Ending::of(error, now))
     }
 
-    /// Tells the method what has been changed, and checks where to go. What is left of a step that the motion has stopped
-    /// within is forgotten where the end lies within it, or behind.
+    /// Resumes the method after a change, and checks `end`. If the motion has stopped within a step, and `end` lies
+    /// within that step or behind, the rest of the step is discarded.
     #[inline]
     fn refresh(&mut self, end: L::Scalar) -> Result<(), Ending> {
         let time = self.state().t.to_f64();

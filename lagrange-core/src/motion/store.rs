@@ -1,4 +1,4 @@
-//! A motion of which all steps are stored.
+//! Observer that stores all steps of a motion.
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -16,11 +16,11 @@ use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State};
 use crate::trajectory::{Path, Trajectory};
 
-/// What looks at the progress, and may cancel.
+/// Progress callback, which may cancel the motion.
 pub(crate) type OnProgress<'a> = Box<dyn FnMut(Progress) -> ControlFlow<()> + 'a>;
 
-/// Stores the steps with what lies within and the crossings of the events `W`. Where there are none, `HAS_EVENTS` is false, and their
-/// search is not compiled.
+/// Observer that stores the steps, their dense output and the crossings of the events `W`. Without events `HAS_EVENTS`
+/// is false, and the search is not compiled.
 pub(crate) struct Stored<
     'a,
     'e,
@@ -35,7 +35,7 @@ pub(crate) struct Stored<
     end: L::Scalar,
     path: Path<L::Scalar, N, Vec<I>>,
     search: EventSearch<'e, W, L, N, M>,
-    /// Why the motion ends where it starts, if it does.
+    /// Ending at the start, if an event that is due there ends the motion.
     stopped: Option<Ending>,
     on_progress: Option<OnProgress<'e>>,
 }
@@ -64,7 +64,7 @@ where
         self.system
     }
 
-    /// Where the interpolant of a step is put.
+    /// Interpolants of the steps, to append one.
     #[inline(always)]
     pub(crate) fn interpolants(&mut self) -> &mut Vec<I> {
         self.path.interpolants()
@@ -81,7 +81,7 @@ where
         Trajectory::new(self.system, self.path.finish(), ending, statistics, adjustment)
     }
 
-    /// Tells how far the motion has come.
+    /// Calls the progress callback.
     #[inline(always)]
     fn look(&mut self, time: L::Scalar, steps: usize) -> Result<(), Ending> {
         let Some(look) = &mut self.on_progress else { return Ok(()) };

@@ -90,20 +90,20 @@ fn dopri5_keeps_a_spherical_pendulum_on_its_sphere() {
     swing(Dopri5::with_tolerance(1e-10), 1e-7);
 }
 
-/// A system with the motion it has from t = 0 on.
+/// A system, and its exact motion from t = 0 on as (q, v).
 type Solved = (Mechanism<1, 0, 0>, fn(f64) -> (f64, f64));
 
 fn solved() -> [Solved; 2] {
     [
         (oscillator(), |t| (t.cos(), -t.sin())),
-        // Nonlinear, and with time in it.
+        // Nonlinear, and explicitly dependent on time.
         (free(|s| [3.0 * s.q[0].powi(2) + 3.0 / (1.0 + s.t).powi(4)]), |t| {
             ((1.0 + t).powi(-2), -2.0 * (1.0 + t).powi(-3))
         }),
     ]
 }
 
-/// The mean slope of log error over log step in four halvings, at the end and of the worst error in between.
+/// Mean slope of log error over log step in four halvings: at the end, and of the largest error in between.
 fn slopes<P>((system, exact): Solved, method: impl Fn(f64) -> P, coarsest: f64) -> (f64, f64)
 where
     P: Method<Mechanism<1, 0, 0>, 1, 0>,
@@ -139,8 +139,8 @@ fn check_coefficients<P: Pair>() {
     for (row, node) in P::INTERPOLATION_STAGES.iter().zip(P::NODES.iter().skip(P::STAGES.len() + 2)) {
         assert!((sum(row) - node).abs() < 1e-13);
     }
-    // Quadrature of a power k < order: Σ bᵢ cᵢᵏ = 1/(k + 1), and what the error estimates and the interpolant
-    // ignore sums to nothing.
+    // Quadrature of a power k < order: Σ bᵢ cᵢᵏ = 1/(k + 1). Rows of the error estimates and of the interpolant sum to
+    // zero.
     for k in 0..P::ORDER as i32 {
         let moment: f64 = P::WEIGHTS.iter().map(|(i, b)| b * P::NODES[*i].powi(k)).sum();
         assert!((moment - 1.0 / f64::from(k + 1)).abs() < 1e-13, "{k}: {moment}");
@@ -252,7 +252,7 @@ fn a_mass_that_vanishes_ends_the_motion() {
 
 #[test]
 fn constraints_that_come_to_contradict_end_the_motion() {
-    // From t = 0.5 on the second asks for another acceleration than the first.
+    // From t = 0.5 on, the second constraint demands another acceleration than the first.
     let system = Mechanism::<2, 2, 2> {
         mass: crate::fixtures::identity,
         forcing: |_| [0.0; 2],
@@ -270,7 +270,7 @@ fn constraints_that_come_to_contradict_end_the_motion() {
     assert!((time - 0.5).abs() < 1e-12);
 }
 
-/// An error that says nothing about singular equations is not called that.
+/// Each error maps to its ending; errors other than those of singular equations are not `Singular`.
 #[test]
 fn each_error_is_the_ending_that_says_it() {
     let (time, constraint) = (2.0, "rod");
@@ -297,7 +297,7 @@ fn each_error_is_the_ending_that_says_it() {
 
 #[test]
 fn constraints_that_part_end_the_motion() {
-    // x = 0 on the circle of radius 1 − t, which is gone after t = 1.
+    // A point on the circle of radius √(1 − t), which vanishes at t = 1.
     let system = Mechanism::<2, 1, 1> {
         mass: crate::fixtures::identity,
         forcing: |_| [0.0; 2],
@@ -335,8 +335,8 @@ fn limits_end_the_motion_and_keep_it() {
     assert!(times.windows(2).all(|t| t[1] - t[0] <= longest) && times[1] == 1e-3);
 }
 
-/// Where the equations are not defined at one of the times that only the interpolant needs, 7/9 of the step, a shorter step
-/// is taken instead; nobody minds who does not ask for interpolants.
+/// If the equations are undefined at a time that only the interpolant needs, 7/9 of the step, a shorter step is taken.
+/// Without a request for interpolants the step is accepted.
 #[test]
 fn a_step_whose_interpolant_fails_is_taken_back() {
     let system = free::<1>(|s| [if (s.t - 7.0 / 9.0).abs() < 1e-3 { f64::NAN } else { -s.q[0] }]);
