@@ -1,4 +1,4 @@
-//! The order of the series and the length of a step.
+//! Order of the series and step length of Taylor's method.
 
 use super::expansion::SolvedState;
 use super::last::{LAST, STEP};
@@ -8,24 +8,25 @@ use crate::motion::method::control::{FIRST, Tolerance};
 use crate::number::{ROOM, Real, Scalar, larger, smaller};
 use crate::system::State;
 
-/// What is left out is e to minus this, as a part of the tolerance: errors are those of Jorba and Zou's order (3-11) with
-/// their steps, or half of them.
+/// Minus the natural logarithm of the first omitted term, in units of the tolerance. With it, errors equal those of
+/// Jorba and Zou's order (3-11) with their steps, or half of them.
 const LEFT_OUT: f64 = 5.0;
 
 impl Taylor {
-    /// The tolerance, as far as the numbers go.
+    /// Requested relative tolerance, at least ε.
     pub(crate) fn tolerance<T: Real>(&self) -> f64 {
         self.relative.max(T::EPSILON)
     }
 
-    /// The order with which the first term that is left out, by the length of a [step](STEP), is that part of the tolerance.
+    /// Order of the series: over the length of a [step](STEP), the first omitted term is e^−[`LEFT_OUT`] of the
+    /// tolerance.
     pub(crate) fn order<T: Real>(&self) -> usize {
         let order = (LEFT_OUT - Scalar::ln(T::constant(self.tolerance::<T>())).to_f64()) / STEP;
         (larger(order, LAST as f64) as usize).min(ROOM - 2)
     }
 
-    /// The longest first step, as of embedded pairs (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.4):
-    /// it moves the state by its size at most.
+    /// Largest first step, as for embedded pairs (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations
+    /// I*, II.4): it changes the state by at most its size.
     pub(crate) fn first<T: Real, const N: usize, const M: usize>(
         &self,
         state: &State<T, N>,
@@ -43,15 +44,15 @@ impl Taylor {
         self.absolute / self.tolerance::<T>()
     }
 
-    /// The length of the next step, by what the last coefficients allow, the longest that the step before allows, and the time
-    /// that is left.
+    /// Length of the next step, from the length `allowed` by the last coefficients, the limit `longest` set by the step
+    /// before, and the time left.
     pub(crate) fn choose<T: Real>(&self, allowed: T, longest: T, clock: &Clock<T>) -> T {
         let step = smaller(if allowed.is_finite() { allowed } else { clock.left() }, longest);
         let step = if step > T::constant(0.0) { clock.at_least(step) } else { clock.left() };
         self.limited(step)
     }
 
-    /// No longer than the user allows.
+    /// The step, at most `max_step`.
     pub(crate) fn limited<T: Real>(&self, step: T) -> T {
         self.max_step.map_or(step, |longest| smaller(step, T::constant(longest)))
     }

@@ -1,8 +1,9 @@
 //! Steps across poses at which constraints become dependent.
 //!
-//! The motion is smooth there, but the nearer a state is, the more of its coefficients is rounding: those of order k grow by it
-//! as 1/τᵏ, if the pose is τ ahead, and a step that heeds them all never gets there. Of few orders a sum is good for several
-//! times τ, with an error that is far below the terms, if it is taken in time.
+//! The motion is smooth there, but the nearer a state is to the pose, the more rounding error its coefficients contain.
+//! At a distance τ in time, the rounding error of order k grows by 1/τᵏ, and steps that heed all orders never reach the
+//! pose. A sum of few orders is accurate over several times τ, with an error far below its terms, if it is used early
+//! enough.
 
 use super::expansion::{Expansion, SolvedState};
 use super::last::log2_roughly;
@@ -10,47 +11,53 @@ use super::settings::Taylor;
 use crate::number::{FixedArray, Real, Scalar, larger};
 use crate::solution::pivot::is_trustworthy;
 
-/// How independent constraints are, from 0 to 1, where a pose may be near, or steps may have become so much shorter.
+/// Independence of the constraints, from 0 to 1, below which a singular pose may be near; and ratio of a step to the
+/// step before, below which it may be near.
 const NEAR: f64 = 0.3;
 const COLLAPSE: f64 = 0.5;
-/// Below, the series is solved for by orthogonal factors: products of two small numbers lose too many digits.
+/// Independence below which orthogonal factors solve for the series: products of two small numbers lose too many
+/// digits.
 const CLOSE: f64 = 0.02;
-/// Below, no step ends: rounding errors of the velocities are as large as what tells one branch of the motion from another.
+/// Independence below which no step ends: rounding errors of the velocities are as large as the difference between
+/// branches of the motion.
 const NEAREST: f64 = 1e-6;
-/// A sum of fewer orders may have this error, or so many times the tolerance, of each of its last terms.
+/// Largest size of each of the last [`LAST`] terms of a sum of fewer orders: a number, or a multiple of the tolerance,
+/// whichever is larger.
 const ERROR: [f64; 2] = [1e-12, 10.0];
 const LAST: usize = 3;
-/// It is taken where it reaches so many times as far as a step by all orders, and so many times as far as that with the same
-/// error, which tells that the last coefficients are rounding.
+/// Conditions for a step by fewer orders, as ratios of lengths. It must be [`WORTH`] times as long as the planned step.
+/// It must also be [`ROUNDING`] times as long as a step by all orders with the same error, which shows that the last
+/// coefficients are rounding errors.
 const WORTH: f64 = 1.5;
 const ROUNDING: f64 = 1.2;
-/// So many times it is tried longer where it was refused.
+/// Number of longer attempts after a step by fewer orders is rejected.
 const LONGER: usize = 2;
 
 impl<T: Real, const N: usize, const M: usize> SolvedState<T, N, M> {
-    /// How independent the constraints are, from 0 to 1.
+    /// Independence of the constraints, from 0 to 1.
     fn independence(&self) -> T {
-        // The elimination has squares on its diagonal.
+        // The diagonal of the elimination holds squares.
         let pivot = self.solution.pivot;
         if is_trustworthy(&self.solution) { Scalar::sqrt(pivot) } else { pivot }
     }
 
-    /// Whether a pose may be near at which the constraints become dependent: they almost are, or steps become so much shorter.
+    /// True if constraints may become dependent nearby: they nearly are, or the steps shrink quickly.
     pub(super) fn is_near_dependence(&self, planned: T, before: T) -> bool {
         self.is_hardly_independent() || M > 0 && planned < before * T::constant(COLLAPSE)
     }
 
-    /// Whether the constraints are so dependent that rounding errors of accelerations are many.
+    /// True if the constraints are so dependent that accelerations have large rounding errors.
     pub(super) fn is_hardly_independent(&self) -> bool {
         M > 0 && self.independence() < T::constant(NEAR)
     }
 
-    /// Whether it is so near that products of two small numbers lose too many digits.
+    /// True if the constraints are so dependent that products of two small numbers lose too many digits.
     pub(super) fn is_close_to_dependence(&self) -> bool {
         M > 0 && self.independence() < T::constant(CLOSE)
     }
 
-    /// Whether from here no step is to end there, because constraints are all but dependent there alone.
+    /// True if no step from this state may end at `there`, because the constraints are nearly dependent there and not
+    /// here.
     pub(super) fn avoids(&self, there: &Self) -> bool {
         let is_dependent =
             |at: &Self| at.solution.rank < self.solution.rank || at.independence() < T::constant(NEAREST);
@@ -59,7 +66,7 @@ impl<T: Real, const N: usize, const M: usize> SolvedState<T, N, M> {
 }
 
 impl Taylor {
-    /// Sums fewer orders, if that leads much farther than this step.
+    /// Plans a step by fewer orders, if it is much longer than the planned step.
     #[cold]
     pub(super) fn cross<S: FixedArray<T>, T: Real, const N: usize>(
         &self,
@@ -89,18 +96,18 @@ impl Taylor {
     }
 }
 
-/// A step by fewer orders.
+/// A step by fewer orders, across a pose where constraints become dependent.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SingularStep<T> {
     pub(super) length: T,
-    /// So many times it may still be tried longer: where it was refused, it ended near the pose.
+    /// Number of longer attempts left. A rejected step ended near the pose, and a longer one may pass it.
     left: usize,
-    /// The step by all orders.
+    /// Length of the step by all orders.
     planned: T,
 }
 
 impl<T: Real> SingularStep<T> {
-    /// The next to try after this one was refused; the step by all orders where none is left.
+    /// Returns the next, longer attempt after a rejection, or the length of the step by all orders if none is left.
     pub(super) fn longer(self) -> Result<Self, T> {
         let left = self.left.checked_sub(1).ok_or(self.planned)?;
         Ok(Self { length: self.length * T::constant(WORTH), left, ..self })

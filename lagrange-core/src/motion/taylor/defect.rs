@@ -1,4 +1,4 @@
-//! Whether a series is the motion: its accelerations are those of the equations where it leads.
+//! Defect of a series: the difference between its accelerations and those of the equations along a step.
 
 use core::array::from_fn;
 
@@ -10,37 +10,40 @@ use crate::number::{FixedArray, Real, Scalar, exceeds, larger, vector};
 use crate::statistics::Statistics;
 use crate::system::{State, TaylorSeries};
 
-/// Within a step and at its end accelerations may differ by the tolerance, as a part of the velocities, and by so many units of
-/// round-off. The terms that are left out make a sixteenth of the tolerance at most, rounding 100 units of it (pendulums of one to
-/// ten links, on a rod and in space, Kepler's ellipses, Hénon and Heiles, from 10⁻³ to round-off): more is a force that the series
-/// does not know. A pulse whose standard deviation is an eighth of a step shows at the nearer end by a 500th of its peak at least.
+/// Largest defect within a step and at its end, relative to the velocities, in units of round-off, if the tolerance is
+/// not larger. Omitted terms make at most a sixteenth of the tolerance, and rounding errors 100 units of round-off
+/// (pendulums of one to ten links, on a rod and in space, Kepler's ellipses, Hénon and Heiles, from 10⁻³ to round-off).
+/// A larger defect is a force that the series does not contain. A pulse with a standard deviation of an eighth of a
+/// step shows at the nearer end by at least a 500th of its peak.
 const DEFECT: f64 = 4096.0;
-/// Beside kinks of functions that the user supplies, and poses where constraints become dependent, they may differ by so many times the tolerance, and by this part of the
-/// velocities, so that a step leads across.
+/// Largest defect beside kinks of user-supplied functions, and beside poses where constraints become dependent, so that
+/// a step can cross them: a multiple of the tolerance, or a fraction of the velocities, whichever is larger.
 const DEFECT_AT_KINKS: [f64; 2] = [1e4, 1e-10];
-/// Where a root is below zero in the series they may differ by so many times the tolerance alone: nothing is left to
-/// what the step after makes good. So they may where the last coefficients are zero, and do not tell whether all beyond are.
+/// Largest defect, in units of the tolerance, at points where the series of a root is below zero: no later step would
+/// correct it. It also applies if the last coefficients are zero, because further ones may not be.
 const STRICT: f64 = 64.0;
-/// Rounding errors are estimated from two states that are so many units of it away, and may be so many times as large.
+/// Test for rounding errors: perturbation of the state, in units of ε, and largest ratio of a defect to the change of
+/// acceleration that it makes.
 const ROUNDING: [f64; 2] = [4.0, 16.0];
 
-/// A step to be looked at.
+/// A step to check before it is accepted.
 pub(super) struct CandidateStep<'a, S, T, const N: usize, const M: usize> {
     pub(super) series: &'a Expansion<S, T, N>,
     pub(super) start: &'a State<T, N>,
     pub(super) end: &'a State<T, N>,
     pub(super) solved: &'a SolvedState<T, N, M>,
     pub(super) length: T,
-    /// Those of the series at the end.
+    /// Accelerations of the series at the end.
     pub(super) accelerations: &'a [T; N],
     /// Number of samples within.
     pub(super) count: usize,
-    /// Whether at its start or its end accelerations have the rounding errors of constraints that are hardly independent.
+    /// True if the constraints are nearly dependent at the start or the end, so that accelerations have large rounding
+    /// errors.
     pub(super) is_near_dependence: bool,
 }
 
 impl<S: FixedArray<T>, T: Real, const N: usize, const M: usize> CandidateStep<'_, S, T, N, M> {
-    /// The velocity that is off the most, where one is by too much.
+    /// Index of the coordinate with the largest defect, if that is too large; `None` if the step is accurate.
     pub(super) fn inaccurate<L>(
         &self,
         system: &L,
@@ -98,8 +101,8 @@ impl<S: FixedArray<T>, T: Real, const N: usize, const M: usize> CandidateStep<'_
 }
 
 impl Taylor {
-    /// The coordinate whose value or velocity is moved the most, where that is by too much: near a pose where constraints become
-    /// dependent a projection leads onto another branch of the motion.
+    /// Index of a coordinate whose value or velocity is changed too much by the projection, if there is one. Near a
+    /// pose where constraints become dependent, a projection may lead onto another branch of the motion.
     pub(super) fn moved<T: Real, const N: usize>(&self, sums: [(&[T; N], &[T; N]); 2]) -> Option<usize> {
         let (slack, bound) = (T::constant(self.slack::<T>()), T::constant(self.jump_allowed::<T>()));
         let is_moved = |(sum, projected): &(&[T; N], &[T; N]), i: usize| {
@@ -108,7 +111,7 @@ impl Taylor {
         (0..N).find(|&i| sums.iter().any(|pair| is_moved(pair, i)))
     }
 
-    /// By so much accelerations may differ, as a part of the velocities.
+    /// Largest defect of accelerations, relative to the velocities.
     pub(super) fn defect_allowed<L, const N: usize, const M: usize>(&self) -> f64
     where
         L: TaylorSeries<N, M, Scalar: Real>,
@@ -120,19 +123,20 @@ impl Taylor {
         }
     }
 
-    /// By so much the equations may jump, or a projection move a state, without another step.
+    /// Largest jump of the accelerations, or change of a state by a projection, that does not reject a step.
     pub(crate) fn jump_allowed<T: Real>(&self) -> f64 {
         let [times, part] = DEFECT_AT_KINKS;
         larger(times * self.tolerance::<T>(), part)
     }
 }
 
-/// What so much of acceleration makes in a step, as a part of the velocity at its start and its end.
+/// Defect: change of velocity that a difference `off` of accelerations makes over a step, relative to the velocities at
+/// its start and end.
 pub(super) fn part<T: Scalar>([start, end]: [T; 2], off: T, length: T, slack: T) -> T {
     off * length.abs() / (start.abs() + end.abs() + slack)
 }
 
-/// Whether rounding errors of the state alone change this acceleration about as much.
+/// True if rounding errors of the state change this acceleration by about as much as `off`.
 #[cold]
 fn is_rounding<L, T: Real, const N: usize, const M: usize>(
     system: &L,

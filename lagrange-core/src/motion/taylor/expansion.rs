@@ -1,4 +1,4 @@
-//! A motion as a power series about one of its states.
+//! Taylor series of a motion about one of its states.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -14,19 +14,19 @@ use crate::solution::pivot::is_trustworthy;
 use crate::solution::solve::{fault, not_finite, solve_near};
 use crate::system::{Direction, Lagrangian, RightHandSides, Solution, State, TaylorSeries};
 
-/// Another unit of time is tried so many times at most.
+/// Largest number of units of time tried for one expansion.
 const UNITS: usize = 40;
-/// A multiple of all orders, by a power of two about 1, which divided by any of them is not rounded. Of those it is the one
-/// whose 1/c² is rounded the least, by 10⁻²⁰ of it.
+/// Multiple c of all orders, scaled by a power of two to about 1, so that division by any order is exact. Among these
+/// numbers, it has the smallest rounding error of 1/c², 10⁻²⁰ of it.
 const MULTIPLE: f64 = 3_185_466_681_422_025.0 / (1_u64 << 51) as f64;
-/// Coefficients may have become too small to be numbers where each order is by so much, as powers of two, larger than it would be
-/// if they had just done so at the last.
+/// Margin in the test whether the last coefficients have underflowed, as a power of two per order. They may have if
+/// coefficients fall per order nearly as fast as those that reach the smallest number at the highest order.
 const MARGIN: f64 = 8.0;
-/// Where coefficients are too large, the next unit is smaller by at least so many powers of two: the order after the highest that
-/// is a number may be larger by far.
+/// Smallest reduction of the unit of time after an overflow, as a power of two. The first order that overflows may be
+/// far larger than the highest finite one.
 const LEAST: f64 = 2.0;
 
-/// Accelerations and multipliers at a state, and on which constraints they rest.
+/// Accelerations and multipliers at a state, and the constraints that determine them.
 #[derive(Clone, Debug)]
 pub(crate) struct SolvedState<T, const N: usize, const M: usize> {
     pub(crate) solution: Solution<T, N, M>,
@@ -41,7 +41,7 @@ impl<T: Real, const N: usize, const M: usize> SolvedState<T, N, M> {
         solve_near(system, state, None, |solution, active| Self { solution: *solution, active: *active })
     }
 
-    /// Whether the factor of the elimination is good enough for all orders.
+    /// True if the factorization by elimination is reliable enough for all orders.
     pub(crate) fn is_by_elimination(&self) -> bool {
         is_trustworthy(&self.solution)
             && self.solution.multipliers_are_unique()
@@ -49,28 +49,28 @@ impl<T: Real, const N: usize, const M: usize> SolvedState<T, N, M> {
     }
 }
 
-/// The coefficients of coordinates and velocities about a state, up to an order, in powers of (t − t₀)/unit.
+/// Taylor coefficients of coordinates and velocities about a state, in powers of (t − t₀)/unit.
 #[derive(Clone, Debug)]
 pub(crate) struct Expansion<S, T, const N: usize> {
     pub(crate) start: T,
-    /// The unit of time: with one near the length of a step, no coefficient leaves the numbers.
+    /// Unit of time. One near the length of a step avoids overflow and underflow of the coefficients.
     pub(crate) unit: T,
-    /// From order 0; one more of the coordinates than of the velocities.
+    /// Coefficients from order 0 on; the coordinates have one order more than the velocities.
     pub(crate) q: Vec<[T; N]>,
     pub(crate) v: Vec<[T; N]>,
-    /// Up to which order they are summed: all, or where those beyond are rounding.
+    /// Highest order that is summed: all orders, or fewer if the others are rounding errors.
     pub(crate) summed: usize,
     pub(super) factors: SeriesFactors<T, S>,
-    /// The values of roots, in the order of [`TaylorSeries::ROOTS`].
+    /// Values of the roots at the start, in the order of [`TaylorSeries::ROOTS`].
     pub(crate) roots: Vec<T>,
-    /// The values of arguments, in the order of [`TaylorSeries::STEEP`].
+    /// Values at the start of the arguments of steep functions, in the order of [`TaylorSeries::STEEP`].
     pub(crate) steep: Vec<T>,
-    /// The arguments of functions that the user supplies, in the order of [`TaylorSeries::ARGUMENTS`].
+    /// Series of the arguments of user-supplied functions, in the order of [`TaylorSeries::ARGUMENTS`].
     arguments: Vec<PowerSeries<T>>,
 }
 
 impl<S: FixedArray<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
-    /// Room for a series of this order.
+    /// Allocates a series of this order.
     pub(crate) fn new<L, const M: usize>(order: usize) -> Self
     where
         L: TaylorSeries<N, M, Scalar = T, Sums = S>,
@@ -93,13 +93,14 @@ impl<S: FixedArray<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
         self.v.len() - 1
     }
 
-    /// The coefficients of the highest order, to which all others lead: where they are numbers, all are.
+    /// Coefficients of the highest order. All others contribute to them: if these are finite, all are.
     pub(crate) fn last(&self) -> [&[T; N]; 2] {
         let order = self.order();
         [&self.q[order + 1], &self.v[order]]
     }
 
-    /// Expands the motion about a state, by what the equations give there and what solves for accelerations and multipliers.
+    /// Expands the motion about a state, given accelerations and multipliers there. `solve` returns those of a higher
+    /// order, from the right-hand sides of that order.
     #[inline(always)]
     pub(crate) fn orders<L, E, const M: usize>(
         &mut self,
@@ -150,7 +151,7 @@ impl<S: FixedArray<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
         Ok(())
     }
 
-    /// The coefficients of this order, by the accelerations of the order before.
+    /// Sets the coefficients of this order, from the accelerations of the order before, and returns them.
     #[inline(always)]
     fn advance<const M: usize>(&mut self, order: usize, newest: &Solution<T, N, M>) -> Direction<T, N> {
         let factor = unit_over(self.unit, order);
@@ -161,26 +162,26 @@ impl<S: FixedArray<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
         Direction { t, q: vector(q), v: vector(v) }
     }
 
-    /// What coefficients of coordinates and velocities are measured by: 1 over their sizes.
+    /// Reciprocal sizes of coordinates and velocities, in which coefficients are measured.
     pub(crate) fn scales(&self, slack: T) -> [[T; N]; 2] {
         [&self.q, &self.v].map(|x| x[0].map(|x| T::constant(1.0) / (x.abs() + slack)))
     }
 
-    /// The largest coefficient of an order on these scales.
+    /// Largest coefficient of an order, in units of the sizes.
     pub(crate) fn size(&self, order: usize, scales: &[[T; N]; 2]) -> T {
         let [q, v] = [(&self.q[order], &scales[0]), (&self.v[order], &scales[1])]
             .map(|(x, scales)| (0..N).fold(T::constant(0.0), |most, i| most.max(x[i].abs() * scales[i])));
         q.max(v)
     }
 
-    /// The sizes of the last coefficients.
+    /// Sizes of the last coefficients.
     pub(crate) fn last_sizes(&self, slack: T) -> Last<T> {
         let (order, scales) = (self.order(), self.scales(slack));
         let sizes = from_fn(|i| self.size(order + 1 - LAST + i, &scales));
         Last { order, unit: self.unit, sizes }
     }
 
-    /// By how much coordinates and velocities change over a step of this length, and the accelerations at its end.
+    /// Changes of coordinates and velocities over a step of this length, and the accelerations at its end.
     pub(crate) fn change(&self, length: T) -> [[T; N]; 3] {
         let (theta, order) = (length / self.unit, self.summed);
         let change =
@@ -192,7 +193,8 @@ impl<S: FixedArray<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
 }
 
 impl<S: FixedArray<T>, T: Real, const N: usize> Expansion<S, T, N> {
-    /// Expands the motion about a state, by the solution of the equations there, and gives what the last coefficients say.
+    /// Expands the motion about a state, given the solution of the equations there. Returns the sizes of the last
+    /// coefficients.
     pub(crate) fn about<L, const M: usize>(
         &mut self,
         system: &L,
@@ -217,8 +219,8 @@ impl<S: FixedArray<T>, T: Real, const N: usize> Expansion<S, T, N> {
         self.about_in_general(system, state, solved, [unit, slack])
     }
 
-    /// The same by the general factors: where that of the elimination is not reliable, which then gives NaN, and in other units,
-    /// which are rare enough for them. A function of its own, for the matrices are large.
+    /// Like [`about`](Self::about), by the factors of the general solver. Used if the elimination is not reliable and
+    /// gives NaN, and for other units of time, which are rare. A separate function, because the matrices are large.
     #[cold]
     #[inline(never)]
     fn about_in_general<L, const M: usize>(
@@ -238,7 +240,7 @@ impl<S: FixedArray<T>, T: Real, const N: usize> Expansion<S, T, N> {
         self.in_units::<L, M>(unit, slack, expand)
     }
 
-    /// Expands in this unit of time, or in others as long as they are better.
+    /// Expands in this unit of time, and in better ones as long as there are any.
     #[cold]
     fn in_units<L, const M: usize>(
         &mut self,
@@ -260,12 +262,13 @@ impl<S: FixedArray<T>, T: Real, const N: usize> Expansion<S, T, N> {
         Ok(self.last_sizes(slack))
     }
 
-    /// A unit in which the coefficients are numbers, where in this one the last are too large or too small to be.
+    /// Returns a better unit of time if the last coefficients overflow or underflow in this one.
     #[inline(always)]
     fn better_unit<L: TaylorSeries<N, M>, const M: usize>(&self, last: &Last<T>, slack: T) -> Option<T> {
         let sum = last.sizes.iter().fold(T::constant(0.0), |sum, size| sum + *size);
         let are_numbers = sum.is_finite() && self.is_finite(self.order());
-        // Coefficients that are too small in a unit as long as the last step do not count in one ten times as long.
+        // Coefficients that underflow with the length of the last step as unit do not matter in a step ten times as
+        // long.
         if are_numbers && (sum > T::constant(0.0) || !is_linear::<L, N, M>()) {
             None
         } else {
@@ -273,8 +276,8 @@ impl<S: FixedArray<T>, T: Real, const N: usize> Expansion<S, T, N> {
         }
     }
 
-    /// That in which the highest order that is a number counts as much as the state. None where all beyond are zero, as those of
-    /// a polynomial, and not because they are too small.
+    /// Time unit that scales the highest finite coefficient to the size of the state. `None` if all further
+    /// coefficients are zero because the series is a polynomial, not because they underflow.
     #[cold]
     fn unit_by_the_highest(&self, are_large: bool, slack: T) -> Option<T> {
         let (scales, order) = (self.scales(slack), self.order());
@@ -291,7 +294,7 @@ impl<S: FixedArray<T>, T: Real, const N: usize> Expansion<S, T, N> {
         [&self.q[order + 1], &self.v[order]].into_iter().flatten().all(|x| x.is_finite())
     }
 
-    /// Whether all of the last coefficients are zero.
+    /// True if all of the last coefficients are zero.
     pub(crate) fn ends(&self) -> bool {
         let (first, zero) = (self.order() + 1 - LAST, T::constant(0.0));
         let last = [&self.v[first..], &self.q[first..=self.order()]];
@@ -299,7 +302,8 @@ impl<S: FixedArray<T>, T: Real, const N: usize> Expansion<S, T, N> {
     }
 }
 
-/// Divided: 1/k is rounded, to the same side in every step, by which energy drifted.
+/// Coefficient of the integration to order `order`, unit/order. It divides: the rounding error of 1/k has the same sign
+/// in every step, and made the energy drift.
 fn unit_over<T: Scalar>(unit: T, order: usize) -> T {
     unit / T::constant(order as f64)
 }
@@ -309,7 +313,7 @@ fn scaled<T: Scalar, const N: usize>(x: &[T; N], factor: T) -> [T; N] {
     core::array::from_fn(|i| factor * x[i])
 }
 
-/// c₀ + c₁ θ + c₂ θ² + …, even powers and odd ones side by side: one after the other, each waits for the one before.
+/// Sums c₀ + c₁ θ + c₂ θ² + …, even and odd powers in parallel: in a single chain, each term waits for the one before.
 #[inline(always)]
 fn polynomial<T: Scalar, const N: usize>(
     coefficients: impl DoubleEndedIterator<Item = [T; N]>,
@@ -328,7 +332,7 @@ fn horner<T: Scalar, const N: usize>(sum: &[T; N], theta: T, coefficient: &[T; N
     core::array::from_fn(|i| sum[i].multiply_add(theta, coefficient[i]))
 }
 
-/// The general factors of a state, on the constraints that are independent there.
+/// Factors of the general solver at a state, for the constraints that are independent there.
 pub(crate) struct General<T, const N: usize, const M: usize> {
     factors: kkt::Factors<T, N, M>,
     active: [bool; M],
@@ -366,8 +370,8 @@ impl<T: Real, const N: usize, const M: usize> General<T, N, M> {
     }
 }
 
-/// Whether the equations are linear with constant coefficients, so that the start of a motion tells the whole of it: no products
-/// of series.
+/// True if the equations are linear with constant coefficients, so that there are no products of series: the start of a
+/// motion then determines all of it.
 pub(super) const fn is_linear<L: TaylorSeries<N, M>, const N: usize, const M: usize>() -> bool {
     size_of::<L::Sums>() == 0 && L::ARGUMENTS.is_empty()
 }

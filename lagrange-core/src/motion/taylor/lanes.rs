@@ -1,6 +1,7 @@
 //! Steps of Taylor's method on SIMD lanes.
 //!
-//! Expanded are all motions at once, each in its own unit of time. A step that is refused goes on alone until one is accepted.
+//! All motions are expanded at once, each in its own unit of time. After a rejected step, the scalar method takes over
+//! until a step is accepted.
 
 use core::array::from_fn;
 use core::convert::Infallible;
@@ -23,18 +24,18 @@ use crate::solution::vector_field::PhaseVector;
 use crate::statistics::Statistics;
 use crate::system::{Pack, Packed, RightHandSides, Solution, State, TaylorSeries};
 
-/// Motions side by side, and what a step of them takes.
+/// Motions in lock-step, with the working arrays of a step.
 #[derive(Debug)]
 pub struct TaylorLanes<S, U, const N: usize, const M: usize> {
     system: S,
     here: LaneState<N, M>,
-    /// About where the step tried last starts.
+    /// Series about the start of the last step tried.
     series: Expansion<U, Lanes, N>,
-    /// Where it leads.
+    /// End of the last step tried.
     next: LaneState<N, M>,
 }
 
-/// Where motions are, with what rounding has left of that, and what the equations give there.
+/// States of the motions, their compensation terms, and the solution of the equations there.
 #[derive(Clone, Copy, Debug)]
 struct LaneState<const N: usize, const M: usize> {
     y: PhaseVector<Lanes, N>,
@@ -42,10 +43,10 @@ struct LaneState<const N: usize, const M: usize> {
     solution: Solution<Lanes, N, M>,
 }
 
-/// The step to try in a lane.
+/// Step to try in a lane.
 #[derive(Clone, Copy, Default)]
 struct LaneStep {
-    /// How long it was to be before it was cut to the time that there is.
+    /// Length of the step before it is shortened to the time left.
     planned: f64,
     h: f64,
     end: f64,
@@ -132,7 +133,7 @@ where
         for (lane, allowed) in allowed.iter_mut().enumerate() {
             *allowed = last.lane(lane).allowed();
         }
-        // In a free lane time stands still.
+        // A free lane makes steps of length zero.
         let plan = from_fn(|lane| {
             motions[lane]
                 .as_ref()
@@ -144,7 +145,8 @@ where
             let motion = motions[lane].as_mut()?;
             let TaylorMemory { clock, solved, is_expanded, planned, sampling, .. } = &mut motion.memory;
             let (length, few) = (plan[lane].h.abs(), few::<L, N, M>());
-            // Where the last coefficients are zero, or a step is much longer than the one before, it takes a closer look.
+            // If the last coefficients are zero, or the step is much longer than the one before, the scalar method
+            // samples it.
             let can_go = !*is_expanded
                 && solved.solution.multipliers_are_unique()
                 && allowed[lane].is_finite()
@@ -179,7 +181,7 @@ impl Last<Lanes> {
 }
 
 impl Taylor {
-    /// The step in a lane whose last coefficients allow that length.
+    /// Step of a lane whose last coefficients allow the length `allowed`.
     fn plan<L, const N: usize, const M: usize>(
         &self,
         allowed: f64,
@@ -200,7 +202,7 @@ where
     S: TaylorSeries<N, M, Scalar = Lanes, Sums = U>,
     U: FixedArray<Lanes>,
 {
-    /// Expands the motions at these times in these units of time.
+    /// Expands the motions. `times` holds the time and the unit of time of each lane.
     fn expand(&mut self, times: [(f64, f64); Lanes::COUNT], reliability: &mut LaneReliability) {
         let Self { system, here: LaneState { y, solution, .. }, series, .. } = self;
         let (t, unit) = (times.map(|(t, _)| t).into(), times.map(|(_, unit)| unit).into());
@@ -213,7 +215,8 @@ where
         series.last().into_iter().for_each(|last| reliability.numbers(last));
     }
 
-    /// Goes along the series, onto the constraints; which lanes are then where the equations lead.
+    /// Sums the series over the step, and projects onto the constraints. Returns true for each lane whose result agrees
+    /// with the equations.
     fn advance(
         &mut self,
         method: &Taylor,
@@ -257,7 +260,7 @@ where
         })
     }
 
-    /// What the series and the equations give at the samples within a step.
+    /// Accelerations of the series, and the solution of the equations, at the samples within a step.
     fn samples(&self, h: Lanes) -> impl Iterator<Item = ([Lanes; N], Solution<Lanes, N, M>)> {
         let (parts, y, start) = (parts(few::<S, N, M>()), &self.here.y, self.series.start);
         parts.map(move |part| {
@@ -269,7 +272,7 @@ where
         })
     }
 
-    /// In which lanes steep functions ask for samples.
+    /// True for each lane in which steep functions need samples.
     fn is_steep(&self, h: Lanes) -> [bool; Lanes::COUNT] {
         self.series.steep::<S, M>(h).fold([false; Lanes::COUNT], |is_steep, (numbers, exponent)| {
             let [value, change] = numbers.map(Lanes::to_array);
@@ -279,7 +282,7 @@ where
         })
     }
 
-    /// In which lanes no root can come down to zero in a step of this length.
+    /// True for each lane in which no root can reach zero in a step of this length.
     fn keeps_roots(&self, h: Lanes) -> [bool; Lanes::COUNT] {
         let theta = h / self.series.unit;
         self.series.series_of_roots::<S, M>().fold([true; Lanes::COUNT], |keeps, root| {
@@ -290,7 +293,7 @@ where
 }
 
 impl<const N: usize, const M: usize> LaneState<N, M> {
-    /// `self` in the lanes that are chosen, `other` in the rest.
+    /// `self` in the chosen lanes, `other` in the rest.
     fn select(&self, chosen: Lanes, other: &Self) -> Self {
         let select = |x: Lanes, y: Lanes| x.select(chosen, y);
         let both = |x: &[[Lanes; N]; 2], y: &[[Lanes; N]; 2]| {

@@ -1,4 +1,4 @@
-//! What Taylor's method carries from step to step.
+//! State that Taylor's method carries from step to step.
 
 use super::crossing::SingularStep;
 use super::expansion::{Expansion, SolvedState};
@@ -6,27 +6,27 @@ use super::sampling::Sampling;
 use crate::motion::method::clock::Clock;
 use crate::system::State;
 
-/// What Taylor's method carries from step to step.
+/// State that Taylor's method carries from step to step.
 #[derive(Clone, Debug)]
 pub struct TaylorMemory<S, T, const N: usize, const M: usize> {
     pub(crate) clock: Clock<T>,
     pub(crate) state: State<T, N>,
     pub(crate) solved: SolvedState<T, N, M>,
-    /// What rounding has left of the state: coordinates and velocities.
+    /// Compensation terms of coordinates and velocities: the rounding errors of `state`.
     pub(super) rest: [[T; N]; 2],
-    /// About the state, or about where the last step started.
+    /// Expansion about `state`; before it is expanded, about the start of the last step.
     pub(crate) series: Expansion<S, T, N>,
     pub(super) is_expanded: bool,
-    /// The length of the next step; zero before the motion begins.
+    /// Length of the next step; zero before the motion begins.
     pub(crate) planned: T,
     pub(super) sampling: Sampling<T>,
-    /// Where the step is summed by fewer orders.
+    /// The step by fewer orders, if one is planned.
     pub(super) crossing: Option<SingularStep<T>>,
-    /// What was known where the step taken last starts.
+    /// Data of the start of the last accepted step, to undo the step.
     pub(super) before: Option<Before<T, N, M>>,
 }
 
-/// What is known of a state beside its series.
+/// Data of a state that its series does not contain.
 #[derive(Clone, Debug)]
 pub(super) struct Before<T, const N: usize, const M: usize> {
     pub(super) solved: SolvedState<T, N, M>,

@@ -1,4 +1,4 @@
-//! Taylor's method: the motion expanded in a power series about each state, to round-off.
+//! Taylor's method: expansion of the motion in a power series about each state, with errors down to round-off.
 
 pub(crate) mod control;
 mod crossing;

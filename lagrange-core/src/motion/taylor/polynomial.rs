@@ -1,4 +1,4 @@
-//! What lies within a step of Taylor's method: the series itself.
+//! Dense output of Taylor's method: the series itself.
 
 use crate::number::{ROOM, Real, vector};
 use crate::solution::interpolant::Interpolant;
@@ -14,14 +14,14 @@ pub struct TaylorPolynomial<T, const N: usize> {
 }
 
 impl<T: Real, const N: usize> TaylorPolynomial<T, N> {
-    /// Of the coefficients of powers of (t − start)/unit, of which there are at most [`ROOM`].
+    /// Creates the polynomial from its coefficients of powers of (t − start)/unit, at most [`ROOM`] of them.
     pub(super) fn new(start: T, unit: T, coefficients: impl ExactSizeIterator<Item = [T; N]>) -> Self {
         let mut polynomial = Self::empty(start, unit);
         polynomial.set(coefficients);
         polynomial
     }
 
-    /// Zero.
+    /// The zero polynomial.
     pub(super) fn empty(start: T, unit: T) -> Self {
         Self { start, unit, count: 0, coefficients: [[T::constant(0.0); N]; ROOM] }
     }

@@ -1,17 +1,19 @@
-//! Where the series of a root is not the root: √x² goes on as x where x changes its sign.
+//! Detection of steps in which the series of a root is not the root: that of √x² continues as x after x changes its
+//! sign.
 
 use super::expansion::Expansion;
 use crate::number::{FixedArray, Real, Scalar, exceeds};
 use crate::system::TaylorSeries;
 
-/// In so many parts is a step looked at, and so many times is the least value closed in on, by a third each.
+/// Number of parts in which the minimum of a root over a step is searched, and number of reductions of the interval
+/// around it, by a third each.
 const PARTS: usize = 8;
 const THIRDS: usize = 40;
 
-/// The series of what is watched, a root or the argument of a steep function, in powers of (t − t₀)/unit.
+/// Series of a root, or of the argument of a steep function, in powers of (t − t₀)/unit.
 pub(super) struct WatchedSeries<I, T> {
     value: T,
-    /// From order 1.
+    /// Coefficients from order 1 on.
     coefficients: I,
 }
 
@@ -20,8 +22,8 @@ impl<T: Scalar, I: Iterator<Item = T> + Clone> WatchedSeries<I, T> {
         Self { value, coefficients }
     }
 
-    /// Its value, and by how much it changes at most in a step of this length. Mostly that tells that a root does not vanish: the
-    /// point where it ends is seven steps away.
+    /// Value at the start, and a bound on the change over a step of this length. The bound usually shows that a root
+    /// does not vanish: its zero, a branch point, is about seven steps away.
     pub(super) fn value_and_change(&self, length: T) -> [T; 2] {
         let zero = T::constant(0.0);
         let sum = |(sum, power): (T, T), c: T| (sum + (c * power).abs(), power * length);
@@ -30,7 +32,7 @@ impl<T: Scalar, I: Iterator<Item = T> + Clone> WatchedSeries<I, T> {
 }
 
 impl<T: Real, I: Iterator<Item = T> + Clone> WatchedSeries<I, T> {
-    /// Where in a step of this length the series is least, if it comes below zero.
+    /// Position of the minimum of the series in a step of this length, if the minimum is below zero.
     fn vanishes(&self, length: T) -> Option<T> {
         let [value, change] = self.value_and_change(length);
         if change < value { None } else { self.least(length) }
@@ -62,7 +64,7 @@ impl<T: Real, I: Iterator<Item = T> + Clone> WatchedSeries<I, T> {
 }
 
 impl<S: FixedArray<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
-    /// The roots, in powers of the unit of time.
+    /// Series of the roots, in powers of (t − t₀)/unit.
     pub(super) fn series_of_roots<L, const M: usize>(
         &self,
     ) -> impl Iterator<Item = WatchedSeries<impl Iterator<Item = T> + Clone, T>>
@@ -79,7 +81,7 @@ impl<S: FixedArray<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
 }
 
 impl<S: FixedArray<T>, T: Real, const N: usize> Expansion<S, T, N> {
-    /// How far into a step of this length some root is below zero by its series, for each such root.
+    /// For each root whose series becomes negative in a step of this length, a position with a negative value.
     pub(super) fn roots_below_zero<L, const M: usize>(&self, length: T) -> impl Iterator<Item = T>
     where
         L: TaylorSeries<N, M, Scalar = T, Sums = S>,

@@ -1,35 +1,35 @@
-//! The times within a step at which a series is held against the equations.
+//! Sampling of the equations within a step, to check the series.
 //!
-//! A force that vanishes to round-off at the start of a step is not in the series of its motion, however strong it is farther on:
-//! a Gaussian pulse, a step of the potential by tanh. Samples of the equations find it. They lie at most [twice](WIDER) as
-//! far apart as those of the step before, or there are [`MOST`] of them; where the terms of the series fade as those of a
-//! step of its length do, the series knows its surroundings, and few samples will do.
+//! A force that vanishes to round-off at the start of a step is not in the series of the motion, however strong it is
+//! later: a Gaussian pulse, or a step of the potential by tanh. Samples of the equations detect it. Their distance is
+//! at most [twice](WIDER) that of the step before, unless there are [`MOST`] of them. Few samples suffice if the terms
+//! of the series decay as they usually do in a step of its length: then the series knows its surroundings.
 
 use super::expansion::{Expansion, is_linear};
 use super::roots::WatchedSeries;
 use crate::number::{FixedArray, Real, Scalar, smaller};
 use crate::system::TaylorSeries;
 
-/// Largest number of samples within a step. Each costs an evaluation of the equations, a thirtieth of a step or so.
+/// Largest number of samples within a step. Each costs an evaluation of the equations, about a thirtieth of a step.
 const MOST: usize = 128;
 /// Growth of the distance between samples from step to step.
 const WIDER: f64 = 2.0;
 /// Largest ratio of successive step lengths, dimensionless.
 const GROWTH: f64 = 10.0;
-/// Position of the first sample, in units of the distance between samples. No simple fraction, so that samples do not all fall on the
-/// zeros of a periodic force.
+/// Position of the first sample, in units of the distance between samples. It is no simple fraction, so that not all
+/// samples coincide with zeros of a periodic force.
 const SHIFT: f64 = 0.927;
-/// Samples within every step with functions that the user supplies: they may have kinks.
+/// Number of samples within every step with user-supplied functions, which may have kinks.
 const AT_KINKS: usize = 3;
-/// Change of the argument of a steep function, or of the logarithm of a power, beyond which its series may miss the function: over 8
-/// an exponential grows three thousand times. One sample is taken for each such change.
+/// Change of the argument of a steep function, or of the logarithm of a power, beyond which its series may miss the
+/// function: over 8, an exponential grows by a factor of three thousand. Each such change takes one sample.
 const STEEP: f64 = 8.0;
-/// Distance of an argument from zero beyond which a steep function is too small to matter, as e⁻¹⁰⁰ = 10⁻⁴⁴, or constant, as tanh.
+/// Magnitude of an argument beyond which a steep function is negligible, as e⁻¹⁰⁰ = 10⁻⁴⁴, or constant, as tanh.
 const FAR: f64 = 100.0;
 /// Number of middle orders whose terms tell whether a series knows its surroundings.
 const MIDDLE: usize = 5;
 
-/// How far the last step went, and how far its samples lay apart.
+/// Length of the last step, and distance between its samples.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sampling<T> {
     /// Length of the last step, zero before the first.
@@ -38,17 +38,17 @@ pub(super) struct Sampling<T> {
 }
 
 impl<T: Real> Sampling<T> {
-    /// Before a first step that is at most so long.
+    /// Value before a first step that is at most this long.
     pub(super) fn of_first(longest: T) -> Self {
         Self { step: T::constant(0.0), distance: longest / T::constant(WIDER * MOST as f64) }
     }
 
-    /// After a step of this length, with so many samples within.
+    /// Value after a step of this length with `count` samples within.
     pub(super) fn after(length: T, count: usize) -> Self {
         Self { step: length, distance: length / T::constant((count + 1) as f64) }
     }
 
-    /// Longest next step, where the first was to be at most `first`.
+    /// Largest length of the next step; `first` if it is the first.
     pub(super) fn longest<L, const N: usize, const M: usize>(&self, first: T) -> T
     where
         L: TaylorSeries<N, M>,
@@ -60,7 +60,7 @@ impl<T: Real> Sampling<T> {
         }
     }
 
-    /// Number of samples in a step of this length whose series may not know its surroundings.
+    /// Number of samples in a step of this length, if its series may not know its surroundings.
     pub(super) fn count<L, const N: usize, const M: usize>(&self, length: T) -> usize
     where
         L: TaylorSeries<N, M>,
@@ -75,7 +75,8 @@ impl<T: Real> Sampling<T> {
 }
 
 impl<S: FixedArray<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
-    /// Values of the arguments of steep functions, by how much they change at most in a step of this length, and their exponents.
+    /// Arguments of steep functions: each with its value, a bound on its change in a step of this length, and its
+    /// exponent.
     pub(super) fn steep<L, const M: usize>(&self, length: T) -> impl Iterator<Item = ([T; 2], usize)>
     where
         L: TaylorSeries<N, M, Scalar = T, Sums = S>,
@@ -89,21 +90,21 @@ impl<S: FixedArray<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
     }
 }
 
-/// Number of samples that a function asks for whose argument has this value, and changes by so much in a step: e^x and tanh x,
-/// or x^exponent.
+/// Number of samples needed for a steep function whose argument has this value and changes by up to `change` in a step:
+/// e^x and tanh x (exponent 0), or x^exponent.
 pub(super) fn samples_of_steep([value, change]: [f64; 2], exponent: usize) -> usize {
     let (value, change) = (value.abs(), change.abs());
     let is_far = exponent == 0 && value - change > FAR;
     let logarithm = if exponent == 0 { change } else { exponent as f64 * change / value };
     match logarithm <= STEEP || is_far {
         true => 0,
-        // Not a number where base and change are zero.
+        // The quotient is NaN if value and change are zero.
         false => smaller(logarithm / STEEP, MOST as f64) as usize,
     }
 }
 
 impl<S: FixedArray<T>, T: Real, const N: usize> Expansion<S, T, N> {
-    /// Whether terms of middle orders matter in a step of this length, as they do in one that the last terms limit.
+    /// True if terms of middle orders are significant in a step of this length, as in one that the last terms limit.
     #[cold]
     pub(super) fn knows_surroundings(&self, length: T, [tolerance, slack]: [f64; 2]) -> bool {
         let (scales, theta) = (self.scales(T::constant(slack)), Scalar::abs(length / self.unit));
@@ -119,12 +120,13 @@ impl<S: FixedArray<T>, T: Real, const N: usize> Expansion<S, T, N> {
     }
 }
 
-/// Number of samples within a step whose series knows its surroundings: its ends will do.
+/// Number of samples within a step whose series knows its surroundings. The check at the end suffices without
+/// user-supplied functions.
 pub(super) const fn few<L: TaylorSeries<N, M>, const N: usize, const M: usize>() -> usize {
     if L::ARGUMENTS.is_empty() { 0 } else { AT_KINKS }
 }
 
-/// Where the samples of a step lie, as parts of it.
+/// Positions of the samples of a step, as fractions of it.
 pub(super) fn parts(count: usize) -> impl Iterator<Item = f64> {
     (0..count).map(move |k| (k as f64 + SHIFT) / (count + 1) as f64)
 }

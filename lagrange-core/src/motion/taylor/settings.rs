@@ -1,47 +1,61 @@
-//! The settings of Taylor's method.
+//! Settings of Taylor's method.
 
 use crate::motion::method::Limits;
 
-/// Taylor's method: each step is a power series of the motion about its start, whose coefficients come from recurrences
-/// that the derive has found (Jorba and Zou, *Experimental Mathematics* 14 (2005) 99–117).
+/// Taylor's method. Each step is a power series of the motion about its start; the derive emits the recurrences of its
+/// coefficients (Jorba and Zou, *Experimental Mathematics* 14 (2005) 99–117).
 ///
-/// For smooth motions with errors below about 10⁻⁹, down to round-off, which is the default. The coefficients of accelerations
-/// and multipliers of all orders are solved for with the one matrix that the equations have at the start of the step, so that
-/// constraints cost nothing extra, and a chain as much as its length. Constraints of second degree take the fewest sums: state a rod by
-/// the square of its length.
+/// It is for smooth motions with errors below about 10⁻⁹, down to round-off, which is the default. The accelerations
+/// and multipliers of all orders are solved for with one factorization, of the matrix at the start of the step. So
+/// constraints cost nothing extra, and the cost of a chain is proportional to its length. Constraints of second degree
+/// need the fewest sums: state a rod by the square of its length.
 ///
-/// The order follows from the tolerance, 18 for 10⁻⁹ and 29 for round-off; the length of a step from the last five
-/// coefficients, zeros passed over: from a symmetric start every fourth alone may be there. It is at most ten times that of the step
-/// before; the first step moves the state by its size at most. A step is refused where the accelerations of the series at its end are
-/// not those of the equations, to the tolerance. Rounding errors of the
-/// states are carried along (compensated sums); each state is projected onto the constraints, its velocities along the
-/// Hamiltonian vector fields of the constraints, so that what rounding does to the distance of a body leaves its angular momentum
-/// and energy. On constraints, without magnetic fields and damping, energy changes as a random walk, of 9·10⁻¹⁶ of the kinetic energy in a step of 2½ rad, and
-/// drifts by some 10⁻¹⁸ a step. Between its ends a step is the series itself.
+/// The order follows from the tolerance: 18 for 10⁻⁹, 29 for round-off. The step length follows from the last five
+/// coefficients, zeros excepted, because only every fourth may be nonzero after a symmetric start. It is at most ten
+/// times that of the step before; the first step changes the state by at most its size. A step is rejected if the
+/// accelerations of the series at its end differ from those of the equations by more than the tolerance.
 ///
-/// A force may vanish to round-off where a step begins and be strong within: a wall by `tanh`, a pulse in time by `exp`, a high power
-/// of a sine. The series does not know such a force. So the equations are also sampled within a step, at up to 128 times, wherever the
-/// argument of `exp`, `tanh`, `sinh` or `cosh` or the base of a power of 16 or more, or one that a field says, goes far, and wherever a step gets more than
-/// twice as long while its series has few terms. Guaranteed is that a force wider than the distance between two samples is seen, and a
-/// Gaussian pulse whose standard deviation is a tenth of that distance. All other steps are compared with the equations at
-/// their ends, where a pulse of an eighth of a step shows. Narrower forces can be missed, as by every method that evaluates at
-/// points, and so can those inside of a [`Function`](crate::Function), of which only its values are known:
-/// [`max_step`](Self::max_step) says how wide the narrowest is.
+/// Rounding errors of the states are carried along (compensated summation). Each state is projected onto the
+/// constraints. Its velocities move along the Hamiltonian vector fields of the constraints, so a rounding error in the
+/// distance of a body does not change its angular momentum and energy. With constraints, and without magnetic fields
+/// and damping, the energy makes a random walk of 9·10⁻¹⁶ of the kinetic energy in a step of 2½ rad, and drifts by some
+/// 10⁻¹⁸ a step. The dense output is the series itself.
 ///
-/// Where constraints become dependent at one pose alone, a step leads across it by a series that is cut off before the orders that
-/// consist of rounding errors, to about 10⁻¹² as a rule; where none does, the motion ends before the pose.
+/// # Forces that the series misses
 ///
-/// A root that comes down to zero has a kink there, as √x² has, which its series does not know. Steps shrink towards it, about
-/// thirty on each side, until a step across it changes nothing. Where a force jumps there, no step is short enough, and the motion
-/// ends at that time. A power whose exponent is a parameter cannot be expanded where its base is zero.
+/// A force may vanish to round-off at the start of a step and be strong within: a wall by `tanh`, a pulse in time by
+/// `exp`, a high power of a sine. The series does not contain such a force. So the equations are also sampled within a
+/// step, at up to 128 times, in two cases. The first is a large change of the argument of `exp`, `tanh`, `sinh` or
+/// `cosh`, of the base of a power of 16 or more, or of an argument that a field declares. The second is a step more
+/// than twice as long as the one before whose series has few terms. The samples are guaranteed to detect a force wider
+/// than the distance between two of them, and a Gaussian pulse with a standard deviation of a tenth of that distance.
+/// All other steps are compared with the equations at their ends, where a pulse of an eighth of a step shows. Narrower
+/// forces can be missed, as by every method that evaluates at points. So can those inside a
+/// [`Function`](crate::Function), of which only its values are known. [`max_step`](Self::max_step) tells the method how
+/// narrow forces are.
 ///
-/// A system with `abs`, `min`, `max` or `clamp` in its equations has no [`TaylorSeries`](crate::TaylorSeries), nor one with a function that is not known over
-/// every scalar or whose third derivatives the equations take, and the compiler says so. A [`Function`](crate::Function) is evaluated on a [`PowerSeries`](crate::PowerSeries) at every order; of
-/// kinks inside of it each step is aware at its end and three times within, to 10⁻¹⁰ of the velocities or 10⁴ tolerances, whichever is
-/// more. Parameters may change between steps. Nothing is allocated in a step.
-/// In an ensemble four members, or eight with AVX-512, are expanded at once on SIMD lanes, each with its own step: `Ensemble::integrate_on_lanes`.
-/// Derivatives of a motion come from the recurrences over dual numbers, to ten times the tolerance:
-/// [`integrate_sensitivities`](crate::Linearized::integrate_sensitivities).
+/// # Singular poses and kinks
+///
+/// If constraints become dependent at an isolated pose, a step crosses it by a series that is cut off before the orders
+/// that consist of rounding errors, usually with an error of about 10⁻¹². If no step can, the motion ends before the
+/// pose.
+///
+/// A root that reaches zero has a kink there, as √x² has, which its series does not contain. Steps shrink towards it,
+/// about thirty on each side, until a step across it makes no difference. If a force jumps there, no step is short
+/// enough, and the motion ends at that time. A power whose exponent is a parameter cannot be expanded where its base is
+/// zero.
+///
+/// # Systems
+///
+/// A system with `abs`, `min`, `max` or `clamp` in its equations has no [`TaylorSeries`](crate::TaylorSeries), which is
+/// a compiler error. The same holds with a function that is not defined over every scalar, or whose third derivatives
+/// the equations take. A [`Function`](crate::Function) is evaluated on a [`PowerSeries`](crate::PowerSeries) at every
+/// order. Kinks inside it are detected at the end of each step and at three times within, to 10⁻¹⁰ of the velocities or
+/// 10⁴ tolerances, whichever is more. Parameters may change between steps. A step allocates no memory.
+///
+/// In an ensemble, four members, or eight with AVX-512, are expanded at once on SIMD lanes, each with its own step:
+/// `Ensemble::integrate_on_lanes`. Derivatives of a motion come from the recurrences over dual numbers, to ten times
+/// the tolerance: [`integrate_sensitivities`](crate::Linearized::integrate_sensitivities).
 ///
 /// ```
 /// use lagrange_core::prelude::*;
@@ -67,7 +81,7 @@ pub struct Taylor {
     pub(super) limits: Limits,
 }
 
-/// Tolerances at round-off, at most 100 000 steps, no limit on wall time.
+/// Tolerances at round-off, at most 100 000 steps, no limit on wall-clock time.
 impl Default for Taylor {
     fn default() -> Self {
         Self::with_tolerance(f64::EPSILON)
@@ -75,22 +89,23 @@ impl Default for Taylor {
 }
 
 impl Taylor {
-    /// This relative and absolute tolerance.
+    /// Sets relative and absolute tolerance to the same number.
     pub fn with_tolerance(tolerance: f64) -> Self {
         Self { relative: tolerance, absolute: tolerance, max_step: None, limits: Limits::default() }
     }
 
-    /// The error allowed as a fraction of each entry. Below the round-off unit of the scalar it counts as that.
+    /// Sets the relative tolerance: the error allowed as a fraction of each entry of the state. A tolerance below ε of
+    /// the scalar counts as ε.
     pub fn relative_tolerance(self, tolerance: f64) -> Self {
         Self { relative: tolerance, ..self }
     }
 
-    /// The error allowed in the unit of each entry, which matters where the entry is about zero.
+    /// Sets the absolute tolerance: the error allowed in the unit of each entry. It matters for entries near zero.
     pub fn absolute_tolerance(self, tolerance: f64) -> Self {
         Self { absolute: tolerance, ..self }
     }
 
-    /// The longest step allowed.
+    /// Sets the longest step allowed, in units of time.
     pub fn max_step(self, step: f64) -> Self {
         Self { max_step: Some(step), ..self }
     }
@@ -101,7 +116,7 @@ impl Taylor {
         self
     }
 
-    /// How long the integration may take by the clock on the wall.
+    /// Sets the limit on the wall-clock time of the integration.
     #[cfg(feature = "std")]
     pub fn wall_time(mut self, limit: std::time::Duration) -> Self {
         self.limits.wall_time = Some(limit);

@@ -1,4 +1,4 @@
-//! One step: where the series about its start leads, and what becomes of it.
+//! One step of Taylor's method: sum of the series, and checks of the result.
 
 use core::array::from_fn;
 
@@ -19,7 +19,7 @@ use crate::statistics::Statistics;
 use crate::system::{State, TaylorSeries};
 
 impl<S: FixedArray<T>, T: Real, const N: usize, const M: usize> TaylorMemory<S, T, N, M> {
-    /// Where a step of this length leads.
+    /// End of a step of this length, before its projection.
     #[inline]
     fn sum(&self, h: T) -> Sum<T, N> {
         let Self { state, rest, series, .. } = self;
@@ -46,15 +46,15 @@ impl<S: FixedArray<T>, T: Real, const N: usize, const M: usize> TaylorMemory<S, 
     }
 }
 
-/// What became of a step.
+/// Result of an attempted step.
 pub(super) enum Attempt<T, const N: usize> {
     Reached(State<T, N>),
-    /// The velocity of this coordinate is off the most.
+    /// Rejected; index of the coordinate whose acceleration or state is most inaccurate.
     Inaccurate(usize),
 }
 
 impl Taylor {
-    /// Plans another step after one of this length was refused, if a time is that near.
+    /// Plans another step after one of length `h` was rejected. Returns false if it would not advance the time.
     pub(super) fn can_be_shorter<S: FixedArray<T>, T: Real, const N: usize, const M: usize>(
         &self,
         memory: &mut TaylorMemory<S, T, N, M>,
@@ -65,7 +65,7 @@ impl Taylor {
         memory.clock.advances_by(memory.planned)
     }
 
-    /// Turns to the end of the motion; before the first step, plans the longest that it may be.
+    /// Sets the end; before the first step, also plans the longest allowed first step.
     pub(crate) fn aim<S, T: Real, const N: usize, const M: usize>(
         &self,
         memory: &mut TaylorMemory<S, T, N, M>,
@@ -78,7 +78,7 @@ impl Taylor {
         }
     }
 
-    /// Expands the motion about the state, and chooses the length of the step, unless that is done.
+    /// Expands the motion about the state, and chooses the step length, unless this has been done.
     pub(crate) fn expand<L: TaylorSeries<N, M, Scalar: Real>, const N: usize, const M: usize>(
         &self,
         system: &L,
@@ -89,7 +89,7 @@ impl Taylor {
             return Ok(());
         }
         let TaylorMemory { clock, state, solved, series, planned, sampling, .. } = memory;
-        // As long as the step: one that stays the same would round alike in every step, by which energy drifts.
+        // The unit is the step length: a constant unit would round alike in every step, and the energy would drift.
         let unit = clock.directed(*planned);
         let slack = L::Scalar::constant(self.slack::<L::Scalar>());
         let last = series.about(system, state, solved, [unit, slack])?;
@@ -110,7 +110,7 @@ impl Taylor {
         Ok(())
     }
 
-    /// One step of this length, to this time.
+    /// Attempts a step of length `h`, to the time `time`.
     pub(super) fn attempt<L: TaylorSeries<N, M, Scalar: Real>, const N: usize, const M: usize>(
         &self,
         system: &L,
@@ -158,7 +158,8 @@ impl Taylor {
         Ok(Attempt::Reached(next))
     }
 
-    /// Number of samples within a step of this length. Across a pose where constraints are dependent the step's ends tell.
+    /// Number of samples within a step of this length. A step across a pose where constraints become dependent is
+    /// checked at its ends.
     fn samples<L: TaylorSeries<N, M, Scalar: Real>, const N: usize, const M: usize>(
         &self,
         memory: &TaylorMemory<L::Sums, L::Scalar, N, M>,
@@ -178,16 +179,17 @@ impl Taylor {
     }
 }
 
-/// Where a step leads before it is projected.
+/// End of a step before its projection.
 struct Sum<T, const N: usize> {
     phase: [[T; N]; 2],
-    /// What rounding has left of it.
+    /// Compensation terms of `phase`: its rounding errors.
     rest: [[T; N]; 2],
-    /// Those of the series there.
+    /// Accelerations of the series there.
     accelerations: [T; N],
 }
 
-/// The sum, and what rounding has left of it. What has been left before is added last: the change may be as large as the sum, and would round it off.
+/// Compensated sum: x + change, and its rounding error. The old rounding error `rest` is added last: the change may be
+/// as large as the sum, and would absorb it.
 #[inline(always)]
 pub(super) fn compensated<T: Scalar, const N: usize>(
     x: &[T; N],

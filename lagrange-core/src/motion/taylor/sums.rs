@@ -1,7 +1,8 @@
-//! The sums of Taylor's recurrences: of products of coefficients, the orders of which add up to one order.
+//! Sums of Taylor's recurrences: convolutions of Taylor coefficients.
 //!
-//! They take as long as their factors are read from memory. So two orders are summed at once, the later one as far as it is
-//! known: its left factors are those of the earlier one, its right factors those of the term before.
+//! Reading the factors from memory takes most of the time. So two orders are summed in one pass, the later one as far
+//! as its factors are known. Its left factors are those of the earlier order, its right factors those of the previous
+//! term.
 
 mod alone;
 mod group;
@@ -14,21 +15,21 @@ use crate::number::{FixedArray, Scalar};
 pub(super) use alone::Ends;
 use group::{Group, WIDTH, plus, products};
 
-/// The factors of all sums so far, order by order.
+/// Factors of all sums so far, order by order.
 #[derive(Clone, Debug)]
 pub(super) struct SeriesFactors<T, S> {
-    /// How many orders there is room for; the first is 1.
+    /// Number of orders that fit; the first is 1.
     orders: usize,
     left: Vec<Group<T>>,
-    /// From the highest order down, so that a sum runs through both in the same direction.
+    /// Right factors from the highest order down, so that a sum reads both arrays in the same direction.
     right: Vec<Group<T>>,
-    /// The sums of the next order, without the terms in which the newest are that are still to come.
+    /// Sums of the next order, without the terms with the newest factors, which are not known yet.
     ahead: Vec<Group<T>>,
     sums: PhantomData<S>,
 }
 
 impl<T: Scalar, S: FixedArray<T>> SeriesFactors<T, S> {
-    /// Room for so many orders.
+    /// Allocates memory for this number of orders.
     pub(super) fn new(orders: usize) -> Self {
         let sums = S::filled(T::constant(0.0)).as_ref().len();
         let groups = sums / WIDTH;
@@ -37,7 +38,7 @@ impl<T: Scalar, S: FixedArray<T>> SeriesFactors<T, S> {
         Self { orders, left, right, ahead, sums: PhantomData }
     }
 
-    /// The terms of an order.
+    /// Stores the factors of an order.
     #[inline(always)]
     pub(super) fn put(&mut self, order: usize, newest: &[S; 2], ends: &mut Ends<S>) {
         if const { alone::is::<T, S>() } {
@@ -46,26 +47,26 @@ impl<T: Scalar, S: FixedArray<T>> SeriesFactors<T, S> {
         let [left, right] = newest;
         let places = [(&mut self.left, left, order - 1), (&mut self.right, right, self.orders - order)];
         for (all, newest, place) in places {
-            // In steps, not in chunks: how many of these there are takes a division.
+            // Strided, not in chunks: counting chunks would take a division.
             for (group, newest) in newest.as_ref().as_chunks().0.iter().enumerate() {
                 all[group * self.orders + place] = Group(*newest);
             }
         }
     }
 
-    /// The coefficients of the right factor of a sum, from order 1, of which there are so many.
+    /// Coefficients of the right factor of sum `place`, for the orders 1 to `count`.
     pub(super) fn right_factor(&self, place: usize, count: usize) -> impl Iterator<Item = T> + Clone {
         (1..=count)
             .map(move |order| self.right[place / WIDTH * self.orders + self.orders - order].0[place % WIDTH])
     }
 
-    /// The coefficients of the left factor of a sum, from order 1, of which there are so many.
+    /// Coefficients of the left factor of sum `place`, for the orders 1 to `count`.
     pub(super) fn left_factor(&self, place: usize, count: usize) -> impl Iterator<Item = T> + Clone {
         (1..=count).map(move |order| self.left[place / WIDTH * self.orders + order - 1].0[place % WIDTH])
     }
 
-    /// The sums of an order, of the factors of all orders before it. Those of later orders are not read: they may hold NaN.
-    /// Orders come one after the other.
+    /// Computes the sums of an order from the factors of all orders before it. Factors of later orders are not read:
+    /// they may be NaN. Orders must follow each other.
     #[inline(always)]
     pub(super) fn add_up(&mut self, order: usize, ends: &Ends<S>, sums: &mut S) {
         if const { alone::is::<T, S>() } {
@@ -77,7 +78,8 @@ impl<T: Scalar, S: FixedArray<T>> SeriesFactors<T, S> {
             let (left, right) = (group * self.orders, (group + 1) * self.orders - terms);
             let (left, right) = (&self.left[left..left + terms], &self.right[right..right + terms]);
             if order.is_multiple_of(2) {
-                // A group of numbers is one vector, one of lanes four of them: registers suffice for one set of partial sums.
+                // A group of plain numbers is one SIMD vector, a group of lanes four: then registers suffice for one
+                // set of sums.
                 let [now, next] = match const { size_of::<T>() > size_of::<f64>() } {
                     true => products::<T, 1>(left, right),
                     false => products::<T, 2>(left, right),

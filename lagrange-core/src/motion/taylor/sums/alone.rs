@@ -1,22 +1,24 @@
-//! One group of sums of plain numbers alone, as the smallest systems have it.
+//! Sums of the smallest systems, which fit into one group of plain numbers.
 //!
-//! There an order takes as long as its results wait for one another. So code is made for each number of terms, without
-//! loops, and the terms at both ends are added last, from where they were computed: what reads four numbers at once from
-//! where they were written one by one waits until they are in the cache. The others were written an order before.
-//! With more groups, these keep the processor busy without that.
+//! Their time is latency: each result waits for the one before. So the code is unrolled for each number of terms. The
+//! terms at both ends, which contain the newest factors, are added last, from the variables in which they were
+//! computed. Numbers just stored one by one cannot be loaded as a vector before they reach the cache; the other factors
+//! were stored an order earlier. With more groups, the processor works on other groups meanwhile, and none of this is
+//! needed.
 
 use super::group::{Group, WIDTH, plus};
 use crate::number::{FixedArray, ROOM, Scalar};
 
-/// Whether sums of this type are one group of plain numbers.
+/// True if sums of this type are one group of plain numbers.
 pub(super) const fn is<T, S>() -> bool {
     size_of::<T>() <= size_of::<f64>() && size_of::<S>() == WIDTH * size_of::<T>()
 }
 
-/// The terms at both ends of the sums.
+/// Factors of the terms at both ends of the sums.
 pub(crate) struct Ends<S> {
     newest: [S; 2],
-    /// Those of order 1; that of the left factor where it is not the newest as well, which is from order 3 on.
+    /// Left and right factors of order 1. The left one is zero until it differs from the newest, from the sums of order
+    /// 3 on.
     first: [S; 2],
 }
 
@@ -29,7 +31,7 @@ impl<S: Copy> Ends<S> {
         Self { newest: none, first: none }
     }
 
-    /// Takes note of the terms of an order.
+    /// Stores the factors of an order.
     #[inline(always)]
     pub(super) fn put(&mut self, order: usize, newest: &[S; 2]) {
         match order {
@@ -40,7 +42,7 @@ impl<S: Copy> Ends<S> {
         self.newest = *newest;
     }
 
-    /// The sums of an order, given those without the ends.
+    /// Computes the sums of an order from their inner terms.
     #[inline(always)]
     pub(super) fn add_to<T: Scalar>(&self, between: [T; WIDTH], sums: &mut S)
     where
@@ -54,7 +56,7 @@ impl<S: Copy> Ends<S> {
     }
 }
 
-/// The sums of an order, of all factors so far, without their ends.
+/// Inner terms of the sums of an order; [`Ends::add_to`] adds the terms at both ends.
 #[inline(always)]
 pub(super) fn between<T: Scalar>(order: usize, left: &[Group<T>], right: &[Group<T>]) -> [T; WIDTH] {
     let none = [T::constant(0.0); WIDTH];
@@ -75,7 +77,7 @@ pub(super) fn between<T: Scalar>(order: usize, left: &[Group<T>], right: &[Group
     by_terms!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25)
 }
 
-/// Σ x_j y_j for each sum, in two parts side by side: of one, each product waits for the one before.
+/// Σ x_j y_j for each sum, in two partial sums: in a single one, each product waits for the one before.
 #[inline(always)]
 fn products<T: Scalar, const TERMS: usize>(
     left: &[Group<T>; TERMS],

@@ -1,19 +1,20 @@
-//! Sums of products side by side.
+//! Groups of sums of products, computed in parallel.
 
 use core::array::from_fn;
 
 use crate::number::Scalar;
 
-/// So many sums are computed side by side, of a multiple of which the derive tells.
+/// Number of sums in a group. The derive pads the number of sums to a multiple of it.
 pub(super) const WIDTH: usize = 4;
 
-/// Aligned for the SIMD loads that read it: otherwise every other load would touch two cache lines.
+/// Left or right factors of a group of sums. Aligned for SIMD loads: otherwise every other load would touch two cache
+/// lines.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
 pub(super) struct Group<T>(pub(super) [T; WIDTH]);
 
-/// Σ x_j y_j and Σ x_j+1 y_j in so many parts side by side: of one, each product waits for the one before. The newest come last,
-/// at both ends: meanwhile the others can be computed.
+/// Σ x_j y_j and Σ x_j+1 y_j, each in `PARTS` partial sums: in a single one, each product waits for the one before. The
+/// newest factors, at both ends, come last: the other terms do not wait for them.
 #[inline(always)]
 pub(super) fn products<T: Scalar, const PARTS: usize>(x: &[Group<T>], y: &[Group<T>]) -> [[T; WIDTH]; 2] {
     let none = [T::constant(0.0); WIDTH];
@@ -50,7 +51,7 @@ pub(super) fn plus<T: Scalar>(sum: &[T; WIDTH], x: &Group<T>, y: &Group<T>) -> [
     from_fn(|lane| x.0[lane].multiply_add(y.0[lane], sum[lane]))
 }
 
-/// Neighbours first.
+/// Sums the parts pairwise, neighbours first.
 #[inline(always)]
 fn sum<T: Scalar, const PARTS: usize>(mut parts: [[T; WIDTH]; PARTS]) -> [T; WIDTH] {
     let mut count = PARTS;
