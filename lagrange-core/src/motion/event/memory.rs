@@ -26,7 +26,7 @@ pub struct EventState<T> {
     pub(super) count: usize,
     /// Value of the function whose sign is its current side. Zero if the motion started at a zero, and has not left it.
     pub(super) value: T,
-    /// The same at the end of the interval, where the search continues unless an event crosses before.
+    /// The same value at the end of the interval, where the search continues unless an event crosses before.
     pub(super) next: T,
     /// Samples of the function on the interval, from its start.
     pub(super) samples: Samples<T>,

@@ -3,7 +3,7 @@
 use super::adaptive::Adaptive;
 use super::pair::{Pair, TableauRow};
 
-/// The coefficients of the method 8(5,3) of Dormand and Prince, with the continuous extension of order 7
+/// The coefficients of the method 8(5,3) of Dormand and Prince, with the dense output of order 7
 /// (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.5, II.6 and the code DOP853).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DormandPrince853;

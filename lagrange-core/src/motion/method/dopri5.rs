@@ -3,7 +3,7 @@
 use super::adaptive::Adaptive;
 use super::pair::{Pair, TableauRow};
 
-/// The coefficients of the pair 5(4) of Dormand and Prince (1980), with the continuous extension of order 4
+/// The coefficients of the pair 5(4) of Dormand and Prince (1980), with the dense output of order 4
 /// (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, table II.5.2 and II.6).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DormandPrince54;

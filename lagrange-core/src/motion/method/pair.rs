@@ -6,7 +6,7 @@ use crate::solution::vector_field::PhaseVector;
 /// A row of the Butcher tableau: pairs (index of a slope, its coefficient).
 pub type TableauRow = &'static [(usize, f64)];
 
-/// The coefficients of an explicit embedded pair with a continuous extension.
+/// The coefficients of an explicit embedded pair with dense output.
 ///
 /// Slopes have indices: 0 for the start, then the stages, then the slope at the end of the step, then the stages of the
 /// interpolant. There is room for 16. A row of coefficients may only use slopes before its own. The coefficients of a
