@@ -7,10 +7,11 @@
 //!   limits its error to some 10⁻¹³.
 //! - [`Taylor`], the Taylor series of the motion, is for errors from 10⁻⁹ down to round-off. A step takes one
 //!   factorization and, for each order, one to two evaluations; the order is 13 for an error of 10⁻⁶ and 29 for
-//!   round-off. Its time grows less with the required digits than the time of the other methods, and it conserves first
-//!   integrals. It also integrates ensembles on SIMD lanes. It does not apply to (q, p), nor to equations with `abs`,
-//!   `min`, `max`, `clamp`, [`WithDerivatives`](crate::function::WithDerivatives), [`Table`](crate::function::Table),
-//!   [`SmoothTable`](crate::function::SmoothTable) or third derivatives of a [`Function`](crate::Function).
+//!   round-off. Its time grows less with the required digits than the time of the other methods, and conserved
+//!   quantities stay constant. It also integrates ensembles on SIMD lanes. It does not apply to (q, p), nor to
+//!   equations with `abs`, `min`, `max`, `clamp`, [`WithDerivatives`](crate::function::WithDerivatives),
+//!   [`Table`](crate::function::Table), [`SmoothTable`](crate::function::SmoothTable) or third derivatives of a
+//!   [`Function`](crate::Function).
 //! - [`Dopri5`], an embedded pair of order 5, is for errors of 10⁻³ and for forces that are not smooth. A step takes 6
 //!   evaluations. It needs many steps for errors below 10⁻⁷.
 //! - [`RungeKutta4`], of order 4, takes the same time for every step: control in real time. A step takes 4 evaluations.
