@@ -1,30 +1,33 @@
-//! Fingerprints that tell the rows of one run from those of another.
+//! Fingerprints that distinguish the table rows of different runs.
 
 use core::fmt::{self, Write};
 
 use crate::number::Real;
 use crate::system::{Lagrangian, State};
 
-/// Whose row it is: three hashes, each the 32-bit FNV-1a of Fowler, Noll and Vo, the same on every machine.
+/// Identifies the run and the member of a table row by three hashes: 32-bit FNV-1a (Fowler, Noll and Vo), the same on
+/// every machine.
 ///
-/// Rows whose hashes differ are of different runs. Another run passes for this one by chance once in 4·10⁹ times. Code and
-/// what it holds cannot be seen: events, a controller, an observer, functions supplied to the system, equations written by hand.
-/// A run with one of them is told from another by its [tag](super::Ensemble::tag) alone, and none is resumed without. Limits
-/// on steps and time do not count: they may be raised for the members that met them.
+/// Rows with different hashes come from different runs. Two different runs have equal hashes by chance once in 4·10⁹
+/// times. The hashes cannot see code and the values that it captures: events, a controller, an observer, functions
+/// supplied to the system, equations written by hand. Only its [tag](super::Ensemble::tag) distinguishes a run with
+/// such code from another, and such a run is not resumed without a tag. Limits on steps and wall-clock time are left
+/// out: they may be raised for the members that reached them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Fingerprint {
-    /// Of the system: its declaration ([`Lagrangian::DIGEST`]), its name, coordinates and constraints, and its number type.
+    /// Hash of the system: its declaration ([`Lagrangian::DIGEST`]), name, coordinates, constraints and number type.
     pub system: u32,
-    /// Of the method and its settings, whether it was on lanes, the end, the times and quantities of samples, the events by name,
-    /// direction, subdivisions and terminal count, the interval of the controller, and the [tag](super::Ensemble::tag).
+    /// Hash of the run: the method and its settings, whether members ran on SIMD lanes, the end time, the times and
+    /// quantities of samples, the events (name, direction, subdivisions, terminal count), the interval of the
+    /// controller, and the [tag](super::Ensemble::tag).
     pub run: u32,
     /// Hash of the member's initial time, coordinates, velocities and parameters, bit for bit.
     pub start: u32,
 }
 
 impl Fingerprint {
-    /// What all members of all runs of a system have in common.
+    /// Hash of a system, the same for all members of all runs.
     pub(super) fn of_system<L, const N: usize, const M: usize>() -> u32
     where
         L: Lagrangian<N, M, Scalar: Real>,
@@ -36,7 +39,7 @@ impl Fingerprint {
         system.0
     }
 
-    /// With what one member starts from.
+    /// Adds the hash of a member's start and parameters to the fingerprint of its run.
     pub(super) fn with_start<L, const N: usize, const M: usize>(
         self,
         system: &L,
@@ -52,7 +55,7 @@ impl Fingerprint {
         Self { start: hash.0, ..self }
     }
 
-    /// In what two rows of one member differ, and in which column of a table that is.
+    /// First difference between two rows of one member: the index of its column in a table, and a description.
     pub(super) fn difference(&self, other: &Self) -> Option<(usize, &'static str)> {
         let Self { system, run, start } = *other;
         let differences = [
@@ -63,7 +66,7 @@ impl Fingerprint {
         differences.into_iter().find_map(|(column, what, differs)| differs.then_some((column, what)))
     }
 
-    /// As of another member of the run.
+    /// Fingerprint of the run alone, to compare rows of different members.
     pub(super) fn without_start(self) -> Self {
         Self { start: 0, ..self }
     }
@@ -84,7 +87,7 @@ impl Hash {
         self.0 = bytes.iter().fold(self.0, |hash, byte| (hash ^ u32::from(*byte)).wrapping_mul(0x0100_0193));
     }
 
-    /// With a mark at its end, which no text has.
+    /// Hashes a text and an end mark, the byte 0xff, which never occurs in UTF-8.
     pub(super) fn text(&mut self, text: &str) {
         self.bytes(text.as_bytes());
         self.bytes(&[0xff]);
@@ -111,7 +114,7 @@ impl Write for Hash {
 mod tests {
     use super::*;
 
-    /// Values that its authors publish.
+    /// Test values published by the authors of FNV.
     #[test]
     fn the_hash_is_that_of_its_authors() {
         let hash = |text: &str| {

@@ -1,4 +1,4 @@
-//! An ensemble at work: who is next, what has become of each, and when to stop.
+//! Runs an ensemble: hands out members, records their results, and stops.
 
 use core::ops::ControlFlow;
 use std::collections::BTreeSet;
@@ -16,29 +16,29 @@ use crate::number::Real;
 use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, State};
 
-/// What the threads share.
+/// State of a running ensemble, shared by all threads.
 pub(super) struct Job<'a, L: Lagrangian<N, M, Scalar = T>, T, const N: usize, const M: usize> {
     make: Make<'a, L, T, N>,
     observer: Option<Observer<'a, T, N>>,
     member_plan: Arc<MemberPlan<'a, L, N, M>>,
     end: T,
-    /// What the fingerprints of all members have in common.
+    /// Fingerprint of the run, common to all members.
     run: Fingerprint,
     part: Part,
-    /// Members taken over from another run.
+    /// Indices of the members whose rows were taken over from an earlier run.
     done: BTreeSet<usize>,
-    /// How many members of the part have been given out.
+    /// Number of members of this part handed out so far.
     given: AtomicUsize,
     stopped: AtomicBool,
     ledger: Mutex<Ledger<'a, T, N>>,
 }
 
-/// Which members are to be integrated.
+/// Members to integrate: all `count`, or those of `list`, divided into `shards` parts.
 struct Part {
     count: usize,
     shard: usize,
     shards: usize,
-    /// In ascending order, those of the shard alone.
+    /// Indices of the members in ascending order, already reduced to this shard.
     list: Option<Vec<usize>>,
 }
 
@@ -65,7 +65,7 @@ impl Part {
         }
     }
 
-    /// The index of the member in this place.
+    /// Index in the ensemble of the `place`-th member of this part.
     fn member(&self, place: usize) -> Option<usize> {
         match &self.list {
             Some(list) => list.get(place).copied(),
@@ -83,7 +83,7 @@ impl Part {
     }
 }
 
-/// What has been done.
+/// Results of finished members, and the callback that follows the progress.
 struct Ledger<'a, T, const N: usize> {
     members: Vec<Member<T, N>>,
     of: usize,
@@ -125,7 +125,8 @@ where
         )
     }
 
-    /// These members alone, with what is their own here: its outcome is to be [reported](Self::report).
+    /// A job for the members of `list` alone, with its own queue and results. The caller [reports](Self::report) its
+    /// results here.
     #[cfg(feature = "mpi")]
     pub(super) fn batch(&self, list: Vec<usize>) -> Job<'_, L, T, N, M> {
         let observer = self.observer.as_ref().map(|observe| {
@@ -147,32 +148,32 @@ where
         }
     }
 
-    /// What must be the same on all ranks.
+    /// Hashes and counts that must agree on all ranks of MPI.
     #[cfg(feature = "mpi")]
     pub(super) fn identity(&self) -> [u64; 3] {
         let Fingerprint { system, run, .. } = self.run;
         [u64::from(system) << 32 | u64::from(run), self.part.count as u64, self.part.len() as u64]
     }
 
-    /// How many have not been given out, those done among them included.
+    /// Number of members not yet handed out, including members taken over from an earlier run.
     #[cfg(feature = "mpi")]
     pub(super) fn left(&self) -> usize {
         self.part.len().saturating_sub(self.given.load(Ordering::Relaxed))
     }
 
-    /// What the fingerprints of all members have in common.
+    /// Fingerprint of the run, common to all members.
     #[cfg(feature = "mpi")]
     pub(super) fn run(&self) -> Fingerprint {
         self.run
     }
 
-    /// The names of the events.
+    /// Names of the events.
     #[cfg(feature = "mpi")]
     pub(super) fn events(&self) -> Vec<&'static str> {
         self.member_plan.events()
     }
 
-    /// The member that nobody has yet.
+    /// Claims the next unassigned member.
     pub(super) fn next(&self) -> Option<usize> {
         loop {
             let place = self.given.fetch_add(1, Ordering::Relaxed);
@@ -190,8 +191,8 @@ where
         self.stopped.load(Ordering::Relaxed)
     }
 
-    /// Writes down what has become of a member, and stops everything where the caller says so. Once it is stopped
-    /// nothing is written down: members that were on their way were cut short.
+    /// Records the result of a member, and stops the whole job if the progress callback breaks. Once the job is
+    /// stopped, results are dropped: the members still running were cut short.
     pub(super) fn report(&self, member: Member<T, N>) {
         let mut ledger = self.ledger.lock().unwrap_or_else(PoisonError::into_inner);
         if self.is_stopped() {
@@ -207,7 +208,7 @@ where
         }
     }
 
-    /// After a step of a member: whether it goes on.
+    /// Called after each step of a member: asks the observer whether the member goes on.
     fn observe(&self, index: usize, state: &State<T, N>) -> ControlFlow<()> {
         if self.is_stopped() {
             return ControlFlow::Break(());
@@ -218,7 +219,7 @@ where
         }
     }
 
-    /// Integrates members until there are none left.
+    /// Integrates members one after the other until none is left.
     pub(super) fn one_by_one<P: Method<L, N, M>, const HAS_DENSE_OUTPUT: bool>(&self, method: &P) {
         while let Some(index) = self.next() {
             let (mut system, start) = (self.make)(index);
@@ -247,7 +248,7 @@ where
     }
 }
 
-/// A member taken over must be of this run, with this start and these parameters.
+/// Rejects a member taken over from another run, or with another start or other parameters.
 fn check_run_of<T: Real, const N: usize>(member: &Member<T, N>, expected: &Fingerprint) -> Result<(), Error> {
     match member.fingerprint.difference(expected) {
         Some((_, differs)) => Err(Error::Ensemble(EnsembleError::OtherRun { member: member.index, differs })),
@@ -256,7 +257,7 @@ fn check_run_of<T: Real, const N: usize>(member: &Member<T, N>, expected: &Finge
 }
 
 impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Job<'_, L, f64, N, M> {
-    /// Integrates members as many at a time as there are lanes until there are none left.
+    /// Integrates members on SIMD lanes, one member per lane, until none is left.
     pub(super) fn on_lanes<P: LaneMethod<L, N, M>, const HAS_DENSE_OUTPUT: bool>(&self, method: &P) {
         let mut next = self.next_seat::<P, HAS_DENSE_OUTPUT>(method);
         while let Some(first) = next.take() {
@@ -272,7 +273,8 @@ impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Job<'_, 
         }
     }
 
-    /// Gives free lanes to the next members. One that does not fit beside the others waits until they have ended.
+    /// Fills free lanes with the next members. A member that cannot run beside those in the batch waits until they have
+    /// ended.
     fn fill<'j, P: LaneMethod<L, N, M>, const HAS_DENSE_OUTPUT: bool>(
         &'j self,
         batch: &mut Batch<'j, L, P, N, M>,
@@ -301,7 +303,8 @@ impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Job<'_, 
         Member { index, fingerprint, result: Ok(record.arrive(state, ending, statistics)) }
     }
 
-    /// The next member that has a motion; those without are reported.
+    /// Next member that has a motion. Members without one, because their start is at fault or they end there, are
+    /// reported.
     fn next_seat<P: LaneMethod<L, N, M>, const HAS_DENSE_OUTPUT: bool>(
         &self,
         method: &P,

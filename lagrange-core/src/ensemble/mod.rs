@@ -1,12 +1,13 @@
-//! Many motions of one kind of system: other starts, other parameters.
+//! Ensembles: many motions of one kind of system, with different initial states and parameters.
 //!
-//! [`Ensemble::integrate_on_lanes`] integrates four members at once on SIMD lanes (with AVX-512 eight), [`Ensemble::integrate`] one after
-//! the other, and both with the feature `rayon` on all threads of rayon's current pool. What a member gives is bit
-//! for bit the same whatever its neighbours, the number of threads and the part of the ensemble that is run. A member
-//! that fails says why, and spoils no other. What lies within the motions can be kept of each: [samples](Ensemble::samples_at) at
-//! given times, and crossings of [events](Ensemble::event).
+//! [`Ensemble::integrate_on_lanes`] integrates four members at once on SIMD lanes (with AVX-512 eight).
+//! [`Ensemble::integrate`] integrates one member after the other. With the feature `rayon` both use all threads of
+//! rayon's current pool. The result of a member is the same bit for bit, whatever its neighbours, the number of threads
+//! and the part of the ensemble that runs. A member that fails reports its error and does not affect the others. Along
+//! each motion the ensemble can keep [samples](Ensemble::samples_at) at given times and crossings of
+//! [events](Ensemble::event).
 //!
-//! Members move in coordinates and velocities; there are no ensembles of motions in (q, p).
+//! Members are integrated in coordinates and velocities; ensembles of motions in (q, p) are not supported.
 //!
 #![doc = include_str!("machines.md")]
 

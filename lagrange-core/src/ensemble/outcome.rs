@@ -1,4 +1,4 @@
-//! What has become of the members of an ensemble.
+//! Results of the members of an ensemble.
 
 use core::fmt::{self, Display, Formatter};
 
@@ -8,37 +8,37 @@ use crate::motion::record::Arrival;
 use crate::number::Real;
 use crate::system::State;
 
-/// What has become of one member.
+/// Result of one member.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(bound(serialize = "T: nalgebra::Scalar + serde::Serialize")))]
 pub struct Member<T, const N: usize> {
-    /// Its index in the ensemble.
+    /// Index of the member in the ensemble.
     pub index: usize,
-    /// Which run, start and parameters it is of.
+    /// Hashes of the member's run, start and parameters.
     pub fingerprint: Fingerprint,
-    /// Where its motion ended and why, or why there is none.
+    /// End of the motion: its last state and the reason why it ended there; an error if the motion did not start.
     pub result: Result<Arrival<T, N>, Error>,
 }
 
 impl<T: Real, const N: usize> Member<T, N> {
-    /// Where its motion ended, if it has one.
+    /// End of the motion; `None` if the motion did not start.
     pub fn arrival(&self) -> Option<&Arrival<T, N>> {
         self.result.as_ref().ok()
     }
 
-    /// Whether it reached the end asked for.
+    /// True if the motion reached the requested end.
     pub fn is_complete(&self) -> bool {
         self.arrival().is_some_and(|arrival| arrival.ending.is_complete())
     }
 
-    /// Whether something other than the observer kept it from the end.
+    /// True if the motion did not start, or if it ended early and neither the observer nor a terminal event ended it.
     pub fn has_failed(&self) -> bool {
         self.arrival().is_none_or(|arrival| arrival.ending.is_failure())
     }
 }
 
-/// `member 17: stopped at t = 3.2: …`
+/// Prints the index and the ending: `member 17: stopped at t = 3.2: …`
 impl<T: Real, const N: usize> Display for Member<T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write!(f, "member {}: ", self.index)?;
@@ -49,7 +49,7 @@ impl<T: Real, const N: usize> Display for Member<T, N> {
     }
 }
 
-/// The members that are done, by index.
+/// Results of the finished members, in ascending order of index.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome<T, const N: usize> {
     pub(super) members: Vec<Member<T, N>>,
@@ -70,19 +70,19 @@ impl<T: Real, const N: usize> Outcome<T, N> {
         Self { members, names, quantities, end, run }
     }
 
-    /// All members that are done, by index.
+    /// All finished members, in ascending order of index.
     pub fn members(&self) -> &[Member<T, N>] {
         &self.members
     }
 
-    /// The member of this index, if it is done.
+    /// The member of this index; `None` if it is not finished.
     pub fn get(&self, index: usize) -> Option<&Member<T, N>> {
         let place = self.members.binary_search_by_key(&index, |member| member.index).ok()?;
         self.members.get(place)
     }
 
-    /// The [quantity](crate::Ensemble::quantity) of this name at the samples of the member of this index; none of one that is
-    /// not done, or has no motion.
+    /// Values of the [quantity](crate::Ensemble::quantity) `name` at the samples of the member `index`. Empty for a
+    /// member that is not finished or did not start.
     ///
     /// # Errors
     /// [`Error::UnknownName`].
@@ -97,22 +97,22 @@ impl<T: Real, const N: usize> Outcome<T, N> {
         Ok(values.iter().skip(place).step_by(count).copied())
     }
 
-    /// The members that reached the end, with their last states.
+    /// Indices and last states of the members that reached the end.
     pub fn completed(&self) -> impl Iterator<Item = (usize, &State<T, N>)> {
         let complete = self.members.iter().filter(|member| member.is_complete());
         complete.filter_map(|member| Some((member.index, &member.arrival()?.state)))
     }
 
-    /// The members that something kept from the end; each says by its `Display` what.
+    /// Members that failed; the `Display` of each tells the reason.
     pub fn failures(&self) -> impl Iterator<Item = &Member<T, N>> {
         self.members.iter().filter(|member| member.has_failed())
     }
 
-    /// Puts two parts together. Of a member that is in both, this one's is kept.
+    /// Combines the results of two parts of an ensemble. For a member in both, the result of `self` is kept.
     ///
     /// # Errors
-    /// [`EnsembleError::Merge`] for parts of other systems, of motions to another time, with another method or other settings, and for
-    /// parts in which one member has another start or other parameters.
+    /// [`EnsembleError::Merge`] if the parts differ in system, end time, method or settings, or if a member in both has
+    /// another start or other parameters.
     pub fn merge(mut self, other: Self) -> Result<Self, Error> {
         if self.names != other.names {
             return Err(Error::Ensemble(EnsembleError::Merge { reason: "their coordinates differ" }));

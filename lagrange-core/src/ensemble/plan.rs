@@ -1,4 +1,4 @@
-//! What an ensemble is to do, and what is to be kept of each member.
+//! Plan of an ensemble: its members, its callbacks, and the data kept of each member.
 
 use core::fmt::{self, Display, Write};
 use core::ops::ControlFlow;
@@ -15,20 +15,20 @@ use crate::number::Real;
 use crate::solution::Sample;
 use crate::system::{Lagrangian, State};
 
-/// What an ensemble is to do.
+/// Settings of an ensemble, collected before it is integrated.
 pub(super) struct Plan<'a, L: Lagrangian<N, M, Scalar = T>, T, const N: usize, const M: usize> {
     pub(super) count: usize,
     pub(super) make: Make<'a, L, T, N>,
     pub(super) shard: usize,
     pub(super) shards: usize,
-    /// Of these alone, if it is given.
+    /// Indices of the members to integrate; all if `None`.
     pub(super) list: Option<Vec<usize>>,
-    /// Taken over from other runs.
+    /// Rows of members taken over from earlier runs.
     pub(super) done: Vec<MemberRow<T, N>>,
     pub(super) observer: Option<Observer<'a, T, N>>,
     pub(super) watch: Option<Watch<'a, T, N>>,
     pub(super) member_plan: MemberPlan<'a, L, N, M>,
-    /// What the user calls the code that no fingerprint sees.
+    /// Name given by the user to the code that no fingerprint sees.
     pub(super) tag: Option<String>,
 }
 
@@ -36,7 +36,7 @@ impl<L, T: Real, const N: usize, const M: usize> Plan<'_, L, T, N, M>
 where
     L: Lagrangian<N, M, Scalar = T>,
 {
-    /// What all members have in common.
+    /// Fingerprint of the run, common to all members.
     pub(super) fn fingerprint<P: Method<L, N, M>>(
         &self,
         method: &P,
@@ -58,7 +58,7 @@ where
         Fingerprint { system: Fingerprint::of_system::<L, N, M>(), run: run.0, start: 0 }
     }
 
-    /// Whose rows are taken over, the user has to say, where code decides that no fingerprint sees.
+    /// Requires a tag if rows are taken over and code that no fingerprint sees can change results.
     pub(super) fn check_tag(&self) -> Result<(), Error> {
         match self.unseen() {
             Some(code) if self.tag.is_none() && !self.done.is_empty() => {
@@ -68,7 +68,7 @@ where
         }
     }
 
-    /// The first piece of code of which the last states of members may depend.
+    /// Description of the first piece of code, unseen by the fingerprint, that can change the last states of members.
     fn unseen(&self) -> Option<String> {
         let of_system = match L::SUPPLIED.first() {
             Some(name) => Some(format!("the function `{name}` of the system")),
@@ -85,27 +85,27 @@ pub(super) type Observer<'a, T, const N: usize> =
 pub(super) type Watch<'a, T, const N: usize> =
     Box<dyn FnMut(EnsembleProgress<'_, T, N>) -> ControlFlow<()> + Send + 'a>;
 
-/// How far an ensemble has come.
+/// Progress of an ensemble.
 #[derive(Clone, Copy, Debug)]
 pub struct EnsembleProgress<'m, T, const N: usize> {
-    /// The members done, those resumed included.
+    /// Number of finished members, including those taken over from an earlier run.
     pub done: usize,
-    /// The members of this [part](crate::Ensemble::shard), done or not.
+    /// Number of members in this [part](crate::Ensemble::shard).
     pub of: usize,
-    /// The one done last.
+    /// The member that finished last.
     pub member: &'m Member<T, N>,
 }
 
-/// What is done with each member on its way.
+/// Samples, events and controller that every member uses during its motion.
 pub(super) struct MemberPlan<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
     pub(super) samples: RecordPlan<'a, L, N, M>,
-    /// As they are before the first crossing.
+    /// Events of the ensemble; each member starts with a fresh copy.
     events: Vec<Event<L, Box<Observed<'a, L, N, M>>, N, M>>,
-    /// Called at the start, and then as often as this.
+    /// Interval between calls of the controller, in units of time, and the controller. The first call is at the start.
     controller: Option<(L::Scalar, Box<Controller<'a, L, N, M>>)>,
 }
 
-/// Sets the parameters of the member of this index; an error in words.
+/// Sets the parameters of the member with the given index; returns errors as text.
 type Controller<'a, L, const N: usize, const M: usize> = dyn Fn(usize, &mut L, &State<<L as Lagrangian<N, M>>::Scalar, N>) -> Result<(), String>
     + Send
     + Sync
@@ -141,32 +141,34 @@ impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Memb
         self.controller = Some((interval, Box::new(in_words)));
     }
 
-    /// The names of the events.
+    /// Names of the events.
     pub(super) fn events(&self) -> Vec<&'static str> {
         self.events.iter().map(Event::name).collect()
     }
 
-    /// Checks what is the same for all members.
+    /// Checks the settings that are the same for all members.
     pub(super) fn check(&self) -> Result<(), Error> {
         self.samples.check()?;
         let interval = self.controller.as_ref().map(|(interval, _)| *interval);
         interval.map_or(Ok(()), |interval| check_interval(CONTROLLER, interval))
     }
 
-    /// The first function by which the end of a motion may change, in words. A quantity can only make a member fail.
+    /// Description of the first function that can change the end of a motion. Quantities of samples are left out: they
+    /// can only make a member fail.
     fn unseen(&self) -> Option<String> {
         let event = self.events.first().map(|event| format!("the event `{}`", event.name()));
         event.or_else(|| self.controller.as_ref().map(|_| "the controller".into()))
     }
 
-    /// Writes what tells this plan from others; what its functions hold is not seen.
+    /// Writes the settings that distinguish this plan from others, for the fingerprint. Functions and the values they
+    /// capture are not included.
     pub(super) fn identify(&self, to: &mut dyn Write) -> fmt::Result {
         self.samples.identify(to)?;
         self.events.iter().try_for_each(|event| write!(to, " with {:?}", event.anew(|_| ())))?;
         self.controller.iter().try_for_each(|(interval, _)| write!(to, " every {:?}", interval.to_f64()))
     }
 
-    /// The record of a member, before its first step.
+    /// Record of a member's motion, before its first step.
     pub(super) fn record(
         &self,
         index: usize,

@@ -1,8 +1,8 @@
-//! An ensemble on the ranks of MPI: rank 0 hands out members in batches, and integrates too.
+//! An ensemble on the ranks of MPI: rank 0 distributes members in batches, and integrates as well.
 //!
-//! A rank has at most one batch, asks for the next by sending the rows of the last, and waits for it: no message is on its
-//! way to one who computes, so that no send waits for a receive that does not come. All calls of MPI are made by the thread
-//! that asked for the integration; on rank 0 another thread integrates meanwhile.
+//! A rank has at most one batch. It sends the rows of a batch to ask for the next, then waits for it. Rank 0 never
+//! sends to a rank that computes, so no send blocks on a receive that does not come. The thread that started the
+//! integration makes all MPI calls; on rank 0 another thread integrates meanwhile.
 
 mod message;
 
@@ -28,7 +28,7 @@ use crate::number::{Lanes, Real};
 use crate::system::{Lagrangian, Pack};
 use message::MemberMessage;
 
-/// An ensemble on all ranks of a communicator of MPI, from [`Ensemble::on_ranks`].
+/// An ensemble on all ranks of an MPI communicator, from [`Ensemble::on_ranks`].
 #[must_use = "an ensemble does nothing until it is integrated"]
 pub struct OnRanks<'a, L, T, const N: usize, const M: usize = 0, const HAS_DENSE_OUTPUT: bool = false>
 where
@@ -39,9 +39,9 @@ where
     batch: Duration,
 }
 
-/// How long rank 0 sleeps where no rank asks for anything.
+/// Time that rank 0 sleeps when no message is waiting.
 const PAUSE: Duration = Duration::from_millis(1);
-/// A batch has as many members as this or more, where there are enough of them.
+/// Smallest number of members in a batch, unless fewer are left.
 const LEAST: usize = 16;
 
 impl<'a, L, T: Real, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool>
@@ -49,17 +49,17 @@ impl<'a, L, T: Real, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: boo
 where
     L: Lagrangian<N, M, Scalar = T>,
 {
-    /// This ensemble on all ranks of the communicator, each of which must call this and then integrate: a
-    /// [chapter](super#on-many-machines) tells how.
+    /// Runs this ensemble on all ranks of the communicator. Each rank must call this and then integrate; see the
+    /// [chapter](super#on-many-machines).
     ///
-    /// Rank 0 hands out members in batches as ranks become free, and integrates too. It alone has the outcome, needs
-    /// the tables to [resume](Self::resume) from, and calls [`on_progress`](Self::on_progress). Members, method, end and part
-    /// must be the same on all ranks. What a member gives is bit for bit the same for any number of ranks; what went wrong with
-    /// one is told in words, as a table does.
+    /// Rank 0 hands out members in batches as ranks become free, and integrates too. Rank 0 alone returns the outcome,
+    /// reads the tables to [resume](Self::resume) from, and calls [`on_progress`](Self::on_progress). Members, method,
+    /// end and part must be the same on all ranks. The result of a member is the same bit for bit for any number of
+    /// ranks. The error of a member arrives as text, as in a table.
     ///
     /// With the feature `rayon` each rank integrates on all threads of rayon's global pool.
     pub fn on_ranks(self, communicator: &impl Communicator) -> OnRanks<'a, L, T, N, M, HAS_DENSE_OUTPUT> {
-        // Its messages do not meet those of the program.
+        // A duplicate keeps messages of the ensemble apart from those of the program.
         OnRanks { ensemble: self, world: communicator.duplicate(), batch: Duration::from_secs(1) }
     }
 }
@@ -69,21 +69,23 @@ impl<L, T: Real, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool>
 where
     L: Lagrangian<N, M, Scalar = T>,
 {
-    /// About how long a rank is to work on a batch; 1 s where nothing is said. It is what is lost at most where the job is
-    /// killed. Rank 0 hears of each rank about as often. Batches become shorter toward the end, so that all end together.
+    /// Sets the approximate time that a rank works on one batch; 1 s by default. At most this much work is lost if the
+    /// job is killed. Rank 0 hears from each rank about as often. Batches become shorter toward the end, so that all
+    /// ranks finish together.
     pub fn batch(mut self, time: Duration) -> Self {
         self.batch = time;
         self
     }
 
-    /// The motions to the time `end`, one after the other on each thread, as by [`Ensemble::integrate`]: at rank 0 the outcome
-    /// of all, elsewhere none.
+    /// Integrates all members to the time `end`, one after the other on each thread, like [`Ensemble::integrate`].
+    /// Returns the outcome of all members on rank 0, and `None` on the others.
     ///
     /// # Errors
-    /// As there, on the rank where it is wrong, and on the others [`EnsembleError::Ranks`]; that also where the ensembles of the ranks
-    /// differ, and where MPI is not to be used beside threads. Nothing is integrated then.
+    /// The errors of [`Ensemble::integrate`] on the rank where they occur, and [`EnsembleError::Ranks`] on the others.
+    /// [`EnsembleError::Ranks`] also if the ensembles of the ranks differ, or if MPI does not support threads. After an
+    /// error nothing is integrated.
     ///
-    /// Where a rank panics, it ends the whole job: the others could only wait.
+    /// A rank that panics aborts the whole job, because the other ranks would wait forever.
     pub fn integrate<P>(self, end: T, method: P) -> Result<Option<Outcome<T, N>>, Error>
     where
         P: Method<L, N, M> + Sync,
@@ -126,11 +128,11 @@ impl<L, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool>
 where
     L: Lagrangian<N, M, Scalar = f64>,
 {
-    /// The motions to the time `end`, as many at once on each thread as there are [`Lanes`], as by [`Ensemble::integrate_on_lanes`]: at
-    /// rank 0 the outcome of all, elsewhere none.
+    /// Integrates all members to the time `end`, on each thread as many at once as [`Lanes`] holds, like
+    /// [`Ensemble::integrate_on_lanes`]. Returns the outcome of all members on rank 0, and `None` on the others.
     ///
     /// # Errors
-    /// As [`integrate`](Self::integrate).
+    /// The errors of [`integrate`](Self::integrate).
     pub fn integrate_on_lanes<P>(self, end: f64, method: P) -> Result<Option<Outcome<f64, N>>, Error>
     where
         L: Pack<Lanes, Packed: Lagrangian<N, M, Scalar = Lanes>>,
@@ -151,7 +153,7 @@ where
     }
 }
 
-/// Ends the whole job where this rank unwinds: the others would wait for it for ever.
+/// Aborts the whole job if this rank panics: the other ranks would wait forever.
 struct AbortOnPanic<'w>(&'w SimpleCommunicator);
 
 impl Drop for AbortOnPanic<'_> {
@@ -173,7 +175,7 @@ fn check_threads(world: &SimpleCommunicator) -> Result<(), Error> {
     }
 }
 
-/// Nobody begins where one cannot, or would compute something else than rank 0.
+/// Checks, before any rank integrates, that all ranks can and that they agree with rank 0.
 fn agreed<'a, L, T: Real, const N: usize, const M: usize>(
     world: &SimpleCommunicator,
     job: Result<Job<'a, L, T, N, M>, Error>,
@@ -207,7 +209,7 @@ fn size(world: &SimpleCommunicator) -> usize {
     world.size().unsigned_abs() as usize
 }
 
-/// Integrates what rank 0 hands out, until that is nothing.
+/// Integrates the batches that rank 0 sends, until an empty batch arrives.
 fn follow(world: &SimpleCommunicator, integrate: impl Fn(Vec<usize>) -> MemberMessage) {
     let first = world.process_at_rank(0);
     loop {
@@ -219,7 +221,7 @@ fn follow(world: &SimpleCommunicator, integrate: impl Fn(Vec<usize>) -> MemberMe
     }
 }
 
-/// Hands out members and takes them in, while another thread integrates what this rank hands to itself.
+/// Distributes members and collects their results, while another thread integrates the batches of rank 0.
 fn lead<L, T: Real, const N: usize, const M: usize>(
     world: &SimpleCommunicator,
     job: &Job<'_, L, T, N, M>,
@@ -243,16 +245,16 @@ fn lead<L, T: Real, const N: usize, const M: usize>(
     });
 }
 
-/// Where rank 0 keeps the books.
+/// State of rank 0: the open batches and their timing.
 struct Desk<'w, 'a, L: Lagrangian<N, M, Scalar = T>, T, const N: usize, const M: usize> {
     world: &'w SimpleCommunicator,
-    /// To the thread that integrates on this rank.
+    /// Channel to the thread that integrates on this rank.
     own: Sender<Vec<usize>>,
     job: &'w Job<'a, L, T, N, M>,
     batch: Duration,
-    /// Of each rank, when it was given its batch, and how many members are in it.
+    /// For each rank, the time when it received its batch, and the number of members in it.
     open: Vec<Option<(Instant, usize)>>,
-    /// How many members were in the batches that are done, and how long ranks took for them.
+    /// Number of members in all finished batches, and the total time that ranks took for them.
     members: usize,
     time: Duration,
 }
@@ -261,7 +263,8 @@ impl<L, T: Real, const N: usize, const M: usize> Desk<'_, '_, L, T, N, M>
 where
     L: Lagrangian<N, M, Scalar = T>,
 {
-    /// Until all members are done, or the job is stopped, or the thread of this rank has panicked.
+    /// Serves ranks until all members are done, the job is stopped, or the integrating thread of this rank has
+    /// panicked.
     fn serve(&mut self, parcels: &Receiver<MemberMessage>, is_lost: impl Fn() -> bool) {
         let events = self.job.events();
         (0..self.open.len()).for_each(|rank| self.hand_out(rank));
@@ -271,7 +274,7 @@ where
                 thread::sleep(PAUSE);
                 continue;
             };
-            // The rank waits: it comes first.
+            // Hand out the next batch before unpacking: the rank is idle meanwhile.
             self.close(rank);
             self.hand_out(rank);
             message.members(self.job.run(), &events).for_each(|member| self.job.report(member));
@@ -285,20 +288,21 @@ where
         }
     }
 
-    /// Gives the rank its next batch; nothing, if there is none, which another rank takes for the end.
+    /// Sends the rank its next batch. An empty batch tells another rank that the work is done; rank 0 gets none.
     fn hand_out(&mut self, rank: usize) {
         let members = std::iter::from_fn(|| self.job.next()).take(self.size());
         let list: Vec<usize> = members.collect();
         self.open[rank] = (!list.is_empty()).then(|| (Instant::now(), list.len()));
         match rank {
             0 if list.is_empty() => {}
-            // Where the thread has panicked, nobody takes it.
+            // Sending fails if the integrating thread has panicked; `serve` detects that.
             0 => drop(self.own.send(list)),
             _ => self.world.process_at_rank(rank as i32).send(&list[..]),
         }
     }
 
-    /// As many members as take about the time asked for. Toward the end each rank is given half of its share of what is left.
+    /// Number of members in the next batch: as many as take about the requested time. Toward the end each rank gets
+    /// half of its share of the remaining members.
     fn size(&self) -> usize {
         let share = self.job.left() / (2 * self.open.len());
         let each = self.time.as_secs_f64() / self.members.max(1) as f64;

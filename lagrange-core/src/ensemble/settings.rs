@@ -1,4 +1,4 @@
-//! An ensemble, and what it is asked for.
+//! An ensemble and its settings.
 
 use core::fmt::{self, Debug, Formatter};
 use core::ops::ControlFlow;
@@ -14,11 +14,11 @@ use crate::motion::{LaneMethod, Method};
 use crate::number::{Lanes, Real};
 use crate::system::{Lagrangian, Pack, State};
 
-/// Many members, each a system with its start, that are integrated to the same time.
+/// Many members, each a system with its initial state, that are integrated to the same time.
 ///
-/// Members are made when they are needed, from their index, so that a million need no memory. With the feature
-/// `rayon` they are spread over the threads of the current pool: to choose how many, integrate inside of
-/// `ThreadPool::install`. The [observer](Self::observe) can keep more of a motion than its end.
+/// A member is made from its index when it is needed, so that a million members need no memory. With the feature
+/// `rayon` members are distributed over the threads of the current pool; to choose the number of threads, integrate
+/// inside `ThreadPool::install`. The [observer](Self::observe) can keep more of a motion than its end.
 ///
 /// ```
 /// use lagrange_core::prelude::*;
@@ -50,8 +50,8 @@ impl<'a, L, T: Real, const N: usize, const M: usize> Ensemble<'a, L, T, N, M>
 where
     L: Lagrangian<N, M, Scalar = T>,
 {
-    /// `count` members, made from their indices 0, 1, …: always the same from the same. `member` is called from any
-    /// thread, and from several at once.
+    /// Makes `count` members from their indices 0, 1, …. `member` must return the same member for the same index. It is
+    /// called from any thread, and from several at once.
     pub fn from_fn(count: usize, member: impl Fn(usize) -> (L, State<T, N>) + Send + Sync + 'a) -> Self {
         let make = Box::new(member);
         let (list, done, observer, watch, tag) = (None, Vec::new(), None, None, None);
@@ -61,12 +61,12 @@ where
         }
     }
 
-    /// These members.
+    /// An ensemble of these members.
     pub fn new(members: &'a [(L, State<T, N>)]) -> Self
     where
         L: Clone + Send + Sync,
     {
-        // The closure is not called with another index.
+        // In range: the closure is only called with indices below `members.len()`.
         Self::from_fn(members.len(), |index| members[index].clone())
     }
 }
@@ -76,15 +76,16 @@ impl<'a, L, T: Real, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: boo
 where
     L: Lagrangian<N, M, Scalar = T>,
 {
-    /// Only one of `of` parts: every `of`-th member, from the one in place `shard` on (counted from 0). The parts differ by one
-    /// member at most; they may be run anywhere, and are put together by [`Outcome::merge`] or by [`resume`](Self::resume).
+    /// Keeps one of `of` parts: every `of`-th member, starting at index `shard` (counted from 0). The sizes of the
+    /// parts differ by one member at most. Parts may run on different machines; [`Outcome::merge`] or
+    /// [`resume`](Self::resume) combines them.
     pub fn shard(mut self, shard: usize, of: usize) -> Self {
         (self.plan.shard, self.plan.shards) = (shard, of);
         self
     }
 
-    /// Only these members, in any order: those that failed, or a few to be looked at. Of them [`shard`](Self::shard) takes its
-    /// part.
+    /// Keeps only these members, in any order: those that failed, for example, or a few to inspect.
+    /// [`shard`](Self::shard) divides this list.
     ///
     /// ```
     /// # use lagrange_core::prelude::*;
@@ -105,8 +106,8 @@ where
         self
     }
 
-    /// Looks at every member after every step, from any thread. `ControlFlow::Break` ends that member there, with
-    /// [`Ending::Cancelled`](crate::Ending::Cancelled), and no other.
+    /// Calls `observer` with the index and state of every member after each step, from any thread. `ControlFlow::Break`
+    /// ends that member alone, with [`Ending::Cancelled`](crate::Ending::Cancelled).
     pub fn observe(
         mut self,
         observer: impl Fn(usize, &State<T, N>) -> ControlFlow<()> + Send + Sync + 'a,
@@ -115,11 +116,10 @@ where
         self
     }
 
-    /// Looks at the progress whenever a member is done, under a lock: threads whose members are done meanwhile wait.
+    /// Calls `watch` whenever a member is finished, under a lock: other threads that finish a member meanwhile wait.
     ///
-    /// `ControlFlow::Break` stops the ensemble, the members that are on their way at the end of their steps, and
-    /// `watch` is not called again. Members that are not done are left out of the outcome, and can be
-    /// [resumed](Self::resume).
+    /// `ControlFlow::Break` stops the ensemble: running members stop after their current step, and `watch` is not
+    /// called again. Unfinished members are left out of the outcome, and can be [resumed](Self::resume).
     pub fn on_progress(
         mut self,
         watch: impl FnMut(EnsembleProgress<'_, T, N>) -> ControlFlow<()> + Send + 'a,
@@ -128,12 +128,12 @@ where
         self
     }
 
-    /// Names the code that this run is made with: closures for [events](Self::event), a
-    /// [controller](Self::controlled), an [observer](Self::observe), functions [supplied](crate::Function) to the system,
-    /// equations written by hand. No [`Fingerprint`] sees code or what it holds, so a run with any of these takes over rows
-    /// of a run with the same tag alone. Give another tag whenever they change: put numbers in them into it,
-    /// `format!("gain {gain}")`. Without a tag such a run can be integrated, and not [resumed](Self::resume). The empty tag is
-    /// that of a run without one.
+    /// Names the code that this run uses: closures for [events](Self::event), a [controller](Self::controlled), an
+    /// [observer](Self::observe), functions [supplied](crate::Function) to the system, equations written by hand. A
+    /// [`Fingerprint`] cannot see code or the values that it captures, so a run with such code takes over rows only of
+    /// a run with the same tag. Choose another tag whenever the code changes, and include captured numbers:
+    /// `format!("gain {gain}")`. Without a tag such a run can be integrated, but not [resumed](Self::resume). The empty
+    /// tag gives the same fingerprint as no tag.
     ///
     /// ```
     /// # use lagrange_core::prelude::*;
@@ -158,12 +158,12 @@ where
         self
     }
 
-    /// The motions to the time `end`, one after the other on each thread, by the method named.
+    /// Integrates all members to the time `end` by `method`, one after the other on each thread.
     ///
     /// # Errors
-    /// What is wrong with the whole: [`Error::Setting`], [`Error::EndNotFinite`], [`EnsembleError::Shard`],
-    /// [`EnsembleError::NoSuchMember`], [`EnsembleError::OtherRun`], [`EnsembleError::Untagged`], [`Error::SampleTime`]. What is wrong with a member is in
-    /// the outcome.
+    /// Errors of the whole ensemble: [`Error::Setting`], [`Error::EndNotFinite`], [`EnsembleError::Shard`],
+    /// [`EnsembleError::NoSuchMember`], [`EnsembleError::OtherRun`], [`EnsembleError::Untagged`],
+    /// [`Error::SampleTime`]. The errors of single members are in the outcome.
     pub fn integrate<P>(self, end: T, method: P) -> Result<Outcome<T, N>, Error>
     where
         P: Method<L, N, M> + Sync,
@@ -173,16 +173,16 @@ where
         self.run(end, run, |job| job.one_by_one::<P, HAS_DENSE_OUTPUT>(&method))
     }
 
-    /// Leaves out what is done: the members in this table, from [`Outcome::csv`] or from the rows of
-    /// [`Member::csv`](super::Member::csv), one run's or those of several in a row. They are taken over into the outcome. Several
-    /// tables add up, and of several rows of one member the first counts.
+    /// Skips the members that this table contains, and takes their rows over into the outcome. The table comes from
+    /// [`Outcome::csv`] or from rows of [`Member::csv`](super::Member::csv); it may be one run's or those of several
+    /// concatenated. Repeated calls add tables. If a member has several rows, the first counts.
     ///
-    /// Members that failed are tried again: with the same settings they give the same failure, but for a limit on
-    /// wall time. Rows of another part are ignored, and so are lines that were not written to their end, also where
-    /// another row was appended to one. A row says by its [`Fingerprint`] which run it is of: to be taken over, it must have
-    /// been computed from the same start and parameters, of the same equations, with the same method and settings (limits
-    /// may differ) to the same end, on lanes or not, and under the same [tag](Self::tag). To see that, all members of the table
-    /// are made once more.
+    /// Members that failed are integrated again: with the same settings they fail in the same way, except at a limit on
+    /// wall-clock time. Rows of another part are ignored. So are incomplete lines, even if another row was appended to
+    /// one. A row is taken over only if its [`Fingerprint`] shows that it was computed from the same start and
+    /// parameters, of the same equations, with the same method and settings (limits may differ) to the same end, with
+    /// or without SIMD lanes as here, and under the same [tag](Self::tag). For this check all members of the table are
+    /// made once more.
     ///
     /// ```
     /// # use lagrange_core::prelude::*;
@@ -200,9 +200,10 @@ where
     /// ```
     ///
     /// # Errors
-    /// [`EnsembleError::Resume`] for what is no row of this system, and where rows are of different runs. For members of
-    /// another run, to another end or of another start [`integrate`](Self::integrate) gives [`EnsembleError::OtherRun`], and
-    /// [`EnsembleError::Untagged`] where code decides about the members that no fingerprint sees, and there is no [tag](Self::tag).
+    /// [`EnsembleError::Resume`] if a line is no row of this system, or if the rows are of different runs.
+    /// [`integrate`](Self::integrate) returns [`EnsembleError::OtherRun`] for members of another run, end or start. It
+    /// returns [`EnsembleError::Untagged`] if code that no fingerprint sees can change the members and there is no
+    /// [tag](Self::tag).
     pub fn resume(self, table: &str) -> Result<Self, Error>
     where
         T: core::str::FromStr,
@@ -212,10 +213,10 @@ where
         self.resume_from(table)
     }
 
-    /// Leaves out what is done as [`resume`](Self::resume) does, by a table that was read.
+    /// Skips the members of this table, like [`resume`](Self::resume), which parses the table as well.
     ///
     /// # Errors
-    /// [`EnsembleError::NoSuchMember`], where the table has more members than the ensemble.
+    /// [`EnsembleError::NoSuchMember`] if the table contains a member that the ensemble does not have.
     pub fn resume_from(mut self, table: MemberTable<T, N>) -> Result<Self, Error> {
         let count = self.plan.count;
         match table.rows().last() {
@@ -247,14 +248,15 @@ impl<L, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool>
 where
     L: Lagrangian<N, M, Scalar = f64>,
 {
-    /// The motions to the time `end`, as many at once on each thread as there are [`Lanes`], by the method named: `Dop853`, `Dopri5`,
-    /// [`Taylor`](crate::Taylor) or another [`LaneMethod`].
+    /// Integrates all members to the time `end` by `method`, on each thread as many at once as [`Lanes`] holds. The
+    /// method is `Dop853`, `Dopri5`, [`Taylor`](crate::Taylor) or another [`LaneMethod`].
     ///
-    /// Each lane has its own time, step and error, and is given the next member when its motion has ended. Compile
-    /// with `RUSTFLAGS="-C target-cpu=native"`, so that the lanes are those of AVX2 or AVX-512. The numbers differ from those of
-    /// [`integrate`](Self::integrate) by rounding, as far as the motion carries that. A limit on wall time counts
-    /// the time that a lane spends with the others. Where members differ in a field that lanes [share](Pack), order
-    /// them so that equal ones follow each other: one that does not fit waits until the lanes beside are empty.
+    /// Each lane has its own time, step and error, and takes the next member when its motion has ended. Compile with
+    /// `RUSTFLAGS="-C target-cpu=native"` to use the lanes of AVX2 or AVX-512. Results differ from those of
+    /// [`integrate`](Self::integrate) by rounding, and by as much as the motion amplifies it. A limit on wall-clock
+    /// time includes the time that a lane spends with the others. If members differ in a field that lanes
+    /// [share](Pack), order them so that members with equal fields are adjacent: a member that does not fit waits until
+    /// all lanes are empty.
     ///
     /// # Errors
     /// As [`integrate`](Self::integrate).
@@ -280,7 +282,7 @@ where
     }
 }
 
-/// Runs it on every thread of rayon's current pool; without rayon on this thread.
+/// Calls `work` on every thread of rayon's current pool; without rayon, on this thread.
 pub(super) fn everywhere(work: impl Fn() + Sync) {
     #[cfg(feature = "rayon")]
     rayon::broadcast(|_| work());

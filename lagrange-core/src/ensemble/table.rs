@@ -1,4 +1,4 @@
-//! Outcomes written as comma-separated values, and read back.
+//! Tables of members as comma-separated values: written and read.
 
 mod read;
 mod row;
@@ -19,7 +19,7 @@ use row::{Line, header};
 pub use row::{MemberEnding, MemberRow};
 
 impl<T: Real, const N: usize> Member<T, N> {
-    /// Its row of a table.
+    /// The member's row of a table.
     pub fn row(&self) -> MemberRow<T, N> {
         let arrival = self.arrival();
         MemberRow {
@@ -39,30 +39,31 @@ impl<T: Real, const N: usize> Member<T, N> {
         }
     }
 
-    /// Its row of the table [`Outcome::csv`], to be written as soon as the member is done.
+    /// The member's row of the table [`Outcome::csv`], to be written as soon as the member is finished.
     pub fn csv(&self) -> impl Display + '_ {
         Line(Cow::Owned(self.row()))
     }
 }
 
 impl<T: Real, const N: usize> Outcome<T, N> {
-    /// A table as comma-separated values, one line a member: `member`, its [`Fingerprint`] as `system`, `run` and `start`,
-    /// `t`, coordinates `x` and velocities `x_dot` of the last state, the [`Statistics`](crate::Statistics), `ending`, and `member_again`, by
-    /// which a line written to its end is known. The fingerprint takes at most 33 bytes of a line.
+    /// Table as comma-separated values, one line per member. The columns are `member`, its [`Fingerprint`] as `system`,
+    /// `run` and `start`, `t`, coordinates `x` and velocities `x_dot` of the last state, the
+    /// [`Statistics`](crate::Statistics), `ending`, and `member_again`, which marks a line as complete. The fingerprint
+    /// takes at most 33 bytes of a line.
     ///
-    /// The ending is `complete`, `cancelled`, `event: ` and its name, or what went wrong. Numbers are the shortest that read
-    /// back the same. [`MemberTable`] reads it.
+    /// The ending is `complete`, `cancelled`, `event: ` and the event's name, or the message of the error. Numbers have
+    /// the fewest digits that read back to the same value. [`MemberTable`] reads the table.
     pub fn csv(&self) -> impl Display + '_ {
         Lines { names: &self.names, members: &self.members, line: Member::csv }
     }
 }
 
-/// A table of members, cleaned and read back without a motion being run.
+/// A table of members, read back from its text without integrating.
 ///
-/// It takes what [`Outcome::csv`] and [`Member::csv`] wrote: one table, several in a row, rows alone. Lines that were not
-/// written to their ends are left out, also where another row was appended to one. Of several rows of one member the first
-/// that arrived counts (nothing went wrong with it), and the last where none did. Its `Display` is the table
-/// with those rows, by member.
+/// Accepts the output of [`Outcome::csv`] and [`Member::csv`]: one table, several concatenated, or rows without a
+/// header. Incomplete lines are dropped, even if another row was appended to one. If a member has several rows, the
+/// first that did not fail counts; if all failed, the last. The `Display` writes the table with these rows, ordered by
+/// member.
 ///
 /// ```
 /// # use lagrange_core::prelude::*;
@@ -89,10 +90,11 @@ pub struct MemberTable<T, const N: usize> {
 }
 
 impl<T: Real, const N: usize> MemberTable<T, N> {
-    /// The rows of a table of systems `L`.
+    /// Reads the rows of a table of systems `L`.
     ///
     /// # Errors
-    /// [`EnsembleError::Resume`] for what is no row of this system, equations and all, and where rows are of different runs.
+    /// [`EnsembleError::Resume`] if a line is no row of this system with these equations, or if the rows are of
+    /// different runs.
     pub fn read<L, const M: usize>(table: &str) -> Result<Self, Error>
     where
         L: Lagrangian<N, M, Scalar = T>,
@@ -101,7 +103,8 @@ impl<T: Real, const N: usize> MemberTable<T, N> {
         Self::of(table, L::COORDINATES, Fingerprint::of_system::<L, N, M>(), usize::MAX)
     }
 
-    /// Of an ensemble of so many members of a system with these coordinates and this [hash](Fingerprint::system).
+    /// Reads the table of an ensemble of `count` members of a system with the coordinates `names` and the
+    /// [hash](Fingerprint::system) `system`.
     pub(super) fn of(table: &str, names: [&'static str; N], system: u32, count: usize) -> Result<Self, Error>
     where
         T: FromStr,
@@ -110,7 +113,8 @@ impl<T: Real, const N: usize> MemberTable<T, N> {
         Self::gather(names, system, read(table, &names, count)?, wrong)
     }
 
-    /// Of rows with their places, all of one run. `wrong` says that a column of the row in a place is of another.
+    /// Collects rows, each with its place in the source, and checks that all are of one run. `wrong` makes the error
+    /// from the place of a row, the differing column and the difference.
     pub(super) fn gather<X>(
         names: [&'static str; N],
         system: u32,
@@ -136,12 +140,12 @@ impl<T: Real, const N: usize> MemberTable<T, N> {
         Ok(Self { names, rows: kept.into_values().collect() })
     }
 
-    /// The rows, by member.
+    /// Rows in ascending order of member.
     pub fn rows(&self) -> &[MemberRow<T, N>] {
         &self.rows
     }
 
-    /// The row of the member of this index, if there is one.
+    /// The row of the member of this index; `None` if the table has none.
     pub fn get(&self, index: usize) -> Option<&MemberRow<T, N>> {
         self.rows.get(self.rows.binary_search_by_key(&index, |row| row.index).ok()?)
     }
@@ -157,7 +161,7 @@ impl<T: Real, const N: usize> Display for MemberTable<T, N> {
     }
 }
 
-/// The whole table.
+/// Prints the header, then one line per member.
 struct Lines<'o, X, F, const N: usize> {
     names: &'o [&'static str; N],
     members: &'o [X],

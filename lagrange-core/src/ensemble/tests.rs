@@ -1,4 +1,4 @@
-//! What holds with and without the feature `rayon`. `tests/ensemble` of the workspace has it.
+//! Ensembles with and without the feature `rayon`; the workspace's `tests/ensemble` covers only the build with it.
 
 use core::ops::ControlFlow;
 
@@ -16,13 +16,13 @@ struct Spring<T> {
 
 const END: f64 = 1.0;
 
-/// ω = 1, 2, …: x = cos ωt.
+/// Springs with ω = 1, 2, …, whose motion is x = cos ωt.
 fn springs<'a>() -> Ensemble<'a, Spring<f64>, f64, 1> {
     let omega = |index: usize| 1.0 + index as f64;
     Ensemble::from_fn(10, move |index| (Spring { k: omega(index).powi(2) }, State::at_rest([1.0])))
 }
 
-/// On circles of the radii 1, 2, ….
+/// Pendulum in Cartesian coordinates; the members have radii 1, 2, ….
 #[derive(Lagrangian, Clone, Copy)]
 #[coordinates(x, y)]
 #[lagrangian((x_dot^2 + y_dot^2)/2 - g*y)]
@@ -52,7 +52,7 @@ fn springs_arrive_on_lanes_and_one_by_one() {
     }
 }
 
-/// What has only sums, products and roots is the same to the bit, and takes as many evaluations.
+/// Systems with sums, products and roots alone give the same bits and evaluations on lanes as alone.
 #[test]
 fn lanes_count_what_each_member_takes_alone() {
     let times = [0.0, 0.3, 0.6, END];
@@ -65,7 +65,7 @@ fn lanes_count_what_each_member_takes_alone() {
     assert!(!rejected.contains(&0));
 }
 
-/// Of steps of one size no lane looks at the rates where they end before they are needed.
+/// With fixed steps, a lane evaluates the rates at the end of a step only when they are needed.
 #[test]
 fn lanes_count_fixed_steps_as_they_are_taken_alone() {
     let (fifth, eighth) = (Dopri5::default().fixed_step(0.05), Dop853::default().fixed_step(0.1));
@@ -99,7 +99,7 @@ where
     let one_by_one = ensemble().integrate(END, method).expect("an outcome");
     assert_eq!(on_lanes.members().len(), one_by_one.members().len());
     for (member, alone) in on_lanes.members().iter().zip(one_by_one.members()) {
-        // By their fingerprints they are of different runs.
+        // Compare results without fingerprints: these differ between the two runs.
         assert_eq!((member.index, &member.result), (alone.index, &alone.result));
     }
     let rejected = on_lanes.members().iter().filter_map(|member| Some(member.arrival()?.statistics.rejected));

@@ -1,4 +1,4 @@
-//! What is kept of members on their way.
+//! Data kept along the motions of members: samples, quantities, event crossings; and their controllers.
 
 use core::fmt::Display;
 
@@ -14,11 +14,13 @@ impl<'a, L, T: Real, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: boo
 where
     L: Lagrangian<N, M, Scalar = T>,
 {
-    /// Keeps the states of each member at these times, in [`Arrival::samples`](super::Arrival::samples).
+    /// Stores the states of each member at these times, in [`Arrival::samples`](super::Arrival::samples).
     ///
-    /// They lie on the continuous extension of the method, projected onto the constraints. Steps are as long as without, and
-    /// the end has the same bits; but where the extension cannot be had a step is tried once more, shorter. On lanes the
-    /// extension of a pair costs about half of a step in which one of the lanes has a sample; Taylor's method has it already. A member that ends early has the samples up to there.
+    /// Samples lie on the dense output of the method, projected onto the constraints. Steps have the same lengths as
+    /// without samples, and the end has the same bits. The exception: where dense output fails, the step is repeated
+    /// with a shorter length. On lanes, dense output of a Runge–Kutta pair costs about half of a step in which one of
+    /// the lanes has a sample; Taylor's method has it at no cost. A member that ends early has the samples up to its
+    /// end.
     ///
     /// ```
     /// # use lagrange_core::prelude::*;
@@ -39,32 +41,33 @@ where
     /// # Ok::<(), Error>(())
     /// ```
     ///
-    /// The times must be in the order of the motions, and lie between the start of each and the end. The member of
-    /// [`Progress`](super::EnsembleProgress) has its samples, to be written down as soon as it is done: a table of
-    /// [`csv`](super::Outcome::csv) does not hold them, and a member [taken over](Self::resume) from one has none.
+    /// The times must be in the order of the motion, and lie between the start of each member and the end. The member
+    /// in [`Progress`](super::EnsembleProgress) has its samples, to be written as soon as it is finished. A table of
+    /// [`csv`](super::Outcome::csv) does not hold samples, and a member [taken over](Self::resume) from one has none.
     ///
     /// # Errors
-    /// [`integrate`](Self::integrate) gives [`Error::SampleTime`](crate::Error::SampleTime) for a time that is not finite or out
-    /// of order; a member that does not cover them, or moves the other way, is
-    /// [`Error::OutsideTrajectory`](crate::Error::OutsideTrajectory) or `SampleTime`.
+    /// [`integrate`](Self::integrate) returns [`Error::SampleTime`](crate::Error::SampleTime) for times that are not
+    /// finite or out of order. A member whose motion does not cover the times, or runs in the other direction, has the
+    /// error [`Error::OutsideTrajectory`](crate::Error::OutsideTrajectory) or `SampleTime`.
     pub fn samples_at(self, times: impl IntoIterator<Item = T>) -> Ensemble<'a, L, T, N, M, true> {
         let mut plan = self.plan;
         plan.member_plan.samples.times = SampleTimes::At(times.into_iter().collect());
         Ensemble { plan }
     }
 
-    /// Keeps the state of each member at its start and whenever so much time has passed, as
-    /// [`MotionBuilder::every`](crate::MotionBuilder::every) does; else as [`samples_at`](Self::samples_at), whose times it replaces.
+    /// Stores the state of each member at its start and after every `interval` of time, like
+    /// [`MotionBuilder::every`](crate::MotionBuilder::every). Replaces the times of [`samples_at`](Self::samples_at),
+    /// whose rules hold otherwise.
     pub fn every(self, interval: T) -> Ensemble<'a, L, T, N, M, true> {
         let mut plan = self.plan;
         plan.member_plan.samples.times = SampleTimes::Every(interval);
         Ensemble { plan }
     }
 
-    /// Watches each member for this event, [one](crate::Simulate::event) of any system of the kind: what a run
-    /// [with events](crate::MotionBuilder::event) does, on lanes too. Its crossings are in
-    /// [`Arrival::crossings`](super::Arrival::crossings); a [terminal](Event::terminal) one ends the member there, with
-    /// [`Ending::Event`](crate::Ending::Event), and no other. Each member counts for itself.
+    /// Watches each member for this event, like a run [with events](crate::MotionBuilder::event), on lanes too. The
+    /// [event](crate::Simulate::event) may be made by any system of this type. Crossings are stored in
+    /// [`Arrival::crossings`](super::Arrival::crossings). A [terminal](Event::terminal) event ends only the member that
+    /// meets it, with [`Ending::Event`](crate::Ending::Event). Each member counts its own crossings.
     ///
     /// ```
     /// # use lagrange_core::prelude::*;
@@ -85,8 +88,9 @@ where
     /// # Ok::<(), Error>(())
     /// ```
     ///
-    /// An event whose function cannot be had where a member starts is its error; later on it ends the member, which keeps what
-    /// was found. Each step is looked into, which on lanes costs about half of it, by Taylor's method nothing, and the functions.
+    /// If the event's function fails at the start of a member, the member has that error. If it fails later, the member
+    /// ends and keeps the crossings found so far. Every step is searched for crossings. On lanes this costs about half
+    /// of a step, by Taylor's method nothing, and the evaluations of the function.
     pub fn event<G>(self, event: Event<L, G, N, M>) -> Ensemble<'a, L, T, N, M, true>
     where
         G: EventFunction<L, N, M> + Send + Sync + 'a,
@@ -96,8 +100,8 @@ where
         Ensemble { plan }
     }
 
-    /// Steers each member: the controller is called where it starts, and then at every interval, reads the state and sets
-    /// parameters. They hold until it is called again (zero-order hold). It is told the index of the member.
+    /// Controls each member: the controller is called at the start and after every `interval`, reads the state and sets
+    /// parameters. These hold until the next call (zero-order hold). The first argument is the index of the member.
     ///
     /// ```
     /// # use lagrange_core::prelude::*;
@@ -122,15 +126,16 @@ where
     /// # Ok::<(), Error>(())
     /// ```
     ///
-    /// A member that is steered moves as a [`Motion`](crate::Motion) that is advanced to the same times, the start plus so
-    /// many intervals, each reached exactly. What a controller has to remember can be fields of the system; on lanes these must be
-    /// numbers. [Samples](Self::samples_at) are taken before it is called; for [events](Self::event) the motion begins anew
-    /// with each call, so that a function that jumps there does not cross.
+    /// A controlled member moves exactly like a [`Motion`](crate::Motion) that is advanced to the same times, the start
+    /// plus multiples of the interval. Fields of the system can store the controller's memory; on lanes these must be
+    /// numbers. [Samples](Self::samples_at) are taken before the controller is called. For [events](Self::event) the
+    /// motion restarts at each call, so that a function that jumps there does not count as a crossing.
     ///
     /// # Errors
-    /// Where it fails the member ends, with [`Ending::ControllerFailed`](crate::Ending::ControllerFailed), and keeps all it has.
-    /// [`integrate`](Self::integrate) gives [`Error::Setting`](crate::Error::Setting) for an interval that is not positive and
-    /// finite; one too short to advance the time is [`Ending::TimeTooCoarse`](crate::Ending::TimeTooCoarse).
+    /// A member whose controller fails ends with [`Ending::ControllerFailed`](crate::Ending::ControllerFailed), and
+    /// keeps all data so far. [`integrate`](Self::integrate) returns [`Error::Setting`](crate::Error::Setting) for an
+    /// interval that is not positive and finite. An interval too short to advance the time ends the member with
+    /// [`Ending::TimeTooCoarse`](crate::Ending::TimeTooCoarse).
     pub fn controlled<E: Display>(
         self,
         interval: T,
@@ -141,12 +146,12 @@ where
         Ensemble { plan }
     }
 
-    /// Keeps this quantity of each [sample](Self::samples_at), to be asked for by its name:
-    /// [`Outcome::quantity`](super::Outcome::quantity). The function gives a number, or what gives one by name,
-    /// `|sample| sample.observable("height")`.
+    /// Stores this quantity at each [sample](Self::samples_at); [`Outcome::quantity`](super::Outcome::quantity) returns
+    /// the values by name. The function returns a number, or a result that looks one up by name: `|sample|
+    /// sample.observable("height")`.
     ///
-    /// It is asked at the start too, so that what it cannot give there is told before the first step. Where it cannot be had
-    /// later, the member ends.
+    /// The function is also evaluated at the start, so that an error there is reported before the first step. If it
+    /// fails later, the member ends.
     pub fn quantity<V: EventValue<T>>(
         mut self,
         name: &'static str,

@@ -1,4 +1,4 @@
-//! One file of a table: columns of numbers and texts, and back.
+//! Reads and writes one Parquet file of a table, as columns of numbers and texts.
 
 use std::fs::File;
 use std::io::Write;
@@ -17,10 +17,10 @@ use parquet::schema::types::{Type, TypePtr};
 
 use crate::ensemble::fingerprint::Fingerprint;
 
-/// A column of a file. In the group `end` some rows have no entries.
+/// A column of a file. Columns of the group `end` have no entries in the rows of members that did not start.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Column {
-    /// The group that it is in; at the top where it has no name.
+    /// Parquet group that contains the column; empty at the top level.
     pub(super) group: &'static str,
     pub(super) name: String,
     pub(super) values: Values,
@@ -34,7 +34,7 @@ pub(super) enum Values {
     Texts(Vec<ByteArray>),
 }
 
-/// The group of what a member without a motion does not have.
+/// Optional group for the end of the motion; null for a member that did not start.
 pub(super) const END: &str = "end";
 
 impl Values {
@@ -79,7 +79,8 @@ impl Values {
         }
     }
 
-    /// Reads so many rows behind what is there, and which of them have an entry.
+    /// Appends the next `rows` rows of a column; `levels` receives 1 for each row of an optional group that has an
+    /// entry, else 0.
     fn read(
         &mut self,
         from: ColumnReader,
@@ -134,15 +135,16 @@ fn leaf(column: &Column) -> Result<TypePtr> {
     leaf.build().map(Arc::new)
 }
 
-/// What the file says of itself: [`Fingerprint::system`], [`Fingerprint::run`], [`Fingerprint::start`] of member 0, and what a
-/// reader may want to see.
+/// Keys of the file metadata: [`Fingerprint::system`], [`Fingerprint::run`] and, of member 0, [`Fingerprint::start`];
+/// for readers, the name and the equations of the system.
 const SYSTEM: &str = "lagrange.fingerprint.system";
 const RUN: &str = "lagrange.fingerprint.run";
 const FIRST: &str = "lagrange.fingerprint.first";
 const NAME: &str = "lagrange.system";
 const EQUATIONS: &str = "lagrange.equations";
 
-/// Writes a file of these columns; where a member has a motion, `has_end` says so. `first` is the fingerprint of member 0.
+/// Writes these columns to a file. `has_end` is true for the rows whose member has a motion. `first` is the fingerprint
+/// of member 0.
 pub(super) fn write(
     to: impl Write + Send,
     columns: &[Column],
@@ -177,12 +179,12 @@ fn write_column<W: Write + Send>(
     writer.close()
 }
 
-/// Why a file is not read or written.
+/// Reason why a file cannot be read or written.
 #[derive(Debug)]
 pub(super) enum FileFault {
-    /// It was cut off, or the disk is full, or the like.
+    /// The file is incomplete, or writing failed: it was cut off, the disk is full.
     Damaged(String),
-    /// It cannot be opened, or is whole and of something else.
+    /// The file cannot be opened, or it is complete but belongs to another table.
     Other(String),
 }
 
@@ -198,7 +200,7 @@ impl From<std::io::Error> for FileFault {
     }
 }
 
-/// The fingerprint of member 0 in the run that a file is of. `columns` says which there must be.
+/// Reads the fingerprint of member 0 from the metadata of a file. `columns` holds the expected schema.
 fn first(reader: &SerializedFileReader<File>, columns: &[Column]) -> Result<Fingerprint, FileFault> {
     let head = reader.metadata().file_metadata();
     if head.schema() != &*schema(columns)? {
@@ -214,8 +216,8 @@ fn first(reader: &SerializedFileReader<File>, columns: &[Column]) -> Result<Fing
     }
 }
 
-/// What stands in the file: its columns, which rows have an end, and the fingerprint of member 0. `columns` says which there must be, and
-/// is without rows.
+/// Reads a file: its columns, a flag per row that tells whether the member has a motion, and the fingerprint of member
+/// 0. `columns` holds the expected schema, without rows.
 pub(super) fn read(
     file: File,
     mut columns: Vec<Column>,

@@ -1,8 +1,8 @@
-//! Tables of ensembles as Parquet.
+//! Tables of ensembles in Parquet files.
 //!
-//! What a file of Parquet holds is known by its last bytes alone: one that was cut off has nothing. So a table is a directory of
-//! files, each written whole under another name and then renamed; what is there is there to its end. Programs that read Parquet
-//! take such a directory for one table.
+//! A Parquet file stores its schema in its last bytes, so a truncated file cannot be read at all. A table is therefore
+//! a directory of files. Each file is written completely under a temporary name, then renamed: every file with its
+//! final name is complete. Programs that read Parquet accept such a directory as one table.
 
 mod file;
 mod rows;
@@ -24,15 +24,16 @@ use crate::linearized::Linearized;
 use crate::number::Real;
 use crate::system::State;
 
-/// A table of members in a directory of Parquet files, to which rows are appended as members are done.
+/// A table of members in a directory of Parquet files; rows are appended as members finish.
 ///
-/// Each row has its member's start and its parameters by name beside what a row of [`csv`](super::Outcome::csv) has: the
-/// columns `member`, `fingerprint` (of the start) and `ending`, and the groups `start`, `parameters` and `end`, the last without
-/// entries where there is no motion. Each file says of which run it is ([`Fingerprint`]), and has the equations as text.
+/// Each row holds the member's start, its parameters by name, and the entries of a row of [`csv`](super::Outcome::csv).
+/// The columns are `member`, `fingerprint` (of the start) and `ending`, and the groups `start`, `parameters` and `end`.
+/// The group `end` is null for a member that did not start. The metadata of each file hold the [`Fingerprint`] of the
+/// run and the equations as text.
 ///
-/// Files are written every 10 s ([`every`](Self::every)), when the table is dropped, and by [`flush`](Self::flush), which
-/// says what went wrong. A program that is killed loses the rows since. Several tables, of programs on several machines, may
-/// write into one directory.
+/// Files are written every 10 s ([`every`](Self::every)), when the table is dropped, and by [`flush`](Self::flush),
+/// which returns errors. A program that is killed loses the rows since the last file. Several tables, of programs on
+/// several machines, may write into one directory.
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -69,12 +70,12 @@ where
     directory: PathBuf,
     member: Box<dyn Fn(usize) -> (L, State<T, N>) + Send + 'a>,
     interval: Duration,
-    /// Rows that are in no file yet, and since when there are any.
+    /// Rows not yet written to a file; `since` is the time of the first.
     waiting: Vec<MemberRow<T, N>>,
     since: Instant,
-    /// The members below this one are known to start in the files of the directory as they are made here.
+    /// Members below this index were compared: their starts and parameters agree with the files of the directory.
     compared: usize,
-    /// [`Fingerprint::start`] of member 0, once it was made.
+    /// [`Fingerprint::start`] of member 0, computed at first use.
     first: OnceCell<u32>,
     damaged: Vec<Error>,
 }
@@ -84,11 +85,11 @@ where
     L: Linearized<N, M, P, Scalar = T>,
     T: Real,
 {
-    /// The table in this directory, which is made where there is none. `member` is what the ensemble is
-    /// [made from](super::Ensemble::from_fn).
+    /// Opens the table in this directory, and creates the directory if it does not exist. `member` is the function that
+    /// the ensemble is [made from](super::Ensemble::from_fn).
     ///
     /// # Errors
-    /// [`EnsembleError::Parquet`], if there is no such directory and none can be made.
+    /// [`EnsembleError::Parquet`] if the directory cannot be created.
     pub fn open(
         directory: impl AsRef<Path>,
         member: impl Fn(usize) -> (L, State<T, N>) + Send + 'a,
@@ -107,7 +108,7 @@ where
         })
     }
 
-    /// How long rows may wait for a file to be written.
+    /// Sets the longest time that rows wait before a file is written.
     pub fn every(mut self, interval: Duration) -> Self {
         self.interval = interval;
         self
@@ -116,8 +117,8 @@ where
     /// Appends the row of a member.
     ///
     /// # Errors
-    /// [`EnsembleError::OtherRun`], if it is of another run than the rows that wait, or was made from another start. As
-    /// [`flush`](Self::flush), when it is time for a file; the row waits then as the others do.
+    /// [`EnsembleError::OtherRun`] if the member belongs to another run than the waiting rows, or was made from another
+    /// start. When a file is due, also the errors of [`flush`](Self::flush); the row then waits with the others.
     pub fn push(&mut self, member: &Member<T, N>) -> Result<(), Error> {
         let (system, start) = (self.member)(member.index);
         let known = self.waiting.first().map_or(member.fingerprint, |row| row.fingerprint);
@@ -131,12 +132,13 @@ where
         if self.since.elapsed() < self.interval { Ok(()) } else { self.flush() }
     }
 
-    /// Writes the rows that wait into a file.
+    /// Writes the waiting rows to a file.
     ///
     /// # Errors
-    /// [`EnsembleError::Parquet`], where that cannot be done, or the directory holds files of another run or of another system, or rows of
-    /// members with another start or other parameters. To see that, members are made up to the last that waits; of those beyond
-    /// it nothing is known yet, but that their member 0 was the same. The rows go on waiting: make room and flush again.
+    /// [`EnsembleError::Parquet`] if the file cannot be written, if the directory holds files of another run or system,
+    /// or if it holds rows of members with another start or other parameters. For this check, members are constructed
+    /// up to the last waiting one; of rows beyond it only member 0 of their run is compared. After an error the rows
+    /// keep waiting: make room and flush again.
     pub fn flush(&mut self) -> Result<(), Error> {
         if self.waiting.is_empty() {
             return Ok(());
@@ -151,12 +153,12 @@ where
         Ok(())
     }
 
-    /// The rows in the files, by member. Of several rows of one member one that arrived counts, where there is one. Files
-    /// that were cut off are passed over: [`damaged`](Self::damaged) names them.
+    /// Reads the rows of all files, ordered by member. If a member has several rows, the first that did not fail takes
+    /// precedence. Truncated files are skipped; [`damaged`](Self::damaged) lists them.
     ///
     /// # Errors
-    /// [`EnsembleError::Parquet`] for files of another system, by its columns or by its equations, or with another member 0, for files of
-    /// several runs, and where the directory cannot be read.
+    /// [`EnsembleError::Parquet`] if a file belongs to another system (by its columns or equations) or has another
+    /// member 0, if the files belong to several runs, or if the directory cannot be read.
     pub fn read(&mut self) -> Result<MemberTable<T, N>, Error> {
         self.damaged.clear();
         let mut found = Vec::new();
@@ -172,16 +174,16 @@ where
         })
     }
 
-    /// What is wrong with each file that was passed over when the table was [read](Self::read) last.
+    /// One error for each file that the last [`read`](Self::read) skipped.
     pub fn damaged(&self) -> &[Error] {
         &self.damaged
     }
 
-    /// Makes one file of all, without the rows that are there twice, and removes what is damaged or was not written to its
-    /// end. Nothing else may write into the directory meanwhile.
+    /// Merges all files into one, drops duplicate rows, and removes damaged and unfinished files. Nothing else may
+    /// write into the directory at the same time.
     ///
     /// # Errors
-    /// As [`flush`](Self::flush) and [`read`](Self::read). No row is lost.
+    /// The errors of [`flush`](Self::flush) and [`read`](Self::read). No row is lost.
     pub fn clean(&mut self) -> Result<(), Error> {
         self.flush()?;
         let table = self.read()?;
@@ -197,7 +199,7 @@ where
         self.listed(is_file)
     }
 
-    /// What is in the directory under such names, in their order.
+    /// Paths of the files in the directory whose name passes `is_meant`, sorted.
     fn listed(&self, is_meant: impl Fn(&str) -> bool) -> Result<Vec<PathBuf>, Error> {
         let entries = read_dir(&self.directory).and_then(Iterator::collect::<Result<Vec<_>, _>>);
         let entries = entries.map_err(|error| wrong(&self.directory, error))?;
@@ -207,7 +209,7 @@ where
         Ok(paths)
     }
 
-    /// The rows of a file, whose member 0 must be the one that is made here.
+    /// Reads the rows of a file, and checks that its member 0 has the same start and parameters as here.
     fn rows_in(&self, path: &Path) -> Result<Vec<MemberRow<T, N>>, FileFault> {
         let file = File::open(path).map_err(|error| FileFault::Other(error.to_string()))?;
         let read = file::read(file, columns::<L, T, N, M, P>(&[], &[]))?;
@@ -218,7 +220,7 @@ where
         rows::<T, N, P>(&read)
     }
 
-    /// [`Fingerprint::start`] of member 0, which every run of an ensemble can make.
+    /// [`Fingerprint::start`] of member 0, which every run of an ensemble can compute.
     fn first(&self) -> u32 {
         *self.first.get_or_init(|| {
             let (system, start) = (self.member)(0);
@@ -226,18 +228,18 @@ where
         })
     }
 
-    /// Checks that the rows in a file are of the run of those that wait, and those below `end` of members that start as they
-    /// are made here.
+    /// Checks that the rows of a file belong to the run of the waiting rows, and that members below `end` have the same
+    /// start and parameters as here.
     fn compare(&self, path: &Path, end: usize) -> Result<(), Error> {
         let rows = match self.rows_in(path) {
             Ok(rows) => rows,
-            // No row of it is read.
+            // A damaged file contributes no rows, so there is nothing to compare.
             Err(FileFault::Damaged(_)) => return Ok(()),
             Err(FileFault::Other(reason)) => return Err(wrong(path, reason)),
         };
         let run = self.waiting[0].fingerprint;
         for row in rows {
-            // There may be more members in the file than can be made.
+            // The file may hold indices for which `member` cannot make a member.
             let expected = if row.index < end {
                 let (system, start) = (self.member)(row.index);
                 run.with_start(&system, &start)
@@ -251,7 +253,7 @@ where
         Ok(())
     }
 
-    /// A file of these rows, there when it is whole.
+    /// Writes a file of these rows under a temporary name, and renames it when it is complete.
     fn write(&self, rows: &[MemberRow<T, N>]) -> Result<PathBuf, Error> {
         let made: Vec<_> = rows.iter().map(|row| (self.member)(row.index)).collect();
         let columns = columns(rows, &made);
@@ -267,7 +269,7 @@ where
         match written {
             Ok(()) => Ok(path),
             Err(FileFault::Damaged(reason)) => {
-                // What is left of it helps nobody, and where the disk is full it is in the way.
+                // A partial file is useless, and takes up space if the disk is full.
                 let _ = remove_file(&unfinished);
                 Err(wrong(&path, reason))
             }
@@ -282,7 +284,8 @@ fn is_file(name: &str) -> bool {
     name.ends_with(".parquet")
 }
 
-/// The same for the same rows, and another for others: programs that write into one directory do not meet.
+/// File name derived from the rows: equal for equal rows, different otherwise. Programs that write into one directory
+/// do not overwrite each other's files.
 fn name<T, const N: usize>(rows: &[MemberRow<T, N>]) -> String {
     let mut hash = Hash::new();
     for row in rows {
@@ -305,7 +308,7 @@ where
     T: Real,
 {
     fn drop(&mut self) {
-        // Who wants to know flushes.
+        // A destructor cannot return errors; call `flush` to see them.
         let _ = self.flush();
     }
 }

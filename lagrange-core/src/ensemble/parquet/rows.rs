@@ -1,4 +1,4 @@
-//! Rows as columns, and back.
+//! Converts table rows to Parquet columns and back.
 
 use super::file::{Column, END, FileFault, Values};
 use crate::ensemble::fingerprint::Fingerprint;
@@ -9,7 +9,7 @@ use crate::number::{Real, vector};
 use crate::statistics::Statistics;
 use crate::system::State;
 
-/// The columns of these rows, and of what their members are made from.
+/// Columns of these rows. `made` holds, for each row, the system and the initial state of its member.
 pub(super) fn columns<L, T, const N: usize, const M: usize, const P: usize>(
     rows: &[MemberRow<T, N>],
     made: &[(L, State<T, N>)],
@@ -57,7 +57,7 @@ where
     columns
 }
 
-/// The rows that such columns are of.
+/// Rows of a table, from its columns, the flags `has_end` and the fingerprint of member 0.
 pub(super) fn rows<T: Real, const N: usize, const P: usize>(
     (columns, has_end, first): &(Vec<Column>, Vec<bool>, Fingerprint),
 ) -> Result<Vec<MemberRow<T, N>>, FileFault> {
@@ -93,7 +93,7 @@ pub(super) fn rows<T: Real, const N: usize, const P: usize>(
     rows.ok_or(FileFault::Damaged("a number in it is none".into()))
 }
 
-/// The columns of times, coordinates and velocities.
+/// Columns of times, coordinates and velocities.
 fn states<L, T, const N: usize, const M: usize, const P: usize>(
     group: &'static str,
     states: &[&State<T, N>],
@@ -114,7 +114,7 @@ where
     core::iter::once(column("t".into(), &|state| state.t)).chain(coordinates).chain(velocities)
 }
 
-/// The state in this place of the columns of time, coordinates and velocities.
+/// State in the row `place` of the columns of time, coordinates and velocities.
 fn state<T: Real, const N: usize>(columns: &[Column], place: usize) -> Option<State<T, N>> {
     let number = |k: usize| columns[k].values.number(place).filter(|x| x.is_finite()).map(T::constant);
     let zero = vector([T::constant(0.0); N]);

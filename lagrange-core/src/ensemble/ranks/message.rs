@@ -1,4 +1,4 @@
-//! What has become of the members of a batch, as it travels between ranks: numbers, and the endings in words.
+//! Results of the members of a batch, encoded for MPI: numbers, and the endings as text.
 
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, Destination, MatchedReceiveVec, Source};
@@ -12,12 +12,12 @@ use crate::number::{Real, vector};
 use crate::statistics::Statistics;
 use crate::system::State;
 
-/// Of each member the row of a table, then of one that has a motion its samples, values and crossings.
+/// Encodes each member as a table row, followed by its samples, values and crossings if it has a motion.
 #[derive(Default)]
 pub(super) struct MemberMessage {
-    /// Integers are exact up to 2⁵³.
+    /// Numbers of all members; integers are exact up to 2⁵³.
     numbers: Vec<f64>,
-    /// The endings, one directly after the other: how long each is, is among the numbers.
+    /// Concatenated endings; `numbers` holds the length of each.
     words: String,
 }
 
@@ -63,7 +63,7 @@ impl MemberMessage {
         to.send_with_tag(self.words.as_bytes(), WORDS);
     }
 
-    /// The first that has come from any rank, and from which.
+    /// Receives the first message that has arrived from any rank; returns that rank and the message.
     pub(super) fn arrived(world: &SimpleCommunicator) -> Option<(usize, Self)> {
         let message = world.any_process().immediate_matched_probe_with_tag(NUMBERS)?;
         let rank = message.1.source_rank();
@@ -73,7 +73,7 @@ impl MemberMessage {
         Some((rank.unsigned_abs() as usize, Self { numbers, words }))
     }
 
-    /// The members of this run, in an ensemble with these events.
+    /// Decodes the members. `run` is the fingerprint of the run, `events` the names of its events.
     pub(super) fn members<T: Real, const N: usize>(
         &self,
         run: Fingerprint,
@@ -84,7 +84,7 @@ impl MemberMessage {
     }
 }
 
-/// What is not unpacked yet.
+/// Numbers and text not yet decoded.
 struct Rest<'p> {
     numbers: core::slice::Iter<'p, f64>,
     words: &'p str,
@@ -169,7 +169,7 @@ mod tests {
         k: T,
     }
 
-    /// Endings by events, crossings and samples are unpacked as they were packed; what went wrong is told in words.
+    /// Endings by events, crossings and samples survive encoding and decoding; errors arrive as text.
     #[test]
     fn what_is_kept_of_members_survives_the_way() {
         let spring = |index: usize| {

@@ -1,4 +1,4 @@
-//! The rows of a table, as they were written.
+//! Parses the rows of a table.
 
 use core::str::FromStr;
 
@@ -9,10 +9,10 @@ use crate::number::{Real, vector};
 use crate::statistics::Statistics;
 use crate::system::State;
 
-/// The column, counted from 1, and what is wrong there.
+/// Column number, counted from 1, and the reason why its cell is rejected.
 type Wrong = (usize, &'static str);
 
-/// The rows of a table that were written to their ends, and the lines that they stand in, counted from 1.
+/// Complete rows of a table, each with its line number, counted from 1. Incomplete rows are skipped.
 pub(crate) fn read<T: Real + FromStr, const N: usize>(
     table: &str,
     names: &[&'static str; N],
@@ -20,7 +20,7 @@ pub(crate) fn read<T: Real + FromStr, const N: usize>(
 ) -> Result<Vec<(usize, MemberRow<T, N>)>, Error> {
     let header = header(names);
     let mut rows = Vec::new();
-    // Spreadsheets write a mark before the first line.
+    // Spreadsheets write a byte-order mark before the first line.
     let table = table.strip_prefix('\u{feff}').unwrap_or(table);
     for (line, text) in (1..).zip(table.lines()) {
         let text = text.strip_suffix('\r').unwrap_or(text);
@@ -37,7 +37,7 @@ pub(crate) fn read<T: Real + FromStr, const N: usize>(
     Ok(rows)
 }
 
-/// The header, or the beginning of one that was not written to its end, also where another line was appended to it.
+/// Accepts the header, or a truncated header, even if another line was appended to it.
 fn check_header<const N: usize>(text: &str, header: &str) -> Result<(), Wrong> {
     let is_same = |(a, b): &(char, char)| a == b;
     let common: usize = text.chars().zip(header.chars()).take_while(is_same).map(|(a, _)| a.len_utf8()).sum();
@@ -73,7 +73,7 @@ fn row<T: Real + FromStr, const N: usize>(
     Ok(Some(MemberRow { index, fingerprint, state, statistics, ending }))
 }
 
-/// The cells between the two indices of a row that was written to its end.
+/// Cells between the two indices of a complete row; `None` if the row is incomplete.
 fn whole<const N: usize>(text: &str) -> Option<Vec<&str>> {
     let (index, rest) = text.split_once(',')?;
     let (rest, again) = rest.rsplit_once(',')?;
@@ -83,7 +83,7 @@ fn whole<const N: usize>(text: &str) -> Option<Vec<&str>> {
     (index == again && is_whole).then_some(cells)
 }
 
-/// What stands between the quotes; none where it does not end there, or ends before.
+/// Text between the quotes, unescaped; `None` if the closing quote is missing or comes too early.
 fn unquoted(text: &str) -> Option<String> {
     let inner = text.strip_prefix('"')?.strip_suffix('"')?;
     (!inner.replace("\"\"", "").contains('"')).then(|| inner.replace("\"\"", "\""))

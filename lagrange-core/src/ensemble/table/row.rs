@@ -1,4 +1,4 @@
-//! One row of a table.
+//! One row of a table: its fields, its text.
 
 use core::fmt::{self, Display, Formatter};
 use std::borrow::Cow;
@@ -12,36 +12,36 @@ use crate::number::Real;
 use crate::statistics::Statistics;
 use crate::system::State;
 
-/// What a table says of one member.
+/// Data of one member in a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MemberRow<T, const N: usize> {
-    /// Its index in the ensemble.
+    /// Index of the member in the ensemble.
     pub index: usize,
-    /// Of which run it is.
+    /// Hashes of the system, the run and the start.
     pub fingerprint: Fingerprint,
-    /// Its last state; none where it has no motion.
+    /// Last state of the member; `None` if its motion did not start.
     pub state: Option<State<T, N>>,
-    /// Steps and evaluations; zero where it has no motion.
+    /// Numbers of steps and evaluations; zero if the motion did not start.
     pub statistics: Statistics,
-    /// Why there is no later state.
+    /// Reason why the motion ended at this state.
     pub ending: MemberEnding,
 }
 
-/// Why a member's motion ends where it does, as a table says it.
+/// Reason why a member's motion ended, as a table stores it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum MemberEnding {
-    /// The end was reached.
+    /// The motion reached the end.
     Complete,
-    /// The observer ended it.
+    /// The observer ended the motion.
     Cancelled,
-    /// It met an event at which it was to end.
+    /// A terminal event ended the motion.
     Event(
-        /// Its name.
+        /// Name of the event.
         String,
     ),
-    /// Something kept it from the end.
+    /// The motion did not start or ended early because of an error.
     Failed(
-        /// What it was, in words.
+        /// Message of the error.
         String,
     ),
 }
@@ -57,7 +57,7 @@ impl Display for MemberEnding {
     }
 }
 
-/// As a table has it.
+/// Parses the ending as a table writes it.
 impl From<&str> for MemberEnding {
     fn from(text: &str) -> Self {
         match text {
@@ -72,12 +72,12 @@ impl From<&str> for MemberEnding {
 }
 
 impl<T: Real, const N: usize> MemberRow<T, N> {
-    /// Whether something other than the observer or an event kept it from the end.
+    /// True if an error, rather than the observer or an event, ended the motion early.
     pub fn has_failed(&self) -> bool {
         matches!(self.ending, MemberEnding::Failed(_))
     }
 
-    /// The member that it is the row of, in an ensemble with these events. What went wrong is known in words only.
+    /// Converts the row to a member of an ensemble with these events. Errors are kept as text only.
     pub(crate) fn into_member(self, events: &[&'static str]) -> Member<T, N> {
         let Self { index, fingerprint, state, statistics, ending } = self;
         let result = match (state, ending) {
@@ -106,7 +106,7 @@ impl<T: Real, const N: usize> MemberRow<T, N> {
         Member { index, fingerprint, result }
     }
 
-    /// As a row of the table.
+    /// The row as a line of the table.
     pub fn csv(&self) -> impl Display + '_ {
         Line(Cow::Borrowed(self))
     }
@@ -125,8 +125,8 @@ pub(super) fn header<const N: usize>(names: &[&'static str; N]) -> String {
     names.chain(counts).collect::<Vec<_>>().join(",")
 }
 
-/// One line of it. The index stands at both ends: a line that was not written to its end, and the row that is then
-/// appended to it, do not pass for a row of a third member.
+/// Prints one line of the table. The index stands at both ends, so that a truncated line with another row appended is
+/// not mistaken for the row of a third member.
 pub(super) struct Line<'m, T: Real, const N: usize>(pub(super) Cow<'m, MemberRow<T, N>>);
 
 impl<T: Real, const N: usize> Display for Line<'_, T, N> {
@@ -137,7 +137,7 @@ impl<T: Real, const N: usize> Display for Line<'_, T, N> {
         match state {
             None => (0..2 * N + 5).try_for_each(|_| write!(f, ","))?,
             Some(state) => {
-                // `Debug` of a number is its shortest form that reads back the same.
+                // `Debug` prints the fewest digits that read back to the same number.
                 write!(f, ",{:?}", state.t)?;
                 state.q.iter().chain(&state.v).try_for_each(|x| write!(f, ",{x:?}"))?;
                 let Statistics { accepted, rejected, evaluations, multipliers_are_unique } = statistics;

@@ -1,4 +1,4 @@
-//! Tables that were cut, put together, edited or are of something else: understood, or refused with the place.
+//! Truncated, concatenated, edited and foreign tables: read, or rejected with line and column.
 
 use super::*;
 use crate::statistics::Statistics;
@@ -8,7 +8,7 @@ const NAMES: [&str; 1] = ["x"];
 const COUNT: usize = 30;
 const MINE: Fingerprint = Fingerprint { system: 71, run: 4_294_967_295, start: 0 };
 
-/// A whole one, of members 3, 12 (which failed) and 21.
+/// Complete table of the members 3, 12 (which failed) and 21.
 fn table() -> String {
     let arrived = |index: usize, time: f64, ending| Member {
         index,
@@ -56,7 +56,7 @@ fn refused(table: &str, place: (usize, usize)) {
     }
 }
 
-/// As many members as rows that are there to their ends, and those.
+/// A truncated table gives exactly the members whose rows are complete.
 #[test]
 fn a_table_cut_anywhere_loses_and_invents_nothing() {
     let table = table();
@@ -82,10 +82,10 @@ fn what_is_appended_to_a_cut_table_counts_from_the_next_line_on() {
     let all = taken(&table);
     for cut in 0..=table.len() {
         let joined = taken(&format!("{}{table}", &table[..cut]));
-        // Of rows that are whole in both halves the first counts, later.
+        // If a row is complete in both halves, the first counts; that is decided later.
         assert!(joined.iter().all(|member| all.contains(member)), "cut at {cut}: {joined:?}");
         assert!(all.iter().all(|member| joined.contains(member)), "cut at {cut}: {joined:?}");
-        // Rows alone: the one in the line that was cut is lost, and is done again.
+        // Rows without a header: the row in the truncated line is lost, and is integrated again.
         let rows = table.split_once('\n').unwrap().1;
         let joined = taken(&format!("{}{rows}", &table[..cut]));
         assert!(joined.iter().all(|member| all.contains(member)) && joined.contains(&all[1]), "cut at {cut}");
@@ -103,7 +103,7 @@ fn lines_twice_and_empty_lines_change_nothing() {
 
 const ROW: &str = "3,71,17,5,1.0,0.5,-0.25,12,3,123,true,complete,3";
 
-/// The row with another cell in this column.
+/// `ROW` with another cell in this column.
 fn with(column: usize, cell: &str) -> String {
     let mut cells: Vec<&str> = ROW.split(',').collect();
     cells[column - 1] = cell;
@@ -173,7 +173,7 @@ fn other_columns_are_refused() {
     refused(&format!("\"member\",\"t\"\n{ROW}\n"), (1, 1));
 }
 
-/// The message of a failure was cut, and the member was tried again.
+/// The message of a failure was truncated, and the member was integrated again.
 #[test]
 fn a_failure_that_ran_into_the_next_row_of_its_member_is_no_row() {
     let table = table();
@@ -189,12 +189,12 @@ fn a_failure_that_ran_into_the_next_row_of_its_member_is_no_row() {
     }
 }
 
-/// All rows, of members that failed too.
+/// All rows, including those of failed members.
 fn all(table: &str) -> Vec<MemberRow<f64, 1>> {
     MemberTable::of(table, NAMES, MINE.system, COUNT).expect("a table").rows().to_vec()
 }
 
-/// As it comes from another process.
+/// Rows become members and rows again, as between processes.
 #[test]
 fn a_row_gives_the_member_that_gives_the_row() {
     let table = table();
