@@ -1,4 +1,4 @@
-//! Derivatives of a motion across events: what a program calls.
+//! Public interface to derivatives of a motion across events.
 
 use super::Linearized;
 use super::dual_sample::{DualSample, OverDuals};
@@ -9,11 +9,12 @@ use crate::number::{Dual, Real};
 use crate::solution::vector_field::PhaseVector;
 use crate::system::State;
 
-/// Derivatives of a motion of several legs: every [`Linearized`] system over `f64` or `f32` has it.
+/// Derivatives of a motion of several legs, for every [`Linearized`] system over `f64` or `f32`.
 ///
-/// A leg ends at an event, whose time depends on where the motion starts and on the parameters; there a state with its
-/// derivatives, a [`StateSensitivity`], is made one after an impact, or one of another system, and starts the next leg. That
-/// is the work of the saltation matrix: R_x + (ẋ⁺ − R_x ẋ⁻ − R_t) g_x/ġ for an event g = 0 and a reset x⁺ = R(t, x⁻).
+/// A leg ends at an event, whose time depends on the initial state and on the parameters. At the event, a state with
+/// its derivatives, a [`StateSensitivity`], is mapped to the state after an impact, or to a state of another system,
+/// and starts the next leg. This map applies the saltation matrix: R_x + (ẋ⁺ − R_x ẋ⁻ − R_t) g_x/ġ for an event g = 0
+/// and a reset x⁺ = R(t, x⁻).
 ///
 /// ```
 /// use lagrange_core::prelude::*;
@@ -48,16 +49,16 @@ use crate::system::State;
 /// # Ok::<(), Error>(())
 /// ```
 ///
-/// Parameters are matched by name: what is called `g` in two systems is the same number, and one that a system lacks has no
-/// effect there. Names of coordinates and velocities are those of the start.
+/// Parameters are matched by name: `g` in two systems is the same number, and a parameter that a system lacks has no
+/// effect there. Coordinates and velocities among the arguments refer to the initial state.
 ///
-/// Where the motion touches an event and does not cross it, it has no derivative, [`Error::Grazing`]: where the rate of
-/// the event's function is less than √ε of its terms, or of what they were where the step began. Nor has it one where
-/// two events coincide, which is not looked for.
+/// A motion that touches an event without crossing it has no derivative, and gives [`Error::Grazing`]. The criterion:
+/// the rate of the event's function is less than √ε of the sum of its terms, either there or at the start of the step.
+/// Neither is there a derivative where two events coincide, which is not checked.
 pub trait MotionDerivatives<const N: usize, const M: usize, const P: usize>:
     Linearized<N, M, P, Scalar: Real> + Sized
 {
-    /// A state with its derivatives by these arguments, to start with: its entries and parameters, named as in
+    /// An initial state with its derivatives by these arguments: entries of the state and parameters, named as in
     /// [`jacobian_by`](Linearized::jacobian_by).
     ///
     /// # Errors
@@ -70,11 +71,11 @@ pub trait MotionDerivatives<const N: usize, const M: usize, const P: usize>:
         sensitivity::start::<Self, N, M, P>(state, arguments)
     }
 
-    /// An event of this system, as by [`event`](crate::Simulate::event), whose function can be differentiated: it is
-    /// given a state over dual numbers, and gives one.
+    /// An event of this system, as by [`event`](crate::Simulate::event), with a differentiable function: it receives a
+    /// state over dual numbers, and returns a dual number.
     ///
-    /// The function is evaluated as it is in every run, and gives its derivative beside. It knows no
-    /// observables and no momenta; what it captures, or reads from [`system`](DualSample::system), is constant.
+    /// A run without derivatives evaluates the same function. The function cannot use observables or momenta. Values
+    /// that it captures, or reads from [`system`](DualSample::system), are constants.
     ///
     /// ```
     /// # use lagrange_core::prelude::*;
@@ -109,13 +110,13 @@ pub trait MotionDerivatives<const N: usize, const M: usize, const P: usize>:
         Event::new(name, OverDuals(function))
     }
 
-    /// The settings of a motion with its derivatives, from a state whose derivatives are given: method and events are chosen as for
-    /// [`motion`](crate::Simulate::motion).
+    /// Starts the settings of a motion with derivatives, from a state with given derivatives. Method and events are
+    /// chosen as for [`motion`](crate::Simulate::motion).
     ///
-    /// Where the start is the end of an earlier leg, at an event, its time depends on the arguments too; the derivatives along the
-    /// motion are those at fixed times. On constraints they are projected onto the tangent space.
-    /// [`TrajectorySensitivity::end`](crate::linearized::TrajectorySensitivity::end) is an error where the motion reached neither its end nor an event, or where
-    /// the event has no derivative.
+    /// If the start is the end of an earlier leg, at an event, its time depends on the arguments too; the derivatives
+    /// along the motion are those at fixed times. With constraints, they are projected onto the tangent space.
+    /// [`TrajectorySensitivity::end`](crate::linearized::TrajectorySensitivity::end) returns an error if the motion
+    /// reached neither its end nor an event, or if the event has no derivative.
     fn motion_with_derivatives<'w>(
         &self,
         start: &StateSensitivity<Self::Scalar, N>,
@@ -123,8 +124,8 @@ pub trait MotionDerivatives<const N: usize, const M: usize, const P: usize>:
         MotionBuilder::new(self, start.clone())
     }
 
-    /// The state with its derivatives after an [`impact`](crate::Simulate::impact), by the system that has the
-    /// constraint. The restitution is a number with its name: an argument of that name is e.
+    /// Returns the state with its derivatives after an [`impact`](crate::Simulate::impact). `self` is the system that
+    /// has the constraint. The coefficient of restitution e is given with a name: the argument of that name is e.
     ///
     /// # Errors
     /// As [`impact`](crate::Simulate::impact); [`Error::DerivativeNotFinite`].
@@ -137,13 +138,13 @@ pub trait MotionDerivatives<const N: usize, const M: usize, const P: usize>:
         sensitivity::impact_sensitivity(self, at, constraint, restitution)
     }
 
-    /// The state with its derivatives after a reset: coordinates and velocities, of another system and of another
-    /// number where they are, as functions of those of this one. The function is called once for the state and once for
-    /// each argument.
+    /// Returns the state with its derivatives after a reset. `map` computes the new coordinates and velocities from the
+    /// state before it; they may be of another system, and of another number. `map` is called once for the state and
+    /// once for each argument.
     ///
-    /// The parameters of the system that the motion goes on with are given, and depend on no state. Where one would be set from
-    /// the state at the event (the place where a foot comes down), count the coordinates from there: the reset shifts
-    /// them, and the parameter stays.
+    /// Parameters of the next system are constants, and cannot depend on the state. If a parameter would be set from
+    /// the state at the event, such as the place where a foot comes down, measure coordinates from there: the reset
+    /// shifts the coordinates, and the parameter stays.
     ///
     /// ```
     /// # use lagrange_core::prelude::*;
@@ -166,7 +167,7 @@ pub trait MotionDerivatives<const N: usize, const M: usize, const P: usize>:
     /// ```
     ///
     /// # Errors
-    /// Those of the function.
+    /// The errors of `map`.
     fn push_forward<const K: usize>(
         &self,
         at: &StateSensitivity<Self::Scalar, N>,

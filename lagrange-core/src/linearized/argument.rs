@@ -1,4 +1,4 @@
-//! What the equations of motion depend on, by names.
+//! Arguments of the equations of motion, looked up by name.
 
 use alloc::vec::Vec;
 
@@ -16,7 +16,7 @@ pub(crate) enum Argument {
 }
 
 impl Argument {
-    /// Those of these names.
+    /// Finds the arguments of these names.
     pub(crate) fn named<L: Linearized<N, M, P>, const N: usize, const M: usize, const P: usize>(
         names: &[&str],
     ) -> Result<Vec<Self>, Error> {
@@ -31,7 +31,7 @@ impl Argument {
         Ok(found.into_iter().map(argument).collect())
     }
 
-    /// Coordinates on which a generalized force acts, and parameters, of these names.
+    /// Finds the actuators of these names: a coordinate stands for the generalized force on it, a parameter for itself.
     pub(crate) fn actuators<L: Linearized<N, M, P>, const N: usize, const M: usize, const P: usize>(
         names: &[&str],
     ) -> Result<Vec<Self>, Error> {
@@ -41,7 +41,7 @@ impl Argument {
         Ok(found.into_iter().map(argument).collect())
     }
 
-    /// What it is called.
+    /// Name of the argument, for messages.
     pub(crate) fn entry<L, const N: usize, const M: usize, const P: usize>(self) -> Entry
     where
         L: Linearized<N, M, P>,
@@ -53,7 +53,7 @@ impl Argument {
         }
     }
 
-    /// How the residual changes with it alone.
+    /// Derivative of the residual by this argument.
     pub(crate) fn residual_change<L, const N: usize, const M: usize, const P: usize>(
         self,
         system: &L,
@@ -71,7 +71,7 @@ impl Argument {
     }
 }
 
-/// Which of the system's parameters this is, if it is one.
+/// Index of this parameter among those of the system; `None` if the system does not have it.
 pub(crate) fn parameter<L, const N: usize, const M: usize, const P: usize>(entry: Entry) -> Option<usize>
 where
     L: Linearized<N, M, P>,

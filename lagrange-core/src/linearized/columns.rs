@@ -1,4 +1,4 @@
-//! The Jacobian by some arguments, chosen by names.
+//! Jacobian by selected arguments, chosen by name.
 
 use alloc::{format, string::String, vec::Vec};
 
@@ -11,21 +11,21 @@ use crate::error::Error;
 use crate::number::{Real, Scalar, Wide};
 use crate::system::{Direction, Solution, State};
 
-/// What the equations of motion give at a state, and its partial derivatives by some arguments.
+/// Accelerations and multipliers at a state, with their partial derivatives by selected arguments.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SelectedJacobian<T, const N: usize, const M: usize> {
     /// Accelerations and multipliers.
     pub solution: Solution<T, N, M>,
-    /// Of the accelerations q̈: a row for each coordinate, a column for each argument.
+    /// Derivatives of the accelerations q̈: one row per coordinate, one column per argument.
     pub accelerations: DMatrix<T>,
-    /// Of the multipliers λ: a row for each constraint, a column for each argument; where constraints depend on one another,
+    /// Derivatives of the multipliers λ: one row per constraint, one column per argument. If constraints are dependent,
     /// the change of least norm.
     pub multipliers: DMatrix<T>,
     arguments: Vec<String>,
 }
 
 impl<T, const N: usize, const M: usize> SelectedJacobian<T, N, M> {
-    /// The names of the arguments, in the order of the columns.
+    /// Names of the arguments, in the order of the columns.
     pub fn arguments(&self) -> &[String] {
         &self.arguments
     }

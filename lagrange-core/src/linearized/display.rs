@@ -1,4 +1,4 @@
-//! A linear system as tables of numbers with the names of their rows and columns.
+//! Prints a linear system as tables of numbers with named rows and columns.
 
 use alloc::{format, string::String, vec::Vec};
 use core::fmt::{self, Display, Formatter};
@@ -8,9 +8,9 @@ use nalgebra::DMatrix;
 use super::Linearization;
 use crate::number::Real;
 
-/// The matrices A and B with the names of their rows and columns, and with constraints the basis Z.
+/// Prints the matrices A and B with the names of their rows and columns; with constraints, also the basis Z.
 ///
-/// Numbers are rounded to four decimals, or to four digits where they are large or small.
+/// Numbers are rounded to four decimals, or to four digits if they are large or small.
 impl<T: Real> Display for Linearization<T> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let is_free = self.basis.is_identity(T::constant(0.0));
@@ -46,7 +46,7 @@ fn table<T: Real>(
     writeln!(f)?;
     for (i, name) in rows.iter().enumerate() {
         write!(f, "{name:first$}")?;
-        // The entries come column by column.
+        // nalgebra iterates over entries column by column.
         numbers.iter().skip(i).step_by(rows.len()).try_for_each(|number| write!(f, "  {number:>width$}"))?;
         writeln!(f)?;
     }

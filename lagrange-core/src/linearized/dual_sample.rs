@@ -1,4 +1,4 @@
-//! A state over dual numbers, and events whose functions are written over them.
+//! States over dual numbers, and events whose functions take them.
 
 use core::fmt::{self, Debug, Formatter};
 
@@ -15,19 +15,20 @@ use crate::solution::solve::solve;
 use crate::system::lookup::index;
 use crate::system::{Direction, ResidualChange, Solution, State};
 
-/// A state of a system over dual numbers: with its change by one argument, as a function needs it that is to be
+/// State of a system over dual numbers: values, and their derivatives by one argument, for functions to be
 /// differentiated.
 ///
-/// Quantities have the names that they have in a [`Sample`](crate::Sample): coordinates, velocities, accelerations,
-/// multipliers and constraint forces; to these come the parameters and numbers of one's own, since what a function captures, or reads from the
-/// system, is a constant to it. The mathematics of [`Dual`] numbers is that of [`Scalar`].
+/// Quantities have the names they have in a [`Sample`](crate::Sample): coordinates, velocities, accelerations,
+/// multipliers and constraint forces. Parameters and captured numbers must be read with [`parameter`](Self::parameter)
+/// and [`number`](Self::number): values that the function captures, or reads from the system, are constants. [`Dual`]
+/// numbers have the mathematical functions of [`Scalar`].
 pub struct DualSample<'a, L, const N: usize, const M: usize, const P: usize>
 where
     L: Linearized<N, M, P>,
 {
     system: &'a L,
     state: State<Dual<L::Scalar>, N>,
-    /// By what it changes; nothing where the function alone is asked for, or how it changes with the time.
+    /// Parameter of differentiation; `None` if only the value or the rate along the motion is wanted.
     argument: Option<Entry>,
 }
 
@@ -56,12 +57,12 @@ where
         &self.state
     }
 
-    /// The time, which of an event changes too.
+    /// Time; it has a slope too, because the time of an event depends on the argument.
     pub fn time(&self) -> Dual<L::Scalar> {
         self.state.t
     }
 
-    /// The generalized coordinate of this name.
+    /// Generalized coordinate of this name.
     ///
     /// # Errors
     /// [`Error::UnknownName`].
@@ -69,7 +70,7 @@ where
         Ok(self.state.q[index::<L, N, M>(&L::COORDINATES, "coordinate", name)?])
     }
 
-    /// The generalized velocity of the coordinate of this name.
+    /// Generalized velocity of the coordinate of this name.
     ///
     /// # Errors
     /// [`Error::UnknownName`].
@@ -77,7 +78,7 @@ where
         Ok(self.state.v[index::<L, N, M>(&L::COORDINATES, "coordinate", name)?])
     }
 
-    /// The generalized acceleration of the coordinate of this name.
+    /// Generalized acceleration of the coordinate of this name.
     ///
     /// # Errors
     /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
@@ -86,7 +87,7 @@ where
         Ok(self.solution()?.accelerations[index])
     }
 
-    /// The multiplier λ of the constraint of this name.
+    /// Multiplier λ of the constraint of this name.
     ///
     /// # Errors
     /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
@@ -95,7 +96,7 @@ where
         Ok(self.solution()?.multipliers[index])
     }
 
-    /// The generalized constraint force Σ_α λ_α F_αa on the coordinate of this name.
+    /// Generalized constraint force Σ_α λ_α F_αa on the coordinate of this name.
     ///
     /// # Errors
     /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
@@ -104,7 +105,7 @@ where
         let (solution, (state, direction)) = (self.solution()?, self.parts());
         let [multipliers, changes] =
             [solution.multipliers.map(|x| x.value), solution.multipliers.map(|x| x.slope)];
-        // M q̈ − h − Fᵀλ changes by δFᵀ λ less than where multipliers are none.
+        // Slope of Fᵀλ at fixed λ: M q̈ − h − Fᵀλ changes by δFᵀ λ less than it does with λ = 0.
         let accelerations = solution.accelerations.map(|x| x.value);
         let motion = |multipliers| {
             let solution = Solution { accelerations, multipliers, pivot: solution.pivot.value, rank: M };
@@ -115,7 +116,7 @@ where
         Ok(Dual { value: force(&multipliers), slope: force(&changes) + by_direction })
     }
 
-    /// The parameter of this name, which changes where it is the argument.
+    /// Parameter of this name; its slope is 1 if it is the argument of differentiation, else 0.
     ///
     /// # Errors
     /// [`Error::UnknownName`].
@@ -124,7 +125,8 @@ where
         Ok(self.number(L::PARAMETERS[index], self.system.parameters()[index]))
     }
 
-    /// A number of one's own, which changes where an argument of this name is the one.
+    /// A number captured by the function, as a dual number: its slope is 1 if `name` is the argument of
+    /// differentiation, else 0.
     pub fn number(&self, name: &str, value: L::Scalar) -> Dual<L::Scalar> {
         Dual { value, slope: slope(self.argument, name) }
     }
@@ -149,14 +151,14 @@ where
         ))
     }
 
-    /// The state, and the direction in which it changes.
+    /// Splits the dual state into the state and the direction of its change.
     fn parts(&self) -> (State<L::Scalar, N>, Direction<L::Scalar, N>) {
         let State { t, q, v } = self.state;
         let state = State { t: t.value, q: q.map(|x| x.value), v: v.map(|x| x.value) };
         (state, Direction { t: t.slope, q: q.map(|x| x.slope), v: v.map(|x| x.slope) })
     }
 
-    /// How the residual changes with the argument.
+    /// Derivative of the residual by the argument and along the direction.
     fn change_at(
         &self,
         tangent: &Tangent<'_, L, N, M>,
@@ -166,7 +168,7 @@ where
     }
 }
 
-/// A solution with its changes.
+/// Combines a solution and its derivatives to a solution over dual numbers.
 fn dual<T: Real, const N: usize, const M: usize>(
     solution: &Solution<T, N, M>,
     acceleration: impl Fn(usize) -> T,
@@ -181,7 +183,7 @@ fn dual<T: Real, const N: usize, const M: usize>(
     }
 }
 
-/// Derivative of the number of this name by the argument: 1 or 0.
+/// Derivative of the number `name` by the argument: 1 if it is the argument, else 0.
 pub(super) fn slope<T: Scalar>(argument: Option<Entry>, name: &str) -> T {
     let is_argument = matches!(argument, Some(Entry::Parameter(known)) if known == name);
     T::constant(if is_argument { 1.0 } else { 0.0 })
@@ -201,7 +203,7 @@ where
     }
 }
 
-/// The function of an event, written over dual numbers.
+/// Function of an event that takes a state over dual numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct OverDuals<G, const P: usize>(pub(super) G);
 
@@ -216,7 +218,7 @@ where
     }
 }
 
-/// An event of a system that can be differentiated: made by
+/// An event of a system with a differentiable function, made by
 /// [`MotionDerivatives::differentiable_event`](super::MotionDerivatives::differentiable_event).
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not an event of `{L}` that can be differentiated",
@@ -226,7 +228,8 @@ pub trait DifferentiableEvent<L, const N: usize, const M: usize, const P: usize>
 where
     L: Linearized<N, M, P>,
 {
-    /// How its function changes along a direction and with an argument; the name of the event where that is not finite.
+    /// Derivative of the event's function along `direction` and by `argument`; an error with the event's name if it is
+    /// not finite.
     #[doc(hidden)]
     fn change(
         &self,
@@ -236,7 +239,7 @@ where
         argument: Option<Entry>,
     ) -> Result<L::Scalar, Error>;
 
-    /// What it is called.
+    /// Name of the event.
     #[doc(hidden)]
     fn called(&self) -> &'static str;
 }

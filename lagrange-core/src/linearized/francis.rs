@@ -18,7 +18,7 @@ const ITERATIONS: usize = 100;
 /// Iterations on one block between two exceptional shifts, as in LAPACK's `dlahqr`.
 const PATIENCE: usize = 10;
 
-/// The eigenvalues; none where the iteration does not converge, or an entry is not finite.
+/// Eigenvalues of `a`; `None` if the iteration does not converge, or if an entry is not finite.
 pub(super) fn eigenvalues<T: Real>(a: DMatrix<T>) -> Option<Vec<Complex<T>>> {
     if !a.iter().all(|x| Scalar::abs(*x).is_finite()) {
         return None;
@@ -48,17 +48,19 @@ fn hessenberg<T: Real>(a: DMatrix<T>) -> DMatrix<T> {
     if a.nrows() < 3 { a } else { Hessenberg::new(a).h() }
 }
 
-/// Two shifts, both real or complex conjugates. They are kept apart, and not as their sum and product: next to a multiple eigenvalue
-/// the differences between shifts and diagonal are of the size of round-off, and would be lost in the product.
+/// Two shifts, both real or complex conjugates. They are stored separately rather than as sum and product: near a
+/// multiple eigenvalue the differences between shifts and diagonal are of the size of round-off, and would be lost in
+/// the product.
 type Shifts<T> = [Complex<T>; 2];
 
 struct Francis<T> {
-    /// An upper Hessenberg matrix, orthogonally similar to the one given.
+    /// Upper Hessenberg matrix, orthogonally similar to the given one.
     h: DMatrix<T>,
 }
 
 impl<T: Real> Francis<T> {
-    /// Where the unreduced block starts that ends before this row; its first subdiagonal entry to the left counts as zero.
+    /// First row of the unreduced block that ends before row `end`. The subdiagonal entry to its left counts as zero,
+    /// and is set to zero.
     fn block(&mut self, end: usize) -> usize {
         for k in (1..end).rev() {
             if self.is_negligible(k, end) {
@@ -69,7 +71,7 @@ impl<T: Real> Francis<T> {
         0
     }
 
-    /// Whether the entry left of the diagonal in row `k` is round-off of those around it.
+    /// True if the subdiagonal entry of row `k` is round-off of its neighbours.
     fn is_negligible(&self, k: usize, end: usize) -> bool {
         let at = |i: usize, j: usize| Scalar::abs(self.h[(i, j)]);
         let mut size = at(k - 1, k - 1) + at(k, k);
@@ -80,7 +82,7 @@ impl<T: Real> Francis<T> {
         at(k, k - 1) <= larger(T::constant(T::SMALLEST), T::constant(T::EPSILON) * size)
     }
 
-    /// The eigenvalues of the block of two rows that starts here.
+    /// Eigenvalues of the 2×2 diagonal block that starts at row `k`.
     fn pair(&self, k: usize) -> [Complex<T>; 2] {
         let (h, zero) = (&self.h, T::constant(0.0));
         let product = h[(k, k + 1)] * h[(k + 1, k)];
@@ -96,8 +98,8 @@ impl<T: Real> Francis<T> {
         [d + far, d - near].map(|re| Complex::new(re, zero))
     }
 
-    /// The eigenvalues of the last two rows as shifts; where they are real, twice the one nearer to the last entry. Exceptional
-    /// ones, by LAPACK's `dlahqr`, where the block has kept its size for long.
+    /// Shifts: the eigenvalues of the last 2×2 block. If they are real, twice the one nearer to the last entry. After
+    /// many iterations on one block, the exceptional shifts of LAPACK's `dlahqr`.
     fn shifts(&self, start: usize, end: usize, tries: usize) -> Shifts<T> {
         let at = |i: usize, j: usize| Scalar::abs(self.h[(i, j)]);
         let exceptional = |corner: T, size: T| {
@@ -141,7 +143,7 @@ impl<T: Real> Francis<T> {
         }
     }
 
-    /// The first column of (H − s₁)(H − s₂) of the block, up to a factor.
+    /// First column of (H − s₁)(H − s₂) of the block, up to a factor.
     fn first_column(&self, start: usize, [first, second]: Shifts<T>) -> [T; 3] {
         let h = |i: usize, j: usize| self.h[(start + i, start + j)];
         let product = (h(0, 0) - first.re) * (h(0, 0) - second.re) - first.im * second.im;
@@ -166,7 +168,8 @@ impl<T: Real> Francis<T> {
     }
 }
 
-/// The v of 1 − v vᵀ that turns x into a multiple of the first unit vector, and that multiple; none where x is zero.
+/// Householder vector v for which 1 − v vᵀ maps x to a multiple of the first unit vector, and that multiple. `None` if
+/// x is such a multiple already.
 fn reflector<T: Real>(x: [T; 3]) -> Option<([T; 3], T)> {
     let zero = T::constant(0.0);
     let length = norm(&x);

@@ -1,4 +1,4 @@
-//! The inputs by which a system has given accelerations.
+//! Inverse dynamics: inputs that produce given accelerations.
 
 use alloc::{format, string::String, vec::Vec};
 
@@ -15,25 +15,25 @@ use crate::solution::solve::first_row;
 use crate::system::{Solution, State};
 use crate::system::{finite::check_finite, unit};
 
-/// What gives a system the accelerations asked for.
+/// Inputs and multipliers that produce given accelerations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InverseDynamics<T, const M: usize> {
-    /// The generalized forces on the coordinates named, and the values of the parameters named.
+    /// Generalized forces on the named coordinates, and values of the named parameters.
     pub inputs: DVector<T>,
-    /// The multipliers λ of the constraints, of least norm where these depend on one another, in units in which rows are
-    /// of length 1.
+    /// Multipliers λ of the constraints. If constraints are dependent, those of least norm, in units in which the rows
+    /// of F have length 1.
     pub multipliers: SVector<T, M>,
     names: Vec<String>,
 }
 
 impl<T, const M: usize> InverseDynamics<T, M> {
-    /// What the inputs are called, in their order.
+    /// Names of the inputs, in their order.
     pub fn names(&self) -> &[String] {
         &self.names
     }
 }
 
-/// Inputs that enter the equations as forces do are found at once; for others Newton's iteration may take as many steps.
+/// Largest number of Newton iterations. Inputs that enter the equations linearly, as forces do, need one.
 const STEPS: usize = 30;
 
 /// See [`Linearized::inputs_for`].
@@ -61,16 +61,16 @@ where
     Ok(InverseDynamics { inputs: values, multipliers, names })
 }
 
-/// M a = h + Fᵀλ + Σ τ and F a + γ = 0, at a guess of inputs and multipliers.
+/// Solves M a = h + Fᵀλ + Σ τ and F a + γ = 0 for inputs and multipliers; holds the current guess.
 struct InputBalance<'a, L: Linearized<N, M, P>, const N: usize, const M: usize, const P: usize> {
-    /// With the inputs that are parameters as they are.
+    /// The system, with the current values of the inputs that are parameters.
     system: L,
     state: &'a State<L::Scalar, N>,
     accelerations: &'a SVector<L::Scalar, N>,
     inputs: Vec<Argument>,
     values: DVector<L::Scalar>,
     multipliers: SVector<L::Scalar, M>,
-    /// In which masses are 1 and rows of constraints of length 1.
+    /// Units in which masses are 1 and rows of constraints have length 1.
     units: Units<L::Scalar, N, M>,
 }
 
@@ -98,12 +98,12 @@ where
         Ok(Self { system, state, accelerations, inputs, values, multipliers: vector([zero; M]), units })
     }
 
-    /// A number that belongs to row `i`, the motion's rows first, in its unit.
+    /// Converts a number of row `i` to the unit of that row. The rows of motion come first.
     fn scaled(&self, i: usize, x: L::Scalar) -> L::Scalar {
         if i < N { x * self.units.coordinates[i] } else { self.units.of_row(i - N, x) }
     }
 
-    /// What is left of each row.
+    /// Residual of each row.
     fn residual(&self) -> Result<DVector<L::Scalar>, Error> {
         let Self { system, state, accelerations, .. } = self;
         let mut motion = system.inverse_dynamics(state, accelerations, &self.multipliers);
@@ -120,7 +120,7 @@ where
         Ok(DVector::from_iterator(N + M, rows.map(|(i, x)| self.scaled(i, *x))))
     }
 
-    /// How the rows change with each input and each multiplier.
+    /// Derivatives of the rows by each input and each multiplier.
     fn jacobian(&self) -> Result<DMatrix<L::Scalar>, Error> {
         let Self { system, state, multipliers, .. } = self;
         let (zero, one, count) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0), self.inputs.len());
@@ -148,12 +148,12 @@ where
         Ok(jacobian)
     }
 
-    /// The shortest step after which nothing is left to first order, as far as that goes; inputs must be determined.
+    /// Newton step of least norm. Fails if an input is undetermined.
     fn step(&self) -> Result<DVector<L::Scalar>, Error> {
         let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
         let (residual, mut jacobian) = (self.residual()?, self.jacobian()?);
         let columns = jacobian.ncols();
-        // Each column of length 1: the units of inputs and multipliers do not count.
+        // Scale columns to length 1: the step then does not depend on the units of inputs and multipliers.
         let lengths = DVector::from_fn(columns, |j, _| {
             let length = jacobian.column(j).norm();
             if length > zero { length } else { one }
@@ -184,7 +184,7 @@ where
         Err(Error::InputsNotUnique { inputs: inputs.collect(), time: self.state.t.to_f64() })
     }
 
-    /// Takes the step; whether it was nothing but round-off.
+    /// Applies the step; returns true if it was mere round-off.
     fn go(&mut self, step: &DVector<L::Scalar>) -> bool {
         let mut is_small = true;
         let small = L::Scalar::constant(16.0 * L::Scalar::EPSILON);
@@ -201,7 +201,7 @@ where
         is_small
     }
 
-    /// Nothing may be left of a row but √ε of its terms.
+    /// Requires each row of the residual to be below √ε of the terms.
     fn check(&self) -> Result<(), Error> {
         let Self { system, state, accelerations, multipliers, .. } = self;
         let (m, f) = (system.mass_matrix(state), system.constraint_jacobian(state));
@@ -218,7 +218,8 @@ where
             let demands = sum(&mut (0..N).map(|j| f[(a, j)] * accelerations[j])) + Scalar::abs(gamma[a]);
             terms[N + a] = self.scaled(N + a, demands);
         }
-        // In these units forces compare, and so do accelerations: what is small beside others may be their round-off.
+        // In these units forces are comparable, and so are accelerations: a row small beside others may be their
+        // round-off.
         let most = |numbers: &mut dyn Iterator<Item = L::Scalar>| numbers.fold(zero, larger);
         let force = most(&mut terms.rows(0, N).iter().copied());
         let own = |i: usize| Scalar::abs(accelerations[i]) / self.units.coordinates[i];

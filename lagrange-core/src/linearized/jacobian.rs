@@ -1,4 +1,4 @@
-//! The Jacobian of the accelerations and of the multipliers.
+//! Jacobian of the accelerations and multipliers.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -12,24 +12,24 @@ use crate::system::{Direction, Lagrangian, Solution, State};
 /// Partial derivatives of `R` quantities by the time, `N` coordinates, `N` velocities and `P` parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PartialDerivatives<T, const R: usize, const N: usize, const P: usize> {
-    /// By the time.
+    /// Derivatives by the time.
     pub t: SVector<T, R>,
-    /// By the coordinates, a column each.
+    /// Derivatives by the coordinates, one column each.
     pub q: SMatrix<T, R, N>,
-    /// By the velocities, a column each.
+    /// Derivatives by the velocities, one column each.
     pub v: SMatrix<T, R, N>,
-    /// By the parameters, a column each.
+    /// Derivatives by the parameters, one column each.
     pub parameters: SMatrix<T, R, P>,
 }
 
-/// What the equations of motion give at a state, and its partial derivatives.
+/// Accelerations and multipliers at a state, with their partial derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jacobian<T, const N: usize, const M: usize, const P: usize> {
     /// Accelerations and multipliers.
     pub solution: Solution<T, N, M>,
-    /// Of the accelerations q̈.
+    /// Derivatives of the accelerations q̈.
     pub accelerations: PartialDerivatives<T, N, N, P>,
-    /// Of the multipliers λ; where constraints depend on one another, the change of least norm.
+    /// Derivatives of the multipliers λ; if constraints are dependent, the change of least norm.
     pub multipliers: PartialDerivatives<T, M, N, P>,
 }
 
@@ -71,12 +71,12 @@ where
 }
 
 impl<T: Real, const N: usize, const M: usize, const P: usize> Jacobian<T, N, M, P> {
-    /// Of what nothing changes.
+    /// A Jacobian with all derivatives zero.
     fn of(solution: Solution<T, N, M>) -> Self {
         Self { solution, accelerations: PartialDerivatives::zero(), multipliers: PartialDerivatives::zero() }
     }
 
-    /// Sets the derivatives by the time and the state, where they stay: matrices are large.
+    /// Computes the derivatives by the time and the state in place, because the matrices are large.
     fn set_by_state<L>(&mut self, tangent: &Tangent<'_, L, N, M>) -> Result<(), Error>
     where
         L: StateDerivatives<N, M, Scalar = T>,
@@ -88,7 +88,7 @@ impl<T: Real, const N: usize, const M: usize, const P: usize> Jacobian<T, N, M, 
     }
 }
 
-/// Lets argument `k` alone, of the time, the coordinates and the velocities, change in a lane.
+/// Sets the direction in a lane to the unit vector of argument `k`: 0 is the time, then coordinates, then velocities.
 pub(super) fn put_argument<T: Real, W: Wide<T>, const N: usize>(
     k: usize,
     directions: &mut Direction<W, N>,
@@ -102,7 +102,7 @@ pub(super) fn put_argument<T: Real, W: Wide<T>, const N: usize>(
     }
 }
 
-/// What argument `k` is called.
+/// Name of argument `k`.
 pub(super) fn name_of<L: Lagrangian<N, M>, const N: usize, const M: usize>(k: usize) -> Entry {
     match k.checked_sub(1) {
         None => Entry::Time,

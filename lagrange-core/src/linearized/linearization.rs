@@ -1,4 +1,4 @@
-//! The linear system near a state, on the constraints where there are any.
+//! Linear system near a state, on the constraints if there are any.
 
 use alloc::{string::String, vec::Vec};
 use core::array::from_fn;
@@ -17,41 +17,40 @@ use crate::system::finite::check_finite;
 use crate::system::lookup;
 use crate::system::{Direction, Solution, State};
 
-/// The linear system ż = A z + B u near a state, u the change of the inputs.
+/// The linear system ż = A z + B u near a state; u is the change of the inputs.
 ///
-/// Without constraints z is the change of the state (q, q̇). With constraints a change that keeps to them has fewer
-/// degrees of freedom: the columns of [`basis`](Self::basis) Z span the tangent space of {Φ = 0, F q̇ + b = 0} in
-/// (q, q̇), orthonormal, and δ(q, q̇) = Z z. There are 2N less two for each independent holonomic and one for each
-/// independent velocity constraint.
+/// Without constraints, z is the change of the state (q, q̇). With constraints, δ(q, q̇) = Z z: the orthonormal columns
+/// of [`basis`](Self::basis) Z span the tangent space of {Φ = 0, F q̇ + b = 0} in (q, q̇). Z has 2N columns, less two
+/// for each independent holonomic constraint and one for each independent velocity constraint.
 ///
-/// At an equilibrium, or along a steady motion of which nothing but cyclic coordinates moves, A is constant, and its
-/// eigenvalues decide on stability. Elsewhere it is that of the moment, A = Zᵀ ∂(q̇, q̈)/∂(q, q̇) Z, beside the motion
-/// itself, whose [`rate`](Self::rate) is not zero; on curved constraints, which turn Z as the state moves, A is then only
-/// the part along Z of how δ(q, q̇) changes.
+/// At an equilibrium, or along a steady motion in which only cyclic coordinates move, A is constant and its eigenvalues
+/// decide on stability. Elsewhere A = Zᵀ ∂(q̇, q̈)/∂(q, q̇) Z holds at that moment only, and the motion itself has the
+/// nonzero [`rate`](Self::rate). On curved constraints Z turns as the state moves; A is then only the component along Z
+/// of the rate of δ(q, q̇).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Linearization<T> {
-    /// The system matrix, as large as there are degrees of freedom in the state: the change of ż per unit of z.
+    /// System matrix: the change of ż per unit of z. Its size is the number of degrees of freedom of the state.
     pub a: DMatrix<T>,
-    /// The input matrix, a column for each input: the change of ż per unit of the input. Without constraints its rows
-    /// are (q̇, q̈), as [`states`](Self::states) names them; Z B is that with constraints.
+    /// Input matrix, one column for each input: the change of ż per unit of the input. Without constraints its rows are
+    /// (q̇, q̈), as [`states`](Self::states) names them; with constraints these are the rows of Z B.
     pub b: DMatrix<T>,
-    /// Z: a row for each coordinate, then for each velocity; a column for each entry of z. The identity where there are
-    /// no constraints.
+    /// Basis Z: one row for each coordinate, then for each velocity; one column for each entry of z. Without
+    /// constraints, the identity.
     pub basis: DMatrix<T>,
-    /// (q̇, q̈) at the state itself: zero at an equilibrium.
+    /// Rate (q̇, q̈) at the state itself: zero at an equilibrium.
     pub rate: DVector<T>,
     states: Vec<String>,
     inputs: Vec<String>,
 }
 
 impl<T> Linearization<T> {
-    /// The names of the rows of [`basis`](Self::basis), coordinates and velocities; without constraints those of
-    /// the rows and columns of A.
+    /// Names of the rows of [`basis`](Self::basis): coordinates and velocities. Without constraints, also of the rows
+    /// and columns of A.
     pub fn states(&self) -> &[String] {
         &self.states
     }
 
-    /// The names of the inputs, in the order of the columns of B.
+    /// Names of the inputs, in the order of the columns of B.
     pub fn inputs(&self) -> &[String] {
         &self.inputs
     }
@@ -92,7 +91,7 @@ impl<L, const N: usize, const M: usize> Tangent<'_, L, N, M>
 where
     L: StateDerivatives<N, M, Scalar: Real>,
 {
-    /// The change of (q̇, q̈) with each entry of the state.
+    /// Derivatives of (q̇, q̈) by each entry of the state.
     fn change(&self) -> Result<DMatrix<L::Scalar>, Error> {
         let mut change = DMatrix::zeros(2 * N, 2 * N);
         change.view_mut((0, N), (N, N)).fill_with_identity();
@@ -108,7 +107,7 @@ where
         Ok(change)
     }
 
-    /// The change of (q̇, q̈) along each column of the basis.
+    /// Derivatives of (q̇, q̈) along each column of the basis.
     fn change_along(&self, basis: &DMatrix<L::Scalar>) -> Result<DMatrix<L::Scalar>, Error> {
         let mut change = DMatrix::zeros(2 * N, basis.ncols());
         let put = |j: usize, directions: &mut Direction<WideOf<L, N, M>, N>, lane: usize| {
@@ -123,7 +122,7 @@ where
         Ok(change)
     }
 
-    /// The change of (q̇, q̈) by each of these parameters.
+    /// Derivatives of (q̇, q̈) by each of these parameters.
     fn change_by<const P: usize>(&self, parameters: &[usize]) -> Result<DMatrix<L::Scalar>, Error>
     where
         L: Linearized<N, M, P>,
@@ -142,13 +141,13 @@ where
         Ok(change)
     }
 
-    /// An orthonormal basis of the changes (δq, δv) with F δq = 0 for holonomic constraints and δ(F v + b) = 0 for all.
+    /// Orthonormal basis of the changes (δq, δv) with F δq = 0 for holonomic constraints and δ(F v + b) = 0 for all.
     pub(super) fn space(&self) -> Result<DMatrix<L::Scalar>, Error> {
         let zero = vector([L::Scalar::constant(0.0); N]);
         let mut changes: Vec<[SVector<L::Scalar, N>; 2]> = Vec::new();
         let holonomic = Rows::of(&self.matrices().m, &self.holonomic_rows(), Rank::off_constraints());
         for q in holonomic.null_space() {
-            // Another place turns the constraints: the velocity must follow.
+            // A change of q changes F: the velocity must follow.
             let entry = lookup::entry::<L, N, M>(q.icamax());
             let turned = self.residual_change(&Direction { q, ..Direction::zero() }, entry)?;
             changes.push([q, self.matrices().factors.rows.least(&turned.rate.into())]);
@@ -168,7 +167,8 @@ where
         }
     }
 
-    /// An input that shifts a constraint has no state, or no acceleration, on it beside the one given.
+    /// Rejects an input that shifts a constraint: after the change, the given state or its acceleration violates the
+    /// constraint.
     fn stays_on_constraints<const P: usize>(&self, k: usize) -> Result<(), Error>
     where
         L: Linearized<N, M, P>,
@@ -188,8 +188,8 @@ where
         }
     }
 
-    /// Accelerations and multipliers at the state; no accelerations where they are nothing but round-off, of forces that
-    /// balance to √ε of their terms in the units in which masses are 1.
+    /// Accelerations and multipliers at the state. Accelerations are replaced by zero if they are mere round-off: if
+    /// the forces balance to √ε of their terms, in units in which masses are 1.
     fn without_round_off(&self) -> Result<Solution<L::Scalar, N, M>, Error> {
         let (Tangent { state, solution, .. }, Matrices { m, f, factors }) = (self, self.matrices());
         let zero = L::Scalar::constant(0.0);

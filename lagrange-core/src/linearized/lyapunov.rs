@@ -16,15 +16,16 @@ use crate::system::State;
 use crate::system::finite::check_finite;
 use crate::system::lookup::entry;
 
-/// The Lyapunov exponents of a motion, and how far they can be relied on.
+/// Lyapunov exponents of a motion, with their standard errors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LyapunovSpectrum<T> {
-    /// The exponents, the largest first: the mean rates d(ln |δ|)/dt. Along a motion that goes backwards they are rates
-    /// by the time as well, not by the way back: what grows on that way has a negative one.
+    /// Exponents in descending order: the mean rates d(ln |δ|)/dt. They are rates by the time for a motion backwards in
+    /// time too: a variation that grows on the way back has a negative exponent.
     pub exponents: Vec<T>,
-    /// One standard error of each, from how the means over parts of the motion scatter.
+    /// Standard error of each exponent, from the scatter of its means over parts of the motion.
     pub errors: Vec<T>,
-    /// How the estimates settle: at the end of each part, the time and the means until then, in the order of the exponents.
+    /// Convergence of the estimates: for each part its end time and the means up to then, in the order of the
+    /// exponents.
     pub running: Vec<(T, Vec<T>)>,
 }
 
@@ -62,7 +63,7 @@ where
     Ok(LyapunovSpectrum::of(&exponents.parts[1..]))
 }
 
-/// How variations of a motion grow.
+/// Growth of variations along a motion.
 struct Growth<'a, L, D, const N: usize, const M: usize, const P: usize>
 where
     L: Linearized<N, M, P, Scalar: Real>,
@@ -72,11 +73,11 @@ where
     start: L::Scalar,
     end: L::Scalar,
     variations: Variations<L, N, M, P>,
-    /// What the method needs for the next step of the variations.
+    /// Memory of the method for the next step of the variations.
     stages: D::VariationMemory,
-    /// By how much each has grown in the present part, as a logarithm.
+    /// Logarithm of the growth of each variation in the current part.
     growth: Vec<L::Scalar>,
-    /// The ends of the parts before, and the mean rates in them.
+    /// End time of each completed part, and the mean growth rates in it.
     parts: Vec<(L::Scalar, Vec<L::Scalar>)>,
 }
 
@@ -85,14 +86,14 @@ where
     L: Linearized<N, M, P, Scalar: Real>,
     D: DifferentiableMethod<L, N, M, P>,
 {
-    /// Where the present part ends.
+    /// End time of the current part.
     fn stop(&self) -> L::Scalar {
         let part = self.parts.len() + 1;
         let done = L::Scalar::constant(part as f64 / (PARTS + 1) as f64);
         if part > PARTS { self.end } else { self.start + (self.end - self.start) * done }
     }
 
-    /// Ends the present part.
+    /// Completes the current part: stores its mean rates.
     fn end_part(&mut self, stop: L::Scalar) {
         let from = self.parts.last().map_or(self.start, |(time, _)| *time);
         let rates = self.growth.iter().map(|growth| *growth / (stop - from)).collect();
@@ -140,7 +141,7 @@ where
 }
 
 impl<T: Real> LyapunovSpectrum<T> {
-    /// Of the means over equal parts, each with the time of its end.
+    /// Averages the means over equal parts, each given with its end time.
     fn of(parts: &[(T, Vec<T>)]) -> Self {
         let zero = T::constant(0.0);
         let mut sums = vec![zero; parts.first().map_or(0, |(_, means)| means.len())];

@@ -1,4 +1,5 @@
-//! How the motion depends on where it starts, on the parameters and on the time: Jacobians, equilibria, linearization.
+//! Derivatives of the motion by the initial state, parameters and time: Jacobians, sensitivities, equilibria,
+//! linearization.
 
 #[cfg(feature = "alloc")]
 mod across;
@@ -73,20 +74,22 @@ use crate::error::Error;
 use crate::number::{Broadcast, Real};
 use crate::system::{Lagrangian, ResidualChange, Solution, State};
 
-/// A system whose equations of motion can be differentiated by parameters too: Jacobians, equilibria, linearization.
+/// A system whose equations of motion can be differentiated by parameters too: Jacobians, sensitivities, equilibria,
+/// linearization.
 ///
-/// `#[derive(Lagrangian)]` implements it too, for `N` coordinates, `M` constraints and `P` parameters: the numbers in
-/// the fields that an expression uses. An input of control is a parameter that stands in a
-/// `#[force(…)]`, or anywhere else; it is chosen by name at the call.
+/// `#[derive(Lagrangian)]` implements this trait for `N` coordinates, `M` constraints and `P` parameters. Parameters
+/// are the numbers in the fields that an expression uses. A control input is a parameter in a `#[force(…)]`, or
+/// anywhere else; the caller selects it by name.
 ///
-/// The derivatives are exact. With the residual R = (M q̈ − h − Fᵀλ, F q̈ + γ) the change of (q̈, λ) along a direction
-/// solves K δ(q̈, λ) = −∂R at fixed (q̈, λ), where K is the matrix of the equations of motion (implicit differentiation;
-/// Griewank and Walther, *Evaluating Derivatives*, 15.1); the derive differentiates R.
+/// The derivatives are exact. For the residual R = (M q̈ − h − Fᵀλ, F q̈ + γ), the derivative of (q̈, λ) along a
+/// direction solves K δ(q̈, λ) = −∂R, where ∂R is taken at fixed (q̈, λ) and K is the KKT matrix of the equations of
+/// motion (implicit differentiation; Griewank and Walther, *Evaluating Derivatives*, 15.1). The derive macro
+/// differentiates R.
 ///
-/// What a function that the user supplies (`#[function(…)]`) holds inside is no parameter of the system. Functions must
-/// have one derivative more than the equations of motion need: where a `Table` or one by hand has not, this
-/// trait is missing and the rest of the system is there. It is missing, too, where fourth derivatives of a function would
-/// be needed or where the function would exceed 50,000 operations.
+/// Numbers inside a function that the user supplies (`#[function(…)]`) are no parameters of the system. Functions must
+/// have one derivative more than the equations of motion need. If a `Table` or a user's function does not have it, the
+/// system lacks this trait alone. It also lacks this trait if fourth derivatives of a function would be needed, or if
+/// the code of its derivatives would exceed 50,000 operations.
 ///
 /// ```
 /// use lagrange_core::prelude::*;
@@ -120,39 +123,39 @@ use crate::system::{Lagrangian, ResidualChange, Solution, State};
     note = "`#[derive(Lagrangian)]` gives it to every system whose functions (`#[function(…)]`) have one derivative more than the equations of motion need"
 )]
 pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDerivatives<N, M> {
-    /// Names of the parameters, `m` or `m[0]` or `link[2].m`, in the order of the fields: all numbers that the expressions
-    /// name, and no others. Of an array of which they name `a[0]` alone, the rest are none.
+    /// Names of the parameters in the order of the fields, such as `m`, `m[0]` or `link[2].m`: exactly the numbers that
+    /// the expressions use. If they use only `a[0]` of an array, its other elements are not parameters.
     const PARAMETERS: [&'static str; P];
 
-    /// The values of the parameters.
+    /// Values of the parameters.
     fn parameters(&self) -> SVector<Self::Scalar, P>;
 
-    /// Sets the parameter [`PARAMETERS`](Self::PARAMETERS)`[index]`; false where there is none, or where it is behind a
-    /// reference, in a type that only `#[parameter(…)]` gives a shape, in a member of a member of a struct, or one of the
-    /// numbers of a rotation or a unit quaternion, which would then be none.
+    /// Sets the parameter [`PARAMETERS`](Self::PARAMETERS)`[index]`. Returns false if there is none, or if it cannot be
+    /// set: because it is behind a reference, in a type whose shape is known from `#[parameter(…)]` alone, in a struct
+    /// within a struct, or because it is one number of a rotation or a unit quaternion, which would no longer be one.
     fn set_parameter(&mut self, index: usize, value: Self::Scalar) -> bool;
 
-    /// What the derivatives of the residual by all parameters are made of: plain numbers.
+    /// Plain numbers from which the derivatives of the residual by all parameters are computed.
     type ParameterSlopes: Copy + Debug;
 
-    /// What the derivatives of the residual by all parameters are made of, accelerations and multipliers held at those of
-    /// `solution`.
+    /// Computes the numbers from which the derivatives of the residual by all parameters follow. Accelerations and
+    /// multipliers are held at those of `solution`.
     fn residual_slopes_by_parameters(
         &self,
         state: &State<Self::Scalar, N>,
         solution: &Solution<Self::Scalar, N, M>,
     ) -> Self::ParameterSlopes;
 
-    /// The derivative of the residual where the parameters change at these rates, or at several at once on
-    /// [`Lanes`](crate::Lanes), by the slopes of a state; in the order of [`PARAMETERS`](Self::PARAMETERS).
+    /// Derivative of the residual if the parameters change at these rates, in the order of
+    /// [`PARAMETERS`](Self::PARAMETERS). Uses the slopes of a state; on [`Lanes`](crate::Lanes), several rates at once.
     fn residual_change_by_parameters_with<S: Broadcast<Self::Scalar>>(
         &self,
         slopes: &Self::ParameterSlopes,
         rates: &SVector<S, P>,
     ) -> ResidualChange<S, N, M>;
 
-    /// The derivative of the residual where the parameters change at these rates, in the order of
-    /// [`PARAMETERS`](Self::PARAMETERS); accelerations and multipliers held at those of `solution`.
+    /// Derivative of the residual if the parameters change at these rates, in the order of
+    /// [`PARAMETERS`](Self::PARAMETERS). Accelerations and multipliers are held at those of `solution`.
     fn residual_change_by_parameters(
         &self,
         state: &State<Self::Scalar, N>,
@@ -162,13 +165,13 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
         self.residual_change_by_parameters_with(&self.residual_slopes_by_parameters(state, solution), rates)
     }
 
-    /// Accelerations and multipliers at a state, and their derivatives by the time, coordinates, velocities and
-    /// parameters. The derivatives are on the stack: 0.24 MB for 100 coordinates and 50 constraints, two to four times that
-    /// where they are handed on without optimization. [`jacobian_by`](Self::jacobian_by) has them on the heap.
+    /// Accelerations and multipliers at a state, with their derivatives by the time, coordinates, velocities and
+    /// parameters. The derivatives are on the stack: 0.24 MB for 100 coordinates and 50 constraints, and two to four
+    /// times that in unoptimized builds, which copy them. [`jacobian_by`](Self::jacobian_by) keeps them on the heap.
     ///
     /// # Errors
-    /// As [`solve`](crate::Simulate::solve); [`Error::DerivativeNotFinite`], also where a parameter is at fault that no one
-    /// asked for, which [`linearize`](Self::linearize) passes over.
+    /// The errors of [`solve`](crate::Simulate::solve). [`Error::DerivativeNotFinite`], even for a parameter without
+    /// interest to the caller; [`linearize`](Self::linearize) differentiates only by the requested inputs.
     fn jacobian(&self, state: &State<Self::Scalar, N>) -> Result<Jacobian<Self::Scalar, N, M, P>, Error>
     where
         Self: Lagrangian<N, M, Scalar: Real> + Sized,
@@ -176,9 +179,9 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
         jacobian::jacobian(self, state)
     }
 
-    /// Accelerations and multipliers at a state, and their derivatives by these arguments alone: coordinates `x`,
-    /// velocities `x_dot` and parameters `m`, one by one or `r` for all elements of a vector. It takes as long as there are
-    /// columns asked for.
+    /// Accelerations and multipliers at a state, with their derivatives by these arguments alone: coordinates `x`,
+    /// velocities `x_dot` and parameters `m`. The name of a vector, `r`, stands for all its elements. The cost is
+    /// proportional to the number of columns.
     ///
     /// ```
     /// use lagrange_core::prelude::*;
@@ -197,7 +200,7 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     /// ```
     ///
     /// # Errors
-    /// As [`solve`](crate::Simulate::solve); [`Error::DerivativeNotFinite`]; [`Error::UnknownName`] and
+    /// The errors of [`solve`](crate::Simulate::solve); [`Error::DerivativeNotFinite`]; [`Error::UnknownName`] and
     /// [`Error::RepeatedName`].
     #[cfg(feature = "alloc")]
     fn jacobian_by(
@@ -211,18 +214,19 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
         columns::jacobian_by(self, state, arguments)
     }
 
-    /// The motion from a state to the time `end` with its derivatives by entries of the state and by parameters, named
-    /// as in [`jacobian_by`](Self::jacobian_by): solutions of the variational equations.
+    /// Integrates the motion to the time `end` together with its derivatives by entries of the initial state and by
+    /// parameters, named as in [`jacobian_by`](Self::jacobian_by). The derivatives solve the variational equations.
     ///
-    /// Each step of the derivatives is the derivative of the step of the motion, and they are continuous like it. Steps are
-    /// as short as the motion and each derivative need: a derivative is allowed ten times the error of the motion itself, over
-    /// the size of the parameter or 1, and of its own largest entry. On
-    /// constraints the start is the nearest state to the one given, for other parameters too, and so are its derivatives;
-    /// they stay in the tangent space, projected as the state is. [`MotionDerivatives`] goes on across events.
+    /// Each step of the derivatives is the exact derivative of the step of the motion, and dense output covers both.
+    /// The motion and each derivative limit the step length. The allowed error of a derivative is ten times the
+    /// tolerance, applied to two scales: its own largest entry, and the motion divided by the size of the parameter (by
+    /// 1 for an initial value). With constraints, the initial state is projected onto them, for varied parameters too,
+    /// and the derivatives include this projection. Along the motion they stay in the tangent space, projected as the
+    /// state is. [`MotionDerivatives`] continues across events.
     ///
-    /// It takes [`Dop853`](crate::Dop853) and [`Dopri5`](crate::Dopri5), and other embedded [`Pair`](crate::motion::Pair)s, on
-    /// Lagrange's equations, and [`Taylor`](crate::Taylor) where the number type of the system is a parameter; motions by
-    /// other methods, and in momenta, are not differentiated.
+    /// Supported methods: [`Dop853`](crate::Dop853), [`Dopri5`](crate::Dopri5) and other embedded
+    /// [`Pair`](crate::motion::Pair)s, on Lagrange's equations, and [`Taylor`](crate::Taylor) if the number type of the
+    /// system is a type parameter. Motions by other methods, and in momenta, are not differentiated.
     ///
     /// ```
     /// use lagrange_core::prelude::*;
@@ -243,8 +247,8 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     /// ```
     ///
     /// # Errors
-    /// As [`integrate`](crate::Simulate::integrate); [`Error::DerivativeNotFinite`]; [`Error::UnknownName`] and
-    /// [`Error::RepeatedName`].
+    /// The errors of [`integrate`](crate::Simulate::integrate); [`Error::DerivativeNotFinite`]; [`Error::UnknownName`]
+    /// and [`Error::RepeatedName`].
     #[cfg(feature = "alloc")]
     fn integrate_sensitivities<D: DifferentiableMethod<Self, N, M, P>>(
         &self,
@@ -259,17 +263,19 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
         self.motion_with_derivatives(&self.sensitivity(&state, arguments)?).by(method).to(end)
     }
 
-    /// All Lyapunov exponents of the motion from a state to the time `end`: the mean rates at which small changes of the
-    /// state grow, as many as the state has degrees of freedom on the constraints.
+    /// All Lyapunov exponents of the motion from a state to the time `end`: the mean growth rates of small changes of
+    /// the state. Their number is the number of degrees of freedom of the state on the constraints.
     ///
-    /// Variations from all over the tangent space go along with the motion and are made orthonormal after each step; what that
-    /// takes off their lengths is what they have grown (Benettin, Galgani, Giorgilli and Strelcyn, *Meccanica* 15, 1980). Steps
-    /// are as short as the motion and the variations need. The
-    /// first 21st of the time lets them turn to where they grow, and does not count; the others are looked at one by one, and
-    /// tell how far the means can be relied on. Of the limit for infinite times an exponent of zero is off by about
-    /// ln t/t. They come in descending order; backwards in time they are rates d(ln |δ|)/dt too, so that what grows on the way
-    /// back has a negative one. Lengths are those of (q, q̇) in the units of the system, which make no difference in the limit. Nothing is stored.
-    /// Methods are those of [`integrate_sensitivities`](Self::integrate_sensitivities).
+    /// Variations that span the tangent space are integrated along the motion and orthonormalized after each step; the
+    /// lengths removed are their growth (Benettin, Galgani, Giorgilli and Strelcyn, *Meccanica* 15, 1980). The motion
+    /// and the variations limit the step length. Nothing is stored.
+    ///
+    /// The first 21st of the time, in which the variations turn to the growing directions, does not count. The other 20
+    /// parts give standard errors of the means. An exponent whose limit is zero is off by about ln t/t.
+    ///
+    /// Exponents are in descending order. Backwards in time they are rates d(ln |δ|)/dt too: a variation that grows on
+    /// the way back has a negative exponent. Lengths are those of (q, q̇) in the units of the system, which make no
+    /// difference in the limit. Methods are those of [`integrate_sensitivities`](Self::integrate_sensitivities).
     ///
     /// ```
     /// use lagrange_core::prelude::*;
@@ -289,8 +295,8 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     /// ```
     ///
     /// # Errors
-    /// As [`integrate`](crate::Simulate::integrate): among others, [`Error::Unfinished`] where the steps of the method do
-    /// not suffice; [`Error::DerivativeNotFinite`].
+    /// The errors of [`integrate`](crate::Simulate::integrate), among them [`Error::Unfinished`] if the method does not
+    /// reach the end; [`Error::DerivativeNotFinite`].
     #[cfg(feature = "alloc")]
     fn lyapunov_spectrum<D: DifferentiableMethod<Self, N, M, P>>(
         &self,
@@ -304,14 +310,13 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
         lyapunov::spectrum(self, &state, end, &method)
     }
 
-    /// The inputs by which the system has these accelerations at a state, and the multipliers that belong to them: the
-    /// inverse dynamics of an actuated system. An input is a coordinate, which stands for a generalized force on it beside
-    /// those of the system, or a parameter.
+    /// Inverse dynamics of an actuated system: finds the inputs that produce these accelerations at a state, and the
+    /// multipliers. An input is a parameter, or a coordinate, which stands for an additional generalized force on it.
     ///
-    /// There must be values of the inputs that give the accelerations, to √ε of the forces there, and one of each only. So an
-    /// input that acts on what the constraints hold is none; multipliers need not be unique. Where a parameter enters the
-    /// equations otherwise than a force does, the values are sought from those that it has (Newton's iteration). All is
-    /// compared in the units in which masses are 1.
+    /// The inputs must produce the accelerations to √ε of the forces, and must be unique. So an input that acts only
+    /// against constraints is rejected; multipliers need not be unique. For parameters that do not enter the equations
+    /// linearly, as forces do, Newton's method starts from their present values. Rows are compared in units in which
+    /// masses are 1.
     ///
     /// ```
     /// use lagrange_core::prelude::*;
@@ -334,10 +339,10 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     /// ```
     ///
     /// # Errors
-    /// [`Error::NotRealizable`] where no values of the inputs give these accelerations, or they violate a constraint;
+    /// [`Error::NotRealizable`] if no values of the inputs give these accelerations, or if these violate a constraint;
     /// [`Error::InputsNotUnique`]; [`Error::ParameterFixed`], [`Error::UnknownName`] and [`Error::RepeatedName`];
-    /// [`Error::EquationsNotFinite`] and [`Error::DerivativeNotFinite`]; [`Error::EigenvaluesNotFound`] where an
-    /// entry of the matrix of a step is not finite.
+    /// [`Error::EquationsNotFinite`] and [`Error::DerivativeNotFinite`]; [`Error::EigenvaluesNotFound`] if the matrix
+    /// of a step has an entry that is not finite.
     #[cfg(feature = "alloc")]
     fn inputs_for(
         &self,
@@ -351,9 +356,9 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
         inverse::inputs_for(self, state, accelerations, inputs)
     }
 
-    /// The linear system near a state, its inputs the parameters of these names (`u` names all elements of a vector
-    /// `u: [f64; 3]`). An input may change forces and masses; not a constraint, be it only the accelerations that the
-    /// constraint allows at the state.
+    /// Linearizes the system near a state. The inputs are the parameters of these names (`u` stands for all elements of
+    /// a vector `u: [f64; 3]`). An input may change forces and masses, but not a constraint, nor the accelerations that
+    /// a constraint allows at the state.
     ///
     /// ```
     /// use lagrange_core::prelude::*;
@@ -373,8 +378,8 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     /// ```
     ///
     /// # Errors
-    /// [`Error::Inconsistent`] where the state is off the constraints; [`Error::InputShiftsConstraint`];
-    /// [`Error::UnknownName`] and [`Error::RepeatedName`]; as [`jacobian`](Self::jacobian).
+    /// [`Error::Inconsistent`] if the state violates a constraint; [`Error::InputShiftsConstraint`];
+    /// [`Error::UnknownName`] and [`Error::RepeatedName`]; the errors of [`jacobian`](Self::jacobian).
     #[cfg(feature = "alloc")]
     fn linearize(
         &self,
@@ -387,17 +392,17 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
         linearization::linearize(self, state, inputs)
     }
 
-    /// An equilibrium or a steady motion near a state, on the constraints: where q̈ = 0.
+    /// Finds an equilibrium or a steady motion near a state, on the constraints: a state with q̈ = 0.
     ///
-    /// What may change is named: coordinates; parameters, where the question is which force (or length, or mass) holds the
-    /// system there; velocities, `phi_dot`, where it is how fast it moves steadily. Everything else stays as it is. No
-    /// names are all the coordinates. Velocities are zero for an equilibrium; for a steady motion, such as the
-    /// precession of a top, those of cyclic coordinates are not. That nothing changes with what moves is checked to first
-    /// order, with the multipliers as they are. The time stays as it is: where the system depends on the time, the
-    /// equilibrium is one of the moment.
+    /// `unknowns` names the quantities that may change: coordinates; parameters, to find the force (or length, or mass)
+    /// that holds the system there; velocities, `phi_dot`, to find the speed of a steady motion. Everything else stays
+    /// as in the guess. An empty list means all coordinates. Velocities are zero at an equilibrium; in a steady motion,
+    /// such as the precession of a top, velocities of cyclic coordinates are not. The search checks to first order, at
+    /// constant multipliers, that the equations do not change along the motion. The time is that of the guess: if the
+    /// system depends on the time, the equilibrium holds at that moment.
     ///
-    /// The method is that of Levenberg and Marquardt, from the guess on, or from the nearest coordinates on the constraints
-    /// where all coordinates are sought. It finds stable and unstable equilibria alike.
+    /// Uses the Levenberg–Marquardt method. If all coordinates are unknowns, the guess is first projected onto the
+    /// constraints. The search finds stable and unstable equilibria alike.
     ///
     /// ```
     /// use lagrange_core::prelude::*;
@@ -414,8 +419,9 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     /// # Ok::<(), Error>(())
     /// ```
     ///
-    /// Of several velocities the guess says which: a top precesses slowly or fast, a pendulum either way round. Where forces
-    /// grow with the square of a velocity, zero does not say.
+    /// If several velocities solve the equations, the guess selects one: a top precesses slowly or fast, a pendulum in
+    /// either direction. If forces are quadratic in a velocity, the guess must not be zero, where their derivative
+    /// vanishes.
     ///
     /// ```
     /// use lagrange_core::prelude::*;
@@ -434,11 +440,11 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     /// ```
     ///
     /// # Errors
-    /// [`Error::NoEquilibrium`], with the row that is farthest from satisfied and the best point;
-    /// [`Error::NotSteady`], with the coordinate that should not move;
-    /// [`Error::UnknownName`], [`Error::RepeatedName`] and [`Error::ParameterFixed`];
-    /// [`Error::StateNotFinite`], [`Error::EquationsNotFinite`] and [`Error::DerivativeNotFinite`];
-    /// [`Error::EigenvaluesNotFound`] where an entry of the matrix of a step is not finite.
+    /// [`Error::NoEquilibrium`], with the row of the largest residual and the best point; [`Error::NotSteady`], with
+    /// the coordinate that should not move; [`Error::UnknownName`], [`Error::RepeatedName`] and
+    /// [`Error::ParameterFixed`]; [`Error::StateNotFinite`], [`Error::EquationsNotFinite`] and
+    /// [`Error::DerivativeNotFinite`]; [`Error::EigenvaluesNotFound`] if the matrix of a step has an entry that is not
+    /// finite.
     #[cfg(feature = "alloc")]
     fn equilibrium(
         &self,

@@ -1,4 +1,4 @@
-//! A motion with its derivatives by where it starts and by parameters.
+//! A motion with its derivatives by initial values and parameters.
 
 use alloc::{boxed::Box, string::String, string::ToString, vec::Vec};
 use core::fmt::{self, Debug, Formatter};
@@ -21,10 +21,9 @@ use crate::system::finite::check_finite;
 use crate::system::{Direction, Lagrangian, State, lookup};
 use crate::trajectory::Trajectory;
 
-/// A motion, and how it changes with entries of its start and with parameters.
+/// A motion with its derivatives by entries of the initial state and by parameters.
 ///
-/// What changes is named in the call that integrates: coordinates and velocities of the start, and parameters. On
-/// constraints, derivatives lie in their tangent space at every time.
+/// The call that integrates names the arguments. With constraints, derivatives lie in the tangent space at every time.
 pub struct TrajectorySensitivity<
     'a,
     L: Linearized<N, M, P, Scalar: Real>,
@@ -37,22 +36,21 @@ pub struct TrajectorySensitivity<
     end: Result<StateSensitivity<L::Scalar, N>, Error>,
 }
 
-/// The derivatives along a motion.
-pub(super) struct Course<L: Linearized<N, M, P, Scalar: Real>, const N: usize, const M: usize, const P: usize>
-{
-    /// As they are where the last step ends.
+/// Derivatives along a motion.
+pub(super) struct Course<L: Linearized<N, M, P, Scalar: Real>, const N: usize, const M: usize, const P: usize> {
+    /// Variations at the end of the last step.
     pub(super) variations: Variations<L, N, M, P>,
-    /// When it does: a motion may have ended within it.
+    /// Time at the end of the last step; the motion may have ended within this step.
     end: L::Scalar,
     /// Start and length of each step.
     steps: Vec<[L::Scalar; 2]>,
-    /// Step by step and block by block, the coefficients of what lies between, as many for each.
+    /// Coefficients of the interpolants of the variations, step by step and block by block, the same number for each.
     pub(super) coefficients: Vec<PhaseVector<WideOf<L, N, M>, N>>,
-    /// What they are the coefficients of.
+    /// Evaluates an interpolant from its coefficients.
     between: Between<WideOf<L, N, M>, N>,
 }
 
-/// What lies after a part of a step, by its coefficients.
+/// Variations of a block at a fraction of a step, from the coefficients of the interpolant.
 type Between<W, const N: usize> = fn(&[PhaseVector<W, N>], W) -> PhaseVector<W, N>;
 
 /// An event of a motion with derivatives.
@@ -159,7 +157,7 @@ where
     Ok(TrajectorySensitivity { trajectory, course, end })
 }
 
-/// The derivatives of a motion while it is integrated and stored.
+/// Observes a motion while it is integrated and stored, and carries its derivatives along.
 struct Along<'a, 'e, L, D, W, const N: usize, const M: usize, const P: usize>
 where
     L: Linearized<N, M, P, Scalar: Real>,
@@ -167,9 +165,9 @@ where
 {
     stored: Stored<'a, 'e, L, W, D::Interpolant, N, M, true>,
     course: Course<L, N, M, P>,
-    /// What the method needs for the next step of the derivatives.
+    /// Memory of the method for the next step of the derivatives.
     stages: D::VariationMemory,
-    /// The state at the start of the last step.
+    /// State at the start of the last step.
     before: State<L::Scalar, N>,
 }
 
@@ -178,7 +176,7 @@ where
     L: Linearized<N, M, P, Scalar: Real>,
     D: DifferentiableMethod<L, N, M, P>,
 {
-    /// What is left of it after the motion.
+    /// Stored motion, derivatives, and the state before the last step.
     #[allow(clippy::type_complexity, reason = "its fields")]
     fn end(
         self,
@@ -229,7 +227,7 @@ impl<L, const N: usize, const M: usize, const P: usize> Course<L, N, M, P>
 where
     L: Linearized<N, M, P, Scalar: Real>,
 {
-    /// With what the variations take along.
+    /// Derivatives at the start of a motion, and the method's memory for them.
     pub(super) fn from<D: DifferentiableMethod<L, N, M, P>>(
         system: &L,
         state: &State<L::Scalar, N>,
@@ -237,7 +235,7 @@ where
         method: &D,
     ) -> Result<(Self, D::VariationMemory), Error> {
         let tangent = Tangent::at(system, state)?;
-        // At the time given, not at that of the event where the start is one.
+        // Convert to derivatives at fixed time: if the start is an event, subtract the change of its time.
         let column = |j| {
             let Direction { t, q, v } = start.direction(j);
             [q - state.v * t, v - tangent.solution.accelerations * t]
@@ -248,13 +246,13 @@ where
         Ok((Self { variations, end: state.t, steps, coefficients, between: D::between }, companion))
     }
 
-    /// After a step that was followed.
+    /// Records a step that the variations have followed.
     pub(super) fn push(&mut self, start: L::Scalar, end: L::Scalar) {
         self.steps.push([start, end - start]);
         self.end = end;
     }
 
-    /// The derivatives of a state of the motion.
+    /// Derivatives of a state of the motion.
     pub(super) fn at(
         &self,
         system: &L,
@@ -312,7 +310,7 @@ where
         self.coefficients.clear();
     }
 
-    /// The step of this time, and which part of it has passed.
+    /// Index of the step that contains this time, and the fraction of it that has passed.
     fn step(&self, t: L::Scalar) -> Option<(usize, L::Scalar)> {
         let is_past = |[start, length]: &[L::Scalar; 2]| (t - *start) / *length >= L::Scalar::constant(0.0);
         let step = self.steps.partition_point(is_past).checked_sub(1)?;
@@ -335,7 +333,7 @@ impl<'a, L, const N: usize, const M: usize, const P: usize> TrajectorySensitivit
 where
     L: Linearized<N, M, P, Scalar: Real>,
 {
-    /// The motion, if nothing but an event kept it from its end.
+    /// Returns the motion if it reached its end or a terminal event.
     ///
     /// # Errors
     /// [`Error::Unfinished`] with the ending.
@@ -344,12 +342,13 @@ where
         Ok(self)
     }
 
-    /// The motion.
+    /// The motion, without its derivatives.
     pub fn trajectory(&self) -> &Trajectory<&'a L, N, M> {
         &self.trajectory
     }
 
-    /// The motion alone, for a leg of a [`HybridTrajectory`](crate::HybridTrajectory) say.
+    /// Takes the motion without its derivatives, for a leg of a [`HybridTrajectory`](crate::HybridTrajectory) for
+    /// example.
     pub fn into_trajectory(self) -> Trajectory<&'a L, N, M> {
         self.trajectory
     }
@@ -359,28 +358,28 @@ where
         self.course.variations.arguments()
     }
 
-    /// The state at this time and its derivatives.
+    /// The state at this time, with its derivatives.
     ///
     /// # Errors
-    /// As [`Trajectory::at`]; as [`Linearized::jacobian`].
+    /// The errors of [`Trajectory::at`] and of [`Linearized::jacobian`].
     pub fn at(&self, t: L::Scalar) -> Result<StateSensitivity<L::Scalar, N>, Error> {
         self.course.at(self.trajectory.system(), self.trajectory.at(t)?.state())
     }
 
-    /// The last state and its derivatives: at an event, where one has ended the motion, with those of its time; else at
-    /// the end that was asked for.
+    /// The last state with its derivatives. If an event ended the motion, they include the derivative of its time;
+    /// otherwise they are those at the requested end.
     ///
     /// # Errors
-    /// [`Error::Unfinished`] where the motion got to neither; [`Error::Grazing`], and [`Error::EventNotFinite`] where the function of the event has no derivative; as
-    /// [`at`](Self::at).
+    /// [`Error::Unfinished`] if the motion reached neither; [`Error::Grazing`], and [`Error::EventNotFinite`] if the
+    /// function of the event has no derivative; the errors of [`at`](Self::at).
     pub fn end(&self) -> Result<&StateSensitivity<L::Scalar, N>, Error> {
         self.end.as_ref().map_err(Error::clone)
     }
 
-    /// The derivative of coordinate `coordinate` by `argument` at this time.
+    /// Derivative of coordinate `coordinate` by `argument` at this time.
     ///
     /// # Errors
-    /// As [`at`](Self::at); [`Error::UnknownName`].
+    /// The errors of [`at`](Self::at); [`Error::UnknownName`].
     pub fn coordinate(&self, t: L::Scalar, coordinate: &str, argument: &str) -> Result<L::Scalar, Error> {
         let row = lookup::index::<L, N, M>(&L::COORDINATES, "coordinate", coordinate)?;
         let names: Vec<String> = self.arguments().iter().map(Entry::to_string).collect();

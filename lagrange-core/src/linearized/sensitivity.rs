@@ -1,11 +1,11 @@
 //! A state with its derivatives, and their jump at an event.
 //!
-//! At an event the time changes too: with δ the change of the state at a given time, g(t, q, q̇, p) = 0 there gives
-//! δt = −(g_q δq + g_q̇ δq̇ + g_p δp)/ġ, and the state at the event changes by Δ = δ + ẋ⁻ δt. A reset x⁺ = R(t, x⁻, p) makes
-//! R_t δt + R_x Δ + R_p δp of it, and after the event, at a given time again, it is that − ẋ⁺ δt. Together these are the
-//! saltation matrix, R_x + (ẋ⁺ − R_x ẋ⁻ − R_t) g_x/ġ (Leine and Nijmeijer, *Dynamics and Bifurcations of
-//! Non-Smooth Mechanical Systems*, 2004, chapter 7; Kong, Payne, Zhu and Johnson, "Saltation matrices: the unsung heroes of
-//! hybrid optimal control", *Proceedings of the IEEE* 112, 2024, (3)).
+//! At an event the time depends on the arguments too. Let δ be the change of the state at fixed time. The event g(t, q,
+//! q̇, p) = 0 gives δt = −(g_q δq + g_q̇ δq̇ + g_p δp)/ġ, and the state at the event changes by Δ = δ + ẋ⁻ δt. A reset
+//! x⁺ = R(t, x⁻, p) maps this change to R_t δt + R_x Δ + R_p δp. At fixed time after the event, the change is that
+//! minus ẋ⁺ δt. Together these are the saltation matrix, R_x + (ẋ⁺ − R_x ẋ⁻ − R_t) g_x/ġ (Leine and Nijmeijer,
+//! *Dynamics and Bifurcations of Non-Smooth Mechanical Systems*, 2004, chapter 7; Kong, Payne, Zhu and Johnson,
+//! "Saltation matrices: the unsung heroes of hybrid optimal control", *Proceedings of the IEEE* 112, 2024, (3)).
 
 use alloc::string::ToString;
 use alloc::vec::Vec;
@@ -25,23 +25,24 @@ use crate::solution::vector_field::PhaseVector;
 use crate::system::lookup::index;
 use crate::system::{Direction, ResidualChange, Solution, State};
 
-/// A state of a motion and its derivatives by some arguments: entries of a start, parameters, and numbers of one's
-/// own.
+/// A state of a motion with its derivatives by some arguments: entries of the initial state, parameters, and numbers
+/// captured by events and resets.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StateSensitivity<T, const N: usize> {
     /// The state.
     pub state: State<T, N>,
-    /// Of the time, by each argument: zero at a time that is given. The time of an event changes.
+    /// Derivatives of the time, one for each argument: nonzero at an event, whose time depends on the arguments; zero
+    /// at a given time.
     pub t: DVector<T>,
-    /// Of the coordinates, a row each, by each argument, a column each.
+    /// Derivatives of the coordinates: one row per coordinate, one column per argument.
     pub q: DMatrix<T>,
-    /// Of the velocities.
+    /// Derivatives of the velocities: one row per velocity, one column per argument.
     pub v: DMatrix<T>,
     arguments: Vec<Entry>,
 }
 
 impl<T: Real, const N: usize> StateSensitivity<T, N> {
-    /// Of a state that nothing changes yet.
+    /// A state with all derivatives zero.
     pub(super) fn of(state: State<T, N>, arguments: Vec<Entry>) -> Self {
         let count = arguments.len();
         let none = || DMatrix::from_element(N, count, T::constant(0.0));
@@ -53,8 +54,8 @@ impl<T: Real, const N: usize> StateSensitivity<T, N> {
         &self.arguments
     }
 
-    /// With derivatives by more parameters too, of whatever system the motion will come to, or by numbers of one's own; so
-    /// far the state does not depend on them.
+    /// Adds arguments: parameters of any system that the motion will enter, or numbers captured by events and resets.
+    /// The state does not depend on them yet.
     ///
     /// # Errors
     /// [`Error::RepeatedName`].
@@ -73,13 +74,13 @@ impl<T: Real, const N: usize> StateSensitivity<T, N> {
         Ok(self)
     }
 
-    /// How the state changes with argument `j`.
+    /// Derivative of the state by argument `j`.
     pub(super) fn direction(&self, j: usize) -> Direction<T, N> {
         let column = |x: &DMatrix<T>| x.fixed_view::<N, 1>(0, j).into_owned();
         Direction { t: self.t[j], q: column(&self.q), v: column(&self.v) }
     }
 
-    /// Makes column `j` that of a state which is later by `by`.
+    /// Converts column `j` to a state whose time changes by `by` more: adds `by` times the rates of the state.
     fn delay(&mut self, j: usize, by: T, accelerations: &SVector<T, N>) {
         self.t[j] += by;
         let rates = [&self.state.v, accelerations];
@@ -116,8 +117,8 @@ where
     Ok(start)
 }
 
-/// Derivatives at an event from those at its time. `before` is a state earlier in the motion, which tells how
-/// fast the function of the event may change.
+/// Converts derivatives at fixed time to derivatives at the event. `before` is an earlier state of the motion, at which
+/// the rate of the event's function gives the scale for grazing.
 ///
 /// # Errors
 /// [`Error::Grazing`].
@@ -131,7 +132,7 @@ where
     L: Linearized<N, M, P, Scalar: Real>,
 {
     let accelerations = solve(system, &at.state)?.accelerations;
-    // It may have none there.
+    // The event's function may have no derivative at the earlier state.
     let earlier = rate(system, before, event).map_or(L::Scalar::constant(0.0), |(_, terms)| terms);
     let (rate, terms) = rate(system, &at.state, event)?;
     if Scalar::abs(rate) <= power_of_epsilon::<L::Scalar>(0.5) * larger(terms, earlier) {
@@ -168,7 +169,7 @@ where
     Ok(sums.into())
 }
 
-/// Entry `i` alone.
+/// Vector with entry `i` of `x` alone, others zero.
 fn only<T: Real, const N: usize>(i: usize, x: &SVector<T, N>) -> SVector<T, N> {
     SVector::from_fn(|j, _| if i == j { x[j] } else { T::constant(0.0) })
 }
@@ -196,9 +197,10 @@ where
 
 /// See [`MotionDerivatives::impact_sensitivity`](super::MotionDerivatives::impact_sensitivity).
 ///
-/// The jump J of the velocities and the impulses Λ solve M J − FᵀΛ = 0, F J + ρ = 0 with ρ = F q̇⁻ + b, times 1 + e in the row
-/// that is hit. Differentiated, δM J − δFᵀΛ is the change of the residual of motion at accelerations J and multipliers Λ less
-/// that at none, and δF J that of the accelerations of the constraints.
+/// The velocity jump J and the impulses Λ solve M J − FᵀΛ = 0, F J + ρ = 0 with ρ = F q̇⁻ + b, multiplied by 1 + e in
+/// the row of the impact. Differentiation needs two terms. δM J − δFᵀΛ is the change of the residual of motion with
+/// accelerations J and multipliers Λ, less the change with both zero. δF J is the same difference for the residual of
+/// the acceleration constraints.
 pub(super) fn impact_sensitivity<L, const N: usize, const M: usize, const P: usize>(
     system: &L,
     at: &StateSensitivity<L::Scalar, N>,

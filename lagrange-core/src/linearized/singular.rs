@@ -1,8 +1,8 @@
-//! The singular value decomposition A = U Σ Vᵀ by one-sided Jacobi rotations (Golub and Van Loan, *Matrix Computations*,
+//! Singular value decomposition A = U Σ Vᵀ by one-sided Jacobi rotations (Golub and Van Loan, *Matrix Computations*,
 //! 4th edition, 8.6.3).
 //!
-//! Rotations of pairs of columns make all columns of A V orthogonal; their lengths are the singular values. Matrices of
-//! every shape and rank have their decomposition: |A − U Σ Vᵀ| is a few round-offs of |A|.
+//! Rotations of pairs of columns make all columns of A V orthogonal; their lengths are the singular values. Works for
+//! matrices of every shape and rank: |A − U Σ Vᵀ| is a few round-offs of |A|.
 
 #[cfg(test)]
 mod tests;
@@ -13,20 +13,21 @@ use nalgebra::DMatrix;
 
 use crate::number::{Real, Scalar, is_within, larger};
 
-/// Passes over all pairs of columns, as in LAPACK's `dgesvj`. Ten are usual.
+/// Largest number of passes over all pairs of columns, as in LAPACK's `dgesvj`. Ten are usual.
 const SWEEPS: usize = 30;
 
-/// A singular value decomposition, in no order. The squares of entries must be numbers: columns come in units of their lengths.
+/// A singular value decomposition, with the singular values unsorted. Columns must be scaled so that squares of entries
+/// neither overflow nor underflow.
 pub(super) struct Singular<T> {
     rows: usize,
-    /// A V above V: both rotate alike.
+    /// A V stacked on V; rotations act on both.
     columns: DMatrix<T>,
-    /// The singular values σ, one for each column of A.
+    /// Singular values σ, one for each column of A.
     pub(super) values: Vec<T>,
 }
 
 impl<T: Real> Singular<T> {
-    /// The decomposition; none where an entry is not finite, or the rotations do not come to an end.
+    /// Decomposes `a`; `None` if an entry is not finite, or if the rotations do not converge.
     pub(super) fn of(a: &DMatrix<T>) -> Option<Self> {
         if !a.iter().all(|x| x.is_finite()) {
             return None;
@@ -36,43 +37,44 @@ impl<T: Real> Singular<T> {
         let entry = |i: usize, j: usize| if i < rows { a[(i, j)] } else { unit(i - rows, j) };
         let mut it = Self { rows, columns: DMatrix::from_fn(rows + count, count, entry), values: Vec::new() };
         let longest = (0..count).fold(T::constant(0.0), |most, j| larger(most, it.product(j, j)));
-        // What is shorter by a round-off does not count.
+        // Columns shorter than round-off of the longest count as zero.
         let negligible = longest * T::constant(T::EPSILON * T::EPSILON);
         (0..SWEEPS).find(|_| it.sweep(negligible) == 0)?;
         it.values = (0..count).map(|j| Scalar::sqrt(it.product(j, j))).collect();
         Some(it)
     }
 
-    /// The largest singular value.
+    /// Largest singular value.
     pub(super) fn norm(&self) -> T {
         self.values.iter().fold(T::constant(0.0), |most, x| larger(most, *x))
     }
 
-    /// Entry `j` of v_k.
+    /// Entry `j` of the right singular vector v_k.
     pub(super) fn direction(&self, k: usize, j: usize) -> T {
         self.columns[(self.rows + j, k)]
     }
 
-    /// σ_k u_k·b
+    /// σ_k u_k·b, the component of b along the left singular vector u_k, times σ_k.
     pub(super) fn along(&self, k: usize, b: impl Iterator<Item = T>) -> T {
         b.zip(self.columns.column(k).iter())
             .take(self.rows)
             .fold(T::constant(0.0), |sum, (x, y)| sum + x * *y)
     }
 
-    /// The scalar product of two columns of A V.
+    /// Scalar product of two columns of A V.
     fn product(&self, p: usize, q: usize) -> T {
         self.along(p, self.columns.column(q).iter().copied())
     }
 
-    /// Makes each pair of columns orthogonal, one after the other; how many were not.
+    /// Rotates all pairs of columns once; returns how many were not yet orthogonal.
     fn sweep(&mut self, negligible: T) -> usize {
         let count = self.columns.ncols();
         let pairs = (0..count).flat_map(|p| (p + 1..count).map(move |q| (p, q)));
         pairs.filter(|&(p, q)| self.rotate(p, q, negligible)).count()
     }
 
-    /// Makes two columns orthogonal by the smaller of the two angles that do, unless they are to round-off.
+    /// Makes two columns orthogonal by the smaller of the two possible angles. Returns false if they are orthogonal to
+    /// round-off already.
     fn rotate(&mut self, p: usize, q: usize, negligible: T) -> bool {
         let [a, b, c] = [(p, p), (q, q), (p, q)].map(|(p, q)| self.product(p, q));
         let round_off = T::constant(T::EPSILON * self.rows as f64);

@@ -1,4 +1,4 @@
-//! The contract for derivatives by the time and the state.
+//! Trait for derivatives of the equations of motion by the time and the state.
 
 use core::fmt::Debug;
 
@@ -10,38 +10,38 @@ use crate::number::{Broadcast, Real};
 use crate::system::pointers::forward;
 use crate::system::{Direction, Lagrangian, ResidualChange, Solution, State};
 
-/// A system whose equations of motion can be differentiated by the time and the state: what implicit methods and
+/// A system whose equations of motion can be differentiated by the time and the state, as implicit methods and
 /// sensitivities need.
 ///
-/// `#[derive(Lagrangian)]` implements it together with [`Linearized`], which adds the parameters and knows how many there
-/// are. A method for stiff systems asks for this trait, `impl<L: StateDerivatives<N, M>> Method<L, N, M> for …`.
+/// `#[derive(Lagrangian)]` implements it together with [`Linearized`], which adds derivatives by the `P` parameters. A
+/// method for stiff systems requires this trait, `impl<L: StateDerivatives<N, M>> Method<L, N, M> for …`.
 #[diagnostic::on_unimplemented(
     message = "the derivatives of the equations of motion of `{Self}` are not known",
     label = "no `StateDerivatives`",
     note = "`#[derive(Lagrangian)]` gives it to every system whose functions (`#[function(…)]`) have one derivative more than the equations of motion need"
 )]
 pub trait StateDerivatives<const N: usize, const M: usize>: Lagrangian<N, M> {
-    /// What the derivatives of the residual along all directions are made of: plain numbers.
+    /// Plain numbers from which the derivatives of the residual along all directions are computed.
     type Slopes: Copy + Debug;
 
-    /// What the derivatives of the residual along all directions in time and state are made of, accelerations and
-    /// multipliers held at those of `solution`.
+    /// Computes the numbers from which the derivatives of the residual along all directions in time and state follow.
+    /// Accelerations and multipliers are held at those of `solution`.
     fn residual_slopes(
         &self,
         state: &State<Self::Scalar, N>,
         solution: &Solution<Self::Scalar, N, M>,
     ) -> Self::Slopes;
 
-    /// The derivative of the residual along a direction, or along several at once on [`Lanes`](crate::Lanes), by the
-    /// [`residual_slopes`](Self::residual_slopes) of a state.
+    /// Derivative of the residual along a direction, from the [`residual_slopes`](Self::residual_slopes) of a state; on
+    /// [`Lanes`](crate::Lanes), along several directions at once.
     fn residual_change_with<S: Broadcast<Self::Scalar>>(
         &self,
         slopes: &Self::Slopes,
         direction: &Direction<S, N>,
     ) -> ResidualChange<S, N, M>;
 
-    /// The derivative of the residual along one direction in time and state, accelerations and multipliers held at those
-    /// of `solution`.
+    /// Derivative of the residual along one direction in time and state. Accelerations and multipliers are held at
+    /// those of `solution`.
     fn residual_change(
         &self,
         state: &State<Self::Scalar, N>,
@@ -51,8 +51,8 @@ pub trait StateDerivatives<const N: usize, const M: usize>: Lagrangian<N, M> {
         self.residual_change_with(&self.residual_slopes(state, solution), direction)
     }
 
-    /// Accelerations and multipliers at a state, and their derivatives by the time, coordinates and velocities; by no
-    /// parameters.
+    /// Accelerations and multipliers at a state, with their derivatives by the time, coordinates and velocities,
+    /// without parameters.
     ///
     /// ```
     /// use lagrange_core::{StateDerivatives, prelude::*};
@@ -68,7 +68,7 @@ pub trait StateDerivatives<const N: usize, const M: usize>: Lagrangian<N, M> {
     /// ```
     ///
     /// # Errors
-    /// As [`solve`](crate::Simulate::solve); [`Error::DerivativeNotFinite`].
+    /// The errors of [`solve`](crate::Simulate::solve); [`Error::DerivativeNotFinite`].
     fn state_jacobian(&self, state: &State<Self::Scalar, N>) -> Result<Jacobian<Self::Scalar, N, M, 0>, Error>
     where
         Self: Lagrangian<N, M, Scalar: Real> + Sized,

@@ -1,4 +1,5 @@
-//! How accelerations and multipliers change along a direction: K δ(q̈, λ) = −∂R, with one factorization for all.
+//! Directional derivatives of accelerations and multipliers: K δ(q̈, λ) = −∂R, with one factorization for all
+//! directions.
 
 #[cfg(feature = "alloc")]
 use core::array::from_fn;
@@ -19,7 +20,7 @@ use crate::solution::solve::{fault, first_row, solve};
 use crate::system::{ConstraintKind, unit};
 use crate::system::{Direction, Lagrangian, ResidualChange, Solution, State};
 
-/// The equations of motion at a state, solved, factorized and differentiated.
+/// Equations of motion at a state: solved, factorized and differentiated.
 pub(crate) struct Tangent<'a, L: StateDerivatives<N, M>, const N: usize, const M: usize> {
     pub(super) system: &'a L,
     pub(super) state: &'a State<L::Scalar, N>,
@@ -29,21 +30,22 @@ pub(crate) struct Tangent<'a, L: StateDerivatives<N, M>, const N: usize, const M
     matrices: OnceCell<Matrices<L::Scalar, N, M>>,
 }
 
-/// As many numbers as are best computed with at once.
+/// SIMD type of preferred width for the numbers of the system.
 pub(crate) type WideOf<L, const N: usize, const M: usize> = <<L as Lagrangian<N, M>>::Scalar as Real>::Wide;
 
-/// What the emitted factor does not tell, or cannot vouch for.
+/// Mass matrix, constraint Jacobian and general factors, for use where the emitted factorization is not enough: its
+/// pivot is too small, or rows and null spaces are needed.
 pub(crate) struct Matrices<T, const N: usize, const M: usize> {
-    /// The mass matrix, row by row.
+    /// Mass matrix, row by row.
     #[cfg_attr(not(feature = "alloc"), allow(dead_code, reason = "what reads it allocates"))]
     pub(super) m: Room<[[T; N]; N]>,
-    /// The constraint Jacobian, row by row.
+    /// Constraint Jacobian, row by row.
     #[cfg_attr(not(feature = "alloc"), allow(dead_code, reason = "what reads it allocates"))]
     pub(super) f: Room<[[T; N]; M]>,
     pub(super) factors: Room<Factors<T, N, M>>,
 }
 
-// Functions of their own, so that no more than one of the matrices is on the stack.
+// Separate functions, so that at most one of the matrices is on the stack.
 
 #[inline(never)]
 fn mass_rows<L: Lagrangian<N, M>, const N: usize, const M: usize>(
@@ -64,7 +66,8 @@ fn constraint_rows<L: Lagrangian<N, M>, const N: usize, const M: usize>(
 impl<T: Real, const N: usize, const M: usize> Matrices<T, N, M> {
     fn at<L: Lagrangian<N, M, Scalar = T>>(system: &L, state: &State<T, N>) -> Self {
         let (m, f) = (mass_rows(system, state), constraint_rows(system, state));
-        // A change that leaves the constraints may make dependent ones disagree: those left out do not count.
+        // A change that leaves the constraints may make dependent ones contradict each other: rows left out as
+        // dependent are not checked.
         let factors = Room::of(Factors::of(&m, &f, Rank::off_constraints()));
         Self { m, f, factors }
     }
@@ -78,7 +81,7 @@ where
         Ok(Self::of(system, state, solve(system, state)?))
     }
 
-    /// Where the equations are solved already.
+    /// Builds the tangent from a known solution of the equations.
     #[inline]
     pub(crate) fn of(
         system: &'a L,
@@ -89,12 +92,12 @@ where
         Self { system, state, solution, factor, slopes, matrices: OnceCell::new() }
     }
 
-    /// Made where they are asked for.
+    /// The general matrices and factors, computed at first use.
     pub(super) fn matrices(&self) -> &Matrices<L::Scalar, N, M> {
         self.matrices.get_or_init(|| Matrices::at(self.system, self.state))
     }
 
-    /// The rows of F of holonomic constraints, zeros for the others.
+    /// Rows of F for holonomic constraints; zeros for the others.
     #[cfg(feature = "alloc")]
     pub(super) fn holonomic_rows(&self) -> [[L::Scalar; N]; M] {
         let f = &self.matrices().f;
@@ -104,8 +107,8 @@ where
         })
     }
 
-    /// Gives δq̈ and δλ along each of these directions, as many at a time as there are lanes: `put` puts one into a lane
-    /// where all is zero, `entry` is what to call it.
+    /// Passes δq̈ and δλ along each of `count` directions to `give`. Directions are processed one per lane: `put`
+    /// writes direction `k` into a zero lane, `entry` names it for errors.
     pub(super) fn along_each(
         &self,
         count: usize,
@@ -123,7 +126,7 @@ where
         Ok(())
     }
 
-    /// Gives δq̈ and δλ by each of these parameters alone.
+    /// Passes δq̈ and δλ by each of these parameters to `give`.
     pub(super) fn by_parameters<const P: usize>(
         &self,
         count: usize,
@@ -149,7 +152,7 @@ where
         Ok(())
     }
 
-    /// The derivatives of the residual along these directions.
+    /// Derivatives of the residual along these directions.
     #[inline]
     pub(super) fn changes(
         &self,
@@ -158,7 +161,7 @@ where
         self.system.residual_change_with(&self.slopes, directions)
     }
 
-    /// What the derivatives of the residual by parameters are made of.
+    /// Numbers from which the derivatives of the residual by parameters are computed.
     #[cfg(feature = "alloc")]
     pub(super) fn parameter_slopes<const P: usize>(&self) -> L::ParameterSlopes
     where
@@ -167,7 +170,7 @@ where
         self.system.residual_slopes_by_parameters(self.state, &self.solution)
     }
 
-    /// The derivatives of the residual where parameters change at these rates.
+    /// Derivatives of the residual if parameters change at these rates.
     #[cfg(feature = "alloc")]
     #[inline]
     pub(super) fn changes_by_parameters<const P: usize>(
@@ -181,7 +184,7 @@ where
         self.system.residual_change_by_parameters_with(slopes, rates)
     }
 
-    /// How the residual changes along this direction, the same in all lanes.
+    /// Derivative of the residual along this direction, the same in all lanes.
     #[cfg(feature = "alloc")]
     fn changes_alike(&self, direction: &Direction<L::Scalar, N>) -> ResidualChange<WideOf<L, N, M>, N, M> {
         let of = WideOf::<L, N, M>::of;
@@ -189,7 +192,7 @@ where
         self.changes(&Direction { t: of(*t), q: q.map(of), v: v.map(of) })
     }
 
-    /// How the residual changes along this direction, and with this parameter, the same in all lanes.
+    /// Derivative of the residual along this direction and by this parameter, the same in all lanes.
     #[cfg(feature = "alloc")]
     pub(super) fn change_with<const P: usize>(
         &self,
@@ -204,7 +207,8 @@ where
         change.plus(&self.changes_by_parameters(&self.parameter_slopes(), &unit(k)))
     }
 
-    /// What makes up for changes of the residual in so many lanes; `entry` is what to call one.
+    /// Solves for the δq̈ and δλ that compensate these changes of the residual, in `lanes` lanes; `entry` names a lane
+    /// for errors.
     #[cfg(feature = "alloc")]
     #[inline]
     pub(super) fn responses(
@@ -226,7 +230,7 @@ where
         Ok(responses)
     }
 
-    /// What makes up for changes of the residual, lane by lane.
+    /// Solves for the δq̈ and δλ that compensate these changes of the residual, and passes them to `give` lane by lane.
     fn respond(
         &self,
         block: Range<usize>,
@@ -267,8 +271,8 @@ where
         Ok(solution)
     }
 
-    /// The derivative of the residual, which must be finite. It is computed on lanes, although there is one direction: so the long
-    /// function is compiled for lanes alone.
+    /// Derivative of the residual along one direction; an error if it is not finite. It is computed on all lanes, so
+    /// that the long function is compiled for lanes alone.
     #[cfg(feature = "alloc")]
     pub(super) fn residual_change(
         &self,
@@ -278,7 +282,8 @@ where
         self.checked(self.changes_alike(direction).lane(0), entry)
     }
 
-    /// The derivative of the residual by parameter `k`, with these accelerations and multipliers; it must be finite.
+    /// Derivative of the residual by parameter `k`, with these accelerations and multipliers; an error if it is not
+    /// finite.
     #[cfg(feature = "alloc")]
     pub(super) fn change_by_parameter<const P: usize>(
         &self,
@@ -303,7 +308,7 @@ where
         Ok(change)
     }
 
-    /// Names the first row that is not finite, of a coordinate or of a constraint.
+    /// Fails at the first row, of a coordinate or a constraint, that is not finite, and names it.
     fn check_finite(
         &self,
         motion: &SVector<L::Scalar, N>,
@@ -318,7 +323,8 @@ where
     }
 }
 
-/// Whether all lanes can be relied on, all at once: every number is finite, and so is their sum.
+/// True if all lanes are reliable: the pivots are large enough, and the sum of all magnitudes is finite, hence every
+/// number.
 #[inline]
 fn are_sound<T: Real, const N: usize, const M: usize>(
     changes: &ResidualChange<T::Wide, N, M>,
@@ -339,7 +345,7 @@ fn sum_of_magnitudes<W: Scalar>(start: W, numbers: &[W]) -> W {
     numbers.iter().fold(start, |sum, x| sum + x.abs())
 }
 
-/// The solution in one lane.
+/// Extracts the solution in one lane.
 fn lane_of<T: Real, const N: usize, const M: usize>(
     wide: &Solution<T::Wide, N, M>,
     lane: usize,

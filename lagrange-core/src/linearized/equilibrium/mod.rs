@@ -1,4 +1,4 @@
-//! Equilibria and steady motions: where the equations of motion hold with q̈ = 0.
+//! Equilibria and steady motions: states that satisfy the equations of motion with q̈ = 0.
 
 mod point;
 mod search;
@@ -24,29 +24,29 @@ use search::EquilibriumSearch;
 /// An equilibrium, or a steady motion.
 #[derive(Clone)]
 pub struct Equilibrium<L: Lagrangian<N, M>, const N: usize, const M: usize> {
-    /// The system, its parameters as they were found.
+    /// The system, with the parameters that were found.
     pub system: L,
-    /// The state; its time is that of the guess, and so is what was not sought.
+    /// The state. Time, and entries that were not among the unknowns, are those of the guess.
     pub state: State<L::Scalar, N>,
-    /// The multipliers λ there, with the sign of [`Solution`](crate::Solution): the constraint force on coordinate i is
-    /// Σ_α λ_α F_αi. The unit is that of the generalized force by that of F: for Φ = 0 an energy per unit of Φ, for a
+    /// Multipliers λ, with the sign of [`Solution`](crate::Solution): the constraint force on coordinate i is Σ_α λ_α
+    /// F_αi. The unit is that of the generalized force divided by that of F: for Φ = 0 an energy per unit of Φ, for a
     /// velocity constraint a power per unit of F q̇.
     pub multipliers: SVector<L::Scalar, M>,
-    /// Steps taken.
+    /// Number of iterations.
     pub iterations: usize,
     undetermined: Vec<String>,
 }
 
 impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Equilibrium<L, N, M> {
-    /// What was sought and can change, together, and leave it an equilibrium or a steady motion: cyclic coordinates, to
-    /// first order, and whatever is more than the equations determine. They are as near to the guess as the others
-    /// allow.
+    /// Names of the unknowns that can change, together and to first order, without leaving the equilibrium or steady
+    /// motion: cyclic coordinates, and any unknowns beyond those that the equations determine. Their values are as near
+    /// to the guess as the other unknowns allow.
     pub fn undetermined(&self) -> &[String] {
         &self.undetermined
     }
 }
 
-/// Without the system, which need not have it.
+/// Leaves out the system, which need not implement `Debug`.
 impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Debug for Equilibrium<L, N, M> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_struct(L::NAME)
@@ -79,7 +79,8 @@ where
     found.point.check_steady(&at_the_guess)?;
     let undetermined = balance.undetermined(&found)?;
     let Point { system, state, multipliers } = found.point;
-    // Of dependent constraints the multipliers of least norm; at a pole, where accelerations are undetermined, those found.
+    // For dependent constraints, take the multipliers of least norm. Where accelerations are undetermined, at a pole of
+    // the coordinates, keep those of the search.
     let multipliers = solve(&system, &state).map_or(multipliers, |solution| solution.multipliers);
     Ok(Equilibrium { system, state, multipliers, iterations, undetermined })
 }

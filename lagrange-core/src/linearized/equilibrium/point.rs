@@ -1,4 +1,4 @@
-//! A point of the search: what is to be zero there, and its derivatives.
+//! Residual of the equilibrium equations at one point of the search, and its derivatives.
 
 use nalgebra::{ComplexField, DMatrix, DVector, SVector};
 
@@ -9,7 +9,7 @@ use crate::names::Row;
 use crate::number::{Real, Scalar, vector};
 use crate::system::{Lagrangian, ResidualChange, Solution, State};
 
-/// Where the search is.
+/// Values of the unknowns: parameters of the system, state and multipliers.
 #[derive(Clone)]
 pub(super) struct Point<L: Lagrangian<N, M>, const N: usize, const M: usize, const P: usize> {
     pub(super) system: L,
@@ -33,7 +33,7 @@ where
         })
     }
 
-    /// Its derivatives by the unknowns and by the multipliers.
+    /// Derivatives of R by the unknowns, followed by those by the multipliers.
     pub(super) fn jacobian(&self, unknowns: &[Argument]) -> DMatrix<L::Scalar> {
         let mut jacobian = DMatrix::zeros(N + 3 * M, unknowns.len() + M);
         let multipliers = self.multipliers;
@@ -48,7 +48,7 @@ where
         jacobian
     }
 
-    /// Names the first derivative by an unknown that is not finite.
+    /// Fails at the first derivative by an unknown that is not finite, and names it.
     pub(super) fn check_derivatives(
         &self,
         jacobian: &DMatrix<L::Scalar>,
@@ -63,7 +63,7 @@ where
         Ok(())
     }
 
-    /// The value of an unknown.
+    /// Value of an unknown.
     pub(super) fn value(&self, unknown: Argument) -> L::Scalar {
         match unknown {
             Argument::Coordinate(i) => self.state.q[i],
@@ -72,7 +72,7 @@ where
         }
     }
 
-    /// Sets an unknown; false where it is a parameter that cannot be changed.
+    /// Sets an unknown; returns false if it is a parameter that cannot be changed.
     pub(super) fn set(&mut self, unknown: Argument, value: L::Scalar) -> bool {
         match unknown {
             Argument::Coordinate(i) => self.state.q[i] = value,
@@ -89,7 +89,7 @@ fn stacked<T: Real, const N: usize, const M: usize>(residual: &ResidualChange<T,
     DVector::from_iterator(N + 3 * M, rows.copied())
 }
 
-/// What row `i` of R belongs to.
+/// Coordinate or constraint that row `i` of R belongs to.
 pub(super) fn row<L: Lagrangian<N, M>, const N: usize, const M: usize>(i: usize) -> Row {
     if i < N { Row::Coordinate(L::COORDINATES[i]) } else { Row::Constraint(L::CONSTRAINTS[(i - N) % M]) }
 }

@@ -1,6 +1,7 @@
-//! The method of Levenberg and Marquardt (Moré 1978) on R = (h + Fᵀλ, γ, F q̇ + b, Φ), with the damping in proportion to
-//! |R|: it converges quadratically to equilibria in families too (Fan and Yuan, *Computing* 74, 2005), and a step
-//! never moves what R does not depend on.
+//! Levenberg–Marquardt method (Moré 1978) for R = (h + Fᵀλ, γ, F q̇ + b, Φ) = 0.
+//!
+//! The damping is proportional to |R|: so the convergence is quadratic to families of equilibria too (Fan and Yuan,
+//! *Computing* 74, 2005). A step never moves the unknowns along directions in which R does not change.
 
 use alloc::{format, string::String, vec::Vec};
 use core::iter::successors;
@@ -19,16 +20,16 @@ use crate::solution::newton::{Left, Search};
 use crate::solution::solve::solve;
 use crate::system::{Lagrangian, State};
 
-/// What is sought, and in which units.
+/// Unknowns of the search, and the units of rows and columns.
 pub(super) struct EquilibriumSearch<L: Lagrangian<N, M>, const N: usize, const M: usize, const P: usize> {
     unknowns: Vec<Argument>,
-    /// What each row is multiplied by, so that rows of different units compare.
+    /// Factor of each row, so that rows of different units can be compared.
     weights: DVector<L::Scalar>,
-    /// The length of each column so far: the unit of a step is its inverse.
+    /// Largest norm of each column of the Jacobian so far; the unit of a step in that unknown is its inverse.
     scale: DVector<L::Scalar>,
 }
 
-/// Where the search is.
+/// Point of the search, with residual, Jacobian and damping.
 pub(super) struct Iterate<L: Lagrangian<N, M>, const N: usize, const M: usize, const P: usize> {
     pub(super) point: Point<L, N, M, P>,
     residual: DVector<L::Scalar>,
@@ -40,7 +41,7 @@ impl<L, const N: usize, const M: usize, const P: usize> EquilibriumSearch<L, N, 
 where
     L: Linearized<N, M, P, Scalar: Real> + Clone,
 {
-    /// The search, and its first trial.
+    /// Starts a search at the guess; returns it with its first iterate.
     pub(super) fn start(
         system: L,
         guess: &State<L::Scalar, N>,
@@ -48,7 +49,7 @@ where
     ) -> Result<(Self, Iterate<L, N, M, P>), Error> {
         let none = vector([L::Scalar::constant(0.0); M]);
         let mut state = *guess;
-        // Onto the constraints where nothing of it is held, and where that can be.
+        // Project onto the constraints if no coordinate is held. A guess that cannot be projected is kept.
         if (0..N).all(|i| unknowns.contains(&Argument::Coordinate(i))) {
             project(&system, &[Level::Position], &mut state).unwrap_or_default();
         }
@@ -74,7 +75,7 @@ where
         Iterate { residual: point.residual(), jacobian: point.jacobian(&self.unknowns), point, damping }
     }
 
-    /// δ = −Σ_k v_k σ_k (u_k·R)/(σ_k² + μ), over the singular values that are not zero.
+    /// Damped step δ = −Σ_k v_k σ_k (u_k·R)/(σ_k² + μ), over the singular values that are not zero.
     fn damped(
         &self,
         factors: &Singular<L::Scalar>,
@@ -93,7 +94,7 @@ where
         step
     }
 
-    /// The unit of a step in unknown `j`: it changes R about as much as the guess is off.
+    /// Unit of a step in unknown `j`: such a step changes R by about as much as R is at the guess.
     fn unit(&self, j: usize) -> L::Scalar {
         let one = L::Scalar::constant(1.0);
         if self.scale[j] > L::Scalar::constant(0.0) { one / self.scale[j] } else { one }
@@ -123,21 +124,21 @@ where
         trial.jacobian.map(Scalar::abs) * sizes
     }
 
-    /// |R| in the units of the rows.
+    /// Norm |R| in the units of the rows.
     fn distance(&self, trial: &Iterate<L, N, M, P>) -> L::Scalar {
         trial.residual.component_mul(&self.weights).norm()
     }
 
-    /// Whether every row is round-off of its terms.
+    /// True if every row is round-off of its terms.
     fn is_rounded(&self, trial: &Iterate<L, N, M, P>) -> bool {
         let part = L::Scalar::constant(4.0 * L::Scalar::EPSILON);
         let bound = self.terms(trial, |_, x| part * x);
         trial.residual.iter().zip(&bound).all(|(r, bound)| is_within(Scalar::abs(*r), *bound))
     }
 
-    /// Whether what is left may be round-off: it is small, of the terms of each row and of those where the unknowns
-    /// are about 1; and what no step could take away is round-off of the terms here or at the guess. The second
-    /// tells forces that cannot balance, however small their unit makes them.
+    /// True if the residual may be round-off. First, each row must be small beside its terms, and beside its terms for
+    /// unknowns of size 1. Second, the part of R that no step can remove must be round-off of the terms here or at the
+    /// guess. The second test detects forces that cannot balance, however small their unit makes them.
     fn is_negligible(&self, factors: &Singular<L::Scalar>, trial: &Iterate<L, N, M, P>) -> bool {
         let part = L::Scalar::constant(16.0 * L::Scalar::EPSILON);
         let floor = power_of_epsilon(0.75);
@@ -150,8 +151,9 @@ where
         })
     }
 
-    /// Refuses what is round-off only by a gradient: at the angle 10¹⁶, which is known to ±1, every force is round-off of
-    /// the angle times its gradient. Of each term counts what the row really changes by with the unknown.
+    /// Rejects a residual that is round-off only of gradient times value. Example: an angle of 10¹⁶ is known to ±1, so
+    /// every force is round-off of the angle times its gradient. The bound therefore uses the actual change of the row
+    /// with each unknown, if that is smaller.
     pub(super) fn check_resolved(&self, found: &Iterate<L, N, M, P>, steps: usize) -> Result<(), Error> {
         let (part, root) =
             (L::Scalar::constant(32.0 * L::Scalar::EPSILON), power_of_epsilon::<L::Scalar>(0.5));
@@ -174,7 +176,7 @@ where
         }
     }
 
-    /// What takes part in the directions along which nothing changes.
+    /// Names of the unknowns that take part in directions along which R does not change.
     pub(super) fn undetermined(&mut self, found: &Iterate<L, N, M, P>) -> Result<Vec<String>, Error> {
         let zero = L::Scalar::constant(0.0);
         let factors = self.linearize(found)?;
@@ -199,7 +201,7 @@ where
 
     const STEPS: usize = 200;
 
-    /// The singular values of the Jacobian in the units of rows and columns.
+    /// Singular value decomposition of the Jacobian in the units of rows and columns.
     fn linearize(&mut self, trial: &Self::Trial) -> Result<Self::Linear, Error> {
         trial.point.check_derivatives(&trial.jacobian, &self.unknowns)?;
         let mut scaled = trial.jacobian.clone();
@@ -218,7 +220,7 @@ where
         Left { distance, is_rounded, is_negligible: is_rounded || self.is_negligible(near, trial) }
     }
 
-    /// The damping grows until a step leads nearer, and shrinks where one has.
+    /// Raises the damping until a step reduces the residual, and lowers it after such a step.
     fn corrected(
         &self,
         factors: &Self::Linear,

@@ -1,4 +1,4 @@
-//! Whether a motion with q̈ = 0 goes on so: nothing may change with what moves.
+//! Checks that a motion with q̈ = 0 stays one: the equations must not change as the moving coordinates change.
 
 use alloc::vec::Vec;
 
@@ -10,8 +10,8 @@ use crate::linearized::Linearized;
 use crate::linearized::argument::Argument;
 use crate::number::{Real, Scalar, larger, power_of_epsilon};
 
-/// How fast (M q̈ − h − Fᵀλ, F q̈ + γ) at q̈ = 0 changes with the coordinates that move, a column each. The rows of
-/// F q̇ + b and Φ follow from the second.
+/// Rates of change of (M q̈ − h − Fᵀλ, F q̈ + γ) at q̈ = 0, one column for each moving coordinate. If the second part
+/// is steady, so are F q̇ + b and Φ.
 pub(super) struct Unsteadiness<T> {
     moving: Vec<usize>,
     columns: DMatrix<T>,
@@ -40,7 +40,7 @@ where
         Ok(Unsteadiness { moving, columns })
     }
 
-    /// Each row must cancel, but for √ε of its terms here or at the guess.
+    /// Requires the columns of each row to cancel, to √ε of their terms here or at the guess.
     pub(super) fn check_steady(&self, guess: &Unsteadiness<L::Scalar>) -> Result<(), Error> {
         let here = self.unsteadiness()?;
         let part = power_of_epsilon::<L::Scalar>(0.5);

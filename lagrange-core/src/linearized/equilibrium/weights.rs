@@ -1,16 +1,16 @@
-//! Units in which the rows of the search compare.
+//! Weights that make the rows of the equilibrium search comparable.
 
 use nalgebra::{DMatrix, DVector};
 
 use crate::number::{Real, Scalar};
 
-/// How much more a constraint counts than a force, both in their own units: a search that keeps near the constraints
-/// does not end where a rod has shrunk to nothing.
+/// Weight of a constraint relative to a force, each in its own unit. A search that stays near the constraints does not
+/// end where a rod has shrunk to nothing.
 const CONSTRAINTS: f64 = 10.0;
 
-/// What brings the entries of the Jacobian nearest to 1, by their logarithms, with factors for rows and columns: the
-/// search then does not depend on units (Curtis and Reid 1972). Times what makes |R| 1. The first `forces` rows are
-/// forces, the others constraints.
+/// Weights of the rows. Factors for rows and columns bring the entries of the Jacobian nearest to 1, in a least-squares
+/// sense of their logarithms (Curtis and Reid 1972), so that the search does not depend on units. A common factor makes
+/// the weighted |R| 1. The first `forces` rows are forces, the others constraints.
 pub(super) fn weights<T: Real>(jacobian: &DMatrix<T>, residual: &DVector<T>, forces: usize) -> DVector<T> {
     let zero = T::constant(0.0);
     let mut rows = DVector::repeat(jacobian.nrows(), zero);
@@ -30,7 +30,7 @@ pub(super) fn weights<T: Real>(jacobian: &DMatrix<T>, residual: &DVector<T>, for
     if size > zero { weights / size } else { weights }
 }
 
-/// The mean of ln |x| + y over the pairs with x ≠ 0; zero where there are none.
+/// Mean of ln |x| + y over the pairs with x ≠ 0; zero if there are none.
 fn mean<'a, T: Real>(pairs: impl Iterator<Item = (&'a T, &'a T)>) -> T {
     let (zero, one) = (T::constant(0.0), T::constant(1.0));
     let (sum, count) = pairs

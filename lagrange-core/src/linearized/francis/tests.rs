@@ -1,4 +1,4 @@
-//! Eigenvalues against the backward error: (A − s) x = b for a random b is solved by elimination, and ‖b‖/‖x‖ bounds the
+//! Tests eigenvalues by their backward error: elimination solves (A − s) x = b for a random b, and ‖b‖/‖x‖ bounds the
 //! distance from A to a matrix that has the eigenvalue s.
 
 use nalgebra::{Complex, DMatrix, DVector};
@@ -13,13 +13,13 @@ impl Random {
     }
 }
 
-/// [[A, B], [C, −Aᵀ]] with symmetric B and C.
+/// Hamiltonian matrix [[A, B], [C, −Aᵀ]] with symmetric B and C.
 fn hamiltonian(random: &mut Random, n: usize) -> DMatrix<f64> {
     let (a, b, c) = (random.matrix(n, n), random.symmetric(n), random.symmetric(n));
     blocks([[a.clone(), b], [c, -a.transpose()]])
 }
 
-/// q̈ = G q̇ + K q with antisymmetric G and symmetric K of few values, many of them multiple.
+/// Matrix of q̈ = G q̇ + K q with antisymmetric G and symmetric K of few values, many of them multiple.
 fn gyroscopic(random: &mut Random, n: usize) -> DMatrix<f64> {
     let (g, mut k) = (random.matrix(n, n), random.symmetric(n));
     if random.below(2) == 0 {
@@ -28,7 +28,8 @@ fn gyroscopic(random: &mut Random, n: usize) -> DMatrix<f64> {
     blocks([[DMatrix::zeros(n, n), DMatrix::identity(n, n)], [k, &g - g.transpose()]])
 }
 
-/// m = 1, L = ½((ẋ − w y)² + (ẏ + w x)²) + ½ a (x² − y²) − ½ k (x² + y²): quadruples ±α ± iβ.
+/// Particle in a rotating saddle, m = 1, L = ½((ẋ − w y)² + (ẏ + w x)²) + ½ a (x² − y²) − ½ k (x² + y²): quadruples ±α
+/// ± iβ.
 fn rotating_saddle(random: &mut Random) -> DMatrix<f64> {
     let tenth = |n: usize| n as f64 / 10.0;
     let (w, a, k) = (tenth(1 + random.below(10)), tenth(random.below(10)), random.next() / 2.0);
@@ -42,7 +43,7 @@ fn saddle(w: f64, a: f64, k: f64) -> DMatrix<f64> {
     m
 }
 
-/// Jordan blocks of small integers, moved by integer shears that keep them exact.
+/// Jordan blocks of small integers, transformed by integer shears that keep them exact.
 fn defective(random: &mut Random, n: usize) -> DMatrix<f64> {
     let mut a = DMatrix::zeros(n, n);
     for i in 0..n {
@@ -73,7 +74,7 @@ fn blocks([[a, b], [c, d]]: [[DMatrix<f64>; 2]; 2]) -> DMatrix<f64> {
     whole
 }
 
-/// ‖b‖/‖x‖ as a part of ‖A‖, the least of three random b.
+/// ‖b‖/‖x‖ relative to ‖A‖, the least of three random b.
 fn backward_error(a: &DMatrix<f64>, s: Complex<f64>, random: &mut Random) -> f64 {
     let n = a.nrows();
     let moved = DMatrix::from_fn(n, n, |i, j| {
@@ -82,13 +83,13 @@ fn backward_error(a: &DMatrix<f64>, s: Complex<f64>, random: &mut Random) -> f64
     let lu = moved.lu();
     let tries = (0..3).map(|_| {
         let b = DVector::from_fn(n, |_, _| Complex::new(random.next(), random.next()));
-        // A pivot that is zero: an eigenvalue to the last bit.
+        // Elimination fails at a zero pivot: the eigenvalue is exact to the last bit.
         lu.solve(&b).map_or(0.0, |x| if x.norm().is_finite() { b.norm() / x.norm() } else { 0.0 })
     });
     tries.fold(f64::INFINITY, f64::min) / a.norm().max(f64::MIN_POSITIVE)
 }
 
-/// 200 matrices of each kind; `LAGRANGE_MATRICES` says how many otherwise.
+/// Tests 200 matrices of each kind, or as many as `LAGRANGE_MATRICES` says.
 #[test]
 fn no_matrix_is_refused_and_every_eigenvalue_is_one_of_a_matrix_nearby() {
     let count = std::env::var("LAGRANGE_MATRICES").ok().and_then(|n| n.parse().ok()).unwrap_or(200);
@@ -121,11 +122,11 @@ fn no_matrix_is_refused_and_every_eigenvalue_is_one_of_a_matrix_nearby() {
     println!("{count} matrices of each kind: backward errors up to {worst:e} of the norm");
 }
 
-/// One of many on which nalgebra's iteration does not converge, shifted or not.
+/// One of many matrices on which nalgebra's iteration does not converge, shifted or not.
 #[test]
 fn a_rotating_saddle_has_its_quadruple() {
     let (w, a, k): (f64, f64, f64) = (0.3, 0.3, -0.44);
-    // s⁴ + b s² + c = 0.
+    // The characteristic polynomial is s⁴ + b s² + c.
     let (b, c) = (2.0 * (k + w * w), (w * w - k).powi(2) - a * a);
     let square = (Complex::new(b * b / 4.0 - c, 0.0).sqrt() - b / 2.0).sqrt();
     let found = eigenvalues(saddle(w, a, k)).expect("convergence");
@@ -134,7 +135,7 @@ fn a_rotating_saddle_has_its_quadruple() {
     }
 }
 
-/// An orthogonal matrix whose ordinary shifts are zero leaves the iteration where it is: exceptional ones are needed.
+/// The ordinary shifts of this orthogonal matrix are zero, and leave it unchanged: exceptional shifts are needed.
 #[test]
 fn a_cyclic_permutation_has_the_roots_of_unity() {
     for n in 3..=12 {
@@ -148,8 +149,8 @@ fn a_cyclic_permutation_has_the_roots_of_unity() {
     }
 }
 
-/// A matrix with Jordan blocks of sizes 5 and 3. The iteration does not converge where it keeps the sum and the product of its
-/// shifts in place of the shifts.
+/// A matrix with Jordan blocks of sizes 5 and 3. The iteration does not converge if it keeps the sum and product of the
+/// shifts instead of the shifts.
 #[test]
 fn a_triple_eigenvalue_beside_a_quintuple_one_is_found() {
     #[rustfmt::skip]

@@ -1,5 +1,4 @@
-//! Decompositions against what they are made of: A = (A V) Vᵀ, with V and the columns of A V orthogonal; and against singular
-//! values that are known.
+//! Tests decompositions by A = (A V) Vᵀ and orthogonality of V and of the columns of A V, and by known singular values.
 
 use nalgebra::DMatrix;
 
@@ -11,8 +10,9 @@ impl Random {
         self.matrix(n, n).qr().q()
     }
 
-    /// Dense, of low rank, with rows and columns of unlike sizes, of small integers, sparse, bidiagonal with entries that are next to
-    /// nothing, of unlike sizes throughout, and with columns that are nearly or exactly others.
+    /// Random matrices: dense; of low rank; with rows and columns of widely different sizes; of small integers; sparse;
+    /// bidiagonal with tiny entries; with entries of widely different sizes; with columns that nearly or exactly repeat
+    /// others.
     fn kinds(&mut self) -> [DMatrix<f64>; 8] {
         let (rows, columns) = (1 + self.below(12), 1 + self.below(12));
         let rank = 1 + self.below(rows.min(columns));
@@ -43,13 +43,13 @@ impl Random {
     }
 }
 
-/// A V and V.
+/// The matrices A V and V.
 fn parts(found: &Singular<f64>) -> [DMatrix<f64>; 2] {
     let (rows, count) = (found.rows, found.columns.ncols());
     [found.columns.rows(0, rows).into_owned(), found.columns.rows(rows, count).into_owned()]
 }
 
-/// 100 matrices of each kind; `LAGRANGE_MATRICES` says how many otherwise.
+/// Tests 100 matrices of each kind, or as many as `LAGRANGE_MATRICES` says.
 #[test]
 fn every_matrix_is_the_product_of_its_decomposition() {
     let count = std::env::var("LAGRANGE_MATRICES").ok().and_then(|n| n.parse().ok()).unwrap_or(100);
@@ -62,7 +62,7 @@ fn every_matrix_is_the_product_of_its_decomposition() {
             let directions = (v.transpose() * &v - DMatrix::identity(a.ncols(), a.ncols())).amax();
             let mut angles = images.transpose() * &images;
             angles.fill_diagonal(0.0);
-            // u_p·u_q σ_q beside the largest.
+            // u_p·u_q σ_q relative to the largest singular value.
             let longest = found.norm().max(f64::MIN_POSITIVE);
             let mixed = (0..a.ncols()).filter(|&p| found.values[p] > f64::EPSILON * longest);
             let angle = mixed.map(|p| angles.row(p).amax() / found.values[p]).fold(0.0, f64::max) / longest;

@@ -1,4 +1,4 @@
-//! Methods along whose steps variations go.
+//! Methods whose steps can be differentiated.
 
 use alloc::vec::Vec;
 
@@ -11,7 +11,7 @@ use crate::number::Real;
 use crate::solution::vector_field::PhaseVector;
 use crate::system::State;
 
-/// A [`Method`] whose steps can be differentiated, so that derivatives of a motion go along with it.
+/// A [`Method`] whose steps can be differentiated, so that derivatives of a motion can be integrated with it.
 ///
 /// [`Dop853`](crate::Dop853), [`Dopri5`](crate::Dopri5) and other embedded [`Pair`](crate::motion::Pair)s differentiate their
 /// stages. [`Taylor`](crate::Taylor) expands the motion over dual numbers, for which the number type of the system must be a
@@ -26,11 +26,11 @@ pub trait DifferentiableMethod<L, const N: usize, const M: usize, const P: usize
 where
     L: Linearized<N, M, P, Scalar: Real>,
 {
-    /// What variations take along beside their values.
+    /// Memory of the method for the variations, beside their values.
     #[doc(hidden)]
     type VariationMemory;
 
-    /// At the start.
+    /// Creates the memory at the start of a motion.
     #[doc(hidden)]
     fn companion(
         &self,
@@ -39,15 +39,15 @@ where
         variations: &Variations<L, N, M, P>,
     ) -> Result<Self::VariationMemory, Error>;
 
-    /// What is linear in the variations, block by block: it goes with them where they are combined. Nothing, where it
-    /// is made anew from step to step.
+    /// Parts of the memory that are linear in the variations, block by block: linear combinations of variations apply
+    /// to them too. Empty if the memory is recomputed at each step.
     #[doc(hidden)]
     fn linear(companion: &mut Self::VariationMemory) -> Vec<&mut [WideOf<L, N, M>]> {
         let _ = companion;
         Vec::new()
     }
 
-    /// Before a step towards `end`: it will be short enough for the variations.
+    /// Called before a step towards `end`: limits its length to what the variations allow.
     #[doc(hidden)]
     fn prepare(
         &self,
@@ -61,8 +61,8 @@ where
         Ok(())
     }
 
-    /// Goes along with the step that the run has taken, if it is short enough for the variations too. The error is why
-    /// it is to be taken back; the variations are then what they were.
+    /// Applies the step that the run has taken to the variations, if it is short enough for them. An error means that
+    /// the step is to be taken back; the variations are then unchanged.
     #[doc(hidden)]
     fn follow(
         &self,
@@ -72,8 +72,8 @@ where
         companion: &mut Self::VariationMemory,
     ) -> Result<(), Ending>;
 
-    /// Adds what lies within the step followed last: of the motion, and of the variations as coefficients, as many for each block
-    /// and step. The error is why the step is to be taken back.
+    /// Appends dense output of the last step: an interpolant of the motion, and coefficients for the variations, the
+    /// same number for each block and step. An error means that the step is to be taken back.
     #[doc(hidden)]
     fn interpolate(
         &self,
@@ -85,7 +85,7 @@ where
         coefficients: &mut Vec<PhaseVector<WideOf<L, N, M>, N>>,
     ) -> Result<(), Ending>;
 
-    /// The variations of a block after this part of a step, by its coefficients.
+    /// Variations of a block at a fraction of a step, from its coefficients.
     #[doc(hidden)]
     fn between(
         coefficients: &[PhaseVector<WideOf<L, N, M>, N>],

@@ -1,12 +1,14 @@
-//! The variational equations, along the steps of a motion.
+//! Variational equations, integrated along the steps of a motion.
 //!
-//! A step of the variations is the derivative of the step of the motion, its length held, which is a method's own affair
-//! (internal differentiation: Bock, *Numerical treatment of inverse problems in chemical reaction kinetics*, 1981; Hairer,
-//! Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.6, "Sensitivity analysis"). What a step ends in is
-//! projected onto the tangent space, which is the derivative of the projection of the state where that lies on the
-//! constraints: δq += x with M x = Fᵀμ, F x = −δΦ, then δq̇ by δ(F q̇ + b). Steps end next to the constraints, and their
-//! projection keeps δq to the velocity constraints too, which changes it by no more than the error of a step; at the
-//! start, which parameters may shift, F is that of the holonomic constraints alone, as for the state.
+//! A step of the variations is the derivative of the step of the motion at fixed step length; each method provides it
+//! (internal differentiation: Bock, *Numerical treatment of inverse problems in chemical reaction kinetics*, 1981;
+//! Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.6, "Sensitivity analysis").
+//!
+//! After each step the variations are projected onto the tangent space. On the constraints this is the derivative of
+//! the projection of the state: δq += x with M x = Fᵀμ, F x = −δΦ, then δq̇ by δ(F q̇ + b). Steps end near the
+//! constraints, and the projection applies the rows of velocity constraints to δq too, which changes it by no more than
+//! the error of a step. At the start, which parameters may shift, F is that of the holonomic constraints alone, as for
+//! the state.
 
 mod differentiable;
 mod stages;
@@ -31,12 +33,12 @@ use crate::system::{Direction, ResidualChange};
 
 pub use differentiable::DifferentiableMethod;
 
-/// Variations of a motion, as many as there are lanes.
+/// Variations of a motion, one per SIMD lane.
 #[derive(Clone, Debug)]
 pub(crate) struct Block<W, const N: usize, const P: usize> {
-    /// δ(q, q̇).
+    /// Variations δ(q, q̇).
     pub(crate) y: PhaseVector<W, N>,
-    /// At which parameters change, if any does.
+    /// Rates of change of the parameters; `None` if no lane varies a parameter.
     pub(crate) rates: Option<SVector<W, P>>,
     /// Reciprocal of the size of the varied quantity: that of a parameter, else 1.
     pub(crate) unit: W,
@@ -44,7 +46,7 @@ pub(crate) struct Block<W, const N: usize, const P: usize> {
     pub(crate) lanes: usize,
 }
 
-/// Variations of a motion by some of what it depends on.
+/// Variations of a motion by several arguments, in blocks of lanes.
 #[derive(Debug)]
 pub struct Variations<L: Linearized<N, M, P, Scalar: Real>, const N: usize, const M: usize, const P: usize> {
     arguments: Vec<Entry>,
@@ -55,9 +57,9 @@ impl<L, const N: usize, const M: usize, const P: usize> Variations<L, N, M, P>
 where
     L: Linearized<N, M, P, Scalar: Real>,
 {
-    /// At the start, along each of these columns of δ(q, q̇), and by those of the arguments that are parameters. On
-    /// constraints they go to the tangent space: parameters may shift the start, and of a change of it nothing but the part along
-    /// the constraints changes the motion.
+    /// Variations at the start of a motion: `column` gives δ(q, q̇) for each argument, and arguments that are
+    /// parameters also change the equations. With constraints, the variations are projected onto the tangent space:
+    /// parameters may shift the start, and only the part of a change along the constraints changes the motion.
     pub(super) fn begin(
         tangent: &Tangent<'_, L, N, M>,
         arguments: Vec<Entry>,
@@ -78,13 +80,14 @@ where
         Ok(variations)
     }
 
-    /// How many variations there are.
+    /// Number of variations.
     pub(super) fn count(&self) -> usize {
         self.arguments.len()
     }
 
-    /// Makes the variations orthonormal, one after the other (Gram and Schmidt, each twice), and gives to `take` how long each
-    /// was beside those before it. What `linear` gives of a block goes with it.
+    /// Orthonormalizes the variations one after the other (Gram–Schmidt, each twice). Passes to `take` the length of
+    /// each after it is made orthogonal to those before. The arrays `linear`, one per block, are combined in the same
+    /// way.
     pub(super) fn orthonormalize(
         &mut self,
         linear: &mut [&mut [WideOf<L, N, M>]],
@@ -101,7 +104,7 @@ where
         }
     }
 
-    /// Combines two variations into the first.
+    /// Replaces variation `into` by the combination `of` itself and variation `from`.
     fn combine(
         &mut self,
         linear: &mut [&mut [WideOf<L, N, M>]],
@@ -124,7 +127,7 @@ where
         }
     }
 
-    /// The scalar product of two variations.
+    /// Scalar product of two variations.
     fn dot(&self, j: usize, k: usize) -> L::Scalar {
         let lanes = <WideOf<L, N, M> as Wide<L::Scalar>>::COUNT;
         let entries =
@@ -132,22 +135,23 @@ where
         entries(j).zip(entries(k)).fold(L::Scalar::constant(0.0), |sum, (x, y)| sum + x * y)
     }
 
-    /// Of what they are, in their order.
+    /// Arguments of the variations, in their order.
     pub(crate) fn arguments(&self) -> &[Entry] {
         &self.arguments
     }
 
-    /// What this lane of a block is a variation by.
+    /// Argument of the variation in this lane of a block.
     pub(crate) fn argument(&self, block: usize, lane: usize) -> Entry {
         lane_names::<L, N, M>(&self.arguments, block)(lane)
     }
 
-    /// δ(q, q̇) in a block.
+    /// Variations δ(q, q̇) of a block.
     pub(super) fn block(&self, index: usize) -> &PhaseVector<WideOf<L, N, M>, N> {
         &self.blocks[index].y
     }
 
-    /// Onto the tangent space of the start, as the start itself was moved: its coordinates by the holonomic constraints alone.
+    /// Projects the variations at the start onto the tangent space. As for the start itself, the coordinates are moved
+    /// by the holonomic constraints alone.
     fn set_out(&mut self, tangent: &Tangent<'_, L, N, M>) -> Result<(), Error> {
         if const { M > 0 } {
             let nearest = Room::of(factors_of_nearest(
@@ -168,7 +172,7 @@ where
         Ok(())
     }
 
-    /// Onto the tangent space of a state next to which a step has ended.
+    /// Projects the variations at the end of a step onto the tangent space.
     pub(crate) fn arrive(&mut self, tangent: &Tangent<'_, L, N, M>) -> Result<(), Error> {
         if const { M > 0 } {
             let by_parameters = self.parameter_slopes(tangent);
@@ -180,7 +184,7 @@ where
         Ok(())
     }
 
-    /// δ(q̇, q̈) of each block at a state, of these δ(q, q̇).
+    /// Passes δ(q̇, q̈) of each block at a state to `give`; `y` returns the block's δ(q, q̇) there.
     pub(crate) fn slopes_at(
         &self,
         tangent: &Tangent<'_, L, N, M>,
@@ -195,7 +199,7 @@ where
         Ok(())
     }
 
-    /// δ(q, q̇) of a block at a state in between, on the tangent space there.
+    /// Projects δ(q, q̇) of a block at an intermediate state onto the tangent space there.
     pub(super) fn projected(
         &self,
         index: usize,
@@ -206,13 +210,13 @@ where
         self.blocks[index].projected(tangent, &self.parameter_slopes(tangent), y, &names)
     }
 
-    /// Where parameters change.
+    /// Numbers for the derivatives by parameters; `None` if no variation changes a parameter.
     fn parameter_slopes(&self, tangent: &Tangent<'_, L, N, M>) -> Option<L::ParameterSlopes> {
         self.blocks.iter().any(|block| block.rates.is_some()).then(|| tangent.parameter_slopes())
     }
 }
 
-/// What the lanes of a block are called.
+/// Names the lanes of a block by their arguments, for errors.
 fn lane_names<L, const N: usize, const M: usize>(arguments: &[Entry], block: usize) -> impl Fn(usize) -> Entry
 where
     L: StateDerivatives<N, M, Scalar: Real>,
@@ -222,7 +226,7 @@ where
 }
 
 impl<W: Scalar, const N: usize, const P: usize> Block<W, N, P> {
-    /// Of no state yet, by these parameters, a lane each.
+    /// A block of zero variations by these parameters, one per lane; `None` is an entry of the state.
     fn of<T: Real>(parameters: &[Option<usize>], values: &SVector<T, P>) -> Self
     where
         W: Wide<T>,
@@ -241,7 +245,7 @@ impl<W: Scalar, const N: usize, const P: usize> Block<W, N, P> {
         self.y.as_flattened_mut()
     }
 
-    /// Adds to δq what makes up for these changes of Φ, lane by lane.
+    /// Adds to δq the correction that compensates these changes of Φ, lane by lane.
     fn move_by<T: Real<Wide = W>, const M: usize>(
         &mut self,
         nearest: &Factors<T, N, M>,
@@ -259,7 +263,7 @@ impl<W: Scalar, const N: usize, const P: usize> Block<W, N, P> {
         Ok(())
     }
 
-    /// How the residual changes with these variations.
+    /// Derivative of the residual along the variations.
     #[inline]
     fn changes<L, const M: usize>(
         &self,
@@ -275,7 +279,7 @@ impl<W: Scalar, const N: usize, const P: usize> Block<W, N, P> {
         of_state.plus(&tangent.changes_by_parameters(slopes, rates))
     }
 
-    /// δ(q̇, q̈)
+    /// Rates δ(q̇, q̈) of the variations.
     #[inline]
     fn slope_at<L, const M: usize>(
         &self,
@@ -291,7 +295,7 @@ impl<W: Scalar, const N: usize, const P: usize> Block<W, N, P> {
         Ok([y[1], tangent.responses(self.lanes, &changes, names)?.accelerations.into()])
     }
 
-    /// The nearest variations on the tangent space.
+    /// Projects variations onto the tangent space.
     fn projected<L, const M: usize>(
         &self,
         tangent: &Tangent<'_, L, N, M>,
@@ -308,7 +312,7 @@ impl<W: Scalar, const N: usize, const P: usize> Block<W, N, P> {
         Ok(y)
     }
 
-    /// The nearest δq, or the nearest δq̇, by the rows of all constraints.
+    /// Projects δq (`half` 0) or δq̇ (`half` 1), by the rows of all constraints.
     fn half_projected<L, const M: usize>(
         &self,
         half: usize,

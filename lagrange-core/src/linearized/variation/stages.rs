@@ -1,4 +1,5 @@
-//! Variations along the steps of Runge–Kutta pairs: the stages of the motion, differentiated, each by its own factor.
+//! Variations along the steps of Runge–Kutta pairs: each stage of the motion is differentiated, with its own
+//! factorization.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -19,14 +20,14 @@ use crate::solution::solve::solve_near;
 use crate::solution::vector_field::{LagrangianVectorField, PhaseVector};
 use crate::system::{Solution, State};
 
-/// The slopes of a block of variations.
+/// Stage slopes of a block of variations.
 #[derive(Clone, Debug)]
 pub struct Stages<W, const N: usize> {
-    /// Where the step taken last starts.
+    /// Variations at the start of the last step.
     start: PhaseVector<W, N>,
-    /// Of that step; the first that of its start.
+    /// Slopes of that step; the first is the slope at its start.
     slopes: Room<Slopes<W, N>>,
-    /// Where it ends.
+    /// Slope at the end of that step.
     slope: PhaseVector<W, N>,
 }
 
@@ -119,7 +120,7 @@ where
 }
 
 impl<Q: Pair> Adaptive<Q> {
-    /// The largest error of a variation as a part of the tolerance, and of which.
+    /// Largest error of a variation relative to its tolerance, and the index of that variation.
     fn error_of<L, const N: usize, const M: usize, const P: usize>(
         &self,
         memory: &PairMemory<L::Scalar, N, M>,
@@ -138,7 +139,7 @@ impl<Q: Pair> Adaptive<Q> {
             tolerance.error_of_variations::<Q, _, _, N>(&stages.slopes, h, ends, places, block.unit)
         };
         let errors: Vec<_> = variations.blocks.iter().zip(all).map(error).collect();
-        // What is no number is larger than any.
+        // NaN counts as infinite.
         let size = |error: L::Scalar| {
             if error.is_finite() { error } else { L::Scalar::constant(f64::INFINITY) }
         };
@@ -147,7 +148,7 @@ impl<Q: Pair> Adaptive<Q> {
     }
 }
 
-/// As before the step followed last.
+/// Restores the variations to the start of the last step.
 fn step_back<L, const N: usize, const M: usize, const P: usize>(
     variations: &mut Variations<L, N, M, P>,
     all: &mut [Stages<WideOf<L, N, M>, N>],
@@ -159,7 +160,7 @@ fn step_back<L, const N: usize, const M: usize, const P: usize>(
     }
 }
 
-/// To the end of the step that the motion has taken.
+/// Advances the variations to the end of the step that the motion has taken.
 fn go<Q: Pair, L, const N: usize, const M: usize, const P: usize>(
     system: &L,
     memory: &PairMemory<L::Scalar, N, M>,
@@ -186,7 +187,7 @@ where
     )
 }
 
-/// The slopes of these stages of a step taken, the first of which has the number given.
+/// Computes the slopes of these stages of the last step; `first` is the number of the first stage.
 fn stages<Q: Pair, L, const N: usize, const M: usize, const P: usize>(
     system: &L,
     memory: &PairMemory<L::Scalar, N, M>,
@@ -218,7 +219,8 @@ fn state_at<T: Real, const N: usize>(t: T, [q, v]: &PhaseVector<T, N>) -> State<
     State { t, q: vector(*q), v: vector(*v) }
 }
 
-/// The equations at a stage, of which the accelerations are known; multipliers are not.
+/// Linearized equations at a stage. The accelerations are known from the motion; with constraints the equations are
+/// solved again for the multipliers.
 #[inline]
 fn tangent_at<'a, L: StateDerivatives<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &'a L,
@@ -239,7 +241,7 @@ fn tangent_at<'a, L: StateDerivatives<N, M, Scalar: Real>, const N: usize, const
 }
 
 impl<W: Scalar, const N: usize> Stages<W, N> {
-    /// Adds the coefficients of the step that led to `y`.
+    /// Appends the coefficients of dense output for the step that led to `y`.
     fn push_coefficients<Q: Pair>(
         &self,
         h: W,
@@ -272,7 +274,7 @@ mod tests {
     #[lagrangian(x_dot^2/2 - x^2/2)]
     struct Spring;
 
-    /// An error that is no number is not lost among others: it is too large.
+    /// A NaN error of one variation is not masked by the others: the step is rejected.
     #[test]
     fn an_error_that_is_no_number_refuses_the_step() {
         let (system, method) = (Spring, Dop853::default());
@@ -289,7 +291,7 @@ mod tests {
         method.follow(&system, &mut run, &mut variations, &mut stages).expect("a step");
         let (error, _) = method.error_of(&run.memory, &variations, &stages);
         assert!(method.accepts(error));
-        // Of the first of the two.
+        // Break the first of the two variations.
         let broken = &mut stages[0].slopes[0][1][0];
         crate::number::Wide::put(broken, 0, f64::NAN);
         assert_eq!(method.error_of(&run.memory, &variations, &stages), (f64::INFINITY, 0));

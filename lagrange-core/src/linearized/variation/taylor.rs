@@ -1,7 +1,7 @@
-//! Variations along the steps of Taylor's method: the recurrences of the motion, over dual numbers.
+//! Variations along the steps of Taylor's method: the recurrences of the motion, evaluated over dual numbers.
 //!
-//! Every number that a series is made of has its changes beside it, along one direction a lane, and so have its
-//! coefficients: it is differentiated, the length of the step held, by the rules by which it was made.
+//! Each number in a series carries its derivatives along one direction per lane, and so do the coefficients. The series
+//! is thus differentiated at fixed step length by the recurrences that made it.
 
 mod general;
 
@@ -28,25 +28,25 @@ use crate::solution::vector_field::{LagrangianVectorField, PhaseVector};
 use crate::system::{Lagrangian, Pack, RightHandSides, Solution, State, TaylorSeries};
 use general::DualGeneral;
 
-/// Numbers with their changes along as many directions as there are lanes.
+/// Dual numbers with derivatives along one direction per lane.
 type Duals<L, const N: usize, const M: usize> = Dual<WideOf<L, N, M>>;
-/// The system over these.
+/// The system over these dual numbers.
 type PackedDuals<L, const N: usize, const M: usize> = <L as Pack<Duals<L, N, M>>>::Packed;
 type Sums<L, const N: usize, const M: usize> = <PackedDuals<L, N, M> as TaylorSeries<N, M>>::Sums;
 
-/// A motion with as many variations as there are lanes.
+/// A motion with one variation per lane, as a system and a series over dual numbers.
 #[derive(Debug)]
 pub struct Varied<S, U, W, const N: usize> {
-    /// Its parameters change at the rates of the block.
+    /// The system; its parameters change at the rates of the block.
     system: S,
     series: Expansion<U, Dual<W>, N>,
 }
 
 /// A step of a block of variations.
 struct BlockStep<W, const N: usize> {
-    /// Where it starts.
+    /// Variations at the start of the step.
     before: PhaseVector<W, N>,
-    /// How the velocities change at the end of the series.
+    /// Rates of δq̇ at the end of the series.
     rates: [W; N],
 }
 
@@ -149,8 +149,8 @@ where
 }
 
 impl Taylor {
-    /// One over what coefficients of variations are measured by: the largest entry among their coordinates, and among
-    /// their velocities, and what the motion itself is measured by, in units of the variations.
+    /// Reciprocal scales for coefficients of variations. The scale of an entry is `SLACK` times the sum of the largest
+    /// δq (or δq̇) and the scale of the motion, in units of the variations.
     fn scales<S, T: Real, W: Wide<T>, const N: usize>(
         &self,
         ends: [&PhaseVector<W, N>; 2],
@@ -166,8 +166,8 @@ impl Taylor {
         })
     }
 
-    /// Brings the variations onto the tangent space, and gives one whose accelerations at the end of its series are not those
-    /// of the equations.
+    /// Projects the variations onto the tangent space. Returns the argument of a variation whose accelerations at the
+    /// end of its series deviate too far from the equations; `None` if there is none.
     fn off<L, const N: usize, const M: usize, const P: usize>(
         &self,
         system: &L,
@@ -197,7 +197,7 @@ impl Taylor {
     }
 }
 
-/// The system over dual numbers, its parameters changing at these rates.
+/// Converts the system to dual numbers whose parameters change at these rates.
 fn with_rates<L, const N: usize, const M: usize, const P: usize>(
     system: &L,
     rates: Option<&SVector<WideOf<L, N, M>, P>>,
@@ -223,7 +223,7 @@ impl<S, U, W: Scalar, const N: usize> Varied<S, U, W, N>
 where
     U: FixedArray<Dual<W>>,
 {
-    /// Expands motion and variations about where the motion is.
+    /// Expands the motion and its variations in Taylor series about the present state.
     fn expand<L, V, const M: usize, const P: usize>(
         &mut self,
         system: &L,
@@ -258,7 +258,7 @@ where
         self.check::<L, M>(block.lanes, at.t, entry)
     }
 
-    /// The same by the general factors. A function of its own, for the matrices are large.
+    /// Like `expand`, by the general factors. A separate function, because the matrices are large.
     #[cold]
     #[inline(never)]
     fn expand_in_general<L, const M: usize>(
@@ -279,7 +279,7 @@ where
         self.series.orders(&self.system, state, &solution, unit, solve)
     }
 
-    /// The changes of all coefficients must be numbers.
+    /// Fails if the derivatives of a coefficient are not finite.
     fn check<L, const M: usize>(
         &self,
         lanes: usize,
@@ -300,7 +300,7 @@ where
         Ok(())
     }
 
-    /// The largest change of a coefficient of an order, on these scales.
+    /// Largest derivative of a coefficient of this order, relative to the scales.
     fn size(&self, order: usize, scales: &PhaseVector<W, N>) -> W {
         let coefficients = [&self.series.q[order], &self.series.v[order]];
         let sizes = coefficients.iter().zip(scales);
@@ -308,7 +308,7 @@ where
         sizes.fold(W::constant(0.0), |most, size| most.max(size))
     }
 
-    /// Brings the variations to the end of the step that the motion has taken.
+    /// Advances the variations to the end of the step that the motion has taken.
     fn advance<T: Real<Wide = W>, V, const P: usize>(
         &mut self,
         block: &mut Block<W, N, P>,
@@ -326,7 +326,8 @@ where
         BlockStep { before, rates }
     }
 
-    /// Adds the coefficients of powers of the part of a step that has passed, which is this multiple of the unit.
+    /// Appends the coefficients for powers of the fraction of the step; `theta` is the length of the step in units of
+    /// the series.
     fn push_coefficients<T: Real>(&self, theta: T, coefficients: &mut Vec<PhaseVector<W, N>>)
     where
         W: Wide<T>,
@@ -345,7 +346,7 @@ where
     }
 }
 
-/// Whether the elimination can be relied on in all lanes.
+/// True if the pivots of the elimination are large enough in all lanes.
 fn is_sound<T: Real, W: Wide<T>, const N: usize, const M: usize>(solution: &Solution<Dual<W>, N, M>) -> bool {
     (0..W::COUNT).all(|lane| solution.pivot.value.lane(lane) > least_pivot())
 }

@@ -1,4 +1,4 @@
-//! The variations of what the equations give where constraints depend on one another: the elimination does not do there.
+//! Derivatives of accelerations and multipliers for dependent constraints, for which the emitted elimination fails.
 
 use core::array::from_fn;
 
@@ -9,7 +9,7 @@ use crate::motion::taylor::expansion::General;
 use crate::number::{Dual, Real, Wide, entries};
 use crate::system::{Lagrangian, RightHandSides, Solution, State};
 
-/// The general factors of a state, and how the matrix changes with it.
+/// General factors at a state, with the derivatives of M and F.
 pub(super) struct DualGeneral<T, W, const N: usize, const M: usize> {
     general: General<T, N, M>,
     /// δM and δF, row by row.
@@ -36,7 +36,8 @@ impl<T: Real<Wide = W>, W: Wide<T>, const N: usize, const M: usize> DualGeneral<
         Ok(Self { general: General::at(system, state, active)?, m, f })
     }
 
-    /// M x − Fᵀλ = h and F x = −γ; differentiated, M δx − Fᵀδλ = δh − δM x + δFᵀλ and F δx = −δγ − δF x.
+    /// Solves M x − Fᵀλ = h and F x = −γ over dual numbers. The derivatives satisfy M δx − Fᵀδλ = δh − δM x + δFᵀλ and
+    /// F δx = −δγ − δF x.
     pub(super) fn solve<L: Lagrangian<N, M, Scalar = T>>(
         &self,
         (h, gamma): &RightHandSides<Dual<W>, N, M>,
