@@ -1,9 +1,9 @@
-//! The language of the attributes, with an example of each form.
+//! Language of the attributes, with an example of each form.
 //!
 //! # A system
 //!
-//! A struct's fields are the parameters. `coordinates` and `lagrangian` are given once, everything else as often as
-//! needed (`dissipation` at most once). Attribute order matters among definitions only.
+//! The fields of a struct are the parameters. `coordinates` and `lagrangian` are given once, `dissipation` at most
+//! once, all other attributes as often as needed. The order of attributes matters among definitions only.
 //!
 //! ```
 //! use lagrange_core::prelude::*;
@@ -24,58 +24,58 @@
 //!
 //! | written | meaning |
 //! |---|---|
-//! | `2/5`, `9.81`, `1_000`, `6.62607015e-34` | exact numbers, in the range of `f64`; what comes to more than 38 digits, as a product of three numbers of 16 does, is rounded once, to the nearest `f64`, and sums of such numbers that cancel within their rounding are zero; no suffixes, no hexadecimal |
+//! | `2/5`, `9.81`, `1_000`, `6.62607015e-34` | exact numbers, in the range of `f64`. A result of more than 38 digits, such as a product of three numbers of 16 digits, is rounded once, to the nearest `f64`; sums of such numbers that cancel within their rounding are zero. No suffixes, no hexadecimal |
 //! | `t`, `pi` | time, π |
 //! | `x`, `x_dot` or `ẋ` | a coordinate and its velocity; `x_ddot` or `ẍ` in observables only |
 //! | `+ - * / ^` | the usual precedence; `-x^2` is `-(x^2)`, `^` groups to the right |
 //! | `sin cos tan asin acos atan atan2 sinh cosh tanh exp ln sqrt abs` | functions; `atan2(y, x)` |
-//! | `min(x, y)`, `max(x, y)`, `clamp(x, low, high)` | limits, in forces and observables: a Lagrangian, a constraint or a frame has slopes everywhere |
+//! | `min(x, y)`, `max(x, y)`, `clamp(x, low, high)` | limits, in forces and observables only: a Lagrangian, a constraint or a frame must be differentiable everywhere |
 //! | `der(expr)` | the total time derivative |
-//! | `base.m`, `link[2].c[0]` | members of fields that are structs, of the shape that is declared |
+//! | `base.m`, `link[2].c[0]` | members of fields that are structs, with the declared shapes |
 //! | `[a, b, c]`, `v[0]`, `v[1..3]`, `dot(v, w)`, `cross(v, w)`, `norm(v)` | vectors |
-//! | `[[a, b], [c, d]]`, `A[0][1]`, `A*v`, `v*A`, `A*B`, `transpose(A)`, `trace(A)`, `identity(3)`, `skew(v)` | matrices, by their rows |
-//! | `rot_x(angle)`, `rot_y(angle)`, `rot_z(angle)`, `rot(axis, angle)` | matrices of rotations |
+//! | `[[a, b], [c, d]]`, `A[0][1]`, `A*v`, `v*A`, `A*B`, `transpose(A)`, `trace(A)`, `identity(3)`, `skew(v)` | matrices, written by rows |
+//! | `rot_x(angle)`, `rot_y(angle)`, `rot_z(angle)`, `rot(axis, angle)` | rotation matrices |
 //! | `quat_rotate(q, v)`, `quat_mul(p, q)`, `quat_conj(q)`, `quat_rate(q, q_dot)`, `quat_rate_body(q, q_dot)` | orientations as quaternions |
 //! | `sum(i in 0..3, expr)` | a sum; ranges are half-open, indices whole numbers |
 //! | `lambda(name)` | the multiplier of a constraint, in observables only |
 //!
-//! Fields, coordinates, definitions and built-in names share one namespace; constraints and observables have one
-//! each. A field may be a number, a reference, an array or a vector, matrix, rotation (`Rotation3`) or quaternion
-//! (`UnitQuaternion`, which is (w, x, y, z) in expressions) of nalgebra, or an array of these, or a struct (below); a field
-//! that no expression uses may have any type.
+//! Fields, coordinates, definitions and built-in names share one namespace; constraints have their own, and so have
+//! observables. A field may be a number, a reference, or an array. It may be a vector, matrix, rotation (`Rotation3`)
+//! or quaternion (`UnitQuaternion`, which is (w, x, y, z) in expressions) of nalgebra, or an array of these, or a
+//! struct (below). A field that no expression uses may have any type.
 //!
-//! `#[parameter(inertia: symmetric)]` says that a field of square matrices is symmetric: of the two numbers across the diagonal
-//! one is the parameter, and less is computed. `#[parameter(turn: rotation)]` says that they are rotations, as a `Rotation3`
-//! is by its type. Random checks keep to it, and so must you: `solve`, and whatever starts from a state, gives
-//! [`Error::ParameterNotAsSaid`](crate::Error::ParameterNotAsSaid) where a matrix is off by more than round-off (ε^(2/3) of
-//! its size, 4·10⁻¹¹ for `f64`); the functions ending in `_unchecked` do not look.
+//! `#[parameter(inertia: symmetric)]` declares that a field holds symmetric matrices: of the two entries across the
+//! diagonal only one is a parameter, which saves operations. `#[parameter(turn: rotation)]` declares rotations, as the
+//! type `Rotation3` does. Random checks respect the declaration, and your values must: `solve`, and every function that
+//! starts from a state, returns [`Error::ParameterNotAsSaid`](crate::Error::ParameterNotAsSaid) if a matrix is off by
+//! more than round-off (ε^(2/3) of its size, 4·10⁻¹¹ for `f64`). The functions ending in `_unchecked` do not check.
 //!
-//! Everything is written out when it is compiled. So ranges end at 10,000 at most, the expressions of a system use at most
-//! 10,000 numbers of its fields, and there are at most 1,000 coordinates and 1,000 constraints. What has more parts belongs
-//! into a function of its own, with a loop in it (below).
+//! The macro writes out all sums and families at compile time. So ranges have at most 10,000 elements, the expressions
+//! of a system use at most 10,000 numbers of its fields, and there are at most 1,000 coordinates and 1,000 constraints.
+//! Put larger sums into a supplied function with a loop (below).
 //!
 //! # Structs among the fields
 //!
-//! What belongs together may stand in a struct of its own, `link[i].m` beside `link[i].c`. A derive cannot see another
-//! type: `#[parameter(link: [6] {m, c: [3]})]` says how many structs a field is, if there are several, and of what shape those
-//! of their members are that expressions use.
+//! Related parameters may be grouped in a struct, `link[i].m` beside `link[i].c`. A derive macro cannot see another
+//! type, so the attribute declares it: `#[parameter(link: [6] {m, c: [3]})]` tells the number of structs, if the field
+//! holds several, and the shapes of the members that expressions use.
 //!
 //! | declared | type of the member |
 //! |---|---|
 //! | `m` | a number |
 //! | `c: [3]` | `[f64; 3]` or `Vector3<f64>` |
 //! | `A: [3, 3]` | `[[f64; 3]; 3]` or `Matrix3<f64>` |
-//! | `I: symmetric` | the same, a symmetric matrix of 3 by 3 |
+//! | `I: symmetric` | the same: a symmetric 3×3 matrix |
 //! | `R: rotation` | the same or `Rotation3<f64>`: a rotation |
 //! | `q: quaternion` | `UnitQuaternion<f64>` |
 //! | `place: pose` | `Isometry3<f64>`, with the members `translation`, a vector, and `rotation`, a quaternion |
-//! | `tip: {m, c: [3]}`, `wheel: [4] {m}` | a struct again, or an array of such |
+//! | `tip: {m, c: [3]}`, `wheel: [4] {m}` | a nested struct, or an array of structs |
 //!
-//! The field may own the structs, or be a reference to them, or a `Vec`, which must have as many, or a smart pointer. A member
-//! that the struct has not, or of another type, is a compile error where it is declared. What is declared symmetric or
-//! a rotation is verified as with other fields. The numbers are parameters like others, called as in expressions; those of
-//! members of members, and behind references, cannot be set. A field that is an `Isometry3` is a pose without being declared;
-//! the step `pose(place)` of a frame uses it as a whole.
+//! The field may own the structs, be a reference to them, a smart pointer, or a `Vec` of the declared length. If the
+//! struct lacks a declared member, or has it with another type, the declaration does not compile. Members declared
+//! symmetric or rotations are checked like other fields. The members are parameters, named as in expressions; members
+//! of nested structs, and those behind references, cannot be set. A field of type `Isometry3` is a pose without a
+//! declaration; the step `pose(place)` of a frame uses it as a whole.
 //!
 //! ```
 //! use lagrange_core::nalgebra::{Isometry3, Vector3};
@@ -105,17 +105,21 @@
 //!
 //! # Definitions
 //!
-//! Values, functions and families. A family over 0..n is a vector, one of two indices,
-//! `#[define(d[i in 0..3, j in 0..3] = …)]`, a matrix of the entries `d[i][j]`; the range of an index may depend on those before
-//! it, `d[i in 0..3, j in 0..i]`. Definitions come before what uses them, but for elements of families: where a family needs
-//! an element of another one, or of its own, that is found first, so that two recursions may use each other, and one may run
-//! from its end, `#[define(p[i in 0..4] = a[i] + x*p[i+1])]`. Definitions are kept as they are written: what
-//! is shared is computed once, and a recursion along a chain costs as much as its length. That holds for the solved
-//! accelerations too: the rates of velocities that definitions name are unknowns beside the accelerations where that
-//! makes the equations sparse (the articulated-body algorithm). So name the velocities of a chain or a tree, or its places
-//! with `der(…)` in L. Each from the one before, `x[i] = x[i-1] + …`, or as a sum, `x[i] = sum(j in 0..i+1, …)`, is the
-//! same: sums in L that have terms in common are written by what they share (but not where frames are declared). Where
-//! bodies turn in space, declare their [frames](#frames) instead, which costs a fraction.
+//! A definition is a value, a function or a family. A family over 0..n is a vector; one with two indices, `#[define(d[i
+//! in 0..3, j in 0..3] = …)]`, is a matrix with the entries `d[i][j]`. The range of an index may depend on the indices
+//! before it, `d[i in 0..3, j in 0..i]`.
+//!
+//! A definition precedes its uses, except for elements of families: an element that a family needs, of another family
+//! or its own, is computed first. So two recursions may use each other, and one may run from its end, `#[define(p[i in
+//! 0..4] = a[i] + x*p[i+1])]`.
+//!
+//! Definitions are kept as written: shared expressions are computed once, and a recursion along a chain costs
+//! operations in proportion to its length. The same holds for solving for the accelerations: if it makes the equations
+//! sparse, the rates of defined velocities become unknowns beside the accelerations (the articulated-body algorithm).
+//! So define the velocities of a chain or a tree, or its positions with `der(…)` in L. A recursion, `x[i] = x[i-1] +
+//! …`, and a sum, `x[i] = sum(j in 0..i+1, …)`, cost the same: sums in L with common terms are factored into shared
+//! partial sums (but not in systems with frames). If bodies rotate in space, declare their [frames](#frames) instead,
+//! which costs a fraction.
 //!
 //! ```
 //! use lagrange_core::prelude::*;
@@ -139,13 +143,13 @@
 //!
 //! # Vectors
 //!
-//! A coordinate `r: [3]` is a vector, `r_dot` its velocity and `r[0]` an entry; so is a field of type `[f64; 3]` or
-//! `Vector3<f64>`. A coordinate `r: [4, 3]` is an array of four vectors `r[i]`, of velocities `r_dot[i]`, and has entries `r[i][j]`,
-//! by which states, tables and equations name them too. Vectors add up with vectors of the same length, and take factors and divisors that are numbers; the literal
-//! 0 is the zero vector. `norm(v)^2` is `dot(v, v)`, without a root that would have no slope at the origin.
-//! Definitions, forces, constraints and observables may be vectors; L is a number. A force on all of a coordinate has its
-//! shape; `#[force(r[1]: …)]` acts on one vector of an array, `#[force(r[1][2]: …)]` on an entry, `#[force(r[i in 0..4]: …)]`
-//! on each.
+//! A coordinate `r: [3]` is a vector, with the velocity `r_dot` and the entries `r[0]`; so is a field of type `[f64;
+//! 3]` or `Vector3<f64>`. A coordinate `r: [4, 3]` is an array of four vectors `r[i]` with velocities `r_dot[i]`. Its
+//! entries are `r[i][j]`, in states, tables and equations too. Vectors of the same length can be added, and multiplied
+//! or divided by numbers; the literal 0 is the zero vector. `norm(v)^2` is `dot(v, v)`, without the square root, which
+//! has no derivative at the origin. Definitions, forces, constraints and observables may be vectors; L is a number. A
+//! force on a whole coordinate has its shape; `#[force(r[1]: …)]` acts on one vector of an array, `#[force(r[1][2]:
+//! …)]` on an entry, `#[force(r[i in 0..4]: …)]` on each vector.
 //!
 //! ```
 //! use lagrange_core::prelude::*;
@@ -170,11 +174,11 @@
 //! # Ok::<(), lagrange_core::Error>(())
 //! ```
 //!
-//! A field `[[f64; 3]; 2]` or `Matrix3<f64>` is a matrix, and so are rows of numbers, `[[a, b], [c, d]]`. In `A*v` the vector is a
-//! column, in `v*A` a row; `skew(v)*w` is `cross(v, w)`. `rot_z(a)` turns a vector by the angle a from x towards y,
-//! `rot_x(a)` from y towards z, `rot_y(a)` from z towards x: as R = rot_z(φ) rot_x(θ) rot_z(ψ) with Euler's angles, R takes what is
-//! said in the frame of the body into the fixed one, and `transpose(R)*der(R)` is `skew` of the angular velocity in
-//! the frame of the body. The axis of `rot(axis, a)` need not be of length 1, but must not be zero.
+//! A field `[[f64; 3]; 2]` or `Matrix3<f64>` is a matrix, and so are rows of numbers, `[[a, b], [c, d]]`. In `A*v` the
+//! vector is a column, in `v*A` a row; `skew(v)*w` is `cross(v, w)`. `rot_z(a)` rotates a vector by the angle a from x
+//! towards y, `rot_x(a)` from y towards z, `rot_y(a)` from z towards x. With Euler's angles, R = rot_z(φ) rot_x(θ)
+//! rot_z(ψ) maps components in the body frame to components in the fixed frame, and `transpose(R)*der(R)` is `skew` of
+//! the angular velocity in the body frame. The axis of `rot(axis, a)` may have any length except zero.
 //!
 //! ```
 //! use lagrange_core::nalgebra::Vector3;
@@ -197,12 +201,11 @@
 //! # Ok::<(), lagrange_core::Error>(())
 //! ```
 //!
-//! A quaternion is a vector of 4, (w, x, y, z). `quat_rotate(q, v)` is the vector that it turns v into, from the
-//! body's frame to the fixed one; `quat_rate(q, q_dot)` is the angular velocity in the fixed frame,
-//! `quat_rate_body(q, q_dot)` in the body's, as 2 q̇ q̄ and 2 q̄ q̇. `quat_mul(p, q)` is Hamilton's product, first q and then
-//! p as rotations; `quat_conj(q)` is q̄. Nothing is divided by |q|²: the constraint
-//! `dot(q, q) = 1` keeps it 1, and makes up for the mass matrix, which alone is singular. The macro completes it by that
-//! row: no term that vanishes need be added to L.
+//! A quaternion is a vector of 4, (w, x, y, z). `quat_rotate(q, v)` rotates v, from the body frame to the fixed frame.
+//! `quat_rate(q, q_dot)` is the angular velocity in the fixed frame, the vector part of 2 q̇ q̄; `quat_rate_body(q,
+//! q_dot)` in the body frame, that of 2 q̄ q̇. `quat_mul(p, q)` is Hamilton's product, as rotations first q and then p;
+//! `quat_conj(q)` is q̄. No function divides by |q|²: the constraint `dot(q, q) = 1` keeps it 1. The mass matrix alone
+//! is singular; the macro completes it by the row of this constraint, and L needs no extra term.
 //!
 //! ```
 //! use lagrange_core::nalgebra::{Matrix3, Vector3};
@@ -231,38 +234,39 @@
 //!
 //! # Frames
 //!
-//! `#[frame(name in parent: step, step, …)]` declares a frame by the steps that lead to it from the one that it is in,
-//! each step in the axes that the steps before have reached. Without `in` it starts from the frame at rest, which is
-//! called `fixed`. A family, `link[i in 1..6] in link[i-1]`, is a chain; with a table of whole numbers,
-//! `#[define(parent = [0, 0, 1, 1])]` and `part[i in 1..4] in part[parent[i]]`, a tree; with two indices,
-//! `leg[i in 0..4, j in 1..3] in leg[i][j-1]`, several chains. Families may lie in each other's elements, as joints about two
-//! axes in turn do: `a[i in 1..6] in b[i-1]` and `b[i in 0..6] in a[i]`.
+//! `#[frame(name in parent: step, step, …)]` declares a frame by the steps that lead to it from its parent. Each step
+//! acts in the axes reached by the steps before. Without `in` the parent is the frame at rest, which is called `fixed`.
+//! A family, `link[i in 1..6] in link[i-1]`, is a chain. With a table of whole numbers, `#[define(parent = [0, 0, 1,
+//! 1])]` and `part[i in 1..4] in part[parent[i]]`, it is a tree; with two indices, `leg[i in 0..4, j in 1..3] in
+//! leg[i][j-1]`, several chains. Families may alternate, as for joints about two successive axes: `a[i in 1..6] in
+//! b[i-1]` and `b[i in 0..6] in a[i]`.
 //!
 //! | step | |
 //! |---|---|
-//! | `translate(v)` | the origin moves by a vector |
-//! | `rotate_x(angle)`, `rotate_y`, `rotate_z` | about an axis of its own, by the right-hand rule |
-//! | `rotate(axis, angle)` | about any axis, of whatever length |
-//! | `rotate(q)` | by a quaternion (w, x, y, z), of whatever length but zero; where it is a coordinate, the constraint `dot(q, q) = 1` comes with it, named like it, after those that you state; so it does for each `rotate(q[i])` of a coordinate `q: [3, 4]`, named `q[i]`. Those of several coordinates come in the order in which the frames, as declared, first turn by them |
-//! | `rotate(R)` | by a rotation matrix, which turns vectors from the new axes into the old: a `Rotation3`, a `Matrix3` with `#[parameter(R: rotation)]`, a product of rotations, which is taken turn by turn |
-//! | `pose(place)` | `translate(place.translation), rotate(place.rotation)`: by an `Isometry3`, which takes a point r of the new frame to R r + t in the old |
+//! | `translate(v)` | moves the origin by a vector |
+//! | `rotate_x(angle)`, `rotate_y`, `rotate_z` | rotates about an axis of its own, by the right-hand rule |
+//! | `rotate(axis, angle)` | rotates about any axis, of any length |
+//! | `rotate(q)` | rotates by a quaternion (w, x, y, z), of any length except zero. For a coordinate the macro adds the constraint `dot(q, q) = 1` with the coordinate's name, after the constraints that you declare; for each `rotate(q[i])` of a coordinate `q: [3, 4]` likewise, with the name `q[i]`. Several of them come in the order in which the declared frames first use their coordinates |
+//! | `rotate(R)` | rotates by a rotation matrix, which maps components along the new axes to components along the old: a `Rotation3`, a `Matrix3` with `#[parameter(R: rotation)]`, or a product of rotations, which is applied one rotation at a time |
+//! | `pose(place)` | `translate(place.translation), rotate(place.rotation)`: moves by an `Isometry3`, which maps a point r of the new frame to R r + t in the old |
 //!
-//! What a step is made of may depend on coordinates and on time: a joint, or a motion that is prescribed.
+//! The arguments of a step may depend on coordinates, for a joint, and on time, for a prescribed motion.
 //!
 //! | | |
 //! |---|---|
-//! | `position(frame, point)` | where a point is, from the origin of the fixed frame and along its axes; the point by its components in the frame, the frame's origin without |
-//! | `velocity(frame, point)` | its velocity relative to the fixed frame, along the axes of `frame`; if the point moves in the frame, with that. The material at a point that moves, where a wheel touches the ground, has the velocity `velocity(wheel) + cross(angular_velocity(wheel), point)` |
-//! | `angular_velocity(frame)` | relative to the fixed frame, along the axes of `frame` |
-//! | `jacobian(v)` | ∂v/∂q̇ of a velocity, linear or angular or any other, in observables: a row for each component and a column for each coordinate. What a force along v does, Jᵀ·force, is `#[power(force, v)]` |
-//! | `kinetic(frame, m, c, I)` | the kinetic energy of a rigid body: mass, centre of mass, inertia about the centre, all in the axes of `frame`; without `I` that of a point, without `c` of one at the origin. Each of them may depend on time, coordinates and supplied functions, `m` and `I` also on velocities; the equations then have ṁ u, İ ω, ∂m/∂q u²/2 and ω·∂I/∂q ω/2. Entries of `I` across the diagonal that differ for all parameters are an error; where fields decide, as in a matrix field, the symmetric part (I + Iᵀ)/2 counts |
-//! | `express(v, frame)` | a vector along the axes of another frame |
+//! | `position(frame, point)` | position of a point relative to the origin of the fixed frame, along the fixed axes. The point is given by its components in `frame`; without it, the origin of `frame` |
+//! | `velocity(frame, point)` | velocity of the point relative to the fixed frame, along the axes of `frame`; it includes a motion of the point within the frame. The material at a moving point, such as the contact of a wheel with the ground, has the velocity `velocity(wheel) + cross(angular_velocity(wheel), point)` |
+//! | `angular_velocity(frame)` | angular velocity relative to the fixed frame, along the axes of `frame` |
+//! | `jacobian(v)` | Jacobian ∂v/∂q̇ of a velocity, linear, angular or any other, in observables only: one row per component, one column per coordinate. The generalized force Jᵀ·force of a force along v is `#[power(force, v)]` |
+//! | `kinetic(frame, m, c, I)` | kinetic energy of a rigid body: mass, centre of mass, inertia about the centre of mass, all in the axes of `frame`. Without `I` it is a point mass, without `c` a point mass at the origin. Each argument may depend on time, coordinates and supplied functions, `m` and `I` also on velocities; the equations then contain the terms ṁ u, İ ω, ∂m/∂q u²/2 and ω·∂I/∂q ω/2. Off-diagonal entries of `I` that differ for all parameters are an error; if the values of fields decide, as for a matrix field, the symmetric part (I + Iᵀ)/2 is used |
+//! | `express(v, frame)` | the same vector with components along the axes of another frame |
 //! | `vector(frame, [a, b, c])` | the vector with these components along the axes of `frame` |
-//! | `der(v)`, `der(v, frame)` | the rate of change of a vector as seen from the fixed frame, or from another: (dv/dt)_B = dv/dt − ω_B × v |
+//! | `der(v)`, `der(v, frame)` | rate of change of a vector in the fixed frame, or in another frame: (dv/dt)_B = dv/dt − ω_B × v |
 //!
-//! Vectors know along which axes they are: those of different frames are not added, nor is the product of two taken, before one
-//! is expressed in the axes of the other; `v[0]` is a component along the frame's own axis. Plain numbers, `[1, 0, 0]` or a
-//! field, take the axes of the vector that they meet; what is computed from coordinates has to say its own, `vector(fixed, r_dot)`.
+//! Each vector has the axes of a frame. Vectors of different frames can neither be added nor multiplied before one is
+//! expressed in the axes of the other; `v[0]` is a component along an axis of the vector's own frame. Plain numbers,
+//! `[1, 0, 0]` or a field, take the axes of the vector that they are combined with. A vector computed from coordinates
+//! must declare its axes, `vector(fixed, r_dot)`.
 //!
 //! ```
 //! use lagrange_core::nalgebra::{Matrix3, Vector3};
@@ -295,23 +299,23 @@
 //! # Ok::<(), lagrange_core::Error>(())
 //! ```
 //!
-//! Frames are not only shorter to write. The macro knows how velocities go from frame to frame, and differentiates none of
-//! it: accelerations come from the recursions of Newton and Euler and from the inertia of what moves as one, or from the
-//! articulated-body algorithm, whichever is faster (Featherstone, *Rigid Body Dynamics Algorithms*). An arm of six joints
-//! takes some 2,300 operations this way, and four times as many by `der` of positions along the fixed axes; where three angles
-//! or more turn, one after another, what `der` differentiates, the equations of a struct say so in its documentation. What is
-//! not used is not computed: a potential `m*g*position(body, c)[2]` needs one row of a rotation, or none.
+//! Frames are faster as well as shorter to write. The macro propagates velocities from frame to frame without
+//! differentiating them. Accelerations come from the Newton–Euler recursions with composite rigid-body inertias, or
+//! from the articulated-body algorithm, whichever is faster (Featherstone, *Rigid Body Dynamics Algorithms*). An arm of
+//! six joints takes some 2,300 operations this way, and four times as many by `der` of positions along the fixed axes.
+//! If `der` differentiates three or more successive rotations, the documentation of the struct's equations says so.
+//! Unused quantities are not computed: a potential `m*g*position(body, c)[2]` needs one row of a rotation, or none.
 //!
 //! # Functions that you supply
 //!
 //! `#[function(U(r) = field)]` makes a field a function: a potential, a field, a prescribed motion. Without `= field`
-//! it is the field of the function's own name. A formal that bears a coordinate's name has its shape, others say it,
-//! `U(s: [3])`, or are numbers; `A(r): [3]` has a vector for a result. The arguments at a call are any expressions
-//! of these shapes, and `der(Omega(t))` and all derivatives that the equations need are taken.
+//! it is the field of the function's own name. A formal argument with the name of a coordinate has its shape; other
+//! shapes are declared, `U(s: [3])`, or else the argument is a number. `A(r): [3]` returns a vector. A call takes any
+//! expressions of these shapes. The macro takes `der(Omega(t))` and all derivatives that the equations need.
 //!
-//! The field's type implements [`Function<I, O>`](crate::Function) for `I` numbers, all arguments together, and `O`
-//! results. It is written once for every scalar, so that its derivatives are known, and that the system serves every
-//! number type. (A closure takes one type of number, and so cannot be one.)
+//! The field's type implements [`Function<I, O>`](crate::Function) with `I` numbers, all arguments together, and `O`
+//! results. It is written once for every scalar type, which provides its derivatives and lets the system work with
+//! every number type. (A closure takes one type of number, so it cannot be used.)
 //!
 //! ```
 //! use lagrange_core::prelude::*;
@@ -340,15 +344,18 @@
 //! # Ok::<(), lagrange_core::Error>(())
 //! ```
 //!
-//! For `f64` alone there are two further forms. A [`FunctionWithDerivatives`](crate::function::FunctionWithDerivatives) function gives its value,
-//! gradient and second derivatives, and is put into [`WithDerivatives`](crate::function::WithDerivatives);
-//! [`check_derivatives`](crate::function::check_derivatives) compares them with differences. A [`Table`](crate::function::Table) is the
-//! curve through measured points with two continuous derivatives, a [`SmoothTable`](crate::function::SmoothTable) the one with four, along
-//! which motions keep their digits. Where the equations need a third derivative, which a `SmoothTable` alone has of these, that is
-//! an error at the field's type while compiling. [`Linearized`](crate::Linearized) takes one derivative more than the
-//! equations: where that is the third, it is missing for the other forms, and the rest of the system is there.
-//! [`Taylor`](crate::Taylor) takes a `Function` alone. Numbers inside of a function are no parameters of the system: none
-//! can be differentiated by or sought.
+//! For `f64` alone there are two further forms. A [`FunctionWithDerivatives`](crate::function::FunctionWithDerivatives)
+//! returns its value, gradient and second derivatives, and is wrapped in
+//! [`WithDerivatives`](crate::function::WithDerivatives); [`check_derivatives`](crate::function::check_derivatives)
+//! compares them with finite differences. A [`Table`](crate::function::Table) interpolates measured points with two
+//! continuous derivatives, a [`SmoothTable`](crate::function::SmoothTable) with four, with which integration keeps its
+//! accuracy.
+//!
+//! Of these, only a `SmoothTable` has third derivatives: if the equations need one, another form is a compile error at
+//! the field's type. [`Linearized`](crate::Linearized) needs one derivative more than the equations: if that is the
+//! third, the system lacks this trait for the other forms, and nothing else. [`Taylor`](crate::Taylor) requires a
+//! `Function`. Numbers inside a function are not parameters of the system: nothing is differentiated by them, and no
+//! search changes them.
 //!
 //! ```
 //! use lagrange_core::{prelude::*, function::WithDerivatives};
@@ -389,18 +396,21 @@
 //!
 //! # Constraints and multipliers
 //!
-//! `name: left = right` stands for Φ = left − right. Without velocities it is holonomic and enforced on coordinates
-//! and velocities; with them it must be linear in them, and it is enforced on the velocities. Each scalar equation
-//! has one multiplier, and the constraint force on coordinate a is Σ_α λ_α F_αa, with F = ∂Φ/∂q or the coefficients
-//! of q̇. A vector equation is one constraint a component, `c[0]`, `c[1]`, …; a family is written
-//! `rod[i in 0..3]: …` or, with two indices, `rod[i in 0..3, j in 0..i]: …`.
+//! `name: left = right` means Φ = 0 with Φ = left − right. A constraint without velocities is holonomic, and is
+//! enforced on coordinates and velocities. A constraint with velocities must be linear in them, and is enforced on the
+//! velocities. Each scalar equation has one multiplier, and the constraint force on coordinate a is Σ_α λ_α F_αa, with
+//! F = ∂Φ/∂q or the coefficients of q̇. A vector equation gives one constraint per component, `c[0]`, `c[1]`, …. A
+//! family is written `rod[i in 0..3]: …` or, with two indices, `rod[i in 0..3, j in 0..i]: …`.
 //!
-//! A constraint that contradicts others, `y = 0` and `y = 1`, or follows from them is an error while compiling where that is
-//! certain: its row of F is a combination of the others' rows at every state and for all parameters. So are `x_dot = a*phi_dot`
-//! beside `x = a*phi`, the sum of two others, and `x_dot = v*cos(th)` beside the two components of the velocity along
-//! and across `th`. Rows that are dependent only on the constraints, as in some closed linkages, at some poses or for some
-//! parameters are for the numbers to tell: the motion is right, and multipliers are those of least norm. Those that are dependent to
-//! first order alone, as `|a| = l`, `|b| = l` and `|a - b| = 2*l`, are an error as soon as a motion starts.
+//! A constraint that contradicts others, `y = 0` and `y = 1`, or follows from them is a compile error if that is
+//! certain: its row of F is a combination of the other rows at every state and for all parameters. Examples are `x_dot
+//! = a*phi_dot` beside `x = a*phi`, the sum of two others, and `x_dot = v*cos(th)` beside the two components of the
+//! velocity along and across `th`.
+//!
+//! Other rows are dependent only on the constraints, as in some closed linkages, at some poses or for some parameters.
+//! These are detected numerically: the motion is correct, and the multipliers are those of least norm. Constraints that
+//! are dependent only to first order, such as `|a| = l`, `|b| = l` and `|a - b| = 2*l`, are an error as soon as a
+//! motion starts.
 //!
 //! ```
 //! use lagrange_core::prelude::*;
@@ -424,9 +434,9 @@
 //! # Ok::<(), lagrange_core::Error>(())
 //! ```
 //!
-//! Whether a velocity constraint could be integrated is found out at compile time, for each one and for the set;
-//! see [`Integrability`](crate::facts::Integrability). Where the integral is found it is a method, and stands in the
-//! equations.
+//! The macro determines at compile time whether velocity constraints are integrable, each alone and all together; see
+//! [`Integrability`](crate::facts::Integrability). An integral that it finds is a method of the system, and is printed
+//! with the equations.
 //!
 //! ```
 //! use lagrange_core::{prelude::*, facts::{Classification, Evidence, Extent, Integrability, Integrals}};
@@ -450,17 +460,20 @@
 //!
 //! # Forces, dissipation, observables
 //!
-//! An observable is a method of its name, and gives a number, a vector (`SVector`) or a matrix (`SMatrix`); its entries are
-//! asked for as `spin[2]` and `turn[0][1]`. Those of a family, `#[observable(height[i in 0..3] = y[i])]`, are one
-//! vector, and vectors in a family a matrix, one a row. Forces may be families too, `#[force(theta[i in 0..3]: -k[i]*theta_dot[i])]`,
-//! and so may powers: `#[power(i in 0..3, push[i], velocity(leg[i], foot))]`, for each i and in all.
+//! An observable is a method with its name that returns a number, a vector (`SVector`) or a matrix (`SMatrix`); its
+//! entries have names like `spin[2]` and `turn[0][1]`. A family, `#[observable(height[i in 0..3] = y[i])]`, is one
+//! vector; a family of vectors is a matrix, with one vector per row. Forces may be families too, `#[force(theta[i in
+//! 0..3]: -k[i]*theta_dot[i])]`, and so may powers: `#[power(i in 0..3, push[i], velocity(leg[i], foot))]` adds one for
+//! each i.
 //!
-//! `#[power(f, v)]` is a force f along a velocity v by the power f·v, with components along the same axes: plain numbers take those of v,
-//! which for `velocity(rod, …)` turn with `rod`. A weight keeps its direction, `#[power([0, 0, -m*g], express(velocity(rod, …), fixed))]`.
+//! `#[power(f, v)]` adds a force f along a velocity v, with the power f·v. Both have components along the same axes:
+//! plain numbers take the axes of v, and those of `velocity(rod, …)` rotate with `rod`. A weight keeps its direction:
+//! `#[power([0, 0, -m*g], express(velocity(rod, …), fixed))]`.
 //!
-//! `#[dissipation(D)]` is Rayleigh's function: the force is −∂D/∂q̇, and takes the power q̇·∂D/∂q̇ from the motion. A function that
-//! certainly takes none is an error: one without velocities, one odd in them such as `c*x_dot`, and one whose power is nowhere positive
-//! as long as no parameter is negative, such as `-c/2*x_dot^2`. What drives is a `#[force(…)]`.
+//! `#[dissipation(D)]` is Rayleigh's dissipation function: the force is −∂D/∂q̇, and removes the power q̇·∂D/∂q̇ from
+//! the motion. A function that certainly removes none is an error: one without velocities, one odd in them such as
+//! `c*x_dot`, and one whose power is nowhere positive as long as no parameter is negative, such as `-c/2*x_dot^2`. A
+//! driving force belongs in `#[force(…)]`.
 //!
 //! ```
 //! use lagrange_core::prelude::*;
@@ -486,16 +499,16 @@
 //!
 //! # What is conserved
 //!
-//! The derive finds cyclic coordinates and their momenta, whether the energy E = p·q̇ − L is conserved and what it
-//! consists of ([`EnergyForm`](crate::facts::EnergyForm): T + U only where that is certain), and terms of L that are total
-//! time derivatives; constraints and forces are taken into account. All of it
-//! is in [`FACTS`](crate::Lagrangian::FACTS), with how sure it is: proved by the form of the expressions, or seen to
-//! hold at random states that satisfy the constraints.
+//! The macro finds cyclic coordinates and their momenta, decides whether the energy E = p·q̇ − L is conserved and which
+//! form it has ([`EnergyForm`](crate::facts::EnergyForm): T + U only if that is certain), and finds terms of L that are
+//! total time derivatives. It takes constraints and forces into account. The results are in
+//! [`FACTS`](crate::Lagrangian::FACTS), each with its evidence: proved from the form of the expressions, or observed at
+//! random states that satisfy the constraints.
 //!
-//! `#[conserved(name = expression)]` is an observable that must be conserved. The derive evaluates its rate of change
-//! on such states, with random parameters and random functions in place of those that the user supplies; where it is
-//! not zero within rounding, that is a compile error with the numbers. A
-//! [`Trajectory`](crate::Trajectory::drift) reports how far each conserved quantity strays.
+//! `#[conserved(name = expression)]` is an observable that must be conserved. The macro evaluates its rate of change at
+//! such states, with random parameters and with random functions in place of supplied ones. A rate that is not zero
+//! within rounding is a compile error that shows the numbers. A [`Trajectory`](crate::Trajectory::drift) reports the
+//! drift of each conserved quantity.
 //!
 #![cfg_attr(
     feature = "std",
@@ -533,8 +546,8 @@ assert!(path.drift().iter().all(|quantity| quantity.largest < 1e-6));
 //!
 //! # Number types
 //!
-//! The number type is what the fields in use are made of, else `f64`. With a type parameter one derive serves
-//! `f64`, `f32`, SIMD lanes and dual numbers; the bound [`Scalar`](crate::Scalar) is added where it is needed.
+//! The number type of a system is that of the fields in use, or else `f64`. With a type parameter, one derive serves
+//! `f64`, `f32`, SIMD lanes and dual numbers; the macro adds the bound [`Scalar`](crate::Scalar) where needed.
 //!
 //! ```
 //! use lagrange_core::prelude::*;
