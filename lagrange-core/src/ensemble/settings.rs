@@ -259,7 +259,7 @@ where
     /// all lanes are empty.
     ///
     /// # Errors
-    /// As [`integrate`](Self::integrate).
+    /// The errors of [`integrate`](Self::integrate).
     pub fn integrate_on_lanes<P>(self, end: f64, method: P) -> Result<Outcome<f64, N>, Error>
     where
         L: Pack<Lanes, Packed: Lagrangian<N, M, Scalar = Lanes>>,

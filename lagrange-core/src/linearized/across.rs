@@ -128,7 +128,7 @@ pub trait MotionDerivatives<const N: usize, const M: usize, const P: usize>:
     /// has the constraint. The coefficient of restitution e is given with a name: the argument of that name is e.
     ///
     /// # Errors
-    /// As [`impact`](crate::Simulate::impact); [`Error::DerivativeNotFinite`].
+    /// The errors of [`impact`](crate::Simulate::impact); [`Error::DerivativeNotFinite`].
     fn impact_sensitivity(
         &self,
         at: &StateSensitivity<Self::Scalar, N>,

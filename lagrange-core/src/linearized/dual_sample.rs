@@ -134,7 +134,7 @@ where
     /// Accelerations and multipliers.
     ///
     /// # Errors
-    /// As [`Linearized::jacobian_by`].
+    /// The errors of [`Linearized::jacobian_by`].
     pub fn solution(&self) -> Result<Solution<Dual<L::Scalar>, N, M>, Error> {
         let (state, direction) = self.parts();
         let zero = L::Scalar::constant(0.0);
