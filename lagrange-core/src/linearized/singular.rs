@@ -16,8 +16,8 @@ use crate::number::{Real, Scalar, is_within, larger};
 /// Largest number of passes over all pairs of columns, as in LAPACK's `dgesvj`. Ten are usual.
 const SWEEPS: usize = 30;
 
-/// A singular value decomposition, with the singular values unsorted. Columns must be scaled so that squares of entries
-/// neither overflow nor underflow.
+/// A singular value decomposition, with the singular values unsorted. Squares of entries must be finite; callers scale
+/// columns by their lengths.
 pub(super) struct Singular<T> {
     rows: usize,
     /// A V stacked on V; rotations act on both.
