@@ -37,7 +37,8 @@ pub struct TrajectorySensitivity<
 }
 
 /// Derivatives along a motion.
-pub(super) struct Course<L: Linearized<N, M, P, Scalar: Real>, const N: usize, const M: usize, const P: usize> {
+pub(super) struct Course<L: Linearized<N, M, P, Scalar: Real>, const N: usize, const M: usize, const P: usize>
+{
     /// Variations at the end of the last step.
     pub(super) variations: Variations<L, N, M, P>,
     /// Time at the end of the last step; the motion may have ended within this step.
