@@ -14,7 +14,7 @@ use crate::system::{State, TaylorSeries};
 /// not larger. Omitted terms make at most a sixteenth of the tolerance, and rounding errors 100 units of round-off
 /// (pendulums of one to ten links, on a rod and in space, Kepler's ellipses, Hénon and Heiles, from 10⁻³ to round-off).
 /// A larger defect is a force that the series does not contain. A pulse with a standard deviation of an eighth of a
-/// step shows at the nearer end by at least a 500th of its peak.
+/// step shows at the nearer end, at most four of these away, by at least e⁻⁸ = 1/3000 of its peak.
 const DEFECT: f64 = 4096.0;
 /// Largest defect beside kinks of user-supplied functions, and beside poses where constraints become dependent, so that
 /// a step can cross them: a multiple of the tolerance, or a fraction of the velocities, whichever is larger.

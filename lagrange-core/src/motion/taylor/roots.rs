@@ -23,7 +23,7 @@ impl<T: Scalar, I: Iterator<Item = T> + Clone> WatchedSeries<I, T> {
     }
 
     /// Value at the start, and a bound on the change over a step of this length. The bound usually shows that a root
-    /// does not vanish: its zero, a branch point, is about seven steps away.
+    /// does not vanish: its zero, a branch point, is about four steps away (e to the power of `STEP`).
     pub(super) fn value_and_change(&self, length: T) -> [T; 2] {
         let zero = T::constant(0.0);
         let sum = |(sum, power): (T, T), c: T| (sum + (c * power).abs(), power * length);
