@@ -1,23 +1,23 @@
-//! Arrays as vectors and matrices.
+//! Views of arrays as vectors and matrices.
 
 use nalgebra::{ArrayStorage, SMatrix, SVector};
 
 use super::Scalar;
 
-/// A column vector of an array, without a copy.
+/// Converts an array to a column vector, without a copy.
 #[inline]
 pub fn vector<T, const K: usize>(entries: [T; K]) -> SVector<T, K> {
     SVector::from_array_storage(ArrayStorage([entries]))
 }
 
-/// A matrix of an array of its columns, without a copy.
+/// Converts an array of columns to a matrix, without a copy.
 #[inline]
 pub fn matrix<T, const R: usize, const C: usize>(columns: [[T; R]; C]) -> SMatrix<T, R, C> {
     SMatrix::from_array_storage(ArrayStorage(columns))
 }
 
-/// The numbers that belong to 0, 1, …: [`core::array::from_fn`], of which rustc has many times as much to
-/// compile, as of iterators.
+/// Like [`core::array::from_fn`], but cheaper to compile: rustc has many times as much work with `from_fn`, as
+/// with iterators.
 #[inline]
 pub(crate) fn entries<T: Scalar, const K: usize>(mut of: impl FnMut(usize) -> T) -> [T; K] {
     let mut entries = [T::constant(0.0); K];
@@ -29,9 +29,9 @@ pub(crate) fn entries<T: Scalar, const K: usize>(mut of: impl FnMut(usize) -> T)
     entries
 }
 
-/// An array that can be filled, as long as it is.
+/// An array of fixed length that can be filled with copies of a value.
 pub trait FixedArray<T>: Copy + AsRef<[T]> + AsMut<[T]> {
-    /// With `x` in every place.
+    /// Returns an array with `x` in every entry.
     fn filled(x: T) -> Self;
 }
 

@@ -1,14 +1,14 @@
-//! Several numbers at once, computed with by the numbers of one system.
+//! Composite scalars that combine with the scalars of one system.
 
 use super::scalar::Scalar;
 
-/// Numbers that can be computed with by those of type `T`, each of which counts for all of them: `Lanes`
-/// over `f64`, and every scalar over itself.
+/// A scalar that broadcasts a number of type `T` into all of its components: `Lanes` over `f64`, and every
+/// scalar over itself.
 ///
-/// What is linear takes them: one factor solves for right-hand sides on lanes,
+/// Linear operations accept it: one factorization solves for right-hand sides on lanes,
 /// [`Lagrangian::solve_with`](crate::Lagrangian::solve_with).
 pub trait Broadcast<T>: Scalar {
-    /// The number for all of them.
+    /// Returns `x` in all components.
     fn of(x: T) -> Self;
 }
 

@@ -1,14 +1,15 @@
-//! Numbers with a derivative along one direction, over any scalar.
+//! Dual numbers over any scalar: a value and its derivative along one direction.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::scalar::Scalar;
 
-/// `value` + ε `slope` with ε² = 0: a value and its derivative, over any scalar and so over itself.
+/// `value` + ε `slope` with ε² = 0: a value and its derivative. The components are of any scalar type, also
+/// dual numbers themselves.
 ///
-/// The derivatives of the functions that a system is given come from it. (A dual number of another crate is a
-/// [`Scalar`] too, but over floating-point numbers only; this one is needed over SIMD lanes and over other dual
-/// numbers as well.) Rules: Griewank and Walther, *Evaluating Derivatives*, table 3.3.
+/// Dual numbers differentiate the user-supplied functions of a system. (The dual numbers of other crates are
+/// [`Scalar`]s too, but only over floating-point numbers; this type also works over SIMD lanes and nested dual
+/// numbers.) Rules: Griewank and Walther, *Evaluating Derivatives*, table 3.3.
 ///
 /// ```
 /// use lagrange_core::{Dual, Scalar};
@@ -18,20 +19,20 @@ use super::scalar::Scalar;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual<S> {
-    /// The value.
+    /// Value.
     pub value: S,
-    /// Its derivative.
+    /// Derivative of the value.
     pub slope: S,
 }
 
 impl<S: Scalar> Dual<S> {
-    /// f(value), given the derivative of f there.
+    /// Returns f(self), given f(value) and f′(value).
     #[inline(always)]
     fn chain(self, value: S, derivative: S) -> Self {
         Self { value, slope: derivative * self.slope }
     }
 
-    /// The same where the derivative may be infinite: what does not move has no slope there either.
+    /// Like `chain` for a derivative that may be infinite: a slope of zero stays zero.
     #[inline(always)]
     fn chain_if_moving(self, value: S, derivative: S) -> Self {
         Self { value, slope: self.slope.zero_or_product(derivative) }
@@ -84,7 +85,7 @@ impl<S: Scalar> Neg for Dual<S> {
     }
 }
 
-/// Numbers beside it are constants.
+/// A bare scalar operand is a constant.
 impl<S: Scalar> Add<S> for Dual<S> {
     type Output = Self;
 
@@ -172,7 +173,7 @@ impl<S: Scalar> Scalar for Dual<S> {
         self.chain(x.atan(), S::constant(1.0) / (S::constant(1.0) + x * x))
     }
 
-    /// The squares are of numbers about 1, which neither overflow nor vanish.
+    /// Scaling by the larger magnitude keeps the squares near 1: they neither overflow nor underflow.
     #[inline(always)]
     fn atan2(self, x: Self) -> Self {
         let size = self.value.abs().max(x.value.abs());
@@ -191,7 +192,8 @@ impl<S: Scalar> Scalar for Dual<S> {
         self.chain(self.value.cosh(), self.value.sinh())
     }
 
-    /// The derivative 1/cosh² as 4 y/(1 + y)² with y = exp(−2 |x|): 1 − tanh² cancels far from zero.
+    /// The derivative 1/cosh² is computed as 4 y/(1 + y)² with y = exp(−2 |x|), since 1 − tanh² cancels for
+    /// large |x|.
     #[inline(always)]
     fn tanh(self) -> Self {
         let (x, zero, one) = (self.value, S::constant(0.0), S::constant(1.0));
@@ -217,7 +219,7 @@ impl<S: Scalar> Scalar for Dual<S> {
         self.chain_if_moving(root, S::constant(0.5) / root)
     }
 
-    /// At zero the slope is the mean of those beside, which is zero.
+    /// At zero the slope is zero, the mean of the slopes on both sides.
     #[inline(always)]
     fn abs(self) -> Self {
         let zero = S::constant(0.0);
@@ -225,14 +227,14 @@ impl<S: Scalar> Scalar for Dual<S> {
         Self { value: self.value.abs(), slope }
     }
 
-    /// For a constant exponent no logarithm is taken of the base, which may then be negative.
+    /// A constant exponent needs no logarithm of the base, so the base may be negative.
     #[inline(always)]
     fn powf(self, exponent: Self) -> Self {
         let value = self.value.powf(exponent.value);
-        // x⁰ is 1 everywhere; by the rule its slope at zero would be 0 · 0⁻¹.
+        // x⁰ is 1 everywhere; the general rule would give a slope of 0 · 0⁻¹ at zero.
         let below = self.value.powf(exponent.value - S::constant(1.0));
         let power = self.chain_if_moving(value, exponent.value.zero_or_product(below));
-        // What changes in no lane needs no logarithm.
+        // No logarithm is needed if the exponent is constant in all lanes.
         if exponent.slope == S::constant(0.0) {
             return power;
         }
@@ -240,7 +242,8 @@ impl<S: Scalar> Scalar for Dual<S> {
         Self { value, slope: power.slope + slope }
     }
 
-    /// The slope is that of the smaller, the mean of both where they agree, and NaN where one of them is not a number.
+    /// The slope is that of the smaller value, the mean of both slopes if the values are equal, and NaN if a
+    /// value is NaN.
     #[inline(always)]
     fn min(self, other: Self) -> Self {
         let (x, y) = (self.slope, other.slope);
@@ -248,7 +251,7 @@ impl<S: Scalar> Scalar for Dual<S> {
         Self { value: self.value.min(other.value), slope }
     }
 
-    /// As [`min`](Self::min).
+    /// The slope follows the rule of [`min`](Self::min), for the larger value.
     #[inline(always)]
     fn max(self, other: Self) -> Self {
         let (x, y) = (self.slope, other.slope);
@@ -274,13 +277,13 @@ impl<S: Scalar> Scalar for Dual<S> {
     }
 }
 
-/// 1 − x², which cancels near 1 if the square is rounded.
+/// 1 − x² as a product: rounding the square would cause cancellation near 1.
 #[inline(always)]
 fn beside<S: Scalar>(x: S) -> S {
     (S::constant(1.0) - x) * (S::constant(1.0) + x)
 }
 
-/// The mean, of the largest numbers too.
+/// Mean of two numbers, without overflow.
 #[inline(always)]
 fn mean<S: Scalar>(x: S, y: S) -> S {
     let half = S::constant(0.5);

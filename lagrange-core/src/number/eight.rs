@@ -1,4 +1,4 @@
-//! Vectors of eight numbers, the registers of AVX-512.
+//! SIMD vectors of eight `f64`, for the registers of AVX-512.
 
 use core::array::from_fn;
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -8,7 +8,7 @@ use wide::f64x8;
 use super::scalar::Scalar;
 use super::simd::Vector;
 
-/// Eight `f64`.
+/// A vector of eight `f64`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Eight(f64x8);
 
@@ -66,7 +66,7 @@ macro_rules! one_by_one {
     };
 }
 
-/// As those of four numbers are made by `simba`.
+/// Same definitions as `simba` has for vectors of four.
 #[diagnostic::do_not_recommend]
 impl Scalar for Eight {
     #[inline(always)]

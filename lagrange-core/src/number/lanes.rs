@@ -1,4 +1,4 @@
-//! Numbers that are computed with at once.
+//! SIMD lanes as scalars.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -11,12 +11,13 @@ use super::quad::Quad as Widest;
 use super::scalar::Scalar;
 use super::simd::Vector;
 
-/// Beyond, the reduction of an angle to the first octant loses digits, which it does in three parts of π/2.
+/// Largest angle for vector sines. Beyond, the reduction by π/2 in three parts loses digits.
 const LARGEST_ANGLE: f64 = 1e8;
 
-// Arithmetic is `#[inline]`, not `#[inline(always)]`: LLVM simplifies such functions once, before it inlines them. What is always
-// inlined arrives with all of its locals in memory, and SROA, which takes these apart, takes a time that grows with their
-// square: 60 of 115 s for the Jacobians of a robot of 40 coordinates.
+// Arithmetic is `#[inline]`, not `#[inline(always)]`: LLVM then simplifies each function once before it inlines
+// it. A function that is always inlined arrives with all its locals in memory. The SROA pass, which splits
+// these locals, takes time that grows with their square: 60 of 115 s for the Jacobians of a robot of 40
+// coordinates.
 macro_rules! lanes {
     ($(#[$attribute:meta])* $lanes:ident of $vector:ty) => {
         $(#[$attribute])*
@@ -24,16 +25,16 @@ macro_rules! lanes {
         pub struct $lanes($vector);
 
         impl $lanes {
-            /// How many there are.
+            /// Number of lanes.
             pub const COUNT: usize = <$vector>::COUNT;
 
-            /// The numbers in all lanes.
+            /// Returns the numbers of all lanes.
             #[inline(always)]
             pub fn to_array(self) -> [f64; Self::COUNT] {
                 self.0.into()
             }
 
-            /// `self` where `chosen` is positive, `other` elsewhere.
+            /// Returns `self` in lanes where `chosen` is positive, `other` elsewhere.
             #[inline(always)]
             pub(crate) fn select(self, chosen: Self, other: Self) -> Self {
                 Self(self.0.select(chosen.0, other.0))
@@ -116,19 +117,22 @@ macro_rules! lane_by_lane {
 }
 
 lanes! {
-    /// `f64` side by side, four or, with AVX-512, eight, on which the equations of as many systems are evaluated at once.
+    /// `f64` on four SIMD lanes or, with AVX-512, eight: evaluates the equations of one system per lane at
+    /// once.
     ///
-    /// No lane depends on another: what comes out of a lane is bit for bit what comes out with anything else beside it.
-    /// Sines and cosines are within 3·10⁻¹⁶ of those of the standard library, and NaN for angles of 10⁸ and more: there
-    /// vectors lose digits, and an [`Ensemble`](crate::Ensemble) takes the step of that member alone.
+    /// No lane depends on another: the result in a lane is bit for bit the same whatever the other lanes hold.
+    /// Sines and cosines are within 3·10⁻¹⁶ of those of the standard library, and NaN for angles of 10⁸ and
+    /// more. The vector functions lose digits there, and an [`Ensemble`](crate::Ensemble) repeats the step of
+    /// that member in scalar arithmetic.
     ///
-    /// The vectors are those of the crate `wide`, which uses AVX2 and FMA, or AVX-512, where the compiler is told that they
-    /// exist: `RUSTFLAGS="-C target-cpu=native"` or `"-C target-feature=+avx2,+fma"`.
+    /// The vectors come from the crate `wide`, which uses AVX2 and FMA, or AVX-512, if the compiler may assume
+    /// them: `RUSTFLAGS="-C target-cpu=native"` or `"-C target-feature=+avx2,+fma"`.
     Lanes of Widest
 }
 
 lanes! {
-    /// Four [`Lanes`] whatever the CPU, for the directions of one system's derivatives, which are seldom many.
+    /// [`Lanes`] with four lanes on every CPU, for directional derivatives of one system, which are seldom
+    /// many.
     FourLanes of Quad
 }
 

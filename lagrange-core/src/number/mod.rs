@@ -1,4 +1,4 @@
-//! The numbers that everything is computed with.
+//! Scalar types of the equations of motion.
 
 pub(crate) mod array;
 mod broadcast;

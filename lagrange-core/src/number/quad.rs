@@ -1,10 +1,10 @@
-//! Vectors of four numbers, which `simba` makes of those of `wide`.
+//! SIMD vectors of four `f64`: the type of `wide` with the traits of `simba`.
 
 use simba::simd::{SimdPartialOrd, SimdValue, WideF64x4};
 
 use super::simd::Vector;
 
-/// Four `f64`.
+/// A vector of four `f64`.
 pub(super) type Quad = WideF64x4;
 
 impl Vector for Quad {

@@ -1,4 +1,4 @@
-//! Scalars that can decide, and scalars by the traits of `simba`.
+//! [`Scalar`] for types with the traits of `simba`, and scalars with an order.
 
 #[cfg(feature = "std")]
 use core::any::Any;
@@ -11,7 +11,7 @@ use super::scalar::{FUSED, Scalar, one_by_one};
 #[cfg(feature = "std")]
 use super::sines;
 
-/// A value as one of another type, if the types are the same; which they are is known to the compiler.
+/// Returns the value as type `Y` if the types are the same. The compiler resolves the test.
 #[cfg(feature = "std")]
 #[inline(always)]
 fn same<X: Copy + 'static, Y: Copy + 'static>(x: X) -> Option<Y> {
@@ -57,7 +57,8 @@ impl<T: SimdRealField + SupersetOf<f64> + Copy + Debug + 'static> Scalar for T {
         angles
     }
 
-    // One instruction. Of many calls of `f64::min` the compiler makes one of vectors, which waits for all.
+    // Compiles to one instruction. From many calls of `f64::min` the compiler would build a vector operation,
+    // which waits for all arguments.
     #[inline(always)]
     fn min(self, other: Self) -> Self {
         self.select(self.simd_lt(other), other)
@@ -78,7 +79,7 @@ impl<T: SimdRealField + SupersetOf<f64> + Copy + Debug + 'static> Scalar for T {
     #[inline(always)]
     fn only_where_not_zero(self, value: Self) -> Self {
         let zero = Self::constant(0.0);
-        // What is not a number is neither below nor above.
+        // NaN is neither below nor above zero.
         value.select(self.simd_lt(zero) | self.simd_gt(zero), self)
     }
 
@@ -101,18 +102,18 @@ impl<T: SimdRealField + SupersetOf<f64> + Copy + Debug + 'static> Scalar for T {
     }
 }
 
-/// A scalar that can decide: `f64` or `f32`. What chooses pivots, steps or endings needs one.
+/// A scalar with an order, `f64` or `f32`. Choosing pivots, steps or endings requires one.
 pub trait Real: Scalar + RealField + PartialOrd + Display {
-    /// The distance from 1 to the next larger number.
+    /// Distance from 1 to the next larger number.
     const EPSILON: f64;
 
-    /// The smallest positive number with all of its digits.
+    /// Smallest positive normal number.
     const SMALLEST: f64;
 
-    /// As many as are best computed with at once.
+    /// Preferred SIMD vector of this scalar.
     type Wide: Wide<Self>;
 
-    /// The same number as an `f64`.
+    /// Converts the number to `f64`.
     fn to_f64(self) -> f64;
 }
 

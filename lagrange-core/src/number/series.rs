@@ -1,19 +1,19 @@
-//! Numbers that are truncated power series, over any scalar.
+//! Truncated power series over any scalar.
 
 use core::array::from_fn;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::scalar::Scalar;
 
-/// So many coefficients are there room for.
+/// Maximum number of coefficients of a series.
 pub(crate) const ROOM: usize = 31;
 
-/// A power series up to some order, x₀ + x₁ τ + x₂ τ² + …: what the functions that a system is given are evaluated on where its
-/// motion is expanded by [`Taylor`](crate::Taylor).
+/// A truncated power series x₀ + x₁ τ + x₂ τ² + …. [`Taylor`](crate::Taylor) expands a motion by evaluating the
+/// user-supplied functions on such series.
 ///
-/// Sums and products are those of series, and every function is the one of the recurrence that its differential equation gives
-/// (Griewank and Walther, *Evaluating Derivatives*, table 13.2). Comparisons, `abs`, `min` and `max` go by the value at τ = 0: a
-/// series does not know of a kink beyond it.
+/// Sums and products are those of series. Every other function uses the recurrence that follows from its
+/// differential equation (Griewank and Walther, *Evaluating Derivatives*, table 13.2). Comparisons, `abs`,
+/// `min` and `max` depend on the value at τ = 0 only, so a series misses a kink at τ ≠ 0.
 ///
 /// ```
 /// use lagrange_core::{PowerSeries, Scalar};
@@ -23,13 +23,13 @@ pub(crate) const ROOM: usize = 31;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PowerSeries<S> {
-    /// Zeros from `count` on.
+    /// Coefficients from order 0; zeros from `count` on.
     coefficients: [S; ROOM],
     count: usize,
 }
 
 impl<S: Scalar> PowerSeries<S> {
-    /// Of these coefficients, from order 0; of more than 31 the first.
+    /// Creates a series from coefficients of order 0, 1, …; coefficients beyond the 31st are dropped.
     pub fn new(coefficients: &[S]) -> Self {
         let count = coefficients.len().min(ROOM);
         let mut all = [S::constant(0.0); ROOM];
@@ -37,24 +37,24 @@ impl<S: Scalar> PowerSeries<S> {
         Self { coefficients: all, count }
     }
 
-    /// From order 0.
+    /// Returns the coefficients from order 0.
     pub fn coefficients(&self) -> &[S] {
         &self.coefficients[..self.count]
     }
 
-    /// The coefficient of an order; zero beyond those that are known.
+    /// Returns the coefficient of `order`, zero beyond the known orders.
     pub fn coefficient(&self, order: usize) -> S {
         self.coefficients.get(order).copied().unwrap_or(S::constant(0.0))
     }
 
-    /// With this coefficient as its last, and a zero beyond.
+    /// Replaces the last coefficient by `coefficient` and appends a zero.
     #[cfg(feature = "alloc")]
     pub(crate) fn extend(&mut self, coefficient: S) {
         self.coefficients[self.count - 1] = coefficient;
         self.count = (self.count + 1).min(ROOM);
     }
 
-    /// A series as long as this one, coefficient by coefficient, each from those before it.
+    /// Returns a series of the same length; `next` computes each coefficient from the previous ones.
     #[inline]
     fn defined(&self, next: impl Fn(&[S; ROOM], usize) -> S) -> Self {
         let mut coefficients = [S::constant(0.0); ROOM];
@@ -64,7 +64,7 @@ impl<S: Scalar> PowerSeries<S> {
         Self { coefficients, count: self.count }
     }
 
-    /// As long as the longer of two.
+    /// Extends the series to the length of the longer of the two.
     fn beside(&self, other: &Self) -> Self {
         Self { count: self.count.max(other.count), ..*self }
     }
@@ -73,7 +73,7 @@ impl<S: Scalar> PowerSeries<S> {
         self.defined(|_, k| f(self.coefficients[k]))
     }
 
-    /// s′ = c x′ and c′ = ∓s x′
+    /// Solves s′ = c x′ and c′ = `sign` s x′.
     fn pair(&self, (s, c): (S, S), sign: f64) -> (Self, Self) {
         let x = &self.coefficients;
         let (mut sine, mut cosine) = ([S::constant(0.0); ROOM], [S::constant(0.0); ROOM]);
@@ -86,7 +86,7 @@ impl<S: Scalar> PowerSeries<S> {
         (of(sine), of(cosine))
     }
 
-    /// z′ = (1 ± z²) x′
+    /// Solves z′ = (1 + `sign` z²) x′.
     fn tangent(&self, value: S, sign: f64) -> Self {
         let (x, sign) = (&self.coefficients, S::constant(sign));
         let mut slope = [S::constant(0.0); ROOM];
@@ -99,19 +99,19 @@ impl<S: Scalar> PowerSeries<S> {
         Self { coefficients: z, count: self.count }
     }
 
-    /// d z′ = x′
+    /// Solves d z′ = x′.
     fn integral(&self, value: S, d: &Self) -> Self {
         let (x, d) = (&self.coefficients, &d.coefficients);
         self.defined(|z, k| if k == 0 { value } else { quotient(x[k] - weighted(z, d, k, 1..=k - 1), d[0]) })
     }
 
-    /// √(1 − x²), of factors that do not cancel.
+    /// Returns √(1 − x²) as the root of a product, which does not cancel.
     fn beside_unit(&self) -> Self {
         let one = Self::constant(1.0);
         ((one - *self) * (one + *self)).sqrt()
     }
 
-    /// x z′ = e z x′
+    /// Solves x z′ = e z x′.
     fn power(&self, value: S, e: S) -> Self {
         let x = &self.coefficients;
         self.defined(|z, k| {
@@ -127,12 +127,12 @@ impl<S: Scalar> PowerSeries<S> {
     }
 }
 
-/// What is at rest stays there, also where its slope is infinite: the root of zero.
+/// Returns x / d, and zero for x = 0 even if d is zero, as for the square root of the constant 0.
 fn quotient<S: Scalar>(x: S, d: S) -> S {
     if x == S::constant(0.0) { x } else { x / d }
 }
 
-/// Σ x_j y_{k−j}
+/// Returns Σ x_j y_{k−j} over `range`.
 fn convolved<S: Scalar>(
     x: &[S; ROOM],
     y: &[S; ROOM],
@@ -142,7 +142,7 @@ fn convolved<S: Scalar>(
     range.fold(S::constant(0.0), |sum, j| x[j].multiply_add(y[k - j], sum))
 }
 
-/// Σ j x_j y_{k−j}/k
+/// Returns Σ j x_j y_{k−j}/k over `range`.
 fn weighted<S: Scalar>(x: &[S; ROOM], y: &[S; ROOM], k: usize, range: core::ops::RangeInclusive<usize>) -> S {
     let sum =
         range.fold(S::constant(0.0), |sum, j| (x[j] * S::constant(j as f64)).multiply_add(y[k - j], sum));
@@ -229,7 +229,7 @@ impl<S: Scalar> Scalar for PowerSeries<S> {
         self.integral(self.coefficients[0].atan(), &(Self::constant(1.0) + self * self))
     }
 
-    /// (x² + y²) z′ = x y′ − y x′
+    /// Solves (x² + y²) z′ = x y′ − y x′.
     #[inline]
     fn atan2(self, x: Self) -> Self {
         let square = self * self + x * x;
@@ -284,7 +284,7 @@ impl<S: Scalar> Scalar for PowerSeries<S> {
         self.select_by_order(zero, -self, zero, self)
     }
 
-    /// A small whole exponent is a product, of whatever base.
+    /// An integer exponent up to 8 is a product, which accepts any base.
     #[inline]
     fn powf(self, exponent: Self) -> Self {
         let [e, rest @ ..] = exponent.coefficients;
@@ -310,7 +310,7 @@ impl<S: Scalar> Scalar for PowerSeries<S> {
         self.select_by_order(other, other, mean(self, other), self)
     }
 
-    /// By the values at τ = 0.
+    /// Compares the values at τ = 0.
     #[inline]
     fn select_by_order(self, other: Self, less: Self, equal: Self, greater: Self) -> Self {
         let [x, y] = [self.coefficients[0], other.coefficients[0]];

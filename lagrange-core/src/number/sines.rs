@@ -1,19 +1,20 @@
-//! Sines and cosines of several angles at once, on SIMD lanes.
+//! Sines and cosines of several angles together, on SIMD lanes.
 //!
-//! Each angle loses the nearest multiple of π/2 in three steps (Cody and Waite, *Software Manual for the Elementary
-//! Functions*, 1980), so that some 150 bits of π/2 count, and polynomials give both functions of what is left, with its
-//! rounding (their coefficients, and the constants of the steps, are those of fdlibm, Sun Microsystems, 1993): less than a
-//! unit in the last place. Their terms are put together in pairs (Estrin, *Proceedings of the Western Joint Computer
-//! Conference*, 1960), since a function that waits for its sines waits for the longest chain of operations.
+//! The nearest multiple of π/2 is subtracted from each angle in three steps (Cody and Waite, *Software Manual
+//! for the Elementary Functions*, 1980), which use about 150 bits of π/2. Polynomials give both functions of
+//! the remainder and of its rounding error, with an error below one unit in the last place. The coefficients of
+//! the polynomials and the constants of the steps are those of fdlibm (Sun Microsystems, 1993). The terms are
+//! added in pairs (Estrin, *Proceedings of the Western Joint Computer Conference*, 1960) to shorten the longest
+//! chain of operations.
 
 use super::quad::Quad;
 use super::scalar::Scalar;
 use super::simd::Vector;
 
-/// Beyond, the multiple of π/2 has too many digits for the first step to be exact.
+/// Largest angle. Beyond, the multiple of π/2 has too many digits for the first step to be exact.
 const LARGEST: f64 = 1e5;
 
-/// π/2 in parts: the product of each of the first three with a whole number below 2²⁰ is exact.
+/// Parts of π/2. The product of each of the first three with an integer below 2²⁰ is exact.
 const PARTS: [f64; 4] = [
     f64::from_bits(0x3ff9_21fb_5440_0000),
     f64::from_bits(0x3dd0_b461_1a60_0000),
@@ -21,10 +22,10 @@ const PARTS: [f64; 4] = [
     f64::from_bits(0x397b_839a_2520_49c1),
 ];
 
-/// 3 · 2⁵¹: a number to which this is added is rounded to a whole one, which is in the last bits of the sum.
+/// 3 · 2⁵¹. Adding this constant rounds a number to an integer, which is in the last bits of the sum.
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
-/// Of (sin x)/x = 1 + s₀ x² + …
+/// Coefficients of (sin x)/x = 1 + s₀ x² + …
 const SINE: [f64; 6] = [
     f64::from_bits(0xbfc5_5555_5555_5549),
     f64::from_bits(0x3f81_1111_1110_f8a6),
@@ -34,7 +35,7 @@ const SINE: [f64; 6] = [
     f64::from_bits(0x3de5_d93a_5acf_d57c),
 ];
 
-/// Of cos x = 1 − x²/2 + c₀ x⁴ + …
+/// Coefficients of cos x = 1 − x²/2 + c₀ x⁴ + …
 const COSINE: [f64; 6] = [
     f64::from_bits(0x3fa5_5555_5555_554c),
     f64::from_bits(0xbf56_c16c_16c1_5177),
@@ -44,10 +45,11 @@ const COSINE: [f64; 6] = [
     f64::from_bits(0xbda8_fae9_be88_38d4),
 ];
 
-/// The angles, less full turns of those that are too large.
+/// Returns the angles, reduced by full turns if they are too large.
 #[inline(always)]
 pub(super) fn small<const K: usize>(angles: [f64; K]) -> [f64; K] {
-    // None is larger than the sum, which no vector is made of; and a comparison with what is no number fails.
+    // No magnitude exceeds the sum. The sum is scalar code, as the compiler does not vectorize it; a comparison
+    // with NaN is false.
     let sum = angles.iter().fold(0.0, |sum, x| sum + x.abs());
     if sum < LARGEST { angles } else { less_turns(angles) }
 }
@@ -58,12 +60,12 @@ fn less_turns<const K: usize>(angles: [f64; K]) -> [f64; K] {
     angles.map(|x| if x.abs() < LARGEST { x } else { x.sin().atan2(x.cos()) })
 }
 
-/// The sines and the cosines of small angles.
+/// Returns the sines and cosines of small angles.
 #[inline(always)]
 pub(super) fn sin_cos<const K: usize>(angles: [f64; K]) -> ([f64; K], [f64; K]) {
     let (mut sines, mut cosines) = ([0.0; K], [0.0; K]);
     for first in (0..K).step_by(4) {
-        // One by one: as a slice that is copied they would go through memory, and be long in coming as a vector.
+        // Angle by angle: copying a slice would go through memory and delay the vector load.
         let angle = |lane: usize| if first + lane < K { angles[first + lane] } else { 0.0 };
         let (sine, cosine) = side_by_side([angle(0), angle(1), angle(2), angle(3)].into());
         let found = <[f64; 4]>::from(sine).into_iter().zip(<[f64; 4]>::from(cosine));
@@ -78,14 +80,14 @@ fn all(x: f64) -> Quad {
     Scalar::constant(x)
 }
 
-/// Of small angles.
+/// Returns the sines and cosines of small angles.
 #[inline(always)]
 fn side_by_side(x: Quad) -> (Quad, Quad) {
     let n = rounded(x * all(core::f64::consts::FRAC_2_PI));
     let (rest, error) = reduced(x, n);
     let (sine, cosine) = (sine(rest, error), cosine(rest, error));
-    // In odd quadrants they change places; in the second and third the sine, in the first and second the cosine is that of an
-    // angle before, with the other sign.
+    // In odd quadrants sine and cosine change places. The sine changes sign in the third and fourth quadrant,
+    // the cosine in the second and third.
     let parity = rounded(n * all(0.5)).multiply_add(all(-2.0), n);
     let is_odd = parity * parity - all(0.5);
     let turns = rounded(n * all(0.25) - all(0.375));
@@ -95,13 +97,13 @@ fn side_by_side(x: Quad) -> (Quad, Quad) {
     ((-s).select(from_middle, s), (-c).select(is_in_middle, c))
 }
 
-/// To whole numbers, of two as near the even one.
+/// Rounds to integers, ties to even.
 #[inline(always)]
 fn rounded(x: Quad) -> Quad {
     (x + all(ROUNDER)) - all(ROUNDER)
 }
 
-/// x − n π/2 as a number and what it is rounded by.
+/// Returns x − n π/2 as a number and its rounding error.
 #[inline(always)]
 fn reduced(x: Quad, n: Quad) -> (Quad, Quad) {
     let part = |k: usize| n * all(PARTS[k]);
@@ -110,7 +112,7 @@ fn reduced(x: Quad, n: Quad) -> (Quad, Quad) {
     difference(left, part(3) - (lost + more))
 }
 
-/// x − y, and what the rounding took from it (Knuth, *The Art of Computer Programming*, volume 2, 4.2.2).
+/// Returns x − y and its rounding error (Knuth, *The Art of Computer Programming*, volume 2, 4.2.2).
 #[inline(always)]
 fn difference(x: Quad, y: Quad) -> (Quad, Quad) {
     let difference = x - y;
@@ -123,7 +125,7 @@ fn difference(x: Quad, y: Quad) -> (Quad, Quad) {
 fn sine(x: Quad, error: Quad) -> Quad {
     let z = x * x;
     let (square, cube) = (z * z, z * x);
-    // Not mapped: the compiler leaves the map of an array a function of its own.
+    // No `map` here: the compiler would not inline the map of an array.
     let pair = |k: usize| z.multiply_add(all(SINE[k + 1]), all(SINE[k]));
     let tail = square.multiply_add(square.multiply_add(all(SINE[5]), pair(3)), pair(1));
     let correction = z * cube.subtract_product(tail, all(0.5) * error) - error;
@@ -144,7 +146,7 @@ fn cosine(x: Quad, error: Quad) -> Quad {
 mod tests {
     use super::*;
 
-    /// How far two numbers are apart, in units of the last place.
+    /// Distance of two numbers, in units of the last place.
     fn off(ours: f64, theirs: f64) -> f64 {
         let unit = f64::from_bits(theirs.abs().max(f64::MIN_POSITIVE).to_bits() + 1) - theirs.abs();
         (ours - theirs).abs() / unit
@@ -154,7 +156,7 @@ mod tests {
         let (sines, cosines) = sin_cos(angles);
         for ((x, sine), cosine) in angles.into_iter().zip(sines).zip(cosines) {
             let (theirs, their_cosine) = x.sin_cos();
-            // Two roundings of less than a unit each differ by one at most.
+            // Both values have an error below one unit, so they differ by at most one.
             assert!(off(sine, theirs) <= 1.0, "sin {x:e}: {sine:e}, {theirs:e}");
             assert!(off(cosine, their_cosine) <= 1.0, "cos {x:e}: {cosine:e}, {their_cosine:e}");
         }
@@ -172,7 +174,7 @@ mod tests {
         }
     }
 
-    /// Where a sine is all but zero, nothing is left of it but what is lost in the angle.
+    /// Near a zero of the sine, every digit of the reduced angle counts.
     #[test]
     fn near_multiples_of_a_quarter_turn_every_digit_counts() {
         for n in 0..60_000 {

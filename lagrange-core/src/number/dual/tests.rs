@@ -1,4 +1,4 @@
-//! Dual numbers nested three deep, against those of num-dual and closed forms.
+//! Dual numbers nested three deep, compared with num-dual and closed forms.
 
 use core::cmp::Ordering;
 
@@ -9,7 +9,7 @@ use crate::number::{Dual, Scalar};
 
 type Thrice<S> = Dual<Dual<Dual<S>>>;
 
-/// x, moving with rate 1 at every level.
+/// Returns x with derivative 1 at each of the three levels.
 fn moving<S: Scalar>(x: f64) -> Thrice<S> {
     let one = Dual::constant(1.0);
     let once = Dual { value: S::constant(x), slope: S::constant(1.0) };
@@ -17,13 +17,13 @@ fn moving<S: Scalar>(x: f64) -> Thrice<S> {
     Dual { value: twice, slope: Dual::constant(1.0) }
 }
 
-/// f, f′, f″, f‴
+/// Returns f, f′, f″, f‴.
 fn orders<S>(y: Thrice<S>) -> [S; 4] {
     let Dual { value, slope } = y;
     [value.value.value, value.value.slope, value.slope.slope, slope.slope.slope]
 }
 
-/// Where each function of [`function`] is to be compared.
+/// Arguments at which each function of [`function`] is compared.
 const PLACES: [(&str, &[f64]); 25] = [
     ("sin", &[-2.1, 0.0, 0.7]),
     ("cos", &[-2.1, 0.0, 0.7]),
@@ -134,7 +134,7 @@ fn each_lane_has_its_own() {
 
 #[test]
 fn a_constant_power_takes_no_logarithm_and_ends_in_zero() {
-    // (x³)‴ = 6 and (x²)‴ = 0, at zero and for a negative base too.
+    // (x³)‴ = 6 and (x²)‴ = 0, also at zero and for a negative base.
     for x in [-2.0, 0.0, 1.5] {
         let power = |exponent: f64| orders(moving::<f64>(x).powf(Dual::constant(exponent)));
         agree("x³", power(3.0), [x * x * x, 3.0 * x * x, 6.0 * x, 6.0], 1e-15);
@@ -145,7 +145,7 @@ fn a_constant_power_takes_no_logarithm_and_ends_in_zero() {
 
 #[test]
 fn partial_derivatives_mix() {
-    // ∂²/∂x∂y of x² y³ + atan2(y, x), each level moving along one of them.
+    // ∂²/∂x∂y of x² y³ + atan2(y, x): x varies at the inner level and y at the outer.
     let (x, y) = (1.3, -0.7);
     let along_x = Dual { value: Dual { value: x, slope: 1.0 }, slope: Dual::constant(0.0) };
     let along_y = Dual { value: Dual { value: y, slope: 0.0 }, slope: Dual::constant(1.0) };
@@ -161,7 +161,7 @@ fn where_two_agree_the_smaller_has_their_mean_slope() {
     assert_eq!(x.min(y), Dual { value: 2.0, slope: 3.0 });
 }
 
-/// Numbers of every size, and what is none.
+/// Numbers of every size, infinities and NaN.
 const EXTREMES: [f64; 13] = [
     0.0,
     -0.0,
@@ -182,7 +182,7 @@ fn same(x: f64, y: f64) -> bool {
     x.to_bits() == y.to_bits() || x.is_nan() && y.is_nan()
 }
 
-/// What the slope of min(x, y) is to be, by branches.
+/// Expected slope of min(x, y), by branches.
 fn slope_of_smaller([x, y]: [f64; 2], [dx, dy]: [f64; 2]) -> f64 {
     match x.partial_cmp(&y) {
         None => f64::NAN,
@@ -209,7 +209,7 @@ fn the_smaller_and_the_larger_are_those_of_the_scalar_with_their_own_slopes() {
 
 #[test]
 fn in_lanes_too_whatever_is_beside() {
-    // Two constants, so that all four pairs stand side by side.
+    // Two constant lanes beside the pair, so that all four orders of the pair occur in one vector.
     for x in EXTREMES {
         for y in EXTREMES {
             let wide = |a, b| Dual { value: WideF64x4::from([a, 1.0, b, 2.0]), slope: WideF64x4::splat(3.0) };
@@ -252,7 +252,7 @@ fn derivatives_do_not_cancel() {
         close(slope(Dual::tanh, x), x.cosh().powi(-2));
     }
     assert_eq!(slope(Dual::tanh, 1000.0), 0.0);
-    // The second derivative, −2 tanh/cosh², far out and where the two halves meet.
+    // The second derivative −2 tanh/cosh², far from zero and where the branches for the two signs meet.
     for x in [-20.0_f64, 0.0, 25.0] {
         let [_, _, second, _] = orders(moving::<f64>(x).tanh());
         let expected = -2.0 * x.tanh() * x.cosh().powi(-2);
@@ -283,7 +283,7 @@ fn what_does_not_move_has_no_slope_at_a_pole_of_the_derivative() {
     }
     let moving = Dual { value: 0.0, slope: 1.0 };
     assert_eq!([moving.sqrt().slope, power(moving, 0.5).slope], [f64::INFINITY; 2]);
-    // Second derivatives of max(x, 0)^(3/2), as of a ball that touches nothing.
+    // Second derivatives of max(x, 0)^(3/2), the contact force of a ball that touches nothing.
     let [value, first, second, _] =
         orders(self::moving::<f64>(-1.0).max(Dual::constant(0.0)).powf(Dual::constant(1.5)));
     assert_eq!([value, first, second], [0.0; 3]);
@@ -291,7 +291,8 @@ fn what_does_not_move_has_no_slope_at_a_pole_of_the_derivative() {
 
 #[test]
 fn a_power_is_the_same_beside_others() {
-    // Bases, exponents and their slopes: at rest at zero, negative with a constant exponent, x⁰ at zero, moving exponents.
+    // Base, exponent, slope of the base, slope of the exponent: a constant base of zero, a negative base with a
+    // constant exponent, x⁰ at zero, varying exponents.
     let cases: [[f64; 4]; 8] = [
         [0.0, 0.5, 0.0, 0.0],
         [-2.0, 3.0, 1.0, 0.0],
@@ -316,7 +317,7 @@ fn a_power_is_the_same_beside_others() {
                 [alone.value, alone.slope, 0.0, 0.0],
                 1e-13,
             );
-            // By the rule for each case.
+            // Expected slope by case.
             let by_x = if y == 0.0 || dx == 0.0 { 0.0 } else { y * x.powf(y - 1.0) * dx };
             let by_y = if dy == 0.0 { 0.0 } else { x.powf(y) * x.ln() * dy };
             assert!((slope - by_x - by_y).abs() < 1e-13, "{slope} for {:?}", lane(i));

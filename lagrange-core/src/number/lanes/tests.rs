@@ -58,7 +58,7 @@ fn same(a: f64, b: f64) -> bool {
     a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan()
 }
 
-/// Every number in every lane, with every other beside it.
+/// Calls `check` with every number in every lane, next to every other number.
 fn each_beside_each(check: impl Fn(f64, usize, Lanes, Lanes)) {
     for x in NUMBERS {
         for other in NUMBERS {
@@ -87,7 +87,8 @@ fn no_lane_depends_on_another() {
     });
 }
 
-/// To two units in the last place, or of 1 for a sine near its zero; NaN where that cannot be.
+/// Tolerance: two units in the last place, or of 10⁻³ for a result near zero. Sines and cosines of large angles
+/// may be NaN.
 #[test]
 fn each_lane_is_what_the_number_alone_gives() {
     let close = |a: f64, b: f64| same(a, b) || (a - b).abs() <= 4.5e-16 * b.abs().max(1e-3);
@@ -107,12 +108,12 @@ fn each_lane_is_what_the_number_alone_gives() {
     }
 }
 
-/// Rounded once with FMA and twice without, as for the number alone.
+/// `multiply_add` rounds once with FMA and twice without, the same as for a single number.
 #[test]
 fn products_and_sums_are_fused_as_for_the_number_alone() {
     let product_and_sum = |x: f64, y, z| if FUSED { x.mul_add(y, z) } else { x * y + z };
     each_beside_each(|x, lane, _, beside| {
-        // The rounding of 0.1 · 10 − 1 and the like is all that is left of it.
+        // The rounding error of 0.1 · 10 − 1 and the like is the whole result.
         for (y, z) in [(3.0, -3.0 * x), (0.1, -0.1 * x), (x, -x * x), (1e300, x), (x, f64::NAN)] {
             let sum = beside.multiply_add(Lanes::constant(y), Lanes::constant(z)).to_array()[lane];
             assert!(same(sum, product_and_sum(x, y, z)), "{x} · {y} + {z} is {sum}");
@@ -136,7 +137,7 @@ fn sines_are_accurate_up_to_the_largest_angle() {
     }
 }
 
-/// Zero where the activity is, whatever the value is there; no number where it is none.
+/// Zero where the activity is zero, whatever the value; NaN where the activity is NaN.
 #[test]
 fn values_are_there_only_where_something_changes() {
     let activity = [0.0, -0.0, f64::NAN, -1e-300, f64::INFINITY];

@@ -1,4 +1,4 @@
-//! Each function against another way to its value: the sum of the series a little off its start.
+//! Compares the sum of each series at small τ with the function of the summed argument.
 
 use super::{PowerSeries, ROOM};
 use crate::number::Scalar;
@@ -53,7 +53,7 @@ fn powers_by_every_kind_of_exponent() {
         assert_is(x.powf(constant(exponent)), |x| x.powf(exponent));
     }
     assert_is(x.powf(x.sin()), |x| x.powf(x.sin()));
-    // (x − 0.7)³ where its base is zero, and where it is negative.
+    // (x − 0.7)³ with a base that is zero at τ = 0, and with a negative base.
     let base = x - constant(0.7);
     assert_is(base.powf(constant(3.0)), |x| (x - 0.7).powi(3));
     assert_is((base - x).powf(constant(3.0)), |_| -0.343);
@@ -69,7 +69,7 @@ fn comparisons_go_by_the_value_at_the_start() {
     assert!(x.min(nan).coefficients()[0].is_nan());
 }
 
-/// Nothing times what is infinite.
+/// Zero times infinity.
 #[test]
 fn what_is_zero_stays_so() {
     let nothing = PowerSeries::<f64>::constant(0.0);
