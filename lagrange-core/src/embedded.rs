@@ -1,10 +1,11 @@
 //! Programs without an operating system: real time, single precision, no allocator.
 //!
-//! # What is there
+//! # Available without an allocator
 //!
-//! Without the feature `alloc` there are the equations, [`Simulate::solve`](crate::Simulate::solve), consistent states, the
-//! methods except `Taylor`, [`Motion`](crate::Motion) and [`runge_kutta_step`](crate::runge_kutta_step); what stores steps
-//! (trajectories, ensembles) is not. In `Cargo.toml`:
+//! Without the feature `alloc` the crate has the equations, [`Simulate::solve`](crate::Simulate::solve),
+//! consistent states, all methods except `Taylor`, [`Motion`](crate::Motion) and
+//! [`runge_kutta_step`](crate::runge_kutta_step). Types that store steps (trajectories, ensembles) need
+//! `alloc`. In `Cargo.toml`:
 //!
 //! ```toml
 //! [dependencies]
@@ -13,26 +14,29 @@
 //!
 //! # In real time
 //!
-//! [`runge_kutta_step`](crate::runge_kutta_step) takes the same time whatever happens: four evaluations of straight-line code, no
-//! decision. What nobody can vouch for is NaN; look at it once a step. A [`Motion`](crate::Motion) with
-//! [`RungeKutta4`](crate::RungeKutta4) does the same, projected onto the constraints and with errors by name;
-//! with [`Dopri5`](crate::Dopri5) and a tolerance it takes as many steps as that demands, at most
-//! [`max_steps`](crate::motion::Adaptive::max_steps) an advance. Without the feature `alloc`
-//! none of them allocates, and with it no step does.
+//! [`runge_kutta_step`](crate::runge_kutta_step) takes constant time: four evaluations of straight-line code
+//! without branches. Results that cannot be trusted are NaN; check for NaN once a step. A
+//! [`Motion`](crate::Motion) with [`RungeKutta4`](crate::RungeKutta4) takes the same step, then projects the
+//! state onto the constraints and reports errors by name. With [`Dopri5`](crate::Dopri5) the tolerance
+//! determines the number of steps, at most [`max_steps`](crate::motion::Adaptive::max_steps) per advance.
+//! Without the feature `alloc` nothing allocates; with it, no step allocates.
 //!
-//! A motion holds its method's working arrays: some 20 times 2N numbers for `Dopri5` and `Dop853`, 1.6 kB for ten coordinates in
-//! `f32`, three states for `RungeKutta4`. The step by itself needs the stack for four slopes.
+//! A motion contains the working arrays of its method: about 20 times 2N numbers for `Dopri5` and `Dop853`,
+//! which is 1.6 kB for ten coordinates in `f32`, and three states for `RungeKutta4`. `runge_kutta_step` alone
+//! needs stack space for four slopes.
 //!
 //! # Single precision
 //!
-//! Write systems over a type parameter, `struct Pendulum<T> { l: T }`: they run on `f32`, with constants rounded once. But
-//! sine and cosine of `f32` are those of `libm`, which computes them in double precision, and brings a reduction of
-//! arguments of any size: on a microcontroller with a unit for single precision alone, both are slow and long. A
-//! [`Scalar`](crate::Scalar) of one's own, of which the accelerations take what they need, makes them short:
+//! A system over a type parameter, `struct Pendulum<T> { l: T }`, runs on `f32`, with constants rounded once.
+//! However, sine and cosine of `f32` come from `libm`, which computes in double precision and includes argument
+//! reduction for angles of any size. On a microcontroller with a single-precision FPU only, both functions are
+//! slow and large. A user-defined [`Scalar`](crate::Scalar) with only the functions that the accelerations need
+//! keeps them small and fast:
 //!
 //! ```
 #![doc = include_str!("../examples/single_precision.rs")]
 //! ```
 //!
-//! Such a number cannot decide ([`Real`](crate::Real) is `f64` and `f32` alone), so it goes with
-//! [`runge_kutta_step`](crate::runge_kutta_step), which needs no decision.
+//! Such a scalar has no comparisons that a step control could use ([`Real`](crate::Real) is implemented only
+//! for `f64` and `f32`). It therefore works with [`runge_kutta_step`](crate::runge_kutta_step), which does not
+//! branch.

@@ -1,4 +1,4 @@
-//! What can go wrong, each with the name of the entry at fault and what to do about it.
+//! Errors, each with the name of the entry at fault and advice what to do.
 
 mod display;
 mod ending;
@@ -13,280 +13,287 @@ pub use ending::{Ending, Pace};
 #[cfg(feature = "std")]
 pub use ensemble::EnsembleError;
 
-/// Why a computation did not start or did not reach its end, or what a query asked in vain.
+/// Reason why a computation did not start, did not reach its end, or has no answer to a query.
 ///
-/// Times and residuals are given as `f64` whatever the scalar of the system is.
+/// Times and residuals are `f64` for every scalar type of the system.
 #[non_exhaustive]
 #[derive(Clone, PartialEq)]
 pub enum Error {
-    /// An entry of the state given is infinite or not a number.
+    /// An entry of the initial or given state is infinite or NaN.
     StateNotFinite {
         /// The coordinate, velocity, momentum or time at fault.
         entry: Entry,
         /// Its value.
         value: f64,
     },
-    /// A matrix among the parameters is not what its type or `#[parameter(…)]` says.
+    /// A parameter matrix lacks the property that its type or `#[parameter(…)]` declares.
     ParameterNotAsSaid {
-        /// The parameter.
+        /// Name of the parameter.
         name: &'static str,
-        /// What it should be: `symmetric`, `a rotation`.
+        /// Required property: `symmetric`, `a rotation`.
         wanted: &'static str,
-        /// How far it is from that, as a part of its size; not a number where an entry is not finite.
+        /// Deviation from the property, relative to the size of the matrix; not finite if an entry is not
+        /// finite.
         defect: f64,
     },
-    /// The equations of motion evaluate to infinity or not a number.
+    /// The equations of motion evaluate to infinity or NaN.
     EquationsNotFinite {
-        /// The first row at fault.
+        /// First row of the equations with an entry that is not finite.
         row: Row,
         /// The time of evaluation.
         time: f64,
     },
-    /// A derivative of the equations of motion evaluates to infinity or not a number.
+    /// A derivative of the equations of motion evaluates to infinity or NaN.
     DerivativeNotFinite {
-        /// The first row at fault.
+        /// First row of the derivative with an entry that is not finite.
         row: Row,
-        /// By what it was differentiated; of several at once, the one that changes most.
+        /// Variable of differentiation; for a derivative along several at once, the one that changes most.
         entry: Entry,
         /// The time of evaluation.
         time: f64,
     },
-    /// A setting of the method, such as a tolerance, that must be positive and is not.
+    /// A setting of the method, such as a tolerance, is not positive and finite.
     Setting {
         /// The name of the setting.
         name: &'static str,
         /// Its value.
         value: f64,
     },
-    /// The end time is infinite or not a number.
+    /// The end time is infinite or NaN.
     EndNotFinite {
-        /// The end asked for.
+        /// End time requested.
         end: f64,
     },
-    /// The motion stopped before its end.
+    /// The motion stopped before its end time.
     ///
-    /// [`MotionBuilder::towards`](crate::MotionBuilder::towards) gives what was computed until then.
+    /// [`MotionBuilder::towards`](crate::MotionBuilder::towards) returns the trajectory computed until then.
     #[cfg(feature = "alloc")]
     Unfinished(
-        /// When, where and why.
+        /// Time, place and reason of the stop.
         Box<Ending>,
     ),
-    /// Neither mass matrix nor constraints determine some accelerations.
+    /// Neither the mass matrix nor the constraints determine some accelerations.
     Singular {
-        /// The coordinates that can accelerate freely.
+        /// Coordinates whose accelerations are undetermined.
         coordinates: Names,
         /// The time of evaluation.
         time: f64,
     },
-    /// Constraints that depend on one another demand different accelerations.
+    /// Dependent constraints demand different accelerations.
     Contradictory {
         /// The constraint that the others contradict.
         constraint: &'static str,
         /// The time of evaluation.
         time: f64,
     },
-    /// The state given does not satisfy a constraint.
+    /// The given state violates a constraint.
     Inconsistent {
         /// The constraint at fault.
         constraint: &'static str,
-        /// Whether its rate of change F q̇ + b is meant (else Φ).
+        /// True if the rate of change F q̇ + b is violated, false if Φ is.
         rate: bool,
-        /// The value that should be zero.
+        /// Value of Φ or F q̇ + b, which should be zero.
         residual: f64,
         /// The time of the state.
         time: f64,
     },
-    /// The gradient of a holonomic constraint vanishes where it holds, as that of cos(a) = 1 does: to first order it fixes nothing.
+    /// The gradient of a holonomic constraint vanishes where the constraint holds, as for cos(a) = 1. To first
+    /// order such a constraint restricts nothing.
     ///
-    /// Of each entry of its row in F no more is left than 16 times what ε^(3/4) of the coordinates (2·10⁻¹² for `f64`) makes of
-    /// it. A row that is zero all around, as of a constraint times a parameter that is zero, is none. At a singular pose
-    /// it may vanish there alone: no first derivative says which way a motion goes on from rest.
+    /// Criterion: each entry of the constraint's row of F is at most 16 times its change when the coordinates
+    /// change by ε^(3/4) (2·10⁻¹² for `f64`). A row that is zero throughout a neighbourhood does not count, for
+    /// example that of a constraint times a parameter that is zero. At a singular pose the gradient may vanish
+    /// at that pose alone: no first derivative then tells which way a motion leaves rest.
     NoGradient {
         /// The constraint at fault.
         constraint: &'static str,
         /// The time of the state.
         time: f64,
     },
-    /// Constraints depend on one another to first order, but not to second, as |a| = l, |b| = l and |a − b| = 2l do, which together
-    /// are |a + b|² = 0: the first derivatives, which are all that the equations of motion know, leave directions free that the
-    /// constraints do not.
+    /// Constraints depend on one another to first order but not to second, as |a| = l, |b| = l and |a − b| = 2l
+    /// do, which together imply |a + b|² = 0. The equations of motion contain first derivatives only, so they
+    /// leave directions free that the constraints forbid.
     ///
-    /// Here or so near that the constraints differ by their round-off. At a singular pose, where branches of a motion meet, that
-    /// is so at this pose alone.
+    /// The dependence holds at this state, or at one so near that the constraints differ by their round-off. At
+    /// a singular pose, where branches of a motion meet, it holds at that pose alone.
     DependentToFirstOrder {
-        /// The constraints whose combination has no gradient.
+        /// Constraints whose linear combination has no gradient.
         constraints: Names,
         /// The time of the state.
         time: f64,
     },
-    /// Newton's iteration found no state on the constraints near the one given.
+    /// Newton's iteration found no state on the constraints near the given one.
     NotProjected {
-        /// The constraint that is farthest from satisfied.
+        /// Constraint with the largest residual.
         constraint: &'static str,
-        /// Its residual.
+        /// Residual of that constraint.
         residual: f64,
         /// Iterations done.
         iterations: usize,
         /// The time of the state.
         time: f64,
     },
-    /// Entries of the state that are held leave the others too little freedom to satisfy a constraint.
+    /// The held entries of the state leave too little freedom to satisfy a constraint.
     HeldTooMuch {
-        /// The constraint that is farthest from satisfied.
+        /// Constraint with the largest residual.
         constraint: &'static str,
-        /// Whether its rate of change F q̇ + b is meant, and velocities are held (else Φ and coordinates).
+        /// True if velocities are held and F q̇ + b is violated; false if coordinates are held and Φ is
+        /// violated.
         rate: bool,
-        /// What is left of it.
+        /// Remaining value of F q̇ + b or Φ.
         residual: f64,
-        /// The coordinates that are held, or whose velocities are.
+        /// Coordinates that are held, or whose velocities are held.
         held: Names,
         /// The time of the state.
         time: f64,
     },
     /// The momenta do not determine some velocities: ∂p/∂q̇ is singular along the constraints.
     VelocityUndetermined {
-        /// The coordinates whose velocities can change and leave the momenta as they are.
+        /// Coordinates whose velocities can change without changing the momenta.
         coordinates: Names,
         /// The time of the momenta.
         time: f64,
     },
-    /// Newton's iteration found no velocity with the momenta given.
+    /// Newton's iteration found no velocities with the given momenta.
     MomentumNotReached {
-        /// The coordinate whose momentum is farthest off.
+        /// Coordinate whose momentum has the largest residual.
         coordinate: &'static str,
-        /// By how much.
+        /// Residual of that momentum.
         residual: f64,
         /// Iterations done.
         iterations: usize,
         /// The time of the momenta.
         time: f64,
     },
-    /// No equilibrium was found near the state given.
+    /// No equilibrium was found near the given state.
     #[cfg(feature = "alloc")]
     NoEquilibrium {
-        /// The row that is farthest from satisfied.
+        /// Row of the equations with the largest residual.
         row: Row,
-        /// Its residual: a generalized force, or what a constraint leaves.
+        /// Residual of that row: a generalized force, or the value of a constraint.
         residual: f64,
-        /// Steps taken.
+        /// Iterations done.
         iterations: usize,
-        /// What was sought, where it came nearest: `x = 1.5`.
+        /// Best values found for the unknowns, as text: `x = 1.5`.
         best: Vec<String>,
         /// The time of the state.
         time: f64,
     },
-    /// Accelerations can be zero, but do not stay so: the velocities lead to where the equations are others.
+    /// The accelerations can vanish, but do not stay zero: the motion at these velocities changes the
+    /// equations.
     NotSteady {
-        /// The coordinate whose motion changes the equations most.
+        /// The moving coordinate that contributes most to the change of `row`.
         coordinate: &'static str,
-        /// The first row that changes.
+        /// First row of the equations that changes.
         row: Row,
         /// The time of the state.
         time: f64,
     },
-    /// A constraint depends on this input, which would change the admissible states or accelerations.
+    /// A constraint depends on this input, so the input would change the admissible states or accelerations.
     InputShiftsConstraint {
-        /// The parameter.
+        /// Name of the parameter used as an input.
         input: &'static str,
-        /// The constraint.
+        /// Name of the constraint.
         constraint: &'static str,
     },
-    /// A parameter that cannot be changed: it is behind a reference, or in a field whose type says no shape.
+    /// A parameter cannot be changed: its field is a reference, or has a type of unknown shape.
     ParameterFixed {
-        /// The parameter.
+        /// Name of the parameter.
         name: &'static str,
     },
-    /// No values of the inputs named give the accelerations asked for.
+    /// No values of the named inputs produce the requested accelerations.
     NotRealizable {
-        /// A row that they leave unbalanced: a coordinate whose force no input balances, or a constraint that the
-        /// accelerations violate.
+        /// Unbalanced row of the equations: a coordinate whose generalized force no input balances, or a
+        /// constraint that the accelerations violate.
         row: Row,
-        /// What is left of it: the generalized force that is lacking with this sign, M q̈ − h − Fᵀλ, or F q̈ + γ.
+        /// Residual of that row: the missing generalized force M q̈ − h − Fᵀλ, or F q̈ + γ.
         residual: f64,
         /// The time of the state.
         time: f64,
     },
-    /// Several values of the inputs named give the accelerations asked for.
+    /// Several values of the named inputs produce the requested accelerations.
     InputsNotUnique {
-        /// The inputs that can change, together, and leave the accelerations as they are.
+        /// Inputs that can change together without changing the accelerations.
         inputs: Names,
         /// The time of the state.
         time: f64,
     },
     /// The iteration for eigenvalues or singular values did not converge, or an entry of the matrix is not finite.
     EigenvaluesNotFound,
-    /// A name that the system does not have.
+    /// The system has no entry of this name.
     #[cfg(feature = "alloc")]
     UnknownName {
-        /// The name asked for.
+        /// Name requested.
         name: String,
-        /// What it should name: `coordinate`, `constraint`, …
+        /// Kind of name expected: `coordinate`, `constraint`, …
         kind: &'static str,
-        /// What it is instead, or which name is near: `it is the velocity of …`, `did you mean …`.
+        /// Actual meaning of the name, or a similar name: `it is the velocity of …`, `did you mean …`.
         hint: Option<String>,
-        /// The names that exist.
+        /// Existing names of this kind.
         known: Vec<String>,
     },
-    /// An entry of a state that was given twice.
+    /// An entry of a state is given twice.
     #[cfg(feature = "alloc")]
     RepeatedName {
-        /// The name.
+        /// Name of the entry.
         name: String,
     },
-    /// Points that no function runs through.
+    /// The points of a table define no function: too few, not finite, or x does not increase.
     Table,
-    /// A time at which members are to be sampled that is not finite, or not in order with those before.
+    /// A sample time of an ensemble is not finite, or not in order with the times before it.
     SampleTime {
-        /// Which one, counted from 0.
+        /// Index of the sample time, counted from 0.
         index: usize,
-        /// The time.
+        /// The sample time.
         time: f64,
     },
     /// An error of an ensemble as a whole, or of one of its members.
     #[cfg(feature = "std")]
     Ensemble(EnsembleError),
-    /// A coefficient of restitution that is none.
+    /// A coefficient of restitution is negative or not finite.
     Restitution {
         /// Its value.
         value: f64,
     },
-    /// A leg that does not go on where a hybrid trajectory has come to.
+    /// A leg of a hybrid trajectory does not continue from the end of the previous leg, in the same direction
+    /// of time.
     LegApart {
-        /// When the leg starts.
+        /// Start time of the leg.
         start: f64,
-        /// When it ends.
+        /// End time of the leg.
         end: f64,
-        /// When it should start.
+        /// End time of the hybrid trajectory so far, where the leg should start.
         expected: f64,
     },
-    /// The function of an event is not a number.
+    /// The function of an event is NaN.
     EventNotFinite {
         /// The name of the event.
         event: &'static str,
         /// The time of evaluation.
         time: f64,
     },
-    /// A motion that touches an event and does not cross it: where it does, and whether, has no derivative.
+    /// The motion touches the zero of an event function without crossing it: time and existence of the event
+    /// are then not differentiable.
     Grazing {
         /// The name of the event.
         event: &'static str,
         /// The time of the event.
         time: f64,
     },
-    /// A time that the trajectory does not cover.
+    /// The trajectory does not cover the requested time.
     OutsideTrajectory {
-        /// The time asked for.
+        /// Time requested.
         time: f64,
-        /// Where the trajectory starts.
+        /// Start time of the trajectory.
         start: f64,
-        /// Where it ends.
+        /// End time of the trajectory.
         end: f64,
     },
 }
 
 impl core::error::Error for Error {}
 
-/// Lets `?` return the ending of a [`Motion`](crate::Motion) that failed from a function that returns an [`Error`].
+/// Lets `?` convert the [`Ending`] of a failed [`Motion`](crate::Motion) into an [`Error`].
 #[cfg(feature = "alloc")]
 impl From<Ending> for Error {
     fn from(ending: Ending) -> Self {

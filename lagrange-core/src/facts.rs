@@ -1,4 +1,5 @@
-//! What is known about a system when it is compiled: [`Facts`], the kinds of its constraints, and its [`Equations`] in print.
+//! Compile-time facts about a system: [`Facts`], the kinds of its constraints, and its [`Equations`] in
+//! readable form.
 
 pub use crate::system::{
     Classification, Conserved, EnergyForm, Equations, Evidence, Excerpt, Extent, Facts, Integrability,

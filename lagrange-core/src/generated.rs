@@ -1,4 +1,4 @@
-//! What only generated code calls. It changes as the derive does, without notice.
+//! Functions that only generated code calls. They change with the derive macro, without notice.
 
 pub use crate::number::array::{matrix, vector};
 pub use crate::number::numeric::{only_where, sin_cos_of_small};

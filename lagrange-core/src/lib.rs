@@ -1,7 +1,7 @@
 //! Lagrangian mechanics from a struct.
 //!
-//! `#[derive(Lagrangian)]` turns a Lagrangian and its constraints, written the way a textbook does, into the equations
-//! of motion and the multipliers; this crate integrates them.
+//! `#[derive(Lagrangian)]` takes a Lagrangian and its constraints in textbook notation and derives the
+//! equations of motion and the multipliers; this crate integrates them.
 //!
 #![cfg_attr(
     feature = "std",
@@ -27,13 +27,15 @@ assert!((friction + 2.0 / 7.0 * 9.81 * 0.3_f64.sin()).abs() < 1e-12);
 "#
 )]
 //!
-//! The struct's fields are the parameters. `coordinates` names the variables, `x_dot` is the velocity of `x`, a constraint has a name, under
-//! which its multiplier is had. [`language`] has all forms: vectors, frames, forces, functions of one's own.
+//! The struct's fields are the parameters. `coordinates` names the generalized coordinates, and `x_dot` is the
+//! velocity of `x`. A constraint has a name, by which its multiplier is read. [`language`] documents the whole
+//! syntax: vectors, frames, forces, user-supplied functions.
 //!
 //! # States
 //!
-//! A [`State`] is a time, coordinates and velocities; those that are named make one, and `make_consistent` moves it onto the
-//! constraints. At a state everything is known: accelerations, multipliers, momenta, the matrices of the equations.
+//! A [`State`] is a time, coordinates and velocities. It can be built from named entries, and `make_consistent`
+//! projects it onto the constraints. A state determines the accelerations, multipliers, momenta and the
+//! matrices of the equations.
 //!
 //! ```
 //! # use lagrange_core::prelude::*;
@@ -54,14 +56,17 @@ assert!((friction + 2.0 / 7.0 * 9.81 * 0.3_f64.sin()).abs() < 1e-12);
 //! # Ok::<(), Error>(())
 //! ```
 //!
-//! The sign of a multiplier is that of Milton (8.7), everywhere: d/dt(∂L/∂q̇) = ∂L/∂q + Q + Fᵀλ, with F = ∂Φ/∂q and Φ = left − right.
-//! `Pendulum::equations()` is the system to be read, and stands in its documentation.
+//! Multipliers have the sign of Milton (8.7) everywhere: d/dt(∂L/∂q̇) = ∂L/∂q + Q + Fᵀλ, with F = ∂Φ/∂q and Φ =
+//! left − right. `Pendulum::equations()` returns the equations in readable form; the documentation of the
+//! struct shows them too.
 //!
 //! # Motions
 //!
-//! [`integrate`](Simulate::integrate) goes from a state to a time by a method that the call names: [`Dop853`] as a rule, [`Taylor`] to round-off,
-//! [`Dopri5`] for coarse errors ([`motion`] compares them). Every step ends on the constraints. A [`Trajectory`] answers at any
-//! time, by name; why it ends is an [`Ending`]. Where a function of the motion crosses zero is an [`Event`].
+//! [`integrate`](Simulate::integrate) integrates from a state to an end time by the method given: [`Dop853`] by
+//! default, [`Taylor`] for errors near round-off, [`Dopri5`] for coarse tolerances ([`motion`] compares them).
+//! Every step ends on the constraints. A [`Trajectory`] returns the state at any time and its entries by name;
+//! an [`Ending`] tells why the trajectory ends. An [`Event`] locates the zero crossings of a function of the
+//! motion.
 //!
 #![cfg_attr(
     feature = "std",
@@ -91,7 +96,8 @@ println!("{}", path.csv(50).energy());
 //!
 //! # Inputs
 //!
-//! A [`Motion`] goes on when it is told to: parameters change in between, states are read, nothing is stored.
+//! A [`Motion`] advances on request: between advances the program may change parameters and read states.
+//! Nothing is stored.
 //!
 //! ```
 //! # use lagrange_core::prelude::*;
@@ -114,29 +120,34 @@ println!("{}", path.csv(50).energy());
 //! # What else there is
 //!
 //! - [`Hamiltonian`]: momenta, the Legendre transform, Hamilton's equations, motion in (q, p).
-//! - [`Linearized`] and [`StateDerivatives`]: exact derivatives; equilibria, the linear system near a state, inverse dynamics, motions with
-//!   their derivatives; [`MotionDerivatives`] those across impacts.
+//! - [`Linearized`] and [`StateDerivatives`]: exact derivatives; equilibria, the linear system near a state,
+//!   inverse dynamics, sensitivities of motions; [`MotionDerivatives`]: sensitivities across impacts.
 //! - [`Ensemble`]: many members at once, on SIMD lanes, on all threads, on many machines ([`ensemble`]).
-//! - [`HybridTrajectory`]: a motion of several legs, of several systems; [`Simulate::impact`].
-//! - [`Lagrangian`] is the contract that generated code implements, [`Solution`] what it gives; [`Scalar`] what numbers must be.
-//! - [`embedded`] is about programs without an operating system.
+//! - [`HybridTrajectory`]: a motion in several legs, each with its own system; [`Simulate::impact`].
+//! - [`Lagrangian`]: the trait that generated code implements; [`Solution`]: accelerations and multipliers at a
+//!   state; [`Scalar`]: requirements on the number type.
+//! - [`embedded`]: programs without an operating system.
 //!
-//! The book in the repository follows a course of mechanics, and has how-tos.
+//! The book in the repository follows a course of mechanics and contains how-to guides.
 //!
 //! # Features
 //!
-//! `std` (default), without it there are no ensembles; `alloc`, without it there are no trajectories and no Taylor
-//! series, but motions step by step; `libm`, elementary functions where there is no `std`; `rayon`, ensembles on all threads; `mpi`, ensembles on many machines; `parquet`, tables of
-//! ensembles as files of Parquet; `serde`, states,
-//! solutions, records of trajectories and endings can be written, and those without names read; from JSON to the last bit only with
-//! `serde_json = { version = "1", features = ["float_roundtrip"] }`.
+//! - `std` (default): ensembles need it.
+//! - `alloc`: trajectories and Taylor series need it; without it, motions advance step by step.
+//! - `libm`: elementary functions for programs without `std`.
+//! - `rayon`: ensembles on all threads.
+//! - `mpi`: ensembles on many machines.
+//! - `parquet`: tables of ensembles as Parquet files.
+//! - `serde`: serializes states, solutions, records of trajectories and endings, and deserializes those without
+//!   names. Numbers survive JSON to the last bit only with `serde_json = { version = "1", features =
+//!   ["float_roundtrip"] }`.
 #![cfg_attr(not(feature = "std"), no_std)]
-// docs.rs shows which feature an item needs.
+// Makes docs.rs show which feature an item needs.
 #![cfg_attr(docsrs, feature(doc_cfg))]
-// Algorithms on matrices read best with indices.
+// Matrix algorithms read best with indices.
 #![allow(clippy::needless_range_loop)]
 
-// Generated code names this crate `::lagrange_core`, also inside it.
+// Generated code refers to this crate as `::lagrange_core`, also inside the crate.
 #[cfg(feature = "alloc")]
 extern crate alloc;
 extern crate self as lagrange_core;
@@ -194,7 +205,7 @@ pub use system::{
 #[cfg(feature = "alloc")]
 pub use trajectory::{HybridTrajectory, Trajectory};
 
-/// The README's program is compiled and run with the documentation's examples.
+/// Compiles and runs the program in the README as a doc test.
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
 struct Readme;

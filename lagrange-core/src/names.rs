@@ -1,4 +1,4 @@
-//! How entries of a state and rows of the equations are named in messages and tables.
+//! Names of entries of a state and of rows of the equations, for messages and tables.
 
 use core::fmt::{self, Display, Formatter};
 
@@ -32,12 +32,12 @@ impl Display for Entry {
     }
 }
 
-/// A row of the equations of motion: that of a coordinate, or that of a constraint.
+/// A row of the equations of motion: the equation of a coordinate, or a constraint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Row {
     /// The Euler–Lagrange equation of this coordinate.
     Coordinate(&'static str),
-    /// This constraint.
+    /// The constraint of this name.
     Constraint(&'static str),
 }
 
@@ -50,7 +50,7 @@ impl Display for Row {
     }
 }
 
-/// A few names: the first four, and how many there are.
+/// A list of names: the first four, and the total count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Names {
     first: [&'static str; 4],
@@ -58,7 +58,7 @@ pub struct Names {
 }
 
 impl Names {
-    /// The names listed, at most four.
+    /// Returns the stored names, at most four.
     pub fn as_slice(&self) -> &[&'static str] {
         self.first.get(..self.count).unwrap_or(&self.first)
     }
@@ -89,12 +89,12 @@ impl Display for Names {
     }
 }
 
-/// The name of this index.
+/// Returns the name at `index`, or `?` if there is none.
 pub(crate) fn name<const K: usize>(names: &[&'static str; K], index: usize) -> &'static str {
     names.get(index).copied().unwrap_or("?")
 }
 
-/// They are written as they are said.
+/// Serializes entries and rows as the text of their `Display`.
 #[cfg(feature = "serde")]
 mod written {
     use serde::{Serialize, Serializer};

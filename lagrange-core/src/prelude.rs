@@ -1,4 +1,5 @@
-//! What a program that simulates a system needs: `use lagrange_core::prelude::*`. All else is at the crate's root and in its modules.
+//! Imports for a program that simulates a system: `use lagrange_core::prelude::*`. Other items are at the crate
+//! root and in its modules.
 
 #[cfg(feature = "std")]
 pub use crate::ensemble::Ensemble;
@@ -16,5 +17,5 @@ pub use crate::number::Scalar;
 pub use crate::system::State;
 #[cfg(feature = "alloc")]
 pub use crate::trajectory::Trajectory;
-// Trait and derive.
+// Both the trait and the derive macro.
 pub use crate::Lagrangian;

@@ -1,12 +1,13 @@
-//! Room for what is too large for the stack.
+//! Storage for values too large for the stack.
 
 use core::ops::{Deref, DerefMut};
 
 #[cfg(feature = "alloc")]
 use alloc::boxed::Box;
 
-/// A value on the heap where there is one, and in place without the feature `alloc`. It is made once in a run: its size grows with
-/// the number of coordinates, and every function that hands it on by value, unless it is optimized, would have copies.
+/// A value on the heap, or in place without the feature `alloc`. It is allocated once per run. The size of `X`
+/// grows with the number of coordinates, and unoptimized code copies it in every function that passes it by
+/// value.
 #[cfg(feature = "alloc")]
 #[derive(Clone, Debug)]
 pub(crate) struct Room<X>(Box<X>);
@@ -26,7 +27,7 @@ impl<X> Room<X> {
 }
 
 impl<X: Copy, const K: usize> Room<[X; K]> {
-    /// An array of `x`, built where it stays.
+    /// Returns an array filled with `x`, built in its final place.
     pub(crate) fn filled(x: X) -> Self {
         #[cfg(feature = "alloc")]
         return Self(alloc::vec![x; K].into_boxed_slice().try_into().unwrap_or_else(|_| Box::new([x; K])));

@@ -1,20 +1,20 @@
-//! What it took to compute a trajectory.
+//! Counts of steps and evaluations of an integration.
 
-/// What an integration took.
+/// Counts of steps and evaluations of an integration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Statistics {
-    /// Steps taken.
+    /// Accepted steps.
     pub accepted: usize,
-    /// Steps tried and repeated shorter.
+    /// Rejected steps, each repeated with a shorter step length.
     pub rejected: usize,
     /// Evaluations of the equations of motion.
     pub evaluations: usize,
-    /// Whether the constraints were independent in every evaluation.
+    /// True if the constraints were independent in every evaluation.
     pub multipliers_are_unique: bool,
 }
 
-/// Of nothing done yet.
+/// Counts of zero, with unique multipliers.
 impl Default for Statistics {
     fn default() -> Self {
         Self { accepted: 0, rejected: 0, evaluations: 0, multipliers_are_unique: true }

@@ -1,4 +1,4 @@
-//! Errors as sentences.
+//! Messages of errors.
 
 use core::fmt::{self, Debug, Display, Formatter};
 
@@ -151,7 +151,8 @@ impl Display for Error {
     }
 }
 
-/// The sentence of its `Display`: `main` prints an error that it returns by this. What tells errors apart are its fields.
+/// Prints the sentence of `Display`, since `main` prints a returned error by `Debug`. Programs tell errors
+/// apart by their fields.
 impl Debug for Error {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         Display::fmt(self, f)
@@ -165,7 +166,7 @@ mod tests {
     use super::*;
     use crate::error::Ending;
 
-    /// `main` prints an error by `Debug`, and so does a result that is unwrapped.
+    /// `main` and `unwrap` print an error by `Debug`.
     #[test]
     fn errors_and_endings_are_debugged_as_sentences() {
         let apart = Error::LegApart { start: 0.5, end: 1.0, expected: 0.25 };
@@ -178,7 +179,7 @@ mod tests {
     }
 }
 
-/// It is written as it is said.
+/// Serializes an error as the text of its `Display`.
 #[cfg(feature = "serde")]
 impl serde::Serialize for Error {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {

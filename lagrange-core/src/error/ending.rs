@@ -1,4 +1,4 @@
-//! Why an integration stopped.
+//! Reasons why an integration stops.
 
 #[cfg(feature = "alloc")]
 use alloc::string::String;
@@ -7,151 +7,153 @@ use core::fmt::{self, Debug, Display, Formatter};
 use super::Error;
 use crate::names::{Entry, Row};
 
-/// Why a motion ends where it does.
+/// Reason why a motion ends.
 ///
-/// With the feature `serde` it is written, `{"ending": "StepTooSmall", "time": 1.5, "entry": "x_dot"}`, and not read:
-/// its names are those of a system that is compiled in.
+/// With the feature `serde` an ending can be serialized, as `{"ending": "StepTooSmall", "time": 1.5, "entry":
+/// "x_dot"}`. It cannot be deserialized: its names are `&'static str` of a compiled system.
 #[non_exhaustive]
 #[derive(Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(tag = "ending"))]
 pub enum Ending {
-    /// The end asked for was reached.
+    /// The motion reached the requested end time.
     Complete {
-        /// The end.
+        /// End time.
         time: f64,
     },
-    /// The tolerance demands steps too short to advance the time: a singularity of the motion, a tolerance
-    /// below the round-off, or a time that is counted from far away.
+    /// The tolerance demands steps too short to advance the time. Causes: a singularity of the motion, a
+    /// tolerance below the round-off, or a time far from its origin.
     StepTooSmall {
         /// Last time reached.
         time: f64,
-        /// The coordinate or velocity with the largest error.
+        /// Coordinate or velocity with the largest error.
         entry: Entry,
     },
-    /// The settings demand steps too short to advance the time: where it is counted from far away, the numbers near it
-    /// lie farther apart.
+    /// The settings demand steps too short to advance the time: far from the origin of time, neighbouring
+    /// floating-point numbers lie farther apart than a step.
     TimeTooCoarse {
-        /// The last time reached.
+        /// Last time reached.
         time: f64,
-        /// The longest step allowed.
+        /// Longest step length allowed.
         step: f64,
     },
-    /// Nothing determines some accelerations any more, or in (q, p) some velocities.
+    /// The equations no longer determine some accelerations, or in (q, p) some velocities.
     Singular {
-        /// The last time reached.
+        /// Last time reached.
         time: f64,
-        /// The coordinates at fault: [`Error::Singular`], or in (q, p) [`Error::VelocityUndetermined`].
+        /// [`Error::Singular`], or in (q, p) [`Error::VelocityUndetermined`], with the coordinates at fault.
         error: Error,
     },
-    /// Constraints that depend on one another demand different accelerations, or in (q, p) different velocities.
+    /// Dependent constraints demand different accelerations, or in (q, p) different velocities.
     Contradictory {
-        /// The last time reached.
+        /// Last time reached.
         time: f64,
-        /// The constraint at fault: [`Error::Contradictory`].
+        /// [`Error::Contradictory`], with the constraint at fault.
         error: Error,
     },
-    /// What the equations need was not found.
+    /// The equations could not be solved for another reason.
     Unsolved {
-        /// The last time reached.
+        /// Last time reached.
         time: f64,
-        /// In (q, p) the velocity that belongs to momenta: [`Error::MomentumNotReached`].
+        /// In (q, p), [`Error::MomentumNotReached`]: no velocities have the momenta.
         error: Error,
     },
-    /// The equations became infinite or not a number.
+    /// The equations evaluate to infinity or NaN.
     NotFinite {
-        /// The last time reached.
+        /// Last time reached.
         time: f64,
-        /// The row at fault.
+        /// Row of the equations at fault.
         row: Row,
     },
-    /// No state on the constraints was found.
+    /// The projection found no state on the constraints.
     OffConstraints {
-        /// The last time reached.
+        /// Last time reached.
         time: f64,
-        /// The constraint at fault: [`Error::NotProjected`].
+        /// [`Error::NotProjected`], with the constraint at fault.
         error: Error,
     },
-    /// The method has a reason of its own.
+    /// The method failed for a reason of its own.
     MethodFailed {
-        /// The last time reached.
+        /// Last time reached.
         time: f64,
-        /// What it says.
+        /// Reason given by the method.
         reason: &'static str,
     },
-    /// The limit on steps.
+    /// The limit on the number of steps is reached.
     StepLimit {
-        /// The last time reached.
+        /// Last time reached.
         time: f64,
         /// Steps tried.
         steps: usize,
-        /// How it would go on.
+        /// Length of the next step, and the cause of short steps.
         pace: Pace,
     },
-    /// The limit on time by the clock on the wall.
+    /// The limit on wall-clock time is reached.
     WallTimeLimit {
-        /// The last time reached.
+        /// Last time reached.
         time: f64,
     },
-    /// An event at which the run was to end.
+    /// An event ended the run.
     Event {
-        /// When.
+        /// Time of the event.
         time: f64,
-        /// The name of the event.
+        /// Name of the event.
         event: &'static str,
     },
-    /// The crossings of an event follow each other ever faster, without end: a ball that comes to rest, or one thing that
-    /// undoes another.
+    /// The crossings of an event accumulate at ever shorter intervals: a ball comes to rest, or two events undo
+    /// each other.
     EventsAccumulate {
-        /// The last of them.
+        /// Time of the last crossing.
         time: f64,
-        /// The name of the event.
+        /// Name of the event.
         event: &'static str,
     },
-    /// The function of an event is not a number.
+    /// The function of an event is NaN.
     EventNotFinite {
-        /// The last time reached.
+        /// Last time reached.
         time: f64,
-        /// The name of the event.
+        /// Name of the event.
         event: &'static str,
     },
-    /// The controller of a motion failed.
+    /// The controller of a motion returned an error.
     #[cfg(feature = "alloc")]
     ControllerFailed {
-        /// When it was called.
+        /// Time of the call.
         time: f64,
-        /// What it said.
+        /// Message of the controller.
         said: String,
     },
-    /// What kept a member of an ensemble from its end in another process, which told it in words.
+    /// A member of an ensemble failed in another process, which reported the ending as text.
     #[cfg(feature = "std")]
     Elsewhere {
-        /// The last time reached.
+        /// Last time reached.
         time: f64,
-        /// Its words.
+        /// Text of the ending.
         said: String,
     },
-    /// The callback said so.
+    /// The callback cancelled the run.
     Cancelled {
-        /// The last time reached.
+        /// Last time reached.
         time: f64,
     },
 }
 
-/// How long the steps are where the limit on them is reached, and what keeps them short, as far as the method can tell.
+/// Length of the next step when the limit on steps is reached, and the cause of short steps as far as the
+/// method can tell.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Pace {
-    /// The length of the next step, where the method chooses it.
+    /// Length of the next step, if the method controls the step length.
     pub step: Option<f64>,
     /// Rate of the fastest decay or growth, if the problem looks stiff: stability, not accuracy, limits the step length.
     pub stiffness: Option<f64>,
-    /// Where the time is too coarse for the tolerance, how far its numbers lie apart: from one to the next the rates change by
-    /// what costs a step half of its tolerance or more, because the time is counted from far away.
+    /// Distance between neighbouring floating-point times, if it is too coarse for the tolerance: from one time
+    /// to the next the accelerations change so much that a step loses half of its tolerance or more. The time
+    /// is then too far from its origin.
     pub time_apart: Option<f64>,
 }
 
-/// Why the limit on steps was reached, as the end of a sentence.
+/// Formats the cause of the step limit as the end of a sentence.
 impl Display for Pace {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         if let Some(apart) = self.time_apart {
@@ -177,7 +179,7 @@ impl Display for Pace {
 }
 
 impl Ending {
-    /// The last time reached.
+    /// Returns the last time reached.
     pub fn time(&self) -> f64 {
         match *self {
             Self::Complete { time }
@@ -202,17 +204,17 @@ impl Ending {
         }
     }
 
-    /// Whether the end asked for was reached.
+    /// True if the motion reached the requested end time.
     pub fn is_complete(&self) -> bool {
         matches!(self, Self::Complete { .. })
     }
 
-    /// Whether something other than the caller kept the motion from the end.
+    /// True if something other than the caller stopped the motion before its end.
     pub fn is_failure(&self) -> bool {
         !matches!(self, Self::Complete { .. } | Self::Event { .. } | Self::Cancelled { .. })
     }
 
-    /// The ending of an integration that an error stopped after `time`.
+    /// Returns the ending of an integration that `error` stopped after `time`.
     pub(crate) fn of(error: Error, time: f64) -> Self {
         match error {
             Error::EquationsNotFinite { row, .. } => Self::NotFinite { time, row },
@@ -277,7 +279,7 @@ impl Display for Ending {
     }
 }
 
-/// The sentence of its `Display`: `main` prints an ending that it returns as an error by this.
+/// Prints the sentence of `Display`, since `main` prints a returned error by `Debug`.
 impl Debug for Ending {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         Display::fmt(self, f)

@@ -1,72 +1,72 @@
-//! What can go wrong with an ensemble as a whole.
+//! Errors of an ensemble as a whole.
 
 use core::fmt::{self, Debug, Display, Formatter};
 
 use super::Error;
 
-/// Why an ensemble cannot be integrated, resumed or put together.
+/// Reason why an ensemble cannot be integrated, resumed or merged.
 #[non_exhaustive]
 #[derive(Clone, PartialEq)]
 pub enum EnsembleError {
-    /// A part of an ensemble that does not exist.
+    /// The requested shard of an ensemble does not exist.
     Shard {
-        /// Which part was asked for, counted from 0.
+        /// Index of the requested shard, counted from 0.
         shard: usize,
-        /// How many parts there are.
+        /// Number of shards.
         of: usize,
     },
-    /// Outcomes of different ensembles, which are no parts of one.
+    /// The outcomes to merge belong to different ensembles.
     Merge {
-        /// In what they differ.
+        /// Difference between the ensembles.
         reason: &'static str,
     },
-    /// A member taken over from another run, which is not to be mixed with this one.
+    /// A member to resume from belongs to another run, whose results must not be mixed with this run.
     OtherRun {
-        /// The index of the member.
+        /// Index of the member.
         member: usize,
-        /// In what the runs differ.
+        /// Difference between the runs.
         differs: &'static str,
     },
-    /// Rows to resume from, where code that no fingerprint sees decides about them and the run has no
+    /// The rows to resume from depend on code that no fingerprint covers, and the run has no
     /// [tag](crate::Ensemble::tag).
     Untagged {
-        /// The code: an event, a controller, ….
+        /// Kind of code: an event, a controller, ….
         code: String,
     },
-    /// What went wrong with a member in another process, which told it in words.
+    /// A member failed in another process, which reported the error as text.
     Elsewhere {
-        /// Its words.
+        /// Text of the error.
         said: String,
     },
-    /// A file of a table in Parquet that cannot be read or written, or does not belong there.
+    /// A Parquet file of a table cannot be read or written, or does not belong to the table.
     #[cfg(feature = "parquet")]
     Parquet {
-        /// The file, or the directory.
+        /// Path of the file or directory.
         file: String,
-        /// What is wrong.
+        /// Reason of the failure.
         reason: String,
     },
-    /// The ranks of MPI cannot do this ensemble together.
+    /// The MPI ranks cannot integrate this ensemble together.
     Ranks {
-        /// The first rank at fault.
+        /// First rank at fault.
         rank: usize,
-        /// Why not.
+        /// Reason of the failure.
         reason: &'static str,
     },
-    /// A member asked for that the ensemble does not have.
+    /// The ensemble has no member of this index.
     NoSuchMember {
-        /// Its index.
+        /// Index requested.
         member: usize,
-        /// How many members there are.
+        /// Number of members.
         count: usize,
     },
-    /// A table of members that are done, but not of this system, or of several runs.
+    /// The table of finished members belongs to another system, or to several runs.
     Resume {
-        /// The line, counted from 1.
+        /// Line of the table, counted from 1.
         line: usize,
-        /// The column, counted from 1.
+        /// Column of the table, counted from 1.
         column: usize,
-        /// What is wrong there.
+        /// Reason of the mismatch.
         reason: &'static str,
     },
 }
@@ -114,7 +114,7 @@ impl Display for EnsembleError {
     }
 }
 
-/// The sentence of its `Display`: `main` prints an error that it returns by this.
+/// Prints the sentence of `Display`, since `main` prints a returned error by `Debug`.
 impl Debug for EnsembleError {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         Display::fmt(self, f)
