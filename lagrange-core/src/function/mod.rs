@@ -1,8 +1,8 @@
-//! Functions that a user supplies: potentials, fields, prescribed motions.
+//! User-supplied functions: potentials, fields, prescribed motions.
 //!
-//! A field named in `#[function(U(r))]` is one. The equations need its derivatives, up to the second as a rule; each
-//! order is a trait of its own here, so that a form that does not go far enough is a compile-time error that says so.
-//! Whoever implements [`Function`] has them all.
+//! A field named in `#[function(U(r))]` holds such a function. The equations need its derivatives, usually up
+//! to the second. Each order of derivative has its own trait, so a type that lacks a required order fails to
+//! compile with a clear message. A type that implements [`Function`] has all of them.
 
 mod check;
 mod supplied;

@@ -1,8 +1,9 @@
-//! What is asked of a function that a user supplies, order by order of its derivatives.
+//! Traits of user-supplied functions, one for each order of derivative.
 
 use crate::number::{Dual, Scalar};
 
-/// A function of `I` numbers with `O` results, written once for every scalar; its derivatives follow.
+/// A function of `I` numbers with `O` results, written once for every scalar. Dual numbers supply its
+/// derivatives.
 ///
 /// ```
 /// use lagrange_core::prelude::*;
@@ -32,18 +33,18 @@ use crate::number::{Dual, Scalar};
     note = "implement `lagrange_core::Function<{I}, {O}>` for it; `WithDerivatives` and `Table` are known over `f64` alone, which is enough for `Dop853`"
 )]
 pub trait Function<const I: usize, const O: usize> {
-    /// The values at `x`.
+    /// Returns the values at `x`.
     fn eval<S: Scalar>(&self, x: [S; I]) -> [S; O];
 }
 
-/// A function whose values can be had for the scalar `S`.
+/// A function with values over the scalar `S`.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not known to be a function over `{S}` of {I} number(s) with {O} result(s)",
     label = "a field named in `#[function(…)]` must be one",
     note = "implement `lagrange_core::Function<{I}, {O}>` for it; for `f64` alone there are `WithDerivatives` and `Table`"
 )]
 pub trait Value<S, const I: usize, const O: usize> {
-    /// The values at `x`.
+    /// Returns the values at `x`.
     fn value(&self, x: [S; I]) -> [S; O];
 }
 
@@ -54,7 +55,7 @@ pub trait Value<S, const I: usize, const O: usize> {
     note = "implement `lagrange_core::Function<{I}, {O}>` for it, from which all derivatives follow; for `f64` alone `WithDerivatives` and `Table` know the first and the second"
 )]
 pub trait First<S, const I: usize, const O: usize>: Value<S, I, O> {
-    /// ∂/∂x_i at `x`.
+    /// Returns ∂/∂x_i of each result at `x`.
     fn first(&self, x: [S; I], i: [usize; 1]) -> [S; O];
 }
 
@@ -65,7 +66,7 @@ pub trait First<S, const I: usize, const O: usize>: Value<S, I, O> {
     note = "implement `lagrange_core::Function<{I}, {O}>` for it, from which all derivatives follow; for `f64` alone `WithDerivatives` and `Table` know the first and the second"
 )]
 pub trait Second<S, const I: usize, const O: usize>: First<S, I, O> {
-    /// ∂²/∂x_i ∂x_j at `x`.
+    /// Returns ∂²/∂x_i ∂x_j of each result at `x`.
     fn second(&self, x: [S; I], ij: [usize; 2]) -> [S; O];
 }
 
@@ -76,11 +77,11 @@ pub trait Second<S, const I: usize, const O: usize>: First<S, I, O> {
     note = "implement `lagrange_core::Function<{I}, {O}>` for it, from which all derivatives follow; over `f64` a `SmoothTable` knows the third, `WithDerivatives` and `Table` know none"
 )]
 pub trait Third<S, const I: usize, const O: usize>: Second<S, I, O> {
-    /// ∂³/∂x_i ∂x_j ∂x_k at `x`.
+    /// Returns ∂³/∂x_i ∂x_j ∂x_k of each result at `x`.
     fn third(&self, x: [S; I], ijk: [usize; 3]) -> [S; O];
 }
 
-/// `x` with the derivative along the coordinate `i`.
+/// Returns `x` as dual numbers with slope 1 in argument `i`.
 #[inline(always)]
 fn seeded<S: Scalar, const I: usize>(x: [S; I], i: usize) -> [Dual<S>; I] {
     let mut x = x.map(|value| Dual { value, slope: S::constant(0.0) });
@@ -118,18 +119,18 @@ impl<F: Function<I, O>, S: Scalar, const I: usize, const O: usize> Third<S, I, O
     }
 }
 
-/// A function of `f64` with its gradient and Hessian written by hand; [`WithDerivatives`] makes it usable in a system, and
-/// [`check_derivatives`](super::check_derivatives) compares them with differences.
+/// A function of `f64` with hand-written gradient and Hessian. [`WithDerivatives`] makes it usable in a system,
+/// and [`check_derivatives`](super::check_derivatives) compares its derivatives with finite differences.
 pub trait FunctionWithDerivatives<const I: usize, const O: usize> {
-    /// The values at `x`.
+    /// Returns the values at `x`.
     fn value(&self, x: [f64; I]) -> [f64; O];
-    /// For each result its gradient.
+    /// Returns the gradient of each result at `x`.
     fn gradient(&self, x: [f64; I]) -> [[f64; I]; O];
-    /// For each result its matrix of second derivatives.
+    /// Returns the Hessian of each result at `x`.
     fn hessian(&self, x: [f64; I]) -> [[[f64; I]; I]; O];
 }
 
-/// A hand-written function as a field of a system over `f64`.
+/// A function with hand-written derivatives, as a field of a system over `f64`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WithDerivatives<F>(pub F);
 

@@ -11,13 +11,14 @@ use alloc::vec::Vec;
 use super::supplied::{First, Second, Value};
 use crate::error::Error;
 
-/// The natural cubic spline through given points: twice continuously differentiable, with the second derivative
-/// zero at both ends (Stoer and Bulirsch, *Introduction to Numerical Analysis*, 2.5.2). Beyond the ends it goes on
-/// as the straight line that it ends with.
+/// Natural cubic spline through given points: twice continuously differentiable, with the second derivative
+/// zero at both ends (Stoer and Bulirsch, *Introduction to Numerical Analysis*, 2.5.2). Beyond the ends it
+/// continues as the tangent.
 ///
-/// As a field named in `#[function(…)]` it serves systems over `f64`. Its third derivative jumps at the points, which costs digits and
-/// steps: twenty oscillations in a Morse potential of 320 points, by `Dop853` at the tolerance 10⁻¹², change the energy by 37,000
-/// tolerances in 6,600 steps, those in a [`SmoothTable`] of the same points by 7 in 900.
+/// A field named in `#[function(…)]` may have this type in systems over `f64`. The third derivative jumps at
+/// the points, which costs accuracy and steps. Example: twenty oscillations in a Morse potential of 320 points,
+/// by `Dop853` at the tolerance 10⁻¹², change the energy by 37,000 tolerances in 6,600 steps; a [`SmoothTable`]
+/// of the same points changes it by 7 in 900.
 ///
 /// ```
 /// use lagrange_core::function::Table;
@@ -35,16 +36,16 @@ pub struct Table {
 struct CubicKnot {
     x: f64,
     y: f64,
-    /// The second derivative there.
+    /// Second derivative at the point.
     bend: f64,
 }
 
 impl Table {
-    /// Through `(x, y)`, at least two points, `x` increasing.
+    /// Interpolates points `(x, y)`: at least two, with `x` increasing.
     ///
     /// # Errors
-    /// [`Error::Table`] for fewer points, for numbers that are not finite or lead to such, and where `x` does not
-    /// increase.
+    /// [`Error::Table`] for fewer points, for coordinates or derivatives that are not finite, and if `x` does
+    /// not increase.
     pub fn new(points: &[(f64, f64)]) -> Result<Self, Error> {
         if points.len() < 2 || !are_increasing(points) {
             return Err(Error::Table);
@@ -56,7 +57,7 @@ impl Table {
         if table.knots.iter().all(finite) { Ok(table) } else { Err(Error::Table) }
     }
 
-    /// The value and the first two derivatives.
+    /// Returns the value and the first two derivatives.
     fn at(&self, x: f64) -> [f64; 3] {
         let last = self.knots.len() - 1;
         let right = self.knots.partition_point(|knot| knot.x <= x).clamp(1, last);
@@ -73,7 +74,8 @@ impl Table {
     }
 }
 
-/// The second derivatives at the points, from the tridiagonal system for a continuous slope (Thomas's algorithm).
+/// Returns the second derivatives at the points. A continuous slope requires a tridiagonal system, solved by
+/// Thomas's algorithm.
 fn bends(points: &[(f64, f64)]) -> Vec<f64> {
     let n = points.len();
     let mut bends = alloc::vec![0.0; n];

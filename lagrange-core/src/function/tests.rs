@@ -1,11 +1,11 @@
-//! Derivatives of supplied functions against closed forms.
+//! Derivatives of user-supplied functions, compared with closed forms.
 
 use super::{
     First, Function, FunctionWithDerivatives, Second, Third, Value, WithDerivatives, check_derivatives,
 };
 use crate::number::Scalar;
 
-/// x² y z³ and x y⁴
+/// The functions x² y z³ and x y⁴.
 struct Monomials;
 
 const EXPONENTS: [[u32; 3]; 2] = [[2, 1, 3], [1, 4, 0]];
@@ -16,7 +16,7 @@ impl Function<3, 2> for Monomials {
     }
 }
 
-/// Its derivative by each variable in `by`, in whole numbers: (xⁿ)⁽ᵏ⁾ = n (n − 1) … xⁿ⁻ᵏ.
+/// Returns the derivatives by each variable in `by`, from (xⁿ)⁽ᵏ⁾ = n (n − 1) … xⁿ⁻ᵏ.
 fn closed(x: [f64; 3], by: &[usize]) -> [f64; 2] {
     EXPONENTS.map(|exponents| {
         let mut product = 1.0;
@@ -44,7 +44,7 @@ fn derivatives_up_to_the_third_are_exact_on_monomials() {
     }
 }
 
-/// sin(x) e^y, whose derivatives recur.
+/// The function sin(x) e^y.
 struct Wave;
 
 impl Function<2, 1> for Wave {
@@ -66,7 +66,7 @@ fn elementary_functions_come_through_at_every_order() {
     close(Wave.third([x, y], [0, 0, 0]), circle[3]);
 }
 
-/// Numbers that tell their places.
+/// Function whose derivatives encode their indices in their digits.
 struct Places;
 
 impl FunctionWithDerivatives<2, 2> for Places {
@@ -93,7 +93,8 @@ fn hand_written_derivatives_are_found_in_their_places() {
     assert_eq!(by_hand.second(x, [1, 1]), [111.0, 211.0]);
 }
 
-/// Sums of sines, exponentials and products, with derivatives by hand; `off` is what a part of one derivative is multiplied by.
+/// A sum of a sine, a product and an exponential with hand-written derivatives. Derivative `which` is
+/// multiplied by `off`.
 struct ByFormula {
     a: [f64; 7],
     off: f64,
@@ -129,7 +130,8 @@ impl FunctionWithDerivatives<2, 1> for ByFormula {
     }
 }
 
-/// 500 of them, right and off by 0.1 % in each of their six derivatives; `LAGRANGE_FORMULAS` says how many otherwise.
+/// Checks 500 functions, correct and with an error of 0.1 % in each of their six derivatives.
+/// `LAGRANGE_FORMULAS` sets another number of functions.
 #[test]
 fn a_derivative_that_is_off_by_a_thousandth_is_found_and_none_else() {
     let count =
@@ -146,7 +148,8 @@ fn a_derivative_that_is_off_by_a_thousandth_is_found_and_none_else() {
         for which in 0..6 {
             let wrong = ByFormula { a, off: 1.001, which };
             let found = check_derivatives(&WithDerivatives(wrong), x).expect_err("a wrong derivative");
-            // A gradient that is wrong has wrong derivatives of its own, too.
+            // A wrong gradient also has wrong differences, so its second derivatives are reported for the same
+            // argument.
             let by = if which < 2 { which } else { (which - 2) / 2 };
             assert_eq!(found.by, by, "{a:?} {x:?} {which}: {found}");
         }
@@ -162,7 +165,7 @@ fn what_is_wrong_is_said_with_its_arguments() {
     let start =
         "the second derivative of result 0 by arguments 0 and 0 is given as 4.004, where differences say ";
     assert!(text.starts_with(start) && text.contains(" ± "), "{text}");
-    // What follows from the values is right.
+    // Derivatives that follow from the values are correct.
     assert_eq!(check_derivatives(&Wave, [0.7, -0.4]), Ok(()));
     assert_eq!(check_derivatives(&Monomials, [2.0, 3.0, 5.0]), Ok(()));
 }

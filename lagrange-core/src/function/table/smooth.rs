@@ -1,4 +1,4 @@
-//! A tabulated function that is smooth enough for methods of high order.
+//! Tabulated functions smooth enough for methods of high order.
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -8,15 +8,16 @@ use nalgebra::{Matrix2, Vector2};
 use crate::error::Error;
 use crate::function::supplied::{First, Second, Third, Value};
 
-/// The natural quintic spline through given points: four times continuously differentiable, with the third and the fourth
-/// derivative zero at both ends, so that ∫ f‴² is least among all functions through the points (de Boor, *A Practical Guide to
-/// Splines*, chapter XIII). Beyond the ends it goes on as the parabola that it ends with.
+/// Natural quintic spline through given points: four times continuously differentiable, with the third and the
+/// fourth derivative zero at both ends. It minimizes ∫ f‴² among all functions through the points (de Boor, *A
+/// Practical Guide to Splines*, chapter XIII). Beyond the ends it continues as a parabola with the slope and
+/// the second derivative of the end.
 ///
-/// Motions in a potential of closely set points keep the tolerance, and take the steps that they take in the potential itself; a
-/// [`Table`](super::Table) takes several times as many and loses digits. Between points that are far apart or noisy it swings
-/// more than a `Table`.
+/// Motions in a potential of closely spaced points keep the tolerance and take as many steps as in the exact
+/// potential; with a [`Table`](super::Table) they take several times as many and lose digits. Between points
+/// that are far apart or noisy, a `SmoothTable` oscillates more than a `Table`.
 ///
-/// As a field named in `#[function(…)]` it serves systems over `f64`, up to third derivatives.
+/// A field named in `#[function(…)]` may have this type in systems over `f64`, up to third derivatives.
 ///
 /// ```
 /// use lagrange_core::function::SmoothTable;
@@ -31,7 +32,7 @@ pub struct SmoothTable {
     knots: Box<[QuinticKnot]>,
 }
 
-/// A point with the first two derivatives there.
+/// A point with the first two derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct QuinticKnot {
     x: f64,
@@ -41,10 +42,10 @@ struct QuinticKnot {
 }
 
 impl SmoothTable {
-    /// Through `(x, y)`, at least three points, `x` increasing.
+    /// Interpolates points `(x, y)`: at least three, with `x` increasing.
     ///
-    /// # Errors
-    /// [`Error::Table`] for fewer points, for numbers that are not finite or lead to such, and where `x` does not
+    /// [`Error::Table`] for fewer points, for coordinates or derivatives that are not finite, and if `x` does
+    /// not increase.
     /// increase.
     pub fn new(points: &[(f64, f64)]) -> Result<Self, Error> {
         if points.len() < 3 || !are_increasing(points) {
@@ -59,7 +60,7 @@ impl SmoothTable {
         if table.knots.iter().all(is_finite) { Ok(table) } else { Err(Error::Table) }
     }
 
-    /// The value and the first three derivatives.
+    /// Returns the value and the first three derivatives.
     fn at(&self, x: f64) -> [f64; 4] {
         let last = self.knots.len() - 1;
         let right = self.knots.partition_point(|knot| knot.x <= x).clamp(1, last);
@@ -67,7 +68,7 @@ impl SmoothTable {
         match x {
             x if x < a.x => a.parabola(x),
             x if x > b.x => b.parabola(x),
-            // From the nearer one, where the terms are small.
+            // Expands about the nearer point, where the terms are small.
             x if x - a.x < b.x - x => between(a, b, x),
             x => between(b, a, x),
         }
@@ -82,7 +83,7 @@ impl QuinticKnot {
     }
 }
 
-/// The quintic that has values and derivatives of both knots, and its first three derivatives.
+/// Returns the value and the first three derivatives of the quintic Hermite interpolant of two knots.
 fn between(a: QuinticKnot, b: QuinticKnot, x: f64) -> [f64; 4] {
     let width = b.x - a.x;
     let u = (x - a.x) / width;
@@ -98,8 +99,9 @@ fn between(a: QuinticKnot, b: QuinticKnot, x: f64) -> [f64; 4] {
     [value, slope / width, bend / (width * width), third / (width * width * width)]
 }
 
-/// What one point's slope and second derivative, and those of its neighbours, must satisfy: the third and the fourth
-/// derivative are the same on both sides, zero where there is no other side. Third derivatives are divided by 3, fourth ones by 12.
+/// Linear equations for the slope and the second derivative at one point and at its neighbours. They make the
+/// third and the fourth derivative continuous, and zero at an end. The third derivatives are divided by 3, the
+/// fourth by 12.
 struct Condition {
     before: Matrix2<f64>,
     here: Matrix2<f64>,
@@ -130,7 +132,7 @@ impl Condition {
     }
 }
 
-/// Slopes and second derivatives at the points, by Thomas's algorithm in blocks of two.
+/// Returns slopes and second derivatives at the points, by Thomas's algorithm with blocks of two.
 fn slopes_and_bends(points: &[(f64, f64)]) -> Option<Vec<Vector2<f64>>> {
     let mut found: Vec<Vector2<f64>> = Vec::with_capacity(points.len());
     let mut above: Vec<Matrix2<f64>> = Vec::with_capacity(points.len());
@@ -151,7 +153,8 @@ fn slopes_and_bends(points: &[(f64, f64)]) -> Option<Vec<Vector2<f64>>> {
     Some(found)
 }
 
-/// Without roots and absolute values, which a build without `std` and `libm` lacks.
+/// Inverts a 2 × 2 matrix without square roots and absolute values, which a build without `std` and `libm`
+/// lacks.
 fn inverse(a: &Matrix2<f64>) -> Option<Matrix2<f64>> {
     let determinant = a.m11 * a.m22 - a.m12 * a.m21;
     (determinant != 0.0).then(|| Matrix2::new(a.m22, -a.m12, -a.m21, a.m11) / determinant)
@@ -204,7 +207,8 @@ mod tests {
                 let jump = (before[order] - after[order]).abs();
                 assert!(jump < 1e-11 * size, "order {order} jumps by {jump} at {x}");
             }
-            // The fourth derivative is straight on each side: two differences have it at the point itself.
+            // The fourth derivative is linear on each side: extrapolating two differences gives its value at
+            // the point itself.
             let [left, right] = [-1e-4, 1e-4].map(|h| 2.0 * fourth(x, h / 2.0) - fourth(x, h));
             assert!((left - right).abs() < 1e-6 * size, "{left} and {right} at {x}");
         }
@@ -228,7 +232,8 @@ mod tests {
         }
     }
 
-    /// A parabola is the natural spline of its points; inside, the error falls with the sixth power of their distance.
+    /// The natural spline of points on a parabola is the parabola. For other functions the error inside falls
+    /// with the sixth power of the spacing.
     #[test]
     fn parabolas_are_exact_and_the_order_is_six() {
         let parabola = UNEVEN.map(|(x, _)| (x, 3.0 - 2.0 * x + x * x));

@@ -1,4 +1,4 @@
-//! The natural spline: what defines it, a published one, and how fast it converges.
+//! Tests of the natural spline: its definition, a published example, and its order of convergence.
 
 use super::Table;
 use crate::error::Error;
@@ -8,13 +8,13 @@ fn table(points: &[(f64, f64)]) -> Table {
     Table::new(points).expect("a table")
 }
 
-/// `n` equal steps of `f` from 0 to `end`.
+/// Returns the table of `f` at the ends of `n` equal steps from 0 to `end`.
 fn sampled(f: fn(f64) -> f64, end: f64, n: u32) -> Table {
     let points: Vec<_> = (0..=n).map(|i| end * f64::from(i) / f64::from(n)).map(|x| (x, f(x))).collect();
     table(&points)
 }
 
-/// Value and derivatives.
+/// Returns the value and the first two derivatives.
 fn jet(table: &Table, x: f64) -> [f64; 3] {
     [table.value([x])[0], table.first([x], [0])[0], table.second([x], [0, 0])[0]]
 }
@@ -36,7 +36,7 @@ fn it_is_twice_continuously_differentiable_and_straight_at_the_ends() {
     for (x, _) in UNEVEN {
         let (before, after) = (jet(&table, x.next_down()), jet(&table, x.next_up()));
         for order in 0..3 {
-            // The numbers next to x differ by 1e-15, and the third derivative is below 1000.
+            // Neighbouring numbers at x differ by at most 1e-15, and the third derivative is below 1000.
             let jump = (before[order] - after[order]).abs();
             assert!(jump < 1e-11, "order {order} jumps by {jump} at {x}");
         }
@@ -52,9 +52,9 @@ fn the_derivatives_are_those_of_the_values() {
     for x in [-2.0, -0.9, -0.1, 0.3, 1.1, 2.05, 3.9, 5.0] {
         let h = 1e-4;
         let [left, middle, right] = [x - h, x, x + h].map(|x| jet(&table, x));
-        // The value is a cubic: its central difference is off by y‴ h²/6.
+        // The value is a cubic: its central difference has the error y‴ h²/6.
         assert!(((right[0] - left[0]) / (2.0 * h) - middle[1]).abs() < 1e-5);
-        // The slope is a parabola, on which the central difference is exact.
+        // The slope is a parabola, for which the central difference is exact.
         assert!(((right[1] - left[1]) / (2.0 * h) - middle[2]).abs() < 1e-9);
     }
 }
@@ -68,7 +68,7 @@ fn it_is_the_natural_spline_of_the_textbook() {
     for (x, expected) in [(1.0, [2.0, 0.75, 0.0]), (2.0, [3.0, 1.5, 1.5])] {
         assert_eq!(jet(&three, x), expected);
     }
-    // On the left piece 2 + 3/4 (x − 1) + 1/4 (x − 1)³.
+    // On the left piece the spline is 2 + 3/4 (x − 1) + 1/4 (x − 1)³.
     assert_eq!(three.value([1.5]), [2.0 + 0.375 + 0.03125]);
     let exponential = sampled(f64::exp, 3.0, 3);
     let published =
@@ -81,7 +81,7 @@ fn it_is_the_natural_spline_of_the_textbook() {
     }
 }
 
-/// Away from the ends, whose bend is forced to zero, the error is of the order h⁴.
+/// Away from the ends, where the second derivative is forced to zero, the error is of order h⁴.
 #[test]
 fn it_converges_with_order_four_inside() {
     let error = |n: u32| {
@@ -124,7 +124,7 @@ fn bad_points_are_an_error() {
         &[(0.0, 1.0), (f64::NAN, 2.0)],
         &[(0.0, f64::NAN), (1.0, 2.0)],
         &[(0.0, 1.0), (f64::INFINITY, 2.0)],
-        // Their distance, and the slope between them, overflow.
+        // The difference of x, or the slope, overflows.
         &[(-f64::MAX, 1.0), (f64::MAX, 2.0)],
         &[(0.0, -f64::MAX), (1e-10, f64::MAX), (1.0, 0.0)],
     ];
