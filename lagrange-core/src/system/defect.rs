@@ -1,8 +1,8 @@
-//! Whether matrices among the parameters are what `#[parameter(…)]` says of them.
+//! Deviation of parameter matrices from the properties that `#[parameter(…)]` declares.
 
 use crate::number::{Scalar, sum};
 
-/// How far a matrix is from being what it is said to be, beside its size.
+/// Deviation of a matrix from its declared property, with the size to which it is relative.
 #[derive(Clone, Copy, Debug)]
 pub struct Defect<T> {
     pub(super) wanted: &'static str,
@@ -10,13 +10,14 @@ pub struct Defect<T> {
     pub(super) size: T,
 }
 
-/// Σ |aᵢⱼ − aⱼᵢ| beside Σ |aᵢⱼ|.
+/// Returns Σ |aᵢⱼ − aⱼᵢ| as the deviation and Σ |aᵢⱼ| as the size.
 pub fn asymmetry<T: Scalar, const K: usize>(a: [[T; K]; K]) -> Defect<T> {
     let defect = sum(K, |i| sum(K, |j| (a[i][j] - a[j][i]).abs()));
     Defect { wanted: "symmetric", defect, size: sum(K, |i| sum(K, |j| a[i][j].abs())) }
 }
 
-/// Σ |RᵀR − 1|; of a matrix of 2 or 3 rows also whether its last row is on the right side of the others.
+/// Returns Σ |RᵀR − 1| as the deviation. For 2 or 3 rows a term for the orientation is added: a reflection is
+/// no rotation.
 pub fn distortion<T: Scalar, const K: usize>(r: [[T; K]; K]) -> Defect<T> {
     let one = |is_one: bool| T::constant(if is_one { 1.0 } else { 0.0 });
     let lengths = sum(K, |i| sum(K, |j| (sum(K, |k| r[k][i] * r[k][j]) - one(i == j)).abs()));

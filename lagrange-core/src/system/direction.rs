@@ -1,63 +1,64 @@
-//! Directions in time and state, and how the equations change along one.
+//! Directions in (t, q, q̇), and derivatives of the equations along them.
 
 use nalgebra::SVector;
 
 use crate::number::{Scalar, Wide, vector};
 
-/// A direction in which to differentiate: how fast the time and each entry of the state change.
+/// Direction of differentiation: rate of change of the time and of each entry of the state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Direction<T, const N: usize> {
-    /// Of the time.
+    /// Rate of the time.
     pub t: T,
-    /// Of the coordinates.
+    /// Rates of the coordinates.
     pub q: SVector<T, N>,
-    /// Of the velocities.
+    /// Rates of the velocities.
     pub v: SVector<T, N>,
 }
 
 impl<T: Scalar, const N: usize> Direction<T, N> {
-    /// Nothing changes.
+    /// The zero direction.
     pub fn zero() -> Self {
         let zero = T::constant(0.0);
         Self { t: zero, q: vector([zero; N]), v: vector([zero; N]) }
     }
 
-    /// The time alone changes, at the rate 1.
+    /// Direction in which the time alone changes, at rate 1.
     pub fn of_time() -> Self {
         Self { t: T::constant(1.0), ..Self::zero() }
     }
 
-    /// Coordinate `i` alone changes, at the rate 1.
+    /// Direction in which coordinate `i` alone changes, at rate 1.
     pub fn of_coordinate(i: usize) -> Self {
         Self { q: unit(i), ..Self::zero() }
     }
 
-    /// Velocity `i` alone changes, at the rate 1.
+    /// Direction in which velocity `i` alone changes, at rate 1.
     pub fn of_velocity(i: usize) -> Self {
         Self { v: unit(i), ..Self::zero() }
     }
 }
 
-/// The unit vector `i`; zero beyond the last.
+/// Returns unit vector `i`, or zero for `i` ≥ `K`.
 pub(crate) fn unit<T: Scalar, const K: usize>(i: usize) -> SVector<T, K> {
     vector(core::array::from_fn(|j| T::constant(if i == j { 1.0 } else { 0.0 })))
 }
 
-/// Derivatives along a direction, at fixed accelerations and multipliers, of what the equations of motion set to zero.
+/// Derivatives of the residuals of the equations of motion along a direction, at fixed accelerations and
+/// multipliers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ResidualChange<T, const N: usize, const M: usize> {
-    /// Of M q̈ − h − Fᵀλ.
+    /// Derivative of M q̈ − h − Fᵀλ.
     pub motion: SVector<T, N>,
-    /// Of F q̈ + γ.
+    /// Derivative of F q̈ + γ.
     pub acceleration: SVector<T, M>,
-    /// Of F q̇ + b.
+    /// Derivative of F q̇ + b.
     pub rate: SVector<T, M>,
-    /// Of Φ; zero for velocity constraints.
+    /// Derivative of Φ; zero for velocity constraints.
     pub position: SVector<T, M>,
 }
 
 impl<T: Scalar, const N: usize, const M: usize> ResidualChange<T, N, M> {
-    /// The sum.
+    /// Returns the sum of two derivatives.
     #[cfg(feature = "alloc")]
     pub(crate) fn plus(&self, other: &Self) -> Self {
         Self {
@@ -68,7 +69,7 @@ impl<T: Scalar, const N: usize, const M: usize> ResidualChange<T, N, M> {
         }
     }
 
-    /// What is in one lane.
+    /// Returns the derivatives in one SIMD lane.
     pub(crate) fn lane<X: nalgebra::Scalar>(&self, lane: usize) -> ResidualChange<X, N, M>
     where
         T: Wide<X>,

@@ -1,15 +1,16 @@
-//! What the numbers of a state are given as.
+//! Conversion of arrays and vectors to the entries of a state.
 
 use nalgebra::SVector;
 
-/// The coordinates, velocities or momenta of a state: an array, or what else becomes a vector of `nalgebra`.
+/// Coordinates, velocities or momenta of a state: an array, or any type that converts to a vector of
+/// `nalgebra`.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not {N} numbers of the type `{T}`",
     label = "not {N} numbers `{T}`",
     note = "write an array with an entry for each coordinate, and whole numbers with a point: `[1.0, 0.0]`"
 )]
 pub trait Entries<T, const N: usize> {
-    /// As a vector.
+    /// Converts the entries to a vector.
     fn into_vector(self) -> SVector<T, N>;
 }
 

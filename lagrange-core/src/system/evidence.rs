@@ -1,15 +1,14 @@
-//! How sure a statement about a system is.
+//! Certainty of a statement about a system.
 
 use core::fmt::{self, Display, Formatter};
 
-/// What stands behind a verdict of the derive.
+/// Evidence for a verdict of the derive macro.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Evidence {
-    /// What must vanish vanishes by the form of its expression, and what must not has a value whose error bound
-    /// excludes zero.
+    /// Exact: zeros vanish in canonical form, and nonzeros have a value whose error bound excludes zero.
     Proved,
-    /// It held, to rounding, at this many random points (that satisfy the constraints); 0 where none could be found, so that
-    /// nothing is known.
+    /// Numerical: the statement holds, to rounding, at this number of random points that satisfy the
+    /// constraints. For 0 no such point was found, so nothing is known.
     Held(u32),
 }
 

@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::names::Entry;
 use crate::number::{Real, exceeds, power_of_epsilon};
 
-/// Every entry of a state must be a number, every parameter what is said of it.
+/// Checks that the state is finite and that every parameter has its declared properties.
 pub(crate) fn check_finite<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
@@ -17,8 +17,8 @@ pub(crate) fn check_finite<L: Lagrangian<N, M, Scalar: Real>, const N: usize, co
     check_entries(system, state.t, [&state.q, &state.v], Entry::Velocity)
 }
 
-/// Time, coordinates and what belongs to them, velocities or momenta, must be numbers; `other` names the latter. The
-/// parameters must be what is said of them.
+/// Checks that the time, the coordinates and `others` (velocities or momenta, named by `other`) are finite, and
+/// that every parameter has its declared properties.
 pub(crate) fn check_entries<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     t: L::Scalar,
@@ -35,8 +35,9 @@ pub(crate) fn check_entries<L: Lagrangian<N, M, Scalar: Real>, const N: usize, c
     }
 }
 
-/// Beyond what many products leave, ε^(2/3) of the size, a matrix is not what it is said to be; nor is it
-/// where an entry is not finite, also one that the equations do not use.
+/// Checks the declared properties of the parameters. The tolerance is ε^(2/3) of the size of the matrix, above
+/// the round-off of many matrix products. A matrix with an entry that is not finite fails, even if the
+/// equations do not use the entry.
 fn check_parameters<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
 ) -> Result<(), Error> {

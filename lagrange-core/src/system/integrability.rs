@@ -1,34 +1,34 @@
-//! What kind of constraint it is: whether it restricts positions, or only velocities.
+//! Classification of constraints: restrictions of positions, or only of velocities.
 
 use core::fmt::{self, Display, Formatter};
 
 use super::evidence::Evidence;
 
-/// Whether a constraint can be integrated to one that holds no velocities.
+/// Whether a velocity constraint can be integrated to a holonomic one.
 ///
-/// A velocity constraint Σ F_a q̇_a + b = 0 is the form ω = Σ F_a dq_a + b dt in the space of (q, t), and motions
-/// are curves along which ω = 0 and t increases. Integrable means that they stay on surfaces I(q, t) = constant.
-/// All this is judged where the holonomic constraints hold, for parameters and functions in general: a
-/// parameter that happens to be zero can make a nonholonomic constraint integrable.
+/// A velocity constraint Σ F_a q̇_a + b = 0 is the form ω = Σ F_a dq_a + b dt in the space of (q, t). Motions
+/// are curves along which ω = 0 and t increases. Integrable means that they stay on surfaces I(q, t) =
+/// constant. The verdict holds where the holonomic constraints are satisfied, for generic parameters and
+/// functions: a parameter that happens to be zero can make a nonholonomic constraint integrable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Integrability {
-    /// Written as Φ(q, t) = 0.
+    /// Holonomic as written: Φ(q, t) = 0.
     Holonomic,
-    /// A velocity constraint that is the rate of change of a function of (q, t), at least locally: dω = 0.
+    /// A velocity constraint that is, at least locally, the rate of change of a function of (q, t): dω = 0.
     Exact,
-    /// A velocity constraint that becomes exact when it is multiplied by some function of (q, t): ω ∧ dω = 0
-    /// (Frobenius), but dω is not zero.
+    /// A velocity constraint that is exact after multiplication by a function of (q, t): ω ∧ dω = 0
+    /// (Frobenius), but dω ≠ 0.
     IntegratingFactor,
-    /// Not integrable alone, but the set of constraints has integrals of which this one is a consequence.
+    /// Not integrable alone, but implied by the integrals of the whole set of constraints.
     Together,
-    /// Not integrable, with or without the others.
+    /// Not integrable, neither alone nor together with the other constraints.
     Nonholonomic,
-    /// No random point was found at which it could be judged.
+    /// Undecided: no random point was found for a numerical test.
     Undecided,
 }
 
 impl Integrability {
-    /// Whether the constraint restricts the positions: it was written so, or can be integrated.
+    /// True if the constraint restricts positions: it is holonomic as written or integrable.
     pub const fn is_integrable(self) -> bool {
         matches!(self, Self::Holonomic | Self::Exact | Self::IntegratingFactor | Self::Together)
     }
@@ -47,16 +47,16 @@ impl Display for Integrability {
     }
 }
 
-/// The kind of one constraint.
+/// Classification of one constraint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Classification {
-    /// The verdict.
+    /// Verdict on the integrability.
     pub integrability: Integrability,
-    /// How sure it is.
+    /// Evidence for the verdict.
     pub evidence: Evidence,
 }
 
-/// The verdict and its evidence, as in `nonholonomic (as far as 8 random points show)`.
+/// Formats verdict and evidence, as in `nonholonomic (as far as 8 random points show)`.
 impl Display for Classification {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write!(f, "{} ({})", self.integrability, self.evidence)
@@ -64,38 +64,39 @@ impl Display for Classification {
 }
 
 impl Classification {
-    /// No verdict.
+    /// Classification without a verdict.
     pub const UNDECIDED: Self = Self { integrability: Integrability::Undecided, evidence: Evidence::Held(0) };
 }
 
-/// How many of the velocity constraints, as a set, can be integrated.
+/// Integrability of the velocity constraints as a set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Extent {
-    /// The set is integrable: its constraints amount to as many holonomic ones.
+    /// The set is integrable: it is equivalent to the same number of holonomic constraints.
     All,
     /// Some combinations of the constraints are integrable, others are not.
     Some,
-    /// The constraints leave every configuration within reach that the holonomic ones leave.
+    /// No combination is integrable: the velocity constraints restrict the reachable configurations no further
+    /// than the holonomic ones.
     None,
 }
 
-/// The integrals of a set of velocity constraints: independent functions I(q, t), beside those that the
-/// holonomic constraints fix, that are constant along every motion that the constraints allow.
+/// Integrals of a set of velocity constraints: functions I(q, t) that are constant along every admissible
+/// motion. They are independent of one another and of the functions that the holonomic constraints fix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Integrals {
-    /// How many there are.
+    /// Number of integrals.
     pub count: usize,
-    /// How many velocity constraints are independent: the most there could be.
+    /// Number of independent velocity constraints, an upper bound of `count`.
     pub of: usize,
-    /// How sure the count is.
+    /// Evidence for `count`.
     pub evidence: Evidence,
 }
 
 impl Integrals {
-    /// Where there is no velocity constraint.
+    /// Integrals of a system without velocity constraints.
     pub const VOID: Self = Self { count: 0, of: 0, evidence: Evidence::Proved };
 
-    /// All, some or none of the constraints; all where there are none.
+    /// Returns the extent of integrability: `All` if there are no velocity constraints.
     pub const fn extent(self) -> Extent {
         if self.count == self.of {
             Extent::All

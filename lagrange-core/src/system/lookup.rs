@@ -1,4 +1,4 @@
-//! From names to indices, and what a name means that was asked for in the wrong place.
+//! Lookup of names, with hints for names that belong elsewhere.
 
 #[cfg(test)]
 mod tests;
@@ -13,18 +13,18 @@ use super::lagrangian::Lagrangian;
 use crate::error::Error;
 use crate::names::Entry;
 
-/// The names of the coordinates, then of the velocities.
+/// Returns the names of the coordinates, followed by those of the velocities.
 pub(crate) fn entries<L: Lagrangian<N, M>, const N: usize, const M: usize>() -> Vec<String> {
     (0..2 * N).map(|index| entry::<L, N, M>(index).to_string()).collect()
 }
 
-/// What is at this index of (q, q̇).
+/// Returns the entry at `index` of (q, q̇).
 pub(crate) fn entry<L: Lagrangian<N, M>, const N: usize, const M: usize>(index: usize) -> Entry {
     let name = L::COORDINATES[index % N];
     if index < N { Entry::Coordinate(name) } else { Entry::Velocity(name) }
 }
 
-/// The index of `name` among `known`.
+/// Returns the index of `name` among `known`.
 pub(crate) fn index<L: Lagrangian<N, M>, const N: usize, const M: usize>(
     known: &[impl AsRef<str>],
     kind: &'static str,
@@ -34,7 +34,8 @@ pub(crate) fn index<L: Lagrangian<N, M>, const N: usize, const M: usize>(
     found.ok_or_else(|| unknown::<L, N, M>(known, kind, name))
 }
 
-/// The indices of the entries of these names; `r` names all elements `r[0]`, `r[1]`, … of a vector.
+/// Returns the indices of the entries with these names. The name `r` of a vector stands for all elements
+/// `r[0]`, `r[1]`, ….
 pub(crate) fn indices<L: Lagrangian<N, M>, const N: usize, const M: usize>(
     known: &[impl AsRef<str>],
     kind: &'static str,
@@ -54,7 +55,7 @@ pub(crate) fn indices<L: Lagrangian<N, M>, const N: usize, const M: usize>(
     Ok(found)
 }
 
-/// Whether `entry` is what `name` says, or an element of the vector of this name.
+/// True if `entry` is `name`, or an element of the vector `name`.
 fn is_part(entry: &str, name: &str) -> bool {
     entry.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('['))
 }
@@ -69,7 +70,7 @@ pub(crate) fn unknown<L: Lagrangian<N, M>, const N: usize, const M: usize>(
         Some(format!("it is a vector: name an element, such as `{element}`"))
     } else {
         let near = || Some(format!("did you mean `{}`?", nearest(name, &known)?));
-        // A name that is far from all is most likely that of a field that is in no expression.
+        // A name unlike all others is probably a field that occurs in no expression.
         let idle = || {
             let names = known.join("`, `");
             kind.ends_with("parameter").then(|| {
@@ -81,7 +82,7 @@ pub(crate) fn unknown<L: Lagrangian<N, M>, const N: usize, const M: usize>(
     Error::UnknownName { name: name.into(), kind, hint, known }
 }
 
-/// What a name stands for, and the method of a sample that gives it.
+/// Returns the meaning of a name, and the method of a sample that returns its value.
 fn meaning<L: Lagrangian<N, M>, const N: usize, const M: usize>(name: &str) -> Option<String> {
     let coordinates = L::COORDINATES.into_iter().flat_map(|x| {
         let (base, index) = x.split_at(x.find('[').unwrap_or(x.len()));
@@ -117,7 +118,7 @@ fn meaning<L: Lagrangian<N, M>, const N: usize, const M: usize>(name: &str) -> O
     })
 }
 
-/// The name that differs by the least, if it differs by little; in capital letters least of all.
+/// Returns the most similar name, if it is similar enough. Differences of case alone count as zero.
 fn nearest<'a>(name: &str, known: &'a [String]) -> Option<&'a String> {
     let allowed = match name.chars().count() {
         0 | 1 => return None,
@@ -129,7 +130,8 @@ fn nearest<'a>(name: &str, known: &'a [String]) -> Option<&'a String> {
     known.iter().filter(|known| distance(known) <= allowed).min_by_key(distance)
 }
 
-/// How many letters are to be changed, left out, put in or swapped with the next (Damerau 1964).
+/// Damerau–Levenshtein distance (Damerau 1964): number of letters changed, deleted, inserted or swapped with
+/// the next.
 fn distance(from: &str, to: &str) -> usize {
     let (from, to): (Vec<char>, Vec<char>) = (from.chars().collect(), to.chars().collect());
     let mut rows: Vec<Vec<usize>> = (0..=from.len()).map(|i| (i..=i + to.len()).collect()).collect();

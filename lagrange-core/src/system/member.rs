@@ -1,11 +1,11 @@
-//! Members of fields that are structs: what a derive, which cannot see their types, reads numbers by.
+//! Access to numbers inside fields that are structs, whose types the derive macro cannot see.
 
 use nalgebra::{Quaternion, Rotation, SMatrix, Translation, UnitQuaternion};
 
 use crate::number::Scalar;
 
-/// Numbers `T` in a member that is declared to be of a shape: a number, `[T; 3]`, rows `[[T; 3]; 3]`, a rotation or a
-/// quaternion of length 1.
+/// Access to the numbers `T` of a member with a declared shape: a number, `[T; 3]`, rows `[[T; 3]; 3]`, a
+/// rotation or a unit quaternion.
 #[diagnostic::on_unimplemented(
     message = "the type of this member is `{Self}`, but it is declared as `{Shape}`",
     label = "declared as `{Shape}`",
@@ -13,14 +13,14 @@ use crate::number::Scalar;
             `R: rotation` such a matrix, or a `Rotation3`; `q: quaternion` a `UnitQuaternion`; `place: pose` an `Isometry3`"
 )]
 pub trait Member<T, Shape> {
-    /// By its place, row by row; of a quaternion (w, x, y, z).
+    /// Returns number `k`, counted row by row; for a quaternion in the order (w, x, y, z).
     fn number(&self, k: usize) -> T;
 
-    /// Sets the number at a place; `false` where one alone cannot be set, of a rotation.
+    /// Sets number `k`. Returns `false` for a rotation, whose entries cannot be set one by one.
     fn set(&mut self, k: usize, value: T) -> bool;
 }
 
-/// For each shape and type, where the number `k` is.
+/// For each shape and type, the expression of number `k`.
 macro_rules! members {
     ($({$($length:ident),*} $shape:ty = $ty:ty, |$member:ident, $k:ident| $place:expr;)+) => {$(
         #[diagnostic::do_not_recommend]
@@ -51,7 +51,7 @@ members! {
     {R, C} [[T; C]; R] = SMatrix<T, R, C>, |member, k| member[(k / C, k % C)];
 }
 
-/// Position of the number `k` in each type of rotation.
+/// For each type of rotation, the expression of number `k`.
 macro_rules! turns {
     ($({$($length:ident)?} $shape:ty = $ty:ty, |$member:ident, $k:ident| $place:expr;)+) => {$(
         #[diagnostic::do_not_recommend]

@@ -1,4 +1,4 @@
-//! What a system is: the contract that generated code implements, its state, and what is known about it.
+//! Systems: the trait that generated code implements, states, and compile-time facts.
 
 pub(crate) mod defect;
 mod direction;

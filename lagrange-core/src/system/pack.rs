@@ -1,5 +1,5 @@
-//! A system over other numbers: one struct over SIMD lanes with the parameters of another system in each lane, or over dual
-//! numbers.
+//! A system over another number type: over SIMD lanes, with the parameters of another member in each lane, or
+//! over dual numbers.
 
 use core::fmt::Debug;
 
@@ -9,12 +9,12 @@ use nalgebra::{Isometry, Quaternion, Rotation, SMatrix, Translation, Unit};
 use crate::number::Lanes;
 use crate::number::{Dual, Scalar, Wide};
 
-/// A system that can share SIMD lanes of the type `V` with others of its kind.
+/// A system that can share SIMD lanes of type `V` with other systems of its type.
 ///
-/// `#[derive(Lagrangian)]` implements it for a struct whose number type is a type parameter. The numbers of each
-/// member lie in a lane of their own. A field without that parameter in its type (a function, a label) is one for all
-/// lanes: members in which it differs do not fit beside each other, and an [`Ensemble`](crate::Ensemble) fills its
-/// lanes only where members that agree in it follow each other.
+/// `#[derive(Lagrangian)]` implements it for a struct whose number type is a type parameter. Each lane holds
+/// the numbers of one member. A field without that type parameter (a function, a label) is shared by all lanes,
+/// so members must agree in it to share a vector. An [`Ensemble`](crate::Ensemble) fills its lanes only with
+/// consecutive members that agree in such fields.
 ///
 /// ```
 /// use lagrange_core::prelude::*;
@@ -40,25 +40,25 @@ pub trait Pack<V>: Sized {
     /// The system over lanes.
     type Packed;
 
-    /// These parameters in every lane.
+    /// Returns a system with these parameters in every lane.
     fn pack(&self) -> Self::Packed;
 
-    /// Puts these parameters into one lane and leaves the others as they are; `false`, and nothing done, where a
-    /// field that all lanes share differs.
+    /// Stores these parameters in one lane and leaves the other lanes unchanged. Returns `false` and changes
+    /// nothing if a shared field differs.
     fn place(&self, packed: &mut Self::Packed, lane: usize) -> bool;
 }
 
-/// A field with other numbers in each lane, where a system alone has the field `X`.
+/// A field over lanes, whose counterpart in a single system is a field of type `X`.
 #[diagnostic::on_unimplemented(
     message = "a field of type `{X}` cannot be put on SIMD lanes",
     note = "numbers, arrays, and vectors, matrices, rotations, quaternions and isometries of nalgebra can, where the field owns them",
     note = "implement `Packed` for a struct of your own, member by member"
 )]
 pub trait Packed<X> {
-    /// The same in every lane.
+    /// Returns a field with `field` in every lane.
     fn splat(field: &X) -> Self;
 
-    /// Puts it into one lane.
+    /// Stores `field` in one lane.
     fn place(&mut self, lane: usize, field: &X);
 }
 
@@ -77,7 +77,7 @@ impl Packed<f64> for Lanes {
     }
 }
 
-/// With no slope.
+/// Values are packed on lanes, with slope zero.
 impl<W: Wide<X>, X: Scalar> Packed<X> for Dual<W> {
     #[inline]
     fn splat(x: &X) -> Self {
@@ -195,7 +195,7 @@ where
     }
 }
 
-/// A field that all lanes share: one that can be copied and compared.
+/// A field that all lanes share: it can be cloned and compared.
 #[diagnostic::on_unimplemented(
     message = "a field of type `{Self}` cannot be shared by SIMD lanes",
     note = "derive `Clone` and `PartialEq` for it: members share lanes where such fields are equal"

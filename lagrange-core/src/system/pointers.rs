@@ -1,4 +1,4 @@
-//! A system behind a reference or a smart pointer is that system.
+//! Forwards the traits of a system through references and smart pointers.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -13,7 +13,8 @@ use super::state::{Solution, State};
 use super::taylor_series::{RightHandSides, TaylorSeries};
 use crate::number::{Broadcast, PowerSeries};
 
-/// Forwards every method and constant, also those with a default, which would hide the system's own.
+/// Forwards every method and constant. Those with a default must be forwarded too, since the default would hide
+/// the system's own.
 macro_rules! forward {
     ($($pointer:ty),*) => {$(
         #[diagnostic::do_not_recommend]

@@ -1,4 +1,4 @@
-//! Numbers read by serde, with a word about what JSON cannot write.
+//! Deserialization of numbers, with an explanation for the `null` that JSON writes for NaN and infinity.
 
 use core::fmt::Display;
 
@@ -23,7 +23,8 @@ where
     SVector::deserialize(from).map_err(explained)
 }
 
-/// The place stays at the end of the message, where formats look for it.
+/// Explains a `null`. The original message, with its position in the file, stays at the end, where formats
+/// expect it.
 fn explained<E: Error + Display>(error: E) -> E {
     match error.to_string() {
         said if said.contains("null") => E::custom(format_args!(

@@ -1,4 +1,4 @@
-//! A point of the velocity phase space at a time, and what the equations of motion give there.
+//! States of a system, and solutions of the equations of motion at a state.
 
 use core::fmt::{self, Debug, Display, Formatter};
 
@@ -19,10 +19,10 @@ use crate::number::Scalar;
 /// assert_eq!(format!("{state:.3}"), "t = 1.000: q = (0.100, 0.000), q̇ = (0.000, 2.000)");
 /// ```
 ///
-/// With the feature `serde` it is written and read: `{"t": 0.0, "q": [0.1], "v": [0.0]}`. JSON has no NaN and no infinities:
-/// `serde_json` writes them as `null`, which is an error where a state is read. It reads a number back to the last bit with its
-/// feature `float_roundtrip` alone (`serde_json = { version = "1", features = ["float_roundtrip"] }`), otherwise to
-/// the bit beside it.
+/// With the feature `serde` a state can be serialized and deserialized: `{"t": 0.0, "q": [0.1], "v": [0.0]}`.
+/// JSON has neither NaN nor infinities: `serde_json` writes them as `null`, which is an error when a state is
+/// read. Numbers are read back to the last bit only with the feature `float_roundtrip` (`serde_json = { version
+/// = "1", features = ["float_roundtrip"] }`), otherwise with an error of up to one unit in the last place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -45,31 +45,32 @@ pub struct State<T, const N: usize> {
 }
 
 impl<T: Scalar, const N: usize> State<T, N> {
-    /// Coordinates and velocities at `t = 0`.
+    /// Creates a state of coordinates and velocities at `t = 0`.
     pub fn new(q: impl Entries<T, N>, v: impl Entries<T, N>) -> Self {
         Self { t: T::constant(0.0), q: q.into_vector(), v: v.into_vector() }
     }
 
-    /// Coordinates at rest at `t = 0`.
+    /// Creates a state at rest at `t = 0`.
     pub fn at_rest(q: impl Entries<T, N>) -> Self {
         Self::new(q, [T::constant(0.0); N])
     }
 
-    /// The same coordinates and velocities at the time `t`.
+    /// Returns the same coordinates and velocities at the time `t`.
     #[must_use]
     pub fn at_time(self, t: T) -> Self {
         Self { t, ..self }
     }
 }
 
-/// `t = 1.0: q = (0.1, 0.0), q̇ = (0.0, 2e-17)`, each number as the format says: `{state:.3}`.
+/// Formats a state as `t = 1.0: q = (0.1, 0.0), q̇ = (0.0, 2e-17)`. Format options apply to each number:
+/// `{state:.3}`.
 impl<T: Scalar, const N: usize> Display for State<T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write_state(f, &self.t, [("q", self.q.as_slice()), ("q̇", self.v.as_slice())])
     }
 }
 
-/// Numbers as `Debug` writes them: small and large ones, and round-off in the place of zero, by powers of ten.
+/// Writes a state with numbers as in `Debug`, so very small and very large numbers have powers of ten.
 pub(crate) fn write_state<T: Scalar>(f: &mut Formatter<'_>, t: &T, parts: [(&str, &[T]); 2]) -> fmt::Result {
     f.write_str("t = ")?;
     Debug::fmt(t, f)?;
@@ -84,7 +85,7 @@ pub(crate) fn write_state<T: Scalar>(f: &mut Formatter<'_>, t: &T, parts: [(&str
     Ok(())
 }
 
-/// What the equations of motion give at a state: accelerations q̈ and multipliers λ, from
+/// Solution of the equations of motion at a state: accelerations q̈ and multipliers λ, from
 ///
 /// ```text
 /// [ M  −Fᵀ ] [ q̈ ]   [  h ]
@@ -105,21 +106,21 @@ pub struct Solution<T, const N: usize, const M: usize> {
     /// Generalized accelerations q̈.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "super::read::numbers"))]
     pub accelerations: SVector<T, N>,
-    /// Lagrange multipliers λ, one a scalar constraint, in the order written.
+    /// Lagrange multipliers λ, one per scalar constraint, in the order written.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "super::read::numbers"))]
     pub multipliers: SVector<T, M>,
-    /// The smallest pivot of the elimination, as a fraction of the diagonal entry it came from: 1 is
-    /// perfect, 0 singular, NaN or negative a system that this elimination cannot solve, or of which the numbers are so
-    /// large or small that their products are none, or have lost digits.
+    /// Smallest pivot of the elimination, relative to the diagonal entry that it replaces: 1 is perfect, 0
+    /// singular. NaN or negative if this elimination cannot solve the system, or if products of its numbers
+    /// overflow, underflow or lose digits.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "super::read::number"))]
     pub pivot: T,
-    /// How many of the `M` constraints are independent here. Where it is less than `M` the multipliers
-    /// are not unique; those given are the ones of least Euclidean norm.
+    /// Number of independent constraints at this state. If it is less than `M` the multipliers are not unique;
+    /// the given ones have the least Euclidean norm.
     pub rank: usize,
 }
 
 impl<T, const N: usize, const M: usize> Solution<T, N, M> {
-    /// Whether the multipliers are determined by the equations: false where constraints depend on one another.
+    /// True if the equations determine the multipliers; false if constraints depend on one another.
     pub fn multipliers_are_unique(&self) -> bool {
         self.rank == M
     }

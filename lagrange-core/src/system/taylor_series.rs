@@ -1,4 +1,4 @@
-//! The contract for Taylor series of the motion.
+//! The trait of systems whose motion has a Taylor series.
 
 use core::fmt::Debug;
 
@@ -9,56 +9,60 @@ use super::state::{Solution, State};
 use crate::number::{FixedArray, PowerSeries};
 use crate::system::Direction;
 
-/// What the right-hand sides of the equations of motion are: in the places of h and of γ.
+/// Right-hand sides of the equations of motion, in the places of h and of γ.
 pub type RightHandSides<T, const N: usize, const M: usize> = (SVector<T, N>, SVector<T, M>);
 
-/// A system whose motion can be expanded in a Taylor series, order by order: what [`Taylor`](crate::Taylor) integrates.
+/// A system whose motion can be expanded in a Taylor series, order by order, as [`Taylor`](crate::Taylor) does.
 ///
-/// `#[derive(Lagrangian)]` implements it where everything in the equations has a Taylor series. The coefficients of
-/// accelerations and multipliers of every order k solve one linear system, M x − Fᵀλ = h, F x = −γ with the M and F of the state
-/// that is expanded about; only the right-hand sides differ. They and what the next order needs are linear in
-/// the newest coefficients, made of numbers of the state, the [slopes](Self::series_slopes), and of sums Σ x_j y_{k−j} over
-/// the coefficients before (Griewank and Walther, *Evaluating Derivatives*, 13.2).
+/// `#[derive(Lagrangian)]` implements it if every function in the equations has a Taylor series. The
+/// coefficients of accelerations and multipliers of every order k solve one linear system, M x − Fᵀλ = h, F x =
+/// −γ. M and F are those of the expansion point; only the right-hand sides depend on k. The right-hand sides,
+/// and the coefficients of intermediate expressions, are linear in the newest coefficients. Their terms consist
+/// of numbers of the state, the [slopes](Self::series_slopes), and of convolutions Σ x_j y_{k−j} of earlier
+/// coefficients (Griewank and Walther, *Evaluating Derivatives*, 13.2).
 #[diagnostic::on_unimplemented(
     message = "the Taylor series of the motion of `{Self}` is not known",
     label = "no `TaylorSeries`",
     note = "`#[derive(Lagrangian)]` gives it to every system but those whose equations of motion have `abs`, `min`, `max` or `clamp`, take third derivatives of a function of yours, or have a series of more than 50,000 operations: use `Dop853` there"
 )]
 pub trait TaylorSeries<const N: usize, const M: usize>: Lagrangian<N, M> {
-    /// What an order is made of beside coefficients: plain numbers.
+    /// Numbers of the state that the recurrences of all orders share.
     type SeriesSlopes: Copy + Debug + AsRef<[Self::Scalar]>;
-    /// One number for each sum, and zeros up to a multiple of four.
+    /// One number for each convolution sum, padded with zeros to a multiple of four.
     type Sums: FixedArray<Self::Scalar>;
-    /// What is known of the newest coefficients before the accelerations of their order.
+    /// Parts of the newest coefficients that are known before the accelerations of their order.
     type SeriesTerms: Copy + Debug;
 
-    /// For each root of something that moves, √x or x²ᐟ⁵, the place of a sum whose right factor it is, and of its value among the
-    /// slopes. The series of a root goes on below zero, the root does not: that of √x² is ±x.
+    /// For each root of a varying quantity, √x or x²ᐟ⁵: index of a sum whose right factor is the root, and
+    /// index of its value among the slopes. Below zero the series of a root continues but the root does not:
+    /// the series of √x² is ±x.
     const ROOTS: &'static [[usize; 2]] = &[];
-    /// For each argument of a function that the user supplies, the place of a sum whose left factor it is, and of its value among
-    /// the slopes.
+    /// For each argument of a user-supplied function: index of a sum whose left factor is the argument, and
+    /// index of its value among the slopes.
     const ARGUMENTS: &'static [[usize; 2]] = &[];
-    /// For each argument of exp, tanh, sinh and cosh and each base of a power of 16 or more, the place of a sum whose left factor it is, of
-    /// its value among the slopes, and the exponent of the power or zero: such functions may be too small for a series at the
-    /// start of a step, and large within. Where the exponent e is known at run time, the value is that of x/e, and the exponent 1.
+    /// For each argument of exp, tanh, sinh and cosh, and each base of a power with exponent 16 or more: index
+    /// of a sum whose left factor it is, index of its value among the slopes, and the exponent of the power or
+    /// zero. Such functions may be too small for the series at the start of a step, and large within the step.
+    /// If the exponent e is known only at run time, the value is that of x/e, and the exponent 1.
     const STEEP: &'static [[usize; 3]] = &[];
 
-    /// Coefficients that the recurrences of all orders share, at one state.
+    /// Returns the coefficients that the recurrences of all orders share, at one state.
     fn series_slopes(
         &self,
         state: &State<Self::Scalar, N>,
         solution: &Solution<Self::Scalar, N, M>,
     ) -> Self::SeriesSlopes;
 
-    /// Puts into their places among the sums what the functions that the user supplies add to this order, by the series of
-    /// their arguments, in which the coefficients of that order are zero.
+    /// Stores in `sums` the contributions of the user-supplied functions to this order. `arguments` holds the
+    /// series of their arguments, with zeros for the coefficients of this order.
     fn series_functions(&self, order: usize, arguments: &[PowerSeries<Self::Scalar>], sums: &mut Self::Sums) {
         let _ = (order, arguments, sums);
     }
 
-    /// What stands for h and γ where the coefficients of accelerations and multipliers are solved for, of an order k that is
-    /// given as k, 1/k, c/(k + 1) and 1/c², where c is a multiple of all orders; `direction` has the coefficients of time, coordinates and velocities of that order. Beside
-    /// that what is known by then of the factors of the sums.
+    /// Returns the right-hand sides h and γ of the linear system for the accelerations and multipliers of order
+    /// k, and the known parts of the factors of the sums. `order` holds k, 1/k, c/(k + 1) and 1/c², where c is
+    /// a common multiple of all orders. `direction` holds the coefficients of order k of the time, the
+    /// coordinates and the velocities.
     fn series_right_hand_sides(
         &self,
         slopes: &Self::SeriesSlopes,
@@ -67,7 +71,8 @@ pub trait TaylorSeries<const N: usize, const M: usize>: Lagrangian<N, M> {
         direction: &Direction<Self::Scalar, N>,
     ) -> (RightHandSides<Self::Scalar, N, M>, Self::SeriesTerms);
 
-    /// The terms of that order of the two factors of each sum, by what was known of them and the accelerations and multipliers.
+    /// Returns the coefficients of this order of the two factors of each sum, from the known parts and the new
+    /// accelerations and multipliers.
     fn series_factors(
         &self,
         slopes: &Self::SeriesSlopes,

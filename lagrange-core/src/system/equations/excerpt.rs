@@ -1,20 +1,21 @@
-//! Parts of the printed equations. `render` of lagrange-macros writes the pages that are taken apart here, so that the parts
-//! take no room of their own in a program.
+//! Parts of the readable equations. They are cut out of the pages that `render` of lagrange-macros writes, so
+//! the parts take no extra space in a program.
 
 use core::fmt::{self, Display, Formatter};
 
-/// What begins a section of the page in LaTeX, before its heading.
+/// Start of a section heading in LaTeX.
 pub(super) const LATEX_HEADING: &str = r"\par\medskip\noindent\textbf{";
-/// What begins one of the page in MathML.
+/// Start of a section heading in MathML.
 const MATHML_HEADING: &str = "<h5>";
 const LABEL: &str = r"\label{eq:";
-/// Between two equations in LaTeX; between the lines of one there is more space.
+/// Separator of two equations in LaTeX. Line breaks inside an equation have more space after them.
 const NEXT: &str = " \\\\\n  ";
 
-/// Some of a system's equations: those below a heading of the page, or one of them.
+/// Equations of one section of the page, or a single equation of it.
 ///
-/// Displayed, it is Unicode text, a line for each equation, without a line end behind the last; [`latex`](Self::latex) and
-/// [`mathml`](Self::mathml) are the same for a paper and for a browser. An equation that would take more than 250 signs is a line that says how many.
+/// `Display` writes Unicode text, one line per equation, without a final line end. [`latex`](Self::latex) and
+/// [`mathml`](Self::mathml) return the same equations for a paper and for a browser. An equation longer than
+/// 250 characters is replaced by a line that states its length.
 ///
 /// ```
 /// use lagrange_core::prelude::*;
@@ -40,7 +41,7 @@ pub struct Excerpt {
     mathml: Body,
 }
 
-/// The rows of a section, and what is said of all of them.
+/// Equations of a section, and the note that follows them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Body {
     rows: &'static str,
@@ -48,7 +49,7 @@ struct Body {
 }
 
 impl Excerpt {
-    /// What stands below a heading, nothing where that is on none of the pages.
+    /// Returns the section below `heading`, in text, LaTeX and MathML; empty if the page has no such section.
     pub(super) fn below(heading: &str, [text, latex, mathml]: [&'static str; 3]) -> Self {
         let below = |mut sections: core::str::Split<'static, &str>, end: &str| {
             let section = sections.find_map(|section| section.strip_prefix(heading)?.strip_prefix(end));
@@ -63,12 +64,12 @@ impl Excerpt {
         Self { text, latex, mathml }
     }
 
-    /// Whether there are neither equations nor a note in their place.
+    /// True if there are neither equations nor a note in their place.
     pub const fn is_empty(&self) -> bool {
         self.text.rows.is_empty() && self.text.note.is_empty()
     }
 
-    /// The equations, each a part by itself.
+    /// Returns an iterator over the single equations.
     pub fn rows(&self) -> impl Iterator<Item = Self> + use<> {
         let row = |rows| Body { rows, note: "" };
         let rows = text_rows(self.text.rows).zip(latex_rows(self.latex.rows)).zip(self.mathml.rows.lines());
@@ -79,13 +80,14 @@ impl Excerpt {
         })
     }
 
-    /// The equation of this name: a coordinate's among the equations of motion, a constraint's, `p_x` among momenta, `R_x` among
-    /// forces of constraint, `y` for the definition of y. Of vectors that are printed as such the name is the vector's.
+    /// Returns the equation of this name: a coordinate's name among the equations of motion, a constraint's,
+    /// `p_x` among momenta, `R_x` among forces of constraint, `y` for the definition of y. For coordinates that
+    /// are printed as a vector, the name is the vector's.
     pub fn row(&self, name: &str) -> Option<Self> {
         self.rows().find(|row| row.is_named("", name))
     }
 
-    /// The same of a prefix and a name.
+    /// True if the equation is named `prefix` followed by `name`.
     pub(super) fn is_named(&self, prefix: &str, name: &str) -> bool {
         let label = |label: &str| {
             let words = |text| str::split(text, |sign: char| !sign.is_ascii_alphanumeric() && sign != '_');
@@ -97,27 +99,28 @@ impl Excerpt {
             || self.left().strip_prefix(prefix) == Some(name)
     }
 
-    /// What the row begins with: a label, or the left side.
+    /// Returns the start of the row: a label, or the left side of the equation.
     fn left(&self) -> &'static str {
         let row = self.text.rows;
         let ends = [row.find(':'), row.find(" = ")];
         &row[..ends.into_iter().flatten().min().unwrap_or(0)]
     }
 
-    /// An `align` environment of the package `amsmath`, displayed or written by `to_string`.
+    /// Returns an `align` environment of the package `amsmath`, as a value to display or convert by
+    /// `to_string`.
     ///
     /// Each equation has the label that it has in [`Equations::latex`](super::Equations::latex).
     pub const fn latex(&self) -> impl Display + Copy + use<> {
         Framed { frame: ["\\begin{align}\n  ", "\n\\end{align}\n"], body: self.latex }
     }
 
-    /// A `div` with the equations in MathML, displayed or written by `to_string`.
+    /// Returns a `div` with the equations in MathML, as a value to display or convert by `to_string`.
     pub const fn mathml(&self) -> impl Display + Copy + use<> {
         Framed { frame: [GRID, "\n</div>\n"], body: self.mathml }
     }
 }
 
-/// The rows' own styles are those of cells in it.
+/// CSS grid of the equations; the rows have the styles of grid cells.
 const GRID: &str = "<div style=\"display:grid;grid-template-columns:auto minmax(0,1fr);gap:.5em .25em;align-items:baseline\">\n";
 
 impl Display for Excerpt {
@@ -131,7 +134,7 @@ impl Display for Excerpt {
     }
 }
 
-/// Rows between the beginning and the end of what they stand in, and a note behind them.
+/// Rows inside a frame (its start and end), followed by a note.
 #[derive(Clone, Copy)]
 struct Framed {
     frame: [&'static str; 2],
@@ -149,7 +152,7 @@ impl Display for Framed {
     }
 }
 
-/// As many lines as there are rows, and the rest.
+/// Splits a section after `count` lines: the rows and the note.
 fn text_body(section: &'static str, count: usize) -> Body {
     let mut ends = section.match_indices('\n').map(|(end, _)| end);
     let end = count.checked_sub(1).map_or(0, |last| ends.nth(last).unwrap_or(section.len()));
@@ -169,7 +172,7 @@ fn latex_body(section: &'static str) -> Body {
     }
 }
 
-/// Each ends with its label.
+/// Splits the rows of an `align` environment: each row ends with its label.
 fn latex_rows(rows: &'static str) -> impl Iterator<Item = &'static str> {
     let mut rest = rows;
     core::iter::from_fn(move || {

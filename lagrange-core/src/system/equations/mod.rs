@@ -1,4 +1,4 @@
-//! A system's equations, to be read.
+//! Readable form of the equations of a system.
 
 mod excerpt;
 
@@ -6,23 +6,26 @@ use core::fmt::{self, Display, Formatter};
 
 pub use excerpt::Excerpt;
 
-/// A system and its equations as text, as LaTeX and as MathML, in a form for reading.
+/// Readable equations of a system, as text, LaTeX and MathML.
 ///
-/// The Lagrangian as written, the constraints with their kinds, the equations of motion, constraint forces, what is
-/// conserved, the energy, and where they are short the momenta, the Hamiltonian and Hamilton's equations; where no Hamiltonian is
-/// printed it says why. Expressions are multiplied out and
-/// collected, sines and cosines put together (sin² + cos², sums of angles), each row is divided by what its terms have in
-/// common, and components are put together into vectors where the rows are those of one. Definitions appear by their names or
-/// written out, as is shorter; [`named`](Self::named) and [`written_out`](Self::written_out) have it one way everywhere.
-/// A row with a factor divided away is the equation still; with a coordinate divided away it says more only where that
-/// vanishes. Nothing is computed with this form.
+/// Contents: the Lagrangian as written, the constraints with their kinds, the equations of motion, constraint
+/// forces, conserved quantities and the energy. If short enough, also the momenta, the Hamiltonian and
+/// Hamilton's equations; if the Hamiltonian is not printed, the page states the reason.
 ///
-/// What would take more than 250 signs is not printed but counted, and expressions of more than 100 terms multiplied out are
-/// printed as they are computed.
+/// Expressions are expanded and collected, and sines and cosines are combined (sin² + cos², sums of angles).
+/// Each row is divided by the common factor of its terms, and components of vector equations are combined into
+/// vectors. Definitions appear by name or written out, whichever is shorter; [`named`](Self::named) and
+/// [`written_out`](Self::written_out) use one form throughout. A row divided by a coordinate is equivalent to
+/// the equation except where that coordinate vanishes. This form is for reading only: computations do not use
+/// it.
 ///
-/// `Type::equations()` gives them for every type with `#[derive(Lagrangian)]`; they also stand in its
-/// documentation, typeset, and as plain text at `equations`, where editors show them. A method of the type's own needs another
-/// name: rustc calls two `equations` duplicate definitions (E0592).
+/// An expression longer than 250 characters is replaced by its length. Expressions of more than 100 expanded
+/// terms are printed in the form that is computed.
+///
+/// Every type with `#[derive(Lagrangian)]` has an associated function `equations()` that returns them. The
+/// documentation of the type shows them typeset, and that of `equations` as plain text, where editors display
+/// it. A method of yours needs another name: rustc rejects two functions `equations` as duplicate definitions
+/// (E0592).
 ///
 /// ```
 /// use lagrange_core::prelude::*;
@@ -35,14 +38,14 @@ pub use excerpt::Excerpt;
 /// assert!(Pendulum::equations().text().contains("l θ̈ = −g sin θ"));
 /// println!("{}", Pendulum::equations());
 ///
-/// // Parts, each as text, as LaTeX and as MathML.
+/// // Single parts, each as text, LaTeX and MathML.
 /// assert_eq!(Pendulum::equations().hamiltonian().to_string(), "H = p_θ²/(2 m l²) − m l g cos θ");
 /// let row = Pendulum::equations().motion().row("theta").expect("its equation");
 /// assert_eq!(
 ///     row.latex().to_string(),
 ///     "\\begin{align}\n  l \\ddot\\theta &= -g \\sin \\theta \\label{eq:Pendulum-theta}\n\\end{align}\n"
 /// );
-/// // A document of as many pages as it takes.
+/// // A whole LaTeX document.
 /// assert!(Pendulum::equations().document().to_string().starts_with(r"\documentclass{article}"));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,92 +55,97 @@ pub struct Equations {
 }
 
 impl Equations {
-    /// In Unicode, a line for each equation.
+    /// Returns the equations as Unicode text, one line per equation.
     pub const fn text(&self) -> &'static str {
         self.forms[self.form][0]
     }
 
-    /// Headings, and below each an `align` environment of the package `amsmath`, its lines no longer than those of `article`.
+    /// Returns headings, each followed by an `align` environment of the package `amsmath` with lines that fit
+    /// `article`.
     ///
-    /// Pages may end between any two equations. Each equation has a label: `\eqref{eq:Pendulum-theta}` is the equation of motion of
-    /// `theta`, `eq:Pendulum-L` the Lagrangian. [`document`](Self::document) is a whole document,
-    /// [`motion`](Self::motion) and others are parts of the page.
+    /// Page breaks are allowed between any two equations. Each equation has a label:
+    /// `\eqref{eq:Pendulum-theta}` refers to the equation of motion of `theta`, `eq:Pendulum-L` to the
+    /// Lagrangian. [`document`](Self::document) returns a whole document; [`motion`](Self::motion) and others
+    /// return parts of the page.
     pub const fn latex(&self) -> &'static str {
         self.forms[self.form][1]
     }
 
-    /// A piece of HTML with the equations in MathML, which browsers show without a script.
+    /// Returns an HTML fragment with the equations in MathML, which browsers show without a script.
     ///
-    /// One `div` of the class `equations`, that needs no style sheet: a heading and rows for each part. Long equations take as
-    /// many lines as the page is narrow. It is well-formed XML without an empty line, so it can stand in Markdown too.
+    /// The fragment is one `div` of the class `equations` that needs no style sheet: a heading and rows for
+    /// each part. Long equations wrap to the width of the page. It is well-formed XML without empty lines, so
+    /// Markdown may contain it too.
     pub const fn mathml(&self) -> &'static str {
         self.forms[self.form][2]
     }
 
-    /// The same with definitions by their names wherever they occur.
+    /// Returns the equations with every definition by its name.
     pub const fn named(self) -> Self {
         Self { form: 1, ..self }
     }
 
-    /// The same with what definitions stand for, also in the Lagrangian.
+    /// Returns the equations with every definition written out, also in the Lagrangian.
     pub const fn written_out(self) -> Self {
         Self { form: 2, ..self }
     }
 }
 
-/// Of these forms, each as text, as LaTeX and as HTML with MathML.
+/// Creates equations from three forms (shortest, named, written out), each as text, LaTeX and HTML with MathML.
 pub const fn equations(forms: [[&'static str; 3]; 3]) -> Equations {
     Equations { forms, form: 0 }
 }
 
-/// Parts of the page: empty where the page has none.
+/// Parts of the page. A part is empty if the page lacks it.
 impl Equations {
-    /// The Lagrangian, frames, definitions, the dissipation function and forces, as written.
+    /// Returns the Lagrangian, frames, definitions, the dissipation function and forces, as written.
     pub fn lagrangian(&self) -> Excerpt {
         self.below("Lagrangian")
     }
 
-    /// The constraints with their kinds.
+    /// Returns the constraints with their kinds.
     pub fn constraints(&self) -> Excerpt {
         self.below("Constraints")
     }
 
-    /// The equations of motion, one for each coordinate, or for a vector of coordinates.
+    /// Returns the equations of motion, one for each coordinate or vector of coordinates.
     pub fn motion(&self) -> Excerpt {
         self.below("Equations of motion")
     }
 
-    /// The generalized forces of constraint, R = Fᵀλ.
+    /// Returns the generalized forces of constraint, R = Fᵀλ.
     pub fn constraint_forces(&self) -> Excerpt {
         self.below("Constraint forces")
     }
 
-    /// What the motion conserves: momenta, the energy, and quantities given in `#[conserved(…)]`.
+    /// Returns the conserved quantities: momenta, the energy, and those given in `#[conserved(…)]`.
     pub fn conserved(&self) -> Excerpt {
         self.below("Conserved")
     }
 
-    /// The energy function E = p·q̇ − L, and in parentheses what it is and, where it is not known to be conserved, what changes it
-    /// (see [`EnergyForm`](crate::facts::EnergyForm)).
+    /// Returns the energy function E = p·q̇ − L with its form in parentheses. If E is not known to be
+    /// conserved, the parentheses also tell its rate of change (see [`EnergyForm`](crate::facts::EnergyForm)).
     pub fn energy(&self) -> Excerpt {
         let changing = || self.below("Energy");
         self.conserved().row("E").unwrap_or_else(changing)
     }
 
-    /// The momentum of a coordinate, by the coordinate's name; of a vector of coordinates that is printed as such, by the vector's.
+    /// Returns the momentum of a coordinate by the name of the coordinate, or of the vector if it is printed as
+    /// one.
     ///
-    /// `None` where it is not printed: momenta are where they are short together, or the Hamiltonian is printed.
+    /// `None` if it is not printed: the page has momenta only if they are short together, or if it has the
+    /// Hamiltonian.
     pub fn momentum(&self, coordinate: &str) -> Option<Excerpt> {
         let mut rows = self.conserved().rows().chain(self.below("Momenta").rows());
         rows.find(|row| row.is_named("p_", coordinate))
     }
 
-    /// The Hamiltonian, or the reason why it is not printed.
+    /// Returns the Hamiltonian, or the reason why it is not printed.
     pub fn hamiltonian(&self) -> Excerpt {
         self.below("Hamiltonian")
     }
 
-    /// Hamilton's equations, where the Hamiltonian is printed.
+    /// Returns Hamilton's equations; empty if the Hamiltonian is not printed.
     pub fn canonical(&self) -> Excerpt {
         self.below("Hamilton's equations")
     }
@@ -146,9 +154,10 @@ impl Equations {
         Excerpt::below(heading, self.forms[self.form])
     }
 
-    /// A document in LaTeX with the page in it, displayed or written by `to_string`.
+    /// Returns a LaTeX document that contains the page, as a value to display or convert by `to_string`.
     ///
-    /// It needs the class `article` and the package `amsmath`. Long systems take as many pages as they need.
+    /// The document needs the class `article` and the package `amsmath`. Large systems extend over several
+    /// pages.
     pub const fn document(&self) -> impl Display + Copy + use<> {
         Document(*self)
     }

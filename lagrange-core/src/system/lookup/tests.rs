@@ -3,7 +3,7 @@ use std::string::{String, ToString};
 use crate::prelude::*;
 use crate::solution::Sample;
 
-/// A particle with a bead on a wire, by names of every kind.
+/// A particle on a sphere and a bead on a wire, with names of every kind.
 #[derive(Clone, Lagrangian)]
 #[coordinates(theta, phi, r: [2])]
 #[lagrangian(m/2*(theta_dot^2 + sin(theta)^2*phi_dot^2 + dot(r_dot, r_dot)) + m*g*cos(theta))]
@@ -21,7 +21,7 @@ fn start() -> State<f64, 4> {
     NAMED.state_from(&[("theta", 1.0), ("phi_dot", 2.0), ("r_dot[1]", 3.0), ("r_dot[0]", 3.0)]).unwrap()
 }
 
-/// What a sample says when asked for a name that it does not have there.
+/// Returns the error message of a query for a wrong name.
 fn said(ask: impl Fn(&Sample<&Named, 4, 1>) -> Result<f64, Error>) -> String {
     let path = NAMED.integrate(start(), 0.0, Dop853::default()).unwrap();
     ask(&path.end()).unwrap_err().to_string()
@@ -95,7 +95,7 @@ fn a_name_that_is_nearly_right_is_suggested() {
     assert_eq!(error, std::format!("there is no parameter `theta`: {meaning}"));
     let error = NAMED.equilibrium(&start(), &["thta"]).unwrap_err();
     assert!(error.to_string().ends_with("`thta`: did you mean `theta`?"), "{error}");
-    // What is not near anything gets the list.
+    // A name that is not similar to any gets the list of names.
     let expected = "there is no coordinate `length`; there are `theta`, `phi`, `r[0]`, `r[1]`";
     assert_eq!(said(|s| s.coordinate("length")), expected);
     let error = said(|s| s.coordinate(""));
