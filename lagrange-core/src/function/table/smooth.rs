@@ -44,9 +44,9 @@ struct QuinticKnot {
 impl SmoothTable {
     /// Interpolates points `(x, y)`: at least three, with `x` increasing.
     ///
+    /// # Errors
     /// [`Error::Table`] for fewer points, for coordinates or derivatives that are not finite, and if `x` does
     /// not increase.
-    /// increase.
     pub fn new(points: &[(f64, f64)]) -> Result<Self, Error> {
         if points.len() < 3 || !are_increasing(points) {
             return Err(Error::Table);
