@@ -1,20 +1,20 @@
-//! Crossings of events: what a trajectory keeps of them.
+//! Crossings of events that a trajectory stores.
 
 use crate::system::State;
 
-/// A crossing that was found.
+/// A located crossing of an event.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(bound(serialize = "T: nalgebra::Scalar + serde::Serialize")))]
 pub struct Crossing<T, const N: usize> {
-    /// The name of the event.
+    /// Name of the event.
     pub event: &'static str,
-    /// The place of the event among those given.
+    /// Index of the event, in the order in which the events were given.
     pub index: usize,
-    /// Which crossing of this event it is, counted from 1.
+    /// Number of this crossing among those of the event, counted from 1.
     pub count: usize,
-    /// Whether the function grows through zero there (else it falls).
+    /// True if the event function rises through zero, false if it falls.
     pub rising: bool,
-    /// The state there.
+    /// State at the crossing.
     pub state: State<T, N>,
 }

@@ -1,4 +1,4 @@
-//! Elimination of the equations of motion without a branch, for any scalar.
+//! Branch-free elimination of the equations of motion, for any scalar.
 
 use nalgebra::SVector;
 
@@ -7,10 +7,10 @@ use crate::system::Solution;
 
 /// Solves M q̈ − Fᵀλ = h, F q̈ = −γ by LDLᵀ of M and of the Schur complement F M⁻¹ Fᵀ, without pivoting.
 ///
-/// `m` is row by row, of which the lower triangle is read; `f` is one row a constraint. Right where M is
-/// positive definite and the constraints are independent; elsewhere [`Solution::pivot`] tells.
-/// (Golub and Van Loan, *Matrix Computations*, 4.1.2, and the range-space method of Nocedal and Wright,
-/// *Numerical Optimization*, 16.2.)
+/// `m` holds rows, of which the lower triangle is read; `f` holds one row per constraint. The result is correct
+/// if M is positive definite and the constraints are independent; otherwise [`Solution::pivot`] indicates
+/// failure. (Golub and Van Loan, *Matrix Computations*, 4.1.2, and the range-space method of Nocedal and
+/// Wright, *Numerical Optimization*, 16.2.)
 #[inline]
 pub fn eliminate<T: Scalar, const N: usize, const M: usize>(
     m: [[T; N]; N],
@@ -21,20 +21,21 @@ pub fn eliminate<T: Scalar, const N: usize, const M: usize>(
     LoopFactor::of(m, f, [T::constant(0.0); M]).solve_completed(h, gamma)
 }
 
-/// M and F M⁻¹ Fᵀ, factored in loops.
+/// Factorizations of M and F M⁻¹ Fᵀ, computed in loops.
 #[derive(Clone, Copy, Debug)]
 pub struct LoopFactor<T, const N: usize, const M: usize> {
     mass: Ldl<T, N>,
     f: [[T; N]; M],
-    /// M⁻¹Fᵀ, a row a constraint
+    /// M⁻¹Fᵀ, one row per constraint.
     w: [[T; N]; M],
     schur: Ldl<T, M>,
-    /// σ, zero of the rows that do not complete M
+    /// Weights σ; zero for constraints that do not complete M.
     weights: [T; M],
 }
 
 impl<T: Scalar, const N: usize, const M: usize> LoopFactor<T, N, M> {
-    /// Of M + FᵀσF row by row, of which the lower triangle is read, F, one row a constraint, and the `weights` σ.
+    /// Factorizes the completed mass matrix M + FᵀσF, whose lower triangle is read row by row. `f` holds one
+    /// row per constraint, `weights` is σ.
     #[inline]
     pub fn of(m: [[T; N]; N], f: [[T; N]; M], weights: [T; M]) -> Self {
         let mass = Ldl::of(m);
@@ -51,7 +52,7 @@ impl<T: Scalar, const N: usize, const M: usize> LoopFactor<T, N, M> {
         Self { mass, f, w, schur: Ldl::of(schur), weights }
     }
 
-    /// M x − Fᵀλ = `forcing`, F x = −`bias`.
+    /// Solves M x − Fᵀλ = `forcing`, F x = −`bias`.
     #[inline]
     pub fn solve<S: Broadcast<T>>(&self, forcing: &SVector<S, N>, bias: &SVector<S, M>) -> Solution<S, N, M> {
         let (mut h, gamma) = (forcing.data.0[0], bias.data.0[0]);
@@ -64,7 +65,7 @@ impl<T: Scalar, const N: usize, const M: usize> LoopFactor<T, N, M> {
         self.solve_completed(h, gamma)
     }
 
-    /// Of h − Fᵀσγ.
+    /// Solves with the completed right-hand side h − Fᵀσγ.
     #[inline]
     fn solve_completed<S: Broadcast<T>>(&self, h: [S; N], gamma: [S; M]) -> Solution<S, N, M> {
         let mut q = h;
@@ -91,7 +92,7 @@ impl<T: Scalar, const N: usize, const M: usize> LoopFactor<T, N, M> {
     }
 }
 
-/// L below the diagonal, 1/D on it.
+/// LDLᵀ factorization: L below the diagonal, 1/D on it.
 #[derive(Clone, Copy, Debug)]
 struct Ldl<T, const K: usize> {
     l: [[T; K]; K],
@@ -118,7 +119,8 @@ impl<T: Scalar, const K: usize> Ldl<T, K> {
                 d = d - l * a[i][j];
                 a[i][j] = l;
             }
-            // At most 1 where the matrix is definite; larger is the growth of an indefinite one.
+            // The ratio is at most 1 for a definite matrix; a larger one measures the growth in an indefinite
+            // matrix.
             let ratio = d / diagonal;
             pivot = poison(pivot.min(ratio).min(one / ratio), ratio);
             a[i][i] = one / d;
@@ -144,8 +146,8 @@ impl<T: Scalar, const K: usize> Ldl<T, K> {
     }
 }
 
-/// Zero where the least and the greatest of what pivots were over what they are leave two thirds of the digits of the
-/// scalar, which is `least_pivot`; else NaN, lane by lane.
+/// Returns zero if the smallest and the largest ratio of a pivot to its diagonal entry preserve two thirds of
+/// the digits of the scalar, else NaN, lane by lane. The bound is `least_pivot`, ε^(1/3), and its inverse.
 #[inline]
 pub fn nan_if_ill_conditioned<T: Scalar>(least: T, most: T) -> T {
     let [zero, one, nan] = [0.0, 1.0, f64::NAN].map(T::constant);
@@ -155,7 +157,7 @@ pub fn nan_if_ill_conditioned<T: Scalar>(least: T, most: T) -> T {
     least.select_by_order(T::constant(bound), nan, nan, below)
 }
 
-/// `x`, or NaN where `y` is not finite: a minimum drops NaN, and 0/0 must not pass for a good pivot.
+/// Returns `x`, or NaN if `y` is not finite. `min` drops NaN, but 0/0 must not count as a good pivot.
 #[inline]
 fn poison<T: Scalar>(x: T, y: T) -> T {
     x + y * T::constant(0.0)

@@ -1,4 +1,4 @@
-//! Impacts: velocities that jump because a constraint is hit.
+//! Impacts: jumps of the velocities when a constraint is hit.
 
 use core::fmt::{self, Debug, Formatter};
 use core::marker::PhantomData;
@@ -15,18 +15,18 @@ use crate::system::finite::check_finite;
 use crate::system::lookup::index;
 use crate::system::{Lagrangian, State};
 
-/// What an impact leaves: [`Simulate::impact`](crate::Simulate::impact).
+/// Result of an impact: [`Simulate::impact`](crate::Simulate::impact).
 pub struct Impact<L: Lagrangian<N, M>, const N: usize, const M: usize> {
-    /// The state after it.
+    /// State after the impact.
     pub state: State<L::Scalar, N>,
-    /// The impulses Λ of the constraints, in the order written, with the sign of multipliers: FᵀΛ is what the momenta
-    /// jump by.
+    /// Impulses Λ of the constraints, in the order written, with the sign of multipliers: the momenta jump by
+    /// FᵀΛ.
     pub impulses: SVector<L::Scalar, M>,
     system: PhantomData<fn(&L)>,
 }
 
 impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Impact<L, N, M> {
-    /// The impulse of the constraint of this name.
+    /// Returns the impulse of the constraint of this name.
     ///
     /// # Errors
     /// [`Error::UnknownName`].
@@ -35,7 +35,7 @@ impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Impact<L, N, M> {
     }
 }
 
-/// See [`Simulate::impact`](crate::Simulate::impact); `hit` is the index of the constraint.
+/// Implements [`Simulate::impact`](crate::Simulate::impact); `hit` is the index of the constraint.
 pub(crate) fn impact<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
@@ -47,7 +47,8 @@ pub(crate) fn impact<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M:
         return Err(Error::Restitution { value: restitution.to_f64() });
     }
     check_level(system, Level::Position, state)?;
-    // F (v⁺ − v⁻) is what takes away the rates before, and in the row that is hit turns them round.
+    // F (v⁺ − v⁻) cancels the constraint rates before the impact, and reverses the rate of the constraint that
+    // is hit.
     let mut rates = system.constraint_rate(state);
     rates[hit] *= L::Scalar::constant(1.0) + restitution;
     let no_force = SVector::from_element(L::Scalar::constant(0.0));

@@ -1,20 +1,21 @@
-//! What lies between the two ends of a step.
+//! Dense output: the motion within a step.
 
 use core::array::from_fn;
 
 use crate::number::{Real, Scalar, entries};
 use crate::solution::vector_field::{PhaseVector, StagePoint};
 
-/// The motion within one step, as a method knows it: continuous, and equal to the states at both ends.
+/// Dense output of one step: a continuous function of time, equal to the states at both ends.
 ///
-/// It knows where its step starts and how long it is.
+/// An interpolant contains the start time and the length of its step.
 pub trait Interpolant<T, const N: usize> {
-    /// The place at a time within the step, and a velocity there or nearby.
+    /// Returns the phase at a time within the step, with a velocity there or nearby.
     fn at(&self, t: T) -> StagePoint<T, N>;
 }
 
-/// A polynomial r₀ + θ(r₁ + (1−θ)(r₂ + θ(r₃ + (1−θ)(…)))), θ from 0 to 1 over the step (Hairer, Nørsett and Wanner,
-/// *Solving Ordinary Differential Equations I*, II.6). `C` are the coefficients r₀, r₁, …, an array of [`PhaseVector`]s.
+/// A polynomial r₀ + θ(r₁ + (1−θ)(r₂ + θ(r₃ + (1−θ)(…)))), θ from 0 to 1 over the step (Hairer, Nørsett and
+/// Wanner, *Solving Ordinary Differential Equations I*, II.6). `C` is an array of the coefficients r₀, r₁, …,
+/// each a [`PhaseVector`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Polynomial<T, C> {
     start: T,
@@ -23,7 +24,7 @@ pub struct Polynomial<T, C> {
 }
 
 impl<T: Real, C> Polynomial<T, C> {
-    /// Of a step from the time `start`, of this length, negative where it leads back.
+    /// Creates the polynomial of a step from the time `start`, of signed `length`, negative backwards in time.
     #[inline(always)]
     pub fn new(start: T, length: T, coefficients: C) -> Self {
         Self { start, length, coefficients }
@@ -32,7 +33,7 @@ impl<T: Real, C> Polynomial<T, C> {
 
 #[cfg(feature = "alloc")]
 impl<T, C> Polynomial<T, C> {
-    /// The coefficients, to be written where they stay.
+    /// Returns the coefficients for writing in place.
     pub(crate) fn coefficients_mut<X>(&mut self) -> &mut [X]
     where
         C: AsMut<[X]>,
@@ -41,11 +42,11 @@ impl<T, C> Polynomial<T, C> {
     }
 }
 
-/// The place and its rates at one end of a step.
+/// The phase and its rate at one end of a step.
 pub type HermiteNode<T, const N: usize> = (PhaseVector<T, N>, PhaseVector<T, N>);
 
-/// Puts the coefficients of the cubic polynomial between two places with these rates, a step of `length` apart, into four
-/// `coefficients`.
+/// Writes the four coefficients of the cubic Hermite interpolant over a step of `length`, from the phase and
+/// its rate at both ends.
 #[inline]
 pub(crate) fn hermite<T: Scalar, const N: usize>(
     length: T,
@@ -66,7 +67,7 @@ pub(crate) fn hermite<T: Scalar, const N: usize>(
 }
 
 impl<T: Real, const N: usize> Polynomial<T, [PhaseVector<T, N>; 4]> {
-    /// The cubic polynomial with the places and rates at both ends of a step: its error is of the fourth order.
+    /// Cubic Hermite interpolant of a step, with an error of fourth order.
     pub fn hermite(start: T, length: T, first: &HermiteNode<T, N>, last: &HermiteNode<T, N>) -> Self {
         let mut coefficients = [[[T::constant(0.0); N]; 2]; 4];
         hermite(length, (&first.0, &first.1), (&last.0, &last.1), &mut coefficients);
@@ -75,7 +76,7 @@ impl<T: Real, const N: usize> Polynomial<T, [PhaseVector<T, N>; 4]> {
 }
 
 impl<T: Real, const N: usize, C: AsRef<[PhaseVector<T, N>]>> Interpolant<T, N> for Polynomial<T, C> {
-    // Inlined, so that a velocity which nobody asks for is not computed.
+    // Inlined, so that an unused velocity is not computed.
     #[inline(always)]
     fn at(&self, t: T) -> StagePoint<T, N> {
         let (y, velocity) = evaluate(self.coefficients.as_ref(), (t - self.start) / self.length);
@@ -83,7 +84,7 @@ impl<T: Real, const N: usize, C: AsRef<[PhaseVector<T, N>]>> Interpolant<T, N> f
     }
 }
 
-/// The polynomial, and the derivative of its first half by θ.
+/// Returns the polynomial at θ, and the derivative of its first half by θ.
 #[inline(always)]
 pub(crate) fn evaluate<T: Scalar, const N: usize>(
     coefficients: &[PhaseVector<T, N>],

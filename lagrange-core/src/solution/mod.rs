@@ -1,4 +1,4 @@
-//! The equations of motion solved: accelerations and multipliers, consistent states, the rates of a motion.
+//! Solution of the equations of motion: accelerations and multipliers, consistent states, vector fields.
 
 pub(crate) mod consistent;
 pub(crate) mod crossing;

@@ -1,9 +1,9 @@
-//! A state next to the constraints, moved onto them by one factor: what a step does at its end.
+//! Projection of a state near the constraints with a single factorization, at the end of each step.
 //!
-//! The corrections are those of the [general projection](super::consistent), least in the metric of the mass matrix, but
-//! all solve with the matrix of the state as it is given (simplified Newton iteration: Hairer, Lubich and Wanner,
-//! *Geometric Numerical Integration*, IV.4), and those of the coordinates follow the constraints on velocities too.
-//! Lanes go together, and what becomes of one depends on no other.
+//! The corrections are those of the [general projection](super::consistent), least in the metric of the mass
+//! matrix, but all use the matrix of the given state (simplified Newton iteration: Hairer, Lubich and Wanner,
+//! *Geometric Numerical Integration*, IV.4). Corrections of the coordinates follow the constraints on
+//! velocities too. Lanes are projected together, but the result of each lane is independent of the others.
 
 #[cfg(test)]
 mod tests;
@@ -16,14 +16,15 @@ use super::consistent::level::Level;
 use crate::number::{Real, Scalar, sum, vector};
 use crate::system::{Lagrangian, Solution, State};
 
-/// How a state is corrected: when, how often, and whether its velocities follow its coordinates.
+/// Strategy of the corrections: when and how often to correct, and whether velocities follow the coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Corrections<T> {
-    /// Where more is left than four units of round-off, at most three. From as far off as the error of a step one leads
-    /// there, as a rule.
+    /// At most three corrections, as long as the residual exceeds four units of round-off. From the error of a
+    /// step, one correction usually suffices.
     ToRoundOff,
-    /// One after this step, whatever is left: what is small enough to be let pass is so for many steps in a row, and always
-    /// the same, by which energy grows or dies. Velocities follow the coordinates.
+    /// One correction after a step of this length, whatever the residual. A threshold would ignore small
+    /// residuals of the same sign for many steps in a row, which makes the energy drift. Velocities follow the
+    /// coordinates.
     #[cfg_attr(not(feature = "alloc"), expect(dead_code, reason = "of a method that allocates"))]
     OnceAfter(T),
 }
@@ -36,7 +37,7 @@ impl<T: Scalar> Corrections<T> {
         }
     }
 
-    /// Whether one is to be made, lane by lane: zero where not.
+    /// Tells, lane by lane, whether a correction is needed: zero if not.
     #[inline(always)]
     fn wanted<const M: usize>(self, residual: &SVector<T, M>, size: &SVector<T, M>, epsilon: f64) -> T {
         match self {
@@ -46,11 +47,12 @@ impl<T: Scalar> Corrections<T> {
     }
 }
 
-/// The state on the constraints of these levels, and a doubt: zero where it is there to round-off, lane by lane, in the
-/// precision of `R`.
+/// Returns the state on the constraints of these levels, and a doubt: zero, lane by lane, if the projection
+/// reached round-off in the precision of `R`.
 ///
-/// `rest` is what rounding leaves of coordinates and velocities, before and after. It is rounded with the corrections: most of
-/// these are less than a unit of round-off, and alone they are rounded to one side more often than to the other.
+/// `rest` holds the rounding errors of coordinates and velocities, before and after. They are added to the
+/// corrections before rounding: most corrections are below a unit of round-off, and alone they would be rounded
+/// to one side more often than to the other.
 #[inline]
 pub(crate) fn project<L, R, const N: usize, const M: usize>(
     system: &L,
@@ -69,19 +71,19 @@ where
     for &level in levels.iter().filter(|level| level.concerns::<L, N, M>()) {
         let size = level.magnitude(system, &state);
         let mut rounds = 0..corrections.most();
-        // Evaluated in one place: it is inlined.
+        // Evaluated in one place, since it is inlined.
         let residual = loop {
             let residual = level.residual(system, &state);
             let wanted = corrections.wanted(&residual, &size, R::EPSILON);
             if wanted == zero || rounds.next().is_none() {
                 break residual;
             }
-            // Where the factor cannot be vouched for, that is no number, nor is what is left then.
+            // An unreliable factorization gives NaN, and so does the residual after it.
             let correction = system.solve_with(&factor, &follow, &residual);
             if let (Level::Position, Corrections::OnceAfter(step)) = (level, corrections) {
                 follow = following::<L, R, N, M>(system, &state, &correction, step);
             }
-            // A lane that is there stays as it is, be the others where they are.
+            // A lane that has converged keeps its state while other lanes continue.
             let (unknowns, rest) = (level.unknowns(&mut state), &mut rest[level as usize]);
             let x: [_; N] = (*unknowns).into();
             let moved: [_; N] = from_fn(|i| exact_sum(x[i], correction.accelerations[i] + rest[i]));
@@ -94,19 +96,21 @@ where
     (state, doubt)
 }
 
-/// The impulse by which velocities follow a correction w = M⁻¹Fᵀμ of the coordinates: Ṁw − Ḟᵀμ + 2 h₂(q̇, w), where h₂ is the part
-/// of h that is quadratic in velocities.
+/// Impulse by which the velocities follow a correction w = M⁻¹Fᵀμ of the coordinates: Ṁw − Ḟᵀμ + 2 h₂(q̇, w),
+/// where h₂ is the part of h that is quadratic in the velocities.
 ///
-/// With it coordinates and momenta move along the Hamiltonian vector fields of μᵀΦ̇ and of the constraints. These fields are
-/// orthogonal, in the symplectic form, to every motion on the constraints (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, VII.1): a
-/// correction that is made to the same side step by step, as of a body that keeps its distance, leaves its angular momentum
-/// and energy as they were. Velocities that stay as they are would lose or gain with each. Forces that are linear in
-/// velocities, of magnetic fields and of damping, are left out: a strong field makes of the round-off of coordinates many units
-/// of that of velocities.
+/// With this impulse, coordinates and momenta move along the Hamiltonian vector fields of μᵀΦ̇ and of the
+/// constraints. These fields are orthogonal, in the symplectic form, to every motion on the constraints
+/// (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, VII.1). Corrections to the same side in every
+/// step, as for a body at constant distance, then preserve its angular momentum and energy. If the velocities
+/// stayed the same, each correction would change both. Forces linear in the velocities, of magnetic fields and
+/// of damping, are left out: a strong field would amplify the round-off of coordinates to many units of that of
+/// velocities.
 ///
-/// Differences over a part of the step give it to a thousandth of itself. Velocities do not follow corrections of more than
-/// 1,024 units of round-off, as next to dependent constraints, nor in steps of less than a 16th of the coordinates' size: rates
-/// are at most about 3 in a step, so that velocities change by no more than 50 times the part that coordinates do.
+/// Differences over 1/1,024 of the step give the impulse to a thousandth of itself. Velocities do not follow
+/// corrections of more than 1,024 units of round-off, as next to dependent constraints, nor steps shorter than
+/// a 16th of the size of the coordinates. Angular rates are at most about 3 per step, so the relative change of
+/// the velocities is at most 50 times that of the coordinates.
 #[inline(always)]
 fn following<L, R, const N: usize, const M: usize>(
     system: &L,
@@ -121,7 +125,8 @@ where
     let number = L::Scalar::constant;
     let size = |x: &SVector<L::Scalar, N>| x.iter().fold(number(0.0), |most, x| most.max(x.abs()));
     let (State { t, q, v }, part) = (state, step * number(1.0 / 1024.0));
-    // A unit of round-off as a 64th, so that little is rounded off: all of this is linear in the correction.
+    // Scales a unit of round-off to 1/64, so that little is rounded off: the result is linear in the
+    // correction.
     let scale = 1.0 / (64.0 * R::EPSILON);
     let w = correction.accelerations.map(|w| w * number(scale));
     let multipliers = correction.multipliers.map(|mu| mu * number(scale));
@@ -143,7 +148,7 @@ where
     vector(from_fn(|i| number_or_zero(impulse(i))))
 }
 
-/// A sum as two numbers: itself, and what rounding has left of it (Knuth, *The Art of Computer Programming*, 4.2.2, theorem B).
+/// Returns a sum and its rounding error (Knuth, *The Art of Computer Programming*, 4.2.2, theorem B).
 #[inline(always)]
 pub(crate) fn exact_sum<T: Scalar>(x: T, y: T) -> [T; 2] {
     let sum = x + y;
@@ -151,7 +156,7 @@ pub(crate) fn exact_sum<T: Scalar>(x: T, y: T) -> [T; 2] {
     [sum, (x - (sum - added)) + (y - added)]
 }
 
-/// How many of these are more than this part of their size; no number where one is none.
+/// Counts the entries above `part` of their size; NaN if an entry is NaN.
 #[inline]
 fn excess<T: Scalar, const M: usize>(x: &SVector<T, M>, size: &SVector<T, M>, part: f64) -> T {
     let (zero, one) = (T::constant(0.0), T::constant(1.0));

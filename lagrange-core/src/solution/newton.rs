@@ -1,7 +1,8 @@
-//! Newton's iteration, damped: from a start to where something vanishes, as far as round-off lets it be told.
+//! Damped Newton's iteration for zeros of a residual, to round-off.
 //!
-//! A search says what should vanish, what may move, and how corrections are found. Of ever smaller corrections the
-//! first that leads nearer is taken (Deuflhard, *Newton Methods for Nonlinear Problems*, 3.1).
+//! A [`Search`] defines the residual, the unknowns and the corrections. Among ever smaller parts of a
+//! correction, the first that reduces the distance is taken (Deuflhard, *Newton Methods for Nonlinear
+//! Problems*, 3.1).
 
 use core::iter::successors;
 
@@ -12,17 +13,18 @@ pub(crate) trait Search {
     type Scalar: Real;
     /// Trial point with its residual.
     type Trial;
-    /// What corrections of a trial follow from, and the units in which the trials near it compare.
+    /// Linearization at a trial: data for the corrections, and the units in which nearby trials are compared.
     type Linear;
 
-    /// Steps before giving up.
+    /// Limit on steps.
     const STEPS: usize;
 
     fn linearize(&mut self, trial: &Self::Trial) -> Result<Self::Linear, Error>;
 
     fn left(&self, near: &Self::Linear, trial: &Self::Trial) -> Left<Self::Scalar>;
 
-    /// Trials with ever smaller corrections. Where only round-off may be left, `converged`, that cannot help.
+    /// Returns trials with ever smaller parts of a correction. If `converged`, only round-off may be left and
+    /// smaller parts are useless.
     fn corrected(
         &self,
         linear: &Self::Linear,
@@ -33,16 +35,16 @@ pub(crate) trait Search {
     fn not_found(&self, linear: &Self::Linear, trial: &Self::Trial, steps: usize) -> Error;
 }
 
-/// What is left of what should vanish.
+/// Residual of a trial.
 pub(crate) struct Left<T> {
     pub(crate) distance: T,
-    /// Nothing but round-off.
+    /// True if only round-off is left.
     pub(crate) is_rounded: bool,
-    /// What may be round-off of terms that cancel: steps may still help.
+    /// True if the residual is small enough to be round-off of cancelling terms; further steps may reduce it.
     pub(crate) is_negligible: bool,
 }
 
-/// Where it vanishes, and how many steps that took.
+/// Returns the zero and the number of steps.
 pub(crate) fn find<S: Search>(search: &mut S, start: S::Trial) -> Result<(S::Trial, usize), Error> {
     let (mut trial, mut steps) = (start, 0);
     loop {
@@ -65,15 +67,15 @@ pub(crate) fn find<S: Search>(search: &mut S, start: S::Trial) -> Result<(S::Tri
                 }
             }
             Err(error) if steps == 0 => return Err(error),
-            // Round-off may have no correction, too.
+            // A residual of round-off may have no correction.
             _ if converged => return Ok((trial, steps)),
-            // It may have run to where there is no correction: that is not the fault of the start.
+            // The iteration may have run to a trial without a correction, which is not an error of the start.
             _ => return Err(search.not_found(&linear, &trial, steps)),
         }
     }
 }
 
-/// 1, 1/2, 1/4, …: so many parts of a correction.
+/// Returns the parts 1, 1/2, 1/4, … of a correction, `count` in all.
 pub(crate) fn halvings<T: Real>(count: usize) -> impl Iterator<Item = T> {
     successors(Some(T::constant(1.0)), |part| Some(*part * T::constant(0.5))).take(count)
 }

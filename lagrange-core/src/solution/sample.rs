@@ -1,4 +1,4 @@
-//! One state of a motion, by names.
+//! A state of a motion, with lookup by name.
 
 #[cfg(feature = "alloc")]
 use alloc::vec::Vec;
@@ -12,13 +12,13 @@ use crate::solution::solve::solve;
 use crate::system::lookup::{index, unknown};
 use crate::system::{Lagrangian, Solution, State};
 
-/// A state of a system with what follows from it.
+/// A state of a system with derived quantities: accelerations, multipliers, energy, observables.
 ///
-/// Quantities are looked up by name; [`state`](Self::state) and [`solution`](Self::solution) hold them by index, in
-/// the order of the attributes. Accelerations and multipliers are solved for when asked for.
+/// Quantities are looked up by name; [`state`](Self::state) and [`solution`](Self::solution) hold them by
+/// index, in the order of the attributes. Accelerations and multipliers are computed on request.
 ///
-/// It has the system `S` as its trajectory has it: borrowed, or a copy, which of a system in an `Arc` or an `Rc` is one
-/// of the pointer.
+/// The sample holds the system `S` in the same way as its trajectory: borrowed, or as a copy. For a system in
+/// an `Arc` or an `Rc`, only the pointer is copied.
 #[derive(Clone, Copy)]
 pub struct Sample<S: Lagrangian<N, M>, const N: usize, const M: usize> {
     pub(crate) system: S,
@@ -26,37 +26,37 @@ pub struct Sample<S: Lagrangian<N, M>, const N: usize, const M: usize> {
 }
 
 impl<L: Lagrangian<N, M> + Clone, const N: usize, const M: usize> Sample<&L, N, M> {
-    /// The state with a copy of the system, which may then change or go away.
+    /// Returns the sample with its own copy of the system; the original may then change or be dropped.
     pub fn into_owned(self) -> Sample<L, N, M> {
         Sample { system: self.system.clone(), state: self.state }
     }
 }
 
 impl<S: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<S, N, M> {
-    /// The system.
+    /// Returns the system.
     pub fn system(&self) -> &S {
         &self.system
     }
 
-    /// Time, coordinates and velocities.
+    /// Returns time, coordinates and velocities.
     pub fn state(&self) -> &State<S::Scalar, N> {
         &self.state
     }
 
-    /// The time.
+    /// Returns the time.
     pub fn time(&self) -> S::Scalar {
         self.state.t
     }
 
-    /// Accelerations and multipliers, solved for at this state.
+    /// Returns accelerations and multipliers, solved for at this state.
     ///
     /// # Errors
-    /// As [`Simulate::solve`](crate::Simulate::solve).
+    /// Those of [`Simulate::solve`](crate::Simulate::solve).
     pub fn solution(&self) -> Result<Solution<S::Scalar, N, M>, Error> {
         solve(&self.system, &self.state)
     }
 
-    /// The energy E = p·q̇ − L, which is the value of the Hamiltonian H(t, q, p).
+    /// Returns the energy E = p·q̇ − L, the value of the Hamiltonian H(t, q, p).
     pub fn energy(&self) -> S::Scalar {
         self.system.energy(&self.state)
     }
@@ -65,7 +65,7 @@ impl<S: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<S
 /// Lookup by name.
 #[cfg(feature = "alloc")]
 impl<S: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<S, N, M> {
-    /// The generalized coordinate of this name.
+    /// Returns the generalized coordinate of this name.
     ///
     /// # Errors
     /// [`Error::UnknownName`].
@@ -73,7 +73,7 @@ impl<S: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<S
         Ok(self.state.q[coordinate::<S, N, M>(name)?])
     }
 
-    /// The generalized velocity of the coordinate of this name.
+    /// Returns the generalized velocity of the coordinate of this name.
     ///
     /// # Errors
     /// [`Error::UnknownName`].
@@ -81,7 +81,7 @@ impl<S: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<S
         Ok(self.state.v[coordinate::<S, N, M>(name)?])
     }
 
-    /// The generalized momentum ∂L/∂q̇ of the coordinate of this name.
+    /// Returns the generalized momentum ∂L/∂q̇ of the coordinate of this name.
     ///
     /// # Errors
     /// [`Error::UnknownName`].
@@ -89,7 +89,7 @@ impl<S: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<S
         Ok(self.system.momentum(&self.state)[coordinate::<S, N, M>(name)?])
     }
 
-    /// The generalized acceleration of the coordinate of this name.
+    /// Returns the generalized acceleration of the coordinate of this name.
     ///
     /// # Errors
     /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
@@ -98,7 +98,7 @@ impl<S: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<S
         Ok(self.solution()?.accelerations[index])
     }
 
-    /// The multiplier λ of the constraint of this name. Where constraints depend on one another, which
+    /// Returns the multiplier λ of the constraint of this name. If constraints depend on one another, as
     /// [`Solution::multipliers_are_unique`] tells, the multipliers are those of least Euclidean norm.
     ///
     /// # Errors
@@ -108,7 +108,7 @@ impl<S: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<S
         Ok(self.solution()?.multipliers[index])
     }
 
-    /// The generalized constraint force Σ_α λ_α F_αa on the coordinate of this name, Milton (8.7).
+    /// Returns the generalized constraint force Σ_α λ_α F_αa on the coordinate of this name, Milton (8.7).
     ///
     /// # Errors
     /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
@@ -117,7 +117,7 @@ impl<S: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<S
         Ok(self.system.constraint_force(&self.state, &self.solution()?.multipliers)[index])
     }
 
-    /// The observable of this name.
+    /// Returns the observable of this name.
     ///
     /// # Errors
     /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
@@ -127,7 +127,7 @@ impl<S: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<S
         value.ok_or_else(|| unknown::<S, N, M>(S::OBSERVABLES, "observable", name))
     }
 
-    /// The conserved quantity of this name: `p_phi`, `energy`, or one given in `#[conserved(…)]`.
+    /// Returns the conserved quantity of this name: `p_phi`, `energy`, or one given in `#[conserved(…)]`.
     ///
     /// # Errors
     /// [`Error::UnknownName`].
@@ -145,7 +145,8 @@ fn coordinate<L: Lagrangian<N, M>, const N: usize, const M: usize>(name: &str) -
     index::<L, N, M>(&L::COORDINATES, "coordinate", name)
 }
 
-/// `t = 1.0: theta = 0.1, theta_dot = -2e-17`, each number as the format says: `{sample:.3}`.
+/// Formats a sample as `t = 1.0: theta = 0.1, theta_dot = -2e-17`. Format options apply to each number:
+/// `{sample:.3}`.
 impl<S: Lagrangian<N, M>, const N: usize, const M: usize> Display for Sample<S, N, M> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let State { t, q, v } = &self.state;

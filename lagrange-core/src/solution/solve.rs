@@ -1,4 +1,5 @@
-//! Accelerations and multipliers at a state, by the fast elimination where it can be trusted.
+//! Accelerations and multipliers at a state, by the fast elimination if it is reliable, else by the general
+//! solver.
 
 use nalgebra::{ComplexField, SVector};
 
@@ -11,7 +12,7 @@ use crate::solution::pivot::is_trustworthy;
 use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, Solution, State};
 
-/// See [`Simulate::solve`](crate::Simulate::solve).
+/// Implements [`Simulate::solve`](crate::Simulate::solve).
 #[inline]
 pub(crate) fn solve<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
@@ -29,10 +30,12 @@ pub(crate) fn solve<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: 
     Ok(solution)
 }
 
-/// What `read` makes of the solution, which is not moved, and of the constraints that it rests on.
+/// Passes the solution and the active constraints to `read` by reference, and returns its result: the solution
+/// is not moved.
 ///
-/// Near a state where only those `active` are independent, it rests on them. Off the constraints, by the error of a
-/// stage, the others may look independent too, but what they demand is nothing but that error.
+/// `active` marks the constraints that are independent at a nearby consistent state; the solution then uses
+/// only these. Off the constraints, by the error of a stage, the others may look independent too, but they
+/// demand only that error.
 #[inline(always)]
 pub(crate) fn solve_near<L: Lagrangian<N, M, Scalar: Real>, R, const N: usize, const M: usize>(
     system: &L,
@@ -55,8 +58,8 @@ pub(crate) fn solve_near<L: Lagrangian<N, M, Scalar: Real>, R, const N: usize, c
     Ok(read(&solution, &active))
 }
 
-/// M x = h + Fᵀλ and F x + γ = 0 with the M and F of a state, by the general solve; and the constraints of those `active`
-/// on which it rests.
+/// Solves M x = h + Fᵀλ and F x + γ = 0 with M and F of a state by the general solver. Also returns which of
+/// the `active` constraints determine the solution.
 #[cold]
 pub(super) fn solve_in_general<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
@@ -82,7 +85,7 @@ pub(super) fn solve_in_general<L: Lagrangian<N, M, Scalar: Real>, const N: usize
     }
 }
 
-/// A fault of the general solve with the names that belong to it.
+/// Converts a fault of the general solver to an error with names.
 pub(crate) fn fault<L, const N: usize, const M: usize>(fault: &Fault<L::Scalar, N>, time: f64) -> Error
 where
     L: Lagrangian<N, M, Scalar: Real>,
@@ -93,7 +96,7 @@ where
     }
 }
 
-/// The first row that is not finite.
+/// Returns the first row that is not finite.
 pub(crate) fn not_finite<L, const N: usize, const M: usize>(e: &KktSystem<L::Scalar, N, M>) -> Option<Row>
 where
     L: Lagrangian<N, M, Scalar: Real>,
@@ -102,7 +105,7 @@ where
     first_row::<L, N, M>(|i| !finite(&e.m[i], e.h[i]), |a| !finite(&e.f[a], e.gamma[a]))
 }
 
-/// The first coordinate, or else constraint, of which this holds.
+/// Returns the first coordinate, or else the first constraint, that satisfies its predicate.
 pub(crate) fn first_row<L: Lagrangian<N, M>, const N: usize, const M: usize>(
     coordinate: impl Fn(usize) -> bool,
     constraint: impl Fn(usize) -> bool,
@@ -112,7 +115,7 @@ pub(crate) fn first_row<L: Lagrangian<N, M>, const N: usize, const M: usize>(
     coordinate.or_else(constraint)
 }
 
-/// The coordinates that take part with at least a tenth of the largest share.
+/// Returns the coordinates whose share in the undetermined motions is at least a tenth of the largest.
 fn most_involved<L, const N: usize, const M: usize>(share: &[L::Scalar; N]) -> Names
 where
     L: Lagrangian<N, M, Scalar: Real>,

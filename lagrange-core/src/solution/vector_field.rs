@@ -1,4 +1,4 @@
-//! What is integrated: a motion in (q, q̇) or in (q, p). The methods are the same for both.
+//! Vector fields that the methods integrate: Lagrange's equations in (q, q̇), Hamilton's in (q, p).
 
 use super::consistent::{BOTH, project};
 use super::solve::solve_near;
@@ -7,21 +7,23 @@ use crate::names::Entry;
 use crate::number::{Real, vector};
 use crate::system::{Lagrangian, State};
 
-/// Coordinates and velocities, or coordinates and momenta, as arrays: what a one-step method adds up.
+/// Coordinates and velocities, or coordinates and momenta, as arrays: the unknowns of a one-step method.
 pub type PhaseVector<T, const N: usize> = [[T; N]; 2];
 
-/// The equations that a method integrates, of the first order in a [`PhaseVector`] whose first half is q.
+/// First-order equations of motion for a [`PhaseVector`], whose first half is q.
 pub trait VectorField<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> {
-    /// Whether the second half of a phase is the velocity, so that a state is known where its rates are not.
+    /// True if the second half of a phase is the velocity, so that a state is known without evaluating its
+    /// rates.
     const HOLDS_VELOCITY: bool;
 
-    /// Where a state is in the phase space.
+    /// Returns the phase of a state.
     fn phase(system: &L, state: &State<L::Scalar, N>) -> PhaseVector<L::Scalar, N>;
 
-    /// Puts the rates there into `rates`, resting on the constraints `active`, or on as many as are independent.
+    /// Writes the rates at `point` to `rates`. `active` marks the constraints to use; for `None` an independent
+    /// set is chosen.
     ///
     /// # Errors
-    /// As [`Simulate::solve`](crate::Simulate::solve), and what finding the velocity gives.
+    /// Those of [`Simulate::solve`](crate::Simulate::solve), and of the search for the velocity.
     fn evaluate(
         system: &L,
         point: &StagePoint<L::Scalar, N>,
@@ -29,40 +31,41 @@ pub trait VectorField<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M
         rates: &mut PhaseVector<L::Scalar, N>,
     ) -> Result<ActiveConstraints<M>, Error>;
 
-    /// The state there; where no velocity can be found it has the one nearby.
+    /// Returns the state at `point`; if its velocity cannot be found, with the nearby velocity of `point`.
     fn state(system: &L, point: &StagePoint<L::Scalar, N>) -> State<L::Scalar, N>;
 
-    /// The state on the constraints that is nearest.
+    /// Returns the nearest state on the constraints.
     ///
     /// # Errors
-    /// As [`Simulate::make_consistent`](crate::Simulate::make_consistent), and what finding the velocity gives.
+    /// Those of [`Simulate::make_consistent`](crate::Simulate::make_consistent), and of the search for the
+    /// velocity.
     fn project(system: &L, point: &StagePoint<L::Scalar, N>) -> Result<State<L::Scalar, N>, Error>;
 
-    /// What the second half of the phase has for the coordinate of this name.
+    /// Returns the entry in the second half of the phase that belongs to a coordinate.
     fn entry(coordinate: &'static str) -> Entry;
 }
 
-/// A time and a place in the phase space.
+/// A time and a point of the phase space, as at a stage of a method.
 #[derive(Clone, Copy, Debug)]
 pub struct StagePoint<T, const N: usize> {
-    /// The time.
+    /// Time.
     pub t: T,
-    /// The place.
+    /// Point of the phase space.
     pub y: PhaseVector<T, N>,
-    /// A velocity nearby, where the search for the one that belongs to momenta starts.
+    /// A nearby velocity, the initial guess of the search for the velocity that belongs to the momenta.
     pub velocity: [T; N],
 }
 
-/// What the rates of a phase rest on.
+/// The constraints that determine the rates of a phase.
 #[derive(Clone, Copy, Debug)]
 pub struct ActiveConstraints<const M: usize> {
-    /// The constraints that they rest on.
+    /// True for each constraint that determines the rates.
     pub active: [bool; M],
-    /// Whether the constraints are independent.
+    /// True if the constraints are independent.
     pub multipliers_are_unique: bool,
 }
 
-/// Lagrange's equations, in coordinates and velocities.
+/// Lagrange's equations in coordinates and velocities.
 #[derive(Clone, Copy, Debug)]
 pub struct LagrangianVectorField;
 
@@ -76,7 +79,8 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> VectorFi
         [state.q.into(), state.v.into()]
     }
 
-    // Inlined for sure: of what a call returns, and of a result moved out of another, there would be copies in every stage.
+    // Always inlined: otherwise every stage would copy the returned value and the result moved out of the
+    // closure.
     #[inline(always)]
     fn evaluate(
         system: &L,

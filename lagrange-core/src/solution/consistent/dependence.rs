@@ -1,8 +1,10 @@
-//! Constraints that depend on one another to first order, but not to second, as |a| = l, |b| = l and |a − b| = 2l do.
+//! Constraints that depend on one another to first order but not to second, as |a| = l, |b| = l and |a − b| =
+//! 2l do.
 //!
-//! Their combination Φ = Σ cₐΦₐ has no gradient where they hold. Where it is zero for those states around that satisfy the independent
-//! ones, its second derivatives along the directions that these leave free are zero, too, and the motion is determined. Where
-//! they are not, these directions are not free, which no first derivative says.
+//! A combination Φ = Σ cₐΦₐ of such constraints has no gradient where they hold. If Φ vanishes for all nearby
+//! states that satisfy the independent constraints, its second derivatives along the free directions vanish
+//! too, and the motion is determined. Otherwise these directions are not free, although every first derivative
+//! says so.
 
 use nalgebra::SVector;
 
@@ -13,22 +15,24 @@ use crate::number::{Real, Scalar, entries, larger, power_of_epsilon};
 use crate::solution::kkt::{Rank, Rows};
 use crate::system::{Lagrangian, State};
 
-/// Number of directions, beside the remainders of the dependent rows, along which second derivatives are taken. A quadratic form H that
-/// is not zero may vanish along one of them by chance, hardly along three.
+/// Number of directions, beside the remainders of the dependent rows, along which second derivatives are taken.
+/// A nonzero quadratic form H may vanish along one of them by chance, but hardly along three.
 ///
-/// A remainder is H d, where d leads away from where the rows are dependent. By Schwarz's inequality the form along it is at
-/// least |H d|²/(d·H d), so that s²/(2h) is at most d·H d/2, what the combination differs from zero by at d.
+/// A remainder is s = H d, where d is the displacement from the states at which the rows are dependent. By
+/// Schwarz's inequality the form h along it is at least |H d|²/(d·H d). So s²/(2h) is at most d·H d/2, the
+/// value of the combination at displacement d.
 const DIRECTIONS: usize = 3;
-/// The golden section: the fractional parts of its multiples are spread evenly.
+/// Golden section: the fractional parts of its multiples are evenly distributed.
 const GOLDEN: f64 = 0.618_033_988_749_895;
 
-/// Smallest pivot above which no constraints are looked at: rows that are dependent but for what a projection leaves have smaller ones.
+/// Smallest pivot above which dependence is not tested, ε^(1/4). Rows that are dependent up to the error of a
+/// projection have smaller pivots.
 pub(crate) fn least_pivot<T: Real>() -> T {
     power_of_epsilon(0.25)
 }
 
-/// Fails where a combination of holonomic constraints that hold has no gradient, but second derivatives along free directions, with
-/// the names of those constraints.
+/// Fails if a combination of satisfied holonomic constraints has no gradient but second derivatives along free
+/// directions. The error names the constraints of the combination.
 #[cold]
 #[inline(never)]
 pub(crate) fn check<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
@@ -57,7 +61,8 @@ pub(crate) fn check<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: 
     }
 }
 
-/// Of the holonomic constraints along a direction of the coordinates: in their bias it is what is even in the velocity.
+/// Returns the second derivatives of the holonomic constraints along a direction of the coordinates: the part
+/// of their bias γ that is even in the velocity, without its value at rest.
 fn second_derivatives<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
@@ -71,7 +76,7 @@ fn second_derivatives<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M
     entries(|a| if is_holonomic(a) { half * (ahead[a] + back[a]) - rest[a] } else { zero })
 }
 
-/// The constraints that take part with more than ε^(1/3) of the largest part.
+/// Returns the constraints whose coefficients exceed ε^(1/3) of the largest coefficient.
 fn involved<L, const N: usize, const M: usize>(parts: &[L::Scalar; M]) -> Names
 where
     L: Lagrangian<N, M, Scalar: Real>,

@@ -1,7 +1,7 @@
-//! Constraints whose gradient vanishes where they hold, as that of cos(a) = 1 does.
+//! Holonomic constraints whose gradient vanishes where they hold, as for cos(a) = 1.
 //!
-//! The equations of motion know a constraint by its first derivatives. Where these are zero it is none, and where they are the
-//! round-off of zero it is one that points anywhere.
+//! The equations of motion contain only the first derivatives of a constraint. If these vanish, the constraint
+//! has no effect; if they are the round-off of zero, it acts in an arbitrary direction.
 
 use core::array::from_fn;
 
@@ -12,10 +12,11 @@ use crate::number::{Real, Scalar, entries, larger, power_of_epsilon};
 use crate::solution::round_off::{SAFETY, neighbours};
 use crate::system::{Lagrangian, State};
 
-/// How far next to a state to look for whether a row is zero there, too.
+/// Displacement of the coordinates for the test whether a row vanishes throughout a neighbourhood.
 const AROUND: f64 = 1.0 / 1024.0;
 
-/// Fails with the first holonomic constraint that holds at this state, to round-off, and has no gradient there.
+/// Fails if a holonomic constraint holds at this state, to round-off, but has no gradient there. The error
+/// names the first one.
 pub(crate) fn check<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
@@ -31,9 +32,10 @@ pub(crate) fn check<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: 
     }
 }
 
-/// Of which holonomic constraints no entry of the gradient is more than what ε^(3/4) of the coordinates makes of it: where what
-/// is added to a coordinate is up to 1,000 times larger, round-off of the sum is less. A row that is there is so small only
-/// next to a singular pose.
+/// Returns true for each holonomic constraint whose gradient is negligible: no entry exceeds [`SAFETY`] times
+/// its change when the coordinates change by ε^(3/4). This also covers coordinates that are differences of
+/// numbers up to 1,000 times larger, whose round-off is smaller than that. A gradient of an effective
+/// constraint is this small only next to a singular pose.
 #[inline(never)]
 fn vanishing<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
@@ -53,7 +55,8 @@ fn vanishing<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     from_fn(|a| is_active(a) && (0..N).all(|i| Scalar::abs(here[a][i]) <= safety * noise[a][i]))
 }
 
-/// Whether the constraint holds within √ε of the coordinates: as its gradient vanishes, it is not known better.
+/// True if the constraint holds to within a change of the coordinates by √ε: where the gradient vanishes,
+/// round-off hides smaller differences.
 fn holds<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
@@ -66,7 +69,7 @@ fn holds<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     Scalar::abs(value) <= L::Scalar::constant(SAFETY) * most
 }
 
-/// Whether the row is not zero all around, as of a constraint times a parameter that is zero.
+/// True if the row is nonzero somewhere nearby, unlike the row of a constraint times a parameter that is zero.
 fn is_felt<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,

@@ -1,4 +1,4 @@
-//! The two levels of constraints, and how far a state is off them.
+//! The two levels of constraints, positions and velocities, and their residuals.
 
 use core::array::from_fn;
 
@@ -11,7 +11,8 @@ use crate::number::{
 };
 use crate::system::{ConstraintKind, Lagrangian, State};
 
-/// What is projected: the coordinates onto the holonomic constraints, or the velocities onto all.
+/// Unknowns of a projection: the coordinates, projected onto the holonomic constraints, or the velocities,
+/// projected onto all constraints.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Level {
     Position,
@@ -21,12 +22,12 @@ pub(crate) enum Level {
 pub(crate) const BOTH: [Level; 2] = [Level::Position, Level::Velocity];
 
 impl Level {
-    /// Whether a constraint acts on it.
+    /// True if a constraint acts on this level.
     pub(crate) fn concerns<L: Lagrangian<N, M>, const N: usize, const M: usize>(self) -> bool {
         L::CONSTRAINT_KINDS.iter().any(|kind| self.is_active(*kind))
     }
 
-    /// What should be zero.
+    /// Constraint residual of this level, Φ or F q̇ + b.
     pub(crate) fn residual<L: Lagrangian<N, M>, const N: usize, const M: usize>(
         self,
         system: &L,
@@ -38,7 +39,7 @@ impl Level {
         }
     }
 
-    /// The rows of the constraints that act on it, zeros for the others.
+    /// Constraint Jacobian of this level; rows of constraints that do not act on it are zero.
     pub(crate) fn jacobian<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
         self,
         system: &L,
@@ -49,7 +50,7 @@ impl Level {
         from_fn(|a| entries(|i| if is_active(a) { jacobian[(a, i)] } else { zero }))
     }
 
-    /// The size of the terms that it is the sum of.
+    /// Magnitude of the terms of the residual, for its round-off.
     pub(crate) fn magnitude<L: Lagrangian<N, M>, const N: usize, const M: usize>(
         self,
         system: &L,
@@ -74,16 +75,16 @@ impl Level {
     }
 }
 
-/// So many units of round-off of the terms of a constraint may be round-off, where these cancel.
+/// Largest residual that may be round-off of cancelling terms, in units of ε times the terms.
 pub(super) const NEGLIGIBLE: f64 = 16.0;
 
-/// What should be zero, with the Jacobian and the size of the terms that it is the sum of.
+/// Residual of a level, with its Jacobian and the magnitude of its terms.
 pub(super) struct Residual<T, const N: usize, const M: usize> {
     pub(super) value: [T; M],
     pub(super) jacobian: [[T; N]; M],
-    /// Σ |F_αa| |x_a|: of this, a part ε is round-off.
+    /// Σ |F_αa| |x_a|, the magnitude of the terms; ε times it is their round-off.
     pub(super) terms: [T; M],
-    /// Σ |F_αa|: the terms where the unknowns are about 1.
+    /// Σ |F_αa|, the magnitude of the terms for unknowns of size 1.
     pub(super) sensitivity: [T; M],
 }
 
@@ -102,7 +103,8 @@ impl<T: Real, const N: usize, const M: usize> Residual<T, N, M> {
         }
     }
 
-    /// The first constraint with a residual of more than this part of its terms (and of ε^(3/4) where they vanish).
+    /// Returns the first constraint whose residual exceeds `part` of its terms (plus ε^(3/4) of its
+    /// sensitivity, for terms near zero).
     pub(crate) fn first_above(&self, part: T) -> Option<usize> {
         (0..M).find(|&a| !is_within(Scalar::abs(self.value[a]), self.bound(part, a)))
     }
@@ -111,13 +113,14 @@ impl<T: Real, const N: usize, const M: usize> Residual<T, N, M> {
         part * self.terms[a] + power_of_epsilon::<T>(0.75) * self.sensitivity[a]
     }
 
-    /// What a projection may leave of each as round-off.
+    /// Returns the residual of each constraint that a projection may leave as round-off.
     pub(crate) fn negligible(&self) -> [T; M] {
         entries(|a| self.bound(T::constant(NEGLIGIBLE * T::EPSILON), a))
     }
 
-    /// Counts of each term only what Φ really changes by with its coordinate, of which an eighth more is tried. The angle
-    /// 10¹⁶ and the gradient of its sine have a large product, but a sine is never as far off.
+    /// Limits each term to the actual change of Φ with its coordinate, measured by an increase of the
+    /// coordinate by an eighth. An angle of 10¹⁶ times the gradient of its sine is a large term, but the sine
+    /// is never that inaccurate.
     pub(crate) fn limit_terms<L>(&mut self, system: &L, state: &State<T, N>)
     where
         L: Lagrangian<N, M, Scalar = T>,
@@ -135,15 +138,15 @@ impl<T: Real, const N: usize, const M: usize> Residual<T, N, M> {
         }
     }
 
-    /// The distance to the constraint farthest off, as if each stood alone, and which one that is. Round-off of the terms
-    /// of a constraint is no distance: it must not hide another.
+    /// Returns the distance to the farthest constraint, each taken alone, and its index. Round-off of the terms
+    /// does not count as distance: it must not hide the distance of another constraint.
     pub(crate) fn farthest(&self) -> (T, usize) {
         let zero = T::constant(0.0);
         let mut farthest = (zero, 0);
         for a in 0..M {
             let value = beyond_round_off(self.value[a], self.terms[a]);
             let distance = if self.sensitivity[a] > zero { value / self.sensitivity[a] } else { value };
-            // What is not a number is farthest of all, and stays that.
+            // NaN counts as the largest distance.
             if is_number(farthest.0) && exceeds(distance, farthest.0) {
                 farthest = (distance, a);
             }
@@ -152,12 +155,12 @@ impl<T: Real, const N: usize, const M: usize> Residual<T, N, M> {
     }
 }
 
-/// Whether `x` is anything but NaN.
+/// True unless `x` is NaN.
 fn is_number<T: Real>(x: T) -> bool {
     x.partial_cmp(&x).is_some()
 }
 
-/// The coordinates only, or the velocities only.
+/// Checks the constraints of one level, on the coordinates or on the velocities.
 pub(crate) fn check_level<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     level: Level,

@@ -1,9 +1,10 @@
 //! Consistent states: coordinates on Φ = 0, velocities on F q̇ + b = 0.
 //!
-//! Newton's iteration with corrections δ that are least in the metric of the mass matrix: M δ − Fᵀμ = 0,
-//! F δ = −residual, the system of the dynamics with other right-hand sides (Hairer, Lubich and Wanner,
-//! *Geometric Numerical Integration*, IV.4). Each correction is the least, their sum is not where constraints curve: from
-//! as far off as round-off that makes no difference, and from farther the [nearest] point is then sought.
+//! Newton's iteration with corrections δ of least norm in the metric of the mass matrix: M δ − Fᵀμ = 0, F δ =
+//! −residual. This is the linear system of the dynamics with other right-hand sides (Hairer, Lubich and Wanner,
+//! *Geometric Numerical Integration*, IV.4). Each correction is the least, but on curved constraints their sum
+//! is not. For a state within round-off of the constraints the difference is negligible; from farther away the
+//! [nearest] point is then sought.
 
 pub(crate) mod dependence;
 pub(crate) mod gradient;
@@ -28,22 +29,22 @@ use crate::system::{Lagrangian, State};
 pub(crate) use level::{BOTH, Level, check_level};
 use level::{NEGLIGIBLE, Residual};
 
-/// How far a projection onto the constraints moved a state.
+/// Displacement of a state by a projection onto the constraints.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Adjustment<T, const N: usize> {
-    /// New minus old generalized coordinates.
+    /// Projected minus given generalized coordinates.
     pub q: SVector<T, N>,
-    /// New minus old generalized velocities.
+    /// Projected minus given generalized velocities.
     pub v: SVector<T, N>,
 }
 
 impl<T: Real, const N: usize> Adjustment<T, N> {
-    /// The largest change of a coordinate, in magnitude.
+    /// Returns the largest change of a coordinate, in magnitude.
     pub fn largest_coordinate_change(&self) -> T {
         largest(self.q.as_slice())
     }
 
-    /// The largest change of a velocity, in magnitude.
+    /// Returns the largest change of a velocity, in magnitude.
     pub fn largest_velocity_change(&self) -> T {
         largest(self.v.as_slice())
     }
@@ -56,11 +57,11 @@ impl<T: Real, const N: usize> Display for Adjustment<T, N> {
     }
 }
 
-/// The consistent state and how far it is from the one given.
+/// A consistent state and its displacement from the given state.
 pub type Consistent<T, const N: usize> = (State<T, N>, Adjustment<T, N>);
 
-/// See [`Simulate::make_consistent_holding`](crate::Simulate::make_consistent_holding); `held` are coordinates and
-/// velocities.
+/// Implements [`Simulate::make_consistent_holding`](crate::Simulate::make_consistent_holding); `held` marks the
+/// coordinates and the velocities to hold.
 pub(crate) fn make_consistent<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
@@ -76,7 +77,7 @@ pub(crate) fn make_consistent<L: Lagrangian<N, M, Scalar: Real>, const N: usize,
     adjusted(system, state, consistent)
 }
 
-/// A state that satisfies the constraints to √ε, moved onto them to round-off.
+/// Projects a state that satisfies the constraints to √ε onto them, to round-off.
 pub(crate) fn project_to_round_off<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
@@ -86,7 +87,7 @@ pub(crate) fn project_to_round_off<L: Lagrangian<N, M, Scalar: Real>, const N: u
     adjusted(system, state, settled)
 }
 
-/// With how far it is from the state given.
+/// Checks the projected state and returns it with its displacement from the given state.
 fn adjusted<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
@@ -101,7 +102,8 @@ fn adjusted<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     Ok((consistent, Adjustment { q: consistent.q - state.q, v: consistent.v - state.v }))
 }
 
-/// Moves the coordinates, the velocities or both, the coordinates first, to the nearest ones on their constraints.
+/// Projects the coordinates, the velocities or both, the coordinates first, to the nearest ones on their
+/// constraints.
 pub(crate) fn project<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     levels: &[Level],
@@ -110,12 +112,13 @@ pub(crate) fn project<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M
     project_by(Corrections::ToRoundOff, system, levels, state, &mut none())
 }
 
-/// Nothing is left by rounding of coordinates and velocities.
+/// Zero rounding errors of coordinates and velocities.
 fn none<T: Scalar, const N: usize>() -> [[T; N]; 2] {
     [[T::constant(0.0); N]; 2]
 }
 
-/// The same by these corrections, as long as the state is that near, with what rounding leaves of coordinates and velocities.
+/// Projects with the given corrections if the state is near the constraints, else by the general projection.
+/// `rest` holds the rounding errors of coordinates and velocities.
 #[inline]
 pub(crate) fn project_by<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     corrections: Corrections<L::Scalar>,
@@ -124,7 +127,7 @@ pub(crate) fn project_by<L: Lagrangian<N, M, Scalar: Real>, const N: usize, cons
     state: &mut State<L::Scalar, N>,
     rest: &mut [[L::Scalar; N]; 2],
 ) -> Result<(), Error> {
-    // Of a constant, nothing is compiled of what can never be reached.
+    // `const`: the compiler omits the rest for a system without constraints.
     if const { M == 0 } || !levels.iter().any(|level| level.concerns::<L, N, M>()) {
         return Ok(());
     }
@@ -159,14 +162,14 @@ fn project_holding<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: u
     let start = projection.trial(*state);
     let found = newton::find(&mut projection, start);
     if found.is_err() && held.contains(&true) {
-        // What cannot hold at all is not the fault of what is held.
+        // If the constraints cannot hold even with all entries free, this error takes precedence.
         project_in_general(system, &[level], &mut { *state })?;
     }
     *state = found?.0.0;
     Ok(())
 }
 
-/// See [`Simulate::check_consistent`](crate::Simulate::check_consistent).
+/// Implements [`Simulate::check_consistent`](crate::Simulate::check_consistent).
 pub(crate) fn check<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
@@ -175,15 +178,15 @@ pub(crate) fn check<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: 
     BOTH.into_iter().try_for_each(|level| check_level(system, level, state))
 }
 
-/// The search for the nearest state on the constraints of a level.
+/// Newton's search for the nearest state on the constraints of a level.
 struct Projection<'a, L, const N: usize, const M: usize> {
     system: &'a L,
     level: Level,
-    /// Entries that stay as they are.
+    /// True for entries that keep their value.
     held: &'a [bool; N],
 }
 
-/// A state, and what is left at it.
+/// A trial state and its residual.
 type Trial<T, const N: usize, const M: usize> = (State<T, N>, Residual<T, N, M>);
 
 impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Projection<'_, L, N, M> {
@@ -191,8 +194,8 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Projecti
         (state, Residual::of(self.system, self.level, &state))
     }
 
-    /// The least δ with F δ = −residual, of the entries that move. Neither it nor what it calls is inlined, so
-    /// that the stack holds few matrices at a time.
+    /// Returns the least δ with F δ = −residual over the entries that are not held. Neither this function nor
+    /// its callees are inlined, so the stack holds few matrices at a time.
     #[inline(never)]
     fn correction(
         &self,
@@ -202,7 +205,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Projecti
         let mut m: [[L::Scalar; N]; N] = self.system.mass_matrix(state).into();
         let mut f = residual.jacobian;
         hold(self.held, &mut m, &mut f);
-        // The elimination keeps more digits of small constraints beside large ones than the general solve does.
+        // For small constraints beside large ones the elimination is more accurate than the general solver.
         fast_correction(&m, &f, &residual.value)
             .or_else(|| self.general_correction(&m, &f, &residual.value, rank))
     }
@@ -228,7 +231,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Search f
     type Trial = Trial<L::Scalar, N, M>;
     type Linear = ();
 
-    /// A start within its reach takes four or five.
+    /// From a typical start, four or five steps suffice.
     const STEPS: usize = 50;
 
     fn linearize(&mut self, _: &Self::Trial) -> Result<(), Error> {
@@ -249,7 +252,8 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Search f
         trial: &Self::Trial,
         converged: bool,
     ) -> Result<impl Iterator<Item = Self::Trial>, Error> {
-        // Constraints nearly dependent here are dependent where they hold, as a rule; if not, they all count.
+        // Constraints that are nearly dependent at this trial are usually dependent where they hold. If these
+        // steps fail, all constraints count as independent.
         let ranks = [Rank::towards_constraints(), Rank::off_constraints()].into_iter();
         let steps = ranks.filter_map(|rank| self.correction(trial, rank));
         Ok(steps.flat_map(move |step| {
@@ -285,9 +289,9 @@ fn fast_correction<T: Real, const N: usize, const M: usize>(
     is_trustworthy(&fast).then_some(fast.accelerations)
 }
 
-/// Factors of the least x with F x + γ = 0, in the metric of the mass matrix. Where F leaves a direction without mass,
-/// as holonomic constraints alone do where a massless coordinate is tied by a velocity constraint, the masses on the
-/// diagonal are the metric.
+/// Factorization for the least x with F x + γ = 0, in the metric of the mass matrix. If F leaves a direction
+/// without mass, the metric is the diagonal of M. Holonomic constraints alone leave such a direction if a
+/// velocity constraint ties a massless coordinate.
 pub(crate) fn factors_of_nearest<T: Real, const N: usize, const M: usize>(
     m: &[[T; N]; N],
     f: &[[T; N]; M],
@@ -297,7 +301,7 @@ pub(crate) fn factors_of_nearest<T: Real, const N: usize, const M: usize>(
     if factors.are_regular() { factors } else { Factors::of(&diagonal(m), f, rank) }
 }
 
-/// Leaves what is held out of the equations: no constraint sees it, and it has a mass of its own.
+/// Removes held entries from the equations: zero columns in the constraints, and a unit mass without coupling.
 fn hold<T: Real, const N: usize>(held: &[bool; N], m: &mut [[T; N]], f: &mut [[T; N]]) {
     for i in (0..N).filter(|&i| held[i]) {
         m.iter_mut().chain(&mut *f).for_each(|row| row[i] = T::constant(0.0));
@@ -307,7 +311,7 @@ fn hold<T: Real, const N: usize>(held: &[bool; N], m: &mut [[T; N]], f: &mut [[T
     }
 }
 
-/// The masses on the diagonal, 1 where there is none.
+/// Diagonal part of the mass matrix, with 1 in place of zero masses.
 fn diagonal<T: Real, const N: usize>(m: &[[T; N]; N]) -> [[T; N]; N] {
     let (zero, one) = (T::constant(0.0), T::constant(1.0));
     let mass = |i: usize| if m[i][i] == zero { one } else { Scalar::abs(m[i][i]) };

@@ -1,12 +1,13 @@
-//! The point of the holonomic constraints that is nearest to one given: M(q₀)(q − q₀) = Fᵀμ with Φ(q) = 0.
+//! Nearest point on the holonomic constraints to a given point: M(q₀)(q − q₀) = Fᵀμ with Φ(q) = 0.
 //!
-//! From a point on the constraints Newton steps along them shorten the distance, each followed by a projection back onto
-//! them (Absil, Mahony and Sepulchre, *Optimization Algorithms on Matrix Manifolds*, 6.2). Its Hessian is that of the
-//! Lagrange function, M − Σ μ ∇²Φ, on their tangent space; where that is not positive, multiples of M are added, and next to a
-//! maximum or a saddle the step goes along a direction in which the distance curves down: neither is taken for the nearest point.
+//! From a point on the constraints, Newton steps along the constraints shorten the distance; each is followed
+//! by a projection back onto them (Absil, Mahony and Sepulchre, *Optimization Algorithms on Matrix Manifolds*,
+//! 6.2). The Hessian is that of the Lagrange function, M − Σ μ ∇²Φ, on the tangent space. If it is not
+//! positive, multiples of M are added. Next to a maximum or a saddle the step follows a direction of negative
+//! curvature, so neither is mistaken for the nearest point.
 //!
-//! Functions that factorize a matrix are not inlined, and matrices that are kept lie on the heap, so that the stack holds few of
-//! them at a time: 0.75 MiB for 100 coordinates and 50 constraints.
+//! Functions that factorize a matrix are not inlined, and stored matrices lie on the heap. The stack thus holds
+//! few matrices at a time: 0.75 MiB for 100 coordinates and 50 constraints.
 
 #[cfg(test)]
 mod tests;
@@ -24,10 +25,12 @@ use crate::solution::kkt::{Factors, Rank};
 use crate::solution::newton::halvings;
 use crate::system::{Lagrangian, State};
 
-/// Newton's method takes five or so; far away and where minima are flat it takes more, 31 for a chain of 50 rods.
+/// Limit on Newton steps. Usually about five suffice; far from the constraints and at flat minima more, 31 for
+/// a chain of 50 rods.
 const STEPS: usize = 100;
 
-/// Moves coordinates along the holonomic constraints to a local minimum of the distance from those given.
+/// Moves the coordinates along the holonomic constraints to a local minimum of the distance from the given
+/// ones.
 pub(super) fn approach<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     given: &State<L::Scalar, N>,
@@ -47,7 +50,8 @@ pub(super) fn approach<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const 
     *state = place.state;
 }
 
-/// The mass matrix at the coordinates given, or minus it, where that is positive; else the masses on its diagonal.
+/// Metric of the distance: the mass matrix at the given coordinates, or its negative, if positive semidefinite;
+/// else its diagonal.
 #[inline(never)]
 fn metric<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
@@ -64,13 +68,13 @@ fn metric<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     Room::of(if is_semidefinite(&m) && is_regular(&m, &f) { m } else { diagonal(&m) })
 }
 
-/// Whether no direction has a negative mass.
+/// True if no direction has negative mass.
 #[inline(never)]
 fn is_semidefinite<T: Real, const N: usize>(m: &[[T; N]; N]) -> bool {
     Factors::<T, N, 0>::of(m, &[], Rank::off_constraints()).is_semidefinite()
 }
 
-/// Whether every direction that the constraints leave free has a mass.
+/// True if every direction that the constraints leave free has mass.
 #[inline(never)]
 fn is_regular<T: Real, const N: usize, const M: usize>(m: &[[T; N]; N], f: &[[T; N]; M]) -> bool {
     Factors::of(m, f, Rank::off_constraints()).are_regular()
@@ -79,23 +83,24 @@ fn is_regular<T: Real, const N: usize, const M: usize>(m: &[[T; N]; N], f: &[[T;
 struct Nearest<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
     system: &'a L,
     given: &'a State<L::Scalar, N>,
-    /// Entries that stay as they are.
+    /// True for entries that keep their value.
     held: &'a [bool; N],
     metric: Room<[[L::Scalar; N]; N]>,
 }
 
-/// A point on the constraints.
+/// A point on the constraints, with its distance from the given point q₀.
 struct ConstrainedPoint<T, const N: usize, const M: usize> {
     state: State<T, N>,
     f: Room<[[T; N]; M]>,
-    /// M (q₀ − q)
+    /// Gradient of half the squared distance, with opposite sign: M (q₀ − q).
     pull: [T; N],
-    /// The square of the distance.
+    /// Squared distance in the metric M.
     square: T,
-    /// The part of q₀ − q along the constraints, zero at the nearest point, and μ.
+    /// Tangential part of q₀ − q, zero at the nearest point; with the multipliers μ.
     slip: SVector<T, N>,
     multipliers: SVector<T, M>,
-    /// The largest entry of the slip as a part of the coordinates that it is the difference of, and of the distance.
+    /// Largest ratio of an entry of `slip` to its scale: |q| + |q₀| plus the distance in units of that
+    /// coordinate.
     slip_part: T,
 }
 
@@ -109,7 +114,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
         let pull = entries(|i| dot(&metric[i], way.as_slice()));
         let found = Factors::of(metric, &f, Rank::off_constraints()).solve(&pull, &[zero; M]).ok()?;
         let square = dot(&pull, way.as_slice());
-        // Of each difference, and of what its projection mixes, a part ε is round-off.
+        // Round-off of each difference, and of the terms that the projection combines, is ε times this scale.
         let part = |i: usize| {
             let terms = Scalar::abs(state.q[i]) + Scalar::abs(given.q[i]);
             let slip = Scalar::abs(found.accelerations[i]);
@@ -126,7 +131,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
         })
     }
 
-    /// A place that is nearer, or whose slip is smaller where round-off hides which is nearer.
+    /// Returns a nearer point, or one with half the slip if round-off hides which point is nearer.
     fn nearer(&self, place: &ConstrainedPoint<L::Scalar, N, M>) -> Option<ConstrainedPoint<L::Scalar, N, M>> {
         let half = L::Scalar::constant(0.5);
         let hidden = L::Scalar::constant(64.0 * L::Scalar::EPSILON) * place.square;
@@ -139,7 +144,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
         steps.flat_map(parts).filter_map(|step| self.moved(place, &step)).find(is_nearer)
     }
 
-    /// Back on the constraints after a step.
+    /// Takes a step and projects the result back onto the constraints.
     fn moved(
         &self,
         place: &ConstrainedPoint<L::Scalar, N, M>,
@@ -153,8 +158,9 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
         self.place(state)
     }
 
-    /// Newton's step, none at a minimum. Where the distance curves down, a damped one, or next to a saddle one along a direction
-    /// that leads down, as long as the point given is away; then the slip.
+    /// Returns trial steps, none at a minimum. First, Newton's step; where the distance has negative curvature,
+    /// a damped step, or next to a saddle a step of the length of the distance along a direction of negative
+    /// curvature. Second, the slip.
     #[inline(never)]
     fn steps(&self, place: &ConstrainedPoint<L::Scalar, N, M>) -> [Option<SVector<L::Scalar, N>>; 2] {
         let hessian = self.hessian(place);
@@ -180,7 +186,8 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
         found.ok().map(|found| found.accelerations)
     }
 
-    /// Newton's step with the least of a few multiples of the metric added to the Hessian that make it positive.
+    /// Newton's step with a multiple of the metric added to the Hessian: the smallest of ten multiples that
+    /// makes it positive.
     #[inline(never)]
     fn damped(
         &self,
@@ -195,7 +202,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
         })
     }
 
-    /// A step in this direction, or the opposite one, towards the point given.
+    /// A step along ±`down`, as long as the distance, on the side of the given point.
     fn as_long_as_the_way(
         &self,
         place: &ConstrainedPoint<L::Scalar, N, M>,
@@ -208,8 +215,8 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
         vector(entries(|i| down[i] * scale))
     }
 
-    /// M − Σ μ ∇²Φ, from central differences of Fᵀμ over a part ε^(1/3) of the distance. As |Fᵀμ| is M times the distance, they are
-    /// off by a part ε^(2/3) of M: a step of Newton's method leaves as little of the slip.
+    /// Hessian M − Σ μ ∇²Φ, from central differences of Fᵀμ over ε^(1/3) of the distance. |Fᵀμ| is M times the
+    /// distance, so the error is ε^(2/3) of M: a Newton step reduces the slip by that factor.
     #[inline(never)]
     fn hessian(&self, place: &ConstrainedPoint<L::Scalar, N, M>) -> Room<[[L::Scalar; N]; N]> {
         let (zero, half) = (L::Scalar::constant(0.0), L::Scalar::constant(0.5));
@@ -233,7 +240,8 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
         hessian
     }
 
-    /// The length of a difference in coordinate `j`: a small part of the distance, and many round-offs of the coordinate.
+    /// Step length of the central difference in coordinate `j`: ε^(1/3) of the distance, plus ε^(2/3) of the
+    /// coordinate, well above its round-off.
     fn difference(&self, place: &ConstrainedPoint<L::Scalar, N, M>, j: usize) -> L::Scalar {
         let (zero, part) = (L::Scalar::constant(0.0), power_of_epsilon(1.0 / 3.0));
         let mass = self.metric[j][j];

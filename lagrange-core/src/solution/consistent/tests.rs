@@ -21,7 +21,7 @@ fn a_state_off_the_sphere_is_put_on_it() {
 
 #[test]
 fn the_projection_is_orthogonal_in_the_metric_of_the_mass_matrix() {
-    // x heavy, y light: x + y = 2 is reached from 0 by moving y nine times as far.
+    // Mass 9 along x and 1 along y: from 0, x + y = 2 is reached by a displacement nine times as large in y.
     let system = Mechanism::<2, 1, 1> {
         mass: |_| [[9.0, 0.0], [0.0, 1.0]],
         forcing: |_| [0.0; 2],
@@ -34,7 +34,7 @@ fn the_projection_is_orthogonal_in_the_metric_of_the_mass_matrix() {
     assert!((consistent.q - State::at_rest([0.2, 1.8]).q).norm() < 1e-15, "{consistent:?}");
 }
 
-/// c0: x² + y² = 1 on the coordinates, c1: ẏ = ẋ on the velocities; z, without mass, has only ż = ẋ, c2.
+/// c0: x² + y² = 1 on the coordinates; c1: ẏ = ẋ + 1 on the velocities; c2: ż = ẋ for the massless z.
 fn mixed() -> Mechanism<3, 3, 1> {
     Mechanism {
         mass: |_| [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0]],
@@ -86,7 +86,7 @@ fn newton_gets_there_from_afar() {
 
 #[test]
 fn a_step_that_leads_away_is_halved() {
-    // Newton's method on atan x = 0 diverges from |x| > 1.39.
+    // Newton's method for atan x = 0 diverges from |x| > 1.39.
     let system = Mechanism::<1, 1, 1> {
         mass: identity,
         forcing: |_| [0.0],
@@ -134,7 +134,7 @@ fn a_residual_that_is_no_number_is_the_farthest() {
     assert!(distance.is_nan() && row == 1, "{distance} in row {row}");
 }
 
-/// Three coordinates on x + y + z = 3, with a full mass matrix.
+/// Three coordinates on the plane x + y + z = 3, with a full mass matrix.
 fn coupled() -> Mechanism<3, 1, 1> {
     Mechanism {
         mass: |_| [[2.0, 1.0, 0.5], [1.0, 3.0, 1.0], [0.5, 1.0, 4.0]],
@@ -146,7 +146,8 @@ fn coupled() -> Mechanism<3, 1, 1> {
     }
 }
 
-/// With x held, δ = (y, z) is least in the metric ((3, 1), (1, 4)) on y + z = 3: δ ∝ its inverse times (1, 1).
+/// With x held, δ = (y, z) on y + z = 3 is least in the metric ((3, 1), (1, 4)): δ is proportional to its
+/// inverse times (1, 1).
 #[test]
 fn what_is_held_stays_and_the_rest_is_nearest_in_its_own_metric() {
     let start = State::new([0.0; 3], [1.0, 0.0, 0.0]);
@@ -155,16 +156,16 @@ fn what_is_held_stays_and_the_rest_is_nearest_in_its_own_metric() {
     assert!((state.q - State::at_rest([0.0, 1.8, 1.2]).q).norm() < 1e-15, "{state:?}");
     assert!((state.v - State::at_rest([1.0, 3.0, 2.0]).q).norm() < 1e-14, "{state:?}");
     assert!((moved.largest_coordinate_change() - 1.8).abs() < 1e-15);
-    // Two held leave one way.
+    // Two held entries leave one direction.
     let (state, _) = coupled().make_consistent_holding(&start, &["y_dot", "z", "x"]).unwrap();
     assert!((state.q - State::at_rest([0.0, 3.0, 0.0]).q).norm() < 1e-15 && state.v[1] == 0.0, "{state:?}");
-    // Nothing held is the nearest state of all.
+    // With nothing held, the result is the nearest state.
     assert_eq!(coupled().make_consistent_holding(&start, &[]), coupled().make_consistent(&start));
 }
 
 #[test]
 fn what_is_held_stays_in_the_general_solve_too() {
-    // Dependent constraints; the velocity tangential to the circle.
+    // Dependent constraints; the velocity is tangential to the circle.
     let start = State::new([0.6, -0.7], [0.4, 0.0]);
     let (state, _) = dependent_on_the_manifold().make_consistent_holding(&start, &["x", "x_dot"]).unwrap();
     assert_eq!((state.q[0], state.v[0]), (0.6, 0.4));
@@ -190,21 +191,21 @@ fn too_much_held_is_said_with_the_constraint() {
         text.starts_with("what is held, `x`, `y`, `z`, leaves too little freedom for constraint `c0`"),
         "{text}"
     );
-    // Velocities: x ẋ + z ż = 0 has no ẏ in it at y = 0.
+    // Velocities: x ẋ + z ż = 0 does not contain ẏ at y = 0.
     let error = hold(&["x", "x_dot", "z_dot"]);
     assert!(matches!(error, Error::HeldTooMuch { constraint: "c0", rate: true, .. }), "{error}");
     assert!(std::format!("{error}").contains("the velocity of `x`, `z`, leaves"), "{error}");
-    // A place beyond the sphere, though something is left to move.
+    // x beyond the sphere, with y and z free to move.
     let beyond = State::at_rest([1.5, 0.1, 0.1]);
     let error = pendulum.make_consistent_holding(&beyond, &["x"]).unwrap_err();
     assert!(
         matches!(error, Error::HeldTooMuch { constraint: "c0", residual, .. } if residual >= 0.625),
         "{error}"
     );
-    // What cannot hold whatever moves is not the fault of what is held.
+    // If the constraints cannot hold with all entries free, the held entries are not blamed.
     let error = pendulum.make_consistent_holding(&State::at_rest([0.0; 3]), &["x"]).unwrap_err();
     assert!(matches!(error, Error::NotProjected { constraint: "c0", residual: -0.5, .. }), "{error}");
-    // All may be held where it is consistent already.
+    // All entries may be held if the state is consistent.
     let on = State::new([0.6, 0.0, -0.8], [0.8, 3.0, 0.6]);
     assert_eq!(
         pendulum.make_consistent_holding(&on, &["x", "y", "z", "x_dot", "y_dot", "z_dot"]).unwrap().0,
@@ -223,7 +224,7 @@ fn names_of_what_is_held_are_checked() {
     assert!(matches!(error, Error::StateNotFinite { .. }), "{error}");
 }
 
-/// Two circles, one a trillion times the other, reached from afar.
+/// Two circles whose radii differ by a factor of 10¹², from starts far away.
 #[test]
 fn a_large_constraint_hides_no_small_one() {
     let system = Mechanism::<4, 2, 2> {

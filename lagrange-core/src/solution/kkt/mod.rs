@@ -1,9 +1,9 @@
-//! The general solve of the equations of motion, for systems that the elimination cannot solve: a mass matrix that
-//! is singular or indefinite, constraints that depend on one another.
+//! General solver of the equations of motion, for systems on which the elimination fails: a singular or
+//! indefinite mass matrix, or constraints that depend on one another.
 //!
-//! The null-space method of Nocedal and Wright, *Numerical Optimization*, 16.2: a pivoted QR factorization of Fᵀ
-//! splits the accelerations into a part that the constraints fix and a part Z y that they leave free, and
-//! ZᵀMZ y follows from the equations of motion along the constraints. It stores N×N and M×N only.
+//! Null-space method of Nocedal and Wright, *Numerical Optimization*, 16.2. A pivoted QR factorization of Fᵀ
+//! splits the accelerations into a part that the constraints fix and a free part Z y. ZᵀMZ y follows from the
+//! equations of motion along the constraints. The method stores N×N and M×N matrices only.
 
 mod qr;
 mod symmetric;
@@ -21,7 +21,7 @@ use qr::{Qr, dot};
 use symmetric::Symmetric;
 pub(crate) use units::Units;
 
-/// M q̈ − Fᵀλ = h, F q̈ + γ = 0, rows as arrays.
+/// Coefficients of M q̈ − Fᵀλ = h, F q̈ + γ = 0; matrices as arrays of rows.
 pub(crate) struct KktSystem<T, const N: usize, const M: usize> {
     pub(crate) m: [[T; N]; N],
     pub(crate) h: [T; N],
@@ -32,44 +32,46 @@ pub(crate) struct KktSystem<T, const N: usize, const M: usize> {
 /// Reason why the equations have no solution, or more than one.
 #[derive(Debug)]
 pub(crate) enum Fault<T, const N: usize> {
-    /// Accelerations in proportion to these are undetermined (each in its own natural unit).
+    /// Undetermined accelerations: share of each coordinate in them, in its natural unit.
     Singular([T; N]),
-    /// The constraint of this index contradicts those it depends on.
+    /// Index of a constraint that contradicts those on which it depends.
     Contradictory(usize),
 }
 
-/// How the rank of the constraints is decided.
+/// Criterion for the rank of the constraints.
 #[derive(Clone, Copy)]
 pub(crate) struct Rank<T> {
-    /// A row counts as dependent where less than this of its length is left.
+    /// Largest remainder of a dependent row, relative to its length.
     tolerance: T,
-    /// Whether dependent constraints must agree with the others; else they are left out.
+    /// True if dependent constraints must agree with the others; false to ignore them.
     must_agree: bool,
 }
 
 impl<T: Real> Rank<T> {
-    /// At a state on the constraints: to ε^(2/3), and contradictions are a fault.
+    /// For a state on the constraints: tolerance ε^(2/3), and contradictions are errors.
     pub(crate) fn on_constraints() -> Self {
         Self { tolerance: power_of_epsilon(2.0 / 3.0), must_agree: true }
     }
 
-    /// At a state off the constraints, where constraints that depend on one another where they hold may not.
+    /// For a state off the constraints, where constraints that are dependent on the manifold may disagree.
     pub(crate) fn off_constraints() -> Self {
         Self { must_agree: false, ..Self::on_constraints() }
     }
 
-    /// For a step towards the constraints: as the last, but to ε^(1/3).
+    /// For a step towards the constraints: like [`off_constraints`](Self::off_constraints) with tolerance
+    /// ε^(1/3).
     pub(crate) fn towards_constraints() -> Self {
         Self { tolerance: power_of_epsilon(1.0 / 3.0), ..Self::off_constraints() }
     }
 
-    /// To find rows that may be dependent nearby: as the last, but to this tolerance.
+    /// For rows that may be dependent nearby: like [`off_constraints`](Self::off_constraints) with this
+    /// tolerance.
     pub(crate) fn near_dependence(tolerance: T) -> Self {
         Self { tolerance, ..Self::off_constraints() }
     }
 }
 
-/// A solution, and which constraints it rests on: as many as are independent.
+/// A solution, and for each constraint whether it belongs to the independent ones that determine it.
 pub(crate) type Solved<T, const N: usize, const M: usize> = (Solution<T, N, M>, [bool; M]);
 
 /// Solves the equations; see [`Factors`].
@@ -82,19 +84,19 @@ pub(crate) fn solve<T: Real, const N: usize, const M: usize>(
     Ok((solution, factors.active()))
 }
 
-/// The left-hand sides M and F factorized once, for any number of right-hand sides, in the units in which masses are
-/// about 1 and constraint rows have length 1.
+/// Factorization of the left-hand sides M and F for any number of right-hand sides, in units in which masses
+/// are about 1 and constraint rows have length 1.
 ///
-/// In these units a direction has no inertia where less than ε^(3/4) of the largest is left (ε: the round-off unit
-/// of `T`).
+/// In these units a direction counts as massless if its pivot is less than ε^(3/4) of the largest entry of M
+/// (ε: the round-off unit of `T`).
 pub(crate) struct Factors<T, const N: usize, const M: usize> {
     pub(crate) rows: Rows<T, N, M>,
     /// QᵀMQ.
     m: [[T; N]; N],
-    /// ZᵀMZ, and the smallest of its pivots as a part of the largest entry of M.
+    /// Factorization of ZᵀMZ, and its smallest pivot relative to the largest entry of M.
     along: Symmetric<T, N>,
     pivot: T,
-    /// Of dependent constraints, the factors that give the multipliers of least norm.
+    /// For dependent constraints, the QR factorization that gives the multipliers of least norm.
     wide: Option<Qr<T, M, N>>,
     must_agree: bool,
 }
@@ -116,23 +118,23 @@ impl<T: Real, const N: usize, const M: usize> Factors<T, N, M> {
         Self { rows, m, along, pivot, wide, must_agree: rank.must_agree }
     }
 
-    /// Whether every direction that F leaves free has a mass.
+    /// True if every direction that F leaves free has mass.
     pub(crate) fn are_regular(&self) -> bool {
         self.along.rank == N - self.rows.split.rank
     }
 
-    /// Whether no direction that F leaves free has a negative mass.
+    /// True if no direction that F leaves free has negative mass.
     pub(crate) fn is_semidefinite(&self) -> bool {
         self.along.negative().is_none()
     }
 
-    /// A direction that F leaves free, of negative mass.
+    /// Returns a direction of negative mass that F leaves free.
     pub(crate) fn downhill(&self) -> Option<SVector<T, N>> {
         let (rank, y) = (self.rows.split.rank, self.along.negative()?);
         Some(self.rows.out_of_basis(entries(|i| if i < rank { T::constant(0.0) } else { y[i - rank] })))
     }
 
-    /// M q̈ − Fᵀλ = h, F q̈ + γ = 0.
+    /// Solves M q̈ − Fᵀλ = h, F q̈ + γ = 0.
     pub(crate) fn solve(&self, h: &[T; N], gamma: &[T; M]) -> Result<Solution<T, N, M>, Fault<T, N>> {
         let Rows { units, split } = &self.rows;
         let mut h = entries(|i| h[i] * units.coordinates[i]);
@@ -152,13 +154,13 @@ impl<T: Real, const N: usize, const M: usize> Factors<T, N, M> {
         })
     }
 
-    /// Which constraints the solutions rest on: as many as are independent.
+    /// Returns true for each constraint that belongs to the independent ones.
     fn active(&self) -> [bool; M] {
         let split = &self.rows.split;
         from_fn(|a| split.order.iter().take(split.rank).any(|&row| row == a))
     }
 
-    /// The accelerations that the constraints leave free, ZᵀMZ y = Zᵀ(h − M x).
+    /// Returns the free accelerations from ZᵀMZ y = Zᵀ(h − M x), where x is `fixed`.
     fn free_accelerations(&self, h: &[T; N], fixed: &[T; N]) -> Result<[T; N], Fault<T, N>> {
         let zero = T::constant(0.0);
         let (rank, size) = (self.rows.split.rank, N - self.rows.split.rank);
@@ -170,7 +172,8 @@ impl<T: Real, const N: usize, const M: usize> Factors<T, N, M> {
         Ok(entries(|i| if i < rank { zero } else { y[i - rank] }))
     }
 
-    /// λ with Fᵀλ = M q̈ − h (given in the range basis); of all solutions the one of least Euclidean norm.
+    /// Returns λ with Fᵀλ = M q̈ − h (given in the range basis): the solution of least Euclidean norm if there
+    /// are several.
     fn multipliers(&self, force: &[T; N]) -> [T; M] {
         match &self.wide {
             None => {
@@ -186,7 +189,7 @@ impl<T: Real, const N: usize, const M: usize> Factors<T, N, M> {
     }
 }
 
-/// The constraint rows in natural units, each of length 1 (or zero), and what they fix.
+/// QR factorization of the constraint rows in natural units, each row of length 1 (or zero).
 pub(crate) struct Rows<T, const N: usize, const M: usize> {
     pub(crate) units: Units<T, N, M>,
     split: Qr<T, N, M>,
@@ -199,36 +202,37 @@ impl<T: Real, const N: usize, const M: usize> Rows<T, N, M> {
         Self { units, split: Qr::of(rows, rank.tolerance) }
     }
 
-    /// A basis of the x with F x = 0.
+    /// Returns a basis of the null space F x = 0.
     #[cfg(feature = "alloc")]
     pub(crate) fn null_space(&self) -> impl Iterator<Item = SVector<T, N>> {
         (self.split.rank..N)
             .map(|k| self.out_of_basis(entries(|i| T::constant(if i == k { 1.0 } else { 0.0 }))))
     }
 
-    /// The shortest x with F x + γ = 0; dependent constraints are left out.
+    /// Returns the least x with F x + γ = 0 in natural units, ignoring dependent constraints.
     #[cfg(feature = "alloc")]
     pub(crate) fn least(&self, gamma: &[T; M]) -> SVector<T, N> {
         self.out_of_basis(self.fixed(gamma))
     }
 
-    /// From the range basis and natural units.
+    /// Transforms from the range basis and natural units to the coordinates.
     fn out_of_basis(&self, mut x: [T; N]) -> SVector<T, N> {
         self.split.leave_basis(&mut x);
         vector(entries(|i| x[i] * self.units.coordinates[i]))
     }
 
-    /// In the range basis, the shortest x with F x + γ = 0.
+    /// Returns the least x with F x + γ = 0, in the range basis.
     fn fixed(&self, gamma: &[T; M]) -> [T; N] {
         self.split.solve_transposed(&self.demands(gamma))
     }
 
-    /// What the rows times the accelerations must be.
+    /// Right-hand sides of the rows, −γ in natural units.
     fn demands(&self, gamma: &[T; M]) -> [T; M] {
         entries(|a| -self.units.of_row(a, gamma[a]))
     }
 
-    /// The direction with F x = 0, of length 1 in natural units, with these weights of the vectors of a basis; none where F leaves none.
+    /// Returns the direction with F x = 0, of length 1 in natural units, with these weights of the basis
+    /// vectors of the null space. `None` if the null space is empty.
     pub(crate) fn free_direction(&self, weight: impl Fn(usize) -> T) -> Option<SVector<T, N>> {
         let rank = self.split.rank;
         let x = entries(|i| if i < rank { T::constant(0.0) } else { weight(i - rank) });
@@ -236,15 +240,17 @@ impl<T: Real, const N: usize, const M: usize> Rows<T, N, M> {
         (rank < N).then(|| self.out_of_basis(x.map(|x| x / length)))
     }
 
-    /// For each dependent row the direction of its remainder, the part that the independent rows do not make up; NaN where that is zero.
+    /// Returns, for each dependent row, the direction of its remainder, the part that the independent rows do
+    /// not span; NaN for a remainder of zero.
     pub(crate) fn remainders(&self) -> impl Iterator<Item = SVector<T, N>> {
         let split = &self.split;
         (split.rank..M).filter_map(move |j| self.free_direction(|k| split.entry(split.rank + k, j)))
     }
 
-    /// Finds a dependent row whose second derivative along a free direction is not the one that the independent rows give it. They differ
-    /// by h. The result is the coefficient of each row in the combination. The remainder of the row, s, must be so small that s²/(2h), the change of the
-    /// combination from here to where nothing is left, is no more than `round_off` of the constraints.
+    /// Returns the coefficients of a combination of rows that is dependent to first order only. The second
+    /// derivative of a dependent row along a free direction differs by h from that of the independent rows. The
+    /// remainder s of the row must be small: s²/(2h), the change of the combination until the remainder
+    /// vanishes, must not exceed `round_off` of the constraints.
     pub(crate) fn first_order_dependence(&self, second: &[T; M], round_off: &[T; M]) -> Option<[T; M]> {
         let (split, two) = (&self.split, T::constant(2.0));
         let (fixed, demands) = (self.fixed(second), self.demands(second));
@@ -258,7 +264,7 @@ impl<T: Real, const N: usize, const M: usize> Rows<T, N, M> {
         })
     }
 
-    /// Every dependent constraint must agree with the accelerations that the independent ones fix.
+    /// Checks that every dependent constraint agrees with the accelerations that the independent ones fix.
     fn check_agreement(&self, gamma: &[T; M], h: &[T; N], fixed: &[T; N]) -> Result<(), Fault<T, N>> {
         let (demands, size) = (self.demands(gamma), norm(fixed) + norm(h));
         let disagrees = |j: &usize| self.mismatch(*j, &demands, fixed, size).is_some();
@@ -266,8 +272,8 @@ impl<T: Real, const N: usize, const M: usize> Rows<T, N, M> {
         at_fault.map_or(Ok(()), |j| Err(Fault::Contradictory(self.split.order[j])))
     }
 
-    /// By how much the dependent row in this place disagrees with what the independent ones fix, where that is more than ε^(1/3) of
-    /// their size.
+    /// Returns the disagreement of dependent row `j` with the accelerations that the independent rows fix, if
+    /// it exceeds ε^(1/3) of their size.
     fn mismatch(&self, j: usize, demands: &[T; M], fixed: &[T; N], size: T) -> Option<T> {
         let (split, demanded) = (&self.split, demands[self.split.order[j]]);
         let given = (0..split.rank).fold(T::constant(0.0), |sum, i| sum + split.entry(i, j) * fixed[i]);
@@ -276,7 +282,7 @@ impl<T: Real, const N: usize, const M: usize> Rows<T, N, M> {
     }
 }
 
-/// m ← Qᵀ m Q, of a symmetric matrix, in place: large arrays are not copied.
+/// Replaces symmetric m by Qᵀ m Q in place: large arrays are not copied.
 fn to_range_basis<T: Real, const N: usize, const M: usize>(split: &Qr<T, N, M>, m: &mut [[T; N]; N]) {
     for _ in 0..2 {
         for row in m.iter_mut() {
@@ -290,7 +296,7 @@ fn to_range_basis<T: Real, const N: usize, const M: usize>(split: &Qr<T, N, M>, 
     }
 }
 
-/// ZᵀMZ factorized, from QᵀMQ, whose largest entry is given.
+/// Factorizes ZᵀMZ, given QᵀMQ and its largest entry.
 fn along_constraints<T: Real, const N: usize>(m: &[[T; N]; N], rank: usize, largest: T) -> Symmetric<T, N> {
     let size = N - rank;
     let mut along = [[T::constant(0.0); N]; N];
@@ -300,7 +306,7 @@ fn along_constraints<T: Real, const N: usize>(m: &[[T; N]; N], rank: usize, larg
     Symmetric::of(along, size, power_of_epsilon::<T>(0.75) * largest)
 }
 
-/// How much each coordinate takes part in the motions that nothing determines.
+/// Returns the share of each coordinate in the undetermined motions.
 fn undetermined<T: Real, const N: usize, const M: usize>(
     split: &Qr<T, N, M>,
     factors: &Symmetric<T, N>,
@@ -317,7 +323,8 @@ fn undetermined<T: Real, const N: usize, const M: usize>(
     share
 }
 
-/// C λ = force with C = R times the row lengths, as wide as there are constraints: λ = Q R⁻ᵀ force of this QR of Cᵀ.
+/// Returns the QR factorization of Cᵀ for the least-norm solution of C λ = force, λ = Q R⁻ᵀ force. C is R times
+/// the row lengths, with one column per constraint.
 fn least_norm<T: Real, const N: usize, const M: usize>(rows: &Rows<T, N, M>) -> Qr<T, M, N> {
     let Rows { units, split } = rows;
     let zero = T::constant(0.0);

@@ -1,23 +1,23 @@
-//! Householder QR with column pivoting, which tells the rank.
+//! Rank-revealing Householder QR with column pivoting.
 
 use core::array::from_fn;
 
 use crate::number::{Real, Scalar, norm, power_of_two};
 
-/// A P = Q R of a K×C matrix A (Golub and Van Loan, *Matrix Computations*, 5.4.2).
+/// Factorization A P = Q R of a K×C matrix A (Golub and Van Loan, *Matrix Computations*, 5.4.2).
 pub(super) struct Qr<T, const K: usize, const C: usize> {
-    /// The columns of R, in pivoted order.
+    /// Columns of R, in pivoted order.
     r: [[T; K]; C],
     /// Reflection k is I − v vᵀ with v = `reflectors[k]`, which is zero above entry k.
     reflectors: [[T; K]; C],
-    /// Which column of A each column of R belongs to.
+    /// For each column of R, the index of its column of A.
     pub(super) order: [usize; C],
-    /// How many columns are independent.
+    /// Number of independent columns.
     pub(super) rank: usize,
 }
 
 impl<T: Real, const K: usize, const C: usize> Qr<T, K, C> {
-    /// Of the matrix with these columns; a remainder no longer than `tolerance` counts as zero.
+    /// Factorizes the matrix with these columns; a remainder up to `tolerance` counts as zero.
     pub(super) fn of(columns: [[T; K]; C], tolerance: T) -> Self {
         let zero = T::constant(0.0);
         let mut qr = Self { r: columns, reflectors: [[zero; K]; C], order: from_fn(|j| j), rank: 0 };
@@ -63,38 +63,39 @@ impl<T: Real, const K: usize, const C: usize> Qr<T, K, C> {
         }
     }
 
-    /// x ← Qᵀ x.
+    /// Replaces x by Qᵀ x.
     pub(super) fn enter_basis(&self, x: &mut [T; K]) {
         for k in 0..self.rank {
             reflect(&self.reflectors[k], x, k);
         }
     }
 
-    /// x ← Q x.
+    /// Replaces x by Q x.
     pub(super) fn leave_basis(&self, x: &mut [T; K]) {
         for k in (0..self.rank).rev() {
             reflect(&self.reflectors[k], x, k);
         }
     }
 
-    /// The entry of R in this row and (pivoted) column.
+    /// Returns the entry of R in this row and (pivoted) column.
     pub(super) fn entry(&self, row: usize, column: usize) -> T {
         self.r[column][row]
     }
 
-    /// The length of the part of this (pivoted) column that is orthogonal to the independent columns.
+    /// Returns the length of the part of this (pivoted) column that is orthogonal to the independent columns.
     pub(super) fn remainder(&self, column: usize) -> T {
         norm(&self.r[column][self.rank..])
     }
 
-    /// The coefficients of the columns of A, in their order, in the sum that is that part: 1 for the column itself.
+    /// Returns the coefficients of the columns of A whose sum is that orthogonal part, in the order of A: 1 for
+    /// the column itself.
     pub(super) fn combination(&self, column: usize) -> [T; C] {
         let mut parts = self.solve(&self.r[column]).map(|x| -x);
         parts[self.order[column]] = T::constant(1.0);
         parts
     }
 
-    /// y with Rᵀ y = c in the first `rank` rows, c in the order of the columns of A; zero beyond.
+    /// Returns y with Rᵀ y = c in the first `rank` rows, zero beyond; c is in the order of the columns of A.
     pub(super) fn solve_transposed(&self, c: &[T; C]) -> [T; K] {
         let mut y = [T::constant(0.0); K];
         for i in 0..self.rank {
@@ -104,7 +105,8 @@ impl<T: Real, const K: usize, const C: usize> Qr<T, K, C> {
         y
     }
 
-    /// x with A x = Q y for y in the range, x in the order of the columns of A; zero where dependent.
+    /// Returns x with A x = Q y for y in the range; x is in the order of the columns of A, and zero for
+    /// dependent columns.
     pub(super) fn solve(&self, y: &[T; K]) -> [T; C] {
         let mut y = *y;
         let mut x = [T::constant(0.0); C];

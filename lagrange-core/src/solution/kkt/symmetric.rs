@@ -1,13 +1,14 @@
-//! Factorization of a symmetric matrix, definite or not.
+//! Factorization of a symmetric matrix, definite or indefinite.
 
 use core::array::from_fn;
 
 use crate::number::{Real, Scalar, smaller};
 
-/// P A Pᵀ = L D Lᵀ of a symmetric matrix of order `size` ≤ N, with D of 1×1 and 2×2 blocks, by complete pivoting
-/// (Bunch and Parlett 1971; Golub and Van Loan, *Matrix Computations*, 4.4.4).
+/// Factorization P A Pᵀ = L D Lᵀ of a symmetric matrix of order `size` ≤ N. D has 1×1 and 2×2 blocks, by
+/// complete pivoting (Bunch and Parlett 1971; Golub and Van Loan, *Matrix Computations*, 4.4.4).
 ///
-/// For a positive definite matrix the largest entry is on the diagonal: this is then Cholesky's method with pivoting.
+/// In a positive definite matrix the largest entry is on the diagonal, so this is Cholesky's method with
+/// pivoting.
 pub(super) struct Symmetric<T, const N: usize> {
     size: usize,
     /// L below the diagonal (or the 2×2 block), D on it.
@@ -16,12 +17,13 @@ pub(super) struct Symmetric<T, const N: usize> {
     /// True where a 2×2 block of D starts.
     pair: [bool; N],
     pub(super) rank: usize,
-    /// The smallest of the pivots, as the magnitude by which each was chosen.
+    /// Smallest pivot, as the magnitude that selected it.
     pub(super) smallest: T,
 }
 
 impl<T: Real, const N: usize> Symmetric<T, N> {
-    /// Of the leading block of order `size`; a remainder with no entry above `tolerance` counts as zero.
+    /// Factorizes the leading block of order `size`; a remainder with no entry above `tolerance` counts as
+    /// zero.
     pub(super) fn of(a: [[T; N]; N], size: usize, tolerance: T) -> Self {
         let smallest = T::constant(f64::MAX);
         let mut f = Self { size, a, order: from_fn(|i| i), pair: [false; N], rank: 0, smallest };
@@ -47,7 +49,8 @@ impl<T: Real, const N: usize> Symmetric<T, N> {
         f
     }
 
-    /// The place [row, column] (row > column) and size of the largest entry, and of the largest diagonal entry.
+    /// Returns the position [row, column] (row > column) and the size of the largest entry, and those of the
+    /// largest diagonal entry.
     fn largest_entries(&self, k: usize) -> ([usize; 2], T, usize, T) {
         let zero = T::constant(0.0);
         let (mut place, mut largest) = ([k, k], zero);
@@ -95,7 +98,8 @@ impl<T: Real, const N: usize> Symmetric<T, N> {
         }
     }
 
-    /// The 2×2 block at k, inverted, times x. Its off-diagonal entry b is the largest; dividing by it is safe.
+    /// Multiplies x by the inverse of the 2×2 block at k. Its off-diagonal entry b is the largest, so dividing
+    /// by it is safe.
     fn solve_pair(&self, k: usize, x: [T; 2]) -> [T; 2] {
         let b = self.a[k + 1][k];
         let (a, c) = (self.a[k][k] / b, self.a[k + 1][k + 1] / b);
@@ -103,7 +107,7 @@ impl<T: Real, const N: usize> Symmetric<T, N> {
         [(c * x[0] - x[1]) / determinant, (a * x[1] - x[0]) / determinant]
     }
 
-    /// A⁻¹ b, where `rank` = `size`; entries of `b` beyond `size` are ignored.
+    /// Returns A⁻¹ b for a matrix of full rank; entries of `b` beyond `size` are ignored.
     pub(super) fn solve(&self, b: &[T; N]) -> [T; N] {
         let mut x = [T::constant(0.0); N];
         for i in 0..self.size {
@@ -125,14 +129,15 @@ impl<T: Real, const N: usize> Symmetric<T, N> {
         self.back_substitute(x)
     }
 
-    /// The null vector of the `index`-th dependent row (`rank + index < size`).
+    /// Returns the null vector of the `index`-th dependent row (`rank + index < size`).
     pub(super) fn null_vector(&self, index: usize) -> [T; N] {
         let mut x = [T::constant(0.0); N];
         x[self.rank + index] = T::constant(1.0);
         self.back_substitute(x)
     }
 
-    /// A vector x with xᵀ A x < 0, if there is one. A 2×2 block of D, whose entry off the diagonal is the largest, has one.
+    /// Returns a vector x with xᵀ A x < 0, if there is one. Every 2×2 block of D has one, since its
+    /// off-diagonal entry is the largest.
     pub(super) fn negative(&self) -> Option<[T; N]> {
         let (zero, one) = (T::constant(0.0), T::constant(1.0));
         let starts = (0..self.rank).filter(|&k| self.block_start(k) == k);
@@ -145,7 +150,7 @@ impl<T: Real, const N: usize> Symmetric<T, N> {
         Some(self.back_substitute(x))
     }
 
-    /// Pᵀ L⁻ᵀ x.
+    /// Returns Pᵀ L⁻ᵀ x.
     fn back_substitute(&self, mut x: [T; N]) -> [T; N] {
         let mut y = [T::constant(0.0); N];
         for i in (0..self.size).rev() {

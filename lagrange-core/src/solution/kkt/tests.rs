@@ -18,7 +18,7 @@ fn general<const N: usize, const M: usize, const H: usize>(
     solve(&equations, Rank::on_constraints()).map(|(solution, _)| solution)
 }
 
-/// How far a solution is from satisfying the equations.
+/// Norm of the residual of the equations of motion.
 fn defect<const N: usize, const M: usize, const H: usize>(
     system: &Mechanism<N, M, H>,
     state: &At<N>,
@@ -58,7 +58,7 @@ fn it_agrees_with_the_elimination_where_both_apply() {
 
 #[test]
 fn a_massless_coordinate_follows_its_constraint() {
-    // x has mass 3 and a force of 6; y, without mass, is 10⁻⁹ x: ẍ = 2.
+    // x has mass 3 and a force of 6; the massless y is 10⁻⁹ x: ẍ = 2.
     let system = Mechanism::<2, 1, 1> {
         mass: |_| [[3.0, 0.0], [0.0, 0.0]],
         forcing: |_| [6.0, 0.0],
@@ -69,13 +69,14 @@ fn a_massless_coordinate_follows_its_constraint() {
     };
     let s = solves(&system, &State::at_rest([0.0, 0.0]));
     assert!((s.accelerations[0] - 2.0).abs() < 1e-15 && (s.accelerations[1] - 2e-9).abs() < 1e-24);
-    // The same, with the massless coordinate large: x = 10⁻⁹ y.
+    // The same with a large massless coordinate: x = 10⁻⁹ y.
     let system = Mechanism { jacobian: |_| [[1.0, -1e-9]], ..system };
     let s = solves(&system, &State::at_rest([0.0, 0.0]));
     assert!((s.accelerations[0] - 2.0).abs() < 1e-15 && (s.accelerations[1] / 2e9 - 1.0).abs() < 1e-15);
 }
 
-/// A rigid body of inertia (1, 2, 3) by a unit quaternion: M = 4 Gᵀ J G has rank 3, off the constraint's normal.
+/// A rigid body of inertia (1, 2, 3) with a unit quaternion: M = 4 Gᵀ J G has rank 3, and its null vector is
+/// the normal of the constraint.
 fn quaternion() -> Mechanism<4, 1, 1> {
     fn rate(q: &At<4>) -> SMatrix<f64, 3, 4> {
         let [w, x, y, z]: [f64; 4] = q.q.into();
@@ -89,7 +90,8 @@ fn quaternion() -> Mechanism<4, 1, 1> {
     Mechanism {
         mass,
         forcing: |s| {
-            // Torque about the third axis of the body, as a generalized force 2 Gᵀ τ; along q nothing.
+            // Torque about the third axis of the body, as a generalized force 2 Gᵀ τ, without a component along
+            // q.
             let torque = rate(s).transpose() * vector([0.0, 0.0, 1.5]) * 2.0;
             torque.into()
         },
@@ -130,7 +132,7 @@ fn the_negative_lagrangian_has_the_same_motion() {
 
 #[test]
 fn a_mass_matrix_without_a_diagonal_is_solved_by_pairs() {
-    // L = ẋẏ + żẇ/10⁶ − …: M has no diagonal, and no 1×1 pivot exists.
+    // L = ẋẏ + żẇ/10⁶ − …: the diagonal of M vanishes, so no 1×1 pivot exists.
     let mass = |_: &At<4>| {
         [[0.0, 1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1e-6], [0.0, 0.0, 1e-6, 0.0]]
     };
@@ -143,7 +145,8 @@ fn a_mass_matrix_without_a_diagonal_is_solved_by_pairs() {
 
 #[test]
 fn repeated_constraints_give_the_motion_and_the_least_multipliers() {
-    // c1 = 2 c0 and c2 = 0 · c0: λ₀ + 2 λ₁ is what it is for c0 alone; least where λ₁ = 2 λ₀ and λ₂ = 0.
+    // c1 = 2 c0 and c2 = 0 · c0: λ₀ + 2 λ₁ equals the multiplier of c0 alone. The norm is least for λ₁ = 2 λ₀
+    // and λ₂ = 0.
     let system = Mechanism::<3, 3, 3> {
         mass: identity,
         forcing: |_| [0.0, 0.0, -9.81],
@@ -185,7 +188,7 @@ fn contradictory_constraints_are_named() {
 
 #[test]
 fn a_constraint_without_a_gradient_is_named() {
-    // ½ x² = 0 at x = 0: the row of F is zero, and ẋ² is not.
+    // ½ x² = 0 at x = 0: the row of F is zero, but ẋ² is not.
     let system = Mechanism::<1, 1, 1> {
         mass: identity,
         forcing: |_| [0.0],
@@ -202,7 +205,7 @@ fn a_constraint_without_a_gradient_is_named() {
 
 #[test]
 fn coordinates_that_nothing_determines_are_named() {
-    // L = ½(ẋ + ẏ)² + ½ z²: x − y is free, and so is z.
+    // L = ½(ẋ + ẏ)² + ½ z²: x − y and z are undetermined.
     let system = crate::fixtures::free::<3>(|s| [0.0, 0.0, s.q[2]]);
     let mass = |_: &At<3>| [[1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0; 3]];
     let error = Mechanism { mass, ..system }.solve(&State::at_rest([0.0; 3])).unwrap_err();
@@ -239,7 +242,7 @@ fn single_precision_is_solved_too() {
     assert_eq!(s.rank, 1);
 }
 
-/// Two rows that say the same, and one that does not: x + y, 2x + 2y and z of unlike masses.
+/// Two dependent rows x + y and 2x + 2y, and an independent row z, with different masses.
 fn dependent() -> Factors<f64, 3, 3> {
     let m = [[4.0, 1.0, 0.0], [1.0, 9.0, 0.5], [0.0, 0.5, 0.01]];
     let f = [[1.0, 1.0, 0.0], [2.0, 2.0, 0.0], [0.0, 0.0, 1.0]];
@@ -252,7 +255,7 @@ fn one_factorization_serves_all_right_hand_sides() {
     for (h, gamma) in [([1.0, 0.0, 0.0], [0.0; 3]), ([0.0, 2.0, -3.0], [1.0, 2.0, -0.5])] {
         let s = factors.solve(&h, &gamma).unwrap();
         let [x, y, z]: [f64; 3] = s.accelerations.into();
-        // x + y = −γ₀, z = −γ₂, and the difference of the first two rows of M q̈ = h + Fᵀλ is free of λ.
+        // x + y = −γ₀ and z = −γ₂; the difference of the first two rows of M q̈ = h + Fᵀλ does not contain λ.
         assert!((x + y + gamma[0]).abs() < 1e-15 && (z + gamma[2]).abs() < 1e-15, "{s:?}");
         assert!((4.0 * x + y - (x + 9.0 * y + 0.5 * z) - (h[0] - h[1])).abs() < 1e-14, "{s:?}");
         assert!((s.multipliers[1] - 2.0 * s.multipliers[0]).abs() < 1e-14, "not the least: {s:?}");
@@ -268,6 +271,6 @@ fn rows_leave_a_null_space_and_fix_the_rest() {
     assert!((free[0][0] + free[0][1]).abs() < 1e-15 && free[0][2].abs() < 1e-15 && free[0][0].abs() > 0.1);
     let x = rows.least(&[3.0, 6.0, -2.0]);
     assert!((x[0] + x[1] + 3.0).abs() < 1e-15 && (x[2] - 2.0).abs() < 1e-15, "{x}");
-    // Shortest in natural units, where a mass is 1: x m_x = y m_y for equal rows.
+    // Least norm in natural units, where masses are 1: x m_x = y m_y for equal rows.
     assert!((4.0 * x[0] - 9.0 * x[1]).abs() < 1e-14, "{x}");
 }

@@ -1,17 +1,18 @@
-//! Units in which masses are about 1 and constraint rows of length 1.
+//! Natural units, in which masses are about 1 and constraint rows have length 1.
 
 use crate::number::{Real, Scalar, entries, larger, largest, norm, power_of_two};
 
 /// The natural units of a mass matrix and a constraint Jacobian.
 ///
-/// The length of a row is a product of two, since the entries and the units of the coordinates may be so large, or so
-/// small, that it is no number itself.
+/// The length of a row is stored as a product of two factors: the entries and the units of the coordinates may
+/// be so large or small that the length itself overflows or underflows.
 pub(crate) struct Units<T, const N: usize, const M: usize> {
-    /// For each coordinate the unit in which its mass is ±1; where it has none, that in which its strongest coupling is 1.
+    /// For each coordinate, the unit in which its mass is ±1; for a massless coordinate, the unit in which its
+    /// strongest coupling is 1.
     pub(crate) coordinates: [T; N],
-    /// For each row a power of two about as large as its entries …
+    /// For each row, a power of two about as large as its entries.
     pub(super) powers: [T; M],
-    /// … and in its unit the length in those of the coordinates; 1 for a row of zeros.
+    /// For each row, its length in units of `powers` and `coordinates`; 1 for a row of zeros.
     pub(super) lengths: [T; M],
 }
 
@@ -24,7 +25,7 @@ impl<T: Real, const N: usize, const M: usize> Units<T, N, M> {
             powers: entries(|a| power_of_two(largest(&f[a]))),
             lengths: [one; M],
         };
-        // Where a row ties massless coordinates only, their units are those of its entries.
+        // If a row ties massless coordinates only, its entries determine their units.
         units.lengths = units.lengths_of(f);
         for i in (0..N).filter(|&i| mass(i) == zero) {
             units.coordinates[i] = units.of_massless(i, m, f);
@@ -33,12 +34,12 @@ impl<T: Real, const N: usize, const M: usize> Units<T, N, M> {
         units
     }
 
-    /// The row of this index, of length 1.
+    /// Returns row `a`, scaled to length 1.
     pub(super) fn unit_row(&self, a: usize, row: &[T; N]) -> [T; N] {
         entries(|i| row[i] / self.powers[a] * (self.coordinates[i] / self.lengths[a]))
     }
 
-    /// What belongs to a row, such as its residual, in the unit of that row.
+    /// Converts a quantity of row `a`, such as its residual, to the unit of that row.
     pub(crate) fn of_row(&self, a: usize, x: T) -> T {
         x / self.powers[a] / self.lengths[a]
     }

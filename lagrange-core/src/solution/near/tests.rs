@@ -3,7 +3,7 @@ use crate::fixtures::Random;
 use crate::prelude::*;
 use crate::solution::consistent::BOTH;
 
-/// About a centre, on a circle that grows, in a magnetic field and with damping that is not the same in all directions.
+/// A mass on a growing circle about a centre, in a magnetic field and with anisotropic damping.
 #[derive(Lagrangian)]
 #[coordinates(x, y)]
 #[lagrangian(m/2*(x_dot^2 + y_dot^2) + b/2*(x*y_dot - y*x_dot) - k*(x^2 + y^2)^2)]
@@ -19,7 +19,7 @@ struct Cartesian {
     u: f64,
 }
 
-/// The same in coordinates of which the mass matrix varies.
+/// The same motion in polar coordinates, with a varying mass matrix and without field and damping.
 #[derive(Lagrangian)]
 #[coordinates(r, phi)]
 #[lagrangian(m/2*(r_dot^2 + r^2*phi_dot^2) - k*r^4)]
@@ -31,7 +31,7 @@ struct Polar {
     u: f64,
 }
 
-/// Two coupled masses on spheroids about one axis, which all turns about.
+/// Two masses coupled by a spring, one on a spheroid; the system is symmetric about one axis.
 #[derive(Lagrangian)]
 #[coordinates(x, y, z, s, w)]
 #[lagrangian(m/2*(x_dot^2 + y_dot^2 + z_dot^2) + s_dot^2/2 + s^2*w_dot^2/2 - g*z - k/2*(z - s)^2)]
@@ -44,8 +44,8 @@ struct Coupled {
     e: f64,
 }
 
-/// By how much a momentum changes as random states that are a few hundred units of round-off from the constraints are
-/// moved onto them, with velocities that follow and with velocities that do not: the sums over all.
+/// Mean change of a momentum by the projection of random states a few hundred units of round-off off the
+/// constraints: with velocities that follow the coordinates, and with velocities that do not.
 fn changes<L, const N: usize, const M: usize>(
     system: impl Fn(&mut Random) -> L,
     momentum: impl Fn(&L, &State<f64, N>) -> f64,
@@ -78,14 +78,14 @@ where
     sums.map(|sum| sum / cases as f64)
 }
 
-/// A random system with a magnetic field and damping of this strength.
+/// A random system; `strength` scales the magnetic field and the damping.
 fn cartesian(random: &mut Random, strength: f64) -> Cartesian {
     let [b, c] = [strength * random.next(), strength * random.next().abs()];
     let [m, k, l, u] = [1.5 + random.next(), random.next(), 1.5 + 0.5 * random.next(), random.next()];
     Cartesian { m, b, c, k, l, u }
 }
 
-/// A momentum that symmetry conserves is kept by a correction along Hamiltonian vector fields.
+/// A correction along Hamiltonian vector fields preserves a momentum that symmetry conserves.
 #[test]
 fn momenta_are_kept_where_velocities_follow_the_coordinates() {
     let cartesian = changes(
@@ -112,7 +112,7 @@ fn momenta_are_kept_where_velocities_follow_the_coordinates() {
     }
 }
 
-/// A field that makes of the round-off of coordinates 10⁹ units of that of velocities does not.
+/// A field that would amplify the round-off of coordinates to 10⁹ units of that of velocities has no effect.
 #[test]
 fn velocities_follow_no_forces() {
     let speed = |_: &Cartesian, state: &State<f64, 2>| state.v.norm();

@@ -14,13 +14,13 @@ struct Ellipse {
     m: f64,
 }
 
-/// The least distance to the ellipse, of many points of it.
+/// Returns the least distance to the ellipse among 2,000 of its points.
 fn least_distance(m: f64, [x, y]: [f64; 2]) -> f64 {
     let distance = |angle: f64| (m * (2.0 * angle.cos() - x).powi(2) + (angle.sin() - y).powi(2)).sqrt();
     (0..2000).map(|k| distance(f64::from(k) * std::f64::consts::PI / 1000.0)).fold(f64::MAX, f64::min)
 }
 
-/// From inside, from outside, and from the axes, where the first correction leads to the farthest point.
+/// Starts inside, outside, and on the axes, from which the first correction leads to the farthest point.
 #[test]
 fn the_nearest_point_of_an_ellipse_is_found_from_near_its_centre() {
     for (m, start) in [
@@ -41,13 +41,13 @@ fn the_nearest_point_of_an_ellipse_is_found_from_near_its_centre() {
             (distance - least).abs() < 1e-5 * least.max(1e-3),
             "{start:?}: {distance} for {least}, {state}"
         );
-        // M (q − q₀) is along the normal, (x/2, 2 y).
+        // M (q − q₀) is parallel to the normal, (x/2, 2 y).
         let along = m * moved.q[0] * 2.0 * state.q[1] - moved.q[1] * state.q[0] / 2.0;
         assert!(along.abs() < 1e-14 * (1.0 + start[0].abs() + start[1].abs()), "{start:?}: {along:e}");
     }
 }
 
-/// A mass matrix that varies, and two surfaces; with `b` of zeros and k = 1 one alone.
+/// A varying mass matrix and two surfaces.
 #[derive(Lagrangian)]
 #[coordinates(x, y, z, w)]
 #[lagrangian(m[0]/2*(1 + x^2)*x_dot^2 + m[1]/2*y_dot^2 + m[2]/2*(2 + sin(y))*z_dot^2 + m[3]/2*w_dot^2 + n*x_dot*z_dot)]
@@ -60,8 +60,9 @@ struct Curve {
     b: [f64; 3],
 }
 
-/// 40 random surfaces and starts up to three times as far away as they are large; `LAGRANGE_NEAREST` says how many otherwise.
-/// The equations of the nearest point hold, by their own derivatives, and no point nearby is nearer.
+/// Tests 40 random curves with starts up to three times their size away; `LAGRANGE_NEAREST` sets another
+/// number. The result satisfies the equations of the nearest point, evaluated independently, and no point
+/// nearby is nearer.
 #[test]
 fn what_is_found_satisfies_the_equations_of_the_nearest_point() {
     let count = std::env::var("LAGRANGE_NEAREST").ok().and_then(|count| count.parse().ok()).unwrap_or(40);
@@ -75,7 +76,7 @@ fn what_is_found_satisfies_the_equations_of_the_nearest_point() {
             b: [0; 3].map(|_| 0.7 * next()),
         };
         let given = State::at_rest([0; 4].map(|_| 3.0 * next())).at_time(next());
-        // From very far Newton's iteration need not come to the constraints at all.
+        // From far away, Newton's iteration may not reach the constraints.
         let Ok((state, moved)) = curve.make_consistent(&given) else {
             refused += 1;
             continue;
@@ -103,7 +104,7 @@ fn what_is_found_satisfies_the_equations_of_the_nearest_point() {
     assert!(50 * refused <= count, "{refused}");
 }
 
-/// A quaternion has no mass along itself, and is nearest where it is of length 1.
+/// A quaternion has no mass along itself; its nearest unit quaternion is parallel to it.
 #[test]
 fn a_quaternion_is_made_one_of_length_1() {
     #[derive(Lagrangian)]
@@ -118,7 +119,8 @@ fn a_quaternion_is_made_one_of_length_1() {
     assert!(state.q.iter().zip(expected).all(|(x, y)| (x - y).abs() < 1e-15), "{state}");
 }
 
-/// A chain of 16 rods that is given far off them: at first the distance curves down along most directions.
+/// A chain of 16 rods that starts far from its constraints: at first the distance has negative curvature along
+/// most directions.
 #[test]
 fn a_chain_is_nearest_too() {
     #[derive(Lagrangian)]
