@@ -1,9 +1,9 @@
 //! The Legendre transform on the constraint manifold: from momenta to velocities.
 //!
-//! Sought is v with F v + b = 0 and p(q, v) − p = Fᵀμ for some μ: momenta that differ by a part along the
-//! constraints belong to the same motion. Newton's step (δ, μ) solves M δ − Fᵀμ = p − p(q, v), F δ = −(F v + b), the
-//! system of the dynamics with other right-hand sides; so M may be singular where the constraints make up for
-//! it. Where L is quadratic in the velocities one step is exact.
+//! The unknown is v with F v + b = 0 and p(q, v) − p = Fᵀμ for some μ: momenta that differ by a part along the
+//! constraints belong to the same motion. Newton's step (δ, μ) solves M δ − Fᵀμ = p − p(q, v), F δ = −(F v +
+//! b), the linear system of the dynamics with other right-hand sides. So M may be singular if the constraints
+//! make the system regular. If L is quadratic in the velocities, one step is exact.
 
 use core::array::from_fn;
 
@@ -17,8 +17,8 @@ use crate::solution::pivot::is_trustworthy;
 use crate::solution::solve::{fault, not_finite};
 use crate::system::{Lagrangian, Solution, State};
 
-/// The state with these momenta, its velocity sought from `guess` on, on the constraints `active` or on as many as
-/// are independent.
+/// Returns the state with these momenta. The velocity is sought from `guess` on the constraints `active`; for
+/// `None` an independent set is chosen.
 pub(crate) fn invert<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     phase: &PhaseState<L::Scalar, N>,
@@ -42,15 +42,15 @@ struct Inversion<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
 /// Trial velocity with its residual.
 struct VelocityTrial<T, const N: usize, const M: usize> {
     state: State<T, N>,
-    /// μ.
+    /// Multipliers μ.
     multipliers: [T; M],
-    /// p(q, v).
+    /// Momenta p(q, v).
     momentum: [T; N],
     /// F v + b of the active constraints.
     rate: [T; M],
 }
 
-/// Newton's system at a trial, and the units in which its rows compare.
+/// Linear system of Newton's step at a trial, and the units in which its rows are compared.
 struct Linear<'a, T, const N: usize, const M: usize> {
     wanted: &'a PhaseState<T, N>,
     equations: KktSystem<T, N, M>,
@@ -58,7 +58,7 @@ struct Linear<'a, T, const N: usize, const M: usize> {
 }
 
 impl<T: Real, const N: usize, const M: usize> Linear<'_, T, N, M> {
-    /// p(q, v) − p − Fᵀμ, and the sum of the magnitudes of its terms.
+    /// Returns p(q, v) − p − Fᵀμ, and the sum of the magnitudes of its terms.
     fn momentum_residual(&self, trial: &VelocityTrial<T, N, M>, i: usize) -> (T, T) {
         let (given, wanted) = (trial.momentum[i], self.wanted.p[i]);
         let inertia = (0..N).map(|j| self.equations.m[i][j] * trial.state.v[j]);
@@ -69,8 +69,8 @@ impl<T: Real, const N: usize, const M: usize> Linear<'_, T, N, M> {
         })
     }
 
-    /// A distance, in the natural units of the dynamics, and the size of the terms that it is the difference of. What is
-    /// round-off of the terms of its row does not count: it must not hide another row.
+    /// Returns the distance from the solution, in natural units of the dynamics, and the magnitude of its
+    /// terms. Round-off of the terms of a row does not count: it must not hide another row.
     fn distance(&self, trial: &VelocityTrial<T, N, M>) -> (T, T) {
         let momenta = (0..N).map(|i| {
             let (residual, terms) = self.momentum_residual(trial, i);
@@ -90,7 +90,7 @@ impl<T: Real, const N: usize, const M: usize> Linear<'_, T, N, M> {
 }
 
 impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Inversion<'_, L, N, M> {
-    /// Where momenta are linear in the velocities: by one solve, and by another where the first lost a digit.
+    /// Momenta linear in the velocities: a single solve, and a second one if the first lost a digit.
     #[inline]
     fn at_once(&self, mut state: State<L::Scalar, N>) -> Option<State<L::Scalar, N>> {
         if !L::MOMENTA_ARE_LINEAR || self.active.contains(&false) {
@@ -112,7 +112,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Inversio
         Some(state)
     }
 
-    /// By as many of Newton's steps as it takes. A function of its own, for its matrices are large.
+    /// Any number of Newton steps. Not inlined, since its matrices are large.
     #[inline(never)]
     fn by_steps(mut self, state: State<L::Scalar, N>) -> Result<State<L::Scalar, N>, Error> {
         let start = self.trial(state, [L::Scalar::constant(0.0); M]);
@@ -133,7 +133,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Inversio
         }
     }
 
-    /// Newton's step from a state: the change of the velocity, and the new μ.
+    /// Newton's step from a state: change of the velocity, and the new μ.
     fn step(
         &self,
         state: &State<L::Scalar, N>,
@@ -146,7 +146,8 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Inversio
                 return Ok(fast);
             }
         }
-        // Near the velocity sought, dependent constraints differ by round-off, of which no contradiction is made.
+        // Near the solution, dependent constraints disagree by round-off, which must not count as a
+        // contradiction.
         let solved = kkt::solve(equations, Rank::off_constraints()).map(|(solution, _)| solution);
         solved.map_err(|found| self.fault(&found))
     }
@@ -208,7 +209,7 @@ where
 
     #[cold]
     fn not_found(&self, linear: &Self::Linear, trial: &Self::Trial, steps: usize) -> Error {
-        // What is left out of a step for depending on the others may demand another velocity.
+        // A dependent constraint that the steps ignore may demand another velocity.
         if let Err(found @ Fault::Contradictory(_)) = kkt::solve(&linear.equations, Rank::on_constraints()) {
             return self.fault(&found);
         }

@@ -1,4 +1,4 @@
-//! The Hamiltonian side of a system: momenta instead of velocities.
+//! Hamiltonian form of a system: momenta instead of velocities.
 
 mod legendre;
 mod motion;
@@ -26,14 +26,17 @@ use crate::system::{Lagrangian, State};
 use crate::trajectory::Trajectory;
 use phase::equations;
 
-/// The Legendre transform, the Hamiltonian and Hamilton's equations with constraints: every [`Lagrangian`] over
-/// `f64` or `f32` has them.
+/// The Legendre transform, the Hamiltonian and Hamilton's equations with constraints, for every [`Lagrangian`]
+/// over `f64` or `f32`.
 ///
-/// The velocity that belongs to (t, q, p) is the one on the constraints, F q̇ + b = 0, whose momenta ∂L/∂q̇ differ from p
-/// by no more than a part Fᵀμ along the constraints: such a part does no work on any motion allowed. So
-/// ∂²L/∂q̇² may be singular where the constraints make up for it (unit quaternions, massless coordinates). Where L is
-/// quadratic in q̇ the transform is closed, elsewhere Newton's iteration. Where L is not convex in q̇ several velocities may have the same
-/// momenta: a phase state then stands for the one that the iteration finds from rest, and [`legendre_near`](Self::legendre_near) finds others.
+/// The velocity that belongs to (t, q, p) satisfies the constraints, F q̇ + b = 0, and its momenta ∂L/∂q̇
+/// differ from p by at most a part Fᵀμ along the constraints. Such a part does no work on any admissible
+/// motion. So ∂²L/∂q̇² may be singular if the constraints make the transform regular (unit quaternions,
+/// massless coordinates).
+///
+/// If L is quadratic in q̇ the transform is closed, otherwise it uses Newton's iteration. If L is not convex in
+/// q̇, several velocities may have the same momenta. A phase state then stands for the one that the iteration
+/// finds from rest; [`legendre_near`](Self::legendre_near) finds others.
 ///
 /// ```
 /// use lagrange_core::prelude::*;
@@ -61,26 +64,27 @@ use phase::equations;
     note = "`#[derive(Lagrangian)]` gives it to every struct over `f64` or `f32`: the Legendre transform has to decide, which SIMD lanes and dual numbers cannot"
 )]
 pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Real> + Sized {
-    /// The momenta p = ∂L/∂q̇ of a state.
+    /// Returns the phase state of a state, with the momenta p = ∂L/∂q̇.
     fn phase_state(&self, state: &State<Self::Scalar, N>) -> PhaseState<Self::Scalar, N> {
         PhaseState { t: state.t, q: state.q, p: self.momentum(state) }
     }
 
-    /// The velocities of a phase state: the Legendre transform q̇(t, q, p), sought from rest.
+    /// Returns the state with the velocities of a phase state, by the Legendre transform q̇(t, q, p), sought
+    /// from rest.
     ///
     /// # Errors
-    /// [`Error::StateNotFinite`]; [`Error::EquationsNotFinite`]; [`Error::VelocityUndetermined`] where ∂²L/∂q̇² is
-    /// singular along the constraints; [`Error::MomentumNotReached`] where Newton's iteration does not get there;
-    /// [`Error::Contradictory`] where dependent constraints demand different velocities.
+    /// [`Error::StateNotFinite`]; [`Error::EquationsNotFinite`]; [`Error::VelocityUndetermined`] if ∂²L/∂q̇² is
+    /// singular along the constraints; [`Error::MomentumNotReached`] if Newton's iteration does not converge;
+    /// [`Error::Contradictory`] if dependent constraints demand different velocities.
     fn legendre(&self, phase: &PhaseState<Self::Scalar, N>) -> Result<State<Self::Scalar, N>, Error> {
         self.legendre_near(phase, &SVector::from([Self::Scalar::constant(0.0); N]))
     }
 
-    /// The same, sought from this velocity on: for a Lagrangian that is singular at rest, or one with several
-    /// velocities to the same momenta.
+    /// Like [`legendre`](Self::legendre), with an initial guess of the velocity: for a Lagrangian that is
+    /// singular at rest, or has several velocities with the same momenta.
     ///
     /// # Errors
-    /// As [`legendre`](Self::legendre).
+    /// Those of [`legendre`](Self::legendre).
     fn legendre_near(
         &self,
         phase: &PhaseState<Self::Scalar, N>,
@@ -90,20 +94,21 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
         legendre::invert(self, phase, &(*velocity).into(), None)
     }
 
-    /// The Hamiltonian H(t, q, p) = p·q̇ − L at the q̇ of [`legendre`](Self::legendre); its value is the energy.
+    /// Returns the Hamiltonian H(t, q, p) = p·q̇ − L at the q̇ of [`legendre`](Self::legendre); its value is
+    /// the energy.
     ///
     /// # Errors
-    /// As [`legendre`](Self::legendre).
+    /// Those of [`legendre`](Self::legendre).
     fn hamiltonian(&self, phase: &PhaseState<Self::Scalar, N>) -> Result<Self::Scalar, Error> {
         let state = self.legendre(phase)?;
         Ok(phase.p.dot(&state.v) - self.lagrangian(&state))
     }
 
-    /// Hamilton's equations with constraints: q̇ = ∂H/∂p and ṗ = ∂L/∂q + Q + Fᵀλ, with the λ of
-    /// [`solve`](crate::Simulate::solve). Without constraints and forces ṗ = −∂H/∂q.
+    /// Returns the rates by Hamilton's equations with constraints: q̇ = ∂H/∂p and ṗ = ∂L/∂q + Q + Fᵀλ, with the
+    /// λ of [`solve`](crate::Simulate::solve). Without constraints and forces ṗ = −∂H/∂q.
     ///
     /// # Errors
-    /// As [`legendre`](Self::legendre) and [`solve`](crate::Simulate::solve).
+    /// Those of [`legendre`](Self::legendre) and [`solve`](crate::Simulate::solve).
     fn hamilton_equations(
         &self,
         phase: &PhaseState<Self::Scalar, N>,
@@ -112,11 +117,12 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
         equations(self, &state, None).map(|(rate, ..)| rate)
     }
 
-    /// The motion from a phase state to the time `end` by Hamilton's equations: as
-    /// [`integrate`](crate::Simulate::integrate), but the method adds up and controls coordinates and momenta.
+    /// Integrates Hamilton's equations from a phase state to the time `end`, as
+    /// [`integrate`](crate::Simulate::integrate) does for Lagrange's. The method integrates coordinates and
+    /// momenta, and controls their errors.
     ///
     /// # Errors
-    /// As [`integrate`](crate::Simulate::integrate) and [`legendre`](Self::legendre).
+    /// Those of [`integrate`](crate::Simulate::integrate) and [`legendre`](Self::legendre).
     #[cfg(feature = "alloc")]
     fn integrate_hamiltonian<P: Method<Self, N, M, HamiltonianVectorField>>(
         &self,
@@ -127,8 +133,9 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
         self.motion_in_momenta(phase).by(method).to(end)
     }
 
-    /// The settings of a motion by Hamilton's equations from a phase state: events and the rest are chosen as for
-    /// [`motion`](crate::Simulate::motion). The method integrates coordinates and momenta, and controls the errors of both.
+    /// Returns the settings of a motion by Hamilton's equations from a phase state; events and other settings
+    /// are those of [`motion`](crate::Simulate::motion). The method integrates coordinates and momenta, and
+    /// controls their errors.
     #[cfg(feature = "alloc")]
     fn motion_in_momenta<'w>(
         &self,

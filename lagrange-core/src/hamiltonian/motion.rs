@@ -1,4 +1,4 @@
-//! A steered motion by Hamilton's equations.
+//! A motion advanced step by step by Hamilton's equations.
 
 use super::{Hamiltonian, HamiltonianVectorField, PhaseState};
 use crate::error::Error;
@@ -11,10 +11,11 @@ where
     L: Lagrangian<N, M, Scalar: Real>,
     P: Method<L, N, M, HamiltonianVectorField>,
 {
-    /// A motion by Hamilton's equations from this phase state on: the method adds up and controls coordinates and momenta.
+    /// Starts a motion by Hamilton's equations at `phase`: the method integrates coordinates and momenta, and
+    /// controls their errors.
     ///
     /// # Errors
-    /// As [`legendre`](Hamiltonian::legendre), and as [`Motion::new`] where it does not start.
+    /// Those of [`legendre`](Hamiltonian::legendre), and those of [`Motion::new`] if the motion cannot start.
     pub fn in_momenta(system: L, phase: PhaseState<L::Scalar, N>, method: P) -> Result<Self, Error> {
         let state = system.legendre(&phase)?;
         Self::begin(system, &state, method)

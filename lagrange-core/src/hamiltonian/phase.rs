@@ -1,4 +1,4 @@
-//! A point of the phase space of coordinates and momenta, and its rate: Hamilton's equations.
+//! Points of the phase space of coordinates and momenta, and their rates by Hamilton's equations.
 
 use core::fmt::{self, Display, Formatter};
 
@@ -39,26 +39,27 @@ pub struct PhaseState<T, const N: usize> {
 }
 
 impl<T: Scalar, const N: usize> PhaseState<T, N> {
-    /// Coordinates and momenta at `t = 0`.
+    /// Creates a phase state of coordinates and momenta at `t = 0`.
     pub fn new(q: impl Entries<T, N>, p: impl Entries<T, N>) -> Self {
         Self { t: T::constant(0.0), q: q.into_vector(), p: p.into_vector() }
     }
 
-    /// The same coordinates and momenta at the time `t`.
+    /// Returns the same coordinates and momenta at the time `t`.
     #[must_use]
     pub fn at_time(self, t: T) -> Self {
         Self { t, ..self }
     }
 }
 
-/// `t = 1.0: q = (0.1, 0.0), p = (0.0, 2e-17)`, each number as the format says: `{state:.3}`.
+/// Formats a phase state as `t = 1.0: q = (0.1, 0.0), p = (0.0, 2e-17)`. Format options apply to each number:
+/// `{state:.3}`.
 impl<T: Scalar, const N: usize> Display for PhaseState<T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write_state(f, &self.t, [("q", self.q.as_slice()), ("p", self.p.as_slice())])
     }
 }
 
-/// What Hamilton's equations give at a [`PhaseState`].
+/// Rates by Hamilton's equations at a [`PhaseState`], with the multipliers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -80,10 +81,10 @@ pub struct PhaseDerivative<T, const N: usize, const M: usize> {
     pub multipliers: SVector<T, M>,
 }
 
-/// Rates, how many constraints are independent, and which ones the rates rest on.
+/// Rates, number of independent constraints, and the constraints that determine the rates.
 pub(super) type Rates<T, const N: usize, const M: usize> = (PhaseDerivative<T, N, M>, usize, [bool; M]);
 
-/// Hamilton's equations at a state whose velocity belongs to its momenta.
+/// Returns the rates by Hamilton's equations at a state that the Legendre transform gave.
 pub(super) fn equations<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,

@@ -15,7 +15,7 @@ fn contradictory_constraints_are_named() {
     assert!(matches!(error, Error::Contradictory { constraint: "c0" | "c1", .. }), "{error}");
 }
 
-/// The velocity rests on the constraints that are independent where they hold.
+/// Constraints that are dependent on their manifold give the same motion in (q, p).
 #[cfg(feature = "alloc")]
 #[test]
 fn dependent_constraints_give_the_same_motion() {
@@ -31,7 +31,7 @@ fn dependent_constraints_give_the_same_motion() {
     }
 }
 
-/// What stops a motion is said with the momentum at fault.
+/// An ending names the momentum at fault.
 #[cfg(feature = "alloc")]
 #[test]
 fn an_ending_names_a_momentum() {
@@ -42,7 +42,8 @@ fn an_ending_names_a_momentum() {
     assert!(text.contains("the error of `p(x)` demands a step too small"), "{text}");
 }
 
-/// Off the constraint too the velocity is along it, and the momenta are reached up to a part along the constraint.
+/// Off the constraint too, the velocity is tangential to it, and the momenta agree up to a part along the
+/// constraint.
 #[test]
 fn the_transform_is_defined_off_the_constraints() {
     let pendulum = spherical_pendulum();

@@ -1,4 +1,4 @@
-//! Hamilton's equations as a flow: the methods for Lagrange's equations integrate them as well.
+//! Hamilton's equations as a vector field, which the methods for Lagrange's equations integrate as well.
 
 use super::legendre;
 use super::phase::{PhaseState, equations};
@@ -11,8 +11,8 @@ use crate::system::{Lagrangian, State};
 
 /// Hamilton's equations, in coordinates and momenta.
 ///
-/// A step ends with q projected onto Φ = 0 and p replaced by the momenta of the velocity that belongs to it, which
-/// takes away their part along the constraints, and nothing else.
+/// At the end of a step, q is projected onto Φ = 0, and p is replaced by the momenta of its velocity. This
+/// removes only the part of p along the constraints.
 #[derive(Clone, Copy, Debug)]
 pub struct HamiltonianVectorField;
 
@@ -57,7 +57,7 @@ fn phase_state<T: Real, const N: usize>(point: &StagePoint<T, N>) -> PhaseState<
     PhaseState { t: point.t, q: vector(point.y[0]), p: vector(point.y[1]) }
 }
 
-/// With the velocity nearby instead of the one that belongs to the momenta.
+/// Returns the state with the nearby velocity of `point`, instead of the one that belongs to the momenta.
 fn nearby<T: Real, const N: usize>(point: &StagePoint<T, N>) -> State<T, N> {
     State { t: point.t, q: vector(point.y[0]), v: vector(point.velocity) }
 }
