@@ -12,11 +12,12 @@ use crate::solution::solve::solve;
 use crate::solution::vector_field::{LagrangianVectorField, VectorField};
 use crate::system::{Lagrangian, State};
 
-/// A table of a trajectory, one line a sample: `t`, coordinates `x`, velocities `x_dot`, multipliers
-/// `lambda(no_slip)`, constraint forces `force(x)` and observables; on request the energy and the conserved quantities.
+/// Table of a trajectory, one line per sample: `t`, coordinates `x`, velocities `x_dot`, multipliers
+/// `lambda(no_slip)`, constraint forces `force(x)` and observables; on request the energy and the conserved
+/// quantities.
 ///
-/// Numbers are the shortest that read back the same. Where the equations have no solution, what depends on it
-/// is `NaN`; they are solved once a line, and not at all where nothing depends on them.
+/// Numbers are printed in the shortest form that reads back the same. If the equations have no solution, values
+/// that depend on it are `NaN`. The equations are solved once per line, and not at all if no column needs them.
 ///
 #[cfg_attr(
     feature = "std",
@@ -47,7 +48,7 @@ pub struct Csv<'t, S: Lagrangian<N, M>, const N: usize, const M: usize, F = Lagr
 }
 
 impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Trajectory<S, N, M, F> {
-    /// A table of `count` states at evenly spaced times, as comma-separated values.
+    /// Returns a table of `count` states at evenly spaced times, as comma-separated values.
     ///
     /// Print it, or write `path.csv(200).to_string()` to a file.
     pub fn csv(&self, count: usize) -> Csv<'_, S, N, M, F> {
@@ -56,17 +57,17 @@ impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Trajectory<S, N, M,
 }
 
 impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Csv<'_, S, N, M, F> {
-    /// With a column `energy`, E = p·q̇ − L.
+    /// Adds a column `energy`, E = p·q̇ − L.
     pub fn energy(self) -> Self {
         Self { has_energy: true, ..self }
     }
 
-    /// With a column for each quantity that is [conserved](crate::facts::Facts::conserved), by its name.
+    /// Adds a column for each [conserved](crate::facts::Facts::conserved) quantity, under its name.
     pub fn conserved(self) -> Self {
         Self { has_conserved: true, ..self }
     }
 
-    /// The names and the numbers of the table, to be kept, plotted, or written in another format (feature `serde`).
+    /// Returns the names and the numbers of the table, for storage, plots, or other formats (feature `serde`).
     pub fn records(&self) -> Records<S::Scalar>
     where
         S::Scalar: Real,
@@ -81,7 +82,7 @@ impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Csv<'_, S, N, M, F>
         Records { names: self.names(), rows: states.map(row).collect() }
     }
 
-    /// The conserved quantities that no other column has.
+    /// Conserved quantities that no other column contains.
     fn conserved_columns(&self) -> impl Iterator<Item = (usize, &'static str)> {
         let (has_energy, wanted) = (self.has_energy, self.has_conserved);
         let named = S::FACTS.conserved.iter().map(|conserved| conserved.name).enumerate();
@@ -104,7 +105,7 @@ impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Csv<'_, S, N, M, F>
         names
     }
 
-    /// The cells of a line, in the order of the names.
+    /// Appends the cells of a line, in the order of the names.
     fn cells(&self, state: &State<S::Scalar, N>, cells: &mut Vec<S::Scalar>)
     where
         S::Scalar: Real,
@@ -137,7 +138,8 @@ impl<S: Lagrangian<N, M, Scalar: Real>, F: VectorField<S, N, M>, const N: usize,
             cells.clear();
             self.cells(&state, &mut cells);
             for (k, cell) in cells.iter().enumerate() {
-                // `Debug` of a number is its shortest form that reads back the same, with an exponent where that is shorter.
+                // `Debug` prints the shortest form that reads back the same, with an exponent if that is
+                // shorter.
                 write!(f, "{}{cell:?}", if k == 0 { "" } else { "," })?;
             }
             writeln!(f)?;

@@ -1,4 +1,4 @@
-//! How well a trajectory keeps what should be conserved.
+//! Drift of conserved quantities along a trajectory.
 
 use alloc::vec::Vec;
 use core::fmt::{self, Display, Formatter};
@@ -8,19 +8,19 @@ use crate::number::{Real, Scalar, exceeds};
 use crate::solution::vector_field::VectorField;
 use crate::system::Lagrangian;
 
-/// How far a conserved quantity strays from its value at the start.
+/// Largest deviation of a conserved quantity from its initial value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Deviation<T> {
     /// Name of the quantity in [`Facts::conserved`](crate::facts::Facts::conserved).
     pub name: &'static str,
-    /// The value at the start.
+    /// Value at the start of the trajectory.
     pub start: T,
     /// Largest deviation from the initial value over all steps.
     pub largest: T,
 }
 
-/// The deviation of every conserved quantity of a system along a trajectory.
+/// Deviations of every conserved quantity of a system along a trajectory.
 ///
 #[cfg_attr(
     feature = "std",
@@ -53,9 +53,9 @@ pub struct Drift<T> {
 impl<S: Lagrangian<N, M, Scalar: Real>, F: VectorField<S, N, M>, const N: usize, const M: usize>
     Trajectory<S, N, M, F>
 {
-    /// How far each conserved quantity strays from its value at the start.
+    /// Returns the largest deviation of each conserved quantity from its initial value.
     pub fn drift(&self) -> Drift<S::Scalar> {
-        // One walk for all: the steps of a motion in (q, p) take a search for the velocity each.
+        // One pass for all quantities: in (q, p) every state requires a search for the velocity.
         let mut steps = self.states_of_steps();
         let start = steps.next().into_iter().flat_map(|start| {
             let conserved = S::FACTS.conserved.iter().enumerate();
@@ -77,18 +77,18 @@ impl<S: Lagrangian<N, M, Scalar: Real>, F: VectorField<S, N, M>, const N: usize,
 }
 
 impl<T: Real> Drift<T> {
-    /// The quantities in the order of [`Facts::conserved`](crate::facts::Facts::conserved).
+    /// Iterates over the quantities in the order of [`Facts::conserved`](crate::facts::Facts::conserved).
     pub fn iter(&self) -> core::slice::Iter<'_, Deviation<T>> {
         self.quantities.iter()
     }
 
-    /// The quantity of this name, if there is one.
+    /// Returns the quantity of this name, or `None` if there is none.
     pub fn get(&self, name: &str) -> Option<&Deviation<T>> {
         self.iter().find(|quantity| quantity.name == name)
     }
 }
 
-/// The greater distance, and not a number once one of them is none.
+/// Returns the larger distance; once a distance is NaN, the result stays NaN.
 fn farther<T: Real>(largest: T, difference: T) -> T {
     let distance = Scalar::abs(difference);
     let is_number = largest.partial_cmp(&largest).is_some();

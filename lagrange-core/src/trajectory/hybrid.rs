@@ -1,4 +1,4 @@
-//! A motion of several legs, each of a system of its own.
+//! Motions in several legs, each with its own system.
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -12,8 +12,8 @@ use crate::solution::Sample;
 use crate::solution::vector_field::VectorField;
 use crate::system::Lagrangian;
 
-/// A motion of several legs: until an event by one system, from there on by another, or by the same with other
-/// parameters or another velocity. It is asked by name, whatever numbers of coordinates and constraints the legs have.
+/// A motion in several legs. At an event the next leg takes over, with another system, other parameters or
+/// another velocity. Samples are looked up by name, for any numbers of coordinates and constraints of the legs.
 ///
 #[cfg_attr(
     feature = "std",
@@ -59,22 +59,24 @@ assert!(leaning.end().multiplier("wall")?.abs() < 1e-12);
 "#
 )]
 ///
-/// The legs own their systems: [`Trajectory::into_owned`]. Where one ends and the next starts, the next answers: after an
-/// impact velocities are those after it. What the one before says is had from that, [`legs`](Self::legs).
+/// The legs own their systems: [`Trajectory::into_owned`]. At a time shared by two legs, the sample is that of
+/// the later one: after an impact it has the velocities after the impact. For the earlier one, query the leg
+/// itself, from [`legs`](Self::legs).
 pub struct HybridTrajectory<T> {
     legs: Vec<Box<dyn Leg<T>>>,
 }
 
 impl<T: Real> HybridTrajectory<T> {
-    /// Without a leg.
+    /// Creates a trajectory without legs.
     pub fn new() -> Self {
         Self { legs: Vec::new() }
     }
 
-    /// Goes on with this leg.
+    /// Appends a leg.
     ///
     /// # Errors
-    /// [`Error::LegApart`] where it does not start when the last has ended, or leads the other way in time.
+    /// [`Error::LegApart`] if the leg does not start at the end of the previous one, or runs in the opposite
+    /// direction of time.
     pub fn push(&mut self, leg: impl Leg<T> + 'static) -> Result<(), Error> {
         let goes_back = |leg: &dyn Leg<T>| leg.end_time() < leg.start_time();
         let goes_on = |leg: &dyn Leg<T>| leg.end_time() > leg.start_time();
@@ -93,36 +95,38 @@ impl<T: Real> HybridTrajectory<T> {
         Ok(())
     }
 
-    /// The legs, in order.
+    /// Returns the legs, in order.
     pub fn legs(&self) -> impl ExactSizeIterator<Item = &dyn Leg<T>> {
         self.legs.iter().map(|leg| &**leg)
     }
 
-    /// Leg `index`, counted from 0, where it is a trajectory of this type: with its states, crossings and all else.
+    /// Returns leg `index`, counted from 0, if it is a trajectory of type `L`, with all its states and
+    /// crossings.
     pub fn leg<L: Leg<T> + 'static>(&self, index: usize) -> Option<&L> {
         let leg: &dyn Any = &**self.legs.get(index)?;
         leg.downcast_ref()
     }
 
-    /// When it starts; NaN without a leg.
+    /// Returns the start time; NaN without legs.
     pub fn start(&self) -> T {
         self.legs.first().map_or(T::constant(f64::NAN), |leg| leg.start_time())
     }
 
-    /// When it ends; NaN without a leg.
+    /// Returns the end time; NaN without legs.
     pub fn end(&self) -> T {
         self.legs.last().map_or(T::constant(f64::NAN), |leg| leg.end_time())
     }
 
-    /// Why it gets no farther; `None` without a leg.
+    /// Returns the ending of the last leg; `None` without legs.
     pub fn ending(&self) -> Option<&Ending> {
         self.legs.last().map(|leg| leg.ending())
     }
 
-    /// The state at this time, to be asked by name. Names that its leg does not have are [`Error::UnknownName`].
+    /// Returns the state at this time, for lookup by name. Names that the system of its leg lacks give
+    /// [`Error::UnknownName`].
     ///
     /// # Errors
-    /// [`Error::OutsideTrajectory`]; as [`Trajectory::at`].
+    /// [`Error::OutsideTrajectory`], and those of [`Trajectory::at`].
     pub fn at(&self, t: T) -> Result<Box<dyn Named<T> + '_>, Error> {
         let covers = |leg: &&dyn Leg<T>| {
             let (start, end) = (leg.start_time(), leg.end_time());
@@ -133,7 +137,8 @@ impl<T: Real> HybridTrajectory<T> {
         leg.ok_or(Error::OutsideTrajectory { time, start, end })?.named_at(t)
     }
 
-    /// `count` states at evenly spaced times, first and last included, or why there is none.
+    /// Returns `count` states at evenly spaced times, first and last included, each as the result of
+    /// [`at`](Self::at).
     pub fn samples(&self, count: usize) -> impl Iterator<Item = Result<Box<dyn Named<T> + '_>, Error>> {
         let (start, end, intervals) = (self.start(), self.end(), count.saturating_sub(1).max(1));
         (0..count).map(move |i| self.at(between(start, end, i as f64 / intervals as f64)))
@@ -152,18 +157,19 @@ impl<T: Real> Debug for HybridTrajectory<T> {
     }
 }
 
-/// A leg of a [`HybridTrajectory`]: a [`Trajectory`] without its numbers of coordinates and constraints.
+/// A leg of a [`HybridTrajectory`]: a [`Trajectory`] whose type does not show the numbers of coordinates and
+/// constraints.
 pub trait Leg<T>: Any + Debug + Send + Sync {
-    /// When it starts.
+    /// Returns the start time.
     fn start_time(&self) -> T;
-    /// When it ends.
+    /// Returns the end time.
     fn end_time(&self) -> T;
-    /// Why it ends.
+    /// Returns the reason why the leg ends.
     fn ending(&self) -> &Ending;
-    /// The state at this time.
+    /// Returns the state at this time.
     ///
     /// # Errors
-    /// As [`Trajectory::at`].
+    /// Those of [`Trajectory::at`].
     fn named_at(&self, t: T) -> Result<Box<dyn Named<T> + '_>, Error>;
 }
 
@@ -191,18 +197,18 @@ where
 
 macro_rules! named {
     ($($(#[$doc:meta])* $quantity:ident,)*) => {
-        /// A state that is asked by name: a [`Sample`] without its numbers of coordinates and constraints, where more is said
-        /// about each. Names that its system does not have are [`Error::UnknownName`].
+        /// A state with lookup by name: a [`Sample`] whose type does not show the numbers of coordinates and
+        /// constraints. Names that its system lacks give [`Error::UnknownName`].
         pub trait Named<T> {
-            /// The time.
+            /// Returns the time.
             fn time(&self) -> T;
-            /// The energy.
+            /// Returns the energy.
             fn energy(&self) -> T;
             $(
                 $(#[$doc])*
                 ///
                 /// # Errors
-                /// As that of a [`Sample`].
+                /// Those of the method of a [`Sample`] with the same name.
                 fn $quantity(&self, name: &str) -> Result<T, Error>;
             )*
         }
@@ -227,20 +233,20 @@ macro_rules! named {
 }
 
 named! {
-    /// The generalized coordinate of this name.
+    /// Returns the generalized coordinate of this name.
     coordinate,
-    /// The generalized velocity of the coordinate of this name.
+    /// Returns the generalized velocity of the coordinate of this name.
     velocity,
-    /// The generalized momentum of the coordinate of this name.
+    /// Returns the generalized momentum of the coordinate of this name.
     momentum,
-    /// The generalized acceleration of the coordinate of this name.
+    /// Returns the generalized acceleration of the coordinate of this name.
     acceleration,
-    /// The multiplier of the constraint of this name.
+    /// Returns the multiplier of the constraint of this name.
     multiplier,
-    /// The generalized constraint force on the coordinate of this name.
+    /// Returns the generalized constraint force on the coordinate of this name.
     constraint_force,
-    /// The observable of this name.
+    /// Returns the observable of this name.
     observable,
-    /// The conserved quantity of this name.
+    /// Returns the conserved quantity of this name.
     conserved,
 }

@@ -1,4 +1,4 @@
-//! A motion: its accepted steps, and everything in between.
+//! Trajectories: the accepted steps of a motion, with dense output between them.
 
 mod csv;
 mod drift;

@@ -1,4 +1,4 @@
-//! The accepted steps, and what lies between them.
+//! Accepted steps of a motion, with dense output.
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -10,21 +10,21 @@ use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::StagePoint;
 use crate::system::State;
 
-/// The states at the ends of the steps, and the interpolants between them: those of one method, whose type is
-/// forgotten when it is finished.
+/// States at the ends of the steps, and the interpolants between them. The type of the interpolants depends on
+/// the method; [`finish`](Path::finish) erases it.
 pub(crate) struct Path<T, const N: usize, S = Box<dyn Interpolants<T, N> + Send + Sync>> {
     pub(super) start: Room<State<T, N>>,
     pub(super) last: Room<State<T, N>>,
-    /// Where events were on the way.
+    /// Crossings of events, in the order of the motion.
     pub(crate) crossings: Vec<Crossing<T, N>>,
-    /// The times at the starts of the steps.
+    /// Start times of the steps.
     times: Vec<T>,
     interpolants: S,
 }
 
-/// The interpolants of steps 0, 1, …
+/// Interpolants of steps 0, 1, ….
 pub(crate) trait Interpolants<T, const N: usize> {
-    /// The place at a time within this step.
+    /// Returns the phase at a time within this step.
     fn at(&self, step: usize, t: T) -> Option<StagePoint<T, N>>;
 }
 
@@ -45,30 +45,31 @@ impl<T: Real, const N: usize, I: Interpolant<T, N> + Send + Sync + 'static> Path
         }
     }
 
-    /// When it starts.
+    /// Returns the start time.
     pub(crate) fn start(&self) -> T {
         self.start.t
     }
 
-    /// Where the interpolant of the next step is put, before the step is [pushed](Self::push).
+    /// Returns the interpolants; that of the next step is stored here before the step is [pushed](Self::push).
     #[inline(always)]
     pub(crate) fn interpolants(&mut self) -> &mut Vec<I> {
         &mut self.interpolants
     }
 
-    /// A step to this state, whose interpolant is there.
+    /// Appends a step to `state`, whose interpolant is already stored.
     #[inline(always)]
     pub(crate) fn push(&mut self, state: State<T, N>) {
         self.times.push(self.last.t);
         *self.last = state;
     }
 
-    /// What lies within the last step, and where crossings within it belong.
+    /// Returns the interpolant of the last step, and the list of crossings to which those within the step are
+    /// added.
     pub(crate) fn last_step(&mut self) -> Option<(&I, &mut Vec<Crossing<T, N>>)> {
         Some((self.interpolants.last()?, &mut self.crossings))
     }
 
-    /// Ends within the last step, or where it starts.
+    /// Ends the path at `end`, within the last step or at its start.
     pub(crate) fn cut(&mut self, end: State<T, N>) {
         if self.times.last() == Some(&end.t) {
             self.times.pop();
@@ -84,14 +85,14 @@ impl<T: Real, const N: usize, I: Interpolant<T, N> + Send + Sync + 'static> Path
 }
 
 impl<T: Real, const N: usize> Path<T, N> {
-    /// Where step `step` starts.
+    /// Returns the phase at the start of a step.
     pub(super) fn start_of(&self, step: usize) -> Option<StagePoint<T, N>> {
         self.interpolants.at(step, *self.times.get(step)?)
     }
 
-    /// `None` before the start and from the last state on.
+    /// Returns the phase at a time; `None` before the start and from the last state on.
     pub(super) fn at(&self, t: T) -> Option<StagePoint<T, N>> {
-        // Backwards, times are sorted by their negatives.
+        // Backwards in time, the negated times are sorted.
         let backwards = self.last.t < self.start.t;
         let directed = |t: T| if backwards { -t } else { t };
         if !(directed(t) >= directed(self.start.t) && directed(t) < directed(self.last.t)) {

@@ -1,19 +1,20 @@
-//! What a table of a trajectory holds.
+//! Names and numbers of a table of a trajectory.
 
 use alloc::string::String;
 use alloc::vec::Vec;
 
-/// The names and the numbers of a table, [`Csv::records`](crate::trajectory::Csv::records).
+/// Names and numbers of a table, from [`Csv::records`](crate::trajectory::Csv::records).
 ///
-/// With the feature `serde` it is written and read: `{"names": ["t", "x"], "rows": [[0.0, 1.0]]}`. In formats for people, such
-/// as JSON, what is no finite number may be written as nothing (`null`), which is read as NaN.
+/// With the feature `serde` records can be serialized and deserialized: `{"names": ["t", "x"], "rows": [[0.0,
+/// 1.0]]}`. Human-readable formats such as JSON may write numbers that are not finite as `null`, which is read
+/// as NaN.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(bound(deserialize = "T: crate::Real + serde::Deserialize<'de>")))]
 pub struct Records<T> {
-    /// The name of each column.
+    /// Name of each column.
     pub names: Vec<String>,
-    /// The numbers of each sample, as many as there are names.
+    /// Numbers of each sample, one per column.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "rows"))]
     pub rows: Vec<Vec<T>>,
 }

@@ -1,4 +1,4 @@
-//! The steps of a motion that were stored, and everything in between.
+//! Trajectories stored in memory.
 
 use core::fmt::{self, Debug, Formatter};
 use core::iter::once;
@@ -13,14 +13,15 @@ use crate::solution::{Adjustment, Sample};
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State};
 
-/// The motion of a system from the start to where the integration stopped.
+/// Motion of a system from its start to the end of the integration.
 ///
-/// Between the steps it is the continuous extension of the method, projected onto the constraints like the steps
-/// themselves: continuous, and equal to the states computed at their times.
+/// Between the steps the trajectory is the dense output of the method, projected onto the constraints like the
+/// steps themselves. It is continuous and equals the computed states at their times.
 ///
-/// The system `S` is borrowed by the call that integrates, `Trajectory<&Pendulum, 3, 1>`;
-/// [`into_owned`](Self::into_owned) makes it one that borrows nothing, `Trajectory<Pendulum, 3, 1>`. The flow `F` says
-/// which equations were integrated, Lagrange's or Hamilton's; a sample has both velocities and momenta.
+/// The call that integrates borrows the system `S`: `Trajectory<&Pendulum, 3, 1>`.
+/// [`into_owned`](Self::into_owned) returns a trajectory with its own copy of the system, `Trajectory<Pendulum,
+/// 3, 1>`. The vector field `F` tells which equations were integrated, Lagrange's or Hamilton's; samples have
+/// both velocities and momenta.
 pub struct Trajectory<S: Lagrangian<N, M>, const N: usize, const M: usize, F = LagrangianVectorField> {
     pub(super) system: S,
     pub(super) path: Path<S::Scalar, N>,
@@ -31,7 +32,7 @@ pub struct Trajectory<S: Lagrangian<N, M>, const N: usize, const M: usize, F = L
 }
 
 impl<L: Lagrangian<N, M> + Clone, F, const N: usize, const M: usize> Trajectory<&L, N, M, F> {
-    /// The trajectory with a copy of the system, which may then change or go away.
+    /// Returns the trajectory with its own copy of the system; the original may then change or be dropped.
     ///
     #[cfg_attr(
         feature = "std",
@@ -54,7 +55,7 @@ assert!(swing(2.0)?.end().coordinate("theta")? < 0.1);
 ```
 "#
     )]
-    /// Of a system in an `Arc` or an `Rc` only the pointer is copied.
+    /// For a system in an `Arc` or an `Rc`, only the pointer is copied.
     pub fn into_owned(self) -> Trajectory<L, N, M, F> {
         let Self { system, path, ending, statistics, adjustment, field } = self;
         Trajectory { system: system.clone(), path, ending, statistics, adjustment, field }
@@ -72,7 +73,8 @@ impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Trajectory<S, N, M,
         Self { system, path, ending, statistics, adjustment, field: PhantomData }
     }
 
-    /// The trajectory, if nothing but the caller or an event kept it from its end.
+    /// Returns the trajectory, unless a failure kept it from its end. Terminal events and cancelled runs count
+    /// as finished.
     ///
     /// # Errors
     /// [`Error::Unfinished`] with the [`ending`](Self::ending).
@@ -81,40 +83,40 @@ impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Trajectory<S, N, M,
         Ok(self)
     }
 
-    /// Whether it is [`finished`](Self::finished).
+    /// Checks that no failure kept the trajectory from its end.
     pub(crate) fn check_finished(&self) -> Result<(), Error> {
         let is_failure = self.ending.is_failure();
         if is_failure { Err(self.ending.clone().into()) } else { Ok(()) }
     }
 
-    /// The system that moves.
+    /// Returns the system.
     pub fn system(&self) -> &S {
         &self.system
     }
 
-    /// Why the trajectory ends where it does: it reached its end or a terminal event, or was cancelled; or it failed, of which
-    /// [`towards`](crate::MotionBuilder::towards) makes no error.
+    /// Returns the reason why the trajectory ends: end time, terminal event, cancelled, or a failure, which
+    /// [`towards`](crate::MotionBuilder::towards) does not return as an error.
     pub fn ending(&self) -> &Ending {
         &self.ending
     }
 
-    /// The crossings of the [events](crate::MotionBuilder::event), in the order of the motion.
+    /// Returns the crossings of the [events](crate::MotionBuilder::event), in the order of the motion.
     pub fn crossings(&self) -> &[Crossing<S::Scalar, N>] {
         &self.path.crossings
     }
 
-    /// Steps and evaluations.
+    /// Returns the numbers of steps and evaluations.
     pub fn statistics(&self) -> &Statistics {
         &self.statistics
     }
 
-    /// How far the start was moved onto the constraints.
+    /// Returns the displacement of the initial state by its projection onto the constraints.
     pub fn adjustment(&self) -> &Adjustment<S::Scalar, N> {
         &self.adjustment
     }
 
-    /// Whether the constraints were independent all along. Where not, the motion is right all the same, and the
-    /// multipliers are the ones of least Euclidean norm.
+    /// True if the constraints were independent throughout. If not, the motion is still correct, and the
+    /// multipliers are those of least Euclidean norm.
     pub fn multipliers_are_unique(&self) -> bool {
         self.statistics.multipliers_are_unique
     }
@@ -125,32 +127,32 @@ where
     S: Lagrangian<N, M, Scalar: Real> + Clone,
     F: VectorField<S, N, M>,
 {
-    /// The state at this time.
+    /// Returns the sample at this time.
     ///
     /// # Errors
-    /// [`Error::OutsideTrajectory`]; [`Error::NotProjected`], or in (q, p) what finding the velocity gives, where no way
-    /// leads from between the steps onto the constraints.
+    /// [`Error::OutsideTrajectory`]; [`Error::NotProjected`], or in (q, p) an error of the search for the
+    /// velocity, if the interpolated state cannot be projected onto the constraints.
     pub fn at(&self, t: S::Scalar) -> Result<Sample<S, N, M>, Error> {
         self.state_at(t).map(|state| self.sample(state))
     }
 
-    /// The first state, made consistent.
+    /// Returns the first state, made consistent.
     pub fn start(&self) -> Sample<S, N, M> {
         self.sample(*self.path.start)
     }
 
-    /// The last state.
+    /// Returns the last state.
     pub fn end(&self) -> Sample<S, N, M> {
         self.sample(*self.path.last)
     }
 
-    /// The states that the method computed, first and last included.
+    /// Returns the states that the method computed, first and last included.
     pub fn steps(&self) -> impl Iterator<Item = Sample<S, N, M>> + '_ {
         self.states_of_steps().map(|state| self.sample(state))
     }
 
-    /// `count` states at evenly spaced times, first and last included. Where [`at`](Self::at) gives an error, all but the
-    /// time is NaN.
+    /// Returns `count` states at evenly spaced times, first and last included. If [`at`](Self::at) fails,
+    /// coordinates and velocities are NaN.
     pub fn samples(&self, count: usize) -> impl Iterator<Item = Sample<S, N, M>> + '_ {
         self.states(count).map(|state| self.sample(state))
     }
@@ -178,7 +180,8 @@ impl<S: Lagrangian<N, M, Scalar: Real>, F: VectorField<S, N, M>, const N: usize,
         })
     }
 
-    /// An interpolated state is off the constraints by about the tolerance: it is projected.
+    /// Returns the state at a time. An interpolated state violates the constraints by about the tolerance, so
+    /// it is projected.
     pub(super) fn state_at(&self, t: S::Scalar) -> Result<State<S::Scalar, N>, Error> {
         if t == self.path.last.t {
             return Ok(*self.path.last);
@@ -206,7 +209,7 @@ impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Debug for Trajector
     }
 }
 
-/// Interpolates between two times; rounding leads neither past the last one nor to infinity.
+/// Interpolates between two times. Rounding neither passes the last time nor overflows.
 pub(super) fn between<T: Real>(first: T, last: T, part: f64) -> T {
     let (span, done) = (last - first, T::constant(part));
     if part == 1.0 {

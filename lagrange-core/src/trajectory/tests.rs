@@ -51,7 +51,7 @@ fn samples_are_evenly_spaced_and_end_at_the_end() {
     assert_eq!((path.samples(0).count(), path.samples(1).count()), (0, 1));
 }
 
-/// The span from −0.1 to 1000 is rounded up, and parts near 1 are 1.
+/// The span from −0.1 to 1000 is rounded up, and parts near 1 round to 1.
 #[test]
 fn no_sample_is_past_the_last() {
     for (first, last) in [(-0.1_f32, 1e3), (-1e-3, 4.0), (-f32::MAX, f32::MAX), (0.0, f32::MAX)] {
@@ -98,7 +98,7 @@ fn a_table_reads_back_the_same() {
 
 #[test]
 fn a_table_says_nan_where_the_equations_have_no_solution() {
-    // Singular at t = 0.5 and there only: no step meets it, a sample does.
+    // Singular only at t = 0.5: no step evaluates there, but a sample does.
     let mass = |s: &State<f64, 1>| [[if s.t == 0.5 { 0.0 } else { 1.0 }]];
     let bead = Mechanism::<1, 1, 0> {
         mass,
@@ -115,7 +115,7 @@ fn a_table_says_nan_where_the_equations_have_no_solution() {
     assert_eq!(nan, [false, false, true, false], "{csv}");
 }
 
-/// The search for the velocity that belongs to interpolated momenta starts there.
+/// The search for the velocity that belongs to interpolated momenta starts from this velocity.
 #[test]
 fn between_the_steps_the_velocity_is_that_of_the_interpolant() {
     let system = oscillator();
@@ -127,7 +127,7 @@ fn between_the_steps_the_velocity_is_that_of_the_interpolant() {
     }
 }
 
-/// The forces are evaluated where the equations are solved, and nowhere else.
+/// The forces are evaluated only when the equations are solved, so they count the solves.
 #[test]
 fn a_line_of_a_table_solves_once() {
     static SOLVED: AtomicUsize = AtomicUsize::new(0);
