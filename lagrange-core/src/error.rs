@@ -19,7 +19,7 @@ pub use ensemble::EnsembleError;
 #[non_exhaustive]
 #[derive(Clone, PartialEq)]
 pub enum Error {
-    /// An entry of the initial or given state is infinite or NaN.
+    /// An entry of the given state is infinite or NaN.
     StateNotFinite {
         /// The coordinate, velocity, momentum or time at fault.
         entry: Entry,
@@ -124,7 +124,7 @@ pub enum Error {
     },
     /// Newton's iteration found no state on the constraints near the given one.
     NotProjected {
-        /// Constraint with the largest residual.
+        /// Constraint farthest from being satisfied.
         constraint: &'static str,
         /// Residual of that constraint.
         residual: f64,
@@ -135,7 +135,7 @@ pub enum Error {
     },
     /// The held entries of the state leave too little freedom to satisfy a constraint.
     HeldTooMuch {
-        /// Constraint with the largest residual.
+        /// Constraint farthest from being satisfied.
         constraint: &'static str,
         /// True if velocities are held and F q̇ + b is violated; false if coordinates are held and Φ is
         /// violated.
@@ -156,7 +156,7 @@ pub enum Error {
     },
     /// Newton's iteration found no velocities with the given momenta.
     MomentumNotReached {
-        /// Coordinate whose momentum has the largest residual.
+        /// Coordinate whose momentum is farthest from the given one.
         coordinate: &'static str,
         /// Residual of that momentum.
         residual: f64,
@@ -168,7 +168,7 @@ pub enum Error {
     /// No equilibrium was found near the given state.
     #[cfg(feature = "alloc")]
     NoEquilibrium {
-        /// Row of the equations with the largest residual.
+        /// Row of the equations farthest from being satisfied.
         row: Row,
         /// Residual of that row: a generalized force, or the value of a constraint.
         residual: f64,
@@ -206,7 +206,7 @@ pub enum Error {
         /// Unbalanced row of the equations: a coordinate whose generalized force no input balances, or a
         /// constraint that the accelerations violate.
         row: Row,
-        /// Residual of that row: the missing generalized force M q̈ − h − Fᵀλ, or F q̈ + γ.
+        /// Residual of that row: the missing generalized force, with the sign of M q̈ − h − Fᵀλ, or F q̈ + γ.
         residual: f64,
         /// The time of the state.
         time: f64,

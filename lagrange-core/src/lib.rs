@@ -117,7 +117,7 @@ println!("{}", path.csv(50).energy());
 //! # Ok::<(), Error>(())
 //! ```
 //!
-//! # What else there is
+//! # Other parts of the crate
 //!
 //! - [`Hamiltonian`]: momenta, the Legendre transform, Hamilton's equations, motion in (q, p).
 //! - [`Linearized`] and [`StateDerivatives`]: exact derivatives; equilibria, the linear system near a state,
@@ -139,8 +139,8 @@ println!("{}", path.csv(50).energy());
 //! - `mpi`: ensembles on many machines.
 //! - `parquet`: tables of ensembles as Parquet files.
 //! - `serde`: serializes states, solutions, records of trajectories and endings, and deserializes those without
-//!   names. Numbers survive JSON to the last bit only with `serde_json = { version = "1", features =
-//!   ["float_roundtrip"] }`.
+//!   names. Numbers survive JSON to the last bit only with
+//!   `serde_json = { version = "1", features = ["float_roundtrip"] }`.
 #![cfg_attr(not(feature = "std"), no_std)]
 // Makes docs.rs show which feature an item needs.
 #![cfg_attr(docsrs, feature(doc_cfg))]

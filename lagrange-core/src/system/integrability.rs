@@ -4,7 +4,7 @@ use core::fmt::{self, Display, Formatter};
 
 use super::evidence::Evidence;
 
-/// Whether a velocity constraint can be integrated to a holonomic one.
+/// Integrability of a constraint: whether it is equivalent to one without velocities.
 ///
 /// A velocity constraint Σ F_a q̇_a + b = 0 is the form ω = Σ F_a dq_a + b dt in the space of (q, t). Motions
 /// are curves along which ω = 0 and t increases. Integrable means that they stay on surfaces I(q, t) =

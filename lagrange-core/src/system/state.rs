@@ -21,8 +21,9 @@ use crate::number::Scalar;
 ///
 /// With the feature `serde` a state can be serialized and deserialized: `{"t": 0.0, "q": [0.1], "v": [0.0]}`.
 /// JSON has neither NaN nor infinities: `serde_json` writes them as `null`, which is an error when a state is
-/// read. Numbers are read back to the last bit only with the feature `float_roundtrip` (`serde_json = { version
-/// = "1", features = ["float_roundtrip"] }`), otherwise with an error of up to one unit in the last place.
+/// read. Numbers are read back to the last bit only with the feature `float_roundtrip`
+/// (`serde_json = { version = "1", features = ["float_roundtrip"] }`), otherwise with an error of up to one unit
+/// in the last place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(

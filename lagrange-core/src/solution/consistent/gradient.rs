@@ -33,9 +33,9 @@ pub(crate) fn check<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: 
 }
 
 /// Returns true for each holonomic constraint whose gradient is negligible: no entry exceeds [`SAFETY`] times
-/// its change when the coordinates change by ε^(3/4). This also covers coordinates that are differences of
-/// numbers up to 1,000 times larger, whose round-off is smaller than that. A gradient of an effective
-/// constraint is this small only next to a singular pose.
+/// its change when the coordinates change by ε^(3/4). If a constraint adds a number up to 1,000 times larger to
+/// a coordinate, the round-off of that sum is still smaller. The gradient of an effective constraint is this
+/// small only next to a singular pose.
 #[inline(never)]
 fn vanishing<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,

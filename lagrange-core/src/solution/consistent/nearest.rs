@@ -50,8 +50,8 @@ pub(super) fn approach<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const 
     *state = place.state;
 }
 
-/// Metric of the distance: the mass matrix at the given coordinates, or its negative, if positive semidefinite;
-/// else its diagonal.
+/// Metric of the distance: the mass matrix at the given coordinates, or its negative, if positive semidefinite
+/// and regular along the constraints; else its diagonal.
 #[inline(never)]
 fn metric<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
