@@ -10,7 +10,8 @@ use crate::names::{Entry, Row};
 /// Reason why a motion ends.
 ///
 /// With the feature `serde` an ending can be serialized, as
-/// `{"ending": "StepTooSmall", "time": 1.5, "entry": "x_dot"}`. It cannot be deserialized: its names are `&'static str` of a compiled system.
+/// `{"ending": "StepTooSmall", "time": 1.5, "entry": "x_dot"}`. It cannot be deserialized: its names are
+/// `&'static str` of a compiled system.
 #[non_exhaustive]
 #[derive(Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(tag = "ending"))]

@@ -6,8 +6,8 @@ use alloc::vec::Vec;
 /// Names and numbers of a table, from [`Csv::records`](crate::trajectory::Csv::records).
 ///
 /// With the feature `serde` records can be serialized and deserialized:
-/// `{"names": ["t", "x"], "rows": [[0.0, 1.0]]}`. Human-readable formats such as JSON may write numbers that are not finite as `null`, which is read
-/// as NaN.
+/// `{"names": ["t", "x"], "rows": [[0.0, 1.0]]}`. Human-readable formats such as JSON may write numbers that are
+/// not finite as `null`, which is read as NaN.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(bound(deserialize = "T: crate::Real + serde::Deserialize<'de>")))]
