@@ -20,8 +20,8 @@ use crate::system::{Lagrangian, State};
 ///
 /// The call that integrates borrows the system `S`: `Trajectory<&Pendulum, 3, 1>`.
 /// [`into_owned`](Self::into_owned) returns a trajectory with its own copy of the system,
-/// `Trajectory<Pendulum, 3, 1>`. The vector field `F` tells which equations were integrated, Lagrange's or Hamilton's; samples have
-/// both velocities and momenta.
+/// `Trajectory<Pendulum, 3, 1>`. The vector field `F` tells which equations were integrated,
+/// Lagrange's or Hamilton's; samples have both velocities and momenta.
 pub struct Trajectory<S: Lagrangian<N, M>, const N: usize, const M: usize, F = LagrangianVectorField> {
     pub(super) system: S,
     pub(super) path: Path<S::Scalar, N>,
