@@ -3,11 +3,11 @@
 use ConstraintKind::{Holonomic, Velocity};
 
 use super::evidence::vanishes;
-use super::twists::Twists;
+use super::formulation::Formulation;
 use crate::diagnostics::Diagnostics;
 use crate::resolve::{Label, Problem};
 use crate::symbolic::{Function, Graph, Id};
-use crate::variables::{Variable, drift, has_velocity, nodes, symbols};
+use crate::variables::{Variable, has_velocity, nodes, symbols};
 
 /// How a constraint acts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -28,6 +28,29 @@ pub(super) struct Constraints {
 }
 
 impl Constraints {
+    /// Adds a constraint with its derivatives, and says what is wrong with it.
+    fn push(
+        &mut self,
+        graph: &mut Graph,
+        problem: &Problem,
+        formulation: &dyn Formulation,
+        (label, expression): (&Label, Id),
+    ) -> Option<String> {
+        let mut drift = formulation.drift(graph);
+        let (kind, residual, rate) = match has_velocity(graph, &[expression]) {
+            false => (Holonomic, expression, drift.of(graph, expression)),
+            true => (Velocity, Id::ZERO, expression),
+        };
+        let jacobian = formulation.jacobian_row(graph, expression);
+        let wrong = malformed(graph, problem, (label, expression), kind, &jacobian);
+        self.kinds.push(kind);
+        self.residual.push(residual);
+        self.rate.push(rate);
+        self.bias.push(drift.of(graph, rate));
+        self.jacobian.push(jacobian);
+        wrong
+    }
+
     /// Σ_α λ_α F_αa for each coordinate a.
     pub(super) fn force(&self, graph: &mut Graph) -> Vec<Id> {
         let multipliers = nodes(graph, self.kinds.len(), Variable::Multiplier);
@@ -64,12 +87,12 @@ impl Constraints {
 pub(super) fn derive(
     graph: &mut Graph,
     problem: &Problem,
-    twists: Option<&Twists>,
+    formulation: &dyn Formulation,
     diagnostics: &mut Diagnostics,
 ) -> Option<Constraints> {
     let mut constraints = Constraints::default();
     for (label, expression) in &problem.constraints {
-        if let Some(message) = constraints.push(graph, problem, twists, (label, *expression)) {
+        if let Some(message) = constraints.push(graph, problem, formulation, (label, *expression)) {
             diagnostics.error(label.place, named(label, message));
         }
         diagnostics.stop_at_fault(label.place, graph);
@@ -80,39 +103,6 @@ pub(super) fn derive(
 /// Of several constraints that are written as one, the message says which it is.
 fn named(label: &Label, message: String) -> String {
     if label.text.contains('[') { format!("`{}`: {message}", label.text) } else { message }
-}
-
-impl Constraints {
-    /// Adds a constraint with its derivatives, and says what is wrong with it.
-    fn push(
-        &mut self,
-        graph: &mut Graph,
-        problem: &Problem,
-        twists: Option<&Twists>,
-        (label, expression): (&Label, Id),
-    ) -> Option<String> {
-        let n = problem.coordinates.len();
-        let mut drift = match twists {
-            Some(twists) => twists.rates(graph, drift),
-            None => drift(graph, n),
-        };
-        let (kind, residual, rate, variable): (_, _, _, fn(usize) -> Variable) =
-            match has_velocity(graph, &[expression]) {
-                false => (Holonomic, expression, drift.of(graph, expression), Variable::Coordinate),
-                true => (Velocity, Id::ZERO, expression, Variable::Velocity),
-            };
-        let jacobian = match twists {
-            Some(twists) => twists.row(graph, expression, n),
-            None => graph.gradient(expression, &symbols(n, variable)),
-        };
-        let wrong = malformed(graph, problem, (label, expression), kind, &jacobian);
-        self.kinds.push(kind);
-        self.residual.push(residual);
-        self.rate.push(rate);
-        self.bias.push(drift.of(graph, rate));
-        self.jacobian.push(jacobian);
-        wrong
-    }
 }
 
 /// How the other constraints are written that are written as one with it.

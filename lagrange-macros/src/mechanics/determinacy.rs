@@ -5,7 +5,6 @@
 //! rank: Duff, Erisman and Reid, *Direct Methods for Sparse Matrices*, chapter 6).
 
 use super::constraints::Constraints;
-use super::euler_lagrange::Motion;
 use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
 use crate::symbolic::Id;
@@ -13,11 +12,11 @@ use crate::symbolic::Id;
 /// Reports every coordinate whose acceleration no equation can determine.
 pub(super) fn check(
     problem: &Problem,
-    motion: &Motion,
+    mass: &[Vec<Id>],
     constraints: &Constraints,
     diagnostics: &mut Diagnostics,
 ) -> Option<()> {
-    let rows: Vec<&Vec<Id>> = motion.mass.iter().chain(&constraints.jacobian).collect();
+    let rows: Vec<&Vec<Id>> = mass.iter().chain(&constraints.jacobian).collect();
     let mut owner = vec![None; rows.len()];
     let mut sound = true;
     for column in 0..problem.coordinates.len() {

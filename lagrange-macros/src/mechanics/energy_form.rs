@@ -10,7 +10,7 @@ use num_traits::{One, Zero};
 use super::degree::{self, GradedTerm, by_degree};
 use super::equations::Equations;
 use super::evidence::{Evidence, vanishes};
-use super::twists;
+use super::kinetic::kinetic_energies;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id, Rational, Verdict};
 use crate::variables::{Variable, has_velocity, nodes};
@@ -69,7 +69,7 @@ fn is_even(graph: &mut Graph, problem: &Problem, equations: &Equations) -> Optio
 
 /// Where L has bodies: their kinetic energy is of degree two unless the time moves their frames.
 fn of_bodies(graph: &mut Graph, problem: &Problem) -> Option<EnergyForm> {
-    let (energies, others) = twists::kinetic_energies(graph, problem)?;
+    let (energies, others) = kinetic_energies(graph, problem)?;
     let kinetic = graph.total(energies);
     let is_quadratic = |part: &GradedTerm| part.degree == Rational::from_integer(2);
     let holds_all = !has_velocity(graph, &[others]);

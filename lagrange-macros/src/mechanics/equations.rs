@@ -1,10 +1,13 @@
 //! The equations of motion, and with them all that a system is asked for while it moves.
 
 use super::constraints::ConstraintKind;
-use super::gauss::Form;
+use super::coordinates::Coordinates;
+use super::euler_lagrange::{Momenta, energy};
+use super::form::Form;
+use super::formulation::Formulation;
 use super::integrability::Kinds;
 use super::twists::Twists;
-use super::{consistency, constraints, determinacy, dissipation, euler_lagrange, integrability};
+use super::{consistency, constraints, determinacy, dissipation, integrability};
 use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};
@@ -56,28 +59,32 @@ impl Equations {
         diagnostics: &mut Diagnostics,
     ) -> Option<Self> {
         let twists = Twists::of(graph, problem);
-        let motion = euler_lagrange::derive(graph, problem, twists.as_ref());
+        let momenta = Momenta::of(graph, problem);
+        let coordinates = Coordinates { problem, momenta: &momenta };
+        let formulation: &dyn Formulation = twists.as_ref().map_or(&coordinates, |twists| twists);
+        let (mass, forcing) = formulation.mass_and_forcing(graph);
+        let energy = energy(graph, problem, &momenta.momentum);
         diagnostics.stop_at_fault(problem.place, graph)?;
         dissipation::check(graph, problem, diagnostics);
-        let constraints = constraints::derive(graph, problem, twists.as_ref(), diagnostics)?;
+        let constraints = constraints::derive(graph, problem, formulation, diagnostics)?;
         consistency::check(graph, problem, &constraints, diagnostics)?;
-        determinacy::check(problem, &motion, &constraints, diagnostics)?;
+        determinacy::check(problem, &mass, &constraints, diagnostics)?;
         let integrability = integrability::classify(graph, problem, &constraints);
-        let forms = Form::all(graph, problem, &motion, twists.as_ref(), &constraints);
+        let forms = Form::all(graph, problem, formulation, (&mass, &forcing), &constraints);
         let constraint_force = constraints.force(graph);
         let mut along_motion = total_time_derivative(graph, problem.coordinates.len());
         let constraint_acceleration =
             constraints.rate.iter().map(|&rate| along_motion.of(graph, rate)).collect();
         Some(Self {
-            balance: motion.balance(graph, twists.as_ref(), &constraint_force),
+            balance: balance(graph, formulation, &constraint_force),
             forms,
             integrability,
-            momenta_are_linear: !has_velocity(graph, &motion.mass.concat()),
-            momentum: motion.momentum,
-            mass: motion.mass,
-            momentum_rate: motion.momentum_rate,
-            forcing: motion.forcing,
-            energy: motion.energy,
+            momenta_are_linear: !has_velocity(graph, &mass.concat()),
+            momentum: momenta.momentum,
+            mass,
+            momentum_rate: momenta.rate,
+            forcing,
+            energy,
             constraint_force,
             constraint_acceleration,
             magnitudes: [
@@ -104,4 +111,13 @@ impl Equations {
             .copied()
             .collect()
     }
+}
+
+/// dp/dt − ∂L/∂q − Q − Fᵀλ
+fn balance(graph: &mut Graph, formulation: &dyn Formulation, constraint_force: &[Id]) -> Vec<Id> {
+    let mut balance = formulation.balance(graph);
+    for (sum, &force) in balance.iter_mut().zip(constraint_force) {
+        *sum = graph.sub(*sum, force);
+    }
+    balance
 }

@@ -1,83 +1,32 @@
-//! d/dt(∂L/∂q̇) = ∂L/∂q + Q, solved for what multiplies the accelerations.
+//! d/dt(∂L/∂q̇) = ∂L/∂q + Q: momenta, forces and energy.
 
 use super::degree;
-use super::twists::Twists;
 use crate::resolve::Problem;
 use crate::symbolic::{Forward, Graph, Id};
-use crate::variables::{Variable, drift, has_velocity, nodes, symbols, total_time_derivative};
+use crate::variables::{Variable, has_velocity, nodes, symbols};
 
-/// M q̈ = h without constraints.
-pub(super) struct Motion {
+/// p and what changes it.
+pub(super) struct Momenta {
     pub(super) momentum: Vec<Id>,
-    pub(super) mass: Vec<Vec<Id>>,
-    pub(super) momentum_rate: Vec<Id>,
-    pub(super) forcing: Vec<Id>,
-    pub(super) energy: Id,
+    /// ∂L/∂q + Q
+    pub(super) rate: Vec<Id>,
 }
 
-impl Motion {
-    /// dp/dt − ∂L/∂q − Q − Fᵀλ, with accelerations and multipliers as symbols: not by the entries of M, so that it costs
-    /// as much as the Lagrangian.
-    pub(super) fn balance(
-        &self,
-        graph: &mut Graph,
-        twists: Option<&Twists>,
-        constraint_force: &[Id],
-    ) -> Vec<Id> {
-        let mut balance = match twists {
-            Some(twists) => twists.left_over(graph).into_iter().map(|left| graph.neg(left)).collect(),
-            None => self.without_constraints(graph),
-        };
-        for (sum, &force) in balance.iter_mut().zip(constraint_force) {
-            *sum = graph.sub(*sum, force);
-        }
-        balance
+impl Momenta {
+    pub(super) fn of(graph: &mut Graph, problem: &Problem) -> Self {
+        let n = problem.coordinates.len();
+        let both = [symbols(n, Variable::Coordinate), symbols(n, Variable::Velocity)].concat();
+        let mut gradient = graph.gradient(problem.lagrangian, &both);
+        let momentum = gradient.split_off(n);
+        let forces = generalized_forces(graph, problem);
+        let rate = (0..n).map(|i| graph.add(gradient[i], forces[i])).collect();
+        Self { momentum, rate }
     }
-
-    /// dp/dt − ∂L/∂q − Q
-    fn without_constraints(&self, graph: &mut Graph) -> Vec<Id> {
-        let mut along_motion = total_time_derivative(graph, self.momentum.len());
-        let row = |(&momentum, &rate): (&Id, &Id)| {
-            let inertia = along_motion.of(graph, momentum);
-            let balance = graph.sub(inertia, rate);
-            graph.combined(balance)
-        };
-        self.momentum.iter().zip(&self.momentum_rate).map(row).collect()
-    }
-}
-
-pub(super) fn derive(graph: &mut Graph, problem: &Problem, twists: Option<&Twists>) -> Motion {
-    let n = problem.coordinates.len();
-    let both = [symbols(n, Variable::Coordinate), symbols(n, Variable::Velocity)].concat();
-    let mut gradient = graph.gradient(problem.lagrangian, &both);
-    let momentum = gradient.split_off(n);
-    let forces = generalized_forces(graph, problem);
-    let momentum_rate: Vec<Id> = (0..n).map(|i| graph.add(gradient[i], forces[i])).collect();
-    let (mass, forcing) = match twists {
-        Some(twists) => twists.mass_and_forcing(graph),
-        None => {
-            let velocities = nodes(graph, n, Variable::Velocity);
-            (hessian(graph, &momentum, &velocities), forcing(graph, &momentum, &momentum_rate))
-        }
-    };
-    let energy = energy(graph, problem, &momentum);
-    Motion { momentum, mass, momentum_rate, forcing, energy }
-}
-
-/// h = ∂L/∂q + Q − (dp/dt where q̈ = 0)
-fn forcing(graph: &mut Graph, momentum: &[Id], momentum_rate: &[Id]) -> Vec<Id> {
-    let mut drift = drift(graph, momentum.len());
-    let row = |(&momentum, &momentum_rate): (&Id, &Id)| {
-        let rate = drift.of(graph, momentum);
-        let forcing = graph.sub(momentum_rate, rate);
-        graph.combined(forcing)
-    };
-    momentum.iter().zip(momentum_rate).map(row).collect()
 }
 
 /// E = p·q̇ − L, Milton (8.17). A part of L of degree d in the velocities adds (d − 1) times itself (Euler's
 /// theorem): so the energy reads as T + U where it is that.
-fn energy(graph: &mut Graph, problem: &Problem, momentum: &[Id]) -> Id {
+pub(super) fn energy(graph: &mut Graph, problem: &Problem, momentum: &[Id]) -> Id {
     let parts = degree::parts(graph, problem.lagrangian).unwrap_or_default();
     let terms = parts.iter().map(|part| Some((part.term, part.energy()?))).collect::<Option<Vec<_>>>();
     if let Some(terms) = terms.filter(|terms| !terms.is_empty()) {

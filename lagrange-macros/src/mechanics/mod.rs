@@ -4,6 +4,7 @@ mod completion;
 mod conservation;
 mod consistency;
 mod constraints;
+mod coordinates;
 mod degree;
 mod determinacy;
 mod dissipation;
@@ -12,13 +13,17 @@ mod equations;
 mod euler_lagrange;
 mod evidence;
 mod facts;
+mod form;
+mod formulation;
 mod gauge;
 mod gauss;
 mod hamilton;
 mod integrability;
+mod kinetic;
 mod linearization;
 mod moment;
 mod twists;
+mod velocities;
 
 use rustc_hash::FxHashMap;
 
@@ -32,8 +37,8 @@ pub(crate) use energy_form::EnergyForm;
 pub(crate) use equations::Equations;
 pub(crate) use evidence::Evidence;
 pub(crate) use facts::Facts;
+pub(crate) use form::Form;
 pub(crate) use gauge::LinearPart;
-pub(crate) use gauss::Form;
 use gauss::shorter;
 pub(crate) use hamilton::{Hamilton, NoHamiltonian};
 #[cfg(test)]

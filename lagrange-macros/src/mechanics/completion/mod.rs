@@ -9,6 +9,7 @@
 mod pivots;
 mod positive;
 mod states;
+mod system;
 mod weight;
 
 use super::constraints::Constraints;
@@ -16,6 +17,7 @@ use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id, Rational};
 use pivots::{Wanted, add_square, pivots};
 use states::State;
+use system::System;
 use weight::Weights;
 
 /// What is looked for, in turn, and with how many times the natural σ: an indefinite M may take more. Parameters at
@@ -38,12 +40,6 @@ pub(super) fn completing(
 const FEW: usize = 3;
 /// … and where it is not, but indefinite: there it must be no whim of the parameters that constraints make it definite.
 const MANY: usize = 12;
-
-struct System<'e> {
-    problem: &'e Problem,
-    mass: &'e [Vec<Id>],
-    constraints: &'e Constraints,
-}
 
 impl System<'_> {
     fn completing(&self, graph: &mut Graph) -> Option<Vec<(usize, Id)>> {
@@ -110,22 +106,4 @@ impl System<'_> {
             |state: &mut State| pivots(&state.completed(graph, &rows), wanted) == self.mass.len();
         (!states.is_empty() && states.iter_mut().all(is_complete)).then_some(rows)
     }
-
-    /// The constraints, those first that make few entries of M that were zero, and of these those that tie few.
-    fn by_fill(&self) -> Vec<usize> {
-        let jacobian = &self.constraints.jacobian;
-        let fill = |row: &[Id]| {
-            let tied = tied(row);
-            let pairs = tied.iter().flat_map(|&i| tied.iter().map(move |&j| (i, j)));
-            (pairs.filter(|&(i, j)| self.mass[i][j] == Id::ZERO).count(), tied.len())
-        };
-        let mut order: Vec<usize> = (0..jacobian.len()).collect();
-        order.sort_by_cached_key(|&a| fill(&jacobian[a]));
-        order
-    }
-}
-
-/// The coordinates that a constraint ties.
-fn tied(row: &[Id]) -> Vec<usize> {
-    (0..row.len()).filter(|&i| row[i] != Id::ZERO).collect()
 }

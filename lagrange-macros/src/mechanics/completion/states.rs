@@ -1,7 +1,7 @@
 //! Random states, and what M and F are there.
 
-use super::System;
 use super::pivots::{Matrix, add_square};
+use super::system::System;
 use crate::mechanics::ConstraintKind;
 use crate::symbolic::{Graph, Id, Sample, Symbol};
 use crate::variables::{Variable, has_velocity, symbols};

@@ -4,7 +4,7 @@ use num_traits::One;
 
 use super::positive::positive_terms;
 use super::states::State;
-use super::{System, tied};
+use super::system::{System, tied};
 use crate::symbolic::{Function, Graph, Id, Rational, Symbol};
 use crate::variables::Variable;
 

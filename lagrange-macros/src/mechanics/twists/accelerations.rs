@@ -1,11 +1,11 @@
 //! How fast frames turn and accelerate, along a motion with given accelerations or with none.
 
-use super::Twists;
+use super::components::Twists;
 use crate::resolve::{Frame, Step, Triple, cross, named, sum};
 use crate::symbolic::{Forward, Graph, Id, Rational};
 
 /// d/dt along a motion of so many coordinates.
-pub(in super::super) type InTime = fn(&mut Graph, usize) -> Forward;
+pub(super) type InTime = fn(&mut Graph, usize) -> Forward;
 
 /// Of a frame, in its own axes.
 #[derive(Clone, Copy)]

@@ -4,26 +4,11 @@
 //! m a + ω̇ × h + ω × (ω × h), and the torque J ω̇ + ω × Jω + h × a. In uniform gravity a is the acceleration against it.
 
 use super::accelerations::InTime;
-use super::{TwistParts, Twists};
-use crate::resolve::{Body, Frame, Problem, Step, Triple, cross, sum};
+use super::components::Twists;
+use super::parts::TwistParts;
+use crate::resolve::{Body, Frame, Step, Triple, cross, sum};
 use crate::symbolic::{Graph, Id, Symbol};
 use crate::variables::Variable;
-
-/// Splits L into the bodies whose kinetic energies are terms of it, and the rest.
-pub(super) fn apart(graph: &mut Graph, problem: &Problem) -> (Vec<Body>, Id) {
-    let mut bodies: Vec<Body> = Vec::new();
-    for body in &problem.bodies {
-        if bodies.iter().all(|known| known.energy != body.energy) {
-            bodies.push(body.clone());
-        }
-    }
-    let energies = |bodies: &[Body]| bodies.iter().map(|body| body.energy).collect::<Vec<Id>>();
-    let weights = graph.gradient_to(problem.lagrangian, &energies(&bodies));
-    let weighed = bodies.into_iter().zip(weights).filter(|(_, weight)| *weight == Id::ONE);
-    let bodies: Vec<Body> = weighed.map(|(body, _)| body).collect();
-    let others = graph.without(problem.lagrangian, &energies(&bodies));
-    (bodies, others)
-}
 
 impl Twists<'_> {
     /// The forces of inertia, where the fixed frame accelerates so.

@@ -3,7 +3,7 @@
 //! chapter 6).
 
 use super::super::euler_lagrange::hessian;
-use super::Twists;
+use super::components::Twists;
 use crate::resolve::{Frame, Step, Triple, cross, symmetric};
 use crate::symbolic::{Graph, Id, Rational};
 

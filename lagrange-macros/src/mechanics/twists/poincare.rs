@@ -13,7 +13,9 @@
 use indexmap::IndexMap;
 
 use super::accelerations::InTime;
-use super::{Component, RowOrOrigin, TwistPart, TwistParts, Twists};
+use super::components::{Component, TwistPart, Twists};
+use super::parts::TwistParts;
+use super::places::RowOrOrigin;
 use crate::resolve::{Frame, Triple, columns, cross, named, sum};
 use crate::symbolic::{Forward, Graph, Id, Node};
 use crate::variables::{Variable, nodes};
@@ -99,42 +101,8 @@ impl Twists<'_> {
         }
     }
 
-    /// `weight` times the component `axis` of `vector` × the displacement that goes with the velocity `of`.
-    fn across(
-        &self,
-        graph: &mut Graph,
-        weight: Id,
-        (axis, vector): (usize, Triple),
-        of: Triple,
-        parts: &mut TwistParts,
-    ) {
-        let (b, c) = ((axis + 1) % 3, (axis + 2) % 3);
-        for (from, to, sign) in [(b, c, 1), (c, b, -1)] {
-            if let Some(&number) = self.numbers.get(&of[to]) {
-                let part = graph.mul(weight, vector[from]);
-                parts.add(number, part, sign);
-            }
-        }
-    }
-
-    /// A product for each component of the displacement that goes with the velocity `of`.
-    pub(super) fn along(
-        &self,
-        graph: &mut Graph,
-        products: [(Id, Id); 3],
-        of: Triple,
-        parts: &mut TwistParts,
-    ) {
-        for ((x, y), node) in products.into_iter().zip(of) {
-            if let Some(&number) = self.numbers.get(&node) {
-                let part = graph.mul(x, y);
-                parts.add(number, part, 1);
-            }
-        }
-    }
-
     /// d/dt, by what is known of frames: of where they are the second rate too, which is an acceleration.
-    pub(in super::super) fn rates(&self, graph: &mut Graph, in_time: InTime) -> Forward {
+    pub(super) fn rates(&self, graph: &mut Graph, in_time: InTime) -> Forward {
         let accelerations = self.accelerations(graph, in_time, [Id::ZERO; 3]);
         let mut rates: Vec<(Id, Id)> = Vec::new();
         for (frame, acceleration) in self.problem.frames.iter().zip(accelerations) {
