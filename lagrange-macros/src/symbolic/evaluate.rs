@@ -3,7 +3,8 @@
 use num_traits::ToPrimitive;
 
 use super::graph::{External, Function, Graph, Id, Node, Symbol};
-use super::rational::{Rational, to_f64};
+use super::rational::Rational;
+use super::wide::to_f64;
 
 /// A value and how far the exact one may be from it (running error analysis: Higham, *Accuracy and
 /// Stability of Numerical Algorithms*, 3.3).

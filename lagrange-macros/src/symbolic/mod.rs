@@ -30,7 +30,7 @@ pub(crate) use evaluate::Approximate;
 pub(crate) use graph::{External, Fault, Function, Graph, Id, Node, Symbol};
 pub(crate) use polynomial::{ExactPolynomial, Polynomials};
 pub(crate) use random::{drawn, random};
-pub(crate) use rational::{Rational, plus, power, square_root, times, to_f64};
+pub(crate) use rational::{Rational, plus, power, square_root, times};
 pub(crate) use sample::Sample;
 pub(crate) use scaled::{Scaled, finite_decimal, parse_decimal};
 pub(crate) use simplify::Parity;
@@ -38,4 +38,5 @@ pub(crate) use simplify::Parity;
 pub(crate) use tests::{double::Double, tree::apply};
 #[cfg(test)]
 pub(crate) use wave::superposition;
+pub(crate) use wide::to_f64;
 pub(crate) use zero::Verdict;

@@ -3,8 +3,6 @@
 use num_rational::Ratio;
 use num_traits::{CheckedAdd, CheckedMul, One, Signed, Zero};
 
-use super::wide;
-
 /// A fraction of two `i128`, in lowest terms, its denominator positive.
 pub(crate) type Rational = Ratio<i128>;
 
@@ -49,14 +47,4 @@ pub(crate) fn power(base: Rational, exponent: i128) -> Option<Rational> {
 pub(crate) fn square_root(x: Rational) -> Option<Rational> {
     let root = |n: i128| n.checked_isqrt().filter(|root| root * root == n);
     Some(Rational::new_raw(root(*x.numer())?, root(*x.denom())?))
-}
-
-/// The nearest `f64`.
-pub(crate) fn to_f64(x: Rational) -> f64 {
-    let exact = 1 << f64::MANTISSA_DIGITS;
-    let (numerator, denominator) = (x.numer().unsigned_abs(), x.denom().unsigned_abs());
-    if numerator <= exact && denominator <= exact {
-        return *x.numer() as f64 / *x.denom() as f64;
-    }
-    wide::nearest(x)
 }

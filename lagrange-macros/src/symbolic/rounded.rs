@@ -7,9 +7,9 @@
 use num_traits::{Signed, Zero};
 use rustc_hash::FxHashMap;
 
-use super::graph::Graph;
-use super::rational::{Rational, to_f64};
+use super::rational::Rational;
 use super::scaled::Scaled;
+use super::wide::to_f64;
 
 /// Relative error of a number that was rounded: half a unit in the last place of an `f64`, and again as much between that and
 /// its shortest decimal.
@@ -41,7 +41,7 @@ impl Roundings {
     }
 
     /// Notes the relative error of a number.
-    pub(super) fn note(&mut self, number: Scaled, error: f64) {
+    fn note(&mut self, number: Scaled, error: f64) {
         if error > 0.0 {
             self.note_digits(digits(number), error);
         }
@@ -53,19 +53,12 @@ impl Roundings {
             self.0.entry(digits).or_insert(error);
         }
     }
-}
 
-/// A number without its sign and its power of ten.
-fn digits(number: Scaled) -> Rational {
-    number.apart().unwrap_or(number).fraction.abs()
-}
-
-impl Graph {
     /// The product, rounded where its digits do not fit.
     pub(super) fn times(&mut self, x: Scaled, y: Scaled) -> Option<Scaled> {
         let (product, own) = times(x, y)?;
-        let error = own + self.roundings.error(x) + self.roundings.error(y);
-        self.roundings.note(product, error);
+        let error = own + self.error(x) + self.error(y);
+        self.note(product, error);
         Some(product)
     }
 
@@ -75,7 +68,7 @@ impl Graph {
             Some(sum) => (sum, 0.0),
             None => (x.plus_rounded(y)?, UNIT),
         };
-        let inherited = [x, y].map(|part| (self.roundings.error(part), part));
+        let inherited = [x, y].map(|part| (self.error(part), part));
         if own == 0.0 && inherited.iter().all(|(error, _)| *error == 0.0) {
             return Some(sum);
         }
@@ -84,15 +77,20 @@ impl Graph {
         if size <= error {
             return Some(Rational::zero().into());
         }
-        self.roundings.note(sum, own + error / size);
+        self.note(sum, own + error / size);
         Some(sum)
     }
 
     /// Notes that `power` is what `value` to this exponent comes to.
     pub(super) fn note_power(&mut self, power: Scaled, value: Rational, exponent: Rational) {
-        let error = self.roundings.error(value.into()) * to_f64(exponent).abs();
-        self.roundings.note(power, error);
+        let error = self.error(value.into()) * to_f64(exponent).abs();
+        self.note(power, error);
     }
+}
+
+/// A number without its sign and its power of ten.
+fn digits(number: Scaled) -> Rational {
+    number.apart().unwrap_or(number).fraction.abs()
 }
 
 /// The product and the relative error of its rounding; `None` beyond the range of `f64`.

@@ -6,8 +6,8 @@ use std::cmp::Ordering;
 
 use num_traits::Zero;
 
-use super::rational::{Rational, plus, power, times, to_f64};
-use super::wide;
+use super::rational::{Rational, plus, power, times};
+use super::wide::{self, to_f64};
 
 /// `fraction` · 10^`exponent`, within the range of `f64`. The exponent is 0 wherever the number is a fraction that fits;
 /// elsewhere the fraction is from 1 to 10 (but for fractions of very long numbers), so that equal numbers are equal.

@@ -4,9 +4,10 @@
 use num_traits::{One, Signed, Zero};
 
 use super::graph::{External, Fault, Function, Graph, Id, Node};
-use super::rational::{self, Rational, plus, times, to_f64};
+use super::rational::{self, Rational, plus, times};
 use super::rounded;
 use super::scaled::Scaled;
+use super::wide::to_f64;
 
 impl Graph {
     pub(crate) fn add(&mut self, x: Id, y: Id) -> Id {
@@ -107,7 +108,7 @@ impl Graph {
             _ => flat.push((term, Rational::one().into())),
         }
         for (_, c) in &mut flat[first..] {
-            *c = self.times(coefficient, *c)?;
+            *c = self.roundings.times(coefficient, *c)?;
         }
         Some(())
     }
@@ -125,8 +126,8 @@ impl Graph {
             let start = merged.iter().rposition(|&(known, _)| known != term).map_or(0, |before| before + 1);
             let mut total = value;
             // What it comes to with one of them may add to the next.
-            while let Some((place, sum)) =
-                (start..merged.len()).find_map(|place| Some((place, self.plus(merged[place].1, total)?)))
+            while let Some((place, sum)) = (start..merged.len())
+                .find_map(|place| Some((place, self.roundings.plus(merged[place].1, total)?)))
             {
                 merged.remove(place);
                 total = sum;
@@ -244,8 +245,8 @@ impl Graph {
             Node::Number(value) => {
                 let value = *value;
                 match number_power(value, exponent).and_then(|power| {
-                    self.note_power(power, value, exponent);
-                    self.times(*coefficient, power)
+                    self.roundings.note_power(power, value, exponent);
+                    self.roundings.times(*coefficient, power)
                 }) {
                     Some(product) => *coefficient = product,
                     None => flat.push((factor, exponent)),

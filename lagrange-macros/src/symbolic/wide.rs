@@ -1,4 +1,4 @@
-//! Products and sums of fractions that do not fit into `i128`, as the nearest `f64`.
+//! Fractions, and their products and sums that do not fit into `i128`, as the nearest `f64`.
 
 use std::cmp::Ordering;
 
@@ -34,7 +34,12 @@ pub(super) fn sum(x: Rational, y: Rational) -> f64 {
 }
 
 /// The nearest `f64` to a fraction.
-pub(super) fn nearest(x: Rational) -> f64 {
+pub(crate) fn to_f64(x: Rational) -> f64 {
+    let exact = 1 << f64::MANTISSA_DIGITS;
+    let (numerator, denominator) = (x.numer().unsigned_abs(), x.denom().unsigned_abs());
+    if numerator <= exact && denominator <= exact {
+        return *x.numer() as f64 / *x.denom() as f64;
+    }
     product(x, Rational::from_integer(1))
 }
 
