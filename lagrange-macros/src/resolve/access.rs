@@ -1,6 +1,6 @@
 //! Access paths to numbers in fields: `m`, `a[i][j]`, `link[i].c[0]`.
 
-use super::lower::Lowering;
+use super::lowering::Lowering;
 use super::scope::Entity;
 use super::value::Value;
 use crate::diagnostics::Place;

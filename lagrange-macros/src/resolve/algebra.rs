@@ -2,7 +2,8 @@
 
 use num_traits::Signed;
 
-use super::lower::{Lowering, is_literal_zero};
+use super::expression::is_literal_zero;
+use super::lowering::Lowering;
 use super::value::{Shape, Value};
 use crate::diagnostics::Place;
 use crate::symbolic::{Fault, Id, Rational};

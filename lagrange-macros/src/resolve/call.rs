@@ -3,7 +3,7 @@
 use num_traits::Signed;
 
 use super::frames::is_of_frames;
-use super::lower::{Definition, Lowering, Setting};
+use super::lowering::{Definition, Lowering, Setting};
 use super::quaternion;
 use super::scope::Entity;
 use super::unknown::{nearest, or_meant};
@@ -117,7 +117,7 @@ impl Lowering<'_> {
         place: Place,
     ) -> Option<&'e [Expression; K]> {
         let exact = arguments.try_into().ok();
-        exact.or_else(|| self.report(place, wrong_number(name, K, arguments.len())))
+        exact.or_else(|| self.wrong_number(name, K, arguments.len(), place))
     }
 
     /// max(x, y) = y + max(x − y, 0), and min(x, y) = y − max(y − x, 0).
@@ -207,7 +207,7 @@ impl Lowering<'_> {
         }
         let formals = define.formals.as_deref().unwrap_or_default();
         if formals.len() != arguments.len() {
-            return self.report(place, wrong_number(name, formals.len(), arguments.len()));
+            return self.wrong_number(name, formals.len(), arguments.len(), place);
         }
         let values = self.lower_all(arguments)?;
         let bound = formals.iter().map(|formal| formal.text.clone()).zip(values).collect();
@@ -253,17 +253,25 @@ impl Lowering<'_> {
         let text = indices.iter().fold(constraint.text.clone(), |text, i| format!("{text}[{i}]"));
         found.or_else(|| self.report(constraint.place, format!("there is no constraint `{text}`")))
     }
-}
 
-pub(super) fn wrong_number(name: &Name, wanted: usize, given: usize) -> String {
-    let plural = if wanted == 1 { "" } else { "s" };
-    let are = if given == 1 { "is" } else { "are" };
-    let advice = match (name.text.as_str(), given) {
-        ("atan", 2) => ": the angle of the point (x, y) is `atan2(y, x)`",
-        ("der", 2) => ": it is by the time, `der(x)`",
-        ("dot", 1) => ": the velocity of `x` is `x_dot`",
-        ("norm", 2 | 3) => ": a vector is written `[x, y]`",
-        _ => "",
-    };
-    format!("`{}` takes {wanted} argument{plural}, but {given} {are} given{advice}", name.text)
+    pub(super) fn wrong_number<T>(
+        &mut self,
+        name: &Name,
+        wanted: usize,
+        given: usize,
+        place: Place,
+    ) -> Option<T> {
+        let plural = if wanted == 1 { "" } else { "s" };
+        let are = if given == 1 { "is" } else { "are" };
+        let advice = match (name.text.as_str(), given) {
+            ("atan", 2) => ": the angle of the point (x, y) is `atan2(y, x)`",
+            ("der", 2) => ": it is by the time, `der(x)`",
+            ("dot", 1) => ": the velocity of `x` is `x_dot`",
+            ("norm", 2 | 3) => ": a vector is written `[x, y]`",
+            _ => "",
+        };
+        let message =
+            format!("`{}` takes {wanted} argument{plural}, but {given} {are} given{advice}", name.text);
+        self.report(place, message)
+    }
 }

@@ -2,29 +2,13 @@
 
 use std::rc::Rc;
 
-use rustc_hash::{FxHashMap, FxHashSet};
-
-use super::element_name;
 use super::family::Family;
-use super::lower::{Definition, Lowering};
+use super::label::element_name;
+use super::lowering::{Definition, Lowering, Progress};
 use super::scope::{Entity, is_built_in};
 use super::value::Value;
 use crate::diagnostics::Place;
 use crate::syntax::Name;
-
-/// An element of a definition: the definition's index, and the element's.
-type Element = (usize, Vec<usize>);
-
-/// How far the definitions are.
-#[derive(Default)]
-pub(super) struct Progress {
-    /// The elements that are being defined, each because the one before it needs it.
-    current: Vec<Element>,
-    /// Those that were needed before their turn.
-    early: FxHashSet<Element>,
-    /// The indices that a definition stands for, in order.
-    elements: FxHashMap<usize, Rc<[Vec<usize>]>>,
-}
 
 impl Lowering<'_> {
     /// Gives the definitions their values, in the order written.

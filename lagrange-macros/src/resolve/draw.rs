@@ -1,6 +1,7 @@
 //! Random values for what is checked at random points: parameters that their fields' types admit.
 
-use super::{Parameters, Problem};
+use super::parameters::Parameters;
+use super::problem::Problem;
 use crate::symbolic::{Approximate, Symbol, drawn, random};
 use crate::syntax::{FieldShape, Inside, Property};
 use crate::variables::Variable;

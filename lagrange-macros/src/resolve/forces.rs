@@ -1,7 +1,8 @@
 //! Forces on coordinates, and forces along velocities.
 
-use super::element_name;
-use super::lower::{Lowering, Setting, is_literal_zero};
+use super::expression::is_literal_zero;
+use super::label::element_name;
+use super::lowering::{Lowering, Setting};
 use super::scope::Entity;
 use super::unknown::{nearest, or_meant};
 use super::value::{Axes, Shape, Value};

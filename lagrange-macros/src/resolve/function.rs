@@ -1,8 +1,7 @@
 //! Functions that the user supplies: fields that are called.
 
-use super::call::wrong_number;
-use super::entry_names;
-use super::lower::Lowering;
+use super::label::entry_names;
+use super::lowering::Lowering;
 use super::scope::{Entity, Scope};
 use super::unknown::nearest;
 use super::value::Shape;
@@ -102,7 +101,7 @@ impl Lowering<'_> {
         let function: &FunctionDeclaration = &self.functions[index];
         let (name, wanted, given) = (&function.name.text, function.formals.len(), arguments.len());
         if wanted != given {
-            return self.report(place, wrong_number(&function.name, wanted, given));
+            return self.wrong_number(&function.name, wanted, given, place);
         }
         let values = self.lower_all(arguments)?;
         let mut flat = Vec::new();

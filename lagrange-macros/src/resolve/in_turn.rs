@@ -7,7 +7,7 @@
 
 use rustc_hash::FxHashMap;
 
-use super::lower::{Lowering, Setting};
+use super::lowering::{Lowering, Setting};
 use super::value::Value;
 use crate::symbolic::{Function, Graph, Id, Node};
 use crate::variables::Variable;

@@ -1,7 +1,7 @@
 //! Elements and slices of arrays, fields and families.
 
 use super::access::{AccessPart, NO_ELEMENTS};
-use super::lower::Lowering;
+use super::lowering::Lowering;
 use super::scope::Entity;
 use super::value::Value;
 use crate::diagnostics::Place;

@@ -1,6 +1,7 @@
 //! Matrices: their products, and the functions that make them or take them apart.
 
-use super::lower::Lowering;
+use super::lowering::Lowering;
+use super::turns::Turn;
 use super::value::{Value, cross};
 use crate::diagnostics::Place;
 use crate::symbolic::{Function, Graph, Id};
@@ -9,14 +10,6 @@ use crate::syntax::{Expression, LENGTH_LIMIT, Name};
 type MatrixRows = Vec<Vec<Id>>;
 
 impl Value {
-    /// The rows of a matrix.
-    pub(super) fn as_matrix(&self) -> Option<MatrixRows> {
-        match self {
-            Self::Vector(rows) if !rows.is_empty() => rows.iter().map(Self::as_vector).collect(),
-            _ => None,
-        }
-    }
-
     fn matrix(rows: impl IntoIterator<Item: IntoIterator<Item = Id>>) -> Self {
         Self::Vector(rows.into_iter().map(Self::vector).collect())
     }
@@ -47,7 +40,7 @@ impl Lowering<'_> {
         Some(match (row, column) {
             (None, None) => {
                 let product = Value::matrix(product);
-                self.remember_product(x, y, &product);
+                self.turns.remember_product(&self.graph, x, y, &product);
                 product
             }
             // A matrix in the axes of its vector.
@@ -75,7 +68,7 @@ impl Lowering<'_> {
                 let matrix = self.lower(argument)?;
                 let rows = self.part(&matrix, argument.place, "matrix", Value::as_matrix)?;
                 let transpose = Value::matrix(transposed(rows));
-                self.remember_transpose(&matrix, &transpose);
+                self.turns.remember_transpose(&mut self.graph, &matrix, &transpose);
                 Some(transpose)
             }
         }
@@ -115,7 +108,7 @@ impl Lowering<'_> {
 
     fn turn_about(&mut self, axis: [Id; 3], angle: Id) -> Value {
         let matrix = rotation(axis, angle, &mut self.graph);
-        self.remember_turn(matrix, axis, angle);
+        self.turns.remember(&self.graph, matrix, vec![Turn::About(axis, angle)]);
         Value::matrix(matrix)
     }
 

@@ -1,6 +1,6 @@
 //! Named sums by one another: `vx[i] = sum(j in 0..i+1, …)` is `vx[i-1]` and a term more, however it is spelled.
 
-use super::Problem;
+use super::problem::Problem;
 use crate::symbolic::{Graph, Id};
 
 impl Problem {

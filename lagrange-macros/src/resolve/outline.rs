@@ -1,10 +1,11 @@
 //! What the rest of a program relies on: how many of what there is, and which methods. It is found where something is
 //! wrong too, as far as it can be, so that one error does not bring others about.
 
-use super::lower::{Lowering, Setting};
+use super::label::Label;
+use super::lowering::{Lowering, Setting};
+use super::parameters::Parameters;
 use super::scope::{Entity, Scope};
 use super::value::Value;
-use super::{Label, Parameters};
 use crate::contract::is_reserved;
 use crate::diagnostics::Diagnostics;
 use crate::symbolic::Id;

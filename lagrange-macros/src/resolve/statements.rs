@@ -3,10 +3,12 @@
 use indexmap::IndexMap;
 use rustc_hash::FxHashMap;
 
+use super::expression::is_literal_zero;
 use super::family::Family;
-use super::lower::{Definition, Lowering, MultiplierGroup, Setting, is_literal_zero};
+use super::label::{Label, element_name, entry_names};
+use super::lowering::{Definition, Lowering, MultiplierGroup, Setting};
+use super::problem::Observed;
 use super::value::Value;
-use super::{Label, Observed, element_name, entry_names};
 use crate::contract::is_reserved;
 use crate::diagnostics::Place;
 use crate::symbolic::{Id, Rational};

@@ -94,6 +94,21 @@ impl Value {
         }
     }
 
+    /// The rows of a matrix.
+    pub(super) fn as_matrix(&self) -> Option<Vec<Vec<Id>>> {
+        match self {
+            Self::Vector(rows) if !rows.is_empty() => rows.iter().map(Self::as_vector).collect(),
+            _ => None,
+        }
+    }
+
+    /// The rows of a matrix that maps vectors in space.
+    pub(super) fn as_map_of_space(&self) -> Option<[[Id; 3]; 3]> {
+        let rows: Option<Vec<[Id; 3]>> =
+            self.as_matrix()?.into_iter().map(|row| row.try_into().ok()).collect();
+        rows?.try_into().ok()
+    }
+
     /// The axes of a vector in space.
     pub(super) fn axes(&self) -> Option<&Axes> {
         match self {

@@ -1,78 +1,27 @@
 //! Frames: each lies in one that is declared before it, and everything said in its axes is lowered to scalars.
 
 mod pose;
+mod registry;
 mod spatial;
 mod step;
 
 use std::cmp::Ordering;
 use std::rc::Rc;
 
-use rustc_hash::FxHashSet;
-
-use super::lower::Lowering;
+use super::label::element_name;
+use super::lowering::Lowering;
 use super::scope::Entity;
 use super::unknown::{nearest, or_meant};
 use super::value::Axes;
-use crate::symbolic::Id;
 use crate::syntax::{Expression, FrameDeclaration, Kind, Name};
 pub(crate) use pose::{Frame, Step, Triple, columns, named, sum, symmetric};
+use registry::FIXED;
+pub(crate) use registry::{Body, Frames};
 pub(crate) use spatial::is_of_frames;
 pub(crate) use step::is_step;
 
-/// The name of the frame that all others lie in, in the end.
-pub(super) const FIXED: &str = "fixed";
-
-/// What is known of frames.
-pub(super) struct Frames {
-    /// One a step: those that have a name, and those on the way to them.
-    pub(super) all: Vec<Frame>,
-    pub(super) bodies: Vec<Body>,
-    /// |q|² of the quaternions that turn them.
-    pub(super) squares: Vec<Id>,
-    /// By name and index; none where something was wrong with one, which is then reported.
-    named: Vec<(Rc<str>, Option<Axes>)>,
-    /// The one that is being declared.
-    current: Option<Rc<str>>,
-    /// Those of which it is asked what they lie in, by their declarations: each lies in the next.
-    asked: Vec<(usize, Rc<str>)>,
-    /// Those that were declared before their turn, because others lie in them.
-    early: FxHashSet<Rc<str>>,
-}
-
-/// A rigid body, by what it is in the axes of its frame and about the frame's origin.
-#[derive(Clone, Debug)]
-pub(crate) struct Body {
-    pub(crate) frame: usize,
-    pub(crate) mass: Id,
-    /// Mass times the position of its centre.
-    pub(crate) moment: Triple,
-    pub(crate) inertia: [Triple; 3],
-    /// The node of its kinetic energy.
-    pub(crate) energy: Id,
-}
-
-impl Default for Frames {
-    fn default() -> Self {
-        Self {
-            all: vec![Frame::fixed()],
-            bodies: Vec::new(),
-            squares: Vec::new(),
-            named: Vec::new(),
-            current: None,
-            asked: Vec::new(),
-            early: FxHashSet::default(),
-        }
-    }
-}
-
-impl Frames {
-    fn get(&self, name: &str) -> Option<&Option<Axes>> {
-        self.named.iter().find(|(known, _)| **known == *name).map(|(_, axes)| axes)
-    }
-}
-
 fn name_of(declared: &FrameDeclaration, element: &[usize]) -> Rc<str> {
-    super::element_name(&declared.target.name.text, element).into()
+    element_name(&declared.target.name.text, element).into()
 }
 
 impl Lowering<'_> {

@@ -1,10 +1,9 @@
 //! Vectors in space, and what is asked of a frame: `position(frame, point)` and its kin.
 
-use super::super::call::wrong_number;
-use super::super::lower::Lowering;
+use super::super::lowering::Lowering;
 use super::super::value::{Axes, Shape, Value, cross};
-use super::pose::{sum, symmetric};
-use super::{Body, Triple};
+use super::pose::{Triple, sum, symmetric};
+use super::registry::{Body, FIXED};
 use crate::diagnostics::Place;
 use crate::symbolic::{Id, Rational, Symbol, Verdict, to_f64};
 use crate::syntax::{Expression, Name};
@@ -20,12 +19,7 @@ pub(crate) fn is_of_frames(name: &str) -> bool {
 
 impl Lowering<'_> {
     /// A call of one of [`CALLS`].
-    pub(in super::super) fn of_frame(
-        &mut self,
-        name: &Name,
-        arguments: &[Expression],
-        place: Place,
-    ) -> Option<Value> {
+    pub(crate) fn of_frame(&mut self, name: &Name, arguments: &[Expression], place: Place) -> Option<Value> {
         match (name.text.as_str(), arguments) {
             ("position", [frame, point @ ..]) if point.len() <= 1 => {
                 let (axes, point) = self.point(frame, point)?;
@@ -76,7 +70,7 @@ impl Lowering<'_> {
                     }
                     "vector" => "a frame and the components along its axes",
                     "express" => "a vector and the frame along whose axes it is wanted",
-                    _ => return self.report(place, wrong_number(name, 1, given.len())),
+                    _ => return self.wrong_number(name, 1, given.len(), place),
                 };
                 self.report(place, format!("`{}` takes {takes}", name.text))
             }
@@ -240,7 +234,7 @@ impl Lowering<'_> {
     }
 
     fn fixed(&self) -> Axes {
-        Axes { frame: 0, name: super::FIXED.into() }
+        Axes { frame: 0, name: FIXED.into() }
     }
 
     /// A vector in the axes of one frame, in those of another: up to the frame that both come from, and down.
@@ -267,7 +261,7 @@ impl Lowering<'_> {
 
     /// `der(v)` of a vector in the axes of a frame, as seen from the fixed one or from another: (dr/dt)_B = dr/dt − ω_B × r
     /// (Goldstein, Poole and Safko, *Classical Mechanics*, 4.86).
-    pub(in super::super) fn rate_seen_from(
+    pub(crate) fn rate_seen_from(
         &mut self,
         value: &Value,
         seen_from: Option<&Expression>,
@@ -294,7 +288,7 @@ impl Lowering<'_> {
     }
 
     /// The shape of what is made of both, or what is wrong with that.
-    pub(in super::super) fn meeting(
+    pub(crate) fn meeting(
         &mut self,
         first: &Shape,
         other: &Value,
@@ -313,7 +307,7 @@ impl Lowering<'_> {
     }
 
     /// Numbers alone take the axes of the vector that they meet: that of coordinates these are meant is not known.
-    pub(in super::super) fn along_what_axes(&mut self, values: &[(&Value, Place)]) -> Option<Option<Axes>> {
+    pub(crate) fn along_what_axes(&mut self, values: &[(&Value, Place)]) -> Option<Option<Axes>> {
         let axes = values.iter().find_map(|(value, _)| value.axes().cloned());
         let Some(known) = &axes else { return Some(None) };
         for (value, place) in values {

@@ -1,10 +1,10 @@
 //! The steps that lead from a frame to the next: `translate(v)`, `rotate_z(angle)`, `rotate(axis, angle)`, `rotate(q)`,
 //! `rotate(R)` and `pose(P)`.
 
-use super::super::lower::Lowering;
+use super::super::lowering::Lowering;
 use super::super::matrix::rotation;
 use super::super::quaternion;
-use super::super::turns::Turn;
+use super::super::turns::{Turn, move_in_time};
 use super::super::value::{Value, cross};
 use super::pose::{Frame, Moved, Step, Triple, Turned, columns, named};
 use crate::symbolic::{Id, Sample, Symbol};
@@ -98,7 +98,7 @@ impl Lowering<'_> {
 
     /// About an axis of length 1.
     fn turned_about(&mut self, axis: Triple, angle: Id, at: &Expression) -> Option<Turned> {
-        if self.move_in_time(&axis) {
+        if move_in_time(&self.graph, &axis) {
             let rows = rotation(axis, angle, &mut self.graph);
             return self.turned_by_matrix(rows, at);
         }
@@ -127,7 +127,7 @@ impl Lowering<'_> {
 
     /// Turn by turn where these are known: of a product of matrices that are none alone, the whole may still be a rotation.
     fn turned_by_product(&mut self, matrix: [Triple; 3], at: &Expression) -> Option<Vec<Turned>> {
-        let turns = self.turns_of(matrix).unwrap_or_default();
+        let turns = self.turns.of(&self.graph, matrix).unwrap_or_default();
         let is_rotation = |turn: &Turn| !matches!(turn, &Turn::Placed(rows) if self.is_no_rotation(rows));
         if !turns.is_empty() && turns.iter().all(is_rotation) {
             let turned = turns.into_iter().map(|turn| match turn {
