@@ -4,12 +4,12 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use super::emitter::{Emitter, Written};
 use super::kernel::Kernel;
 use super::passes::Program;
 use super::shape::ResultShape;
 use super::signature::wide;
 use super::solving::Solving;
-use super::{Emitter, Written};
 use crate::contract::Method;
 use crate::mechanics::{Equations, Form};
 use crate::symbolic::Id;

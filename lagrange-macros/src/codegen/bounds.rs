@@ -7,7 +7,7 @@ use quote::{format_ident, quote, quote_spanned};
 use syn::GenericParam;
 use syn::spanned::Spanned;
 
-use super::Emitter;
+use super::emitter::{Emitter, runtime};
 use super::operation::Call;
 use crate::resolve::Supplied;
 use crate::symbolic::{Id, Node};
@@ -103,7 +103,7 @@ pub(super) fn call_of<X>(
 
 /// The struct's generics, where a scalar that is a type parameter is bound to be one.
 pub(super) fn bounded_generics(declaration: &Declaration, scalar: &syn::Type) -> syn::Generics {
-    let runtime = super::runtime(declaration);
+    let runtime = runtime(declaration);
     let mut generics = declaration.generics.clone();
     let scalar = quote!(#scalar).to_string();
     for parameter in &mut generics.params {

@@ -2,6 +2,9 @@
 
 use std::fmt;
 
+/// Longer functions are refused.
+pub(super) const OPERATION_LIMIT: usize = 50_000;
+
 /// How many operations a function takes: + − × ÷ √ count 1, elementary functions apart.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub(crate) struct Count {

@@ -15,7 +15,7 @@ mod schur;
 
 use indexmap::IndexSet;
 
-use super::kernel::OPERATION_LIMIT;
+use super::count::OPERATION_LIMIT;
 use super::operation::{Operation, Register};
 use super::schedule::Schedule;
 use crate::mechanics::{Equations, Form};

@@ -3,9 +3,9 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use super::emitter::{Emitter, Written};
 use super::observables::{entry_of, method_name};
 use super::shape::ResultShape;
-use super::{Emitter, Written};
 use crate::contract::Method;
 use crate::mechanics::{ConservedKind, EnergyForm, Evidence, LinearPart};
 use crate::resolve::Observed;

@@ -3,9 +3,9 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
+use super::emitter::{Emitter, Written};
 use super::facts::evidence;
 use super::shape::ResultShape;
-use super::{Emitter, Written};
 use crate::contract::Method;
 use crate::mechanics::{Classification, Integrals};
 

@@ -4,16 +4,13 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::body::{Chunk, FunctionBody};
-use super::count::Count;
+use super::count::{Count, OPERATION_LIMIT};
 use super::passes::Program;
 use super::shape::{ResultArrays, ResultShape};
 use super::style::FunctionContext;
 use crate::contract::Argument;
 use crate::symbolic::{Id, Symbol};
 use crate::variables::Variable;
-
-/// Longer functions are refused.
-pub(super) const OPERATION_LIMIT: usize = 50_000;
 
 /// The body of one emitted function.
 #[derive(Default)]

@@ -3,10 +3,11 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use super::emitter::{Emitter, Written, runtime, too_long};
 use super::kernel::Kernel;
 use super::observables::OBSERVABLE;
+use super::pack;
 use super::shape::ResultShape;
-use super::{Emitter, Written, pack, runtime, too_long};
 use crate::contract::{Gives, LAGRANGIAN, Method, Quantity};
 use crate::diagnostics::Diagnostics;
 use crate::mechanics::ConstraintKind;

@@ -4,10 +4,10 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::bounds::FUNCTION_ORDER;
+use super::emitter::{Emitter, Written, runtime};
 use super::passes::Program;
 use super::shape::ResultShape;
 use super::signature::wide;
-use super::{Emitter, Written, runtime};
 use crate::contract::{LINEARIZED, Method, Quantity, STATE_DERIVATIVES};
 use crate::mechanics::{Changes, Linearization};
 use crate::symbolic::Graph;

@@ -4,7 +4,7 @@
 use proc_macro2::{Literal, Span, TokenStream};
 use quote::{quote, quote_spanned};
 
-use super::Emitter;
+use super::emitter::Emitter;
 use super::inputs::Varying;
 use super::style::FunctionContext;
 use crate::resolve::Entry;

@@ -6,6 +6,7 @@ mod bounds;
 mod count;
 mod defects;
 mod eliminate;
+mod emitter;
 mod facts;
 mod inputs;
 mod integrability;
@@ -31,7 +32,6 @@ mod time;
 mod writer;
 
 use proc_macro2::TokenStream;
-use quote::quote;
 
 use crate::diagnostics::Diagnostics;
 use crate::mechanics::Derived;
@@ -42,7 +42,7 @@ use crate::syntax::Declaration;
 use bounds::FUNCTION_ORDER;
 #[cfg(test)]
 pub(crate) use count::Count;
-use kernel::{Kernel, OPERATION_LIMIT};
+use emitter::{Emitter, too_long};
 use linearized::Changing;
 use series::TaylorPrograms;
 use solving::Solving;
@@ -91,62 +91,4 @@ pub(crate) fn refuse_hopeless(graph: &Graph, problem: &Problem, diagnostics: &mu
     let Some(count) = passes::hopeless(graph, problem.lagrangian) else { return Some(()) };
     diagnostics.error(problem.place, too_long(&format!("the Lagrangian takes {count}")));
     None
-}
-
-/// A system that is being written.
-struct Emitter<'a> {
-    declaration: &'a Declaration,
-    problem: &'a Problem,
-    derived: &'a Derived,
-    rendered: &'a Rendered,
-    /// `None` where the equations are better solved in loops.
-    solving: Option<Solving>,
-    style: FunctionContext<'a>,
-}
-
-impl Emitter<'_> {
-    /// The methods that long functions call, where there are any.
-    fn parts_of(&self, kernels: &[Kernel], generics: &syn::Generics) -> Option<TokenStream> {
-        let parts: Vec<_> = kernels.iter().flat_map(|kernel| &kernel.parts).collect();
-        let (impl_generics, _, where_clause) = generics.split_for_impl();
-        let (_, type_generics, _) = self.declaration.generics.split_for_impl();
-        let ident = &self.declaration.ident;
-        (!parts.is_empty()).then(|| {
-            quote! {
-                #[automatically_derived]
-                #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
-                impl #impl_generics #ident #type_generics #where_clause {
-                    #(#parts)*
-                }
-            }
-        })
-    }
-}
-
-/// Methods, and the kernels in them.
-struct Written {
-    tokens: TokenStream,
-    kernels: Vec<Kernel>,
-}
-
-impl FromIterator<Self> for Written {
-    fn from_iter<I: IntoIterator<Item = Self>>(all: I) -> Self {
-        let (mut tokens, mut kernels) = (TokenStream::new(), Vec::new());
-        for written in all {
-            tokens.extend(written.tokens);
-            kernels.extend(written.kernels);
-        }
-        Self { tokens, kernels }
-    }
-}
-
-fn too_long(what: &str) -> String {
-    format!(
-        "{what}: more than the {OPERATION_LIMIT} that one function may have. Name what recurs with `#[define(…)]`, recursively along chains, so that it is shared, or take coordinates with constraints between them"
-    )
-}
-
-/// The path of the runtime crate.
-fn runtime(declaration: &Declaration) -> TokenStream {
-    declaration.options.runtime.clone().unwrap_or_else(|| quote!(::lagrange_core))
 }

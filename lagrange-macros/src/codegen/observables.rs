@@ -3,8 +3,8 @@
 use proc_macro2::{Span, TokenStream};
 use quote::quote;
 
+use super::emitter::{Emitter, Written};
 use super::shape::ResultShape;
-use super::{Emitter, Written};
 use crate::contract::Method;
 use crate::resolve::Observed;
 use crate::symbolic::Id;

@@ -1,7 +1,7 @@
 //! The equations of motion solved: the programs of the form that takes the least time.
 
+use super::count::OPERATION_LIMIT;
 use super::eliminate::{self, Solved};
-use super::kernel::OPERATION_LIMIT;
 use super::operation::Register;
 use super::passes::Program;
 use super::schedule::Schedule;

@@ -5,9 +5,9 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::bounds::bounded_generics;
+use super::emitter::runtime;
 use super::observables::method_name;
 use super::pack::pack;
-use super::runtime;
 use super::signature::Types;
 use crate::contract::{LAGRANGIAN, LINEARIZED, Method, STATE_DERIVATIVES, TAYLOR_SERIES};
 use crate::resolve::{Observable, Outline};

@@ -12,8 +12,7 @@ mod split;
 mod tests;
 mod vanishing;
 
-use super::count::Count;
-use super::kernel::OPERATION_LIMIT;
+use super::count::{Count, OPERATION_LIMIT};
 use super::operation::{Operation, Register};
 use super::schedule::Schedule;
 use super::time::Time;

@@ -1,7 +1,6 @@
 //! The recurrences of elementary functions, from the differential equations that they solve.
 
-use super::recurrences::{Recurrences, SeriesQuantity};
-use super::sums::Sum;
+use super::coefficients::{Recurrences, SeriesQuantity, Sum};
 use crate::codegen::operation::{Operation, Register};
 use crate::symbolic::Function;
 

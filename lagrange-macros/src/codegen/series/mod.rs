@@ -1,5 +1,6 @@
 //! The capability of Taylor series: what one order of them takes.
 
+mod coefficients;
 mod functions;
 mod recurrences;
 mod sides;
@@ -10,15 +11,15 @@ mod supplied;
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::kernel::OPERATION_LIMIT;
+use super::count::OPERATION_LIMIT;
+use super::emitter::{Emitter, Written, runtime};
 use super::operation::Register;
 use super::passes::Program;
 use super::shape::ResultShape;
-use super::{Emitter, Written, runtime};
 use crate::contract::{Method, Quantity, TAYLOR_SERIES};
 use crate::mechanics::Equations;
 use crate::symbolic::Graph;
-use recurrences::Recurrences;
+use coefficients::Recurrences;
 use supplied::CallOnSeries;
 
 /// Number of sums that the runtime computes side by side.
@@ -128,7 +129,7 @@ impl Emitter<'_> {
             _ => of_order(method, &series.factors, &[sums; 2]),
         };
         let Written { tokens, kernels } = TAYLOR_SERIES.iter().map(write).collect();
-        let generics = self.generics_on_series(series);
+        let generics = self.generics_on_series(&series.slopes, &series.calls);
         let parts = self.parts_of(&kernels, &generics);
         let (impl_generics, _, where_clause) = generics.split_for_impl();
         let (_, type_generics, _) = self.declaration.generics.split_for_impl();
@@ -138,7 +139,7 @@ impl Emitter<'_> {
         let [roots, arguments] = [("ROOTS", &series.roots), ("ARGUMENTS", &series.arguments)]
             .map(|(name, pairs)| places(name, pairs));
         let steep = places("STEEP", &series.steep);
-        let functions = self.series_functions(series);
+        let functions = self.series_functions(&series.calls);
         quote! {
             const _: () = {
                 use #runtime as __lagrange;

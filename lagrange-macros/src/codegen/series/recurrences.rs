@@ -6,70 +6,15 @@
 //! proposition 2.1). The sums are all alike and left to the runtime. What remains of an order is a linear function of the
 //! newest coefficients, made of numbers of order 0.
 
-use indexmap::{IndexMap, IndexSet};
 use rustc_hash::FxHashMap;
 
-use super::sums::Sum;
+use super::coefficients::{Recurrences, SeriesQuantity, Sum};
 use crate::codegen::operation::{Call, Operation, Register};
 use crate::codegen::schedule::Schedule;
-use crate::symbolic::{Function, Symbol};
+use crate::symbolic::Symbol;
 use crate::variables::Variable;
 
-/// A quantity along the motion, by its place among all.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub(super) struct SeriesQuantity(pub(super) usize);
-
-/// Its coefficients, in the schedule that is being built.
-#[derive(Clone, Copy)]
-pub(super) struct Coefficients {
-    /// That of order 0.
-    first: Register,
-    /// The newest, in its [parts](Stage); a register that is not there is a zero. `None` for a constant of the motion.
-    pub(super) newest: Option<[Option<Register>; 2]>,
-}
-
-/// The parts of a newest coefficient: accelerations and multipliers of that order are what it is computed for.
-#[derive(Clone, Copy, PartialEq, Eq, Default)]
-pub(super) enum Stage {
-    /// With zeros in their place.
-    #[default]
-    Known,
-    /// What they add.
-    Added,
-}
-
-pub(super) const STAGES: [Stage; 2] = [Stage::Known, Stage::Added];
-
-/// The schedule of an order, with that of order 0 in it.
-#[derive(Default)]
-pub(super) struct Recurrences {
-    pub(super) schedule: Schedule,
-    /// Which part of the newest coefficients is being made.
-    stage: Stage,
-    coordinates: usize,
-    /// Whether velocities stand for their means since order 0, of which they are k + 1 times the newest coefficients.
-    pub(super) of_means: bool,
-    pub(super) quantities: Vec<Coefficients>,
-    pub(super) sums: IndexSet<Sum>,
-    /// Values of roots, each with the place of a sum whose right factor it is.
-    pub(super) roots: Vec<(usize, Register)>,
-    /// Arguments of steep functions (exp, tanh, sinh, cosh), with the number 0, and bases of high powers, with the exponent: a register
-    /// where it is known at run time only, else the number.
-    pub(super) steep: IndexMap<(SeriesQuantity, Option<Register>), u32>,
-    /// Bases and exponents of whole powers.
-    pub(super) powers: FxHashMap<SeriesQuantity, (SeriesQuantity, u32)>,
-    /// Calls of functions that the user supplies.
-    pub(super) calls: IndexSet<Call<SeriesQuantity>>,
-    /// Sine and cosine of an angle.
-    pub(super) turns: FxHashMap<(Function, SeriesQuantity), [SeriesQuantity; 2]>,
-}
-
 impl Recurrences {
-    /// Of a system with so many coordinates.
-    pub(super) fn new(coordinates: usize) -> Self {
-        Self { coordinates, ..Self::default() }
-    }
-
     /// Adds `results`; `None` where an operation has no Taylor series, or none that is known.
     pub(super) fn add_up(&mut self, source: &Schedule, results: &[Register]) -> Option<Vec<SeriesQuantity>> {
         let (uses, mut quantities) = (source.uses(results), FxHashMap::default());
@@ -86,15 +31,6 @@ impl Recurrences {
             quantities.insert(Register::at(index), quantity);
         }
         Some(results.iter().map(|result| quantities[result]).collect())
-    }
-
-    /// A part of the newest coefficient; a zero where there is none.
-    pub(super) fn newest(&mut self, of: SeriesQuantity, stage: Stage) -> Register {
-        self.part(of, stage).unwrap_or_else(|| self.schedule.constant(0.0))
-    }
-
-    pub(super) fn part(&self, of: SeriesQuantity, stage: Stage) -> Option<Register> {
-        self.quantities[of.0].newest.and_then(|newest| newest[stage as usize])
     }
 
     fn operation(&mut self, operation: Operation<SeriesQuantity>) -> Option<SeriesQuantity> {
@@ -116,17 +52,6 @@ impl Recurrences {
         })
     }
 
-    pub(super) fn add(&mut self, first: Register, newest: Option<[Option<Register>; 2]>) -> SeriesQuantity {
-        self.quantities.push(Coefficients { first, newest });
-        SeriesQuantity(self.quantities.len() - 1)
-    }
-
-    /// What does not depend on anything that moves.
-    pub(super) fn at_rest(&mut self, operation: Operation) -> SeriesQuantity {
-        let first = self.schedule.push(operation);
-        self.add(first, None)
-    }
-
     fn input(&mut self, symbol: Symbol) -> SeriesQuantity {
         let (newest, is_solved) = match Variable::of(symbol) {
             Variable::Time => (Variable::Change(0), false),
@@ -139,34 +64,6 @@ impl Recurrences {
         let first = self.schedule.push(Operation::Input(symbol));
         let newest = Some(self.schedule.push(Operation::Input(newest.symbol())));
         self.add(first, Some(if is_solved { [None, newest] } else { [newest, None] }))
-    }
-
-    pub(super) fn first(&self, of: SeriesQuantity) -> Register {
-        self.quantities[of.0].first
-    }
-
-    pub(super) fn is_at_rest(&self, of: SeriesQuantity) -> bool {
-        self.quantities[of.0].newest.is_none()
-    }
-
-    /// An operation by order 0, and by the newest coefficients as `newest` makes it of those of `operands`, part by part.
-    pub(super) fn moving<const K: usize>(
-        &mut self,
-        first: Register,
-        operands: [SeriesQuantity; K],
-        mut newest: impl FnMut(&mut Self, [Option<Register>; K]) -> Option<Register>,
-    ) -> SeriesQuantity {
-        let both = STAGES.map(|stage| {
-            self.stage = stage;
-            let operands = operands.map(|x| self.part(x, stage));
-            newest(self, operands)
-        });
-        self.add(first, Some(both))
-    }
-
-    /// What does not depend on the newest coefficients, in the part to which it belongs.
-    pub(super) fn known(&self, x: Register) -> Option<Register> {
-        (self.stage == Stage::Known).then_some(x)
     }
 
     pub(super) fn linear<const K: usize>(
@@ -249,45 +146,5 @@ impl Recurrences {
                 of.times(over, rest)
             })
         })
-    }
-
-    /// A quantity by a recurrence that it occurs in itself: known by its place before it is by its coefficients.
-    pub(super) fn defined(
-        &mut self,
-        first: Register,
-        recurrence: impl FnOnce(&mut Self, SeriesQuantity) -> SeriesQuantity,
-    ) -> SeriesQuantity {
-        let quantity = self.add(first, Some([None; 2]));
-        let made = recurrence(self, quantity);
-        self.quantities[quantity.0] = self.quantities[made.0];
-        quantity
-    }
-
-    pub(super) fn reciprocal(&mut self, x: Register) -> Register {
-        let one = self.schedule.constant(1.0);
-        self.schedule.push(Operation::Divide(one, x))
-    }
-
-    pub(super) fn sum(&mut self, x: Option<Register>, y: Option<Register>) -> Option<Register> {
-        match (x, y) {
-            (Some(x), Some(y)) => Some(self.schedule.push(Operation::Add(x, y))),
-            _ => x.or(y),
-        }
-    }
-
-    pub(super) fn difference(&mut self, x: Option<Register>, y: Option<Register>) -> Option<Register> {
-        match (x, y) {
-            (Some(x), Some(y)) => Some(self.schedule.push(Operation::Subtract(x, y))),
-            (None, y) => self.negative(y),
-            (x, None) => x,
-        }
-    }
-
-    pub(super) fn negative(&mut self, x: Option<Register>) -> Option<Register> {
-        x.map(|x| self.schedule.push(Operation::Negate(x)))
-    }
-
-    pub(super) fn times(&mut self, number: Register, x: Option<Register>) -> Option<Register> {
-        x.map(|x| self.schedule.push(Operation::Multiply(number, x)))
     }
 }

@@ -7,7 +7,7 @@
 //! a function of velocities alone. So d²Φ/dt² has the coefficients F₀ q̈_k + (k + 1) (k + 2)/2 γ(v̄)_k, where those of v̄ are
 //! v_k/(k + 1): one sum for each square in Φ, where F q̈ + γ has two.
 
-use super::recurrences::{Recurrences, Stage};
+use super::coefficients::{Recurrences, Stage};
 use crate::codegen::operation::{Operation, Register};
 use crate::codegen::passes::Program;
 use crate::codegen::schedule::Schedule;

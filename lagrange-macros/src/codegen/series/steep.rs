@@ -1,7 +1,7 @@
 //! Functions that may be too small for a series at the start of a step and large within: exp of what is far below zero, tanh where it is all
 //! but ±1, high powers of what is all but zero. The runtime looks at how far their arguments go.
 
-use super::recurrences::{Recurrences, SeriesQuantity};
+use super::coefficients::{Recurrences, SeriesQuantity};
 use crate::codegen::operation::{Operation, Register};
 
 /// A power is high from here on: it doubles where its base changes by a twentieth.

@@ -2,24 +2,9 @@
 
 use indexmap::IndexSet;
 
-use super::recurrences::{Recurrences, SeriesQuantity, Stage};
+use super::coefficients::{Recurrences, SeriesQuantity, Stage, Sum};
 use crate::codegen::operation::{Operation, Register};
 use crate::variables::Variable;
-
-/// What a sum is taken of, with j from 1 to k − 1.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(super) enum Sum {
-    /// Σ x_j y_{k−j}
-    Product(SeriesQuantity, SeriesQuantity),
-    /// Σ j x_j y_{k−j}
-    Weighted(SeriesQuantity, SeriesQuantity),
-    /// Σ x_j y_{k−j}/((j + 1)(k − j + 1)), of the means that these have had since order 0
-    Mean(SeriesQuantity, SeriesQuantity),
-    /// No sum, but a place where an argument of a function that the user supplies is kept.
-    Argument(SeriesQuantity),
-    /// What such a function adds, by the place among the calls and that of the result.
-    Value(usize, u32),
-}
 
 impl Recurrences {
     /// Σ x_j y_{k−j}; of [means](Self::of_means) k + 1 times that.

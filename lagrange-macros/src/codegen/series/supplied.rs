@@ -5,12 +5,11 @@ use std::collections::BTreeMap;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::TaylorPrograms;
-use super::recurrences::{Recurrences, STAGES, SeriesQuantity, Stage};
-use super::sums::Sum;
-use crate::codegen::Emitter;
+use super::coefficients::{Recurrences, STAGES, SeriesQuantity, Stage, Sum};
 use crate::codegen::bounds::{FUNCTION_ORDER, call_of, orders_of};
+use crate::codegen::emitter::Emitter;
 use crate::codegen::operation::{Call, Operation, Register};
+use crate::codegen::passes::Program;
 
 /// An argument of a call.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -100,14 +99,14 @@ impl Recurrences {
 
 impl Emitter<'_> {
     /// The method that evaluates the functions on series, where there are any.
-    pub(super) fn series_functions(&self, series: &TaylorPrograms) -> Option<TokenStream> {
+    pub(super) fn series_functions(&self, calls: &[CallOnSeries]) -> Option<TokenStream> {
         let scalar = self.style.types.scalar;
-        let calls = series.calls.iter().map(|call| self.call_on_series(call));
-        (!series.calls.is_empty()).then(|| {
+        let written = calls.iter().map(|call| self.call_on_series(call));
+        (!calls.is_empty()).then(|| {
             quote! {
                 #[doc = "What the functions add to an order."]
                 fn series_functions(&self, order: usize, arguments: &[__lagrange::PowerSeries<#scalar>], sums: &mut Self::Sums) {
-                    #(#calls)*
+                    #(#written)*
                 }
             }
         })
@@ -135,11 +134,11 @@ impl Emitter<'_> {
 
     /// What functions must be able to do on series, and one derivative more than the equations need of numbers; asked for only
     /// where somebody uses it.
-    pub(super) fn generics_on_series(&self, series: &TaylorPrograms) -> syn::Generics {
+    pub(super) fn generics_on_series(&self, slopes: &Program, calls: &[CallOnSeries]) -> syn::Generics {
         let scalar = self.style.types.scalar;
-        let orders = orders_of(self.orders(&[]), series.slopes.schedule.calls.iter());
-        let mut generics = self.generics(&orders, series.calls.is_empty());
-        let on_series = orders_of(BTreeMap::new(), series.calls.iter().map(|of| &of.call));
+        let orders = orders_of(self.orders(&[]), slopes.schedule.calls.iter());
+        let mut generics = self.generics(&orders, calls.is_empty());
+        let on_series = orders_of(BTreeMap::new(), calls.iter().map(|of| &of.call));
         self.ask_for(&mut generics, &on_series, &quote!(__lagrange::PowerSeries<#scalar>), false);
         generics
     }

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use super::Planner;
+use super::planner::Planner;
 use crate::codegen::body::{Local, Operand, SineAndCosine, Statement};
 use crate::codegen::operation::{Operation, Register};
 use crate::codegen::schedule::Schedule;

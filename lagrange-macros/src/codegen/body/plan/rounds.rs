@@ -8,22 +8,14 @@ use std::ops::Range;
 use indexmap::IndexSet;
 use rustc_hash::FxHashMap;
 
-use super::{LiveValue, Planner};
+use super::angles::plain_angles;
+use super::planner::{LiveValue, Planner, RoundLayout};
 use crate::codegen::body::repeats::{Computed, Repeat, Source};
 use crate::codegen::body::{Chunk, Given, Operand, Rounds, Slot, SlotSequence};
 use crate::codegen::operation::{Operation, Register};
 use crate::codegen::passes::Program;
 use crate::symbolic::Symbol;
 use crate::variables::Variable;
-
-#[derive(Default)]
-pub(super) struct RoundLayout {
-    /// The operations of a round that leave something, and where.
-    left: Vec<(usize, SlotSequence)>,
-    given: Vec<Given>,
-    /// What is free after the last round, unless something waits there.
-    reserved: Vec<Range<usize>>,
-}
 
 /// Places in rows, one row for each round, after those for what rounds are given that no round has left.
 struct RoundRows {
@@ -154,7 +146,8 @@ fn one_round(repeat: &Repeat, left: &[(usize, SlotSequence)]) -> Chunk {
     let sequence: Vec<usize> =
         operations.filter(|(_, operation)| is_computed(operation)).map(|(k, _)| k).collect();
     let (names, all) = (FxHashMap::default(), 0..sequence.len());
-    let mut planner = Planner::new(&program, &sequence, std::slice::from_ref(&all), &names);
+    let plain = plain_angles(&program.schedule, &sequence, std::slice::from_ref(&all));
+    let mut planner = Planner::new(&program, &sequence, std::slice::from_ref(&all), &names, plain);
     sequence.iter().for_each(|&index| planner.compute(index));
     for (&result, (_, series)) in program.results.iter().zip(left) {
         planner.store(Slot::SpillSlots(*series), result);

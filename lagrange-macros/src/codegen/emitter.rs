@@ -1,0 +1,71 @@
+//! A system that is being written as Rust, and what its capabilities share.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::count::OPERATION_LIMIT;
+use super::kernel::Kernel;
+use super::solving::Solving;
+use super::style::FunctionContext;
+use crate::mechanics::Derived;
+use crate::render::Rendered;
+use crate::resolve::Problem;
+use crate::syntax::Declaration;
+
+/// A system that is being written.
+pub(super) struct Emitter<'a> {
+    pub(super) declaration: &'a Declaration,
+    pub(super) problem: &'a Problem,
+    pub(super) derived: &'a Derived,
+    pub(super) rendered: &'a Rendered,
+    /// `None` where the equations are better solved in loops.
+    pub(super) solving: Option<Solving>,
+    pub(super) style: FunctionContext<'a>,
+}
+
+impl Emitter<'_> {
+    /// The methods that long functions call, where there are any.
+    pub(super) fn parts_of(&self, kernels: &[Kernel], generics: &syn::Generics) -> Option<TokenStream> {
+        let parts: Vec<_> = kernels.iter().flat_map(|kernel| &kernel.parts).collect();
+        let (impl_generics, _, where_clause) = generics.split_for_impl();
+        let (_, type_generics, _) = self.declaration.generics.split_for_impl();
+        let ident = &self.declaration.ident;
+        (!parts.is_empty()).then(|| {
+            quote! {
+                #[automatically_derived]
+                #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
+                impl #impl_generics #ident #type_generics #where_clause {
+                    #(#parts)*
+                }
+            }
+        })
+    }
+}
+
+/// Methods, and the kernels in them.
+pub(super) struct Written {
+    pub(super) tokens: TokenStream,
+    pub(super) kernels: Vec<Kernel>,
+}
+
+impl FromIterator<Self> for Written {
+    fn from_iter<I: IntoIterator<Item = Self>>(all: I) -> Self {
+        let (mut tokens, mut kernels) = (TokenStream::new(), Vec::new());
+        for written in all {
+            tokens.extend(written.tokens);
+            kernels.extend(written.kernels);
+        }
+        Self { tokens, kernels }
+    }
+}
+
+pub(super) fn too_long(what: &str) -> String {
+    format!(
+        "{what}: more than the {OPERATION_LIMIT} that one function may have. Name what recurs with `#[define(…)]`, recursively along chains, so that it is shared, or take coordinates with constraints between them"
+    )
+}
+
+/// The path of the runtime crate.
+pub(super) fn runtime(declaration: &Declaration) -> TokenStream {
+    declaration.options.runtime.clone().unwrap_or_else(|| quote!(::lagrange_core))
+}
