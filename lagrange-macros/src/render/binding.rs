@@ -3,7 +3,6 @@
 use num_traits::{One, Signed};
 
 use super::formula::Formula;
-use super::notation::Notation;
 use crate::symbolic::Rational;
 
 /// How tightly a formula holds together: what is looser than its surroundings needs parentheses.
@@ -15,30 +14,30 @@ pub(super) enum Binding {
     Atom,
 }
 
-impl Notation<'_> {
-    /// How tightly a formula holds together.
-    pub(super) fn binding(self, formula: &Formula) -> Binding {
+impl Binding {
+    /// How tightly a formula holds together, written on one line or not.
+    pub(super) fn of(formula: &Formula, is_flat: bool) -> Self {
         match formula {
-            Formula::Number(value) if value.is_negative() => Binding::Sum,
-            Formula::Negative(_) | Formula::Sum(_) | Formula::SumOver { .. } => Binding::Sum,
-            Formula::Product(..) => Binding::Product,
+            Formula::Number(value) if value.is_negative() => Self::Sum,
+            Formula::Negative(_) | Formula::Sum(_) | Formula::SumOver { .. } => Self::Sum,
+            Formula::Product(..) => Self::Product,
             Formula::Call(name, _) => match name.as_str() {
-                "dot" | "cross" | "der" => Binding::Product,
+                "dot" | "cross" | "der" => Self::Product,
                 // `sin x` holds like a factor, not like the base of a power.
-                name if PREFIX.contains(&name) => Binding::Power,
-                _ => Binding::Atom,
+                name if PREFIX.contains(&name) => Self::Power,
+                _ => Self::Atom,
             },
-            Formula::Partial { arguments, .. } if arguments.is_empty() => match self.spelling.is_flat() {
-                true => Binding::Product,
-                false => Binding::Power,
+            Formula::Partial { arguments, .. } if arguments.is_empty() => match is_flat {
+                true => Self::Product,
+                false => Self::Power,
             },
-            Formula::Power(..) => Binding::Power,
-            Formula::Root(_) if self.spelling.is_flat() => Binding::Power,
-            Formula::Number(value) if !value.denom().is_one() => Binding::Power,
-            Formula::Scaled(_) => Binding::Power,
+            Formula::Power(..) => Self::Power,
+            Formula::Root(_) if is_flat => Self::Power,
+            Formula::Number(value) if !value.denom().is_one() => Self::Power,
+            Formula::Scaled(_) => Self::Power,
             // A further index would run into the first.
-            Formula::Entry(..) if !self.spelling.is_flat() => Binding::Power,
-            _ => Binding::Atom,
+            Formula::Entry(..) if !is_flat => Self::Power,
+            _ => Self::Atom,
         }
     }
 }

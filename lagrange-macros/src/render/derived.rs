@@ -2,13 +2,25 @@
 
 use num_traits::{One, Signed};
 
-use super::Page;
 use super::formula::Formula;
-use super::hamilton::momentum;
+use super::length::READABLE;
+use super::page::Page;
 use crate::symbolic::{Function, Id, Node, Rational, Scaled};
 use crate::variables::Variable;
 
 impl Page<'_> {
+    /// Sums of nodes as they are computed, or how many symbols these would take together where that is too many.
+    pub(super) fn computed<const K: usize>(&self, sums: [&[Id]; K]) -> Result<[Formula; K], u64> {
+        let read = |id: &Id| self.derived.read.get(id).copied().unwrap_or(*id);
+        let symbols = sums
+            .concat()
+            .iter()
+            .map(read)
+            .fold(0, |sum: u64, id| sum.saturating_add(self.symbols[id.index()]));
+        let sum = |parts: &[Id]| Formula::sum(parts.iter().map(|part| self.derived(read(part))).collect());
+        if symbols > READABLE { Err(symbols) } else { Ok(sums.map(sum)) }
+    }
+
     pub(super) fn derived(&self, id: Id) -> Formula {
         let all = |ids: &[Id]| ids.iter().map(|&id| self.derived(id)).collect();
         match self.graph.node(id) {
@@ -81,7 +93,7 @@ impl Page<'_> {
             Variable::Acceleration(i) => coordinate(i, 2),
             Variable::Multiplier(a) => Formula::Multiplier(self.problem.constraints[a].0.text.clone()),
             Variable::Parameter(k) => Formula::labelled(&self.problem.parameters.name(k), 0),
-            Variable::Momentum(i) => momentum(&self.problem.coordinates[i].text, 0),
+            Variable::Momentum(i) => Formula::momentum(&self.problem.coordinates[i].text, 0),
             // Emitted functions take it, and no equation has it.
             only_emitted => Formula::labelled(&format!("{only_emitted:?}"), 0),
         }

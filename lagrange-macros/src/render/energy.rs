@@ -1,9 +1,9 @@
 //! The energy function, and what it is: T + U only where that is certain.
 
-use super::Page;
 use super::formula::Formula;
+use super::length::length;
 use super::lines::Line;
-use super::reading::length;
+use super::page::Page;
 use super::remark::{Fragment, Remark};
 use crate::mechanics::{ConservedKind, EnergyChange, EnergyForm, Evidence};
 use crate::symbolic::Id;

@@ -1,8 +1,8 @@
 //! The conserved quantities and the total time derivatives, as they are to be read.
 
-use super::Page;
 use super::formula::Formula;
 use super::lines::{Equation, Line};
+use super::page::Page;
 use super::remark::{Fragment, Remark};
 use crate::mechanics::{Conserved, ConservedKind, Evidence};
 use crate::syntax::{Expression, Sign};

@@ -71,6 +71,11 @@ impl Formula {
         Self::Name { base, dots, indices }
     }
 
+    /// p, with dots, of a coordinate.
+    pub(super) fn momentum(text: &str, dots: usize) -> Self {
+        Self::labelled(&format!("p_{text}"), dots)
+    }
+
     fn index(text: &str) -> Self {
         match text.parse::<i128>() {
             Ok(number) => Self::Number(Rational::from_integer(number)),

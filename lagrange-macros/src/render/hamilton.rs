@@ -3,11 +3,10 @@
 use std::ops::Range;
 
 use super::formula::Formula;
+use super::length::length;
 use super::lines::{Equation, Line};
-use super::reading::length;
-use super::{Page, vector};
+use super::page::Page;
 use crate::mechanics::{Conserved, ConservedKind, Hamilton, NoHamiltonian};
-use crate::symbolic::Id;
 
 /// Longer ones, in the signs that they take, say nothing to a reader.
 const LONG: usize = 100;
@@ -35,7 +34,7 @@ impl Page<'_> {
 
     /// With the coordinates, one or those of a vector, that each is of.
     pub(super) fn all_momenta(&self) -> Vec<(Range<usize>, Line)> {
-        self.by_vector(&self.derived.equations.momentum, Self::momentum, |text| momentum(text, 0))
+        self.by_vector(&self.derived.equations.momentum, Self::momentum, |text| Formula::momentum(text, 0))
     }
 
     pub(super) fn are_conserved(&self, rows: &Range<usize>) -> bool {
@@ -83,52 +82,7 @@ impl Page<'_> {
     pub(super) fn canonical(&self) -> Vec<Line> {
         let Ok(hamilton) = self.legible() else { return Vec::new() };
         let velocities = self.by_coordinate(&hamilton.velocities, |text| Formula::labelled(text, 1));
-        let rates = self.by_coordinate(&hamilton.rates, |text| momentum(text, 1));
+        let rates = self.by_coordinate(&hamilton.rates, |text| Formula::momentum(text, 1));
         velocities.into_iter().chain(rates).collect()
     }
-
-    /// Fᵀλ of each coordinate that a constraint acts on.
-    pub(super) fn constraint_forces(&self) -> Vec<Line> {
-        let forces = &self.derived.equations.constraint_force;
-        let mut lines = self.by_coordinate(forces, |text| Formula::labelled(&format!("R_{text}"), 0));
-        let zero = Formula::sum(Vec::new());
-        lines.retain(|line| !matches!(&line.equation, Equation::Known(_, right) if *right == zero));
-        lines
-    }
-
-    /// An equation for each coordinate, or for each vector of coordinates whose equations are those of one.
-    fn by_coordinate(&self, values: &[Id], left: impl Fn(&str) -> Formula) -> Vec<Line> {
-        self.by_vector(values, Self::expression, left).into_iter().map(|(_, line)| line).collect()
-    }
-
-    fn by_vector(
-        &self,
-        values: &[Id],
-        read: impl Fn(&Self, Id) -> Result<Formula, u64>,
-        left: impl Fn(&str) -> Formula,
-    ) -> Vec<(Range<usize>, Line)> {
-        let mut lines = Vec::new();
-        let mut first = 0;
-        for labels in self.vectors() {
-            let rows = first..first + labels.len();
-            first = rows.end;
-            // Without constraints there are no forces of them.
-            let Some(parts) = values.get(rows.clone()) else { break };
-            let whole = vector(&labels[0].text).filter(|_| labels.len() > 1);
-            let whole = whole.and_then(|text| Some([left(text), self.vector_expression(parts)?]));
-            match whole {
-                Some([left, right]) => lines.push((rows, Line::of(Equation::Known(left, right)))),
-                None => lines.extend(
-                    rows.zip(labels)
-                        .map(|(i, label)| (i..i + 1, Line::known(left(&label.text), read(self, values[i])))),
-                ),
-            }
-        }
-        lines
-    }
-}
-
-/// p, with dots, of a coordinate.
-pub(super) fn momentum(text: &str, dots: usize) -> Formula {
-    Formula::labelled(&format!("p_{text}"), dots)
 }

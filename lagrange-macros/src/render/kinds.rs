@@ -1,6 +1,6 @@
 //! What kind of constraint it is, in words.
 
-use super::Page;
+use super::page::Page;
 use super::remark::{Fragment, Remark};
 use crate::mechanics::{Evidence, Integrability, Integrals};
 use crate::symbolic::Node;

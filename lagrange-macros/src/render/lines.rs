@@ -1,12 +1,8 @@
 //! Headings and lines, and the plain text that is put together from them.
 
-use super::Page;
 use super::formula::Formula;
 use super::notation::Notation;
-use super::reading::READABLE;
 use super::remark::Remark;
-use crate::resolve::Problem;
-use crate::symbolic::{Graph, Id};
 
 /// A heading and the lines below it: a label, an equation and a remark. The note says what concerns all lines.
 pub(super) struct Section {
@@ -59,33 +55,6 @@ impl From<Result<[Formula; 2], u64>> for Equation {
             Err(size) => Self::TooLong(size),
         }
     }
-}
-
-impl Page<'_> {
-    /// Sums of nodes as they are computed, or how many symbols these would take together where that is too many.
-    pub(super) fn computed<const K: usize>(&self, sums: [&[Id]; K]) -> Result<[Formula; K], u64> {
-        let read = |id: &Id| self.derived.read.get(id).copied().unwrap_or(*id);
-        let symbols = sums
-            .concat()
-            .iter()
-            .map(read)
-            .fold(0, |sum: u64, id| sum.saturating_add(self.symbols[id.index()]));
-        let sum = |parts: &[Id]| Formula::sum(parts.iter().map(|part| self.derived(read(part))).collect());
-        if symbols > READABLE { Err(symbols) } else { Ok(sums.map(sum)) }
-    }
-}
-
-/// How many symbols each node takes written out, where what is shared is written again.
-pub(super) fn symbols(graph: &Graph, problem: &Problem) -> Vec<u64> {
-    let mut symbols = Vec::with_capacity(graph.len());
-    for id in graph.ids() {
-        let mut size = 1_u64;
-        if !problem.names.contains_key(&id) {
-            graph.operands(id, |operand| size = size.saturating_add(symbols[operand.index()]));
-        }
-        symbols.push(size);
-    }
-    symbols
 }
 
 pub(super) fn text(name: &str, sections: &[Section]) -> String {

@@ -78,7 +78,7 @@ impl<'a> Notation<'a> {
 
     fn at_least(self, formula: &Formula, least: Binding) -> String {
         let text = self.write(formula);
-        if self.binding(formula) >= least { text } else { self.parentheses(&text) }
+        if Binding::of(formula, self.spelling.is_flat()) >= least { text } else { self.parentheses(&text) }
     }
 
     fn parentheses(self, inner: &str) -> String {

@@ -1,7 +1,7 @@
 //! Functions that the user supplies, as formulas.
 
-use super::Page;
 use super::formula::Formula;
+use super::page::Page;
 use crate::resolve::{Supplied, entry_names};
 use crate::symbolic::{External, Rational};
 use crate::syntax::{Layout, numbers};

@@ -1,13 +1,100 @@
-//! What the user wrote, as formulas.
+//! What the user wrote: the Lagrangian, definitions, forces and constraints, as formulas.
 
 use num_traits::One;
 
-use super::Page;
 use super::formula::Formula;
+use super::lines::{Equation, Line};
+use super::notation::Notation;
+use super::page::Page;
+use super::reading::Names;
 use crate::symbolic::{Rational, Scaled};
-use crate::syntax::{Expression, Kind, Operator, Sign, normal_form};
+use crate::syntax::{
+    Constraint, Declaration, Define, Expression, FrameDeclaration, Kind, Operator, Power, Sign, Target,
+    TargetIndex, normal_form,
+};
 
 impl Page<'_> {
+    pub(super) fn lagrangian(&self) -> Vec<Line> {
+        let Declaration { lagrangian, frames, defines, dissipation, forces, powers, .. } = self.declaration;
+        let line = |left, right: &Expression| Line::of(Equation::Known(left, self.written(right)));
+        let name = |text: &str| Formula::labelled(text, 0);
+        let mut lines: Vec<Line> = Vec::new();
+        let written_out = match self.names {
+            Names::WrittenOut => self.expression(self.problem.lagrangian).ok(),
+            _ => None,
+        };
+        lines.extend(lagrangian.as_ref().map(|lagrangian| match written_out {
+            Some(right) => Line::of(Equation::Known(name("L"), right)),
+            None => line(name("L"), lagrangian),
+        }));
+        lines.extend(frames.iter().map(|frame| self.frame(frame)));
+        lines.extend(defines.iter().map(|define| line(self.defined(define), &define.body)));
+        lines.extend(dissipation.as_ref().map(|function| line(name("D"), function)));
+        lines.extend(forces.iter().map(|force| {
+            let Target { name, indices } = &force.target;
+            let base = format!("Q_{}", name.text);
+            line(Formula::Name { base, dots: 0, indices: self.indices(indices) }, &force.value)
+        }));
+        lines.extend(powers.iter().map(|Power { indices, force, velocity }| {
+            let factors = [force, velocity].map(|factor| self.written(factor)).to_vec();
+            let left = Formula::Name { base: "P".to_owned(), dots: 0, indices: self.indices(indices) };
+            Line::of(Equation::Known(left, Formula::Call("dot".to_owned(), factors)))
+        }));
+        lines
+    }
+
+    /// A frame by the one that it is in and the steps from there.
+    fn frame(&self, FrameDeclaration { target, parent, steps, .. }: &FrameDeclaration) -> Line {
+        let steps = parent.iter().chain(steps).map(|part| self.written(part)).collect();
+        Line::of(Equation::Known(self.target(target), Formula::Product(steps, Vec::new())))
+    }
+
+    /// The left side of a definition.
+    fn defined(&self, define: &Define) -> Formula {
+        match &define.formals {
+            Some(formals) => {
+                let formals = formals.iter().map(|formal| Formula::labelled(&formal.text, 0));
+                Formula::Call(define.target.name.text.clone(), formals.collect())
+            }
+            None => self.target(&define.target),
+        }
+    }
+
+    pub(super) fn target(&self, Target { name, indices }: &Target) -> Formula {
+        Formula::Name { base: name.text.clone(), dots: 0, indices: self.indices(indices) }
+    }
+
+    fn indices(&self, indices: &[TargetIndex]) -> Vec<Formula> {
+        let index = |index: &TargetIndex| match index {
+            TargetIndex::Element(element) => self.written(element),
+            TargetIndex::Family { index, from, to } => {
+                let [from, to] = [from, to].map(|end| Box::new(self.written(end)));
+                Formula::Running { index: Some(index.text.clone()), from, to }
+            }
+        };
+        indices.iter().map(index).collect()
+    }
+
+    pub(super) fn constraints(&self) -> Vec<Line> {
+        let line = |Constraint { target, left, right, is_implied }: &Constraint| {
+            let name = &target.name.text;
+            let is_it = |text: &str| text == name || text.starts_with(&format!("{name}["));
+            let rows = self.problem.constraints.iter().enumerate();
+            let rows = rows.filter(|(_, (label, _))| is_it(&label.text)).map(|(row, _)| row);
+            let rows: Vec<usize> = rows.collect();
+            // Another constraint may say the same already.
+            if *is_implied && rows.is_empty() {
+                return None;
+            }
+            Some(Line {
+                label: Some(Notation::UNICODE.write(&self.target(target))),
+                equation: Equation::Known(self.written(left), self.written(right)),
+                remark: self.kinds(rows.into_iter()),
+            })
+        };
+        self.declaration.constraints.iter().filter_map(line).collect()
+    }
+
     pub(super) fn written(&self, expression: &Expression) -> Formula {
         let boxed = |part: &Expression| Box::new(self.written(part));
         let all = |parts: &[Expression]| parts.iter().map(|part| self.written(part)).collect();

@@ -6,12 +6,12 @@ use std::collections::BTreeSet;
 use num_traits::{One, Signed};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::super::Page;
 use super::super::derived::{function, power};
 use super::super::formula::Formula;
+use super::super::length::{READABLE, length};
+use super::super::page::Page;
 use super::atoms::Meaning;
 use super::expand::Expansion;
-use super::length::length;
 use super::polynomial::{Atom, Monomial, Polynomial, common};
 use crate::symbolic::{self, Id, Rational, Scaled};
 use crate::variables::Variable;
@@ -346,7 +346,7 @@ impl Collector<'_, '_> {
             match (self.expansion.names.contains(&id), problem.names.contains_key(&id)) {
                 (true, _) => {}
                 (false, true) => return false,
-                (false, false) if self.page.symbols[id.index()] > super::READABLE => return false,
+                (false, false) if self.page.symbols[id.index()] > READABLE => return false,
                 (false, false) => graph.operands(id, |operand| pending.push(operand)),
             }
         }

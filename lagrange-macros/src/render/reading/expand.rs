@@ -1,5 +1,7 @@
 //! Expansion of nodes of the graph into polynomials.
 
+use std::cell::RefCell;
+
 use num_traits::One;
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -118,4 +120,51 @@ impl<'a> Expansion<'a> {
         }
         Some(product)
     }
+}
+
+/// The same expressions with some of the definitions by their names.
+pub(crate) struct Reading<'a>(pub(super) RefCell<Expansion<'a>>);
+
+/// With all definitions by their names, with those that are constant, and with none: as far as these differ.
+pub(crate) fn readings<'a>(
+    graph: &'a Graph,
+    problem: &Problem,
+    derived: &Derived,
+    constants: &FxHashSet<Id>,
+    names: Names,
+) -> Vec<Reading<'a>> {
+    let all: FxHashSet<Id> = problem.names.keys().copied().collect();
+    let none = FxHashSet::default();
+    let mut kept = match names {
+        Names::Shortest => vec![all, constants.clone(), none],
+        Names::Kept => vec![all],
+        Names::WrittenOut => vec![none],
+    };
+    kept.dedup();
+    kept.into_iter()
+        .map(|kept| Reading(RefCell::new(Expansion::new(graph, problem, derived, kept))))
+        .collect()
+}
+
+/// Whether definitions appear by their names.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Names {
+    /// By whichever is shorter.
+    Shortest,
+    Kept,
+    WrittenOut,
+}
+
+/// The definitions that neither the time nor the state changes.
+pub(crate) fn constants(graph: &Graph, problem: &Problem) -> FxHashSet<Id> {
+    let mut is_constant = Vec::with_capacity(graph.len());
+    for id in graph.ids() {
+        let mut is = match graph.node(id) {
+            Node::Symbol(symbol) => matches!(Variable::of(*symbol), Variable::Parameter(_)),
+            _ => true,
+        };
+        graph.operands(id, |operand| is &= is_constant[operand.index()]);
+        is_constant.push(is);
+    }
+    problem.names.keys().copied().filter(|id| is_constant[id.index()]).collect()
 }

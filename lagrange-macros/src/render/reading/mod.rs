@@ -3,14 +3,13 @@
 //! An expression is multiplied out into a [polynomial] in [atoms], whose like terms are collected and cancel exactly;
 //! sines and cosines are [put together](angles); a [row] is divided by what its terms have in common; and common factors are
 //! [taken out](collect) where that is shorter. All that is done once with the names of definitions and once with what they
-//! stand for, and the [shortest](mod@length) form is taken, the one that is computed with among them.
+//! stand for, and the [shortest](mod@super::length) form is taken, the one that is computed with among them.
 
 mod angles;
 mod atoms;
 mod collect;
 mod dots;
 mod expand;
-mod length;
 mod polynomial;
 mod row;
 mod vectors;
@@ -18,76 +17,23 @@ mod vectors;
 use std::cell::RefCell;
 
 use num_traits::One;
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashMap;
 
-use super::Page;
 use super::formula::Formula;
+use super::length::{READABLE, length};
 use super::lines::Equation;
-use crate::mechanics::Derived;
-use crate::resolve::Problem;
-use crate::symbolic::{Graph, Id, Rational};
-use crate::variables::Variable;
+use super::page::Page;
+use crate::symbolic::{Id, Rational};
 use collect::Collector;
-use expand::Expansion;
-pub(super) use length::length;
+pub(super) use expand::{Names, Reading, constants, readings};
 use polynomial::{Monomial, Polynomial};
 use vectors::VectorTerm;
-
-/// What takes more signs than this is not for reading.
-pub(super) const READABLE: u64 = 250;
 
 /// Of polynomials of more terms than this sines and cosines are not put together.
 const TERMS: usize = 100;
 
 /// Nor is a polynomial written down of more names and numbers, those in the arguments of functions counted.
 const SIZE: u64 = 2000;
-
-/// The same expressions with some of the definitions by their names.
-pub(super) struct Reading<'a>(RefCell<Expansion<'a>>);
-
-/// With all definitions by their names, with those that are constant, and with none: as far as these differ.
-pub(super) fn readings<'a>(
-    graph: &'a Graph,
-    problem: &Problem,
-    derived: &Derived,
-    constants: &FxHashSet<Id>,
-    names: Names,
-) -> Vec<Reading<'a>> {
-    let all: FxHashSet<Id> = problem.names.keys().copied().collect();
-    let none = FxHashSet::default();
-    let mut kept = match names {
-        Names::Shortest => vec![all, constants.clone(), none],
-        Names::Kept => vec![all],
-        Names::WrittenOut => vec![none],
-    };
-    kept.dedup();
-    kept.into_iter()
-        .map(|kept| Reading(RefCell::new(Expansion::new(graph, problem, derived, kept))))
-        .collect()
-}
-
-/// Whether definitions appear by their names.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Names {
-    /// By whichever is shorter.
-    Shortest,
-    Kept,
-    WrittenOut,
-}
-
-/// The definitions that neither the time nor the state changes.
-pub(super) fn constants(graph: &Graph, problem: &Problem) -> FxHashSet<Id> {
-    let mut is_constant = Vec::with_capacity(graph.len());
-    for id in graph.ids() {
-        let mut is = match graph.node(id) {
-            crate::symbolic::Node::Symbol(symbol) => matches!(Variable::of(*symbol), Variable::Parameter(_)),
-            _ => true,
-        };
-        graph.operands(id, |operand| is &= is_constant[operand.index()]);
-        is_constant.push(is);
-    }
-    problem.names.keys().copied().filter(|id| is_constant[id.index()]).collect()
-}
 
 impl Page<'_> {
     /// Σ inertia = Σ forces

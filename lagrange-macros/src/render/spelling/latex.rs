@@ -1,8 +1,8 @@
 //! Mathematics of LaTeX, with the package `amsmath`.
 
-use super::{Spelling, WIDE, greek};
+use super::parts::{Spelling, WIDE, greek};
 
-pub(in super::super) struct Latex;
+pub(crate) struct Latex;
 
 impl Spelling for Latex {
     fn width(&self, text: &str) -> f64 {

@@ -1,8 +1,8 @@
 //! MathML, as browsers show it without a script: the elements and attributes of MathML Core.
 
-use super::{Spelling, WIDE, greek};
+use super::parts::{Spelling, WIDE, greek};
 
-pub(in super::super) struct MathMl;
+pub(crate) struct MathMl;
 
 /// Between a function and its argument, for those who hear a formula.
 const APPLIED: &str = "<mo>\u{2061}</mo>";

@@ -1,9 +1,9 @@
 //! Plain text, on one line.
 
-use super::{Spelling, greek};
+use super::parts::{Spelling, greek};
 use crate::syntax::normal_form;
 
-pub(in super::super) struct Unicode;
+pub(crate) struct Unicode;
 
 impl Spelling for Unicode {
     fn is_flat(&self) -> bool {

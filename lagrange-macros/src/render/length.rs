@@ -1,9 +1,14 @@
 //! How long a formula is to a reader.
 
-use super::super::formula::Formula;
+use super::formula::Formula;
+use crate::resolve::Problem;
+use crate::symbolic::Graph;
+
+/// What takes more signs than this is not for reading.
+pub(super) const READABLE: u64 = 250;
 
 /// How many signs it takes: a name, a number or an operator is one, and so is an exponent or a pair of parentheses.
-pub(in super::super) fn length(formula: &Formula) -> usize {
+pub(super) fn length(formula: &Formula) -> usize {
     let all = |parts: &[Formula]| parts.iter().map(length).sum::<usize>();
     match formula {
         Formula::Number(_) | Formula::Scaled(_) | Formula::Pi | Formula::Name { .. } => 1,
@@ -29,4 +34,17 @@ pub(in super::super) fn length(formula: &Formula) -> usize {
         Formula::Derivative { argument, .. } => 2 + length(argument),
         Formula::Partial { by, arguments, .. } => 1 + by.len() + all(arguments),
     }
+}
+
+/// How many symbols each node takes written out, where what is shared is written again.
+pub(super) fn symbols(graph: &Graph, problem: &Problem) -> Vec<u64> {
+    let mut symbols = Vec::with_capacity(graph.len());
+    for id in graph.ids() {
+        let mut size = 1_u64;
+        if !problem.names.contains_key(&id) {
+            graph.operands(id, |operand| size = size.saturating_add(symbols[operand.index()]));
+        }
+        symbols.push(size);
+    }
+    symbols
 }

@@ -1,0 +1,95 @@
+//! Equations of motion and constraint forces: a line for each coordinate, or for each vector of coordinates.
+
+use std::ops::Range;
+
+use super::formula::Formula;
+use super::lines::{Equation, Line};
+use super::notation::Notation;
+use super::page::Page;
+use crate::mechanics::Derived;
+use crate::resolve::Label;
+use crate::symbolic::Id;
+
+impl Page<'_> {
+    /// Σ_j M_ij q̈_j = h_i + Σ_α λ_α F_αi, a row for each coordinate, or for a vector of coordinates.
+    pub(super) fn motion(&self) -> Vec<Line> {
+        let Derived { equations, inertia, .. } = self.derived;
+        let right = |i: usize| {
+            let right = [Some(&equations.forcing[i]), equations.constraint_force.get(i)];
+            right.into_iter().flatten().copied().filter(|&part| part != Id::ZERO).collect::<Vec<_>>()
+        };
+        let mut rows: Vec<(Id, Vec<Id>)> =
+            inertia.iter().enumerate().map(|(i, &left)| (left, right(i))).collect();
+        let lines = self.vectors().flat_map(|labels| {
+            let others = rows.split_off(labels.len());
+            let rows = std::mem::replace(&mut rows, others);
+            let line = |text: &str, equation| {
+                let label = Some(Notation::UNICODE.write(&Formula::labelled(text, 0)));
+                Line { label, ..Line::of(equation) }
+            };
+            let whole = (labels.len() > 1).then(|| self.vector_row(&rows)).flatten();
+            match (whole, vector(&labels[0].text)) {
+                (Some([left, right]), Some(text)) => vec![line(text, Equation::Known(left, right))],
+                _ => labels
+                    .iter()
+                    .zip(&rows)
+                    .map(|(label, row)| line(&label.text, self.row(row.0, &row.1)))
+                    .collect(),
+            }
+        });
+        lines.collect()
+    }
+
+    /// The coordinates, with the components of each vector together.
+    fn vectors(&self) -> impl Iterator<Item = &[Label]> {
+        let are_together = |one: &Label, other: &Label| {
+            vector(&one.text).is_some() && vector(&one.text) == vector(&other.text)
+        };
+        self.problem.coordinates.chunk_by(are_together)
+    }
+
+    /// Fᵀλ of each coordinate that a constraint acts on.
+    pub(super) fn constraint_forces(&self) -> Vec<Line> {
+        let forces = &self.derived.equations.constraint_force;
+        let mut lines = self.by_coordinate(forces, |text| Formula::labelled(&format!("R_{text}"), 0));
+        let zero = Formula::sum(Vec::new());
+        lines.retain(|line| !matches!(&line.equation, Equation::Known(_, right) if *right == zero));
+        lines
+    }
+
+    /// An equation for each coordinate, or for each vector of coordinates whose equations are those of one.
+    pub(super) fn by_coordinate(&self, values: &[Id], left: impl Fn(&str) -> Formula) -> Vec<Line> {
+        self.by_vector(values, Self::expression, left).into_iter().map(|(_, line)| line).collect()
+    }
+
+    pub(super) fn by_vector(
+        &self,
+        values: &[Id],
+        read: impl Fn(&Self, Id) -> Result<Formula, u64>,
+        left: impl Fn(&str) -> Formula,
+    ) -> Vec<(Range<usize>, Line)> {
+        let mut lines = Vec::new();
+        let mut first = 0;
+        for labels in self.vectors() {
+            let rows = first..first + labels.len();
+            first = rows.end;
+            // Without constraints there are no forces of them.
+            let Some(parts) = values.get(rows.clone()) else { break };
+            let whole = vector(&labels[0].text).filter(|_| labels.len() > 1);
+            let whole = whole.and_then(|text| Some([left(text), self.vector_expression(parts)?]));
+            match whole {
+                Some([left, right]) => lines.push((rows, Line::of(Equation::Known(left, right)))),
+                None => lines.extend(
+                    rows.zip(labels)
+                        .map(|(i, label)| (i..i + 1, Line::known(left(&label.text), read(self, values[i])))),
+                ),
+            }
+        }
+        lines
+    }
+}
+
+/// `r` of `r[0]`, `r[1]` of `r[1][0]`.
+fn vector(text: &str) -> Option<&str> {
+    text.strip_suffix(']')?.rsplit_once('[').map(|(vector, _)| vector)
+}
