@@ -5,6 +5,8 @@
 //! time, coordinates, velocities and parameters. `LAGRANGE_FUZZ_SECONDS` and `LAGRANGE_FUZZ_SEED` say how many systems, and which.
 
 mod draft;
+mod drawing;
+mod here;
 mod jet;
 mod language;
 mod oracle;
@@ -19,8 +21,8 @@ use crate::rounds::{Random, rounds};
 use crate::symbolic::Symbol;
 use crate::variables::Variable;
 use draft::Draft;
+use here::Here;
 use jet::Jet;
-use language::Here;
 use oracle::Solution;
 
 /// The bound is that of one order of operations, from the top of the matrix down; what is emitted has others, and other expressions

@@ -63,10 +63,6 @@ pub(super) fn exponent_at_name(base: &Formula, exponent: &Formula) -> Option<Rat
     }
 }
 
-pub(super) fn is_number(formula: &Formula) -> bool {
-    matches!(formula, Formula::Number(_))
-}
-
 /// `sin x` and `sin² x` end the argument of the function before them.
 pub(super) fn begins_with_function(formula: &Formula) -> bool {
     match formula {

@@ -62,11 +62,10 @@ pub(crate) fn render(
     let totals = shortest.total_derivatives();
     let total_derivatives = totals.iter().map(|formula| Notation::UNICODE.write(formula)).collect();
     let shortest = shortest.forms();
-    let others = [Names::Kept, Names::WrittenOut].map(|names| match problem.names.is_empty() {
+    let [kept, written_out] = [Names::Kept, Names::WrittenOut].map(|names| match problem.names.is_empty() {
         true => shortest.clone(),
         false => page(names).forms(),
     });
-    let [kept, written_out] = others;
     Rendered { forms: [shortest, kept, written_out], total_derivatives }
 }
 

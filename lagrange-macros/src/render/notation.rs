@@ -4,7 +4,7 @@
 use num_traits::{One, Signed};
 
 use super::arrays::Arrays;
-use super::binding::{Binding, PREFIX, begins_with_function, exponent_at_name, is_number, is_prefixed};
+use super::binding::{Binding, PREFIX, begins_with_function, exponent_at_name, is_prefixed};
 use super::digits::{decimal, point};
 use super::formula::Formula;
 use super::spelling::{Latex, MathMl, Spelling, Unicode, WIDE};
@@ -189,7 +189,9 @@ impl<'a> Notation<'a> {
                 self.prefix(name, None, &arguments[0], is_followed)
             }
             Formula::Power(base, exponent) => self.power(base, exponent, is_followed),
-            Formula::Root(inner) if self.spelling.is_flat() && is_followed && is_number(inner) => {
+            Formula::Root(inner)
+                if self.spelling.is_flat() && is_followed && matches!(**inner, Formula::Number(_)) =>
+            {
                 self.parentheses(&self.write(factor))
             }
             _ => self.at_least(factor, Binding::Power),

@@ -1,54 +1,10 @@
 //! Expressions of the language: how they are written, and what they are worth.
 
-use super::draft::Draft;
+use super::draft::{ATOM, Draft, POWER, PRODUCT, SIGN, SUM, Term, Vector};
+use super::here::Here;
 use super::jet::Jet;
-use super::space::{self, Vector};
+use super::space;
 use crate::symbolic::{Double, Function, Rational};
-
-/// What is written at random.
-#[derive(Clone, Debug)]
-pub(super) enum Term {
-    Number(&'static str, i128, i128),
-    Pi,
-    Time,
-    /// The number of an index.
-    Index,
-    /// What a function is given.
-    Argument(usize),
-    Coordinate(usize),
-    Velocity(usize),
-    Parameter(usize),
-    /// An entry of the coordinate that begins there, by the table of whole numbers.
-    Picked(usize),
-    /// A definition before this.
-    Defined(usize),
-    Applied(usize, Box<Self>),
-    /// A function that is not written in the language.
-    Supplied(usize, Box<[Self; 2]>),
-    Negative(Box<Self>),
-    Binary(char, Box<[Self; 2]>),
-    /// To a fixed power.
-    Power(Box<Self>, i128, i128),
-    /// To any power, of what is positive.
-    Exponential(Box<[Self; 2]>),
-    Function(Function, Box<Self>),
-    Sqrt(Box<Self>),
-    Atan2(Box<[Self; 2]>),
-    Dot(Box<[Vector; 2]>),
-    Norm(Box<Vector>),
-    Component(Box<Vector>, usize),
-    /// Of a frame: mass, centre, and the first number of the inertia.
-    Kinetic(usize, Box<(Self, Vector)>, usize),
-    Sum(usize, Box<Self>),
-    Der(Box<Self>),
-}
-
-/// Where in the order of operations what is written stands: it takes parentheses where more is needed.
-pub(super) const SUM: u8 = 1;
-pub(super) const PRODUCT: u8 = 2;
-const SIGN: u8 = 3;
-const POWER: u8 = 4;
-pub(super) const ATOM: u8 = 5;
 
 impl Term {
     pub(super) fn text(&self, draft: &Draft) -> String {
@@ -156,66 +112,5 @@ impl Term {
             }
             Self::Der(x) => x.value(draft, &here.later()).rate(here.order),
         }
-    }
-}
-
-/// Where and when, with so many ε in it.
-#[derive(Clone)]
-pub(super) struct Here {
-    pub(super) time: Jet,
-    pub(super) coordinates: Vec<Jet>,
-    pub(super) velocities: Vec<Jet>,
-    pub(super) parameters: Vec<f64>,
-    pub(super) order: u32,
-    index: usize,
-    arguments: Vec<Jet>,
-}
-
-impl Here {
-    pub(super) fn new(time: f64, coordinates: &[f64], velocities: &[f64], parameters: &[f64]) -> Self {
-        let jets = |numbers: &[f64]| numbers.iter().copied().map(Jet::number).collect();
-        Self {
-            time: Jet::number(time),
-            coordinates: jets(coordinates),
-            velocities: jets(velocities),
-            parameters: parameters.to_vec(),
-            order: 0,
-            index: 0,
-            arguments: Vec::new(),
-        }
-    }
-
-    pub(super) fn with_arguments(&self, arguments: Vec<Jet>) -> Self {
-        Self { arguments, ..self.clone() }
-    }
-
-    pub(super) fn at_index(&self, index: usize) -> Self {
-        Self { index, ..self.clone() }
-    }
-
-    /// A new ε later, by these velocities, that do not change.
-    pub(super) fn later(&self) -> Self {
-        let mut later = self.clone();
-        later.time = self.time.moved(&Jet::number(1.0), self.order);
-        let moved = self.coordinates.iter().zip(&self.velocities);
-        later.coordinates = moved.map(|(q, v)| q.moved(v, self.order)).collect();
-        later.order += 1;
-        later
-    }
-
-    /// With one coordinate a new ε larger.
-    pub(super) fn by_coordinate(&self, i: usize) -> Self {
-        let mut moved = self.clone();
-        moved.coordinates[i] = self.coordinates[i].moved(&Jet::number(1.0), self.order);
-        moved.order += 1;
-        moved
-    }
-
-    /// With one velocity a new ε larger.
-    pub(super) fn by_velocity(&self, i: usize) -> Self {
-        let mut moved = self.clone();
-        moved.velocities[i] = self.velocities[i].moved(&Jet::number(1.0), self.order);
-        moved.order += 1;
-        moved
     }
 }

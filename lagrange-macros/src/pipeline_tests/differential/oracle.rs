@@ -1,9 +1,9 @@
 //! Accelerations and multipliers by derivatives of the Lagrangian as it is written and Gauss's elimination, to twice the
 //! precision of f64; and how exact f64 can be expected to be.
 
-use super::draft::Draft;
+use super::draft::{Draft, Term};
+use super::here::Here;
 use super::jet::{Jet, Running};
-use super::language::{Here, Term};
 use crate::symbolic::Double;
 
 /// The accelerations, then the multipliers.

@@ -1,8 +1,6 @@
 //! Expressions at random, of what there is: each knows in what range it is, so that every function is smooth there.
 
-use super::draft::Draft;
-use super::language::Term;
-use super::space::Vector;
+use super::draft::{Draft, Term, Vector};
 use crate::rounds::Random;
 use crate::symbolic::Function;
 
@@ -76,7 +74,7 @@ impl Pen<'_> {
     }
 
     fn parameter(&mut self) -> Term {
-        Term::Parameter(self.random.one_of(self.draft.scalars()))
+        Term::Parameter(self.random.one_of(&self.draft.scalars))
     }
 
     /// By an index, which may be looked up in the table.

@@ -1,8 +1,7 @@
 //! Vectors and steps of frames at random.
 
-use super::language::Term;
+use super::draft::{Step, Term, Vector};
 use super::pen::Pen;
-use super::space::{Step, Vector};
 
 impl Pen<'_> {
     /// Along no axes in particular.
@@ -13,7 +12,7 @@ impl Pen<'_> {
         match self.random.below(10) {
             0 | 1 if !triples.is_empty() && self.velocities => Vector::Velocity(self.random.one_of(&triples)),
             0..3 if !triples.is_empty() => Vector::Coordinate(self.random.one_of(&triples)),
-            3 | 4 if !draft.vectors().is_empty() => Vector::Parameter(self.random.one_of(draft.vectors())),
+            3 | 4 if !draft.vectors.is_empty() => Vector::Parameter(self.random.one_of(&draft.vectors)),
             5 => Vector::Sum(Box::new([self.vector(below), self.vector(below)])),
             6 => Vector::Scaled(Box::new((self.term(below), self.vector(below)))),
             7 => Vector::Cross(Box::new([self.vector(below), self.vector(below)])),

@@ -3,55 +3,10 @@
 //! A frame is a rotation and an origin, multiplied out; what moves with it is differentiated along the motion. No angular velocity
 //! is carried from frame to frame, and no twist.
 
-use super::draft::Draft;
+use super::draft::{ATOM, Draft, PRODUCT, SUM, Step, Vector};
+use super::here::Here;
 use super::jet::Jet;
-use super::language::{ATOM, Here, PRODUCT, SUM, Term};
 use crate::symbolic::Function;
-
-/// A vector of three, written at random.
-#[derive(Clone, Debug)]
-pub(super) enum Vector {
-    Entries(Box<[Term; 3]>),
-    /// A coordinate, by its first entry.
-    Coordinate(usize),
-    Velocity(usize),
-    /// A field or a member of one, by its first number.
-    Parameter(usize),
-    Sum(Box<[Self; 2]>),
-    Scaled(Box<(Term, Self)>),
-    Cross(Box<[Self; 2]>),
-    /// By a coordinate that is a quaternion.
-    Turned(usize, Box<Self>),
-    Supplied(usize, Box<Term>),
-    Der(Box<Self>),
-    /// Where a point of a frame is, along the fixed axes; the others are along those of the frame.
-    Position(usize, Box<Self>),
-    Speed(usize, Box<Self>),
-    Spin(usize),
-    Along(usize, Box<Self>),
-    /// From the axes of one frame to those of another.
-    Express(Box<Self>, [usize; 2]),
-}
-
-/// A step that leads from frame to frame.
-#[derive(Clone, Debug)]
-pub(super) enum Step {
-    Translate(Vector),
-    /// About one of its own axes.
-    About(usize, Term),
-    Rotate(Vector, Term),
-    /// By a coordinate that is a quaternion.
-    Quaternion(usize),
-}
-
-#[derive(Clone, Debug)]
-pub(super) struct Frame {
-    pub(super) name: String,
-    pub(super) parent: Option<usize>,
-    pub(super) steps: Vec<Step>,
-    /// Of a family.
-    pub(super) index: usize,
-}
 
 type Triple = [Jet; 3];
 type Rows = [Triple; 3];
