@@ -1,4 +1,5 @@
-//! From a struct and its attributes to a [`Declaration`]: which attribute is whose, and how often.
+//! Reads a struct and its attributes into a [`Declaration`]. Reports attributes that are missing, repeated or
+//! misplaced.
 
 use syn::{Attribute, Data, DeriveInput, Fields, MacroDelimiter, Meta, Result};
 
@@ -13,7 +14,7 @@ use super::frame::{frame, unit_constraints};
 use super::parameter::parameter;
 use crate::diagnostics::{Diagnostics, Place};
 
-/// Reads the struct. What could be read is returned even where something was wrong.
+/// Reads the struct. Despite errors, returns all parts that could be read.
 pub(crate) fn declaration(input: DeriveInput, diagnostics: &mut Diagnostics) -> Declaration {
     let fields = fields(&input, diagnostics);
     let digest = digest(&input.ident, &fields, input.attrs.iter().filter(|attribute| moves(attribute)));
@@ -82,17 +83,17 @@ fn fields(input: &DeriveInput, diagnostics: &mut Diagnostics) -> Vec<Field> {
         .collect()
 }
 
-/// The word of an attribute that is ours.
+/// Returns the name of an attribute that belongs to this derive.
 fn own(attribute: &Attribute) -> Option<&'static str> {
     FORMS.into_iter().map(|(word, _)| word).find(|word| attribute.path().is_ident(word))
 }
 
-/// Whether the motion follows from an attribute.
+/// True if the attribute affects the motion.
 fn moves(attribute: &Attribute) -> bool {
     own(attribute).is_some_and(|word| !matches!(word, "observable" | "conserved"))
 }
 
-/// Reports an attribute that may be given only once and is repeated.
+/// Reports a repeated attribute that may occur only once.
 fn once(word: &'static str, attribute: &Attribute, seen: &mut Vec<(&'static str, Place)>) -> Result<()> {
     let place = Place::of(&attribute.meta);
     let earlier = seen.iter().find(|(found, _)| *found == word).map(|(_, place)| *place);
@@ -132,7 +133,7 @@ fn read(declaration: &mut Declaration, word: &str, attribute: &Attribute) -> Res
     Ok(())
 }
 
-/// The tokens between the attribute's parentheses, of which there are some.
+/// Returns the tokens between the parentheses of the attribute. Empty parentheses are an error.
 fn content(word: &str, attribute: &Attribute) -> Result<Cursor> {
     match &attribute.meta {
         Meta::List(list) if matches!(list.delimiter, MacroDelimiter::Paren(_)) && !list.tokens.is_empty() => {

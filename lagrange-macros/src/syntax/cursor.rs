@@ -1,4 +1,4 @@
-//! Walking along the tokens of one attribute.
+//! Token cursor over one attribute.
 
 use proc_macro2::{Delimiter, Group, Ident, Spacing, Span, TokenStream, TokenTree};
 use syn::{Error, Result};
@@ -6,10 +6,11 @@ use syn::{Error, Result};
 use super::name::Name;
 use crate::diagnostics::Place;
 
-/// Parentheses, operators and powers may nest this deep.
+/// Maximum nesting depth of parentheses, operators and powers. Bounds the recursion of the parser.
 pub(crate) const NESTING_LIMIT: usize = 256;
 
-/// The first group nested beyond [`NESTING_LIMIT`]. It does not recurse: it must hold for any input.
+/// Returns the first group nested deeper than [`NESTING_LIMIT`]. Avoids recursion, because the input may nest
+/// arbitrarily deep.
 pub(crate) fn too_deep(tokens: TokenStream) -> Option<Span> {
     let mut levels = vec![tokens.into_iter()];
     while let Some(level) = levels.last_mut() {
@@ -25,7 +26,7 @@ pub(crate) fn too_deep(tokens: TokenStream) -> Option<Span> {
     None
 }
 
-/// The tokens with what nests too deep cut down to its first token, so that the rest can be read.
+/// Truncates each group that nests too deep to its first token, so that the remaining tokens can be parsed.
 pub(crate) fn shallow(tokens: TokenStream) -> TokenStream {
     let cut = |token: TokenTree| match token {
         TokenTree::Group(group) if too_deep(group.stream()).is_some() => {
@@ -36,7 +37,7 @@ pub(crate) fn shallow(tokens: TokenStream) -> TokenStream {
     tokens.into_iter().map(cut).collect()
 }
 
-/// A position in a sequence of tokens.
+/// Position in a sequence of tokens.
 #[derive(Clone)]
 pub(super) struct Cursor {
     tokens: Vec<TokenTree>,
@@ -45,12 +46,12 @@ pub(super) struct Cursor {
 }
 
 impl Cursor {
-    /// Over `tokens`; `end` is where something missing at their end is reported.
+    /// Starts at the first of `tokens`. Errors about a missing token at the end point to `end`.
     pub(super) fn new(tokens: TokenStream, end: Span) -> Self {
         Self { tokens: tokens.into_iter().collect(), position: 0, end }
     }
 
-    /// Over what is between the delimiters.
+    /// Starts inside the delimiters of a group.
     pub(super) fn inside(group: &Group) -> Self {
         Self::new(group.stream(), group.span_close())
     }
@@ -63,7 +64,7 @@ impl Cursor {
         self.tokens.get(self.position)
     }
 
-    /// The token after the next one.
+    /// Returns the token after the next one.
     pub(super) fn follower(&self) -> Option<&TokenTree> {
         self.tokens.get(self.position + 1)
     }
@@ -74,22 +75,22 @@ impl Cursor {
         token
     }
 
-    /// Where the next token is, or the end.
+    /// Location of the next token, or of the end.
     pub(super) fn place(&self) -> Place {
         Place::at(self.peek().map_or(self.end, TokenTree::span))
     }
 
-    /// The last token read.
+    /// Returns the last token read.
     pub(super) fn last(&self) -> Option<&TokenTree> {
         self.position.checked_sub(1).and_then(|last| self.tokens.get(last))
     }
 
-    /// Where the last token read is.
+    /// Location of the last token read.
     pub(super) fn last_place(&self) -> Place {
         Place::at(self.last().map_or(self.end, TokenTree::span))
     }
 
-    /// Where an operator of two characters is.
+    /// Location of the next two tokens, which form an operator.
     pub(super) fn pair_place(&self) -> Place {
         let second = self.follower().map_or(self.end, TokenTree::span);
         self.place().to(Place::at(second))
@@ -103,7 +104,7 @@ impl Cursor {
         matches!(self.peek(), Some(TokenTree::Punct(punct)) if punct.as_char() == symbol)
     }
 
-    /// Whether the next two tokens are an operator of two characters.
+    /// True if the next two tokens form the operator `first` `second`.
     pub(super) fn is_pair(&self, first: char, second: char) -> bool {
         let joint = |token: Option<&TokenTree>| matches!(token, Some(TokenTree::Punct(punct)) if punct.as_char() == first && punct.spacing() == Spacing::Joint);
         let then = |token: Option<&TokenTree>| matches!(token, Some(TokenTree::Punct(punct)) if punct.as_char() == second);
@@ -129,7 +130,7 @@ impl Cursor {
                 self.position += 1;
                 Some(ident)
             }
-            // What `macro_rules` passes on as `$name:ident` may come in an invisible group.
+            // An identifier that `macro_rules` substitutes for `$name:ident` may come in an invisible group.
             Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::None => {
                 let mut inside = Self::inside(group);
                 let ident = inside.take_ident().filter(|_| inside.is_empty())?;
@@ -140,7 +141,7 @@ impl Cursor {
         }
     }
 
-    /// `m` of `.m`, unless it is called.
+    /// Reads `.m` and returns `m`. Returns `None` for a method call.
     pub(super) fn take_member(&mut self) -> Option<Ident> {
         match self.tokens.get(self.position..)? {
             [_, _, TokenTree::Group(group), ..] if group.delimiter() == Delimiter::Parenthesis => None,
@@ -153,11 +154,11 @@ impl Cursor {
         }
     }
 
-    /// A name, or an error that says what was wanted.
+    /// Reads a name, or returns an error that says what was expected.
     pub(super) fn name(&mut self, wanted: &str) -> Result<Name> {
         let Some(ident) = self.take_ident() else { return Err(self.error(format!("expected {wanted}"))) };
         let name = Name::new(&ident);
-        // What not even `r#` makes an identifier.
+        // Keywords that cannot become identifiers even with `r#`.
         if ["_", "self", "Self", "super", "crate"].contains(&name.text.as_str()) {
             return Err(name.place.error(format!("`{}` is no name: expected {wanted}", name.text)));
         }
@@ -175,19 +176,19 @@ impl Cursor {
         }
     }
 
-    /// Goes on past one token, or says what should have stood there.
+    /// Consumes the token `symbol`, or returns an error with `message`.
     pub(super) fn expect_punct(&mut self, symbol: char, message: &str) -> Result<()> {
         if self.take_punct(symbol) { Ok(()) } else { Err(self.error(message)) }
     }
 
-    /// Everything up to the next comma that stands outside of parentheses, and that comma.
+    /// Consumes the tokens up to and including the next comma outside of parentheses. Returns them without the comma.
     pub(super) fn until_comma(&mut self) -> Self {
         let part = self.until(|cursor| cursor.is_punct(','));
         self.take_punct(',');
         part
     }
 
-    /// Everything up to the next `=`.
+    /// Consumes and returns the tokens up to the next `=`.
     pub(super) fn until_equals(&mut self) -> Self {
         self.until(|cursor| cursor.is_punct('='))
     }
@@ -201,7 +202,7 @@ impl Cursor {
         Self { tokens: self.tokens[start..self.position].to_vec(), position: 0, end }
     }
 
-    /// The tokens that are left.
+    /// Returns the remaining tokens.
     pub(super) fn rest(mut self) -> TokenStream {
         self.tokens.split_off(self.position.min(self.tokens.len())).into_iter().collect()
     }

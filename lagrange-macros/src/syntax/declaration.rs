@@ -1,4 +1,4 @@
-//! What the user wrote, attribute by attribute.
+//! Attributes as the user wrote them.
 
 use proc_macro2::TokenStream;
 
@@ -8,14 +8,14 @@ use super::name::Name;
 use super::structure::Structure;
 use super::target::{Target, TargetIndex};
 
-/// The struct and its attributes as written.
+/// The struct and its attributes, before names are resolved.
 pub(crate) struct Declaration {
     pub(crate) ident: syn::Ident,
     pub(crate) visibility: syn::Visibility,
     pub(crate) generics: syn::Generics,
     pub(crate) fields: Vec<Field>,
     pub(crate) coordinates: Vec<Coordinate>,
-    /// Whether these are all.
+    /// True if the list of coordinates was read without an error.
     pub(crate) are_coordinates_read: bool,
     pub(crate) defines: Vec<Define>,
     pub(crate) functions: Vec<FunctionDeclaration>,
@@ -32,16 +32,16 @@ pub(crate) struct Declaration {
     pub(crate) digest: u32,
 }
 
-/// `#[coordinates(x, r: [3], corners: [4, 3])]`, one entry.
+/// One entry of `#[coordinates(x, r: [3], corners: [4, 3])]`.
 #[derive(Clone, Debug)]
 pub(crate) struct Coordinate {
     pub(crate) name: Name,
-    /// From the outside in: none for a number.
+    /// Array lengths, outermost first; empty for a number.
     pub(crate) lengths: Vec<usize>,
 }
 
 impl Coordinate {
-    /// How many numbers it is.
+    /// Number of scalar coordinates.
     pub(crate) fn count(&self) -> usize {
         numbers(&self.lengths)
     }
@@ -51,7 +51,7 @@ impl Coordinate {
 #[derive(Debug)]
 pub(crate) struct Define {
     pub(crate) target: Target,
-    /// `#[define(f(x) = …)]`
+    /// Arguments of a function definition, `#[define(f(x) = …)]`.
     pub(crate) formals: Option<Vec<Name>>,
     pub(crate) body: Expression,
 }
@@ -60,11 +60,11 @@ pub(crate) struct Define {
 #[derive(Debug)]
 pub(crate) struct FrameDeclaration {
     pub(crate) target: Target,
-    /// The frame that it is in; the fixed one where none is named.
+    /// Parent frame; `None` for the inertial frame.
     pub(crate) parent: Option<Expression>,
-    /// How it comes from there, each step in the axes that the steps before have led to.
+    /// Translations and rotations from the parent frame, each in the axes that result from the preceding steps.
     pub(crate) steps: Vec<Expression>,
-    /// Number of definitions that precede it.
+    /// Number of definitions before the frame.
     pub(crate) definitions: usize,
 }
 
@@ -72,11 +72,11 @@ pub(crate) struct FrameDeclaration {
 #[derive(Debug)]
 pub(crate) struct FunctionDeclaration {
     pub(crate) name: Name,
-    /// Each formal, with its lengths if it says any.
+    /// Formal arguments, each with its array lengths; empty for a number.
     pub(crate) formals: Vec<(Name, Vec<usize>)>,
-    /// The lengths of the result: none where it is a number.
+    /// Array lengths of the result; empty for a number.
     pub(crate) lengths: Vec<usize>,
-    /// The field; by default the one of the function's name.
+    /// Field that holds the function; by default the field with the name of the function.
     pub(crate) field: Name,
 }
 
@@ -86,7 +86,7 @@ pub(crate) struct Constraint {
     pub(crate) target: Target,
     pub(crate) left: Expression,
     pub(crate) right: Expression,
-    /// True for the unit constraint of a quaternion that turns a frame, which the user did not write.
+    /// True for the unit constraint that is implied by a frame rotated by a quaternion.
     pub(crate) is_implied: bool,
 }
 
@@ -100,7 +100,7 @@ pub(crate) struct Force {
 /// `#[power(force, velocity)]` or `#[power(i in 0..3, force, velocity)]`
 #[derive(Debug)]
 pub(crate) struct Power {
-    /// For each of these, and in all.
+    /// Summation indices. The power is summed over all their values.
     pub(crate) indices: Vec<TargetIndex>,
     pub(crate) force: Expression,
     pub(crate) velocity: Expression,
@@ -121,7 +121,7 @@ pub(crate) struct Parameter {
     pub(crate) fact: Fact,
 }
 
-/// What is said of a field.
+/// Fact that a `#[parameter(…)]` states about a field.
 #[derive(Debug)]
 pub(crate) enum Fact {
     Shape(Vec<usize>),

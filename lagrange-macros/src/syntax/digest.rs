@@ -1,4 +1,4 @@
-//! A hash of what a motion follows from, by which results of one system are told from those of another.
+//! Hash that identifies a system. The runtime uses it to recognize results of another system.
 
 use proc_macro2::{TokenStream, TokenTree};
 use quote::ToTokens;
@@ -6,8 +6,8 @@ use syn::{Attribute, Ident};
 
 use super::field::Field;
 
-/// 32-bit FNV-1a of the names of the struct and its fields, in their order, and of these attributes, token by token: spaces and
-/// comments do not count, nor how long a field is of which an expression uses an entry.
+/// 32-bit FNV-1a hash of the names of the struct and its fields in their order, and of the tokens of these
+/// attributes. Whitespace, comments and the types of the fields do not affect it.
 pub(super) fn digest<'a>(
     ident: &Ident,
     fields: &[Field],
@@ -28,7 +28,7 @@ fn tokens(hash: u32, stream: TokenStream) -> u32 {
     })
 }
 
-/// With a mark at its end, which no token has.
+/// Hashes the text and an end marker, a byte that never occurs in UTF-8.
 fn text(hash: u32, text: &str) -> u32 {
     text.bytes().chain([0xff]).fold(hash, |hash, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193))
 }

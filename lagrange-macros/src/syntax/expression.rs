@@ -1,6 +1,6 @@
-//! The expressions of the language, by precedence climbing.
+//! Parser of expressions, by precedence climbing.
 //!
-//! Sums and products are lists, so that only parentheses, signs and powers nest.
+//! Sums and products are flat lists. Only parentheses, indices, calls, signs and powers nest.
 
 use proc_macro2::{Delimiter, Group, TokenTree};
 use syn::Result;
@@ -12,7 +12,7 @@ use super::slips::{reject_adjacent, reject_keyword, unexpected};
 use crate::diagnostics::Place;
 use crate::symbolic::Scaled;
 
-/// An expression and where it stands.
+/// Expression with its source location.
 #[derive(Clone, Debug)]
 pub(crate) struct Expression {
     pub(crate) kind: Kind,
@@ -67,19 +67,19 @@ pub(crate) struct SumOver {
     pub(crate) body: Expression,
 }
 
-/// An expression that is all of what is left.
+/// Reads an expression up to the end of the tokens.
 pub(super) fn whole(cursor: &mut Cursor) -> Result<Expression> {
     let expression = sum(cursor, 0)?;
     if cursor.is_empty() { Ok(expression) } else { Err(unexpected(cursor)) }
 }
 
-/// `from..to`, where the dots have not been read yet.
+/// Reads `from..to`.
 pub(super) fn range(cursor: &mut Cursor) -> Result<(Expression, Expression)> {
     let from = sum(cursor, 0)?;
     Ok((from, end_of_range(cursor, 0)?))
 }
 
-/// `..to`
+/// Reads `..to`.
 fn end_of_range(cursor: &mut Cursor, depth: usize) -> Result<Expression> {
     let dots = cursor.place();
     if !(cursor.take_punct('.') && cursor.take_punct('.')) {
@@ -139,7 +139,7 @@ fn product(cursor: &mut Cursor, depth: usize) -> Result<Expression> {
     Ok(one_or(factors, Kind::Product))
 }
 
-/// The only element, or all of them in one list.
+/// Returns the element of a list of one, else a node of all elements.
 fn one_or<T>(mut parts: Vec<(T, Expression)>, list: impl Fn(Vec<(T, Expression)>) -> Kind) -> Expression {
     match (parts.len(), parts.pop()) {
         (1, Some((_, only))) => only,
@@ -215,7 +215,7 @@ fn has_members(base: &Expression) -> bool {
     matches!(base.kind, Kind::Name(_) | Kind::Index(..) | Kind::Member(..))
 }
 
-/// `r[0]_dot` reaches us as `r[0] _dot`.
+/// Reports `r[0]_dot`, which the tokenizer splits into `r[0] _dot`.
 fn suffix_after_index(cursor: &Cursor, expression: &Expression) -> Result<()> {
     let (Kind::Index(base, _), Some(TokenTree::Ident(suffix))) = (&expression.kind, cursor.peek()) else {
         return Ok(());
@@ -267,7 +267,7 @@ fn named(cursor: &mut Cursor, name: Name, depth: usize) -> Result<Expression> {
     Ok(Expression { kind, place })
 }
 
-/// Parentheses, a vector, or the invisible group around what `macro_rules` substitutes.
+/// Reads parentheses, a vector, or the invisible group around tokens that `macro_rules` substitutes.
 fn grouped(cursor: &Cursor, group: &Group, place: Place, depth: usize) -> Result<Expression> {
     let mut inside = Cursor::inside(group);
     let depth = deeper(cursor, depth)?;
@@ -320,7 +320,7 @@ fn sum_over(cursor: &mut Cursor, depth: usize) -> Result<Kind> {
 }
 
 impl Expression {
-    /// The terms of a sum; of anything else, itself.
+    /// Returns the terms of a sum; for any other expression, the expression itself.
     pub(crate) fn terms(&self) -> Vec<(Sign, &Self)> {
         match &self.kind {
             Kind::Sum(terms) => terms.iter().map(|(sign, term)| (*sign, term)).collect(),
@@ -328,7 +328,7 @@ impl Expression {
         }
     }
 
-    /// An entry of a vector that is written out.
+    /// Returns an entry of a vector literal.
     pub(crate) fn entry(&self, index: usize) -> Option<&Self> {
         match &self.kind {
             Kind::Vector(entries) => entries.get(index),
@@ -352,7 +352,7 @@ impl Expression {
         self.parts().into_iter().for_each(|part| part.indices(visit));
     }
 
-    /// The name and the indices, where it is nothing but those: `x`, `x[0]`, `x[i][j]`.
+    /// Splits `x`, `x[0]` or `x[i][j]` into a name and its indices. `None` for any other expression.
     pub(crate) fn element(&self) -> Option<(&Name, Vec<&Self>)> {
         let (mut base, mut indices) = (self, Vec::new());
         while let Kind::Index(inner, index) = &base.kind {
@@ -365,7 +365,7 @@ impl Expression {
         }
     }
 
-    /// The expressions that it is made of.
+    /// Returns the direct subexpressions.
     pub(crate) fn parts(&self) -> Vec<&Self> {
         match &self.kind {
             Kind::Number(_) | Kind::Name(_) => Vec::new(),

@@ -1,4 +1,4 @@
-//! Fields of the struct, with the shape that each type states.
+//! Fields of the struct, and the shapes that follow from their types.
 
 use quote::ToTokens;
 use syn::{Expr, ExprLit, GenericArgument, Lit, PathArguments, PathSegment, Type};
@@ -6,21 +6,22 @@ use syn::{Expr, ExprLit, GenericArgument, Lit, PathArguments, PathSegment, Type}
 use super::name::Name;
 use crate::diagnostics::Place;
 
-/// A field, or a member of one that is a struct; usable as a parameter or not.
+/// A field of the struct, or a number inside a field that is a struct. Its type may or may not be usable as a
+/// parameter.
 #[derive(Clone)]
 pub(crate) struct Field {
     pub(crate) name: Name,
     pub(crate) ident: syn::Ident,
-    /// Which member of it this is, from the outside in; none where it is the field itself.
+    /// Path of members from the field to this number, outermost first; empty for the field itself.
     pub(crate) members: Vec<Segment>,
     pub(crate) ty: Type,
-    /// Where its type stands.
+    /// Location of the type.
     pub(crate) place: Place,
-    /// How to read numbers from it, or why that cannot be done.
+    /// Layout of the numbers in the field, or the reason why the type is not usable.
     pub(crate) shape: Result<FieldShape, String>,
 }
 
-/// `.m` after the field and so many indices.
+/// Member access `.m` after `after` indices.
 #[derive(Clone)]
 pub(crate) struct Segment {
     pub(crate) name: Name,
@@ -32,36 +33,36 @@ pub(crate) struct Segment {
 #[derive(Clone)]
 pub(crate) struct FieldShape {
     pub(crate) layout: Layout,
-    /// The type of each number; none where only `#[parameter(…)]` tells the shape.
+    /// Type of each number. `None` if only `#[parameter(…)]` states the shape.
     pub(crate) scalar: Option<Type>,
-    /// Whether the field is a reference to them.
+    /// True if the field is a reference.
     pub(crate) is_reference: bool,
 }
 
-/// Arrays in arrays. The numbers are counted row by row.
+/// Nested arrays. Numbers are enumerated in row-major order.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct Layout {
-    /// From the outside in: none for a single number.
+    /// Lengths, outermost first; empty for a single number.
     pub(crate) lengths: Vec<usize>,
     pub(crate) inside: Inside,
 }
 
-/// How the numbers in the innermost array are read.
+/// Type of the innermost array, which determines how a number is accessed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Inside {
     /// `a[i][j]`
     Array,
     /// `a[(i, j)]`: a nalgebra matrix
     Matrix,
-    /// As a matrix, whose numbers cannot be set one by one.
+    /// As `Matrix`, but single entries cannot be assigned.
     Rotation,
-    /// `a.coords[(i + 3) % 4]`: a nalgebra quaternion, which has its real part last
+    /// `a.coords[(i + 3) % 4]`: a nalgebra quaternion, which stores the real part last
     Quaternion,
-    /// As a quaternion, whose numbers cannot be set one by one.
+    /// As `Quaternion`, but single components cannot be assigned.
     UnitQuaternion,
 }
 
-/// What a matrix is.
+/// Property of a matrix.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Property {
     Symmetric,
@@ -85,7 +86,7 @@ impl Layout {
         Self { lengths: vec![4], inside }
     }
 
-    /// As many of these, in arrays in arrays.
+    /// Returns this layout nested in arrays of the given lengths.
     pub(crate) fn within(&self, lengths: &[usize]) -> Self {
         Self { lengths: [lengths, &self.lengths].concat(), ..*self }
     }
@@ -94,17 +95,17 @@ impl Layout {
         self.lengths.is_empty()
     }
 
-    /// Number of scalars, saturating.
+    /// Number of scalars; saturates on overflow.
     pub(crate) fn numbers(&self) -> usize {
         numbers(&self.lengths)
     }
 
-    /// The length of the innermost arrays.
+    /// Length of the innermost array; 1 for a number.
     pub(crate) fn size(&self) -> usize {
         self.lengths.last().copied().unwrap_or(1)
     }
 
-    /// How many of the indices of a number are those of arrays, before those in a matrix or a quaternion.
+    /// Number of array indices, which precede the indices inside a matrix or a quaternion.
     pub(crate) fn arrays(&self) -> usize {
         let inside = match self.inside {
             Inside::Array => 0,
@@ -114,7 +115,7 @@ impl Layout {
         self.lengths.len() - inside
     }
 
-    /// The indices of a number.
+    /// Returns the indices of a number, from its position in row-major order.
     pub(crate) fn indices(&self, mut number: usize) -> Vec<usize> {
         let index = |length: &usize| {
             let index = number % length;
@@ -127,12 +128,12 @@ impl Layout {
     }
 }
 
-/// How many numbers arrays in arrays of these lengths have.
+/// Number of scalars in nested arrays of these lengths; saturates on overflow.
 pub(crate) fn numbers(lengths: &[usize]) -> usize {
     lengths.iter().copied().fold(1, usize::saturating_mul)
 }
 
-/// An array in an expression has at most this many numbers.
+/// Maximum number of scalars in an array that an expression uses.
 pub(crate) const LENGTH_LIMIT: usize = 100_000;
 
 impl Field {
@@ -143,14 +144,14 @@ impl Field {
         Self { name, ident: ident.clone(), members: Vec::new(), ty, place, shape }
     }
 
-    /// What an expression calls it, without indices.
+    /// Name of the field in expressions, without indices.
     pub(crate) fn text(&self) -> String {
         let members = self.members.iter().map(|member| member.name.text.as_str());
         [self.name.text.as_str()].into_iter().chain(members).collect::<Vec<_>>().join(".")
     }
 }
 
-/// The lengths of arrays as far as a type says them, and what is in them; behind a reference, too.
+/// Splits a type into array lengths, outermost first, and the element type. Looks through references.
 pub(crate) fn arrays(ty: &Type) -> (Vec<usize>, &Type) {
     match ty {
         Type::Reference(reference) => arrays(&reference.elem),
@@ -232,7 +233,7 @@ pub(crate) fn arguments(segment: &PathSegment) -> Vec<&GenericArgument> {
     }
 }
 
-/// `Vector3`, `Matrix2`, `Matrix2x3`, `Rotation3`, `UnitQuaternion`.
+/// Layout of `Vector3`, `Matrix2`, `Matrix2x3`, `Rotation3`, `UnitQuaternion`, ….
 fn named_layout(name: &str) -> Option<Layout> {
     let size = |text: &str| text.parse().ok().filter(|size| (1..=6).contains(size));
     if let Some(length) = name.strip_prefix("Vector") {

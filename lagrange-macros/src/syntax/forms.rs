@@ -1,4 +1,4 @@
-//! The forms of the attributes, one function each.
+//! Parsers of the attributes, one function each.
 
 use proc_macro2::{Delimiter, Group, TokenTree};
 use quote::ToTokens;
@@ -13,13 +13,14 @@ use super::target::{Target, running, target};
 use super::unread::unread;
 use crate::diagnostics::Place;
 
-/// Beyond, rustc takes minutes, and the matrices exceed the stack.
+/// Maximum number of coordinates. Beyond, rustc takes minutes and the matrices overflow the stack.
 const COORDINATE_LIMIT: usize = 1000;
 
-/// Each result is called for by itself, with all arguments.
+/// Maximum number of results of a user-supplied function. The emitted code requests each result by its own call, with
+/// all arguments.
 const RESULT_LIMIT: usize = 1000;
 
-/// The attributes, and how each is written.
+/// Names of the attributes, with an example of each for error messages.
 pub(super) const FORMS: [(&str, &str); 13] = [
     ("coordinates", "#[coordinates(x, y)]"),
     ("define", "#[define(name = expression)]"),
@@ -43,7 +44,7 @@ pub(super) fn form(word: &str) -> &'static str {
     FORMS.iter().find(|(known, _)| *known == word).map_or("", |(_, form)| form)
 }
 
-/// A trailing comma, and then nothing.
+/// Accepts a trailing comma and requires the end of the attribute.
 pub(super) fn finish(cursor: &mut Cursor, word: &str) -> Result<()> {
     cursor.take_punct(',');
     if cursor.is_empty() {
@@ -52,7 +53,8 @@ pub(super) fn finish(cursor: &mut Cursor, word: &str) -> Result<()> {
     Err(cursor.error(format!("expected the end of the attribute: write `{}`, once for each", form(word))))
 }
 
-/// What `read` makes of the tokens, or what was probably meant by them: the rest of the program relies on what it is.
+/// Reads an expression with `read`. After an error, returns a guess from the tokens, so that later stages still find
+/// the names and the shape.
 fn read_or_guess(
     cursor: &mut Cursor,
     read: impl FnOnce(&mut Cursor) -> Result<Expression>,
@@ -82,7 +84,7 @@ fn alone(cursor: &mut Cursor) -> Result<Expression> {
     Ok(expression)
 }
 
-/// `L = …`
+/// Reports a name before the expression, as in `L = …`.
 fn reject_name_of_whole(cursor: &Cursor) -> Result<()> {
     match (cursor.peek(), cursor.follower()) {
         (Some(TokenTree::Ident(name)), Some(TokenTree::Punct(sign))) if sign.as_char() == '=' => {
@@ -110,7 +112,7 @@ pub(super) fn coordinates(cursor: &mut Cursor, coordinates: &mut Vec<Coordinate>
     Ok(())
 }
 
-/// The mass matrix alone has the square of their number as entries.
+/// Limits the number of coordinates: the mass matrix has its square as entries.
 fn reject_too_many(count: usize, last: &Name) -> Result<()> {
     if count <= COORDINATE_LIMIT {
         return Ok(());
@@ -120,7 +122,7 @@ fn reject_too_many(count: usize, last: &Name) -> Result<()> {
     )))
 }
 
-/// `: [3]` or `: [4, 3]`; nothing of a number.
+/// Reads `: [3]` or `: [4, 3]`. Returns no lengths for a number, which has no colon.
 fn shape(cursor: &mut Cursor) -> Result<Vec<usize>> {
     if cursor.take_punct(':') { lengths(cursor) } else { Ok(Vec::new()) }
 }
@@ -128,7 +130,7 @@ fn shape(cursor: &mut Cursor) -> Result<Vec<usize>> {
 const LENGTHS: &str =
     "expected a length such as `[3]`, an integer literal, or `[4, 3]` for an array of vectors";
 
-/// `[3]` or `[4, 3]`
+/// Reads `[3]` or `[4, 3]`.
 pub(super) fn lengths(cursor: &mut Cursor) -> Result<Vec<usize>> {
     let Some(group) = cursor.take_group(Delimiter::Bracket) else { return Err(cursor.error(LENGTHS)) };
     let (mut inside, place) = (Cursor::inside(&group), Place::at(group.span()));
@@ -148,7 +150,7 @@ fn length(cursor: &mut Cursor, place: Place) -> Result<usize> {
     value.filter(|length| *length > 0).ok_or_else(|| place.error(LENGTHS))
 }
 
-/// The expression that the attribute ends with, after its `=` or `:`.
+/// Reads the last expression of an attribute, after its `=` or `:`.
 fn last(cursor: &mut Cursor, word: &str) -> Result<Expression> {
     let value = expression::whole(&mut cursor.until_comma())?;
     finish(cursor, word)?;
@@ -186,7 +188,7 @@ pub(super) fn function(cursor: &mut Cursor) -> Result<FunctionDeclaration> {
     Ok(FunctionDeclaration { name, formals, lengths, field })
 }
 
-/// Reads the names of a function's arguments, and what `read` finds behind each.
+/// Reads the formal arguments of a function. `read` parses what follows each name.
 fn formals<T>(
     group: &Group,
     advice: &str,
@@ -207,7 +209,7 @@ fn formals<T>(
     }
 }
 
-/// `s: [3]`
+/// Reads the lengths of an argument, as in `s: [3]`.
 fn shaped(cursor: &mut Cursor, name: Name, earlier: &[(Name, Vec<usize>)]) -> Result<(Name, Vec<usize>)> {
     let lengths = shape(cursor)?;
     if earlier.iter().any(|(earlier, _)| earlier.text == name.text) {
@@ -227,7 +229,8 @@ pub(super) fn colon(cursor: &mut Cursor, word: &str) -> Result<()> {
     cursor.expect_punct(':', &format!("expected `:` after the name: write `{}`", form(word)))
 }
 
-/// Even where it is wrong the constraint counts as one, or as many as its name says.
+/// Reads a constraint. After an error, still adds a constraint of the same name and number, so that later stages know
+/// the count.
 pub(super) fn constraint(cursor: &mut Cursor, constraints: &mut Vec<Constraint>) -> Result<()> {
     let written = cursor.clone();
     let target = constraint_target(cursor);
@@ -254,7 +257,7 @@ fn constraint_target(cursor: &mut Cursor) -> Result<Target> {
     let start = cursor.place();
     match target(cursor, "the name of the constraint") {
         Ok(target) if cursor.is_punct(':') => Ok(target),
-        // Without a name the first thing met is the equation itself.
+        // Point the error at the start: without a name, the equation begins there.
         _ => {
             let message =
                 format!("a constraint begins with a name of one word: write `{}`", form("constraint"));
@@ -263,7 +266,7 @@ fn constraint_target(cursor: &mut Cursor) -> Result<Target> {
     }
 }
 
-/// `left = right`, exactly one `=`.
+/// Reads `left = right` with exactly one `=`.
 fn sides(equation: &mut Cursor) -> Result<(Expression, Expression)> {
     let mut left = equation.until_equals();
     let left = expression::whole(&mut left)?;
@@ -301,7 +304,7 @@ pub(super) fn power(cursor: &mut Cursor) -> Result<Power> {
     Ok(Power { indices, force, velocity })
 }
 
-/// Even where the value is wrong there is a method of that name, which the program may call.
+/// Reads an observable. After an error, still adds its name, because the program may call the method.
 pub(super) fn observable(word: &str, cursor: &mut Cursor, observables: &mut Vec<Named>) -> Result<()> {
     let target = target(cursor, &format!("a name: write `{}`", form(word)))?;
     let (value, result) =

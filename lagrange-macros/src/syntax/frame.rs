@@ -1,4 +1,4 @@
-//! Frames: what each is in, and how it lies there.
+//! Frames: the parent of each, and its pose in the parent.
 
 use proc_macro2::{Delimiter, TokenTree};
 use syn::Result;
@@ -11,7 +11,7 @@ use super::name::Name;
 use super::target::{Target, TargetIndex, target};
 use crate::symbolic::Rational;
 
-/// `name in parent: step, step`
+/// Reads `name in parent: step, step`.
 pub(super) fn frame(cursor: &mut Cursor, definitions: usize) -> Result<FrameDeclaration> {
     let target = target(cursor, &format!("the name of the frame: write `{}`", form("frame")))?;
     let parent = if cursor.take_word("in") { Some(parent(cursor)?) } else { None };
@@ -32,7 +32,7 @@ pub(super) fn frame(cursor: &mut Cursor, definitions: usize) -> Result<FrameDecl
     Ok(FrameDeclaration { target, parent, steps, definitions })
 }
 
-/// `rotate_z(x) translate(v)`
+/// Reports steps without a comma between them, as in `rotate_z(x) translate(v)`.
 fn unseparated(step: &Cursor) -> Option<syn::Error> {
     let mut step = step.clone();
     step.take_ident()?;
@@ -41,7 +41,7 @@ fn unseparated(step: &Cursor) -> Option<syn::Error> {
     is_name.then(|| step.error("expected `,` between the steps of a frame"))
 }
 
-/// `ground`, `link[i-1]` or `leg[i][0]`
+/// Reads the parent: `ground`, `link[i-1]` or `leg[i][0]`.
 fn parent(cursor: &mut Cursor) -> Result<Expression> {
     let name = cursor.name("the frame that it is in")?;
     let place = name.place;
@@ -54,7 +54,8 @@ fn parent(cursor: &mut Cursor) -> Result<Expression> {
     Ok(parent)
 }
 
-/// dot(q, q) = 1 of each coordinate that frames are turned by as a quaternion, and of each row of one that is several.
+/// Returns dot(q, q) = 1 for each quaternion coordinate that rotates a frame, and for each row of an array of
+/// quaternions.
 pub(super) fn unit_constraints(declaration: &Declaration) -> Vec<Constraint> {
     let steps = declaration.frames.iter().flat_map(|frame| &frame.steps);
     let mut found: Vec<Constraint> = Vec::new();
@@ -69,7 +70,7 @@ pub(super) fn unit_constraints(declaration: &Declaration) -> Vec<Constraint> {
     found
 }
 
-/// `q` of `rotate(q)`, or of `rotate(q[i])` with as many indices.
+/// Returns `q` and the number of indices of `rotate(q)`, `rotate(q[i])` and so on.
 fn turned_by(step: &Expression) -> Option<(&Name, usize)> {
     match &step.kind {
         Kind::Call(name, arguments) if name.text == "rotate" => match &arguments[..] {
@@ -80,12 +81,12 @@ fn turned_by(step: &Expression) -> Option<(&Name, usize)> {
     }
 }
 
-/// `q[i in 0..rows]: dot(q[i], q[i]) = 1`
+/// Builds `q[i in 0..rows]: dot(q[i], q[i]) = 1`.
 fn unit_constraint(q: &Name, rows: &[usize]) -> Constraint {
     let at = |kind| Expression { kind, place: q.place };
     let number = |value: usize| at(Kind::Number(Rational::from_integer(value as i128).into()));
     let name = |text: &str| Name { text: text.to_owned(), place: q.place };
-    // An index hides what else bears its name.
+    // Choose an index name that differs from the coordinate, which it would shadow.
     let letter = if q.text.starts_with('i') { 'k' } else { 'i' };
     let names: Vec<Name> =
         (0..rows.len()).map(|level| name(&format!("{letter}{}", "'".repeat(level)))).collect();

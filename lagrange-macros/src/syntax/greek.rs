@@ -1,6 +1,6 @@
 //! Greek letters.
 
-/// Names of letters, as written in Latin and in Greek.
+/// Names of Greek letters in Latin script, with the letter.
 pub(crate) const GREEK: [(&str, &str); 35] = [
     ("alpha", "α"),
     ("beta", "β"),

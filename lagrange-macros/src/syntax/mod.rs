@@ -1,4 +1,4 @@
-//! From tokens to a [`Declaration`]: what the user wrote, without asking what it means.
+//! Parser: turns tokens into a [`Declaration`] without resolving names.
 
 mod attribute;
 mod cursor;

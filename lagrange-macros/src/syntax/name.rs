@@ -1,8 +1,8 @@
-//! Names, and when two are the same.
+//! Names and their equality.
 
 use crate::diagnostics::Place;
 
-/// An identifier: `r#` stripped, in the normal form in which rustc compares identifiers.
+/// Identifier without `r#`, in the Unicode normal form in which rustc compares identifiers.
 #[derive(Clone, Debug)]
 pub(crate) struct Name {
     pub(crate) text: String,
@@ -16,7 +16,7 @@ impl Name {
     }
 }
 
-/// Unicode normalization form C, which rustc applies to identifiers and proc-macro2's fallback does not.
+/// Converts to Unicode normalization form C. rustc does this for identifiers; the fallback of proc-macro2 does not.
 pub(crate) fn normal_form(text: &str) -> String {
     use unicode_normalization::UnicodeNormalization;
     text.nfc().collect()

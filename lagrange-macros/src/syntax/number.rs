@@ -1,4 +1,4 @@
-//! Numbers as they may be written.
+//! Number literals.
 
 use proc_macro2::Literal;
 use syn::Result;
@@ -23,12 +23,12 @@ pub(super) fn number(literal: &Literal, place: Place) -> Result<Scaled> {
     parse_decimal(&text).ok_or_else(|| place.error(refusal(digits)))
 }
 
-/// The name in a product without its sign, such as `2x`.
+/// Returns the name after the number, as in `2x`, a product without its sign.
 pub(super) fn suffix(literal: &str) -> &str {
     literal[number_length(literal)..].trim_start_matches('_')
 }
 
-/// Why a number cannot be read.
+/// Reason why a number cannot be represented.
 fn refusal(digits: &str) -> &'static str {
     match digits.replace('_', "").parse::<f64>() {
         Ok(value) if value.is_infinite() => "this number is beyond the largest `f64`, about 1.8e308",
@@ -36,7 +36,7 @@ fn refusal(digits: &str) -> &'static str {
     }
 }
 
-/// How many characters of a literal are the number, as opposed to its suffix.
+/// Length of the number in a literal, without its suffix, in bytes.
 fn number_length(text: &str) -> usize {
     let bytes = text.as_bytes();
     let digits = |mut at: usize| {

@@ -1,4 +1,4 @@
-//! What is said of a field beside its type: `#[parameter(…)]`.
+//! Parser of `#[parameter(…)]`, which states the shape, range, property or members of a field.
 
 use proc_macro2::{Delimiter, TokenTree};
 use syn::Result;
@@ -49,7 +49,7 @@ fn is_brace(cursor: &Cursor) -> bool {
     matches!(cursor.peek(), Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Brace)
 }
 
-/// `{m, c: [3], I: symmetric}`
+/// Reads `{m, c: [3], I: symmetric}`.
 fn structure(cursor: &mut Cursor, lengths: Vec<usize>) -> Result<Structure> {
     let Some(group) = cursor.take_group(Delimiter::Brace) else { return Err(cursor.error(MEMBER)) };
     let (mut inside, mut members) = (Cursor::inside(&group), Vec::<Member>::new());

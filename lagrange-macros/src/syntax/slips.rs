@@ -1,4 +1,4 @@
-//! What people write out of other habits, and what to write instead.
+//! Common mistakes, such as Rust syntax that the language lacks, and messages that suggest a correction.
 
 use proc_macro2::{Delimiter, TokenTree};
 use syn::Result;
@@ -6,7 +6,7 @@ use syn::Result;
 use super::cursor::Cursor;
 use crate::diagnostics::Place;
 
-/// `2 x` or `2 (x + y)`: a product without its sign.
+/// Rejects a product without its sign, such as `2 (x + y)`.
 pub(super) fn reject_adjacent(cursor: &Cursor) -> Result<()> {
     match cursor.peek() {
         Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Parenthesis => {
@@ -18,7 +18,7 @@ pub(super) fn reject_adjacent(cursor: &Cursor) -> Result<()> {
     }
 }
 
-/// `r#loop` is a name, `loop` is not.
+/// Rejects Rust keywords. A raw identifier such as `r#loop` is a name.
 pub(super) fn reject_keyword(ident: &str, place: Place) -> Result<()> {
     let message = match ident {
         "if" | "else" | "match" => {
@@ -36,7 +36,7 @@ pub(super) fn reject_keyword(ident: &str, place: Place) -> Result<()> {
 
 const AS: &str = "numbers are exact and have no type: leave `as` out";
 
-/// What to write instead of the token at the cursor, which nothing here begins or goes on with.
+/// Error for a token that can neither begin nor continue an expression, with a suggestion.
 pub(super) fn unexpected(cursor: &Cursor) -> syn::Error {
     let message = match cursor.peek() {
         None => "expected an expression",

@@ -1,4 +1,4 @@
-//! Fields that are structs: which members they have, and of what shape.
+//! Fields that are structs: their members and the shape of each.
 
 use proc_macro2::Span;
 use syn::{GenericArgument, Ident, Type};
@@ -6,10 +6,10 @@ use syn::{GenericArgument, Ident, Type};
 use super::field::{Field, Inside, Layout, Property, arguments, arrays};
 use super::name::Name;
 
-/// Structs of one type, and those of their members that expressions may use: `[6] {m, c: [3]}`.
+/// Struct or array of structs, with the members that expressions may use: `[6] {m, c: [3]}`.
 #[derive(Clone, Debug)]
 pub(crate) struct Structure {
-    /// As of arrays in arrays; none for a single one.
+    /// Array lengths, outermost first; empty for a single struct.
     pub(crate) lengths: Vec<usize>,
     pub(crate) members: Vec<Member>,
 }
@@ -27,13 +27,13 @@ pub(crate) enum MemberShape {
     Struct(Structure),
 }
 
-/// Numbers of which nothing is said.
+/// Numbers without a stated property.
 pub(super) fn numbers(layout: Layout) -> MemberShape {
     MemberShape::Numbers(layout, None)
 }
 
 impl Structure {
-    /// Of a field whose type is known to have members, an isometry of nalgebra, and the type of its numbers.
+    /// Recognizes a field whose type is an isometry of nalgebra. Returns its members and the scalar type.
     pub(crate) fn known(field: &Field) -> Option<(Self, Type)> {
         let (lengths, element) = arrays(&field.ty);
         let Type::Path(path) = element else { return None };
@@ -47,7 +47,7 @@ impl Structure {
         Some((Self { lengths, ..Self::pose(segment.ident.span(), rotation) }, scalar.clone()))
     }
 
-    /// The members of an isometry.
+    /// Returns the members of an isometry: translation and rotation.
     pub(super) fn pose(span: Span, rotation: Layout) -> Self {
         let member = |name: &str, layout| {
             let ident = Ident::new(name, span);

@@ -1,4 +1,4 @@
-//! What stands left of a definition, a constraint or a force: a name, an element or a family.
+//! Left side of a definition, constraint or force: a name, an element or an indexed family.
 
 use proc_macro2::Delimiter;
 use syn::Result;
@@ -7,7 +7,7 @@ use super::cursor::Cursor;
 use super::expression::{self, Expression, Kind};
 use super::name::Name;
 
-/// `name`, `name[0]`, `name[i in 1..10]` or `name[i in 0..3, j in 0..i]`, which may be written `name[i in 0..3][j in 0..i]`.
+/// `name`, `name[0]`, `name[i in 1..10]` or `name[i in 0..3, j in 0..i]`, equivalent to `name[i in 0..3][j in 0..i]`.
 #[derive(Clone, Debug)]
 pub(crate) struct Target {
     pub(crate) name: Name,
@@ -21,12 +21,12 @@ pub(crate) enum TargetIndex {
 }
 
 impl Target {
-    /// Of the thing itself, without indices.
+    /// Target without indices.
     pub(super) fn whole(name: Name) -> Self {
         Self { name, indices: Vec::new() }
     }
 
-    /// Whether it is one of several of the name.
+    /// True if the target has indices.
     pub(crate) fn is_family(&self) -> bool {
         !self.indices.is_empty()
     }
@@ -60,7 +60,7 @@ fn target_index(cursor: &mut Cursor) -> Result<TargetIndex> {
     }
 }
 
-/// `i in 0..3`, if that stands here.
+/// Reads `i in 0..3` if the cursor is there.
 pub(super) fn running(cursor: &mut Cursor) -> Result<Option<TargetIndex>> {
     let mut ahead = cursor.clone();
     let Some(ident) = ahead.take_ident().filter(|_| ahead.take_word("in")) else { return Ok(None) };

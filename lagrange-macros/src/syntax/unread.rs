@@ -1,4 +1,5 @@
-//! What was probably meant by tokens that are no expression: what the rest of the program relies on must be guessed.
+//! Guesses the names and the shape of tokens that are not a valid expression. Later stages need both to avoid
+//! follow-up errors.
 
 use std::iter::from_fn;
 
@@ -10,8 +11,8 @@ use super::name::Name;
 use super::number::{number, suffix};
 use crate::diagnostics::Place;
 
-/// The names, calls, elements and vectors in the tokens, as one product: it contains what they contain, and is a vector
-/// where one of them is.
+/// Returns the product of all names, calls, elements and vectors in the tokens. It uses the same names, and is a
+/// vector if one factor is.
 pub(super) fn unread(mut cursor: Cursor) -> Expression {
     let whole = cursor.place();
     let mut factors = Vec::new();
@@ -33,7 +34,7 @@ fn factor(cursor: &mut Cursor, place: Place) -> Option<Kind> {
             TokenTree::Group(group) => return Some(unread(Cursor::inside(&group)).kind),
             TokenTree::Literal(literal) => match number(&literal, place) {
                 Ok(value) => return Some(Kind::Number(value)),
-                // `2x`
+                // `2x`: keep the name, drop the number.
                 Err(_) => identifier(suffix(&literal.to_string()), literal.span())?,
             },
             _ => return None,
@@ -44,7 +45,7 @@ fn factor(cursor: &mut Cursor, place: Place) -> Option<Kind> {
         Some(group) => Kind::Call(name, items(&group)),
         None => Kind::Name(name),
     };
-    // What has more indices than a matrix is left at that, however many there are.
+    // Keep at most two indices, as a matrix has, and so bound the nesting.
     for brackets in from_fn(|| cursor.take_group(Delimiter::Bracket)).take(2) {
         let index = Box::new(unread(Cursor::inside(&brackets)));
         kind = Kind::Index(Box::new(Expression { kind, place }), index);
