@@ -1,5 +1,5 @@
-//! The traits of the runtime that the derive implements: what is emitted, what stands in for it after an error, and the
-//! names that no observable can bear follow from these lists.
+//! Tables of the runtime traits that the derive implements. They determine the emitted methods, the stubs emitted
+//! after an error, and the reserved names that an observable cannot have.
 
 /// A method of a trait.
 #[derive(Clone, Copy)]
@@ -8,11 +8,11 @@ pub(crate) struct Method {
     pub(crate) name: &'static str,
     pub(crate) takes: &'static [Argument],
     pub(crate) gives: Gives,
-    /// Whether it computes with any numbers over those of the system.
+    /// True if the method is generic over a number type that broadcasts scalars of the system, such as SIMD lanes.
     pub(crate) is_wide: bool,
 }
 
-/// What a method computes.
+/// Quantity that a method computes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Quantity {
     Lagrangian,
@@ -104,14 +104,14 @@ pub(crate) enum Gives {
     Slopes,
     ParameterSlopes,
     SeriesSlopes,
-    /// In the places of h and γ, and what is known by then of the newest coefficients.
+    /// Right-hand sides in place of h and γ, and the known parts of the newest Taylor coefficients.
     RightHandSides,
-    /// The newest terms of the two factors of each sum.
+    /// Newest terms of the left and right factors of each convolution sum.
     Factors,
     ResidualChange,
-    /// A number, if there is one of that index.
+    /// `Option` of a number: `None` if the index is out of range.
     Optional,
-    /// Whether it could be done.
+    /// `bool`: true on success.
     Success,
 }
 
@@ -132,17 +132,17 @@ const fn method(quantity: Quantity, name: &'static str, takes: &'static [Argumen
     Method { quantity, name, takes, gives, is_wide: false }
 }
 
-/// One that computes with any numbers over those of the system.
+/// Method that is generic over the number type; see [`Method::is_wide`].
 const fn wide(quantity: Quantity, name: &'static str, takes: &'static [Argument], gives: Gives) -> Method {
     Method { quantity, name, takes, gives, is_wide: true }
 }
 
-/// What a state gives.
+/// Method that takes only a state.
 const fn of_state(quantity: Quantity, name: &'static str, gives: Gives) -> Method {
     method(quantity, name, &[System, State], gives)
 }
 
-/// The methods of `Lagrangian`, as they are emitted.
+/// Emitted methods of `Lagrangian`, in this order.
 pub(crate) const LAGRANGIAN: [Method; 20] = [
     of_state(Quantity::Lagrangian, "lagrangian", Number),
     of_state(Quantity::Energy, "energy", Number),
@@ -171,7 +171,7 @@ pub(crate) const LAGRANGIAN: [Method; 20] = [
     method(Quantity::Conserved, "conserved", &[System, Index, State], Optional),
 ];
 
-/// The methods of `StateDerivatives` that are not provided.
+/// Required methods of `StateDerivatives`.
 pub(crate) const STATE_DERIVATIVES: [Method; 2] = [
     method(Quantity::Slopes, "residual_slopes", &[System, State, Solution], Gives::Slopes),
     wide(
@@ -182,7 +182,7 @@ pub(crate) const STATE_DERIVATIVES: [Method; 2] = [
     ),
 ];
 
-/// The methods of `Linearized` that are not provided.
+/// Required methods of `Linearized`.
 pub(crate) const LINEARIZED: [Method; 4] = [
     method(Quantity::Parameters, "parameters", &[System], Vector(Parameters)),
     method(Quantity::SetParameter, "set_parameter", &[MutableSystem, Index, Value], Gives::Success),
@@ -200,7 +200,7 @@ pub(crate) const LINEARIZED: [Method; 4] = [
     ),
 ];
 
-/// The methods of `TaylorSeries`.
+/// Emitted methods of `TaylorSeries`.
 pub(crate) const TAYLOR_SERIES: [Method; 3] = [
     method(Quantity::SeriesSlopes, "series_slopes", &[System, State, Solution], Gives::SeriesSlopes),
     method(
@@ -225,7 +225,7 @@ pub(crate) const TAYLOR_SERIES: [Method; 3] = [
     ),
 ];
 
-/// The constants of these traits.
+/// Associated constants of these traits.
 const CONSTANTS: [&str; 16] = [
     "ARGUMENTS",
     "NAME",
@@ -245,8 +245,8 @@ const CONSTANTS: [&str; 16] = [
     "STEEP",
 ];
 
-/// What every system has beside: methods of `Lagrangian` that it can do without, of `Simulate`, `Hamiltonian`,
-/// `StateDerivatives`, `Linearized` and `MotionDerivatives`.
+/// Methods with a default implementation in `Lagrangian`, `StateDerivatives`, `Linearized` or `TaylorSeries`, and all
+/// methods of `Simulate`, `Hamiltonian` and `MotionDerivatives`.
 const PROVIDED: [&str; 35] = [
     "visit_parameters",
     "visit_defects",
@@ -285,11 +285,11 @@ const PROVIDED: [&str; 35] = [
     "series_functions",
 ];
 
-/// The function of the struct itself, and methods that other derives give.
+/// Inherent function of the struct, and methods of traits that other derives implement.
 const OTHERS: [&str; 10] =
     ["equations", "clone", "clone_from", "fmt", "eq", "ne", "hash", "cmp", "partial_cmp", "default"];
 
-/// Whether no observable can bear the name, because every system has something so called.
+/// True if every system already has an item of this name, so that no observable can have it.
 pub(crate) fn is_reserved(name: &str) -> bool {
     let emitted = LAGRANGIAN.iter().chain(&STATE_DERIVATIVES).chain(&LINEARIZED).chain(&TAYLOR_SERIES);
     let is_method = emitted.into_iter().any(|method| method.name == name);
@@ -312,7 +312,7 @@ mod tests {
         paths.flat_map(|path| if path.is_dir() { sources(&path) } else { vec![path] }).collect()
     }
 
-    /// The traits of the runtime by their names.
+    /// Traits of the runtime, by name.
     fn traits() -> BTreeMap<String, ItemTrait> {
         let runtime = Path::new(env!("CARGO_MANIFEST_DIR")).join("../lagrange-core/src");
         let files =
@@ -328,7 +328,7 @@ mod tests {
         traits.collect()
     }
 
-    /// The trait's methods by their names: what they are called with, and whether they are provided.
+    /// Methods of a trait, by name: the names of the arguments, and whether there is a default implementation.
     fn methods(of: &ItemTrait) -> BTreeMap<String, (Vec<String>, bool)> {
         let methods = of.items.iter().filter_map(|item| {
             let TraitItem::Fn(method) = item else { return None };

@@ -1,4 +1,4 @@
-//! Errors are gathered, each at its token, and shown together.
+//! Collects errors, each with its source location, so that all are reported together.
 
 use std::fmt::Display;
 
@@ -8,7 +8,7 @@ use syn::Error;
 
 use crate::symbolic::{Fault, Graph};
 
-/// From the first to the last token of something the user wrote.
+/// Source range, from the first to the last token of a construct.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place {
     start: Span,
@@ -20,7 +20,7 @@ impl Place {
         Self { start: span, end: span }
     }
 
-    /// Of all the tokens.
+    /// Returns the range that covers all tokens.
     pub(crate) fn of(tokens: impl ToTokens) -> Self {
         let mut places = tokens.into_token_stream().into_iter().map(|token| Self::at(token.span()));
         let first = places.next().unwrap_or(Self::at(Span::call_site()));
@@ -35,7 +35,7 @@ impl Place {
         self.start
     }
 
-    /// An error that underlines the whole place.
+    /// Creates an error that underlines the whole range.
     pub(crate) fn error(self, message: impl Display) -> Error {
         let [first, last] = [self.start, self.end].map(|span| {
             let mut token = TokenTree::from(proc_macro2::Punct::new('.', proc_macro2::Spacing::Alone));
@@ -53,7 +53,7 @@ impl Place {
     }
 }
 
-/// What was wrong so far.
+/// Errors collected so far.
 #[derive(Debug, Default)]
 pub(crate) struct Diagnostics {
     errors: Vec<Error>,
@@ -68,12 +68,13 @@ impl Diagnostics {
         self.push(place.error(message));
     }
 
-    /// The value, or `None` and its error noted.
+    /// Returns the value. Records an error and returns `None`.
     pub(crate) fn note<T>(&mut self, result: Result<T, Error>) -> Option<T> {
         result.map_err(|error| self.push(error)).ok()
     }
 
-    /// `None` where the derivatives of what stands at `place` are beyond exact arithmetic, which is then noted.
+    /// Records a pending arithmetic fault of the graph as an error at `place` and returns `None`. A fault is an
+    /// overflow, a division by zero or an expression that grew too large in a derivative.
     pub(crate) fn stop_at_fault(&mut self, place: Place, graph: &mut Graph) -> Option<()> {
         let Some(fault) = graph.take_fault() else { return Some(()) };
         self.error(place, format!("in the derivatives of this: {}", fault_message(fault)));
@@ -84,7 +85,7 @@ impl Diagnostics {
         self.errors.is_empty()
     }
 
-    /// All errors as `compile_error!` calls.
+    /// Converts all errors to `compile_error!` calls.
     pub(crate) fn into_tokens(self) -> TokenStream {
         self.errors.iter().map(Error::to_compile_error).collect()
     }

@@ -1,13 +1,14 @@
-//! The derive macro of `lagrange-core`: use it from there.
+//! Derive macro of `lagrange-core`. Use it through that crate, which re-exports it.
 //!
-//! A pipeline, each stage a folder with one way in:
+//! A pipeline; each stage is a folder with one entry point:
 //!
 //! ```text
 //! tokens ─syntax→ Declaration ─resolve→ Problem ─mechanics→ Derived ─render→ text, LaTeX, MathML ─codegen→ tokens
 //! ```
 //!
-//! `symbolic` is the ground floor: the expressions of all stages are nodes of one graph, which `resolve` begins,
-//! `mechanics` adds to, and the stages after it read. Every stage stops if anything was wrong, with all errors at once.
+//! All stages share one expression graph, defined in `symbolic`: `resolve` creates it, `mechanics` adds nodes, the
+//! later stages read it.
+//! A stage with errors reports all of them and ends the pipeline.
 
 mod codegen;
 mod contract;
@@ -56,7 +57,7 @@ pub fn derive_lagrangian(input: proc_macro::TokenStream) -> proc_macro::TokenStr
     expand(input.into()).into()
 }
 
-/// The whole pipeline. It runs outside of a compiler too.
+/// Runs the whole pipeline. Also works outside of a compiler, for tests.
 fn expand(input: TokenStream) -> TokenStream {
     let mut diagnostics = Diagnostics::default();
     if let Some(span) = syntax::too_deep(input.clone()) {
@@ -77,7 +78,7 @@ fn expand(input: TokenStream) -> TokenStream {
     }
 }
 
-/// What nests too deep cannot even be read without recursion.
+/// Returns an error at `span` and a stub. Input nested this deep would overflow the stack of a recursive parser.
 fn nests_too_deep(input: TokenStream, span: Span) -> TokenStream {
     let limit = syntax::NESTING_LIMIT;
     let message = format!(
@@ -91,7 +92,7 @@ fn nests_too_deep(input: TokenStream, span: Span) -> TokenStream {
     tokens
 }
 
-/// What stands in for a system with something wrong in it.
+/// Returns a placeholder implementation for a system with errors.
 fn stub(declaration: &Declaration) -> TokenStream {
     codegen::stub(declaration, &resolve::outline(declaration))
 }

@@ -1,4 +1,4 @@
-//! `LAGRANGE_PRINT=RollingSphere cargo build` shows what the derive emits.
+//! Prints the emitted code, for example with `LAGRANGE_PRINT=RollingSphere cargo build`.
 
 use std::io::Write;
 use std::process::{Command, Stdio};
@@ -7,7 +7,7 @@ use proc_macro2::TokenStream;
 
 use crate::syntax::Declaration;
 
-/// Prints the expansion to the standard error stream if `LAGRANGE_PRINT` names the struct, or is `all`.
+/// Prints the expansion to standard error if `LAGRANGE_PRINT` is the name of the struct, or `all`.
 pub(crate) fn if_asked(declaration: &Declaration, tokens: &TokenStream) {
     let name = declaration.ident.to_string();
     if std::env::var("LAGRANGE_PRINT").is_ok_and(|wanted| is_wanted(&wanted, &name)) {
@@ -26,7 +26,7 @@ fn expansion(name: &str, text: &str) -> String {
     }
 }
 
-/// The text as rustfmt prints it, where there is one.
+/// Formats the text with rustfmt. `None` if rustfmt is not installed or rejects the text.
 fn formatted(text: &str) -> Option<String> {
     let mut rustfmt = Command::new("rustfmt")
         .args(["--edition", "2024", "--emit", "stdout"])

@@ -1,12 +1,14 @@
-//! Tests on random input: as many rounds as are few, or for as long as is asked for, each with a seed to repeat it by.
+//! Tests on random input. A test runs a fixed number of rounds, or rounds for a given time; each round has its own
+//! seed.
 //!
-//! `LAGRANGE_FUZZ_SECONDS` says for how long each test goes on, `LAGRANGE_FUZZ_SEED` where it starts; round k has that seed plus k.
-//! `LAGRANGE_FUZZ_SECONDS=0` runs one round. Nothing steers the input towards code that no input has reached.
+//! `LAGRANGE_FUZZ_SECONDS` is the duration of each test, `LAGRANGE_FUZZ_SEED` the first seed; round k has that seed
+//! plus k.
+//! `LAGRANGE_FUZZ_SECONDS=0` runs one round. The inputs are random: no coverage feedback guides them.
 
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
-/// Numbers at random, the same in every run (Steele, Lea and Flood's SplitMix64).
+/// Pseudorandom numbers with a fixed seed (SplitMix64 of Steele, Lea and Flood).
 pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
@@ -22,7 +24,7 @@ impl Random {
         (self.next() % bound as u64) as usize
     }
 
-    /// One of as many times.
+    /// Returns true with probability 1/`times`.
     pub(crate) fn once_in(&mut self, times: usize) -> bool {
         self.below(times) == 0
     }
@@ -36,10 +38,10 @@ impl Random {
     }
 }
 
-/// What takes longer is taken never to end.
+/// Time limit of one round. A longer round counts as an endless loop.
 const PATIENCE: Duration = Duration::from_secs(300);
 
-/// Runs `round`, again and again.
+/// Runs `round` with consecutive seeds: `few` times, or for `LAGRANGE_FUZZ_SECONDS`.
 pub(crate) fn rounds(name: &'static str, few: u64, mut round: impl FnMut(&mut Random)) {
     let asked = |variable: &str| std::env::var(variable).ok().and_then(|number| number.parse::<u64>().ok());
     let (first, seconds) = (asked("LAGRANGE_FUZZ_SEED").unwrap_or(1), asked("LAGRANGE_FUZZ_SECONDS"));
@@ -65,7 +67,7 @@ pub(crate) fn rounds(name: &'static str, few: u64, mut round: impl FnMut(&mut Ra
     );
 }
 
-/// Ends the process where a round does not: no other thread can stop it.
+/// Aborts the process if a round exceeds [`PATIENCE`]. A thread cannot stop another thread.
 fn watch(name: &str, heard: &Receiver<u64>) {
     let mut seed = 0;
     loop {
@@ -80,7 +82,7 @@ fn watch(name: &str, heard: &Receiver<u64>) {
     }
 }
 
-/// Says which round it was that failed.
+/// Prints the seed of a round that panics.
 struct Blame {
     name: &'static str,
     seed: u64,

@@ -1,8 +1,8 @@
-//! Which symbol of the graph stands for which variable of mechanics, and how these change along a motion.
+//! Maps symbols of the graph to variables of mechanics, and defines their time derivatives.
 
 use crate::symbolic::{Forward, Graph, Id, Symbol};
 
-/// What a symbol stands for.
+/// Variable that a symbol stands for.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(crate) enum Variable {
     Time,
@@ -10,39 +10,40 @@ pub(crate) enum Variable {
     Velocity(usize),
     Acceleration(usize),
     Multiplier(usize),
-    /// An entry of the list of parameters that the expressions use.
+    /// Parameter, by its index in the list of parameters that expressions use.
     Parameter(usize),
-    /// How fast the time, a coordinate or a velocity changes along a direction.
+    /// Component of a direction in the space of states: time, then coordinates, then velocities.
     Change(usize),
-    /// A number of the factor of the equations' matrix.
+    /// Entry of the factorization of the KKT matrix.
     Factor(usize),
-    /// What stands in the place of h, for each coordinate.
+    /// Right-hand side of a coordinate, in place of h.
     Forcing(usize),
-    /// What stands in the place of γ, for each constraint.
+    /// Right-hand side of a constraint, in place of γ.
     Bias(usize),
-    /// How fast a parameter changes; by its place in the order of the fields.
+    /// Component of a direction in the space of parameters, in the order of the fields.
     ParameterChange(usize),
-    /// A number that the derivatives along any direction are made of.
+    /// Coefficient that the directional derivatives at one state share, whatever the direction.
     Slope(usize),
-    /// The newest Taylor coefficient of an acceleration.
+    /// Newest Taylor coefficient of an acceleration.
     AccelerationChange(usize),
-    /// The newest Taylor coefficient of a multiplier.
+    /// Newest Taylor coefficient of a multiplier.
     MultiplierChange(usize),
-    /// A sum over products of Taylor coefficients before the newest.
+    /// Convolution sum over Taylor coefficients of lower orders.
     Sum(usize),
-    /// What of a newest Taylor coefficient is known before the accelerations and multipliers of its order.
+    /// Part of a newest Taylor coefficient that does not depend on the accelerations and multipliers of the same
+    /// order.
     Term(usize),
-    /// The order of the newest Taylor coefficients …
+    /// Order k of the newest Taylor coefficients.
     Order,
-    /// … 1 over it …
+    /// 1/k.
     OrderReciprocal,
-    /// … a multiple of all orders over the next …
+    /// c/(k + 1), where c is a common multiple of all these denominators.
     NextWeight,
-    /// … and 1 over the square of that multiple.
+    /// 1/c².
     WeightsReciprocal,
-    /// What the Hamiltonian is a function of in the place of velocities.
+    /// Generalized momentum, argument of the Hamiltonian in place of a velocity.
     Momentum(usize),
-    /// What a round of a loop in emitted code is given.
+    /// Input of one iteration of a loop in the emitted code.
     Given(usize),
 }
 
@@ -75,12 +76,13 @@ impl Variable {
         Symbol { family, index: index as u32 }
     }
 
-    /// Whether only the solution of the equations of motion gives it a value.
+    /// True if only the solution of the equations of motion determines the value.
     pub(crate) fn is_solved(self) -> bool {
         matches!(self, Self::Acceleration(_) | Self::Multiplier(_))
     }
 
-    /// Whether it is what a linear function is taken of: a change, or a Taylor coefficient.
+    /// True for an argument of a linear function: a component of a direction, a Taylor coefficient, or a number that
+    /// depends on its order.
     pub(crate) fn is_change(self) -> bool {
         matches!(
             self,
@@ -126,32 +128,32 @@ impl Variable {
     }
 }
 
-/// Whether a velocity occurs in one of these expressions.
+/// True if a velocity occurs in any of these expressions.
 pub(crate) fn has_velocity(graph: &Graph, roots: &[Id]) -> bool {
     graph.symbols(roots).any(|symbol| matches!(Variable::of(symbol), Variable::Velocity(_)))
 }
 
-/// The symbols of one variable of every coordinate.
+/// Returns the symbols of a variable, one per coordinate.
 pub(crate) fn symbols(count: usize, variable: fn(usize) -> Variable) -> Vec<Symbol> {
     (0..count).map(|i| variable(i).symbol()).collect()
 }
 
-/// One variable of every coordinate.
+/// Returns the graph nodes of a variable, one per coordinate.
 pub(crate) fn nodes(graph: &mut Graph, count: usize, variable: fn(usize) -> Variable) -> Vec<Id> {
     (0..count).map(|i| graph.symbol(variable(i).symbol())).collect()
 }
 
-/// Of a variable of every coordinate, the variable that is its rate of change.
+/// A variable of each coordinate, and its rate of change.
 type Rate = (fn(usize) -> Variable, fn(usize) -> Variable);
 
-/// d/dt: coordinates change by velocities, velocities by accelerations, time by 1.
+/// Total time derivative: q changes with q̇, q̇ with q̈, time with 1.
 pub(crate) fn total_time_derivative(graph: &mut Graph, coordinates: usize) -> Forward {
     let rates: [Rate; 2] =
         [(Variable::Coordinate, Variable::Velocity), (Variable::Velocity, Variable::Acceleration)];
     in_time(directions(graph, coordinates, &rates))
 }
 
-/// d/dt along a motion whose accelerations are zero.
+/// Total time derivative for zero accelerations.
 pub(crate) fn drift(graph: &mut Graph, coordinates: usize) -> Forward {
     in_time(directions(graph, coordinates, &[(Variable::Coordinate, Variable::Velocity)]))
 }
@@ -160,7 +162,7 @@ fn in_time(rates: Vec<(Symbol, Id)>) -> Forward {
     Forward::along([(Variable::Time.symbol(), Id::ONE)].into_iter().chain(rates))
 }
 
-/// Directions along which the variables of one coordinate after another change at these rates.
+/// Returns pairs of a variable and its rate, coordinate by coordinate.
 pub(crate) fn directions(graph: &mut Graph, coordinates: usize, rates: &[Rate]) -> Vec<(Symbol, Id)> {
     let pairs = (0..coordinates).flat_map(|i| rates.iter().map(move |(of, rate)| (of(i), rate(i))));
     pairs.map(|(of, rate)| (of.symbol(), graph.symbol(rate.symbol()))).collect()
