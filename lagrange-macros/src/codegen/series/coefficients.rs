@@ -1,4 +1,4 @@
-//! Quantities along the motion, by their Taylor coefficients in the schedule of an order that is being built.
+//! Quantities along the motion, represented by their Taylor coefficients in the schedule under construction.
 
 use indexmap::{IndexMap, IndexSet};
 use rustc_hash::FxHashMap;
@@ -7,77 +7,81 @@ use crate::codegen::operation::{Call, Operation, Register};
 use crate::codegen::schedule::Schedule;
 use crate::symbolic::Function;
 
-/// A quantity along the motion, by its place among all.
+/// Index of a quantity in [`Recurrences::quantities`].
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub(super) struct SeriesQuantity(pub(super) usize);
 
-/// Its coefficients, in the schedule that is being built.
+/// Taylor coefficients of a quantity: registers of the schedule under construction.
 #[derive(Clone, Copy)]
 pub(super) struct Coefficients {
-    /// That of order 0.
+    /// Coefficient of order 0.
     first: Register,
-    /// The newest, in its [parts](Stage); a register that is not there is a zero. `None` for a constant of the motion.
+    /// Newest coefficient, in its two [parts](Stage); `None` for a part that is zero. `None` as a whole for a
+    /// constant of the motion.
     pub(super) newest: Option<[Option<Register>; 2]>,
 }
 
-/// The parts of a newest coefficient: accelerations and multipliers of that order are what it is computed for.
+/// Parts of the newest coefficient of a quantity, which is linear in the unknown accelerations and multipliers of the
+/// same order.
 #[derive(Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Stage {
-    /// With zeros in their place.
+    /// Value at zero accelerations and multipliers of this order.
     #[default]
     Known,
-    /// What they add.
+    /// Contribution of the accelerations and multipliers of this order.
     Added,
 }
 
 pub(super) const STAGES: [Stage; 2] = [Stage::Known, Stage::Added];
 
-/// What a sum is taken of, with j from 1 to k − 1.
+/// Entry of `sums`. In the sums, j runs from 1 to k − 1.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) enum Sum {
     /// Σ x_j y_{k−j}
     Product(SeriesQuantity, SeriesQuantity),
     /// Σ j x_j y_{k−j}
     Weighted(SeriesQuantity, SeriesQuantity),
-    /// Σ x_j y_{k−j}/((j + 1)(k − j + 1)), of the means that these have had since order 0
+    /// Σ x_j y_{k−j}/((j + 1)(k − j + 1)): convolution of the mean values of x and y since order 0
     Mean(SeriesQuantity, SeriesQuantity),
-    /// No sum, but a place where an argument of a function that the user supplies is kept.
+    /// Storage for the series of an argument of a user-supplied function; not a sum.
     Argument(SeriesQuantity),
-    /// What such a function adds, by the place among the calls and that of the result.
+    /// Contribution of lower orders to a result of a user-supplied function: index of the call, and index of the
+    /// result.
     Value(usize, u32),
 }
 
-/// The schedule of an order, with that of order 0 in it.
+/// Recurrences for one order of coefficients. Their schedule also computes the values of order 0.
 #[derive(Default)]
 pub(super) struct Recurrences {
     pub(super) schedule: Schedule,
-    /// Which part of the newest coefficients is being made.
+    /// Part of the newest coefficients under construction.
     stage: Stage,
     pub(super) coordinates: usize,
-    /// Whether velocities stand for their means since order 0, of which they are k + 1 times the newest coefficients.
+    /// If set, velocity inputs are mean velocities since order 0. The newest coefficient of a velocity is k + 1 times
+    /// that of its mean.
     pub(super) of_means: bool,
     pub(super) quantities: Vec<Coefficients>,
     pub(super) sums: IndexSet<Sum>,
-    /// Values of roots, each with the place of a sum whose right factor it is.
+    /// Roots: index of a sum whose right factor is the root, and value of order 0.
     pub(super) roots: Vec<(usize, Register)>,
-    /// Arguments of steep functions (exp, tanh, sinh, cosh), with the number 0, and bases of high powers, with the exponent: a register
-    /// where it is known at run time only, else the number.
+    /// Arguments of steep functions (exp, tanh, sinh, cosh), with the number 0, and bases of high powers. An exponent
+    /// known only at run time is a register, with the number 1; any other exponent is the number.
     pub(super) steep: IndexMap<(SeriesQuantity, Option<Register>), u32>,
-    /// Bases and exponents of whole powers.
+    /// Base and exponent of each quantity that is an integer power.
     pub(super) powers: FxHashMap<SeriesQuantity, (SeriesQuantity, u32)>,
     /// Calls of functions that the user supplies.
     pub(super) calls: IndexSet<Call<SeriesQuantity>>,
-    /// Sine and cosine of an angle.
+    /// Sine and cosine of an angle, or hyperbolic sine and cosine.
     pub(super) turns: FxHashMap<(Function, SeriesQuantity), [SeriesQuantity; 2]>,
 }
 
 impl Recurrences {
-    /// Of a system with so many coordinates.
+    /// Starts the recurrences of a system with `coordinates` coordinates.
     pub(super) fn new(coordinates: usize) -> Self {
         Self { coordinates, ..Self::default() }
     }
 
-    /// A part of the newest coefficient; a zero where there is none.
+    /// Returns a part of the newest coefficient; a register that holds 0 if the part vanishes.
     pub(super) fn newest(&mut self, of: SeriesQuantity, stage: Stage) -> Register {
         self.part(of, stage).unwrap_or_else(|| self.schedule.constant(0.0))
     }
@@ -91,7 +95,7 @@ impl Recurrences {
         SeriesQuantity(self.quantities.len() - 1)
     }
 
-    /// What does not depend on anything that moves.
+    /// Adds a quantity that is constant along the motion.
     pub(super) fn at_rest(&mut self, operation: Operation) -> SeriesQuantity {
         let first = self.schedule.push(operation);
         self.add(first, None)
@@ -105,7 +109,8 @@ impl Recurrences {
         self.quantities[of.0].newest.is_none()
     }
 
-    /// An operation by order 0, and by the newest coefficients as `newest` makes it of those of `operands`, part by part.
+    /// Adds a quantity with value `first` at order 0. `newest` computes each part of its newest coefficient from the
+    /// same part of `operands`.
     pub(super) fn moving<const K: usize>(
         &mut self,
         first: Register,
@@ -120,12 +125,14 @@ impl Recurrences {
         self.add(first, Some(both))
     }
 
-    /// What does not depend on the newest coefficients, in the part to which it belongs.
+    /// Returns a term without newest coefficients if the known part is under construction, else `None`: the term
+    /// belongs to that part alone.
     pub(super) fn known(&self, x: Register) -> Option<Register> {
         (self.stage == Stage::Known).then_some(x)
     }
 
-    /// A quantity by a recurrence that it occurs in itself: known by its place before it is by its coefficients.
+    /// Adds a quantity whose recurrence refers to the quantity itself. `recurrence` gets its index before its
+    /// coefficients are set.
     pub(super) fn defined(
         &mut self,
         first: Register,

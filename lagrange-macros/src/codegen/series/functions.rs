@@ -1,4 +1,5 @@
-//! The recurrences of elementary functions, from the differential equations that they solve.
+//! Recurrences for the Taylor coefficients of elementary functions, from the differential equations that they
+//! satisfy.
 
 use super::coefficients::{Recurrences, SeriesQuantity, Sum};
 use crate::codegen::operation::{Operation, Register};
@@ -36,7 +37,7 @@ impl Recurrences {
         })
     }
 
-    /// Of s′ = c x′ and c′ = ∓s x′: s_k = c₀ x_k + Σ j x_j c_{k−j}/k, and so on.
+    /// From s′ = c x′ and c′ = ∓s x′: s_k = c₀ x_k + Σ j x_j c_{k−j}/k, and c_k alike.
     fn pair(&mut self, [sine, cosine]: [Function; 2], x: SeriesQuantity) -> [SeriesQuantity; 2] {
         if let Some(&known) = self.turns.get(&(sine, x)) {
             return known;
@@ -66,14 +67,14 @@ impl Recurrences {
         [s, c]
     }
 
-    /// Of z′ = z x′.
+    /// exp, from z′ = z x′.
     fn exponential(&mut self, function: Function, x: SeriesQuantity) -> SeriesQuantity {
         let x0 = self.first(x);
         let z0 = self.schedule.push(Operation::Function(function, x0));
         self.grown(z0, x)
     }
 
-    /// Of z′ = z x′: z_k = z₀ x_k + Σ j x_j z_{k−j}/k
+    /// From z′ = z x′: z_k = z₀ x_k + Σ j x_j z_{k−j}/k
     fn grown(&mut self, z0: Register, x: SeriesQuantity) -> SeriesQuantity {
         self.note_steep(x);
         self.defined(z0, |of, z| {
@@ -85,7 +86,7 @@ impl Recurrences {
         })
     }
 
-    /// Of z′ = (1 + z²) x′ or (1 − z²) x′: the slope is a series too.
+    /// tan and tanh, from z′ = d x′ with d = 1 + z² or 1 − z². The slope d is a series of its own.
     fn tangent(&mut self, function: Function, x: SeriesQuantity) -> SeriesQuantity {
         let x0 = self.first(x);
         let z0 = self.schedule.push(Operation::Function(function, x0));
@@ -115,7 +116,7 @@ impl Recurrences {
         })
     }
 
-    /// Of d z′ = ±x′: z_k = (±x_k − Σ j z_j d_{k−j}/k)/d₀
+    /// From d z′ = ±x′: z_k = (±x_k − Σ j z_j d_{k−j}/k)/d₀
     fn integral(
         &mut self,
         function: Function,
@@ -136,7 +137,7 @@ impl Recurrences {
         })
     }
 
-    /// Of (x² + y²) z′ = x y′ − y x′.
+    /// Polar angle z of (x, y), from (x² + y²) z′ = x y′ − y x′.
     pub(super) fn angle_of(&mut self, y: SeriesQuantity, x: SeriesQuantity) -> SeriesQuantity {
         let [y0, x0] = [y, x].map(|x| self.first(x));
         let z0 = self.schedule.push(Operation::Atan2(y0, x0));
@@ -165,7 +166,8 @@ impl Recurrences {
         })
     }
 
-    /// Of z = xᵉ, x z′ = e z x′: z_k = (e z₀ x_k + Σ j (e x_j z_{k−j} − z_j x_{k−j})/k)/x₀; where e moves too, z = exp(e ln x).
+    /// z = xᵉ. For a constant e, x z′ = e z x′ gives z_k = (e z₀ x_k + Σ j (e x_j z_{k−j} − z_j x_{k−j})/k)/x₀. For a
+    /// varying e, z = exp(e ln x).
     pub(super) fn power(&mut self, x: SeriesQuantity, exponent: SeriesQuantity) -> SeriesQuantity {
         let [x0, e] = [x, exponent].map(|x| self.first(x));
         let z0 = self.schedule.push(Operation::Power(x0, e));
@@ -184,7 +186,7 @@ impl Recurrences {
         self.note_real_power(x, e);
         let over = self.reciprocal(x0);
         let scale = self.schedule.push(Operation::Multiply(e, z0));
-        // What is no number yet may be one half.
+        // Treat an exponent that is unknown at compile time as a root: it may be 1/2.
         let is_whole = |e: &Operation<Register>| matches!(e, Operation::Constant(e) if f64::from_bits(*e).fract() == 0.0);
         let is_root = !is_whole(&self.schedule.operations[e.index()]);
         self.defined(z0, |of, z| {

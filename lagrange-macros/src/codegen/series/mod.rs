@@ -1,4 +1,5 @@
-//! The capability of Taylor series: what one order of them takes.
+//! Emits the implementation of `TaylorSeries`: the programs that compute one order of the Taylor coefficients of a
+//! motion.
 
 mod coefficients;
 mod functions;
@@ -22,35 +23,37 @@ use crate::symbolic::Graph;
 use coefficients::Recurrences;
 use supplied::CallOnSeries;
 
-/// Number of sums that the runtime computes side by side.
+/// Number of convolution sums that the runtime computes side by side, one per SIMD lane.
 const WIDTH: usize = 4;
 
-/// The programs of an order.
+/// Programs for one order of the Taylor coefficients.
 pub(super) struct TaylorPrograms {
-    /// The numbers of order 0 that the others are made of.
+    /// Computes the numbers of order 0 that the programs of all later orders read.
     slopes: Program,
-    /// The right-hand sides that the coefficients of accelerations and multipliers are solved for, and what is known by then of
+    /// Computes the right-hand sides for the coefficients of accelerations and multipliers, and the known parts of
     /// the factors of the sums.
     right_hand_sides: Program,
-    /// The newest terms of the factors of each sum.
+    /// Computes the newest terms of the factors of each sum.
     factors: Program,
-    /// How many sums there are, those included that fill up the last group.
+    /// Number of sums, padded to a multiple of [`WIDTH`].
     pub(super) sums: usize,
-    /// How many numbers are known before the accelerations.
+    /// Number of known parts of factors, which are computed before the accelerations.
     pub(super) terms: usize,
-    /// For each root the place of a sum whose right factor it is, and of its value among the slopes.
+    /// For each root: index of a sum whose right factor is the root, and index of its value of order 0 in the results
+    /// of `slopes`.
     roots: Vec<[usize; 2]>,
-    /// For each argument of a function that the user supplies the place of a sum whose left factor it is, and of its value among
-    /// the slopes.
+    /// For each argument of a user-supplied function: index of a sum whose left factor is that argument, and index of
+    /// its value of order 0 in the results of `slopes`.
     arguments: Vec<[usize; 2]>,
-    /// For each argument of a function that may be too small for a series the place of a sum whose left factor it is, of its value
-    /// among the slopes, and the exponent of a power or zero.
+    /// For each argument of a [steep](self::steep) function: index of a sum whose left factor is that argument, index
+    /// of its value in the results of `slopes`, and the exponent of a power, else 0.
     steep: Vec<[usize; 3]>,
     calls: Vec<CallOnSeries>,
 }
 
 impl TaylorPrograms {
-    /// `None` where something in the equations of motion has no Taylor series, or is too long.
+    /// Builds the programs. `None` if an operation in the equations of motion has no Taylor series, or if a program
+    /// is too long.
     pub(super) fn new(graph: &Graph, equations: &Equations) -> Option<Self> {
         let mut recurrences = Recurrences::new(equations.balance.len());
         let mut rest = recurrences.right_hand_sides(graph, equations)?;
@@ -90,13 +93,13 @@ impl TaylorPrograms {
         are_short.then_some(series)
     }
 
-    /// How many numbers of order 0 there are.
+    /// Number of values of order 0.
     pub(super) fn slopes(&self) -> usize {
         self.slopes.results.len()
     }
 }
 
-/// A constant of rows of places, where there are any.
+/// Declares an associated constant that holds rows of indices. `None` if there are no rows.
 fn places<const K: usize>(name: &str, all: &[[usize; K]]) -> Option<TokenStream> {
     let name = format_ident!("{name}");
     let rows = all.iter().map(|row| quote!([#(#row),*]));
@@ -104,7 +107,7 @@ fn places<const K: usize>(name: &str, all: &[[usize; K]]) -> Option<TokenStream>
 }
 
 impl Emitter<'_> {
-    /// The implementation of `TaylorSeries`.
+    /// Emits the implementation of `TaylorSeries`.
     pub(super) fn taylor_series(&self, series: &TaylorPrograms) -> TokenStream {
         let style = self.style.reading(series.slopes());
         let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());

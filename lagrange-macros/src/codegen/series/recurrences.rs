@@ -1,10 +1,10 @@
-//! The Taylor coefficients of a schedule's results along a motion, order by order.
+//! Taylor coefficients of the results of a schedule along a motion, order by order.
 //!
-//! The newest coefficient of a product, (xy)_k = x₀ y_k + y₀ x_k + Σ x_j y_{k−j} with j from 1 to k − 1, is linear in the
-//! newest coefficients of its factors; so is that of every other operation, by a recurrence with sums of the same form
-//! (Griewank and Walther, *Evaluating Derivatives*, table 13.2; Jorba and Zou, *Experimental Mathematics* 14 (2005),
-//! proposition 2.1). The sums are all alike and left to the runtime. What remains of an order is a linear function of the
-//! newest coefficients, made of numbers of order 0.
+//! The newest coefficient of a product, (xy)_k = x₀ y_k + y₀ x_k + Σ x_j y_{k−j} with j from 1 to k − 1, is linear in
+//! the newest coefficients of its factors. The same holds for every other operation, by a recurrence with sums of the
+//! same form (Griewank and Walther, *Evaluating Derivatives*, table 13.2; Jorba and Zou, *Experimental Mathematics*
+//! 14 (2005), proposition 2.1). The runtime computes these sums, all by the same code. The rest of an order is a
+//! linear function of the newest coefficients; its coefficients are numbers of order 0.
 
 use rustc_hash::FxHashMap;
 
@@ -15,7 +15,8 @@ use crate::symbolic::Symbol;
 use crate::variables::Variable;
 
 impl Recurrences {
-    /// Adds `results`; `None` where an operation has no Taylor series, or none that is known.
+    /// Adds the operations that `results` depend on. `None` if an operation has no Taylor series, or no known
+    /// recurrence.
     pub(super) fn add_up(&mut self, source: &Schedule, results: &[Register]) -> Option<Vec<SeriesQuantity>> {
         let (uses, mut quantities) = (source.uses(results), FxHashMap::default());
         for (index, &operation) in source.operations.iter().enumerate().filter(|(index, _)| uses[*index] > 0)
@@ -107,7 +108,7 @@ impl Recurrences {
         }
     }
 
-    /// Of z = x/y: z_k = (x_k − z₀ y_k − Σ z_j y_{k−j})/y₀
+    /// From x = z y: z_k = (x_k − z₀ y_k − Σ z_j y_{k−j})/y₀
     fn quotient(&mut self, x: SeriesQuantity, y: SeriesQuantity) -> SeriesQuantity {
         let [x0, y0] = [x, y].map(|x| self.first(x));
         let z0 = self.schedule.push(Operation::Divide(x0, y0));
@@ -129,7 +130,7 @@ impl Recurrences {
         })
     }
 
-    /// Of z = √x: z_k = (x_k − Σ z_j z_{k−j})/(2 z₀)
+    /// From z² = x: z_k = (x_k − Σ z_j z_{k−j})/(2 z₀)
     pub(super) fn root(&mut self, x: SeriesQuantity) -> SeriesQuantity {
         let x0 = self.first(x);
         let z0 = self.schedule.push(Operation::SquareRoot(x0));

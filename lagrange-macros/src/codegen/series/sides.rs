@@ -1,11 +1,13 @@
-//! What the coefficients of accelerations and multipliers are solved for.
+//! Right-hand sides of the linear system for the Taylor coefficients of accelerations and multipliers.
 //!
-//! That of an order is what dp/dt − ∂L/∂q − Q − Fᵀλ and F q̈ + γ come to with zeros in the place of these coefficients.
+//! Those of an order are the values of dp/dt − ∂L/∂q − Q − Fᵀλ and F q̈ + γ with zeros in place of these
+//! coefficients.
 //!
-//! Constraints of second degree are expanded themselves instead, two orders ahead. With the mean velocities v̄ since t₀, q =
-//! q₀ + (t − t₀) v̄, such a Φ is Φ₀ + (t − t₀) (F₀ v̄ + ∂Φ/∂t) + (t − t₀)²/2 γ(v̄): Taylor's formula, which ends there, with a γ that is
-//! a function of velocities alone. So d²Φ/dt² has the coefficients F₀ q̈_k + (k + 1) (k + 2)/2 γ(v̄)_k, where those of v̄ are
-//! v_k/(k + 1): one sum for each square in Φ, where F q̈ + γ has two.
+//! Constraints of second degree are expanded directly, two orders ahead. In terms of the mean velocities v̄ since t₀,
+//! q = q₀ + (t − t₀) v̄. Taylor's formula then ends after three terms,
+//! Φ = Φ₀ + (t − t₀) (F₀ v̄ + ∂Φ/∂t) + (t − t₀)²/2 γ(v̄), with a γ that depends on velocities alone. So d²Φ/dt² has the
+//! coefficients F₀ q̈_k + (k + 1) (k + 2)/2 γ(v̄)_k, and v̄ has the coefficients v_k/(k + 1). This takes one sum for each
+//! square in Φ; F q̈ + γ takes two.
 
 use super::coefficients::{Recurrences, Stage};
 use crate::codegen::operation::{Operation, Register};
@@ -16,7 +18,8 @@ use crate::symbolic::{Graph, Id};
 use crate::variables::Variable;
 
 impl Recurrences {
-    /// In the place of h, then in that of γ; `None` where something in them has no Taylor series.
+    /// Returns the right-hand sides in place of h, then those in place of γ. `None` if an operation has no Taylor
+    /// series.
     pub(super) fn right_hand_sides(&mut self, graph: &Graph, equations: &Equations) -> Option<Vec<Register>> {
         let Equations { balance, kinds, bias, constraint_acceleration, .. } = equations;
         let holonomic = |a: usize| kinds[a] == ConstraintKind::Holonomic;
@@ -36,14 +39,14 @@ impl Recurrences {
         Some(sides)
     }
 
-    /// What is known of the newest coefficients.
+    /// Returns the known part of the newest coefficient of each row.
     fn rows(&mut self, graph: &Graph, rows: &[Id]) -> Option<Vec<Register>> {
         let Program { schedule, results, .. } = Program::of(graph, rows).without_zeros();
         let rows = self.add_up(&schedule, &results)?;
         Some(rows.into_iter().map(|row| self.newest(row, Stage::Known)).collect())
     }
 
-    /// (k + 1) (k + 2)/2 γ(v̄)_k; the rows are k + 1 times γ(v̄)_k.
+    /// Returns (k + 1) (k + 2)/2 γ(v̄)_k. With `of_means` set, `rows` yields k + 1 times γ(v̄)_k.
     fn ahead(&mut self, graph: &Graph, bias: &[Id]) -> Option<Vec<Register>> {
         self.of_means = true;
         let rows = self.rows(graph, bias)?;
@@ -60,7 +63,8 @@ impl Recurrences {
     }
 }
 
-/// Whether this γ is made of velocities alone, and of second degree in them at most: then Φ is so in coordinates and time.
+/// True if γ depends on velocities alone, as a polynomial of degree at most 2. Then Φ is a polynomial of degree at
+/// most 2 in coordinates and time.
 fn is_quadratic(graph: &Graph, bias: Id) -> bool {
     let schedule = Schedule::new(graph, &[bias]);
     let mut degrees: Vec<Option<u32>> = Vec::with_capacity(schedule.operations.len());

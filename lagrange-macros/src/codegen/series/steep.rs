@@ -1,19 +1,20 @@
-//! Functions that may be too small for a series at the start of a step and large within: exp of what is far below zero, tanh where it is all
-//! but ±1, high powers of what is all but zero. The runtime looks at how far their arguments go.
+//! Detects steep functions. Their values may be negligible at the start of a step and large within it: exp of a large
+//! negative number, tanh near ±1, a high power of a number near 0. The runtime bounds the change of their arguments.
 
 use super::coefficients::{Recurrences, SeriesQuantity};
 use crate::codegen::operation::{Operation, Register};
 
-/// A power is high from here on: it doubles where its base changes by a twentieth.
+/// Least exponent of a high power. A 16th power doubles if its base changes by about 1/20.
 const HIGH: u32 = 16;
 
 impl Recurrences {
-    /// Notes the argument of exp, tanh, sinh or cosh.
+    /// Records the argument of exp, tanh, sinh or cosh.
     pub(super) fn note_steep(&mut self, x: SeriesQuantity) {
         self.steep.entry((x, None)).or_default();
     }
 
-    /// Notes the base of a power whose exponent is not whole or is known at run time, unless that is small.
+    /// Records the base of a power with a non-integer exponent of magnitude [`HIGH`] or more, or with an exponent
+    /// known only at run time.
     pub(super) fn note_real_power(&mut self, x: SeriesQuantity, exponent: Register) {
         let is_low = matches!(self.schedule.operations[exponent.index()], Operation::Constant(e) if f64::from_bits(e).abs() < f64::from(HIGH));
         if !is_low {
@@ -21,7 +22,7 @@ impl Recurrences {
         }
     }
 
-    /// Notes that a product is a power, where both factors are powers of the same base.
+    /// Records that a product is an integer power, if both factors are powers of the same base.
     pub(super) fn note_power(&mut self, [x, y]: [SeriesQuantity; 2], product: SeriesQuantity) {
         let power = |x: SeriesQuantity| self.powers.get(&x).copied().unwrap_or((x, 1));
         let [(base, e), (other, f)] = [power(x), power(y)];
@@ -34,8 +35,9 @@ impl Recurrences {
         }
     }
 
-    /// For each argument that was noted its place among the sums and the exponent, 0 for a function that is no power, and its value. Of a
-    /// power xᵉ whose exponent is known at run time only, the value is x/e and the exponent 1: the rate of its logarithm, e x′/x, is the same.
+    /// Returns for each recorded argument: the index of its entry of `sums`; its exponent, or 0 for other functions;
+    /// and its value. A power xᵉ with e known only at run time has the value x/e and the exponent 1: the rate of its
+    /// logarithm, e x′/x, is the same.
     pub(super) fn steep(&mut self) -> Vec<([usize; 2], Register)> {
         let noted = core::mem::take(&mut self.steep);
         let of = |((x, at_run_time), exponent): ((SeriesQuantity, Option<Register>), u32)| {

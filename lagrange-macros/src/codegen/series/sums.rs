@@ -1,4 +1,4 @@
-//! The sums over the orders before, which the runtime adds up, and the terms that an order puts into them.
+//! Convolution sums over lower orders, which the runtime accumulates, and the terms that each order adds to them.
 
 use indexmap::IndexSet;
 
@@ -7,7 +7,7 @@ use crate::codegen::operation::{Operation, Register};
 use crate::variables::Variable;
 
 impl Recurrences {
-    /// Σ x_j y_{k−j}; of [means](Self::of_means) k + 1 times that.
+    /// Σ x_j y_{k−j}. While [`of_means`](Self::of_means) is set, k + 1 times the sum of the means.
     pub(super) fn product_sum(&mut self, x: SeriesQuantity, y: SeriesQuantity) -> Register {
         let (x, y) = (x.min(y), x.max(y));
         if !self.of_means {
@@ -24,7 +24,7 @@ impl Recurrences {
         self.schedule.push(Operation::Multiply(sum, reciprocal))
     }
 
-    /// A sum, as the runtime gives it.
+    /// Returns the register that holds a sum, an input computed by the runtime.
     pub(super) fn place(&mut self, sum: Sum) -> Register {
         let (place, _) = self.sums.insert_full(sum);
         self.schedule.push(Operation::Input(Variable::Sum(place).symbol()))
@@ -35,14 +35,16 @@ impl Recurrences {
         self.times(input, x)
     }
 
-    /// Notes a root, whose series goes on below zero as it does not: that of √x² is ±x.
+    /// Registers a root for a check of its sign. Past a zero of x the series of √x continues to negative values, the
+    /// root does not: the series of √x² is ±x.
     pub(super) fn watch(&mut self, sum: Sum, first: Register) {
         let (place, _) = self.sums.insert_full(sum);
         self.roots.push((place, first));
     }
 
-    /// What has to be computed of the factors of the sums before the accelerations and multipliers of an order, and by this and
-    /// them the newest terms, those of left factors first, filled up with zeros to so many of either.
+    /// Returns the parts of the factors that are known before the accelerations and multipliers of an order, and the
+    /// newest terms of all factors, computed from these parts. The terms of the left factors come first; both lists
+    /// are padded with zeros to `count`.
     pub(super) fn factors(&mut self, count: usize) -> (IndexSet<Register>, Vec<Register>) {
         let (mut known, zero) = (IndexSet::new(), self.schedule.constant(0.0));
         let mut terms = vec![zero; 2 * count];
@@ -55,8 +57,8 @@ impl Recurrences {
             let [left, right] = factors.map(|factor| factor.and_then(|factor| self.term(factor, &mut known)));
             let [left, right] = match sum {
                 Sum::Weighted(..) => [self.times_input(Variable::Order, left), right],
-                // Weights are exact, and what takes them out of the sum is so nearly: 1/(k + 1) is rounded to the same side in
-                // every step, by which constraints were missed and energy drifted.
+                // The weights are exact, and dividing the sum by them nearly is. Factors 1/(k + 1) would be rounded
+                // to the same side in every step; with them constraints were violated and the energy drifted.
                 Sum::Mean(..) => {
                     let [left, right] = [left, right].map(|x| self.times_input(Variable::NextWeight, x));
                     [left, self.times_input(Variable::WeightsReciprocal, right)]
@@ -68,7 +70,8 @@ impl Recurrences {
         (known, terms)
     }
 
-    /// The newest coefficient, by what is known of it; what is given with its order is not computed.
+    /// Returns the newest coefficient, from its known part. Inputs are read directly, other known parts are stored in
+    /// `known`.
     fn term(&mut self, of: SeriesQuantity, known: &mut IndexSet<Register>) -> Option<Register> {
         let first = self.part(of, Stage::Known).map(|part| match self.schedule.operations[part.index()] {
             Operation::Input(symbol) if !matches!(Variable::of(symbol), Variable::Sum(_)) => part,

@@ -1,4 +1,4 @@
-//! Functions that the user supplies, on series: the runtime evaluates them on power series of their arguments.
+//! Taylor series of user-supplied functions. The runtime evaluates the functions on power series of their arguments.
 
 use std::collections::BTreeMap;
 
@@ -11,24 +11,24 @@ use crate::codegen::emitter::Emitter;
 use crate::codegen::operation::{Call, Operation, Register};
 use crate::codegen::passes::Program;
 
-/// An argument of a call.
+/// Argument of a call on series.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) enum CallArgument {
-    /// By the bits of its value.
+    /// Constant, as the bits of an `f64`.
     Constant(u64),
-    /// By its place among those that the runtime keeps.
+    /// Series, by its index among the arguments that the runtime stores.
     Kept(usize),
 }
 
-/// A call on series, and where its results belong among the sums.
+/// Call on series. `results` holds pairs of an output and the index of the sum that receives it.
 pub(super) struct CallOnSeries {
     call: Call<CallArgument>,
     results: Vec<(u32, usize)>,
 }
 
 impl Recurrences {
-    /// A result of a function, y = U(x): y_k = Σ ∂U/∂x_i x_{i,k} and what older coefficients add; `None` where that takes
-    /// derivatives of a higher order than functions have.
+    /// Result of a user-supplied function, y = U(x): y_k is Σ ∂U/∂x_i x_{i,k} plus a term from lower orders. `None`
+    /// if this takes derivatives of a higher order than functions have.
     pub(super) fn result(&mut self, call: Call<SeriesQuantity>, output: u32) -> Option<SeriesQuantity> {
         let first = self.value(&call, None, output);
         if call.arguments.iter().all(|&x| self.is_at_rest(x)) {
@@ -52,7 +52,7 @@ impl Recurrences {
         Some(self.add(first, Some(newest)))
     }
 
-    /// A result of a call at order 0, or its derivative by one more argument.
+    /// Returns a result of the call at order 0, or its derivative with respect to argument `by`.
     fn value(&mut self, call: &Call<SeriesQuantity>, by: Option<u32>, output: u32) -> Register {
         let mut derivatives: Vec<u32> = call.derivatives.iter().copied().chain(by).collect();
         derivatives.sort_unstable();
@@ -62,7 +62,7 @@ impl Recurrences {
         self.schedule.push(Operation::Result { call: call as u32, output })
     }
 
-    /// The calls, with a place among the sums for each argument that is no constant, and these with their values at order 0.
+    /// Returns the calls, and for each argument that is not constant the index of its sum and its value at order 0.
     pub(super) fn calls(&mut self) -> (Vec<CallOnSeries>, Vec<(usize, Register)>) {
         let mut kept: Vec<(usize, Register)> = Vec::new();
         let calls = core::mem::take(&mut self.calls);
@@ -91,14 +91,14 @@ impl Recurrences {
         }))
     }
 
-    /// A place among the sums where a series is kept.
+    /// Index of the entry of `sums` where the runtime stores the series of an argument.
     pub(super) fn argument_place(&mut self, x: SeriesQuantity) -> usize {
         self.sums.insert_full(Sum::Argument(x)).0
     }
 }
 
 impl Emitter<'_> {
-    /// The method that evaluates the functions on series, where there are any.
+    /// Emits the method that evaluates the functions on series. `None` if there are no calls.
     pub(super) fn series_functions(&self, calls: &[CallOnSeries]) -> Option<TokenStream> {
         let scalar = self.style.types.scalar;
         let written = calls.iter().map(|call| self.call_on_series(call));
@@ -132,8 +132,8 @@ impl Emitter<'_> {
         }
     }
 
-    /// What functions must be able to do on series, and one derivative more than the equations need of numbers; asked for only
-    /// where somebody uses it.
+    /// Generics with bounds on the functions: series as arguments, and one derivative more than the equations of
+    /// motion need. Users of the trait meet these bounds, users of the system need not.
     pub(super) fn generics_on_series(&self, slopes: &Program, calls: &[CallOnSeries]) -> syn::Generics {
         let scalar = self.style.types.scalar;
         let orders = orders_of(self.orders(&[]), slopes.schedule.calls.iter());
