@@ -1,10 +1,10 @@
-//! The equations of motion solved at compile time: an unrolled sparse elimination.
+//! Solves the equations of motion at compile time, by an unrolled sparse elimination.
 //!
-//! The [form](Form) ½ xᵀHx − bᵀx is reduced variable by variable: a free one is eliminated, M = L D Lᵀ, and a
-//! defined one is put in. Then the Schur complement S = F M⁻¹ Fᵀ = Z D⁻¹ Zᵀ with Z = F L⁻ᵀ, and S = L D Lᵀ in its
-//! turn. Every structural zero is gone, and both factorizations go in an order of little fill. (Golub and Van Loan,
-//! *Matrix Computations*, 4.1.2; Nocedal and Wright, *Numerical Optimization*, 16.2. One LDLᵀ of the whole indefinite
-//! matrix would need pivots that only run time can choose, but for [`loops`] that hang on something.)
+//! The [form](Form) ½ xᵀHx − bᵀx is reduced variable by variable: a free variable is eliminated, M = L D Lᵀ, and a
+//! defined one is substituted. The Schur complement S = F M⁻¹ Fᵀ = Z D⁻¹ Zᵀ with Z = F L⁻ᵀ is then factorized as S =
+//! L D Lᵀ. Structural zeros generate no code, and both factorizations use an order with little fill-in. (Golub and
+//! Van Loan, *Matrix Computations*, 4.1.2; Nocedal and Wright, *Numerical Optimization*, 16.2.) One LDLᵀ of the whole
+//! indefinite matrix would need pivoting at run time, except for the kinematic loops in [`loops`].
 
 mod arithmetic;
 mod loops;
@@ -25,13 +25,13 @@ use arithmetic::{Solver, Sparse, SparseEntry};
 use order::{Pattern, reduction_order};
 use reduce::FormFactors;
 
-/// Up to as many operations a matrix is reduced in straight-line code, full as it may be.
+/// Maximum operations of an elimination in straight-line code, even if the matrix is dense.
 const UNROLLED: usize = 2_500;
-/// Beyond, loops over arrays are as fast, and rustc does not have to read it all, unless they would do so many times as
-/// much.
+/// Longer code is emitted only if dense loops over arrays take at least this many times as many operations. Otherwise
+/// they are as fast, and spare rustc the code.
 const SPARSE: usize = 4;
 
-/// Where the results are.
+/// Registers of the solution.
 pub(super) struct Solved {
     pub(super) accelerations: Vec<Register>,
     pub(super) multipliers: Vec<Register>,
@@ -39,29 +39,29 @@ pub(super) struct Solved {
     pub(super) pivot: Register,
 }
 
-/// The matrix of the equations of motion, M and −Fᵀ above F and 0, factored.
+/// Factorization of the KKT matrix, which has M and −Fᵀ above F and 0.
 pub(super) struct Factorization {
     form: FormFactors,
-    /// How many multipliers are among the variables of the form, all or none.
+    /// Number of multipliers among the variables of the form: all or none.
     among: usize,
-    /// Z = F L⁻ᵀ of the others.
+    /// Z = F L⁻ᵀ of the multipliers outside of the form.
     rows: Vec<Sparse>,
     schur: FormFactors,
-    /// σ_a F_a of the constraints a that complete M: a solve takes γ_a times as much from its h.
+    /// Rows σ_a F_a of the constraints a that complete M. A solve subtracts γ_a times this row from h.
     completing: Vec<(usize, Sparse)>,
     check: PivotCheck,
 }
 
-/// How far a factorization can be trusted.
+/// Run-time check of the accuracy of a factorization.
 #[derive(Clone, Copy)]
 struct PivotCheck {
     pivot: Register,
-    /// Zero, or no number where nothing can be vouched for; `None` where it always can.
+    /// Zero, or NaN if the factorization cannot be trusted; `None` if it always can.
     doubt: Option<Register>,
 }
 
-/// Appends the elimination to a schedule that computes the entries of the form, F and γ; `None` where it would be
-/// too long.
+/// Appends the elimination to a schedule that computes the entries of the form, F and γ. `None` if it would be too
+/// long.
 pub(super) fn eliminate(schedule: &mut Schedule, form: &Form, equations: &Equations) -> Option<Solved> {
     let mut solver = Solver::new(schedule);
     let factorization = solver.factorize(form, equations)?;
@@ -71,8 +71,8 @@ pub(super) fn eliminate(schedule: &mut Schedule, form: &Form, equations: &Equati
     Some(solver.finish(found, equations.forcing.len(), factorization.check.pivot))
 }
 
-/// Appends the factorization alone to a schedule that computes the entries of the form, F and σ, and gives the numbers
-/// in it that a solve needs.
+/// Appends the factorization to a schedule that computes the entries of the form, F and σ. Also returns the registers
+/// that a solve reads.
 pub(super) fn factor(
     schedule: &mut Schedule,
     form: &Form,
@@ -85,7 +85,7 @@ pub(super) fn factor(
     Some((factorization, numbers))
 }
 
-/// Appends to an empty schedule the solve by a factor, of which these are the numbers: h and γ are inputs.
+/// Appends the solve to an empty schedule. Its inputs are the numbers of the factorization, h and γ.
 pub(super) fn solve_with(
     schedule: &mut Schedule,
     source: &Schedule,
@@ -111,7 +111,7 @@ pub(super) fn solve_with(
 }
 
 impl Factorization {
-    /// Every register in it.
+    /// Returns all registers of the factorization.
     fn registers(&self) -> impl Iterator<Item = Register> {
         let completing = self.completing.iter().map(|(_, row)| row);
         let rows = self.rows.iter().chain(completing).flatten().map(|&(_, entry)| entry);
@@ -135,7 +135,7 @@ fn pattern(matrix: &[Vec<Id>]) -> Vec<Vec<bool>> {
     matrix.iter().map(|row| row.iter().map(|&id| id != Id::ZERO).collect()).collect()
 }
 
-/// The order, and how many multipliers are in it.
+/// Elimination order, and the number of multipliers in it.
 fn order(form: &Form, equations: &Equations) -> Option<(Vec<usize>, usize)> {
     let (matrix, rows) = (pattern(&form.matrix), pattern(&equations.jacobian));
     if form.definitions.is_empty()
@@ -147,7 +147,7 @@ fn order(form: &Form, equations: &Equations) -> Option<(Vec<usize>, usize)> {
     Some((short(&Pattern { matrix, definitions, after: Vec::new() })?, 0))
 }
 
-/// The order of a reduction that is better not left to loops, and not longer than a function may be.
+/// Elimination order. `None` if loops are preferable, or if the code exceeds [`OPERATION_LIMIT`].
 fn short(pattern: &Pattern) -> Option<Vec<usize>> {
     let (order, cost) = reduction_order(pattern);
     let free = pattern.matrix.len() - pattern.definitions.len();
@@ -156,7 +156,7 @@ fn short(pattern: &Pattern) -> Option<Vec<usize>> {
     (is_worth_it && cost <= OPERATION_LIMIT).then_some(order)
 }
 
-/// What a solve gives.
+/// Result of a solve.
 struct Found {
     accelerations: Vec<SparseEntry>,
     multipliers: Vec<SparseEntry>,
@@ -178,7 +178,7 @@ impl Solver<'_> {
         Some(Factorization { form: reduced, among, rows, schur, completing, check })
     }
 
-    /// −Fᵀ beside a matrix, and −F below.
+    /// Appends −Fᵀ to the right of a matrix, and −F below it.
     fn put_among(&mut self, matrix: &mut Vec<Vec<SparseEntry>>, jacobian: &[Vec<Id>]) {
         let n = matrix.len();
         for row in jacobian {
@@ -190,7 +190,7 @@ impl Solver<'_> {
         matrix[n..].iter_mut().for_each(|row| row.resize(n + jacobian.len(), None));
     }
 
-    /// σ_a F_a of the constraints that complete M.
+    /// Rows σ_a F_a of the constraints that complete M.
     fn completing(&mut self, form: &Form, equations: &Equations) -> Vec<(usize, Sparse)> {
         let weighted = form.completing.iter().map(|&(a, weight)| {
             let (weight, row) = (self.entry(weight), self.entries(&equations.jacobian[a]));
@@ -216,7 +216,7 @@ impl Solver<'_> {
         h
     }
 
-    /// D⁻¹L⁻¹b. What is tied to nothing is divided in the graph, where it may cancel.
+    /// D⁻¹L⁻¹b. For a variable without coupling the graph computes the quotient, because it may simplify it.
     fn starts(
         &mut self,
         form: &Form,
@@ -249,7 +249,7 @@ impl Solver<'_> {
         form.rows.as_ref().unwrap_or(&equations.jacobian).iter().map(row).collect()
     }
 
-    /// The variables from D⁻¹L⁻¹b and γ.
+    /// Computes the variables from D⁻¹L⁻¹b and γ.
     fn solve(
         &mut self,
         factorization: &Factorization,
@@ -258,7 +258,8 @@ impl Solver<'_> {
     ) -> Found {
         let Factorization { form, among, rows, schur, check: PivotCheck { doubt, .. }, .. } = factorization;
         let multipliers = self.multipliers(schur, &starts, rows, bias);
-        // At the end, one by one: the doubt is known long after the first of them, and each waits for the one before.
+        // Add the doubt to the finished multipliers. It is known late, and adding it earlier would delay every
+        // multiplier that depends on another.
         let mut multipliers: Vec<SparseEntry> =
             multipliers.into_iter().map(|one| self.add(one, *doubt)).collect();
         let pushes = self.pushes(&multipliers, rows, starts.len());

@@ -1,10 +1,10 @@
-//! Arithmetic on registers that knows zeros.
+//! Arithmetic on registers that skips structural zeros.
 
 use crate::codegen::operation::{Operation, Register};
 use crate::codegen::schedule::Schedule;
 use crate::symbolic::Id;
 
-/// A number, unless it is known to be zero.
+/// Register of a number; `None` for a structural zero.
 pub(super) type SparseEntry = Option<Register>;
 /// Nonzero entries with their indices.
 pub(super) type Sparse = Vec<(usize, Register)>;
@@ -13,14 +13,14 @@ pub(super) fn sparse(x: &[SparseEntry]) -> Sparse {
     x.iter().enumerate().filter_map(|(i, entry)| entry.map(|entry| (i, entry))).collect()
 }
 
-/// Appends operations to a schedule.
+/// Builder that appends operations to a schedule.
 pub(super) struct Solver<'s> {
     pub(super) schedule: &'s mut Schedule,
-    /// For each pivot that differs from what it was before anything was subtracted, that over the pivot.
+    /// Ratio of the diagonal entry before elimination to the pivot, for each pivot that differs from it.
     pub(super) growth: Vec<Register>,
-    /// The other pivots, and their reciprocals.
+    /// All other pivots, with their reciprocals.
     pub(super) plain: Vec<[Register; 2]>,
-    /// The reciprocals of all pivots.
+    /// Reciprocals of all pivots.
     pub(super) reciprocals: Vec<Register>,
 }
 

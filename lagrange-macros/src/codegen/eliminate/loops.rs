@@ -1,15 +1,16 @@
-//! Multipliers that go among the coordinates: where loops hang on something that they share, a plate on legs, each is
-//! closed before that, and what is left is as large as the plate. A multiplier goes after the coordinates that are the
-//! loop's own; had it to wait for those that loops share, all of them would be tied to one another.
+//! Elimination order for closed kinematic loops that share bodies, such as a plate on several legs. The multipliers
+//! of a loop follow its own coordinates and precede the shared ones. So each loop is closed on its own, and the rest
+//! is as large as the plate. If the multipliers followed the shared coordinates, all loops would couple.
 //!
-//! M is positive definite, and remains so where a multiplier is taken out, whose pivot is negative (Vanderbei,
-//! "Symmetric quasidefinite matrices", *SIAM Journal on Optimization* 5, 1995) unless the loop's own coordinates cannot
-//! move what it holds. Then pivots cancel, or those of what is shared grow, and `Solution::pivot` tells before digits are lost.
+//! M is positive definite and remains so when a multiplier is eliminated, which has a negative pivot (Vanderbei,
+//! "Symmetric quasidefinite matrices", *SIAM Journal on Optimization* 5, 1995). The exception is a loop whose own
+//! coordinates cannot move the constrained point. Then pivots cancel, or those of shared coordinates grow;
+//! `Solution::pivot` detects this before digits are lost.
 
 use super::order::{Pattern, reduction_order};
 
-/// The order of coordinates and multipliers, the latter behind the former by index, where it takes at most three quarters
-/// of what it does to leave the multipliers to the end.
+/// Returns an order of coordinates and multipliers; the indices of the multipliers follow those of the coordinates.
+/// `None` unless it takes at most three quarters of the operations of an order with all multipliers last.
 pub(super) fn order(matrix: &[Vec<bool>], rows: &[Vec<bool>]) -> Option<Vec<usize>> {
     let n = matrix.len();
     let held: Vec<Vec<usize>> = rows.iter().map(|row| (0..n).filter(|&i| row[i]).collect()).collect();
@@ -24,13 +25,13 @@ pub(super) fn order(matrix: &[Vec<bool>], rows: &[Vec<bool>]) -> Option<Vec<usiz
     (4 * cost <= 3 * in_order(&held).1).then_some(order)
 }
 
-/// The coordinates of a constraint that at most so many constraints hold; all of them if there are none.
+/// Coordinates of a constraint that occur in at most `most` constraints. If there are none, all its coordinates.
 fn own(row: &[usize], sharing: &[usize], most: usize) -> Vec<usize> {
     let own: Vec<usize> = row.iter().copied().filter(|&i| sharing[i] <= most).collect();
     if own.is_empty() { row.to_vec() } else { own }
 }
 
-/// M and F, each multiplier after its own coordinates.
+/// Pattern of M and F, where each multiplier must follow the own coordinates of its constraint.
 fn together(matrix: &[Vec<bool>], rows: &[Vec<bool>], own: &[Vec<usize>]) -> Pattern {
     let (n, m) = (matrix.len(), rows.len());
     let top = (0..n).map(|i| matrix[i].iter().copied().chain(rows.iter().map(|row| row[i])).collect());
@@ -39,8 +40,8 @@ fn together(matrix: &[Vec<bool>], rows: &[Vec<bool>], own: &[Vec<usize>]) -> Pat
     Pattern { matrix: top.chain(bottom).collect(), definitions: Vec::new(), after }
 }
 
-/// Whether each constraint can be given an own coordinate that no other one gets (Kuhn, *Naval Research Logistics Quarterly*
-/// 2, 1955).
+/// True if each constraint can be assigned an own coordinate that no other constraint gets (bipartite matching: Kuhn,
+/// *Naval Research Logistics Quarterly* 2, 1955).
 fn are_enough(own: &[Vec<usize>], n: usize) -> bool {
     let mut given = vec![None; n];
     (0..own.len()).all(|a| give(a, own, &mut given, &mut vec![false; n]))
@@ -63,7 +64,7 @@ fn give(a: usize, own: &[Vec<usize>], given: &mut [Option<usize>], seen: &mut [b
 mod tests {
     use super::*;
 
-    /// Loops of two coordinates and two constraints each on a plate of three.
+    /// Loops with two coordinates and two constraints each, on a plate with three coordinates.
     fn plate(loops: usize) -> (Vec<Vec<bool>>, Vec<Vec<bool>>) {
         let n = 3 + 2 * loops;
         let is_of = |k: usize, i: usize| i < 3 || (i - 3) / 2 == k;
@@ -78,7 +79,7 @@ mod tests {
         let (matrix, rows) = plate(6);
         let order = order(&matrix, &rows).expect("cheaper");
         let place = |variable: usize| order.iter().position(|&other| other == variable);
-        // The last loop ties no more together than the plate does then.
+        // Exclude the last loop: by then the plate couples no fewer variables.
         for k in 0..10 {
             let (coordinate, multiplier) = (place(3 + k), place(15 + k));
             assert!(
@@ -94,7 +95,7 @@ mod tests {
         assert_eq!(order(&matrix, &rows), None);
     }
 
-    /// Two constraints on one own coordinate: one of them has to wait for what is shared.
+    /// Two constraints with one own coordinate: one constraint has to wait for the shared coordinates.
     #[test]
     fn a_loop_cannot_be_closed_by_too_few_coordinates() {
         let own = [vec![0], vec![0], vec![1, 2]];

@@ -1,20 +1,20 @@
-//! The order in which a quadratic form is reduced: a variable as soon as no definition needs it, always the one
-//! with the fewest others left beside it (minimum degree: George and Liu, *SIAM Review* 31, 1989); a definition is
-//! put in where no variable is left that could go.
+//! Order in which the variables of a quadratic form are reduced. A variable is ready when no remaining definition
+//! contains it. Among the ready ones the variable with the fewest neighbors goes first (minimum degree: George and
+//! Liu, *SIAM Review* 31, 1989). A definition is substituted only if no free variable is ready.
 
 use std::collections::BTreeSet;
 
-/// Which entries of a form are there.
+/// Sparsity pattern of a form.
 pub(super) struct Pattern {
-    /// Of the matrix, by rows.
+    /// Nonzero entries of the matrix, by rows.
     pub(super) matrix: Vec<Vec<bool>>,
-    /// What the last variables of the form are made of, for each of them.
+    /// Variables in the definition of each defined variable; the defined variables are the last ones.
     pub(super) definitions: Vec<Vec<usize>>,
-    /// What has to go before each variable, as far as that is so of any.
+    /// Variables that must precede each variable; empty if there are no such restrictions.
     pub(super) after: Vec<Vec<usize>>,
 }
 
-/// The order, and how many multiplications and additions it takes.
+/// Returns the order, and its number of multiplications and additions.
 pub(super) fn reduction_order(pattern: &Pattern) -> (Vec<usize>, usize) {
     let mut reduction = Reduction::new(pattern);
     while let Some(next) = reduction.next() {
@@ -29,10 +29,10 @@ pub(super) fn reduction_order(pattern: &Pattern) -> (Vec<usize>, usize) {
 
 struct Reduction<'p> {
     pattern: &'p Pattern,
-    /// The variables before it are free, the others defined.
+    /// Number of free variables, which precede the defined ones.
     free: usize,
     neighbours: Vec<BTreeSet<usize>>,
-    /// How many definitions that are left contain each variable, and how many have to go before it.
+    /// For each variable, the number of remaining definitions that contain it and of variables that must precede it.
     needed: Vec<usize>,
     left: BTreeSet<usize>,
     order: Vec<usize>,
@@ -57,7 +57,7 @@ impl<'p> Reduction<'p> {
         }
     }
 
-    /// A free variable before one that is defined; of either the one that ties the fewest others together.
+    /// Returns the next variable: a free one before a defined one, with the fewest neighbors.
     fn next(&self) -> Option<usize> {
         let ready = self.left.iter().copied().filter(|&variable| self.needed[variable] == 0);
         let rank = |variable: usize| match variable.checked_sub(self.free) {
@@ -67,7 +67,7 @@ impl<'p> Reduction<'p> {
         ready.min_by_key(|&variable| rank(variable))
     }
 
-    /// How many variables are beside one another once a definition is put in.
+    /// Number of variables that are neighbors of one another after the definition is substituted.
     fn tied(&self, variable: usize, definition: &[usize]) -> usize {
         let beside = &self.neighbours[variable];
         beside.len() + definition.iter().filter(|&i| !beside.contains(i)).count()
@@ -128,7 +128,8 @@ mod tests {
         assert_eq!((cost(5), cost(10), cost(20)), (4 * 3, 9 * 3, 19 * 3));
     }
 
-    /// Angles 0..n, and the velocity n + i of link i the one before plus what the angle adds.
+    /// Chain: angles 0..n, and velocities n + i. The velocity of link i is the previous velocity plus the
+    /// contribution of the angle.
     #[test]
     fn a_chain_goes_from_its_tip_to_its_root() {
         let n = 4;

@@ -1,4 +1,4 @@
-//! What tells at run time whether the elimination can be trusted.
+//! Run-time checks of the accuracy of the elimination.
 
 use super::arithmetic::{Solver, SparseEntry};
 use super::{Found, PivotCheck, Solved};
@@ -6,7 +6,7 @@ use crate::codegen::operation::{Operation, Register};
 use crate::codegen::schedule::Schedule;
 
 impl Solver<'_> {
-    /// For a pivot that differs from what it was before anything was subtracted, that over the pivot.
+    /// Records a pivot. If it differs from the diagonal entry `scale`, records the ratio scale/pivot.
     pub(super) fn note_pivot(&mut self, scale: SparseEntry, pivot: Register, reciprocal: Register) {
         self.reciprocals.push(reciprocal);
         match scale.filter(|&scale| scale != pivot) {
@@ -15,7 +15,7 @@ impl Solver<'_> {
         }
     }
 
-    /// The results, as many accelerations as there are coordinates.
+    /// Returns the results, with `count` accelerations.
     pub(super) fn finish(mut self, found: Found, count: usize, pivot: Register) -> Solved {
         let Found { mut accelerations, multipliers } = found;
         accelerations.truncate(count);
@@ -24,10 +24,10 @@ impl Solver<'_> {
         Solved { accelerations: registers(accelerations), multipliers: registers(multipliers), pivot }
     }
 
-    /// How far the factorization can be trusted.
+    /// Appends the check of the factorization.
     pub(super) fn pivot_check(&mut self, is_constrained: bool) -> PivotCheck {
         let mut doubts = Vec::new();
-        // One that is infinite leaves finite results, and one that is zero may cancel out of them.
+        // Check both: an infinite pivot gives finite results, and a zero pivot may cancel from them.
         for [pivot, reciprocal] in self.plain.clone() {
             doubts.extend((!self.is_input(pivot)).then_some(pivot));
             doubts.extend((!is_constrained).then_some(reciprocal));
@@ -47,8 +47,8 @@ impl Solver<'_> {
         }
     }
 
-    /// Infinite where a reciprocal is beyond the root of the largest number. So it is where entries of F are so small that
-    /// their squares have lost digits: be it the pivot of the Schur complement that is too small then, or a mass.
+    /// Infinite if a reciprocal exceeds the square root of the largest number. This covers entries of F so small that
+    /// their squares lose digits: a pivot of the Schur complement, or a mass, is then too small.
     fn square_of_reciprocals(&mut self) -> Option<Register> {
         let sum = self.sum(self.reciprocals.clone())?;
         Some(self.schedule.push(Operation::Multiply(sum, sum)))
@@ -58,7 +58,7 @@ impl Solver<'_> {
         matches!(self.schedule.operations[register.index()], Operation::Input(_))
     }
 
-    /// The sum of those that differ, without constants.
+    /// Sum of the distinct registers, without constants.
     fn sum(&mut self, mut terms: Vec<Register>) -> Option<Register> {
         terms.retain(|&register| !is_ordinary_constant(self.schedule, register));
         terms.sort_unstable();
@@ -66,7 +66,7 @@ impl Solver<'_> {
         self.in_pairs(terms, Operation::Add)
     }
 
-    /// All in one, pairs of pairs of them: one after the other each would wait for the one before.
+    /// Reduces a list pairwise, as a balanced tree, which shortens the dependency chain.
     fn in_pairs(
         &mut self,
         mut all: Vec<Register>,
@@ -82,8 +82,8 @@ impl Solver<'_> {
         all.pop()
     }
 
-    /// The least and the greatest of what the pivots were over what they are. One after the other, as the pivots come: pairs
-    /// of them would wait for each other, put side by side by the compiler.
+    /// Smallest and largest ratio of diagonal entry to pivot. A sequential reduction follows the pivots as they
+    /// become available; with a tree, the compiler would combine pairs into vectors that wait for each other.
     fn range(&mut self) -> Option<[Register; 2]> {
         let mut last = |pair: fn(Register, Register) -> Operation| {
             let all = self.growth.iter().copied();
@@ -92,7 +92,7 @@ impl Solver<'_> {
         Some([last(Operation::Minimum)?, last(Operation::Maximum)?])
     }
 
-    /// The least of pivot/diagonal and diagonal/pivot.
+    /// Smallest of all pivot/diagonal and diagonal/pivot.
     fn smallest_pivot(&mut self, range: Option<[Register; 2]>) -> Register {
         let one = self.schedule.constant(1.0);
         let Some([least, most]) = range else { return one };
@@ -101,7 +101,7 @@ impl Solver<'_> {
     }
 }
 
-/// Whether it is a constant whose square is a number in any precision.
+/// True for a constant whose square is a finite nonzero number in any precision.
 fn is_ordinary_constant(schedule: &Schedule, register: Register) -> bool {
     let ordinary = 1e-15..1e15;
     matches!(schedule.operations[register.index()], Operation::Constant(bits) if ordinary.contains(&f64::from_bits(bits).abs()))

@@ -1,12 +1,12 @@
-//! A quadratic form reduced variable by variable, and what the reduction does to vectors.
+//! Reduces a quadratic form variable by variable, and applies the reduction to vectors.
 
 use super::arithmetic::{Solver, Sparse, SparseEntry, sparse};
 use crate::codegen::operation::{Operation, Register};
 
-/// How the form was reduced, step by step.
+/// Record of the reduction of a form, step by step.
 pub(super) struct FormFactors {
     steps: Vec<ReductionStep>,
-    /// 1/D of the variables that were eliminated.
+    /// 1/D of the eliminated variables.
     pub(super) reciprocals: Vec<SparseEntry>,
 }
 
@@ -16,14 +16,14 @@ struct ReductionStep {
 }
 
 enum StepKind {
-    /// A free variable, with its column of L below the diagonal.
+    /// Free variable, eliminated; with its column of L below the diagonal.
     Eliminated(Sparse),
-    /// A defined variable, with its definition.
+    /// Defined variable, substituted; with its definition.
     Substituted(Sparse),
 }
 
 impl FormFactors {
-    /// Every register in it.
+    /// Returns all registers of the reduction.
     pub(super) fn registers(&self) -> impl Iterator<Item = Register> {
         let columns = self.steps.iter().flat_map(|step| step.kind.entries()).map(|&(_, entry)| entry);
         self.reciprocals.iter().flatten().copied().chain(columns)
@@ -51,7 +51,8 @@ impl StepKind {
     }
 }
 
-/// How many of the first variables are defined by none of one another.
+/// Number of leading variables in `order` that are defined and occur in none of each other's definitions. They can be
+/// substituted together.
 fn independent(order: &[usize], free: usize, definitions: &[Sparse]) -> usize {
     let contains = |k: usize, variable: usize| definitions[k - free].iter().any(|&(i, _)| i == variable);
     let is_apart = |position: usize| {
@@ -61,8 +62,8 @@ fn independent(order: &[usize], free: usize, definitions: &[Sparse]) -> usize {
     (1..order.len()).find(|&position| !is_apart(position)).unwrap_or(order.len())
 }
 
-/// What ties a variable to those that are put in: its coefficients g in their definitions, its entries c of the form,
-/// and w = K g + c.
+/// Coupling of a variable to the substituted ones: its coefficients g in their definitions, its entries c of the
+/// form, and w = K g + c.
 struct Tie {
     variable: usize,
     g: Vec<SparseEntry>,
@@ -76,17 +77,18 @@ impl Tie {
     }
 }
 
-/// A form while it is reduced.
+/// Form during the reduction.
 struct Reduced {
     matrix: Vec<Vec<SparseEntry>>,
-    /// Diagonal before any subtraction, the scale that pivots are compared with.
+    /// Diagonal before any subtraction, the reference for pivots.
     scale: Vec<SparseEntry>,
-    /// Index of the first multiplier among the variables. Its diagonal is zero at first, and negative once coordinates are eliminated.
+    /// Index of the first multiplier among the variables. The diagonal of a multiplier is zero at first, and negative
+    /// once coordinates are eliminated.
     multipliers: usize,
 }
 
 impl Reduced {
-    /// The entries of a row but for the diagonal.
+    /// Off-diagonal entries of a row.
     fn beside(&self, i: usize) -> Sparse {
         sparse(&self.matrix[i]).into_iter().filter(|&(j, _)| j != i).collect()
     }
@@ -104,8 +106,8 @@ impl Reduced {
 }
 
 impl Solver<'_> {
-    /// Reduces a form of which the matrix is symmetric; the variables behind the free ones have definitions, or the last of
-    /// them are so many multipliers.
+    /// Reduces a form with a symmetric matrix. The variables after the free ones have definitions. The last
+    /// `multipliers` variables are multipliers.
     pub(super) fn factor(
         &mut self,
         matrix: Vec<Vec<SparseEntry>>,
@@ -141,10 +143,10 @@ impl Solver<'_> {
         factors
     }
 
-    /// What is left where a variable has the value that makes the form least: its column of L, and 1/D.
+    /// Eliminates a variable, at its stationary value. Returns its column of L, and 1/D.
     fn eliminate(&mut self, form: &mut Reduced, variable: usize) -> (Sparse, Register) {
         let one = self.schedule.constant(1.0);
-        // A diagonal that is known to be zero is a pivot of zero, which shows at run time.
+        // A structural zero on the diagonal becomes a pivot of zero, which the check detects at run time.
         let pivot = self.known(form.matrix[variable][variable]);
         let reciprocal = self.schedule.push(Operation::Divide(one, pivot));
         self.note_pivot(form.scale[variable], pivot, reciprocal);
@@ -165,8 +167,8 @@ impl Solver<'_> {
         (column, reciprocal)
     }
 
-    /// The form with x_k = Σ g_ki x_i for several k at once: H becomes H + Gᵀ(K G + C) + CᵀG, where K is the block of
-    /// the x_k and C what ties them to the others.
+    /// Substitutes x_k = Σ g_ki x_i for several k at once: H becomes H + Gᵀ(K G + C) + CᵀG. K is the block of the
+    /// x_k, and C couples them to the other variables.
     fn put_in(&mut self, form: &mut Reduced, definitions: &[(usize, &Sparse)]) {
         let block: Vec<Sparse> = definitions
             .iter()
@@ -186,7 +188,7 @@ impl Solver<'_> {
                 let sum = self.add(form.matrix[x.variable][y.variable], part);
                 form.set(x.variable, y.variable, sum);
             }
-            // Of what only ties between others make there is nothing else to compare with.
+            // An entry made of couplings alone has no other reference.
             form.scale[x.variable] = form.scale[x.variable].or(form.matrix[x.variable][x.variable]);
         }
     }
@@ -203,7 +205,7 @@ impl Solver<'_> {
         Tie { variable: i, g, c, w }
     }
 
-    /// Σ_k g_k (w_k + c_k)
+    /// Diagonal term Σ_k g_k (w_k + c_k).
     fn own(&mut self, x: &Tie) -> SparseEntry {
         let mut sum = None;
         for k in 0..x.g.len() {
@@ -214,7 +216,7 @@ impl Solver<'_> {
         sum
     }
 
-    /// Σ_k (g_k w'_k + c_k g'_k), from the side that takes fewer multiplications.
+    /// Off-diagonal term Σ_k (g_k w'_k + c_k g'_k), evaluated from the side that takes fewer multiplications.
     fn mutual(&mut self, x: &Tie, y: &Tie) -> SparseEntry {
         let one = self.schedule.constant(1.0);
         let cost = |x: &Tie, y: &Tie| {
@@ -245,7 +247,7 @@ impl Solver<'_> {
         }
     }
 
-    /// L⁻¹ x: what the linear part of the form, or a constraint, comes to.
+    /// Forward substitution L⁻¹ x, for the linear part of the form or a row of F.
     pub(super) fn forward(&mut self, factors: &FormFactors, mut x: Vec<SparseEntry>) -> Vec<SparseEntry> {
         for ReductionStep { variable, kind } in &factors.steps {
             match kind {
@@ -267,8 +269,8 @@ impl Solver<'_> {
         x
     }
 
-    /// L⁻ᵀ(x + D⁻¹y): the variables themselves, in the reverse order. Each follows from those that are found first, and
-    /// these from y, which is doubted already, or else they take the `doubt` in.
+    /// Back-substitution L⁻ᵀ(x + D⁻¹y), in the reverse order. Each variable follows from those found before. A
+    /// variable that follows from no other takes its doubt from y, or else from `doubt`.
     pub(super) fn backward(
         &mut self,
         factors: &FormFactors,

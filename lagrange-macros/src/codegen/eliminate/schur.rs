@@ -1,16 +1,16 @@
-//! The multipliers, from the Schur complement of the constraints.
+//! Solves for the multipliers, by the Schur complement of the constraints.
 
 use super::arithmetic::{Solver, Sparse, SparseEntry};
 use super::order::Pattern;
 use super::reduce::FormFactors;
 use super::short;
 
-/// A coordinate that at most as many constraints share has its products left apart, for what they have in common to be
-/// taken out; where more share it, every row is scaled once.
+/// Maximum constraints that share a coordinate without scaling. Its products then stay unscaled, so that a pass can
+/// factor them; with more constraints, each row is scaled once.
 const FEW: usize = 2;
 
 impl Solver<'_> {
-    /// S = Z D⁻¹ Zᵀ factored; `None` where that would be too long.
+    /// Factorizes S = Z D⁻¹ Zᵀ. `None` if this takes too many operations.
     pub(super) fn schur_factors(&mut self, factors: &FormFactors, rows: &[Sparse]) -> Option<FormFactors> {
         let schur = self.complement(factors, rows);
         let matrix = schur.iter().map(|row| row.iter().map(Option::is_some).collect()).collect();
@@ -18,7 +18,7 @@ impl Solver<'_> {
         Some(self.factor(schur, Vec::new(), &order, 0))
     }
 
-    /// S λ = −γ − Z D⁻¹L⁻¹b, where the last is given but for Z.
+    /// Solves S λ = −γ − Z D⁻¹L⁻¹b; `starts` is D⁻¹L⁻¹b.
     pub(super) fn multipliers(
         &mut self,
         schur: &FormFactors,
