@@ -1,6 +1,6 @@
-//! Long sums in the form of a tree: one after the other, each addend waits for the sum before it.
+//! Rewrites long sums as balanced trees. In a sequential sum, each addend waits for the sum before it.
 //!
-//! Worth it where a function is short and waited for, as an order of Taylor's method is.
+//! Pays off for short functions whose latency matters, such as one order of Taylor's method.
 
 use super::rewrite::{carried_over, rebuilt};
 use crate::codegen::operation::{Operation, Register};
@@ -10,7 +10,7 @@ pub(super) fn balanced(old: &Schedule, results: &[Register]) -> (Schedule, Vec<R
     let inner = inner(old, &old.uses(results));
     rebuilt(old, results, |new, index, places| {
         let addends = if inner[index] { Vec::new() } else { gathered(old, &inner, Register::at(index)) };
-        // What is added, then what is taken away, so that a tree of either has one sign.
+        // Separate added from subtracted terms: each tree then has one sign.
         let side =
             |sign| addends.iter().filter(move |addend| addend.1 == sign).map(|addend| places.at(addend.0));
         let (added, taken): (Vec<_>, Vec<_>) = (side(true).collect(), side(false).collect());
@@ -28,7 +28,7 @@ pub(super) fn balanced(old: &Schedule, results: &[Register]) -> (Schedule, Vec<R
     })
 }
 
-/// Whether each is a sum that another one alone uses.
+/// True for a sum that only one other sum uses.
 fn inner(old: &Schedule, uses: &[usize]) -> Vec<bool> {
     let is_sum = |operation: &Operation| matches!(operation, Operation::Add(..) | Operation::Subtract(..));
     let mut inner = vec![false; uses.len()];
@@ -40,7 +40,7 @@ fn inner(old: &Schedule, uses: &[usize]) -> Vec<bool> {
     inner
 }
 
-/// The addends of a sum, those of its inner sums included; `false` for what is taken away.
+/// Returns the addends of a sum, including those of inner sums; `false` marks a subtracted term.
 fn gathered(old: &Schedule, inner: &[bool], sum: Register) -> Vec<(Register, bool)> {
     let (mut addends, mut waiting) = (Vec::new(), vec![(sum, true)]);
     while let Some((part, sign)) = waiting.pop() {

@@ -1,7 +1,7 @@
-//! Factors are taken out of sums of products: a b + a c is a (b + c), and (p cos x)² + (p sin x)² is p².
+//! Factors sums of products: a b + a c becomes a (b + c), and (p cos x)² + (p sin x)² becomes p².
 //!
-//! A sum is taken as a whole where its parts are used nowhere else. The factor that most of its terms share goes
-//! first (Horner's rule in several variables: Knuth, *The Art of Computer Programming*, 4.6.4).
+//! A sum includes its inner sums if they are used nowhere else. The factor that most terms share goes first (Horner's
+//! rule in several variables: Knuth, *The Art of Computer Programming*, 4.6.4).
 
 use indexmap::IndexMap;
 
@@ -11,9 +11,9 @@ use crate::codegen::operation::{Operation, Register};
 use crate::codegen::schedule::Schedule;
 use crate::symbolic::Function;
 
-/// Sums of more terms are left as they are: every two of them would be compared.
+/// Maximum terms of a sum. Longer sums stay unchanged, because all pairs of terms would be compared.
 const TERMS: usize = 256;
-/// Products of more factors are taken as they are: each one taken out is a step of recursion.
+/// Maximum factors of a product. Longer products stay whole, because each factor taken out is a level of recursion.
 const FACTORS: usize = 64;
 
 pub(super) fn taken_out(old: &Schedule, results: &[Register]) -> (Schedule, Vec<Register>) {
@@ -31,7 +31,7 @@ fn is_sum(operation: Operation) -> bool {
     matches!(operation, Operation::Add(..) | Operation::Subtract(..))
 }
 
-/// The sums that only one other sum uses: they are taken with that.
+/// True for a sum that only one other sum uses, and that is merged into it.
 fn inner_sums(old: &Schedule, uses: &[usize]) -> Vec<bool> {
     let mut inner = vec![false; uses.len()];
     for (index, &operation) in old.operations.iter().enumerate() {
@@ -44,7 +44,7 @@ fn inner_sums(old: &Schedule, uses: &[usize]) -> Vec<bool> {
     inner
 }
 
-/// A product with a sign; its factors are registers of the old schedule.
+/// Product with a sign. Its factors are registers of the old schedule.
 #[derive(Clone, PartialEq)]
 struct SignedProduct {
     negative: bool,
@@ -55,19 +55,19 @@ struct Pass<'s> {
     old: &'s Schedule,
     uses: &'s [usize],
     new: &'s mut Schedule,
-    /// Where a result of the old schedule is in the new one.
+    /// Registers in the new schedule of results of the old one.
     places: &'s Places,
 }
 
 impl Pass<'_> {
-    /// The sum with factors taken out; `None` where no two terms share any.
+    /// Returns the factored sum. `None` if no two terms share a factor.
     fn factored(&mut self, sum: Operation) -> Option<Register> {
         let terms = self.terms(sum)?;
         let (register, negative) = self.grouped(terms)?;
         Some(if negative { self.new.push(Operation::Negate(register)) } else { register })
     }
 
-    /// The terms of a sum; `None` where there are too many.
+    /// Returns the terms of a sum. `None` if there are too many.
     fn terms(&self, sum: Operation) -> Option<Vec<SignedProduct>> {
         let mut terms = Vec::new();
         let mut pending = vec![(sum, false)];
@@ -85,7 +85,7 @@ impl Pass<'_> {
                 return None;
             }
         }
-        // Parts come before what they are part of.
+        // Restore the order in which operands precede their uses.
         terms.reverse();
         Some(terms)
     }
@@ -107,7 +107,7 @@ impl Pass<'_> {
         factors
     }
 
-    /// The sum of the terms where some of them can be put together.
+    /// Combines terms of the sum as long as some share a factor.
     fn grouped(&mut self, mut terms: Vec<SignedProduct>) -> Option<Signed> {
         let mut sums = Vec::new();
         let mut is_better = false;
@@ -153,7 +153,7 @@ impl Pass<'_> {
         (product.unwrap_or_else(|| self.new.constant(1.0)), term.negative)
     }
 
-    /// A positive term first saves a negation.
+    /// Sums the terms, starting with a positive one to avoid a negation.
     fn sum(&mut self, terms: impl Iterator<Item = Signed>) -> Signed {
         let mut terms: Vec<Signed> = terms.collect();
         let first = terms.iter().position(|(_, negative)| !negative);
@@ -167,7 +167,7 @@ impl Pass<'_> {
         (total, all_negative)
     }
 
-    /// Two terms that are (p cos x)² and (p sin x)², and p².
+    /// Finds two terms (p cos x)² and (p sin x)². Returns their indices, and p².
     fn circle(&self, terms: &[SignedProduct]) -> Option<(usize, usize, Vec<Register>)> {
         let arms: Vec<_> = terms.iter().map(|term| self.arm(term)).collect();
         for (i, first) in arms.iter().enumerate() {
@@ -182,7 +182,7 @@ impl Pass<'_> {
         None
     }
 
-    /// p, cos or sin, and x, where a term is (p cos x)² or (p sin x)².
+    /// Splits a term (p cos x)² or (p sin x)² into p, the function, and x.
     fn arm(&self, term: &SignedProduct) -> Option<(Vec<Register>, Function, Register)> {
         let [x, y] = term.factors[..] else { return None };
         let operation = |register: Register| self.old.operations[register.index()];
@@ -203,7 +203,7 @@ impl Pass<'_> {
     }
 }
 
-/// The factor that most terms share, of equals the first.
+/// Factor that most terms share; among equals, the first.
 fn most_shared(terms: &[SignedProduct]) -> Option<Register> {
     let mut counts: IndexMap<Register, usize> = IndexMap::new();
     for term in terms {

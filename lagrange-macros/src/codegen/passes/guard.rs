@@ -1,8 +1,8 @@
-//! Derivatives that do not exist must not spoil those that do.
+//! Prevents a derivative that does not exist from spoiling the others.
 //!
-//! A derivative along a direction is a sum over everything that changes. Where one slope is infinite, as that of √x at
-//! 0, or not a number, as that of xⁿ by n there, its product with a rate of change of zero would be none either, and
-//! with it the whole sum. So such a product counts only where something changes that it depends on.
+//! A directional derivative is a sum over all variables that change. A slope may be infinite, as that of √x at 0, or
+//! NaN, as that of xⁿ with respect to n there. Its product with a zero rate of change would then be NaN, and so would
+//! the whole sum. The guard sets such a product to zero if all rates in it are zero.
 
 use super::rewrite::{carried_over, carry_definitions};
 use crate::codegen::operation::{Operation, Register};
@@ -10,7 +10,7 @@ use crate::codegen::schedule::Schedule;
 use crate::symbolic::Function;
 use crate::variables::Variable;
 
-/// The schedule with its doubtful products guarded, and where the results are then.
+/// Returns the schedule with guarded products, and the registers of the results in it.
 pub(super) fn guarded(source: &Schedule, results: &[Register]) -> (Schedule, Vec<Register>) {
     let mut guard = Guard { schedule: Schedule::default(), numbers: Vec::new() };
     for &operation in &source.operations {
@@ -22,27 +22,27 @@ pub(super) fn guarded(source: &Schedule, results: &[Register]) -> (Schedule, Vec
     (schedule, results.iter().map(|&result| place(result)).collect())
 }
 
-/// What is known of a result.
+/// Classification of a result.
 #[derive(Clone, Copy)]
 struct Number {
-    /// Where it is in the new schedule.
+    /// Register in the new schedule.
     register: Register,
     kind: GuardKind,
 }
 
 #[derive(Clone, Copy, PartialEq)]
 enum GuardKind {
-    /// Finite for arguments that are.
+    /// Finite for finite arguments.
     Finite,
-    /// It may be infinite: something is divided by, or a function has a pole, or is unknown.
+    /// Possibly infinite: contains a division, a function with a pole, or a user-supplied function.
     Unbounded,
-    /// Linear combination of rates of change; its activity is zero where all rates are.
+    /// Linear combination of rates of change. `activity` is zero if all its rates are zero.
     Rate { activity: Register },
 }
 
 struct Guard {
     schedule: Schedule,
-    /// For each operation of the source.
+    /// Classification of each operation of the source.
     numbers: Vec<Number>,
 }
 
@@ -84,7 +84,7 @@ impl Guard {
     }
 }
 
-/// A rate of change over a number, or times one that may be infinite.
+/// True for the quotient of a rate by a number, and for its product with a number that may be infinite.
 fn is_doubtful(operation: Operation, operands: &[GuardKind]) -> bool {
     match operation {
         Operation::Multiply(..) => operands.contains(&GuardKind::Unbounded),

@@ -1,4 +1,4 @@
-//! What is done to a schedule before it is written: the same results, up to rounding, for less work.
+//! Optimization passes on schedules: fewer operations for the same results, up to rounding.
 
 mod balance;
 mod factors;
@@ -19,26 +19,27 @@ use super::time::Time;
 use crate::symbolic::{Graph, Id};
 use crate::variables::Variable;
 
-/// The passes do not make a function half as long: beyond, they are not tried.
+/// Maximum operations of a function that is optimized. The passes do not halve a function, so a longer one would
+/// exceed the limit anyway.
 const HOPELESS: usize = 2 * OPERATION_LIMIT;
 
-/// A schedule with the registers of its results, and its length after each pass.
+/// Schedule with the registers of its results, and its operation count after each pass.
 pub(super) struct Program {
     pub(super) schedule: Schedule,
     pub(super) results: Vec<Register>,
-    /// What the operations were before any pass, and after each.
+    /// Operation counts, as derived and after each pass.
     pub(super) counts: Vec<(&'static str, Count)>,
 }
 
 impl Program {
-    /// Computes nodes of the graph.
+    /// Compiles nodes of the graph.
     pub(super) fn of(graph: &Graph, roots: &[Id]) -> Self {
         let (schedule, results) = scheduled(graph, roots);
         Self::new(schedule, results)
     }
 
-    /// Computes derivatives along a direction, of which none that does not exist spoils another: first the numbers that
-    /// do not depend on the direction, then, by these, what it makes of them.
+    /// Compiles directional derivatives to two programs. The first computes the numbers that do not depend on the
+    /// direction, the second applies them to a direction. A derivative that does not exist does not spoil the others.
     pub(super) fn of_changes(graph: &Graph, roots: &[Id]) -> [Self; 2] {
         let (schedule, results) = scheduled(graph, roots);
         let (schedule, results) = guard::guarded(&schedule, &results);
@@ -47,8 +48,9 @@ impl Program {
         [slopes, changes].map(|(schedule, results)| Self::unchanged(schedule, results))
     }
 
-    /// Computes what is linear in Taylor coefficients: first the numbers that do not depend on them, then each of two lists of
-    /// results by these. Tells where among the numbers those of `kept` are.
+    /// Compiles functions that are linear in Taylor coefficients. The first program computes the numbers that do not
+    /// depend on the coefficients; the other two read them and compute one list of results each. Also returns the
+    /// index of each of `kept` among the numbers.
     pub(super) fn of_orders(
         schedule: Schedule,
         results: [Vec<Register>; 2],
@@ -71,7 +73,7 @@ impl Program {
         (Self::unchanged(numbers, slopes), parts, kept)
     }
 
-    /// The results in as few operations as the passes find.
+    /// Optimizes the schedule with all passes.
     pub(super) fn new(schedule: Schedule, results: Vec<Register>) -> Self {
         let program = Self::unchanged(schedule, results);
         if program.count().total() > HOPELESS {
@@ -80,7 +82,7 @@ impl Program {
         program
             .after("signs gathered", signs::gathered)
             .after("factors taken out", factors::taken_out)
-            // What the first time has put together may be a factor in its turn.
+            // Sums combined by the first run may share factors.
             .after("and taken out again", factors::taken_out)
             .after("reciprocals shared", reciprocals::shared)
     }
@@ -90,26 +92,26 @@ impl Program {
         Self { schedule, results, counts }
     }
 
-    /// With long sums as trees, for functions that are waited for.
+    /// Rewrites long sums as balanced trees, for functions whose latency matters.
     pub(super) fn balanced(mut self) -> Self {
         (self.schedule, self.results) = balance::balanced(&self.schedule, &self.results);
         self
     }
 
-    /// Without what is multiplied by zero, for functions of a state of which is known that it is one.
+    /// Removes products with zero, for functions of states already known to be finite.
     pub(super) fn without_zeros(mut self) -> Self {
         (self.schedule, self.results) = vanishing::left_out(&self.schedule, &self.results);
         self
     }
 
-    /// The same with products and sums in one operation each. That is harder to read, and for what is called all the
-    /// time.
+    /// Fuses products and sums into single operations. The code is harder to read; use it for functions that are
+    /// called all the time.
     pub(super) fn fused(mut self) -> Self {
         (self.schedule, self.results) = fuse::fused(&self.schedule, &self.results);
         self
     }
 
-    /// How many operations are a product and a sum in one.
+    /// Number of fused operations.
     pub(super) fn fusions(&self) -> usize {
         let is_fused = |operation: &Operation| {
             matches!(operation, Operation::MultiplyAdd(..) | Operation::SubtractProduct(..))
@@ -123,7 +125,7 @@ impl Program {
             .count()
     }
 
-    /// With another pass, unless that leaves more to do.
+    /// Applies a pass, unless the result takes more work.
     fn after(
         mut self,
         name: &'static str,
@@ -146,7 +148,7 @@ impl Program {
     }
 }
 
-/// What computing `root` takes as it is, if that is far too much.
+/// Returns the operation count of `root` if it exceeds [`HOPELESS`].
 pub(super) fn hopeless(graph: &Graph, root: Id) -> Option<Count> {
     let (schedule, results) = scheduled(graph, &[root]);
     Some(schedule.count(&results)).filter(|count| count.total() > HOPELESS)

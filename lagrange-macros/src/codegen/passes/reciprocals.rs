@@ -1,4 +1,5 @@
-//! One reciprocal where a division is shared: a division takes as long as several multiplications.
+//! Replaces several divisions by the same number with one reciprocal: a division takes as long as several
+//! multiplications.
 
 use rustc_hash::FxHashMap;
 

@@ -1,9 +1,9 @@
-//! A schedule built anew from another one, operation by operation.
+//! Rebuilds a schedule from another one, operation by operation.
 
 use crate::codegen::operation::{Call, Operation, Register};
 use crate::codegen::schedule::Schedule;
 
-/// Computes in `new` what `operation` of `old` computes, where `at` tells where its operands are.
+/// Copies an operation of `old` to `new`. `at` maps its operands to registers of `new`.
 pub(super) fn carried_over(
     new: &mut Schedule,
     old: &Schedule,
@@ -22,11 +22,11 @@ pub(super) fn carried_over(
     new.push(operation)
 }
 
-/// Registers of a schedule's operations in the rebuilt schedule, as far as it is built.
+/// Registers in the rebuilt schedule of operations of the old one, as far as it is built.
 pub(super) struct Places(Vec<Option<Register>>);
 
 impl Places {
-    /// Operands come before what uses them, so each is placed when it is asked for.
+    /// Returns the new register of an operand. Operands precede their uses, so it exists.
     pub(super) fn at(&self, register: Register) -> Register {
         self.0[register.index()].unwrap_or(register)
     }
@@ -48,7 +48,7 @@ pub(super) fn rebuilt(
     (new, results)
 }
 
-/// Which registers hold the named definitions, in a schedule built anew.
+/// Copies the named definitions to a rebuilt schedule.
 pub(super) fn carry_definitions(
     new: &mut Schedule,
     old: &Schedule,

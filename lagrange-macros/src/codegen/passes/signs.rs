@@ -1,11 +1,11 @@
-//! Signs are gathered: −x is carried on until a sum takes it for nothing. Every step is exact but for the sign of zero, as
-//! rounding does not depend on signs.
+//! Collects signs: the sign of −x is carried along until a sum absorbs it at no cost. The results are exact except
+//! for the sign of zero, because rounding does not depend on signs.
 
 use super::rewrite::{carried_over, carry_definitions};
 use crate::codegen::operation::{Operation, Register};
 use crate::codegen::schedule::Schedule;
 
-/// A number up to its sign: the register, and whether the number is the negative of what it holds.
+/// Register and sign of a number; `true` if the number is the negative of the register.
 pub(super) type Signed = (Register, bool);
 
 pub(super) fn gathered(old: &Schedule, results: &[Register]) -> (Schedule, Vec<Register>) {
@@ -26,7 +26,7 @@ fn of(places: &[Option<Signed>], register: Register) -> Signed {
     places[register.index()].unwrap_or((register, false))
 }
 
-/// The number itself.
+/// Returns the signed number as a register.
 fn whole(new: &mut Schedule, (register, negative): Signed) -> Register {
     if !negative {
         return register;
@@ -75,7 +75,7 @@ fn sum(new: &mut Schedule, (x, x_negative): Signed, (y, y_negative): Signed) -> 
     }
 }
 
-/// x − y, or y − x where that is there already.
+/// Returns x − y, or −(y − x) if y − x is already computed.
 fn difference(new: &mut Schedule, x: Register, y: Register) -> Signed {
     match new.find(Operation::Subtract(y, x)) {
         Some(register) => (register, true),

@@ -1,5 +1,5 @@
-//! A linear function of rates of change in two: the numbers that rates are multiplied by, and what becomes of the rates
-//! by them. The numbers are computed once for any rates, and for several at once.
+//! Splits a linear function of rates of change into two programs: one computes the coefficients, the other applies
+//! them to rates. The coefficients are computed once and serve any rates, also several at once.
 
 use rustc_hash::FxHashMap;
 
@@ -8,15 +8,16 @@ use crate::codegen::operation::{Operation, Register};
 use crate::codegen::schedule::Schedule;
 use crate::variables::Variable;
 
-/// A function in two parts.
+/// Linear function of rates, in two parts.
 pub(super) struct TwoParts {
-    /// What does not depend on rates, and which of it the other part reads as [`Variable::Slope`] 0, 1, …
+    /// Schedule that does not depend on rates, and the registers that the other part reads as [`Variable::Slope`] 0,
+    /// 1, …
     pub(super) slopes: (Schedule, Vec<Register>),
-    /// What does, with the results.
+    /// Schedule that depends on rates, and the registers of the results.
     pub(super) changes: (Schedule, Vec<Register>),
 }
 
-/// The parts of what computes `results`.
+/// Splits the computation of `results`.
 pub(super) fn split(source: &Schedule, results: &[Register]) -> TwoParts {
     let mut split = Split {
         numbers: Schedule::default(),
@@ -52,12 +53,13 @@ fn is_rate(symbol: crate::symbolic::Symbol) -> bool {
     Variable::of(symbol).is_change()
 }
 
-/// Where the result of an operation is.
+/// Location of the result of an operation.
 #[derive(Clone, Copy)]
 enum ResultLocation {
-    /// Among the numbers.
+    /// In the schedule without rates.
     Number(Register),
-    /// Among the changes, times a number: products of numbers are put together before they meet a rate.
+    /// In the schedule of rates, times a factor without rates. Products of such factors are formed before they
+    /// multiply a rate.
     Rate { rate: Register, factor: Option<Register> },
 }
 
@@ -68,7 +70,7 @@ impl From<Register> for ResultLocation {
 }
 
 impl ResultLocation {
-    /// Of what depends on no rate.
+    /// Returns the register of a result that depends on no rate.
     fn number(self) -> Register {
         match self {
             Self::Number(register) | Self::Rate { rate: register, .. } => register,
@@ -80,12 +82,12 @@ struct Split {
     numbers: Schedule,
     changes: Schedule,
     slopes: Vec<Register>,
-    /// Which slope a number is.
+    /// Index of the slope that holds a number.
     known: FxHashMap<Register, usize>,
 }
 
 impl Split {
-    /// An operation on at least one rate.
+    /// Copies an operation with at least one rate among its operands.
     fn rate(&mut self, operation: Operation, values: &[ResultLocation]) -> ResultLocation {
         let of = |register: Register| values[register.index()];
         match operation {
@@ -112,7 +114,7 @@ impl Split {
         self.changes.push(operation).into()
     }
 
-    /// The value among the changes.
+    /// Returns a value as a register of the schedule of rates.
     fn changed(&mut self, value: ResultLocation) -> Register {
         match value {
             ResultLocation::Number(number) => self.slope(number),
@@ -124,7 +126,7 @@ impl Split {
         }
     }
 
-    /// A number, as the changes read it.
+    /// Returns a number as an input of the schedule of rates. A constant is copied.
     fn slope(&mut self, number: Register) -> Register {
         if let constant @ Operation::Constant(_) = self.numbers.operations[number.index()] {
             return self.changes.push(constant);

@@ -1,4 +1,4 @@
-//! Passes keep the results: programs at random, computed before and after.
+//! Checks that passes keep the results, by evaluating random programs before and after.
 
 use super::split::{TwoParts, split};
 use super::{Program, factors, fuse, guard, reciprocals, signs};
@@ -8,12 +8,12 @@ use crate::rounds::Random;
 use crate::symbolic::{Function, Symbol};
 use crate::variables::Variable;
 
-/// The results, where input k has the value 0.3 + 0.1 k.
+/// Evaluates the results; input k has the value 0.3 + 0.1 k.
 fn values(schedule: &Schedule, results: &[Register]) -> Vec<f64> {
     schedule.values(results, |symbol| 0.3 + 0.1 * f64::from(symbol.index))
 }
 
-/// Sums and products above all, of few inputs, so that they share factors.
+/// Random program, mostly sums and products of few inputs, so that terms share factors.
 fn program(random: &mut Random) -> (Schedule, Vec<Register>) {
     let mut schedule = Schedule::default();
     let mut registers: Vec<Register> =
@@ -65,7 +65,7 @@ fn no_pass_changes_a_result_beyond_rounding_nor_leaves_more_to_do() {
         for pass in [factors::taken_out, reciprocals::shared, fuse::fused] {
             let (new, new_results) = pass(&schedule, &results);
             let (before, after) = (values(&schedule, &results), values(&new, &new_results));
-            // What cancels has as many digits as its parts: programs whose results are of their size are compared.
+            // Skip results near zero: after cancellation they have fewer digits.
             for (x, y) in before.iter().zip(&after).filter(|(x, _)| x.is_finite() && x.abs() > 1e-6) {
                 assert!((x - y).abs() <= 1e-9 * x.abs(), "{before:?} {after:?}");
             }
@@ -79,13 +79,13 @@ fn no_pass_changes_a_result_beyond_rounding_nor_leaves_more_to_do() {
 fn a_negative_is_carried_into_the_sum_that_takes_it() {
     let mut schedule = Schedule::default();
     let [x, y, z] = [0, 1, 2].map(|index| input(&mut schedule, index));
-    // z + (−x) y, and −(x y) − z
+    // z + (−x) y and −(x y) − z
     let negative = schedule.push(Operation::Negate(x));
     let product = schedule.push(Operation::Multiply(negative, y));
     let first = schedule.push(Operation::Add(z, product));
     let second = schedule.push(Operation::Subtract(product, z));
     let (new, results) = signs::gathered(&schedule, &[first, second]);
-    // x y, z − x y, x y + z and one sign.
+    // x y, z − x y, x y + z and one negation.
     assert_eq!(new.count(&results).arithmetic, 4);
     assert_eq!(schedule.count(&[first, second]).arithmetic, 4);
     let (new, results) = signs::gathered(&schedule, &[first]);
@@ -98,7 +98,7 @@ fn the_factor_that_most_terms_share_goes_first() {
     let [a, b, c, d] = [0, 1, 2, 3].map(|index| input(&mut schedule, index));
     // a b c + a b d − a d + c
     let products = [[a, b, c], [a, b, d]].map(|[x, y, z]| {
-        // Each with its own product, so that none is shared already.
+        // Use separate products, so that none is shared already.
         let product = schedule.push(Operation::Multiply(x, z));
         schedule.push(Operation::Multiply(product, y))
     });
@@ -109,7 +109,7 @@ fn the_factor_that_most_terms_share_goes_first() {
     let (new, results) = factors::taken_out(&schedule, &[sum]);
     let [before, after] = [values(&schedule, &[sum])[0], values(&new, &results)[0]];
     assert!((before - after).abs() < 1e-15);
-    // a d is used twice and stays: (b (a c + a d) − a d) + c, where b is as often a factor as a c.
+    // a d has two uses and stays: (b (a c + a d) − a d) + c. The factors b and a c occur equally often.
     assert!(new.count(&results).arithmetic < schedule.count(&[sum]).arithmetic);
 }
 
@@ -186,7 +186,7 @@ fn differences_of_products_are_not_fused() {
     assert!(matches!(new.operations[results[0].index()], Operation::Subtract(..)));
 }
 
-/// d√x + dy: at x = 0 the slope is infinite, and nothing to dy.
+/// d√x + dy: at x = 0 the slope of √x is infinite, and must not affect dy.
 #[test]
 fn a_slope_that_does_not_exist_counts_only_where_something_changes() {
     let mut schedule = Schedule::default();
@@ -208,7 +208,7 @@ fn a_slope_that_does_not_exist_counts_only_where_something_changes() {
     assert_eq!(value(&new, &results, 0.0, [1.0, 2.0]), f64::INFINITY);
 }
 
-/// a b dx − (a b dy)/c + sin(a) (b dx): every product of numbers is one, and what depends on rates meets it once.
+/// a b dx − (a b dy)/c + sin(a) (b dx): the coefficients are formed first, and each multiplies a rate once.
 #[test]
 fn what_does_not_depend_on_a_direction_is_computed_apart() {
     let mut schedule = Schedule::default();

@@ -1,6 +1,6 @@
-//! Zero times something left out: it tells only whether that is a number.
+//! Removes products with zero. Zero times x only shows whether x is finite.
 //!
-//! For functions of a state for which other functions have told that.
+//! Used for functions of a state that other functions have already found finite.
 
 use super::rewrite::{carried_over, rebuilt};
 use crate::codegen::operation::{Operation, Register};
