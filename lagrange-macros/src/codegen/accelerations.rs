@@ -1,5 +1,5 @@
-//! The equations of motion solved, as methods: accelerations and multipliers at once, and in two parts, a factor and the
-//! solves by it.
+//! Methods that solve the equations of motion for accelerations and multipliers: in one function, or as a
+//! factorization and a solve.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -15,7 +15,7 @@ use crate::mechanics::{Equations, Form};
 use crate::symbolic::Id;
 
 impl Emitter<'_> {
-    /// The fused function that integrators call all the time.
+    /// Emits the fused function that solves for accelerations and multipliers. Integrators call it most often.
     pub(super) fn accelerations(&self, method: &Method) -> Written {
         match &self.solving {
             Some(solving) => self.solution(method, &solving.accelerations),
@@ -26,7 +26,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// The first of the two parts.
+    /// Emits the method that factorizes the KKT matrix.
     pub(super) fn factor(&self, method: &Method) -> Written {
         let Some(Solving { factor, .. }) = &self.solving else {
             let [mass, _, jacobian, _] = self.equations_by_rows();
@@ -36,7 +36,7 @@ impl Emitter<'_> {
         self.function(method, kernel, |results| quote!(#(#results)*))
     }
 
-    /// The second.
+    /// Emits the method that solves with a factorization.
     pub(super) fn solve_with(&self, method: &Method) -> Written {
         match &self.solving {
             Some(solving) => self.solution(method, &solving.solve),
@@ -63,7 +63,8 @@ impl Emitter<'_> {
         })
     }
 
-    /// M, h, F and γ, completed as the form over the accelerations is, matrices row by row. Of M the lower triangle is read.
+    /// M, h, F and γ of the first form, where M is completed if it is singular. Matrices are row-major. The runtime
+    /// reads the lower triangle of M.
     fn equations_by_rows(&self) -> [(Vec<Id>, ResultShape); 4] {
         let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
         let Equations { forms, jacobian, bias, .. } = &self.derived.equations;
@@ -83,7 +84,7 @@ impl Emitter<'_> {
         ]
     }
 
-    /// σ of each constraint, zero of those that complete nothing.
+    /// Weight σ of each constraint in the completion of M; zero for constraints that do not complete it.
     fn weights(&self) -> (Vec<Id>, ResultShape) {
         let Equations { forms, bias, .. } = &self.derived.equations;
         let mut weights = vec![Id::ZERO; bias.len()];
@@ -91,7 +92,8 @@ impl Emitter<'_> {
         (weights, ResultShape::Vector(bias.len()))
     }
 
-    /// What a function of the runtime makes of these, which are computed together to share what they have in common.
+    /// Emits a call of a runtime function. Its arguments are computed by one kernel, so that they share
+    /// subexpressions.
     fn in_loops<const K: usize>(
         &self,
         method: &Method,

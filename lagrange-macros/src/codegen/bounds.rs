@@ -1,4 +1,4 @@
-//! What the types of a struct must be able to do.
+//! Trait bounds on the types of the fields.
 
 use std::collections::BTreeMap;
 
@@ -13,10 +13,10 @@ use crate::resolve::Supplied;
 use crate::symbolic::{Id, Node};
 use crate::syntax::Declaration;
 
-/// How often a function that the user supplies can be differentiated.
+/// Highest order to which a user-supplied function can be differentiated.
 pub(super) const FUNCTION_ORDER: usize = 3;
 
-/// The trait that gives the derivatives of an order, and its method.
+/// Trait and method for the derivatives of an order.
 pub(super) fn capability(order: usize) -> (&'static str, &'static str) {
     match order {
         0 => ("Value", "value"),
@@ -27,7 +27,7 @@ pub(super) fn capability(order: usize) -> (&'static str, &'static str) {
 }
 
 impl Emitter<'_> {
-    /// Of each function that the user supplies, the highest derivative that the system needs, with `more` expressions.
+    /// Highest derivative of each user-supplied function in the equations of motion, the observables and `more`.
     pub(super) fn orders(&self, more: &[Id]) -> BTreeMap<u32, usize> {
         let (graph, problem) = (self.style.graph, self.problem);
         let mut roots = self.derived.equations.roots();
@@ -44,8 +44,9 @@ impl Emitter<'_> {
         orders
     }
 
-    /// The struct's generics with what the fields must be able to do, asked for at the fields' types: at once, or only
-    /// where somebody uses it. (A bound on a concrete type is checked at once, unless it is of a higher rank.)
+    /// Generics of the struct with bounds on the types of the fields. The compiler checks a bound on a concrete type
+    /// at the definition. If `at_once` is false, the bounds are higher-ranked, so it checks them where the
+    /// implementation is used.
     pub(super) fn generics(&self, orders: &BTreeMap<u32, usize>, at_once: bool) -> syn::Generics {
         let scalar = self.style.types.scalar;
         let mut generics = bounded_generics(self.declaration, scalar);
@@ -53,7 +54,7 @@ impl Emitter<'_> {
         generics
     }
 
-    /// Bounds of functions over a scalar.
+    /// Adds the bounds of user-supplied functions over a scalar.
     pub(super) fn ask_for(
         &self,
         generics: &mut syn::Generics,
@@ -72,7 +73,7 @@ impl Emitter<'_> {
     }
 }
 
-/// The highest derivative of each function among calls, and of those known.
+/// Highest derivative of each function among `known` and the calls.
 pub(super) fn orders_of<'c, X: 'c>(
     known: BTreeMap<u32, usize>,
     calls: impl Iterator<Item = &'c Call<X>>,
@@ -84,7 +85,7 @@ pub(super) fn orders_of<'c, X: 'c>(
     })
 }
 
-/// A call of a function on numbers of this type.
+/// Emits a call of a user-supplied function on numbers of type `scalar`.
 pub(super) fn call_of<X>(
     supplied: &Supplied,
     call: &Call<X>,
@@ -101,7 +102,7 @@ pub(super) fn call_of<X>(
     quote!(__lagrange::function::#capability::<#scalar, #inputs, #outputs>::#method(#field, [#(#arguments),*] #by))
 }
 
-/// The struct's generics, where a scalar that is a type parameter is bound to be one.
+/// Generics of the struct. A scalar that is a type parameter gets the bound `Scalar`.
 pub(super) fn bounded_generics(declaration: &Declaration, scalar: &syn::Type) -> syn::Generics {
     let runtime = runtime(declaration);
     let mut generics = declaration.generics.clone();

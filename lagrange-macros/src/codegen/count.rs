@@ -1,21 +1,21 @@
-//! How many operations a function takes.
+//! Operation counts of functions.
 
 use std::fmt;
 
-/// Longer functions are refused.
+/// Maximum operations of an emitted function. A longer function is an error.
 pub(super) const OPERATION_LIMIT: usize = 50_000;
 
-/// How many operations a function takes: + − × ÷ √ count 1, elementary functions apart.
+/// Operation count of a function. `arithmetic` counts each + − × ÷ √ as 1; elementary functions count separately.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub(crate) struct Count {
     pub(crate) arithmetic: usize,
     pub(crate) functions: usize,
-    /// Results of functions that the user supplies.
+    /// Number of results of user-supplied functions.
     pub(crate) calls: usize,
 }
 
 impl Count {
-    /// Supplied functions are not ours to count.
+    /// Total without user-supplied functions, whose cost is unknown.
     pub(super) fn total(self) -> usize {
         self.arithmetic + self.functions
     }

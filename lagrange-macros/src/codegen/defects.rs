@@ -1,4 +1,4 @@
-//! How far matrices among the parameters are from being what is said of them.
+//! Emits a check of matrix parameters: the deviation of each from its stated property, symmetric or a rotation.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -8,7 +8,8 @@ use crate::resolve::Entry;
 use crate::syntax::Property;
 
 impl Emitter<'_> {
-    /// Nothing, where nothing is said. What a type says is trusted.
+    /// Emits `visit_defects`. `None` if no matrix has a stated property. A property that follows from the type is not
+    /// checked.
     pub(super) fn visit_defects(&self) -> Option<TokenStream> {
         let scalar = self.style.types.scalar;
         let visits: Vec<_> = self.matrices().into_iter().map(|first| self.visit_defect(first)).collect();
@@ -24,7 +25,7 @@ impl Emitter<'_> {
         })
     }
 
-    /// The first number of each matrix in use of which something is said.
+    /// Returns the first entry of each matrix in use that has a stated property.
     fn matrices(&self) -> Vec<Entry> {
         let parameters = &self.problem.parameters;
         let said = parameters.entries.iter().filter(|entry| parameters.said(entry.field).is_some());

@@ -1,4 +1,4 @@
-//! A system that is being written as Rust, and what its capabilities share.
+//! Context of the emission of one system, shared by all emitted traits.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -12,19 +12,19 @@ use crate::render::Rendered;
 use crate::resolve::Problem;
 use crate::syntax::Declaration;
 
-/// A system that is being written.
+/// System to be emitted.
 pub(super) struct Emitter<'a> {
     pub(super) declaration: &'a Declaration,
     pub(super) problem: &'a Problem,
     pub(super) derived: &'a Derived,
     pub(super) rendered: &'a Rendered,
-    /// `None` where the equations are better solved in loops.
+    /// Programs of the elimination. `None` if the equations are solved by loops of the runtime.
     pub(super) solving: Option<Solving>,
     pub(super) style: FunctionContext<'a>,
 }
 
 impl Emitter<'_> {
-    /// The methods that long functions call, where there are any.
+    /// Emits the helper methods that long functions call. `None` if there are none.
     pub(super) fn parts_of(&self, kernels: &[Kernel], generics: &syn::Generics) -> Option<TokenStream> {
         let parts: Vec<_> = kernels.iter().flat_map(|kernel| &kernel.parts).collect();
         let (impl_generics, _, where_clause) = generics.split_for_impl();
@@ -42,7 +42,7 @@ impl Emitter<'_> {
     }
 }
 
-/// Methods, and the kernels in them.
+/// Emitted methods, with their kernels.
 pub(super) struct Written {
     pub(super) tokens: TokenStream,
     pub(super) kernels: Vec<Kernel>,
@@ -65,7 +65,7 @@ pub(super) fn too_long(what: &str) -> String {
     )
 }
 
-/// The path of the runtime crate.
+/// Path of the runtime crate.
 pub(super) fn runtime(declaration: &Declaration) -> TokenStream {
     declaration.options.runtime.clone().unwrap_or_else(|| quote!(::lagrange_core))
 }

@@ -1,4 +1,4 @@
-//! What is known of the system, as constants, and the values of what is conserved.
+//! Emits the facts known about a system as constants, and a method that evaluates its conserved quantities.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -46,7 +46,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// The conserved quantity of an index.
+    /// Emits the method that returns a conserved quantity by its index.
     pub(super) fn conserved_by_index(&self, method: &Method) -> Written {
         let conserved = self.derived.facts.conserved.iter().enumerate();
         let arms = conserved.map(|(index, conserved)| {

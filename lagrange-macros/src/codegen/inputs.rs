@@ -1,4 +1,4 @@
-//! Where emitted functions read their inputs: in fields, states and other arguments.
+//! Expressions that read inputs of emitted functions: fields, states and other arguments.
 
 use std::collections::BTreeSet;
 
@@ -11,11 +11,11 @@ use crate::symbolic::Symbol;
 use crate::syntax::FieldShape;
 use crate::variables::Variable;
 
-/// A variable of each coordinate or constraint, by its place.
+/// Variable of each coordinate or constraint, by index.
 type VariableFamily = fn(usize) -> Variable;
 
 impl FunctionContext<'_> {
-    /// An input that is read there, as functions compute with it.
+    /// Converts an input to the number type of the function, if the types differ.
     pub(super) fn widened(&self, symbol: Symbol, number: &TokenStream) -> TokenStream {
         let (is_narrow, wide) =
             (matches!(Variable::of(symbol), Variable::Factor(_) | Variable::Slope(_)), self.types.scalar);
@@ -25,23 +25,23 @@ impl FunctionContext<'_> {
         }
     }
 
-    /// The value of a parameter, read from its field.
+    /// Reads a parameter from its field.
     pub(super) fn parameter(&self, k: usize) -> TokenStream {
         self.number(self.problem.parameters.entries[k])
     }
 
-    /// A number of a field.
+    /// Reads a number of a field.
     pub(super) fn number(&self, entry: Entry) -> TokenStream {
         self.number_of_rounds(entry, None)
     }
 
-    /// A number of a field, or in a loop the numbers, of which the first is this.
+    /// Reads a number of a field. In a loop, `varying` is the index that depends on the iteration.
     pub(super) fn number_of_rounds(&self, entry: Entry, varying: Option<&Varying>) -> TokenStream {
         let of_member = self.number_of_member(&quote!(self), entry, varying);
         of_member.unwrap_or_else(|| self.place(entry, varying))
     }
 
-    /// The statement that gives a number of a field another value, in a function that returns whether it could.
+    /// Emits the assignment of a number of a field, for a function that returns false if the assignment fails.
     pub(super) fn set_number(&self, entry: Entry, value: &TokenStream) -> TokenStream {
         self.set_number_of_member(entry, value).unwrap_or_else(|| {
             let place = self.place(entry, None);
@@ -49,7 +49,7 @@ impl FunctionContext<'_> {
         })
     }
 
-    /// Where a number of a field without members is.
+    /// Place expression of a number of a field without members.
     fn place(&self, Entry { field, number }: Entry, varying: Option<&Varying>) -> TokenStream {
         let field = &self.problem.parameters.fields[field];
         let ident = &field.ident;
@@ -103,7 +103,7 @@ impl FunctionContext<'_> {
         quote! { #time #(#patterns)* #others }
     }
 
-    /// The array of these symbols taken apart, if one of them is used.
+    /// Destructures the array that holds these symbols, if one of them is used.
     fn taken_apart(&self, symbols: &[Symbol], used: &BTreeSet<Symbol>) -> Option<TokenStream> {
         let (array, _) = self.array(*symbols.first()?)?;
         let names = symbols.iter().map(|symbol| match used.contains(symbol) {
@@ -114,7 +114,7 @@ impl FunctionContext<'_> {
         is_used.then(|| quote! { let [#(#names),*] = #array; })
     }
 
-    /// An input, where it is.
+    /// Reads an input.
     pub(super) fn read(&self, symbol: Symbol) -> TokenStream {
         match (Variable::of(symbol), self.array(symbol)) {
             (_, Some((array, place))) => {
@@ -127,7 +127,7 @@ impl FunctionContext<'_> {
         }
     }
 
-    /// The array that an input is in, and its place there.
+    /// Array that contains an input, and its index there.
     pub(super) fn array(&self, symbol: Symbol) -> Option<(TokenStream, usize)> {
         let n = self.problem.coordinates.len();
         Some(match Variable::of(symbol) {
@@ -159,14 +159,14 @@ impl FunctionContext<'_> {
     }
 }
 
-/// An index that is not the same in all rounds of a loop: which of the indices, and what it is.
+/// Array index that depends on the iteration of a loop: its position among the indices, and its expression.
 pub(super) struct Varying {
     pub(super) place: usize,
     pub(super) index: TokenStream,
 }
 
 impl Varying {
-    /// These indices, but for the one that varies.
+    /// Index expressions, where the varying index replaces the literal at its position.
     pub(super) fn indices(varying: Option<&Self>, indices: &[usize]) -> Vec<TokenStream> {
         let index = |(place, k): (usize, &usize)| match varying {
             Some(varying) if varying.place == place => varying.index.clone(),

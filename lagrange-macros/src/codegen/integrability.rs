@@ -1,4 +1,4 @@
-//! The verdicts on the constraints as constants, and the integrals that were found as a method.
+//! Emits the classification of the constraints as constants, and the integrals found as a method.
 
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
@@ -10,7 +10,7 @@ use crate::contract::Method;
 use crate::mechanics::{Classification, Integrals};
 
 impl Emitter<'_> {
-    /// The constants of the trait.
+    /// Emits the constants `CONSTRAINT_CLASSES` and `INTEGRALS`.
     pub(super) fn integrability(&self) -> TokenStream {
         let kinds = &self.derived.equations.integrability;
         let m = kinds.classes.len();
@@ -31,7 +31,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// The method of the trait; nothing where no integral was found.
+    /// Emits the method that evaluates an integral by its index. Empty if no integral was found.
     pub(super) fn constraint_integral(&self, method: &Method) -> Written {
         let found = self.derived.equations.integrability.functions.iter().enumerate();
         let arms = found.filter_map(|(index, function)| {

@@ -1,4 +1,4 @@
-//! From a schedule to the body of a function, and to the functions that are parts of it where it is long.
+//! Turns a schedule into the body of a function. A long function is split into several methods.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
@@ -12,29 +12,29 @@ use crate::contract::Argument;
 use crate::symbolic::{Id, Symbol};
 use crate::variables::Variable;
 
-/// The body of one emitted function.
+/// Body of one emitted function.
 #[derive(Default)]
 pub(super) struct Kernel {
     pub(super) name: String,
     /// Reads the inputs and computes the results.
     pub(super) statements: TokenStream,
-    /// One expression for each shape.
+    /// Expressions of the results, one per shape.
     pub(super) results: Vec<TokenStream>,
-    /// What it takes, to be read.
+    /// Doc comment that states the operation count.
     pub(super) doc: String,
-    /// Methods that the statements call.
+    /// Methods that the statements call, the chunks of a long function.
     pub(super) parts: Vec<TokenStream>,
-    /// What it takes where that is more than [`OPERATION_LIMIT`]; then there is nothing else.
+    /// Operation count of a function that exceeds [`OPERATION_LIMIT`]. The other fields are then empty.
     pub(super) refused: Option<Count>,
 }
 
 impl FunctionContext<'_> {
-    /// Computes `roots` for the function of this name.
+    /// Compiles `roots` for the function of this name.
     pub(super) fn kernel(&self, name: &str, roots: &[Id], shapes: &[ResultShape]) -> Kernel {
         self.write(name, &Program::of(self.graph, roots), shapes)
     }
 
-    /// Writes the program as statements, with the expressions of its results.
+    /// Compiles a program to statements and result expressions.
     pub(super) fn write(&self, name: &str, program: &Program, shapes: &[ResultShape]) -> Kernel {
         let count = program.count();
         if count.total() > OPERATION_LIMIT {
@@ -55,7 +55,7 @@ impl FunctionContext<'_> {
         Kernel { name: name.to_owned(), statements, results, doc, parts, refused: None }
     }
 
-    /// The only part; or calls of the methods that become of several, and these.
+    /// Emits the statements of a single chunk; for several chunks, their calls and the called methods.
     fn parts(
         &self,
         name: &str,
@@ -77,7 +77,7 @@ impl FunctionContext<'_> {
         (quote! { let mut waiting = [#zero; #waiting]; #(#calls)* }, methods)
     }
 
-    /// Emits one part of a long function: its call, and its method.
+    /// Emits one chunk of a long function: its call, and its method.
     fn part(
         &self,
         method: &Ident,
@@ -123,7 +123,7 @@ impl FunctionContext<'_> {
 }
 
 impl FunctionContext<'_> {
-    /// Declares an argument of a part, which is an inherent method.
+    /// Declares an argument of a chunk, which is an inherent method.
     fn argument(&self, argument: Argument) -> TokenStream {
         let factor = &self.factor;
         match argument {
@@ -145,16 +145,16 @@ impl FunctionContext<'_> {
     }
 }
 
-/// Which argument an input is read from; parameters are in the system.
+/// Argument from which an input is read. Parameters are read from `self`.
 fn source(symbol: Symbol) -> Argument {
     match Variable::of(symbol) {
-        // No function takes momenta.
+        // Momenta are not inputs of any function.
         Variable::Time | Variable::Coordinate(_) | Variable::Velocity(_) | Variable::Momentum(_) => {
             Argument::State
         }
         Variable::Acceleration(_) | Variable::AccelerationChange(_) => Argument::Accelerations,
         Variable::Multiplier(_) | Variable::MultiplierChange(_) => Argument::Multipliers,
-        // What rounds are given is named after itself.
+        // Inputs of a loop iteration are locals of the loop.
         Variable::Parameter(_) | Variable::Given(_) => Argument::System,
         Variable::Change(_) => Argument::Direction,
         Variable::Factor(_) => Argument::Factor,
@@ -170,7 +170,7 @@ fn source(symbol: Symbol) -> Argument {
     }
 }
 
-/// What a function takes, and what each pass that gained something left of it.
+/// Doc text: the operation count, and the count after each pass that reduced it.
 fn doc(program: &Program, body: &FunctionBody) -> String {
     let mut doc = format!("{}.", program.count());
     let mut steps = program.counts.clone();

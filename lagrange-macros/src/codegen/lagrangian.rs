@@ -1,4 +1,4 @@
-//! The implementation of `Lagrangian`, and the struct's own methods beside it.
+//! Emits the implementation of `Lagrangian`, and the inherent methods of the struct.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -14,7 +14,7 @@ use crate::mechanics::ConstraintKind;
 use crate::symbolic::Id;
 
 impl Emitter<'_> {
-    /// Functions that are too long are reported.
+    /// Emits the implementation. Reports functions that are too long.
     pub(super) fn lagrangian(&self, diagnostics: &mut Diagnostics) -> TokenStream {
         let problem = self.problem;
         let runtime = runtime(self.declaration);
@@ -50,7 +50,7 @@ impl Emitter<'_> {
         let [[_, _, doc], ..] = &self.rendered.forms;
         quote! {
             const _: () = {
-                // One name is imported, and none that a user would give.
+                // Import a single name that users will not choose.
                 use #runtime as __lagrange;
 
                 #[automatically_derived]
@@ -128,7 +128,7 @@ impl Emitter<'_> {
             | Quantity::SeriesRightHandSides
             | Quantity::SeriesFactors => Vec::new(),
         };
-        // nalgebra stores matrices by columns, one column for each coordinate.
+        // nalgebra stores matrices column-major, one column per coordinate.
         let (shape, wrapped) = match method.gives {
             Gives::Vector(_) => (ResultShape::Vector(entries.len()), Some(quote!(vector))),
             Gives::Matrix(..) => {
@@ -165,7 +165,7 @@ impl Emitter<'_> {
         Written { tokens, kernels: vec![kernel] }
     }
 
-    /// The method that gives the number of an index, by its arms.
+    /// Emits a method that selects a number by its index, from the arms of a `match`.
     pub(super) fn by_index(&self, method: &Method, Written { tokens: arms, kernels }: Written) -> Written {
         let signature = self.style.types.signature(method);
         let tokens = quote! {
@@ -180,7 +180,7 @@ impl Emitter<'_> {
         Written { tokens, kernels }
     }
 
-    /// An error for each observable that is too long, and one for all other functions.
+    /// Reports each observable that is too long, and all other long functions in one error.
     fn report_refused<'k>(&self, kernels: impl Iterator<Item = &'k Kernel>, diagnostics: &mut Diagnostics) {
         let mut of_motion = Vec::new();
         for kernel in kernels {
@@ -198,7 +198,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// The names of the functions that the user supplies, where there are any.
+    /// Emits the names of user-supplied functions. `None` if there are none.
     fn supplied(&self) -> Option<TokenStream> {
         let names = self.problem.functions.iter().map(|function| &function.name);
         (names.len() > 0).then(|| quote!(const SUPPLIED: &'static [&'static str] = &[#(#names),*];))
@@ -218,7 +218,7 @@ impl Emitter<'_> {
     fn equations(&self) -> TokenStream {
         let visibility = &self.declaration.visibility;
         let [[text, ..], ..] = &self.rendered.forms;
-        // Here in plain text, as editors and terminals show what is said of a function.
+        // Use plain text: editors and terminals show doc comments without rendering.
         let doc = format!(" The system and its equations of motion, to be read.\n\n```text\n{text}```");
         let [first, others @ ..] = &self.rendered.forms;
         let forms = match others.iter().all(|form| form == first) {

@@ -1,4 +1,5 @@
-//! The capability of Jacobians: the residual's derivatives by the state and by the parameters, and these by index.
+//! Emits the Jacobians: derivatives of the residual with respect to state and parameters, and access to parameters by
+//! index.
 
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
@@ -13,7 +14,8 @@ use crate::mechanics::{Changes, Linearization};
 use crate::symbolic::Graph;
 use crate::syntax::Property;
 
-/// The programs of what changes: the slopes, and what they make of a direction.
+/// Directional derivatives of the residual, each as two programs: one computes slopes at a state, the other applies
+/// them to a direction.
 pub(super) struct Changing {
     by_state: [Program; 2],
     by_parameters: [Program; 2],
@@ -28,7 +30,7 @@ impl Changing {
         }
     }
 
-    /// How many slopes there are at most.
+    /// Number of slopes, the larger of the two.
     pub(super) fn slopes(&self) -> usize {
         [&self.by_state, &self.by_parameters]
             .into_iter()
@@ -39,8 +41,8 @@ impl Changing {
 }
 
 impl Emitter<'_> {
-    /// The implementations of `StateDerivatives` and `Linearized`; nothing where they would be too long, or take derivatives
-    /// of a higher order than functions have.
+    /// Emits `StateDerivatives` and `Linearized`. `None` if a function is too long, or if the derivatives exceed the
+    /// order that user-supplied functions have.
     pub(super) fn linearized(
         &self,
         linearization: &Linearization,
@@ -60,7 +62,8 @@ impl Emitter<'_> {
         let Written { tokens: methods, kernels: of_parameters } = LINEARIZED.iter().map(write).collect();
         kernels.extend(of_parameters);
         kernels.iter().all(|kernel| kernel.refused.is_none()).then_some(())?;
-        // A function without these derivatives is an error only where a Jacobian is asked for.
+        // Defer the bounds on user-supplied functions: a missing derivative is an error only where a Jacobian is
+        // used.
         let generics = self.generics(&orders, false);
         let (impl_generics, _, where_clause) = generics.split_for_impl();
         let (_, type_generics, _) = self.declaration.generics.split_for_impl();
@@ -107,8 +110,8 @@ impl Emitter<'_> {
         Written { tokens, kernels: Vec::new() }
     }
 
-    /// What is behind a reference, in a type that only `#[parameter(…)]` gives a shape, or one of the numbers of a rotation,
-    /// cannot be set.
+    /// Emits the method that sets a parameter. It fails for numbers behind a reference, numbers in a type whose shape
+    /// only `#[parameter(…)]` states, and entries of a rotation.
     fn set_parameter(&self, method: &Method) -> Written {
         let signature = self.style.types.signature(method);
         let parameters = &self.problem.parameters;
@@ -134,7 +137,7 @@ impl Emitter<'_> {
         Written { tokens, kernels: Vec::new() }
     }
 
-    /// The numbers that something linear is made of.
+    /// Emits the method that computes the slopes, the coefficients of a linear function.
     pub(super) fn slopes(&self, method: &Method, slopes: &Program) -> Written {
         let kernel = self.style.write(method.name, slopes, &[ResultShape::Vector(slopes.results.len())]);
         let (statements, results, doc) = (&kernel.statements, &kernel.results, &kernel.doc);

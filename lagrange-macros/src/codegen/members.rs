@@ -1,5 +1,5 @@
-//! Numbers in members of structs. A derive cannot see their types: a trait of the runtime reads them, so that a member
-//! that is missing, or is something else than is said, is an error where it is said.
+//! Access to members of structs. A derive macro cannot see their types, so a trait of the runtime reads the numbers.
+//! A missing member or a wrong type is then a compile error at the member in the attribute.
 
 use proc_macro2::{Literal, Span, TokenStream};
 use quote::{quote, quote_spanned};
@@ -11,7 +11,7 @@ use crate::resolve::Entry;
 use crate::syntax::{Field, Inside, Property};
 
 impl Emitter<'_> {
-    /// Reads one number of each member, whether the system uses it or not.
+    /// Emits a function that reads one number of each member, whether the system uses it or not.
     pub(super) fn check_members(&self) -> Option<TokenStream> {
         let fields = 0..self.problem.parameters.fields.len();
         let reads = fields.filter_map(|field| {
@@ -21,7 +21,7 @@ impl Emitter<'_> {
         let ident = &self.declaration.ident;
         let generics = super::bounds::bounded_generics(self.declaration, &self.problem.scalar);
         let (impl_generics, type_generics, where_clause) = generics.split_for_impl();
-        // Never called: the compiler checks the types of its body.
+        // The function is never called; it only makes the compiler check the types.
         (!reads.is_empty()).then(|| {
             quote! {
                 #[allow(dead_code, clippy::all, clippy::pedantic, clippy::nursery)]
@@ -34,7 +34,7 @@ impl Emitter<'_> {
 }
 
 impl FunctionContext<'_> {
-    /// A number of a member of `owner`, where this is one.
+    /// Reads a number of a member of `owner`. `None` if the entry is not in a member.
     pub(super) fn number_of_member(
         &self,
         owner: &TokenStream,
@@ -71,7 +71,7 @@ impl FunctionContext<'_> {
         })
     }
 
-    /// What the runtime takes for the shape of a member.
+    /// Type by which the runtime recognizes the shape of a member.
     fn shape(&self, field: usize, lengths: &[usize]) -> TokenStream {
         let (scalar, parameters) = (&self.problem.scalar, &self.problem.parameters);
         let inside = parameters.fields[field].shape.as_ref().map(|shape| shape.layout.inside);
@@ -87,7 +87,7 @@ impl FunctionContext<'_> {
     }
 }
 
-/// A member, and which of its numbers.
+/// A member, and the index of a number in it.
 struct MemberNumber {
     span: Span,
     of: TokenStream,
@@ -95,7 +95,7 @@ struct MemberNumber {
     number: Literal,
 }
 
-/// `self.link[2].c`, with what is not in the user's words in their place.
+/// Place expression such as `self.link[2].c`. All its tokens have the given span.
 fn path(owner: &TokenStream, field: &Field, indices: &[TokenStream], span: Span) -> TokenStream {
     let mut root = field.ident.clone();
     root.set_span(span);

@@ -1,4 +1,4 @@
-//! From what was [derived](Derived) to Rust. Nothing else writes any.
+//! Emits Rust code for the [derived](Derived) equations. No other module emits code.
 
 mod accelerations;
 mod body;
@@ -51,8 +51,8 @@ use style::FunctionContext;
 #[cfg(test)]
 pub(crate) use tests::{operations, solutions, solutions_by, solving, value};
 
-/// The implementation of the traits, and a method for each observable; `None` where a function would be too long,
-/// which is then reported.
+/// Emits the trait implementations and a method for each observable. Reports functions that are too long and returns
+/// `None`.
 pub(crate) fn implementation(
     declaration: &Declaration,
     graph: &Graph,
@@ -86,7 +86,7 @@ pub(crate) fn implementation(
     Some(tokens)
 }
 
-/// Reports a Lagrangian that is too long for any function, before it is differentiated.
+/// Reports a Lagrangian that is far too long, before it is differentiated.
 pub(crate) fn refuse_hopeless(graph: &Graph, problem: &Problem, diagnostics: &mut Diagnostics) -> Option<()> {
     let Some(count) = passes::hopeless(graph, problem.lagrangian) else { return Some(()) };
     diagnostics.error(problem.place, too_long(&format!("the Lagrangian takes {count}")));

@@ -1,4 +1,4 @@
-//! Observables: a method for each, and all of them by index.
+//! Emits observables: a method for each, and one method that returns them by index.
 
 use proc_macro2::{Span, TokenStream};
 use quote::quote;
@@ -10,11 +10,11 @@ use crate::resolve::Observed;
 use crate::symbolic::Id;
 use crate::variables::Variable;
 
-/// Kernels of observables are called so, and no others.
+/// Prefix of the kernel names of observables. No other kernel name has it.
 pub(super) const OBSERVABLE: &str = "observable_";
 
 impl Emitter<'_> {
-    /// Flat names, in the order of [`observable_by_index`](Self::observable_by_index).
+    /// Names of all numbers, in the order of [`observable_by_index`](Self::observable_by_index).
     pub(super) fn observable_names(&self) -> Vec<String> {
         self.problem.observables.iter().flat_map(Observed::names).collect()
     }
@@ -38,7 +38,7 @@ impl Emitter<'_> {
         self.style.graph.symbols(values).any(|symbol| Variable::of(symbol).is_solved())
     }
 
-    /// The method of an observable.
+    /// Emits the method of an observable.
     pub(super) fn observable(&self, Observed { label, lengths, values }: &Observed) -> Written {
         let visibility = &self.declaration.visibility;
         let name = method_name(&label.text, label.place.start());
@@ -72,13 +72,13 @@ impl Emitter<'_> {
     }
 }
 
-/// The numbers of an array as nalgebra's matrices have them, which are stored by columns.
+/// Converts row-major numbers to the column-major order of nalgebra.
 fn by_columns(lengths: &[usize], values: &[Id]) -> Vec<Id> {
     let columns = lengths.get(1).copied().unwrap_or(1);
     (0..columns).flat_map(|column| values.iter().skip(column).step_by(columns).copied()).collect()
 }
 
-/// A number of an array, counted row by row, in nalgebra's matrix; nothing of what is a number itself.
+/// Access to a number in a nalgebra matrix, from its row-major index. `None` if the observable is a single number.
 pub(super) fn entry_of(lengths: &[usize], number: usize) -> Option<TokenStream> {
     let columns = lengths.get(1).copied().unwrap_or(1);
     let (row, column) = (number / columns, number % columns);
@@ -86,7 +86,7 @@ pub(super) fn entry_of(lengths: &[usize], number: usize) -> Option<TokenStream> 
 }
 
 pub(super) fn method_name(text: &str, span: Span) -> syn::Ident {
-    // A name that only `r#` makes an identifier gets it back.
+    // Restore the `r#` of a name that is a keyword.
     let mut name = syn::parse_str::<syn::Ident>(text).unwrap_or_else(|_| syn::Ident::new_raw(text, span));
     name.set_span(span);
     name

@@ -1,8 +1,8 @@
-//! Binary operations and what they compute with.
+//! Operations of a schedule and their operands.
 
 use crate::symbolic::{Function, Symbol};
 
-/// The result of one operation.
+/// Result of one operation of a schedule.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub(super) struct Register(u32);
 
@@ -16,10 +16,10 @@ impl Register {
     }
 }
 
-/// One operation, on earlier results or on whatever else stands for its operands.
+/// One operation. Operands are registers, or another representation `X`.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) enum Operation<X = Register> {
-    /// A constant, by the bits of its value.
+    /// Constant, as the bits of an `f64`.
     Constant(u64),
     Input(Symbol),
     Negate(X),
@@ -27,28 +27,28 @@ pub(super) enum Operation<X = Register> {
     Subtract(X, X),
     Multiply(X, X),
     Divide(X, X),
-    /// x y + z, rounded once where the target can.
+    /// x y + z, rounded once if the target has a fused multiply-add
     MultiplyAdd(X, X, X),
     /// z − x y
     SubtractProduct(X, X, X),
     Minimum(X, X),
     Maximum(X, X),
-    /// Zero where the first is zero, else the second.
+    /// Zero if the first operand is zero, else the second. Discards a NaN or an infinity in the second.
     Where(X, X),
-    /// Zero where the least and the greatest of the pivots, as parts of what they were, are not far from 1; else no number.
+    /// Zero if the smallest and the largest ratio of a diagonal entry to its pivot are moderate, else NaN.
     NanIfIllConditioned(X, X),
     SquareRoot(X),
     Function(Function, X),
     Atan2(X, X),
     Power(X, X),
-    /// One result of a call, by its place among the calls of the schedule.
+    /// One result of a call, by the index of the call in the schedule.
     Result {
         call: u32,
         output: u32,
     },
 }
 
-/// A call of a function that the user supplies, or of a partial derivative of it.
+/// Call of a user-supplied function, or of a partial derivative of it.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub(super) struct Call<X = Register> {
     pub(super) function: u32,
@@ -57,7 +57,7 @@ pub(super) struct Call<X = Register> {
 }
 
 impl Operation {
-    /// Of x + y and y + x, and of the like, the one form that stands for both.
+    /// Orders the operands of a commutative operation, so that x + y and y + x are equal.
     pub(super) fn canonical(self) -> Self {
         match self {
             Self::Add(x, y) => Self::Add(x.min(y), x.max(y)),
@@ -68,7 +68,7 @@ impl Operation {
 }
 
 impl<X> Operation<X> {
-    /// The same operation on other operands, but for those of a call.
+    /// Maps the operands. Arguments of a call are stored elsewhere and do not change.
     pub(super) fn with_operands<Y>(self, mut new: impl FnMut(X) -> Y) -> Operation<Y> {
         match self {
             Self::Constant(bits) => Operation::Constant(bits),
@@ -92,7 +92,7 @@ impl<X> Operation<X> {
         }
     }
 
-    /// All but those of a call.
+    /// Returns the operands, except the arguments of a call.
     pub(super) fn operands(self) -> impl Iterator<Item = X> {
         let (mut operands, mut count) = ([None, None, None], 0);
         self.with_operands(|operand| {

@@ -1,4 +1,4 @@
-//! The same struct over another number type: many systems side by side, one a SIMD lane.
+//! Emits `Pack`, which converts a struct to another number type: several systems side by side, one per SIMD lane.
 
 use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
 use quote::{ToTokens, quote, quote_spanned};
@@ -7,7 +7,7 @@ use syn::spanned::Spanned;
 use super::bounds::bounded_generics;
 use crate::syntax::{Declaration, Field};
 
-/// How systems are put on lanes, where the number type is a type parameter; else there is no other to put in.
+/// Emits the implementation of `Pack`. `None` if the number type is not a type parameter and so cannot be replaced.
 pub(super) fn pack(declaration: &Declaration, scalar: &syn::Type) -> Option<TokenStream> {
     let name = scalar.to_token_stream().to_string();
     let parameter = declaration.generics.type_params().find(|parameter| parameter.ident == name)?;
@@ -47,7 +47,7 @@ pub(super) fn pack(declaration: &Declaration, scalar: &syn::Type) -> Option<Toke
     })
 }
 
-/// One type parameter put in another's place.
+/// Replaces one type parameter by another.
 struct Exchange<'a> {
     from: &'a Ident,
     to: Ident,
@@ -70,13 +70,13 @@ impl Exchange<'_> {
         }
     }
 
-    /// Whether numbers of this type are in the field.
+    /// True if the type of the field contains the type parameter.
     fn concerns(&self, field: &Field) -> bool {
         let ty = &field.ty;
         self.apply(quote!(#ty)).to_string() != quote!(#ty).to_string()
     }
 
-    /// The new parameter, bound as the old one is.
+    /// Adds the new type parameter with the bounds of the old one.
     fn extend(&self, generics: &mut syn::Generics, parameter: &syn::TypeParam) {
         let (to, bounds) = (&self.to, &parameter.bounds);
         let bounds = self.apply(quote!(#bounds));
@@ -89,8 +89,8 @@ impl Exchange<'_> {
         clause.predicates.extend(written);
     }
 
-    /// What the field must be able to do. A bound that is known to fail would be an error at once, also where nobody
-    /// asks for lanes; under a quantifier it is looked at where it is needed.
+    /// Bound on the type of a field. The quantifier defers the check to the use of lanes. Without it, a bound that
+    /// fails would be an error even in programs that use none.
     fn bound(&self, field: &Field) -> syn::WherePredicate {
         let ty = &field.ty;
         let packed = self.apply(quote!(#ty));
@@ -101,7 +101,7 @@ impl Exchange<'_> {
         syn::parse_quote!(#tokens)
     }
 
-    /// The field with these numbers in every lane.
+    /// Initializes a field with its numbers broadcast to all lanes.
     fn init(&self, field: &Field) -> TokenStream {
         let Field { ident, ty, .. } = field;
         let packed = self.apply(quote!(#ty));

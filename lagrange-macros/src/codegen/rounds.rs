@@ -1,4 +1,4 @@
-//! Loops in Rust: rounds of the same statements, of other numbers each.
+//! Emits loops: iterations of the same statements with different numbers.
 
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
@@ -23,7 +23,7 @@ impl FunctionContext<'_> {
         }
     }
 
-    /// The statement before the loop and the one in it that give a number of a round its name.
+    /// Emits the definition of an input of an iteration: a statement before the loop, if needed, and one inside.
     fn given(&self, k: usize, given: &Given) -> (Option<TokenStream>, TokenStream) {
         let (name, round) = (name(k), counter());
         match given {
@@ -41,7 +41,7 @@ impl FunctionContext<'_> {
         }
     }
 
-    /// What an input is called where it is used.
+    /// Name of an input in expressions.
     pub(super) fn input(&self, symbol: Symbol) -> Ident {
         match Variable::of(symbol) {
             Variable::Given(k) => name(k),
@@ -49,7 +49,7 @@ impl FunctionContext<'_> {
         }
     }
 
-    /// Inputs that lie in an array as far apart round by round.
+    /// Expression of an input that lies at a constant stride in one array, else `None`.
     fn in_array(&self, symbols: &[Symbol]) -> Option<TokenStream> {
         let entries: Option<Vec<Entry>> = symbols.iter().map(|&symbol| self.entry(symbol)).collect();
         if let Some(entries) = entries {
@@ -69,7 +69,7 @@ impl FunctionContext<'_> {
         }
     }
 
-    /// Numbers of one field that differ in one index.
+    /// Expression of numbers of one field that differ in one index only, else `None`.
     fn in_field(&self, entries: &[Entry]) -> Option<TokenStream> {
         let (first, parameters) = (entries[0], &self.problem.parameters);
         if entries.iter().any(|entry| entry.field != first.field) {
@@ -93,7 +93,7 @@ fn counter() -> Ident {
     Ident::new("round", Span::mixed_site())
 }
 
-/// What waits there, or in a loop what does in this round.
+/// Spill slot; in a loop, the slot of the current iteration.
 pub(super) fn waiting(series: SlotSequence) -> TokenStream {
     let index = index(series);
     quote!(waiting[#index])

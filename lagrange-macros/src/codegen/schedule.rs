@@ -1,4 +1,4 @@
-//! From the graph to a sequence of binary operations, each computed once.
+//! Converts the graph to a sequence of binary operations, without common subexpressions.
 
 use indexmap::IndexSet;
 use num_traits::{One, Signed, ToPrimitive};
@@ -14,19 +14,19 @@ enum Folded {
     Into(Operation),
 }
 
-/// Operations in the order in which they are computed.
+/// Operations in the order of evaluation.
 #[derive(Clone, Default)]
 pub(super) struct Schedule {
     pub(super) operations: Vec<Operation>,
     pub(super) calls: IndexSet<Call>,
     known: FxHashMap<Operation, Register>,
     registers: FxHashMap<Id, Register>,
-    /// Which register holds a definition, for its name.
+    /// Registers of named definitions. The emitted locals have these names.
     pub(super) definitions: Vec<(Register, Id)>,
 }
 
 impl Schedule {
-    /// Schedules what `roots` need and nothing else.
+    /// Schedules the operations that `roots` depend on.
     pub(super) fn new(graph: &Graph, roots: &[Id]) -> Self {
         let mut schedule = Self::default();
         for id in graph.reachable(roots) {
@@ -38,12 +38,13 @@ impl Schedule {
         schedule
     }
 
-    /// Numbers are made where they are used: many only scale a term or are an exponent.
+    /// False for numbers that are not roots. They become registers only where they are used, since many only scale a
+    /// term or are an exponent.
     fn is_needed_whole(&self, graph: &Graph, id: Id, roots: &[Id]) -> bool {
         graph.as_number(id).is_none() || roots.contains(&id)
     }
 
-    /// What an operation computes with.
+    /// Returns the operands, including the arguments of a call.
     pub(super) fn operands(&self, operation: Operation) -> impl Iterator<Item = Register> {
         let call = match operation {
             Operation::Result { call, .. } => Some(&self.calls[call as usize]),
@@ -56,7 +57,7 @@ impl Schedule {
         self.registers[&root]
     }
 
-    /// Which operations contribute to the roots, given by how often each result is used.
+    /// Returns how often each result is used; zero for operations that do not contribute to the roots.
     pub(super) fn uses(&self, roots: &[Register]) -> Vec<usize> {
         let mut uses = vec![0; self.operations.len()];
         for &root in roots {
@@ -88,7 +89,7 @@ impl Schedule {
         count
     }
 
-    /// The result of an operation, if it is computed at all.
+    /// Returns the register of an operation if the schedule contains it.
     pub(super) fn find(&self, operation: Operation) -> Option<Register> {
         self.known.get(&operation).copied()
     }
@@ -106,13 +107,13 @@ impl Schedule {
         register
     }
 
-    /// An operation on constants is one, and a factor of 1 is none. (0 x stays: it is not 0 where x is no number.)
+    /// Folds operations on constants, and factors of 1. Keeps 0 x, which is NaN if x is infinite or NaN.
     fn folded(&self, operation: Operation) -> Folded {
         let value = |register: Register| match self.operations[register.index()] {
             Operation::Constant(bits) => Some(f64::from_bits(bits)),
             _ => None,
         };
-        // What is no number has no literal.
+        // Infinity and NaN have no literal.
         let constant = |value: f64| match value.is_finite() {
             true => Folded::Into(Operation::Constant(value.to_bits())),
             false => Folded::Into(operation),
@@ -183,12 +184,12 @@ impl Schedule {
         }
     }
 
-    /// A sum whose coefficients are alike is scaled once; otherwise each term is scaled by its own.
+    /// Sum with coefficients. Equal coefficients are factored out; otherwise each term is scaled.
     fn sum(&mut self, graph: &Graph, terms: &[(Id, Rational)]) -> Register {
         let scale = terms[0].1.abs();
         let alike = !scale.is_one() && terms.len() > 1 && terms.iter().all(|(_, c)| c.abs() == scale);
         let inner = if alike { scale } else { Rational::one() };
-        // A positive term first saves a negation.
+        // Start with a positive term to avoid a negation.
         let first = terms.iter().position(|(_, c)| c.is_positive());
         let mut total =
             self.term(graph, terms[first.unwrap_or(0)].0, terms[first.unwrap_or(0)].1.abs() / inner);
@@ -211,7 +212,7 @@ impl Schedule {
         if first.is_none() { self.push(Operation::Negate(total)) } else { total }
     }
 
-    /// coefficient · term, for a positive coefficient.
+    /// coefficient · term, for a positive coefficient
     fn term(&mut self, graph: &Graph, term: Id, coefficient: Rational) -> Register {
         if term == Id::ONE {
             return self.number(coefficient);
@@ -230,7 +231,7 @@ impl Schedule {
         self.push(Operation::Multiply(coefficient, x))
     }
 
-    /// Numerator over denominator; `scale` stands in the numerator.
+    /// Quotient of the factors with positive and negative exponents; `scale` multiplies the numerator.
     fn product(&mut self, graph: &Graph, factors: &[(Id, Rational)], scale: Rational) -> Register {
         let scale = Scaled { fraction: scale, exponent: graph.power_of_ten(factors) };
         let factors = factors.iter().filter(|factor| !graph.is_power_of_ten(**factor));
@@ -257,7 +258,7 @@ impl Schedule {
         }
     }
 
-    /// A positive power: by squaring where the exponent is a small whole or half number.
+    /// Positive power, by repeated squaring if the exponent is a small integer or half-integer.
     fn power(&mut self, base: Register, exponent: Rational) -> Register {
         let (numerator, denominator) = (exponent.numer().to_u32(), *exponent.denom());
         match (numerator, denominator) {

@@ -1,4 +1,4 @@
-//! The forms in which functions have their results.
+//! Shapes of the results of functions.
 
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
@@ -7,7 +7,7 @@ use quote::{format_ident, quote};
 pub(super) enum ResultShape {
     Number,
     Vector(usize),
-    /// As many arrays of as many entries each.
+    /// Array of arrays: their number, and the length of each.
     Matrix(usize, usize),
 }
 
@@ -20,7 +20,7 @@ impl ResultShape {
         }
     }
 
-    /// The next values in this form.
+    /// Emits the next values as a literal of this shape.
     pub(super) fn literal(self, values: &mut impl Iterator<Item = TokenStream>) -> TokenStream {
         let mut vector = |length| {
             let values = values.by_ref().take(length);
@@ -36,7 +36,7 @@ impl ResultShape {
         }
     }
 
-    /// The type of an array of the values; that of a number has one entry.
+    /// Array type of this shape. A number is an array of length 1.
     fn array(self, scalar: &syn::Type) -> TokenStream {
         match self {
             Self::Number => quote!([#scalar; 1]),
@@ -45,7 +45,7 @@ impl ResultShape {
         }
     }
 
-    /// An array full of a value.
+    /// Array of this shape filled with one value.
     fn filled(self, value: &TokenStream) -> TokenStream {
         match self {
             Self::Number => quote!([#value]),
@@ -54,7 +54,7 @@ impl ResultShape {
         }
     }
 
-    /// Where in its array a value is.
+    /// Place expression of an entry of the array.
     fn place(self, array: &Ident, index: usize) -> TokenStream {
         let literal = Literal::usize_unsuffixed;
         match self {
@@ -70,7 +70,7 @@ impl ResultShape {
     }
 }
 
-/// Arrays that a function fills with its results, one for each shape.
+/// Arrays into which a function writes its results, one per shape.
 pub(super) struct ResultArrays<'s> {
     pub(super) names: Vec<Ident>,
     shapes: &'s [ResultShape],
@@ -91,7 +91,7 @@ impl<'s> ResultArrays<'s> {
         self.shapes.iter().map(|shape| shape.array(scalar)).collect()
     }
 
-    /// The place of a result.
+    /// Place expression of a result, by its index among all results.
     pub(super) fn place(&self, mut index: usize) -> TokenStream {
         for (name, shape) in self.names.iter().zip(self.shapes) {
             if index < shape.length() {
@@ -102,7 +102,7 @@ impl<'s> ResultArrays<'s> {
         TokenStream::new()
     }
 
-    /// The whole of each.
+    /// Expressions of the whole results, one per shape.
     pub(super) fn results(&self) -> Vec<TokenStream> {
         let shapes = self.names.iter().zip(self.shapes);
         let result = |(name, shape): (&Ident, &ResultShape)| match shape {

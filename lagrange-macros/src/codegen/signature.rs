@@ -1,21 +1,21 @@
-//! Signatures of methods, as the traits spell them for one system.
+//! Signatures of trait methods, with the types of one system.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::contract::{Argument, Dimension, Gives, Method};
 
-/// The number type of a system and how many of what it has.
+/// Number type and dimensions of a system.
 #[derive(Clone, Copy)]
 pub(super) struct Types<'a> {
     pub(super) scalar: &'a syn::Type,
-    /// How many coordinates there are; `None` where nobody knows, and methods leave it to the caller.
+    /// Number of coordinates. `None` if it is unknown; the stubs are then generic over it.
     pub(super) coordinates: Option<usize>,
     pub(super) constraints: usize,
     pub(super) parameters: usize,
 }
 
-/// Numbers over those of a system.
+/// Type parameter for numbers into which scalars of the system broadcast.
 pub(super) fn wide() -> syn::Type {
     syn::parse_quote!(__S)
 }
@@ -31,13 +31,13 @@ impl Types<'_> {
         quote!(fn #name #generics(#(#arguments),*) -> #returns)
     }
 
-    /// The generic parameter of a method that computes with any numbers over these.
+    /// Generic parameter of a method that accepts such numbers.
     pub(super) fn over(&self) -> TokenStream {
         let (wide, scalar) = (wide(), self.scalar);
         quote!(<#wide: __lagrange::Broadcast<#scalar>>)
     }
 
-    /// Of the method of an observable, a number or an array of these lengths.
+    /// Signature of the method of an observable, a number or an array of these lengths.
     pub(super) fn of_observable(&self, name: &Ident, lengths: &[usize], needs_solution: bool) -> TokenStream {
         let takes =
             &[Argument::System, Argument::State, Argument::Solution][..2 + usize::from(needs_solution)];
@@ -53,13 +53,13 @@ impl Types<'_> {
         quote!(fn #name #generic(#(#arguments),*) -> #returns)
     }
 
-    /// The number of coordinates as a generic parameter, where it must be one.
+    /// Number of coordinates as a const generic parameter. `None` if the number is known.
     pub(super) fn open(&self) -> Option<TokenStream> {
         let [n, ..] = self.dimensions();
         self.coordinates.is_none().then(|| quote!(const #n: usize))
     }
 
-    /// N, M and P
+    /// Dimensions N, M and P as tokens.
     pub(super) fn dimensions(&self) -> [TokenStream; 3] {
         let (m, p) = (self.constraints, self.parameters);
         [self.coordinates.map_or_else(|| quote!(__N), |n| quote!(#n)), quote!(#m), quote!(#p)]

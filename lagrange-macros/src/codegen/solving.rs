@@ -1,4 +1,4 @@
-//! The equations of motion solved: the programs of the form that takes the least time.
+//! Programs that solve the equations of motion, by the fastest form.
 
 use super::count::OPERATION_LIMIT;
 use super::eliminate::{self, Solved};
@@ -10,16 +10,16 @@ use crate::symbolic::{Graph, Id};
 
 /// Emitted parts of the elimination.
 pub(super) struct Solving {
-    /// From a state to accelerations, multipliers and the pivot.
+    /// Maps a state to accelerations, multipliers and the pivot.
     pub(super) accelerations: Program,
-    /// From a state to the numbers of the factor.
+    /// Maps a state to the numbers of the factorization.
     pub(super) factor: Program,
-    /// From these and any right-hand sides to accelerations, multipliers and the pivot.
+    /// Maps a factorization and right-hand sides to accelerations, multipliers and the pivot.
     pub(super) solve: Program,
 }
 
 impl Solving {
-    /// By the form that takes the least time; `None` where every one is long.
+    /// Chooses the form with the shortest estimated time. `None` if all forms are too long.
     pub(super) fn cheapest(graph: &Graph, equations: &Equations) -> Option<Self> {
         let programs = equations.forms.iter().filter_map(|form| Some((form, solve(graph, form, equations)?)));
         let programs = programs.filter(|(_, program)| program.count().total() <= OPERATION_LIMIT);
@@ -29,7 +29,7 @@ impl Solving {
     }
 }
 
-/// The equations of motion solved by one form: accelerations, multipliers and the pivot.
+/// Solves the equations of motion by one form. Results: accelerations, multipliers and the pivot.
 pub(super) fn solve(graph: &Graph, form: &Form, equations: &Equations) -> Option<Program> {
     let right_hand_sides = form.linear.iter().chain(form.alone.iter().flatten()).chain(&equations.bias);
     let mut schedule = Schedule::new(graph, &entries(form, equations, right_hand_sides));
@@ -46,7 +46,7 @@ fn factor_and_solve(graph: &Graph, form: &Form, equations: &Equations) -> Option
     Some((Program::new(factoring, numbers), Program::new(solving, results(solved))))
 }
 
-/// The entries of the form and of F, the weights of constraints, and others.
+/// Entries of the form and of F, weights of the constraints, and `others`.
 fn entries<'a>(form: &'a Form, equations: &'a Equations, others: impl Iterator<Item = &'a Id>) -> Vec<Id> {
     let definitions = form.definitions.iter().flatten().map(|(_, entry)| entry);
     let matrices = form.matrix.iter().chain(&equations.jacobian).flatten();

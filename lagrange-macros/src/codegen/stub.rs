@@ -1,5 +1,5 @@
-//! What is emitted where the derivation failed: implementations of the right sizes, so that the user reads our errors and
-//! none that only follow from missing ones.
+//! Stubs, emitted if the derivation failed: implementations with the right dimensions. They prevent follow-up errors
+//! about missing implementations.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -13,7 +13,7 @@ use crate::contract::{LAGRANGIAN, LINEARIZED, Method, STATE_DERIVATIVES, TAYLOR_
 use crate::resolve::{Observable, Outline};
 use crate::syntax::Declaration;
 
-/// Implementations that are never run, because the errors beside them stop the compilation.
+/// Emits implementations that never run, because the errors beside them stop the compilation.
 pub(crate) fn stub(declaration: &Declaration, outline: &Outline) -> TokenStream {
     let &Outline { ref scalar, coordinates, constraints, parameters, ref observables } = outline;
     let types = Types { scalar, coordinates, constraints, parameters };

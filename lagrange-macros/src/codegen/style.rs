@@ -1,4 +1,4 @@
-//! What all emitted functions of a system have in common: names, types, constants.
+//! Context shared by all emitted functions of a system: names, types, constants.
 
 use std::collections::HashSet;
 
@@ -12,32 +12,32 @@ use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id, Symbol};
 use crate::variables::Variable;
 
-/// What all functions of a system have in common.
+/// Context shared by all emitted functions of a system.
 #[derive(Clone)]
 pub(super) struct FunctionContext<'a> {
     pub(super) graph: &'a Graph,
     pub(super) problem: &'a Problem,
     pub(super) types: Types<'a>,
-    /// The type of what holds the factor of the equations' matrix.
+    /// Type that holds the factorization of the KKT matrix.
     pub(super) factor: TokenStream,
-    /// The number type of the system, where functions compute with any over it.
+    /// Number type of the system, for functions that are generic over a wider type; else `None`.
     pub(super) narrow: Option<&'a syn::Type>,
-    /// How many slopes the functions read.
+    /// Number of slopes that the functions read.
     slopes: usize,
-    /// How many sums over Taylor coefficients they read.
+    /// Number of convolution sums over Taylor coefficients that the functions read.
     pub(super) sums: usize,
-    /// What of newest coefficients is known before the accelerations is so many numbers.
+    /// Number of known parts of newest Taylor coefficients, which the functions read.
     pub(super) terms: usize,
-    /// Whether the scalar is `f64`, so that constants are plain literals.
+    /// True if the scalar is `f64`. Constants are then plain literals.
     is_f64: bool,
-    /// Names of the inputs and definitions, valid as identifiers and all different.
+    /// Names of inputs, valid as identifiers and unique.
     pub(super) names: FxHashMap<Symbol, Ident>,
     pub(super) definition_names: FxHashMap<Id, Ident>,
 }
 
 impl<'a> FunctionContext<'a> {
-    /// `numbers` are those of the factor; where there are none the runtime has its own. Of the `slopes` there are at most
-    /// so many, of the `sums` over Taylor coefficients and of what is known of the newest as many.
+    /// `numbers` is the length of the factorization; `None` selects the factorization type of the runtime. `slopes`,
+    /// `sums` and `terms` are upper bounds on the numbers of these inputs.
     pub(super) fn new(
         graph: &'a Graph,
         problem: &'a Problem,
@@ -139,30 +139,30 @@ impl<'a> FunctionContext<'a> {
         }
     }
 
-    /// For functions that compute with any numbers over those of the system, called `wide`, and read so many slopes.
+    /// Context of functions that are generic over a `wide` number type and read `slopes` slopes.
     pub(super) fn over<'w>(&'w self, wide: &'w syn::Type, slopes: usize) -> FunctionContext<'w> {
         let types = Types { scalar: wide, ..self.types };
         FunctionContext { types, narrow: Some(self.types.scalar), slopes, is_f64: false, ..self.clone() }
     }
 
-    /// For functions that read so many slopes.
+    /// Context of functions that read `slopes` slopes.
     pub(super) fn reading(&self, slopes: usize) -> Self {
         FunctionContext { slopes, ..self.clone() }
     }
 
-    /// What a method beside those of the traits is generic over.
+    /// Generic parameters of a helper method.
     pub(super) fn generics(&self) -> Option<TokenStream> {
         self.narrow.map(|scalar| Types { scalar, ..self.types }.over())
     }
 
-    /// The type of the slopes that functions read.
+    /// Type of the array of slopes.
     pub(super) fn slopes_type(&self) -> TokenStream {
         let (number, slopes) = (self.narrow.unwrap_or(self.types.scalar), self.slopes);
         quote!([#number; #slopes])
     }
 
     pub(super) fn constant(&self, value: f64) -> TokenStream {
-        // A negative literal would be a sign and a literal.
+        // Avoid a negative literal, which is two tokens.
         let magnitude = Literal::f64_unsuffixed(value.abs());
         let literal = if value.is_sign_negative() { quote!((-#magnitude)) } else { quote!(#magnitude) };
         let scalar = self.types.scalar;
@@ -174,7 +174,7 @@ impl<'a> FunctionContext<'a> {
     }
 }
 
-/// `r[2]` is `r` and `_2`.
+/// Splits `r[2]` into `r` and `_2`.
 fn split(text: &str) -> [String; 2] {
     match text.split_once('[') {
         Some((base, index)) => [base.to_owned(), format!("_{}", index.trim_end_matches(']'))],
@@ -182,7 +182,7 @@ fn split(text: &str) -> [String; 2] {
     }
 }
 
-/// Whether the writer gives such names to what it computes: `r12`, `angle4`, `given7`, `call3_0`.
+/// True if the writer uses such names for locals: `r12`, `angle4`, `given7`, `call3_0`.
 fn is_local(name: &str) -> bool {
     let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
     let call = name.strip_prefix("call").and_then(|rest| rest.split_once('_'));
@@ -190,7 +190,7 @@ fn is_local(name: &str) -> bool {
         || call.is_some_and(|(call, output)| is_number(call) && is_number(output))
 }
 
-/// An identifier like `text` that nothing else bears.
+/// Creates an identifier similar to `text` that is not taken.
 fn identifier(text: &str, taken: &mut HashSet<String>) -> Ident {
     let mut name = text.replace("][", "_").replace("].", "_").replace(['[', '.'], "_").replace(']', "");
     if is_local(&name) || syn::parse_str::<Ident>(&name).is_err() || !taken.insert(name.clone()) {

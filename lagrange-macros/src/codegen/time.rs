@@ -1,19 +1,20 @@
-//! About how long a schedule takes on a processor of our day, in cycles: enough to choose between two of them.
+//! Estimates the time of a schedule in cycles of a current processor, accurate enough to choose between two
+//! schedules.
 
 use super::operation::{Operation, Register};
 use super::schedule::Schedule;
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Time {
-    /// What there is to do, were nothing ever waited for.
+    /// Issue time of all operations, in cycles, without stalls.
     pub(super) work: usize,
-    /// Latency of the critical path: the longest chain of dependent operations.
+    /// Latency of the critical path, the longest chain of dependent operations, in cycles.
     pub(super) path: usize,
 }
 
 impl Time {
-    /// An elimination waits for its pivots while it works: chains in angles took about this long, measured from 2 to
-    /// 20 links with either form.
+    /// Sum of work and latency, because an elimination stalls on its pivots. Agrees roughly with the times measured
+    /// for chains of 2 to 20 links in angles, by either form.
     pub(super) fn total(self) -> usize {
         self.work + self.path
     }
@@ -28,7 +29,7 @@ impl Schedule {
         Time { work, path: roots.iter().map(|root| ready[root.index()]).max().unwrap_or(0) }
     }
 
-    /// When each result is there, were there nothing else to do.
+    /// Cycle at which each result is ready, if operations only wait for their operands.
     pub(super) fn ready(&self) -> Vec<usize> {
         let mut ready: Vec<usize> = Vec::with_capacity(self.operations.len());
         for &operation in &self.operations {
@@ -39,7 +40,7 @@ impl Schedule {
     }
 }
 
-/// Cycles until the result is there, and until the next operation may begin.
+/// Latency and reciprocal throughput of an operation, in cycles.
 fn cost(operation: Operation) -> (usize, usize) {
     match operation {
         Operation::Constant(_) | Operation::Input(_) => (0, 0),

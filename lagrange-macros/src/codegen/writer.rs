@@ -1,4 +1,4 @@
-//! Bodies of functions in Rust.
+//! Writes the bodies of functions in Rust.
 
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
@@ -10,16 +10,17 @@ use super::rounds::waiting;
 use super::shape::ResultArrays;
 use super::style::FunctionContext;
 
-/// Up to this many locals each have a `let`. Beyond, they are declared in batches of as many, as tuples, and
-/// then assigned: one `let` each overflows rustc's stack near 3,000 in a build with debug information.
+/// Maximum locals with a `let` each. More locals are declared in batches of this size, as tuples, and assigned later:
+/// one `let` each overflows the stack of rustc near 3,000 in a build with debug information.
 const BATCH: usize = 256;
 
-/// From so many angles on, sines and cosines of several at once are called for, not computed in line: that is half of the code of
-/// ten links and takes half the time to compile. 8 to 20 links then take 2 to 20 % less time to run, too, robots 2 % more or less.
+/// Minimum angles for which sines and cosines of several at once are function calls instead of inline code. The calls
+/// halve the code of ten links and its compile time. They make 8 to 20 links 2 to 20 % faster to run, and change
+/// robots by 2 % up or down.
 const MANY_ANGLES: usize = 8;
 
 impl FunctionContext<'_> {
-    /// All statements, with the declarations of what they read and of what they assign to.
+    /// Emits all statements, with the declarations of inputs and locals.
     pub(super) fn statements(&self, part: Chunk, arrays: &ResultArrays) -> TokenStream {
         let inputs = self.inputs(&part.inputs);
         let is_short = part.locals.len() <= BATCH;
@@ -64,7 +65,7 @@ impl FunctionContext<'_> {
         }
     }
 
-    /// `(r1, r2) = sin_cos(x)`, or of several.
+    /// Emits `(r1, r2) = sin_cos(x)`, or the same for several angles.
     fn turns(&self, turns: Vec<SineAndCosine>, together: &TokenStream) -> TokenStream {
         let name = |local: Option<Local>| match local {
             Some(local) => self.local(local).into_token_stream(),
@@ -79,7 +80,7 @@ impl FunctionContext<'_> {
         }
     }
 
-    /// An expression that stands alone.
+    /// Emits an expression without parentheses.
     fn expression(&self, expression: Operand) -> TokenStream {
         match expression {
             Operand::Local(local) => {
@@ -91,7 +92,7 @@ impl FunctionContext<'_> {
         }
     }
 
-    /// An expression as part of another.
+    /// Emits an expression as an operand, in parentheses if it is composed.
     pub(super) fn operand(&self, expression: Operand) -> TokenStream {
         let is_composed = match &expression {
             Operand::Of(operation) => !matches!(**operation, Operation::Constant(_) | Operation::Input(_)),
@@ -125,12 +126,12 @@ impl FunctionContext<'_> {
             Operation::Function(function, x) => scalar(function.name(), &[x]),
             Operation::Atan2(y, x) => scalar("atan2", &[y, x]),
             Operation::Power(x, y) => scalar("powf", &[x, y]),
-            // Calls are statements.
+            // Calls are statements, not expressions.
             Operation::Result { .. } => TokenStream::new(),
         }
     }
 
-    /// `[call0_0, _, call0_2]`
+    /// Emits a pattern such as `[call0_0, _, call0_2]`.
     fn pattern(&self, call: &Call<Operand>, results: &[(u32, Local)]) -> TokenStream {
         let outputs = self.problem.functions[call.function as usize].outputs as u32;
         let names = (0..outputs).map(|output| match results.iter().find(|(known, _)| *known == output) {
@@ -148,7 +149,7 @@ impl FunctionContext<'_> {
         call_of(function, call, &quote!(#scalar), |argument| self.operand(argument.clone()))
     }
 
-    /// A definition's name, or `r12`, `call3_0`, unless the user has something of that name.
+    /// Name of a local: that of its definition, else `r12`, `angle4` or `call3_0`.
     fn local(&self, local: Local) -> Ident {
         match local {
             Local::Definition(id) => self.definition_names[&id].clone(),
@@ -159,7 +160,7 @@ impl FunctionContext<'_> {
     }
 }
 
-/// What computes the sines and cosines of several angles at once.
+/// Function that computes the sines and cosines of several angles at once.
 fn together(statements: &[Statement]) -> TokenStream {
     let angles =
         |statement: &Statement| if let Statement::Turns(turns) = statement { turns.len() } else { 0 };

@@ -1,4 +1,4 @@
-//! Schedules and bodies computed without a compiler, for tests.
+//! Interpreter of schedules and bodies, for tests without a compiler.
 
 use rustc_hash::FxHashMap;
 
@@ -9,7 +9,7 @@ use crate::symbolic::{Symbol, apply};
 use crate::variables::Variable;
 
 impl Operation<f64> {
-    /// What it comes to, of operands that are there already.
+    /// Evaluates the operation on numeric operands.
     fn value(self, input: impl Fn(Symbol) -> f64) -> f64 {
         match self {
             Self::Constant(bits) => f64::from_bits(bits),
@@ -47,7 +47,7 @@ impl Operation<f64> {
 }
 
 impl Schedule {
-    /// The results, of these inputs.
+    /// Evaluates the results for given inputs.
     pub(crate) fn values(&self, results: &[Register], input: impl Fn(Symbol) -> f64) -> Vec<f64> {
         let mut values: Vec<f64> = Vec::new();
         for &operation in &self.operations {
@@ -58,7 +58,8 @@ impl Schedule {
 }
 
 impl FunctionBody {
-    /// The results, of which there are so many; functions that the user supplies are given a call and the place of a result.
+    /// Evaluates `count` results. `function` evaluates user-supplied functions from the call and the index of the
+    /// result.
     pub(crate) fn values(
         &self,
         count: usize,
@@ -99,7 +100,7 @@ impl Chunk {
     }
 }
 
-/// What a part sees.
+/// State of the execution of a chunk.
 struct Frame<'b, I> {
     part: &'b Chunk,
     round: usize,

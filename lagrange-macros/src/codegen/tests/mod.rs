@@ -1,4 +1,4 @@
-//! What tests of the pipeline ask of the code that would be emitted, without a compiler.
+//! Queries about the emitted code for tests of the pipeline, without a compiler.
 
 mod interpret;
 
@@ -10,25 +10,25 @@ use super::solving::solve;
 use crate::mechanics::Equations;
 use crate::symbolic::{Graph, Id, Symbol};
 
-/// What computing `roots` together takes.
+/// Operation count of computing `roots` together.
 pub(crate) fn operations(graph: &Graph, roots: &[Id]) -> Count {
     Program::of(graph, roots).count()
 }
 
-/// The value of a constant as it is emitted.
+/// Value of a constant after compilation.
 pub(crate) fn value(graph: &Graph, root: Id) -> f64 {
     let program = Program::of(graph, &[root]);
     program.schedule.values(&program.results, |_| f64::NAN)[0]
 }
 
-/// What the accelerations take, before the passes and after each, solved by each form of the equations; `None` where
-/// that is left to loops.
+/// Operation counts of the accelerations as derived and after each pass, for each form of the equations. `None` for a
+/// form that is solved in loops.
 pub(crate) fn solving(graph: &Graph, equations: &Equations) -> Vec<Option<Vec<(&'static str, Count)>>> {
     let counts = |form| Some(solve(graph, form, equations)?.counts);
     equations.forms.iter().map(counts).collect()
 }
 
-/// Accelerations, multipliers and pivot by each form of the equations.
+/// Accelerations, multipliers and pivot, for each form of the equations.
 pub(crate) fn solutions(
     graph: &Graph,
     equations: &Equations,
@@ -37,7 +37,8 @@ pub(crate) fn solutions(
     solutions_by(graph, equations, input, |_, _, _, _| f64::NAN)
 }
 
-/// The same, with functions that the user supplies: which one, by what it is differentiated, the arguments, and which result.
+/// As [`solutions`], with user-supplied functions. `function` gets the index of the function, its partial
+/// derivatives, the arguments, and the index of the result.
 pub(crate) fn solutions_by(
     graph: &Graph,
     equations: &Equations,
