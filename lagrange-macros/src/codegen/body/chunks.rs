@@ -1,4 +1,5 @@
-//! Where a long function is cut into parts, and where results wait that one part computes and a later one uses.
+//! Splits a long function into chunks, and assigns spill slots to results that one chunk computes and a later one
+//! uses.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -9,12 +10,13 @@ use super::order_of_evaluation::Order;
 use super::repeats::Repeat;
 use crate::codegen::operation::Register;
 
-/// Longer functions are cut: the time that LLVM takes grows faster than the length. In them repeats are looked for, too.
+/// Maximum operations of a function with a single chunk, since the time that LLVM takes grows faster than linearly.
+/// Longer functions are also searched for loops.
 const LONGEST: usize = 4_000;
-/// A part has at least as many operations, and at most twice as many.
+/// Minimum operations of a chunk. The maximum is twice as many.
 const SHORTEST: usize = 1_000;
 
-/// What becomes a part: operations of the sequence, which may be rounds of the same ones.
+/// Range of the sequence that becomes a chunk; with `repeat`, a loop.
 pub(super) struct OperationRange {
     pub(super) range: Range<usize>,
     pub(super) repeat: Option<Repeat>,
@@ -24,7 +26,8 @@ pub(super) fn is_long(order: &Order) -> bool {
     order.sequence.len() > LONGEST
 }
 
-/// The parts of a function. Before and after repeats there is room for what brings numbers to their places.
+/// Splits the sequence into chunks. The chunks before and after a loop may be empty; they can copy numbers to and
+/// from spill slots.
 pub(super) fn segments(order: &Order, repeats: Vec<Repeat>) -> Vec<OperationRange> {
     let (mut segments, mut start) = (Vec::new(), 0);
     let straight = |range| cuts(order, range).into_iter().map(|range| OperationRange { range, repeat: None });
@@ -37,7 +40,7 @@ pub(super) fn segments(order: &Order, repeats: Vec<Repeat>) -> Vec<OperationRang
     segments
 }
 
-/// A range of the sequence in pieces, cut where fewest results wait.
+/// Splits a range of the sequence, at positions with the fewest live results.
 fn cuts(order: &Order, range: Range<usize>) -> Vec<Range<usize>> {
     let Range { mut start, end: last } = range;
     let (mut parts, is_long) = (Vec::new(), range.len() > LONGEST);
@@ -51,12 +54,12 @@ fn cuts(order: &Order, range: Range<usize>) -> Vec<Range<usize>> {
     parts
 }
 
-/// The places of an array in which results wait between parts.
+/// Allocation of an array of spill slots, which hold results between chunks.
 #[derive(Default)]
 pub(super) struct SpillSlots {
     places: FxHashMap<Register, usize>,
     free: BTreeSet<usize>,
-    /// The length of the array.
+    /// Length of the array.
     pub(super) length: usize,
 }
 
@@ -71,12 +74,12 @@ impl SpillSlots {
         place
     }
 
-    /// Notes that the register is at this place, which is reserved.
+    /// Assigns a reserved slot to a register.
     pub(super) fn put(&mut self, register: Register, place: usize) {
         self.places.insert(register, place);
     }
 
-    /// The first of so many places in a row that are no other's.
+    /// Reserves `count` consecutive free slots and returns the first.
     pub(super) fn reserve(&mut self, count: usize) -> usize {
         let is_free = |first: &usize| (*first..first + count).all(|place| self.free.contains(&place));
         let first = self.free.iter().copied().find(is_free).unwrap_or(self.length);
@@ -85,13 +88,13 @@ impl SpillSlots {
         first
     }
 
-    /// Those of the places at which no register is can be others'.
+    /// Frees those of the slots that hold no register.
     pub(super) fn release(&mut self, places: impl Iterator<Item = usize>) {
         let occupied: BTreeSet<usize> = self.places.values().copied().collect();
         self.free.extend(places.filter(|place| !occupied.contains(place)));
     }
 
-    /// The places of registers for which nobody waits any more can be those of others.
+    /// Frees the slots of registers that no later chunk uses.
     pub(super) fn keep(&mut self, is_awaited: impl Fn(Register) -> bool) {
         let free = &mut self.free;
         self.places.retain(|&register, place| {

@@ -1,5 +1,5 @@
-//! A function's body before it is said in a language: what is computed in which part, in which local or nested in what,
-//! and where results go. The [writer](super::writer) says it in Rust.
+//! Body of a function, independent of the language: the operations of each chunk, which are locals and which are
+//! nested, and where results go. The [writer](super::writer) turns it into Rust.
 
 mod chunks;
 mod order_of_evaluation;
@@ -15,28 +15,29 @@ use crate::symbolic::{Id, Symbol};
 
 #[derive(Clone, Debug)]
 pub(super) struct FunctionBody {
-    /// One after the other; more than one where the function is long.
+    /// Chunks in the order of execution; more than one for a long function.
     pub(super) parts: Vec<Chunk>,
-    /// How many results wait at once for a later part.
+    /// Number of spill slots.
     pub(super) waiting: usize,
-    /// The results, in locals of the only part; where there are none the parts store them, all but zeros.
+    /// Results, as operands in the only chunk. `None` if the chunks store the results, except zeros, in the result
+    /// arrays.
     pub(super) results: Option<Vec<Operand>>,
-    /// How many results wait for their last use at once, at most, in the order of the derivation and in this one.
+    /// Maximum number of live results, in the order of the derivation and in the chosen order.
     pub(super) peaks: [usize; 2],
 }
 
-/// Statements that see no locals but their own.
+/// Chunk of a function, with its own locals. Other chunks do not see them.
 #[derive(Clone, Default, Debug)]
 pub(super) struct Chunk {
     pub(super) inputs: BTreeSet<Symbol>,
-    /// What the statements give values to, each once.
+    /// Locals that the statements assign, each once.
     pub(super) locals: Vec<Local>,
     pub(super) statements: Vec<Statement>,
     pub(super) rounds: Option<Rounds>,
 }
 
 impl Chunk {
-    /// All inputs that are read, once or round by round.
+    /// Returns all inputs that the chunk reads, before a loop or in an iteration.
     pub(super) fn reads(&self) -> impl Iterator<Item = Symbol> {
         let given = self.rounds.iter().flat_map(|rounds| &rounds.given).filter_map(|given| match given {
             Given::Inputs(symbols) => Some(symbols),
@@ -46,22 +47,22 @@ impl Chunk {
     }
 }
 
-/// Marks statements that run as a loop.
+/// Marks a chunk as a loop.
 #[derive(Clone, Debug)]
 pub(super) struct Rounds {
     pub(super) count: usize,
-    /// Inputs of each round of the loop.
+    /// Inputs of each iteration.
     pub(super) given: Vec<Given>,
 }
 
 #[derive(Clone, Debug)]
 pub(super) enum Given {
-    /// One after the other, round by round.
+    /// One input per iteration.
     Inputs(Vec<Symbol>),
     SpillSlots(SlotSequence),
 }
 
-/// Places in an array, round by round: in all the same one, or others as far apart.
+/// Slot for each iteration: `first` plus a constant stride, which may be zero.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct SlotSequence {
     pub(super) first: usize,
@@ -73,7 +74,7 @@ impl SlotSequence {
         Self { first: place, step: 0 }
     }
 
-    /// Through these places, if there is one.
+    /// Finds a first slot and a stride that give these slots. `None` if there is no constant stride.
     pub(super) fn through(places: &[usize]) -> Option<Self> {
         let [first, second, ..] = *places else { return None };
         let series = Self { first, step: second as isize - first as isize };
@@ -89,16 +90,16 @@ impl SlotSequence {
 #[derive(Clone, Debug)]
 pub(super) enum Statement {
     Let(Local, Operand),
-    /// Angles less full turns where they are large, of which there is no need to ask again.
+    /// Reduces angles by full turns if they are large. Their sines and cosines then need no range check.
     Small(Vec<(Local, Operand)>),
-    /// Sines and cosines, together: of several, small angles.
+    /// Sines and cosines, evaluated together. Several angles must be small ones.
     Turns(Vec<SineAndCosine>),
-    /// A call of a function that the user supplies, and those of its results that are used.
+    /// Call of a user-supplied function, with the indices and locals of the results in use.
     Call(Call<Operand>, Vec<(u32, Local)>),
     Store(Slot, Operand),
 }
 
-/// The sine and the cosine of one angle, as far as they are used.
+/// Sine and cosine of one angle. `None` if unused.
 #[derive(Clone, Debug)]
 pub(super) struct SineAndCosine {
     pub(super) angle: Operand,
@@ -109,19 +110,19 @@ pub(super) struct SineAndCosine {
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) enum Operand {
     Local(Local),
-    /// What an earlier part has stored.
+    /// Spill slot that an earlier chunk has filled.
     SpillSlots(usize),
-    /// A constant, an input, or an operation on what is nested in it.
+    /// Constant, input, or operation on nested operands.
     Of(Box<Operation<Self>>),
 }
 
-/// What a local is called after.
+/// Identity of a local, from which its name follows.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) enum Local {
     Definition(Id),
-    /// The operation that computes it.
+    /// Index of the operation that computes the value.
     Operation(usize),
-    /// That operation or input, as a small angle.
+    /// Small angle, by the index of the operation or input that is the angle.
     Angle(usize),
     /// One result of a call.
     Result {
@@ -130,7 +131,7 @@ pub(super) enum Local {
     },
 }
 
-/// Where a value is stored.
+/// Destination of a stored value.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Slot {
     Result(usize),

@@ -1,21 +1,22 @@
-//! The order in which operations are computed, so that few results wait for their last use: what waits fills
-//! registers, then the stack, and between the parts of a long function an array.
+//! Instruction scheduling: an order of the operations with few live results. Live results occupy registers, then the
+//! stack, and an array between the chunks of a long function.
 //!
-//! Depth first from the first result, the operand that takes longest first (as Sethi and Ullman, *Journal of the ACM*
-//! 17, 1970, take the one of more registers first): an elimination, which waits for its pivots, then computes the sines
-//! of the next link meanwhile. Or the order of the derivation, where results wait less in that.
+//! The order is depth first from the first result, with the operand of longest latency first. (Sethi and Ullman,
+//! *Journal of the ACM* 17, 1970, put the operand that needs more registers first.) An elimination then evaluates the
+//! sines of the next link while it waits for pivots. If fewer results are live in the order of the derivation, that
+//! order is kept.
 
 use crate::codegen::operation::{Operation, Register};
 use crate::codegen::passes::Program;
 use crate::codegen::schedule::Schedule;
 use crate::symbolic::Function;
 
-/// What is to be computed, operands first. Constants and inputs are at hand and have no place in it.
+/// Order of evaluation, operands first. It omits constants and inputs, which need no computation.
 pub(super) struct Order {
     pub(super) sequence: Vec<usize>,
-    /// How many results wait after each operation.
+    /// Number of live results after each operation.
     pub(super) waiting: Vec<usize>,
-    /// The most that would wait in the order of the derivation.
+    /// Maximum number of live results in the order of the derivation.
     pub(super) peak_before: usize,
 }
 
@@ -34,8 +35,8 @@ impl Order {
         Self { sequence, waiting, peak_before }
     }
 
-    /// With the sines and cosines of these angles first, and what the angles are made of: what is computed in loops is then
-    /// computed without them, and they can be taken side by side.
+    /// Moves the sines and cosines of these angles to the front, with the operations they depend on. Loops then do
+    /// not contain them, and they can be evaluated together.
     pub(super) fn with_sines_first(self, schedule: &Schedule, is_angle: impl Fn(Register) -> bool) -> Self {
         let mut is_early = vec![false; schedule.operations.len()];
         for (index, operation) in schedule.operations.iter().enumerate().rev() {
@@ -54,7 +55,7 @@ impl Order {
         Self { sequence, waiting, ..self }
     }
 
-    /// The most results that wait at once.
+    /// Maximum number of live results.
     pub(super) fn peak(&self) -> usize {
         peak(&self.waiting)
     }
@@ -68,7 +69,7 @@ fn is_computed(schedule: &Schedule, index: usize) -> bool {
     !matches!(schedule.operations[index], Operation::Constant(_) | Operation::Input(_))
 }
 
-/// The operands that are computed, each once.
+/// Operands that are operations, without duplicates.
 fn operands(schedule: &Schedule, index: usize) -> Vec<usize> {
     let operands = schedule.operands(schedule.operations[index]).map(Register::index);
     let mut operands: Vec<usize> = operands.filter(|&operand| is_computed(schedule, operand)).collect();
@@ -77,7 +78,8 @@ fn operands(schedule: &Schedule, index: usize) -> Vec<usize> {
     operands
 }
 
-/// From the first result to the last. Without recursion: a chain of operations may be as long as there are any.
+/// Depth-first order from the first to the last result. Iterative, because a chain of operations may be arbitrarily
+/// long.
 fn depth_first(schedule: &Schedule, operands: &[Vec<usize>], roots: &[Register]) -> Vec<usize> {
     let ready = schedule.ready();
     let (mut sequence, mut is_done) = (Vec::new(), vec![false; schedule.operations.len()]);
@@ -92,7 +94,7 @@ fn depth_first(schedule: &Schedule, operands: &[Vec<usize>], roots: &[Register])
             continue;
         }
         let mut operands = operands[index].clone();
-        // The operand pushed last is computed first.
+        // The last operand pushed is the first computed.
         operands.sort_by_key(|&operand| ready[operand]);
         stack.push((index, true));
         stack.extend(operands.into_iter().map(|operand| (operand, false)));
@@ -100,7 +102,7 @@ fn depth_first(schedule: &Schedule, operands: &[Vec<usize>], roots: &[Register])
     sequence
 }
 
-/// How many results are still to be used after each operation.
+/// Number of live results after each operation.
 fn waiting(operands: &[Vec<usize>], sequence: &[usize]) -> Vec<usize> {
     let mut last_use = vec![None; operands.len()];
     for (at, &index) in sequence.iter().enumerate() {
@@ -127,7 +129,7 @@ mod tests {
         schedule.push(Operation::Input(Symbol { family: 0, index }))
     }
 
-    /// Σ sin x_i, all sines before the sum.
+    /// Σ sin x_i, with all sines before the sum.
     fn sines(count: u32) -> (Schedule, Register) {
         let mut schedule = Schedule::default();
         let sines: Vec<Register> = (0..count)

@@ -1,4 +1,4 @@
-//! From a schedule to a [`FunctionBody`], chunk by chunk.
+//! Plans a [`FunctionBody`] from a schedule, chunk by chunk.
 
 mod angles;
 mod planner;
@@ -20,11 +20,11 @@ use crate::symbolic::Id;
 use angles::plain_angles;
 use planner::Planner;
 
-/// So many results, most of them zero, are not written out.
+/// Minimum results of a function that skips zeros, if more than half of its results are zero.
 const MANY: usize = 256;
 
 impl FunctionBody {
-    /// Computes the results of a program; definitions with names have locals called after them.
+    /// Plans the computation of the results of a program. Named definitions become locals of the same name.
     pub(in crate::codegen) fn new(program: &Program, names: &FxHashMap<Id, String>) -> Self {
         let Program { schedule, results, .. } = program;
         let order = Order::new(program);
@@ -59,7 +59,7 @@ impl FunctionBody {
     }
 }
 
-/// What becomes a part each. Of a long function only what is not computed in loops is long.
+/// Splits the function into chunks. A long function is first searched for loops.
 fn segments(schedule: &Schedule, order: Order) -> (Order, Vec<OperationRange>) {
     if !chunks::is_long(&order) {
         let segments = chunks::segments(&order, Vec::new());

@@ -1,5 +1,5 @@
-//! What a long function computes over and over of other numbers, as it does for the links of a chain: found in the sequence of
-//! its operations, to be emitted once, as a loop.
+//! Finds loops in a long function: groups of operations that recur with other numbers, as for the links of a chain.
+//! Each group is emitted once, as the body of a loop.
 
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
@@ -15,37 +15,38 @@ use crate::codegen::operation::{Operation, Register};
 use crate::codegen::schedule::Schedule;
 use crate::variables::Variable;
 
-/// A round has at least so many operations, and the rounds after the first have so many in all.
+/// Minimum operations in one loop iteration ([`SHORTEST`]), and in all iterations after the first ([`LEAST`]).
 const SHORTEST: usize = 24;
 const LEAST: usize = 128;
-/// What was computed so many operations ago, or later, is looked for there in other rounds too; what is older may be given.
+/// Maximum distance, in operations, at which an operand must recur at the same distance. An older operand may differ,
+/// because it can be an input of the iteration.
 const NEAR: usize = 60;
-/// So many operations in a row tell where a round may begin again.
+/// Length of a sequence of operations whose recurrence suggests another iteration.
 const PHRASE: usize = 8;
-/// Number of candidate starts of the first round, in order of fewest live results.
+/// Number of candidate starts of the first iteration, in order of fewest live results.
 const BEGINNINGS: usize = 8;
 
-/// Rounds of like operations, one after the other in the sequence.
+/// Loop: consecutive iterations of the same operations.
 pub(super) struct Repeat {
-    /// Where in the sequence the rounds are, all of them.
+    /// Range of the sequence that all iterations occupy.
     pub(super) range: Range<usize>,
     pub(super) rounds: usize,
-    /// What a round is given, number by number.
+    /// Inputs of an iteration.
     pub(super) given: Vec<Source>,
-    /// A round, of what it is given.
+    /// Operations of one iteration.
     pub(super) schedule: Schedule,
-    /// What the operations of a round are there.
+    /// Register in `schedule` of each operation of an iteration.
     pub(super) registers: Vec<Register>,
 }
 
 pub(super) enum Source {
-    /// What was computed before the first round: one for each round.
+    /// Registers computed before the loop, one per iteration.
     Outside(Vec<Register>),
-    /// What an earlier round has computed, as far back in all rounds.
+    /// Result of an earlier iteration, the same number of iterations back for all.
     Round(Computed),
 }
 
-/// What the operation of this place in a round computes, with what stands for it before the first round.
+/// Result of the operation at `offset` of an iteration. The registers `before` replace it in the first iterations.
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub(super) struct Computed {
     pub(super) offset: usize,
@@ -53,13 +54,13 @@ pub(super) struct Computed {
 }
 
 impl Repeat {
-    /// How many operations a round has.
+    /// Number of operations in an iteration.
     pub(super) fn length(&self) -> usize {
         self.registers.len()
     }
 }
 
-/// The repeats of a sequence, in its order.
+/// Returns the loops of a sequence, in its order.
 pub(super) fn repeats(schedule: &Schedule, order: &Order) -> Vec<Repeat> {
     let text = Text::new(schedule, order);
     let mut runs: Vec<Run> = text.periods().flat_map(|period| text.runs(period)).collect();
@@ -88,19 +89,19 @@ fn longest_stretch(is_free: &[bool], range: Range<usize>) -> Range<usize> {
     best
 }
 
-/// Operations that look like those a period before them, and that first period.
+/// Range of operations that equal those `period` operations earlier. Includes the first period.
 struct Run {
     range: Range<usize>,
     period: usize,
 }
 
-/// A sequence of operations, to be searched.
+/// Sequence of operations to search.
 struct Text<'s> {
     schedule: &'s Schedule,
     order: &'s Order,
-    /// Where in the sequence each register is computed.
+    /// Position in the sequence of each register.
     places: Vec<Option<usize>>,
-    /// What is alike has the same number, what has the same number is likely alike.
+    /// Hash of each operation. Equal hashes mean probably the same operation of another iteration.
     looks: Vec<u64>,
 }
 
@@ -123,7 +124,7 @@ impl<'s> Text<'s> {
         discriminant(&operation).hash(&mut hasher);
         match operation {
             Operation::Function(function, _) => function.hash(&mut hasher),
-            // Calls of what the user supplies are not repeated.
+            // Give each call of a user-supplied function its own hash: calls are not repeated in loops.
             Operation::Result { .. } => at.hash(&mut hasher),
             _ => {}
         }
@@ -137,7 +138,7 @@ impl<'s> Text<'s> {
         hasher.finish()
     }
 
-    /// After how many operations phrases come again.
+    /// Distances at which phrases recur often.
     fn periods(&self) -> impl Iterator<Item = usize> {
         let (mut last, mut counts) = (FxHashMap::default(), BTreeMap::<usize, usize>::new());
         for (at, phrase) in self.looks.windows(PHRASE).enumerate() {
@@ -163,7 +164,7 @@ impl<'s> Text<'s> {
         runs
     }
 
-    /// The rounds of a run that are given least.
+    /// Returns the loop of a run, with the start that needs the fewest inputs per iteration.
     fn repeat(&self, run: &Run) -> Option<Repeat> {
         let (start, length, period) = (run.range.start, run.range.len(), run.period);
         if length < period + LEAST.max(period) {
@@ -176,7 +177,7 @@ impl<'s> Text<'s> {
         starts.into_iter().take(BEGINNINGS).filter_map(rounds).min_by_key(|repeat| repeat.given.len())
     }
 
-    /// As many rounds as are alike, and at most so many.
+    /// Returns the loop that starts here: as many equal iterations as there are, at most `most`.
     fn rounds(&self, start: usize, period: usize, most: usize) -> Option<Repeat> {
         let first = start..start + period;
         let is_alike = |round: &usize| (0..period).all(|offset| self.are_alike(&first, *round, offset));
@@ -185,7 +186,8 @@ impl<'s> Text<'s> {
         ((rounds - 1) * period >= LEAST).then(|| Round::new(self, range, rounds).repeat())?
     }
 
-    /// Whether an operation of the first round and that of another do the same with what was computed in their rounds.
+    /// True if the operation at `offset` is the same in the first and in another iteration, and takes the same
+    /// operands from its own iteration.
     fn are_alike(&self, first: &Range<usize>, round: usize, offset: usize) -> bool {
         let shift = round * first.len();
         let other = first.start + shift..first.end + shift;
@@ -199,7 +201,7 @@ impl<'s> Text<'s> {
             })
     }
 
-    /// Where in these operations a register is computed.
+    /// Position in the range of the operation that computes the register.
     fn offset(&self, range: &Range<usize>, register: Register) -> Option<usize> {
         self.places[register.index()]?.checked_sub(range.start).filter(|offset| *offset < range.len())
     }
@@ -212,7 +214,7 @@ impl<'s> Text<'s> {
     }
 }
 
-/// A round under construction.
+/// Loop body under construction.
 struct Round<'t> {
     text: &'t Text<'t>,
     range: Range<usize>,
@@ -228,7 +230,8 @@ impl<'t> Round<'t> {
         Self { text, range, rounds, given, schedule, registers }
     }
 
-    /// `None` where a round is given what an earlier one computes, and others are not.
+    /// `None` if an input comes from an earlier iteration, but not from the same operation and distance in all
+    /// iterations.
     fn repeat(mut self) -> Option<Repeat> {
         for offset in 0..self.length() {
             self.compute(offset);

@@ -1,4 +1,4 @@
-//! Bodies compute what the graph says, and their parts see nothing but what waits for them.
+//! Checks that bodies compute the values of the graph, and that chunks read only inputs and spill slots.
 
 use rustc_hash::FxHashMap;
 
@@ -24,7 +24,7 @@ fn input(symbol: Symbol) -> f64 {
     0.3 + 0.1 * f64::from(symbol.index)
 }
 
-/// The value of a function of which nothing is known, by a graph of its own.
+/// Value of an unknown function, computed by a graph of its own.
 fn function(call: &Call<f64>, output: u32) -> f64 {
     let mut graph = Graph::default();
     let arguments = (0..call.arguments.len()).map(|index| graph.symbol(symbol(index as u32))).collect();
@@ -33,12 +33,12 @@ fn function(call: &Call<f64>, output: u32) -> f64 {
     graph.sample(&[root], 7, |symbol| Approximate::exact(call.arguments[symbol.index as usize]))[0].value
 }
 
-/// Computes both, and returns the body.
+/// Compares the values of graph and body, and returns the body.
 fn checked(graph: &Graph, roots: &[Id]) -> FunctionBody {
     let body = body(graph, roots);
     let wanted = graph.sample(roots, 7, |symbol| Approximate::exact(input(symbol)));
     for (value, wanted) in body.values(roots.len(), input, function).into_iter().zip(wanted) {
-        // Both are off by the rounding of the same operations, but that the passes may group them in another way.
+        // Both have the rounding errors of the same operations, except that passes may regroup them.
         assert!((value - wanted.value).abs() <= 4.0 * wanted.error, "{value} for {wanted:?}");
     }
     body
@@ -80,7 +80,7 @@ fn nesting_ends_before_it_is_deep() {
     assert!((5..=10).contains(&statements(&body).len()), "{body:?}");
 }
 
-/// How many angles are taken at once, statement by statement.
+/// Number of angles in each statement of sines and cosines.
 fn turns(body: &FunctionBody) -> Vec<usize> {
     let turns = statements(body).iter().filter_map(|statement| match statement {
         Statement::Turns(turns) => Some(turns.len()),
@@ -102,7 +102,7 @@ fn sine_and_cosine_of_one_argument_come_together() {
     assert_eq!(body.parts[0].locals.len(), 3);
 }
 
-/// What takes so many operations with `factor`, one after another, that they are cut into parts, of which the first uses `first`.
+/// Chain of so many operations on `factor` that the function is split into chunks. The first chunk uses `first`.
 fn far(graph: &mut Graph, first: Id, factor: Id) -> Id {
     (0..6_000).fold(first, |sum, k| {
         let scaled = graph.sum([(factor, crate::symbolic::Rational::new(1, k + 2))]);
@@ -112,7 +112,7 @@ fn far(graph: &mut Graph, first: Id, factor: Id) -> Id {
     })
 }
 
-/// The sine is used in the first part of a long function, the cosine in the last, and another angle in both.
+/// The first chunk of a long function uses the sine of an angle, the last its cosine, and both use another angle.
 #[test]
 fn what_an_earlier_part_has_taken_is_not_taken_again() {
     let mut graph = Graph::default();
@@ -137,7 +137,7 @@ fn angles_that_are_at_hand_are_taken_four_at_a_time() {
     let deeper = graph.function(Function::Sin, sines[5]);
     let sum = sines.iter().fold(deeper, |sum, &sine| graph.add(sum, sine));
     let body = checked(&graph, &[sum, cosine]);
-    // What is of a sine comes alone, as an expression.
+    // The sine of a sine is no plain angle and comes alone, as an expression.
     assert_eq!(turns(&body), [4, 2], "{body:?}");
     let small = statements(&body).iter().filter_map(|statement| match statement {
         Statement::Small(angles) => Some(angles.len()),
@@ -182,8 +182,8 @@ fn the_results_of_a_call_that_are_used_come_together() {
     assert_eq!(calls, [vec![0, 2], vec![2]]);
 }
 
-/// The first result of a call is used in the first part of a long function and in the last, the second, which has a name, in the
-/// last alone.
+/// The first and the last chunk of a long function use the first result of a call. Only the last chunk uses the
+/// second result, which has a name.
 #[test]
 fn results_of_a_call_wait_for_later_parts() {
     let mut graph = Graph::default();
@@ -216,7 +216,7 @@ fn a_local_is_called_after_the_definition() {
     assert_eq!(body.parts[0].locals, [Local::Definition(defined)]);
 }
 
-/// Operations at random, so many that they are cut into parts.
+/// Random operations, enough to be split into chunks.
 fn long(seed: u64, length: usize) -> Program {
     let mut state = seed;
     let mut below = |limit: usize| {
@@ -263,7 +263,7 @@ fn parts_see_what_waits_for_them_and_places_are_taken_again() {
     }
 }
 
-/// Numbers below a limit, at random.
+/// Random numbers below a limit.
 fn random(seed: u64) -> impl FnMut(usize) -> usize {
     let mut state = seed;
     move |limit| {
@@ -272,25 +272,26 @@ fn random(seed: u64) -> impl FnMut(usize) -> usize {
     }
 }
 
-/// What one operand of a round is.
+/// Operand of an operation in an iteration.
 #[derive(Clone, Copy)]
 enum Taken {
-    /// An operation of this round or, so many rounds back, of an earlier one.
+    /// Operation of an iteration: its index, and how many iterations back.
     Computed(usize, usize),
-    /// An input of each round, by its place; the second from the last round to the first.
+    /// Input per iteration, at a constant stride; `Reversed` has a negative stride.
     Input(usize),
     Reversed(usize),
-    /// One in no order.
+    /// Input per iteration, at irregular indices.
     Scattered(usize),
-    /// What the first part has computed, in no order.
+    /// Result of the first chunk per iteration, at irregular indices.
     Early(usize),
     Shared,
     Constant,
-    /// An operation of the round so many rounds back, but every eleventh time another.
+    /// Operation of an iteration as `Computed`, but another one in every eleventh iteration.
     Unsteady(usize, usize),
 }
 
-/// Rounds of the same operations at random, between others at random, and what each round computed used far later.
+/// Iterations of the same random operations, between other random operations. The last ones use results of all
+/// iterations.
 fn with_rounds(seed: u64, rounds: usize, length: usize, is_steady: bool) -> Program {
     let mut below = random(seed);
     let mut schedule = Schedule::default();
@@ -379,7 +380,7 @@ fn what_comes_again_and_again_is_computed_in_a_loop() {
         );
         found[usize::from(is_steady)] += rounds(&body).iter().sum::<usize>();
     }
-    // Of 40 rounds twenty times.
+    // The maximum is 20 programs with 40 iterations each.
     assert!(found[1] > 700 && found[0] > 100, "{found:?}");
 }
 

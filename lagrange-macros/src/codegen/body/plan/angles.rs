@@ -1,4 +1,4 @@
-//! Sines and cosines: which of them are computed together, and when.
+//! Groups sines and cosines that are evaluated together, and decides when.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -9,15 +9,16 @@ use crate::codegen::operation::{Operation, Register};
 use crate::codegen::schedule::Schedule;
 use crate::symbolic::Function;
 
-/// Sines and cosines of so many angles are computed side by side, on the lanes of a vector, where there are not fewer than that
-/// in all: of few a processor computes one after another as fast, as long as it foresees their branches.
+/// Number of angles whose sines and cosines are evaluated together on the lanes of a vector ([`ABREAST`]), and
+/// minimum angles in a chunk for this ([`FEWEST`]). A processor evaluates fewer angles one by one as fast, as long as
+/// it predicts their branches.
 const ABREAST: usize = 4;
 const FEWEST: usize = 4;
 
 impl Planner<'_> {
-    /// The sine and the cosine of one argument are computed together, and with them those of the angles whose turn comes
-    /// next, if they are at hand: a processor takes several side by side. Not those of all: while pivots wait for one another
-    /// it has time for others, of which it is to know by then. So each group comes with the first of the group before.
+    /// Emits the sine and cosine of `x` together with those of the next angles that are ready, on the lanes of a
+    /// vector. Angles come in groups, each emitted with the first angle of the previous group: the processor then
+    /// evaluates it while it waits for pivots.
     pub(super) fn turn(&mut self, x: Register) {
         if !self.is_taken(x) {
             let angles = self.angles_with(x);
@@ -29,7 +30,7 @@ impl Planner<'_> {
         }
     }
 
-    /// The angles whose turn comes with this one's.
+    /// Returns the group of an angle.
     fn angles_with(&mut self, x: Register) -> Vec<Register> {
         match self.early.iter().position(|&angle| angle == x) {
             Some(place) => {
@@ -41,7 +42,7 @@ impl Planner<'_> {
     }
 
     fn next_angles(&mut self) -> Vec<Register> {
-        // An earlier part may have taken the cosine with a sine.
+        // Skip angles that are done: an earlier chunk may have computed the cosine with the sine.
         let mut early = std::mem::take(&mut self.early);
         early.retain(|&angle| !self.is_taken(angle));
         if self.small.is_empty() {
@@ -53,7 +54,7 @@ impl Planner<'_> {
         early
     }
 
-    /// Coordinates come into a vector as they lie in the state.
+    /// Sorts coordinates as they lie in the state, so that they load as a vector.
     fn in_memory_order(&self, angles: &mut [Register]) {
         angles.sort_by_key(|angle| match self.schedule.operations[angle.index()] {
             Operation::Input(symbol) => Some(symbol),
@@ -61,7 +62,8 @@ impl Planner<'_> {
         });
     }
 
-    /// All at once, before the first: each branch would keep the compiler from mixing what comes before with what comes after.
+    /// Reduces all angles to small ones, before the first sine. A branch at each group would prevent the compiler
+    /// from interleaving the code before and after it.
     fn make_small(&mut self, angles: &[Register]) {
         angles.iter().for_each(|&angle| self.compute_early(angle));
         let mut angles = angles.to_vec();
@@ -73,7 +75,7 @@ impl Planner<'_> {
         self.small = angles.iter().copied().collect();
     }
 
-    /// The sines and cosines of these angles.
+    /// Emits the sines and cosines of these angles.
     fn turn_all(&mut self, angles: &[Register]) {
         angles.iter().for_each(|&angle| self.compute_early(angle));
         let turns: Vec<SineAndCosine> = angles.iter().map(|&angle| self.turn_of(angle)).collect();
@@ -101,8 +103,8 @@ impl Planner<'_> {
         }
     }
 
-    /// Whether both its sine and its cosine are at hand, as far as they are used. Where a loop has left one alone, the other is
-    /// still to come.
+    /// True if the sine and the cosine are computed, as far as they are used. A loop may have computed only one of
+    /// them.
     fn is_taken(&self, angle: Register) -> bool {
         let both = [Function::Sin, Function::Cos].into_iter().filter_map(|f| self.used(f, angle));
         both.into_iter().all(|register| self.values[register.index()].is_some())
@@ -116,7 +118,7 @@ impl Planner<'_> {
         SineAndCosine { angle, sine, cosine }
     }
 
-    /// Computes an angle, and what it depends on, ahead of the schedule.
+    /// Computes an angle and its dependencies ahead of the schedule.
     fn compute_early(&mut self, angle: Register) {
         let mut needed = BTreeSet::from([angle]);
         let mut pending = vec![angle];
@@ -139,12 +141,12 @@ impl Planner<'_> {
         }
     }
 
-    /// Sine or cosine of a register, if it is used and not computed yet.
+    /// Returns the sine or cosine of a register, if it is used and not yet computed.
     fn missing(&self, function: Function, x: Register) -> Option<Register> {
         self.used(function, x).filter(|register| self.values[register.index()].is_none())
     }
 
-    /// The sine or the cosine of this, if it is used.
+    /// Returns the sine or cosine of a register, if it is used.
     fn used(&self, function: Function, x: Register) -> Option<Register> {
         self.schedule
             .find(Operation::Function(function, x))
@@ -152,8 +154,8 @@ impl Planner<'_> {
     }
 }
 
-/// For each part, the last first, the angles of its sines and cosines that are made of inputs by arithmetic alone, in their
-/// order; none where there are few.
+/// Returns the plain angles of each chunk, in reverse order of the chunks. Plain angles follow from inputs by
+/// arithmetic alone. Empty for a chunk with fewer than [`FEWEST`].
 pub(super) fn plain_angles(
     schedule: &Schedule,
     sequence: &[usize],

@@ -1,4 +1,4 @@
-//! A body under construction: results become values, locals and spill slots, part by part.
+//! Builder of a body: assigns results to expressions, locals and spill slots, chunk by chunk.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -13,53 +13,53 @@ use crate::codegen::passes::Program;
 use crate::codegen::schedule::Schedule;
 use crate::symbolic::{Function, Id};
 
-/// Single-use results are nested into what uses them to this depth.
+/// Maximum depth to which single-use results are nested in expressions.
 const NESTING: usize = 6;
 
-/// A body under construction.
+/// Body under construction.
 pub(super) struct Planner<'p> {
     pub(super) schedule: &'p Schedule,
     pub(super) uses: Vec<usize>,
-    /// For each register the last part that uses it.
+    /// Index of the last chunk that uses each register.
     pub(super) reach: Vec<usize>,
-    /// What stands for each register that is computed.
+    /// Current value of each computed register, in the current chunk or in a spill slot.
     pub(super) values: Vec<Option<LiveValue>>,
     definitions: FxHashMap<Register, Id>,
-    /// For each call the results of it that are used.
+    /// Indices of the results in use, for each call.
     outputs: FxHashMap<u32, Vec<u32>>,
-    /// For each register where it is stored as soon as it is computed.
+    /// Destinations to which each register is stored as soon as it is computed.
     pub(super) places: FxHashMap<Register, Vec<Slot>>,
     pub(super) waiting: SpillSlots,
     pub(super) index: usize,
     pub(super) part: Chunk,
-    /// What earlier parts computed and this one has in a local.
+    /// Registers of earlier chunks that the current chunk has loaded into locals.
     fetched: BTreeSet<Register>,
-    /// What is in a local and which a later part uses.
+    /// Registers that the current chunk holds in locals and a later chunk uses.
     kept: Vec<Register>,
-    /// Where the repeat that comes next finds and leaves what it computes with.
+    /// Inputs and outputs of the next loop, in spill slots.
     pub(super) layout: RoundLayout,
-    /// For each part, the last first, the angles in it that depend on no sine and on no other function.
+    /// Angles that follow from inputs by arithmetic alone: lists per chunk, the last chunk first.
     pub(super) plain: Vec<Vec<Register>>,
-    /// Those of this part whose turn has not come.
+    /// Plain angles of the current chunk that are not yet evaluated.
     pub(super) early: Vec<Register>,
-    /// The first of those that were taken last.
+    /// First angle of the group evaluated last.
     pub(super) leader: Option<Register>,
-    /// Those that are at hand as small ones.
+    /// Angles of the current chunk that are available as small angles.
     pub(super) small: BTreeSet<Register>,
 }
 
 pub(super) struct LiveValue {
     pub(super) expression: Operand,
-    /// How deep it nests.
+    /// Nesting depth of the expression.
     pub(super) depth: usize,
 }
 
 #[derive(Default)]
 pub(super) struct RoundLayout {
-    /// The operations of a round that leave something, and where.
+    /// Operations of an iteration whose results are stored, with their slots.
     pub(super) left: Vec<(usize, SlotSequence)>,
     pub(super) given: Vec<Given>,
-    /// What is free after the last round, unless something waits there.
+    /// Slots to free after the loop, unless they hold a live register.
     pub(super) reserved: Vec<Range<usize>>,
 }
 
@@ -115,7 +115,8 @@ impl<'p> Planner<'p> {
         }
     }
 
-    /// What stands for a result, here: what is neither in a local of this part nor waits is computed.
+    /// Returns a register as an operand. Computes it if it is neither in a local of the current chunk nor in a spill
+    /// slot.
     pub(super) fn value(&mut self, register: Register) -> Operand {
         let operation = self.schedule.operations[register.index()];
         if let Operation::Input(symbol) = operation {
@@ -131,7 +132,7 @@ impl<'p> Planner<'p> {
         self.values[register.index()].as_ref().expect("what was computed has a value").expression.clone()
     }
 
-    /// Brings what an earlier part computed into a local.
+    /// Loads a result of an earlier chunk into a local.
     fn fetch(&mut self, register: Register) {
         if let Some(place) = self.waiting.place(register)
             && self.fetched.insert(register)
@@ -140,7 +141,7 @@ impl<'p> Planner<'p> {
         }
     }
 
-    /// Computes one operation, if it has not come with another, and stores it where it is a result.
+    /// Computes one operation, unless another has computed it too, and stores a result.
     pub(super) fn compute(&mut self, index: usize) {
         let register = Register::at(index);
         match self.schedule.operations[index] {
@@ -171,7 +172,7 @@ impl<'p> Planner<'p> {
         self.values[register.index()].as_ref().map_or(0, |value| value.depth)
     }
 
-    /// All results of a call are computed together, when the first of them is met.
+    /// Emits a call and computes all its results, when the first of them is needed.
     fn call(&mut self, call: u32) {
         let Call { function, derivatives, arguments } = self.schedule.calls[call as usize].clone();
         let mut results = Vec::new();
@@ -188,7 +189,7 @@ impl<'p> Planner<'p> {
         self.part.statements.push(Statement::Call(Call { function, derivatives, arguments }, results));
     }
 
-    /// In every part the same one.
+    /// Local of a register, the same in every chunk.
     pub(super) fn local(&self, register: Register) -> Local {
         match (self.definitions.get(&register), self.schedule.operations[register.index()]) {
             (Some(&id), _) => Local::Definition(id),
@@ -202,7 +203,7 @@ impl<'p> Planner<'p> {
         self.part.statements.push(Statement::Let(local, expression));
     }
 
-    /// Notes in which local a result is.
+    /// Records that a register is in a local.
     pub(super) fn keep(&mut self, register: Register, local: Local) {
         if self.reach[register.index()] > self.index {
             self.kept.push(register);
@@ -211,7 +212,7 @@ impl<'p> Planner<'p> {
         self.values[register.index()] = Some(LiveValue { expression, depth: 0 });
     }
 
-    /// Says which results are stored where: what is at hand at once, the others when they are computed.
+    /// Sets the destinations of results. Constants and inputs are stored at once, the others when they are computed.
     pub(super) fn will_store(&mut self, results: &[(usize, Register)]) {
         for &(k, register) in results {
             match self.schedule.operations[register.index()] {
@@ -226,13 +227,13 @@ impl<'p> Planner<'p> {
         self.part.statements.push(Statement::Store(place, value));
     }
 
-    /// Those of what no later part uses.
+    /// Frees the slots of registers that no later chunk uses.
     pub(super) fn release_places(&mut self) {
         let (reach, index) = (&self.reach, self.index);
         self.waiting.keep(|register| reach[register.index()] > index);
     }
 
-    /// Forgets what does not wait: no later part sees the locals of this one.
+    /// Forgets registers outside of spill slots: later chunks do not see the locals of the current one.
     pub(super) fn forget_locals(&mut self) {
         for (index, value) in self.values.iter_mut().enumerate().filter(|(_, value)| value.is_some()) {
             if self.waiting.place(Register::at(index)).is_none() {
@@ -241,14 +242,14 @@ impl<'p> Planner<'p> {
         }
     }
 
-    /// The part as it stands; the next one begins, which may be a repeat of this sequence.
+    /// Ends the current chunk and returns it. Spills live registers, and lays out the loop that follows, if any.
     pub(super) fn end_part(&mut self, next: Option<(&Repeat, &[usize])>) -> Chunk {
         self.release_places();
         for register in std::mem::take(&mut self.kept) {
             let value = self.value(register);
             let place = Slot::SpillSlots(SlotSequence::constant(self.waiting.add(register)));
             self.part.statements.push(Statement::Store(place, value));
-            // It is at hand.
+            // The register is still in a local of this chunk, so it needs no load.
             self.fetched.insert(register);
         }
         if let Some((repeat, sequence)) = next {

@@ -1,7 +1,8 @@
-//! Repeats as loops: where their rounds find what they are given, and leave what others are.
+//! Emits repeats as loops: inputs and outputs of their iterations.
 //!
-//! What a round leaves lies in one row of the array of what waits, in the row after that of the round before it, so that each
-//! round finds what an earlier one has left as many places ahead; before the first there are rows for what that is given.
+//! Each iteration stores its outputs in one row of the spill array, after the row of the previous iteration. So an
+//! output of an earlier iteration lies at a constant distance. Rows before the first iteration hold the values that
+//! replace outputs of iterations before the loop.
 
 use std::ops::Range;
 
@@ -17,7 +18,8 @@ use crate::codegen::passes::Program;
 use crate::symbolic::Symbol;
 use crate::variables::Variable;
 
-/// Places in rows, one row for each round, after those for what rounds are given that no round has left.
+/// Rows of spill slots: `ahead` rows before the loop, then one per iteration. Each row has `length` slots, the first
+/// at `first`.
 struct RoundRows {
     first: usize,
     length: usize,
@@ -25,7 +27,8 @@ struct RoundRows {
 }
 
 impl RoundRows {
-    /// Where the rounds find what they left so many rounds back, or leave it.
+    /// Slots at position `place` of the rows that the iterations stored `back` iterations ago; for `back` = 0, of
+    /// their own rows.
     fn series(&self, place: usize, back: usize) -> SlotSequence {
         let first = self.first + (self.ahead - back) * self.length + place;
         SlotSequence { first, step: self.length as isize }
@@ -33,9 +36,9 @@ impl RoundRows {
 }
 
 impl Planner<'_> {
-    /// Finds places for what a repeat is given and leaves, and brings there what is elsewhere.
+    /// Reserves slots for the inputs and outputs of a loop, and copies the inputs there that are elsewhere.
     pub(super) fn lay_out(&mut self, repeat: &Repeat, sequence: &[usize]) -> RoundLayout {
-        // Results of the whole function are stored by the part after this one.
+        // Keep results of the function alive past the loop: the chunk after it stores them.
         for &index in sequence.iter().filter(|&&index| self.places.contains_key(&Register::at(index))) {
             self.reach[index] = self.reach[index].max(self.index + 2);
         }
@@ -70,7 +73,7 @@ impl Planner<'_> {
         first
     }
 
-    /// What rounds leave: what later ones take, and what later parts use.
+    /// Outputs of an iteration: results that later iterations or later chunks use.
     fn left(&self, repeat: &Repeat, sequence: &[usize]) -> IndexSet<Computed> {
         let taken = repeat.given.iter().filter_map(|source| match source {
             Source::Round(computed) => Some(computed.clone()),
@@ -88,7 +91,8 @@ impl Planner<'_> {
         left
     }
 
-    /// Where rounds find what was computed before them, if it lies in series.
+    /// Returns where iterations can read registers computed before the loop without copying: inputs, or slots at a
+    /// constant stride.
     fn as_they_are(&self, registers: &[Register]) -> Option<Given> {
         let symbol = |register: &Register| match self.schedule.operations[register.index()] {
             Operation::Input(symbol) => Some(symbol),
@@ -106,7 +110,7 @@ impl Planner<'_> {
         }
     }
 
-    /// The repeat that was laid out, as a part.
+    /// Emits the loop that was laid out, as a chunk.
     pub(super) fn rounds(&mut self, repeat: &Repeat, sequence: &[usize]) -> Chunk {
         let RoundLayout { left, given, reserved } = std::mem::take(&mut self.layout);
         let mut part = one_round(repeat, &left);
@@ -127,7 +131,7 @@ impl Planner<'_> {
         part
     }
 
-    /// Notes where a round leaves this, if a later part uses it.
+    /// Records the slot to which an iteration stores this register, if a later chunk uses it.
     fn leave(&mut self, register: Register, place: usize) {
         if self.reach[register.index()] > self.index && self.waiting.place(register).is_none() {
             self.waiting.put(register, place);
