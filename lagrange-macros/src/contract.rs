@@ -109,7 +109,7 @@ pub(crate) enum Gives {
     /// Newest terms of the left and right factors of each convolution sum.
     Factors,
     ResidualChange,
-    /// `Option` of a number: `None` if the index is out of range.
+    /// `Option` of a number: `None` if there is none of that index.
     Optional,
     /// `bool`: true on success.
     Success,

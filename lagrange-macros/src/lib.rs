@@ -7,8 +7,7 @@
 //! ```
 //!
 //! All stages share one expression graph, defined in `symbolic`: `resolve` creates it, `mechanics` adds nodes, the
-//! later stages read it.
-//! A stage with errors reports all of them and ends the pipeline.
+//! later stages read it. A stage with errors reports all of them and ends the pipeline.
 
 mod codegen;
 mod contract;

@@ -2,8 +2,7 @@
 //! seed.
 //!
 //! `LAGRANGE_FUZZ_SECONDS` is the duration of each test, `LAGRANGE_FUZZ_SEED` the first seed; round k has that seed
-//! plus k.
-//! `LAGRANGE_FUZZ_SECONDS=0` runs one round. The inputs are random: no coverage feedback guides them.
+//! plus k. `LAGRANGE_FUZZ_SECONDS=0` runs one round. The inputs are random: no coverage feedback guides them.
 
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::{Duration, Instant};

@@ -37,7 +37,7 @@ pub(crate) enum Variable {
     Order,
     /// 1/k.
     OrderReciprocal,
-    /// c/(k + 1), where c is a common multiple of all these denominators.
+    /// c/(k + 1), where c is a common multiple of all orders.
     NextWeight,
     /// 1/c².
     WeightsReciprocal,

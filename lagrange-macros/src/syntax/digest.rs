@@ -6,8 +6,8 @@ use syn::{Attribute, Ident};
 
 use super::field::Field;
 
-/// 32-bit FNV-1a hash of the names of the struct and its fields in their order, and of the tokens of these
-/// attributes. Whitespace, comments and the types of the fields do not affect it.
+/// 32-bit FNV-1a hash of the names of the struct and its fields, in their order, and of the tokens of these attributes.
+/// Whitespace, comments and the types of fields, including array lengths, do not affect it.
 pub(super) fn digest<'a>(
     ident: &Ident,
     fields: &[Field],

@@ -21,7 +21,7 @@ pub(crate) struct Field {
     pub(crate) shape: Result<FieldShape, String>,
 }
 
-/// Member access `.m` after `after` indices.
+/// Member access `.m`, after `after` array indices.
 #[derive(Clone)]
 pub(crate) struct Segment {
     pub(crate) name: Name,

@@ -13,7 +13,7 @@ use super::target::{Target, running, target};
 use super::unread::unread;
 use crate::diagnostics::Place;
 
-/// Maximum number of coordinates. Beyond, rustc takes minutes and the matrices overflow the stack.
+/// Maximum number of coordinates. With more, rustc takes minutes and the matrices overflow the stack.
 const COORDINATE_LIMIT: usize = 1000;
 
 /// Maximum number of results of a user-supplied function. The emitted code requests each result by its own call, with

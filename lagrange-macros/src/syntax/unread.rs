@@ -11,8 +11,8 @@ use super::name::Name;
 use super::number::{number, suffix};
 use crate::diagnostics::Place;
 
-/// Returns the product of all names, calls, elements and vectors in the tokens. It uses the same names, and is a
-/// vector if one factor is.
+/// Returns the product of all names, calls, elements and vectors in the tokens. The product is a vector if one factor
+/// is.
 pub(super) fn unread(mut cursor: Cursor) -> Expression {
     let whole = cursor.place();
     let mut factors = Vec::new();

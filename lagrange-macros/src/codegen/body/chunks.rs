@@ -88,7 +88,7 @@ impl SpillSlots {
         first
     }
 
-    /// Frees those of the slots that hold no register.
+    /// Frees the given slots, except those that hold a register.
     pub(super) fn release(&mut self, places: impl Iterator<Item = usize>) {
         let occupied: BTreeSet<usize> = self.places.values().copied().collect();
         self.free.extend(places.filter(|place| !occupied.contains(place)));

@@ -79,7 +79,8 @@ mod tests {
         let (matrix, rows) = plate(6);
         let order = order(&matrix, &rows).expect("cheaper");
         let place = |variable: usize| order.iter().position(|&other| other == variable);
-        // Exclude the last loop: by then the plate couples no fewer variables.
+        // Skip the last loop: once it alone remains, coordinates of the plate couple no more variables than its own
+        // do.
         for k in 0..10 {
             let (coordinate, multiplier) = (place(3 + k), place(15 + k));
             assert!(

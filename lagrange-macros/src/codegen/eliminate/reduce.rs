@@ -188,7 +188,7 @@ impl Solver<'_> {
                 let sum = self.add(form.matrix[x.variable][y.variable], part);
                 form.set(x.variable, y.variable, sum);
             }
-            // An entry made of couplings alone has no other reference.
+            // A diagonal entry that was zero has no other reference than its new value.
             form.scale[x.variable] = form.scale[x.variable].or(form.matrix[x.variable][x.variable]);
         }
     }
@@ -270,7 +270,7 @@ impl Solver<'_> {
     }
 
     /// Back-substitution L⁻ᵀ(x + D⁻¹y), in the reverse order. Each variable follows from those found before. A
-    /// variable that follows from no other takes its doubt from y, or else from `doubt`.
+    /// variable that depends on no other has its doubt in y; without y, `doubt` is added.
     pub(super) fn backward(
         &mut self,
         factors: &FormFactors,

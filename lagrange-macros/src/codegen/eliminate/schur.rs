@@ -5,8 +5,8 @@ use super::order::Pattern;
 use super::reduce::FormFactors;
 use super::short;
 
-/// Maximum constraints that share a coordinate without scaling. Its products then stay unscaled, so that a pass can
-/// factor them; with more constraints, each row is scaled once.
+/// Maximum constraints on a coordinate i for which z_i z'_i is formed before the division by D_i, so that a pass can
+/// factor the sum. With more constraints, z_i / D_i is formed first, once per row.
 const FEW: usize = 2;
 
 impl Solver<'_> {

@@ -64,8 +64,9 @@ pub(super) struct Recurrences {
     pub(super) sums: IndexSet<Sum>,
     /// Roots: index of a sum whose right factor is the root, and value of order 0.
     pub(super) roots: Vec<(usize, Register)>,
-    /// Arguments of steep functions (exp, tanh, sinh, cosh), with the number 0, and bases of high powers. An exponent
-    /// known only at run time is a register, with the number 1; any other exponent is the number.
+    /// Arguments of steep functions (exp, tanh, sinh, cosh), with the number 0, and bases of high powers, with the
+    /// exponent. The exponent of an integer power is the number; any other exponent is the register, with the number
+    /// 1.
     pub(super) steep: IndexMap<(SeriesQuantity, Option<Register>), u32>,
     /// Base and exponent of each quantity that is an integer power.
     pub(super) powers: FxHashMap<SeriesQuantity, (SeriesQuantity, u32)>,

@@ -45,7 +45,7 @@ pub(super) struct TaylorPrograms {
     /// For each argument of a user-supplied function: index of a sum whose left factor is that argument, and index of
     /// its value of order 0 in the results of `slopes`.
     arguments: Vec<[usize; 2]>,
-    /// For each argument of a [steep](self::steep) function: index of a sum whose left factor is that argument, index
+    /// For each argument of a [steep] function: index of a sum whose left factor is that argument, index
     /// of its value in the results of `slopes`, and the exponent of a power, else 0.
     steep: Vec<[usize; 3]>,
     calls: Vec<CallOnSeries>,

@@ -1,7 +1,7 @@
 //! Right-hand sides of the linear system for the Taylor coefficients of accelerations and multipliers.
 //!
-//! Those of an order are the values of dp/dt − ∂L/∂q − Q − Fᵀλ and F q̈ + γ with zeros in place of these
-//! coefficients.
+//! The right-hand sides of one order are the values of dp/dt − ∂L/∂q − Q − Fᵀλ and F q̈ + γ with zeros in place of
+//! these coefficients.
 //!
 //! Constraints of second degree are expanded directly, two orders ahead. In terms of the mean velocities v̄ since t₀,
 //! q = q₀ + (t − t₀) v̄. Taylor's formula then ends after three terms,

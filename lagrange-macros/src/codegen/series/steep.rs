@@ -36,8 +36,8 @@ impl Recurrences {
     }
 
     /// Returns for each recorded argument: the index of its entry of `sums`; its exponent, or 0 for other functions;
-    /// and its value. A power xᵉ with e known only at run time has the value x/e and the exponent 1: the rate of its
-    /// logarithm, e x′/x, is the same.
+    /// and its value. A power xᵉ with e in a register, possibly known only at run time, has the value x/e and the
+    /// exponent 1: the rate of its logarithm, e x′/x, is the same.
     pub(super) fn steep(&mut self) -> Vec<([usize; 2], Register)> {
         let noted = core::mem::take(&mut self.steep);
         let of = |((x, at_run_time), exponent): ((SeriesQuantity, Option<Register>), u32)| {

@@ -133,7 +133,7 @@ impl Emitter<'_> {
     }
 
     /// Generics with bounds on the functions: series as arguments, and one derivative more than the equations of
-    /// motion need. Users of the trait meet these bounds, users of the system need not.
+    /// motion need. The compiler checks these bounds only where the trait is used.
     pub(super) fn generics_on_series(&self, slopes: &Program, calls: &[CallOnSeries]) -> syn::Generics {
         let scalar = self.style.types.scalar;
         let orders = orders_of(self.orders(&[]), slopes.schedule.calls.iter());

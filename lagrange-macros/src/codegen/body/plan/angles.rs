@@ -17,8 +17,8 @@ const FEWEST: usize = 4;
 
 impl Planner<'_> {
     /// Emits the sine and cosine of `x` together with those of the next angles that are ready, on the lanes of a
-    /// vector. Angles come in groups, each emitted with the first angle of the previous group: the processor then
-    /// evaluates it while it waits for pivots.
+    /// vector. Angles come in groups. Each group is emitted with the first angle of the previous group, so that the
+    /// processor evaluates its sines while it waits for pivots.
     pub(super) fn turn(&mut self, x: Register) {
         if !self.is_taken(x) {
             let angles = self.angles_with(x);
