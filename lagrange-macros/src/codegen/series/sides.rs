@@ -6,8 +6,8 @@
 //! Constraints of second degree are expanded directly, two orders ahead. In terms of the mean velocities v̄ since t₀,
 //! q = q₀ + (t − t₀) v̄. Taylor's formula then ends after three terms,
 //! Φ = Φ₀ + (t − t₀) (F₀ v̄ + ∂Φ/∂t) + (t − t₀)²/2 γ(v̄), with a γ that depends on velocities alone. So d²Φ/dt² has the
-//! coefficients F₀ q̈_k + (k + 1) (k + 2)/2 γ(v̄)_k, and v̄ has the coefficients v_k/(k + 1). This takes one sum for each
-//! square in Φ; F q̈ + γ takes two.
+//! coefficients F₀ q̈_k + (k + 1) (k + 2)/2 γ(v̄)_k, and v̄ has the coefficients v_k/(k + 1). This takes one sum for
+//! each square in Φ; F q̈ + γ takes two.
 
 use super::coefficients::{Recurrences, Stage};
 use crate::codegen::operation::{Operation, Register};
