@@ -220,7 +220,7 @@ pub enum Error {
     },
     /// The iteration for eigenvalues or singular values did not converge, or an entry of the matrix is not finite.
     EigenvaluesNotFound,
-    /// The system has no entry of this name.
+    /// No coordinate, constraint, parameter or other quantity of the requested kind has this name.
     #[cfg(feature = "alloc")]
     UnknownName {
         /// Name requested.

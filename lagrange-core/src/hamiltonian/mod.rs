@@ -69,8 +69,8 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
         PhaseState { t: state.t, q: state.q, p: self.momentum(state) }
     }
 
-    /// Returns the state with the velocities of a phase state, by the Legendre transform q̇(t, q, p), sought
-    /// from rest.
+    /// Returns the state of a phase state: the velocities solve the Legendre transform p(t, q, q̇) = p on the
+    /// constraints. Newton's iteration starts at q̇ = 0.
     ///
     /// # Errors
     /// [`Error::StateNotFinite`]; [`Error::EquationsNotFinite`]; [`Error::VelocityUndetermined`] if ∂²L/∂q̇² is

@@ -19,8 +19,8 @@ use crate::system::lookup::entry;
 /// Lyapunov exponents of a motion, with their standard errors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LyapunovSpectrum<T> {
-    /// Exponents in descending order: the mean rates d(ln |δ|)/dt. They are rates by the time for a motion backwards in
-    /// time too: a variation that grows on the way back has a negative exponent.
+    /// Exponents in descending order: the mean rates d(ln |δ|)/dt. In a motion backwards in time, dt is negative: a
+    /// variation that grows along it has a negative exponent.
     pub exponents: Vec<T>,
     /// Standard error of each exponent, from the scatter of its means over parts of the motion.
     pub errors: Vec<T>,

@@ -19,7 +19,7 @@ use crate::system::{Lagrangian, Solution, State};
 /// Strategy of the corrections: when and how often to correct, and whether velocities follow the coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Corrections<T> {
-    /// At most three corrections, as long as the residual exceeds four units of round-off. From the error of a
+    /// Correct each level up to three times, until its residual is at most 4 ε of its terms. After an integration
     /// step, one correction usually suffices.
     ToRoundOff,
     /// One correction after a step of this length, whatever the residual. A threshold would ignore small

@@ -93,7 +93,7 @@ pub struct Integrals {
 }
 
 impl Integrals {
-    /// Integrals of a system without velocity constraints.
+    /// Value for a system without velocity constraints: zero integrals of zero constraints, proved.
     pub const VOID: Self = Self { count: 0, of: 0, evidence: Evidence::Proved };
 
     /// Returns the extent of integrability: `All` if there are no velocity constraints.

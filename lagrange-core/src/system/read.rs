@@ -23,8 +23,8 @@ where
     SVector::deserialize(from).map_err(explained)
 }
 
-/// Explains a `null`. The original message, with its position in the file, stays at the end, where formats
-/// expect it.
+/// Adds an explanation to an error about `null`. The original message comes last, because `serde_json` reads the line
+/// and column from the end.
 fn explained<E: Error + Display>(error: E) -> E {
     match error.to_string() {
         said if said.contains("null") => E::custom(format_args!(

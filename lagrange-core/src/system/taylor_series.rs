@@ -9,7 +9,7 @@ use super::state::{Solution, State};
 use crate::number::{FixedArray, PowerSeries};
 use crate::system::Direction;
 
-/// Right-hand sides of the equations of motion, in the places of h and of γ.
+/// Right-hand sides (h, γ) of the linear system M x − Fᵀλ = h, F x = −γ for one Taylor order.
 pub type RightHandSides<T, const N: usize, const M: usize> = (SVector<T, N>, SVector<T, M>);
 
 /// A system whose motion can be expanded in a Taylor series, order by order, as [`Taylor`](crate::Taylor) does.

@@ -25,7 +25,8 @@ pub(super) struct EquilibriumSearch<L: Lagrangian<N, M>, const N: usize, const M
     unknowns: Vec<Argument>,
     /// Factor of each row, so that rows of different units can be compared.
     weights: DVector<L::Scalar>,
-    /// Largest norm of each column of the Jacobian so far; the unit of a step in that unknown is its inverse.
+    /// Largest norm so far of each column of the row-weighted Jacobian. Its inverse scales the steps of the unknown
+    /// of that column (Moré).
     scale: DVector<L::Scalar>,
 }
 
@@ -124,7 +125,7 @@ where
         trial.jacobian.map(Scalar::abs) * sizes
     }
 
-    /// Norm |R| in the units of the rows.
+    /// Weighted norm |W R| of the residual; W holds the row weights.
     fn distance(&self, trial: &Iterate<L, N, M, P>) -> L::Scalar {
         trial.residual.component_mul(&self.weights).norm()
     }

@@ -10,8 +10,8 @@ use crate::linearized::Linearized;
 use crate::linearized::argument::Argument;
 use crate::number::{Real, Scalar, larger, power_of_epsilon};
 
-/// Rates of change of (M q̈ − h − Fᵀλ, F q̈ + γ) at q̈ = 0, one column for each moving coordinate. If the second part
-/// is steady, so are F q̇ + b and Φ.
+/// Contributions of the moving coordinates (q̇ᵢ ≠ 0), one per column, to the time derivative of the residuals (M q̈ −
+/// h − Fᵀλ, F q̈ + γ) at q̈ = 0. If γ stays zero, so do F q̇ + b and Φ.
 pub(super) struct Unsteadiness<T> {
     moving: Vec<usize>,
     columns: DMatrix<T>,

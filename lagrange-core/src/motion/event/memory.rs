@@ -249,7 +249,7 @@ impl<T: Real> EventState<T> {
         self.samples[FINEST] = value;
     }
 
-    /// Moves to the end of the interval, at the time `t`.
+    /// Continues the search from the end of the interval, at time `t`.
     #[inline]
     pub(super) fn go_on(&mut self, t: T) {
         if Scalar::abs(self.samples[FINEST]) > self.noise {

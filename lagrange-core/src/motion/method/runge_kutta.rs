@@ -182,8 +182,8 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Method<L
         _: &mut Statistics,
     ) -> Result<(), Error> {
         memory.clock.set(state.t);
-        // Compare before copying: the comparison runs beside the integration, while a copy would wait for stores just
-        // made.
+        // Copy only if the states differ: the processor overlaps the comparison with the integration, but a copy
+        // stalls on recent stores.
         if memory.state != *state {
             (memory.before, memory.state) = (*state, *state);
         }

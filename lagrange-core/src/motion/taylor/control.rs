@@ -8,8 +8,8 @@ use crate::motion::method::control::{FIRST, Tolerance};
 use crate::number::{ROOM, Real, Scalar, larger, smaller};
 use crate::system::State;
 
-/// Minus the natural logarithm of the first omitted term, in units of the tolerance. With it, errors equal those of
-/// Jorba and Zou's order (3-11) with their steps, or half of them.
+/// The first omitted term is e⁻⁵ of the tolerance. With this value, measured errors are between half of those of
+/// Jorba and Zou's order (3-11) with their step length, and equal to them.
 const LEFT_OUT: f64 = 5.0;
 
 impl Taylor {

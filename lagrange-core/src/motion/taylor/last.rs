@@ -45,7 +45,7 @@ fn safety(order: usize) -> f64 {
 /// Binary logarithm, at most 0.09 too small; divided by the order, this is accurate enough. Returns −1023 for zero.
 #[inline]
 pub(crate) fn log2_roughly(x: f64) -> f64 {
-    // Reads exponent and fraction as one integer.
+    // The bits of x, times 2⁻⁵², are the biased exponent plus the fraction: about 1023 + log₂ x.
     const UNIT: f64 = 1.0 / (1_u64 << 52) as f64;
     x.to_bits() as i64 as f64 * UNIT - 1023.0
 }

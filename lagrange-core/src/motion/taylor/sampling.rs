@@ -12,7 +12,8 @@ use crate::system::TaylorSeries;
 
 /// Largest number of samples within a step. Each costs an evaluation of the equations, about a thirtieth of a step.
 const MOST: usize = 128;
-/// Growth of the distance between samples from step to step.
+/// Largest ratio of the distance between samples in one step to that in the step before, until a step has `MOST`
+/// samples.
 const WIDER: f64 = 2.0;
 /// Largest ratio of successive step lengths, dimensionless.
 const GROWTH: f64 = 10.0;

@@ -69,7 +69,8 @@ fn holds<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     Scalar::abs(value) <= L::Scalar::constant(SAFETY) * most
 }
 
-/// True if the row is nonzero somewhere nearby, unlike the row of a constraint times a parameter that is zero.
+/// True if the gradient of constraint `a` is nonzero at a nearby state. A constraint multiplied by a zero parameter
+/// has no gradient anywhere, and no effect.
 fn is_felt<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
     system: &L,
     state: &State<L::Scalar, N>,

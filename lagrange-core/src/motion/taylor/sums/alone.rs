@@ -31,7 +31,7 @@ impl<S: Copy> Ends<S> {
         Self { newest: none, first: none }
     }
 
-    /// Stores the factors of an order.
+    /// Stores the left and right factors of one Taylor order, for the end terms of the next sums.
     #[inline(always)]
     pub(super) fn put(&mut self, order: usize, newest: &[S; 2]) {
         match order {
