@@ -11,7 +11,8 @@ use crate::statistics::Statistics;
 use crate::system::{State, TaylorSeries};
 
 /// Smallest limit, in units of ε, on the defect of a step relative to the velocities; a larger tolerance raises the
-/// limit. Omitted terms give at most a sixteenth of the tolerance, and rounding errors at most 100 ε (pendulums of one to ten links, on a rod and in space, Kepler's ellipses, Hénon and Heiles, from 10⁻³ to round-off).
+/// limit. Omitted terms give at most a sixteenth of the tolerance, and rounding errors at most 100 ε (pendulums of one
+/// to ten links, on a rod and in space, Kepler's ellipses, Hénon and Heiles, from 10⁻³ to round-off).
 /// A larger defect is a force that the series does not contain. A pulse with a standard deviation of an eighth of a
 /// step shows at the nearer end, at most four of these away, by at least e⁻⁸ = 1/3000 of its peak.
 const DEFECT: f64 = 4096.0;
